@@ -1,0 +1,3 @@
+//! The `fingertip` command.
+
+fn main() {}

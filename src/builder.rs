@@ -1,0 +1,88 @@
+//! Puts a pipeline together, stage by stage.
+
+use fingertip_wrench::Uncompensated;
+
+use crate::{Absent, Fingertip, Present};
+
+/// Chooses the stages of a [`Fingertip`]; what is not chosen is left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
+pub struct FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero> {
+    fingertip: Fingertip<Solver, Surface, Model, Friction, Detector, Zero>,
+}
+
+impl FingertipBuilder<Absent, Absent, Absent, Absent, Absent, Uncompensated> {
+    pub(crate) const fn new() -> Self {
+        Self {
+            fingertip: Fingertip {
+                zero: Uncompensated,
+                solver: Absent,
+                surface: Absent,
+                model: Absent,
+                friction: Absent,
+                detector: Absent,
+            },
+        }
+    }
+}
+
+impl<Solver, Surface, Model, Friction, Detector, Zero>
+    FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero>
+{
+    /// What takes the zero and the temperature off the readings.
+    pub fn zero<Next>(
+        self,
+        zero: Next,
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Detector, Next> {
+        let Fingertip { solver, surface, model, friction, detector, .. } = self.fingertip;
+        FingertipBuilder { fingertip: Fingertip { zero, solver, surface, model, friction, detector } }
+    }
+
+    /// What turns signals into a wrench.
+    pub fn solver<Next>(
+        self,
+        solver: Next,
+    ) -> FingertipBuilder<Next, Surface, Model, Friction, Detector, Zero> {
+        let Fingertip { zero, surface, model, friction, detector, .. } = self.fingertip;
+        FingertipBuilder { fingertip: Fingertip { zero, solver, surface, model, friction, detector } }
+    }
+
+    /// The shape that may touch, and the assumption under which the contact is found on it.
+    pub fn contact<Shape, Assumption>(
+        self,
+        surface: Shape,
+        model: Assumption,
+    ) -> FingertipBuilder<Solver, Shape, Assumption, Friction, Detector, Zero> {
+        let Fingertip { zero, solver, friction, detector, .. } = self.fingertip;
+        FingertipBuilder { fingertip: Fingertip { zero, solver, surface, model, friction, detector } }
+    }
+
+    /// What says how far the contact is from slipping.
+    pub fn friction<Next>(
+        self,
+        friction: Next,
+    ) -> FingertipBuilder<Solver, Surface, Model, Next, Detector, Zero> {
+        let Fingertip { zero, solver, surface, model, detector, .. } = self.fingertip;
+        FingertipBuilder {
+            fingertip: Fingertip { zero, solver, surface, model, friction: Present(friction), detector },
+        }
+    }
+
+    /// What watches for slip from sample to sample.
+    pub fn slip_detector<Next>(
+        self,
+        detector: Next,
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Next, Zero> {
+        let Fingertip { zero, solver, surface, model, friction, .. } = self.fingertip;
+        FingertipBuilder {
+            fingertip: Fingertip { zero, solver, surface, model, friction, detector: Present(detector) },
+        }
+    }
+
+    /// The pipeline. It runs as soon as it has a surface and a contact model (for wrenches), and a
+    /// solver (for signals).
+    #[must_use]
+    pub fn build(self) -> Fingertip<Solver, Surface, Model, Friction, Detector, Zero> {
+        self.fingertip
+    }
+}

@@ -1,0 +1,15 @@
+#![cfg_attr(not(feature = "std"), no_std)]
+#![doc = include_str!("../README.md")]
+
+mod builder;
+mod pipeline;
+mod stage;
+
+#[cfg(feature = "friction")]
+pub use fingertip_friction as friction;
+pub use fingertip_surfaces as surfaces;
+pub use fingertip_wrench as wrench;
+
+pub use builder::FingertipBuilder;
+pub use pipeline::{Fingertip, Touch};
+pub use stage::{Absent, GripStage, Present, SlipStage};

@@ -1,0 +1,112 @@
+//! The stages wired together.
+
+use fingertip_surfaces::{ContactModel, Resolution};
+use fingertip_wrench::{Compensation, ContactForce, Real, Uncompensated, Wrench, WrenchSolver};
+use nalgebra::Vector3;
+
+use crate::{Absent, FingertipBuilder, GripStage, SlipStage};
+
+/// One fingertip: from raw readings to touch.
+///
+/// The stages are types, so that a scene compiles and runs only what it needs: an [`Absent`] stage
+/// takes no memory and no time. Made by [`Fingertip::builder`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fingertip<Solver, Surface, Model, Friction = Absent, Detector = Absent, Zero = Uncompensated> {
+    pub(crate) zero: Zero,
+    pub(crate) solver: Solver,
+    pub(crate) surface: Surface,
+    pub(crate) model: Model,
+    pub(crate) friction: Friction,
+    pub(crate) detector: Detector,
+}
+
+/// What one sample says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch<T: Real, Reading = (), Verdict = ()> {
+    /// The load on the fingertip.
+    pub wrench: Wrench<T>,
+    /// Where it touches, or why nowhere.
+    pub resolution: Resolution<T>,
+    /// What the friction model says of the contact; `None` without a contact.
+    pub grip: Option<Reading>,
+    /// What the slip detector says.
+    pub slip: Verdict,
+}
+
+impl Fingertip<Absent, Absent, Absent> {
+    /// Starts a pipeline with every optional stage left out.
+    #[must_use]
+    pub const fn builder() -> FingertipBuilder<Absent, Absent, Absent, Absent, Absent, Uncompensated> {
+        FingertipBuilder::new()
+    }
+}
+
+impl<Solver, Surface, Model, Friction, Detector, Zero>
+    Fingertip<Solver, Surface, Model, Friction, Detector, Zero>
+{
+    /// One raw reading, and the time since the one before \[s\].
+    #[inline]
+    pub fn sense<T, const N: usize>(
+        &mut self,
+        raw: &Zero::Raw,
+        time_step: T,
+    ) -> Touch<T, Friction::Reading, Detector::Verdict>
+    where
+        T: Real,
+        Zero: Compensation<T, N>,
+        Solver: WrenchSolver<T, N>,
+        Model: ContactModel<T, Surface>,
+        Friction: GripStage<T>,
+        Detector: SlipStage<T>,
+    {
+        let wrench = self.solver.solve(&self.zero.compensate(raw));
+        self.feel(wrench, time_step, None)
+    }
+
+    /// One wrench, from a sensor that reports wrenches, and the time since the one before \[s\].
+    /// `last` is the contact point of the sample before, for shapes that are not convex.
+    #[inline]
+    pub fn feel<T>(
+        &mut self,
+        wrench: Wrench<T>,
+        time_step: T,
+        last: Option<&Vector3<T>>,
+    ) -> Touch<T, Friction::Reading, Detector::Verdict>
+    where
+        T: Real,
+        Model: ContactModel<T, Surface>,
+        Friction: GripStage<T>,
+        Detector: SlipStage<T>,
+    {
+        let resolution = self.model.resolve_near(&wrench, &self.surface, last);
+        let force = resolution.contact().map(|contact| contact.contact_force());
+        let grip = force.as_ref().map(|force| self.friction.judge(force));
+        let slip = self.detector.follow(&force.unwrap_or_else(ContactForce::zero), time_step);
+        Touch { wrench, resolution, grip, slip }
+    }
+
+    /// The stage that takes off what is not load.
+    pub const fn zero(&self) -> &Zero {
+        &self.zero
+    }
+
+    /// Puts another tare in place, as after a rest.
+    pub fn set_zero(&mut self, zero: Zero) {
+        self.zero = zero;
+    }
+
+    /// The active surface.
+    pub const fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// The friction model.
+    pub const fn friction(&self) -> &Friction {
+        &self.friction
+    }
+
+    /// The slip detector, to reset it after a change of grasp.
+    pub const fn detector_mut(&mut self) -> &mut Detector {
+        &mut self.detector
+    }
+}

@@ -1,0 +1,66 @@
+//! The optional stages of the pipeline and their absence.
+
+#[cfg(feature = "friction")]
+use fingertip_friction::{FrictionModel, SlipDetector, SlipMargin, SlipVerdict};
+use fingertip_wrench::{ContactForce, Real};
+
+/// A stage that is left out: zero-sized, and its calls vanish.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Absent;
+
+/// A stage that is there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Present<Stage>(pub Stage);
+
+/// Judges the contact force of one sample. Every friction model is one, wrapped in [`Present`].
+pub trait GripStage<T: Real> {
+    /// What it says of a contact.
+    type Reading;
+
+    /// Judges a contact force.
+    fn judge(&self, force: &ContactForce<T>) -> Self::Reading;
+}
+
+/// Follows the contact force from sample to sample. Every slip detector is one,
+/// wrapped in [`Present`].
+pub trait SlipStage<T: Real> {
+    /// What it says after a sample.
+    type Verdict;
+
+    /// Takes the next sample and the time since the one before \[s\].
+    fn follow(&mut self, force: &ContactForce<T>, time_step: T) -> Self::Verdict;
+}
+
+impl<T: Real> GripStage<T> for Absent {
+    type Reading = ();
+
+    #[inline]
+    fn judge(&self, _force: &ContactForce<T>) {}
+}
+
+impl<T: Real> SlipStage<T> for Absent {
+    type Verdict = ();
+
+    #[inline]
+    fn follow(&mut self, _force: &ContactForce<T>, _time_step: T) {}
+}
+
+#[cfg(feature = "friction")]
+impl<T: Real, M: FrictionModel<T>> GripStage<T> for Present<M> {
+    type Reading = SlipMargin<T>;
+
+    #[inline]
+    fn judge(&self, force: &ContactForce<T>) -> SlipMargin<T> {
+        self.0.slip_margin(force)
+    }
+}
+
+#[cfg(feature = "friction")]
+impl<T: Real, D: SlipDetector<T>> SlipStage<T> for Present<D> {
+    type Verdict = SlipVerdict;
+
+    #[inline]
+    fn follow(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict {
+        self.0.update(force, time_step)
+    }
+}

@@ -1,0 +1,121 @@
+//! What a contact model answers.
+
+use fingertip_wrench::{ContactForce, Real};
+use nalgebra::Vector3;
+use thiserror::Error;
+
+/// One contact of the fingertip, in the sensor frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact<T: Real> {
+    /// Where the environment touches \[m\].
+    pub point: Vector3<T>,
+    /// Outward unit normal of the fingertip there.
+    pub normal: Vector3<T>,
+    /// Force on the fingertip \[N\].
+    pub force: Vector3<T>,
+    /// Spin torque on the fingertip about the outward normal \[N·m\]; zero for a point contact.
+    pub spin_torque: T,
+    /// Cosine of the angle between the force and the inward normal, in [0, 1]: 1 for a push
+    /// straight in. Errors of the contact point grow as its reciprocal (theory 2.2, 2.4).
+    pub incidence: T,
+    /// Distance between the line of action and the contact point \[m\]: zero unless the line
+    /// missed the surface by less than the gap that the model was told to accept.
+    pub gap: T,
+    /// How many *other* points of the surface would explain the wrench as well (only shapes that
+    /// are not convex have them).
+    pub alternatives: u8,
+}
+
+impl<T: Real> Contact<T> {
+    /// Normal force, tangential force and spin torque.
+    #[inline]
+    #[must_use]
+    pub fn contact_force(&self) -> ContactForce<T> {
+        ContactForce::split(&self.force, &self.normal, self.spin_torque)
+    }
+
+    /// Normal force \[N\], positive when pressing.
+    #[inline]
+    #[must_use]
+    pub fn normal_force(&self) -> T {
+        -self.force.dot(&self.normal)
+    }
+
+    /// Tangential force on the fingertip \[N\].
+    #[inline]
+    #[must_use]
+    pub fn tangential_force(&self) -> Vector3<T> {
+        self.contact_force().tangential
+    }
+}
+
+/// Why a wrench gives no contact.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum NoContact<T: Real> {
+    /// A component of the wrench is NaN or infinite, or its line of action lies too far away to be
+    /// represented.
+    #[error("the wrench is not finite")]
+    NotFinite,
+    /// The force is smaller than the least one that the model accepts.
+    #[error("the force of {force} N is below the threshold")]
+    BelowThreshold {
+        /// Magnitude of the force \[N\].
+        force: T,
+    },
+    /// The line of action passes the surface by.
+    #[error("the line of action misses the surface by {gap} m")]
+    Misses {
+        /// Distance between line and surface \[m\].
+        gap: T,
+        /// The point of the surface closest to the line \[m\].
+        closest: Vector3<T>,
+        /// Outward unit normal there.
+        normal: Vector3<T>,
+    },
+    /// The line meets the active surface only where the force would pull it outward.
+    #[error("the force pulls where its line meets the active surface")]
+    OnlyPulling {
+        /// Where the line meets the active surface \[m\].
+        point: Vector3<T>,
+    },
+    /// The force presses on a part of the shape that is not part of the active surface.
+    #[error("the force presses outside the active region")]
+    OutsideActiveRegion {
+        /// Where it presses \[m\].
+        point: Vector3<T>,
+    },
+}
+
+/// Contact, or the reason why there is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Resolution<T: Real> {
+    /// The wrench is explained by this contact.
+    Contact(Contact<T>),
+    /// It is not, because.
+    NoContact(NoContact<T>),
+}
+
+impl<T: Real> Resolution<T> {
+    /// The contact, if there is one.
+    #[inline]
+    #[must_use]
+    pub const fn contact(&self) -> Option<&Contact<T>> {
+        match self {
+            Self::Contact(contact) => Some(contact),
+            Self::NoContact(_) => None,
+        }
+    }
+
+    /// The contact, or the reason as an error.
+    ///
+    /// # Errors
+    /// [`NoContact`].
+    #[inline]
+    pub fn into_result(self) -> Result<Contact<T>, NoContact<T>> {
+        match self {
+            Self::Contact(contact) => Ok(contact),
+            Self::NoContact(reason) => Err(reason),
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! The circular cylinder, open at its ends.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use crate::sphere::any_perpendicular;
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
+
+/// The lateral surface of a circular cylinder, unbounded or with an active part of finite length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "Parts<T>",
+        into = "Parts<T>",
+        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
+    )
+)]
+pub struct Cylinder<T: Real> {
+    centre: Vector3<T>,
+    axis: Vector3<T>,
+    radius: T,
+    curvature: T,
+    half_length: Option<T>,
+}
+
+impl<T: Real> Cylinder<T> {
+    /// Unbounded, around the axis through `centre` along `axis` (of any length), with a radius
+    /// \[m\].
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the centre is finite, the axis has a direction and the radius is a
+    /// positive finite length.
+    pub fn new(centre: Vector3<T>, axis: Vector3<T>, radius: T) -> Result<Self, BadShape> {
+        let radius = BadShape::check_length("cylinder", "radius", radius)?;
+        Ok(Self {
+            centre: BadShape::check_point("cylinder", "centre", centre)?,
+            axis: BadShape::check_direction("cylinder", "axis", axis)?,
+            radius,
+            curvature: T::one() / radius,
+            half_length: None,
+        })
+    }
+
+    /// Only the part within `half_length` \[m\] of the centre, along the axis, is active.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless it is a positive finite length.
+    pub fn with_half_length(self, half_length: T) -> Result<Self, BadShape> {
+        Ok(Self {
+            half_length: Some(BadShape::check_length("cylinder", "half length", half_length)?),
+            ..self
+        })
+    }
+
+    /// A point of the axis, the middle of the active part \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn centre(&self) -> Vector3<T> {
+        self.centre
+    }
+
+    /// Unit vector along the axis.
+    #[inline]
+    #[must_use]
+    pub const fn axis(&self) -> Vector3<T> {
+        self.axis
+    }
+
+    /// Radius \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn radius(&self) -> T {
+        self.radius
+    }
+
+    /// Half the length of the active part \[m\]; `None` if unbounded.
+    #[inline]
+    #[must_use]
+    pub const fn half_length(&self) -> Option<T> {
+        self.half_length
+    }
+
+    #[inline]
+    fn is_active(&self, height: T) -> bool {
+        self.half_length.is_none_or(|half| height.abs() <= half)
+    }
+
+    /// The point of the line closest to the axis: its position along the line \[m\], its offset
+    /// from the axis in radii, and the part of the direction across the axis with its square.
+    /// `None` for a line parallel to the axis.
+    #[inline]
+    fn foot(&self, line: &Line<T>) -> Option<(T, Vector3<T>, Vector3<T>, T)> {
+        let from_centre = line.point - self.centre;
+        let offset = from_centre - self.axis * from_centre.dot(&self.axis);
+        let across = line.direction - self.axis * line.direction.dot(&self.axis);
+        let squared = across.norm_squared();
+        // A direction is a unit vector up to rounding: what is left of a parallel one is noise.
+        if squared <= T::EPSILON * T::EPSILON * T::literal(16.0) {
+            return None;
+        }
+        let along = -offset.dot(&across) / squared;
+        Some((along, (offset + across * along) * self.curvature, across, squared))
+    }
+
+    #[inline]
+    fn crossing(&self, line: &Line<T>, along: T, normal: Vector3<T>) -> Crossing<T> {
+        let height = (line.point - self.centre).dot(&self.axis) + along * line.direction.dot(&self.axis);
+        Crossing {
+            along,
+            point: self.centre + self.axis * height + normal * self.radius,
+            normal,
+            active: self.is_active(height),
+        }
+    }
+}
+
+impl<T: Real> ActiveSurface<T> for Cylinder<T> {
+    #[inline]
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        let Some((along, foot, across, squared)) = self.foot(line) else { return };
+        let remainder = T::one() - foot.norm_squared();
+        if remainder >= T::zero() {
+            let half_chord = (remainder / squared).root();
+            for offset in [-half_chord, half_chord] {
+                visit(self.crossing(line, along + offset * self.radius, foot + across * offset));
+            }
+        }
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        let (along, foot) = self.foot(line).map_or_else(
+            || {
+                let from_centre = line.point - self.centre;
+                (T::zero(), (from_centre - self.axis * from_centre.dot(&self.axis)) * self.curvature)
+            },
+            |(along, foot, ..)| (along, foot),
+        );
+        let scale = foot.amax().normalising_factor();
+        let scaled = foot * scale;
+        let length = scaled.norm_squared().root();
+        let normal = if length > T::zero() { scaled / length } else { any_perpendicular(&self.axis) };
+        let crossing = self.crossing(line, along, normal);
+        ClosestApproach {
+            gap: ((length / scale - T::one()).abs() * self.radius).min(T::GREATEST),
+            point: crossing.point,
+            normal,
+            active: crossing.active,
+        }
+    }
+
+    #[inline]
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        let from_centre = point - self.centre;
+        let offset = from_centre - self.axis * from_centre.dot(&self.axis);
+        let scaled = offset * offset.amax().normalising_factor();
+        let length = scaled.norm_squared().root();
+        if length > T::zero() { scaled / length } else { any_perpendicular(&self.axis) }
+    }
+}
+
+/// How a cylinder is written in a file; reading one validates it again.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))]
+struct Parts<T: Real> {
+    centre: Vector3<T>,
+    axis: Vector3<T>,
+    radius: T,
+    half_length: Option<T>,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> From<Cylinder<T>> for Parts<T> {
+    fn from(cylinder: Cylinder<T>) -> Self {
+        Self {
+            centre: cylinder.centre,
+            axis: cylinder.axis,
+            radius: cylinder.radius,
+            half_length: cylinder.half_length,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Parts<T>> for Cylinder<T> {
+    type Error = BadShape;
+    fn try_from(parts: Parts<T>) -> Result<Self, BadShape> {
+        let cylinder = Self::new(parts.centre, parts.axis, parts.radius)?;
+        parts.half_length.map_or(Ok(cylinder), |half| cylinder.with_half_length(half))
+    }
+}

@@ -1,0 +1,18 @@
+#![cfg_attr(not(feature = "std"), no_std)]
+#![doc = include_str!("../README.md")]
+
+mod active_surface;
+mod contact;
+mod contact_model;
+mod cylinder;
+mod plane;
+mod point_contact;
+mod sphere;
+
+pub use active_surface::{ActiveSurface, BadShape, ClosestApproach, Crossing};
+pub use contact::{Contact, NoContact, Resolution};
+pub use contact_model::ContactModel;
+pub use cylinder::Cylinder;
+pub use plane::Plane;
+pub use point_contact::PointContact;
+pub use sphere::Sphere;

@@ -1,0 +1,176 @@
+//! The forward model of strain gauges on a thin-walled cylindrical beam.
+//!
+//! Theory 1.4: equations (16), (17) of Bicchi & Dario 1987 with their misprints mended. The beam
+//! lies along the first axis, its tip at +X; the wrench is taken about the origin (the centre of
+//! the paper's sphere). A gauge at axial distance `Z` behind the origin sits at
+//! `(−Z, R cos θ, R sin θ)` and is turned by `Q` from the beam axis towards increasing `θ`.
+
+use nalgebra::{SMatrix, Vector6};
+use thiserror::Error;
+
+use crate::{Real, SensorMatrix, SensorMatrixError};
+
+/// Where one gauge is glued.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Gauge<T> {
+    /// Axial distance behind the origin of the sensor frame \[m\].
+    pub z: T,
+    /// Angle around the beam from the second axis towards the third \[rad\].
+    pub theta: T,
+    /// Angle of the gauge from the beam axis towards increasing `theta` \[rad\].
+    pub q: T,
+}
+
+/// A tube and its material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ThinWalledBeam<T> {
+    /// Mean radius of the wall R \[m\].
+    pub radius: T,
+    /// Wall thickness s \[m\], thin against the radius.
+    pub thickness: T,
+    /// Young's modulus E \[Pa\].
+    pub youngs_modulus: T,
+    /// Poisson's ratio μ.
+    pub poisson_ratio: T,
+}
+
+/// The four section constants of equation (17): strain per unit load, before the angles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SectionConstants<T> {
+    /// Axial strain per newton, `1/(2πERs)`.
+    pub axial: T,
+    /// Bending strain per newton metre, `2/R` of the axial one.
+    pub bending: T,
+    /// Shear strain per newton at the neutral line (already halved for a gauge at 45°).
+    pub shear: T,
+    /// Torsion strain per newton metre.
+    pub torsion: T,
+}
+
+/// What is wrong with a beam.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum LayoutError {
+    /// A dimension or modulus is not a positive finite number, or Poisson's ratio not in (−1, 0.5].
+    #[error("the beam's {quantity} is out of range")]
+    BadBeam {
+        /// Which quantity.
+        quantity: &'static str,
+    },
+    /// The resulting matrix is unusable.
+    #[error(transparent)]
+    Matrix(#[from] SensorMatrixError),
+}
+
+impl<T: Real> ThinWalledBeam<T> {
+    /// The corrected constants of equation (17): `W_h = 1/(2πERs)`, `W_f = 2W_h/R`,
+    /// `W_s = 2(1+μ)W_h`, `W_t = (1+μ)W_h/R`.
+    ///
+    /// # Errors
+    /// [`LayoutError::BadBeam`].
+    pub fn section_constants(&self) -> Result<SectionConstants<T>, LayoutError> {
+        let positive = |value: T, quantity| {
+            if value > T::zero() && value.is_number() {
+                Ok(value)
+            } else {
+                Err(LayoutError::BadBeam { quantity })
+            }
+        };
+        let radius = positive(self.radius, "radius")?;
+        let thickness = positive(self.thickness, "wall thickness")?;
+        let modulus = positive(self.youngs_modulus, "Young's modulus")?;
+        let mu = self.poisson_ratio;
+        if !(mu > -T::one() && mu <= T::literal(0.5)) {
+            return Err(LayoutError::BadBeam { quantity: "Poisson's ratio" });
+        }
+        let axial = T::one() / (T::two_pi() * modulus * radius * thickness);
+        let two = T::literal(2.0);
+        Ok(SectionConstants {
+            axial,
+            bending: two * axial / radius,
+            shear: two * (T::one() + mu) * axial,
+            torsion: (T::one() + mu) * axial / radius,
+        })
+    }
+}
+
+/// `N` gauges on a beam.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GaugeLayout<T, const N: usize> {
+    /// Where the gauges are.
+    pub gauges: [Gauge<T>; N],
+    /// Strain per unit load of the section.
+    pub section: SectionConstants<T>,
+    /// Poisson's ratio μ of the beam.
+    pub poisson_ratio: T,
+}
+
+impl<T: Real, const N: usize> GaugeLayout<T, N> {
+    /// Gauges on a beam whose constants follow from its dimensions.
+    ///
+    /// # Errors
+    /// [`LayoutError::BadBeam`].
+    pub fn new(beam: &ThinWalledBeam<T>, gauges: [Gauge<T>; N]) -> Result<Self, LayoutError> {
+        Ok(Self { gauges, section: beam.section_constants()?, poisson_ratio: beam.poisson_ratio })
+    }
+
+    /// Strain of each gauge per newton and newton metre \[1/N, 1/(N·m)\]: the corrected (16).
+    #[must_use]
+    pub fn strain_matrix(&self) -> SMatrix<T, N, 6> {
+        let mut strains = SMatrix::<T, N, 6>::zeros();
+        for (mut row, gauge) in strains.row_iter_mut().zip(&self.gauges) {
+            for (entry, value) in row.iter_mut().zip(self.strain_row(gauge).iter()) {
+                *entry = *value;
+            }
+        }
+        strains
+    }
+
+    fn strain_row(&self, gauge: &Gauge<T>) -> Vector6<T> {
+        let section = &self.section;
+        let (sin_q, cos_q) = gauge.q.sin_cos();
+        let (sin_theta, cos_theta) = gauge.theta.sin_cos();
+        let along = cos_q * cos_q - self.poisson_ratio * sin_q * sin_q;
+        let across = T::literal(2.0) * sin_q * cos_q;
+        let lever = gauge.z * along * section.bending;
+        Vector6::new(
+            along * section.axial,
+            -lever * cos_theta - across * sin_theta * section.shear,
+            -lever * sin_theta + across * cos_theta * section.shear,
+            across * section.torsion,
+            along * sin_theta * section.bending,
+            -along * cos_theta * section.bending,
+        )
+    }
+
+    /// The sensor matrix for a bridge that gives `gain` volts (or counts) per unit strain and
+    /// gauge, and the nominal loads \[N, N, N, N·m, N·m, N·m\].
+    ///
+    /// # Errors
+    /// [`LayoutError::Matrix`] if the layout cannot see an axis or an input is not finite.
+    pub fn sensor_matrix(&self, gain: T, nominal: Vector6<T>) -> Result<SensorMatrix<T, N>, LayoutError> {
+        Ok(SensorMatrix::from_sensitivities(self.strain_matrix() * gain, nominal)?)
+    }
+}
+
+impl<T: Real> GaugeLayout<T, 6> {
+    /// The paper's six gauges (its Figure 3): four around the ring at the origin, alternately
+    /// turned by `∓q`, and two a distance `d` behind, at 180° and 90° \[rad, m\].
+    #[must_use]
+    pub fn bicchi_dario_gauges(q: T, d: T) -> [Gauge<T>; 6] {
+        let quarter = T::frac_pi_2();
+        let gauge = |z, quarters: f64, q| Gauge { z, theta: quarter * T::literal(quarters), q };
+        let zero = T::zero();
+        [
+            gauge(zero, 2.0, -q),
+            gauge(zero, 1.0, q),
+            gauge(zero, 0.0, -q),
+            gauge(zero, 3.0, q),
+            gauge(d, 2.0, -q),
+            gauge(d, 1.0, q),
+        ]
+    }
+}

@@ -1,0 +1,208 @@
+//! Rigid motion between two named frames.
+
+use core::marker::PhantomData;
+use core::ops::Mul;
+
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use thiserror::Error;
+
+use crate::{Frame, Real, Sensor};
+
+/// Rotation and translation that take coordinates in frame `From` to coordinates in frame `To`.
+///
+/// Name values as `palm_from_tip`: then products read `palm_from_tip * tip_from_sensor`.
+///
+/// ```
+/// use fingertip_wrench::{Frame, RigidTransform, Sensor, Wrench};
+/// use nalgebra::Vector3;
+///
+/// #[derive(Clone, Copy, Debug, PartialEq)]
+/// struct Palm;
+/// impl Frame for Palm {
+///     const NAME: &'static str = "palm";
+/// }
+///
+/// // The sensor sits 0.1 m out along the palm's x axis, not turned.
+/// let palm_from_sensor: RigidTransform<f64, Palm, Sensor> =
+///     RigidTransform::translation(Vector3::new(0.1, 0.0, 0.0));
+/// let in_sensor = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -2.0), Vector3::zeros());
+/// let in_palm = in_sensor.expressed_in(&palm_from_sensor);
+/// assert!((in_palm.torque().y - 0.2).abs() < 1e-15);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "Parts<T>",
+        into = "Parts<T>",
+        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
+    )
+)]
+pub struct RigidTransform<T: Real, To: Frame = Sensor, From: Frame = Sensor> {
+    rotation: Matrix3<T>,
+    origin: Vector3<T>,
+    frames: PhantomData<(To, From)>,
+}
+
+/// Why a matrix and a vector are not a rigid motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum TransformError {
+    /// An entry is NaN or infinite.
+    #[error("the transform has an entry that is not a finite number")]
+    NotFinite,
+    /// `RᵀR` differs from the identity by more than rounding can explain.
+    #[error("the rotation matrix is not orthonormal")]
+    NotOrthonormal,
+    /// The matrix is a reflection.
+    #[error("the rotation matrix is a reflection: its determinant is −1")]
+    Reflection,
+    /// The quaternion or axis has no direction.
+    #[error("the rotation's axis or quaternion has zero length")]
+    ZeroLength,
+}
+
+impl<T: Real, To: Frame, From: Frame> RigidTransform<T, To, From> {
+    /// Frames that coincide.
+    #[inline]
+    #[must_use]
+    pub fn identity() -> Self {
+        Self::from_parts(Rotation3::identity(), Vector3::zeros())
+    }
+
+    /// Parallel frames; `origin` is the origin of `From` in coordinates of `To` \[m\].
+    #[inline]
+    #[must_use]
+    pub fn translation(origin: Vector3<T>) -> Self {
+        Self::from_parts(Rotation3::identity(), origin)
+    }
+
+    /// From a rotation and the origin of `From` in coordinates of `To` \[m\].
+    #[inline]
+    #[must_use]
+    pub fn from_parts(rotation: Rotation3<T>, origin: Vector3<T>) -> Self {
+        Self { rotation: rotation.into_inner(), origin, frames: PhantomData }
+    }
+
+    /// From a rotation matrix whose columns are the axes of `From` in coordinates of `To`, and the
+    /// origin of `From` in coordinates of `To` \[m\].
+    ///
+    /// # Errors
+    /// [`TransformError`] if an entry is not finite, or if the matrix is not a rotation: its
+    /// columns may differ from orthonormal by `√ε` (matrices printed with few digits come from
+    /// [`from_axis_angle`](Self::from_axis_angle) or a quaternion more safely).
+    pub fn from_matrix(rotation: Matrix3<T>, origin: Vector3<T>) -> Result<Self, TransformError> {
+        if !rotation.iter().chain(origin.iter()).all(|x| x.is_number()) {
+            return Err(TransformError::NotFinite);
+        }
+        let defect = rotation.transpose() * rotation - Matrix3::identity();
+        if defect.amax() > T::EPSILON.root() {
+            return Err(TransformError::NotOrthonormal);
+        }
+        if rotation.determinant() < T::zero() {
+            return Err(TransformError::Reflection);
+        }
+        Ok(Self { rotation, origin, frames: PhantomData })
+    }
+
+    /// From a rotation vector (axis times angle \[rad\]) and the origin of `From` in `To` \[m\].
+    ///
+    /// # Errors
+    /// [`TransformError::NotFinite`] if an entry is NaN or infinite.
+    pub fn from_axis_angle(axis_angle: Vector3<T>, origin: Vector3<T>) -> Result<Self, TransformError> {
+        if !axis_angle.iter().chain(origin.iter()).all(|x| x.is_number()) {
+            return Err(TransformError::NotFinite);
+        }
+        Ok(Self::from_parts(Rotation3::from_scaled_axis(axis_angle), origin))
+    }
+
+    /// From a quaternion `(w, x, y, z)`, normalised here, and the origin of `From` in `To` \[m\].
+    ///
+    /// # Errors
+    /// [`TransformError`] if an entry is not finite or the quaternion is zero.
+    pub fn from_quaternion(wxyz: [T; 4], origin: Vector3<T>) -> Result<Self, TransformError> {
+        if !wxyz.iter().chain(origin.iter()).all(|x| x.is_number()) {
+            return Err(TransformError::NotFinite);
+        }
+        let [w, x, y, z] = wxyz;
+        let largest = w.abs().max(x.abs()).max(y.abs()).max(z.abs());
+        if largest <= T::zero() {
+            return Err(TransformError::ZeroLength);
+        }
+        let k = largest.normalising_factor();
+        let quaternion = UnitQuaternion::new_normalize(nalgebra::Quaternion::new(w * k, x * k, y * k, z * k));
+        Ok(Self::from_parts(quaternion.to_rotation_matrix(), origin))
+    }
+
+    /// The rotation matrix: its columns are the axes of `From` in coordinates of `To`.
+    #[inline]
+    #[must_use]
+    pub const fn rotation(&self) -> Matrix3<T> {
+        self.rotation
+    }
+
+    /// The origin of `From` in coordinates of `To` \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn origin(&self) -> Vector3<T> {
+        self.origin
+    }
+
+    /// A direction, force or torque, turned from `From` to `To`.
+    #[inline]
+    #[must_use]
+    pub fn rotate(&self, direction: &Vector3<T>) -> Vector3<T> {
+        self.rotation * direction
+    }
+
+    /// A point in coordinates of `From`, in coordinates of `To` \[m\].
+    #[inline]
+    #[must_use]
+    pub fn transform_point(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.rotation * point + self.origin
+    }
+
+    /// The motion the other way.
+    #[inline]
+    #[must_use]
+    pub fn inverse(&self) -> RigidTransform<T, From, To> {
+        let rotation = self.rotation.transpose();
+        RigidTransform { rotation, origin: -(rotation * self.origin), frames: PhantomData }
+    }
+}
+
+impl<T: Real, A: Frame, B: Frame, C: Frame> Mul<RigidTransform<T, B, C>> for RigidTransform<T, A, B> {
+    type Output = RigidTransform<T, A, C>;
+    #[inline]
+    fn mul(self, b_from_c: RigidTransform<T, B, C>) -> RigidTransform<T, A, C> {
+        RigidTransform {
+            rotation: self.rotation * b_from_c.rotation,
+            origin: self.transform_point(&b_from_c.origin),
+            frames: PhantomData,
+        }
+    }
+}
+
+/// How a transform is written in a file; reading one validates it again.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Parts<T: Real> {
+    rotation: Matrix3<T>,
+    origin: Vector3<T>,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real, To: Frame, From: Frame> core::convert::From<RigidTransform<T, To, From>> for Parts<T> {
+    fn from(transform: RigidTransform<T, To, From>) -> Self {
+        Self { rotation: transform.rotation, origin: transform.origin }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real, To: Frame, From: Frame> TryFrom<Parts<T>> for RigidTransform<T, To, From> {
+    type Error = TransformError;
+    fn try_from(parts: Parts<T>) -> Result<Self, TransformError> {
+        Self::from_matrix(parts.rotation, parts.origin)
+    }
+}
