@@ -61,7 +61,7 @@ impl<Solver, Surface, Model, Friction, Detector, Zero>
     pub fn friction<Next>(
         self,
         friction: Next,
-    ) -> FingertipBuilder<Solver, Surface, Model, Next, Detector, Zero> {
+    ) -> FingertipBuilder<Solver, Surface, Model, Present<Next>, Detector, Zero> {
         let Fingertip { zero, solver, surface, model, detector, .. } = self.fingertip;
         FingertipBuilder {
             fingertip: Fingertip { zero, solver, surface, model, friction: Present(friction), detector },
@@ -72,7 +72,7 @@ impl<Solver, Surface, Model, Friction, Detector, Zero>
     pub fn slip_detector<Next>(
         self,
         detector: Next,
-    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Next, Zero> {
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Present<Next>, Zero> {
         let Fingertip { zero, solver, surface, model, friction, .. } = self.fingertip;
         FingertipBuilder {
             fingertip: Fingertip { zero, solver, surface, model, friction, detector: Present(detector) },

@@ -35,7 +35,6 @@ pub struct Touch<T: Real, Reading = (), Verdict = ()> {
 
 impl Fingertip<Absent, Absent, Absent> {
     /// Starts a pipeline with every optional stage left out.
-    #[must_use]
     pub const fn builder() -> FingertipBuilder<Absent, Absent, Absent, Absent, Absent, Uncompensated> {
         FingertipBuilder::new()
     }
