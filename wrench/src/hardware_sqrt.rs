@@ -9,18 +9,22 @@
 #[inline]
 #[allow(unsafe_code)]
 pub(crate) fn sqrt_f32(value: f32) -> f32 {
-    let root;
-    // SAFETY: `vsqrt.f32` reads and writes floating-point registers only; it has no operand in
-    // memory and cannot trap in the default floating-point environment. Every target with the
-    // hard-float ABI has the instruction.
+    let bits: u32;
+    // SAFETY: the three instructions read and write registers only, those that are declared; they
+    // have no operand in memory and cannot trap in the default floating-point environment. Every
+    // target with the hard-float ABI has them. The value passes through a core register because
+    // the floating-point register class needs a target feature that stable Rust cannot name.
     unsafe {
         core::arch::asm!(
+            "vmov s0, {value}",
             "vsqrt.f32 s0, s0",
-            inout("s0") value => root,
+            "vmov {value}, s0",
+            value = inout(reg) value.to_bits() => bits,
+            out("s0") _,
             options(pure, nomem, nostack, preserves_flags)
         );
     }
-    root
+    f32::from_bits(bits)
 }
 
 /// Square root of an `f32`, correctly rounded; NaN for a negative number.
