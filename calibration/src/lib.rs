@@ -1,1 +1,13 @@
 #![doc = include_str!("../README.md")]
+
+mod axis;
+pub mod file;
+pub mod linear;
+pub mod model;
+pub mod units;
+
+pub use axis::Axis;
+pub use nalgebra;
+
+/// Name and version of this library, as files and reports name their maker.
+pub const TOOL: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));

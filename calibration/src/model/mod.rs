@@ -1,0 +1,4 @@
+//! What is fitted.
+
+mod pairs;
+pub use pairs::pairs;
