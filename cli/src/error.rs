@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use fingertip_drivers::recording::RecordingError;
 use thiserror::Error;
 
 /// Why a run stopped.
@@ -23,9 +24,33 @@ pub(crate) enum CliError {
     /// The scene does not say what it must.
     #[error("scene {path}{place}: {message}", path = .path.display())]
     Scene { path: PathBuf, place: Place, message: String },
-    /// The recording cannot be used.
-    #[error("recording {path}: {message}", path = .path.display())]
-    Recording { path: PathBuf, message: String },
+    /// The recording cannot be used; the message names the file.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
+    /// Neither the recording nor the scene tells the time.
+    #[error(
+        "{path} has no column of time; add one (t_s), or write `sample_rate_Hz` into [input] of {scene}",
+        path = .path.display(), scene = .scene.display()
+    )]
+    NoTime { path: PathBuf, scene: PathBuf },
+    /// Volts without a calibration.
+    #[error(
+        "{path} holds signals but no wrench; give the sensor's calibration with --calibration",
+        path = .path.display()
+    )]
+    NeedsCalibration { path: PathBuf },
+    /// A header and nothing else.
+    #[error("{path} has a header but no rows; record something first", path = .path.display())]
+    NoRows { path: PathBuf },
+    /// The rest of the scene is longer than the recording.
+    #[error(
+        "{path} ends within the {rest} s of rest that the scene states ({rows} rows); shorten `rest_s`",
+        path = .path.display()
+    )]
+    RestTooLong { path: PathBuf, rest: f64, rows: u64 },
+    /// Nothing to take the tare from.
+    #[error("fewer than 2 usable rows within the {rest} s of rest; lengthen `rest_s` of the scene")]
+    NoRest { rest: f64 },
     /// The calibration cannot be used.
     #[error("calibration {path}: {message}", path = .path.display())]
     Calibration { path: PathBuf, message: String },

@@ -11,7 +11,7 @@ use fingertip::friction::{SlipMargin, SlipVerdict};
 
 pub(crate) use quantiles::Quantiles;
 pub(crate) use reservoir::Reservoir;
-pub(crate) use slips::{Slip, Slips};
+pub(crate) use slips::Slips;
 pub(crate) use status::Status;
 pub(crate) use trace::{Point, Trace};
 
@@ -125,16 +125,22 @@ impl Observations {
         self.slips.follow(time, touch.slip, split.map(|(normal, ..)| normal), ratio);
     }
 
-    /// Takes a sample of the rest at the start, which is not analysed.
-    pub(crate) fn add_rest(&mut self, time: f64) {
-        self.count(time, Status::Rest);
+    /// Takes a sample that gave no wrench, or one that is not analysed. Curves break here.
+    pub(crate) fn add_without_wrench(&mut self, time: f64, status: Status) {
+        self.count(time, status);
+        for trace in self.components.iter_mut().chain(&mut self.split).chain([&mut self.ratio_trace]) {
+            trace.add(time, None);
+        }
     }
 
+    #[inline]
     fn count(&mut self, time: f64, status: Status) {
         self.rows += 1;
         self.counts[status as usize] += 1;
-        self.first_time.get_or_insert(time);
-        self.last_time = time;
+        if time.is_finite() {
+            self.first_time.get_or_insert(time);
+            self.last_time = time;
+        }
     }
 
     /// How many samples ended so.

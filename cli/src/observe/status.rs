@@ -15,10 +15,14 @@ pub(crate) enum Status {
     Other,
     /// Part of the rest at the start, from which the tare is taken.
     Rest,
+    /// A gauge reads beyond the range that the calibration gives it.
+    Saturated,
+    /// The row repeats another one, its time does not advance, or a number is missing.
+    UnusableRow,
 }
 
 impl Status {
-    pub(crate) const ALL: [Self; 8] = [
+    pub(crate) const ALL: [Self; 10] = [
         Self::Contact,
         Self::BelowThreshold,
         Self::Misses,
@@ -27,6 +31,8 @@ impl Status {
         Self::NotFinite,
         Self::Other,
         Self::Rest,
+        Self::Saturated,
+        Self::UnusableRow,
     ];
 
     #[inline]
@@ -53,6 +59,8 @@ impl Status {
             Self::NotFinite => "not_finite",
             Self::Other => "other",
             Self::Rest => "rest",
+            Self::Saturated => "saturated",
+            Self::UnusableRow => "unusable_row",
         }
     }
 
@@ -67,6 +75,8 @@ impl Status {
             Self::NotFinite => "reading not finite",
             Self::Other => "another reason",
             Self::Rest => "rest at the start, for the tare",
+            Self::Saturated => "a gauge is saturated",
+            Self::UnusableRow => "row repeated, out of time or incomplete",
         }
     }
 }

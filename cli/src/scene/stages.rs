@@ -119,6 +119,22 @@ impl SlipWatch {
     }
 }
 
+impl SlipWatch {
+    /// Whether anything is watched for.
+    pub(crate) const fn is_on(&self) -> bool {
+        !matches!(self, Self::Off)
+    }
+
+    /// Forgets what was seen, as after a gap in the recording.
+    pub(crate) fn reset(&mut self) {
+        match self {
+            Self::Off => {}
+            Self::Drop(detector) => SlipDetector::<f64>::reset(detector),
+            Self::Threshold(detector) => SlipDetector::<f64>::reset(detector),
+        }
+    }
+}
+
 impl SlipStage<f64> for SlipWatch {
     type Verdict = Option<SlipVerdict>;
 
