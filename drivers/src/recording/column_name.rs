@@ -89,7 +89,9 @@ fn words(name: &str) -> Vec<String> {
         .split(|c: char| matches!(c, '_' | '(' | ')' | '[' | ']' | '/' | ':' | ' ' | '\t' | ',' | ';'))
         .flat_map(|word| {
             // `force.x` parts words, `N.m` does not.
-            let dotted = word.split('.').any(|part| part.eq_ignore_ascii_case("force") || part.eq_ignore_ascii_case("torque"));
+            let dotted = word
+                .split('.')
+                .any(|part| part.eq_ignore_ascii_case("force") || part.eq_ignore_ascii_case("torque"));
             if dotted { word.split('.').collect::<Vec<_>>() } else { vec![word] }
         })
         .filter(|word| !word.is_empty())
@@ -134,7 +136,11 @@ fn torque_unit(behind: &[String]) -> (Option<TorqueUnit>, usize) {
 fn signal_number(word: &str) -> Option<u32> {
     let digits = word.find(|c: char| c.is_ascii_digit())?;
     let (name, number) = word.split_at(digits);
-    if matches!(name, "v" | "s" | "ch" | "channel" | "g" | "gauge" | "sg" | "signal") { number.parse().ok() } else { None }
+    if matches!(name, "v" | "s" | "ch" | "channel" | "g" | "gauge" | "sg" | "signal") {
+        number.parse().ok()
+    } else {
+        None
+    }
 }
 
 /// The words that are neither the axis nor the unit.

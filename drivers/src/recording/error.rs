@@ -43,7 +43,9 @@ pub enum RecordingError {
         found: usize,
     },
     /// There is no header.
-    #[error("{file} is empty: a recording starts with a line that names its columns, such as t_s,fx_N,…,tz_Nm")]
+    #[error(
+        "{file} is empty: a recording starts with a line that names its columns, such as t_s,fx_N,…,tz_Nm"
+    )]
     Empty {
         /// Name of the file.
         file: String,
@@ -57,7 +59,9 @@ pub enum RecordingError {
         problem: HeaderProblem,
     },
     /// A row has more or fewer cells than the header.
-    #[error("{file}, line {line}: {found} cells where the header names {expected} columns; mend or delete that line")]
+    #[error(
+        "{file}, line {line}: {found} cells where the header names {expected} columns; mend or delete that line"
+    )]
     Ragged {
         /// Name of the file.
         file: String,
@@ -83,7 +87,9 @@ pub enum RecordingError {
         found: String,
     },
     /// A line is too long to be one of a recording.
-    #[error("{file}, behind line {line}: a line longer than {limit} bytes, or a quote that is never closed; is this a text file?")]
+    #[error(
+        "{file}, behind line {line}: a line longer than {limit} bytes, or a quote that is never closed; is this a text file?"
+    )]
     TooLong {
         /// Name of the file.
         file: String,

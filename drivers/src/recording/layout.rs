@@ -109,7 +109,11 @@ impl SignalColumns {
     /// # Errors
     /// [`HeaderProblem::NoDummy`].
     pub fn expecting_dummy(&self) -> Result<&Self, HeaderProblem> {
-        if self.has_dummy() { Ok(self) } else { Err(HeaderProblem::NoDummy { sensor: of_sensor(&self.name) }) }
+        if self.has_dummy() {
+            Ok(self)
+        } else {
+            Err(HeaderProblem::NoDummy { sensor: of_sensor(&self.name) })
+        }
     }
 }
 
@@ -208,7 +212,8 @@ impl Layout {
             .filter_map(|(name, axis)| axis.is_none().then_some(*name))
             .collect();
         if !missing.is_empty() {
-            problem = Some(HeaderProblem::MissingAxis { sensor: of_sensor(sensor), missing: missing.join(", ") });
+            problem =
+                Some(HeaderProblem::MissingAxis { sensor: of_sensor(sensor), missing: missing.join(", ") });
         }
         if let Some(problem) = problem {
             self.left_out.push(LeftOut { sensor: sensor.to_owned(), problem });
@@ -245,7 +250,8 @@ impl Layout {
         found.sort_by_key(|(number, ..)| *number);
         let Some((start, unit, first)) = found.first().copied() else { return Ok(()) };
         let hole = (start.min(1)..).zip(&found).find(|(expected, (number, ..))| expected != number);
-        let other = found.iter().map(|(_, unit, used)| (*unit, *used)).chain(dummy).find(|(other, _)| *other != unit);
+        let other =
+            found.iter().map(|(_, unit, used)| (*unit, *used)).chain(dummy).find(|(other, _)| *other != unit);
         let problem = if let Some((number, _)) = hole {
             Some(HeaderProblem::MissingSignal { sensor: of_sensor(sensor), number })
         } else {
@@ -332,7 +338,9 @@ impl Layout {
         match self.wrenches.as_slice() {
             [only] => Ok(only),
             [] => Err(self.absent("wrench", "", core::iter::empty())),
-            several => Err(HeaderProblem::SeveralSensors { known: listed(several.iter().map(WrenchColumns::name)) }),
+            several => {
+                Err(HeaderProblem::SeveralSensors { known: listed(several.iter().map(WrenchColumns::name)) })
+            }
         }
     }
 
@@ -344,7 +352,9 @@ impl Layout {
         match self.signals.as_slice() {
             [only] => Ok(only),
             [] => Err(self.absent("signals", "", core::iter::empty())),
-            several => Err(HeaderProblem::SeveralSensors { known: listed(several.iter().map(SignalColumns::name)) }),
+            several => {
+                Err(HeaderProblem::SeveralSensors { known: listed(several.iter().map(SignalColumns::name)) })
+            }
         }
     }
 
@@ -363,7 +373,8 @@ impl Layout {
 }
 
 fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    let names: Vec<&str> = names.map(|name| if name.is_empty() { "(without a name)" } else { name }).collect();
+    let names: Vec<&str> =
+        names.map(|name| if name.is_empty() { "(without a name)" } else { name }).collect();
     if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
 

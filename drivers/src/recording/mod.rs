@@ -45,7 +45,7 @@ mod unit;
 mod writer;
 
 pub use error::{HeaderProblem, RecordingError};
-pub use layout::{AssumedUnits, LeftOut, Layout, SignalColumns, WrenchColumns};
+pub use layout::{AssumedUnits, Layout, LeftOut, SignalColumns, WrenchColumns};
 pub use quality::{FaultCount, Quality};
 pub use reader::{ReaderOptions, RecordingReader};
 pub use row::{Row, RowMarks};

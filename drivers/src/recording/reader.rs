@@ -190,7 +190,12 @@ impl<R: Read> RecordingReader<R> {
                 break;
             }
             if !is_blank(&self.record) {
-                return Err(RecordingError::Ragged { file: self.file.clone(), line: self.line, expected, found });
+                return Err(RecordingError::Ragged {
+                    file: self.file.clone(),
+                    line: self.line,
+                    expected,
+                    found,
+                });
             }
         }
         let mut marks = RowMarks::default();
@@ -201,8 +206,9 @@ impl<R: Read> RecordingReader<R> {
                 Cell::Number(number) => number,
                 bad => {
                     any_bad = true;
-                    bad.count(self.line, &mut marks, &mut self.quality)
-                        .ok_or_else(|| not_a_number(&self.file, self.line, &self.layout, &self.record, *used))?
+                    bad.count(self.line, &mut marks, &mut self.quality).ok_or_else(|| {
+                        not_a_number(&self.file, self.line, &self.layout, &self.record, *used)
+                    })?
                 }
             };
             // Bits, so that a NaN equals itself and the first row equals nothing.
@@ -228,8 +234,9 @@ impl<R: Read> RecordingReader<R> {
                 }
                 bad => {
                     marks.bad_time = true;
-                    bad.count(self.line, &mut marks, &mut self.quality)
-                        .ok_or_else(|| not_a_number(&self.file, self.line, &self.layout, &self.record, used))?;
+                    bad.count(self.line, &mut marks, &mut self.quality).ok_or_else(|| {
+                        not_a_number(&self.file, self.line, &self.layout, &self.record, used)
+                    })?;
                 }
             }
         } else {

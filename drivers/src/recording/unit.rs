@@ -171,5 +171,8 @@ pub(super) fn seconds(name: &str) -> Option<f64> {
 
 /// Lower case, without the signs that join the parts of a unit.
 fn plain(name: &str) -> String {
-    name.chars().filter(|c| !matches!(c, '-' | '·' | '*' | '.' | ' ' | '⋅')).flat_map(char::to_lowercase).collect()
+    name.chars()
+        .filter(|c| !matches!(c, '-' | '·' | '*' | '.' | ' ' | '⋅'))
+        .flat_map(char::to_lowercase)
+        .collect()
 }
