@@ -3,6 +3,7 @@
 
 mod analyze;
 mod args;
+mod demo;
 mod error;
 mod observe;
 mod report;
@@ -20,7 +21,7 @@ use error::CliError;
 
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
-        Command::Demo(_) => Ok(()),
+        Command::Demo(arguments) => demo::run(&arguments),
         Command::Analyze(arguments) => analyze::run(&arguments),
     };
     match done {

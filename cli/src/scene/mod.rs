@@ -58,7 +58,9 @@ struct InputSection {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SceneFile {
-    version: u32,
+    /// Checked before the rest is read.
+    #[serde(rename = "version")]
+    _version: u32,
     name: Option<String>,
     input: InputSection,
     surface: SurfaceSection,
