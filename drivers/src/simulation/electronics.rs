@@ -1,19 +1,26 @@
 //! From strain to the volts that the converter reports.
 
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64Mcg;
+
 use super::error::{SimulationError, not_negative, positive};
 
-/// One channel: quarter bridge, amplifier, converter.
+/// The channels: quarter bridge, amplifier, converter, and what the firmware does with the counts.
 ///
 /// The default figures are those of a careful bench set-up:
 ///
-/// * gauge factor 2 (constantan), excitation 5 V (7 mW in 350 Ω, little enough for a small gauge
-///   on aluminium);
+/// * gauge factor 2 (constantan), excitation 5 V (18 mW in a gauge of 350 Ω, half of the bridge's
+///   voltage on it: little enough on aluminium);
 /// * amplification 1600: the 600 µm/m of the worst 30 N contact give 1.5 mV, which fill ±2.5 V but
 ///   for 4 %, left for unbalance and drift;
-/// * noise 0.35 µV at the amplifier's input: 12 nV/√Hz (amplifier, and 2.4 of a 350 Ω gauge)
-///   behind a first-order filter at 500 Hz, √(500 Hz · π/2) · 12.2 nV/√Hz;
-/// * 12 bits from 0 to 5 V: one step is 1.22 mV, or 0.31 µm/m. The noise is half a step, so that
-///   averages resolve less than one.
+/// * 12 bits from 0 to 5 V: one step is 1.22 mV, or 0.31 µm/m;
+/// * noise 0.53 µV at the amplifier's input: 4 nV/√Hz of a precision instrumentation amplifier
+///   and 2.4 nV/√Hz of a 350 Ω gauge, behind a first-order filter at 8 kHz:
+///   √(8 kHz · π/2) · 4.7 nV/√Hz. That is 0.7 steps, enough to make an average finer than a step;
+/// * so 16 conversions are averaged to a sample, which leaves 0.13 µV or a sixth of a step. At
+///   1000 samples per second the converter runs at 16 kHz;
+/// * the dummy gauge is averaged over 0.1 s, since the temperature is slow and its noise would come
+///   into all gauges alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Electronics {
     /// Relative change of resistance per strain.
@@ -28,6 +35,10 @@ pub struct Electronics {
     pub input_noise: f64,
     /// Bits of the converter, 1 to 24.
     pub bits: u32,
+    /// How many conversions are averaged to one sample, at least 1.
+    pub conversions: u32,
+    /// Time constant over which the dummy gauge is averaged \[s\]; zero for none.
+    pub dummy_averaging: f64,
     /// The converter's range is from zero to this \[V\].
     pub converter_range: f64,
 }
@@ -39,8 +50,10 @@ impl Default for Electronics {
             excitation: 5.0,
             amplification: 1600.0,
             offset: 2.5,
-            input_noise: 0.35e-6,
+            input_noise: 0.53e-6,
             bits: 12,
+            conversions: 16,
+            dummy_averaging: 0.1,
             converter_range: 5.0,
         }
     }
@@ -54,6 +67,13 @@ impl Electronics {
         positive(self.converter_range, "converter range")?;
         not_negative(self.offset, "amplifier offset")?;
         not_negative(self.input_noise, "input noise")?;
+        not_negative(self.dummy_averaging, "averaging time of the dummy gauge")?;
+        if self.conversions == 0 {
+            return Err(SimulationError::BadParameter {
+                parameter: "number of conversions",
+                requirement: "at least 1",
+            });
+        }
         if !(1..=24).contains(&self.bits) {
             return Err(SimulationError::BadParameter {
                 parameter: "number of bits",
@@ -90,6 +110,19 @@ impl Electronics {
         let greatest = f64::from((1_u32 << self.bits.min(24)) - 1);
         let code = ((self.offset + self.amplification * input) / self.step()).round().clamp(0.0, greatest);
         code * self.step()
+    }
+
+    /// What one channel gives for a steady input \[V\]: the mean of some noisy conversions, and
+    /// whether one of them was at an end of the range.
+    pub(super) fn sample(&self, input: f64, random: &mut Pcg64Mcg) -> (f64, bool) {
+        let (mut sum, mut saturated) = (0.0, false);
+        for _ in 0..self.conversions {
+            let noise: f64 = StandardNormal.sample(random);
+            let volts = self.convert(input + self.input_noise * noise);
+            sum += volts;
+            saturated |= self.is_saturated(volts);
+        }
+        (sum / f64::from(self.conversions), saturated)
     }
 
     /// Whether a reading lies at an end of the converter's range.

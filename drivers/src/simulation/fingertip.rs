@@ -6,7 +6,6 @@ use fingertip_surfaces::Sphere;
 use fingertip_wrench::{GaugesAndDummy, SensorMatrix, Wrench};
 use nalgebra::{SVector, Vector6};
 use rand::SeedableRng;
-use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
 use super::design::Design;
@@ -99,6 +98,7 @@ pub struct SimulatedFingertip {
     temperature: Temperature,
     samples: u64,
     phase: usize,
+    dummy: f64,
 }
 
 impl SimulatedFingertip {
@@ -128,6 +128,7 @@ impl SimulatedFingertip {
             temperature,
             samples: 0,
             phase: 0,
+            dummy: 0.0,
         })
     }
 
@@ -195,30 +196,34 @@ impl SimulatedFingertip {
         let contact = load.contact(self.options.design.sphere_radius);
         let wrench = contact.map_or_else(Wrench::zero, |contact| contact.wrench());
         let temperature = self.temperature.next(time, &mut self.random);
-        let raw = self.read(&wrench, temperature);
-        let saturated = raw.iter().any(|volts| self.options.electronics.is_saturated(*volts));
+        let (raw, saturated) = self.read(&wrench, temperature);
         let truth = Truth { wrench, contact, temperature, slipping, phase: self.phase, saturated };
         Some(SimulatedSample { time, raw, truth })
     }
 
-    /// What the electronics make of a load and a temperature.
-    fn read(&mut self, wrench: &Wrench<f64>, temperature: f64) -> SVector<f64, 7> {
+    /// What the electronics make of a load and a temperature, and whether a channel saturates.
+    fn read(&mut self, wrench: &Wrench<f64>, temperature: f64) -> (SVector<f64, 7>, bool) {
         let electronics = &self.options.electronics;
         let strains = self.built.strains * wrench.components();
         // The dummy gauge carries no load.
         let mut raw = strains.push(0.0);
-        for (channel, volts) in raw.iter_mut().enumerate() {
+        let mut any_saturated = false;
+        for (channel, value) in raw.iter_mut().enumerate() {
             let of = |values: &[f64; 7]| values.get(channel).copied().unwrap_or_default();
-            let strain = *volts + of(&self.built.apparent_strain) * temperature;
+            let strain = *value + of(&self.built.apparent_strain) * temperature;
             let bridge = electronics.bridge(strain) * of(&self.built.gains);
-            let noise: f64 = StandardNormal.sample(&mut self.random);
-            let input = bridge
-                + of(&self.built.unbalance)
-                + of(&self.built.offset_drift) * temperature
-                + electronics.input_noise * noise;
-            *volts = electronics.convert(input);
+            let input = bridge + of(&self.built.unbalance) + of(&self.built.offset_drift) * temperature;
+            let (volts, saturated) = electronics.sample(input, &mut self.random);
+            *value = volts;
+            any_saturated |= saturated;
         }
-        raw
+        // First-order average, started with the plain mean so that it is as good from the first.
+        let settled = electronics.dummy_averaging * self.options.sample_rate;
+        #[allow(clippy::cast_precision_loss, reason = "exact for 10^15 samples")]
+        let weight = 1.0 / (self.samples as f64).min(settled).max(1.0);
+        self.dummy += (raw[6] - self.dummy) * weight;
+        raw[6] = self.dummy;
+        (raw, any_saturated)
     }
 }
 

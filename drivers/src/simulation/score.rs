@@ -14,7 +14,10 @@ use super::script::Segment;
 #[derive(Clone, Debug)]
 pub struct SessionScore {
     sphere: Sphere<f64>,
+    /// Within which a slip must be called \[s\].
     window: f64,
+    /// Whether each phase is a hold.
+    still: Vec<bool>,
     holds: Vec<Hold>,
     slips: Vec<SlipScore>,
     false_alarms: Vec<f64>,
@@ -110,6 +113,11 @@ impl SessionScore {
         Self {
             sphere: fingertip.sphere(),
             window: 20e-3,
+            still: fingertip
+                .phases()
+                .iter()
+                .map(|phase| matches!(phase.segment, Segment::Hold { .. }))
+                .collect(),
             holds: Vec::new(),
             slips: fingertip
                 .slip_onsets()
@@ -121,11 +129,10 @@ impl SessionScore {
     }
 
     /// Takes what the pipeline says of a sample: the wrench, the contact point if there is one, and
-    /// whether slip was called. `segment` is that of the sample's phase.
+    /// whether slip was called.
     pub fn add(
         &mut self,
         sample: &SimulatedSample,
-        segment: &Segment,
         wrench: &Wrench<f64>,
         point: Option<&Vector3<f64>>,
         slip_called: bool,
@@ -133,7 +140,10 @@ impl SessionScore {
         if slip_called {
             self.judge_call(sample);
         }
-        let (Segment::Hold { .. }, Some(contact)) = (segment, &sample.truth.contact) else { return };
+        if !self.still.get(sample.truth.phase).copied().unwrap_or(false) {
+            return;
+        }
+        let Some(contact) = &sample.truth.contact else { return };
         if contact.contact_force().tangential_magnitude() > 1e-9 * contact.force.norm() {
             // A hold after a drag is no press.
             return;
