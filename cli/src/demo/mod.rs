@@ -112,9 +112,7 @@ fn play(seed: u64) -> Result<Outcome, String> {
         observations.add(sample.time, &touch);
         let point = touch.resolution.contact().map(|contact| contact.point);
         let slipping = touch.slip == Some(SlipVerdict::Slipping);
-        if let Some(segment) = phases.get(sample.truth.phase) {
-            score.add(&sample, segment, &touch.wrench, point.as_ref(), slipping);
-        }
+        score.add(&sample, &touch.wrench, point.as_ref(), slipping);
         if let (Some(point), Some(truth)) = (point, sample.truth.contact) {
             errors.add(|| SampleError { load: truth.force.norm(), position: (point - truth.point).norm() });
         }

@@ -28,7 +28,6 @@ impl Rest {
             .map(|reading| solver.solve(&zero.compensate(reading)).force())
             .map(|force| force.component_mul(&force))
             .sum();
-        eprintln!("{:?}", squares.map(|s| (s/999.0).sqrt()));
         let force_noise = (squares.max() / (readings.len() as f64 - 1.0)).sqrt();
         Ok(Self { zero, force_noise, samples: readings.len() })
     }

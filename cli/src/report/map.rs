@@ -47,15 +47,20 @@ fn polar(title: &str, rim: Option<f64>, points: &[MapPoint], classes: &Classes) 
     let chord = |polar: f64| 2.0 * (0.5 * polar).sin();
     let farthest = points.iter().map(|point| point.place.0.hypot(point.place.1)).fold(0.0, f64::max);
     let reach = farthest.max(rim.map_or(0.0, chord)).max(chord(PI / 6.0));
-    // The next ring of the grid outward.
+    // As far as the rim if nothing lies beyond it, otherwise to the next ring of the grid.
     let rings = [30.0, 60.0, 90.0, 120.0, 150.0, 180.0_f64].map(f64::to_radians);
-    let outer = rings.into_iter().find(|ring| chord(*ring) >= reach * 0.999_999).unwrap_or(PI);
+    let beyond = |ring: &f64| chord(*ring) >= reach * 0.999_999;
+    let outer = rim.filter(beyond).or_else(|| rings.into_iter().find(beyond)).unwrap_or(PI);
+    // A ring that would run along the rim says nothing.
+    let apart = |ring: &f64| rim.is_none_or(|rim| (ring - rim).abs() > 6_f64.to_radians());
+    let rings: Vec<f64> = rings.into_iter().filter(|ring| *ring <= outer).filter(apart).collect();
     let disk = 0.5 * (WIDTH - 40.0);
     let scale = disk / chord(outer);
     let centre = (0.5 * WIDTH, TOP + disk);
     let height = TOP + 2.0 * disk + 16.0 + LEGEND;
     let mut svg = Svg::new(WIDTH, height, title);
-    for ring in rings.into_iter().filter(|ring| *ring <= outer) {
+    for ring in &rings {
+        let ring = *ring;
         svg.circle("ring", centre, scale * chord(ring));
     }
     for spoke in 0..4 {
@@ -69,7 +74,7 @@ fn polar(title: &str, rim: Option<f64>, points: &[MapPoint], classes: &Classes) 
     dots(&mut svg, points, classes, |(u, v)| (centre.0 + scale * u, centre.1 - scale * v));
     // Ring labels last, on a slant between two spokes, so that they stay readable.
     let (sin, cos) = (0.375 * PI).sin_cos();
-    for ring in rings.into_iter().filter(|ring| *ring <= outer) {
+    for ring in rings {
         let at = scale * chord(ring);
         let label = format!("{:.0}°", ring.to_degrees());
         svg.label("tick halo", (centre.0 + at * cos, centre.1 - at * sin + 3.5), Anchor::Middle, &label);
