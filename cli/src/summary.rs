@@ -7,7 +7,7 @@ use fingertip_drivers::recording::Quality;
 
 use crate::observe::{Observations, Quantiles, Status};
 use crate::scene::Scene;
-use crate::table::{Table, count, number, number_or_dash, percent};
+use crate::table::{Table, count, number, number_or_dash, percent, short};
 
 /// The result of a run, to be read by a human.
 #[derive(Clone, Debug, Default)]
@@ -115,7 +115,7 @@ fn slips(observations: &Observations, scene: &Scene) -> String {
     };
     let limit = match (scene.friction.coefficient(), observations.beyond_limit) {
         (Some(coefficient), beyond) if beyond > 0 => {
-            format!(" The limit of the friction coefficient {} is passed in {} samples.", number(coefficient), count(beyond))
+            format!(" The limit of the friction coefficient {} is passed in {} samples.", short(coefficient), count(beyond))
         }
         _ => String::new(),
     };

@@ -62,6 +62,16 @@ pub(crate) fn number(value: f64) -> String {
     }
 }
 
+/// As [`number`], without zeros at the end.
+pub(crate) fn short(value: f64) -> String {
+    let text = number(value);
+    if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
 /// A number that may be missing.
 pub(crate) fn number_or_dash(value: Option<f64>) -> String {
     value.map_or_else(|| "–".to_owned(), number)

@@ -1,6 +1,6 @@
 //! The files of a run, and what is said at its end.
 
-use std::fs;
+use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -23,6 +23,16 @@ pub(super) fn guard(arguments: &AnalyzeArguments) -> Result<(), CliError> {
         }
     }
     Ok(())
+}
+
+/// Opens a recording, and tells its length if it has one (a pipe has none).
+pub(super) fn open(path: &Path) -> io::Result<(File, Option<u64>)> {
+    let file = File::open(path)?;
+    let meta = file.metadata()?;
+    if meta.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    Ok((file, meta.is_file().then(|| meta.len())))
 }
 
 /// Prints what was found and what was written.

@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::svg::{Anchor, Svg};
+use crate::table::short;
 
 /// Up to seven classes between round bounds.
 #[derive(Clone, Debug)]
@@ -57,14 +58,6 @@ impl Classes {
 fn two_digits(value: f64) -> f64 {
     let decade = 10.0_f64.powf(value.log10().floor() - 1.0);
     (value / decade).round() * decade
-}
-
-fn short(value: f64) -> String {
-    let text = crate::table::number(value);
-    match text.contains('.') && !text.contains('e') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
-    }
 }
 
 #[cfg(test)]

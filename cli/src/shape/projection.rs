@@ -76,10 +76,10 @@ impl Projection {
             MapKind::Flat => (x * MILLIMETRES, y * MILLIMETRES),
             MapKind::Unrolled { radius, .. } => (x.atan2(z) * radius, y * MILLIMETRES),
             MapKind::Polar { .. } => {
-                let radius = from_centre.norm();
                 let sideways = x.hypot(y);
-                if !(radius > 0.0 && sideways > 0.0) {
-                    return (0.0, 0.0);
+                if !(sideways > 0.0) {
+                    // The pole; or its antipode, which is the whole edge of the map.
+                    return (if z < 0.0 { 2.0 } else { 0.0 }, 0.0);
                 }
                 // 2 sin(θ/2) from the half-angle of atan2, which is accurate at both poles.
                 let distance = 2.0 * (0.5 * sideways.atan2(z)).sin();
