@@ -1,7 +1,7 @@
 //! How fast a recording is read, and written again:
 //! `cargo run --release -p fingertip-drivers --example reading_speed FILE`
 
-use std::error::Error;
+use core::error::Error;
 use std::time::Instant;
 
 use fingertip_drivers::recording::{RecordingReader, RecordingWriter, Schema};
