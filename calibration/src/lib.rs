@@ -2,7 +2,9 @@
 
 mod axis;
 pub mod file;
+pub mod fit;
 pub mod linear;
+pub mod loads;
 pub mod model;
 pub mod units;
 
