@@ -6,6 +6,7 @@ pub mod fit;
 pub mod linear;
 pub mod loads;
 pub mod model;
+pub mod report;
 pub mod units;
 
 pub use axis::Axis;

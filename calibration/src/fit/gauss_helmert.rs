@@ -132,10 +132,11 @@ mod tests {
             let deviations = DMatrix::from_fn(300, 3, |i, _| if i % 2 == 0 { 0.02 } else { 0.8 });
             let responses = &loads * &truth + gaussian_matrix(&mut random, 300, 3) * 0.02;
             let design = loads + deviations.map(|s| s * gaussian(&mut random));
-            let fit =
-                gauss_helmert(&design, &responses, &deviations, &DMatrix::from_element(300, 3, 0.02)).unwrap();
+            let fit = gauss_helmert(&design, &responses, &deviations, &DMatrix::from_element(300, 3, 0.02))
+                .unwrap();
             with += (fit.coefficients - &truth).norm_squared();
-            without += (least_squares(&design, &responses, None).unwrap().coefficients - &truth).norm_squared();
+            without +=
+                (least_squares(&design, &responses, None).unwrap().coefficients - &truth).norm_squared();
         }
         assert!(with * 400.0 < without, "{with:e} {without:e}");
     }

@@ -42,7 +42,8 @@ pub fn huber(
         let mut change = f64::INFINITY;
         for iteration in 1..=MOST_ITERATIONS {
             let residuals = &response - design * &theta;
-            let scale = deviation(residuals.iter().enumerate().map(|(i, r)| r * root(i)), regressors).max(floor);
+            let scale =
+                deviation(residuals.iter().enumerate().map(|(i, r)| r * root(i)), regressors).max(floor);
             let trust = |i: usize| {
                 let size = (residuals[i] * root(i)).abs() / scale;
                 if size <= HUBER_THRESHOLD || scale <= 0.0 { 1.0 } else { HUBER_THRESHOLD / size }
@@ -54,8 +55,7 @@ pub fn huber(
             let inside = (0..samples).filter(|i| trust(*i) >= 1.0).count() as f64 / samples as f64;
             mean_slope[j] = inside.max(1.0 / samples as f64);
             fit.iterations = fit.iterations.max(iteration);
-            let mut triangular =
-                accumulate(design, &response, |i| weights.map_or(1.0, |w| w[i]) * trust(i));
+            let mut triangular = accumulate(design, &response, |i| weights.map_or(1.0, |w| w[i]) * trust(i));
             let next = triangular.factors().coefficients()?;
             change = (&next - &theta).amax() / next.amax().max(f64::MIN_POSITIVE);
             theta = next;
@@ -79,7 +79,7 @@ pub fn huber(
 
 /// Standard deviation of the bulk: the scaled median absolute residual, with the correction n/(n−k)
 /// of the degrees of freedom that the fit has used up.
-pub(super) fn deviation(residuals: impl Iterator<Item = f64>, regressors: usize) -> f64 {
+pub(crate) fn deviation(residuals: impl Iterator<Item = f64>, regressors: usize) -> f64 {
     let mut sizes: Vec<f64> = residuals.map(f64::abs).collect();
     let samples = sizes.len();
     if samples == 0 {

@@ -32,7 +32,8 @@ pub fn leave_out(
     members.sort_unstable();
     let k = design.ncols();
     let alike = fit.trust.column_iter().all(|column| column == fit.trust.column(0));
-    let responses_together = if alike { vec![0..responses.ncols()] } else { (0..responses.ncols()).map(|j| j..j + 1).collect() };
+    let responses_together =
+        if alike { vec![0..responses.ncols()] } else { (0..responses.ncols()).map(|j| j..j + 1).collect() };
     // One factorisation where all responses trust the same samples, one each where they differ.
     let mut roots = Vec::new();
     for range in &responses_together {
@@ -98,7 +99,8 @@ mod tests {
             let rest: Vec<usize> = (0..40).filter(|i| cases[*i] != case).collect();
             let weights: Vec<f64> = rest.iter().map(|i| weights[*i]).collect();
             let anew =
-                least_squares(&design.select_rows(&rest), &responses.select_rows(&rest), Some(&weights)).unwrap();
+                least_squares(&design.select_rows(&rest), &responses.select_rows(&rest), Some(&weights))
+                    .unwrap();
             assert!((anew.coefficients - without.unwrap()).amax() < 1e-12);
             seen += samples.len();
         })

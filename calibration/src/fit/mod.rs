@@ -14,6 +14,7 @@ pub(crate) mod testing;
 mod total;
 
 pub use gauss_helmert::gauss_helmert;
+pub(crate) use huber::deviation;
 pub use huber::{HUBER_THRESHOLD, huber};
 pub use leave_out::leave_out;
 pub use ransac::{Ransac, ransac};

@@ -187,7 +187,8 @@ mod tests {
             let mut responses = &design * &truth;
             for i in 0..25 {
                 for j in 0..3 {
-                    responses[(i, j)] += 0.1 * f64::from(j as u32 + 1) * gaussian(&mut random) / weights[i].sqrt();
+                    responses[(i, j)] +=
+                        0.1 * f64::from(j as u32 + 1) * gaussian(&mut random) / weights[i].sqrt();
                 }
             }
             let fit = least_squares(&design, &responses, Some(&weights)).unwrap();

@@ -31,7 +31,8 @@ pub fn total_least_squares(
     check(regressors, responses, None)?;
     let (samples, k) = regressors.shape();
     let m = responses.ncols();
-    let positive = |list: &[f64], length| list.len() == length && list.iter().all(|x| *x > 0.0 && x.is_finite());
+    let positive =
+        |list: &[f64], length| list.len() == length && list.iter().all(|x| *x > 0.0 && x.is_finite());
     if !positive(regressor_deviations, k) || !positive(response_deviations, m) {
         return Err(FitError::BadInput { what: "the list of standard deviations" });
     }
@@ -42,7 +43,8 @@ pub fn total_least_squares(
     let mut triangular = Triangular::new(lead, k + m);
     let mut row = vec![0.0; k + m];
     for i in 0..samples {
-        let values = regressors.row(i).iter().zip(regressor_deviations).map(|(x, s)| x / s).collect::<Vec<_>>();
+        let values =
+            regressors.row(i).iter().zip(regressor_deviations).map(|(x, s)| x / s).collect::<Vec<_>>();
         row[..k].copy_from_slice(&values);
         for (slot, (y, s)) in row[k..].iter_mut().zip(responses.row(i).iter().zip(response_deviations)) {
             *slot = y / s;
@@ -114,11 +116,13 @@ mod tests {
         let loads = gaussian_matrix(&mut random, samples, 6);
         let responses = &loads * &truth + gaussian_matrix(&mut random, samples, 6) * 0.1;
         let deviations = [0.5, 0.1, 0.2, 0.3, 0.4, 0.1];
-        let errors = DMatrix::from_fn(samples, 6, |_, j| deviations[j])
-            .component_mul(&gaussian_matrix(&mut random, samples, 6));
+        let errors = DMatrix::from_fn(samples, 6, |_, j| deviations[j]).component_mul(&gaussian_matrix(
+            &mut random,
+            samples,
+            6,
+        ));
         let uncertain = loads + errors;
-        let total =
-            total_least_squares(&uncertain, &responses, &deviations, &[0.1; 6], false).unwrap();
+        let total = total_least_squares(&uncertain, &responses, &deviations, &[0.1; 6], false).unwrap();
         assert!((total.coefficients - &truth).amax() < 0.03 * truth.amax());
         let plain = least_squares(&uncertain, &responses, None).unwrap().coefficients;
         let attenuated = DMatrix::from_fn(6, 6, |i, j| truth[(i, j)] / (1.0 + deviations[i] * deviations[i]));

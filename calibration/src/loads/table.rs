@@ -115,9 +115,11 @@ impl LoadTable {
     /// [`LoadError`].
     pub fn validate(&self) -> Result<(), LoadError> {
         let samples = self.loads.nrows();
-        for (what, count) in
-            [("samples", samples), ("load columns", self.axes.len()), ("signal columns", self.signals.ncols())]
-        {
+        for (what, count) in [
+            ("samples", samples),
+            ("load columns", self.axes.len()),
+            ("signal columns", self.signals.ncols()),
+        ] {
             if count == 0 {
                 return Err(LoadError::Empty { what });
             }
@@ -158,7 +160,10 @@ impl LoadTable {
             for (name, list) in
                 [("t_s", &self.times), ("temperature_C", &self.temperatures), ("weight", &self.weights)]
             {
-                if list.as_ref().is_some_and(|list| !list[i].is_finite() || (name == "weight" && list[i] < 0.0)) {
+                if list
+                    .as_ref()
+                    .is_some_and(|list| !list[i].is_finite() || (name == "weight" && list[i] < 0.0))
+                {
                     return Err(not_finite(name.to_owned()));
                 }
             }
@@ -189,7 +194,8 @@ impl LoadTable {
     #[must_use]
     pub fn select(&self, keep: impl Fn(usize) -> bool) -> Self {
         let kept: Vec<usize> = (0..self.samples()).filter(|i| keep(*i)).collect();
-        let pick = |list: &Option<Vec<f64>>| list.as_ref().map(|list| kept.iter().map(|i| list[*i]).collect());
+        let pick =
+            |list: &Option<Vec<f64>>| list.as_ref().map(|list| kept.iter().map(|i| list[*i]).collect());
         Self {
             axes: self.axes.clone(),
             loads: self.loads.select_rows(&kept),
@@ -250,7 +256,8 @@ mod tests {
     use nalgebra::DMatrix;
 
     fn table() -> LoadTable {
-        let loads = DMatrix::from_row_slice(4, 3, &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0]);
+        let loads =
+            DMatrix::from_row_slice(4, 3, &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0]);
         let signals = DMatrix::from_row_slice(4, 2, &[1.0, 2.0, 3.0, 4.0, 10.0, 20.0, 11.0, 21.0]);
         let mut table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Count).unwrap();
         table.groups = vec![0, 0, 7, 7];

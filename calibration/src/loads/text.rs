@@ -46,7 +46,8 @@ impl LoadTable {
     /// # Errors
     /// [`LoadError`], naming line and column.
     pub fn from_csv(reader: impl Read) -> Result<(Self, Vec<String>), LoadError> {
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(reader);
+        let mut reader =
+            csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(reader);
         let bad = |line: u64, column: &str, message: String| LoadError::BadText {
             line,
             column: column.to_owned(),
@@ -127,8 +128,9 @@ fn parse_name(name: &str) -> Result<Column, String> {
     let (stem, unit) = name.rsplit_once('_').unwrap_or((name, ""));
     if let Some(axis) = Axis::from_name(stem) {
         let quantity = if axis.is_torque() { Quantity::Torque } else { Quantity::Force };
-        let size = si(quantity, unit)
-            .ok_or_else(|| format!("{unit:?} is not a unit of {quantity:?}; write such as `{stem}_N` or `tx_Nm`"))?;
+        let size = si(quantity, unit).ok_or_else(|| {
+            format!("{unit:?} is not a unit of {quantity:?}; write such as `{stem}_N` or `tx_Nm`")
+        })?;
         return Ok(Column::Load(axis, size));
     }
     let number = stem.strip_prefix('v').and_then(|digits| digits.parse::<usize>().ok());
@@ -144,7 +146,9 @@ fn parse_name(name: &str) -> Result<Column, String> {
         "strain" => (SignalUnit::Strain, 1.0),
         _ => match si(Quantity::Force, unit).or_else(|| si(Quantity::Torque, unit)) {
             Some(size) => (SignalUnit::Wrench, size),
-            None => return Err(format!("{unit:?} is not a unit of signals; write such as `v1_V`, `v1_count`")),
+            None => {
+                return Err(format!("{unit:?} is not a unit of signals; write such as `v1_V`, `v1_count`"));
+            }
         },
     };
     Ok(Column::Signal(number - 1, unit, size))

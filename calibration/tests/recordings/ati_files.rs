@@ -3,7 +3,7 @@
 use fingertip_calibration::Axis;
 use fingertip_calibration::file::{AtiCalibration, CalibrationFile};
 
-mod common;
+use crate::common;
 
 #[test]
 fn all_files_are_read_and_their_matrices_agree() {
@@ -20,7 +20,8 @@ fn all_files_are_read_and_their_matrices_agree() {
             assert_eq!(Some(ati.serial.as_str()), path.file_stem().and_then(|stem| stem.to_str()));
             assert_eq!(AtiCalibration::from_xml(&ati.to_xml()).unwrap(), ati);
             if let Some(user) = &ati.user_axes {
-                let (transformed, published) = (ati.transformed_axes().unwrap(), ati.loads_per_volt().unwrap());
+                let (transformed, published) =
+                    (ati.transformed_axes().unwrap(), ati.loads_per_volt().unwrap());
                 for (i, axis) in Axis::ALL.into_iter().enumerate() {
                     // The size of the file's unit in SI.
                     let unit = ati.full_scale()[i] / user[i].max;
