@@ -7,7 +7,9 @@ use clap::{Args, Parser, Subcommand};
 /// From the strain gauges behind a fingertip to contact, force and slip.
 #[derive(Debug, Parser)]
 #[command(name = "fingertip", version, about, propagate_version = true)]
-#[command(after_help = "Exit codes: 0 done, 1 an input is bad or an output cannot be written, 2 wrong usage.")]
+#[command(
+    after_help = "Exit codes: 0 done, 1 an input is bad or an output cannot be written, 2 wrong usage."
+)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,

@@ -10,7 +10,10 @@ fn the_demo_needs_nothing_and_finds_what_happened() {
     let folder = Folder::new();
     for seed in ["1", "2", "3"] {
         let text = folder.succeed(&["demo", "--seed", seed]);
-        assert!(text.contains("All 8 slips were found within 20 ms, with no false alarm."), "seed {seed}:\n{text}");
+        assert!(
+            text.contains("All 8 slips were found within 20 ms, with no false alarm."),
+            "seed {seed}:\n{text}"
+        );
         let row = |load: &str| -> Vec<f64> {
             let line = text.lines().find(|line| line.trim_start().starts_with(load)).unwrap();
             line.split_whitespace().map(|cell| cell.parse().unwrap()).collect()
@@ -61,16 +64,29 @@ fn its_volts_analyzed_give_the_true_contacts() {
             continue;
         }
         // Where the load is well above the noise, every sample is a contact near the true point.
-        let Some(contact) = sample.truth.contact.filter(|contact| contact.force.norm() > 2.0) else { continue };
+        let Some(contact) = sample.truth.contact.filter(|contact| contact.force.norm() > 2.0) else {
+            continue;
+        };
         assert_eq!(status[row], "contact", "row {row}");
-        let error = (contact.point.x - x[row]).hypot(contact.point.y - y[row]).hypot(contact.point.z - z[row]);
+        let error =
+            (contact.point.x - x[row]).hypot(contact.point.y - y[row]).hypot(contact.point.z - z[row]);
         assert!(error < 1e-3, "row {row}: {error}");
         assert!((normal[row] / contact.contact_force().normal - 1.0).abs() < 0.1, "row {row}");
         compared += 1;
     }
     assert!(compared > 5000, "{compared}");
 
-    // A calibration of another sensor does not fit, and a damaged one is refused.
+    // A gauge at the end of its range is no reading.
+    let volts = folder.read("volts.csv");
+    let line = volts.lines().nth(5000).unwrap();
+    let mut cells: Vec<&str> = line.split(',').collect();
+    cells[3] = "0.0";
+    folder.write("volts.csv", &volts.replacen(line, &cells.join(","), 1));
+    folder.succeed(&analyze);
+    let status = folder.read("contacts.csv").lines().nth(5000).unwrap().split(',').nth(1).map(str::to_owned);
+    assert_eq!(status.as_deref(), Some("saturated"));
+
+    // A damaged calibration is refused.
     let calibration = folder.read("calibration.toml");
     folder.write("calibration.toml", &calibration.replacen("30.0", "31.0", 1));
     let error = folder.fail(1, &analyze);

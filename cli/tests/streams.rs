@@ -1,5 +1,6 @@
 //! Long recordings and closed pipes.
 #![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "helpers of tests, which may fail so")]
 
 mod common;
 
@@ -19,8 +20,12 @@ fn long(folder: &Folder, rows: u32) {
     for row in 1..=rows {
         let torque = if row == rows { "0.500000" } else { "0.000000" };
         let load = 1.0 + f64::from(row % 1000) * 0.001;
-        writeln!(file, "{:.3},0.000000,0.000000,-{load:.6},{torque},0.000000,0.000000", f64::from(row) * 0.001)
-            .unwrap();
+        writeln!(
+            file,
+            "{:.3},0.000000,0.000000,-{load:.6},{torque},0.000000,0.000000",
+            f64::from(row) * 0.001
+        )
+        .unwrap();
     }
     file.into_inner().unwrap();
 }
@@ -56,7 +61,8 @@ fn a_reader_that_has_seen_enough_is_no_fault() {
         &["analyze", "long.csv", "--scene", "scene.toml", "--output", "-", "--no-report"],
         &["demo"],
     ] {
-        let mut child = folder.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut child =
+            folder.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         drop(child.stdout.take());
         let output = child.wait_with_output().unwrap();
         let error = String::from_utf8_lossy(&output.stderr);

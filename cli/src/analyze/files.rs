@@ -17,7 +17,8 @@ pub(super) fn guard(arguments: &AnalyzeArguments) -> Result<(), CliError> {
         let Ok(place) = fs::canonicalize(output) else { continue };
         // A device may well be read and written.
         let file = fs::metadata(&place).is_ok_and(|meta| meta.is_file());
-        let read = inputs.iter().flatten().any(|input| fs::canonicalize(input).is_ok_and(|input| input == place));
+        let read =
+            inputs.iter().flatten().any(|input| fs::canonicalize(input).is_ok_and(|input| input == place));
         if file && read {
             return Err(CliError::WouldOverwrite { what, path: output.clone() });
         }
@@ -32,7 +33,7 @@ pub(super) fn open(path: &Path) -> io::Result<(File, Option<u64>)> {
     if meta.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());
     }
-    Ok((file, meta.is_file().then(|| meta.len())))
+    Ok((file, meta.is_file().then_some(meta.len())))
 }
 
 /// Prints what was found and what was written.

@@ -4,6 +4,8 @@ mod contacts;
 mod files;
 mod progress;
 mod source;
+mod volts;
+mod wrenches;
 
 use std::fs::File;
 use std::path::Path;

@@ -4,10 +4,9 @@ use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-use fingertip::wrench::SensorMatrix;
 use fingertip_calibration::file::{CalibrationFile, Provenance, SignalUnit as CalibratedUnit};
 use fingertip_drivers::recording::{RecordingError, RecordingWriter, Schema, SignalUnit};
-use fingertip_drivers::simulation::SimulatedSample;
+use fingertip_drivers::simulation::{SimulatedFingertip, SimulatedSample};
 use nalgebra::DMatrix;
 
 use crate::error::CliError;
@@ -20,7 +19,8 @@ impl VoltsFile {
         let Some(path) = path else { return Ok(Self(None)) };
         let file = File::create(path).map_err(|source| CliError::write("recording", path, source))?;
         let schema = Schema::default().time().signals("", 6, SignalUnit::Volts).dummy("", SignalUnit::Volts);
-        let writer = RecordingWriter::new(BufWriter::new(file), &schema).map_err(|fault| failed(path, fault))?;
+        let writer =
+            RecordingWriter::new(BufWriter::new(file), &schema).map_err(|fault| failed(path, fault))?;
         Ok(Self(Some((writer, path.to_owned()))))
     }
 
@@ -45,17 +45,22 @@ fn failed(path: &Path, fault: RecordingError) -> CliError {
     }
 }
 
-/// Writes the calibration of the simulated sensor, its zero left to the tare.
-pub(super) fn calibration(path: &Path, matrix: &SensorMatrix<f64, 6>) -> Result<(), CliError> {
+/// Writes the calibration of the simulated sensor, its zero left to the tare. Readings at either
+/// end of the converter's range are marked as saturated.
+pub(super) fn calibration(path: &Path, simulated: &SimulatedFingertip) -> Result<(), CliError> {
+    let (matrix, electronics) = (simulated.calibrated_matrix(), &simulated.options().electronics);
     let normalised = DMatrix::from_iterator(6, 6, matrix.normalised().iter().copied());
     let nominal = matrix.nominal().iter().copied().collect();
-    let file = CalibrationFile::new(normalised, nominal, vec![0.0; 6], CalibratedUnit::Volt).map(|file| CalibrationFile {
-        provenance: Provenance {
-            method: "simulated".to_owned(),
-            source: "fingertip demo".to_owned(),
-            ..file.provenance.clone()
-        },
-        ..file
+    let file = CalibrationFile::new(normalised, nominal, vec![0.0; 6], CalibratedUnit::Volt).map(|file| {
+        CalibrationFile {
+            provenance: Provenance {
+                method: "simulated".to_owned(),
+                source: "fingertip demo".to_owned(),
+                ..file.provenance.clone()
+            },
+            range: Some([0.0, electronics.converter_range - electronics.step()]),
+            ..file
+        }
     });
     file.and_then(|file| file.write(path))
         .map_err(|fault| CliError::write("calibration", path, io::Error::other(fault.to_string())))

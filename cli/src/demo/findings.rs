@@ -37,7 +37,10 @@ pub(super) fn of(outcome: &Outcome) -> Findings {
                  nothing slips",
                 short(outcome.coefficient)
             ),
-            format!("noise, gluing and calibration are those of seed {}; another one: --seed N", outcome.seed),
+            format!(
+                "noise, gluing and calibration are those of seed {}; another one: --seed N",
+                outcome.seed
+            ),
         ],
     }
 }

@@ -72,10 +72,10 @@ fn fault(fault: impl ToString) -> CliError {
 
 fn play(arguments: &DemoArguments) -> Result<Outcome, CliError> {
     let seed = arguments.seed;
-    let mut simulated =
-        SimulatedFingertip::new(&standard_session(), Options { seed, ..Options::default() }).map_err(fault)?;
+    let mut simulated = SimulatedFingertip::new(&standard_session(), Options { seed, ..Options::default() })
+        .map_err(fault)?;
     if let Some(path) = &arguments.calibration {
-        export::calibration(path, simulated.calibrated_matrix())?;
+        export::calibration(path, &simulated)?;
     }
     let mut volts = VoltsFile::create(arguments.recording.as_deref())?;
     let solver = GaussianElimination::new(simulated.calibrated_matrix()).map_err(fault)?;
@@ -85,7 +85,8 @@ fn play(arguments: &DemoArguments) -> Result<Outcome, CliError> {
     let pole = Vector3::x();
     let rim = simulated.options().design.greatest_angle();
     let reference = [Vector3::y(), Vector3::z(), Vector3::x()];
-    let mut observations = Observations::new(Projection::sphere(sphere.centre(), pole, Some(rim), &reference));
+    let mut observations =
+        Observations::new(Projection::sphere(sphere.centre(), pole, Some(rim), &reference));
 
     // The first phase is rest: its readings give the zero, and their spread the noise.
     let mut readings = Vec::new();
@@ -101,8 +102,7 @@ fn play(arguments: &DemoArguments) -> Result<Outcome, CliError> {
     };
     let rest = Rest::of(&readings, &solver).map_err(fault)?;
     let least_force = THRESHOLD * rest.force_noise;
-    let coefficient =
-        least_static_coefficient(&simulated).ok_or_else(|| fault("the script has no drag"))?;
+    let coefficient = least_static_coefficient(&simulated).ok_or_else(|| fault("the script has no drag"))?;
 
     let noise = ForceNoise::isotropic(rest.force_noise).map_err(fault)?;
     let mut fingertip = Fingertip::builder()

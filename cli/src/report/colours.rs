@@ -20,7 +20,8 @@ impl Classes {
     pub(crate) fn of(values: impl Iterator<Item = f64>) -> Self {
         let mut sorted: Vec<f64> = values.filter(|value| *value > 0.0 && value.is_finite()).collect();
         sorted.sort_by(f64::total_cmp);
-        let at = |share: f64| sorted.get((share * (sorted.len().max(1) - 1) as f64).round() as usize).copied();
+        let at =
+            |share: f64| sorted.get((share * (sorted.len().max(1) - 1) as f64).round() as usize).copied();
         let (Some(low), Some(high)) = (at(0.02), at(0.98)) else { return Self { bounds: Vec::new() } };
         let bounds: Vec<f64> = if high > 15.0 * low {
             let ratio = (high / low).powf(1.0 / Self::COUNT as f64);

@@ -109,7 +109,11 @@ fn ratio(observations: &Observations, coefficient: Option<f64>) -> Figure {
         keys.push(("d", "slip".to_owned()));
     }
     let unmarked = observations.slips.count().saturating_sub(MARKED_SLIPS as u64);
-    let more = if unmarked > 0 { format!(" {} later slips are not marked.", count(unmarked)) } else { String::new() };
+    let more = if unmarked > 0 {
+        format!(" {} later slips are not marked.", count(unmarked))
+    } else {
+        String::new()
+    };
     Figure {
         title: "Friction ratio".to_owned(),
         svg: chart.finish(),

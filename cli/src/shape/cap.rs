@@ -73,7 +73,9 @@ mod tests {
                     assert!((contact.point - normal * 0.013).norm() < 1e-12);
                 }
                 // The line enters outside the cap, and leaves, pulling, on it.
-                Resolution::NoContact(NoContact::OutsideActiveRegion { .. } | NoContact::OnlyPulling { .. }) => {
+                Resolution::NoContact(
+                    NoContact::OutsideActiveRegion { .. } | NoContact::OnlyPulling { .. },
+                ) => {
                     assert!(!inside, "{angle}");
                 }
                 Resolution::NoContact(other) => panic!("{angle}: {other}"),

@@ -1,10 +1,11 @@
 //! Runs the command in a folder of its own.
 #![allow(dead_code, reason = "each test file uses what it needs")]
+#![allow(clippy::unwrap_used, reason = "helpers of tests, which may fail so")]
 
+use core::sync::atomic::{AtomicU32, Ordering};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A folder that is removed with the test.
 pub(crate) struct Folder(PathBuf);
@@ -13,7 +14,8 @@ impl Folder {
     pub(crate) fn new() -> Self {
         static NUMBER: AtomicU32 = AtomicU32::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("cli-{}-{number}", std::process::id()));
+        let path =
+            Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("cli-{}-{number}", std::process::id()));
         fs::create_dir_all(&path).unwrap();
         Self(path)
     }
@@ -101,6 +103,9 @@ impl Contacts {
 
     /// The numbers of a column; NaN for empty cells.
     pub(crate) fn numbers(&self, name: &str) -> Vec<f64> {
-        self.words(name).iter().map(|cell| if cell.is_empty() { f64::NAN } else { cell.parse().unwrap() }).collect()
+        self.words(name)
+            .iter()
+            .map(|cell| if cell.is_empty() { f64::NAN } else { cell.parse().unwrap() })
+            .collect()
     }
 }
