@@ -37,6 +37,7 @@ mod bounded;
 mod column_name;
 mod error;
 mod layout;
+mod playback;
 mod quality;
 mod reader;
 mod row;
@@ -46,6 +47,7 @@ mod writer;
 
 pub use error::{HeaderProblem, RecordingError};
 pub use layout::{AssumedUnits, Layout, LeftOut, SignalColumns, WrenchColumns};
+pub use playback::{SignalPlayback, WrenchPlayback};
 pub use quality::{FaultCount, Quality};
 pub use reader::{ReaderOptions, RecordingReader};
 pub use row::{Row, RowMarks};
