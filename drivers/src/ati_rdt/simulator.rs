@@ -1,12 +1,13 @@
 //! A sensor that is not there: it answers as a Net F/T does, and a link that loses, repeats,
 //! swaps and cuts.
 
+use alloc::collections::VecDeque;
+use alloc::sync::Arc;
+use core::net::SocketAddr;
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
-use std::collections::VecDeque;
 use std::io;
-use std::net::{SocketAddr, ToSocketAddrs, UdpSocket};
-use std::sync::Arc;
+use std::net::{ToSocketAddrs, UdpSocket};
 use std::thread::JoinHandle;
 use std::time::Instant;
 

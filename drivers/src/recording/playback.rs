@@ -5,8 +5,8 @@ use std::io::Read;
 use fingertip_wrench::Wrench;
 use nalgebra::SVector;
 
+use super::columns::{SignalColumns, WrenchColumns};
 use super::error::{HeaderProblem, RecordingError};
-use super::layout::{SignalColumns, WrenchColumns};
 use super::quality::Quality;
 use super::reader::RecordingReader;
 use crate::{ErrorType, Sample, SignalSource, WrenchSource};
