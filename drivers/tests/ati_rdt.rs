@@ -65,26 +65,25 @@ fn a_million_records_over_a_bad_link_give_nothing_wrong_and_every_loss_is_counte
 fn over_a_socket_nothing_is_lost_and_the_sensor_is_stopped_at_the_end() {
     let sensor = SimulatedNetFt::new(FaultPlan::default());
     let server =
-        RdtServer::start("127.0.0.1:0", sensor, Duration::from_millis(1), |n| load(n as i32)).unwrap();
+        RdtServer::start("127.0.0.1:0", sensor, Duration::from_millis(5), |n| load(n as i32)).unwrap();
     let mut client =
-        RdtClient::connect(server.address(), counts(), Duration::from_secs(5)).unwrap().timed_by(1e3);
+        RdtClient::connect(server.address(), counts(), Duration::from_secs(5)).unwrap().timed_by(200.0);
     let mut last: Option<(f64, f64)> = None;
-    for _ in 0..300 {
+    for _ in 0..60 {
         let sample = client.next_wrench().unwrap().unwrap();
         let (time, number) = (sample.time.unwrap(), (sample.value.force().x * 1e6).round());
         if let Some((last_time, last_number)) = last {
             assert_eq!(number, last_number + 1.0);
-            assert!((time - last_time - 1e-3).abs() < 1e-12);
+            assert!((time - last_time - 5e-3).abs() < 1e-12);
         }
         last = Some((time, number));
     }
-    assert_eq!((client.statistics().received, client.statistics().lost), (300, 0));
-    // The newest one, after a pause in which many have come.
-    std::thread::sleep(Duration::from_millis(20));
+    assert_eq!((client.statistics().received, client.statistics().lost), (60, 0));
+    // The newest one, after a pause in which some have come.
+    std::thread::sleep(Duration::from_millis(50));
     let latest = (client.latest_wrench().unwrap().value.force().x * 1e6).round();
-    assert!(latest > last.unwrap().1 + 5.0);
+    assert!(latest > last.unwrap().1);
     drop(client);
-    std::thread::sleep(Duration::from_millis(20));
     assert!(!server.stop().unwrap().is_streaming());
 }
 
