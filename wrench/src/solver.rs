@@ -1,8 +1,8 @@
 //! From signals to wrench.
 
-use nalgebra::SVector;
+use nalgebra::{Matrix6, SMatrix, SVector};
 
-use crate::{Real, Wrench};
+use crate::{Real, SensorMatrix, Wrench};
 
 /// Turns the signals of `N` gauges into the wrench on the fingertip.
 ///
@@ -24,5 +24,40 @@ impl<T: Real, const N: usize, S: WrenchSolver<T, N> + ?Sized> WrenchSolver<T, N>
     #[inline]
     fn solve(&self, signals: &SVector<T, N>) -> Wrench<T> {
         (**self).solve(signals)
+    }
+}
+
+/// A solver that is a linear map, and knows what map and how far rounding takes it from that map.
+///
+/// These two say all that [`ErrorBound`](crate::ErrorBound) and
+/// [`WrenchCovariance`](crate::WrenchCovariance) need. Neither is for the hot path: both may do
+/// the work of a factorisation, for which they take the sensor that the solver was built for.
+pub trait LinearSolver<T: Real, const N: usize>: WrenchSolver<T, N> {
+    /// The 6×N matrix `S` of the map `wrench / nominal loads = S · signals`, as numbers of type
+    /// `T`.
+    fn gain(&self, sensor: &SensorMatrix<T, N>) -> SMatrix<T, 6, N>;
+
+    /// How far [`solve`](WrenchSolver::solve) may be from `S · signals`, given the numbers that
+    /// [`gain`](Self::gain) returns, by rounding alone.
+    fn rounding(&self, sensor: &SensorMatrix<T, N>) -> Rounding<T, N>;
+}
+
+/// A bound on the rounding error of a solve, component by component and in units of the nominal
+/// loads: `|computed − S·signals| ≤ per_signal·|signals| + per_load·|computed|`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rounding<T: Real, const N: usize> {
+    /// The part that grows with the signals.
+    pub per_signal: SMatrix<T, 6, N>,
+    /// The part that grows with the loads found (both as fractions of the nominal loads).
+    pub per_load: Matrix6<T>,
+}
+
+impl<T: Real, const N: usize, S: LinearSolver<T, N> + ?Sized> LinearSolver<T, N> for &S {
+    fn gain(&self, sensor: &SensorMatrix<T, N>) -> SMatrix<T, 6, N> {
+        (**self).gain(sensor)
+    }
+
+    fn rounding(&self, sensor: &SensorMatrix<T, N>) -> Rounding<T, N> {
+        (**self).rounding(sensor)
     }
 }
