@@ -6,10 +6,10 @@ use nalgebra::{Matrix6, SMatrix, SVector};
 use thiserror::Error;
 
 use crate::compensated::matrix_residual;
-use crate::error_bound::neumann;
-use crate::gaussian::relative_rounding;
+use crate::nonnegative::neumann;
+use crate::rounding::relative_rounding;
 use crate::{
-    Combination, GaussianElimination, LinearSolver, Real, Rounding, SensorMatrix, SensorMatrixError,
+    Combination, GaussianElimination, LinearSolver, OwnError, Real, SensorMatrix, SensorMatrixError,
     SingularMatrix, Wrench, WrenchSolver,
 };
 
@@ -164,9 +164,9 @@ impl<T: Real, K: Combination<N>, const N: usize> LinearSolver<T, N> for Decouple
 
     /// `N + 1` roundings of the combination, up to seven of its solution; and nine of the product
     /// that [`gain`](Self::gain) is.
-    fn rounding(&self, sensor: &SensorMatrix<T, N>) -> Rounding<T, N> {
+    fn own_error(&self, sensor: &SensorMatrix<T, N>) -> OwnError<T, N> {
         let magnitudes = Matrix6::from_fn(|i, j| (self.inverse[i][j] / sensor.nominal()[i]).abs());
         let per_signal = magnitudes * matrix_of::<T, K, N>().abs() * relative_rounding::<T>(N + 17);
-        Rounding { per_signal, per_load: Matrix6::zeros() }
+        OwnError { per_load: self.neglected, per_signal, magnitude: self.gain(sensor).abs() }
     }
 }

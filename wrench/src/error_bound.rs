@@ -3,7 +3,7 @@
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 use thiserror::Error;
 
-use crate::compensated::matrix_residual;
+use crate::nonnegative::neumann;
 use crate::{LinearSolver, Real, SensorMatrix, Wrench};
 
 /// What is not known of a sensor, as worst cases. Plain data; all zero means that only the solver's
@@ -53,7 +53,8 @@ impl<T: Real, const N: usize> Uncertainty<T, N> {
 /// With `S` the solver's map, the true load `P` and its estimate `P̂` differ by
 /// `e ≤ |SC − I||P| + |S||dC||P| + |S||dV| + rounding`, and `|P| ≤ |P̂| + e`; so, with
 /// `G = |SC − I| + |S||dC| + …`, `e ≤ (I − G)⁻¹ (G|P̂| + |S||dV| + …)` as long as the powers of
-/// `G` vanish. All of it is multiplied out at construction; a sample costs two small products.
+/// `G` vanish ([`OwnError`](crate::OwnError) has the terms). All of it is multiplied out at
+/// construction; a sample costs two small products.
 ///
 /// ```
 /// use fingertip_wrench::{ErrorBound, Inverse, SensorMatrix, Uncertainty, WrenchSolver};
@@ -110,10 +111,8 @@ impl<T: Real, const N: usize> ErrorBound<T, N> {
         }) {
             return Err(NoErrorBound::BadUncertainty { gauge });
         }
-        let gain = solver.gain(sensor);
-        let rounding = solver.rounding(sensor);
-        let defect = matrix_residual(&Matrix6::identity(), &gain, sensor.normalised()).abs();
-        let relative = defect + gain.abs() * uncertainty.matrix + rounding.per_load;
+        let own = solver.own_error(sensor);
+        let relative = own.per_load + own.magnitude * uncertainty.matrix;
         let amplified = neumann(&relative).ok_or(NoErrorBound::Unbounded)?;
         // The bound itself is computed with rounding: some sixty operations on positive numbers.
         let margin = T::one() + T::EPSILON * T::literal(64.0 + 4.0 * N as f64);
@@ -121,8 +120,8 @@ impl<T: Real, const N: usize> ErrorBound<T, N> {
         let per_load_normalised = nominal * amplified * relative;
         let bound = Self {
             per_load: Matrix6::from_fn(|i, j| per_load_normalised[(i, j)] / sensor.nominal()[j]),
-            per_signal: nominal * amplified * rounding.per_signal,
-            constant: nominal * amplified * (gain.abs() * uncertainty.signals),
+            per_signal: nominal * amplified * own.per_signal,
+            constant: nominal * amplified * (own.magnitude * uncertainty.signals),
         };
         let finite = bound.per_load.iter().chain(bound.per_signal.iter()).chain(bound.constant.iter());
         if finite.copied().all(T::is_number) { Ok(bound) } else { Err(NoErrorBound::Unbounded) }
@@ -142,25 +141,4 @@ impl<T: Real, const N: usize> ErrorBound<T, N> {
     pub const fn floor(&self) -> &Vector6<T> {
         &self.constant
     }
-}
-
-/// `(I − G)⁻¹ = (I + G)(I + G²)(I + G⁴)…` of a matrix without negative entries; `None` unless its
-/// powers vanish. Nothing is subtracted, so nothing cancels.
-pub(crate) fn neumann<T: Real>(matrix: &Matrix6<T>) -> Option<Matrix6<T>> {
-    /// Powers up to 2^12: spectral radii up to about 0.99.
-    const DOUBLINGS: usize = 12;
-    let identity = Matrix6::identity();
-    let mut power = *matrix;
-    let mut sum = identity + power;
-    for _ in 0..DOUBLINGS {
-        power *= power;
-        if !power.iter().all(|x| x.is_number()) {
-            return None;
-        }
-        sum *= identity + power;
-        if power.amax() <= T::EPSILON * T::EPSILON {
-            return Some(sum);
-        }
-    }
-    None
 }

@@ -2,10 +2,12 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use crate::compensated::matrix_residual;
+use crate::compensated::{matrix_residual, residual};
 use crate::equilibration::Equilibrated;
+use crate::nonnegative::neumann;
+use crate::rounding::relative_rounding;
 use crate::singular::{SingularMatrix, dependent_gauge};
-use crate::{LinearSolver, Real, Rounding, SensorMatrix, Wrench, WrenchSolver};
+use crate::{LinearSolver, OwnError, Real, SensorMatrix, Wrench, WrenchSolver};
 
 /// The general solver for minimal sensors: triangular factors of the sensor matrix with row
 /// equilibration and partial pivoting, computed once (Bicchi & Dario 1987 recommend it; Wilkinson
@@ -164,49 +166,48 @@ impl<T: Real> LinearSolver<T, 6> for GaussianElimination<T> {
 
     /// From the rounding errors of the two substitutions, counted (Higham 2002, section 8.1), and
     /// the defect of the factors, computed.
-    fn rounding(&self, sensor: &SensorMatrix<T, 6>) -> Rounding<T, 6> {
-        let identity = Matrix6::<T>::identity();
+    fn own_error(&self, sensor: &SensorMatrix<T, 6>) -> OwnError<T, 6> {
         let scaled = Equilibrated::new(sensor.normalised());
-        let gain = self.gain(sensor);
-        let lower = Matrix6::from_fn(|i, j| match i.cmp(&j) {
-            core::cmp::Ordering::Greater => self.rows[i][j],
-            core::cmp::Ordering::Equal => T::one(),
-            core::cmp::Ordering::Less => T::zero(),
-        });
-        let upper = Matrix6::from_fn(|i, j| match i.cmp(&j) {
-            core::cmp::Ordering::Less => self.rows[i][j],
-            core::cmp::Ordering::Equal => T::one(),
-            core::cmp::Ordering::Greater => T::zero(),
-        });
-        // The matrix that the factors stand for, and the one that they should: rows in pivot order,
-        // each over its pivot.
+        let magnitude = inverse_magnitude(sensor, &self.gain(sensor));
         let row = |i: usize| usize::from(self.order[i]).min(5);
+        let triangle = |i: usize, j: usize, inside: core::cmp::Ordering| match i.cmp(&j) {
+            core::cmp::Ordering::Equal => T::one(),
+            side if side == inside => self.rows[i][j],
+            _ => T::zero(),
+        };
+        let lower = Matrix6::from_fn(|i, j| triangle(i, j, core::cmp::Ordering::Greater));
+        let upper = Matrix6::from_fn(|i, j| triangle(i, j, core::cmp::Ordering::Less));
+        // The factors stand for the rows of the equilibrated matrix in pivot order, each times the
+        // first factor of its substitution.
         let over_pivot = |i: usize| self.rows[i][i] / scaled.row[row(i)];
-        let target = Matrix6::from_fn(|i, j| scaled.matrix[(row(i), j)] * over_pivot(i));
-        let defect = matrix_residual(&target, &lower, &upper);
+        let defect = Matrix6::from_fn(|i, j| {
+            let start = (over_pivot(i)).two_product(scaled.matrix[(row(i), j)]);
+            let products = (0..6).map(|k| (lower[(i, k)], upper[(k, j)]));
+            residual(start.0, products) + start.1
+        });
+        // Row i of the forward substitution rounds its start i + 1 times; row k of the backward one
+        // 5 − k times, and a term at most once more.
         let counted = Matrix6::from_fn(|i, j| {
             (0..6).fold(T::zero(), |sum, k| {
-                let roundings = relative_rounding::<T>(i + 1) + relative_rounding::<T>(6 - k);
-                sum + (lower[(i, k)] * upper[(k, j)]).abs() * roundings
+                let forward = if k == i { i + 1 } else { i + 1 - k.min(i) };
+                let backward = if k == j { 5 - k } else { 6 - k };
+                sum + (lower[(i, k)] * upper[(k, j)]).abs() * relative_rounding::<T>(forward + backward)
             })
         });
-        // The target itself is rounded once or twice.
-        let backward = defect.abs() + counted + target.abs() * relative_rounding::<T>(3);
-        let scaled_gain =
-            Matrix6::from_fn(|i, k| gain[(i, row(k))] / (scaled.column[i] * self.rows[k][k]));
-        let of_scaled = scaled_gain.abs() * backward;
-        let of_gain = matrix_residual(&identity, &gain, sensor.normalised()).abs();
+        let backward = defect.abs() + counted;
+        let of_rows = Matrix6::from_fn(|i, k| {
+            magnitude[(i, row(k))] / (scaled.column[i] * self.rows[k][k].abs())
+        });
+        let of_scaled = of_rows * backward;
         let per_load = Matrix6::from_fn(|i, j| of_scaled[(i, j)] * scaled.column[i] / scaled.column[j])
-            + of_gain
-            + identity * relative_rounding::<T>(1);
-        Rounding { per_signal: Matrix6::zeros(), per_load }
+            + Matrix6::identity() * relative_rounding::<T>(1);
+        OwnError { per_load, per_signal: Matrix6::zeros(), magnitude }
     }
 }
 
-/// `γ_k = k u/(1 − k u)` with `u = ε/2`: the bound on `k` relative rounding errors in a row
-/// (Higham 2002, lemma 3.1).
-pub(crate) fn relative_rounding<T: Real>(k: usize) -> T {
-    // At most a few hundred: exact.
-    let relative = T::EPSILON * T::literal(0.5) * T::literal(k as f64);
-    relative / (T::one() - relative)
+/// A bound on the magnitudes of the entries of `C⁻¹`, given a computed inverse: with
+/// `D = |S·C − I|`, `|C⁻¹| ≤ (I − D)⁻¹|S|`. Infinite where that says nothing.
+pub(crate) fn inverse_magnitude<T: Real>(sensor: &SensorMatrix<T, 6>, inverse: &Matrix6<T>) -> Matrix6<T> {
+    let defect = matrix_residual(&Matrix6::identity(), inverse, sensor.normalised()).abs();
+    neumann(&defect).map_or(Matrix6::repeat(T::GREATEST), |factor| factor * inverse.abs())
 }

@@ -2,9 +2,10 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use crate::gaussian::relative_rounding;
+use crate::compensated::matrix_residual;
+use crate::rounding::relative_rounding;
 use crate::{
-    GaussianElimination, LinearSolver, Real, Rounding, SensorMatrix, SingularMatrix, Wrench, WrenchSolver,
+    GaussianElimination, LinearSolver, OwnError, Real, SensorMatrix, SingularMatrix, Wrench, WrenchSolver,
 };
 
 /// The inverse of the sensor matrix, multiplied with each reading: the fastest general solver.
@@ -67,8 +68,9 @@ impl<T: Real> LinearSolver<T, 6> for Inverse<T> {
     }
 
     /// Six roundings of a product of six terms, one of the division in [`gain`](Self::gain).
-    fn rounding(&self, sensor: &SensorMatrix<T, 6>) -> Rounding<T, 6> {
-        let per_signal = self.gain(sensor).abs() * relative_rounding::<T>(8);
-        Rounding { per_signal, per_load: Matrix6::zeros() }
+    fn own_error(&self, sensor: &SensorMatrix<T, 6>) -> OwnError<T, 6> {
+        let gain = self.gain(sensor);
+        let per_load = matrix_residual(&Matrix6::identity(), &gain, sensor.normalised()).abs();
+        OwnError { per_load, per_signal: gain.abs() * relative_rounding::<T>(7), magnitude: gain.abs() }
     }
 }

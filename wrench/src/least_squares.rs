@@ -3,9 +3,10 @@
 use nalgebra::{Matrix6, SMatrix, SVector};
 use thiserror::Error;
 
-use crate::gaussian::relative_rounding;
+use crate::rounding::relative_rounding;
+use crate::compensated::matrix_residual;
 use crate::orthogonal::{DependentColumn, Orthogonal};
-use crate::{LinearSolver, Real, Rounding, SensorMatrix, Wrench, WrenchSolver};
+use crate::{LinearSolver, OwnError, Real, SensorMatrix, Wrench, WrenchSolver};
 
 /// The solver for extended sensors (N > 6 gauges; 6 work too): least squares, weighted or not.
 ///
@@ -169,8 +170,9 @@ impl<T: Real, const N: usize> LinearSolver<T, N> for LeastSquares<T, N> {
     }
 
     /// `N` roundings of a product of `N` terms, one of the division in [`gain`](Self::gain).
-    fn rounding(&self, sensor: &SensorMatrix<T, N>) -> Rounding<T, N> {
-        let per_signal = LinearSolver::gain(self, sensor).abs() * relative_rounding::<T>(N + 2);
-        Rounding { per_signal, per_load: Matrix6::zeros() }
+    fn own_error(&self, sensor: &SensorMatrix<T, N>) -> OwnError<T, N> {
+        let gain = LinearSolver::gain(self, sensor);
+        let per_load = matrix_residual(&Matrix6::identity(), &gain, sensor.normalised()).abs();
+        OwnError { per_load, per_signal: gain.abs() * relative_rounding::<T>(N + 1), magnitude: gain.abs() }
     }
 }

@@ -4,9 +4,9 @@ use nalgebra::{Matrix6, Vector6};
 
 use crate::compensated;
 use crate::equilibration::Equilibrated;
-use crate::gaussian::relative_rounding;
+use crate::rounding::relative_rounding;
 use crate::{
-    GaussianElimination, LinearSolver, Real, Rounding, SensorMatrix, SensorMatrixError, SingularMatrix, Wrench,
+    GaussianElimination, LinearSolver, OwnError, Real, SensorMatrix, SensorMatrixError, SingularMatrix, Wrench,
     WrenchSolver,
 };
 
@@ -45,7 +45,7 @@ impl<T: Real> Refined<T> {
         let equilibrated = SensorMatrix::new(scaled.matrix, nominal).map_err(out_of_range)?;
         let solver = GaussianElimination::new(&equilibrated)?;
         // Each solve is off by at most this factor, so each step leaves that much of the error.
-        let contraction = solver.rounding(&equilibrated).per_load.column_sum().amax();
+        let contraction = solver.own_error(&equilibrated).per_load.column_sum().amax();
         let mut error = contraction;
         let mut steps = 1;
         while error > T::EPSILON * T::literal(0.125) && steps < Self::MAX_STEPS {
@@ -97,24 +97,25 @@ impl<T: Real> LinearSolver<T, 6> for Refined<T> {
 
     /// By recurrence over the steps: what a step leaves of the error before it, plus the error of
     /// the residual and the rounding of the sum.
-    fn rounding(&self, sensor: &SensorMatrix<T, 6>) -> Rounding<T, 6> {
+    fn own_error(&self, sensor: &SensorMatrix<T, 6>) -> OwnError<T, 6> {
         let identity = Matrix6::<T>::identity();
-        let one_solve = self.solver.rounding(&self.equilibrated).per_load;
-        let inverse = self.solver.gain(&self.equilibrated).abs();
+        let one_solve = self.solver.own_error(&self.equilibrated);
         // Dot2 of 7 terms: 49ε² of the sum of magnitudes.
-        let of_residual =
-            inverse * self.equilibrated.normalised().abs() * (T::EPSILON * T::EPSILON * T::literal(98.0));
+        let of_residual = one_solve.magnitude
+            * self.equilibrated.normalised().abs()
+            * (T::EPSILON * T::EPSILON * T::literal(98.0));
         let of_sum = identity * relative_rounding::<T>(1);
-        let mut error = one_solve;
+        let mut error = one_solve.per_load;
         for _ in 0..self.steps {
-            error = of_sum + of_residual + (one_solve + of_sum) * (identity + one_solve) * error;
+            error = of_sum
+                + of_residual
+                + (one_solve.per_load + of_sum) * (identity + one_solve.per_load) * error;
         }
         let ratio = self.equilibrated.nominal().component_div(sensor.nominal());
-        let gain_defect =
-            compensated::matrix_residual(&identity, &self.gain(sensor), sensor.normalised()).abs();
         let per_load = Matrix6::from_fn(|i, j| error[(i, j)] * ratio[i] / ratio[j])
-            + gain_defect
-            + identity * relative_rounding::<T>(2);
-        Rounding { per_signal: Matrix6::zeros(), per_load }
+            + identity * relative_rounding::<T>(1);
+        let magnitude =
+            Matrix6::from_fn(|axis, gauge| one_solve.magnitude[(axis, gauge)] * self.row[gauge] * ratio[axis]);
+        OwnError { per_load, per_signal: Matrix6::zeros(), magnitude }
     }
 }

@@ -27,29 +27,33 @@ impl<T: Real, const N: usize, S: WrenchSolver<T, N> + ?Sized> WrenchSolver<T, N>
     }
 }
 
-/// A solver that is a linear map, and knows what map and how far rounding takes it from that map.
+/// A solver that is a linear map, and knows what map and how far it is from the truth.
 ///
 /// These two say all that [`ErrorBound`](crate::ErrorBound) and
 /// [`WrenchCovariance`](crate::WrenchCovariance) need. Neither is for the hot path: both may do
 /// the work of a factorisation, for which they take the sensor that the solver was built for.
 pub trait LinearSolver<T: Real, const N: usize>: WrenchSolver<T, N> {
-    /// The 6×N matrix `S` of the map `wrench / nominal loads = S · signals`, as numbers of type
-    /// `T`.
+    /// The 6×N matrix `S` of the map `wrench / nominal loads = S · signals`, but for rounding.
     fn gain(&self, sensor: &SensorMatrix<T, N>) -> SMatrix<T, 6, N>;
 
-    /// How far [`solve`](WrenchSolver::solve) may be from `S · signals`, given the numbers that
-    /// [`gain`](Self::gain) returns, by rounding alone.
-    fn rounding(&self, sensor: &SensorMatrix<T, N>) -> Rounding<T, N>;
+    /// How far [`solve`](WrenchSolver::solve) may be from the load, were the sensor exactly as
+    /// given: couplings neglected, and all rounding.
+    fn own_error(&self, sensor: &SensorMatrix<T, N>) -> OwnError<T, N>;
 }
 
-/// A bound on the rounding error of a solve, component by component and in units of the nominal
-/// loads: `|computed − S·signals| ≤ per_signal·|signals| + per_load·|computed|`.
+/// A bound on the error that a solver makes itself, component by component and in units of the
+/// nominal loads.
+///
+/// For signals `V = C·P + d`, with `P` the load, the computed `P̂` obeys
+/// `|P̂ − P| ≤ per_load·max(|P|, |P̂|) + per_signal·|V| + magnitude·|d|`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rounding<T: Real, const N: usize> {
+pub struct OwnError<T: Real, const N: usize> {
+    /// The part that grows with the load.
+    pub per_load: Matrix6<T>,
     /// The part that grows with the signals.
     pub per_signal: SMatrix<T, 6, N>,
-    /// The part that grows with the loads found (both as fractions of the nominal loads).
-    pub per_load: Matrix6<T>,
+    /// What becomes of an error of the signals: magnitudes of the entries of the map.
+    pub magnitude: SMatrix<T, 6, N>,
 }
 
 impl<T: Real, const N: usize, S: LinearSolver<T, N> + ?Sized> LinearSolver<T, N> for &S {
@@ -57,7 +61,7 @@ impl<T: Real, const N: usize, S: LinearSolver<T, N> + ?Sized> LinearSolver<T, N>
         (**self).gain(sensor)
     }
 
-    fn rounding(&self, sensor: &SensorMatrix<T, N>) -> Rounding<T, N> {
-        (**self).rounding(sensor)
+    fn own_error(&self, sensor: &SensorMatrix<T, N>) -> OwnError<T, N> {
+        (**self).own_error(sensor)
     }
 }
