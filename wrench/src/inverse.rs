@@ -1,11 +1,12 @@
 //! One matrix product.
 
 use nalgebra::{Matrix6, Vector6};
+use thiserror::Error;
 
 use crate::compensated::matrix_residual;
 use crate::rounding::relative_rounding;
 use crate::{
-    GaussianElimination, LinearSolver, OwnError, Real, SensorMatrix, SingularMatrix, Wrench, WrenchSolver,
+    GaussianElimination, LinearSolver, OwnError, Real, SensorMatrix, SensorMatrixError, SingularMatrix, Wrench, WrenchSolver,
 };
 
 /// The inverse of the sensor matrix, multiplied with each reading: the fastest general solver.
@@ -72,5 +73,42 @@ impl<T: Real> LinearSolver<T, 6> for Inverse<T> {
         let gain = self.gain(sensor);
         let per_load = matrix_residual(&Matrix6::identity(), &gain, sensor.normalised()).abs();
         OwnError { per_load, per_signal: gain.abs() * relative_rounding::<T>(7), magnitude: gain.abs() }
+    }
+}
+
+/// A published matrix that is not the inverse of a sensor matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum BadInverse {
+    /// An entry, a row, a column or a nominal load is unusable. Its "gauge" is the row of the matrix
+    /// given, an axis; its "axis" the column, a gauge.
+    #[error("the matrix from signals to wrench: {0}")]
+    Matrix(SensorMatrixError),
+    /// The matrix cannot be inverted.
+    #[error("the matrix from signals to wrench is singular: {0}")]
+    Singular(SingularMatrix),
+}
+
+impl<T: Real> SensorMatrix<T, 6> {
+    /// From the matrix that takes signals to newtons and newton metres, as sensor makers publish it
+    /// (an ATI `.cal` file has it as `UserAxis`), and the nominal loads.
+    ///
+    /// ```
+    /// use fingertip_wrench::SensorMatrix;
+    /// use nalgebra::{Matrix6, Vector6};
+    ///
+    /// // 5 N per volt: a nominal load of 10 N gives 2 V.
+    /// let published = Matrix6::from_diagonal_element(5.0);
+    /// let sensor = SensorMatrix::from_inverse(&published, Vector6::repeat(10.0))?;
+    /// assert_eq!(sensor.normalised()[(0, 0)], 2.0);
+    /// # Ok::<(), fingertip_wrench::BadInverse>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`BadInverse`].
+    pub fn from_inverse(wrench_per_signal: &Matrix6<T>, nominal: Vector6<T>) -> Result<Self, BadInverse> {
+        let unit = SensorMatrix::new(*wrench_per_signal, Vector6::repeat(T::one())).map_err(BadInverse::Matrix)?;
+        let sensitivities = GaussianElimination::new(&unit).map_err(BadInverse::Singular)?.gain(&unit);
+        Self::from_sensitivities(sensitivities, nominal).map_err(BadInverse::Matrix)
     }
 }

@@ -54,7 +54,7 @@ pub use dummy_gauge::{DummyGauge, DummyGaugeAccumulator, GaugesAndDummy};
 pub use error_bound::{ErrorBound, NoErrorBound, Uncertainty};
 pub use frame::{Frame, Sensor};
 pub use gaussian::GaussianElimination;
-pub use inverse::Inverse;
+pub use inverse::{BadInverse, Inverse};
 pub use least_squares::{LeastSquares, LeastSquaresError};
 pub use line_of_action::{Line, LineOfAction, NoLineOfAction};
 pub use payload::{BadPayload, Payload};
