@@ -12,14 +12,16 @@ use crate::{Real, Tare, TareAccumulator};
 /// Three tests on each gauge, together alarming at most at the stated rate on a resting sensor with
 /// independent normal noise (Bonferroni):
 /// - **drift**: the slope of a straight line through the readings, Student's t;
-/// - **unsteadiness**: the mean square of successive differences against the variance (von Neumann
-///   1941), which falls when readings hang together: slow motion, vibration below half the sampling
-///   rate, an arm that still swings;
+/// - **unsteadiness**: the spread of the means of 16 to 31 equal stretches against the spread of
+///   readings (analysis of variance), which grows when something slower than a stretch moves: an arm
+///   that still swings, a hand that is lifted;
 /// - **outlier**: the reading farthest from the mean against the standard deviation (Grubbs 1950): a
 ///   knock.
 ///
-/// No noise level needs to be known beforehand; if one is ([`with_known_noise`](Self::with_known_noise)),
-/// a variance well above it counts as unsteadiness too. A constant load cannot be told from none: the
+/// Noise of converters is not quite independent from reading to reading; the test looks at stretches
+/// so that this does not matter. A vibration faster than a stretch averages out of the tare and is not
+/// seen, unless the usual noise is known ([`with_known_noise`](Self::with_known_noise)): then a
+/// variance well above it counts as unsteadiness too. A constant load cannot be told from none: the
 /// test says "at rest", never "unloaded".
 ///
 /// ```
@@ -41,15 +43,22 @@ pub struct RestTest<T: Real, const N: usize> {
     moments: TareAccumulator<T, N>,
     /// Σ (i − ī)(v − v̄).
     with_time: SVector<T, N>,
-    successive: SVector<T, N>,
-    last: SVector<T, N>,
+    /// Sums of the readings less the first one, of stretches of equal length; the last may be
+    /// unfinished.
+    stretches: [SVector<T, N>; STRETCHES],
+    stretch_length: u32,
+    first: SVector<T, N>,
     least: SVector<T, N>,
     greatest: SVector<T, N>,
     resolution: SVector<T, N>,
+    tolerance: SVector<T, N>,
     known_noise: Option<SVector<T, N>>,
     rejected: u32,
     false_alarm_rate: f64,
 }
+
+/// When so many stretches are full, neighbours are joined.
+const STRETCHES: usize = 32;
 
 /// The tare of a sensor that was at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,7 +72,8 @@ pub struct Rested<T: Real, const N: usize> {
     pub tare: Tare<T, N>,
     /// Standard deviation of one reading of each gauge.
     pub noise: SVector<T, N>,
-    /// Standard deviation of the tare itself: noise over the root of the number of readings.
+    /// Standard deviation of the tare itself: noise over the root of the number of readings, or what
+    /// the spread of the stretches says if that is more.
     pub tare_noise: SVector<T, N>,
     /// How many readings went in.
     pub samples: u32,
@@ -131,25 +141,41 @@ impl<T: Real, const N: usize> RestTest<T, N> {
         Ok(Self {
             moments: TareAccumulator::default(),
             with_time: SVector::zeros(),
-            successive: SVector::zeros(),
-            last: SVector::zeros(),
+            stretches: [SVector::zeros(); STRETCHES],
+            stretch_length: 1,
+            first: SVector::zeros(),
             least: SVector::repeat(T::GREATEST),
             greatest: SVector::repeat(-T::GREATEST),
             resolution: SVector::zeros(),
+            tolerance: SVector::zeros(),
             known_noise: None,
             rejected: 0,
             false_alarm_rate,
         })
     }
 
-    /// The same for a converter whose readings come in steps: motion and outliers below a step are
-    /// not motion. Needed where the noise is smaller than a step.
+    /// The same for a converter whose readings come in steps: motion of less than a step is not
+    /// motion. Needed where the noise is smaller than a step.
     ///
     /// # Errors
     /// [`NotAtRest::BadParameter`] for a step that is negative or not finite.
     pub fn with_resolution(self, step: SVector<T, N>) -> Result<Self, NotAtRest> {
         if step.iter().all(|x| *x >= T::zero() && x.is_number()) {
             Ok(Self { resolution: step, ..self })
+        } else {
+            Err(NotAtRest::BadParameter)
+        }
+    }
+
+    /// The same, putting up with a motion this large, in the unit of the readings: of the fitted line
+    /// from end to end, and as standard deviation from stretch to stretch. A rig that never stops
+    /// trembling can then be tared; the noise of the tare includes the tremble.
+    ///
+    /// # Errors
+    /// [`NotAtRest::BadParameter`] for a motion that is negative or not finite.
+    pub fn with_tolerance(self, motion: SVector<T, N>) -> Result<Self, NotAtRest> {
+        if motion.iter().all(|x| *x >= T::zero() && x.is_number()) {
+            Ok(Self { tolerance: motion, ..self })
         } else {
             Err(NotAtRest::BadParameter)
         }
@@ -178,12 +204,39 @@ impl<T: Real, const N: usize> RestTest<T, N> {
         // Welford's recurrence for the product with the number of the reading.
         let time = T::literal((f64::from(samples) + 1.0) * 0.5);
         self.with_time += (raw - before) * time * (T::literal(f64::from(samples)) / self.count());
-        let change = if samples == 0 { SVector::zeros() } else { raw - self.last };
-        self.successive += change.component_mul(&change);
-        self.last = *raw;
+        if samples == 0 {
+            self.first = *raw;
+        }
+        self.extend_stretches(&(raw - self.first), samples);
         self.least = self.least.inf(raw);
         self.greatest = self.greatest.sup(raw);
         true
+    }
+
+    fn extend_stretches(&mut self, reading: &SVector<T, N>, samples: u32) {
+        let mut stretch = (samples / self.stretch_length) as usize;
+        if stretch >= STRETCHES {
+            for i in 0..STRETCHES / 2 {
+                self.stretches[i] = self.stretches[2 * i] + self.stretches[2 * i + 1];
+            }
+            self.stretches[STRETCHES / 2..].fill(SVector::zeros());
+            self.stretch_length = self.stretch_length.saturating_mul(2);
+            stretch = STRETCHES / 2;
+        }
+        if let Some(sum) = self.stretches.get_mut(stretch) {
+            *sum += reading;
+        }
+    }
+
+    /// Variance of the means of the finished stretches, times their length: that of one reading, if
+    /// readings are independent. And how many there are.
+    fn variance_by_stretches(&self, gauge: usize) -> (f64, f64) {
+        let finished = ((self.moments.samples() / self.stretch_length) as usize).min(STRETCHES);
+        let length = f64::from(self.stretch_length);
+        let means = || self.stretches.iter().take(finished).map(|sum| sum[gauge].to_f64() / length);
+        let count = finished as f64;
+        let mean = means().sum::<f64>() / count;
+        (means().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (count - 1.0) * length, count)
     }
 
     fn count(&self) -> T {
@@ -208,7 +261,11 @@ impl<T: Real, const N: usize> RestTest<T, N> {
             self.judge(gauge, noise[gauge], &limits)?;
         }
         let tare = self.moments.finish().map_err(|_| too_few)?;
-        Ok(Rested { tare, noise, tare_noise: noise / self.count().root(), samples })
+        let tare_noise = SVector::from_fn(|gauge, _| {
+            let by_stretches = T::literal(self.variance_by_stretches(gauge).0).root();
+            noise[gauge].max(by_stretches) / self.count().root()
+        });
+        Ok(Rested { tare, noise, tare_noise, samples })
     }
 
     fn judge(&self, gauge: usize, noise: T, limits: &Limits) -> Result<(), NotAtRest> {
@@ -221,31 +278,31 @@ impl<T: Real, const N: usize> RestTest<T, N> {
             // Not one reading differs from another.
             return Ok(());
         }
-        // Slope of the line times the number of readings, over what noise makes of it; Σ(i−ī)² is
-        // n(n²−1)/12.
+        let mean = self.moments.mean()[gauge];
+        let farthest = (self.greatest[gauge] - mean).max(mean - self.least[gauge]).to_f64();
+        if farthest - step / 2.0 > limits.outlier * spread {
+            return Err(NotAtRest::Outlier { gauge, over_noise: farthest / spread });
+        }
+        // The slope of the line, over what noise makes of it; Σ(i−ī)² is n(n²−1)/12.
         let times = n * (n * n - 1.0) / 12.0;
         let slope = self.with_time[gauge].to_f64() / times;
         let about_line = (n - 1.0) * spread * spread - slope * slope * times;
         let line_noise = nalgebra::ComplexField::sqrt((about_line / (n - 2.0)).max(0.0));
         let slope_noise = line_noise / nalgebra::ComplexField::sqrt(times);
+        let tolerated = step.max(self.tolerance[gauge].to_f64());
         let moved = slope.abs() * (n - 1.0);
-        if slope.abs() > limits.slope * slope_noise && moved > step {
+        if moved - tolerated > limits.slope * slope_noise * (n - 1.0) {
             return Err(NotAtRest::Drifts { gauge, over_noise: moved / spread });
         }
-        let ratio = self.successive[gauge].to_f64() / ((n - 1.0) * spread * spread);
+        let (by_stretches, stretches) = self.variance_by_stretches(gauge);
+        let length = f64::from(self.stretch_length);
+        let expected = spread * spread + length * tolerated * tolerated;
+        let unsteady = by_stretches > limits.variance(stretches - 1.0) * expected;
         let too_wide = self.known_noise.is_some_and(|known| {
             let known = known[gauge].to_f64();
-            spread * spread > limits.variance * (known * known + step * step / 12.0)
+            spread * spread > limits.variance(n - 1.0) * (known * known + step * step / 12.0)
         });
-        if too_wide || (ratio < limits.successive && measured > step) {
-            return Err(NotAtRest::Unsteady { gauge });
-        }
-        let mean = self.moments.mean()[gauge];
-        let farthest = (self.greatest[gauge] - mean).max(mean - self.least[gauge]).to_f64();
-        if farthest > limits.outlier * spread && farthest > 1.5 * step {
-            return Err(NotAtRest::Outlier { gauge, over_noise: farthest / spread });
-        }
-        Ok(())
+        if unsteady || too_wide { Err(NotAtRest::Unsteady { gauge }) } else { Ok(()) }
     }
 }
 
@@ -253,29 +310,26 @@ impl<T: Real, const N: usize> RestTest<T, N> {
 struct Limits {
     /// Of the slope over its standard error.
     slope: f64,
-    /// Of the mean square of successive differences over the variance; 2 for independent readings.
-    successive: f64,
-    /// Of the variance over the known one.
-    variance: f64,
     /// Of the distance from the mean over the standard deviation.
     outlier: f64,
+    /// Normal deviation for half the share of one test.
+    deviations: f64,
 }
 
 impl Limits {
     fn new(n: f64, tail: f64) -> Self {
         use nalgebra::ComplexField;
         let slope = student_quantile(tail / 2.0, n - 2.0);
-        // von Neumann's ratio is 2 on average, with variance 4(n−2)/(n²−1); only its lower tail is
-        // of interest, half of the share of this test.
-        let z = normal_quantile(tail / 2.0);
-        let successive = 2.0 * (1.0 - z * ComplexField::sqrt((n - 2.0) / (n * n - 1.0)));
-        // χ² by Wilson & Hilferty's cube, the other half.
-        let ninth = 2.0 / (9.0 * (n - 1.0));
-        let root = 1.0 - ninth + z * ComplexField::sqrt(ninth);
-        let variance = root * root * root;
         // Grubbs: (n−1)/√n · √(t²/(n−2+t²)), t at tail/2n.
         let t = student_quantile(tail / (2.0 * n), n - 2.0);
         let outlier = (n - 1.0) / ComplexField::sqrt(n) * ComplexField::sqrt(t * t / (n - 2.0 + t * t));
-        Self { slope, successive, variance, outlier }
+        Self { slope, outlier, deviations: normal_quantile(tail / 2.0) }
+    }
+
+    /// Of a variance with these degrees of freedom over a known one: χ² by Wilson & Hilferty's cube.
+    fn variance(&self, degrees: f64) -> f64 {
+        let ninth = 2.0 / (9.0 * degrees);
+        let root = 1.0 - ninth + self.deviations * nalgebra::ComplexField::sqrt(ninth);
+        root * root * root
     }
 }

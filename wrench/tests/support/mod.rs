@@ -84,3 +84,15 @@ pub fn median(values: &mut [f64]) -> f64 {
     let middle = values.len() / 2;
     *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
+
+/// The text of a recording, from the folder in `FINGERTIP_DATA` or `../shared/data` beside the
+/// workspace; `None`, and a word about it, where it is absent.
+pub fn recording(name: &str) -> Option<String> {
+    let folder = std::env::var("FINGERTIP_DATA")
+        .unwrap_or_else(|_| format!("{}/../../shared/data", env!("CARGO_MANIFEST_DIR")));
+    let text = std::fs::read_to_string(std::path::Path::new(&folder).join(name)).ok();
+    if text.is_none() {
+        println!("skipped: no recording {name} in {folder}");
+    }
+    text
+}
