@@ -29,7 +29,11 @@ pub enum ChannelFault {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
     feature = "serde",
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+    serde(
+        try_from = "Parts<T, N>",
+        into = "Parts<T, N>",
+        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
+    )
 )]
 pub struct ChannelLimits<T: Real, const N: usize> {
     least: SVector<T, N>,
@@ -194,5 +198,29 @@ impl<T: Real, const N: usize> ChannelMonitor<T, N> {
             // A channel that never moved is stuck.
             _ => ChannelFault::Stuck,
         })
+    }
+}
+
+/// How limits are written in a file; reading them validates them again.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))]
+struct Parts<T: Real, const N: usize> {
+    least: SVector<T, N>,
+    greatest: SVector<T, N>,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real, const N: usize> From<ChannelLimits<T, N>> for Parts<T, N> {
+    fn from(limits: ChannelLimits<T, N>) -> Self {
+        Self { least: limits.least, greatest: limits.greatest }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real, const N: usize> TryFrom<Parts<T, N>> for ChannelLimits<T, N> {
+    type Error = BadLimits;
+    fn try_from(parts: Parts<T, N>) -> Result<Self, BadLimits> {
+        Self::new(parts.least, parts.greatest)
     }
 }

@@ -16,6 +16,11 @@ pub struct ContactFrame<T: Real> {
 
 /// A wrench taken apart at a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct ContactLoad<T: Real> {
     /// Normal force, tangential force and spin torque: all that a point or soft-finger contact can
     /// carry.

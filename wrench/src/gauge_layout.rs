@@ -118,8 +118,14 @@ impl<T: Real> ThinWalledBeam<T> {
 
 /// `N` gauges on a beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de> + Copy"))
+)]
 pub struct GaugeLayout<T, const N: usize> {
     /// Where the gauges are.
+    #[cfg_attr(feature = "serde", serde(with = "crate::array_in_file"))]
     pub gauges: [Gauge<T>; N],
     /// Strain per unit load of the section.
     pub section: SectionConstants<T>,

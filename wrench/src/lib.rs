@@ -10,6 +10,8 @@ mod compensation;
 mod conditioning;
 mod contact_force;
 mod covariance;
+#[cfg(feature = "serde")]
+mod array_in_file;
 mod channels;
 mod consistency;
 mod contact_frame;

@@ -1,5 +1,7 @@
 //! Thermal compensation from a thermometer.
 
+#[cfg(feature = "serde")]
+use nalgebra::SMatrix;
 use nalgebra::SVector;
 use thiserror::Error;
 
@@ -37,6 +39,15 @@ pub struct GaugesAndTemperature<T: Real, const N: usize> {
 /// # Ok::<(), fingertip_wrench::BadTemperatureModel>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "Parts<T, N, TERMS>",
+        into = "Parts<T, N, TERMS>",
+        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
+    )
+)]
 pub struct TemperatureCompensation<T: Real, const N: usize, const TERMS: usize> {
     reference: T,
     range: (T, T),
@@ -121,5 +132,42 @@ impl<T: Real, const N: usize, const TERMS: usize> Compensation<T, N> for Tempera
         let zero = self.zero.iter().rev().fold(SVector::zeros(), |sum, term| sum * warmer + term);
         let gained = self.sensitivity.iter().rev().fold(SVector::<T, N>::zeros(), |sum, term| (sum + term) * warmer);
         (raw.gauges - zero).component_div(&gained.add_scalar(T::one()))
+    }
+}
+
+/// How the coefficients are written in a file, one column a power; reading them validates them
+/// again.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))]
+struct Parts<T: Real, const N: usize, const TERMS: usize> {
+    reference: T,
+    range: (T, T),
+    zero: SMatrix<T, N, TERMS>,
+    sensitivity: SMatrix<T, N, TERMS>,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real, const N: usize, const TERMS: usize> From<TemperatureCompensation<T, N, TERMS>>
+    for Parts<T, N, TERMS>
+{
+    fn from(model: TemperatureCompensation<T, N, TERMS>) -> Self {
+        Self {
+            reference: model.reference,
+            range: model.range,
+            zero: SMatrix::from_columns(&model.zero),
+            sensitivity: SMatrix::from_columns(&model.sensitivity),
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real, const N: usize, const TERMS: usize> TryFrom<Parts<T, N, TERMS>>
+    for TemperatureCompensation<T, N, TERMS>
+{
+    type Error = BadTemperatureModel;
+    fn try_from(parts: Parts<T, N, TERMS>) -> Result<Self, BadTemperatureModel> {
+        let columns = |matrix: SMatrix<T, N, TERMS>| core::array::from_fn(|k| matrix.column(k).into_owned());
+        Self::new(parts.reference, parts.range, columns(parts.zero), columns(parts.sensitivity))
     }
 }
