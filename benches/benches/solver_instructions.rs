@@ -56,7 +56,9 @@ fn fingertip<S: WrenchSolver<f64, 6>>((solver, signals): (&S, Vector6<f64>)) -> 
 
 #[library_benchmark]
 #[bench::prefactored(prefactored())]
-fn nalgebra_prefactored((factors, signals): (&LU<f64, Const<6>, Const<6>>, Vector6<f64>)) -> Option<Vector6<f64>> {
+fn nalgebra_prefactored(
+    (factors, signals): (&LU<f64, Const<6>, Const<6>>, Vector6<f64>),
+) -> Option<Vector6<f64>> {
     black_box(factors).solve(black_box(&signals))
 }
 

@@ -8,8 +8,8 @@ use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main};
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use fingertip_benches::{paper_sensor, signals};
 use fingertip_wrench::{
-    BicchiDario, Decoupled, ErrorBound, GaussianElimination, Inverse, LeastSquares, Real, Refined, Uncertainty,
-    WrenchSolver,
+    BicchiDario, Decoupled, ErrorBound, GaussianElimination, Inverse, LeastSquares, Real, Refined,
+    Uncertainty, WrenchSolver,
 };
 use nalgebra::Vector6;
 
@@ -41,7 +41,9 @@ fn nalgebra<T: Real>(group: &mut BenchmarkGroup<'_, WallTime>) {
     let sensor = paper_sensor::<T>().unwrap();
     let (matrix, signals) = (*sensor.normalised(), signals::<T>());
     let factors = matrix.lu();
-    group.bench_function("nalgebra, prefactored", |b| b.iter(|| black_box(&factors).solve(black_box(&signals))));
+    group.bench_function("nalgebra, prefactored", |b| {
+        b.iter(|| black_box(&factors).solve(black_box(&signals)))
+    });
     group.bench_function("nalgebra, factoring each time", |b| {
         b.iter(|| black_box(&matrix).lu().solve(black_box(&signals)));
     });
@@ -76,7 +78,9 @@ fn construction(criterion: &mut Criterion) {
     let sensor = paper_sensor::<f64>().unwrap();
     group.bench_function("GaussianElimination", |b| b.iter(|| GaussianElimination::new(black_box(&sensor))));
     group.bench_function("Inverse", |b| b.iter(|| Inverse::new(black_box(&sensor))));
-    group.bench_function("Decoupled", |b| b.iter(|| Decoupled::<f64, BicchiDario, 6>::new(black_box(&sensor))));
+    group.bench_function("Decoupled", |b| {
+        b.iter(|| Decoupled::<f64, BicchiDario, 6>::new(black_box(&sensor)))
+    });
     group.bench_function("LeastSquares", |b| b.iter(|| LeastSquares::new(black_box(&sensor))));
     group.bench_function("Refined", |b| b.iter(|| Refined::new(black_box(&sensor))));
     group.finish();

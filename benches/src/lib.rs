@@ -17,7 +17,8 @@ pub fn paper_sensor<T: Real>() -> Result<SensorMatrix<T, 6>, LayoutError> {
         youngs_modulus: literal(70e9),
         poisson_ratio: literal(0.33),
     };
-    let gauges = GaugeLayout::bicchi_dario_gauges(literal(14.0 / 180.0 * core::f64::consts::PI), literal(0.01));
+    let gauges =
+        GaugeLayout::bicchi_dario_gauges(literal(14.0 / 180.0 * core::f64::consts::PI), literal(0.01));
     let nominal = Vector6::new(30.0, 30.0, 30.0, 0.3, 0.3, 0.3).map(literal);
     GaugeLayout::new(&beam, gauges)?.sensor_matrix(literal(1e4), nominal)
 }

@@ -6,7 +6,8 @@ use thiserror::Error;
 use crate::compensated::matrix_residual;
 use crate::rounding::relative_rounding;
 use crate::{
-    GaussianElimination, LinearSolver, OwnError, Real, SensorMatrix, SensorMatrixError, SingularMatrix, Wrench, WrenchSolver,
+    GaussianElimination, LinearSolver, OwnError, Real, SensorMatrix, SensorMatrixError, SingularMatrix,
+    Wrench, WrenchSolver,
 };
 
 /// The inverse of the sensor matrix, multiplied with each reading: the fastest general solver.
@@ -107,7 +108,8 @@ impl<T: Real> SensorMatrix<T, 6> {
     /// # Errors
     /// [`BadInverse`].
     pub fn from_inverse(wrench_per_signal: &Matrix6<T>, nominal: Vector6<T>) -> Result<Self, BadInverse> {
-        let unit = SensorMatrix::new(*wrench_per_signal, Vector6::repeat(T::one())).map_err(BadInverse::Matrix)?;
+        let unit =
+            SensorMatrix::new(*wrench_per_signal, Vector6::repeat(T::one())).map_err(BadInverse::Matrix)?;
         let sensitivities = GaussianElimination::new(&unit).map_err(BadInverse::Singular)?.gain(&unit);
         Self::from_sensitivities(sensitivities, nominal).map_err(BadInverse::Matrix)
     }

@@ -4,17 +4,17 @@
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!("fingertip-wrench needs one of the features `std` and `libm` for its square root");
 
+#[cfg(feature = "serde")]
+mod array_in_file;
+mod channels;
 mod combination;
 mod compensated;
 mod compensation;
 mod conditioning;
-mod contact_force;
-mod covariance;
-#[cfg(feature = "serde")]
-mod array_in_file;
-mod channels;
 mod consistency;
+mod contact_force;
 mod contact_frame;
+mod covariance;
 mod decoupled;
 mod dummy_gauge;
 mod equilibration;

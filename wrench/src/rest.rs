@@ -46,7 +46,8 @@ pub struct RestTest<T: Real, const N: usize> {
     /// Sums of the readings less the first one, of stretches of equal length; the last may be
     /// unfinished.
     stretches: [SVector<T, N>; STRETCHES],
-    stretch_length: u32,
+    /// Binary logarithm of the length of a stretch.
+    doublings: u32,
     first: SVector<T, N>,
     least: SVector<T, N>,
     greatest: SVector<T, N>,
@@ -142,7 +143,7 @@ impl<T: Real, const N: usize> RestTest<T, N> {
             moments: TareAccumulator::default(),
             with_time: SVector::zeros(),
             stretches: [SVector::zeros(); STRETCHES],
-            stretch_length: 1,
+            doublings: 0,
             first: SVector::zeros(),
             least: SVector::repeat(T::GREATEST),
             greatest: SVector::repeat(-T::GREATEST),
@@ -214,13 +215,13 @@ impl<T: Real, const N: usize> RestTest<T, N> {
     }
 
     fn extend_stretches(&mut self, reading: &SVector<T, N>, samples: u32) {
-        let mut stretch = (samples / self.stretch_length) as usize;
+        let mut stretch = (samples >> self.doublings.min(31)) as usize;
         if stretch >= STRETCHES {
             for i in 0..STRETCHES / 2 {
                 self.stretches[i] = self.stretches[2 * i] + self.stretches[2 * i + 1];
             }
             self.stretches[STRETCHES / 2..].fill(SVector::zeros());
-            self.stretch_length = self.stretch_length.saturating_mul(2);
+            self.doublings = self.doublings.saturating_add(1);
             stretch = STRETCHES / 2;
         }
         if let Some(sum) = self.stretches.get_mut(stretch) {
@@ -228,11 +229,15 @@ impl<T: Real, const N: usize> RestTest<T, N> {
         }
     }
 
+    fn stretch_length(&self) -> f64 {
+        f64::from(1_u32 << self.doublings.min(31))
+    }
+
     /// Variance of the means of the finished stretches, times their length: that of one reading, if
     /// readings are independent. And how many there are.
     fn variance_by_stretches(&self, gauge: usize) -> (f64, f64) {
-        let finished = ((self.moments.samples() / self.stretch_length) as usize).min(STRETCHES);
-        let length = f64::from(self.stretch_length);
+        let finished = ((self.moments.samples() >> self.doublings.min(31)) as usize).min(STRETCHES);
+        let length = self.stretch_length();
         let means = || self.stretches.iter().take(finished).map(|sum| sum[gauge].to_f64() / length);
         let count = finished as f64;
         let mean = means().sum::<f64>() / count;
@@ -295,7 +300,7 @@ impl<T: Real, const N: usize> RestTest<T, N> {
             return Err(NotAtRest::Drifts { gauge, over_noise: moved / spread });
         }
         let (by_stretches, stretches) = self.variance_by_stretches(gauge);
-        let length = f64::from(self.stretch_length);
+        let length = self.stretch_length();
         let expected = spread * spread + length * tolerated * tolerated;
         let unsteady = by_stretches > limits.variance(stretches - 1.0) * expected;
         let too_wide = self.known_noise.is_some_and(|known| {

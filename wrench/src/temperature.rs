@@ -97,7 +97,8 @@ impl<T: Real, const N: usize, const TERMS: usize> TemperatureCompensation<T, N, 
             if !coefficients.all(|term| term[gauge].is_number()) {
                 return Err(BadTemperatureModel::NotFinite { gauge });
             }
-            let most = sensitivity.iter().rev().fold(T::zero(), |sum, term| (sum + term[gauge].abs()) * farthest);
+            let most =
+                sensitivity.iter().rev().fold(T::zero(), |sum, term| (sum + term[gauge].abs()) * farthest);
             if !(most < T::one()) {
                 return Err(BadTemperatureModel::SensitivityVanishes { gauge });
             }
@@ -113,7 +114,9 @@ impl<T: Real, const N: usize, const TERMS: usize> TemperatureCompensation<T, N, 
     }
 }
 
-impl<T: Real, const N: usize, const TERMS: usize> Compensation<T, N> for TemperatureCompensation<T, N, TERMS> {
+impl<T: Real, const N: usize, const TERMS: usize> Compensation<T, N>
+    for TemperatureCompensation<T, N, TERMS>
+{
     type Raw = GaugesAndTemperature<T, N>;
 
     /// A temperature that is NaN gives signals that are NaN, like a gauge that is.
@@ -130,7 +133,8 @@ impl<T: Real, const N: usize, const TERMS: usize> Compensation<T, N> for Tempera
         };
         let warmer = held - self.reference;
         let zero = self.zero.iter().rev().fold(SVector::zeros(), |sum, term| sum * warmer + term);
-        let gained = self.sensitivity.iter().rev().fold(SVector::<T, N>::zeros(), |sum, term| (sum + term) * warmer);
+        let gained =
+            self.sensitivity.iter().rev().fold(SVector::<T, N>::zeros(), |sum, term| (sum + term) * warmer);
         (raw.gauges - zero).component_div(&gained.add_scalar(T::one()))
     }
 }
@@ -169,5 +173,71 @@ impl<T: Real, const N: usize, const TERMS: usize> TryFrom<Parts<T, N, TERMS>>
     fn try_from(parts: Parts<T, N, TERMS>) -> Result<Self, BadTemperatureModel> {
         let columns = |matrix: SMatrix<T, N, TERMS>| core::array::from_fn(|k| matrix.column(k).into_owned());
         Self::new(parts.reference, parts.range, columns(parts.zero), columns(parts.sensitivity))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Readings made by the model give the signals back, over the whole range.
+    fn inverts<T: Real>() {
+        let literal = T::literal;
+        let zero = [0.3, -2e-3, 5e-5].map(|c| SVector::<T, 2>::new(literal(c), literal(-3.0 * c)));
+        let sensitivity = [1e-3, -4e-6, 1e-8].map(|c| SVector::<T, 2>::new(literal(c), literal(2.0 * c)));
+        let reference = literal(20.0);
+        let model =
+            TemperatureCompensation::new(reference, (literal(-10.0), literal(70.0)), zero, sensitivity)
+                .expect("a model");
+        for degrees in -10..=70 {
+            let temperature = literal(f64::from(degrees));
+            let d = temperature - reference;
+            let signals = SVector::<T, 2>::new(literal(0.7), literal(-1.1));
+            let gauges = SVector::<T, 2>::from_fn(|i, _| {
+                let drift = zero[0][i] + zero[1][i] * d + zero[2][i] * d * d;
+                let gain = sensitivity[0][i] * d + sensitivity[1][i] * d * d + sensitivity[2][i] * d * d * d;
+                signals[i] * (T::one() + gain) + drift
+            });
+            let found = model.compensate(&GaugesAndTemperature { gauges, temperature });
+            assert!((found - signals).amax() < T::EPSILON * literal(32.0));
+            assert!(model.covers(temperature));
+        }
+    }
+
+    #[test]
+    fn compensation_inverts_the_model() {
+        inverts::<f32>();
+        inverts::<f64>();
+    }
+
+    #[test]
+    fn beyond_the_fit_the_ends_are_held() {
+        let zero = [SVector::<f64, 1>::new(0.0), SVector::<f64, 1>::new(1.0)];
+        let none = [SVector::zeros(); 2];
+        let model = TemperatureCompensation::new(20.0, (10.0, 30.0), zero, none).expect("a model");
+        let at =
+            |temperature| model.compensate(&GaugesAndTemperature { gauges: SVector::zeros(), temperature }).x;
+        assert_eq!((at(30.0), at(1e30), at(f64::INFINITY)), (-10.0, -10.0, -10.0));
+        assert_eq!((at(10.0), at(-300.0)), (10.0, 10.0));
+        assert!(!model.covers(30.5) && !model.covers(f64::NAN) && at(f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn unusable_models_are_refused() {
+        let new = |reference, range, zero: f64, gain: f64| {
+            TemperatureCompensation::<f64, 1, 1>::new(
+                reference,
+                range,
+                [SVector::repeat(zero)],
+                [SVector::repeat(gain)],
+            )
+            .err()
+        };
+        assert_eq!(new(20.0, (0.0, 50.0), 0.1, 0.01), None);
+        assert_eq!(new(60.0, (0.0, 50.0), 0.1, 0.01), Some(BadTemperatureModel::BadRange));
+        assert_eq!(new(20.0, (0.0, f64::NAN), 0.1, 0.01), Some(BadTemperatureModel::BadRange));
+        assert_eq!(new(20.0, (0.0, 50.0), f64::NAN, 0.01), Some(BadTemperatureModel::NotFinite { gauge: 0 }));
+        let vanishes = Some(BadTemperatureModel::SensitivityVanishes { gauge: 0 });
+        assert_eq!(new(20.0, (0.0, 50.0), 0.1, -0.04), vanishes);
     }
 }

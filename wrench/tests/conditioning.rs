@@ -36,11 +36,8 @@ fn oracle<const N: usize>(matrix: &SMatrix<f64, N, 6>) -> Vec<f64> {
                 rotated = true;
                 let theta = (&gram[q][q] - &gram[p][p]) / (big(2.0) * &off);
                 let root = (&theta * &theta + big(1.0)).sqrt();
-                let tangent = if theta < big(0.0) {
-                    big(-1.0) / (root - theta)
-                } else {
-                    big(1.0) / (root + theta)
-                };
+                let tangent =
+                    if theta < big(0.0) { big(-1.0) / (root - theta) } else { big(1.0) / (root + theta) };
                 let cos = big(1.0) / (&tangent * &tangent + big(1.0)).sqrt();
                 let sin = &tangent * &cos;
                 for k in 0..6 {
@@ -167,7 +164,8 @@ fn conditioning_of_known_matrices() {
     let best = Conditioning::of(&sensor(orthonormal::<6>(&mut random)));
     assert!((best.condition_number() - 1.0).abs() < 20.0 * f64::EPSILON);
     // Orthogonal columns alone are not enough.
-    let diagonal = Conditioning::of(&sensor(Matrix6::from_diagonal(&Vector6::new(1.0, 2.0, 1.0, 1.0, 1.0, 4.0))));
+    let diagonal =
+        Conditioning::of(&sensor(Matrix6::from_diagonal(&Vector6::new(1.0, 2.0, 1.0, 1.0, 1.0, 4.0))));
     assert_eq!(diagonal.condition_number(), 4.0);
     assert_eq!(diagonal.skeel, Some(1.0));
     assert_eq!(diagonal.amplification, Some(Vector6::new(1.0, 0.5, 1.0, 1.0, 1.0, 0.25)));
@@ -177,8 +175,10 @@ fn conditioning_of_known_matrices() {
     // Scaling a gauge changes N_c, but not Skeel's number.
     let matrix = of_condition::<6>(&mut random, 100.0);
     let gauges = Vector6::new(1.0, 1e3, 1.0, 1e-3, 1.0, 1.0);
-    let (plain, scaled) =
-        (Conditioning::of(&sensor(matrix)), Conditioning::of(&sensor(Matrix6::from_diagonal(&gauges) * matrix)));
+    let (plain, scaled) = (
+        Conditioning::of(&sensor(matrix)),
+        Conditioning::of(&sensor(Matrix6::from_diagonal(&gauges) * matrix)),
+    );
     let (a, b) = (plain.skeel.expect("regular"), scaled.skeel.expect("regular"));
     assert!((a / b - 1.0).abs() < 1e-9);
     assert!(scaled.condition_number() > 10.0 * plain.condition_number());
@@ -188,15 +188,13 @@ fn conditioning_of_known_matrices() {
     singular.set_row(1, &row);
     let singular = Conditioning::of(&sensor(singular));
     assert!(singular.condition_number() > 1e14 && singular.skeel.is_none());
-    assert!(matches!(
-        singular.relative_error_bound(0.0, 0.01),
-        Err(BeyondBound::MatrixMayBeSingular { .. })
-    ));
+    assert!(matches!(singular.relative_error_bound(0.0, 0.01), Err(BeyondBound::MatrixMayBeSingular { .. })));
 }
 
 #[test]
 fn equation_14_is_not_extrapolated() {
-    let conditioning = Conditioning::of(&sensor(Matrix6::from_diagonal(&Vector6::new(1.0, 1.0, 1.0, 1.0, 1.0, 0.1))));
+    let conditioning =
+        Conditioning::of(&sensor(Matrix6::from_diagonal(&Vector6::new(1.0, 1.0, 1.0, 1.0, 1.0, 0.1))));
     assert!(conditioning.relative_error_bound(0.01, 0.099).is_ok());
     assert_eq!(
         conditioning.relative_error_bound(0.01, 0.125),

@@ -88,7 +88,14 @@ fn strains_of_elementary_loads() {
     let quarter = core::f64::consts::FRAC_PI_2;
     let along = |theta| Gauge { z: 0.02, theta, q: 0.0 };
     let diagonal = |theta| Gauge { z: 0.0, theta, q: quarter / 2.0 };
-    let gauges = [along(0.0), along(quarter), Gauge { z: 0.0, theta: 0.3, q: quarter }, diagonal(0.0), diagonal(quarter), along(1.0)];
+    let gauges = [
+        along(0.0),
+        along(quarter),
+        Gauge { z: 0.0, theta: 0.3, q: quarter },
+        diagonal(0.0),
+        diagonal(quarter),
+        along(1.0),
+    ];
     let strains = GaugeLayout::new(&beam, gauges).expect("proper").strain_matrix();
     let close = |a: f64, b: f64| assert!((a - b).abs() <= 1e-14 * b.abs().max(1e-12), "{a} {b}");
     // Axial force: N/EA along, −μ of it across.
@@ -110,7 +117,9 @@ fn strains_of_elementary_loads() {
     close(strains[(4, 1)], -peak / 2.0);
 }
 
-fn decoupled_is_elimination<T: Real, K: Combination<6>>(gauges: [fingertip_wrench::gauge_layout::Gauge<T>; 6]) {
+fn decoupled_is_elimination<T: Real, K: Combination<6>>(
+    gauges: [fingertip_wrench::gauge_layout::Gauge<T>; 6],
+) {
     let mut random = generator(40);
     let layout = GaugeLayout::new(&beam::<T>(5.0, 0.33), gauges).expect("proper");
     let sensor = layout.sensor_matrix(T::literal(1e4), nominal()).expect("regular");
@@ -158,8 +167,11 @@ fn four_rosettes_decouple_into_least_squares() {
 #[test]
 fn decoupled_stays_within_its_bound_on_a_machined_sensor() {
     let mut random = generator(42);
-    let layout = GaugeLayout::new(&beam::<f64>(5.0, 0.33), GaugeLayout::bicchi_dario_gauges(14.0_f64.to_radians(), 0.01))
-        .expect("proper");
+    let layout = GaugeLayout::new(
+        &beam::<f64>(5.0, 0.33),
+        GaugeLayout::bicchi_dario_gauges(14.0_f64.to_radians(), 0.01),
+    )
+    .expect("proper");
     let drawn = layout.sensor_matrix(1e4, nominal()).expect("regular");
     let mut ratios = Vec::new();
     for _ in 0..1_000 {
@@ -188,10 +200,12 @@ fn decoupled_stays_within_its_bound_on_a_machined_sensor() {
 #[test]
 fn what_cannot_be_decoupled_is_refused() {
     let mut random = generator(43);
-    let any = SensorMatrix::new(support::orthonormal::<6>(&mut random), Vector6::repeat(1.0)).expect("proper");
+    let any =
+        SensorMatrix::new(support::orthonormal::<6>(&mut random), Vector6::repeat(1.0)).expect("proper");
     assert!(Decoupled::<f64, BicchiDario, 6>::new(&any).is_err());
     // d = 0: gauges 5 and 6 repeat 1 and 2, so that two combinations see nothing.
-    let layout = GaugeLayout::new(&beam::<f64>(5.0, 0.33), GaugeLayout::bicchi_dario_gauges(0.2, 0.0)).expect("proper");
+    let layout = GaugeLayout::new(&beam::<f64>(5.0, 0.33), GaugeLayout::bicchi_dario_gauges(0.2, 0.0))
+        .expect("proper");
     let blind = layout.sensor_matrix(1e4, nominal()).expect("no gauge is dead");
     assert!(matches!(
         Decoupled::<f64, BicchiDario, 6>::new(&blind),
@@ -261,7 +275,8 @@ fn determinant_of_the_papers_matrix() {
     let mut random = generator(44);
     for _ in 0..200 {
         let (q, d) = (random.random_range(0.1..0.7), random.random_range(0.002..0.03));
-        let layout = GaugeLayout::new(&beam::<f64>(5.0, 0.33), GaugeLayout::bicchi_dario_gauges(q, d)).expect("proper");
+        let layout = GaugeLayout::new(&beam::<f64>(5.0, 0.33), GaugeLayout::bicchi_dario_gauges(q, d))
+            .expect("proper");
         let c = *layout.sensor_matrix(1e4, nominal()).expect("regular").normalised();
         let product = 8.0 * c[(0, 0)] * c[(1, 3)] * c[(1, 4)] * c[(0, 5)] * c[(4, 1)] * -c[(5, 2)];
         assert!((c.determinant() / product - 1.0).abs() < 1e-12);

@@ -3,8 +3,8 @@
 mod support;
 
 use fingertip_wrench::{
-    BadCheck, ConsistencyCheck, DriftMonitor, Fault, GaussianElimination, LeastSquares, LeastSquaresError, Real,
-    SensorMatrix, Verdict, WrenchSolver, singular_values,
+    BadCheck, ConsistencyCheck, DriftMonitor, Fault, GaussianElimination, LeastSquares, LeastSquaresError,
+    Real, SensorMatrix, Verdict, WrenchSolver, singular_values,
 };
 use nalgebra::{SMatrix, SVector, Vector6};
 use rand::RngExt;
@@ -79,7 +79,8 @@ fn without_a_gauge_is_the_sensor_without_it() {
         let solver = LeastSquares::weighted(&sensor, &deviations).expect("regular");
         let signals = random_vector::<9>(&mut random);
         for gauge in 0..9 {
-            let smaller = SensorMatrix::new(sensor.normalised().remove_row(gauge), *sensor.nominal()).expect("proper");
+            let smaller =
+                SensorMatrix::new(sensor.normalised().remove_row(gauge), *sensor.nominal()).expect("proper");
             let reduced = LeastSquares::weighted(&smaller, &deviations.remove_row(gauge)).expect("regular");
             let expected = reduced.solve(&signals.remove_row(gauge)).components();
             let mut broken = signals;
@@ -147,7 +148,10 @@ fn watched<const N: usize>(seed: u128) -> (SensorMatrix<f64, N>, LeastSquares<f6
     (sensor, solver)
 }
 
-fn reading<const N: usize>(random: &mut rand_pcg::Pcg64Mcg, sensor: &SensorMatrix<f64, N>) -> SVector<f64, N> {
+fn reading<const N: usize>(
+    random: &mut rand_pcg::Pcg64Mcg,
+    sensor: &SensorMatrix<f64, N>,
+) -> SVector<f64, N> {
     let load = random_vector::<6>(random);
     sensor.normalised() * load + SVector::<f64, N>::from_fn(|_, _| NOISE * normal(random))
 }
@@ -194,7 +198,10 @@ fn a_faulty_gauge_is_found_and_named() {
             let big = !((value - sound[gauge]).abs() < 20.0 * NOISE / solver.redundancy(gauge));
             match check.verdict(&solver, &signals) {
                 Verdict::Faulty { gauge: named, fault, error } if named == gauge => {
-                    assert!(fault == expected || value.abs() >= 0.9 || value.abs() < 5.0 * NOISE, "{fault:?}");
+                    assert!(
+                        fault == expected || value.abs() >= 0.9 || value.abs() < 5.0 * NOISE,
+                        "{fault:?}"
+                    );
                     if value.is_finite() {
                         let tolerance = 10.0 * NOISE / solver.redundancy(gauge);
                         assert!((error - (value - sound[gauge])).abs() < tolerance);

@@ -12,7 +12,9 @@ use serde_json::Value;
 use support::recording;
 
 fn numbers(value: &Value) -> Vector6<f64> {
-    Vector6::from_iterator(value.as_array().expect("six numbers").iter().map(|x| x.as_f64().expect("a number")))
+    Vector6::from_iterator(
+        value.as_array().expect("six numbers").iter().map(|x| x.as_f64().expect("a number")),
+    )
 }
 
 #[test]
@@ -32,7 +34,8 @@ fn derived_volts_give_the_measured_wrench() {
     for (serial, certificate) in certificates.as_object().expect("by serial number") {
         let user_axes = certificate["cal_user"].as_array().expect("six rows");
         // Units as published: newtons, and newton metres or newton millimetres.
-        let published = Matrix6::from_rows(&core::array::from_fn::<_, 6, _>(|i| numbers(&user_axes[i]).transpose()));
+        let published =
+            Matrix6::from_rows(&core::array::from_fn::<_, 6, _>(|i| numbers(&user_axes[i]).transpose()));
         let full_scale = numbers(&certificate["fs"]);
         let sensor = SensorMatrix::from_inverse(&published, full_scale).expect("regular");
         let conditioning = Conditioning::of(&sensor);
@@ -48,7 +51,8 @@ fn derived_volts_give_the_measured_wrench() {
         // The inverse of the inverse is the published matrix.
         assert!((inverse.matrix() - published).amax() < 1e-14 * published.amax());
         for row in rows.iter().filter(|row| row[0] == serial) {
-            let six = |first: usize| Vector6::from_fn(|i, _| row[first + i].parse::<f64>().expect("a number"));
+            let six =
+                |first: usize| Vector6::from_fn(|i, _| row[first + i].parse::<f64>().expect("a number"));
             let (expected, signals) = (six(measured), six(volts));
             for solver in solvers {
                 let found = solver.solve(&signals);

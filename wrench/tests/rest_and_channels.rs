@@ -12,7 +12,13 @@ use support::{generator, normal, recording};
 const RATE: f64 = 0.02;
 
 /// How often a sensor that does `motion` besides noise is called restless.
-fn alarms<T: Real>(seed: u128, runs: usize, samples: u32, step: f64, motion: impl Fn(u32, &mut Vector6<f64>)) -> f64 {
+fn alarms<T: Real>(
+    seed: u128,
+    runs: usize,
+    samples: u32,
+    step: f64,
+    motion: impl Fn(u32, &mut Vector6<f64>),
+) -> f64 {
     let mut random = generator(seed);
     let mut alarms = 0;
     for _ in 0..runs {
@@ -183,7 +189,8 @@ fn plateaus_and_stuck_channels_are_told_apart() {
     let mut seen = [[0; 3]; 6];
     for i in 0..5_000 {
         let phase = f64::from(i) * 0.01 - 1.0;
-        let mut raw = Vector6::from_fn(|channel, _| (phase + channel as f64).sin() + 1e-3 * normal(&mut random));
+        let mut raw =
+            Vector6::from_fn(|channel, _| (phase + channel as f64).sin() + 1e-3 * normal(&mut random));
         raw[1] = raw[1].min(0.6); // clips high
         raw[2] = raw[2].max(-0.7); // clips low
         if i > 2_000 {

@@ -5,8 +5,8 @@ use core::fmt::Debug;
 
 use fingertip_wrench::gauge_layout::{Gauge, GaugeLayout, ThinWalledBeam};
 use fingertip_wrench::{
-    ChannelLimits, Conditioning, ContactForce, DummyGauge, Payload, RigidTransform, Sensor, SensorMatrix, Tare,
-    TemperatureCompensation, Uncertainty, Wrench,
+    ChannelLimits, Conditioning, ContactForce, DummyGauge, Payload, RigidTransform, Sensor, SensorMatrix,
+    Tare, TemperatureCompensation, Uncertainty, Wrench,
 };
 use nalgebra::{Matrix6, SVector, Vector3, Vector6};
 use serde_json::{from_str, to_string};
@@ -21,8 +21,11 @@ fn beam() -> ThinWalledBeam<f64> {
 }
 
 fn sensor() -> SensorMatrix<f64, 6> {
-    SensorMatrix::new(Matrix6::from_fn(|i, j| if i == j { 2.0 } else { 0.1 * i as f64 }), Vector6::repeat(10.0))
-        .expect("proper")
+    SensorMatrix::new(
+        Matrix6::from_fn(|i, j| if i == j { 2.0 } else { 0.1 * i as f64 }),
+        Vector6::repeat(10.0),
+    )
+    .expect("proper")
 }
 
 #[test]
