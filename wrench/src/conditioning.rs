@@ -23,7 +23,7 @@ use crate::{Real, SensorMatrix, singular_values};
 /// let conditioning = Conditioning::of(&sensor);
 /// assert_eq!(conditioning.condition_number(), 2.0);
 /// // Signals known to 1 %, the matrix to 1 %: equation (14).
-/// let bound = conditioning.relative_error_bound(0.01, 0.01)?;
+/// let bound: f64 = conditioning.relative_error_bound(0.01, 0.01)?;
 /// assert!((bound - 0.02 * 2.0 / (1.0 - 0.02)).abs() < 1e-15);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```

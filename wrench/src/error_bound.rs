@@ -64,9 +64,9 @@ impl<T: Real, const N: usize> Uncertainty<T, N> {
 /// let solver = Inverse::new(&sensor)?;
 /// // 2 V at 10 N, signals within 2 mV: 10 mN.
 /// let bound = ErrorBound::new(&sensor, &solver, &Uncertainty::of_signals(Vector6::repeat(0.002)))?;
-/// let signals = Vector6::new(0.5, 0.0, 0.0, 0.0, 0.0, 0.0);
+/// let signals = Vector6::new(0.5_f64, 0.0, 0.0, 0.0, 0.0, 0.0);
 /// let error = bound.at(&signals, &solver.solve(&signals));
-/// assert!((error[0] - 0.01).abs() < 1e-12);
+/// assert!((error[0] - 0.01_f64).abs() < 1e-12);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,4 +1,5 @@
 //! Singular values and condition numbers against 77-digit arithmetic.
+#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
 mod support;
 

@@ -1,4 +1,5 @@
 //! Frames: rigid motions, wrenches carried by them, loads taken apart at a contact, weights.
+#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
 mod support;
 

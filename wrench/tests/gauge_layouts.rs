@@ -1,4 +1,5 @@
 //! Gauge layouts against what the paper and mechanics say of them, and the decoupled solver on them.
+#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
 mod support;
 

@@ -1,4 +1,5 @@
 //! Extended sensors: least squares, what redundancy tells, and what it does not.
+#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
 mod support;
 

@@ -1,4 +1,5 @@
 //! The wrench axis: its definition, invariance under motion and scale, and the ends of the range.
+#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
 mod support;
 

@@ -1,10 +1,11 @@
 //! Solvers of six gauges against an oracle of 32 digits, over conditions, precisions and ranges.
+#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
 mod support;
 
 use fingertip_wrench::{
-    GaussianElimination, Inverse, Real, Refined, SensorMatrix, SensorMatrixError, SingularMatrix,
-    WrenchSolver,
+    GaussianElimination, Inverse, LeastSquares, Real, Refined, SensorMatrix, SensorMatrixError,
+    SingularMatrix, WrenchSolver,
 };
 use nalgebra::{Matrix6, Vector6};
 use rand::RngExt;
@@ -165,7 +166,8 @@ fn range<T: Real>(exponents: &[i32]) {
         let gauss = GaussianElimination::new(&sensor).expect("regular");
         let inverse = Inverse::new(&sensor).expect("regular");
         let refined = Refined::new(&sensor).expect("regular");
-        let solvers: [&dyn WrenchSolver<T, 6>; 3] = [&gauss, &inverse, &refined];
+        let least_squares = LeastSquares::new(&sensor).expect("regular");
+        let solvers: [&dyn WrenchSolver<T, 6>; 4] = [&gauss, &inverse, &refined, &least_squares];
         for solver in solvers {
             let one = solver.solve(&signals).components();
             for exponent in exponents {
@@ -188,8 +190,7 @@ fn scales_of_gauges_and_axes_cost_no_accuracy() {
     let mut random = generator(80);
     for _ in 0..500 {
         let plain = sensor::<f64, 6>(&of_condition::<6>(&mut random, 50.0));
-        let load = random_vector::<6>(&mut random).into();
-        let load = fingertip_wrench::Wrench::from_components(&load);
+        let load = fingertip_wrench::Wrench::from_components(&random_vector::<6>(&mut random));
         let rows = Vector6::from_fn(|_, _| 2.0_f64.powi(random.random_range(-200..200)));
         let columns = Vector6::from_fn(|_, _| 2.0_f64.powi(random.random_range(-200..200)));
         let scaled = Matrix6::from_diagonal(&rows) * plain.normalised() * Matrix6::from_diagonal(&columns);

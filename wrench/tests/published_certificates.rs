@@ -1,5 +1,6 @@
 //! Factory certificates of four six-axis sensors: from the derived volts back to the measured
 //! wrench.
+#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
 mod support;
 

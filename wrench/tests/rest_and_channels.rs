@@ -1,4 +1,5 @@
 //! Taring only at rest, and channels that lie, over simulated readings and recordings.
+#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
 mod support;
 

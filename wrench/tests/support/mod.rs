@@ -1,6 +1,7 @@
 //! What the property tests share: random matrices of a given condition, and an oracle in twice the
 //! precision of `f64`.
 #![allow(dead_code, unreachable_pub, missing_docs)]
+#![allow(clippy::expect_used, clippy::needless_range_loop)]
 
 use fingertip_wrench::{Real, SensorMatrix};
 use nalgebra::{SMatrix, SVector, Vector6};
