@@ -128,7 +128,7 @@ impl<T: Real, const N: usize> ErrorBound<T, N> {
     }
 
     /// Bound on the error of each component \[N, N, N, N·m, N·m, N·m\] of the wrench that the solver
-    /// gave for these signals.
+    /// gave for these signals; not finite for a wrench or signals that are not.
     #[inline]
     #[must_use]
     pub fn at(&self, signals: &SVector<T, N>, wrench: &Wrench<T>) -> Vector6<T> {

@@ -4,7 +4,7 @@ use nalgebra::SVector;
 use thiserror::Error;
 
 use crate::false_alarm::{normal_quantile, student_quantile};
-use crate::{Real, Tare, TareAccumulator};
+use crate::{Real, Tare, TareAccumulator, TareError};
 
 /// Tares only a sensor that was at rest: collects readings, then gives the tare *with its error*, or
 /// says which gauge moved, and how.
@@ -120,6 +120,12 @@ pub enum NotAtRest {
         gauge: usize,
         /// How far, in standard deviations of one reading.
         over_noise: f64,
+    },
+    /// Readings so large that their spread cannot be represented.
+    #[error("the readings of gauge {gauge} are too large for the scalar type")]
+    OutOfRange {
+        /// Which one.
+        gauge: usize,
     },
     /// The rate of false alarms is not between 0 and 1, both excluded, or a noise or resolution is
     /// negative or not finite.
@@ -258,14 +264,19 @@ impl<T: Real, const N: usize> RestTest<T, N> {
             return Err(NotAtRest::NotFinite { rejected: self.rejected });
         }
         let too_few = NotAtRest::TooFewSamples { samples, needed: Self::LEAST_SAMPLES };
-        let (Ok(noise), true) = (self.moments.noise(), samples >= Self::LEAST_SAMPLES) else {
+        if samples < Self::LEAST_SAMPLES {
             return Err(too_few);
+        }
+        let refused = |error| match error {
+            TareError::TooFewSamples { .. } => too_few,
+            TareError::OutOfRange { gauge } => NotAtRest::OutOfRange { gauge },
         };
+        let noise = self.moments.noise().map_err(refused)?;
         let limits = Limits::new(f64::from(samples), self.false_alarm_rate / (3 * N) as f64);
         for gauge in 0..N {
             self.judge(gauge, noise[gauge], &limits)?;
         }
-        let tare = self.moments.finish().map_err(|_| too_few)?;
+        let tare = self.moments.finish().map_err(refused)?;
         let tare_noise = SVector::from_fn(|gauge, _| {
             let by_stretches = T::literal(self.variance_by_stretches(gauge).0).root();
             noise[gauge].max(by_stretches) / self.count().root()
@@ -279,6 +290,9 @@ impl<T: Real, const N: usize> RestTest<T, N> {
         let step = self.resolution[gauge].to_f64();
         let measured = noise.to_f64();
         let spread = nalgebra::ComplexField::sqrt(measured * measured + step * step / 12.0);
+        if !spread.is_finite() {
+            return Err(NotAtRest::OutOfRange { gauge });
+        }
         if !(spread > 0.0) {
             // Not one reading differs from another.
             return Ok(());

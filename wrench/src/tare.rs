@@ -64,6 +64,12 @@ pub enum TareError {
         /// How many finite samples there were.
         samples: u32,
     },
+    /// Readings so large that their mean or spread cannot be represented.
+    #[error("the readings of gauge {gauge} are too large for the scalar type")]
+    OutOfRange {
+        /// Which gauge, counted from 0.
+        gauge: usize,
+    },
 }
 
 impl<T: Real, const N: usize> Default for TareAccumulator<T, N> {
@@ -101,23 +107,30 @@ impl<T: Real, const N: usize> TareAccumulator<T, N> {
     /// Standard deviation of one reading of each gauge at rest.
     ///
     /// # Errors
-    /// [`TareError::TooFewSamples`].
+    /// [`TareError`].
     pub fn noise(&self) -> Result<SVector<T, N>, TareError> {
         if self.samples < 2 {
             return Err(TareError::TooFewSamples { samples: self.samples });
         }
         let degrees = T::literal(f64::from(self.samples - 1));
-        Ok(self.squares.map(|square| (square / degrees).root()))
+        in_range(self.squares.map(|square| (square / degrees).root()))
     }
 
     /// The tare: the mean of the readings.
     ///
     /// # Errors
-    /// [`TareError::TooFewSamples`].
+    /// [`TareError`].
     pub fn finish(&self) -> Result<Tare<T, N>, TareError> {
         if self.samples < 2 {
             return Err(TareError::TooFewSamples { samples: self.samples });
         }
-        Ok(Tare::new(self.mean))
+        in_range(self.mean).map(Tare::new)
+    }
+}
+
+fn in_range<T: Real, const N: usize>(values: SVector<T, N>) -> Result<SVector<T, N>, TareError> {
+    match values.iter().position(|x| !x.is_number()) {
+        Some(gauge) => Err(TareError::OutOfRange { gauge }),
+        None => Ok(values),
     }
 }
