@@ -8,6 +8,11 @@ use crate::Real;
 ///
 /// It has no point and no surface, so that friction models can be used without them.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct ContactForce<T: Real> {
     /// Normal force \[N\], positive when pressing.
     pub normal: T,

@@ -27,14 +27,24 @@ pub struct GaugesAndDummy<T: Real, const N: usize> {
 pub struct DummyGauge<T: Real, const N: usize> {
     tare: Tare<T, N>,
     dummy_zero: T,
+    ratios: SVector<T, N>,
 }
 
 impl<T: Real, const N: usize> DummyGauge<T, N> {
     /// From known readings of the unloaded sensor.
     #[inline]
     #[must_use]
-    pub const fn new(tare: Tare<T, N>, dummy_zero: T) -> Self {
-        Self { tare, dummy_zero }
+    pub fn new(tare: Tare<T, N>, dummy_zero: T) -> Self {
+        Self { tare, dummy_zero, ratios: SVector::repeat(T::one()) }
+    }
+
+    /// The same for gauges that feel the temperature more or less than the dummy does:
+    /// `signal_i = raw_i − zero_i − ratio_i (dummy − dummy_zero)`. A soak without load gives the
+    /// ratios, by regression of each gauge on the dummy.
+    #[inline]
+    #[must_use]
+    pub fn with_ratios(self, ratios: SVector<T, N>) -> Self {
+        Self { ratios, ..self }
     }
 }
 
@@ -43,7 +53,7 @@ impl<T: Real, const N: usize> Compensation<T, N> for DummyGauge<T, N> {
 
     #[inline]
     fn compensate(&self, raw: &GaugesAndDummy<T, N>) -> SVector<T, N> {
-        self.tare.compensate(&raw.gauges).add_scalar(self.dummy_zero - raw.dummy)
+        self.tare.compensate(&raw.gauges) + self.ratios * (self.dummy_zero - raw.dummy)
     }
 }
 
@@ -104,6 +114,14 @@ mod tests {
             compensation.compensate(&loaded),
             SVector::<T, 3>::new(T::zero(), literal(0.125), T::zero())
         );
+    }
+
+    #[test]
+    fn each_gauge_may_feel_the_temperature_in_its_own_ratio() {
+        let ratios = SVector::<f64, 2>::new(2.0, 0.5);
+        let compensation = DummyGauge::new(Tare::new(SVector::zeros()), 1.0).with_ratios(ratios);
+        let raw = GaugesAndDummy { gauges: SVector::<f64, 2>::new(6.0, 2.0), dummy: 4.0 };
+        assert_eq!(compensation.compensate(&raw), SVector::<f64, 2>::new(0.0, 0.5));
     }
 
     #[test]

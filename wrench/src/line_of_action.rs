@@ -7,6 +7,11 @@ use crate::{Frame, Real, Wrench};
 
 /// An oriented straight line: points `point + along · direction`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct Line<T: Real> {
     /// A point of the line \[m\]; numerically best if near the surface to be met.
     pub point: Vector3<T>,
@@ -30,6 +35,11 @@ impl<T: Real> Line<T> {
 /// Bicchi & Dario 1987):
 /// foot point `f × m / |f|²`, direction `f/|f|`, pitch `f·m / |f|²`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct LineOfAction<T: Real> {
     /// The line, oriented along the force on the fingertip; its `point` is the one closest to the
     /// origin of the frame.

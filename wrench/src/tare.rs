@@ -8,7 +8,8 @@ use crate::{Compensation, Real};
 /// The readings of the unloaded sensor, subtracted from every reading.
 ///
 /// Nothing in this library tares by itself: collect samples of the unloaded sensor with a
-/// [`TareAccumulator`] when *you* know that it is unloaded.
+/// [`RestTest`](crate::RestTest), or a bare [`TareAccumulator`], when *you* know that it is
+/// unloaded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -63,6 +64,12 @@ pub enum TareError {
         /// How many finite samples there were.
         samples: u32,
     },
+    /// Readings so large that their mean or spread cannot be represented.
+    #[error("the readings of gauge {gauge} are too large for the scalar type")]
+    OutOfRange {
+        /// Which gauge, counted from 0.
+        gauge: usize,
+    },
 }
 
 impl<T: Real, const N: usize> Default for TareAccumulator<T, N> {
@@ -91,26 +98,39 @@ impl<T: Real, const N: usize> TareAccumulator<T, N> {
         self.samples
     }
 
+    /// The mean of the readings so far; zero before the first.
+    #[must_use]
+    pub const fn mean(&self) -> &SVector<T, N> {
+        &self.mean
+    }
+
     /// Standard deviation of one reading of each gauge at rest.
     ///
     /// # Errors
-    /// [`TareError::TooFewSamples`].
+    /// [`TareError`].
     pub fn noise(&self) -> Result<SVector<T, N>, TareError> {
         if self.samples < 2 {
             return Err(TareError::TooFewSamples { samples: self.samples });
         }
         let degrees = T::literal(f64::from(self.samples - 1));
-        Ok(self.squares.map(|square| (square / degrees).root()))
+        in_range(self.squares.map(|square| (square / degrees).root()))
     }
 
     /// The tare: the mean of the readings.
     ///
     /// # Errors
-    /// [`TareError::TooFewSamples`].
+    /// [`TareError`].
     pub fn finish(&self) -> Result<Tare<T, N>, TareError> {
         if self.samples < 2 {
             return Err(TareError::TooFewSamples { samples: self.samples });
         }
-        Ok(Tare::new(self.mean))
+        in_range(self.mean).map(Tare::new)
+    }
+}
+
+fn in_range<T: Real, const N: usize>(values: SVector<T, N>) -> Result<SVector<T, N>, TareError> {
+    match values.iter().position(|x| !x.is_number()) {
+        Some(gauge) => Err(TareError::OutOfRange { gauge }),
+        None => Ok(values),
     }
 }
