@@ -8,6 +8,8 @@ mod active_surface;
 mod bad_shape;
 mod combinators;
 mod contact;
+#[cfg(feature = "alloc")]
+mod mesh;
 mod numeric;
 mod serde_parts;
 mod shapes;
@@ -20,5 +22,7 @@ pub use combinators::{Compound, HalfSpace, Offset, Posed, Region, Trimmed};
 pub use contact::{
     Contact, ContactBound, ContactModel, NoContact, PointContact, Resolution, WorstErrors,
 };
+#[cfg(feature = "alloc")]
+pub use mesh::{Mesh, MeshError};
 pub use shapes::*;
 pub use signed_distance::{Distance, SignedDistance};

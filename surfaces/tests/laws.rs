@@ -76,7 +76,7 @@ laws!(capped_elliptic_cylinder, around(0.0, 0.0, 0.0, 1.5).with_edges(), |k| {
 laws!(capsule, around(0.3, -0.2, 0.1, 1.5), |k| {
     Capsule::new(v(0.3, -0.2, 0.1) * k, v(1.0, 2.0, 3.0), k, k * l(0.5))
 });
-laws!(cone, around(0.3, -0.2, 0.1, 1.5).open().with_edges(), |k| {
+laws!(cone, around(0.5, 0.2, 0.7, 1.5).open().with_edges(), |k| {
     Cone::new(v(0.3, -0.2, 0.1) * k, v(1.0, 2.0, 3.0), l(0.6)).and_then(|c| c.with_depth(k))
 });
 laws!(frustum, around(0.3, -0.2, 0.1, 1.5).with_edges(), |k| {

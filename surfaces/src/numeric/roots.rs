@@ -109,6 +109,8 @@ pub(crate) fn all_of_lipschitz<T: Real>(
 ) {
     let half = T::literal(0.5);
     let finest = (high - low) * T::literal(0.5_f64.powi(20));
+    // What rounding may add to a value.
+    let noise = steepest * (high - low) * T::EPSILON * T::literal(64.0);
     let mut budget = 6000_usize;
     // Intervals still to be searched, the leftmost on top. Each is at most half of the one below.
     let mut stack = [(T::zero(), T::zero()); DEPTH + 2];
@@ -121,7 +123,7 @@ pub(crate) fn all_of_lipschitz<T: Real>(
         let reach = (b - a) * half;
         let (value, _) = f(middle);
         budget = budget.saturating_sub(1);
-        if !(value.abs() <= steepest * reach) {
+        if !(value.abs() <= steepest * reach + noise) {
             continue;
         }
         let ((at_a, slope_a), (at_b, slope_b)) = (f(a), f(b));
