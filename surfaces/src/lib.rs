@@ -6,8 +6,13 @@ extern crate alloc;
 
 mod active_surface;
 mod bad_shape;
+pub mod batch;
 mod combinators;
 mod contact;
+#[cfg(feature = "alloc")]
+mod dyn_surface;
+#[cfg(feature = "alloc")]
+mod heightfield;
 #[cfg(feature = "alloc")]
 mod mesh;
 mod numeric;
@@ -22,6 +27,10 @@ pub use combinators::{Compound, HalfSpace, Offset, Posed, Region, Trimmed};
 pub use contact::{
     Contact, ContactBound, ContactModel, NoContact, PointContact, Resolution, WorstErrors,
 };
+#[cfg(feature = "alloc")]
+pub use dyn_surface::{DynSurface, Parts};
+#[cfg(feature = "alloc")]
+pub use heightfield::Heightfield;
 #[cfg(feature = "alloc")]
 pub use mesh::{Mesh, MeshError};
 pub use shapes::*;

@@ -51,7 +51,7 @@ impl<T: Real> Sphere<T> {
     /// smaller than the force.
     #[must_use]
     pub fn contact_bound(&self, wrench: &Wrench<T>, errors: &WorstErrors<T>) -> Option<ContactBound<T>> {
-        let (zero, four) = (T::zero(), T::literal(4.0));
+        let zero = T::zero();
         let axis = wrench.line_of_action().ok()?;
         let radius = self.radius();
         let from_centre = axis.line.point - self.centre();
@@ -59,7 +59,7 @@ impl<T: Real> Sphere<T> {
         let offset = length(&foot);
         // In units of the force, so that no product leaves the range of the type. Rounding acts as
         // an error of the wrench of a few units in the last place.
-        let rounding = four * T::EPSILON;
+        let rounding = T::literal(16.0) * T::EPSILON;
         let arm = length(&self.centre());
         let force_error = errors.force / axis.force + rounding;
         let torque_error = errors.torque / axis.force

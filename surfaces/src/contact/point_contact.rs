@@ -242,11 +242,11 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
 }
 
 serde_parts!(PointContact {
-    least_force_n: T = |model: &PointContact<T>| model.least_force,
+    #[serde(rename = "least_force_N", default = "T::zero")] least_force: T = |model: &PointContact<T>| model.least_force,
     #[serde(default = "T::zero")] greatest_gap_m: T = |model: &PointContact<T>| model.greatest_gap,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     greatest_friction: Option<T> = |model: &PointContact<T>| model.greatest_friction,
-} => |parts| PointContact::new(parts.least_force_n)
+} => |parts| PointContact::new(parts.least_force)
     .and_then(|model| model.accepting_gap(parts.greatest_gap_m))
     .and_then(|model| match parts.greatest_friction {
         Some(friction) => model.with_greatest_friction(friction),

@@ -100,7 +100,7 @@ impl<T: Real> SignedDistance<T> for CappedCylinder<T> {
 serde_parts!(CappedCylinder {
     #[serde(default = "Vector3::zeros")]
     centre_m: Vector3<T> = |cylinder: &CappedCylinder<T>| cylinder.centre,
-    axis: Vector3<T> = |cylinder: &CappedCylinder<T>| cylinder.axis(),
+    #[serde(default = "Vector3::z")] axis: Vector3<T> = |cylinder: &CappedCylinder<T>| cylinder.axis(),
     radius_m: T = |cylinder: &CappedCylinder<T>| cylinder.radius(),
     half_length_m: T = |cylinder: &CappedCylinder<T>| cylinder.half_length,
 } => |parts| CappedCylinder::new(parts.centre_m, parts.axis, parts.radius_m, parts.half_length_m));

@@ -170,7 +170,7 @@ impl<T: Real> SignedDistance<T> for Capsule<T> {
 
 serde_parts!(Capsule {
     #[serde(default = "Vector3::zeros")] centre_m: Vector3<T> = |capsule: &Capsule<T>| capsule.axis.origin,
-    axis: Vector3<T> = |capsule: &Capsule<T>| capsule.axis.direction,
+    #[serde(default = "Vector3::z")] axis: Vector3<T> = |capsule: &Capsule<T>| capsule.axis.direction,
     half_length_m: T = |capsule: &Capsule<T>| capsule.half_length,
     radius_m: T = |capsule: &Capsule<T>| capsule.radius,
 } => |parts| Capsule::new(parts.centre_m, parts.axis, parts.half_length_m, parts.radius_m));

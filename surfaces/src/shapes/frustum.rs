@@ -241,7 +241,7 @@ impl<T: Real> SignedDistance<T> for Frustum<T> {
 serde_parts!(Frustum {
     #[serde(default = "Vector3::zeros")]
     base_centre_m: Vector3<T> = |frustum: &Frustum<T>| frustum.axis.origin,
-    axis: Vector3<T> = |frustum: &Frustum<T>| frustum.axis.direction,
+    #[serde(default = "Vector3::z")] axis: Vector3<T> = |frustum: &Frustum<T>| frustum.axis.direction,
     height_m: T = |frustum: &Frustum<T>| frustum.height,
     base_radius_m: T = |frustum: &Frustum<T>| frustum.base_radius,
     top_radius_m: T = |frustum: &Frustum<T>| frustum.top_radius,
