@@ -53,7 +53,11 @@ fn by_hand<T: Real>(f: &Vector3<T>, m: &Vector3<T>, radius: T) -> Option<(Vector
     Some((point, point / radius))
 }
 
-fn resolve_all<T: Real, S: ActiveSurface<T>>(model: &PointContact<T>, surface: &S, wrenches: &[Wrench<T>]) -> T {
+fn resolve_all<T: Real, S: ActiveSurface<T>>(
+    model: &PointContact<T>,
+    surface: &S,
+    wrenches: &[Wrench<T>],
+) -> T {
     let mut sum = T::zero();
     for wrench in wrenches {
         if let Resolution::Contact(contact) = model.resolve(wrench, surface) {
@@ -101,15 +105,21 @@ fn point_contact<T: Real>(c: &mut Criterion, scalar: &str) {
     shape!("torus", Torus::new(radius, l(0.004)));
     shape!("rounded box", RoundedBox::new(Vector3::new(l(0.013), l(0.013), l(0.013)), l(0.003)));
     shape!("superquadric", Superquadric::new(Vector3::new(l(0.013), l(0.011), l(0.017)), [l(0.5), l(0.7)]));
-    shape!("offset ellipsoid", Ellipsoid::new(Vector3::new(l(0.013), l(0.011), l(0.017)))
-        .and_then(|inner| Offset::new(inner, l(0.001))));
-    shape!("revolution of 5 points", Revolution::from_profile([
-        [l(-0.014), radius],
-        [l(-0.006), radius],
-        [l(0.004), l(0.012)],
-        [l(0.010), l(0.008)],
-        [l(0.014), l(0.0)],
-    ]));
+    shape!(
+        "offset ellipsoid",
+        Ellipsoid::new(Vector3::new(l(0.013), l(0.011), l(0.017)))
+            .and_then(|inner| Offset::new(inner, l(0.001)))
+    );
+    shape!(
+        "revolution of 5 points",
+        Revolution::from_profile([
+            [l(-0.014), radius],
+            [l(-0.006), radius],
+            [l(0.004), l(0.012)],
+            [l(0.010), l(0.008)],
+            [l(0.014), l(0.0)],
+        ])
+    );
     group.finish();
 }
 
@@ -269,7 +279,12 @@ fn against_parry(c: &mut Criterion) {
         }};
     }
     use parry3d::shape;
-    pair!("ball", Sphere::centred(1.0_f32).unwrap(), Sphere::centred(1.0_f64).unwrap(), shape::Ball::new(1.0));
+    pair!(
+        "ball",
+        Sphere::centred(1.0_f32).unwrap(),
+        Sphere::centred(1.0_f64).unwrap(),
+        shape::Ball::new(1.0)
+    );
     fn capsule<T: Real>() -> Capsule<T> {
         Capsule::new(Vector3::zeros(), Vector3::y(), T::literal(0.5), T::literal(0.75)).unwrap()
     }
@@ -279,7 +294,8 @@ fn against_parry(c: &mut Criterion) {
     }
     pair!("cylinder", cylinder::<f32>(), cylinder::<f64>(), shape::Cylinder::new(0.5, 0.75));
     fn cone<T: Real>() -> Frustum<T> {
-        Frustum::new(Vector3::y() * T::literal(-0.5), Vector3::y(), T::one(), T::literal(0.75), T::zero()).unwrap()
+        Frustum::new(Vector3::y() * T::literal(-0.5), Vector3::y(), T::one(), T::literal(0.75), T::zero())
+            .unwrap()
     }
     pair!("cone", cone::<f32>(), cone::<f64>(), shape::Cone::new(0.5, 0.75));
     let (vertices, triangles) = ball(50, 51);

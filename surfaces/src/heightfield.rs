@@ -40,7 +40,7 @@ impl<T: Real> Heightfield<T> {
         }
         let finite = corner.iter().chain(&heights).all(|x| x.is_number());
         BadShape::check(shape, "corner and heights", "finite", finite)?;
-        let full = columns >= 2 && heights.len() % columns == 0 && heights.len() / columns >= 2;
+        let full = columns >= 2 && heights.len().is_multiple_of(columns) && heights.len() / columns >= 2;
         BadShape::check(shape, "grid", "two full rows of two columns at least", full)?;
         let low = heights.iter().fold(T::GREATEST, |low, h| low.min(*h));
         let high = heights.iter().fold(-T::GREATEST, |high, h| high.max(*h));
@@ -149,9 +149,8 @@ impl<T: Real> ActiveSurface<T> for Heightfield<T> {
                 let t = (corner + step * T::literal(ahead as f64) - p) / u;
                 if t > from { t } else { end }
             };
-            let to = end
-                .min(border(start.x, direction.x, cx, dx, i))
-                .min(border(start.y, direction.y, cy, dy, j));
+            let to =
+                end.min(border(start.x, direction.x, cx, dx, i)).min(border(start.y, direction.y, cy, dy, j));
             let at_to = over(to);
             // Over the patch: z − (a + b·s + c·t + e·s·t), about the middle of the stretch.
             let m = (from + to) * half;
@@ -171,15 +170,20 @@ impl<T: Real> ActiveSurface<T> for Heightfield<T> {
             let within = |x: &T| *x > from && *x < to;
             let mut report = |x: T| {
                 let point = start + direction * x;
-                visit(Crossing { along: along + x, point, normal: self.upward(point.x, point.y), active: true });
+                visit(Crossing {
+                    along: along + x,
+                    point,
+                    normal: self.upward(point.x, point.y),
+                    active: true,
+                });
             };
             if (at_from < T::zero()) != (at_to < T::zero()) {
                 let root = found.and_then(|ends| {
                     ends.into_iter().find(within).or_else(|| {
                         let off = |x: &T| (*x - m).abs();
-                        ends.into_iter().filter(|x| x.is_number()).min_by(|x, y| {
-                            off(x).partial_cmp(&off(y)).unwrap_or(core::cmp::Ordering::Equal)
-                        })
+                        ends.into_iter()
+                            .filter(|x| x.is_number())
+                            .min_by(|x, y| off(x).partial_cmp(&off(y)).unwrap_or(core::cmp::Ordering::Equal))
                     })
                 });
                 report(root.unwrap_or(m).max(from).min(to));
@@ -238,7 +242,12 @@ impl<T: Real> ActiveSurface<T> for Heightfield<T> {
                 step *= T::literal(0.5);
             }
         }
-        ClosestApproach { gap: least.min(T::GREATEST), point: best, normal: self.upward(best.x, best.y), active: true }
+        ClosestApproach {
+            gap: least.min(T::GREATEST),
+            point: best,
+            normal: self.upward(best.x, best.y),
+            active: true,
+        }
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {

@@ -24,9 +24,7 @@ pub mod testing;
 pub use active_surface::{ActiveSurface, ClosestApproach, Crossing};
 pub use bad_shape::BadShape;
 pub use combinators::{Compound, HalfSpace, Offset, Posed, Region, Trimmed};
-pub use contact::{
-    Contact, ContactBound, ContactModel, NoContact, PointContact, Resolution, WorstErrors,
-};
+pub use contact::{Contact, ContactBound, ContactModel, NoContact, PointContact, Resolution, WorstErrors};
 #[cfg(feature = "alloc")]
 pub use dyn_surface::{DynSurface, Parts};
 #[cfg(feature = "alloc")]

@@ -58,7 +58,10 @@ fn agrees<T: Real, S: ActiveSurface<T> + BatchSurface<T>>(surface: &S, exact_mis
             Resolution::NoContact(NoContact::Misses { gap: expected, closest, .. }) => {
                 missed += 1;
                 if exact_misses && expected > T::literal(1e-3) {
-                    assert!((gap - expected).abs() <= T::EPSILON * T::literal(400.0), "{k}: {gap} {expected}");
+                    assert!(
+                        (gap - expected).abs() <= T::EPSILON * T::literal(400.0),
+                        "{k}: {gap} {expected}"
+                    );
                     near(&point, &closest, T::one());
                 }
             }

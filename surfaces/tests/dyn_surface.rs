@@ -17,9 +17,9 @@ const SHAPES: &[&str] = &[
     "shape = 'elliptic_cylinder'\nsemi_axes_m = [0.5, 0.4]\nends_m = { capped = 0.4 }",
     "shape = 'elliptic_cylinder'\nsemi_axes_m = [0.5, 0.4]\nends_m = 'unbounded'",
     "shape = 'capsule'\nhalf_length_m = 0.3\nradius_m = 0.2",
-    "shape = 'cone'\nhalf_angle_deg = 30.0\ndepth_m = 0.5",
+    "shape = 'cone'\nhalf_angle_deg = 60.0\ndepth_m = 0.5",
     "shape = 'frustum'\nheight_m = 0.5\nbase_radius_m = 0.4\ntop_radius_m = 0.2",
-    "shape = 'torus'\nring_radius_m = 0.4\ntube_radius_m = 0.1",
+    "shape = 'torus'\nring_radius_m = 0.3\ntube_radius_m = 0.2",
     "shape = 'superquadric'\nsemi_axes_m = [0.5, 0.4, 0.3]\nexponents = [0.3, 0.8]",
     "shape = 'rounded_box'\nhalf_extents_m = [0.5, 0.4, 0.3]\nrounding_m = 0.1",
     "shape = 'paraboloid'\nradii_m = [0.5, 0.4]",
@@ -64,10 +64,19 @@ fn nonsense_is_refused_with_a_reason() {
         ("shape = 'sphere'\nradius = 0.1", "unknown field `radius`"),
         ("shape = 'cube'\nradius_m = 0.1", "unknown variant `cube`"),
         ("shape = 'torus'\nring_radius_m = 0.1\ntube_radius_m = 0.2", "less than the ring radius"),
-        ("shape = 'superquadric'\nsemi_axes_m = [1.0, 1.0, 1.0]\nexponents = [3.0, 1.0]", "between 0.05 and 2"),
+        (
+            "shape = 'superquadric'\nsemi_axes_m = [1.0, 1.0, 1.0]\nexponents = [3.0, 1.0]",
+            "between 0.05 and 2",
+        ),
         ("shape = 'revolution'\nprofile_m = [[0.0, 0.3], [0.0, 0.2]]", "ascending in z"),
-        ("shape = 'heightfield'\ncorner_m = [0.0, 0.0]\nspacing_m = [1.0, 1.0]\ncolumns = 2\nheights_m = [0.0, 0.0, 0.0]", "two full rows"),
-        ("shape = 'mesh'\nvertices_m = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]\ntriangles = [[0, 1, 2]]", "3 open edges"),
+        (
+            "shape = 'heightfield'\ncorner_m = [0.0, 0.0]\nspacing_m = [1.0, 1.0]\ncolumns = 2\nheights_m = [0.0, 0.0, 0.0]",
+            "two full rows",
+        ),
+        (
+            "shape = 'mesh'\nvertices_m = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]\ntriangles = [[0, 1, 2]]",
+            "3 open edges",
+        ),
     ] {
         let error = toml::from_str::<DynSurface<f64>>(text).unwrap_err().to_string();
         assert!(error.contains(reason), "{text}: {error}");

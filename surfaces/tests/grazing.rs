@@ -52,8 +52,7 @@ fn bound_holds<T: Real>(trials: usize) -> Trials {
         // The measurement: the worst errors of those stated, in a random direction.
         let measured_force = force + direction(&mut random) * force_error;
         let measured_torque = torque + direction(&mut random) * torque_error;
-        let wrench =
-            Wrench::on_fingertip(measured_force.map(T::literal), measured_torque.map(T::literal));
+        let wrench = Wrench::on_fingertip(measured_force.map(T::literal), measured_torque.map(T::literal));
         let sphere = Sphere::new(centre.map(T::literal), T::literal(radius)).unwrap();
         // Giving it to the type rounds it: half a unit in the last place of each component.
         let rounding = T::EPSILON.to_f64();
@@ -139,9 +138,8 @@ fn bound_follows_its_laws() {
     let bound = sphere.contact_bound(&wrench, &errors).unwrap();
     assert!(!bound.grazing);
     // Scaling force and errors alike changes nothing.
-    let strong = sphere
-        .contact_bound(&(wrench * 1e100), &WorstErrors::of_wrench(0.01e100, 0.0001e100))
-        .unwrap();
+    let strong =
+        sphere.contact_bound(&(wrench * 1e100), &WorstErrors::of_wrench(0.01e100, 0.0001e100)).unwrap();
     assert!((strong.distance / bound.distance - 1.0).abs() < 1e-12);
     // The first-order bound is near it where the errors are small.
     let contact = *PointContact::new(0.0).unwrap().resolve(&wrench, &sphere).contact().unwrap();

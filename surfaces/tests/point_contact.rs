@@ -52,8 +52,7 @@ fn force_times_torque_tiny() {
     let point = v(0.0, 0.0, 0.013);
     for spin in [1e-300, 1e-30, 1e-12, -1e-12] {
         let force = v(0.3, 0.0, -1.0);
-        let wrench =
-            Wrench::on_fingertip(force, point.cross(&force) + force * spin);
+        let wrench = Wrench::on_fingertip(force, point.cross(&force) + force * spin);
         let found = model().resolve(&wrench, &tip());
         assert!((found.contact().unwrap().point - point).norm() < 1e-14, "{found:?}");
     }
@@ -242,9 +241,7 @@ fn friction_sets_candidates_aside() {
     let force = (a - b).normalize();
     let wrench = Wrench::from_force_at(&b, force);
     let mut ratios = Vec::new();
-    model()
-        .candidates(&wrench, &ring, |c| ratios.push(c.contact_force().friction_ratio().unwrap()))
-        .unwrap();
+    model().candidates(&wrench, &ring, |c| ratios.push(c.contact_force().friction_ratio().unwrap())).unwrap();
     assert_eq!(ratios.len(), 2, "{ratios:?}");
     ratios.sort_by(f64::total_cmp);
     let between = model().with_greatest_friction((ratios[0] + ratios[1]) / 2.0).unwrap();

@@ -76,8 +76,11 @@ fn any_shape<T: Real>(kind: u8, all: &[T]) {
         1 => on!(Disk::new(n.vector(), n.vector(), n.one())),
         2 => on!(Rectangle::new(n.vector(), n.vector(), n.vector())),
         3 => on!(Sphere::new(n.vector(), n.one())),
-        4 => on!(Sphere::new(n.vector(), n.one())
-            .and_then(|sphere| SphericalCap::with_opening(sphere, n.vector(), n.one()))),
+        4 => on!(Sphere::new(n.vector(), n.one()).and_then(|sphere| SphericalCap::with_opening(
+            sphere,
+            n.vector(),
+            n.one()
+        ))),
         5 => on!(Ellipsoid::new(n.vector())),
         6 => on!(Cylinder::new(n.vector(), n.vector(), n.one())
             .map(|cylinder| cylinder.with_half_length(n.one()).unwrap_or(cylinder))),
@@ -86,8 +89,10 @@ fn any_shape<T: Real>(kind: u8, all: &[T]) {
         9 => on!(EllipticCylinder::new(n.pair(), CylinderEnds::Open(n.one()))),
         10 => on!(EllipticCylinder::new(n.pair(), CylinderEnds::Capped(n.one()))),
         11 => on!(Capsule::new(n.vector(), n.vector(), n.one(), n.one())),
-        12 => on!(Cone::new(n.vector(), n.vector(), n.one())
-            .map(|cone| cone.with_depth(n.one()).unwrap_or(cone))),
+        12 => {
+            on!(Cone::new(n.vector(), n.vector(), n.one())
+                .map(|cone| cone.with_depth(n.one()).unwrap_or(cone)))
+        }
         13 => on!(Frustum::new(n.vector(), n.vector(), n.one(), n.one(), n.one())),
         14 => on!(Torus::new(n.one(), n.one())),
         15 => on!(Superquadric::new(n.vector(), n.pair())),
@@ -104,8 +109,13 @@ fn any_shape<T: Real>(kind: u8, all: &[T]) {
             .zip(Ellipsoid::new(n.vector()).ok())
             .map(|(pose, shape)| Posed::new(shape, pose))
             .ok_or(())),
-        22 => on!(Sphere::new(n.vector(), n.one())
-            .and_then(|a| Capsule::new(n.vector(), n.vector(), n.one(), n.one()).map(|b| Compound::new(a, b)))),
+        22 => on!(Sphere::new(n.vector(), n.one()).and_then(|a| Capsule::new(
+            n.vector(),
+            n.vector(),
+            n.one(),
+            n.one()
+        )
+        .map(|b| Compound::new(a, b)))),
         _ => on!(Torus::new(n.one(), n.one()).and_then(|torus| Offset::new(torus, n.one()))),
     }
 }

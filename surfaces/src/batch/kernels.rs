@@ -50,19 +50,26 @@ fn pick<T: Real>(condition: bool, yes: T, no: T) -> T {
 
 /// Runs a kernel over all wrenches.
 #[inline(always)]
-fn run<T: Real>(
-    wrenches: Wrenches<'_, T>,
-    contacts: Contacts<'_, T>,
-    kernel: impl Fn(Axis<T>) -> Answer<T>,
-) {
+fn run<T: Real>(wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>, kernel: impl Fn(Axis<T>) -> Answer<T>) {
     let [fx, fy, fz] = wrenches.force;
     let [tx, ty, tz] = wrenches.torque;
     let [px, py, pz] = contacts.point;
     let [nx, ny, nz] = contacts.normal;
     let gap = contacts.gap;
     let lengths = [
-        fx.len(), fy.len(), fz.len(), tx.len(), ty.len(), tz.len(),
-        px.len(), py.len(), pz.len(), nx.len(), ny.len(), nz.len(), gap.len(),
+        fx.len(),
+        fy.len(),
+        fz.len(),
+        tx.len(),
+        ty.len(),
+        tz.len(),
+        px.len(),
+        py.len(),
+        pz.len(),
+        nx.len(),
+        ny.len(),
+        nz.len(),
+        gap.len(),
     ];
     let n = lengths.into_iter().fold(usize::MAX, usize::min);
     // Slices of one known length let the compiler drop every bounds check from the loop.
@@ -84,7 +91,7 @@ fn run<T: Real>(
         let answer = kernel(Axis { point, direction: u });
         // Anything not finite on the way ends up here.
         let witness = answer.gap + dot(answer.point, answer.normal);
-        let good = witness - witness == T::zero();
+        let good = witness.abs() <= T::GREATEST;
         let keep = |x: T| pick(good, x, T::zero());
         [px[k], py[k], pz[k]] = answer.point.map(keep);
         [nx[k], ny[k], nz[k]] = answer.normal.map(keep);

@@ -70,11 +70,7 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let pose = &self.sensor_from_shape;
         self.surface.crossings(&self.line_in_shape(line), |c| {
-            visit(Crossing {
-                point: pose.transform_point(&c.point),
-                normal: pose.rotate(&c.normal),
-                ..c
-            });
+            visit(Crossing { point: pose.transform_point(&c.point), normal: pose.rotate(&c.normal), ..c });
         });
     }
 
@@ -131,10 +127,7 @@ mod files {
     }
 
     #[derive(Deserialize)]
-    #[serde(
-        deny_unknown_fields,
-        bound(deserialize = "T: Deserialize<'de>, S: Deserialize<'de>")
-    )]
+    #[serde(deny_unknown_fields, bound(deserialize = "T: Deserialize<'de>, S: Deserialize<'de>"))]
     struct Read<T: Real, S> {
         #[serde(default = "Vector3::zeros")]
         translation_m: Vector3<T>,
@@ -158,8 +151,8 @@ mod files {
     impl<'de, T: Real + Deserialize<'de>, S: Deserialize<'de>> Deserialize<'de> for Posed<T, S> {
         fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
             let Read { translation_m, rotation_deg, surface } = Read::<T, S>::deserialize(deserializer)?;
-            let pose =
-                RigidTransform::from_axis_angle(rotation_deg.map(from_degrees), translation_m).map_err(Error::custom)?;
+            let pose = RigidTransform::from_axis_angle(rotation_deg.map(from_degrees), translation_m)
+                .map_err(Error::custom)?;
             Ok(Self::new(surface, pose))
         }
     }

@@ -78,11 +78,18 @@ impl<T: Real> Sphere<T> {
         let slack = (radius + errors.radius) * force_error + errors.centre;
         let (along, across, cosine);
         if offset < radius {
-            let chord = half_chord(radius, offset);
-            let beyond = if shortest > slack { (chord - shortest).abs() } else { chord + longest.min(slack) };
-            along = (chord - longest).abs().max(beyond);
+            // Rounding leaves the computed contact somewhere between these.
+            let hair = rounding * (radius + length(&axis.line.point) + arm);
+            let least = half_chord(radius, (offset + hair).min(radius));
+            let most = half_chord(radius, (offset - hair).max(zero));
+            let beyond = if shortest > slack {
+                (most - shortest).max(shortest - least)
+            } else {
+                most + longest.min(slack)
+            };
+            along = (longest - least).max(most - longest).max(beyond);
             across = tube;
-            cosine = chord / radius;
+            cosine = half_chord(radius, offset) / radius;
         } else {
             along = longest;
             across = offset - radius + tube;

@@ -184,7 +184,8 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
             Err(reason) => return Resolution::NoContact(reason),
         };
         let direction = axis.line.direction;
-        let mut seen = Seen { best: None, candidates: 0, too_flat: None, tangent: None, pulling: None, outside: None };
+        let mut seen =
+            Seen { best: None, candidates: 0, too_flat: None, tangent: None, pulling: None, outside: None };
         surface.crossings(&axis.line, |crossing| {
             let incidence = -direction.dot(&crossing.normal);
             if !crossing.active {

@@ -151,8 +151,10 @@ impl<T: Real> Bvh<T> {
             }
             let left = split(range, depth < CAREFUL_DEPTH).clamp(1, count - 1);
             let (a, b) = range.split_at(left);
-            let children =
-                [bounds_of(a).node(index(first), index(left)), bounds_of(b).node(index(first + left), index(count - left))];
+            let children = [
+                bounds_of(a).node(index(first), index(left)),
+                bounds_of(b).node(index(first + left), index(count - left)),
+            ];
             let child = nodes.len();
             nodes.extend(children);
             if let Some(node) = nodes.get_mut(k) {
@@ -209,7 +211,11 @@ impl<T: Real> Bvh<T> {
 
     /// Calls `visit` for the triangles that may be nearer than the least distance that it has
     /// returned so far; `bound` is the distance from a ball around a box's centre.
-    pub(super) fn visit_nearest(&self, distance: impl Fn(&Vector3<T>) -> T, mut visit: impl FnMut(usize) -> T) {
+    pub(super) fn visit_nearest(
+        &self,
+        distance: impl Fn(&Vector3<T>) -> T,
+        mut visit: impl FnMut(usize) -> T,
+    ) {
         let bound = |node: &Node<T>| distance(&node.centre) - node.half.norm_squared().root();
         let mut least = T::GREATEST;
         let mut stack = [(0_u32, -T::GREATEST); STACK];
@@ -227,12 +233,14 @@ impl<T: Real> Bvh<T> {
                 }
                 continue;
             }
-            let children = [node.first, node.first + 1]
-                .map(|k| (k, self.node(k as usize).map_or(T::GREATEST, bound)));
+            let children =
+                [node.first, node.first + 1].map(|k| (k, self.node(k as usize).map_or(T::GREATEST, bound)));
             let [a, b] = children;
             // The nearer one on top.
             for child in if a.1 < b.1 { [b, a] } else { [a, b] } {
-                if child.1 <= least && let Some(slot) = stack.get_mut(depth) {
+                if child.1 <= least
+                    && let Some(slot) = stack.get_mut(depth)
+                {
                     *slot = child;
                     depth += 1;
                 }

@@ -116,6 +116,8 @@ impl<T: Real> Shear<T> {
         let (sx, sy) = (self.x.abs(), self.y.abs());
         // The third axis that can separate line and box; `z` cancels in it.
         let _ = z;
-        (x.abs() <= hx + sx * hz) & (y.abs() <= hy + sy * hz) & ((x * self.y - y * self.x).abs() <= hx * sy + hy * sx + hz * T::EPSILON)
+        (x.abs() <= hx + sx * hz)
+            & (y.abs() <= hy + sy * hz)
+            & ((x * self.y - y * self.x).abs() <= hx * sy + hy * sx + hz * T::EPSILON)
     }
 }

@@ -204,10 +204,7 @@ mod files {
     use super::Mesh;
 
     #[derive(Serialize, Deserialize)]
-    #[serde(
-        deny_unknown_fields,
-        bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>")
-    )]
+    #[serde(deny_unknown_fields, bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
     struct Parts<T: Real> {
         vertices_m: Vec<Vector3<T>>,
         triangles: Vec<[u32; 3]>,

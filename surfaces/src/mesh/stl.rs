@@ -59,10 +59,7 @@ fn read_text<T: Real>(bytes: &[u8], unit: T) -> Result<Vec<Vector3<T>>, MeshErro
 }
 
 /// Three numbers, the rest of a line's words.
-pub(super) fn three<'a, T: Real>(
-    words: &mut impl Iterator<Item = &'a str>,
-    unit: T,
-) -> Option<Vector3<T>> {
+pub(super) fn three<'a, T: Real>(words: &mut impl Iterator<Item = &'a str>, unit: T) -> Option<Vector3<T>> {
     let mut next = || words.next()?.parse().ok().map(|x: f64| T::literal(x) * unit);
     Some(Vector3::new(next()?, next()?, next()?))
 }

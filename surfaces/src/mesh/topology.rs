@@ -110,10 +110,7 @@ fn check_edges(triangles: &[[u32; 3]]) -> Result<(), MeshError> {
     if open + inconsistent > 0 { Err(MeshError::BadEdges { open, inconsistent }) } else { Ok(()) }
 }
 
-pub(super) fn check<T: Real>(
-    vertices: &[Vector3<T>],
-    triangles: &[[u32; 3]],
-) -> Result<Parts<T>, MeshError> {
+pub(super) fn check<T: Real>(vertices: &[Vector3<T>], triangles: &[[u32; 3]]) -> Result<Parts<T>, MeshError> {
     if let Some(vertex) = vertices.iter().position(|v| !is_finite(v)) {
         return Err(MeshError::NotFinite { vertex });
     }
@@ -149,8 +146,7 @@ pub(super) fn check<T: Real>(
     let scale = extent.normalising_factor();
     let vertices: Vec<Vector3<T>> = merged.iter().map(|v| (v - centre) * scale).collect();
     let at = |k: &u32| vertices.get(*k as usize).copied().unwrap_or_else(Vector3::zeros);
-    let six_volumes =
-        kept.iter().fold(T::zero(), |sum, [a, b, c]| sum + at(a).dot(&at(b).cross(&at(c))));
+    let six_volumes = kept.iter().fold(T::zero(), |sum, [a, b, c]| sum + at(a).dot(&at(b).cross(&at(c))));
     if !(six_volumes.abs() > T::EPSILON) {
         return Err(MeshError::NoVolume);
     }

@@ -198,7 +198,7 @@ mod tests {
         );
         assert_eq!(count, 6);
         for (k, root) in roots[..count].iter().enumerate() {
-            assert!((root - (k as f64 + 1.0) * std::f64::consts::PI).abs() < 1e-14);
+            assert!((root - (k as f64 + 1.0) * core::f64::consts::PI).abs() < 1e-14);
         }
         assert!(calls.get() < 3000, "{} evaluations", calls.get());
     }

@@ -70,7 +70,7 @@ pub(crate) fn from_degrees<T: Real>(degrees: T) -> T {
 /// `true` if no component is NaN or infinite.
 #[inline]
 pub(crate) fn is_finite<T: Real>(v: &Vector3<T>) -> bool {
-    (v.x - v.x + (v.y - v.y) + (v.z - v.z)).is_number()
+    v.x.is_number() & v.y.is_number() & v.z.is_number()
 }
 
 #[cfg(test)]

@@ -21,12 +21,7 @@ impl<T: Real> CappedCylinder<T> {
     /// # Errors
     /// [`BadShape`] unless the centre is finite, the axis has a direction, and radius and half
     /// length are positive finite lengths.
-    pub fn new(
-        centre: Vector3<T>,
-        axis: Vector3<T>,
-        radius: T,
-        half_length: T,
-    ) -> Result<Self, BadShape> {
+    pub fn new(centre: Vector3<T>, axis: Vector3<T>, radius: T, half_length: T) -> Result<Self, BadShape> {
         let shape = "capped cylinder";
         let axis = BadShape::check_direction(shape, "axis", axis)?;
         let half_length = BadShape::check_length(shape, "half length", half_length)?;

@@ -236,7 +236,14 @@ impl<T: Real> SurfaceLaws<T> {
         if !self.edges || turned < half_the_digits {
             self.expect(Law::NormalAgrees, line, turned, half_the_digits)?;
         }
-        self.expect_on_surface(Law::CrossingOnSurface, surface, line, &crossing.point, &crossing.normal, allowed)
+        self.expect_on_surface(
+            Law::CrossingOnSurface,
+            surface,
+            line,
+            &crossing.point,
+            &crossing.normal,
+            allowed,
+        )
     }
 
     /// The surface must be met within `allowed` of a point along a normal.
@@ -318,7 +325,8 @@ impl<T: Real> SurfaceLaws<T> {
         let incidence = crossings.least_incidence(line);
         let pose: RigidTransform<T> =
             RigidTransform::from_parts(random.rotation(), random.in_ball() * self.radius);
-        let moved = Line { point: pose.transform_point(&line.point), direction: pose.rotate(&line.direction) };
+        let moved =
+            Line { point: pose.transform_point(&line.point), direction: pose.rotate(&line.direction) };
         let there = Crossings::of(&Posed::new(surface, pose), &moved);
         let back = pose.inverse();
         let allowed = self.roundings * T::EPSILON * self.size() * T::literal(8.0) / incidence;
@@ -351,7 +359,12 @@ impl<T: Real> SurfaceLaws<T> {
             let before = found.iter().filter(|c| c.along < along).count();
             if surface.contains(&line.at(along)) != (before % 2 == 1) {
                 let found = T::literal(f64::from(k));
-                return Err(Violation { law: Law::AllCrossingsFound, line: *line, found, allowed: T::zero() });
+                return Err(Violation {
+                    law: Law::AllCrossingsFound,
+                    line: *line,
+                    found,
+                    allowed: T::zero(),
+                });
             }
         }
         Ok(())
@@ -412,7 +425,11 @@ impl<T: Real> SurfaceLaws<T> {
             let any = |random: &mut Random| {
                 let bits = random.bits();
                 // Every fourth within the common range, the others anywhere.
-                T::literal(if bits % 4 == 0 { random.symmetric() } else { f64::from_bits(random.bits()) })
+                T::literal(if bits.is_multiple_of(4) {
+                    random.symmetric()
+                } else {
+                    f64::from_bits(random.bits())
+                })
             };
             let point = Vector3::new(any(random), any(random), any(random));
             let direction = if k % 8 == 0 {

@@ -179,7 +179,8 @@ fn plane<T: Real>() -> impl FnMut(&mut Pcg64Mcg, f64) -> Case<Plane<T>> {
         let height = rounded::<T>(scale * 0.5);
         let (x, y) = (random.random_range(-1.0..1.0) * scale, random.random_range(-1.0..1.0) * scale);
         Case {
-            surface: Plane::new(Vector3::new(T::zero(), T::zero(), T::literal(height)), Vector3::z()).unwrap(),
+            surface: Plane::new(Vector3::new(T::zero(), T::zero(), T::literal(height)), Vector3::z())
+                .unwrap(),
             quadric: Quadric {
                 d: [Big::new(0.0), Big::new(0.0), Big::new(0.0)],
                 e: Big::new(1.0),

@@ -39,9 +39,8 @@ fn crossings_are_exact() {
         for crossing in found.iter().filter(|c| c.normal.dot(&line.direction).abs() > 0.05) {
             let value = |nudge: f64| {
                 let t = &Big::new(crossing.along) + &Big::new(nudge);
-                let point = [0, 1, 2].map(|k| {
-                    &Big::new(line.point[k]) + &(&t * &Big::new(line.direction[k]))
-                });
+                let point =
+                    [0, 1, 2].map(|k| &Big::new(line.point[k]) + &(&t * &Big::new(line.direction[k])));
                 excess(point, axes, exponents).is_positive()
             };
             assert_ne!(value(-1e-12), value(1e-12), "{axes:?} {exponents:?} {line:?} {crossing:?}");

@@ -82,7 +82,11 @@ fn none_is_missed(lines: usize) {
         if found.len() != expected {
             // Allowed only if a line a hair aside has the other count.
             let closest = found.iter().map(|c| c.normal.dot(&direction).abs()).fold(1.0_f64, f64::min);
-            let gap = if found.is_empty() { torus.closest_approach(&Line { point, direction }).gap } else { closest };
+            let gap = if found.is_empty() {
+                torus.closest_approach(&Line { point, direction }).gap
+            } else {
+                closest
+            };
             assert!(gap < 1e-6, "{expected} expected, {found:?}");
             grazing += 1;
             continue;
