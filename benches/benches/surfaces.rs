@@ -2,8 +2,9 @@
 //! the same lines, with the errors of both side by side (printed before the measurements).
 //!
 //! `cargo bench -p fingertip-benches --bench surfaces`
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use std::hint::black_box;
+use core::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fingertip::surfaces::batch::{BatchSurface, Contacts, Wrenches};
@@ -126,11 +127,11 @@ fn point_contact<T: Real>(c: &mut Criterion, scalar: &str) {
 fn batch<T: Real>(c: &mut Criterion, scalar: &str) {
     let all = wrenches::<T>(0.013);
     let column = |k: usize| -> Vec<T> { all.iter().map(|w| w.components()[k]).collect() };
-    let columns: [Vec<T>; 6] = std::array::from_fn(column);
+    let columns: [Vec<T>; 6] = core::array::from_fn(column);
     let mut group = c.benchmark_group(format!("batch {scalar}"));
     group.throughput(Throughput::Elements(COUNT as u64));
     let [fx, fy, fz, tx, ty, tz] = columns.each_ref().map(|column| &column[..]);
-    let mut out: [Vec<T>; 7] = std::array::from_fn(|_| vec![T::zero(); COUNT]);
+    let mut out: [Vec<T>; 7] = core::array::from_fn(|_| vec![T::zero(); COUNT]);
     let l = T::literal;
     macro_rules! shape {
         ($name:literal, $shape:expr) => {
@@ -158,9 +159,9 @@ fn batch<T: Real>(c: &mut Criterion, scalar: &str) {
 fn ball(rings: u32, sectors: u32) -> (Vec<Vector3<f32>>, Vec<[u32; 3]>) {
     let mut vertices = vec![Vector3::z()];
     for i in 1..rings {
-        let (sin, cos) = (std::f32::consts::PI * i as f32 / rings as f32).sin_cos();
+        let (sin, cos) = (core::f32::consts::PI * i as f32 / rings as f32).sin_cos();
         for j in 0..sectors {
-            let (s, c) = (std::f32::consts::TAU * j as f32 / sectors as f32).sin_cos();
+            let (s, c) = (core::f32::consts::TAU * j as f32 / sectors as f32).sin_cos();
             vertices.push(Vector3::new(sin * c, sin * s, cos));
         }
     }
@@ -319,8 +320,8 @@ fn all(c: &mut Criterion) {
 criterion_group! {
     name = benches;
     config = Criterion::default()
-        .warm_up_time(std::time::Duration::from_millis(300))
-        .measurement_time(std::time::Duration::from_secs(1))
+        .warm_up_time(core::time::Duration::from_millis(300))
+        .measurement_time(core::time::Duration::from_secs(1))
         .sample_size(30);
     targets = all
 }

@@ -1,4 +1,5 @@
 //! Files: every shape comes back as it was written, and nonsense does not come back at all.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 #![cfg(feature = "serde")]
 
 use fingertip_surfaces::*;

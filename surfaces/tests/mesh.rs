@@ -1,4 +1,5 @@
 //! Meshes: watertight, refused when open, read from files.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use fingertip_surfaces::testing::SurfaceLaws;
 use fingertip_surfaces::*;

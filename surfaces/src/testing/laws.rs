@@ -187,7 +187,7 @@ impl<T: Real> SurfaceLaws<T> {
     ) -> Result<(), Violation<T>> {
         let Some(original) = make(T::one()) else { return Ok(()) };
         for power in [-12, -4, 3, 7, 15] {
-            let factor = T::literal(2.0_f64.powi(power));
+            let factor = T::literal(2.0).powi(power);
             let Some(scaled) = make(factor) else { continue };
             let mut random = Random::new(self.seed);
             for _ in 0..self.lines / 4 {

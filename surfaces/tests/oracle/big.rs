@@ -1,6 +1,6 @@
 //! A number of 220 bits, by `dashu-float`: none of our own arithmetic.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
