@@ -1,0 +1,7 @@
+//! Contacts and crossings against 220-bit arithmetic.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod big;
+mod quadrics;
+mod superquadric;
+mod torus;
