@@ -76,7 +76,9 @@ impl<T: Real, F: Frame> Wrench<T, F> {
     #[inline]
     pub fn line_of_action(&self) -> Result<LineOfAction<T>, NoLineOfAction> {
         let (force, torque) = (self.force(), self.torque());
-        let scale = force.amax().normalising_factor();
+        let larger = |a: T, b: T| if a > b { a } else { b };
+        let largest = larger(larger(force.x.abs(), force.y.abs()), force.z.abs());
+        let scale = largest.normalising_factor();
         let f = force * scale;
         let m = torque * scale;
         let squared = f.norm_squared();
@@ -91,7 +93,8 @@ impl<T: Real, F: Frame> Wrench<T, F> {
             Ok(LineOfAction {
                 line: Line { point: foot, direction: f * (magnitude * inverse_squared) },
                 pitch,
-                force: magnitude / scale,
+                // The factor of a power of two is its reciprocal.
+                force: magnitude * scale.normalising_factor(),
             })
         } else {
             Err(self.why_no_line())

@@ -3,8 +3,6 @@
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
-use crate::numeric::quadratic::two_product;
-
 /// The frame in which the line is the third axis: a shear of space (Woop, Benthin & Wald,
 /// "Watertight Ray/Triangle Intersection", 2013).
 ///
@@ -41,7 +39,7 @@ fn is_left<T: Real>(a: [T; 2], b: [T; 2]) -> (T, Option<bool>) {
     if rounded != T::zero() {
         return (rounded, Some(rounded > T::zero()));
     }
-    let ((p, p_error), (q, q_error)) = (two_product(ax, by), two_product(ay, bx));
+    let ((p, p_error), (q, q_error)) = (ax.two_product(by), ay.two_product(bx));
     let exact = (p - q) + (p_error - q_error);
     let side = if exact != T::zero() {
         Some(exact > T::zero())

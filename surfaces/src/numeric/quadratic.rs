@@ -2,31 +2,12 @@
 
 use fingertip_wrench::Real;
 
-/// `a·b` as the rounded product and its exact error (Dekker 1971), without a fused
-/// multiply-add, which is a slow routine on microcontrollers.
-///
-/// Exact where nothing over- or underflows.
-#[inline]
-pub(crate) fn two_product<T: Real>(a: T, b: T) -> (T, T) {
-    #[inline]
-    fn split<T: Real>(x: T) -> (T, T) {
-        // 2^⌈p/2⌉ + 1 for a type with p bits.
-        let factor = T::literal(if T::EPSILON < T::literal(1e-10) { 134_217_729.0 } else { 4097.0 });
-        let y = factor * x;
-        let high = y - (y - x);
-        (high, x - high)
-    }
-    let product = a * b;
-    let ((a1, a0), (b1, b0)) = (split(a), split(b));
-    (product, ((a1 * b1 - product) + a1 * b0 + a0 * b1) + a0 * b0)
-}
-
 /// `a·d − b·c` to two rounding errors, however much cancels (Kahan's algorithm; Jeannerod, Louvet &
 /// Muller 2013).
 #[inline]
 pub(crate) fn difference_of_products<T: Real>(a: T, d: T, b: T, c: T) -> T {
-    let (p, p_error) = two_product(a, d);
-    let (q, q_error) = two_product(b, c);
+    let (p, p_error) = a.two_product(d);
+    let (q, q_error) = b.two_product(c);
     (p - q) + (p_error - q_error)
 }
 
