@@ -59,6 +59,17 @@ pub trait ActiveSurface<T: Real> {
     /// The outward unit normal at a point of the surface.
     fn normal(&self, point: &Vector3<T>) -> Vector3<T>;
 
+    /// Where the line enters, for shapes that no line enters twice: a shortcut past
+    /// [`crossings`](Self::crossings) that point contact takes first.
+    ///
+    /// `None`, as the default answers, says nothing; an answer shall be the same as the one crossing
+    /// with a normal against the line's direction.
+    #[inline]
+    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
+        let _ = line;
+        None
+    }
+
     /// `true` if the point is inside the fingertip.
     ///
     /// The default looks along a fixed line at the crossing nearest to the point: the normal there
@@ -89,6 +100,11 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for &S {
     #[inline]
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         (**self).normal(point)
+    }
+
+    #[inline]
+    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
+        (**self).sole_entry(line)
     }
 
     #[inline]

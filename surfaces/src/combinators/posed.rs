@@ -74,6 +74,16 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
         });
     }
 
+    #[inline]
+    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
+        let pose = &self.sensor_from_shape;
+        self.surface.sole_entry(&self.line_in_shape(line)).map(|c| Crossing {
+            point: pose.transform_point(&c.point),
+            normal: pose.rotate(&c.normal),
+            ..c
+        })
+    }
+
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let found = self.surface.closest_approach(&self.line_in_shape(line));
         let pose = &self.sensor_from_shape;

@@ -105,6 +105,12 @@ impl<T: Real, S: ActiveSurface<T>, R: Region<T>> ActiveSurface<T> for Trimmed<S,
         });
     }
 
+    #[inline]
+    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
+        let active = |c: &Crossing<T>| c.active && self.region.includes(&c.point);
+        self.surface.sole_entry(line).map(|c| Crossing { active: active(&c), ..c })
+    }
+
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let found = self.surface.closest_approach(line);
         ClosestApproach { active: found.active && self.region.includes(&found.point), ..found }

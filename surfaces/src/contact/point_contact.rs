@@ -86,8 +86,11 @@ impl<T: Real> PointContact<T> {
     /// The line of action, if the force is one.
     #[inline]
     fn axis(&self, wrench: &Wrench<T>) -> Result<LineOfAction<T>, NoContact<T>> {
+        let scale = wrench.force().amax().normalising_factor();
+        let (scaled, least) = (wrench.force() * scale, self.least_force * scale);
         match wrench.line_of_action() {
-            Ok(axis) if axis.force >= self.least_force => Ok(axis),
+            // Squared, and scaled as the line of action is: no division on the way to a contact.
+            Ok(axis) if scaled.norm_squared() >= least * least => Ok(axis),
             Ok(axis) => Err(NoContact::BelowThreshold { force: axis.force }),
             Err(NoLineOfAction::NoForce) => Err(NoContact::BelowThreshold { force: T::zero() }),
             Err(_) => Err(NoContact::NotFinite),
@@ -183,6 +186,26 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
             Ok(axis) => axis,
             Err(reason) => return Resolution::NoContact(reason),
         };
+        let direction = axis.line.direction;
+        if let Some(entry) = surface.sole_entry(&axis.line) {
+            let incidence = -direction.dot(&entry.normal);
+            if entry.active && incidence > T::zero() && incidence >= self.least_incidence {
+                return Resolution::Contact(contact_at(wrench, entry.point, entry.normal, incidence));
+            }
+        }
+        self.choose(wrench, surface, &axis, last)
+    }
+}
+
+impl<T: Real> PointContact<T> {
+    /// Of all crossings, the contact, or the reason why there is none.
+    fn choose<S: ActiveSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        axis: &LineOfAction<T>,
+        last: Option<&Vector3<T>>,
+    ) -> Resolution<T> {
         let direction = axis.line.direction;
         let mut seen =
             Seen { best: None, candidates: 0, too_flat: None, tangent: None, pulling: None, outside: None };

@@ -50,13 +50,14 @@ impl<T: Real> Mesh<T> {
         let (bvh, order) = Bvh::build(&parts.vertices, &parts.triangles);
         let triangles: Vec<[u32; 3]> =
             order.iter().filter_map(|k| parts.triangles.get(*k as usize).copied()).collect();
-        let normals = triangles.iter().map(|triangle| normal_of(&parts.vertices, triangle)).collect();
-        let radius = parts.vertices.iter().fold(T::zero(), |r, v| r.max(v.norm_squared())).root();
+        let (vertices, triangles) = in_order_of_use(&parts.vertices, &triangles);
+        let normals = triangles.iter().map(|triangle| normal_of(&vertices, triangle)).collect();
+        let radius = vertices.iter().fold(T::zero(), |r, v| r.max(v.norm_squared())).root();
         Ok(Self {
             centre: parts.centre,
             scale: parts.scale,
             radius: radius * T::literal(1.0001),
-            vertices: parts.vertices,
+            vertices,
             triangles,
             normals,
             bvh,
@@ -134,6 +135,29 @@ impl<T: Real> Mesh<T> {
     fn normal_of(&self, triangle: usize) -> Vector3<T> {
         self.normals.get(triangle).copied().unwrap_or_else(Vector3::z)
     }
+}
+
+/// The same triangles, their vertices numbered as the triangles need them: neighbours in space
+/// become neighbours in memory. Vertices that no triangle needs are dropped.
+fn in_order_of_use<T: Real>(
+    vertices: &[Vector3<T>],
+    triangles: &[[u32; 3]],
+) -> (Vec<Vector3<T>>, Vec<[u32; 3]>) {
+    let mut renamed: Vec<Option<u32>> = alloc::vec![None; vertices.len()];
+    let mut used = Vec::with_capacity(vertices.len());
+    let mut next = 0;
+    let mut rename = |old: u32| {
+        let (Some(name), Some(vertex)) = (renamed.get_mut(old as usize), vertices.get(old as usize)) else {
+            return old;
+        };
+        *name.get_or_insert_with(|| {
+            used.push(*vertex);
+            next += 1;
+            next - 1
+        })
+    };
+    let triangles = triangles.iter().map(|triangle| triangle.map(&mut rename)).collect();
+    (used, triangles)
 }
 
 /// Unit normal of a triangle; across its longest edge if it has no area.

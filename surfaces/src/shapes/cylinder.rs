@@ -127,6 +127,16 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
         }
     }
 
+    #[inline]
+    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
+        let (along, foot, across, squared) = self.foot(line)?;
+        let remainder = T::one() - foot.norm_squared();
+        (remainder >= T::zero()).then(|| {
+            let half_chord = (remainder / squared).root();
+            self.crossing(line, along - half_chord * self.radius, foot - across * half_chord)
+        })
+    }
+
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let (along, foot) = self.foot(line).map_or_else(
             || {

@@ -16,6 +16,17 @@ pub struct Ellipsoid<T: Real> {
     curvatures: Vector3<T>,
 }
 
+/// The part of a line within the ellipsoid, scaled to the unit sphere.
+struct Chord<T: Real> {
+    /// Its middle.
+    foot: Vector3<T>,
+    /// Scaled direction, not of unit length.
+    direction: Vector3<T>,
+    /// Where the middle is along the line, and half the length \[m\].
+    along: T,
+    half: T,
+}
+
 impl<T: Real> Ellipsoid<T> {
     /// From the three semi-axes \[m\].
     ///
@@ -41,6 +52,30 @@ impl<T: Real> Ellipsoid<T> {
         self.semi_axes
     }
 
+    #[inline]
+    fn chord(&self, line: &Line<T>) -> Option<Chord<T>> {
+        let point = line.point.component_mul(&self.curvatures);
+        let direction = line.direction.component_mul(&self.curvatures);
+        let inverse = T::one() / direction.norm_squared();
+        let along = -point.dot(&direction) * inverse;
+        let foot = point + direction * along;
+        let squared = T::one() - foot.norm_squared();
+        (squared >= T::zero()).then(|| Chord { foot, direction, along, half: (squared * inverse).root() })
+    }
+
+    #[inline]
+    fn end(&self, chord: &Chord<T>, offset: T) -> Crossing<T> {
+        let scaled = chord.foot + chord.direction * offset;
+        let gradient = scaled.component_mul(&self.curvatures);
+        let steepness = gradient.norm_squared().root();
+        Crossing {
+            along: chord.along + offset,
+            point: scaled.component_mul(&self.semi_axes),
+            normal: gradient / steepness,
+            active: true,
+        }
+    }
+
     /// From a point scaled to the unit sphere.
     #[inline]
     fn normal_at(&self, scaled: &Vector3<T>) -> Vector3<T> {
@@ -53,26 +88,15 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
     /// & Brock 1993 for the case without local torque; theory 3.2).
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
-        let point = line.point.component_mul(&self.curvatures);
-        let direction = line.direction.component_mul(&self.curvatures);
-        let inverse = T::one() / direction.norm_squared();
-        let along = -point.dot(&direction) * inverse;
-        let foot = point + direction * along;
-        let squared = T::one() - foot.norm_squared();
-        if squared >= T::zero() {
-            let half_chord = (squared * inverse).root();
-            for offset in [-half_chord, half_chord] {
-                let scaled = foot + direction * offset;
-                let gradient = scaled.component_mul(&self.curvatures);
-                let steepness = gradient.norm_squared().root();
-                visit(Crossing {
-                    along: along + offset,
-                    point: scaled.component_mul(&self.semi_axes),
-                    normal: gradient / steepness,
-                    active: true,
-                });
-            }
+        if let Some(chord) = self.chord(line) {
+            visit(self.end(&chord, -chord.half));
+            visit(self.end(&chord, chord.half));
         }
+    }
+
+    #[inline]
+    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
+        self.chord(line).map(|chord| self.end(&chord, -chord.half))
     }
 
     /// In the shadow along the line, the ellipsoid is an ellipse, the line a point (theory 10.4).

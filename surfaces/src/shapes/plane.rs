@@ -60,6 +60,15 @@ impl<T: Real> ActiveSurface<T> for Plane<T> {
         }
     }
 
+    #[inline]
+    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
+        let mut found = None;
+        if line.direction.dot(&self.normal) < T::zero() {
+            self.crossings(line, |crossing| found = Some(crossing));
+        }
+        found
+    }
+
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let height = self.height(&line.point);
         let below = line.point - self.normal * height;

@@ -79,6 +79,22 @@ impl<T: Real> ActiveSurface<T> for Sphere<T> {
         }
     }
 
+    #[inline]
+    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
+        let (foot, along) = self.foot(line);
+        let squared = T::one() - foot.norm_squared();
+        (squared >= T::zero()).then(|| {
+            let half_chord = squared.root();
+            let normal = foot - line.direction * half_chord;
+            Crossing {
+                along: along - half_chord * self.radius,
+                point: self.centre + normal * self.radius,
+                normal,
+                active: true,
+            }
+        })
+    }
+
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let (foot, _) = self.foot(line);
         // A line through the centre is asked about only by mistake: any point of the circle

@@ -89,6 +89,11 @@ impl<T: Real> ActiveSurface<T> for SphericalCap<T> {
         self.sphere.crossings(line, |c| visit(Crossing { active: self.is_active(&c.normal), ..c }));
     }
 
+    #[inline]
+    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
+        self.sphere.sole_entry(line).map(|c| Crossing { active: self.is_active(&c.normal), ..c })
+    }
+
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let approach = self.sphere.closest_approach(line);
         ClosestApproach { active: self.is_active(&approach.normal), ..approach }

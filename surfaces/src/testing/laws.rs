@@ -17,6 +17,8 @@ pub enum Law {
     CrossingOnLine,
     /// A crossing lies on the surface: a line through it along its normal meets the surface there.
     CrossingOnSurface,
+    /// `sole_entry`, if it answers, is the crossing at which the line enters.
+    SoleEntry,
     /// Normals have length 1.
     UnitNormal,
     /// `normal` agrees with the normals of crossings.
@@ -138,6 +140,12 @@ impl<T: Real> SurfaceLaws<T> {
         for _ in 0..self.lines {
             let line = random.line(&self.centre, self.radius);
             let crossings = Crossings::of(surface, &line);
+            if let Some(entry) = surface.sole_entry(&line) {
+                let entering = |c: &&Crossing<T>| c.normal.dot(&line.direction) <= T::EPSILON;
+                let mut entries = crossings.as_slice().iter().filter(entering);
+                let same = entries.any(|c| *c == entry);
+                self.expect(Law::SoleEntry, &line, if same { T::zero() } else { T::one() }, T::zero())?;
+            }
             for crossing in crossings.as_slice() {
                 self.check_crossing(surface, &line, crossing)?;
                 if let Some(place) = samples.get_mut(known % 256) {

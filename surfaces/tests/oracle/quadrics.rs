@@ -83,12 +83,15 @@ fn worst<T: Real, S: ActiveSurface<T>>(
         let (p, u) = line_of_action(as_f64(wrench.force()), as_f64(wrench.torque()));
         let Some(expected) = case.quadric.entry(&p, &u) else { continue };
         let found = model.resolve(&wrench, &case.surface);
-        let Some(contact) = found.contact() else { panic!("{wrench:?}: {found:?}") };
-        if contact.incidence.to_f64() < 0.05 {
-            continue;
-        }
+        // On the sharp rim of a pancake, rounding alone can push a line past the surface.
+        let point = match found {
+            Resolution::Contact(contact) if contact.incidence.to_f64() < 0.05 => continue,
+            Resolution::Contact(contact) => contact.point,
+            Resolution::NoContact(NoContact::Misses { closest, .. }) => closest,
+            Resolution::NoContact(reason) => panic!("{wrench:?}: {reason:?}"),
+        };
         met += 1;
-        let found = big3(as_f64(contact.point));
+        let found = big3(as_f64(point));
         let error: f64 = (0..3).map(|k| (&found[k] - &expected[k]).to_f64().powi(2)).sum::<f64>().sqrt();
         worst = worst.max(error / case.size);
     }
@@ -202,7 +205,10 @@ macro_rules! accurate {
                 let (double, single) = (worst(trials, 1, $shape), worst(trials, 2, $shape32));
                 println!("{}: f64 {double:.2e}, f32 {single:.2e}", stringify!($name));
                 assert!(double <= 1e-14, "f64: {double:e}");
-                assert!(single <= 1e-6, "f32: {single:e}");
+                // The rarest cases reach 20 rounding units: the line of action's own rounding, 1/cos φ = 20
+                // times over.
+                let allowed = if trials > 10_000 { 3e-6 } else { 1e-6 };
+                assert!(single <= allowed, "f32: {single:e}");
             }
 
             #[test]
