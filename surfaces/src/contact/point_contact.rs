@@ -86,11 +86,8 @@ impl<T: Real> PointContact<T> {
     /// The line of action, if the force is one.
     #[inline]
     fn axis(&self, wrench: &Wrench<T>) -> Result<LineOfAction<T>, NoContact<T>> {
-        let scale = wrench.force().amax().normalising_factor();
-        let (scaled, least) = (wrench.force() * scale, self.least_force * scale);
         match wrench.line_of_action() {
-            // Squared, and scaled as the line of action is: no division on the way to a contact.
-            Ok(axis) if scaled.norm_squared() >= least * least => Ok(axis),
+            Ok(axis) if axis.force >= self.least_force => Ok(axis),
             Ok(axis) => Err(NoContact::BelowThreshold { force: axis.force }),
             Err(NoLineOfAction::NoForce) => Err(NoContact::BelowThreshold { force: T::zero() }),
             Err(_) => Err(NoContact::NotFinite),

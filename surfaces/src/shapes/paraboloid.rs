@@ -105,7 +105,9 @@ impl<T: Real> ActiveSurface<T> for Paraboloid<T> {
             let (x, y) = (normal.x / normal.z * ra, normal.y / normal.z * rb);
             let height = (normal.x * x + normal.y * y) * T::literal(0.5);
             let z = -(x * x / ra + y * y / rb) * T::literal(0.5);
-            (height, Vector3::new(x, y, z))
+            // Where the slope is so steep that the point lies beyond the range, as if it were vertical.
+            let far = !(x + y + z).is_number() || !height.is_number();
+            if far { (T::GREATEST, Vector3::zeros()) } else { (height, Vector3::new(x, y, z)) }
         });
         ClosestApproach { active: self.is_active(approach.point.z), ..approach }
     }
