@@ -151,7 +151,7 @@ fn stays_quiet_in_long_holds() {
 #[test]
 fn steps_of_the_normal_force_do_not_alarm() {
     // Held: the tangential force stays while the normal force doubles or halves every 100 ms.
-    let grip = |t: f64| if (t * 10.0) as u64 % 2 == 0 { 3.0 } else { 6.0 };
+    let grip = |t: f64| if ((t * 10.0) as u64).is_multiple_of(2) { 3.0 } else { 6.0 };
     let held = alarms::<f64>(120_000, |_| 1e-3, noisy_script(6, |t| (grip(t), 1.0)), 0.02);
     // Sliding: the tangential force follows the normal force at once.
     let sliding = alarms::<f64>(120_000, |_| 1e-3, noisy_script(7, |t| (grip(t), 0.5 * grip(t))), 0.02);

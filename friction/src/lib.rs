@@ -1,19 +1,36 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![doc = include_str!("../README.md")]
 
+mod anisotropic;
+mod cone;
 mod coulomb;
 mod cusum;
 mod drop_detector;
 mod gate;
+#[cfg(feature = "std")]
+mod limit_curve;
+mod load_dependent;
 mod model;
+mod pressure;
 mod ratio_tracker;
 mod slip_detector;
+mod soft_finger;
+#[cfg(feature = "testing")]
+pub mod testing;
 mod threshold;
+mod uncertain;
 
+pub use anisotropic::AnisotropicCoulomb;
 pub use coulomb::{BadFriction, Coulomb};
 pub use cusum::{BadDetector, Cusum};
 pub use drop_detector::DropDetector;
 pub use gate::{BadNoise, ForceNoise, NormalForceGate};
-pub use model::{FrictionModel, SlipMargin};
+#[cfg(feature = "std")]
+pub use limit_curve::{LimitCurve, LimitPoint};
+pub use load_dependent::LoadDependentLimit;
+pub use model::{FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
+pub use pressure::PressureDistribution;
 pub use slip_detector::{SlipDetector, SlipVerdict};
+pub use soft_finger::{PowerLimit, SoftFingerLimit};
 pub use threshold::RatioThreshold;
+pub use uncertain::UncertainCoulomb;
