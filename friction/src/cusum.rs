@@ -8,7 +8,7 @@ use thiserror::Error;
 ///
 /// The inputs are standardised: zero mean and unit variance as long as nothing happens. The
 /// allowance `k` is half the smallest change of the mean worth finding; the threshold `h` sets the
-/// rate of false alarms (`fingertip_friction::run_length`, theory 7.2).
+/// rate of false alarms ([`for_false_alarms`](Self::for_false_alarms), theory 7.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cusum<T> {
@@ -41,6 +41,23 @@ impl<T: Real> Cusum<T> {
             return Err(BadDetector { parameter: "threshold", requirement: "positive and finite" });
         }
         Ok(Self { allowance, threshold, sum: T::zero() })
+    }
+
+    /// With the threshold for a wanted rate of false alarms, were the samples independent
+    /// (`run_length::cusum_threshold`: exact to 0.5 %, from a table, so that it needs no standard
+    /// library).
+    ///
+    /// # Errors
+    /// [`BadDetector`] unless the allowance is from 0.125 to 1.5 and the rates positive, finite and
+    /// not too wild for it.
+    pub fn for_false_alarms(
+        allowance: T,
+        false_alarms_per_minute: f64,
+        sample_rate: f64,
+    ) -> Result<Self, BadDetector> {
+        let length = crate::run_length::run_length_for(false_alarms_per_minute, sample_rate);
+        let threshold = crate::run_length::cusum_threshold(allowance.to_f64(), length)?;
+        Self::new(allowance, T::literal(threshold))
     }
 
     /// Allowance 0.75, threshold 7.
