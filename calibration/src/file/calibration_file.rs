@@ -1,0 +1,297 @@
+//! The calibration of one sensor, as it is written to a file.
+
+use fingertip_wrench::{Real, SensorMatrix, Tare};
+use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector6};
+use serde::{Deserialize, Serialize};
+
+use super::{FileError, rows};
+use crate::Axis;
+
+/// Everything that is known of a calibrated sensor: what turns its readings into a wrench, how
+/// good that is, and where it comes from.
+///
+/// Signals are readings minus [`zero`](Self::zero) (and minus the drift of
+/// [`temperature`](Self::temperature)), in [`signal_unit`](Self::signal_unit). The model is
+/// `signals = matrix · (load / nominal)`: **the matrix is normalised**, an entry is the signal of
+/// gauge `row` under the nominal load of axis `column`, just as in [`SensorMatrix`] (equations
+/// (10), (11) of Bicchi & Dario 1987). Loads are in N and N·m, about the origin of the sensor
+/// frame, and are what the environment applies **to** the fingertip.
+///
+/// # The file
+/// TOML, all fields below by these names, then `version = 1` and `checksum`. The checksum is taken
+/// over the values (see [`read`](Self::read)), so comments and layout may be changed by hand.
+///
+/// ```
+/// use fingertip_calibration::file::{CalibrationFile, SignalUnit};
+/// use fingertip_calibration::nalgebra::DMatrix;
+///
+/// let file = CalibrationFile::new(
+///     DMatrix::from_diagonal_element(6, 6, 2.0), // 2 V under each nominal load
+///     vec![10.0, 10.0, 10.0, 0.1, 0.1, 0.1],
+///     vec![0.0; 6],
+///     SignalUnit::Volt,
+/// )?;
+/// let again = CalibrationFile::from_toml(&file.to_toml()?)?;
+/// assert_eq!(again, file);
+/// let sensor = again.sensor_matrix::<6>()?;
+/// assert_eq!(sensor.nominal()[3], 0.1);
+/// # Ok::<(), fingertip_calibration::file::FileError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CalibrationFile {
+    /// The components that the sensor measures, one per column of the matrix.
+    pub axes: Vec<Axis>,
+    /// Unit of the readings, of `zero` and of the matrix.
+    pub signal_unit: SignalUnit,
+    /// Nominal load (full scale) of each axis \[N, N·m\]; positive.
+    pub nominal: Vec<f64>,
+    /// Normalised sensor matrix: one row per gauge, one column per axis.
+    #[serde(with = "rows")]
+    pub matrix: DMatrix<f64>,
+    /// Reading of each gauge without load (the bias).
+    pub zero: Vec<f64>,
+    /// Standard deviation of one reading of each gauge at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise: Option<Vec<f64>>,
+    /// Least and greatest reading that a gauge can give; beyond them it is saturated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub range: Option<[f64; 2]>,
+    /// Second-order terms of a sensor that is not linear: see [`CalibrationFile::load`]. One row
+    /// per axis, one column per pair of gauges (0,0), (0,1), … (0,N−1), (1,1), ….
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "rows::optional")]
+    pub quadratic: Option<DMatrix<f64>>,
+    /// How uncertain the matrix is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub covariance: Option<Covariance>,
+    /// How readings drift with temperature.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<Temperature>,
+    /// Where the calibration comes from.
+    pub provenance: Provenance,
+    /// How good it is.
+    pub quality: Quality,
+}
+
+/// Unit of a sensor's readings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SignalUnit {
+    /// Volts.
+    #[serde(rename = "V")]
+    Volt,
+    /// Millivolts per volt of bridge supply.
+    #[serde(rename = "mV/V")]
+    MillivoltPerVolt,
+    /// Counts of a converter.
+    #[serde(rename = "count")]
+    Count,
+    /// Strain, as a ratio.
+    #[serde(rename = "strain")]
+    Strain,
+    /// The readings are newtons and newton metres already: the calibration mends a sensor that has
+    /// one.
+    #[serde(rename = "N, N·m")]
+    Wrench,
+}
+
+/// Covariance of the normalised matrix, as a Kronecker product: the covariance of entries
+/// `(i, j)` and `(k, l)` is `signals[i][k] · loads[j][l]` (theory 8; the classical result for
+/// multi-response regression).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Covariance {
+    /// Covariance of the gauges' residuals, N × N, signal².
+    #[serde(with = "rows")]
+    pub signals: DMatrix<f64>,
+    /// Inverse of the sum of load·loadᵀ over the calibration, loads in nominal loads.
+    #[serde(with = "rows")]
+    pub loads: DMatrix<f64>,
+}
+
+/// Drift of the readings with ΔT = temperature − reference:
+/// `reading = zero + zero_drift·ΔT + zero_curvature·ΔT² + (1 + gain_drift·ΔT)·matrix·(load/nominal)`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Temperature {
+    /// Reference temperature \[°C\].
+    pub reference_celsius: f64,
+    /// Drift of each gauge's zero \[signal/K\].
+    pub zero_drift: Vec<f64>,
+    /// Curvature of each gauge's zero \[signal/K²\].
+    pub zero_curvature: Vec<f64>,
+    /// Drift of each gauge's gain \[1/K\].
+    pub gain_drift: Vec<f64>,
+}
+
+/// Where a calibration comes from.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// Serial number of the sensor.
+    #[serde(default)]
+    pub serial: String,
+    /// When it was calibrated, as the user writes dates (ISO 8601 advised).
+    #[serde(default)]
+    pub date: String,
+    /// How it was fitted.
+    #[serde(default)]
+    pub method: String,
+    /// Program and version that wrote the file.
+    #[serde(default)]
+    pub tool: String,
+    /// Where the loads come from: rig, certificate, recording.
+    #[serde(default)]
+    pub source: String,
+}
+
+/// Whether a calibration can be trusted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// Checked, and within what was asked for.
+    Good,
+    /// Checked, and not: the reasons stand beside it.
+    Bad,
+    /// Nobody has checked it.
+    #[default]
+    Unchecked,
+}
+
+/// Summary of a calibration's report.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Quality {
+    /// Whether it can be trusted.
+    pub verdict: Verdict,
+    /// Why it is bad, or what to mind.
+    #[serde(default)]
+    pub reasons: Vec<String>,
+    /// How many loads it was fitted to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub samples: Option<u64>,
+    /// Condition number N_c of the normalised matrix.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub condition_number: Option<f64>,
+    /// RMS error of each axis on the loads of the fit, % of full scale.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rms_percent: Option<Vec<f64>>,
+    /// Greatest error of each axis on the loads of the fit, % of full scale.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub greatest_percent: Option<Vec<f64>>,
+    /// RMS error of each axis on loads that were left out of the fit, % of full scale.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub left_out_percent: Option<Vec<f64>>,
+}
+
+impl CalibrationFile {
+    /// A linear calibration without temperature terms, its quality unchecked. The axes are all six,
+    /// or Fx, Fy, Fz for a matrix of three columns.
+    ///
+    /// # Errors
+    /// As [`validate`](Self::validate).
+    pub fn new(
+        normalised: DMatrix<f64>,
+        nominal: Vec<f64>,
+        zero: Vec<f64>,
+        signal_unit: SignalUnit,
+    ) -> Result<Self, FileError> {
+        let axes = if normalised.ncols() == 3 { Axis::FORCES.to_vec() } else { Axis::ALL.to_vec() };
+        let file = Self {
+            axes,
+            signal_unit,
+            nominal,
+            matrix: normalised,
+            zero,
+            noise: None,
+            range: None,
+            quadratic: None,
+            covariance: None,
+            temperature: None,
+            provenance: Provenance { tool: crate::TOOL.to_owned(), ..Provenance::default() },
+            quality: Quality::default(),
+        };
+        file.validate()?;
+        Ok(file)
+    }
+
+    /// How many gauges the sensor has.
+    #[must_use]
+    pub fn gauges(&self) -> usize {
+        self.matrix.nrows()
+    }
+
+    /// The sensor matrix in any scalar type.
+    ///
+    /// # Errors
+    /// [`FileError::WrongGauges`] if the sensor has not `N` gauges, [`FileError::NotSixAxes`] if it
+    /// measures fewer components, [`FileError::OutOfRange`] for field `quadratic` if it is not
+    /// linear, [`FileError::Matrix`] if the numbers are no sensor in that type.
+    pub fn sensor_matrix<const N: usize>(&self) -> Result<SensorMatrix<f64, N>, FileError> {
+        self.sensor_matrix_in::<f64, N>()
+    }
+
+    /// As [`sensor_matrix`](Self::sensor_matrix), in scalar type `T`.
+    ///
+    /// # Errors
+    /// The same.
+    pub fn sensor_matrix_in<T: Real, const N: usize>(&self) -> Result<SensorMatrix<T, N>, FileError> {
+        self.validate()?;
+        if self.quadratic.is_some() {
+            return Err(FileError::OutOfRange {
+                field: "quadratic".to_owned(),
+                requirement: "absent: a sensor with quadratic terms has no sensor matrix",
+            });
+        }
+        if self.axes != Axis::ALL {
+            return Err(FileError::NotSixAxes { found: self.axes.len() });
+        }
+        self.check_gauges::<N>()?;
+        let normalised = SMatrix::<T, N, 6>::from_fn(|i, j| T::literal(self.matrix[(i, j)]));
+        let nominal = Vector6::from_fn(|i, _| T::literal(self.nominal[i]));
+        Ok(SensorMatrix::new(normalised, nominal)?)
+    }
+
+    /// The readings without load.
+    ///
+    /// # Errors
+    /// [`FileError::WrongGauges`] if the sensor has not `N` gauges.
+    pub fn zero<const N: usize>(&self) -> Result<Tare<f64, N>, FileError> {
+        self.validate()?;
+        self.check_gauges::<N>()?;
+        Ok(Tare::new(SVector::from_fn(|i, _| self.zero[i])))
+    }
+
+    fn check_gauges<const N: usize>(&self) -> Result<(), FileError> {
+        if self.gauges() == N {
+            Ok(())
+        } else {
+            Err(FileError::WrongGauges { found: self.gauges(), expected: N })
+        }
+    }
+
+    /// The load \[N, N·m, in the order of `axes`\] that a reading tells of, at the reference
+    /// temperature: `nominal ∘ (C⁺ s + Q (s ⊗ s))` with `s = reading − zero`, C⁺ the least-squares
+    /// inverse and Q the quadratic terms. `None` if the reading has the wrong length or the matrix
+    /// no full rank. Meant for reports; on the hot path use a solver of `fingertip-wrench`.
+    #[must_use]
+    pub fn load(&self, reading: &[f64]) -> Option<DVector<f64>> {
+        let inverse = crate::linear::pseudo_inverse(&self.matrix)?;
+        self.load_with(&inverse, reading)
+    }
+
+    /// As [`load`](Self::load), with the inverse computed before.
+    pub(crate) fn load_with(&self, inverse: &DMatrix<f64>, reading: &[f64]) -> Option<DVector<f64>> {
+        if reading.len() != self.gauges() || self.zero.len() != self.gauges() {
+            return None;
+        }
+        let signals = DVector::from_fn(reading.len(), |i, _| reading[i] - self.zero[i]);
+        let mut load = inverse * &signals;
+        if let Some(quadratic) = &self.quadratic {
+            load += quadratic * crate::model::pairs(signals.as_slice());
+        }
+        for (value, nominal) in load.iter_mut().zip(&self.nominal) {
+            *value *= nominal;
+        }
+        Some(load)
+    }
+}

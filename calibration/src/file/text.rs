@@ -1,0 +1,277 @@
+//! Reading and writing calibration files.
+
+use core::fmt::Write as _;
+use std::{fs, path::Path};
+
+use nalgebra::DMatrix;
+use toml::{Table, Value};
+
+use super::{CalibrationFile, FileError, checksum::checksum};
+
+/// The version of the format that this library reads and writes.
+pub const VERSION: i64 = 1;
+
+impl CalibrationFile {
+    /// Reads a calibration file.
+    ///
+    /// # Errors
+    /// [`FileError`], naming the field, if the file cannot be read, is no calibration, has an
+    /// unknown version, a number that is not finite, a list of the wrong length or a checksum that
+    /// is not that of its contents.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, FileError> {
+        let path = path.as_ref();
+        let text = fs::read_to_string(path)
+            .map_err(|source| FileError::Io { path: path.display().to_string(), source })?;
+        Self::from_toml(&text)
+    }
+
+    /// Writes a calibration file; [`read`](Self::read) gives back the very same numbers.
+    ///
+    /// # Errors
+    /// [`FileError`] if the calibration is not valid or the file cannot be written.
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), FileError> {
+        let path = path.as_ref();
+        fs::write(path, self.to_toml()?)
+            .map_err(|source| FileError::Io { path: path.display().to_string(), source })
+    }
+
+    /// Reads the text of a calibration file.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn from_toml(text: &str) -> Result<Self, FileError> {
+        let mut table: Table = text.parse().map_err(malformed)?;
+        match table.remove("version") {
+            Some(Value::Integer(VERSION)) => {}
+            Some(Value::Integer(found)) => return Err(FileError::UnknownVersion { found, known: VERSION }),
+            Some(_) => return Err(malformed("field `version` is not an integer")),
+            None => return Err(malformed("missing field `version`")),
+        }
+        let found = match table.remove("checksum") {
+            Some(Value::String(found)) => found,
+            Some(_) => return Err(malformed("field `checksum` is not a text")),
+            None => return Err(malformed("missing field `checksum`")),
+        };
+        let file = field_by_field(table)?;
+        file.validate()?;
+        let expected = file.checksum()?;
+        if found == expected { Ok(file) } else { Err(FileError::WrongChecksum { found, expected }) }
+    }
+
+    /// The text of the calibration file: rows of matrices one to a line.
+    ///
+    /// # Errors
+    /// [`FileError`] if the calibration is not valid.
+    pub fn to_toml(&self) -> Result<String, FileError> {
+        self.validate()?;
+        let mut text = String::from("# Calibration of a force/torque sensor, written by fingertip.\n");
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "version = {VERSION}\nchecksum = {:?}\n", self.checksum()?);
+        let value = Value::try_from(self).map_err(malformed)?;
+        let Value::Table(fields) = value else {
+            return Err(malformed("a calibration is a table"));
+        };
+        // Top-level values come before the tables, or they would belong to the last of these.
+        for (key, value) in fields.iter().filter(|(_, value)| !value.is_table()) {
+            write_entry(&mut text, key, value);
+        }
+        for (key, value) in &fields {
+            if let Value::Table(entries) = value {
+                let _ = writeln!(text, "\n[{key}]");
+                for (key, value) in entries {
+                    write_entry(&mut text, key, value);
+                }
+            }
+        }
+        Ok(text)
+    }
+
+    /// The checksum of the contents: FNV-1a, 64 bits, of one line `path=type:value` per value,
+    /// tables in the order of their keys, floats by their bits. It guards against accidents.
+    ///
+    /// # Errors
+    /// [`FileError::Malformed`] if the contents cannot be represented.
+    pub fn checksum(&self) -> Result<String, FileError> {
+        Ok(checksum(&Value::try_from(self).map_err(malformed)?))
+    }
+}
+
+/// Matrices get a row to a line, everything else a line.
+fn write_entry(text: &mut String, key: &str, value: &Value) {
+    match value {
+        Value::Array(rows) if rows.first().is_some_and(Value::is_array) => {
+            let _ = writeln!(text, "{key} = [");
+            for row in rows {
+                let _ = writeln!(text, "    {row},");
+            }
+            let _ = writeln!(text, "]");
+        }
+        _ => {
+            let _ = writeln!(text, "{key} = {value}");
+        }
+    }
+}
+
+/// Deserialises, and names the field if that fails: serde alone tells only of line and type.
+fn field_by_field(table: Table) -> Result<CalibrationFile, FileError> {
+    match Value::Table(table.clone()).try_into() {
+        Ok(file) => Ok(file),
+        Err(error) => {
+            let template = CalibrationFile::new(
+                DMatrix::identity(6, 6),
+                vec![1.0; 6],
+                vec![0.0; 6],
+                super::SignalUnit::Volt,
+            )?;
+            let Ok(Value::Table(good)) = Value::try_from(template) else { return Err(malformed(error)) };
+            for (key, value) in table {
+                let mut one = good.clone();
+                one.insert(key.clone(), value);
+                if let Err(error) = Value::Table(one).try_into::<CalibrationFile>() {
+                    return Err(malformed(format!("field `{key}`: {error}")));
+                }
+            }
+            Err(malformed(error))
+        }
+    }
+}
+
+fn malformed(message: impl ToString) -> FileError {
+    FileError::Malformed { message: message.to_string().trim_end().to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Covariance, Quality, SignalUnit, Temperature, Verdict};
+    use super::{CalibrationFile, FileError};
+    use nalgebra::DMatrix;
+    use proptest::prelude::*;
+
+    /// Uses every field.
+    fn example(entry: impl Fn(usize) -> f64, gauges: usize) -> CalibrationFile {
+        let list = |length: usize, from: usize| (0..length).map(|i| entry(from + i)).collect::<Vec<_>>();
+        let positive =
+            |length, from| list(length, from).iter().map(|x| x.abs().max(1e-300)).collect::<Vec<_>>();
+        let matrix = |r, c, from| DMatrix::from_fn(r, c, |i, j| entry(from + i * c + j));
+        let mut file = CalibrationFile::new(
+            matrix(gauges, 6, 0),
+            positive(6, 7),
+            list(gauges, 40),
+            SignalUnit::MillivoltPerVolt,
+        )
+        .unwrap();
+        file.noise = Some(positive(gauges, 50));
+        file.range = Some([-10.0, 10.0]);
+        file.quadratic = Some(matrix(6, gauges * (gauges + 1) / 2, 60));
+        file.covariance = Some(Covariance { signals: matrix(gauges, gauges, 3), loads: matrix(6, 6, 9) });
+        file.temperature = Some(Temperature {
+            reference_celsius: 22.5,
+            zero_drift: list(gauges, 1),
+            zero_curvature: list(gauges, 2),
+            gain_drift: list(gauges, 5),
+        });
+        file.provenance.serial = "FT \"1\"\n[matrix]\nversion = 2 = é".to_owned();
+        file.quality = Quality {
+            verdict: Verdict::Bad,
+            reasons: vec!["gauge 3 saturated".to_owned(), String::new()],
+            samples: Some(7),
+            condition_number: Some(4.5),
+            rms_percent: Some(list(6, 11)),
+            greatest_percent: Some(list(6, 12)),
+            left_out_percent: None,
+        };
+        file
+    }
+
+    proptest! {
+        #[test]
+        fn round_trip_is_exact(bits in proptest::collection::vec(any::<u64>(), 97), gauges in 6..9_usize) {
+            let number = |i: usize| {
+                let x = f64::from_bits(bits[i % bits.len()]);
+                if x.is_finite() { x } else { 0.1 * i as f64 }
+            };
+            let file = example(number, gauges);
+            let again = CalibrationFile::from_toml(&file.to_toml().unwrap()).unwrap();
+            prop_assert_eq!(&again, &file);
+            // Equality forgives the sign of zero; the text does not.
+            prop_assert_eq!(again.to_toml().unwrap(), file.to_toml().unwrap());
+        }
+    }
+
+    fn text() -> String {
+        example(|i| 1.0 + i as f64, 7).to_toml().unwrap()
+    }
+
+    #[test]
+    fn unknown_version_is_named() {
+        let error =
+            CalibrationFile::from_toml(&text().replacen("version = 1", "version = 2", 1)).unwrap_err();
+        assert!(matches!(error, FileError::UnknownVersion { found: 2, known: 1 }));
+        assert!(error.to_string().contains("`version`"));
+    }
+
+    #[test]
+    fn wrong_checksum_tells_both() {
+        let edited = text().replacen("reference_celsius = 22.5", "reference_celsius = 22.0", 1);
+        let error = CalibrationFile::from_toml(&edited).unwrap_err();
+        let FileError::WrongChecksum { found, expected } = &error else { panic!("{error}") };
+        let mended = edited.replace(found.as_str(), expected);
+        assert_eq!(CalibrationFile::from_toml(&mended).unwrap().temperature.unwrap().reference_celsius, 22.0);
+    }
+
+    #[test]
+    fn entry_that_is_not_finite_is_named() {
+        for (from, to, field) in [
+            ("    [13.0,", "    [nan,", "matrix[2][0]"),
+            ("nominal = [8.0, 9.0", "nominal = [8.0, inf", "nominal[1]"),
+            ("reference_celsius = 22.5", "reference_celsius = -inf", "temperature.reference_celsius"),
+        ] {
+            let broken = text().replacen(from, to, 1);
+            assert!(broken != text(), "{from}");
+            let error = CalibrationFile::from_toml(&broken).unwrap_err();
+            assert!(matches!(&error, FileError::NotFinite { field: f } if f == field), "{error}");
+            assert!(error.to_string().contains(field));
+        }
+    }
+
+    #[test]
+    fn wrong_shape_type_missing_and_unknown_fields_are_named() {
+        for (from, to, field) in [
+            ("nominal = [8.0, ", "nominal = [", "nominal"),
+            ("nominal = [8.0, ", "nominal = [-8.0, ", "nominal[0]"),
+            ("    [13.0, ", "    [", "matrix"),
+            ("nominal = ", "nominale = ", "nominal"),
+            ("range = [-10.0, 10.0]", "range = \"wide\"", "range"),
+            ("samples = 7", "samples = 7\nluck = 3", "quality"),
+            ("axes = [\"fx\", \"fy\"", "axes = [\"fy\", \"fx\"", "axes"),
+        ] {
+            let broken = text().replacen(from, to, 1);
+            assert!(broken != text(), "{from}");
+            let error = CalibrationFile::from_toml(&broken).unwrap_err().to_string();
+            assert!(error.contains(field), "{field}: {error}");
+        }
+        for nonsense in ["", "version = 1", "version = 1\nchecksum = 3", "=", "version = \"one\""] {
+            assert!(CalibrationFile::from_toml(nonsense).is_err());
+        }
+    }
+
+    #[test]
+    fn comments_and_layout_are_free() {
+        let relaid = text().replace("    [", "[").replace("range", "# a note\nrange");
+        assert_eq!(CalibrationFile::from_toml(&relaid).unwrap(), example(|i| 1.0 + i as f64, 7));
+    }
+
+    #[test]
+    fn gauges_and_axes_are_checked_against_the_type() {
+        let mut file = example(|i| 1.0 + ((i * i) % 17) as f64, 7);
+        assert!(matches!(file.sensor_matrix::<7>(), Err(FileError::OutOfRange { .. })));
+        file.quadratic = None;
+        assert_eq!(
+            *file.sensor_matrix::<7>().unwrap().normalised(),
+            nalgebra::SMatrix::<f64, 7, 6>::from_fn(|i, j| file.matrix[(i, j)])
+        );
+        assert!(matches!(file.sensor_matrix::<6>(), Err(FileError::WrongGauges { found: 7, expected: 6 })));
+        assert_eq!(file.zero::<7>().unwrap().zero()[3], file.zero[3]);
+        assert_eq!(file.sensor_matrix_in::<f32, 7>().unwrap().nominal()[0], file.nominal[0] as f32);
+    }
+}

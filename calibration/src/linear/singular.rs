@@ -1,0 +1,203 @@
+//! Singular values and vectors of matrices of any size.
+
+use nalgebra::{DMatrix, DVector};
+
+/// `A = U diag(σ) Vᵀ`, thin, σ from the largest to the smallest.
+///
+/// By one-sided Jacobi rotations (Hestenes 1958; Demmel & Veselić 1992): columns of A are rotated
+/// against each other until they are orthogonal, which finds small singular values of matrices
+/// with badly scaled columns to high relative accuracy. We do not use nalgebra's `svd`, which gives
+/// wrong vectors for some matrices (its issue 1172).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Singular {
+    /// Left singular vectors, m × k with k = min(m, n); those of zero singular values are zero.
+    pub left: DMatrix<f64>,
+    /// Singular values, k of them.
+    pub values: DVector<f64>,
+    /// Right singular vectors, n × k, orthonormal if n ≤ m.
+    pub right: DMatrix<f64>,
+}
+
+/// More than any matrix was ever seen to need (about 6 to 10 for a few dozen columns).
+const MOST_SWEEPS: usize = 60;
+
+impl Singular {
+    /// Decomposes a matrix; `None` if it is empty or has an entry that is not finite.
+    #[must_use]
+    pub fn new(matrix: &DMatrix<f64>) -> Option<Self> {
+        if matrix.is_empty() || matrix.iter().any(|x| !x.is_finite()) {
+            return None;
+        }
+        if matrix.nrows() < matrix.ncols() {
+            let Self { left, values, right } = Self::new(&matrix.transpose())?;
+            return Some(Self { left: right, values, right: left });
+        }
+        let largest = matrix.amax();
+        let scale = if largest > 0.0 { largest } else { 1.0 };
+        // Dividing twice: the reciprocal of a subnormal scale is infinite.
+        let mut left = matrix.map(|x| x / scale);
+        let columns = left.ncols();
+        let mut right = DMatrix::identity(columns, columns);
+        for _ in 0..MOST_SWEEPS {
+            let mut rotated = false;
+            for p in 0..columns {
+                for q in p + 1..columns {
+                    rotated |= rotate(&mut left, &mut right, p, q);
+                }
+            }
+            if !rotated {
+                break;
+            }
+        }
+        let norms: Vec<f64> = left.column_iter().map(|column| column.norm()).collect();
+        let mut order: Vec<usize> = (0..columns).collect();
+        order.sort_by(|a, b| norms[*b].total_cmp(&norms[*a]));
+        let values = DVector::from_iterator(columns, order.iter().map(|i| norms[*i] * scale));
+        let left = DMatrix::from_fn(left.nrows(), columns, |i, j| {
+            let norm = norms[order[j]];
+            if norm > 0.0 { left[(i, order[j])] / norm } else { 0.0 }
+        });
+        let right = DMatrix::from_fn(columns, columns, |i, j| right[(i, order[j])]);
+        Some(Self { left, values, right })
+    }
+
+    /// How many singular values exceed `max(m, n)·ε` times the largest: the usual numerical rank.
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        let size = self.left.nrows().max(self.right.nrows()) as f64;
+        let least = self.values.max() * size * f64::EPSILON;
+        self.values.iter().filter(|value| **value > least).count()
+    }
+
+    /// Largest over smallest singular value; infinite for a matrix of deficient rank.
+    #[must_use]
+    pub fn condition_number(&self) -> f64 {
+        if self.rank() < self.values.len() { f64::INFINITY } else { self.values.max() / self.values.min() }
+    }
+}
+
+/// Makes columns p and q orthogonal; `false` if they were already.
+fn rotate(left: &mut DMatrix<f64>, right: &mut DMatrix<f64>, p: usize, q: usize) -> bool {
+    let (a, b) = (left.column(p).norm_squared(), left.column(q).norm_squared());
+    let product = left.column(p).dot(&left.column(q));
+    // `a·b` may underflow where its root does not matter any more.
+    if product.abs() <= f64::EPSILON * a.sqrt() * b.sqrt() || product.abs() < f64::MIN_POSITIVE {
+        return false;
+    }
+    let zeta = (b - a) / (2.0 * product);
+    let tangent = zeta.signum() / (zeta.abs() + zeta.hypot(1.0));
+    let cosine = 1.0 / tangent.hypot(1.0);
+    let sine = cosine * tangent;
+    for matrix in [left, right] {
+        for i in 0..matrix.nrows() {
+            let (x, y) = (matrix[(i, p)], matrix[(i, q)]);
+            matrix[(i, p)] = cosine * x - sine * y;
+            matrix[(i, q)] = sine * x + cosine * y;
+        }
+    }
+    true
+}
+
+/// The Moore-Penrose inverse of a matrix of full rank; `None` if its rank is deficient or it has
+/// an entry that is not finite.
+///
+/// Columns are brought to unit norm first where there are at most as many as rows, so that the
+/// rank does not depend on units.
+#[must_use]
+pub fn pseudo_inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    if matrix.nrows() < matrix.ncols() {
+        return Some(pseudo_inverse(&matrix.transpose())?.transpose());
+    }
+    if matrix.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    let norms: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
+    if norms.iter().any(|norm| !(*norm > 0.0)) {
+        return None;
+    }
+    let mut equilibrated = matrix.clone();
+    for (mut column, norm) in equilibrated.column_iter_mut().zip(&norms) {
+        column /= *norm;
+    }
+    let singular = Singular::new(&equilibrated)?;
+    if singular.rank() < singular.values.len() {
+        return None;
+    }
+    let mut right = singular.right;
+    for (mut column, value) in right.column_iter_mut().zip(singular.values.iter()) {
+        column /= *value;
+    }
+    let mut inverse = right * singular.left.transpose();
+    for (mut row, norm) in inverse.row_iter_mut().zip(&norms) {
+        row /= *norm;
+    }
+    Some(inverse)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Singular, pseudo_inverse};
+    use nalgebra::DMatrix;
+    use proptest::prelude::*;
+    use rand::SeedableRng as _;
+
+    fn check(matrix: &DMatrix<f64>) {
+        let Singular { left, values, right } = Singular::new(matrix).unwrap();
+        let scale = matrix.amax().max(f64::MIN_POSITIVE);
+        let again = &left * DMatrix::from_diagonal(&values) * right.transpose();
+        assert!((again - matrix).amax() <= 1e-14 * scale, "{matrix}");
+        let small = if matrix.nrows() >= matrix.ncols() { &right } else { &left };
+        let k = values.len();
+        assert!((small.transpose() * small - DMatrix::identity(k, k)).amax() < 1e-14);
+        // The sum of squares is an oracle that the rotations do not know of.
+        let squares: f64 = matrix.iter().map(|x| (x / scale) * (x / scale)).sum();
+        let sum: f64 = values.iter().map(|x| (x / scale) * (x / scale)).sum();
+        assert!((squares - sum).abs() <= 1e-13 * squares);
+        assert!(values.as_slice().is_sorted_by(|a, b| a >= b));
+    }
+
+    /// The matrices that nalgebra's `svd` gets wrong.
+    #[test]
+    fn structured_matrices() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(1);
+        for _ in 0..5000 {
+            check(&DMatrix::from_fn(6, 6, |_, _| f64::from(random.random_range(-1..=1))));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn any_shape_and_scale(
+            entries in proptest::collection::vec(-1.0..1.0_f64, 70),
+            rows in 1..8_usize, columns in 1..9_usize, power in -290..290_i32,
+        ) {
+            let matrix = DMatrix::from_fn(rows, columns, |i, j| entries[i * columns + j] * 10_f64.powi(power));
+            check(&matrix);
+        }
+
+        #[test]
+        fn pseudo_inverse_satisfies_penrose(entries in proptest::collection::vec(-1.0..1.0_f64, 48)) {
+            let matrix = DMatrix::from_column_slice(8, 6, &entries);
+            if let Some(inverse) = pseudo_inverse(&matrix) {
+                let tolerance = 1e-14 * Singular::new(&matrix).unwrap().condition_number();
+                let product = &inverse * &matrix;
+                prop_assert!((product - DMatrix::identity(6, 6)).amax() < tolerance);
+                let projector = &matrix * &inverse;
+                prop_assert!((&projector - projector.transpose()).amax() < tolerance);
+                let wide = pseudo_inverse(&matrix.transpose()).unwrap();
+                prop_assert!((wide - inverse.transpose()).amax() <= f64::EPSILON * inverse.amax());
+            }
+        }
+    }
+
+    #[test]
+    fn refuses_what_has_no_inverse() {
+        assert!(pseudo_inverse(&DMatrix::from_element(6, 6, 1.0)).is_none());
+        assert!(pseudo_inverse(&DMatrix::zeros(6, 6)).is_none());
+        assert!(pseudo_inverse(&DMatrix::from_element(6, 6, f64::NAN)).is_none());
+        assert!(Singular::new(&DMatrix::zeros(0, 0)).is_none());
+        let ill = DMatrix::from_diagonal(&nalgebra::DVector::from_column_slice(&[1e-150, 1.0, 1e150]));
+        let inverse = pseudo_inverse(&ill).unwrap();
+        assert!((inverse[(0, 0)] * 1e-150 - 1.0).abs() < 1e-15);
+    }
+}
