@@ -81,7 +81,13 @@ fn detectors<T: Real>(criterion: &mut Criterion, scalar: &str) {
         });
     }
     let gate = NormalForceGate::from_noise(&noise);
-    run(&mut group, "ratio threshold", &samples, RatioThreshold::new(gate, T::literal(0.6), T::literal(0.9)).unwrap(), step);
+    run(
+        &mut group,
+        "ratio threshold",
+        &samples,
+        RatioThreshold::new(gate, T::literal(0.6), T::literal(0.9)).unwrap(),
+        step,
+    );
     run(&mut group, "drop", &samples, DropDetector::new(noise).unwrap(), step);
     let ratio = LikelihoodRatioDetector::<T, 16>::new(noise, 1.0, 1000.0).unwrap();
     run(&mut group, "likelihood ratio, 16", &samples, ratio, step);

@@ -18,6 +18,7 @@ use crate::{BadNoise, Cusum, ForceNoise, SlipDetector, SlipVerdict};
 /// - Steps of the normal force, up or down: the ratio moves without the tangential force, or the
 ///   other way round; only a fall of both counts.
 /// - Drift: the tracker follows a line without lag.
+/// - Sample rates above 2 kHz: samples are averaged over half a millisecond.
 /// - Irregular time steps, and dropped samples up to 16 sample times; after a longer gap it starts
 ///   anew.
 /// - Samples that repeat the one before (a sensor slower than the loop): no evidence is counted

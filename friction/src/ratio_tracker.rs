@@ -19,6 +19,9 @@ const INNOVATION_VARIANCE: f64 =
 const LEARNING: u8 = 8;
 /// Samples after which the start-up gain `2(2n+1)/((n+1)(n+2))` has fallen to α.
 const STEADY: u8 = 25;
+/// Samples are averaged until they span this time \[s\]: a drop takes some milliseconds, and a tracker
+/// that forgets faster than that would follow it down.
+const SHORTEST_STEP: f64 = 0.45e-3;
 /// A gap of more nominal sample times than this starts the tracker anew.
 const GREATEST_GAP: f64 = 16.0;
 
@@ -38,7 +41,7 @@ const GREATEST_GAP: f64 = 16.0;
 /// stated noise.
 ///
 /// # Time
-/// The slope is carried in units of one nominal sample time, which is the running mean of the
+/// Samples that come faster than some 2 kHz are averaged to that, with the noise that the mean has. The slope is carried in units of one nominal sample time, which is the running mean of the
 /// steps. For a step of `s` nominal times the gain is `αs/(1−α+αs)`, which is α at `s = 1` and
 /// tends to the continuous-time tracker for small `s` and to "forget all" for large `s`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,12 +64,29 @@ struct State<T> {
     last_tangential: T,
     /// Nominal sample time \[s\].
     period: T,
-    /// Time of samples that could not be used, since the last that could \[s\].
-    pending: T,
+    block: Block<T>,
     /// Variance of the standardised innovation, from below by the stated noise.
     roughness: T,
     /// Samples taken, up to `STEADY`.
     samples: u8,
+}
+
+/// Samples not yet taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Block<T> {
+    normal: T,
+    tangential: T,
+    /// How many different ones.
+    count: T,
+    /// Time since the last taken, that of unusable samples included \[s\].
+    elapsed: T,
+}
+
+impl<T: Real> Block<T> {
+    fn empty() -> Self {
+        Self { normal: T::zero(), tangential: T::zero(), count: T::zero(), elapsed: T::zero() }
+    }
 }
 
 /// A value and its slope per nominal sample time.
@@ -93,6 +113,11 @@ pub(crate) enum Evidence<T> {
 impl<T: Real> Line<T> {
     const fn at(value: T, zero: T) -> Self {
         Self { value, slope: zero }
+    }
+
+    #[inline]
+    fn is_number(&self) -> bool {
+        self.value.is_number() && self.slope.is_number()
     }
 
     /// Takes a measurement and returns its innovation.
@@ -170,7 +195,7 @@ impl<T: Real> RatioTracker<T> {
             if let Some(state) = &mut self.state
                 && time_step.is_number()
             {
-                state.pending += time_step.max(T::zero());
+                state.block.elapsed += time_step.max(T::zero());
             }
             return Evidence::NotPressing;
         }
@@ -185,15 +210,36 @@ impl<T: Real> RatioTracker<T> {
             return Evidence::NotPressing;
         }
         let Some(state) = &mut self.state else {
-            self.start(normal, tangential, time_step);
+            self.start(normal, tangential, T::zero());
             return Evidence::None;
         };
         if time_step <= T::zero() {
             return Evidence::None;
         }
-        let elapsed = time_step + state.pending;
+        let block = &mut state.block;
+        block.elapsed += time_step;
+        if !(normal == state.last_normal && tangential == state.last_tangential) {
+            block.normal += normal;
+            block.tangential += tangential;
+            block.count += T::one();
+        }
+        state.last_normal = normal;
+        state.last_tangential = tangential;
+        if block.elapsed < T::literal(SHORTEST_STEP) {
+            return Evidence::None;
+        }
+        let elapsed = block.elapsed;
+        let repeated = block.count <= T::zero();
+        // Noise of the mean, as a factor on the standardised values.
+        let (normal, tangential, ratio, sharper) = if block.count > T::one() {
+            let (normal, tangential) = (block.normal / block.count, block.tangential / block.count);
+            (normal, tangential, tangential / normal, block.count.root())
+        } else {
+            (normal, tangential, ratio, T::one())
+        };
+        state.block = Block::empty();
         if state.period <= T::zero() {
-            state.period = time_step;
+            state.period = elapsed;
         }
         if elapsed > state.period * T::literal(GREATEST_GAP) {
             // Learn a slower rate, but only slowly believe in it.
@@ -202,17 +248,18 @@ impl<T: Real> RatioTracker<T> {
             self.start(normal, tangential, period);
             return Evidence::None;
         }
-        state.pending = T::zero();
         let step = Step::new(elapsed, state.period, state.samples);
-        state.period += (time_step - state.period) * T::literal(1.0 / 16.0);
+        state.period += (elapsed - state.period) * T::literal(1.0 / 16.0);
 
-        let repeated = normal == state.last_normal && tangential == state.last_tangential;
-        state.last_normal = normal;
-        state.last_tangential = tangential;
         let slow = state.ratio.value + state.ratio.slope * step.length;
         let deviation = (self.tangential_variance + slow * slow * self.normal_variance).root();
-        let of_ratio = state.ratio.take(ratio, &step) * normal / deviation;
-        let of_force = state.tangential.take(tangential, &step) * self.tangential_weight;
+        let of_ratio = state.ratio.take(ratio, &step) * normal * sharper / deviation;
+        let of_force = state.tangential.take(tangential, &step) * sharper * self.tangential_weight;
+        if !(state.ratio.is_number() && state.tangential.is_number()) {
+            // Forces near the end of the range: nothing to be followed.
+            self.state = None;
+            return Evidence::NotPressing;
+        }
         if state.samples < STEADY {
             state.samples += 1;
             if state.samples <= LEARNING {
@@ -235,6 +282,7 @@ impl<T: Real> RatioTracker<T> {
         if let Some(state) = &mut self.state {
             state.ratio = Line::at(state.last_tangential / state.last_normal, T::zero());
             state.tangential = Line::at(state.last_tangential, T::zero());
+            state.block = Block::empty();
             state.samples = 1;
         }
     }
@@ -258,7 +306,7 @@ impl<T: Real> RatioTracker<T> {
             last_normal: normal,
             last_tangential: tangential,
             period: period.max(T::zero()),
-            pending: T::zero(),
+            block: Block::empty(),
             roughness: T::one(),
             samples: 1,
         });
