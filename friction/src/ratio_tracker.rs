@@ -65,6 +65,10 @@ struct State<T> {
     /// Nominal sample time \[s\].
     period: T,
     block: Block<T>,
+    /// One over the deviation of the ratio's innovation times the normal force, and the ratio for
+    /// which it was worked out.
+    weight: T,
+    weighed_at: T,
     /// Variance of the standardised innovation, from below by the stated noise.
     roughness: T,
     /// Samples taken, up to `STEADY`.
@@ -199,7 +203,12 @@ impl<T: Real> RatioTracker<T> {
             }
             return Evidence::NotPressing;
         }
-        let tangential = force.tangential_magnitude();
+        let square = force.tangential.norm_squared();
+        let tangential = if square > T::LEAST_NORMAL / T::EPSILON && square < T::GREATEST {
+            square.root()
+        } else {
+            force.tangential_magnitude()
+        };
         let normal = force.normal;
         if !(normal > self.gate.least()) {
             self.state = None;
@@ -252,8 +261,12 @@ impl<T: Real> RatioTracker<T> {
         state.period += (elapsed - state.period) * T::literal(1.0 / 16.0);
 
         let slow = state.ratio.value + state.ratio.slope * step.length;
-        let deviation = (self.tangential_variance + slow * slow * self.normal_variance).root();
-        let of_ratio = state.ratio.take(ratio, &step) * normal * sharper / deviation;
+        // Kept while the ratio stays within 1/64, which bounds its error by as much.
+        if (slow - state.weighed_at).abs() > state.weighed_at.abs() * T::literal(1.0 / 64.0) {
+            state.weighed_at = slow;
+            state.weight = T::one() / (self.tangential_variance + slow * slow * self.normal_variance).root();
+        }
+        let of_ratio = state.ratio.take(ratio, &step) * normal * sharper * state.weight;
         let of_force = state.tangential.take(tangential, &step) * sharper * self.tangential_weight;
         if !(state.ratio.is_number() && state.tangential.is_number()) {
             // Forces near the end of the range: nothing to be followed.
@@ -307,6 +320,8 @@ impl<T: Real> RatioTracker<T> {
             last_tangential: tangential,
             period: period.max(T::zero()),
             block: Block::empty(),
+            weight: self.tangential_weight,
+            weighed_at: T::zero(),
             roughness: T::one(),
             samples: 1,
         });
