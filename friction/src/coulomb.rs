@@ -3,10 +3,14 @@
 use fingertip_wrench::{ContactForce, Real};
 use thiserror::Error;
 
-use crate::{FrictionModel, SlipMargin};
+use crate::cone::{Cone, rescaled};
+use crate::{FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
 
 /// Coulomb's cone `|f_t| ≤ μ f_n` (theory 5). The spin torque is not limited: a point contact
 /// carries none.
+///
+/// The margin is the signed Euclidean distance of the contact force to the cone:
+/// `(μ f_n − |f_t|)/√(1+μ²)`, and minus the length of the force where the apex is nearest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -18,9 +22,7 @@ use crate::{FrictionModel, SlipMargin};
     )
 )]
 pub struct Coulomb<T: Real> {
-    coefficient: T,
-    /// `1/√(1+μ²)`: the cosine of the friction angle.
-    cosine: T,
+    cone: Cone<T>,
 }
 
 /// A parameter of a friction model is out of range.
@@ -39,56 +41,57 @@ impl<T: Real> Coulomb<T> {
     /// # Errors
     /// [`BadFriction`] unless μ is positive and finite.
     pub fn new(coefficient: T) -> Result<Self, BadFriction> {
-        if !(coefficient > T::zero() && coefficient.is_number()) {
-            return Err(BadFriction {
-                parameter: "friction coefficient",
-                requirement: "positive and finite",
-            });
-        }
-        // 1/hypot(1, μ), without overflow for a large μ.
-        let cosine = if coefficient <= T::one() {
-            T::one() / (T::one() + coefficient * coefficient).root()
-        } else {
-            let inverse = T::one() / coefficient;
-            inverse / (T::one() + inverse * inverse).root()
-        };
-        Ok(Self { coefficient, cosine })
+        Ok(Self { cone: Cone::new(coefficient)? })
     }
 
     /// The friction coefficient μ.
     #[inline]
     #[must_use]
     pub const fn coefficient(&self) -> T {
-        self.coefficient
+        self.cone.coefficient
+    }
+
+    /// The friction angle minus the angle of the force \[rad\]: how far the force may still tilt.
+    /// Minus π/2 for a force that is not finite.
+    #[inline]
+    #[must_use]
+    pub fn angle_margin(&self, force: &ContactForce<T>) -> T {
+        let angle = self.cone.coefficient.atan() - force.tangential_magnitude().atan2(force.normal);
+        if angle.is_number() { angle } else { -T::frac_pi_2() }
     }
 }
 
 impl<T: Real> FrictionModel<T> for Coulomb<T> {
-    /// `(μ f_n − |f_t|)/√(1+μ²)`: inside the cone the Euclidean distance of the contact force to
-    /// its surface; outside never more than that distance.
     #[inline]
     fn slip_margin(&self, force: &ContactForce<T>) -> SlipMargin<T> {
-        let tangential = force.tangential_magnitude();
-        let holding = self.coefficient * force.normal;
-        let newtons = (holding - tangential) * self.cosine;
-        let utilisation = if tangential <= T::zero() && force.normal >= T::zero() {
-            T::zero()
-        } else if holding > T::zero() {
-            (tangential / holding).min(T::GREATEST)
-        } else {
-            T::GREATEST
-        };
-        if newtons.is_number() && utilisation.is_number() {
-            SlipMargin { newtons, utilisation }
-        } else {
-            SlipMargin { newtons: -T::GREATEST, utilisation: T::GREATEST }
-        }
+        self.cone.margin(force.tangential_magnitude(), force.normal)
     }
 
     #[inline]
     fn least_normal_force(&self, force: &ContactForce<T>, safety: T) -> T {
-        let needed = force.tangential_magnitude() * safety / self.coefficient;
-        if needed.is_number() { needed } else { T::GREATEST }
+        self.cone.least_normal(force.tangential_magnitude(), safety)
+    }
+}
+
+impl<T: Real> FrictionLimit<T> for Coulomb<T> {
+    #[inline]
+    fn normal_force_keeping(&self, force: &ContactForce<T>, margin: T) -> T {
+        self.cone.normal_keeping(force.tangential_magnitude(), margin)
+    }
+
+    /// The spin torque is set to zero: a point contact carries none.
+    #[inline]
+    fn project(&self, force: &ContactForce<T>) -> ContactForce<T> {
+        let target = self.cone.project(force.tangential_magnitude(), force.normal);
+        ContactForce { spin: T::zero(), ..rescaled(force, target) }
+    }
+
+    #[inline]
+    fn slip_direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>> {
+        let magnitude = force.tangential_magnitude();
+        let scale = magnitude.normalising_factor();
+        let velocity = -(force.tangential * scale) / (magnitude * scale);
+        velocity.iter().all(|x| x.is_number()).then_some(SlipDirection { velocity, spin: T::zero() })
     }
 }
 
@@ -102,7 +105,7 @@ struct Parts<T> {
 #[cfg(feature = "serde")]
 impl<T: Real> From<Coulomb<T>> for Parts<T> {
     fn from(model: Coulomb<T>) -> Self {
-        Self { coefficient: model.coefficient }
+        Self { coefficient: model.coefficient() }
     }
 }
 

@@ -2,76 +2,79 @@
 
 use fingertip_wrench::{ContactForce, Real};
 
-use crate::{BadNoise, ForceNoise, NormalForceGate, SlipDetector, SlipVerdict};
+use crate::ratio_tracker::{Evidence, RatioTracker};
+use crate::{BadNoise, Cusum, ForceNoise, SlipDetector, SlipVerdict};
 
 /// Finds the fall of the friction ratio from its static peak to its kinetic level, without knowing
 /// either.
 ///
-/// An α-β tracker follows the ratio; a one-sided cumulative sum of the standardised innovation
-/// (theory 7.2) rises when the ratio falls faster than the tracker foretells, and calls slip when
-/// it passes the threshold. The tracker works on the ratio and its rate per second, so that
-/// irregular time steps are allowed.
+/// An α-β tracker (α = 0.15) follows the ratio, and another the tangential force; a one-sided
+/// cumulative sum ([`Cusum`], Page 1954; theory 7.2) of the standardised fall below the forecast
+/// rises when the ratio falls faster than the tracker foretells, and calls slip when it passes the
+/// threshold. Each drop gives one [`SlipVerdict::Slipping`]; the detector then starts anew, so that
+/// the next drop of a stick-slip motion is found too.
+///
+/// # What it bears
+/// - Steps of the normal force, up or down: the ratio moves without the tangential force, or the
+///   other way round; only a fall of both counts.
+/// - Drift: the tracker follows a line without lag.
+/// - Sample rates above 2 kHz: samples are averaged over half a millisecond.
+/// - Irregular time steps, and dropped samples up to 16 sample times; after a longer gap it starts
+///   anew.
+/// - Samples that repeat the one before (a sensor slower than the loop): no evidence is counted
+///   twice. A time step that is not positive is taken as the same sample again.
+/// - Noise, hum or quantisation above the stated noise: sensitivity falls, false alarms do not rise.
+///
+/// It gives no evidence in the first 8 samples after contact, after a gap, or after an alarm.
+///
+/// # What it can't tell
+/// A load that is taken off in a few samples while the normal force stays looks like slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DropDetector<T> {
-    noise: ForceNoise<T>,
-    gate: NormalForceGate<T>,
-    alpha: T,
-    beta: T,
-    allowance: T,
-    threshold: T,
-    state: Option<State<T>>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-struct State<T> {
-    ratio: T,
-    /// Change of the ratio per sample.
-    rate: T,
-    sum: T,
+    tracker: RatioTracker<T>,
+    sum: Cusum<T>,
 }
 
 impl<T: Real> DropDetector<T> {
-    /// From the noise of the contact force, with the gains of theory 7.2: α = 0.2, β = 0.02,
-    /// allowance 0.75, threshold 8.
+    /// From the noise of the contact force, with allowance 0.75 and threshold 7. With these, white
+    /// noise of the stated size gives less than one false alarm in ten minutes at 1 kHz, and a
+    /// drop of five deviations of the ratio is found within about two samples (theory 7.2).
     ///
     /// # Errors
-    /// [`BadNoise`] unless both deviations are positive and finite.
+    /// [`BadNoise`] unless both deviations, and their squares, are positive and finite.
     pub fn new(noise: ForceNoise<T>) -> Result<Self, BadNoise> {
-        let noise = noise.checked()?;
-        Ok(Self {
-            noise,
-            gate: NormalForceGate::from_noise(&noise),
-            alpha: T::literal(0.2),
-            beta: T::literal(0.02),
-            allowance: T::literal(0.75),
-            threshold: T::literal(8.0),
-            state: None,
-        })
+        Self::with_sum(noise, Cusum::drop_default())
+    }
+
+    /// With another cumulative sum, as from [`Cusum::for_false_alarms`].
+    ///
+    /// # Errors
+    /// [`BadNoise`] unless both deviations, and their squares, are positive and finite.
+    pub fn with_sum(noise: ForceNoise<T>, sum: Cusum<T>) -> Result<Self, BadNoise> {
+        Ok(Self { tracker: RatioTracker::new(noise)?, sum })
+    }
+
+    /// The friction ratio as followed so far; `None` without contact.
+    #[inline]
+    #[must_use]
+    pub fn ratio(&self) -> Option<T> {
+        self.tracker.ratio()
     }
 }
 
 impl<T: Real> SlipDetector<T> for DropDetector<T> {
     #[inline]
-    fn update(&mut self, force: &ContactForce<T>, _time_step: T) -> SlipVerdict {
-        let Some(ratio) = self.gate.ratio(force) else {
-            self.state = None;
-            return SlipVerdict::NotPressing;
+    fn update(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict {
+        let passed = match self.tracker.take(force, time_step) {
+            Evidence::NotPressing => return SlipVerdict::NotPressing,
+            Evidence::None => return SlipVerdict::Holding,
+            Evidence::Repeated => self.sum.add(T::zero()),
+            Evidence::Fall(fall) => self.sum.add(fall),
         };
-        let Some(state) = &mut self.state else {
-            self.state = Some(State { ratio, rate: T::zero(), sum: T::zero() });
-            return SlipVerdict::Holding;
-        };
-        let predicted = state.ratio + state.rate;
-        let innovation = ratio - predicted;
-        state.ratio = predicted + self.alpha * innovation;
-        state.rate += self.beta * innovation;
-        let deviation = self.noise.ratio_deviation(force.normal, ratio);
-        state.sum = (state.sum - innovation / deviation - self.allowance).max(T::zero());
-        if state.sum > self.threshold {
-            // Start anew from here, so that the next drop of a stick-slip motion is found too.
-            *state = State { ratio, rate: T::zero(), sum: T::zero() };
+        if passed {
+            self.sum.reset();
+            self.tracker.restart();
             SlipVerdict::Slipping
         } else {
             SlipVerdict::Holding
@@ -79,6 +82,11 @@ impl<T: Real> SlipDetector<T> for DropDetector<T> {
     }
 
     fn reset(&mut self) {
-        self.state = None;
+        self.tracker.reset();
+        self.sum.reset();
     }
 }
+
+#[cfg(test)]
+#[path = "drop_detector_tests.rs"]
+mod tests;

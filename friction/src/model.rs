@@ -1,6 +1,7 @@
 //! What every friction limit can tell.
 
 use fingertip_wrench::{ContactForce, Real};
+use nalgebra::Vector3;
 
 /// How far a contact force is from slipping.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +13,28 @@ pub struct SlipMargin<T> {
     /// How much of the limit is used: 0 without tangential load, 1 at slip. The largest number of
     /// the type where there is no normal force to hold the load.
     pub utilisation: T,
+}
+
+impl<T: Real> SlipMargin<T> {
+    /// What a force that is not finite gets.
+    pub(crate) fn unknown() -> Self {
+        Self { newtons: -T::GREATEST, utilisation: T::GREATEST }
+    }
+}
+
+/// Which way the fingertip slides over the object once it slips.
+///
+/// By maximum dissipation this is the inward normal of the limit surface in the space of
+/// tangential force and spin torque. It is scaled so that `|velocity|² + (arm·spin)² = 1`, where
+/// the arm is the model's ratio of the greatest spin torque to the greatest tangential force (zero
+/// spin for a model without one).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlipDirection<T: Real> {
+    /// Direction of the sliding velocity of the fingertip relative to the object, in the frame of
+    /// the contact force.
+    pub velocity: Vector3<T>,
+    /// Spin about the outward normal that goes with it \[1/m\].
+    pub spin: T,
 }
 
 /// A limit that the contact force cannot pass without slipping.
@@ -28,6 +51,46 @@ pub trait FrictionModel<T: Real> {
     fn least_normal_force(&self, force: &ContactForce<T>, safety: T) -> T;
 }
 
+/// A friction limit that knows its own shape: membership, factor of safety, projection and the
+/// direction of slip.
+///
+/// # For implementers
+/// [`project`](Self::project) must return a force inside the limit (to rounding), and the force
+/// itself where it holds already; what is not finite, or cannot be held by any pressing force,
+/// becomes no force.
+pub trait FrictionLimit<T: Real>: FrictionModel<T> {
+    /// `true` if the contact holds, the limit included.
+    #[inline]
+    fn holds(&self, force: &ContactForce<T>) -> bool {
+        self.slip_margin(force).newtons >= T::zero()
+    }
+
+    /// How many times the tangential load could grow before it slips; saturates at the largest
+    /// number without load, 0 without a pressing normal force.
+    #[inline]
+    fn factor_of_safety(&self, force: &ContactForce<T>) -> T {
+        let used = self.slip_margin(force).utilisation;
+        if used >= T::GREATEST {
+            T::zero()
+        } else if used > T::one() / T::GREATEST {
+            (T::one() / used).min(T::GREATEST)
+        } else {
+            T::GREATEST
+        }
+    }
+
+    /// The least normal force \[N\] at which the margin is at least `margin` newtons; saturates at
+    /// the largest number. A negative margin counts as none.
+    fn normal_force_keeping(&self, force: &ContactForce<T>, margin: T) -> T;
+
+    /// The force of the limit nearest to `force`, in the norm of the margin.
+    fn project(&self, force: &ContactForce<T>) -> ContactForce<T>;
+
+    /// Which way it slides if it slips under this force; `None` without tangential load or where
+    /// the force is not finite.
+    fn slip_direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>>;
+}
+
 impl<T: Real, M: FrictionModel<T> + ?Sized> FrictionModel<T> for &M {
     #[inline]
     fn slip_margin(&self, force: &ContactForce<T>) -> SlipMargin<T> {
@@ -37,5 +100,22 @@ impl<T: Real, M: FrictionModel<T> + ?Sized> FrictionModel<T> for &M {
     #[inline]
     fn least_normal_force(&self, force: &ContactForce<T>, safety: T) -> T {
         (**self).least_normal_force(force, safety)
+    }
+}
+
+impl<T: Real, M: FrictionLimit<T> + ?Sized> FrictionLimit<T> for &M {
+    #[inline]
+    fn normal_force_keeping(&self, force: &ContactForce<T>, margin: T) -> T {
+        (**self).normal_force_keeping(force, margin)
+    }
+
+    #[inline]
+    fn project(&self, force: &ContactForce<T>) -> ContactForce<T> {
+        (**self).project(force)
+    }
+
+    #[inline]
+    fn slip_direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>> {
+        (**self).slip_direction(force)
     }
 }

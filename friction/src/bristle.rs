@@ -1,0 +1,328 @@
+//! The state of dynamic friction and its steps.
+
+use fingertip_wrench::Real;
+use nalgebra::SVector;
+
+use crate::BristleLaw;
+
+/// Friction with a memory, stepped by a prescribed motion.
+///
+/// `D` is the number of dimensions: 1, 2 in the tangent plane, or 3 with spin, whose third
+/// components are the spin rate times the torque arm, and the spin torque over the arm.
+pub trait DynamicFriction<T: Real, const D: usize> {
+    /// Moves by `velocity` over `time_step` and returns the friction force at its end, along the
+    /// motion that it opposes: a body that moves over the other feels minus this.
+    ///
+    /// A motion or time that is not finite (or a negative time) changes nothing; the elastic force
+    /// is returned.
+    fn step(&mut self, velocity: &SVector<T, D>, time_step: T) -> SVector<T, D>;
+
+    /// Releases all deflection.
+    fn reset(&mut self);
+}
+
+/// How the deflection is carried over one step of constant velocity.
+///
+/// All three keep `|z| ≤ F_s/σ₀`, do not let two states of the same law part (for α = 1), and are
+/// passive, for every step length (theory 6.2).
+pub trait Integrator: Copy {
+    /// The new deflection. `step` is `hv`, `slide` is `hλ` with
+    /// `λ = α σ₀|v|/g`, and `limit` is `g/σ₀`.
+    fn advance<T: Real, const D: usize>(
+        deflection: &SVector<T, D>,
+        step: &SVector<T, D>,
+        slide: T,
+        limit: T,
+    ) -> SVector<T, D>;
+}
+
+/// Exact for a constant velocity: `z⁺ = z e^{−λh} + v h φ₁(λh)`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Exponential;
+
+/// Backward Euler: `z⁺ = (z + hv)/(1 + hλ)`. First order, without an exponential.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Implicit;
+
+/// The rate-independent limit: elastic up to `g/σ₀`, then slides along (radial return).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ReturnMap;
+
+impl Integrator for Exponential {
+    #[inline]
+    fn advance<T: Real, const D: usize>(
+        deflection: &SVector<T, D>,
+        step: &SVector<T, D>,
+        slide: T,
+        _limit: T,
+    ) -> SVector<T, D> {
+        // 1 − e^{−x}, and φ₁(x) = (1 − e^{−x})/x.
+        let fall = -(-slide).exp_m1();
+        let mean = if slide > T::LEAST_NORMAL { fall / slide } else { T::one() };
+        let decay = T::one() - fall;
+        deflection * decay + step * mean
+    }
+}
+
+impl Integrator for Implicit {
+    #[inline]
+    fn advance<T: Real, const D: usize>(
+        deflection: &SVector<T, D>,
+        step: &SVector<T, D>,
+        slide: T,
+        _limit: T,
+    ) -> SVector<T, D> {
+        (deflection + step) / (T::one() + slide)
+    }
+}
+
+impl Integrator for ReturnMap {
+    #[inline]
+    fn advance<T: Real, const D: usize>(
+        deflection: &SVector<T, D>,
+        step: &SVector<T, D>,
+        _slide: T,
+        limit: T,
+    ) -> SVector<T, D> {
+        let (moved, _) = clamped(deflection + step, limit);
+        moved
+    }
+}
+
+/// A friction law with its state: the deflection z \[m\].
+///
+/// # Bounded and passive
+/// `|z| ≤ F_s/σ₀` for every step, by the integrator and a radial clamp. The damping term `σ₁ż` is
+/// taken as the mean over the step and limited, step by step, to what keeps
+/// `h F·v ≥ ½σ₀(|z⁺|² − |z|²)`: with the plain term LuGre itself gives energy at speeds above
+/// `4(σ₁+σ₂)g/σ₁²` (Barabanov & Ortega 2000; theory 6.3).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bristle<T: Real, Law, const D: usize, Method = Exponential> {
+    law: Law,
+    deflection: SVector<T, D>,
+    load: T,
+    _method: core::marker::PhantomData<Method>,
+}
+
+/// What acts on a body that friction holds, besides friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drive<T: Real, const D: usize> {
+    /// Mass \[kg\] in each direction (for spin: inertia over the arm squared).
+    pub mass: SVector<T, D>,
+    /// Force \[N\] at the end of the step, were the body to stay where it is.
+    pub force: SVector<T, D>,
+    /// Stiffness of the spring that this force comes from \[N/m\], so that it is taken implicitly;
+    /// zero for a force that does not depend on the position.
+    pub stiffness: T,
+}
+
+/// The end of a step of a body held by friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coupled<T: Real, const D: usize> {
+    /// Velocity at the end of the step.
+    pub velocity: SVector<T, D>,
+    /// Friction force, along the motion that it opposes.
+    pub friction: SVector<T, D>,
+}
+
+impl<T: Real, Law: BristleLaw<T>, const D: usize> Bristle<T, Law, D> {
+    /// Unstrained, with the exponential step.
+    #[inline]
+    #[must_use]
+    pub fn new(law: Law) -> Self {
+        Self::with_method(law)
+    }
+}
+
+impl<T: Real, Law: BristleLaw<T>, const D: usize, Method: Integrator> Bristle<T, Law, D, Method> {
+    /// Unstrained, with a chosen integrator.
+    #[inline]
+    #[must_use]
+    pub fn with_method(law: Law) -> Self {
+        Self { law, deflection: SVector::zeros(), load: T::one(), _method: core::marker::PhantomData }
+    }
+
+    /// The deflection z \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn deflection(&self) -> &SVector<T, D> {
+        &self.deflection
+    }
+
+    /// The law.
+    #[inline]
+    #[must_use]
+    pub const fn law(&self) -> &Law {
+        &self.law
+    }
+
+    /// Sets the normal force \[N\] that multiplies all forces, for a law whose parameters are per
+    /// newton of it. One that does not press (or NaN) is none: nothing then holds the deflection.
+    #[inline]
+    pub fn set_load(&mut self, normal_force: T) {
+        self.load =
+            if normal_force > T::zero() && normal_force.is_number() { normal_force } else { T::zero() };
+    }
+
+    /// Stored energy `½σ₀|z|²` \[J\].
+    #[inline]
+    #[must_use]
+    pub fn energy(&self) -> T {
+        T::literal(0.5) * self.load * self.law.stiffness() * self.deflection.norm_squared()
+    }
+
+    /// λ at a velocity, and the deflection `g/σ₀` of steady sliding.
+    #[inline]
+    fn slide(&self, speed: T, opposed: bool) -> (T, T) {
+        let limit = self.law.steady(speed) / self.law.stiffness();
+        let share = self.law.plastic_share(length(&self.deflection), opposed, speed);
+        ((share * speed / limit).min(T::GREATEST), limit)
+    }
+
+    /// One step of a body of some mass under a drive, held by this friction: one linear solve, no
+    /// iteration, passive for every step length: the energy `½mv² + ½σ₀z²` grows by no more than
+    /// the work of the drive (theory 6.3), thanks to `σ₁ ≤ 4σ₀/λ`. The friction rate is frozen
+    /// first at the old and then at the foretold velocity. First order.
+    ///
+    /// Returns the old velocity and changes nothing where the input is not finite, the time step
+    /// not positive or a mass not positive.
+    #[inline]
+    pub fn step_body(
+        &mut self,
+        velocity: &SVector<T, D>,
+        drive: &Drive<T, D>,
+        time_step: T,
+    ) -> Coupled<T, D> {
+        let finite = |v: &SVector<T, D>| v.iter().all(|x| x.is_number());
+        let good = finite(velocity)
+            && finite(&drive.force)
+            && drive.mass.iter().all(|m| *m > T::zero() && m.is_number())
+            && drive.stiffness >= T::zero()
+            && drive.stiffness.is_number()
+            && time_step > T::zero()
+            && time_step.is_number();
+        if !good {
+            return Coupled { velocity: *velocity, friction: self.elastic_force() };
+        }
+        let foretold = self.solve(velocity, velocity, drive, time_step);
+        let (end, keep, damping) = self.solve(velocity, &foretold.0, drive, time_step);
+        if !finite(&end) {
+            return Coupled { velocity: *velocity, friction: self.elastic_force() };
+        }
+        let before = self.deflection;
+        let after = (before + end * time_step) * keep;
+        let friction = (after * self.law.stiffness()
+            + (after - before) * (damping / time_step)
+            + end * self.law.viscous())
+            * self.load;
+        self.deflection = clamped(after, self.greatest_deflection()).0;
+        if self.load <= T::zero() {
+            self.deflection = SVector::zeros();
+        }
+        Coupled { velocity: end, friction }
+    }
+
+    /// The velocity at the end, `1/(1+hλ)`, and the damping used, with λ at the velocity `at`.
+    #[inline]
+    fn solve(
+        &self,
+        velocity: &SVector<T, D>,
+        at: &SVector<T, D>,
+        drive: &Drive<T, D>,
+        h: T,
+    ) -> (SVector<T, D>, T, T) {
+        let (rate, _) = self.slide(length(at), self.deflection.dot(at) < T::zero());
+        let keep = T::one() / (T::one() + h * rate);
+        let stiffness = self.law.stiffness();
+        let damping = if rate > T::zero() {
+            self.law.damping().min(T::literal(4.0) * stiffness / rate)
+        } else {
+            self.law.damping()
+        };
+        let combined = h * stiffness + damping;
+        let added = (h * combined * keep + h * self.law.viscous()) * self.load + h * h * drive.stiffness;
+        let held = self.deflection * (self.load * (damping - combined * keep));
+        let end = SVector::from_fn(|i, _| {
+            (drive.mass[i] * velocity[i] + h * drive.force[i] + held[i]) / (drive.mass[i] + added)
+        });
+        (end, keep, damping)
+    }
+
+    #[inline]
+    fn greatest_deflection(&self) -> T {
+        self.law.greatest() / self.law.stiffness()
+    }
+
+    #[inline]
+    fn elastic_force(&self) -> SVector<T, D> {
+        self.deflection * (self.law.stiffness() * self.load)
+    }
+}
+
+impl<T: Real, Law: BristleLaw<T>, const D: usize, Method: Integrator> DynamicFriction<T, D>
+    for Bristle<T, Law, D, Method>
+{
+    #[inline]
+    fn step(&mut self, velocity: &SVector<T, D>, time_step: T) -> SVector<T, D> {
+        let path = velocity * time_step;
+        let good = time_step >= T::zero()
+            && time_step.is_number()
+            && velocity.iter().chain(path.iter()).all(|x| x.is_number());
+        if !good {
+            return self.elastic_force();
+        }
+        if !(self.load > T::zero()) {
+            self.deflection = SVector::zeros();
+            return SVector::zeros();
+        }
+        let before = self.deflection;
+        let (rate, limit) = self.slide(length(velocity), before.dot(velocity) < T::zero());
+        let slide = (rate * time_step).min(T::GREATEST);
+        let after = Method::advance(&before, &path, slide, limit);
+        let after = clamped(after, self.greatest_deflection()).0;
+        self.deflection = after;
+
+        // The mean damping force over the step, no greater than passivity allows.
+        let change = after - before;
+        let stiffness = self.law.stiffness();
+        let mut damping =
+            if time_step > T::zero() { self.law.damping() / (stiffness * time_step) } else { T::zero() };
+        let power = change.dot(&path);
+        if power < T::zero() {
+            let half = T::literal(0.5);
+            let spare = after.dot(&path) - half * change.dot(&(after + before));
+            damping = damping.min(spare.max(T::zero()) / -power);
+        }
+        if !damping.is_number() {
+            damping = T::zero();
+        }
+        ((after + change * damping) * stiffness + velocity * self.law.viscous()) * self.load
+    }
+
+    #[inline]
+    fn reset(&mut self) {
+        self.deflection = SVector::zeros();
+    }
+}
+
+/// Euclidean length without over- or underflow.
+#[inline]
+fn length<T: Real, const D: usize>(v: &SVector<T, D>) -> T {
+    let scale = v.amax().normalising_factor();
+    (v * scale).norm_squared().root() / scale
+}
+
+/// The vector, shortened to `limit` where it is longer, and whether it was.
+#[inline]
+fn clamped<T: Real, const D: usize>(v: SVector<T, D>, limit: T) -> (SVector<T, D>, bool) {
+    let length = length(&v);
+    if length <= limit {
+        (v, false)
+    } else {
+        let scale = v.amax().normalising_factor();
+        (v * scale * (limit / (length * scale)), true)
+    }
+}

@@ -1,0 +1,121 @@
+//! A friction cone `ρ ≤ μN` in the plane of tangential load ρ and normal force N.
+//!
+//! Whatever norm measures the tangential load, the distance of (load, N) to the cone in the norm
+//! `√(ρ(δ)² + δN²)` is the plane distance below: a step that changes the load by `ρ(δ)` changes
+//! its norm by no more than that, and a step along the load itself by just that.
+
+use fingertip_wrench::{ContactForce, Real};
+
+use crate::{BadFriction, SlipMargin};
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Cone<T> {
+    /// μ.
+    pub(crate) coefficient: T,
+    /// `1/√(1+μ²)`: the cosine of the friction angle.
+    pub(crate) cosine: T,
+}
+
+impl<T: Real> Cone<T> {
+    pub(crate) fn new(coefficient: T) -> Result<Self, BadFriction> {
+        let coefficient = positive(coefficient, "friction coefficient")?;
+        // 1/hypot(1, μ), without overflow for a large μ.
+        let cosine = if coefficient <= T::one() {
+            T::one() / (T::one() + coefficient * coefficient).root()
+        } else {
+            let inverse = T::one() / coefficient;
+            inverse / (T::one() + inverse * inverse).root()
+        };
+        Ok(Self { coefficient, cosine })
+    }
+
+    #[inline]
+    pub(crate) fn margin(&self, load: T, normal: T) -> SlipMargin<T> {
+        let holding = self.coefficient * normal;
+        let newtons = if self.coefficient * load <= -normal {
+            // The apex is nearest.
+            -hypot(load, normal)
+        } else {
+            (holding - load) * self.cosine
+        };
+        let utilisation = if load <= T::zero() && normal >= T::zero() {
+            T::zero()
+        } else if holding > T::zero() {
+            (load / holding).min(T::GREATEST)
+        } else {
+            T::GREATEST
+        };
+        if newtons.is_number() && utilisation.is_number() {
+            SlipMargin { newtons, utilisation }
+        } else {
+            SlipMargin::unknown()
+        }
+    }
+
+    #[inline]
+    pub(crate) fn least_normal(&self, load: T, safety: T) -> T {
+        // Divide first: the product may overflow where the result does not.
+        saturated(load * (safety / self.coefficient))
+    }
+
+    #[inline]
+    pub(crate) fn normal_keeping(&self, load: T, margin: T) -> T {
+        saturated((load + margin.max(T::zero()) / self.cosine) / self.coefficient)
+    }
+
+    /// The factor for the tangential load and the normal force of the nearest point.
+    #[inline]
+    pub(crate) fn project(&self, load: T, normal: T) -> Option<(T, T)> {
+        if !(load.is_number() && normal.is_number()) || self.coefficient * load <= -normal {
+            return None;
+        }
+        if load <= self.coefficient * normal {
+            return Some((T::one(), normal));
+        }
+        let nearest = (self.coefficient * load + normal) * self.cosine * self.cosine;
+        let factor = self.coefficient * (nearest / load);
+        (nearest.is_number() && factor.is_number()).then_some((factor.min(T::one()), nearest))
+    }
+}
+
+/// The value if it is positive and finite.
+pub(crate) fn positive<T: Real>(value: T, parameter: &'static str) -> Result<T, BadFriction> {
+    if value > T::zero() && value.is_number() {
+        Ok(value)
+    } else {
+        Err(BadFriction { parameter, requirement: "positive and finite" })
+    }
+}
+
+/// The value if it is finite and not negative.
+pub(crate) fn not_negative<T: Real>(value: T, parameter: &'static str) -> Result<T, BadFriction> {
+    if value >= T::zero() && value.is_number() {
+        Ok(value)
+    } else {
+        Err(BadFriction { parameter, requirement: "finite and not negative" })
+    }
+}
+
+#[inline]
+pub(crate) fn saturated<T: Real>(force: T) -> T {
+    if force.is_number() { force.max(T::zero()) } else { T::GREATEST }
+}
+
+/// `√(a² + b²)` without over- or underflow between.
+#[inline]
+pub(crate) fn hypot<T: Real>(a: T, b: T) -> T {
+    let scale = a.abs().max(b.abs()).normalising_factor();
+    let (a, b) = (a * scale, b * scale);
+    (a * a + b * b).root() / scale
+}
+
+/// The force with its tangential load times `factor` and another normal force.
+#[inline]
+pub(crate) fn rescaled<T: Real>(force: &ContactForce<T>, target: Option<(T, T)>) -> ContactForce<T> {
+    match target {
+        Some((factor, normal)) => {
+            ContactForce { normal, tangential: force.tangential * factor, spin: force.spin * factor }
+        }
+        None => ContactForce::zero(),
+    }
+}

@@ -1,0 +1,131 @@
+//! The generalised likelihood ratio over a sliding window.
+
+use fingertip_wrench::{ContactForce, Real};
+
+use crate::ratio_tracker::{Evidence, RatioTracker};
+use crate::run_length::{likelihood_ratio_threshold, run_length_for};
+use crate::{BadDetector, BadNoise, ForceNoise, SlipDetector, SlipVerdict};
+
+/// `max_j S_j²/(2j) > threshold` over the sums `S_j > 0` of the last `j ≤ W` standardised samples:
+/// it needs no guess of the size of the change, as the cumulative sum does.
+///
+/// One update costs W additions; it is recomputed from the samples, so that no rounding adds up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LikelihoodRatio<T, const W: usize> {
+    /// The last samples, newest at `next − 1`.
+    samples: [T; W],
+    next: usize,
+    filled: usize,
+    window: usize,
+    threshold: T,
+}
+
+impl<T: Real, const W: usize> LikelihoodRatio<T, W> {
+    /// With a threshold and the full window.
+    ///
+    /// # Errors
+    /// [`BadDetector`] unless W is at least 2 and the threshold positive and finite.
+    pub fn new(threshold: T) -> Result<Self, BadDetector> {
+        Self::with_window(W, threshold)
+    }
+
+    /// With a window shorter than the room for it.
+    ///
+    /// # Errors
+    /// [`BadDetector`] unless the window is from 2 to W and the threshold positive and finite.
+    pub fn with_window(window: usize, threshold: T) -> Result<Self, BadDetector> {
+        if !(2..=W).contains(&window) {
+            return Err(BadDetector { parameter: "window", requirement: "at least 2, and within its room" });
+        }
+        if !(threshold > T::zero() && threshold.is_number()) {
+            return Err(BadDetector { parameter: "threshold", requirement: "positive and finite" });
+        }
+        Ok(Self { samples: [T::zero(); W], next: 0, filled: 0, window, threshold })
+    }
+
+    /// Takes one standardised sample and tells whether the ratio is above the threshold. A NaN is
+    /// ignored.
+    #[inline]
+    pub fn add(&mut self, sample: T) -> bool {
+        if !sample.is_number() {
+            return false;
+        }
+        if let Some(place) = self.samples.get_mut(self.next) {
+            *place = sample;
+        }
+        self.next = if self.next + 1 >= self.window { 0 } else { self.next + 1 };
+        self.filled = (self.filled + 1).min(self.window);
+        let (newer, older) = self.samples.split_at(self.next);
+        let older = older.get(..self.window - self.next).unwrap_or(&[]);
+        let twice = self.threshold + self.threshold;
+        let (mut sum, mut bound) = (T::zero(), T::zero());
+        for x in newer.iter().rev().chain(older.iter().rev()).take(self.filled) {
+            sum += *x;
+            bound += twice;
+            if sum > T::zero() && sum * sum > bound {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Forgets all samples.
+    #[inline]
+    pub fn reset(&mut self) {
+        self.filled = 0;
+        self.next = 0;
+    }
+}
+
+/// Finds slip as a fall of the friction ratio of unknown size: [`LikelihoodRatio`] on the same
+/// evidence as [`DropDetector`](crate::DropDetector), and as robust.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LikelihoodRatioDetector<T, const W: usize> {
+    tracker: RatioTracker<T>,
+    ratio: LikelihoodRatio<T, W>,
+}
+
+impl<T: Real, const W: usize> LikelihoodRatioDetector<T, W> {
+    /// From the noise of the contact force, a wanted rate of false alarms per minute, and the
+    /// sample rate \[Hz\].
+    ///
+    /// # Errors
+    /// [`BadDetector`] unless noise, rates and window are usable.
+    pub fn new(
+        noise: ForceNoise<T>,
+        false_alarms_per_minute: f64,
+        sample_rate: f64,
+    ) -> Result<Self, BadDetector> {
+        let length = run_length_for(false_alarms_per_minute, sample_rate);
+        let threshold = T::literal(likelihood_ratio_threshold(W, length)?);
+        let tracker = RatioTracker::new(noise).map_err(|BadNoise { .. }| BadDetector {
+            parameter: "noise",
+            requirement: "positive and finite",
+        })?;
+        Ok(Self { tracker, ratio: LikelihoodRatio::new(threshold)? })
+    }
+}
+
+impl<T: Real, const W: usize> SlipDetector<T> for LikelihoodRatioDetector<T, W> {
+    #[inline]
+    fn update(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict {
+        let passed = match self.tracker.take(force, time_step) {
+            Evidence::NotPressing => return SlipVerdict::NotPressing,
+            Evidence::None => return SlipVerdict::Holding,
+            Evidence::Repeated => self.ratio.add(T::zero()),
+            Evidence::Fall(fall) => self.ratio.add(fall),
+        };
+        if passed {
+            self.ratio.reset();
+            self.tracker.restart();
+            SlipVerdict::Slipping
+        } else {
+            SlipVerdict::Holding
+        }
+    }
+
+    fn reset(&mut self) {
+        self.tracker.reset();
+        self.ratio.reset();
+    }
+}

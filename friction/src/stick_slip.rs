@@ -1,0 +1,84 @@
+//! Stick-slip: slip that comes back at even times.
+
+use fingertip_wrench::{ContactForce, Real};
+
+use crate::{DropDetector, SlipDetector, SlipVerdict};
+
+/// A periodic stick-slip motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct StickSlip<T> {
+    /// Mean time between drops \[s\].
+    pub period: T,
+    /// Greatest less least of the last three periods, over their mean.
+    pub spread: T,
+}
+
+/// Watches the drops of a [`DropDetector`] and calls them stick-slip when three periods in a row
+/// differ by less than 20 % of their mean.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct StickSlipDetector<T> {
+    drops: DropDetector<T>,
+    /// Time since the last drop \[s\]; none before the first.
+    since: Option<T>,
+    periods: [T; 3],
+    known: u8,
+}
+
+impl<T: Real> StickSlipDetector<T> {
+    /// From a detector of single drops.
+    #[must_use]
+    pub fn new(drops: DropDetector<T>) -> Self {
+        Self { drops, since: None, periods: [T::zero(); 3], known: 0 }
+    }
+
+    /// The stick-slip motion now going on, if any: it ends when no drop has come for one and a
+    /// half periods.
+    #[must_use]
+    pub fn motion(&self) -> Option<StickSlip<T>> {
+        if self.known < 3 {
+            return None;
+        }
+        let [a, b, c] = self.periods;
+        let period = (a + b + c) / T::literal(3.0);
+        let spread = (a.max(b).max(c) - a.min(b).min(c)) / period;
+        let going_on = self.since.is_some_and(|since| since < period * T::literal(1.5));
+        (going_on && spread < T::literal(0.2)).then_some(StickSlip { period, spread })
+    }
+}
+
+impl<T: Real> SlipDetector<T> for StickSlipDetector<T> {
+    #[inline]
+    fn update(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict {
+        let verdict = self.drops.update(force, time_step);
+        if let Some(since) = &mut self.since
+            && time_step > T::zero()
+            && time_step.is_number()
+        {
+            *since += time_step;
+        }
+        if verdict == SlipVerdict::Slipping {
+            if let Some(since) = self.since {
+                self.periods = [self.periods[1], self.periods[2], since];
+                self.known = (self.known + 1).min(3);
+            }
+            self.since = Some(T::zero());
+        } else if verdict == SlipVerdict::NotPressing && force.is_finite() && time_step.is_number() {
+            self.forget();
+        }
+        verdict
+    }
+
+    fn reset(&mut self) {
+        self.drops.reset();
+        self.forget();
+    }
+}
+
+impl<T: Real> StickSlipDetector<T> {
+    fn forget(&mut self) {
+        self.since = None;
+        self.known = 0;
+    }
+}
