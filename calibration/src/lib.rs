@@ -3,6 +3,7 @@
 mod axis;
 pub mod file;
 pub mod fit;
+pub mod gravity;
 pub mod linear;
 pub mod loads;
 pub mod model;
