@@ -7,6 +7,7 @@ pub mod gravity;
 pub mod linear;
 pub mod loads;
 pub mod model;
+pub mod motion;
 pub mod report;
 pub mod units;
 
