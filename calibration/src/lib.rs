@@ -3,7 +3,9 @@
 mod axis;
 pub mod file;
 pub mod fit;
+pub mod geometry;
 pub mod gravity;
+pub mod in_situ;
 pub mod linear;
 pub mod loads;
 pub mod model;
