@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod axis;
+pub mod experiment;
 pub mod file;
 pub mod fit;
 pub mod geometry;

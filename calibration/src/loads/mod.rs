@@ -1,5 +1,6 @@
 //! Known loads: the table that calibrations are fitted to, and its CSV.
 
+mod merge;
 mod table;
 mod text;
 
