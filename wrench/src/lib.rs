@@ -6,6 +6,7 @@ compile_error!("fingertip-wrench needs one of the features `std` and `libm` for 
 
 mod compensation;
 mod contact_force;
+mod dummy_gauge;
 mod frame;
 pub mod gauge_layout;
 mod gaussian;
@@ -20,6 +21,7 @@ mod wrench;
 
 pub use compensation::{Compensation, Uncompensated};
 pub use contact_force::ContactForce;
+pub use dummy_gauge::{DummyGauge, DummyGaugeAccumulator, GaugesAndDummy};
 pub use frame::{Frame, Sensor};
 pub use gaussian::{GaussianElimination, SingularMatrix};
 pub use line_of_action::{Line, LineOfAction, NoLineOfAction};
