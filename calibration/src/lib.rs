@@ -1,5 +1,7 @@
 #![doc = include_str!("../README.md")]
 
+extern crate alloc;
+
 mod axis;
 pub mod experiment;
 pub mod file;
@@ -12,6 +14,7 @@ pub mod loads;
 pub mod model;
 pub mod motion;
 pub mod report;
+pub mod tare;
 pub mod units;
 
 pub use axis::Axis;

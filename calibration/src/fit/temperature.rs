@@ -116,7 +116,10 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
     use rand::SeedableRng as _;
 
-    fn made(noise: f64) -> (DMatrix<f64>, DMatrix<f64>, Vec<f64>, DMatrix<f64>, DVector<f64>) {
+    /// Loads, signals, temperatures, matrix, gain drift.
+    type Made = (DMatrix<f64>, DMatrix<f64>, Vec<f64>, DMatrix<f64>, DVector<f64>);
+
+    fn made(noise: f64) -> Made {
         let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(3);
         let matrix = sensor(&mut random, 7, 6);
         let loads = gaussian_matrix(&mut random, 60, 6);

@@ -5,3 +5,4 @@ mod table;
 mod text;
 
 pub use table::{LoadError, LoadTable};
+pub use text::signals_from_csv;

@@ -47,7 +47,7 @@ impl Report {
             ] {
                 if let Some(svg) = svg {
                     let caption = escape(&caption);
-                    let _ = write!(page, "<figure>{svg}<figcaption>{caption}</figcaption></figure>\n");
+                    let _ = writeln!(page, "<figure>{svg}<figcaption>{caption}</figcaption></figure>");
                 }
             }
         }
