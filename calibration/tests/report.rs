@@ -1,4 +1,5 @@
 //! The report in its three forms, on a sensor made for the purpose.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, which may fail so")]
 
 use fingertip_calibration::Axis;
 use fingertip_calibration::file::{SignalUnit, Verdict};

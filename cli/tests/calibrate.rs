@@ -86,7 +86,10 @@ fn mistakes_are_explained() {
     let error = folder.fail(1, &["calibrate", "few.csv"]);
     assert!(error.contains("unobserved"), "{error}");
     folder.succeed(&["calibrate", "loads.csv", "-o", "tip.toml"]);
-    folder.write("edited.toml", &folder.read("tip.toml").replacen("zero = [0.1", "zero = [0.3", 1));
+    folder.write(
+        "edited.toml",
+        &folder.read("tip.toml").replacen("signal_unit = \"V\"", "signal_unit = \"count\"", 1),
+    );
     let error = folder.fail(1, &["check", "edited.toml", "loads.csv"]);
     assert!(error.contains("checksum"), "{error}");
 }

@@ -39,9 +39,11 @@ fn options(ati: &AtiCalibration, bias: bool) -> Options {
     }
 }
 
+type Published = (&'static str, [f64; 6], [f64; 6], [f64; 6], [f64; 2]);
+
 /// From the README of the recordings: serial, RMS, left-out RMS, affine RMS (% of full scale), line
 /// error median and greatest \[mm\].
-const PUBLISHED: [(&str, [f64; 6], [f64; 6], [f64; 6], [f64; 2]); 4] = [
+const PUBLISHED: [Published; 4] = [
     (
         "FT44297",
         [0.071, 0.113, 0.109, 0.212, 0.370, 0.141],

@@ -91,7 +91,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), CliError> {
 /// `fingertip tare`.
 pub(crate) fn tare(arguments: &TareArguments) -> Result<(), CliError> {
     // Writing over the calibration itself is what taring often means.
-    guard(std::slice::from_ref(&arguments.rest), [&arguments.output])?;
+    guard(core::slice::from_ref(&arguments.rest), [&arguments.output])?;
     let file = read_calibration(&arguments.calibration)?;
     let text = fs::File::open(&arguments.rest)
         .map_err(|source| CliError::read("recording", &arguments.rest, source))?;
