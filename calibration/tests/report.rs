@@ -156,3 +156,30 @@ fn quadratic_terms_are_kept_where_they_help_and_refused_where_not() {
     let error = calibrate(&make(0.0), &options).unwrap_err();
     assert!(matches!(error, CalibrationError::OverFitted { coefficients: 10, samples: 60, .. }), "{error}");
 }
+
+#[test]
+fn drift_with_temperature_is_fitted_and_kept() {
+    let mut table = table();
+    let celsius: Vec<f64> = (0..table.samples()).map(|i| 20.0 + ((i * 7) % 11) as f64).collect();
+    for (i, t) in celsius.iter().enumerate() {
+        for gauge in 0..6 {
+            let clean = table.signals[(i, gauge)];
+            table.signals[(i, gauge)] = 0.5 + 0.01 * (t - 25.0) + clean * (1.0 + 0.002 * (t - 25.0));
+        }
+    }
+    table.temperatures = Some(celsius);
+    let without = calibrate(&table, &Options::default()).unwrap();
+    assert!(without.report.notes.iter().any(|note| note.contains("temperatures")));
+    let rms = |report: &Report| report.axes.iter().map(|axis| axis.rms_percent).fold(0.0, f64::max);
+    let with = calibrate(&table, &Options { reference_celsius: Some(25.0), ..Options::default() }).unwrap();
+    assert!(rms(&with.report) < 0.3 * rms(&without.report), "{}", with.report);
+    let file = with.to_file().unwrap();
+    let drift = file.temperature.as_ref().unwrap();
+    assert!(drift.zero_drift.iter().all(|drift| (drift - 0.01).abs() < 1e-3));
+    assert!(drift.gain_drift.iter().all(|drift| (drift - 0.002).abs() < 1e-3));
+    assert!(file.zero.iter().all(|zero| (zero - 0.5).abs() < 0.01));
+    table.temperatures = None;
+    let error =
+        calibrate(&table, &Options { reference_celsius: Some(25.0), ..Options::default() }).unwrap_err();
+    assert!(error.to_string().contains("no temperatures"), "{error}");
+}

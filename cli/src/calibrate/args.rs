@@ -51,6 +51,9 @@ pub(crate) struct CalibrateArguments {
     /// Subtract the zero of each group (its samples without load) first
     #[arg(long)]
     pub(crate) tare_groups: bool,
+    /// Fit the drift with temperature (column temperature_C), and give the sensor at this one
+    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true)]
+    pub(crate) reference_celsius: Option<f64>,
     /// Leave out samples that do not fit the others
     #[arg(long)]
     pub(crate) reject_outliers: bool,

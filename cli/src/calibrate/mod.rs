@@ -122,6 +122,7 @@ fn options(arguments: &CalibrateArguments) -> Options {
         nominal: arguments.full_scale.clone(),
         range: arguments.range.as_deref().and_then(|range| <[f64; 2]>::try_from(range).ok()),
         tare_groups: arguments.tare_groups,
+        reference_celsius: arguments.reference_celsius,
         reject_outliers: arguments.reject_outliers,
         limits: limits(arguments.limit),
     }
