@@ -1,4 +1,5 @@
 //! The exported constants compile and give back the calibration.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, which may fail so")]
 
 use fingertip_calibration::file::{CalibrationFile, FileError, Scalar, SignalUnit, Verdict};
 use fingertip_calibration::nalgebra::DMatrix;

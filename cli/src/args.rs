@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::calibrate::args::{CalibrateArguments, CheckArguments, TareArguments};
+
 /// From the strain gauges behind a fingertip to contact, force and slip.
 #[derive(Debug, Parser)]
 #[command(name = "fingertip", version, about, propagate_version = true)]
@@ -21,6 +23,12 @@ pub(crate) enum Command {
     Demo(DemoArguments),
     /// Turn a recording of wrenches or volts into contacts, slip and a report
     Analyze(AnalyzeArguments),
+    /// Fit a sensor to known loads, or a payload to poses, and say how good that is
+    Calibrate(CalibrateArguments),
+    /// Test a calibration on loads that it has not seen
+    Check(CheckArguments),
+    /// Give a calibration a new zero from a recording at rest
+    Tare(TareArguments),
 }
 
 #[derive(Debug, Args)]

@@ -5,9 +5,10 @@ use thiserror::Error;
 
 use super::sensor_model::{design, normalised, responses};
 use super::{Direction, Method, Options, SensorModel};
-use crate::file::{CalibrationFile, FileError, Quality};
+use crate::file::{CalibrationFile, FileError, Quality, Temperature};
 use crate::fit::{
-    Fit, FitError, Ransac, gauss_helmert, huber, least_squares, leave_out, ransac, ridge, total_least_squares,
+    Fit, FitError, Ransac, fit_temperature, gauss_helmert, huber, least_squares, leave_out, ransac, ridge,
+    total_least_squares,
 };
 use crate::loads::{LoadError, LoadTable};
 use crate::report::{Exclusion, Outlier, Report, outliers};
@@ -19,6 +20,8 @@ pub struct Calibration {
     pub model: SensorModel,
     /// The samples that it was fitted to: without those excluded, tared if that was asked for.
     pub table: LoadTable,
+    /// How the readings drift with temperature, if that was asked for.
+    pub temperature: Option<Temperature>,
     /// What can be said of it.
     pub report: Report,
 }
@@ -101,6 +104,10 @@ pub fn calibrate(table: &LoadTable, options: &Options) -> Result<Calibration, Ca
         table = table.tared_by_group()?;
     }
     let nominal = nominal(&table, options)?;
+    let temperature = match options.reference_celsius {
+        Some(reference) => Some(take_off_drift(&mut table, &nominal, reference)?),
+        None => None,
+    };
     let mut model = fit_model(&table, options, &nominal)?;
     let mut found = find_outliers(&table, options, &nominal)?;
     if options.reject_outliers && !found.is_empty() {
@@ -115,8 +122,39 @@ pub fn calibrate(table: &LoadTable, options: &Options) -> Result<Calibration, Ca
     if options.quadratic {
         refuse_over_fitting(&table, options, &model, &left_out)?;
     }
-    let report = Report::of_fit(&table, &model, options, &left_out, excluded, found)?;
-    Ok(Calibration { model, table, report })
+    let mut report = Report::of_fit(&table, &model, options, &left_out, excluded, found)?;
+    if table.temperatures.is_some() && temperature.is_none() {
+        report.notes.push("temperatures are known but no drift was fitted".to_owned());
+    }
+    Ok(Calibration { model, table, temperature, report })
+}
+
+/// Fits the drift with temperature and brings the readings to the reference temperature.
+fn take_off_drift(
+    table: &mut LoadTable,
+    nominal: &[f64],
+    reference: f64,
+) -> Result<Temperature, CalibrationError> {
+    let bad = |message: &str| CalibrationError::BadOption {
+        option: "reference_celsius",
+        message: message.to_owned(),
+    };
+    let celsius = table.temperatures.as_ref().ok_or_else(|| bad("the table has no temperatures"))?;
+    let fit = fit_temperature(&normalised(&table.loads, nominal), &table.signals, celsius, reference)?;
+    let drift = fit.temperature;
+    for (i, celsius) in celsius.iter().enumerate() {
+        let difference = celsius - reference;
+        for gauge in 0..table.signals.ncols() {
+            let zero = difference * (drift.zero_drift[gauge] + drift.zero_curvature[gauge] * difference);
+            let gain = 1.0 + drift.gain_drift[gauge] * difference;
+            if !(gain > 0.0) {
+                return Err(bad("the fitted drift of the gain changes its sign"));
+            }
+            let signal = (table.signals[(i, gauge)] - fit.zero[gauge] - zero) / gain;
+            table.signals[(i, gauge)] = fit.zero[gauge] + signal;
+        }
+    }
+    Ok(drift)
 }
 
 impl Calibration {
@@ -126,6 +164,7 @@ impl Calibration {
     /// [`FileError`] if a number is not finite.
     pub fn to_file(&self) -> Result<CalibrationFile, FileError> {
         let mut file = self.model.to_file(&self.report.method)?;
+        file.temperature.clone_from(&self.temperature);
         file.quality = Quality {
             verdict: self.report.verdict,
             reasons: self.report.reasons.clone(),
@@ -327,8 +366,8 @@ fn left_out_loads(
 fn overall(table: &LoadTable, nominal: &[f64], predicted: impl Fn(usize, usize) -> f64) -> f64 {
     let mut sum = 0.0;
     for i in 0..table.samples() {
-        for j in 0..table.axes.len() {
-            sum += ((predicted(i, j) - table.loads[(i, j)]) / nominal[j]).powi(2);
+        for (j, full_scale) in nominal.iter().enumerate() {
+            sum += ((predicted(i, j) - table.loads[(i, j)]) / full_scale).powi(2);
         }
     }
     100.0 * (sum / (table.samples() * table.axes.len()) as f64).sqrt()

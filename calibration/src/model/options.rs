@@ -87,6 +87,9 @@ pub struct Options {
     pub range: Option<[f64; 2]>,
     /// Whether to subtract from the readings the zero of their group first.
     pub tare_groups: bool,
+    /// Fit the drift with temperature too (the table must have temperatures), and give matrix and zero at
+    /// this one \[°C\].
+    pub reference_celsius: Option<f64>,
     /// Whether to leave out samples that the outlier test names.
     pub reject_outliers: bool,
     /// What a good calibration must reach.
@@ -104,6 +107,7 @@ impl Default for Options {
             nominal: None,
             range: None,
             tare_groups: false,
+            reference_celsius: None,
             reject_outliers: false,
             limits: Limits::default(),
         }

@@ -286,6 +286,9 @@ fn describe(options: &Options) -> String {
     if options.tare_groups {
         text.push_str(", tared by group");
     }
+    if options.reference_celsius.is_some() {
+        text.push_str(", drift with temperature taken off");
+    }
     if options.reject_outliers {
         text.push_str(", outliers rejected");
     }
