@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod axis;
+pub mod design;
 pub mod file;
 pub mod linear;
 pub mod model;

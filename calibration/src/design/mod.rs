@@ -1,0 +1,32 @@
+//! Designing a sensor: from the loads it must bear to where its gauges go.
+
+mod assessment;
+mod bridge;
+mod contact_weight;
+mod criterion;
+mod error;
+mod loads;
+mod material;
+mod nelder_mead;
+mod objective;
+mod quasi_newton;
+mod search;
+mod space;
+#[cfg(test)]
+mod test_spaces;
+mod tube_layout;
+mod tube_space;
+mod tube_strength;
+
+pub use assessment::Assessment;
+pub use bridge::{Bridge, Excitation};
+pub use contact_weight::{ContactWeight, Touch};
+pub use criterion::{Criterion, gram};
+pub use error::DesignError;
+pub use loads::NominalLoads;
+pub use material::Material;
+pub use search::{Findings, Minimum, Progress, Search, Sensitivity, search};
+pub use space::{DesignSpace, Parameter, ParameterUnit};
+pub use tube_layout::{TubeLayout, TubeTheory};
+pub use tube_space::{Coordinate, GaugeRule, TubeSpace, Wall};
+pub use tube_strength::{LoadedTube, THICKEST_WALL, TubeStrength};
