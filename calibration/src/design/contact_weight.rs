@@ -50,6 +50,34 @@ impl Touch {
     }
 }
 
+impl Touch {
+    /// Touches all over a spherical tip: see [`ContactWeight::on_sphere`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn on_sphere(radius: f64, half_angle: f64, friction: f64, force: f64) -> Result<Vec<Self>, DesignError> {
+        DesignError::check_positive("radius of the tip", radius)?;
+        DesignError::check_positive("force of a touch", force)?;
+        DesignError::check_not_negative("friction ratio", friction)?;
+        if !(half_angle > 0.0 && half_angle <= PI) {
+            let requirement = "above 0 and at most π";
+            return Err(DesignError::OutOfRange { quantity: "half angle", value: half_angle, requirement });
+        }
+        let cap = 1.0 - half_angle.cos();
+        let mut touches = Vec::new();
+        for i in 0..POINTS {
+            // Archimedes: equal steps along the axis are equal areas.
+            let x = 1.0 - cap * (f64::from(i) + 0.5) / f64::from(POINTS);
+            let (sin, cos) = (f64::from(i) * GOLDEN_ANGLE).sin_cos();
+            let across = (1.0 - x * x).max(0.0).sqrt();
+            let normal = Vector3::new(x, across * cos, across * sin);
+            let point = normal * radius;
+            touches.extend(forces(normal, friction, force).map(|force| Self { point, normal, force }));
+        }
+        Ok(touches)
+    }
+}
+
 /// Directions of force per contact point.
 const FORCES: u32 = 8;
 /// Contact points over a surface.
@@ -105,22 +133,7 @@ impl ContactWeight {
     /// [`DesignError::OutOfRange`] for a radius or a force that is not positive, a negative ratio,
     /// or an angle not in (0, π].
     pub fn on_sphere(radius: f64, half_angle: f64, friction: f64, force: f64) -> Result<Self, DesignError> {
-        DesignError::check_positive("radius of the tip", radius)?;
-        DesignError::check_positive("force of a touch", force)?;
-        DesignError::check_not_negative("friction ratio", friction)?;
-        if !(half_angle > 0.0 && half_angle <= PI) {
-            let requirement = "above 0 and at most π";
-            return Err(DesignError::OutOfRange { quantity: "half angle", value: half_angle, requirement });
-        }
-        let cap = 1.0 - half_angle.cos();
-        Self::over((0..POINTS).flat_map(|i| {
-            // Archimedes: equal steps along the axis are equal areas.
-            let x = 1.0 - cap * (f64::from(i) + 0.5) / f64::from(POINTS);
-            let (sin, cos) = (f64::from(i) * GOLDEN_ANGLE).sin_cos();
-            let across = (1.0 - x * x).max(0.0).sqrt();
-            let normal = Vector3::new(x, across * cos, across * sin);
-            forces(normal, friction, force).map(move |force| Touch { point: normal * radius, normal, force })
-        }))
+        Self::over(Touch::on_sphere(radius, half_angle, friction, force)?)
     }
 
     /// Touches all over the active part of any surface: lines of all directions through a ball

@@ -14,6 +14,7 @@ mod search;
 mod space;
 #[cfg(test)]
 mod test_spaces;
+mod tolerance;
 mod tube_layout;
 mod tube_space;
 mod tube_strength;
@@ -27,6 +28,7 @@ pub use loads::NominalLoads;
 pub use material::Material;
 pub use search::{Findings, Minimum, Progress, Search, Sensitivity, search};
 pub use space::{DesignSpace, Parameter, ParameterUnit};
+pub use tolerance::{Placement, Spread, ToleranceReport, Touches, tolerance};
 pub use tube_layout::{TubeLayout, TubeTheory};
 pub use tube_space::{Coordinate, GaugeRule, TubeSpace, Wall};
 pub use tube_strength::{LoadedTube, THICKEST_WALL, TubeStrength};

@@ -51,6 +51,10 @@ pub struct Progress {
 pub struct Minimum {
     /// Values of the parameters, of the best of the starts that ended here.
     pub values: Vec<f64>,
+    /// Other places of the same criterion and singular values where starts ended, further than 1 %
+    /// of some parameter's range from `values` and from each other: other sensors that are as good,
+    /// or the same one turned, mirrored or numbered otherwise.
+    pub equivalents: Vec<Vec<f64>>,
     /// The criterion there.
     pub criterion: f64,
     /// How many starts ended here.
@@ -211,9 +215,20 @@ fn gather(
         };
         if let Some(minimum) = minima.iter_mut().find(alike) {
             minimum.starts += 1;
+            let known = minimum.equivalents.iter().chain([&minimum.values]);
+            if known.into_iter().all(|values| apart(space, values, &end.values)) {
+                minimum.equivalents.push(end.values);
+            }
         } else {
-            let (values, criterion, sensitivities) = (end.values, end.criterion, Vec::new());
-            minima.push(Minimum { values, criterion, starts: 1, share: 0.0, sensitivities, spectrum });
+            minima.push(Minimum {
+                values: end.values,
+                equivalents: Vec::new(),
+                criterion: end.criterion,
+                starts: 1,
+                share: 0.0,
+                sensitivities: Vec::new(),
+                spectrum,
+            });
         }
     }
     if minima.is_empty() {
@@ -225,6 +240,14 @@ fn gather(
         minimum.sensitivities = sensitivities(space, &objective, &minimum.values);
     }
     Ok(Findings { minima, failed, evaluations })
+}
+
+/// `true` if some parameter differs by more than 1 % of its range.
+fn apart(space: &dyn DesignSpace, a: &[f64], b: &[f64]) -> bool {
+    space.parameters().iter().zip(a.iter().zip(b)).any(|(parameter, (a, b))| {
+        let distance = (a - b).abs() / parameter.span();
+        (if parameter.periodic { distance.min(1.0 - distance) } else { distance }) > 0.01
+    })
 }
 
 fn spectrum(space: &dyn DesignSpace, nominal: &Vector6<f64>, values: &[f64]) -> Result<Vec<f64>, DesignError> {

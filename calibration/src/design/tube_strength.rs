@@ -96,47 +96,65 @@ impl LoadedTube {
     }
 
     fn strength_of(&self, thickness: f64) -> TubeStrength {
-        let Self { material, radius, length, loads } = *self;
-        let [f1, f2, f3] = loads.force;
-        let [m4, m5, m6] = loads.torque;
-        let area = 2.0 * PI * radius * thickness;
-        let (bend5, bend6) = (m5 + length * f3, m6 + length * f2);
-        let axial = f1 / area;
-        let bending = |sin: f64, cos: f64| 2.0 / radius * (bend5 * sin + bend6 * cos) / area;
-        let shear = |sin: f64, cos: f64| (m4 / radius + 2.0 * (f2 * sin + f3 * cos)) / area;
+        let stress = self.stress(thickness);
+        TubeStrength {
+            stress,
+            yield_ratio: stress / self.material.yield_strength,
+            wall_buckling_ratio: self.wall_buckling_ratio(thickness),
+            column_buckling_ratio: self.column_buckling_ratio(thickness),
+            wall_ratio: thickness / self.radius,
+        }
+    }
+
+    fn area(&self, thickness: f64) -> f64 {
+        2.0 * PI * self.radius * thickness
+    }
+
+    /// Greatest bending moment about the two transverse axes, at the clamped end.
+    fn moments(&self) -> (f64, f64) {
+        let ([_, f2, f3], [_, m5, m6]) = (self.loads.force, self.loads.torque);
+        (m5 + self.length * f3, m6 + self.length * f2)
+    }
+
+    fn stress(&self, thickness: f64) -> f64 {
+        let ([f1, f2, f3], [m4, _, _]) = (self.loads.force, self.loads.torque);
+        let (bend5, bend6) = self.moments();
+        let (radius, area) = (self.radius, self.area(thickness));
         // Symmetric in every quadrant, for the signs of the loads are free.
         let steps = 256_u32;
-        let stress = (0..=steps)
+        (0..=steps)
             .map(|step| {
                 let (sin, cos) = (FRAC_PI_2 * f64::from(step) / f64::from(steps)).sin_cos();
-                (axial + bending(sin, cos)).hypot(3.0_f64.sqrt() * shear(sin, cos))
+                let normal = f1 + 2.0 / radius * (bend5 * sin + bend6 * cos);
+                let shear = m4 / radius + 2.0 * (f2 * sin + f3 * cos);
+                normal.hypot(3.0_f64.sqrt() * shear) / area
             })
-            .fold(0.0, f64::max);
+            .fold(0.0, f64::max)
+    }
 
-        let mu = material.poisson_ratio;
-        let plane = 1.0 - mu * mu;
+    fn wall_buckling_ratio(&self, thickness: f64) -> f64 {
+        let Self { material, radius, length, loads } = *self;
+        let ([f1, f2, f3], [m4, _, _]) = (loads.force, loads.torque);
+        let (bend5, bend6) = self.moments();
+        let area = self.area(thickness);
+        let plane = 1.0 - material.poisson_ratio * material.poisson_ratio;
         let slenderness = (radius / thickness).sqrt() / 16.0;
         let classical = material.youngs_modulus * thickness / (radius * (3.0 * plane).sqrt());
         let imperfect = |loss: f64| 1.0 - loss * (1.0 - (-slenderness).exp());
         let (in_compression, in_bending) = (classical * imperfect(0.901), classical * imperfect(0.731));
         let curvature = (length * length * plane.sqrt() / (radius * thickness)).max(1.0);
         let plate = material.youngs_modulus * thickness.powi(3) / (12.0 * plane);
-        let in_shear =
-            0.67 * 0.85 * curvature.powf(0.75) * PI * PI * plate / (length * length * thickness);
-        let greatest_bending = 2.0 / radius * bend5.hypot(bend6) / area;
-        let greatest_shear = (m4 / radius + 2.0 * f2.hypot(f3)) / area;
-        let wall_buckling_ratio =
-            axial / in_compression + greatest_bending / in_bending + (greatest_shear / in_shear).powi(2);
+        let in_shear = 0.67 * 0.85 * curvature.powf(0.75) * PI * PI * plate / (length * length * thickness);
+        let axial = f1 / area;
+        let bending = 2.0 / radius * bend5.hypot(bend6) / area;
+        let shear = (m4 / radius + 2.0 * f2.hypot(f3)) / area;
+        axial / in_compression + bending / in_bending + (shear / in_shear).powi(2)
+    }
 
-        let inertia = PI * radius.powi(3) * thickness;
-        let column = PI * PI * material.youngs_modulus * inertia / (4.0 * length * length);
-        TubeStrength {
-            stress,
-            yield_ratio: stress / material.yield_strength,
-            wall_buckling_ratio,
-            column_buckling_ratio: f1 / column,
-            wall_ratio: thickness / radius,
-        }
+    fn column_buckling_ratio(&self, thickness: f64) -> f64 {
+        let inertia = PI * self.radius.powi(3) * thickness;
+        let column = PI * PI * self.material.youngs_modulus * inertia / (4.0 * self.length * self.length);
+        self.loads.force[0] / column
     }
 
     /// The thinnest wall \[m\] that holds the loads times `safety`: the thinner the wall, the
@@ -157,7 +175,7 @@ impl LoadedTube {
         if !(upper <= reference) {
             return Err(DesignError::WallTooThick { radius: self.radius, thickness: upper });
         }
-        let buckles = |thickness: f64| self.strength_of(thickness).wall_buckling_ratio * safety > 1.0;
+        let buckles = |thickness: f64| self.wall_buckling_ratio(thickness) * safety > 1.0;
         if !buckles(upper) {
             return Ok(upper);
         }

@@ -1,0 +1,166 @@
+//! What becomes of a design when it is not made exactly as drawn.
+
+use nalgebra::{DMatrix, Vector6};
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64Mcg;
+
+use super::{Assessment, ContactWeight, DesignError, NominalLoads, TubeLayout, TubeTheory};
+
+/// How well gauges can be placed: every error is drawn evenly from plus or minus so much.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// Of the angle Q of a gauge \[rad\].
+    pub angle: f64,
+    /// Of the place of its centre, along the axis and around the tube \[m\].
+    pub position: f64,
+}
+
+impl Placement {
+    /// # Errors
+    /// [`DesignError::OutOfRange`] unless both are finite and not negative.
+    pub fn validate(&self) -> Result<(), DesignError> {
+        DesignError::check_not_negative("placement tolerance of angles", self.angle)?;
+        DesignError::check_not_negative("placement tolerance of positions", self.position)?;
+        Ok(())
+    }
+
+    /// The layout as it might be made.
+    pub fn misplace(&self, layout: &TubeLayout, random: &mut Pcg64Mcg) -> TubeLayout {
+        let mut made = layout.clone();
+        let mut error = |size: f64| size * random.random_range(-1.0..=1.0);
+        for gauge in &mut made.gauges {
+            gauge.z += error(self.position);
+            gauge.theta += error(self.position) / layout.beam.radius;
+            gauge.q += error(self.angle);
+        }
+        made
+    }
+}
+
+/// The mean of a figure over sensors as made, and what 99 % of them do not exceed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// As designed.
+    pub nominal: f64,
+    /// Mean over sensors as made.
+    pub mean: f64,
+    /// 99 % of the sensors are not worse.
+    pub quantile_99: f64,
+}
+
+impl Spread {
+    fn new(nominal: f64, mut values: Vec<f64>) -> Self {
+        values.sort_by(f64::total_cmp);
+        let count = values.len();
+        let mean = values.iter().sum::<f64>() / count.max(1) as f64;
+        let last = (count * 99).div_ceil(100).saturating_sub(1);
+        Self { nominal, mean, quantile_99: values.get(last).copied().unwrap_or(nominal) }
+    }
+}
+
+/// How a layout bears placement errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToleranceReport {
+    /// Condition number of the sensor as made.
+    pub condition_number: Spread,
+    /// Contact position error of the sensor as made *and calibrated* \[m per unit strain noise\]:
+    /// only noise counts.
+    pub calibrated_error: Option<Spread>,
+    /// Contact position error by misplacement alone, if the sensor is used with the matrix *as
+    /// designed*, without calibration \[m\]. It does not depend on the size of the force.
+    pub uncalibrated_error: Option<Spread>,
+}
+
+/// Makes `sensors` sensors with placement errors and judges them. Deterministic by seed.
+///
+/// `weight` is for wrenches in N and N·m. Without calibration the wrench found is `(C₀⁺C)w`, so the
+/// error of each component is linear in the load; averaged over the touches' own wrenches, whose
+/// second moment is `moment` (N, N·m), it is weighted as noise would be.
+///
+/// # Errors
+/// As [`TubeLayout::validate`]; [`DesignError::OutOfRange`] for a bad tolerance,
+/// [`DesignError::WrongCount`] for no sensors, [`DesignError::Singular`] if the design itself cannot
+/// be inverted.
+pub fn tolerance(
+    layout: &TubeLayout,
+    loads: &NominalLoads,
+    placement: Placement,
+    touches: Option<&Touches<'_>>,
+    sensors: usize,
+    seed: u64,
+) -> Result<ToleranceReport, DesignError> {
+    placement.validate()?;
+    loads.validate()?;
+    if sensors == 0 {
+        return Err(DesignError::WrongCount { what: "sensors", found: 0, expected: 1 });
+    }
+    let nominal = loads.components();
+    let singular = DesignError::Singular { reason: "the design is blind to some load" };
+    let weight = touches.map(|touches| touches.weight.normalised(&nominal));
+    let matrix = |layout: &TubeLayout| -> Result<DMatrix<f64>, DesignError> {
+        let rows = layout.strains(TubeTheory::Corrected)?;
+        Ok(DMatrix::from_fn(rows.len(), 6, |i, j| rows[i][j] * nominal[j]))
+    };
+    let designed = matrix(layout)?;
+    let inverse = crate::linear::pseudo_inverse(&designed).ok_or_else(|| singular.clone())?;
+    let assessed = Assessment::new(&designed, weight.as_ref()).ok_or_else(|| singular.clone())?;
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let (mut conditions, mut calibrated, mut uncalibrated) = (Vec::new(), Vec::new(), Vec::new());
+    for _ in 0..sensors {
+        let made = matrix(&placement.misplace(layout, &mut random))?;
+        let found = Assessment::new(&made, weight.as_ref()).ok_or_else(|| singular.clone())?;
+        conditions.push(found.condition_number);
+        calibrated.extend(found.contact_error);
+        if let Some(touches) = touches {
+            let wrong = &inverse * &made;
+            uncalibrated.push(touches.error_of(|wrench| {
+                let load = wrench.component_div(&nominal);
+                let taken = &wrong * nalgebra::DVector::from_column_slice(load.as_slice());
+                (Vector6::from_fn(|i, _| taken[i]) - load).component_mul(&nominal)
+            }));
+        }
+    }
+    Ok(ToleranceReport {
+        condition_number: Spread::new(assessed.condition_number, conditions),
+        calibrated_error: assessed.contact_error.map(|error| Spread::new(error, calibrated)),
+        uncalibrated_error: touches.map(|_| Spread::new(0.0, uncalibrated)),
+    })
+}
+
+/// Touches, and what they add up to.
+#[derive(Clone, Copy, Debug)]
+pub struct Touches<'a> {
+    list: &'a [super::Touch],
+    weight: ContactWeight,
+}
+
+impl<'a> Touches<'a> {
+    /// # Errors
+    /// As [`ContactWeight::over`].
+    pub fn new(list: &'a [super::Touch]) -> Result<Self, DesignError> {
+        Ok(Self { list, weight: ContactWeight::over(list.iter().copied())? })
+    }
+
+    /// Their weight, for wrenches in N and N·m.
+    #[must_use]
+    pub const fn weight(&self) -> &ContactWeight {
+        &self.weight
+    }
+
+    /// Root mean square of the first-order position error \[m\] over the touches, when the error of
+    /// the wrench is this function of the wrench.
+    fn error_of(&self, error: impl Fn(&Vector6<f64>) -> Vector6<f64>) -> f64 {
+        let sum: f64 = self
+            .list
+            .iter()
+            .map(|touch| {
+                let torque = touch.point.cross(&touch.force);
+                let mut wrench = Vector6::zeros();
+                wrench.fixed_rows_mut::<3>(0).copy_from(&touch.force);
+                wrench.fixed_rows_mut::<3>(3).copy_from(&torque);
+                (touch.jacobian() * error(&wrench)).norm_squared()
+            })
+            .sum();
+        (sum / self.list.len() as f64).sqrt()
+    }
+}
