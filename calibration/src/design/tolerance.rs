@@ -1,12 +1,13 @@
 //! What becomes of a design when it is not made exactly as drawn.
 
 use nalgebra::{DMatrix, Vector6};
-use rand::{RngExt as _, SeedableRng as _};
+use rand::SeedableRng as _;
+use rand_distr::{Distribution as _, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
 use super::{Assessment, ContactWeight, DesignError, NominalLoads, TubeLayout, TubeTheory};
 
-/// How well gauges can be placed: every error is drawn evenly from plus or minus so much.
+/// How well gauges can be placed: the standard deviations of normally distributed errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     /// Of the angle Q of a gauge \[rad\].
@@ -27,7 +28,10 @@ impl Placement {
     /// The layout as it might be made.
     pub fn misplace(&self, layout: &TubeLayout, random: &mut Pcg64Mcg) -> TubeLayout {
         let mut made = layout.clone();
-        let mut error = |size: f64| size * random.random_range(-1.0..=1.0);
+        let mut error = |size: f64| {
+            let normal: f64 = StandardNormal.sample(random);
+            size * normal
+        };
         for gauge in &mut made.gauges {
             gauge.z += error(self.position);
             gauge.theta += error(self.position) / layout.beam.radius;
