@@ -87,6 +87,9 @@ impl<T: Real> ThinWalledBeam<T> {
             return Err(LayoutError::BadBeam { quantity: "Poisson's ratio" });
         }
         let axial = T::one() / (T::two_pi() * modulus * radius * thickness);
+        if !axial.is_number() {
+            return Err(LayoutError::BadBeam { quantity: "stiffness" });
+        }
         let two = T::literal(2.0);
         Ok(SectionConstants {
             axial,
@@ -94,6 +97,22 @@ impl<T: Real> ThinWalledBeam<T> {
             shear: two * (T::one() + mu) * axial,
             torsion: (T::one() + mu) * axial / radius,
         })
+    }
+
+    /// The constants with which the paper's table of condition numbers was most likely computed:
+    /// shear and torsion without the factor `(1+μ)`, and mean instead of peak shear, `W_s = W_h`,
+    /// `W_t = W_h/R`.
+    ///
+    /// With equal nominal forces, nominal torques of 10 mm times that force and μ = 0.33 they give
+    /// the printed 4.9, 3.7, 3.6, 4.2 to within 1.6 %, where equation (17) as printed cannot come
+    /// closer than 20 %. That is an inference from the numbers, not something the paper says; for a
+    /// sensor, use [`section_constants`](Self::section_constants).
+    ///
+    /// # Errors
+    /// [`LayoutError::BadBeam`].
+    pub fn section_constants_of_the_printed_table(&self) -> Result<SectionConstants<T>, LayoutError> {
+        let constants = self.section_constants()?;
+        Ok(SectionConstants { shear: constants.axial, torsion: constants.axial / self.radius, ..constants })
     }
 }
 
@@ -173,4 +192,46 @@ impl<T: Real> GaugeLayout<T, 6> {
             gauge(d, 1.0, q),
         ]
     }
+
+    /// Three crossed pairs `±q` \[rad\] at 0°, 120° and 240° in the ring at the origin, in the order
+    /// +, −, +, −, +, −.
+    ///
+    /// With `(1+μ) sin 2q = cos² q − μ sin² q` ([`isotropic_angle`]) and all nominal forces `f`, all
+    /// nominal torques `f·R`, the condition number is √2, the least that any gauges on a tube can
+    /// have (theory 9); with the axial load and the torque about the axis rated √2 times higher it is
+    /// exactly 1.
+    #[must_use]
+    pub fn three_rosettes(q: T) -> [Gauge<T>; 6] {
+        rosettes(q)
+    }
+}
+
+impl<T: Real> GaugeLayout<T, 8> {
+    /// Four crossed pairs `±q` \[rad\] at 0°, 90°, 180° and 270° in the ring at the origin, in the
+    /// order +, −, +, −, …: as [`three_rosettes`](GaugeLayout::three_rosettes), with two gauges to
+    /// spare.
+    #[must_use]
+    pub fn four_rosettes(q: T) -> [Gauge<T>; 8] {
+        rosettes(q)
+    }
+}
+
+/// `N/2` crossed pairs, evenly around the ring at the origin.
+fn rosettes<T: Real, const N: usize>(q: T) -> [Gauge<T>; N] {
+    let step = T::two_pi() / T::literal((N / 2) as f64);
+    core::array::from_fn(|i| Gauge {
+        z: T::zero(),
+        theta: step * T::literal((i / 2) as f64),
+        q: if i % 2 == 0 { q } else { -q },
+    })
+}
+
+/// The angle `q` \[rad\] at which crossed gauges see shear as strongly as axial strain:
+/// `(1+μ) sin 2q = cos² q − μ sin² q`, that is `tan q = (√((1+μ)² + μ) − (1+μ))/μ`, 19.79° for
+/// μ = 0.33 (theory 9). For Poisson's ratio in (−0.3, 0.5]; otherwise NaN may come out.
+#[must_use]
+pub fn isotropic_angle<T: Real>(poisson_ratio: T) -> T {
+    // μ t² + 2(1+μ) t − 1 = 0, in the form that does not cancel for small μ.
+    let half = T::one() + poisson_ratio;
+    (T::one() / (half + (half * half + poisson_ratio).root())).atan()
 }

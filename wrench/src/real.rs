@@ -55,10 +55,47 @@ pub trait Real: RealField + Copy {
     fn is_number(self) -> bool {
         nalgebra::ComplexField::is_finite(&self)
     }
+
+    /// Veltkamp's constant `2^⌈p/2⌉ + 1` for a binary type of `p` bits: it splits a number into
+    /// two halves whose products are exact.
+    #[inline]
+    fn splitter() -> Self {
+        // 1/ε is 2^(p−1), and the power of two at or below its root is 2^⌊(p−1)/2⌋.
+        let half = (Self::one() / Self::EPSILON).sqrt().normalising_factor();
+        Self::literal(2.0) / half + Self::one()
+    }
+
+    /// The product and its rounding error, `self·other = product + error` exactly (Dekker 1971
+    /// with Veltkamp's splitting; 17 operations and no fused multiply-add, which microcontrollers
+    /// do in software).
+    ///
+    /// Exact unless a factor is within `2^⌈p/2⌉` of the largest number (then the error is NaN) or
+    /// the error underflows: scale first.
+    #[inline]
+    fn two_product(self, other: Self) -> (Self, Self) {
+        let split = |x: Self| {
+            let wide = Self::splitter() * x;
+            let high = wide - (wide - x);
+            (high, x - high)
+        };
+        let product = self * other;
+        let (a_high, a_low) = split(self);
+        let (b_high, b_low) = split(other);
+        let error = a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low);
+        (product, error)
+    }
+
+    /// The sum and its rounding error, `self + other = sum + error` exactly (Knuth; Møller).
+    #[inline]
+    fn two_sum(self, other: Self) -> (Self, Self) {
+        let sum = self + other;
+        let part = sum - self;
+        (sum, (self - (sum - part)) + (other - part))
+    }
 }
 
 macro_rules! real {
-    ($float:ident, $bits:ident, $mantissa_bits:literal, $exponent_mask:literal, $root:path) => {
+    ($float:ident, $mantissa_bits:literal, $exponent_mask:literal, $splitter:literal, $root:path) => {
         impl Real for $float {
             const EPSILON: Self = $float::EPSILON;
             const LEAST_NORMAL: Self = $float::MIN_POSITIVE;
@@ -93,12 +130,17 @@ macro_rules! real {
             fn is_number(self) -> bool {
                 self.is_finite()
             }
+
+            #[inline]
+            fn splitter() -> Self {
+                $splitter
+            }
         }
     };
 }
 
-real!(f32, u32, 23, 0xff, crate::hardware_sqrt::sqrt_f32);
-real!(f64, u64, 52, 0x7ff, nalgebra::ComplexField::sqrt);
+real!(f32, 23, 0xff, 4_097.0, crate::hardware_sqrt::sqrt_f32);
+real!(f64, 52, 0x7ff, 134_217_729.0, nalgebra::ComplexField::sqrt);
 
 #[cfg(test)]
 mod tests {
@@ -116,7 +158,35 @@ mod tests {
         }
     }
 
+    /// The default of the trait, which the two types override by a constant.
+    fn splitter_by_the_formula<T: Real>() -> T {
+        let half = (T::one() / T::EPSILON).sqrt().normalising_factor();
+        T::literal(2.0) / half + T::one()
+    }
+
+    #[test]
+    fn splitter_is_two_to_half_the_bits_plus_one() {
+        assert_eq!(<f32 as Real>::splitter(), splitter_by_the_formula());
+        assert_eq!(<f64 as Real>::splitter(), splitter_by_the_formula());
+    }
+
     proptest! {
+        #[test]
+        fn product_of_narrow_numbers_is_exact_in_two_parts(a in -1e15_f32..1e15, b in -1e15_f32..1e15) {
+            let (product, error) = a.two_product(b);
+            prop_assert_eq!(f64::from(product) + f64::from(error), f64::from(a) * f64::from(b));
+            let (sum, error) = a.two_sum(b);
+            prop_assert_eq!(f64::from(sum) + f64::from(error), f64::from(a) + f64::from(b));
+        }
+
+        #[test]
+        fn product_of_wide_numbers_is_exact_in_two_parts(a in any::<i64>(), b in any::<i64>()) {
+            // 53-bit integers, whose products an i128 holds.
+            let (a, b) = (a >> 11, b >> 11);
+            let (product, error) = (a as f64).two_product(b as f64);
+            prop_assert_eq!(product as i128 + error as i128, i128::from(a) * i128::from(b));
+        }
+
         #[test]
         fn normalising_factor_is_exact_for_any_bits(wide in any::<u64>(), narrow in any::<u32>()) {
             check_normalising_factor(f64::from_bits(wide));

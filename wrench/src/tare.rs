@@ -8,7 +8,8 @@ use crate::{Compensation, Real};
 /// The readings of the unloaded sensor, subtracted from every reading.
 ///
 /// Nothing in this library tares by itself: collect samples of the unloaded sensor with a
-/// [`TareAccumulator`] when *you* know that it is unloaded.
+/// [`RestTest`](crate::RestTest), or a bare [`TareAccumulator`], when *you* know that it is
+/// unloaded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -89,6 +90,12 @@ impl<T: Real, const N: usize> TareAccumulator<T, N> {
     #[must_use]
     pub const fn samples(&self) -> u32 {
         self.samples
+    }
+
+    /// The mean of the readings so far; zero before the first.
+    #[must_use]
+    pub const fn mean(&self) -> &SVector<T, N> {
+        &self.mean
     }
 
     /// Standard deviation of one reading of each gauge at rest.

@@ -1,0 +1,49 @@
+//! A reader that gives up on a line without an end.
+
+use std::io::{self, Read};
+
+/// Passes bytes on and fails once too many have passed since [`start_record`](Self::start_record).
+pub(super) struct Bounded<R> {
+    inner: R,
+    since: u64,
+    total: u64,
+    reached: bool,
+}
+
+impl<R> Bounded<R> {
+    /// The longest record, with room for what is read ahead.
+    pub(super) const LIMIT: u64 = 1 << 20;
+
+    pub(super) const fn new(inner: R) -> Self {
+        Self { inner, since: 0, total: 0, reached: false }
+    }
+
+    /// A record is complete: the next one starts.
+    pub(super) const fn start_record(&mut self) {
+        self.since = 0;
+    }
+
+    /// Whether the limit was the reason of the last failure.
+    pub(super) const fn reached(&self) -> bool {
+        self.reached
+    }
+
+    /// All bytes passed.
+    pub(super) const fn total(&self) -> u64 {
+        self.total
+    }
+}
+
+impl<R: Read> Read for Bounded<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.since > Self::LIMIT {
+            self.reached = true;
+            return Err(io::Error::other("line too long"));
+        }
+        let count = self.inner.read(buffer)?;
+        let passed = u64::try_from(count).unwrap_or(u64::MAX);
+        self.since = self.since.saturating_add(passed);
+        self.total = self.total.saturating_add(passed);
+        Ok(count)
+    }
+}

@@ -1,0 +1,382 @@
+//! Reads a recording row by row.
+
+use core::fmt;
+use std::fs::File;
+use std::io::{Cursor, Read};
+use std::path::Path;
+
+use csv::ByteRecord;
+
+use super::bounded::Bounded;
+use super::error::{HeaderProblem, RecordingError};
+use super::layout::{AssumedUnits, Layout, UsedColumn, shortened};
+use super::quality::Quality;
+use super::row::{Row, RowMarks};
+use super::time_watch::{Step, TimeWatch};
+
+/// How a recording is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReaderOptions {
+    /// Units of columns whose names have none; none by default.
+    pub assumed_units: AssumedUnits,
+    /// A step of time above this many times the median of the 31 steps before is a gap; 1.5 by
+    /// default, so that one lost sample shows.
+    pub gap_factor: f64,
+}
+
+impl Default for ReaderOptions {
+    fn default() -> Self {
+        Self { assumed_units: AssumedUnits::default(), gap_factor: 1.5 }
+    }
+}
+
+/// Reads a recording row by row, in memory that does not grow with the file.
+pub struct RecordingReader<R> {
+    file: String,
+    csv: csv::Reader<Bounded<std::io::Chain<Cursor<Vec<u8>>, R>>>,
+    record: ByteRecord,
+    layout: Layout,
+    time_watch: TimeWatch,
+    values: Vec<f64>,
+    last_values: Vec<f64>,
+    line: u64,
+    quality: Quality,
+}
+
+impl<R> fmt::Debug for RecordingReader<R> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { file, layout, line, quality, .. } = self;
+        f.debug_struct("RecordingReader")
+            .field("file", file)
+            .field("layout", layout)
+            .field("line", line)
+            .field("quality", quality)
+            .finish_non_exhaustive()
+    }
+}
+
+impl RecordingReader<File> {
+    /// Opens a file.
+    ///
+    /// # Errors
+    /// [`RecordingError`] if it cannot be read or its header does not describe a sensor.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, RecordingError> {
+        Self::open_with(path, ReaderOptions::default())
+    }
+
+    /// Opens a file, with options.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub fn open_with(path: impl AsRef<Path>, options: ReaderOptions) -> Result<Self, RecordingError> {
+        let file = path.as_ref().display().to_string();
+        match File::open(path) {
+            Ok(input) => Self::with_options(file, input, options),
+            Err(source) => Err(RecordingError::Open { file, source }),
+        }
+    }
+}
+
+impl<R: Read> RecordingReader<R> {
+    /// Reads the header of `input`; `file` is what errors call it. No buffer is needed around it.
+    ///
+    /// # Errors
+    /// [`RecordingError`] if it cannot be read or its header does not describe a sensor.
+    pub fn new(file: impl Into<String>, input: R) -> Result<Self, RecordingError> {
+        Self::with_options(file, input, ReaderOptions::default())
+    }
+
+    /// Reads the header, with options.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_options(
+        file: impl Into<String>,
+        mut input: R,
+        options: ReaderOptions,
+    ) -> Result<Self, RecordingError> {
+        let file = file.into();
+        let start = match read_start(&mut input) {
+            Ok(start) => start,
+            Err(source) => return Err(RecordingError::Read { file, line: 0, source }),
+        };
+        let delimiter = delimiter(&start);
+        let mut csv = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .comment(Some(b'#'))
+            .delimiter(delimiter)
+            .buffer_capacity(1 << 16)
+            .from_reader(Bounded::new(Cursor::new(start).chain(input)));
+        let mut record = ByteRecord::new();
+        let names = loop {
+            match csv.read_byte_record(&mut record) {
+                Ok(true) if is_blank(&record) => csv.get_mut().start_record(),
+                Ok(true) => break record.iter().map(|name| String::from_utf8_lossy(name).into_owned()),
+                Ok(false) => return Err(RecordingError::Empty { file }),
+                Err(error) => return Err(read_error(file, 0, csv.get_ref().reached(), error)),
+            }
+        };
+        let names: Vec<String> = names.collect();
+        let layout = match Layout::from_header(&names, options.assumed_units) {
+            Ok(layout) => layout,
+            Err(problem) => return Err(RecordingError::Header { file, problem }),
+        };
+        let line = record.position().map_or(1, csv::Position::line);
+        let values = vec![f64::NAN; layout.used.len()];
+        Ok(Self {
+            file,
+            csv,
+            record,
+            last_values: values.clone(),
+            values,
+            layout,
+            time_watch: TimeWatch::new(options.gap_factor),
+            line,
+            quality: Quality::default(),
+        })
+    }
+
+    /// What the file holds.
+    #[must_use]
+    pub const fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// What was wrong so far.
+    #[must_use]
+    pub const fn quality(&self) -> &Quality {
+        &self.quality
+    }
+
+    /// What errors call the file.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// Bytes taken from the input so far, those read ahead included: for a progress bar.
+    #[must_use]
+    pub fn bytes_read(&self) -> u64 {
+        self.csv.get_ref().total()
+    }
+
+    /// Wraps a problem with the header in an error that names the file, as for a sensor that the
+    /// layout does not have.
+    #[must_use]
+    pub fn header_error(&self, problem: HeaderProblem) -> RecordingError {
+        RecordingError::Header { file: self.file.clone(), problem }
+    }
+
+    /// The next row, or `None` at the end.
+    ///
+    /// # Errors
+    /// [`RecordingError`] for a row with too few or too many cells, a cell that is not a number, or
+    /// if reading fails. The next call goes on behind the bad row.
+    pub fn next_row(&mut self) -> Result<Option<Row<'_>>, RecordingError> {
+        loop {
+            self.csv.get_mut().start_record();
+            match self.csv.read_byte_record(&mut self.record) {
+                Ok(true) => {}
+                Ok(false) => return Ok(None),
+                Err(error) => {
+                    let reached = self.csv.get_ref().reached();
+                    return Err(read_error(self.file.clone(), self.line, reached, error));
+                }
+            }
+            self.line = self.record.position().map_or(self.line, csv::Position::line);
+            let (expected, found) = (self.layout.columns().len(), self.record.len());
+            if expected == found {
+                break;
+            }
+            if !is_blank(&self.record) {
+                return Err(RecordingError::Ragged {
+                    file: self.file.clone(),
+                    line: self.line,
+                    expected,
+                    found,
+                });
+            }
+        }
+        let mut marks = RowMarks::default();
+        core::mem::swap(&mut self.values, &mut self.last_values);
+        let (mut any_bad, mut same) = (false, true);
+        for ((used, value), last) in self.layout.used.iter().zip(&mut self.values).zip(&self.last_values) {
+            *value = match Cell::read(&self.record, *used) {
+                Cell::Number(number) => number,
+                bad => {
+                    any_bad = true;
+                    bad.count(self.line, &mut marks, &mut self.quality).ok_or_else(|| {
+                        not_a_number(&self.file, self.line, &self.layout, &self.record, *used)
+                    })?
+                }
+            };
+            // Bits, so that a NaN equals itself and the first row equals nothing.
+            same &= value.to_bits() == last.to_bits();
+        }
+        same &= self.quality.rows > 0;
+        let (mut time, mut time_step) = (None, None);
+        if let Some(used) = self.layout.time {
+            match Cell::read(&self.record, used) {
+                Cell::Number(number) => {
+                    time = Some(number);
+                    match self.time_watch.step_to(number) {
+                        Step::First => {}
+                        Step::Usual(step) => time_step = Some(step),
+                        Step::Gap(step) => {
+                            time_step = Some(step);
+                            marks.gap = true;
+                        }
+                        Step::Same if same => marks.repeated = true,
+                        Step::Same | Step::Backward => marks.backward = true,
+                    }
+                    marks.held = same && time_step.is_some();
+                }
+                bad => {
+                    marks.bad_time = true;
+                    bad.count(self.line, &mut marks, &mut self.quality).ok_or_else(|| {
+                        not_a_number(&self.file, self.line, &self.layout, &self.record, used)
+                    })?;
+                }
+            }
+        } else {
+            marks.repeated = same;
+        }
+        let row = Row { line: self.line, time, time_step, marks, values: &self.values };
+        self.quality.note(&row, any_bad);
+        Ok(Some(row))
+    }
+}
+
+impl Quality {
+    fn note(&mut self, row: &Row<'_>, any_bad: bool) {
+        self.rows += 1;
+        let (marks, line) = (row.marks, row.line);
+        if marks == RowMarks::default() {
+            return;
+        }
+        for (marked, fault) in [
+            (marks.gap, &mut self.gaps),
+            (marks.repeated, &mut self.repeated_rows),
+            (marks.backward, &mut self.backward_times),
+            (marks.held, &mut self.held_rows),
+            (!row.is_usable() || any_bad, &mut self.unusable_rows),
+        ] {
+            if marked {
+                fault.add(line);
+            }
+        }
+    }
+}
+
+/// What stands in a cell.
+enum Cell {
+    Number(f64),
+    NotFinite,
+    Empty,
+    Text,
+}
+
+impl Cell {
+    #[inline]
+    fn read(record: &ByteRecord, used: UsedColumn) -> Self {
+        let cell = record.get(used.column).unwrap_or_default();
+        // The whole cell first: cells with blanks around the number are rare.
+        match fast_float2::parse::<f64, _>(cell) {
+            Ok(number) => Self::finite(number * used.scale),
+            Err(_) => Self::unusual(cell.trim_ascii(), used.scale),
+        }
+    }
+
+    fn finite(number: f64) -> Self {
+        if number.is_finite() { Self::Number(number) } else { Self::NotFinite }
+    }
+
+    #[cold]
+    fn unusual(cell: &[u8], scale: f64) -> Self {
+        let missing: [&[u8]; 5] = [b"", b"na", b"n/a", b"null", b"none"];
+        if missing.iter().any(|text| cell.eq_ignore_ascii_case(text)) {
+            return Self::Empty;
+        }
+        fast_float2::parse::<f64, _>(cell).map_or(Self::Text, |number| Self::finite(number * scale))
+    }
+
+    /// Counts a cell without a number, whose value is then NaN; `None` for text.
+    fn count(&self, line: u64, marks: &mut RowMarks, quality: &mut Quality) -> Option<f64> {
+        match self {
+            Self::Number(number) => return Some(*number),
+            Self::Text => return None,
+            Self::Empty => {
+                marks.empty = true;
+                quality.empty_cells.add(line);
+            }
+            Self::NotFinite => {
+                marks.not_finite = true;
+                quality.not_finite_cells.add(line);
+            }
+        }
+        Some(f64::NAN)
+    }
+}
+
+#[cold]
+fn not_a_number(
+    file: &str,
+    line: u64,
+    layout: &Layout,
+    record: &ByteRecord,
+    used: UsedColumn,
+) -> RecordingError {
+    RecordingError::NotANumber {
+        file: file.to_owned(),
+        line,
+        column: layout.columns().get(used.column).cloned().unwrap_or_default(),
+        found: shortened(&String::from_utf8_lossy(record.get(used.column).unwrap_or_default()), 40),
+    }
+}
+
+#[cold]
+fn read_error(file: String, line: u64, too_long: bool, error: csv::Error) -> RecordingError {
+    if too_long {
+        return RecordingError::TooLong { file, line, limit: Bounded::<()>::LIMIT };
+    }
+    let source = match error.into_kind() {
+        csv::ErrorKind::Io(source) => source,
+        other => std::io::Error::other(format!("{other:?}")),
+    };
+    RecordingError::Read { file, line, source }
+}
+
+/// A line of nothing but blanks.
+fn is_blank(record: &ByteRecord) -> bool {
+    record.len() <= 1 && record.get(0).is_none_or(|cell| cell.trim_ascii().is_empty())
+}
+
+/// The first bytes of the input, up to the end of the header if that is near.
+fn read_start(input: &mut impl Read) -> std::io::Result<Vec<u8>> {
+    let mut start = Vec::new();
+    let mut piece = [0; 4096];
+    while start.len() < 1 << 16 && header_line(&start).is_none() {
+        match input.read(&mut piece) {
+            Ok(0) => break,
+            Ok(count) => start.extend(piece.iter().take(count)),
+            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(start)
+}
+
+/// The first line that is neither a comment nor blank, if it is complete.
+fn header_line(start: &[u8]) -> Option<&[u8]> {
+    let text = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
+    let end = text.iter().rposition(|byte| *byte == b'\n')?;
+    let mut lines = text.get(..end)?.split(|byte| *byte == b'\n');
+    lines.find(|line| !line.starts_with(b"#") && !line.trim_ascii().is_empty())
+}
+
+/// A comma, or what parts the columns of a header without one.
+fn delimiter(start: &[u8]) -> u8 {
+    let header = header_line(start).unwrap_or(start);
+    [b',', b';', b'\t'].into_iter().find(|delimiter| header.contains(delimiter)).unwrap_or(b',')
+}

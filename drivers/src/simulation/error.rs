@@ -1,0 +1,74 @@
+//! Why a simulation cannot run.
+
+use fingertip_wrench::gauge_layout::LayoutError;
+use thiserror::Error;
+
+/// Why a simulated fingertip cannot be made.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SimulationError {
+    /// A parameter is out of range.
+    #[error("the {parameter} of the simulation must be {requirement}")]
+    BadParameter {
+        /// Which parameter.
+        parameter: &'static str,
+        /// What it must be.
+        requirement: &'static str,
+    },
+    /// A segment of the script cannot be played.
+    #[error("segment {segment} of the script: {problem}")]
+    Script {
+        /// Number of the segment, from 1.
+        segment: usize,
+        /// What is wrong.
+        problem: ScriptProblem,
+    },
+    /// The beam or its gauges make no sensor.
+    #[error(transparent)]
+    Layout(#[from] LayoutError),
+}
+
+/// What is wrong with a segment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ScriptProblem {
+    /// A duration is zero, negative or not finite.
+    #[error("a duration must be positive and finite")]
+    BadDuration,
+    /// A force is negative or not finite.
+    #[error("the force must be positive and finite")]
+    BadForce,
+    /// An angle is not finite.
+    #[error("an angle is not finite")]
+    BadAngle,
+    /// Friction coefficients are not `0 < kinetic ≤ static`.
+    #[error("the friction coefficients must be positive, the kinetic one not above the static one")]
+    BadFriction,
+    /// A point lies on the opening, where the sphere is cut away for the beam.
+    #[error("the point lies on the opening of the sphere, not on its active surface")]
+    NotOnActiveSurface,
+    /// Nothing touches.
+    #[error("nothing touches here; press first")]
+    NotInContact,
+    /// Something touches already.
+    #[error("something touches already; release first")]
+    AlreadyInContact,
+}
+
+/// Passes a positive finite parameter.
+pub(super) fn positive(value: f64, parameter: &'static str) -> Result<f64, SimulationError> {
+    if value > 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(SimulationError::BadParameter { parameter, requirement: "positive and finite" })
+    }
+}
+
+/// Passes a finite parameter that is not negative.
+pub(super) fn not_negative(value: f64, parameter: &'static str) -> Result<f64, SimulationError> {
+    if value >= 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(SimulationError::BadParameter { parameter, requirement: "finite and not negative" })
+    }
+}

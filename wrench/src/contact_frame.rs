@@ -1,0 +1,96 @@
+//! A wrench as a contact sees it.
+
+use nalgebra::Vector3;
+use thiserror::Error;
+
+use crate::{ContactForce, Frame, Real, Wrench};
+
+/// A point of a surface with its outward unit normal and two tangents: right-handed,
+/// `tangent₁ × tangent₂ = normal`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactFrame<T: Real> {
+    point: Vector3<T>,
+    normal: Vector3<T>,
+    tangents: [Vector3<T>; 2],
+}
+
+/// A wrench taken apart at a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactLoad<T: Real> {
+    /// Normal force, tangential force and spin torque: all that a point or soft-finger contact can
+    /// carry.
+    pub force: ContactForce<T>,
+    /// The part of the torque about the contact point that lies in the tangent plane \[N·m\]: zero
+    /// for a single point or soft-finger contact there.
+    pub rolling: Vector3<T>,
+}
+
+/// A normal without direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("the point or normal of the contact is zero or not finite")]
+pub struct BadNormal;
+
+impl<T: Real> ContactFrame<T> {
+    /// From a point \[m\] and an outward normal of any length.
+    ///
+    /// # Errors
+    /// [`BadNormal`] if the normal is zero, or a component of either is NaN or infinite.
+    pub fn new(point: Vector3<T>, outward: Vector3<T>) -> Result<Self, BadNormal> {
+        let scaled = outward * outward.amax().normalising_factor();
+        let length = scaled.norm_squared().root();
+        if !(length > T::zero() && length.is_number() && point.iter().all(|x| x.is_number())) {
+            return Err(BadNormal);
+        }
+        let normal = scaled / length;
+        // Duff et al. 2017: continuous but for a half plane, accurate everywhere.
+        let one = T::one();
+        let sign = if normal.z < T::zero() { -one } else { one };
+        let a = -one / (sign + normal.z);
+        let b = normal.x * normal.y * a;
+        let first = Vector3::new(one + sign * normal.x * normal.x * a, sign * b, -sign * normal.x);
+        let second = Vector3::new(b, sign + normal.y * normal.y * a, -normal.y);
+        Ok(Self { point, normal, tangents: [first, second] })
+    }
+
+    /// The point \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn point(&self) -> Vector3<T> {
+        self.point
+    }
+
+    /// The outward unit normal.
+    #[inline]
+    #[must_use]
+    pub const fn normal(&self) -> Vector3<T> {
+        self.normal
+    }
+
+    /// Two orthogonal unit vectors of the tangent plane.
+    #[inline]
+    #[must_use]
+    pub const fn tangents(&self) -> [Vector3<T>; 2] {
+        self.tangents
+    }
+
+    /// Takes a wrench of the same frame apart.
+    #[inline]
+    #[must_use]
+    pub fn decompose<F: Frame>(&self, wrench: &Wrench<T, F>) -> ContactLoad<T> {
+        let torque = wrench.torque_about(&self.point);
+        let spin = torque.dot(&self.normal);
+        ContactLoad {
+            force: ContactForce::split(&wrench.force(), &self.normal, spin),
+            rolling: torque - self.normal * spin,
+        }
+    }
+
+    /// Puts a wrench together again, about the origin of the frame.
+    #[inline]
+    #[must_use]
+    pub fn compose<F: Frame>(&self, load: &ContactLoad<T>) -> Wrench<T, F> {
+        let force = load.force.tangential - self.normal * load.force.normal;
+        let torque = load.rolling + self.normal * load.force.spin;
+        Wrench::on_fingertip(force, torque + self.point.cross(&force))
+    }
+}
