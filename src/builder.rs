@@ -79,6 +79,26 @@ impl<Solver, Surface, Model, Friction, Detector, Zero>
         }
     }
 
+    /// A stage of your own in the place of [`friction`](Self::friction): any
+    /// [`GripStage`](crate::GripStage), such as one that is chosen at run time.
+    pub fn friction_stage<Next>(
+        self,
+        friction: Next,
+    ) -> FingertipBuilder<Solver, Surface, Model, Next, Detector, Zero> {
+        let Fingertip { zero, solver, surface, model, detector, .. } = self.fingertip;
+        FingertipBuilder { fingertip: Fingertip { zero, solver, surface, model, friction, detector } }
+    }
+
+    /// A stage of your own in the place of [`slip_detector`](Self::slip_detector): any
+    /// [`SlipStage`](crate::SlipStage).
+    pub fn slip_stage<Next>(
+        self,
+        detector: Next,
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Next, Zero> {
+        let Fingertip { zero, solver, surface, model, friction, .. } = self.fingertip;
+        FingertipBuilder { fingertip: Fingertip { zero, solver, surface, model, friction, detector } }
+    }
+
     /// The pipeline. It runs as soon as it has a surface and a contact model (for wrenches), and a
     /// solver (for signals).
     #[must_use]

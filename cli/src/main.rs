@@ -1,3 +1,35 @@
-//! The `fingertip` command.
+//! The `fingertip` command: what the crates do, from files to files.
+#![doc = include_str!("../README.md")]
 
-fn main() {}
+mod analyze;
+mod args;
+mod demo;
+mod error;
+mod observe;
+mod report;
+mod scene;
+mod shape;
+mod summary;
+mod table;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Arguments, Command};
+use error::CliError;
+
+fn main() -> ExitCode {
+    let done = match Arguments::parse().command {
+        Command::Demo(arguments) => demo::run(&arguments),
+        Command::Analyze(arguments) => analyze::run(&arguments),
+    };
+    match done {
+        // Whoever reads our output may stop when they have seen enough.
+        Ok(()) | Err(CliError::ClosedPipe) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(1)
+        }
+    }
+}

@@ -1,13 +1,17 @@
-//! A reader that gives up on a line without an end.
+//! A reader that gives up on a line without an end, and ends every line.
 
 use std::io::{self, Read};
 
 /// Passes bytes on and fails once too many have passed since [`start_record`](Self::start_record).
+///
+/// Behind the last byte it adds a line end if there is none, so that every row ends with one: that
+/// is how lines are counted.
 pub(super) struct Bounded<R> {
     inner: R,
     since: u64,
     total: u64,
     reached: bool,
+    ended: bool,
 }
 
 impl<R> Bounded<R> {
@@ -15,7 +19,7 @@ impl<R> Bounded<R> {
     pub(super) const LIMIT: u64 = 1 << 20;
 
     pub(super) const fn new(inner: R) -> Self {
-        Self { inner, since: 0, total: 0, reached: false }
+        Self { inner, since: 0, total: 0, reached: false, ended: true }
     }
 
     /// A record is complete: the next one starts.
@@ -41,6 +45,17 @@ impl<R: Read> Read for Bounded<R> {
             return Err(io::Error::other("line too long"));
         }
         let count = self.inner.read(buffer)?;
+        if count == 0
+            && !self.ended
+            && let Some(first) = buffer.first_mut()
+        {
+            *first = b'\n';
+            self.ended = true;
+            return Ok(1);
+        }
+        if let Some(last) = count.checked_sub(1).and_then(|last| buffer.get(last)) {
+            self.ended = *last == b'\n';
+        }
         let passed = u64::try_from(count).unwrap_or(u64::MAX);
         self.since = self.since.saturating_add(passed);
         self.total = self.total.saturating_add(passed);

@@ -27,6 +27,11 @@ pub(super) enum Meaning {
 }
 
 impl ColumnName {
+    /// Whether it is a force, torque, signal or dummy gauge.
+    pub(super) const fn is_of_sensor(&self) -> bool {
+        !matches!(self.meaning, Meaning::Time(_) | Meaning::Other)
+    }
+
     pub(super) fn parse(name: &str) -> Self {
         let words = words(name);
         let other = || Self { sensor: String::new(), meaning: Meaning::Other };

@@ -137,7 +137,7 @@ impl Layout {
         };
         layout.find_time(&parsed)?;
         let mut sensors: Vec<&str> = Vec::new();
-        for column in &parsed {
+        for column in parsed.iter().filter(|column| column.is_of_sensor()) {
             if !sensors.contains(&column.sensor.as_str()) {
                 sensors.push(&column.sensor);
             }

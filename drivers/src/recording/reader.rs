@@ -19,7 +19,7 @@ use super::time_watch::{Step, TimeWatch};
 pub struct ReaderOptions {
     /// Units of columns whose names have none; none by default.
     pub assumed_units: AssumedUnits,
-    /// A step of time above this many times the median of the 31 steps before is a gap; 1.5 by
+    /// A step of time above this many times the median of all steps before is a gap; 1.5 by
     /// default, so that one lost sample shows.
     pub gap_factor: f64,
 }
@@ -106,6 +106,8 @@ impl<R: Read> RecordingReader<R> {
             .flexible(true)
             .comment(Some(b'#'))
             .delimiter(delimiter)
+            // A carriage return before it is trimmed with the blanks around a cell.
+            .terminator(csv::Terminator::Any(b'\n'))
             .buffer_capacity(1 << 16)
             .from_reader(Bounded::new(Cursor::new(start).chain(input)));
         let mut record = ByteRecord::new();
@@ -122,7 +124,7 @@ impl<R: Read> RecordingReader<R> {
             Ok(layout) => layout,
             Err(problem) => return Err(RecordingError::Header { file, problem }),
         };
-        let line = record.position().map_or(1, csv::Position::line);
+        let line = line_of_record(&csv);
         let values = vec![f64::NAN; layout.used.len()];
         Ok(Self {
             file,
@@ -184,7 +186,7 @@ impl<R: Read> RecordingReader<R> {
                     return Err(read_error(self.file.clone(), self.line, reached, error));
                 }
             }
-            self.line = self.record.position().map_or(self.line, csv::Position::line);
+            self.line = line_of_record(&self.csv);
             let (expected, found) = (self.layout.columns().len(), self.record.len());
             if expected == found {
                 break;
@@ -345,6 +347,12 @@ fn read_error(file: String, line: u64, too_long: bool, error: csv::Error) -> Rec
         other => std::io::Error::other(format!("{other:?}")),
     };
     RecordingError::Read { file, line, source }
+}
+
+/// The line of the record read last: every record ends with a line end, which has been counted. (The
+/// position of the record itself is that of the comments and empty lines before it.)
+fn line_of_record<R: Read>(csv: &csv::Reader<R>) -> u64 {
+    csv.position().line().saturating_sub(1)
 }
 
 /// A line of nothing but blanks.

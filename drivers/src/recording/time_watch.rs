@@ -15,37 +15,36 @@ pub(super) enum Step {
     Backward,
 }
 
-/// Judges each step against the median of the steps before it.
+/// Judges each step against the median of all steps forward before it.
 ///
-/// The median is that of the last [`REMEMBERED`](Self::REMEMBERED) steps forward (gaps included:
-/// as long as fewer than half of them are gaps, they do not move it, and after a change of the
-/// sample rate it follows within 16 rows). Nothing is judged before
+/// The median does not move for gaps as long as they are fewer than half of the steps, and a burst
+/// in which every other sample is lost counts as that many gaps. It comes from a histogram of
+/// 32 bins per octave, so that memory does not grow with the file: what is compared is the upper
+/// edge of the median's bin, at most 3.2 % above the median itself. Nothing is judged before
 /// [`FEWEST`](Self::FEWEST) steps are known.
 #[derive(Clone, Debug)]
 pub(super) struct TimeWatch {
     factor: f64,
     last: Option<f64>,
-    /// The steps in the order in which they came, a ring.
-    recent: [f64; Self::REMEMBERED],
-    oldest: usize,
-    /// The same steps in order of size.
-    sorted: [f64; Self::REMEMBERED],
-    known: usize,
+    /// How many steps fell into each bin.
+    bins: Box<[u64; Self::BINS]>,
+    known: u64,
+    /// The bin of the median, and how many steps lie in the bins below it.
+    median: usize,
+    below: u64,
 }
 
 impl TimeWatch {
-    const REMEMBERED: usize = 31;
-    const FEWEST: usize = 3;
+    const FEWEST: u64 = 3;
+    /// From 2⁻³² s to 2³² s; what lies beyond goes into the bins at the ends.
+    const BINS: usize = 64 * 32;
+    /// The five leading bits of the fraction stay.
+    const SHIFT: u32 = 52 - 5;
+    /// What is left of the bits of 2⁻³².
+    const FIRST: u64 = (1023 - 32) << 5;
 
-    pub(super) const fn new(factor: f64) -> Self {
-        Self {
-            factor,
-            last: None,
-            recent: [0.0; Self::REMEMBERED],
-            oldest: 0,
-            sorted: [0.0; Self::REMEMBERED],
-            known: 0,
-        }
+    pub(super) fn new(factor: f64) -> Self {
+        Self { factor, last: None, bins: Box::new([0; Self::BINS]), known: 0, median: 0, below: 0 }
     }
 
     /// Takes the next time, which must be finite \[s\].
@@ -58,39 +57,35 @@ impl TimeWatch {
         if step < 0.0 {
             return Step::Backward;
         }
-        let gap = self.known >= Self::FEWEST && step > self.factor * self.median();
+        let gap = self.known >= Self::FEWEST && step > self.factor * self.upper_median();
         self.remember(step);
         if gap { Step::Gap(step) } else { Step::Usual(step) }
     }
 
-    /// The lower median of the steps remembered.
-    fn median(&self) -> f64 {
-        let known = self.sorted.get(..self.known).unwrap_or_default();
-        known.get(known.len().saturating_sub(1) / 2).copied().unwrap_or(f64::INFINITY)
+    /// The upper edge of the bin that the lower median lies in.
+    fn upper_median(&self) -> f64 {
+        f64::from_bits((Self::FIRST + self.median as u64 + 1) << Self::SHIFT)
     }
 
     fn remember(&mut self, step: f64) {
-        if self.known == Self::REMEMBERED {
-            let forgotten = self.recent.get(self.oldest).copied().unwrap_or_default();
-            let at = self.sorted.partition_point(|known| *known < forgotten);
-            if let Some(tail) = self.sorted.get_mut(at..) {
-                tail.rotate_left(1);
-            }
-            self.known -= 1;
-        }
-        if let Some(place) = self.recent.get_mut(self.oldest) {
-            *place = step;
-        }
-        self.oldest = (self.oldest + 1) % Self::REMEMBERED;
-        let known = self.sorted.get(..self.known).unwrap_or_default();
-        let at = known.partition_point(|known| *known < step);
-        if let Some(tail) = self.sorted.get_mut(at..=self.known) {
-            tail.rotate_right(1);
-            if let Some(first) = tail.first_mut() {
-                *first = step;
-            }
+        let place = (step.to_bits() >> Self::SHIFT).saturating_sub(Self::FIRST);
+        let bin = usize::try_from(place).unwrap_or(usize::MAX).min(Self::BINS - 1);
+        if let Some(count) = self.bins.get_mut(bin) {
+            *count += 1;
         }
         self.known += 1;
+        self.below += u64::from(bin < self.median);
+        // The steps in order of size: the lower median is the one with this many before it.
+        let rank = (self.known - 1) / 2;
+        let count = |bin: usize| self.bins.get(bin).copied().unwrap_or_default();
+        while self.below > rank && self.median > 0 {
+            self.median -= 1;
+            self.below -= count(self.median);
+        }
+        while self.below + count(self.median) <= rank && self.median + 1 < Self::BINS {
+            self.below += count(self.median);
+            self.median += 1;
+        }
     }
 }
 
@@ -101,25 +96,37 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_median_is_that_of_the_last_steps(steps in prop::collection::vec(1e-6_f64..1.0, 1..120)) {
+        fn the_median_is_that_of_all_steps_before(
+            steps in prop::collection::vec(prop_oneof![1e-6_f64..1.0, 0.9e-3..1.1e-3], 1..200),
+        ) {
             let mut watch = TimeWatch::new(1.5);
             let mut time = 0.0;
             watch.step_to(time);
-            let mut seen = Vec::new();
+            let mut seen: Vec<f64> = Vec::new();
             for step in steps {
                 let next = time + step;
-                let true_step = next - time;
+                let step = next - time;
                 time = next;
-                let mut window: Vec<f64> =
-                    seen.iter().rev().take(TimeWatch::REMEMBERED).copied().collect();
-                window.sort_by(f64::total_cmp);
-                let expected = window.len() >= TimeWatch::FEWEST
-                    && true_step > 1.5 * window[(window.len() - 1) / 2];
-                prop_assert_eq!(
-                    watch.step_to(time),
-                    if expected { Step::Gap(true_step) } else { Step::Usual(true_step) }
-                );
-                seen.push(true_step);
+                let judged = watch.step_to(time);
+                if seen.len() < 3 {
+                    prop_assert_eq!(judged, Step::Usual(step));
+                } else {
+                    let median = seen[(seen.len() - 1) / 2];
+                    if step <= 1.5 * median {
+                        prop_assert_eq!(judged, Step::Usual(step));
+                    } else if step > 1.5 * median * (1.0 + 1.0 / 31.0) {
+                        prop_assert_eq!(judged, Step::Gap(step));
+                    }
+                }
+                seen.insert(seen.partition_point(|known| *known < step), step);
+            }
+        }
+
+        #[test]
+        fn any_times_are_taken(factor in any::<f64>(), times in prop::collection::vec(any::<f64>(), 0..50)) {
+            let mut watch = TimeWatch::new(factor);
+            for time in times {
+                watch.step_to(time);
             }
         }
     }
@@ -129,5 +136,17 @@ mod tests {
         let mut watch = TimeWatch::new(1.5);
         let steps: Vec<Step> = [1.0, 2.0, 2.0, 1.5, 2.5].map(|time| watch.step_to(time)).to_vec();
         assert_eq!(steps, [Step::First, Step::Usual(1.0), Step::Same, Step::Backward, Step::Usual(1.0)]);
+    }
+
+    #[test]
+    fn a_burst_of_losses_is_counted_whole() {
+        let mut watch = TimeWatch::new(1.5);
+        let mut gaps = 0;
+        let mut time = 0.0;
+        for row in 0..1000 {
+            time += if (400..580).contains(&row) { 0.01 } else { 0.005 };
+            gaps += u32::from(matches!(watch.step_to(time), Step::Gap(_)));
+        }
+        assert_eq!(gaps, 180);
     }
 }

@@ -1,0 +1,148 @@
+//! `contacts.csv`: one row per sample.
+
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use fingertip::friction::SlipVerdict;
+use fingertip::surfaces::{NoContact, Resolution};
+
+use crate::error::CliError;
+use crate::observe::{SceneTouch, Status};
+
+/// The columns; units are in the names. Where a sample has no value, the cell is empty.
+const HEADER: &str = "t_s,status,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,x_m,y_m,z_m,nx,ny,nz,\
+                      normal_N,tangential_N,ratio,margin_N,gap_m,slip\n";
+/// Cells behind the wrench.
+const CONTACT_CELLS: usize = 11;
+/// Bytes that are collected before they are written.
+const BUFFER: usize = 1 << 16;
+
+/// Writes one row per sample.
+///
+/// Numbers are written in single precision with as many digits as that needs (7 to 9), which no
+/// force sensor comes near; times in nanoseconds.
+pub(super) struct ContactWriter {
+    out: Out,
+    path: PathBuf,
+    buffer: Vec<u8>,
+}
+
+enum Out {
+    File(File),
+    Stdout(io::Stdout),
+}
+
+impl ContactWriter {
+    /// `-` is the standard output.
+    pub(super) fn create(path: &Path) -> Result<Self, CliError> {
+        let out = if path == Path::new("-") {
+            Out::Stdout(io::stdout())
+        } else {
+            Out::File(File::create(path).map_err(|source| CliError::write("contacts", path, source))?)
+        };
+        let mut buffer = Vec::with_capacity(BUFFER + 1024);
+        buffer.extend_from_slice(HEADER.as_bytes());
+        Ok(Self { out, path: path.to_owned(), buffer })
+    }
+
+    #[inline]
+    pub(super) fn write(&mut self, time: f64, touch: &SceneTouch) -> Result<(), CliError> {
+        self.time(time);
+        self.word(Status::of(&touch.resolution).word());
+        self.cells(touch.wrench.force().as_ref());
+        self.cells(touch.wrench.torque().as_ref());
+        match &touch.resolution {
+            Resolution::Contact(contact) => {
+                let force = contact.contact_force();
+                self.cells(contact.point.as_ref());
+                self.cells(contact.normal.as_ref());
+                self.cell(force.normal);
+                self.cell(force.tangential_magnitude());
+                self.cell(force.friction_ratio().unwrap_or(f64::NAN));
+                self.cell(touch.grip.flatten().map_or(f64::NAN, |margin| margin.newtons));
+                self.cell(contact.gap);
+            }
+            Resolution::NoContact(NoContact::Misses { gap, .. }) => {
+                self.empty(CONTACT_CELLS - 1);
+                self.cell(*gap);
+            }
+            Resolution::NoContact(_) => self.empty(CONTACT_CELLS),
+        }
+        self.word(match touch.slip {
+            None => "",
+            Some(SlipVerdict::NotPressing) => "not_pressing",
+            Some(SlipVerdict::Holding) => "holding",
+            Some(SlipVerdict::Warning) => "warning",
+            Some(SlipVerdict::Slipping) => "slipping",
+        });
+        self.end_row()
+    }
+
+    pub(super) fn write_without_wrench(&mut self, time: f64, status: Status) -> Result<(), CliError> {
+        self.time(time);
+        self.word(status.word());
+        self.empty(6 + CONTACT_CELLS + 1);
+        self.end_row()
+    }
+
+    #[inline]
+    fn time(&mut self, time: f64) {
+        if time.is_finite() {
+            let rounded = (time * 1e9).round() * 1e-9;
+            // Long times have no nanoseconds to round to.
+            let rounded = if rounded.is_finite() { (rounded * 1e9).round() / 1e9 } else { time };
+            self.buffer.extend_from_slice(zmij::Buffer::new().format_finite(rounded).as_bytes());
+        }
+    }
+
+    #[inline]
+    fn cells(&mut self, values: &[f64; 3]) {
+        values.iter().for_each(|value| self.cell(*value));
+    }
+
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "single precision is what the file holds")]
+    fn cell(&mut self, value: f64) {
+        self.buffer.push(b',');
+        let single = value as f32;
+        if single.is_finite() {
+            self.buffer.extend_from_slice(zmij::Buffer::new().format_finite(single).as_bytes());
+        }
+    }
+
+    #[inline]
+    fn empty(&mut self, cells: usize) {
+        self.buffer.extend(core::iter::repeat_n(b',', cells));
+    }
+
+    #[inline]
+    fn word(&mut self, word: &str) {
+        self.buffer.push(b',');
+        self.buffer.extend_from_slice(word.as_bytes());
+    }
+
+    #[inline]
+    fn end_row(&mut self) -> Result<(), CliError> {
+        self.buffer.push(b'\n');
+        if self.buffer.len() >= BUFFER { self.flush() } else { Ok(()) }
+    }
+
+    fn flush(&mut self) -> Result<(), CliError> {
+        let written = match &mut self.out {
+            Out::File(file) => {
+                file.write_all(&self.buffer).map_err(|source| CliError::write("contacts", &self.path, source))
+            }
+            Out::Stdout(stdout) => {
+                stdout.write_all(&self.buffer).and_then(|()| stdout.flush()).map_err(CliError::stdout)
+            }
+        };
+        self.buffer.clear();
+        written
+    }
+
+    /// Writes what is left.
+    pub(super) fn finish(&mut self) -> Result<(), CliError> {
+        self.flush()
+    }
+}

@@ -1,0 +1,122 @@
+//! `fingertip analyze`: a recording and a scene to contacts, a summary and a report.
+
+mod contacts;
+mod files;
+mod progress;
+mod source;
+
+use std::fs::File;
+use std::path::Path;
+
+use fingertip::Fingertip;
+use fingertip::surfaces::ActiveSurface;
+use fingertip_drivers::recording::{Quality, RecordingReader};
+
+use crate::args::AnalyzeArguments;
+use crate::error::CliError;
+use crate::observe::{Observations, Status};
+use crate::report;
+use crate::scene::Scene;
+use crate::shape::Shape;
+use crate::summary::{self, Run};
+use contacts::ContactWriter;
+use progress::Progress;
+use source::{Reading, Source};
+
+pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
+    let scene = Scene::load(&arguments.scene)?;
+    let recording = arguments.recording.as_path();
+    files::guard(arguments)?;
+    let file = File::open(recording).map_err(|source| CliError::read("recording", recording, source))?;
+    let length = file.metadata().ok().filter(std::fs::Metadata::is_file).map(|meta| meta.len());
+    let mut reader = RecordingReader::new(recording.display().to_string(), file)?;
+    let mut source = Source::new(&reader, &scene, arguments)?;
+    let mut contacts = ContactWriter::create(&arguments.output)?;
+    let mut progress = Progress::new(length);
+
+    let mut pass = Pass {
+        scene: &scene,
+        reader: &mut reader,
+        source: &mut source,
+        contacts: &mut contacts,
+        progress: &mut progress,
+    };
+    // The one place where a shape is chosen: the loop inside is compiled for each.
+    let observations = match scene.shape {
+        Shape::Plane(plane) => pass.over(plane),
+        Shape::Sphere(sphere) => pass.over(sphere),
+        Shape::Cylinder(cylinder) => pass.over(cylinder),
+    }?;
+    progress.finish();
+    contacts.finish()?;
+
+    let quality: Quality = *reader.quality();
+    if observations.rows() == 0 {
+        return Err(CliError::NoRows { path: recording.to_owned() });
+    }
+    let findings = summary::of_recording(&Run {
+        recording,
+        scene: &scene,
+        observations: &observations,
+        quality: &quality,
+        notes: source.notes(),
+        sensor: source.sensor(),
+    });
+    let report = (!arguments.no_report).then_some(arguments.report.as_path());
+    if let Some(path) = report {
+        report::write(path, &report::of_recording(&findings, &observations, &scene))?;
+    }
+    let to_stderr = arguments.output == Path::new("-");
+    files::say(&findings, to_stderr, &[Some(arguments.output.as_path()), report])
+}
+
+/// Everything that one pass over the recording needs.
+struct Pass<'a> {
+    scene: &'a Scene,
+    reader: &'a mut RecordingReader<File>,
+    source: &'a mut Source,
+    contacts: &'a mut ContactWriter,
+    progress: &'a mut Progress,
+}
+
+impl Pass<'_> {
+    fn over<S: ActiveSurface<f64>>(&mut self, surface: S) -> Result<Observations, CliError> {
+        let mut fingertip = Fingertip::builder()
+            .contact(surface, self.scene.model)
+            .friction_stage(self.scene.friction)
+            .slip_stage(self.scene.slip)
+            .build();
+        let mut observations = Observations::new(self.scene.projection);
+        let mut last_point = None;
+        while let Some(row) = self.reader.next_row()? {
+            let (time, time_step) = self.source.clock(&row);
+            if row.marks().gap {
+                fingertip.detector_mut().reset();
+                last_point = None;
+            }
+            match self.source.read(&row, time)? {
+                Reading::Wrench(wrench) => {
+                    let touch = fingertip.feel(wrench, time_step, last_point.as_ref());
+                    last_point = touch.resolution.contact().map(|contact| contact.point);
+                    observations.add(time, &touch);
+                    self.contacts.write(time, &touch)?;
+                }
+                Reading::Without(status) => {
+                    observations.add_without_wrench(time, status);
+                    self.contacts.write_without_wrench(time, status)?;
+                }
+            }
+            if observations.rows().is_multiple_of(8192) {
+                self.progress.at(self.reader.bytes_read());
+            }
+        }
+        if let Some(rest) = self.source.unfinished_rest() {
+            return Err(CliError::RestTooLong {
+                path: self.reader.file().into(),
+                rest,
+                rows: observations.count_of(Status::Rest),
+            });
+        }
+        Ok(observations)
+    }
+}

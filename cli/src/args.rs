@@ -1,0 +1,58 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+/// From the strain gauges behind a fingertip to contact, force and slip.
+#[derive(Debug, Parser)]
+#[command(name = "fingertip", version, about, propagate_version = true)]
+#[command(after_help = "Exit codes: 0 done, 1 an input is bad or an output cannot be written, 2 wrong usage.")]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Simulate a fingertip and compare what the pipeline makes of its volts with the truth
+    Demo(DemoArguments),
+    /// Turn a recording of wrenches or volts into contacts, slip and a report
+    Analyze(AnalyzeArguments),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct DemoArguments {
+    /// Where to write the report
+    #[arg(long, value_name = "FILE", default_value = "report.html")]
+    pub(crate) out: PathBuf,
+    /// Seed of the noise: the same seed gives the same report
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct AnalyzeArguments {
+    /// The recording: CSV with units in the column names (fx_N, tz_Nmm, v1_V, t_s)
+    #[arg(value_name = "FILE")]
+    pub(crate) recording: PathBuf,
+    /// The scene: surface, pose, thresholds, friction (examples/scenes/README.md)
+    #[arg(long, value_name = "SCENE.toml")]
+    pub(crate) scene: PathBuf,
+    /// The calibration, for a recording of volts
+    #[arg(long, value_name = "CAL.toml")]
+    pub(crate) calibration: Option<PathBuf>,
+    /// Which sensor of the recording: the prefix of its columns (S1 for S1_Fx_N); overrides the scene
+    #[arg(long, value_name = "PREFIX")]
+    pub(crate) sensor: Option<String>,
+    /// Where to write one row per sample; `-` is the standard output, and the summary then goes to
+    /// the standard error
+    #[arg(long, value_name = "FILE", default_value = "contacts.csv")]
+    pub(crate) output: PathBuf,
+    /// Where to write the report
+    #[arg(long, value_name = "FILE", default_value = "report.html", conflicts_with = "no_report")]
+    pub(crate) report: PathBuf,
+    /// Write no report
+    #[arg(long)]
+    pub(crate) no_report: bool,
+}

@@ -1,0 +1,94 @@
+//! What can stop a run, each in one sentence: what is wrong, where, and how to mend it.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use fingertip_drivers::recording::RecordingError;
+use thiserror::Error;
+
+/// Why a run stopped.
+#[derive(Debug, Error)]
+pub(crate) enum CliError {
+    /// A file that is to be read cannot be.
+    #[error("cannot read {what} {path}: {source}; check the path and its permissions", path = .path.display())]
+    Read { what: &'static str, path: PathBuf, source: io::Error },
+    /// A file that is to be written cannot be.
+    #[error(
+        "cannot write {what} {path}: {source}; choose a folder that exists and may be written to",
+        path = .path.display()
+    )]
+    Write { what: &'static str, path: PathBuf, source: io::Error },
+    /// An output would overwrite an input.
+    #[error("{what} {path} is also an input of this run and would be overwritten; give another path", path = .path.display())]
+    WouldOverwrite { what: &'static str, path: PathBuf },
+    /// The scene does not say what it must.
+    #[error("scene {path}{place}: {message}", path = .path.display())]
+    Scene { path: PathBuf, place: Place, message: String },
+    /// The recording cannot be used; the message names the file.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
+    /// Neither the recording nor the scene tells the time.
+    #[error(
+        "{path} has no column of time; add one (t_s), or write `sample_rate_Hz` into [input] of {scene}",
+        path = .path.display(), scene = .scene.display()
+    )]
+    NoTime { path: PathBuf, scene: PathBuf },
+    /// Volts without a calibration.
+    #[error(
+        "{path} holds signals but no wrench; give the sensor's calibration with --calibration",
+        path = .path.display()
+    )]
+    NeedsCalibration { path: PathBuf },
+    /// A header and nothing else.
+    #[error("{path} has a header but no rows; record something first", path = .path.display())]
+    NoRows { path: PathBuf },
+    /// The rest of the scene is longer than the recording.
+    #[error(
+        "{path} ends within the {rest} s of rest that the scene states ({rows} rows); shorten `rest_s`",
+        path = .path.display()
+    )]
+    RestTooLong { path: PathBuf, rest: f64, rows: u64 },
+    /// Nothing to take the tare from.
+    #[error("fewer than 2 usable rows within the {rest} s of rest; lengthen `rest_s` of the scene")]
+    NoRest { rest: f64 },
+    /// The calibration cannot be used.
+    #[error("calibration {path}: {message}", path = .path.display())]
+    Calibration { path: PathBuf, message: String },
+    /// The simulated fingertip or a stage of the demo could not be built.
+    #[error("the demo cannot run: {message}")]
+    Demo { message: String },
+    /// Whoever read our standard output has gone: not a fault.
+    #[error("the reader of the standard output has closed it")]
+    ClosedPipe,
+    /// The standard output cannot be written for another reason.
+    #[error("cannot write to the standard output: {0}; check where it is redirected to")]
+    Stdout(io::Error),
+}
+
+/// A line of a text file, if it is known.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Place(pub(crate) Option<usize>);
+
+impl core::fmt::Display for Place {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self.0 {
+            Some(line) => write!(formatter, ", line {line}"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl CliError {
+    pub(crate) fn read(what: &'static str, path: &Path, source: io::Error) -> Self {
+        Self::Read { what, path: path.to_owned(), source }
+    }
+
+    pub(crate) fn write(what: &'static str, path: &Path, source: io::Error) -> Self {
+        Self::Write { what, path: path.to_owned(), source }
+    }
+
+    /// What went wrong with the standard output.
+    pub(crate) fn stdout(source: io::Error) -> Self {
+        if source.kind() == io::ErrorKind::BrokenPipe { Self::ClosedPipe } else { Self::Stdout(source) }
+    }
+}

@@ -1,0 +1,82 @@
+//! How one sample ended, as a word.
+
+use fingertip::surfaces::{NoContact, Resolution};
+
+/// Contact, or why not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Status {
+    Contact,
+    BelowThreshold,
+    Misses,
+    OnlyPulling,
+    OutsideActiveRegion,
+    NotFinite,
+    /// A reason that this program has no word for yet.
+    Other,
+    /// Part of the rest at the start, from which the tare is taken.
+    Rest,
+    /// A gauge reads beyond the range that the calibration gives it.
+    Saturated,
+    /// The row repeats another one, its time does not advance, or a number is missing.
+    UnusableRow,
+}
+
+impl Status {
+    pub(crate) const ALL: [Self; 10] = [
+        Self::Contact,
+        Self::BelowThreshold,
+        Self::Misses,
+        Self::OnlyPulling,
+        Self::OutsideActiveRegion,
+        Self::NotFinite,
+        Self::Other,
+        Self::Rest,
+        Self::Saturated,
+        Self::UnusableRow,
+    ];
+
+    #[inline]
+    pub(crate) fn of(resolution: &Resolution<f64>) -> Self {
+        match resolution {
+            Resolution::Contact(_) => Self::Contact,
+            Resolution::NoContact(NoContact::BelowThreshold { .. }) => Self::BelowThreshold,
+            Resolution::NoContact(NoContact::Misses { .. }) => Self::Misses,
+            Resolution::NoContact(NoContact::OnlyPulling { .. }) => Self::OnlyPulling,
+            Resolution::NoContact(NoContact::OutsideActiveRegion { .. }) => Self::OutsideActiveRegion,
+            Resolution::NoContact(NoContact::NotFinite) => Self::NotFinite,
+            Resolution::NoContact(_) => Self::Other,
+        }
+    }
+
+    /// The word in `contacts.csv`.
+    pub(crate) const fn word(self) -> &'static str {
+        match self {
+            Self::Contact => "contact",
+            Self::BelowThreshold => "below_threshold",
+            Self::Misses => "misses",
+            Self::OnlyPulling => "only_pulling",
+            Self::OutsideActiveRegion => "outside_active_region",
+            Self::NotFinite => "not_finite",
+            Self::Other => "other",
+            Self::Rest => "rest",
+            Self::Saturated => "saturated",
+            Self::UnusableRow => "unusable_row",
+        }
+    }
+
+    /// What it means, for the summary.
+    pub(crate) const fn meaning(self) -> &'static str {
+        match self {
+            Self::Contact => "contact",
+            Self::BelowThreshold => "force below the threshold",
+            Self::Misses => "line of action misses the surface",
+            Self::OnlyPulling => "force pulls outward",
+            Self::OutsideActiveRegion => "presses outside the active region",
+            Self::NotFinite => "reading not finite",
+            Self::Other => "another reason",
+            Self::Rest => "rest at the start, for the tare",
+            Self::Saturated => "a gauge is saturated",
+            Self::UnusableRow => "row repeated, out of time or incomplete",
+        }
+    }
+}

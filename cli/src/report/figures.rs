@@ -1,0 +1,119 @@
+//! The figures that every run has.
+
+use super::{Axis, Chart, Figure, map};
+use crate::observe::{Observations, Point, Trace};
+use crate::table::{count, number};
+
+/// Most slips that are marked in a chart.
+const MARKED_SLIPS: usize = 200;
+
+/// Map, force components, normal and tangential force, friction ratio.
+pub(super) fn of(observations: &Observations, coefficient: Option<f64>) -> Vec<Figure> {
+    vec![
+        contact_map(observations),
+        ratio(observations, coefficient),
+        split(observations),
+        components(observations),
+    ]
+}
+
+fn time_axis(observations: &Observations) -> Axis {
+    let (first, last) = observations.time_range();
+    Axis::linear("time / s", first, last)
+}
+
+/// The least and the greatest value of some curves.
+fn range(traces: &[Vec<Vec<Point>>]) -> Option<(f64, f64)> {
+    let mut values = traces.iter().flatten().flatten().map(|point| point.value);
+    let first = values.next()?;
+    Some(values.fold((first, first), |(low, high), value| (low.min(value), high.max(value))))
+}
+
+fn curves(traces: &[Trace]) -> Vec<Vec<Vec<Point>>> {
+    traces.iter().map(Trace::pieces).collect()
+}
+
+fn contact_map(observations: &Observations) -> Figure {
+    let points = &observations.map;
+    let drawn = map::draw("Contact points on the fingertip", observations.projection(), points.kept());
+    let shown = points.kept().len() as u64;
+    let share = if points.seen() > shown {
+        format!(" {} of {} contacts, chosen at random.", count(shown), count(points.seen()))
+    } else {
+        format!(" {} contacts.", count(shown))
+    };
+    Figure {
+        title: "Where it touches".to_owned(),
+        svg: drawn.svg,
+        keys: Vec::new(),
+        caption: format!("{}{share} Colour: normal force.", drawn.remark),
+    }
+}
+
+fn components(observations: &Observations) -> Figure {
+    let curves = curves(&observations.components);
+    let (low, high) = range(&curves).unwrap_or((0.0, 1.0));
+    let y = Axis::rounded("force / N", low.min(0.0), high.max(0.0));
+    let mut chart = Chart::new("Force components over time", time_axis(observations), y);
+    chart.level("axis", 0.0);
+    for (class, curve) in ["a", "b", "c"].into_iter().zip(&curves) {
+        chart.curve(class, curve);
+    }
+    Figure {
+        title: "Force on the fingertip".to_owned(),
+        svg: chart.finish(),
+        keys: [("a", "fx"), ("b", "fy"), ("c", "fz")].map(|(class, name)| (class, name.to_owned())).to_vec(),
+        caption: "Components in the sensor frame.".to_owned(),
+    }
+}
+
+fn split(observations: &Observations) -> Figure {
+    let curves = curves(&observations.split);
+    let (_, high) = range(&curves).unwrap_or((0.0, 1.0));
+    let mut chart = Chart::new(
+        "Normal and tangential force over time",
+        time_axis(observations),
+        Axis::rounded("force / N", 0.0, high),
+    );
+    for (class, curve) in ["a", "b"].into_iter().zip(&curves) {
+        chart.curve(class, curve);
+    }
+    Figure {
+        title: "Normal and tangential force".to_owned(),
+        svg: chart.finish(),
+        keys: vec![("a", "normal f_n".to_owned()), ("b", "tangential |f_t|".to_owned())],
+        caption: "Only where there is a contact.".to_owned(),
+    }
+}
+
+fn ratio(observations: &Observations, coefficient: Option<f64>) -> Figure {
+    let curve = observations.ratio_trace.pieces();
+    let greatest = observations.ratio.greatest().unwrap_or(1.0);
+    // The ratio grows without bound as a contact opens: show what holds, and say what is cut.
+    let usual = 1.6 * observations.ratio.quantile(0.99).unwrap_or(1.0);
+    let high = greatest.min(usual.max(coefficient.map_or(0.0, |coefficient| 1.3 * coefficient)));
+    let high = high.max(coefficient.map_or(0.0, |coefficient| 1.15 * coefficient));
+    let y = Axis::rounded("friction ratio |f_t|/f_n", 0.0, high);
+    let cut = (greatest > y.high)
+        .then(|| format!(" Cut at {}; the greatest ratio is {}.", number(y.high), number(greatest)));
+    let mut chart = Chart::new("Friction ratio over time", time_axis(observations), y);
+    let slips = observations.slips.kept();
+    chart.marks("mark", slips.iter().take(MARKED_SLIPS).map(|slip| slip.time));
+    chart.curve("a", &[curve].concat());
+    let mut keys = vec![("a", "|f_t|/f_n".to_owned())];
+    if let Some(coefficient) = coefficient {
+        chart.level("level", coefficient);
+        keys.push(("e", format!("friction coefficient {}", number(coefficient))));
+    }
+    if !slips.is_empty() {
+        keys.push(("d", "slip".to_owned()));
+    }
+    let unmarked = observations.slips.count().saturating_sub(MARKED_SLIPS as u64);
+    let more = if unmarked > 0 { format!(" {} later slips are not marked.", count(unmarked)) } else { String::new() };
+    Figure {
+        title: "Friction ratio".to_owned(),
+        svg: chart.finish(),
+        keys,
+        caption: format!("Only where there is a contact.{}{more}", cut.unwrap_or_default()),
+    }
+}

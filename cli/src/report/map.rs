@@ -1,0 +1,177 @@
+//! Contact points on the fingertip drawn flat (as Fig. 5 of Bicchi & Dario 1987).
+
+use core::f64::consts::PI;
+
+use super::axis::Axis;
+use super::colours::Classes;
+use super::svg::{Anchor, Svg};
+use crate::observe::MapPoint;
+use crate::shape::{MapKind, Projection};
+
+const WIDTH: f64 = 380.0;
+const LEFT: f64 = 44.0;
+const RIGHT: f64 = 14.0;
+const TOP: f64 = 24.0;
+/// Room under the map for its axis, and for the legend.
+const AXIS: f64 = 36.0;
+const LEGEND: f64 = 40.0;
+
+/// A map, and what has to be said under it.
+pub(crate) struct Map {
+    pub(crate) svg: String,
+    pub(crate) remark: String,
+}
+
+/// Draws contact points, coloured by normal force.
+pub(crate) fn draw(title: &str, projection: &Projection, points: &[MapPoint]) -> Map {
+    let classes = Classes::of(points.iter().map(|point| point.normal_force));
+    match projection.kind() {
+        MapKind::Polar { rim } => polar(title, rim, points, &classes),
+        MapKind::Flat => flat(title, None, points, &classes),
+        MapKind::Unrolled { radius, half_length } => {
+            flat(title, Some((radius, half_length)), points, &classes)
+        }
+    }
+}
+
+fn dots(svg: &mut Svg, points: &[MapPoint], classes: &Classes, place: impl Fn((f64, f64)) -> (f64, f64)) {
+    for class in 0..Classes::COUNT {
+        let inside = points.iter().filter(|point| classes.class(point.normal_force) == class);
+        svg.dots(&format!("q{class}"), inside.map(|point| place(point.place)));
+    }
+}
+
+/// The sphere in a disk of radius 2 (in radii of the sphere), or less where nothing lies further
+/// out.
+fn polar(title: &str, rim: Option<f64>, points: &[MapPoint], classes: &Classes) -> Map {
+    let chord = |polar: f64| 2.0 * (0.5 * polar).sin();
+    let farthest = points.iter().map(|point| point.place.0.hypot(point.place.1)).fold(0.0, f64::max);
+    let reach = farthest.max(rim.map_or(0.0, chord)).max(chord(PI / 6.0));
+    // As far as the rim if nothing lies beyond it, otherwise to the next ring of the grid.
+    let rings = [30.0, 60.0, 90.0, 120.0, 150.0, 180.0_f64].map(f64::to_radians);
+    let beyond = |ring: &f64| chord(*ring) >= reach * 0.999_999;
+    let outer = rim.filter(beyond).or_else(|| rings.into_iter().find(beyond)).unwrap_or(PI);
+    // A ring that would run along the rim says nothing.
+    let apart = |ring: &f64| rim.is_none_or(|rim| (ring - rim).abs() > 6_f64.to_radians());
+    let rings: Vec<f64> = rings.into_iter().filter(|ring| *ring <= outer).filter(apart).collect();
+    let disk = 0.5 * (WIDTH - 40.0);
+    let scale = disk / chord(outer);
+    let centre = (0.5 * WIDTH, TOP + disk);
+    let height = TOP + 2.0 * disk + 16.0 + LEGEND;
+    let mut svg = Svg::new(WIDTH, height, title);
+    for ring in &rings {
+        let ring = *ring;
+        svg.circle("ring", centre, scale * chord(ring));
+    }
+    for spoke in 0..4 {
+        let (sin, cos) = (f64::from(spoke) * 0.25 * PI).sin_cos();
+        let (x, y) = (disk * cos, disk * sin);
+        svg.line("grid", (centre.0 - x, centre.1 - y), (centre.0 + x, centre.1 + y));
+    }
+    if let Some(rim) = rim {
+        svg.circle("rim", centre, scale * chord(rim));
+    }
+    dots(&mut svg, points, classes, |(u, v)| (centre.0 + scale * u, centre.1 - scale * v));
+    // Ring labels last, on a slant between two spokes, so that they stay readable.
+    let (sin, cos) = (0.375 * PI).sin_cos();
+    for ring in rings {
+        let at = scale * chord(ring);
+        let label = format!("{:.0}°", ring.to_degrees());
+        svg.label("tick halo", (centre.0 + at * cos, centre.1 - at * sin + 3.5), Anchor::Middle, &label);
+    }
+    svg.label("name", (2.0, 12.0), Anchor::Start, "angle from the pole");
+    classes.legend(&mut svg, (LEFT, height - LEGEND + 10.0), WIDTH - LEFT - RIGHT);
+    let rim = rim.map_or_else(String::new, |rim| {
+        format!(" The dashed circle is the rim of the active region, at {:.1}°.", rim.to_degrees())
+    });
+    Map { svg: svg.finish(), remark: format!("Equal-area projection, seen from outside along the pole.{rim}") }
+}
+
+/// A plane, or a cylinder of given radius and active half length, in millimetres.
+fn flat(title: &str, unrolled: Option<(f64, Option<f64>)>, points: &[MapPoint], classes: &Classes) -> Map {
+    let half_length = unrolled.and_then(|(_, half_length)| half_length);
+    let (left, right) = window(points.iter().map(|point| point.place.0), None);
+    let (low, high) = window(points.iter().map(|point| point.place.1), half_length);
+    let width = WIDTH - LEFT - RIGHT;
+    // True to scale as long as the map is neither a thread nor a tower.
+    let true_height = width * (high - low) / (right - left);
+    let map_height = true_height.clamp(0.4 * width, 1.1 * width);
+    let to_scale = (true_height - map_height).abs() < 0.01 * map_height;
+    let height = TOP + map_height + AXIS + LEGEND;
+
+    let x = match unrolled {
+        Some((radius, _)) => {
+            let degrees = (1.0 / radius).to_degrees();
+            Axis::linear("angle around the axis / °", left * degrees, right * degrees)
+        }
+        None => Axis::linear("x / mm", left, right),
+    };
+    let y = Axis::linear(if unrolled.is_some() { "height along the axis / mm" } else { "y / mm" }, low, high);
+    let place = |(u, v): (f64, f64)| {
+        (LEFT + width * (u - left) / (right - left), TOP + map_height * (high - v) / (high - low))
+    };
+
+    let mut svg = Svg::new(WIDTH, height, title);
+    let bottom = TOP + map_height;
+    for tick in y.ticks(6) {
+        let at = TOP + map_height * (1.0 - y.place(tick.value));
+        svg.line("grid", (LEFT, at), (LEFT + width, at));
+        svg.label("tick", (LEFT - 5.0, at + 3.5), Anchor::End, &tick.label);
+    }
+    for tick in x.ticks(6) {
+        let at = LEFT + width * x.place(tick.value);
+        svg.line("grid", (at, TOP), (at, bottom));
+        svg.label("tick", (at, bottom + 15.0), Anchor::Middle, &tick.label);
+    }
+    svg.label("name", (2.0, 12.0), Anchor::Start, &y.label);
+    svg.label("name", (LEFT + width, bottom + 30.0), Anchor::End, &x.label);
+    svg.begin_clip((LEFT, TOP), (width, map_height));
+    for edge in half_length.iter().flat_map(|half| [-half, *half]) {
+        svg.line("rim", place((left, edge)), place((right, edge)));
+    }
+    let inside = |point: &&MapPoint| {
+        (left..=right).contains(&point.place.0) && (low..=high).contains(&point.place.1)
+    };
+    let shown: Vec<MapPoint> = points.iter().filter(inside).copied().collect();
+    dots(&mut svg, &shown, classes, place);
+    svg.end_clip();
+    classes.legend(&mut svg, (LEFT, height - LEGEND + 10.0), width);
+
+    let mut remark = String::from(if unrolled.is_some() {
+        "The cylinder unrolled, seen from outside."
+    } else {
+        "Seen from outside."
+    });
+    if !to_scale {
+        remark.push_str(" Not to scale.");
+    }
+    if half_length.is_some() {
+        remark.push_str(" The dashed lines are the ends of the active region.");
+    }
+    match points.len() - shown.len() {
+        0 => {}
+        1 => remark.push_str(" One contact lies outside the window."),
+        missing => remark.push_str(&format!(" {missing} contacts lie outside the window.")),
+    }
+    Map { svg: svg.finish(), remark }
+}
+
+/// What the map shows of one coordinate: all but one in two hundred at either end, with room; the
+/// ends of the active region, if they are not far away. One stray contact does not shrink the rest.
+fn window(values: impl Iterator<Item = f64>, edge: Option<f64>) -> (f64, f64) {
+    let mut sorted: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let skipped = sorted.len() / 200;
+    let (mut low, mut high) = match (sorted.get(skipped), sorted.iter().rev().nth(skipped)) {
+        (Some(low), Some(high)) => (*low, *high),
+        _ => (-1.0, 1.0),
+    };
+    if let Some(edge) = edge
+        && edge < 3.0 * low.abs().max(high.abs()).max(edge / 10.0)
+    {
+        low = low.min(-edge);
+        high = high.max(edge);
+    }
+    let room = 0.06 * (high - low).max(1e-3 * high.abs().max(low.abs())).max(1e-6);
+    (low - room, high + room)
+}

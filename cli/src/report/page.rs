@@ -1,0 +1,68 @@
+//! The page around the figures.
+
+use super::Figure;
+use super::svg::escape;
+use crate::summary::Findings;
+use crate::table::Table;
+
+/// The whole page: style and drawings inline, no script, no network.
+pub(super) fn render(findings: &Findings, figures: &[Figure]) -> String {
+    let mut page = String::from("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
+    page.push_str("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
+    page.push_str("<meta name=\"color-scheme\" content=\"light dark\">\n");
+    page.push_str(&format!("<title>{}</title>\n", escape(&findings.title)));
+    page.push_str(concat!("<style>\n", include_str!("style.css"), "</style>\n</head>\n<body>\n<main>\n"));
+    page.push_str(&format!("<h1>{}</h1>\n", escape(&findings.title)));
+    for sentence in &findings.lead {
+        page.push_str(&format!("<p class=\"lead\">{}</p>\n", escape(sentence)));
+    }
+    page.push_str("<div class=\"tables\">\n");
+    findings.tables.iter().for_each(|table| push_table(&mut page, table));
+    page.push_str("</div>\n<div class=\"figures\">\n");
+    figures.iter().for_each(|figure| push_figure(&mut page, figure));
+    page.push_str("</div>\n");
+    if !findings.notes.is_empty() {
+        page.push_str("<h2>To be minded</h2>\n<ul>\n");
+        for note in &findings.notes {
+            page.push_str(&format!("<li>{}.</li>\n", escape(note)));
+        }
+        page.push_str("</ul>\n");
+    }
+    page.push_str(&format!(
+        "<footer>Forces and torques are loads on the fingertip, in the sensor frame. Curves are thinned so that their \
+         peaks are kept; quantiles are right to 0.4 %. Made by fingertip {}.</footer>\n</main>\n</body>\n</html>\n",
+        env!("CARGO_PKG_VERSION")
+    ));
+    page
+}
+
+fn push_table(page: &mut String, table: &Table) {
+    page.push_str(&format!("<section><h2>{}</h2><table><thead><tr>", escape(&table.title)));
+    for head in &table.head {
+        page.push_str(&format!("<th scope=\"col\">{}</th>", escape(head)));
+    }
+    page.push_str("</tr></thead><tbody>\n");
+    for row in &table.rows {
+        page.push_str("<tr>");
+        for (column, cell) in row.iter().enumerate() {
+            let tag = if column == 0 { "th scope=\"row\"" } else { "td" };
+            let end = if column == 0 { "th" } else { "td" };
+            page.push_str(&format!("<{tag}>{}</{end}>", escape(cell)));
+        }
+        page.push_str("</tr>\n");
+    }
+    page.push_str("</tbody></table></section>\n");
+}
+
+fn push_figure(page: &mut String, figure: &Figure) {
+    page.push_str(&format!("<figure><h2>{}</h2>\n", escape(&figure.title)));
+    if !figure.keys.is_empty() {
+        page.push_str("<p class=\"keys\">");
+        for (class, name) in &figure.keys {
+            page.push_str(&format!("<span><i class=\"{class}\"></i>{}</span>", escape(name)));
+        }
+        page.push_str("</p>\n");
+    }
+    page.push_str(&figure.svg);
+    page.push_str(&format!("\n<figcaption>{}</figcaption></figure>\n", escape(&figure.caption)));
+}

@@ -1,0 +1,124 @@
+//! The few pieces of SVG that the drawings are made of.
+//!
+//! Colours are classes, which the page's style sheet fills in for light and for dark: a drawing
+//! names none. (plotters, which could draw the charts, writes fixed colours and sizes, which do
+//! not follow the reader's colour scheme.)
+
+use core::fmt::Write;
+
+/// A growing drawing of a fixed size in its own units.
+#[derive(Clone, Debug)]
+pub(crate) struct Svg {
+    text: String,
+}
+
+/// Where a text is attached.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+impl Svg {
+    /// `title` is what a screen reader says.
+    pub(crate) fn new(width: f64, height: f64, title: &str) -> Self {
+        let mut svg = Self { text: String::new() };
+        svg.push(format_args!(
+            "<svg viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\"><title>{}</title>",
+            escape(title)
+        ));
+        svg
+    }
+
+    fn push(&mut self, piece: core::fmt::Arguments<'_>) {
+        // Writing to a String cannot fail.
+        let _ = self.text.write_fmt(piece);
+    }
+
+    pub(crate) fn line(&mut self, class: &str, from: (f64, f64), to: (f64, f64)) {
+        let ((x1, y1), (x2, y2)) = (from, to);
+        self.push(format_args!("<path class=\"{class}\" d=\"M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}\"/>"));
+    }
+
+    pub(crate) fn rectangle(&mut self, class: &str, corner: (f64, f64), size: (f64, f64)) {
+        self.push(format_args!(
+            "<rect class=\"{class}\" x=\"{:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\"/>",
+            corner.0,
+            corner.1,
+            size.0.max(0.0),
+            size.1.max(0.0)
+        ));
+    }
+
+    pub(crate) fn circle(&mut self, class: &str, centre: (f64, f64), radius: f64) {
+        self.push(format_args!(
+            "<circle class=\"{class}\" cx=\"{:.1}\" cy=\"{:.1}\" r=\"{radius:.1}\"/>",
+            centre.0, centre.1
+        ));
+    }
+
+    pub(crate) fn label(&mut self, class: &str, at: (f64, f64), anchor: Anchor, text: &str) {
+        let anchor = match anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        self.push(format_args!(
+            "<text class=\"{class}\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\">{}</text>",
+            at.0,
+            at.1,
+            escape(text)
+        ));
+    }
+
+    /// Lines through the points of every piece; a piece of one point becomes a dot.
+    pub(crate) fn curve<'a>(&mut self, class: &str, pieces: impl Iterator<Item = &'a [(f64, f64)]>) {
+        self.push(format_args!("<path class=\"curve {class}\" d=\""));
+        for piece in pieces {
+            for (i, (x, y)) in piece.iter().enumerate() {
+                let command = if i == 0 { "M" } else { "L" };
+                self.push(format_args!("{command}{x:.1} {y:.1}"));
+            }
+            if piece.len() == 1 {
+                self.text.push_str("h0");
+            }
+        }
+        self.text.push_str("\"/>");
+    }
+
+    /// Dots of one colour: strokes without length, whose round caps are what is seen.
+    pub(crate) fn dots(&mut self, class: &str, places: impl Iterator<Item = (f64, f64)>) {
+        let mut places = places.peekable();
+        if places.peek().is_none() {
+            return;
+        }
+        self.push(format_args!("<path class=\"dots {class}\" d=\""));
+        for (x, y) in places {
+            self.push(format_args!("M{x:.1} {y:.1}h0"));
+        }
+        self.text.push_str("\"/>");
+    }
+
+    /// What is drawn until [`end_clip`](Self::end_clip) is cut at a frame.
+    pub(crate) fn begin_clip(&mut self, corner: (f64, f64), size: (f64, f64)) {
+        self.push(format_args!(
+            "<svg x=\"{:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\" viewBox=\"{:.1} {:.1} {:.1} {:.1}\">",
+            corner.0, corner.1, size.0, size.1, corner.0, corner.1, size.0, size.1
+        ));
+    }
+
+    pub(crate) fn end_clip(&mut self) {
+        self.text.push_str("</svg>");
+    }
+
+    pub(crate) fn finish(mut self) -> String {
+        self.text.push_str("</svg>");
+        self.text
+    }
+}
+
+/// Text that may stand in HTML.
+pub(crate) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

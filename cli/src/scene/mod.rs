@@ -1,0 +1,213 @@
+//! The scene: what the recording was made with, and what to look for in it.
+//!
+//! Format, units and defaults are documented in `examples/scenes/README.md`, and nowhere else.
+
+mod stages;
+mod surface;
+
+use std::fs;
+use std::path::Path;
+
+use fingertip::surfaces::PointContact;
+use fingertip::wrench::Wrench;
+use nalgebra::Vector3;
+use serde::Deserialize;
+
+pub(crate) use stages::{Friction, SlipWatch};
+
+use crate::error::{CliError, Place};
+use crate::shape::{Projection, Shape};
+use stages::{ContactSection, FrictionSection, SlipSection};
+use surface::{PoseSection, SurfaceSection};
+
+/// The version of the format that this program reads.
+const VERSION: u32 = 1;
+
+/// Which of the two opposite loads of a contact the recording holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Convention {
+    /// The load that the environment applies to the fingertip.
+    OnFingertip,
+    /// The load that the fingertip applies to the environment.
+    Reaction,
+}
+
+impl Convention {
+    /// The load on the fingertip.
+    #[inline]
+    pub(crate) fn wrench(self, force: Vector3<f64>, torque: Vector3<f64>) -> Wrench<f64> {
+        match self {
+            Self::OnFingertip => Wrench::on_fingertip(force, torque),
+            Self::Reaction => Wrench::from_reaction(force, torque),
+        }
+    }
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct InputSection {
+    convention: Convention,
+    sensor: Option<String>,
+    #[serde(rename = "sample_rate_Hz")]
+    sample_rate: Option<f64>,
+    #[serde(rename = "rest_s")]
+    rest: Option<f64>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneFile {
+    /// Checked before the rest is read.
+    #[serde(rename = "version")]
+    _version: u32,
+    name: Option<String>,
+    input: InputSection,
+    surface: SurfaceSection,
+    #[serde(default)]
+    pose: PoseSection,
+    #[serde(default)]
+    contact: ContactSection,
+    friction: Option<FrictionSection>,
+    slip: Option<SlipSection>,
+}
+
+/// Only the version, so that a scene of another version is told apart from a bad one.
+#[derive(Deserialize)]
+struct VersionOnly {
+    version: Option<u32>,
+}
+
+/// A scene that has been checked: every stage can be built from it.
+#[derive(Clone, Debug)]
+pub(crate) struct Scene {
+    pub(crate) name: String,
+    pub(crate) convention: Convention,
+    /// Prefix of the sensor's columns.
+    pub(crate) sensor: Option<String>,
+    /// Samples per second, where the recording has no time.
+    pub(crate) sample_rate: Option<f64>,
+    /// How long the sensor is known to be unloaded at the start \[s\].
+    pub(crate) rest: Option<f64>,
+    pub(crate) shape: Shape,
+    pub(crate) projection: Projection,
+    pub(crate) model: PointContact<f64>,
+    pub(crate) friction: Friction,
+    pub(crate) slip: SlipWatch,
+}
+
+impl Scene {
+    /// Reads and checks a scene.
+    pub(crate) fn load(path: &Path) -> Result<Self, CliError> {
+        let text = fs::read_to_string(path).map_err(|source| CliError::read("scene", path, source))?;
+        let fault = |line, message| CliError::Scene { path: path.to_owned(), place: Place(line), message };
+        let file = parse(&text).map_err(|(line, message)| fault(line, message))?;
+        let name = file.name.clone().unwrap_or_else(|| {
+            path.file_stem().map_or_else(|| "scene".to_owned(), |stem| stem.to_string_lossy().into_owned())
+        });
+        file.check(name).map_err(|message| fault(None, message))
+    }
+}
+
+fn parse(text: &str) -> Result<SceneFile, (Option<usize>, String)> {
+    let locate = |error: &toml::de::Error| {
+        let line = error.span().and_then(|span| text.get(..span.start)).map(|before| before.matches('\n').count() + 1);
+        let message = error.message().replace('\n', " ");
+        (line, format!("{message} (the keys are explained in examples/scenes/README.md)"))
+    };
+    let VersionOnly { version } = toml::from_str(text).map_err(|error| locate(&error))?;
+    match version {
+        Some(VERSION) => toml::from_str(text).map_err(|error| locate(&error)),
+        Some(other) => Err((
+            None,
+            format!("it has version {other}, but this program reads version {VERSION}; install the fingertip that fits"),
+        )),
+        None => Err((None, format!("it does not state its version; put `version = {VERSION}` on its first line"))),
+    }
+}
+
+impl SceneFile {
+    fn check(self, name: String) -> Result<Scene, String> {
+        let positive = |what: &str, value: Option<f64>| match value {
+            Some(value) if !(value > 0.0 && value.is_finite()) => {
+                Err(format!("`{what}` must be a positive number, not {value}"))
+            }
+            other => Ok(other),
+        };
+        let sample_rate = positive("sample_rate_Hz", self.input.sample_rate)?;
+        let rest = positive("rest_s", self.input.rest)?;
+        let (shape, projection) = self.surface.place(&self.pose)?;
+        let friction = Friction::from_section(self.friction.as_ref())?;
+        Ok(Scene {
+            name,
+            convention: self.input.convention,
+            sensor: self.input.sensor,
+            sample_rate,
+            rest,
+            shape,
+            projection,
+            model: self.contact.model()?,
+            slip: SlipWatch::from_section(self.slip.as_ref(), friction)?,
+            friction,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Convention, Scene, parse};
+    use crate::shape::Shape;
+
+    const GOOD: &str = "version = 1\n[input]\nconvention = \"reaction\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+
+    fn check(text: &str) -> Result<Scene, String> {
+        parse(text).map_err(|(_, message)| message)?.check("test".to_owned())
+    }
+
+    #[test]
+    fn a_short_scene_is_enough() {
+        let scene = check(GOOD).unwrap();
+        assert_eq!(scene.convention, Convention::Reaction);
+        assert!(matches!(scene.shape, Shape::Sphere(_)));
+    }
+
+    #[test]
+    fn faults_are_named() {
+        let without = |line: &str| GOOD.replace(line, "");
+        let cases = [
+            (without("version = 1\n"), "version"),
+            (GOOD.replace("version = 1", "version = 2"), "version 2"),
+            (without("convention = \"reaction\"\n"), "missing field `convention`"),
+            (GOOD.replace("reaction", "object"), "expected `on_fingertip` or `reaction`"),
+            (format!("{GOOD}radius_mm = 13.0\n"), "unknown field `radius_mm`"),
+            (format!("{GOOD}[contacts]\n"), "unknown field `contacts`"),
+            (GOOD.replace("sphere", "cone"), "unknown variant `cone`"),
+            (without("radius_m = 0.013\n"), "missing field `radius_m`"),
+            (GOOD.replace("0.013", "-0.013"), "radius of a sphere"),
+            (GOOD.replace("0.013", "nan"), "radius of a sphere"),
+            (format!("{GOOD}[contact]\nleast_force_N = -1.0\n"), "least force"),
+            (format!("{GOOD}[friction]\nstatic_coefficient = 0.0\n"), "friction coefficient"),
+            (format!("{GOOD}[slip]\ndetector = \"threshold\"\nnoise_N = 0.01\n"), "[friction]"),
+            (format!("{GOOD}[slip]\ndetector = \"drop\"\nnoise_N = 0.0\n"), "noise"),
+            (GOOD.replace("[input]", "[input]\nrest_s = 0"), "rest_s"),
+            (GOOD.replace("[input]", "[input]\nsample_rate_Hz = -5.0"), "sample_rate_Hz"),
+            (format!("{GOOD}active_half_angle_deg = 190.0\n"), "active_half_angle_deg"),
+            (format!("{GOOD}pole = [0.0, 0.0, 0.0]\n"), "pole"),
+            (format!("{GOOD}[pose]\nrotation_deg = [0.0, inf, 0.0]\n"), "rotation_deg"),
+        ];
+        for (text, expected) in cases {
+            match check(&text) {
+                Ok(_) => panic!("accepted, but should complain of {expected}:\n{text}"),
+                Err(message) => assert!(message.contains(expected), "{message:?} lacks {expected:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn an_unknown_key_is_answered_with_the_known_ones_and_its_line() {
+        let (line, message) = parse(&GOOD.replace("convention", "convection")).unwrap_err();
+        assert_eq!(line, Some(3));
+        assert!(message.contains("unknown field `convection`"), "{message}");
+        assert!(message.contains("`convention`") && message.contains("`sample_rate_Hz`"), "{message}");
+    }
+}

@@ -1,0 +1,125 @@
+//! The surface of a scene and its pose.
+
+use fingertip::surfaces::{Cylinder, Plane, Sphere};
+use fingertip::wrench::RigidTransform;
+use nalgebra::Vector3;
+use serde::Deserialize;
+
+use crate::shape::{Capped, Projection, Shape};
+
+type Triple = [f64; 3];
+
+const ORIGIN: Triple = [0.0; 3];
+const fn origin() -> Triple {
+    ORIGIN
+}
+const fn along_z() -> Triple {
+    [0.0, 0.0, 1.0]
+}
+
+/// A shape in coordinates of its own frame.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
+pub(super) enum SurfaceSection {
+    Plane {
+        #[serde(rename = "point_m", default = "origin")]
+        point: Triple,
+        #[serde(default = "along_z")]
+        normal: Triple,
+    },
+    Sphere {
+        #[serde(rename = "radius_m")]
+        radius: f64,
+        #[serde(rename = "centre_m", default = "origin")]
+        centre: Triple,
+        #[serde(default = "along_z")]
+        pole: Triple,
+        #[serde(rename = "active_half_angle_deg")]
+        active_half_angle: Option<f64>,
+    },
+    Cylinder {
+        #[serde(rename = "radius_m")]
+        radius: f64,
+        #[serde(rename = "centre_m", default = "origin")]
+        centre: Triple,
+        #[serde(default = "along_z")]
+        axis: Triple,
+        #[serde(rename = "half_length_m")]
+        half_length: Option<f64>,
+    },
+}
+
+/// How the surface's own frame lies in the sensor frame.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct PoseSection {
+    #[serde(rename = "translation_m")]
+    translation: Triple,
+    /// Rotation vector: axis times angle.
+    #[serde(rename = "rotation_deg")]
+    rotation: Triple,
+}
+
+impl PoseSection {
+    fn sensor_from_surface(&self) -> Result<RigidTransform<f64>, String> {
+        let rotation = Vector3::from(self.rotation).map(f64::to_radians);
+        RigidTransform::from_axis_angle(rotation, Vector3::from(self.translation))
+            .map_err(|_| "`translation_m` and `rotation_deg` of the pose must be finite numbers".to_owned())
+    }
+}
+
+impl SurfaceSection {
+    /// The shape in the sensor frame, and its map, whose directions are those of the surface's own
+    /// frame.
+    pub(super) fn place(&self, pose: &PoseSection) -> Result<(Shape, Projection), String> {
+        let pose = pose.sensor_from_surface()?;
+        let point = |p: &Triple| pose.transform_point(&Vector3::from(*p));
+        let direction = |d: &Triple| pose.rotate(&Vector3::from(*d));
+        // Directions of the surface's frame, in the order in which a map prefers them.
+        let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| pose.rotate(&axis));
+        match self {
+            Self::Plane { point: through, normal } => {
+                let plane = Plane::new(point(through), direction(normal)).map_err(|fault| fault.to_string())?;
+                let normal = unit("normal", direction(normal))?;
+                let map = Projection::plane(plane.point(), normal, &[x, y, z]);
+                Ok((Shape::Plane(plane), map))
+            }
+            Self::Sphere { radius, centre, pole, active_half_angle } => {
+                let sphere = Sphere::new(point(centre), *radius).map_err(|fault| fault.to_string())?;
+                let pole = unit("pole", direction(pole))?;
+                let rim = active_half_angle.map(f64::to_radians);
+                let capped = match rim {
+                    None => Capped::whole(sphere, pole),
+                    Some(angle) if angle > 0.0 && angle <= core::f64::consts::PI => {
+                        Capped::within(sphere, pole, angle)
+                    }
+                    Some(_) => return Err("`active_half_angle_deg` must be above 0 and at most 180".to_owned()),
+                };
+                let map = Projection::sphere(sphere.centre(), pole, rim, &[x, y, z]);
+                Ok((Shape::Sphere(capped), map))
+            }
+            Self::Cylinder { radius, centre, axis, half_length } => {
+                let mut cylinder = Cylinder::new(point(centre), direction(axis), *radius)
+                    .map_err(|fault| fault.to_string())?;
+                if let Some(half_length) = half_length {
+                    cylinder = cylinder.with_half_length(*half_length).map_err(|fault| fault.to_string())?;
+                }
+                let map = Projection::cylinder(
+                    cylinder.centre(),
+                    cylinder.axis(),
+                    *radius,
+                    *half_length,
+                    &[z, x, y],
+                );
+                Ok((Shape::Cylinder(cylinder), map))
+            }
+        }
+    }
+}
+
+fn unit(what: &str, direction: Vector3<f64>) -> Result<Vector3<f64>, String> {
+    direction
+        .try_normalize(0.0)
+        .filter(|unit| unit.iter().all(|x| x.is_finite()))
+        .ok_or_else(|| format!("the `{what}` of the surface must be a direction: finite and not zero"))
+}

@@ -1,0 +1,167 @@
+//! What a recording showed, in words and tables: the same for the terminal and for the report.
+
+use core::fmt;
+use std::path::Path;
+
+use fingertip_drivers::recording::Quality;
+
+use crate::observe::{Observations, Quantiles, Status};
+use crate::scene::Scene;
+use crate::table::{Table, count, number, number_or_dash, percent};
+
+/// The result of a run, to be read by a human.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Findings {
+    pub(crate) title: String,
+    /// The result in sentences, the most important first.
+    pub(crate) lead: Vec<String>,
+    pub(crate) tables: Vec<Table>,
+    /// What should be minded.
+    pub(crate) notes: Vec<String>,
+}
+
+impl fmt::Display for Findings {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(out, "{}", self.title)?;
+        for sentence in &self.lead {
+            writeln!(out, "{sentence}")?;
+        }
+        for table in &self.tables {
+            write!(out, "\n{table}")?;
+        }
+        if !self.notes.is_empty() {
+            writeln!(out)?;
+        }
+        for note in &self.notes {
+            writeln!(out, "Note: {note}.")?;
+        }
+        Ok(())
+    }
+}
+
+/// What there is to tell of a recording.
+pub(crate) struct Run<'a> {
+    pub(crate) recording: &'a Path,
+    pub(crate) scene: &'a Scene,
+    pub(crate) observations: &'a Observations,
+    pub(crate) quality: &'a Quality,
+    pub(crate) notes: &'a [String],
+    pub(crate) sensor: &'a str,
+}
+
+/// Most slips that a table lists.
+const LISTED_SLIPS: usize = 20;
+
+/// Tells of a recording.
+pub(crate) fn of_recording(run: &Run<'_>) -> Findings {
+    let Run { recording, scene, observations, quality, .. } = run;
+    let name = recording.file_name().map_or_else(|| recording.display().to_string(), |name| name.to_string_lossy().into_owned());
+    let sensor = if run.sensor.is_empty() { String::new() } else { format!(", sensor {}", run.sensor) };
+    let mut findings = Findings {
+        title: format!("Contacts in {name}{sensor}"),
+        lead: vec![overview(observations, &scene.name), forces(observations), slips(observations, scene)],
+        tables: vec![outcomes(observations), distributions(observations)],
+        notes: run.notes.to_vec(),
+    };
+    findings.lead.retain(|sentence| !sentence.is_empty());
+    if observations.slips.count() > 0 {
+        findings.tables.push(slip_table(observations));
+    }
+    let faults: Vec<_> = quality.faults().into_iter().filter(|(_, fault)| fault.count() > 0).collect();
+    if !faults.is_empty() {
+        let mut table = Table::new("Faults of the recording", ["", "count", "first in lines"]);
+        for (name, fault) in faults {
+            let lines: Vec<String> = fault.first_lines().iter().map(u64::to_string).collect();
+            table.row([name.to_owned(), count(fault.count()), lines.join(", ")]);
+        }
+        findings.tables.push(table);
+    }
+    findings
+}
+
+fn overview(observations: &Observations, scene: &str) -> String {
+    let (rows, contacts) = (observations.rows(), observations.count_of(Status::Contact));
+    let loaded = rows
+        - observations.count_of(Status::BelowThreshold)
+        - observations.count_of(Status::Rest)
+        - observations.count_of(Status::UnusableRow);
+    format!(
+        "{} samples over {} s, scene “{scene}”: {} contacts, which is {} of all samples and {} of those with enough force.",
+        count(rows),
+        number(observations.duration()),
+        count(contacts),
+        percent(contacts, rows),
+        percent(contacts, loaded),
+    )
+}
+
+fn forces(observations: &Observations) -> String {
+    match (observations.normal.quantile(0.5), observations.ratio.quantile(0.5)) {
+        (Some(normal), Some(ratio)) => format!(
+            "In contact the median normal force is {} N and the median friction ratio |f_t|/f_n is {}.",
+            number(normal),
+            number(ratio)
+        ),
+        _ => String::new(),
+    }
+}
+
+fn slips(observations: &Observations, scene: &Scene) -> String {
+    let seen = match (scene.slip.is_on(), observations.slips.count()) {
+        (false, _) => String::new(),
+        (true, 0) => "No slip was seen.".to_owned(),
+        (true, 1) => "One slip was seen.".to_owned(),
+        (true, slips) => format!("{} slips were seen.", count(slips)),
+    };
+    let limit = match (scene.friction.coefficient(), observations.beyond_limit) {
+        (Some(coefficient), beyond) if beyond > 0 => {
+            format!(" The limit of the friction coefficient {} is passed in {} samples.", number(coefficient), count(beyond))
+        }
+        _ => String::new(),
+    };
+    format!("{seen}{limit}").trim().to_owned()
+}
+
+fn outcomes(observations: &Observations) -> Table {
+    let mut table = Table::new("Samples", ["", "count", "share"]);
+    for status in Status::ALL {
+        let samples = observations.count_of(status);
+        if samples > 0 {
+            table.row([status.meaning().to_owned(), count(samples), percent(samples, observations.rows())]);
+        }
+    }
+    table
+}
+
+/// Quantiles of what was measured.
+pub(crate) fn distributions(observations: &Observations) -> Table {
+    let mut table = Table::new("Distributions", ["", "5 %", "median", "95 %", "greatest"]);
+    let mut row = |name: &str, quantiles: &Quantiles, unit: f64| {
+        if quantiles.count() > 0 {
+            let at = |share| number_or_dash(quantiles.quantile(share).map(|value| value * unit));
+            let greatest = number_or_dash(quantiles.greatest().map(|value| value * unit));
+            table.row([name.to_owned(), at(0.05), at(0.5), at(0.95), greatest]);
+        }
+    };
+    row("force, all samples / N", &observations.force, 1.0);
+    row("normal force / N", &observations.normal, 1.0);
+    row("tangential force / N", &observations.tangential, 1.0);
+    row("friction ratio", &observations.ratio, 1.0);
+    row("line misses by / mm", &observations.gap, 1e3);
+    table
+}
+
+fn slip_table(observations: &Observations) -> Table {
+    let (listed, all) = (observations.slips.kept(), observations.slips.count());
+    let title = if all > LISTED_SLIPS as u64 { format!("Slips (the first {LISTED_SLIPS})") } else { "Slips".to_owned() };
+    let mut table = Table::new(&title, ["", "at / s", "normal / N", "ratio"]);
+    for (rank, slip) in listed.iter().take(LISTED_SLIPS).enumerate() {
+        table.row([
+            (rank + 1).to_string(),
+            format!("{:.3}", slip.time),
+            number_or_dash(slip.normal_force),
+            number_or_dash(slip.ratio),
+        ]);
+    }
+    table
+}
