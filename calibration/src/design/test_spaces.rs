@@ -21,3 +21,9 @@ pub(super) fn paper() -> TubeSpace {
 pub(super) fn free() -> TubeSpace {
     TubeSpace::free(6, (-20e-3, 20e-3), tube(), Wall::Fixed(0.2e-3)).unwrap()
 }
+
+/// Pairs at ±Q in a ring.
+pub(super) fn rosettes(count: usize) -> TubeSpace {
+    let angle = (1_f64.to_radians(), 59_f64.to_radians());
+    TubeSpace::rosettes(count, (2e-3, 20e-3), angle, (-20e-3, 20e-3), tube(), Wall::Fixed(0.2e-3)).unwrap()
+}
