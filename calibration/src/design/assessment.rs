@@ -47,7 +47,8 @@ impl Assessment {
         let rows: Option<Vector6<f64>> =
             inverse.as_ref().map(|inverse| Vector6::from_fn(|j, _| inverse.row(j).norm()));
         // C⁺C⁺ᵀ = (CᵀC)⁻¹.
-        let covariance = inverse.map(|inverse| (&inverse * inverse.transpose()).fixed_view::<6, 6>(0, 0).into_owned());
+        let covariance =
+            inverse.map(|inverse| (&inverse * inverse.transpose()).fixed_view::<6, 6>(0, 0).into_owned());
         Some(Self {
             condition_number: singular.condition_number(),
             equilibrated_condition_number,

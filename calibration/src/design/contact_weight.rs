@@ -55,7 +55,12 @@ impl Touch {
     ///
     /// # Errors
     /// As there.
-    pub fn on_sphere(radius: f64, half_angle: f64, friction: f64, force: f64) -> Result<Vec<Self>, DesignError> {
+    pub fn on_sphere(
+        radius: f64,
+        half_angle: f64,
+        friction: f64,
+        force: f64,
+    ) -> Result<Vec<Self>, DesignError> {
         DesignError::check_positive("radius of the tip", radius)?;
         DesignError::check_positive("force of a touch", force)?;
         DesignError::check_not_negative("friction ratio", friction)?;
@@ -93,7 +98,8 @@ fn forces(normal: Vector3<f64>, friction: f64, size: f64) -> impl Iterator<Item 
     let second = normal.cross(&first);
     let count = if friction > 0.0 { FORCES } else { 1 };
     (0..count).map(move |i| {
-        let ratio = if count == 1 { 0.0 } else { friction * ((f64::from(i) + 0.5) / f64::from(count)).sqrt() };
+        let ratio =
+            if count == 1 { 0.0 } else { friction * ((f64::from(i) + 0.5) / f64::from(count)).sqrt() };
         let (sin, cos) = (f64::from(i) * GOLDEN_ANGLE).sin_cos();
         ((first * cos + second * sin) * ratio - normal).normalize() * size
     })

@@ -43,7 +43,8 @@ impl Decoupling {
         if sizes.iter().any(|size| !(*size > 0.0 && size.is_finite())) {
             return None;
         }
-        let found = [1, 2].into_iter().filter_map(|greatest| Self::with_factors(normalised, &sizes, greatest));
+        let found =
+            [1, 2].into_iter().filter_map(|greatest| Self::with_factors(normalised, &sizes, greatest));
         // The first of equals, so that small factors are preferred.
         found.min_by_key(Self::couplings)
     }
@@ -80,7 +81,8 @@ impl Decoupling {
             if row.len() != signals.len() {
                 return None;
             }
-            let sum: f64 = row.iter().zip(signals.iter()).map(|(factor, signal)| f64::from(*factor) * signal).sum();
+            let sum: f64 =
+                row.iter().zip(signals.iter()).map(|(factor, signal)| f64::from(*factor) * signal).sum();
             // Loads not found yet are zero here, and their couplings too.
             let coupled = self.combined.row(axis).transpose().dot(&load);
             load[axis] = (sum - coupled) / self.combined[(axis, axis)];

@@ -50,7 +50,11 @@ impl Landscape {
             return Err(DesignError::WrongCount { what: "parameters of a landscape", found: 1, expected: 2 });
         }
         if columns.min(rows) < 2 {
-            return Err(DesignError::WrongCount { what: "grid points", found: columns.min(rows), expected: 2 });
+            return Err(DesignError::WrongCount {
+                what: "grid points",
+                found: columns.min(rows),
+                expected: 2,
+            });
         }
         let grid = |lower: f64, upper: f64, count: usize| -> Vec<f64> {
             (0..count).map(|i| lower + (upper - lower) * i as f64 / (count - 1) as f64).collect()
@@ -99,7 +103,8 @@ mod tests {
         let loads = NominalLoads::equal(10.0, 0.1).unwrap();
         let optimum = [6.546e-3, 14.451_f64.to_radians(), 13.462e-3];
         let found =
-            Landscape::new(&paper(), &Criterion::ConditionNumber, &loads, &optimum, [0, 1], [131, 117]).unwrap();
+            Landscape::new(&paper(), &Criterion::ConditionNumber, &loads, &optimum, [0, 1], [131, 117])
+                .unwrap();
         let (least, column, row) = found.least().unwrap();
         assert!((4.182..4.3).contains(&least), "{least}");
         assert!((found.xs[column] - optimum[0]).abs() < 0.3e-3);
@@ -109,9 +114,8 @@ mod tests {
     #[test]
     fn refuses_what_is_no_landscape() {
         let loads = NominalLoads::equal(10.0, 0.1).unwrap();
-        let make = |held: &[f64], axes, size| {
-            Landscape::new(&paper(), &Criterion::Trace, &loads, held, axes, size)
-        };
+        let make =
+            |held: &[f64], axes, size| Landscape::new(&paper(), &Criterion::Trace, &loads, held, axes, size);
         let held = [6e-3, 0.2, 10e-3];
         assert!(make(&held, [0, 0], [4, 4]).is_err());
         assert!(make(&held, [0, 3], [4, 4]).is_err());

@@ -4,9 +4,7 @@ use fingertip_wrench::SensorMatrix;
 use fingertip_wrench::gauge_layout::{Gauge, GaugeLayout};
 use serde::{Deserialize, Serialize};
 
-use super::{
-    Bridge, Decoupling, DesignError, Excitation, LoadedTube, Material, NominalLoads, TubeLayout,
-};
+use super::{Bridge, Decoupling, DesignError, Excitation, LoadedTube, Material, NominalLoads, TubeLayout};
 use crate::file::{CalibrationFile, Provenance, SignalUnit, Verdict};
 
 /// The version of the format that this program reads and writes.
@@ -111,10 +109,8 @@ impl LayoutFile {
             decoupling: None,
         };
         file.validate()?;
-        file.decoupling = file.find_decoupling()?.map(|found| DecouplingSection {
-            rows: found.rows,
-            order: found.order,
-        });
+        file.decoupling =
+            file.find_decoupling()?.map(|found| DecouplingSection { rows: found.rows, order: found.order });
         Ok(file)
     }
 
@@ -213,10 +209,8 @@ impl LayoutFile {
         let nominal = self.loads.components().iter().copied().collect();
         let file = CalibrationFile::new(matrix, nominal, vec![0.0; channels], SignalUnit::Volt);
         let mut file = file.map_err(|error| DesignError::Syntax(error.to_string()))?;
-        file.provenance = Provenance {
-            method: "computed from a gauge layout, not measured".to_owned(),
-            ..file.provenance
-        };
+        file.provenance =
+            Provenance { method: "computed from a gauge layout, not measured".to_owned(), ..file.provenance };
         file.quality.verdict = Verdict::Unchecked;
         file.quality.reasons = vec!["this is the design, not a calibration".to_owned()];
         file.quality.condition_number = condition_number;

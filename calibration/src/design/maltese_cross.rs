@@ -97,7 +97,8 @@ impl MalteseCross {
         // The spoke's axes in the sensor frame: outward +Y, across −… so that x × y = z is the axis.
         let (outward, axis) = (turn * Vector3::y(), Vector3::x());
         let across = axis.cross(&outward);
-        let frame = nalgebra::Matrix3::from_rows(&[outward.transpose(), across.transpose(), axis.transpose()]);
+        let frame =
+            nalgebra::Matrix3::from_rows(&[outward.transpose(), across.transpose(), axis.transpose()]);
         let end = outward * self.hub_radius - axis * self.height_of_origin;
         let mut map = Matrix6::zeros();
         map.fixed_view_mut::<3, 3>(0, 0).copy_from(&frame);
@@ -279,7 +280,8 @@ mod tests {
     #[test]
     fn twist_about_the_axis_bends_all_spokes_alike() {
         let strains = CROSS.strains(&METAL).unwrap();
-        let (e, l, b, h, r) = (METAL.youngs_modulus, CROSS.length, CROSS.width, CROSS.height, CROSS.hub_radius);
+        let (e, l, b, h, r) =
+            (METAL.youngs_modulus, CROSS.length, CROSS.width, CROSS.height, CROSS.hub_radius);
         let stiff = e * h * b.powi(3) / 12.0;
         // A clamped beam whose end moves by r·φ and turns by φ: force V and moment M at its end.
         let force = 12.0 * stiff / l.powi(3) * r + 6.0 * stiff / (l * l);

@@ -35,7 +35,8 @@ pub(super) fn nelder_mead(
     let mut size = size;
     let mut failures = 0;
     while left > 0 && failures < 2 {
-        let (place, value, spent) = descend(&mut f, &best, best_value, size, Limits { evaluations: left, ..limits });
+        let (place, value, spent) =
+            descend(&mut f, &best, best_value, size, Limits { evaluations: left, ..limits });
         left = left.saturating_sub(spent.max(1));
         if best_value - value > limits.value {
             failures = 0;
@@ -85,13 +86,15 @@ fn descend(
             .iter()
             .flat_map(|corner| corner.0.iter().zip(&corners[0].0).map(|(a, b)| (a - b).abs()))
             .fold(0.0, f64::max);
-        if spent >= limits.evaluations || (extent <= limits.place && !(spread > limits.value)) || extent < 1e-14 {
+        if spent >= limits.evaluations
+            || (extent <= limits.place && !(spread > limits.value))
+            || extent < 1e-14
+        {
             let (place, value) = corners.swap_remove(0);
             return (place, value, spent);
         }
-        let centre: Vec<f64> = (0..n)
-            .map(|i| corners[..n].iter().map(|corner| corner.0[i]).sum::<f64>() / dimension)
-            .collect();
+        let centre: Vec<f64> =
+            (0..n).map(|i| corners[..n].iter().map(|corner| corner.0[i]).sum::<f64>() / dimension).collect();
         let worst = corners[n].clone();
         let along = |factor: f64| -> Vec<f64> {
             centre.iter().zip(&worst.0).map(|(c, w)| c + factor * (c - w)).collect()
@@ -162,7 +165,8 @@ mod tests {
             let (place, _, used) = nelder_mead(f, &[0.5, 0.5], 0.1, LIMITS);
             assert!(place.iter().all(|x| x.is_finite()) && used <= 20_010);
         }
-        let (place, value, used) = nelder_mead(|x| x[0].abs(), &[1.0], 0.1, Limits { evaluations: 5, ..LIMITS });
+        let (place, value, used) =
+            nelder_mead(|x| x[0].abs(), &[1.0], 0.1, Limits { evaluations: 5, ..LIMITS });
         assert!(value <= 1.0 && place[0].is_finite() && used <= 10);
         assert_eq!(nelder_mead(|_| 2.0, &[], 0.1, LIMITS).1, 2.0);
     }

@@ -128,7 +128,8 @@ mod tests {
     #[test]
     fn stays_out_of_forbidden_places() {
         // −log x + x, not defined for x ≤ 0: least at 1.
-        let f = |x: &DVector<f64>| (x[0] > 0.0).then(|| (x[0] - x[0].ln(), DVector::repeat(1, 1.0 - 1.0 / x[0])));
+        let f =
+            |x: &DVector<f64>| (x[0] > 0.0).then(|| (x[0] - x[0].ln(), DVector::repeat(1, 1.0 - 1.0 / x[0])));
         for start in [1e-3, 40.0] {
             let (place, _) = quasi_newton(f, &DVector::repeat(1, start), LIMITS).unwrap();
             assert!((place[0] - 1.0).abs() < 1e-8);

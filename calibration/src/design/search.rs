@@ -128,11 +128,8 @@ pub fn search(
     if how.starts == 0 {
         return Err(DesignError::WrongCount { what: "starts", found: 0, expected: 1 });
     }
-    let threads = how
-        .threads
-        .or_else(|| thread::available_parallelism().ok())
-        .map_or(1, NonZero::get)
-        .min(how.starts);
+    let threads =
+        how.threads.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZero::get).min(how.starts);
     let next = AtomicUsize::new(0);
     let ends: Mutex<Vec<(usize, End)>> = Mutex::new(Vec::with_capacity(how.starts));
     thread::scope(|scope| {
@@ -202,7 +199,8 @@ fn gather(
     ends: Vec<(usize, End)>,
 ) -> Result<Findings, DesignError> {
     let evaluations = ends.iter().map(|(_, end)| end.evaluations).sum();
-    let mut found: Vec<End> = ends.into_iter().map(|(_, end)| end).filter(|end| end.criterion.is_finite()).collect();
+    let mut found: Vec<End> =
+        ends.into_iter().map(|(_, end)| end).filter(|end| end.criterion.is_finite()).collect();
     let failed = how.starts - found.len();
     found.sort_by(|a, b| a.criterion.total_cmp(&b.criterion));
     let nominal = loads.components();
@@ -250,7 +248,11 @@ fn apart(space: &dyn DesignSpace, a: &[f64], b: &[f64]) -> bool {
     })
 }
 
-fn spectrum(space: &dyn DesignSpace, nominal: &Vector6<f64>, values: &[f64]) -> Result<Vec<f64>, DesignError> {
+fn spectrum(
+    space: &dyn DesignSpace,
+    nominal: &Vector6<f64>,
+    values: &[f64],
+) -> Result<Vec<f64>, DesignError> {
     let mut rows = vec![Vector6::zeros(); space.channels()];
     space.response(values, &mut rows)?;
     let matrix = DMatrix::from_fn(rows.len(), 6, |i, j| rows[i][j] * nominal[j]);

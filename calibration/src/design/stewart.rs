@@ -103,8 +103,9 @@ impl Stewart {
             column.fixed_rows_mut::<3>(3).copy_from(&(above.cross(&direction) / size));
         }
         let singular = DesignError::Singular { reason: "the legs leave the platform a freedom" };
-        let condition = crate::linear::Singular::new(&nalgebra::DMatrix::from_column_slice(6, 6, load_of.as_slice()))
-            .map_or(f64::INFINITY, |singular| singular.condition_number());
+        let condition =
+            crate::linear::Singular::new(&nalgebra::DMatrix::from_column_slice(6, 6, load_of.as_slice()))
+                .map_or(f64::INFINITY, |singular| singular.condition_number());
         if !(condition < 1e9) {
             return Err(singular);
         }
@@ -199,7 +200,14 @@ impl StewartSpace {
             return Err(DesignError::WrongCount { what: "parameters", found: values.len(), expected: 5 });
         };
         let height_of_origin = self.height_of_origin;
-        Ok(Stewart { base_radius, platform_radius, height, base_half_angle, platform_half_angle, height_of_origin })
+        Ok(Stewart {
+            base_radius,
+            platform_radius,
+            height,
+            base_half_angle,
+            platform_half_angle,
+            height_of_origin,
+        })
     }
 }
 
@@ -274,7 +282,12 @@ mod tests {
 
     #[test]
     fn parallel_legs_are_singular() {
-        let stiff = Stewart { base_half_angle: 0.3, platform_half_angle: core::f64::consts::FRAC_PI_3 - 0.3, platform_radius: 20e-3, ..PLATFORM };
+        let stiff = Stewart {
+            base_half_angle: 0.3,
+            platform_half_angle: core::f64::consts::FRAC_PI_3 - 0.3,
+            platform_radius: 20e-3,
+            ..PLATFORM
+        };
         assert!(stiff.tensions().is_err());
         assert!(Stewart { height: 0.0, ..PLATFORM }.tensions().is_err());
         assert!(Stewart { base_half_angle: 2.0, ..PLATFORM }.tensions().is_err());
@@ -290,7 +303,8 @@ mod tests {
         let found = search(&space, &Criterion::ConditionNumber, &loads, &how, &|_| ()).unwrap();
         let best = found.best().unwrap();
         assert!(best.criterion < 2.3, "{best:?}");
-        let strength = space.platform(&best.values).unwrap().strength(&Material::STEEL_17_4_PH, 1.2e-3, &loads).unwrap();
+        let strength =
+            space.platform(&best.values).unwrap().strength(&Material::STEEL_17_4_PH, 1.2e-3, &loads).unwrap();
         assert!(strength.yield_ratio > 0.0 && strength.buckling_ratio.is_finite());
     }
 }

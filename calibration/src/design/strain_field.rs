@@ -157,7 +157,8 @@ pub fn choose_sites(
     };
     // Greedy: the first six by orthogonalisation (largest remainder), the others by the criterion.
     let mut chosen: Vec<usize> = Vec::with_capacity(count);
-    let mut remainders: Vec<Vector6<f64>> = candidates.iter().map(|row| row.component_mul(&nominal)).collect();
+    let mut remainders: Vec<Vector6<f64>> =
+        candidates.iter().map(|row| row.component_mul(&nominal)).collect();
     let largest = remainders.iter().map(Vector6::norm).fold(0.0, f64::max);
     for _ in 0..6 {
         let best = (0..candidates.len())

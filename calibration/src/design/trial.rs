@@ -87,7 +87,8 @@ impl Trial {
         touches: &[Touch],
     ) -> Result<Accuracy, DesignError> {
         self.validate()?;
-        let model = PointContact::new(0.0).map_err(|_| DesignError::Singular { reason: "no contact model" })?;
+        let model =
+            PointContact::new(0.0).map_err(|_| DesignError::Singular { reason: "no contact model" })?;
         let designed = self.matrix_of(layout)?;
         let mut random = Pcg64Mcg::seed_from_u64(self.seed);
         let (mut errors, mut force_squares, mut missed) = (Vec::new(), 0.0, 0_usize);

@@ -256,9 +256,7 @@ impl TubeSpace {
     fn thickness(&self, radius: f64) -> Result<f64, DesignError> {
         match (self.known_wall, self.wall) {
             (Some(thickness), _) | (None, Wall::Fixed(thickness)) => Ok(thickness),
-            (None, Wall::AtStrength { safety }) => {
-                LoadedTube { radius, ..self.tube }.least_thickness(safety)
-            }
+            (None, Wall::AtStrength { safety }) => LoadedTube { radius, ..self.tube }.least_thickness(safety),
         }
     }
 
