@@ -3,8 +3,11 @@
 mod axis;
 pub mod design;
 pub mod file;
+pub mod fit;
 pub mod linear;
+pub mod loads;
 pub mod model;
+pub mod report;
 pub mod units;
 
 pub use axis::Axis;

@@ -7,7 +7,9 @@ use clap::{Args, Parser, Subcommand};
 /// From the strain gauges behind a fingertip to contact, force and slip.
 #[derive(Debug, Parser)]
 #[command(name = "fingertip", version, about, propagate_version = true)]
-#[command(after_help = "Exit codes: 0 done, 1 an input is bad or an output cannot be written, 2 wrong usage.")]
+#[command(
+    after_help = "Exit codes: 0 done, 1 an input is bad or an output cannot be written, 2 wrong usage."
+)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -29,6 +31,12 @@ pub(crate) struct DemoArguments {
     /// Seed of the noise: the same seed gives the same report
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
+    /// Also write the simulated volts, a recording to try `analyze` on
+    #[arg(long, value_name = "FILE")]
+    pub(crate) recording: Option<PathBuf>,
+    /// Also write the simulated sensor's calibration
+    #[arg(long, value_name = "FILE")]
+    pub(crate) calibration: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

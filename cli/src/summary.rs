@@ -7,7 +7,7 @@ use fingertip_drivers::recording::Quality;
 
 use crate::observe::{Observations, Quantiles, Status};
 use crate::scene::Scene;
-use crate::table::{Table, count, number, number_or_dash, percent};
+use crate::table::{Table, count, number, number_or_dash, percent, short};
 
 /// The result of a run, to be read by a human.
 #[derive(Clone, Debug, Default)]
@@ -55,7 +55,9 @@ const LISTED_SLIPS: usize = 20;
 /// Tells of a recording.
 pub(crate) fn of_recording(run: &Run<'_>) -> Findings {
     let Run { recording, scene, observations, quality, .. } = run;
-    let name = recording.file_name().map_or_else(|| recording.display().to_string(), |name| name.to_string_lossy().into_owned());
+    let name = recording
+        .file_name()
+        .map_or_else(|| recording.display().to_string(), |name| name.to_string_lossy().into_owned());
     let sensor = if run.sensor.is_empty() { String::new() } else { format!(", sensor {}", run.sensor) };
     let mut findings = Findings {
         title: format!("Contacts in {name}{sensor}"),
@@ -115,7 +117,11 @@ fn slips(observations: &Observations, scene: &Scene) -> String {
     };
     let limit = match (scene.friction.coefficient(), observations.beyond_limit) {
         (Some(coefficient), beyond) if beyond > 0 => {
-            format!(" The limit of the friction coefficient {} is passed in {} samples.", number(coefficient), count(beyond))
+            format!(
+                " The limit of the friction coefficient {} is passed in {} samples.",
+                short(coefficient),
+                count(beyond)
+            )
         }
         _ => String::new(),
     };
@@ -153,7 +159,11 @@ pub(crate) fn distributions(observations: &Observations) -> Table {
 
 fn slip_table(observations: &Observations) -> Table {
     let (listed, all) = (observations.slips.kept(), observations.slips.count());
-    let title = if all > LISTED_SLIPS as u64 { format!("Slips (the first {LISTED_SLIPS})") } else { "Slips".to_owned() };
+    let title = if all > LISTED_SLIPS as u64 {
+        format!("Slips (the first {LISTED_SLIPS})")
+    } else {
+        "Slips".to_owned()
+    };
     let mut table = Table::new(&title, ["", "at / s", "normal / N", "ratio"]);
     for (rank, slip) in listed.iter().take(LISTED_SLIPS).enumerate() {
         table.row([

@@ -32,7 +32,11 @@ impl fmt::Display for Table {
         for line in lines().filter(|line| line.iter().any(|cell| !cell.is_empty())) {
             let mut text = String::from(" ");
             for (column, (cell, width)) in line.iter().zip(&widths).enumerate() {
-                text.push_str(&if column == 0 { format!(" {cell:<width$}") } else { format!("  {cell:>width$}") });
+                text.push_str(&if column == 0 {
+                    format!(" {cell:<width$}")
+                } else {
+                    format!("  {cell:>width$}")
+                });
             }
             writeln!(out, "{}", text.trim_end())?;
         }
@@ -59,6 +63,16 @@ pub(crate) fn number(value: f64) -> String {
         format!("{value:.4}")
     } else {
         format!("{value:.5}")
+    }
+}
+
+/// As [`number`], without zeros at the end.
+pub(crate) fn short(value: f64) -> String {
+    let text = number(value);
+    if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
     }
 }
 
@@ -115,6 +129,9 @@ mod tests {
         assert_eq!(count(1_234_567), "1\u{202f}234\u{202f}567");
         assert_eq!(percent(9_999_999, 10_000_000), ">99.99 %");
         assert_eq!(percent(1, 10_000_000), "<0.01 %");
-        assert_eq!((percent(3, 3), percent(0, 3), percent(1, 3)), ("100 %".into(), "0 %".into(), "33.33 %".into()));
+        assert_eq!(
+            (percent(3, 3), percent(0, 3), percent(1, 3)),
+            ("100 %".into(), "0 %".into(), "33.33 %".into())
+        );
     }
 }

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use common::{Contacts, Folder, scene, workspace};
 
 fn recording() -> Option<PathBuf> {
-    let folder = std::env::var_os("FINGERTIP_DATA")
-        .map_or_else(|| workspace().join("../shared/data"), PathBuf::from);
+    let folder =
+        std::env::var_os("FINGERTIP_DATA").map_or_else(|| workspace().join("../shared/data"), PathBuf::from);
     let path = folder.join("nano17_three_finger/roll.csv");
     if path.exists() {
         Some(path)

@@ -1,4 +1,13 @@
-//! What is fitted.
+//! From a table of known loads to a sensor that can be trusted.
 
+mod calibrate;
+mod options;
 mod pairs;
+mod sensor_model;
+
+pub(crate) use crate::fit::deviation;
+pub use calibrate::{Calibration, CalibrationError, calibrate};
+pub use options::{Direction, Limits, Method, Options};
 pub use pairs::pairs;
+pub use sensor_model::SensorModel;
+pub(crate) use sensor_model::normalised;

@@ -1,6 +1,6 @@
 //! The files of a run, and what is said at its end.
 
-use std::fs;
+use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -17,12 +17,23 @@ pub(super) fn guard(arguments: &AnalyzeArguments) -> Result<(), CliError> {
         let Ok(place) = fs::canonicalize(output) else { continue };
         // A device may well be read and written.
         let file = fs::metadata(&place).is_ok_and(|meta| meta.is_file());
-        let read = inputs.iter().flatten().any(|input| fs::canonicalize(input).is_ok_and(|input| input == place));
+        let read =
+            inputs.iter().flatten().any(|input| fs::canonicalize(input).is_ok_and(|input| input == place));
         if file && read {
             return Err(CliError::WouldOverwrite { what, path: output.clone() });
         }
     }
     Ok(())
+}
+
+/// Opens a recording, and tells its length if it has one (a pipe has none).
+pub(super) fn open(path: &Path) -> io::Result<(File, Option<u64>)> {
+    let file = File::open(path)?;
+    let meta = file.metadata()?;
+    if meta.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    Ok((file, meta.is_file().then_some(meta.len())))
 }
 
 /// Prints what was found and what was written.

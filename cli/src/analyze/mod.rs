@@ -4,6 +4,8 @@ mod contacts;
 mod files;
 mod progress;
 mod source;
+mod volts;
+mod wrenches;
 
 use std::fs::File;
 use std::path::Path;
@@ -27,8 +29,8 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let scene = Scene::load(&arguments.scene)?;
     let recording = arguments.recording.as_path();
     files::guard(arguments)?;
-    let file = File::open(recording).map_err(|source| CliError::read("recording", recording, source))?;
-    let length = file.metadata().ok().filter(std::fs::Metadata::is_file).map(|meta| meta.len());
+    let (file, length) =
+        files::open(recording).map_err(|source| CliError::read("recording", recording, source))?;
     let mut reader = RecordingReader::new(recording.display().to_string(), file)?;
     let mut source = Source::new(&reader, &scene, arguments)?;
     let mut contacts = ContactWriter::create(&arguments.output)?;

@@ -36,10 +36,10 @@ fn position_error(outcome: &Outcome) -> Figure {
     // The smallest errors are luck: leave out the lowest hundredth.
     let low = errors.get(errors.len() / 100).copied().unwrap_or(1e-2);
     let high = errors.last().copied().unwrap_or(1.0);
-    let (least, greatest) =
-        sampled.iter().chain(&levels).fold((f64::INFINITY, 0.0_f64), |(low, high), (load, _)| {
-            (low.min(*load), high.max(*load))
-        });
+    let (least, greatest) = sampled
+        .iter()
+        .chain(&levels)
+        .fold((f64::INFINITY, 0.0_f64), |(low, high), (load, _)| (low.min(*load), high.max(*load)));
     let mut chart = Chart::new(
         "Position error against load",
         Axis::log("force / N", 0.9 * least, 1.1 * greatest),

@@ -2,34 +2,21 @@
 
 use super::Outcome;
 use crate::summary::Findings;
-use crate::table::{Table, number};
+use crate::table::{Table, number, short};
 
 const MILLIMETRES: f64 = 1e3;
 
 pub(super) fn of(outcome: &Outcome) -> Findings {
-    let Outcome { report, observations, rest, .. } = outcome;
-    let found = report.slips_found();
-    let false_alarms = report.false_alarms.len();
-    let errors = report.presses.iter().map(|press| press.force_error);
-    let force_error = 100.0 * errors.sum::<f64>() / report.presses.len().max(1) as f64;
+    let Outcome { observations, rest, .. } = outcome;
     let lead = vec![
         format!(
-            "A simulated fingertip (six strain gauges and a dummy gauge behind a sphere of 13 mm, as Bicchi & Dario built in 1987) \
-             was pressed, rolled and dragged for {} s. Its volts went through the whole pipeline; this compares the outcome with the truth.",
+            "A simulated fingertip (six strain gauges and a dummy gauge behind a sphere of 13 mm, as Bicchi & Dario built \
+             it in 1987) was pressed, rolled and dragged for {} s. Its volts went through the whole pipeline; here is how \
+             far the outcome is from the truth.",
             number(observations.duration())
         ),
-        format!(
-            "Over all presses the force is wrong by {} % on average. {} of {} slips were found within 20 ms, {} missed, {}.",
-            number(force_error),
-            found,
-            report.slips.len(),
-            report.slips.len() - found,
-            match false_alarms {
-                0 => "no false alarm".to_owned(),
-                1 => "one false alarm".to_owned(),
-                several => format!("{several} false alarms"),
-            }
-        ),
+        accuracy_sentence(outcome),
+        slip_sentence(outcome),
     ];
     Findings {
         title: "A simulated fingertip".to_owned(),
@@ -37,15 +24,52 @@ pub(super) fn of(outcome: &Outcome) -> Findings {
         tables: vec![accuracy(outcome), slips(outcome)],
         notes: vec![
             format!(
-                "tare and noise come from {} samples of rest: a force component has {} N of noise, forces below {} N are no contact",
+                "tare and noise come from {} samples of rest: a force component has {} N of noise, forces below {} N are \
+                 no contact",
                 rest.samples,
                 number(rest.force_noise),
                 number(outcome.least_force)
             ),
-            "errors of a press are those of the mean over 0.25 s; those of single samples are in the last column".to_owned(),
-            format!("seed {} of the noise, the gluing and the calibration; another one: --seed N", outcome.seed),
+            "errors of a press are those of its mean reading; those of single samples are in the last column"
+                .to_owned(),
+            format!(
+                "the dashed line of the friction ratio, {}, is the least friction coefficient of the script: below it \
+                 nothing slips",
+                short(outcome.coefficient)
+            ),
+            format!(
+                "noise, gluing and calibration are those of seed {}; another one: --seed N",
+                outcome.seed
+            ),
         ],
     }
+}
+
+/// The figures that the paper gives for its prototype, from this one.
+fn accuracy_sentence(outcome: &Outcome) -> String {
+    let levels = outcome.report.levels();
+    let at = |force: f64| levels.iter().find(|level| (level.force - force).abs() < 1e-6 * force);
+    match (at(1.0), at(10.0)) {
+        (Some(one), Some(ten)) => format!(
+            "At 1 N the force is wrong by {} % and the contact point by {} mm, at 10 N by {} % and {} mm.",
+            number(100.0 * one.mean_force_error),
+            number(MILLIMETRES * one.mean_position_error),
+            number(100.0 * ten.mean_force_error),
+            number(MILLIMETRES * ten.mean_position_error)
+        ),
+        _ => String::new(),
+    }
+}
+
+fn slip_sentence(outcome: &Outcome) -> String {
+    let (found, all) = (outcome.report.slips_found(), outcome.report.slips.len());
+    let found = if found == all { format!("All {all} slips") } else { format!("{found} of {all} slips") };
+    let alarms = match outcome.report.false_alarms.len() {
+        0 => "no false alarm".to_owned(),
+        1 => "one false alarm".to_owned(),
+        several => format!("{several} false alarms"),
+    };
+    format!("{found} were found within 20 ms, with {alarms}.")
 }
 
 fn accuracy(outcome: &Outcome) -> Table {

@@ -1,6 +1,7 @@
 //! `fingertip demo`: the main job with nothing given. A simulated fingertip's volts go through the
 //! whole pipeline, and what comes out is compared with what really was.
 
+mod export;
 mod figures;
 mod findings;
 mod rest;
@@ -22,6 +23,7 @@ use crate::observe::{Observations, Reservoir, Status};
 use crate::report;
 use crate::scene::{Friction, SlipWatch};
 use crate::shape::{Capped, Projection};
+use export::VoltsFile;
 use rest::Rest;
 
 /// Forces below so many standard deviations of the rest are no contact.
@@ -51,63 +53,70 @@ struct Outcome {
 }
 
 pub(crate) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
-    let outcome = play(arguments.seed).map_err(|message| CliError::Demo { message })?;
+    let outcome = play(arguments)?;
     let findings = findings::of(&outcome);
     let figures = figures::of(&outcome);
     let page = report::with_figures(&findings, figures, &outcome.observations, Some(outcome.coefficient));
     report::write(&arguments.out, &page)?;
-    let text = format!("{findings}\nWritten: {}\n", arguments.out.display());
+    let written = [Some(&arguments.out), arguments.recording.as_ref(), arguments.calibration.as_ref()];
+    let written: Vec<String> = written.into_iter().flatten().map(|path| path.display().to_string()).collect();
+    let text = format!("{findings}\nWritten: {}\n", written.join(", "));
     let mut stdout = io::stdout();
     stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
 }
 
-fn play(seed: u64) -> Result<Outcome, String> {
-    let script = standard_session();
-    let mut simulated = SimulatedFingertip::new(&script, Options { seed, ..Options::default() })
-        .map_err(|fault| fault.to_string())?;
-    let solver = GaussianElimination::new(simulated.calibrated_matrix()).map_err(|fault| fault.to_string())?;
-    let mut score = SessionScore::new(&simulated);
-    let phases: Vec<Segment> = simulated.phases().iter().map(|phase| phase.segment).collect();
+/// Whatever cannot be built here is a fault of ours, not of the user's.
+fn fault(fault: impl ToString) -> CliError {
+    CliError::Demo { message: fault.to_string() }
+}
 
-    // The first phase is rest: its readings give the zero, and their spread the noise.
+fn play(arguments: &DemoArguments) -> Result<Outcome, CliError> {
+    let seed = arguments.seed;
+    let mut simulated = SimulatedFingertip::new(&standard_session(), Options { seed, ..Options::default() })
+        .map_err(fault)?;
+    if let Some(path) = &arguments.calibration {
+        export::calibration(path, &simulated)?;
+    }
+    let mut volts = VoltsFile::create(arguments.recording.as_deref())?;
+    let solver = GaussianElimination::new(simulated.calibrated_matrix()).map_err(fault)?;
+    let mut score = SessionScore::new(&simulated);
+
+    let sphere = simulated.sphere();
     let pole = Vector3::x();
     let rim = simulated.options().design.greatest_angle();
-    let sphere = simulated.sphere();
-    let mut observations = Observations::new(Projection::sphere(
-        sphere.centre(),
-        pole,
-        Some(rim),
-        &[Vector3::y(), Vector3::z(), Vector3::x()],
-    ));
+    let reference = [Vector3::y(), Vector3::z(), Vector3::x()];
+    let mut observations =
+        Observations::new(Projection::sphere(sphere.centre(), pole, Some(rim), &reference));
+
+    // The first phase is rest: its readings give the zero, and their spread the noise.
     let mut readings = Vec::new();
     let first_touch = loop {
         match simulated.next_sample() {
             Some(sample) if sample.truth.phase == 0 => {
                 observations.add_without_wrench(sample.time, Status::Rest);
+                volts.write(&sample)?;
                 readings.push(sample.reading());
             }
             other => break other,
         }
     };
-    let rest = Rest::of(&readings, &solver)?;
+    let rest = Rest::of(&readings, &solver).map_err(fault)?;
     let least_force = THRESHOLD * rest.force_noise;
-    let coefficient = least_static_coefficient(&phases).ok_or("the script has no drag")?;
+    let coefficient = least_static_coefficient(&simulated).ok_or_else(|| fault("the script has no drag"))?;
 
-    let noise = ForceNoise::isotropic(rest.force_noise).map_err(|fault| fault.to_string())?;
+    let noise = ForceNoise::isotropic(rest.force_noise).map_err(fault)?;
     let mut fingertip = Fingertip::builder()
         .zero(rest.zero)
         .solver(solver)
-        .contact(
-            Capped::within(sphere, pole, rim),
-            PointContact::new(least_force).map_err(|fault| fault.to_string())?,
-        )
-        .friction_stage(Friction::known(Coulomb::new(coefficient).map_err(|fault| fault.to_string())?))
-        .slip_stage(SlipWatch::Drop(DropDetector::new(noise).map_err(|fault| fault.to_string())?))
+        .contact(Capped::within(sphere, pole, rim), PointContact::new(least_force).map_err(fault)?)
+        .friction_stage(Friction::known(Coulomb::new(coefficient).map_err(fault)?))
+        .slip_stage(SlipWatch::Drop(DropDetector::new(noise).map_err(fault)?))
         .build();
 
     let mut errors = Reservoir::new(ERROR_POINTS);
     let time_step = simulated.options().sample_rate.recip();
     for sample in first_touch.into_iter().chain(&mut simulated) {
+        volts.write(&sample)?;
         let touch = fingertip.sense(&sample.reading(), time_step);
         observations.add(sample.time, &touch);
         let point = touch.resolution.contact().map(|contact| contact.point);
@@ -117,16 +126,15 @@ fn play(seed: u64) -> Result<Outcome, String> {
             errors.add(|| SampleError { load: truth.force.norm(), position: (point - truth.point).norm() });
         }
     }
+    volts.finish()?;
     Ok(Outcome { report: score.report(), observations, errors, rest, least_force, coefficient, seed })
 }
 
 /// The friction coefficient that is safe for every drag of the script.
-fn least_static_coefficient(phases: &[Segment]) -> Option<f64> {
-    phases
-        .iter()
-        .filter_map(|segment| match segment {
-            Segment::Drag { static_coefficient, .. } => Some(*static_coefficient),
-            _ => None,
-        })
-        .min_by(f64::total_cmp)
+fn least_static_coefficient(simulated: &SimulatedFingertip) -> Option<f64> {
+    let drags = simulated.phases().iter().filter_map(|phase| match phase.segment {
+        Segment::Drag { static_coefficient, .. } => Some(static_coefficient),
+        _ => None,
+    });
+    drags.min_by(f64::total_cmp)
 }

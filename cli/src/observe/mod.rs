@@ -114,7 +114,8 @@ impl Observations {
             self.ratio.add(ratio);
         }
         if let fingertip::surfaces::Resolution::NoContact(fingertip::surfaces::NoContact::Misses {
-            gap, ..
+            gap,
+            ..
         }) = touch.resolution
         {
             self.gap.add(gap);

@@ -106,9 +106,8 @@ mod tests {
         let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(3);
         for decades in [0.1, 3.0, 20.0] {
             let mut sketch = Quantiles::default();
-            let mut all: Vec<f64> = (0..20_000)
-                .map(|_| 10.0_f64.powf(decades * (random.random::<f64>() - 0.5)))
-                .collect();
+            let mut all: Vec<f64> =
+                (0..20_000).map(|_| 10.0_f64.powf(decades * (random.random::<f64>() - 0.5))).collect();
             all.iter().for_each(|value| sketch.add(*value));
             all.sort_by(f64::total_cmp);
             for share in [0.0, 0.001, 0.05, 0.25, 0.5, 0.75, 0.95, 0.999, 1.0] {

@@ -5,6 +5,10 @@ use fingertip::friction::SlipVerdict;
 /// Most slips that are kept one by one.
 const KEPT: usize = 1000;
 
+/// A detector calls one slide again and again while the friction ratio still falls. Calls that
+/// follow one another within this time are one slip \[s\].
+const SAME_SLIP: f64 = 0.05;
+
 /// The first sample of one slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Slip {
@@ -15,12 +19,12 @@ pub(crate) struct Slip {
     pub(crate) ratio: Option<f64>,
 }
 
-/// The slips of a run: every change from another verdict to [`SlipVerdict::Slipping`] begins one.
+/// The slips of a run.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Slips {
     kept: Vec<Slip>,
     count: u64,
-    slipping: bool,
+    last_call: Option<f64>,
 }
 
 impl Slips {
@@ -33,14 +37,17 @@ impl Slips {
         normal_force: Option<f64>,
         ratio: Option<f64>,
     ) {
-        let slipping = verdict == Some(SlipVerdict::Slipping);
-        if slipping && !self.slipping {
+        if verdict != Some(SlipVerdict::Slipping) {
+            return;
+        }
+        let goes_on = self.last_call.is_some_and(|last| (time - last).abs() <= SAME_SLIP);
+        self.last_call = Some(time);
+        if !goes_on {
             self.count += 1;
             if self.kept.len() < KEPT {
                 self.kept.push(Slip { time, normal_force, ratio });
             }
         }
-        self.slipping = slipping;
     }
 
     /// The first thousand.
@@ -51,5 +58,31 @@ impl Slips {
     /// How many there were in all.
     pub(crate) fn count(&self) -> u64 {
         self.count
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fingertip::friction::SlipVerdict;
+
+    use super::Slips;
+
+    #[test]
+    fn one_slide_is_one_slip_however_often_it_is_called() {
+        let mut slips = Slips::default();
+        for millisecond in 0..2000_u32 {
+            let time = f64::from(millisecond) * 1e-3;
+            // Called every 4 ms from 0.5 s to 0.6 s, without a break from 1.0 s to 1.2 s, and once at 1.9 s.
+            let called = (500..=600).contains(&millisecond) && millisecond.is_multiple_of(4)
+                || (1000..=1200).contains(&millisecond)
+                || millisecond == 1900;
+            let verdict = if called { SlipVerdict::Slipping } else { SlipVerdict::Holding };
+            slips.follow(time, Some(verdict), Some(1.0), Some(0.5));
+        }
+        let times: Vec<f64> = slips.kept().iter().map(|slip| slip.time).collect();
+        assert_eq!((slips.count(), times), (3, [500.0, 1000.0, 1900.0].map(|ms| ms * 1e-3).to_vec()));
+        let mut off = Slips::default();
+        off.follow(0.0, None, None, None);
+        assert_eq!(off.count(), 0);
     }
 }

@@ -97,10 +97,7 @@ impl Axis {
         };
         let fine = of(&[1.0, 2.0, 5.0]);
         let values = if fine.len() <= most { fine } else { of(&[1.0]) };
-        values
-            .into_iter()
-            .map(|value| Tick { value, label: tick_label(value, value, value) })
-            .collect()
+        values.into_iter().map(|value| Tick { value, label: tick_label(value, value, value) }).collect()
     }
 }
 

@@ -5,8 +5,8 @@ use super::svg::{Anchor, Svg};
 use crate::observe::Point;
 
 /// Drawing units: the width of a phone's column, so that letters keep their size there.
-const WIDTH: f64 = 380.0;
-const HEIGHT: f64 = 250.0;
+const WIDTH: f64 = 340.0;
+const HEIGHT: f64 = 235.0;
 const LEFT: f64 = 44.0;
 const RIGHT: f64 = 10.0;
 const TOP: f64 = 24.0;

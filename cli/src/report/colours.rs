@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::svg::{Anchor, Svg};
+use crate::table::short;
 
 /// Up to seven classes between round bounds.
 #[derive(Clone, Debug)]
@@ -19,7 +20,8 @@ impl Classes {
     pub(crate) fn of(values: impl Iterator<Item = f64>) -> Self {
         let mut sorted: Vec<f64> = values.filter(|value| *value > 0.0 && value.is_finite()).collect();
         sorted.sort_by(f64::total_cmp);
-        let at = |share: f64| sorted.get((share * (sorted.len().max(1) - 1) as f64).round() as usize).copied();
+        let at =
+            |share: f64| sorted.get((share * (sorted.len().max(1) - 1) as f64).round() as usize).copied();
         let (Some(low), Some(high)) = (at(0.02), at(0.98)) else { return Self { bounds: Vec::new() } };
         let bounds: Vec<f64> = if high > 15.0 * low {
             let ratio = (high / low).powf(1.0 / Self::COUNT as f64);
@@ -57,14 +59,6 @@ impl Classes {
 fn two_digits(value: f64) -> f64 {
     let decade = 10.0_f64.powf(value.log10().floor() - 1.0);
     (value / decade).round() * decade
-}
-
-fn short(value: f64) -> String {
-    let text = crate::table::number(value);
-    match text.contains('.') && !text.contains('e') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
-    }
 }
 
 #[cfg(test)]

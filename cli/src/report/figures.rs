@@ -2,7 +2,7 @@
 
 use super::{Axis, Chart, Figure, map};
 use crate::observe::{Observations, Point, Trace};
-use crate::table::{count, number};
+use crate::table::{count, number, short};
 
 /// Most slips that are marked in a chart.
 const MARKED_SLIPS: usize = 200;
@@ -103,13 +103,17 @@ fn ratio(observations: &Observations, coefficient: Option<f64>) -> Figure {
     let mut keys = vec![("a", "|f_t|/f_n".to_owned())];
     if let Some(coefficient) = coefficient {
         chart.level("level", coefficient);
-        keys.push(("e", format!("friction coefficient {}", number(coefficient))));
+        keys.push(("e", format!("friction coefficient {}", short(coefficient))));
     }
     if !slips.is_empty() {
         keys.push(("d", "slip".to_owned()));
     }
     let unmarked = observations.slips.count().saturating_sub(MARKED_SLIPS as u64);
-    let more = if unmarked > 0 { format!(" {} later slips are not marked.", count(unmarked)) } else { String::new() };
+    let more = if unmarked > 0 {
+        format!(" {} later slips are not marked.", count(unmarked))
+    } else {
+        String::new()
+    };
     Figure {
         title: "Friction ratio".to_owned(),
         svg: chart.finish(),

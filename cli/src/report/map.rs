@@ -8,7 +8,7 @@ use super::svg::{Anchor, Svg};
 use crate::observe::MapPoint;
 use crate::shape::{MapKind, Projection};
 
-const WIDTH: f64 = 380.0;
+const WIDTH: f64 = 340.0;
 const LEFT: f64 = 44.0;
 const RIGHT: f64 = 14.0;
 const TOP: f64 = 24.0;
@@ -84,7 +84,10 @@ fn polar(title: &str, rim: Option<f64>, points: &[MapPoint], classes: &Classes) 
     let rim = rim.map_or_else(String::new, |rim| {
         format!(" The dashed circle is the rim of the active region, at {:.1}°.", rim.to_degrees())
     });
-    Map { svg: svg.finish(), remark: format!("Equal-area projection, seen from outside along the pole.{rim}") }
+    Map {
+        svg: svg.finish(),
+        remark: format!("Equal-area projection, seen from outside along the pole.{rim}"),
+    }
 }
 
 /// A plane, or a cylinder of given radius and active half length, in millimetres.
@@ -129,9 +132,8 @@ fn flat(title: &str, unrolled: Option<(f64, Option<f64>)>, points: &[MapPoint], 
     for edge in half_length.iter().flat_map(|half| [-half, *half]) {
         svg.line("rim", place((left, edge)), place((right, edge)));
     }
-    let inside = |point: &&MapPoint| {
-        (left..=right).contains(&point.place.0) && (low..=high).contains(&point.place.1)
-    };
+    let inside =
+        |point: &&MapPoint| (left..=right).contains(&point.place.0) && (low..=high).contains(&point.place.1);
     let shown: Vec<MapPoint> = points.iter().filter(inside).copied().collect();
     dots(&mut svg, &shown, classes, place);
     svg.end_clip();

@@ -14,7 +14,7 @@ pub(super) fn render(findings: &Findings, figures: &[Figure]) -> String {
     page.push_str(concat!("<style>\n", include_str!("style.css"), "</style>\n</head>\n<body>\n<main>\n"));
     page.push_str(&format!("<h1>{}</h1>\n", escape(&findings.title)));
     for sentence in &findings.lead {
-        page.push_str(&format!("<p class=\"lead\">{}</p>\n", escape(sentence)));
+        page.push_str(&format!("<p class=\"lead\">{}</p>\n", escape(&unbroken(sentence))));
     }
     page.push_str("<div class=\"tables\">\n");
     findings.tables.iter().for_each(|table| push_table(&mut page, table));
@@ -24,7 +24,7 @@ pub(super) fn render(findings: &Findings, figures: &[Figure]) -> String {
     if !findings.notes.is_empty() {
         page.push_str("<h2>To be minded</h2>\n<ul>\n");
         for note in &findings.notes {
-            page.push_str(&format!("<li>{}.</li>\n", escape(note)));
+            page.push_str(&format!("<li>{}.</li>\n", escape(&unbroken(note))));
         }
         page.push_str("</ul>\n");
     }
@@ -34,6 +34,21 @@ pub(super) fn render(findings: &Findings, figures: &[Figure]) -> String {
         env!("CARGO_PKG_VERSION")
     ));
     page
+}
+
+/// Keeps numbers and their units on one line.
+fn unbroken(text: &str) -> String {
+    let units = ["%", "N", "mm", "s", "ms", "Hz"];
+    let mut unbroken = String::with_capacity(text.len() + 16);
+    for (number, word) in text.split(' ').enumerate() {
+        let unit = word.trim_end_matches(['.', ',', ':', ';']);
+        let after_digit = unbroken.ends_with(|c: char| c.is_ascii_digit());
+        if number > 0 {
+            unbroken.push(if after_digit && units.contains(&unit) { '\u{a0}' } else { ' ' });
+        }
+        unbroken.push_str(word);
+    }
+    unbroken
 }
 
 fn push_table(page: &mut String, table: &Table) {
@@ -64,5 +79,18 @@ fn push_figure(page: &mut String, figure: &Figure) {
         page.push_str("</p>\n");
     }
     page.push_str(&figure.svg);
-    page.push_str(&format!("\n<figcaption>{}</figcaption></figure>\n", escape(&figure.caption)));
+    page.push_str(&format!("\n<figcaption>{}</figcaption></figure>\n", escape(&unbroken(&figure.caption))));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::unbroken;
+
+    #[test]
+    fn numbers_stay_with_their_units() {
+        assert_eq!(
+            unbroken("It is 1.5 N, or 3 %. In 2 steps."),
+            "It is 1.5\u{a0}N, or 3\u{a0}%. In 2 steps."
+        );
+    }
 }

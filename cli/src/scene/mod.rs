@@ -111,7 +111,10 @@ impl Scene {
 
 fn parse(text: &str) -> Result<SceneFile, (Option<usize>, String)> {
     let locate = |error: &toml::de::Error| {
-        let line = error.span().and_then(|span| text.get(..span.start)).map(|before| before.matches('\n').count() + 1);
+        let line = error
+            .span()
+            .and_then(|span| text.get(..span.start))
+            .map(|before| before.matches('\n').count() + 1);
         let message = error.message().replace('\n', " ");
         (line, format!("{message} (the keys are explained in examples/scenes/README.md)"))
     };
@@ -120,9 +123,13 @@ fn parse(text: &str) -> Result<SceneFile, (Option<usize>, String)> {
         Some(VERSION) => toml::from_str(text).map_err(|error| locate(&error)),
         Some(other) => Err((
             None,
-            format!("it has version {other}, but this program reads version {VERSION}; install the fingertip that fits"),
+            format!(
+                "it has version {other}, but this program reads version {VERSION}; install the fingertip that fits"
+            ),
         )),
-        None => Err((None, format!("it does not state its version; put `version = {VERSION}` on its first line"))),
+        None => {
+            Err((None, format!("it does not state its version; put `version = {VERSION}` on its first line")))
+        }
     }
 }
 
@@ -158,7 +165,8 @@ mod tests {
     use super::{Convention, Scene, parse};
     use crate::shape::Shape;
 
-    const GOOD: &str = "version = 1\n[input]\nconvention = \"reaction\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+    const GOOD: &str =
+        "version = 1\n[input]\nconvention = \"reaction\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
 
     fn check(text: &str) -> Result<Scene, String> {
         parse(text).map_err(|(_, message)| message)?.check("test".to_owned())

@@ -108,7 +108,8 @@ impl SlipWatch {
             }
             Some(SlipSection::Threshold { noise: deviation, warning_share }) => {
                 let coefficient = friction.coefficient().ok_or_else(|| {
-                    "the `threshold` detector needs the section [friction] with `static_coefficient`".to_owned()
+                    "the `threshold` detector needs the section [friction] with `static_coefficient`"
+                        .to_owned()
                 })?;
                 let gate = NormalForceGate::from_noise(&noise(*deviation)?);
                 RatioThreshold::new(gate, coefficient, *warning_share)

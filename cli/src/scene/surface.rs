@@ -79,7 +79,8 @@ impl SurfaceSection {
         let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| pose.rotate(&axis));
         match self {
             Self::Plane { point: through, normal } => {
-                let plane = Plane::new(point(through), direction(normal)).map_err(|fault| fault.to_string())?;
+                let plane =
+                    Plane::new(point(through), direction(normal)).map_err(|fault| fault.to_string())?;
                 let normal = unit("normal", direction(normal))?;
                 let map = Projection::plane(plane.point(), normal, &[x, y, z]);
                 Ok((Shape::Plane(plane), map))
@@ -93,7 +94,9 @@ impl SurfaceSection {
                     Some(angle) if angle > 0.0 && angle <= core::f64::consts::PI => {
                         Capped::within(sphere, pole, angle)
                     }
-                    Some(_) => return Err("`active_half_angle_deg` must be above 0 and at most 180".to_owned()),
+                    Some(_) => {
+                        return Err("`active_half_angle_deg` must be above 0 and at most 180".to_owned());
+                    }
                 };
                 let map = Projection::sphere(sphere.centre(), pole, rim, &[x, y, z]);
                 Ok((Shape::Sphere(capped), map))

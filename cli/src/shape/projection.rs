@@ -70,16 +70,15 @@ impl Projection {
     /// the pole (sphere).
     pub(crate) fn project(&self, point: &Vector3<f64>) -> (f64, f64) {
         let from_centre = point - self.centre;
-        let (x, y, z) =
-            (from_centre.dot(&self.right), from_centre.dot(&self.up), from_centre.dot(&self.out));
+        let (x, y, z) = (from_centre.dot(&self.right), from_centre.dot(&self.up), from_centre.dot(&self.out));
         match self.kind {
             MapKind::Flat => (x * MILLIMETRES, y * MILLIMETRES),
             MapKind::Unrolled { radius, .. } => (x.atan2(z) * radius, y * MILLIMETRES),
             MapKind::Polar { .. } => {
-                let radius = from_centre.norm();
                 let sideways = x.hypot(y);
-                if !(radius > 0.0 && sideways > 0.0) {
-                    return (0.0, 0.0);
+                if !(sideways > 0.0) {
+                    // The pole; or its antipode, which is the whole edge of the map.
+                    return (if z < 0.0 { 2.0 } else { 0.0 }, 0.0);
                 }
                 // 2 sin(θ/2) from the half-angle of atan2, which is accurate at both poles.
                 let distance = 2.0 * (0.5 * sideways.atan2(z)).sin();
@@ -118,11 +117,8 @@ mod tests {
         let map = Projection::sphere(Vector3::new(1.0, 2.0, 3.0), Vector3::x(), None, &axes());
         for theta in [0.0_f64, 1e-9, 0.3, 1.0, 2.0, 3.0, PI] {
             for azimuth in [0.1_f64, 2.0, 5.0] {
-                let normal = Vector3::new(
-                    theta.cos(),
-                    theta.sin() * azimuth.cos(),
-                    theta.sin() * azimuth.sin(),
-                );
+                let normal =
+                    Vector3::new(theta.cos(), theta.sin() * azimuth.cos(), theta.sin() * azimuth.sin());
                 let (u, v) = map.project(&(Vector3::new(1.0, 2.0, 3.0) + normal * 0.5));
                 assert!(((u * u + v * v) / 4.0 - (1.0 - theta.cos()) / 2.0).abs() < 1e-12);
             }
@@ -141,7 +137,8 @@ mod tests {
 
     #[test]
     fn the_plane_is_seen_from_outside() {
-        let map = Projection::plane(Vector3::zeros(), Vector3::z(), &[Vector3::x(), Vector3::y(), Vector3::z()]);
+        let map =
+            Projection::plane(Vector3::zeros(), Vector3::z(), &[Vector3::x(), Vector3::y(), Vector3::z()]);
         assert_eq!(map.project(&Vector3::new(0.001, 0.002, 0.0)), (1.0, 2.0));
     }
 }

@@ -91,7 +91,7 @@ impl ColumnName {
 /// Lower-case words, parted by anything that parts words in headers.
 fn words(name: &str) -> Vec<String> {
     name.trim_start_matches('\u{feff}')
-        .split(|c: char| matches!(c, '_' | '(' | ')' | '[' | ']' | '/' | ':' | ' ' | '\t' | ',' | ';'))
+        .split(['_', '(', ')', '[', ']', '/', ':', ' ', '\t', ',', ';'])
         .flat_map(|word| {
             // `force.x` parts words, `N.m` does not.
             let dotted = word

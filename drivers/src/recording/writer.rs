@@ -1,6 +1,6 @@
 //! Writes a recording in our schema.
 
-use core::fmt::Write as _;
+use core::fmt;
 use std::io::Write;
 
 use fingertip_wrench::Wrench;
@@ -69,11 +69,17 @@ fn prefixed(sensor: &str, name: &str) -> String {
 
 /// Writes rows of numbers under a header. Numbers are written with as many digits as it takes to
 /// read them back exactly.
-#[derive(Debug)]
 pub struct RecordingWriter<W> {
     out: W,
     columns: usize,
     line: String,
+    digits: ryu::Buffer,
+}
+
+impl<W> fmt::Debug for RecordingWriter<W> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("RecordingWriter").field("columns", &self.columns).finish_non_exhaustive()
+    }
 }
 
 impl<W: Write> RecordingWriter<W> {
@@ -83,7 +89,7 @@ impl<W: Write> RecordingWriter<W> {
     /// [`RecordingError::Write`].
     pub fn new(mut out: W, schema: &Schema) -> Result<Self, RecordingError> {
         writeln!(out, "{}", schema.names.join(",")).map_err(failed)?;
-        Ok(Self { out, columns: schema.names.len(), line: String::new() })
+        Ok(Self { out, columns: schema.names.len(), line: String::new(), digits: ryu::Buffer::new() })
     }
 
     /// Writes one row: one number for every column, in the order of the schema. NaN stands for a
@@ -101,9 +107,9 @@ impl<W: Write> RecordingWriter<W> {
             }
             found += 1;
             if !value.is_nan() {
-                // Writing to a string cannot fail. `Debug` writes the shortest number that reads
-                // back exactly, with an exponent where it is very large or small.
-                let _ = write!(self.line, "{value:?}");
+                // The shortest number that reads back exactly, with an exponent where it is very
+                // large or small.
+                self.line.push_str(self.digits.format(value));
             }
         }
         if found != self.columns {

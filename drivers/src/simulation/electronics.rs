@@ -11,13 +11,13 @@ use super::error::{SimulationError, not_negative, positive};
 ///
 /// * gauge factor 2 (constantan), excitation 5 V (18 mW in a gauge of 350 Ω, half of the bridge's
 ///   voltage on it: little enough on aluminium);
-/// * amplification 1600: the 600 µm/m of the worst 30 N contact give 1.5 mV, which fill ±2.5 V but
-///   for 4 %, left for unbalance and drift;
-/// * 12 bits from 0 to 5 V: one step is 1.22 mV, or 0.31 µm/m;
+/// * amplification 2000: the 450 µm/m of the worst 30 N contact give 1.1 mV, which fill ±2.5 V but
+///   for 10 %, left for unbalance and drift;
+/// * 12 bits from 0 to 5 V: one step is 1.22 mV, or 0.24 µm/m;
 /// * noise 0.53 µV at the amplifier's input: 4 nV/√Hz of a precision instrumentation amplifier
 ///   and 2.4 nV/√Hz of a 350 Ω gauge, behind a first-order filter at 8 kHz:
-///   √(8 kHz · π/2) · 4.7 nV/√Hz. That is 0.7 steps, enough to make an average finer than a step;
-/// * so 16 conversions are averaged to a sample, which leaves 0.13 µV or a sixth of a step. At
+///   √(8 kHz · π/2) · 4.7 nV/√Hz. That is 0.9 steps, enough to make an average finer than a step;
+/// * so 16 conversions are averaged to a sample, which leaves 0.14 µV (rounding included) or a quarter of a step. At
 ///   1000 samples per second the converter runs at 16 kHz;
 /// * the dummy gauge is averaged over 0.1 s, since the temperature is slow and its noise would come
 ///   into all gauges alike.
@@ -48,7 +48,7 @@ impl Default for Electronics {
         Self {
             gauge_factor: 2.0,
             excitation: 5.0,
-            amplification: 1600.0,
+            amplification: 2000.0,
             offset: 2.5,
             input_noise: 0.53e-6,
             bits: 12,
@@ -90,7 +90,7 @@ impl Electronics {
     }
 
     /// Output of the quarter bridge \[V\]: `U·kε/(4 + 2kε)`. It is linear but for a share of
-    /// `kε/2`, 0.06 % at full scale.
+    /// `kε/2`, 0.05 % at full scale.
     #[must_use]
     pub fn bridge(&self, strain: f64) -> f64 {
         let change = self.gauge_factor * strain;
@@ -141,7 +141,7 @@ mod tests {
         #[test]
         fn a_reading_is_within_half_a_step_or_at_an_end(input in -5e-3_f64..5e-3) {
             let electronics = Electronics::default();
-            let (exact, read) = (2.5 + 1600.0 * input, electronics.convert(input));
+            let (exact, read) = (2.5 + 2000.0 * input, electronics.convert(input));
             if electronics.is_saturated(read) {
                 prop_assert!(exact <= electronics.step() || exact >= 5.0 - 2.0 * electronics.step());
             } else {

@@ -15,7 +15,7 @@ use super::thermal_drift::ThermalDrift;
 ///
 /// Gluing under a microscope: 0.1 mm along the beam, 1° around it (0.09 mm on a radius of 5 mm), 1°
 /// of gauge angle; gauge factor with amplifier 0.5 % (what makers state for a lot). Bridges are
-/// trimmed to 30 µV, 2 % of full scale.
+/// trimmed to 30 µV, 2.4 % of full scale.
 ///
 /// A calibration takes gluing and gains out again, but for its own errors. Its loads share one scale,
 /// that of the reference (spring balance or load cell): `calibration_scale`, whose sign the seed

@@ -1,0 +1,376 @@
+//! ATI's calibration files (`FTxxxxx.cal`), both layouts.
+
+use nalgebra::{DMatrix, Vector3};
+use roxmltree::{Document, Node};
+use thiserror::Error;
+
+use super::{CalibrationFile, FileError, Provenance, Quality, SignalUnit, Verdict};
+use crate::linear::pseudo_inverse;
+use crate::units::{self, Quantity};
+use crate::{Axis, TOOL};
+
+/// What an ATI `.cal` file says: the matrix from gauge volts to loads, in the units of the file.
+///
+/// The older layout has six `Axis` elements, scaled, about an inner origin, and a `BasicTransform`
+/// to the tool side of the sensor; the newer one adds six `UserAxis` elements, which software
+/// shall prefer. They are tied by `UserAxis = T · (Axis / scale)` where T moves the origin by
+/// (Dx, Dy, Dz): `m' = m − d × f`.
+///
+/// ```no_run
+/// use fingertip_calibration::file::{AtiCalibration, CalibrationFile};
+///
+/// let ati = AtiCalibration::from_xml(&std::fs::read_to_string("FT12345.cal")?)?;
+/// let calibration: CalibrationFile = ati.to_calibration()?;
+/// calibration.write("ft12345.toml")?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct AtiCalibration {
+    /// Serial number, such as `FT16810`.
+    pub serial: String,
+    /// Model, such as `Nano17`.
+    pub body_style: String,
+    /// Electronics, such as `DAQ`.
+    pub family: String,
+    /// Version that the file gives itself.
+    pub file_version: String,
+    /// Calibration, such as `SI-25-0.25`.
+    pub part_number: String,
+    /// When it was calibrated, in ATI's notation.
+    pub date: String,
+    /// Unit of force, such as `N` or `lbf`.
+    pub force_unit: String,
+    /// Unit of torque, such as `N-mm` or `lbf-in`.
+    pub torque_unit: String,
+    /// Unit of length of the transform, such as `mm` or `in`.
+    pub distance_unit: String,
+    /// The other attributes of the calibration, as they stand: `OutputMode`, `OutputRange`, ….
+    pub other: Vec<(String, String)>,
+    /// The `Axis` elements, Fx to Tz.
+    pub axes: [AtiAxis; 6],
+    /// Origin of the user's frame, in distance units of the file.
+    pub translation: [f64; 3],
+    /// Rotation of the user's frame \[degrees\]; zero in every file that we have seen.
+    pub rotation: [f64; 3],
+    /// The `UserAxis` elements of the newer layout; their scale is 1.
+    pub user_axes: Option<[AtiAxis; 6]>,
+}
+
+/// One row of an ATI matrix.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AtiAxis {
+    /// Load per volt of each gauge, times [`scale`](Self::scale).
+    pub values: Vec<f64>,
+    /// Full scale, in the unit of the file.
+    pub max: f64,
+    /// By what to divide.
+    pub scale: f64,
+}
+
+/// Why a `.cal` file cannot be used.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum AtiError {
+    /// Not XML.
+    #[error("not XML: {0}")]
+    NotXml(#[from] roxmltree::Error),
+    /// An element is missing.
+    #[error("element `{element}` is missing")]
+    MissingElement {
+        /// Which one.
+        element: String,
+    },
+    /// An attribute is missing.
+    #[error("attribute `{attribute}` of element `{element}` is missing")]
+    MissingAttribute {
+        /// Of which element.
+        element: String,
+        /// Which one.
+        attribute: String,
+    },
+    /// An attribute is not what it must be.
+    #[error("attribute `{attribute}` of element `{element}` is {found:?}: {requirement}")]
+    BadAttribute {
+        /// Of which element.
+        element: String,
+        /// Which one.
+        attribute: String,
+        /// What it says.
+        found: String,
+        /// What it must be.
+        requirement: &'static str,
+    },
+    /// The frame is turned, and the file has no `UserAxis` elements that would tell how.
+    #[error("the frame is turned by (Rx, Ry, Rz) and the file has no UserAxis elements")]
+    Turned,
+    /// The numbers are no calibration.
+    #[error(transparent)]
+    Calibration(#[from] FileError),
+}
+
+impl AtiCalibration {
+    /// Reads the text of a `.cal` file.
+    ///
+    /// # Errors
+    /// [`AtiError`], naming element and attribute.
+    pub fn from_xml(xml: &str) -> Result<Self, AtiError> {
+        // Some tools write a byte order mark, which roxmltree does not expect.
+        let document = Document::parse(xml.trim_start_matches('\u{feff}'))?;
+        let sensor = document.root_element();
+        if !sensor.has_tag_name("FTSensor") {
+            return Err(AtiError::MissingElement { element: "FTSensor".to_owned() });
+        }
+        let calibration = child(sensor, "Calibration")?;
+        let gauges = match sensor.attribute("NumGages") {
+            Some(text) => {
+                text.trim().parse::<usize>().map_err(|_| bad(sensor, "NumGages", text, "a count"))?
+            }
+            None => 6,
+        };
+        let transform = calibration.children().find(|node| node.has_tag_name("BasicTransform"));
+        let shift = |name: &str| match transform {
+            Some(node) if node.has_attribute(name) => number(node, name),
+            _ => Ok(0.0),
+        };
+        let known = ["PartNumber", "CalDate", "ForceUnits", "TorqueUnits", "DistUnits"];
+        let text = |node: Node<'_, '_>, name: &str| node.attribute(name).unwrap_or_default().to_owned();
+        let result = Self {
+            serial: text(sensor, "Serial"),
+            body_style: text(sensor, "BodyStyle"),
+            family: text(sensor, "Family"),
+            file_version: text(sensor, "CalFileVersion"),
+            part_number: text(calibration, "PartNumber"),
+            date: text(calibration, "CalDate"),
+            force_unit: unit(calibration, "ForceUnits", Quantity::Force)?,
+            torque_unit: unit(calibration, "TorqueUnits", Quantity::Torque)?,
+            distance_unit: unit(calibration, "DistUnits", Quantity::Length)?,
+            other: calibration
+                .attributes()
+                .filter(|attribute| !known.contains(&attribute.name()))
+                .map(|attribute| (attribute.name().to_owned(), attribute.value().to_owned()))
+                .collect(),
+            axes: rows(calibration, "Axis", gauges)?,
+            translation: [shift("Dx")?, shift("Dy")?, shift("Dz")?],
+            rotation: [shift("Rx")?, shift("Ry")?, shift("Rz")?],
+            user_axes: match calibration.children().any(|node| node.has_tag_name("UserAxis")) {
+                true => Some(rows(calibration, "UserAxis", gauges)?),
+                false => None,
+            },
+        };
+        Ok(result)
+    }
+
+    /// Load \[N, N·m\] per volt about the user's origin, 6 × gauges: from `UserAxis` where the file
+    /// has it, otherwise from `Axis` and the transform.
+    ///
+    /// # Errors
+    /// [`AtiError::Turned`].
+    pub fn loads_per_volt(&self) -> Result<DMatrix<f64>, AtiError> {
+        match &self.user_axes {
+            Some(rows) => Ok(self.in_si(rows)),
+            None => self.transformed_axes(),
+        }
+    }
+
+    /// Load \[N, N·m\] per volt about the user's origin from `Axis` and the transform, whether or
+    /// not the file has `UserAxis`.
+    ///
+    /// # Errors
+    /// [`AtiError::Turned`].
+    pub fn transformed_axes(&self) -> Result<DMatrix<f64>, AtiError> {
+        if self.rotation.iter().any(|angle| *angle != 0.0) {
+            return Err(AtiError::Turned);
+        }
+        let length = units::si(Quantity::Length, &self.distance_unit).unwrap_or(1.0);
+        let origin = Vector3::from(self.translation) * length;
+        let mut matrix = self.in_si(&self.axes);
+        for mut column in matrix.column_iter_mut() {
+            let force = Vector3::new(column[0], column[1], column[2]);
+            let moved = origin.cross(&force);
+            for i in 0..3 {
+                column[3 + i] -= moved[i];
+            }
+        }
+        Ok(matrix)
+    }
+
+    /// Full scale of the six axes \[N, N·m\].
+    #[must_use]
+    pub fn full_scale(&self) -> [f64; 6] {
+        let rows = self.user_axes.as_ref().unwrap_or(&self.axes);
+        core::array::from_fn(|i| rows[i].max * self.size(Axis::ALL[i]))
+    }
+
+    /// As our calibration: the inverse matrix, normalised by full scale. The zero is not part of a
+    /// `.cal` file: it is set to 0 V, and the quality says that the sensor must be tared.
+    ///
+    /// # Errors
+    /// [`AtiError::Turned`], or [`AtiError::Calibration`] if the matrix has no inverse.
+    pub fn to_calibration(&self) -> Result<CalibrationFile, AtiError> {
+        let full_scale = self.full_scale();
+        let mut normalised_loads = self.loads_per_volt()?;
+        for (mut row, load) in normalised_loads.row_iter_mut().zip(full_scale) {
+            row /= load;
+        }
+        let matrix = pseudo_inverse(&normalised_loads).ok_or(FileError::Singular)?;
+        let gauges = matrix.nrows();
+        let mut file =
+            CalibrationFile::new(matrix, full_scale.to_vec(), vec![0.0; gauges], SignalUnit::Volt)?;
+        file.range = self.range();
+        file.provenance = Provenance {
+            serial: self.serial.clone(),
+            date: self.date.clone(),
+            method: format!("ATI {} {}", self.body_style, self.part_number),
+            tool: TOOL.to_owned(),
+            source: "ATI .cal file".to_owned(),
+        };
+        file.quality = Quality {
+            verdict: Verdict::Unchecked,
+            reasons: vec!["a .cal file tells neither zero nor accuracy: tare before use".to_owned()],
+            ..Quality::default()
+        };
+        file.validate()?;
+        Ok(file)
+    }
+
+    /// A `.cal` of the newer layout from our calibration, in N and N·m, without transform.
+    ///
+    /// # Errors
+    /// [`FileError`] if the sensor does not measure six axes in volts linearly, or its matrix has
+    /// no inverse.
+    pub fn from_calibration(file: &CalibrationFile) -> Result<Self, FileError> {
+        file.validate()?;
+        if file.axes != Axis::ALL {
+            return Err(FileError::NotSixAxes { found: file.axes.len() });
+        }
+        let refuse =
+            |field: &str, requirement| FileError::OutOfRange { field: field.to_owned(), requirement };
+        if file.quadratic.is_some() {
+            return Err(refuse("quadratic", "absent in a .cal file"));
+        }
+        if file.signal_unit != SignalUnit::Volt {
+            return Err(refuse("signal_unit", "V for a .cal file"));
+        }
+        let inverse = pseudo_inverse(&file.matrix).ok_or(FileError::Singular)?;
+        let rows: [AtiAxis; 6] = core::array::from_fn(|i| AtiAxis {
+            values: inverse.row(i).iter().map(|x| x * file.nominal[i]).collect(),
+            max: file.nominal[i],
+            scale: 1.0,
+        });
+        let mut other = Vec::new();
+        if let Some([low, high]) = file.range {
+            other.push(("OutputRange".to_owned(), (high - low).to_string()));
+            other.push(("OutputBipolar".to_owned(), (if low < 0.0 { "True" } else { "False" }).to_owned()));
+        }
+        Ok(Self {
+            serial: file.provenance.serial.clone(),
+            body_style: String::new(),
+            family: "DAQ".to_owned(),
+            file_version: "1.1".to_owned(),
+            part_number: String::new(),
+            date: file.provenance.date.clone(),
+            force_unit: "N".to_owned(),
+            torque_unit: "N-m".to_owned(),
+            distance_unit: "m".to_owned(),
+            other,
+            axes: rows.clone(),
+            translation: [0.0; 3],
+            rotation: [0.0; 3],
+            user_axes: Some(rows),
+        })
+    }
+
+    /// Least and greatest voltage, from `OutputRange` and `OutputBipolar`.
+    fn range(&self) -> Option<[f64; 2]> {
+        let attribute = |name| self.other.iter().find(|(key, _)| key == name).map(|(_, value)| value.trim());
+        let range: f64 = attribute("OutputRange")?.parse().ok()?;
+        let bipolar = attribute("OutputBipolar")?.eq_ignore_ascii_case("true");
+        let range = if bipolar { [-range / 2.0, range / 2.0] } else { [0.0, range] };
+        (range[1] > range[0] && range[1].is_finite()).then_some(range)
+    }
+
+    fn size(&self, axis: Axis) -> f64 {
+        let size = if axis.is_torque() {
+            units::si(Quantity::Torque, &self.torque_unit)
+        } else {
+            units::si(Quantity::Force, &self.force_unit)
+        };
+        // Only a struct made by hand can have a unit that is not known; reading refuses it.
+        size.unwrap_or(f64::NAN)
+    }
+
+    fn in_si(&self, rows: &[AtiAxis; 6]) -> DMatrix<f64> {
+        let gauges = rows.iter().map(|row| row.values.len()).min().unwrap_or(0);
+        DMatrix::from_fn(6, gauges, |i, j| rows[i].values[j] / rows[i].scale * self.size(Axis::ALL[i]))
+    }
+}
+
+fn child<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Result<Node<'a, 'input>, AtiError> {
+    node.children()
+        .find(|child| child.has_tag_name(name))
+        .ok_or_else(|| AtiError::MissingElement { element: name.to_owned() })
+}
+
+fn bad(node: Node<'_, '_>, attribute: &str, found: &str, requirement: &'static str) -> AtiError {
+    AtiError::BadAttribute {
+        element: label(node),
+        attribute: attribute.to_owned(),
+        found: found.to_owned(),
+        requirement,
+    }
+}
+
+/// `Axis Fx`.
+fn label(node: Node<'_, '_>) -> String {
+    let tag = node.tag_name().name();
+    node.attribute("Name").map_or_else(|| tag.to_owned(), |name| format!("{tag} {name}"))
+}
+
+fn attribute<'a>(node: Node<'a, '_>, name: &str) -> Result<&'a str, AtiError> {
+    node.attribute(name)
+        .ok_or_else(|| AtiError::MissingAttribute { element: label(node), attribute: name.to_owned() })
+}
+
+fn number(node: Node<'_, '_>, name: &str) -> Result<f64, AtiError> {
+    let text = attribute(node, name)?;
+    let number: f64 = text.trim().parse().map_err(|_| bad(node, name, text, "must be a number"))?;
+    if number.is_finite() { Ok(number) } else { Err(bad(node, name, text, "must be finite")) }
+}
+
+fn unit(node: Node<'_, '_>, name: &str, quantity: Quantity) -> Result<String, AtiError> {
+    let text = attribute(node, name)?.trim();
+    match units::si(quantity, text) {
+        Some(_) => Ok(text.to_owned()),
+        None => Err(bad(node, name, text, "not a unit that is known")),
+    }
+}
+
+fn rows(calibration: Node<'_, '_>, tag: &str, gauges: usize) -> Result<[AtiAxis; 6], AtiError> {
+    let row = |axis: Axis| -> Result<AtiAxis, AtiError> {
+        let node = calibration
+            .children()
+            .find(|node| {
+                node.has_tag_name(tag) && node.attribute("Name").and_then(Axis::from_name) == Some(axis)
+            })
+            .ok_or_else(|| AtiError::MissingElement { element: format!("{tag} {axis}") })?;
+        let text = attribute(node, "values")?;
+        let values: Vec<f64> = text
+            .split_whitespace()
+            .map(|word| word.parse::<f64>().ok().filter(|x| x.is_finite()))
+            .collect::<Option<_>>()
+            .ok_or_else(|| bad(node, "values", text, "must be finite numbers"))?;
+        if values.len() != gauges {
+            return Err(bad(node, "values", text, "must have one number per gauge"));
+        }
+        let max = number(node, "max")?;
+        let scale = if node.has_attribute("scale") { number(node, "scale")? } else { 1.0 };
+        for (name, value) in [("max", max), ("scale", scale)] {
+            if !(value > 0.0) {
+                return Err(bad(node, name, &value.to_string(), "must be positive"));
+            }
+        }
+        Ok(AtiAxis { values, max, scale })
+    };
+    let [fx, fy, fz, tx, ty, tz] = Axis::ALL;
+    Ok([row(fx)?, row(fy)?, row(fz)?, row(tx)?, row(ty)?, row(tz)?])
+}

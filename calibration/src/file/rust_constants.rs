@@ -1,0 +1,122 @@
+//! A calibration as Rust constants, for firmware without files.
+
+use core::fmt::Write as _;
+
+use super::{CalibrationFile, FileError, Verdict};
+use crate::Axis;
+
+impl CalibrationFile {
+    /// A Rust module with the calibration as `const` arrays of `f32` or `f64` and a function that
+    /// makes the [`SensorMatrix`](fingertip_wrench::SensorMatrix) of them. It needs only
+    /// `fingertip_wrench` and `nalgebra`, neither heap nor `std`.
+    ///
+    /// Numbers are written with as many digits as it takes to give the nearest number of the type.
+    ///
+    /// # Errors
+    /// As [`sensor_matrix`](Self::sensor_matrix); and [`FileError::NotFinite`] or
+    /// [`FileError::OutOfRange`] for a number that `f32` cannot hold.
+    pub fn to_rust(&self, scalar: Scalar) -> Result<String, FileError> {
+        self.validate()?;
+        if self.axes != Axis::ALL {
+            return Err(FileError::NotSixAxes { found: self.axes.len() });
+        }
+        if self.quadratic.is_some() {
+            return Err(FileError::OutOfRange {
+                field: "quadratic".to_owned(),
+                requirement: "absent: constants for a sensor with quadratic terms are not supported",
+            });
+        }
+        let gauges = self.gauges();
+        let name = scalar.name();
+        let list = |field: &str, values: &mut dyn Iterator<Item = f64>| -> Result<String, FileError> {
+            let mut text = Vec::new();
+            for (index, value) in values.enumerate() {
+                text.push(scalar.literal(value).ok_or_else(|| FileError::OutOfRange {
+                    field: format!("{field}[{index}]"),
+                    requirement: "within the range of f32",
+                })?);
+            }
+            Ok(format!("[{}]", text.join(", ")))
+        };
+        let mut text = String::new();
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "// Calibration {}, written by {}.", self.checksum()?, crate::TOOL);
+        for (label, value) in [
+            ("Sensor", &self.provenance.serial),
+            ("Calibrated", &self.provenance.date),
+            ("Method", &self.provenance.method),
+        ] {
+            if !value.is_empty() {
+                let _ = writeln!(text, "// {label}: {}", value.replace(['\n', '\r'], " "));
+            }
+        }
+        let verdict = match self.quality.verdict {
+            Verdict::Good => "good",
+            Verdict::Bad => "BAD",
+            Verdict::Unchecked => "unchecked",
+        };
+        let _ = writeln!(text, "// Quality: {verdict}");
+        for reason in &self.quality.reasons {
+            let _ = writeln!(text, "// - {}", reason.replace(['\n', '\r'], " "));
+        }
+        let _ = writeln!(
+            text,
+            "\n/// Number of gauges.\npub const GAUGES: usize = {gauges};\n\n\
+             /// Signal of each gauge under the nominal load of each axis.\n\
+             pub const NORMALISED: [[{name}; 6]; GAUGES] = ["
+        );
+        for (i, row) in self.matrix.row_iter().enumerate() {
+            let _ = writeln!(text, "    {},", list(&format!("matrix[{i}]"), &mut row.iter().copied())?);
+        }
+        let _ = writeln!(
+            text,
+            "];\n\n/// Nominal loads [N, N, N, N·m, N·m, N·m].\npub const NOMINAL: [{name}; 6] = {};\n\n\
+             /// Reading of each gauge without load.\npub const ZERO: [{name}; GAUGES] = {};\n",
+            list("nominal", &mut self.nominal.iter().copied())?,
+            list("zero", &mut self.zero.iter().copied())?,
+        );
+        let _ = write!(
+            text,
+            "/// The sensor matrix of these constants.\n\
+             ///\n\
+             /// # Errors\n\
+             /// Never for the numbers above; only if they were edited into nonsense.\n\
+             pub fn sensor_matrix()\n\
+             -> Result<fingertip_wrench::SensorMatrix<{name}, GAUGES>, fingertip_wrench::SensorMatrixError> {{\n    \
+                 fingertip_wrench::SensorMatrix::new(\n        \
+                     nalgebra::SMatrix::<{name}, GAUGES, 6>::from_fn(|gauge, axis| NORMALISED[gauge][axis]),\n        \
+                     nalgebra::Vector6::from(NOMINAL),\n    )\n}}\n"
+        );
+        Ok(text)
+    }
+}
+
+/// Scalar type of exported constants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scalar {
+    /// `f32`.
+    F32,
+    /// `f64`.
+    F64,
+}
+
+impl Scalar {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::F32 => "f32",
+            Self::F64 => "f64",
+        }
+    }
+
+    /// The shortest literal that gives the nearest number of the type; `None` if it has none.
+    fn literal(self, value: f64) -> Option<String> {
+        match self {
+            #[allow(clippy::cast_possible_truncation)]
+            Self::F32 => {
+                let narrow = value as f32;
+                (narrow.is_finite() && (narrow != 0.0 || value == 0.0)).then(|| format!("{narrow:?}"))
+            }
+            Self::F64 => value.is_finite().then(|| format!("{value:?}")),
+        }
+    }
+}

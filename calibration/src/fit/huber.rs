@@ -1,0 +1,158 @@
+//! Least squares that outliers cannot spoil.
+
+use nalgebra::DMatrix;
+
+use super::regression::{accumulate, check};
+use super::{Fit, FitError, least_squares};
+
+/// Residuals beyond so many standard deviations count linearly instead of squared: 95 % efficiency
+/// for Gaussian noise (Huber 1964).
+pub const HUBER_THRESHOLD: f64 = 1.345;
+
+/// Median absolute deviation to standard deviation, for Gaussian noise.
+const MAD_TO_DEVIATION: f64 = 1.482_602_218_505_602;
+
+const MOST_ITERATIONS: usize = 500;
+
+/// Huber's M-estimate, each response on its own, by iteratively reweighted least squares with the
+/// median absolute deviation as scale (theory 8; Huber 1981, chapter 7).
+///
+/// The residual covariance is Huber's asymptotic one, `Σψ² / (n−k) / (mean ψ')²`, so that
+/// `inverse_gram ⊗ residual_covariance` is again the covariance of the coefficients. `trust` holds
+/// the weight of each sample in each response.
+///
+/// # Errors
+/// As [`least_squares`], and [`FitError::NoConvergence`].
+pub fn huber(
+    design: &DMatrix<f64>,
+    responses: &DMatrix<f64>,
+    weights: Option<&[f64]>,
+) -> Result<Fit, FitError> {
+    check(design, responses, weights)?;
+    let mut fit = least_squares(design, responses, weights)?;
+    let (samples, regressors) = design.shape();
+    let root = |i: usize| weights.map_or(1.0, |w| w[i]).sqrt();
+    let mut psi = DMatrix::zeros(samples, responses.ncols());
+    let mut mean_slope = vec![1.0; responses.ncols()];
+    for j in 0..responses.ncols() {
+        let response = responses.columns(j, 1).into_owned();
+        // What rounding leaves of an exact fit is no scale.
+        let floor = f64::EPSILON * response.amax() * samples as f64;
+        let mut theta = fit.coefficients.columns(j, 1).into_owned();
+        let mut change = f64::INFINITY;
+        for iteration in 1..=MOST_ITERATIONS {
+            let residuals = &response - design * &theta;
+            let scale =
+                deviation(residuals.iter().enumerate().map(|(i, r)| r * root(i)), regressors).max(floor);
+            let trust = |i: usize| {
+                let size = (residuals[i] * root(i)).abs() / scale;
+                if size <= HUBER_THRESHOLD || scale <= 0.0 { 1.0 } else { HUBER_THRESHOLD / size }
+            };
+            for i in 0..samples {
+                fit.trust[(i, j)] = trust(i);
+                psi[(i, j)] = residuals[i] * root(i) * trust(i);
+            }
+            let inside = (0..samples).filter(|i| trust(*i) >= 1.0).count() as f64 / samples as f64;
+            mean_slope[j] = inside.max(1.0 / samples as f64);
+            fit.iterations = fit.iterations.max(iteration);
+            let mut triangular = accumulate(design, &response, |i| weights.map_or(1.0, |w| w[i]) * trust(i));
+            let next = triangular.factors().coefficients()?;
+            change = (&next - &theta).amax() / next.amax().max(f64::MIN_POSITIVE);
+            theta = next;
+            // The change of one step is a fraction of what is left; the statistical error of the
+            // coefficients is many orders above this.
+            if change < 1e-10 {
+                break;
+            }
+        }
+        if !(change < 1e-6) {
+            return Err(FitError::NoConvergence { iterations: MOST_ITERATIONS, change });
+        }
+        fit.coefficients.set_column(j, &theta.column(0));
+    }
+    let freedom = samples.saturating_sub(regressors).max(1) as f64;
+    fit.residual_covariance = DMatrix::from_fn(responses.ncols(), responses.ncols(), |i, j| {
+        psi.column(i).dot(&psi.column(j)) / freedom / (mean_slope[i] * mean_slope[j])
+    });
+    Ok(fit)
+}
+
+/// Standard deviation of the bulk: the scaled median absolute residual, with the correction n/(n−k)
+/// of the degrees of freedom that the fit has used up.
+pub(crate) fn deviation(residuals: impl Iterator<Item = f64>, regressors: usize) -> f64 {
+    let mut sizes: Vec<f64> = residuals.map(f64::abs).collect();
+    let samples = sizes.len();
+    if samples == 0 {
+        return 0.0;
+    }
+    let middle = samples / 2;
+    let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
+    let freedom = samples.saturating_sub(regressors).max(1) as f64;
+    MAD_TO_DEVIATION * *median * (samples as f64 / freedom).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::huber;
+    use crate::fit::least_squares;
+    use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
+    use nalgebra::DMatrix;
+    use rand::{RngExt as _, SeedableRng as _};
+
+    #[test]
+    fn exact_without_noise() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(5);
+        let truth = sensor(&mut random, 7, 6);
+        let design = gaussian_matrix(&mut random, 40, 7);
+        let fit = huber(&design, &(&design * &truth), None).unwrap();
+        assert!((fit.coefficients - truth).amax() < 1e-13);
+    }
+
+    /// A tenth of the readings off by 300 standard deviations: within twice the error of the fit
+    /// to the clean data, in the mean square over many sensors.
+    #[test]
+    fn outliers_cost_less_than_a_factor_of_two() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(6);
+        let (mut robust, mut clean, mut spoilt) = (0.0, 0.0, 0.0);
+        for _ in 0..200 {
+            let truth = sensor(&mut random, 7, 6);
+            let design = gaussian_matrix(&mut random, 100, 7);
+            let good = &design * &truth + gaussian_matrix(&mut random, 100, 6) * 0.01;
+            let mut bad = good.clone();
+            for j in 0..6 {
+                for i in 0..10 {
+                    bad[((17 * j + 7 * i) % 100, j)] += if random.random_bool(0.5) { 3.0 } else { -3.0 };
+                }
+            }
+            let error = |fit: super::Fit| (fit.coefficients - &truth).norm_squared();
+            robust += error(huber(&design, &bad, None).unwrap());
+            clean += error(least_squares(&design, &good, None).unwrap());
+            spoilt += error(least_squares(&design, &bad, None).unwrap());
+        }
+        assert!(robust < 4.0 * clean, "{}", (robust / clean).sqrt());
+        assert!(spoilt > 1000.0 * clean);
+    }
+
+    #[test]
+    fn covariance_is_that_of_many_trials() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(8);
+        let truth = sensor(&mut random, 3, 2);
+        let design = gaussian_matrix(&mut random, 300, 3);
+        let trials = 4000;
+        let (mut spread, mut expected) = (DMatrix::<f64>::zeros(3, 2), DMatrix::<f64>::zeros(3, 2));
+        for _ in 0..trials {
+            let responses = &design * &truth
+                + DMatrix::from_fn(300, 2, |_, _| {
+                    gaussian(&mut random) * if random.random_bool(0.05) { 20.0 } else { 1.0 }
+                });
+            let fit = huber(&design, &responses, None).unwrap();
+            let error = &fit.coefficients - &truth;
+            spread += error.component_mul(&error) / f64::from(trials);
+            expected += fit.inverse_gram.diagonal() * fit.residual_covariance.diagonal().transpose()
+                / f64::from(trials);
+        }
+        for (spread, expected) in spread.iter().zip(expected.iter()) {
+            assert!((spread / expected - 1.0).abs() < 0.08, "{spread:e} {expected:e}");
+        }
+    }
+}

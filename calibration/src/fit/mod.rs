@@ -1,0 +1,23 @@
+//! The fits themselves: linear regression in all the ways that a calibration needs.
+//!
+//! Everything here is `f64`: a calibration is fitted once, on a computer; what it gives is
+//! converted to any scalar. Matrices have one sample per row.
+
+mod gauss_helmert;
+mod huber;
+mod leave_out;
+mod ransac;
+mod regression;
+mod ridge;
+#[cfg(test)]
+pub(crate) mod testing;
+mod total;
+
+pub use gauss_helmert::gauss_helmert;
+pub(crate) use huber::deviation;
+pub use huber::{HUBER_THRESHOLD, huber};
+pub use leave_out::leave_out;
+pub use ransac::{Ransac, ransac};
+pub use regression::{Fit, FitError, least_squares};
+pub use ridge::ridge;
+pub use total::total_least_squares;

@@ -1,0 +1,158 @@
+//! Least squares of the largest set of samples that agree.
+
+use nalgebra::DMatrix;
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64Mcg;
+
+use super::regression::check;
+use super::{Fit, FitError, least_squares};
+
+/// What RANSAC needs to know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ransac {
+    /// Greatest residual of a good sample, per response (three to four standard deviations).
+    pub thresholds: Vec<f64>,
+    /// Share of bad samples that must still be survived; below one half.
+    pub outliers: f64,
+    /// Probability that at least one draw is free of bad samples.
+    pub confidence: f64,
+    /// Seed of the draws: the same seed gives the same answer.
+    pub seed: u64,
+}
+
+impl Ransac {
+    /// A fifth of the samples may be bad, confidence 99.9 %.
+    #[must_use]
+    pub fn new(thresholds: Vec<f64>) -> Self {
+        Self { thresholds, outliers: 0.2, confidence: 0.999, seed: 1 }
+    }
+
+    /// How many draws of `size` samples it takes: `log(1−p) / log(1−(1−ε)^size)` (theory 8; Fischler
+    /// & Bolles 1981), at least 1 and at most 100 000.
+    #[must_use]
+    pub fn draws(&self, size: usize) -> usize {
+        let clean = (1.0 - self.outliers.clamp(0.0, 0.9)).powi(i32::try_from(size).unwrap_or(i32::MAX));
+        let failures = (-self.confidence.clamp(0.0, 1.0 - 1e-12)).ln_1p();
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let draws = (failures / (-clean).ln_1p()).ceil().clamp(1.0, 1e5) as usize;
+        draws
+    }
+}
+
+/// Draws as many samples as there are regressors, counts which others agree within the thresholds
+/// in every response, and fits least squares to the largest set that agrees (Fischler & Bolles
+/// 1981). Samples outside get trust 0.
+///
+/// # Errors
+/// As [`least_squares`], and [`FitError::NoConsensus`] if fewer than `1 − outliers` of the samples
+/// agree.
+pub fn ransac(
+    design: &DMatrix<f64>,
+    responses: &DMatrix<f64>,
+    weights: Option<&[f64]>,
+    options: &Ransac,
+) -> Result<Fit, FitError> {
+    check(design, responses, weights)?;
+    let (samples, size) = design.shape();
+    if options.thresholds.len() != responses.ncols() || options.thresholds.iter().any(|t| !(*t > 0.0)) {
+        return Err(FitError::BadInput { what: "the list of thresholds" });
+    }
+    if samples <= size {
+        return Err(FitError::TooFewSamples { samples, coefficients: size });
+    }
+    let agreeing = |coefficients: &DMatrix<f64>| -> Vec<usize> {
+        let residuals = responses - design * coefficients;
+        (0..samples)
+            .filter(|i| residuals.row(*i).iter().zip(&options.thresholds).all(|(r, t)| r.abs() <= *t))
+            .collect()
+    };
+    let mut random = Pcg64Mcg::seed_from_u64(options.seed);
+    let mut indices: Vec<usize> = (0..samples).collect();
+    let mut best: Vec<usize> = Vec::new();
+    for _ in 0..options.draws(size) {
+        // The first steps of a Fisher-Yates shuffle: a draw without repetition.
+        for k in 0..size {
+            let other = random.random_range(k..samples);
+            indices.swap(k, other);
+        }
+        let drawn = &indices[..size];
+        let Some(inverse) = design.select_rows(drawn).full_piv_lu().try_inverse() else { continue };
+        let set = agreeing(&(inverse * responses.select_rows(drawn)));
+        if set.len() > best.len() {
+            best = set;
+        }
+    }
+    // A draw of the least size is noisy; the set is settled by refitting to those who agree.
+    for _ in 0..10 {
+        if best.len() <= size {
+            break;
+        }
+        let refit = fit_to(design, responses, weights, &best)?;
+        let set = agreeing(&refit.coefficients);
+        if set.len() <= best.len() {
+            break;
+        }
+        best = set;
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let needed = (((1.0 - options.outliers) * samples as f64).ceil() as usize).max(size + 1);
+    if best.len() < needed {
+        return Err(FitError::NoConsensus { agreeing: best.len(), samples, needed });
+    }
+    let mut fit = fit_to(design, responses, weights, &best)?;
+    fit.trust = DMatrix::zeros(samples, responses.ncols());
+    for i in best {
+        fit.trust.row_mut(i).fill(1.0);
+    }
+    Ok(fit)
+}
+
+fn fit_to(
+    design: &DMatrix<f64>,
+    responses: &DMatrix<f64>,
+    weights: Option<&[f64]>,
+    rows: &[usize],
+) -> Result<Fit, FitError> {
+    let weights: Option<Vec<f64>> = weights.map(|w| rows.iter().map(|i| w[*i]).collect());
+    least_squares(&design.select_rows(rows), &responses.select_rows(rows), weights.as_deref())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Ransac, ransac};
+    use crate::fit::testing::{gaussian_matrix, sensor};
+    use crate::fit::{FitError, least_squares};
+    use rand::SeedableRng as _;
+
+    #[test]
+    fn equals_the_fit_to_the_good_samples() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(1);
+        for seed in 0..20 {
+            let truth = sensor(&mut random, 6, 6);
+            let design = gaussian_matrix(&mut random, 60, 6);
+            let mut responses = &design * truth + gaussian_matrix(&mut random, 60, 6) * 0.01;
+            let bad = |i: usize| i % 6 == 1;
+            for i in (0..60).filter(|i| bad(*i)) {
+                // All bad samples lie on one side, which no M-estimate likes.
+                responses.row_mut(i).add_scalar_mut(5.0);
+            }
+            let options = Ransac { seed, ..Ransac::new(vec![0.05; 6]) };
+            let fit = ransac(&design, &responses, None, &options).unwrap();
+            let good: Vec<usize> = (0..60).filter(|i| !bad(*i)).collect();
+            let clean =
+                least_squares(&design.select_rows(&good), &responses.select_rows(&good), None).unwrap();
+            assert!((fit.coefficients - clean.coefficients).amax() < 1e-12);
+            assert!((0..60).all(|i| (fit.trust[(i, 0)] == 0.0) == bad(i)));
+        }
+    }
+
+    #[test]
+    fn draws_follow_the_formula_and_disagreement_is_an_error() {
+        let options = Ransac { outliers: 0.5, confidence: 0.99, ..Ransac::new(vec![1e-6; 6]) };
+        // ln(0.01) / ln(1 − 1/64) = 292.4.
+        assert_eq!(options.draws(6), 293);
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(1);
+        let (design, noise) = (gaussian_matrix(&mut random, 30, 6), gaussian_matrix(&mut random, 30, 6));
+        assert!(matches!(ransac(&design, &noise, None, &options), Err(FitError::NoConsensus { .. })));
+    }
+}

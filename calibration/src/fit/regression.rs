@@ -1,0 +1,219 @@
+//! Linear regression of several responses: the problem, its answer, and plain least squares.
+
+use nalgebra::DMatrix;
+use thiserror::Error;
+
+use crate::linear::{Triangular, Unobserved};
+
+/// The answer of a fit `y ≈ xᵀ Θ`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// Θ, regressors × responses.
+    pub coefficients: DMatrix<f64>,
+    /// `(Σ w x xᵀ)⁻¹`, regressors × regressors.
+    pub inverse_gram: DMatrix<f64>,
+    /// Covariance of one sample's residuals (of weight 1), responses × responses. With
+    /// `inverse_gram` it gives the covariance of the coefficients: entry `(i, j)` with `(k, l)` is
+    /// `inverse_gram[i][k] · residual_covariance[j][l]` (theory 8).
+    pub residual_covariance: DMatrix<f64>,
+    /// By how much each sample counted for each response, in \[0, 1\]: 1 for plain least squares,
+    /// less for what a robust fit distrusts.
+    pub trust: DMatrix<f64>,
+    /// Iterations that an iterative fit took; 1 otherwise.
+    pub iterations: usize,
+}
+
+/// Why a fit has no answer.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum FitError {
+    /// The regressors do not determine the coefficients.
+    #[error(transparent)]
+    Unobserved(#[from] Unobserved),
+    /// Not more samples than coefficients, so that nothing can be said of the error.
+    #[error("{samples} samples do not determine {coefficients} coefficients and their error")]
+    TooFewSamples {
+        /// How many samples there are.
+        samples: usize,
+        /// Coefficients per response.
+        coefficients: usize,
+    },
+    /// A number is NaN or infinite, or a size does not fit.
+    #[error("{what} is not finite or has the wrong size")]
+    BadInput {
+        /// Which argument.
+        what: &'static str,
+    },
+    /// The iteration did not come to rest.
+    #[error("no convergence after {iterations} iterations (last relative change {change:e})")]
+    NoConvergence {
+        /// How many were made.
+        iterations: usize,
+        /// The last relative change.
+        change: f64,
+    },
+    /// Too few samples agree with each other.
+    #[error("only {agreeing} of {samples} samples agree; {needed} are needed")]
+    NoConsensus {
+        /// Samples that agree with the best model.
+        agreeing: usize,
+        /// All samples.
+        samples: usize,
+        /// How many would have been enough.
+        needed: usize,
+    },
+    /// The errors given for the loads are so large that no unique answer exists.
+    #[error("the loads vary no more than their errors: total least squares has no unique answer")]
+    NotIdentified,
+}
+
+/// Checks that design and responses match and are finite.
+pub(super) fn check(
+    design: &DMatrix<f64>,
+    responses: &DMatrix<f64>,
+    weights: Option<&[f64]>,
+) -> Result<(), FitError> {
+    let samples = design.nrows();
+    let finite = |matrix: &DMatrix<f64>| matrix.iter().all(|x| x.is_finite());
+    if design.ncols() == 0 || !finite(design) {
+        return Err(FitError::BadInput { what: "the design" });
+    }
+    if responses.nrows() != samples || responses.ncols() == 0 || !finite(responses) {
+        return Err(FitError::BadInput { what: "the matrix of responses" });
+    }
+    if weights.is_some_and(|w| w.len() != samples || w.iter().any(|x| !(*x >= 0.0 && x.is_finite()))) {
+        return Err(FitError::BadInput { what: "the list of weights" });
+    }
+    Ok(())
+}
+
+/// Pushes every row; weights as in [`least_squares`].
+pub(super) fn accumulate(
+    design: &DMatrix<f64>,
+    responses: &DMatrix<f64>,
+    weight: impl Fn(usize) -> f64,
+) -> Triangular {
+    let mut triangular = Triangular::new(design.ncols(), responses.ncols());
+    let mut x = vec![0.0; design.ncols()];
+    let mut y = vec![0.0; responses.ncols()];
+    for i in 0..design.nrows() {
+        x.iter_mut().zip(design.row(i).iter()).for_each(|(slot, value)| *slot = *value);
+        y.iter_mut().zip(responses.row(i).iter()).for_each(|(slot, value)| *slot = *value);
+        triangular.push_weighted(&x, &y, weight(i));
+    }
+    triangular
+}
+
+/// Least squares, weighted if weights are given (variance of sample i = residual covariance /
+/// weight i), by QR of the weighted rows (theory 8).
+///
+/// `design` is samples × regressors, `responses` samples × responses. Whitening the responses
+/// among each other would change nothing, since all have the same regressors (Zellner 1962).
+///
+/// # Errors
+/// [`FitError::Unobserved`] for dependent regressors, [`FitError::TooFewSamples`],
+/// [`FitError::BadInput`].
+pub fn least_squares(
+    design: &DMatrix<f64>,
+    responses: &DMatrix<f64>,
+    weights: Option<&[f64]>,
+) -> Result<Fit, FitError> {
+    check(design, responses, weights)?;
+    let mut triangular = accumulate(design, responses, |i| weights.map_or(1.0, |w| w[i]));
+    let factors = triangular.factors();
+    let coefficients = factors.coefficients()?;
+    let residual_covariance = factors.residual_covariance().ok_or(FitError::TooFewSamples {
+        samples: usize::try_from(factors.samples).unwrap_or(usize::MAX),
+        coefficients: design.ncols(),
+    })?;
+    Ok(Fit {
+        coefficients,
+        inverse_gram: factors.inverse_gram()?,
+        residual_covariance,
+        trust: DMatrix::from_element(design.nrows(), responses.ncols(), 1.0),
+        iterations: 1,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FitError, least_squares};
+    use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
+    use nalgebra::DMatrix;
+    use proptest::prelude::*;
+    use rand::SeedableRng as _;
+
+    proptest! {
+        #[test]
+        fn exact_without_noise(seed in any::<u64>()) {
+            let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(seed);
+            let truth = sensor(&mut random, 7, 8);
+            let design = gaussian_matrix(&mut random, 20, 7);
+            let weights: Vec<f64> = (0..20).map(|i| 0.1 + f64::from(i)).collect();
+            let fit = least_squares(&design, &(&design * &truth), Some(&weights)).unwrap();
+            prop_assert!((fit.coefficients - truth).amax() < 1e-12);
+        }
+
+        /// Units of loads and signals, and the order of samples, change the answer only as they must.
+        #[test]
+        fn equivariant(seed in any::<u64>(), a in -6..6_i32, b in -6..6_i32, turn in 0..30_usize) {
+            let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(seed);
+            let design = gaussian_matrix(&mut random, 30, 6);
+            let responses = &design * sensor(&mut random, 6, 6) + gaussian_matrix(&mut random, 30, 6) * 0.1;
+            let fit = least_squares(&design, &responses, None).unwrap();
+            let (a, b) = (10_f64.powi(a), 10_f64.powi(b));
+            let order: Vec<usize> = (0..30).map(|i| (7 * i + turn) % 30).collect();
+            let other = least_squares(
+                &(design.select_rows(&order) * a), &(responses.select_rows(&order) * b), None,
+            ).unwrap();
+            prop_assert!((other.coefficients * (a / b) - &fit.coefficients).amax() < 1e-12);
+            // A frame: any invertible mixing of the loads.
+            let frame = sensor(&mut random, 6, 6);
+            let mixed = least_squares(&(&design * &frame), &responses, None).unwrap();
+            prop_assert!((frame * mixed.coefficients - fit.coefficients).amax() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn covariance_is_that_of_many_trials() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(3);
+        let truth = sensor(&mut random, 6, 3);
+        let design = gaussian_matrix(&mut random, 25, 6);
+        let weights: Vec<f64> = (0..25).map(|i| if i % 2 == 0 { 4.0 } else { 1.0 }).collect();
+        let trials = 20_000;
+        let mut spread = DMatrix::<f64>::zeros(6, 3);
+        let mut expected = DMatrix::<f64>::zeros(6, 3);
+        for _ in 0..trials {
+            let mut responses = &design * &truth;
+            for i in 0..25 {
+                for j in 0..3 {
+                    responses[(i, j)] +=
+                        0.1 * f64::from(j as u32 + 1) * gaussian(&mut random) / weights[i].sqrt();
+                }
+            }
+            let fit = least_squares(&design, &responses, Some(&weights)).unwrap();
+            let error = &fit.coefficients - &truth;
+            spread += error.component_mul(&error) / f64::from(trials);
+            expected += fit.inverse_gram.diagonal() * fit.residual_covariance.diagonal().transpose()
+                / f64::from(trials);
+        }
+        for (spread, expected) in spread.iter().zip(expected.iter()) {
+            assert!((spread / expected - 1.0).abs() < 0.05, "{spread:e} {expected:e}");
+        }
+    }
+
+    #[test]
+    fn bad_input_is_refused() {
+        let ones = DMatrix::from_element(3, 2, 1.0);
+        assert!(matches!(least_squares(&ones, &ones, None), Err(FitError::Unobserved(_))));
+        assert!(matches!(least_squares(&ones, &DMatrix::zeros(4, 1), None), Err(FitError::BadInput { .. })));
+        let nan = DMatrix::from_element(3, 2, f64::NAN);
+        assert!(matches!(least_squares(&nan, &ones, None), Err(FitError::BadInput { .. })));
+        let square = DMatrix::identity(2, 2);
+        assert!(matches!(least_squares(&square, &square, None), Err(FitError::TooFewSamples { .. })));
+        assert!(matches!(
+            least_squares(&ones, &ones, Some(&[1.0, -1.0, 1.0])),
+            Err(FitError::BadInput { what: "the list of weights" })
+        ));
+    }
+}

@@ -1,0 +1,144 @@
+//! Least squares with errors in the loads too.
+
+use nalgebra::DMatrix;
+
+use super::regression::check;
+use super::{Fit, FitError};
+use crate::linear::{Singular, Triangular};
+
+/// Total least squares of `y = xᵀΘ (+ constant)` where the regressors have errors of standard
+/// deviation `regressor_deviations` and the responses of `response_deviations`, both independent
+/// (theory 8; Van Huffel & Vandewalle 1991).
+///
+/// Columns are divided by their deviations, an exact constant column is projected out first, and
+/// the right singular vectors of the smallest singular values give the answer; a QR accumulator
+/// reduces the data before, so that this streams. Ordinary least squares would attenuate: it tends
+/// to `C (I + Σ_P⁻¹ Σ_e)⁻¹`.
+///
+/// With `constant`, the last row of the coefficients is the constant. The covariance is the first
+/// order one, that of regression with the residuals' covariance `Σ_V + C Σ_e Cᵀ`.
+///
+/// # Errors
+/// [`FitError::NotIdentified`] if the loads vary no more than their errors; as
+/// [`super::least_squares`] otherwise.
+pub fn total_least_squares(
+    regressors: &DMatrix<f64>,
+    responses: &DMatrix<f64>,
+    regressor_deviations: &[f64],
+    response_deviations: &[f64],
+    constant: bool,
+) -> Result<Fit, FitError> {
+    check(regressors, responses, None)?;
+    let (samples, k) = regressors.shape();
+    let m = responses.ncols();
+    let positive =
+        |list: &[f64], length| list.len() == length && list.iter().all(|x| *x > 0.0 && x.is_finite());
+    if !positive(regressor_deviations, k) || !positive(response_deviations, m) {
+        return Err(FitError::BadInput { what: "the list of standard deviations" });
+    }
+    if samples <= k + usize::from(constant) {
+        return Err(FitError::TooFewSamples { samples, coefficients: k + usize::from(constant) });
+    }
+    let lead = usize::from(constant);
+    let mut triangular = Triangular::new(lead, k + m);
+    let mut row = vec![0.0; k + m];
+    for i in 0..samples {
+        let values =
+            regressors.row(i).iter().zip(regressor_deviations).map(|(x, s)| x / s).collect::<Vec<_>>();
+        row[..k].copy_from_slice(&values);
+        for (slot, (y, s)) in row[k..].iter_mut().zip(responses.row(i).iter().zip(response_deviations)) {
+            *slot = y / s;
+        }
+        triangular.push(&[1.0][..lead], &row);
+    }
+    let factors = triangular.factors();
+    let singular = Singular::new(&factors.residual).ok_or(FitError::BadInput { what: "the data" })?;
+    // The answer is unique if the k-th singular value stands clear of the next.
+    let gap = singular.values[k - 1] - singular.values[k];
+    if !(gap > 1e3 * f64::EPSILON * singular.values[0]) {
+        return Err(FitError::NotIdentified);
+    }
+    let null = singular.right.columns(k, m);
+    let (top, bottom) = (null.rows(0, k), null.rows(k, m).into_owned());
+    let inverse = bottom.full_piv_lu().try_inverse().ok_or(FitError::NotIdentified)?;
+    let scaled = -(top * inverse);
+    let mut coefficients = DMatrix::zeros(k + lead, m);
+    for i in 0..k {
+        for j in 0..m {
+            coefficients[(i, j)] = scaled[(i, j)] * response_deviations[j] / regressor_deviations[i];
+        }
+    }
+    if constant {
+        let means = regressors.row_mean();
+        let row = responses.row_mean() - means * coefficients.rows(0, k);
+        coefficients.set_row(k, &row);
+    }
+    let mut design = regressors.clone();
+    if constant {
+        design = design.insert_column(k, 1.0);
+    }
+    let residuals = responses - &design * &coefficients;
+    let residual_covariance = residuals.transpose() * &residuals / (samples - k - lead) as f64;
+    let mut gram = super::regression::accumulate(&design, responses, |_| 1.0);
+    Ok(Fit {
+        coefficients,
+        inverse_gram: gram.factors().inverse_gram()?,
+        residual_covariance,
+        trust: DMatrix::from_element(samples, m, 1.0),
+        iterations: 1,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::total_least_squares;
+    use crate::fit::testing::{gaussian_matrix, sensor};
+    use crate::fit::{FitError, least_squares};
+    use nalgebra::DMatrix;
+    use rand::SeedableRng as _;
+
+    #[test]
+    fn exact_without_noise() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(2);
+        let truth = sensor(&mut random, 7, 8);
+        let loads = gaussian_matrix(&mut random, 30, 6);
+        let responses = loads.clone().insert_column(6, 1.0) * &truth;
+        let fit = total_least_squares(&loads, &responses, &[0.1; 6], &[0.2; 8], true).unwrap();
+        assert!((fit.coefficients - truth).amax() < 1e-12);
+    }
+
+    /// The attenuation of least squares, as the formula has it, and none in total least squares.
+    #[test]
+    fn consistent_where_least_squares_is_biased() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(9);
+        let samples = 40_000;
+        let truth = sensor(&mut random, 6, 6);
+        let loads = gaussian_matrix(&mut random, samples, 6);
+        let responses = &loads * &truth + gaussian_matrix(&mut random, samples, 6) * 0.1;
+        let deviations = [0.5, 0.1, 0.2, 0.3, 0.4, 0.1];
+        let errors = DMatrix::from_fn(samples, 6, |_, j| deviations[j]).component_mul(&gaussian_matrix(
+            &mut random,
+            samples,
+            6,
+        ));
+        let uncertain = loads + errors;
+        let total = total_least_squares(&uncertain, &responses, &deviations, &[0.1; 6], false).unwrap();
+        assert!((total.coefficients - &truth).amax() < 0.03 * truth.amax());
+        let plain = least_squares(&uncertain, &responses, None).unwrap().coefficients;
+        let attenuated = DMatrix::from_fn(6, 6, |i, j| truth[(i, j)] / (1.0 + deviations[i] * deviations[i]));
+        assert!((&plain - attenuated).amax() < 0.02 * truth.amax());
+        assert!((plain - &truth).amax() > 0.15 * truth.amax());
+    }
+
+    #[test]
+    fn no_more_variation_than_error_is_refused() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(9);
+        let loads = DMatrix::from_fn(20, 2, |i, _| i as f64);
+        let responses = gaussian_matrix(&mut random, 20, 2);
+        let answer = total_least_squares(&loads, &responses, &[1.0; 2], &[0.0; 2], false);
+        assert!(matches!(answer, Err(FitError::BadInput { .. })));
+        let zero = DMatrix::zeros(20, 2);
+        let answer = total_least_squares(&zero, &zero, &[1.0; 2], &[1.0; 2], false);
+        assert_eq!(answer.unwrap_err(), FitError::NotIdentified);
+    }
+}

@@ -1,0 +1,289 @@
+//! Known loads and the readings they gave.
+
+use nalgebra::DMatrix;
+use thiserror::Error;
+
+use crate::Axis;
+use crate::file::SignalUnit;
+
+/// Known loads and the readings that the sensor gave under them: what a calibration is fitted to.
+///
+/// Rows are samples. Loads are \[N, N·m\] about the origin of the sensor frame, what the
+/// environment applies to the sensor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadTable {
+    /// The components that `loads` has columns for.
+    pub axes: Vec<Axis>,
+    /// Samples × axes \[N, N·m\].
+    pub loads: DMatrix<f64>,
+    /// Samples × gauges.
+    pub signals: DMatrix<f64>,
+    /// Unit of the signals.
+    pub signal_unit: SignalUnit,
+    /// What to call each sample in reports.
+    pub names: Vec<String>,
+    /// Which load case (level) each sample belongs to: samples of one case are left out together.
+    pub cases: Vec<usize>,
+    /// Which session or mounting each sample belongs to: each group has its own zero.
+    pub groups: Vec<usize>,
+    /// Time of each sample \[s\].
+    pub times: Option<Vec<f64>>,
+    /// Temperature of each sample \[°C\].
+    pub temperatures: Option<Vec<f64>>,
+    /// Weight of each sample: variance of a sample of weight 1 over its own.
+    pub weights: Option<Vec<f64>>,
+}
+
+/// Why there is no table of loads.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum LoadError {
+    /// Lists of different lengths.
+    #[error("`{field}` has {found} entries for {expected} samples")]
+    WrongLength {
+        /// Which list.
+        field: &'static str,
+        /// Its length.
+        found: usize,
+        /// Number of samples.
+        expected: usize,
+    },
+    /// A number is NaN or infinite.
+    #[error("{sample}, column `{column}`: not a finite number")]
+    NotFinite {
+        /// Which sample.
+        sample: String,
+        /// Which column.
+        column: String,
+    },
+    /// No sample, no load column or no signal column.
+    #[error("there are no {what}")]
+    Empty {
+        /// Samples, loads or signals.
+        what: &'static str,
+    },
+    /// A group has no reading without load to take its zero from.
+    #[error("group {group} has no sample without load to take its zero from")]
+    NoZero {
+        /// Which group.
+        group: usize,
+    },
+    /// The text is not a table of loads.
+    #[error("line {line}, column `{column}`: {message}")]
+    BadText {
+        /// Line of the file, counting from 1.
+        line: u64,
+        /// Which column, or empty.
+        column: String,
+        /// What is wrong.
+        message: String,
+    },
+}
+
+impl LoadTable {
+    /// From loads (samples × axes) and signals (samples × gauges); every sample is its own case,
+    /// all are of one group.
+    ///
+    /// # Errors
+    /// [`LoadError`] for an empty table, rows that do not match, or a number that is not finite.
+    pub fn new(
+        axes: &[Axis],
+        loads: DMatrix<f64>,
+        signals: DMatrix<f64>,
+        signal_unit: SignalUnit,
+    ) -> Result<Self, LoadError> {
+        let samples = loads.nrows();
+        let table = Self {
+            axes: axes.to_vec(),
+            loads,
+            signals,
+            signal_unit,
+            names: (1..=samples).map(|i| format!("sample {i}")).collect(),
+            cases: (0..samples).collect(),
+            groups: vec![0; samples],
+            times: None,
+            temperatures: None,
+            weights: None,
+        };
+        table.validate()?;
+        Ok(table)
+    }
+
+    /// Checks lengths and that every number is finite. The fits call it.
+    ///
+    /// # Errors
+    /// [`LoadError`].
+    pub fn validate(&self) -> Result<(), LoadError> {
+        let samples = self.loads.nrows();
+        for (what, count) in [
+            ("samples", samples),
+            ("load columns", self.axes.len()),
+            ("signal columns", self.signals.ncols()),
+        ] {
+            if count == 0 {
+                return Err(LoadError::Empty { what });
+            }
+        }
+        if self.loads.ncols() != self.axes.len() {
+            return Err(LoadError::WrongLength {
+                field: "axes",
+                found: self.axes.len(),
+                expected: self.loads.ncols(),
+            });
+        }
+        let length = |list: &Option<Vec<f64>>| list.as_ref().map_or(samples, Vec::len);
+        for (field, found) in [
+            ("signals", self.signals.nrows()),
+            ("names", self.names.len()),
+            ("cases", self.cases.len()),
+            ("groups", self.groups.len()),
+            ("times", length(&self.times)),
+            ("temperatures", length(&self.temperatures)),
+            ("weights", length(&self.weights)),
+        ] {
+            if found != samples {
+                return Err(LoadError::WrongLength { field, found, expected: samples });
+            }
+        }
+        for i in 0..samples {
+            let not_finite = |column: String| LoadError::NotFinite { sample: self.names[i].clone(), column };
+            for (j, axis) in self.axes.iter().enumerate() {
+                if !self.loads[(i, j)].is_finite() {
+                    return Err(not_finite(axis.name().to_owned()));
+                }
+            }
+            for j in 0..self.gauges() {
+                if !self.signals[(i, j)].is_finite() {
+                    return Err(not_finite(format!("v{}", j + 1)));
+                }
+            }
+            for (name, list) in
+                [("t_s", &self.times), ("temperature_C", &self.temperatures), ("weight", &self.weights)]
+            {
+                if list
+                    .as_ref()
+                    .is_some_and(|list| !list[i].is_finite() || (name == "weight" && list[i] < 0.0))
+                {
+                    return Err(not_finite(name.to_owned()));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// How many samples there are.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.loads.nrows()
+    }
+
+    /// How many gauges the sensor has.
+    #[must_use]
+    pub fn gauges(&self) -> usize {
+        self.signals.ncols()
+    }
+
+    /// The greatest load of each axis \[N, N·m\]: the full scale, if the user names none. An axis
+    /// that is never loaded gets 1, which [`crate::fit`] then calls unobserved.
+    #[must_use]
+    pub fn greatest_loads(&self) -> Vec<f64> {
+        self.loads.column_iter().map(|column| column.amax()).map(|x| if x > 0.0 { x } else { 1.0 }).collect()
+    }
+
+    /// The samples for which `keep` says so, in order.
+    #[must_use]
+    pub fn select(&self, keep: impl Fn(usize) -> bool) -> Self {
+        let kept: Vec<usize> = (0..self.samples()).filter(|i| keep(*i)).collect();
+        let pick =
+            |list: &Option<Vec<f64>>| list.as_ref().map(|list| kept.iter().map(|i| list[*i]).collect());
+        Self {
+            axes: self.axes.clone(),
+            loads: self.loads.select_rows(&kept),
+            signals: self.signals.select_rows(&kept),
+            signal_unit: self.signal_unit,
+            names: kept.iter().map(|i| self.names[*i].clone()).collect(),
+            cases: kept.iter().map(|i| self.cases[*i]).collect(),
+            groups: kept.iter().map(|i| self.groups[*i]).collect(),
+            times: pick(&self.times),
+            temperatures: pick(&self.temperatures),
+            weights: pick(&self.weights),
+        }
+    }
+
+    /// Which samples have a reading at or beyond the ends of the converter's range, with the first
+    /// gauge of each that has.
+    #[must_use]
+    pub fn saturated(&self, range: [f64; 2]) -> Vec<(usize, usize)> {
+        let beyond = |value: &f64| !(*value > range[0] && *value < range[1]);
+        self.signals
+            .row_iter()
+            .enumerate()
+            .filter_map(|(i, row)| row.iter().position(beyond).map(|gauge| (i, gauge)))
+            .collect()
+    }
+
+    /// The readings less the mean reading without load of their group: a tare per mounting.
+    ///
+    /// # Errors
+    /// [`LoadError::NoZero`] if a group has no sample without load.
+    pub fn tared_by_group(&self) -> Result<Self, LoadError> {
+        let mut tared = self.clone();
+        let mut groups = self.groups.clone();
+        groups.sort_unstable();
+        groups.dedup();
+        for group in groups {
+            let of_group: Vec<usize> = (0..self.samples()).filter(|i| self.groups[*i] == group).collect();
+            let unloaded: Vec<usize> =
+                of_group.iter().copied().filter(|i| self.loads.row(*i).amax() == 0.0).collect();
+            if unloaded.is_empty() {
+                return Err(LoadError::NoZero { group });
+            }
+            let zero = self.signals.select_rows(&unloaded).row_mean();
+            for i in of_group {
+                let mut row = tared.signals.row_mut(i);
+                row -= &zero;
+            }
+        }
+        Ok(tared)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LoadError, LoadTable};
+    use crate::Axis;
+    use crate::file::SignalUnit;
+    use nalgebra::DMatrix;
+
+    fn table() -> LoadTable {
+        let loads =
+            DMatrix::from_row_slice(4, 3, &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0]);
+        let signals = DMatrix::from_row_slice(4, 2, &[1.0, 2.0, 3.0, 4.0, 10.0, 20.0, 11.0, 21.0]);
+        let mut table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Count).unwrap();
+        table.groups = vec![0, 0, 7, 7];
+        table
+    }
+
+    #[test]
+    fn each_group_has_its_own_zero() {
+        let tared = table().tared_by_group().unwrap();
+        assert_eq!(tared.signals.row(1), DMatrix::from_row_slice(1, 2, &[2.0, 2.0]).row(0));
+        assert_eq!(tared.signals.row(3), DMatrix::from_row_slice(1, 2, &[1.0, 1.0]).row(0));
+        let without = table().select(|i| i != 2);
+        assert_eq!(without.tared_by_group(), Err(LoadError::NoZero { group: 7 }));
+        assert_eq!(without.names, ["sample 1", "sample 2", "sample 4"]);
+    }
+
+    #[test]
+    fn saturation_and_nonsense_are_named() {
+        assert_eq!(table().saturated([1.0, 20.0]), [(0, 0), (2, 1), (3, 1)]);
+        let mut bad = table();
+        bad.signals[(2, 1)] = f64::NAN;
+        let error = bad.validate().unwrap_err();
+        assert!(error.to_string().contains("sample 3") && error.to_string().contains("v2"), "{error}");
+        bad = table();
+        bad.weights = Some(vec![1.0; 3]);
+        assert!(matches!(bad.validate(), Err(LoadError::WrongLength { field: "weights", .. })));
+        assert_eq!(table().greatest_loads(), [1.0, 2.0, 1.0]);
+    }
+}

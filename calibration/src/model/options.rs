@@ -1,0 +1,130 @@
+//! How to calibrate.
+
+use crate::file::CalibrationFile;
+
+/// Which of load and signal is taken as the cause in the regression.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// `signals = C · load + zero`, the physical one: errors are in the readings. The default.
+    SignalsFromLoads,
+    /// `load = B · signals + constant`, inverse regression: smaller residuals on the loads of the
+    /// calibration, but drawn towards their mean (theory 8). What makers of sensors often publish, and
+    /// the only one with quadratic terms.
+    LoadsFromSignals,
+}
+
+/// By which method to fit.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Method {
+    /// Least squares; weighted if the table has weights.
+    LeastSquares,
+    /// Huber's M-estimate.
+    Huber,
+    /// RANSAC: thresholds are set from the residuals of a Huber fit.
+    Ransac {
+        /// Share of samples that may be bad.
+        outliers: f64,
+        /// Seed of the draws.
+        seed: u64,
+    },
+    /// Total least squares: the loads are uncertain too. [`Direction::SignalsFromLoads`] only.
+    Total {
+        /// Standard deviation of the load of each axis \[N, N·m\].
+        load_deviations: Vec<f64>,
+        /// Standard deviation of the reading of each gauge.
+        signal_deviations: Vec<f64>,
+    },
+    /// Gauss-Helmert: as [`Method::Total`], but the error of a load is a fixed part and a share of
+    /// the load itself, as with weights. [`Direction::SignalsFromLoads`] only.
+    GaussHelmert {
+        /// Standard deviation of the load of each axis \[N, N·m\].
+        load_deviations: Vec<f64>,
+        /// Standard deviation relative to the load.
+        relative: f64,
+        /// Standard deviation of the reading of each gauge.
+        signal_deviations: Vec<f64>,
+    },
+    /// Bayes: towards an earlier calibration, which is believed to be right to `relative` of the
+    /// greatest sensitivity of each gauge. [`Direction::SignalsFromLoads`] only.
+    Prior {
+        /// The earlier calibration.
+        prior: Box<CalibrationFile>,
+        /// Standard deviation of its entries, relative to the root mean square of the matrix.
+        relative: f64,
+    },
+}
+
+impl Method {
+    /// As files and reports call it.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::LeastSquares => "least squares",
+            Self::Huber => "Huber",
+            Self::Ransac { .. } => "RANSAC",
+            Self::Total { .. } => "total least squares",
+            Self::GaussHelmert { .. } => "Gauss-Helmert",
+            Self::Prior { .. } => "least squares with a prior",
+        }
+    }
+}
+
+/// How to calibrate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Which way the regression goes.
+    pub direction: Direction,
+    /// Whether a zero is fitted; without, the readings must be tared.
+    pub bias: bool,
+    /// Whether products of pairs of signals are fitted too. Refused where they over-fit.
+    pub quadratic: bool,
+    /// By which method.
+    pub method: Method,
+    /// Nominal load (full scale) of each axis \[N, N·m\]; the greatest loads if `None`.
+    pub nominal: Option<Vec<f64>>,
+    /// Least and greatest reading of a gauge: samples at or beyond are left out, by name.
+    pub range: Option<[f64; 2]>,
+    /// Whether to subtract from the readings the zero of their group first.
+    pub tare_groups: bool,
+    /// Whether to leave out samples that the outlier test names.
+    pub reject_outliers: bool,
+    /// What a good calibration must reach.
+    pub limits: Limits,
+}
+
+impl Default for Options {
+    /// Least squares of signals on loads, with bias.
+    fn default() -> Self {
+        Self {
+            direction: Direction::SignalsFromLoads,
+            bias: true,
+            quadratic: false,
+            method: Method::LeastSquares,
+            nominal: None,
+            range: None,
+            tare_groups: false,
+            reject_outliers: false,
+            limits: Limits::default(),
+        }
+    }
+}
+
+/// What a good calibration must reach; beyond, it is stamped as bad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// RMS error of any axis on loads left out of the fit, % of full scale. The default is 2 %, the
+    /// accuracy of the sensor of Bicchi & Dario 1987.
+    pub left_out_percent: f64,
+    /// Condition number N_c of the normalised matrix. The default is 100, which makes 0.02 % of noise
+    /// 2 % of error.
+    pub condition_number: f64,
+    /// Error on loads left out over error on loads of the fit. The default is 3.
+    pub over_fitting: f64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { left_out_percent: 2.0, condition_number: 100.0, over_fitting: 3.0 }
+    }
+}

@@ -1,0 +1,263 @@
+//! A fitted sensor.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{Direction, Options, pairs};
+use crate::Axis;
+use crate::file::{CalibrationFile, Covariance, FileError, Provenance, SignalUnit};
+use crate::fit::Fit;
+use crate::linear::{Singular, pseudo_inverse};
+use crate::loads::LoadTable;
+
+/// A fitted sensor: what turns readings into loads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensorModel {
+    /// The components that it measures.
+    pub axes: Vec<Axis>,
+    /// Nominal loads \[N, N·m\].
+    pub nominal: Vec<f64>,
+    /// Unit of the readings.
+    pub signal_unit: SignalUnit,
+    /// Which way it was fitted.
+    pub direction: Direction,
+    /// Whether it has a constant.
+    pub bias: bool,
+    /// Whether it has quadratic terms.
+    pub quadratic: bool,
+    /// The fit, with loads in nominal loads. Rows of the coefficients are the regressors: loads or
+    /// signals, then pairs of signals, then the constant.
+    pub fit: Fit,
+}
+
+/// The regressors of one way to fit: samples × regressors.
+pub(crate) fn design(table: &LoadTable, options: &Options, nominal: &[f64]) -> DMatrix<f64> {
+    let linear = match options.direction {
+        Direction::SignalsFromLoads => normalised(&table.loads, nominal),
+        Direction::LoadsFromSignals => table.signals.clone(),
+    };
+    let (samples, k) = linear.shape();
+    let second = if options.quadratic { k * (k + 1) / 2 } else { 0 };
+    let mut design = linear.resize(samples, k + second + usize::from(options.bias), 1.0);
+    if options.quadratic {
+        for i in 0..samples {
+            let row: Vec<f64> = design.row(i).iter().take(k).copied().collect();
+            for (j, product) in pairs(&row).iter().enumerate() {
+                design[(i, k + j)] = *product;
+            }
+        }
+    }
+    design
+}
+
+/// What is regressed on the design: samples × responses.
+pub(crate) fn responses(table: &LoadTable, options: &Options, nominal: &[f64]) -> DMatrix<f64> {
+    match options.direction {
+        Direction::SignalsFromLoads => table.signals.clone(),
+        Direction::LoadsFromSignals => normalised(&table.loads, nominal),
+    }
+}
+
+/// Loads in nominal loads.
+pub(crate) fn normalised(loads: &DMatrix<f64>, nominal: &[f64]) -> DMatrix<f64> {
+    let mut loads = loads.clone();
+    for (mut column, nominal) in loads.column_iter_mut().zip(nominal) {
+        column /= *nominal;
+    }
+    loads
+}
+
+impl SensorModel {
+    /// How many gauges it has.
+    #[must_use]
+    pub fn gauges(&self) -> usize {
+        match self.direction {
+            Direction::SignalsFromLoads => self.fit.coefficients.ncols(),
+            Direction::LoadsFromSignals => {
+                let regressors = self.fit.coefficients.nrows() - usize::from(self.bias);
+                if self.quadratic {
+                    // k + k(k+1)/2 regressors: the k that gives them.
+                    (0..=regressors).find(|k| k + k * (k + 1) / 2 == regressors).unwrap_or(0)
+                } else {
+                    regressors
+                }
+            }
+        }
+    }
+
+    /// The loads \[N, N·m\] that readings tell of, by these coefficients: samples × axes. `None` if
+    /// the coefficients have deficient rank.
+    #[must_use]
+    pub fn loads_with(&self, coefficients: &DMatrix<f64>, signals: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+        let axes = self.axes.len();
+        let mut loads = match self.direction {
+            Direction::SignalsFromLoads => {
+                let matrix = coefficients.rows(0, axes).transpose();
+                let inverse = pseudo_inverse(&matrix)?;
+                let mut signals = signals.clone();
+                if self.bias {
+                    for mut row in signals.row_iter_mut() {
+                        row -= coefficients.row(axes);
+                    }
+                }
+                signals * inverse.transpose()
+            }
+            Direction::LoadsFromSignals => {
+                let (samples, gauges) = signals.shape();
+                let mut loads = signals * coefficients.rows(0, gauges);
+                if self.quadratic {
+                    let second = coefficients.rows(gauges, gauges * (gauges + 1) / 2);
+                    for i in 0..samples {
+                        let row: Vec<f64> = signals.row(i).iter().copied().collect();
+                        let mut target = loads.row_mut(i);
+                        target += pairs(&row).transpose() * second;
+                    }
+                }
+                if self.bias {
+                    let last = coefficients.nrows() - 1;
+                    for mut row in loads.row_iter_mut() {
+                        row += coefficients.row(last);
+                    }
+                }
+                loads
+            }
+        };
+        for (mut column, nominal) in loads.column_iter_mut().zip(&self.nominal) {
+            column *= *nominal;
+        }
+        Some(loads)
+    }
+
+    /// The loads \[N, N·m\] that readings tell of: samples × axes.
+    #[must_use]
+    pub fn loads(&self, signals: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+        self.loads_with(&self.fit.coefficients, signals)
+    }
+
+    /// The normalised sensor matrix, gauges × axes, and the readings without load.
+    ///
+    /// For a model of loads from signals the matrix is the pseudo-inverse of the fitted one, whose own
+    /// least-squares inverse is the fitted one again; the zero is the reading nearest to zero that gives no load,
+    /// and with quadratic terms the matrix is that of the readings less this zero.
+    ///
+    /// # Errors
+    /// [`FileError::Singular`] if the fitted matrix has deficient rank.
+    pub fn matrix_and_zero(&self) -> Result<(DMatrix<f64>, DVector<f64>), FileError> {
+        let theta = &self.fit.coefficients;
+        let (axes, gauges) = (self.axes.len(), self.gauges());
+        match self.direction {
+            Direction::SignalsFromLoads => {
+                let zero = if self.bias { theta.row(axes).transpose() } else { DVector::zeros(gauges) };
+                Ok((theta.rows(0, axes).transpose(), zero))
+            }
+            Direction::LoadsFromSignals => {
+                let mut inverse = theta.rows(0, gauges).transpose();
+                let constant =
+                    if self.bias { theta.row(theta.nrows() - 1).transpose() } else { DVector::zeros(axes) };
+                let mut zero = DVector::zeros(gauges);
+                // Newton steps of least norm; one is exact without quadratic terms.
+                for _ in 0..if self.quadratic { 50 } else { 1 } {
+                    inverse = theta.rows(0, gauges).transpose();
+                    let mut load = &inverse * &zero + &constant;
+                    if let Some(second) = self.second_order() {
+                        load += &second * pairs(zero.as_slice());
+                        inverse += slope(&second, &zero);
+                    }
+                    zero -= pseudo_inverse(&inverse).ok_or(FileError::Singular)? * load;
+                }
+                if let Some(second) = self.second_order() {
+                    inverse = theta.rows(0, gauges).transpose() + slope(&second, &zero);
+                }
+                Ok((pseudo_inverse(&inverse).ok_or(FileError::Singular)?, zero))
+            }
+        }
+    }
+
+    /// The quadratic terms, axes × pairs.
+    fn second_order(&self) -> Option<DMatrix<f64>> {
+        let gauges = self.gauges();
+        self.quadratic.then(|| self.fit.coefficients.rows(gauges, gauges * (gauges + 1) / 2).transpose())
+    }
+
+    /// Condition number N_c of the normalised matrix.
+    #[must_use]
+    pub fn condition_number(&self) -> f64 {
+        self.matrix_and_zero()
+            .ok()
+            .and_then(|(matrix, _)| Singular::new(&matrix))
+            .map_or(f64::INFINITY, |singular| singular.condition_number())
+    }
+
+    /// Covariance of the normalised matrix, carried over by `dC = −C dB C` (first order) for a model
+    /// of loads from signals.
+    #[must_use]
+    pub fn covariance(&self) -> Option<Covariance> {
+        let (axes, gauges) = (self.axes.len(), self.gauges());
+        match self.direction {
+            Direction::SignalsFromLoads => Some(Covariance {
+                signals: self.fit.residual_covariance.clone(),
+                loads: self.fit.inverse_gram.view((0, 0), (axes, axes)).into_owned(),
+            }),
+            Direction::LoadsFromSignals => {
+                let (matrix, _) = self.matrix_and_zero().ok()?;
+                let gram = self.fit.inverse_gram.view((0, 0), (gauges, gauges)).into_owned();
+                Some(Covariance {
+                    signals: &matrix * &self.fit.residual_covariance * matrix.transpose(),
+                    loads: matrix.transpose() * gram * &matrix,
+                })
+            }
+        }
+    }
+
+    /// Covariance of the load \[N, N·m\] that one reading tells of near a load: that of one reading
+    /// and that of the fit, `C⁺ Σ_V C⁺ᵀ (1 + xᵀG⁻¹x)` (theory 8). `None` if the matrix has deficient
+    /// rank.
+    #[must_use]
+    pub fn load_covariance(&self, load: &DVector<f64>) -> Option<DMatrix<f64>> {
+        let (matrix, _) = self.matrix_and_zero().ok()?;
+        let covariance = self.covariance()?;
+        let inverse = pseudo_inverse(&matrix)?;
+        let load = DVector::from_fn(load.len(), |i, _| load[i] / self.nominal[i]);
+        let spread = 1.0 + load.dot(&(&covariance.loads * &load));
+        let mut result = &inverse * covariance.signals * inverse.transpose() * spread;
+        for i in 0..self.nominal.len() {
+            for j in 0..self.nominal.len() {
+                result[(i, j)] *= self.nominal[i] * self.nominal[j];
+            }
+        }
+        Some(result)
+    }
+
+    /// As a calibration file, its quality unchecked.
+    ///
+    /// # Errors
+    /// [`FileError`] if the matrix has no inverse or a number is not finite.
+    pub fn to_file(&self, method: &str) -> Result<CalibrationFile, FileError> {
+        let (matrix, zero) = self.matrix_and_zero()?;
+        let mut file =
+            CalibrationFile::new(matrix, self.nominal.clone(), zero.as_slice().to_vec(), self.signal_unit)?;
+        file.axes.clone_from(&self.axes);
+        file.quadratic = self.second_order();
+        file.covariance = self.covariance();
+        file.provenance =
+            Provenance { method: method.to_owned(), tool: crate::TOOL.to_owned(), ..Provenance::default() };
+        file.validate()?;
+        Ok(file)
+    }
+}
+
+/// Derivative of the quadratic terms at a reading: axes × gauges.
+fn slope(second: &DMatrix<f64>, at: &DVector<f64>) -> DMatrix<f64> {
+    let gauges = at.len();
+    let mut slope = DMatrix::zeros(second.nrows(), gauges);
+    let mut column = 0;
+    for i in 0..gauges {
+        for j in i..gauges {
+            for axis in 0..second.nrows() {
+                slope[(axis, i)] += second[(axis, column)] * at[j];
+                slope[(axis, j)] += second[(axis, column)] * at[i];
+            }
+            column += 1;
+        }
+    }
+    slope
+}

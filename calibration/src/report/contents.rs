@@ -1,0 +1,293 @@
+//! What can be said of a calibration.
+
+use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
+
+use super::metrics::{AxisReport, LineReport, axis_reports, cross_talk, lines};
+use super::outliers::Outlier;
+use super::suspicion::{Suspicion, suspicions};
+use crate::file::{CalibrationFile, Verdict};
+use crate::linear::{Singular, pseudo_inverse};
+use crate::loads::LoadTable;
+use crate::model::{CalibrationError, Limits, Options, SensorModel};
+
+/// What can be said of a calibration: written to a terminal by `Display`, as HTML with plots by
+/// [`to_html`](Self::to_html), as JSON by [`to_json`](Self::to_json).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// How the calibration was fitted.
+    pub method: String,
+    /// Whether it can be trusted.
+    pub verdict: Verdict,
+    /// Why not.
+    pub reasons: Vec<String>,
+    /// What to mind although it can.
+    pub notes: Vec<String>,
+    /// How many samples and load cases stand behind it.
+    pub samples: usize,
+    /// How many load cases.
+    pub cases: usize,
+    /// Coefficients per gauge (or per axis, for loads from signals).
+    pub coefficients: usize,
+    /// Condition number N_c of the normalised sensor matrix; `None` if infinite.
+    pub condition_number: Option<f64>,
+    /// Errors axis by axis.
+    pub axes: Vec<AxisReport>,
+    /// Cross-talk, % of full scale: row = axis that reads falsely, column = axis loaded alone.
+    pub cross_talk_percent: Vec<Vec<Option<f64>>>,
+    /// Standard deviation of the entries of the normalised matrix, gauges × axes, in signals.
+    pub matrix_deviations: Option<Vec<Vec<f64>>>,
+    /// How well lines of action are found.
+    pub lines: Option<LineReport>,
+    /// Samples that were left out, and why.
+    pub excluded: Vec<Exclusion>,
+    /// Samples that do not fit the others but were kept.
+    pub outliers: Vec<Outlier>,
+    /// Cases without which the fit would not be determined, so that nothing can be said of their error.
+    pub needed_cases: Vec<String>,
+    /// Mistakes that would explain the errors.
+    pub suspicions: Vec<Suspicion>,
+    /// Every sample: what it was and what the sensor says.
+    pub details: Vec<SampleReport>,
+}
+
+/// A sample that was left out.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Exclusion {
+    /// What it is called.
+    pub sample: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// One sample, \[N, N·m\] in the order of the axes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SampleReport {
+    /// What it is called.
+    pub name: String,
+    /// The known load.
+    pub applied: Vec<f64>,
+    /// What the calibrated sensor says.
+    pub measured: Vec<f64>,
+    /// What it would say if calibrated without this load case.
+    pub left_out: Option<Vec<f64>>,
+}
+
+impl Report {
+    /// Of a fit, on the loads that it was fitted to.
+    pub(crate) fn of_fit(
+        table: &LoadTable,
+        model: &SensorModel,
+        options: &Options,
+        left_out: &[Option<Vec<f64>>],
+        excluded: Vec<Exclusion>,
+        outliers: Vec<Outlier>,
+    ) -> Result<Self, CalibrationError> {
+        let predicted = model.loads(&table.signals).ok_or(CalibrationError::Singular)?;
+        let mut report = Self::of_loads(table, &model.nominal, &predicted, Some(left_out));
+        report.method = describe(options);
+        report.coefficients = model.fit.coefficients.nrows();
+        report.condition_number = Some(model.condition_number()).filter(|number| number.is_finite());
+        report.excluded = excluded;
+        report.outliers = outliers;
+        report.lines = lines(table, &model.nominal, &predicted, |i| {
+            model.load_covariance(&DVector::from_iterator(
+                table.axes.len(),
+                table.loads.row(i).iter().copied(),
+            ))
+        });
+        if let Some(covariance) = model.load_covariance(&DVector::zeros(table.axes.len())) {
+            for (j, axis) in report.axes.iter_mut().enumerate() {
+                axis.deviation_percent = Some(100.0 * covariance[(j, j)].max(0.0).sqrt() / axis.full_scale);
+            }
+        }
+        report.matrix_deviations = model.covariance().map(|covariance| {
+            let entry =
+                |i: usize, j: usize| (covariance.signals[(i, i)] * covariance.loads[(j, j)]).max(0.0).sqrt();
+            (0..model.gauges()).map(|i| (0..table.axes.len()).map(|j| entry(i, j)).collect()).collect()
+        });
+        report.judge(&options.limits);
+        Ok(report)
+    }
+
+    /// Of a calibration on loads that it was not fitted to: the true test.
+    ///
+    /// The readings are used as they stand, less the file's zero; tare the table first
+    /// ([`LoadTable::tared_by_group`]) if the sensor was tared, and set the file's zero to zeros.
+    ///
+    /// # Errors
+    /// [`CalibrationError::BadOption`] if sensor and table have not the same gauges and axes,
+    /// [`CalibrationError::Loads`] for a bad table, [`CalibrationError::Singular`].
+    pub fn of_check(
+        file: &CalibrationFile,
+        table: &LoadTable,
+        limits: &Limits,
+    ) -> Result<Self, CalibrationError> {
+        table.validate()?;
+        if file.gauges() != table.gauges() || file.axes != table.axes {
+            return Err(CalibrationError::BadOption {
+                option: "table",
+                message: format!(
+                    "it has {} gauges and {} axes, the calibration {} and {}",
+                    table.gauges(),
+                    table.axes.len(),
+                    file.gauges(),
+                    file.axes.len()
+                ),
+            });
+        }
+        let mut excluded = Vec::new();
+        let mut kept = table.clone();
+        if let Some(range) = file.range {
+            let saturated = table.saturated(range);
+            for (sample, gauge) in &saturated {
+                let reason = format!("gauge {} saturated", gauge + 1);
+                excluded.push(Exclusion { sample: table.names[*sample].clone(), reason });
+            }
+            kept = table.select(|i| saturated.iter().all(|(sample, _)| *sample != i));
+            kept.validate()?;
+        }
+        let table = &kept;
+        let inverse = pseudo_inverse(&file.matrix).ok_or(CalibrationError::Singular)?;
+        let mut predicted = DMatrix::zeros(table.samples(), table.axes.len());
+        for i in 0..table.samples() {
+            let reading: Vec<f64> = table.signals.row(i).iter().copied().collect();
+            let load = file.load_with(&inverse, &reading).ok_or(CalibrationError::Singular)?;
+            predicted.set_row(i, &load.transpose());
+        }
+        let mut report = Self::of_loads(table, &file.nominal, &predicted, None);
+        report.method = format!("check of a calibration by {}", file.provenance.method);
+        report.excluded = excluded;
+        report.condition_number =
+            Singular::new(&file.matrix).map(|s| s.condition_number()).filter(|number| number.is_finite());
+        report.lines = lines(table, &file.nominal, &predicted, |_| None);
+        report.suspicions = suspicions(file, table, &predicted);
+        report.judge(limits);
+        if file.quality.verdict == Verdict::Bad {
+            report
+                .notes
+                .push(format!("the file itself is stamped as bad: {}", file.quality.reasons.join("; ")));
+        }
+        Ok(report)
+    }
+
+    /// What holds of any predictions.
+    fn of_loads(
+        table: &LoadTable,
+        full_scale: &[f64],
+        predicted: &DMatrix<f64>,
+        left_out: Option<&[Option<Vec<f64>>]>,
+    ) -> Self {
+        let mut cases = table.cases.clone();
+        cases.sort_unstable();
+        cases.dedup();
+        let row = |matrix: &DMatrix<f64>, i: usize| matrix.row(i).iter().copied().collect::<Vec<_>>();
+        let missing = |list: &[Option<Vec<f64>>]| {
+            (0..list.len()).filter(|i| list[*i].is_none()).map(|i| table.names[i].clone()).collect()
+        };
+        Self {
+            method: String::new(),
+            verdict: Verdict::Unchecked,
+            reasons: Vec::new(),
+            notes: Vec::new(),
+            samples: table.samples(),
+            cases: cases.len(),
+            coefficients: 0,
+            condition_number: None,
+            axes: axis_reports(table, full_scale, predicted, left_out),
+            cross_talk_percent: cross_talk(table, full_scale, predicted),
+            matrix_deviations: None,
+            lines: None,
+            excluded: Vec::new(),
+            outliers: Vec::new(),
+            needed_cases: left_out.map_or_else(Vec::new, missing),
+            suspicions: Vec::new(),
+            details: (0..table.samples())
+                .map(|i| SampleReport {
+                    name: table.names[i].clone(),
+                    applied: row(&table.loads, i),
+                    measured: row(predicted, i),
+                    left_out: left_out.and_then(|list| list[i].clone()),
+                })
+                .collect(),
+        }
+    }
+
+    /// Good or bad, and why.
+    fn judge(&mut self, limits: &Limits) {
+        for axis in &self.axes {
+            let (error, kind) = match axis.left_out_percent {
+                Some(error) => (error, "on loads left out of the fit"),
+                None => (axis.rms_percent, "on these loads"),
+            };
+            if !(error <= limits.left_out_percent) {
+                self.reasons.push(format!(
+                    "{}: {error:.2} % of full scale {kind}; {} % is allowed",
+                    axis.axis, limits.left_out_percent
+                ));
+            }
+            if let Some(left_out) = axis.left_out_percent
+                && left_out > limits.over_fitting * axis.rms_percent
+                // Below a tenth of what is allowed nobody minds.
+                && left_out > 0.1 * limits.left_out_percent
+            {
+                self.reasons.push(format!(
+                    "{}: over-fitted: {left_out:.2} % on loads left out of the fit, {:.2} % on those in it",
+                    axis.axis, axis.rms_percent
+                ));
+            }
+        }
+        match self.condition_number {
+            Some(number) if number <= limits.condition_number => {}
+            Some(number) => self.reasons.push(format!(
+                "ill-conditioned: N_c = {number:.0}; {:.0} is allowed",
+                limits.condition_number
+            )),
+            None => self.reasons.push("the sensor matrix is singular".to_owned()),
+        }
+        if !self.needed_cases.is_empty() {
+            self.reasons.push(format!(
+                "nothing checks {}: without it, the other loads do not determine the sensor",
+                self.needed_cases.join(", ")
+            ));
+        }
+        for outlier in &self.outliers {
+            self.notes.push(format!("{}: {outlier}", outlier.sample));
+        }
+        if !self.excluded.is_empty() {
+            self.notes.push(format!("{} samples were left out", self.excluded.len()));
+        }
+        for suspicion in &self.suspicions {
+            self.reasons.push(suspicion.to_string());
+        }
+        self.verdict = if self.reasons.is_empty() { Verdict::Good } else { Verdict::Bad };
+    }
+
+    /// As JSON.
+    ///
+    /// # Errors
+    /// Only if memory runs out; every number is finite or `null`.
+    pub fn to_json(&self) -> Result<String, serde_json::Error> {
+        serde_json::to_string_pretty(self)
+    }
+}
+
+fn describe(options: &Options) -> String {
+    use crate::model::Direction;
+    let mut text = options.method.name().to_owned();
+    text.push_str(match options.direction {
+        Direction::SignalsFromLoads => " of signals on loads",
+        Direction::LoadsFromSignals => " of loads on signals",
+    });
+    if options.quadratic {
+        text.push_str(", quadratic");
+    }
+    text.push_str(if options.bias { ", with bias" } else { ", without bias" });
+    if options.tare_groups {
+        text.push_str(", tared by group");
+    }
+    if options.reject_outliers {
+        text.push_str(", outliers rejected");
+    }
+    text
+}

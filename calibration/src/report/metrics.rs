@@ -1,0 +1,272 @@
+//! What is measured of a sensor, axis by axis (theory 8; terms of VDI/VDE 2638 and ISO 376, which
+//! know one axis only).
+
+use std::collections::BTreeMap;
+
+use nalgebra::{DMatrix, Vector3};
+use serde::Serialize;
+
+use crate::Axis;
+use crate::loads::LoadTable;
+
+/// Errors of one axis. Percentages are of full scale; `None` where the table of loads does not
+/// tell.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AxisReport {
+    /// Which axis.
+    pub axis: Axis,
+    /// Full scale \[N or N·m\].
+    pub full_scale: f64,
+    /// Root mean square of the error over all samples \[N or N·m\].
+    pub rms: f64,
+    /// The same, % of full scale.
+    pub rms_percent: f64,
+    /// Greatest error, % of full scale.
+    pub greatest_percent: f64,
+    /// Name of the sample with the greatest error.
+    pub greatest_at: String,
+    /// RMS of the error on loads left out of the fit, a case at a time.
+    pub left_out_percent: Option<f64>,
+    /// Greatest error on loads left out.
+    pub left_out_greatest_percent: Option<f64>,
+    /// Standard deviation of one reading, from the residuals and the covariance of the fit, at zero
+    /// load.
+    pub deviation_percent: Option<f64>,
+    /// Greatest deviation from the best line through zero.
+    pub linearity_percent: Option<f64>,
+    /// Greatest difference between rising and falling load.
+    pub hysteresis_percent: Option<f64>,
+    /// Pooled standard deviation of readings of the same load.
+    pub repeatability_percent: Option<f64>,
+    /// Greatest change of the reading without load after loading.
+    pub zero_return_percent: Option<f64>,
+    /// Greatest change of the reading while a load is held.
+    pub creep_percent: Option<f64>,
+}
+
+/// The same load in the same group.
+type Key = (usize, Vec<u64>);
+
+fn key(table: &LoadTable, sample: usize, group: usize) -> Key {
+    // Adding zero makes −0 and 0 the same bits.
+    (group, table.loads.row(sample).iter().map(|x| (x + 0.0).to_bits()).collect())
+}
+
+/// The errors of every axis; `predicted` is samples × axes.
+pub(crate) fn axis_reports(
+    table: &LoadTable,
+    full_scale: &[f64],
+    predicted: &DMatrix<f64>,
+    left_out: Option<&[Option<Vec<f64>>]>,
+) -> Vec<AxisReport> {
+    let error = predicted - &table.loads;
+    let rms = |values: &mut dyn Iterator<Item = f64>| {
+        let (sum, count) = values.fold((0.0, 0_u32), |(sum, count), x| (sum + x * x, count + 1));
+        (sum / f64::from(count.max(1))).sqrt()
+    };
+    let known: Option<Vec<&Vec<f64>>> = left_out.and_then(|list| list.iter().map(Option::as_ref).collect());
+    table
+        .axes
+        .iter()
+        .enumerate()
+        .map(|(j, axis)| {
+            let percent = |x: f64| 100.0 * x / full_scale[j];
+            let column: Vec<f64> = error.column(j).iter().copied().collect();
+            let worst =
+                (0..column.len()).max_by(|a, b| column[*a].abs().total_cmp(&column[*b].abs())).unwrap_or(0);
+            let out = known.as_ref().map(|known| {
+                known.iter().enumerate().map(|(i, load)| load[j] - table.loads[(i, j)]).collect::<Vec<_>>()
+            });
+            let one = rms(&mut column.iter().copied());
+            AxisReport {
+                axis: *axis,
+                full_scale: full_scale[j],
+                rms: one,
+                rms_percent: percent(one),
+                greatest_percent: percent(column[worst].abs()),
+                greatest_at: table.names[worst].clone(),
+                left_out_percent: out.as_ref().map(|out| percent(rms(&mut out.iter().copied()))),
+                left_out_greatest_percent: out
+                    .as_ref()
+                    .map(|out| percent(out.iter().fold(0.0, |most, x| most.max(x.abs())))),
+                deviation_percent: None,
+                linearity_percent: linearity(table, predicted, j).map(percent),
+                hysteresis_percent: hysteresis(table, full_scale, predicted, j).map(percent),
+                repeatability_percent: repeatability(table, predicted, j).map(percent),
+                zero_return_percent: zero_return(table, predicted, j).map(percent),
+                creep_percent: creep(table, predicted, j).map(percent),
+            }
+        })
+        .collect()
+}
+
+fn linearity(table: &LoadTable, predicted: &DMatrix<f64>, axis: usize) -> Option<f64> {
+    let pairs: Vec<(f64, f64)> = (0..table.samples())
+        .map(|i| (table.loads[(i, axis)], predicted[(i, axis)]))
+        .filter(|(load, _)| *load != 0.0)
+        .collect();
+    let mut distinct: Vec<f64> = pairs.iter().map(|(load, _)| *load).collect();
+    distinct.sort_by(f64::total_cmp);
+    distinct.dedup();
+    if distinct.len() < 2 {
+        return None;
+    }
+    let slope = pairs.iter().map(|(l, p)| l * p).sum::<f64>() / pairs.iter().map(|(l, _)| l * l).sum::<f64>();
+    Some(pairs.iter().map(|(l, p)| (p - slope * l).abs()).fold(0.0, f64::max))
+}
+
+fn hysteresis(table: &LoadTable, full_scale: &[f64], predicted: &DMatrix<f64>, axis: usize) -> Option<f64> {
+    let size = |i: usize| {
+        table.loads.row(i).iter().zip(full_scale).map(|(load, full)| (load / full).powi(2)).sum::<f64>()
+    };
+    // Sum and number of the readings with rising and with falling load.
+    let mut seen: BTreeMap<Key, [(f64, u32); 2]> = BTreeMap::new();
+    for i in 1..table.samples() {
+        if table.groups[i] != table.groups[i - 1] || size(i) <= 0.0 || size(i) == size(i - 1) {
+            continue;
+        }
+        let way = usize::from(size(i) < size(i - 1));
+        let entry = &mut seen.entry(key(table, i, table.groups[i])).or_default()[way];
+        *entry = (entry.0 + predicted[(i, axis)], entry.1 + 1);
+    }
+    let differences = seen.values().filter(|[up, down]| up.1 > 0 && down.1 > 0);
+    differences.map(|[up, down]| (up.0 / f64::from(up.1) - down.0 / f64::from(down.1)).abs()).reduce(f64::max)
+}
+
+fn repeatability(table: &LoadTable, predicted: &DMatrix<f64>, axis: usize) -> Option<f64> {
+    let mut seen: BTreeMap<Key, Vec<f64>> = BTreeMap::new();
+    for i in (0..table.samples()).filter(|i| table.loads.row(*i).amax() > 0.0) {
+        seen.entry(key(table, i, 0)).or_default().push(predicted[(i, axis)]);
+    }
+    let (mut squares, mut freedom) = (0.0, 0.0);
+    for values in seen.values().filter(|values| values.len() > 1) {
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        squares += values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>();
+        freedom += (values.len() - 1) as f64;
+    }
+    (freedom > 0.0).then(|| (squares / freedom).sqrt())
+}
+
+fn zero_return(table: &LoadTable, predicted: &DMatrix<f64>, axis: usize) -> Option<f64> {
+    let mut first: BTreeMap<usize, f64> = BTreeMap::new();
+    let mut greatest: Option<f64> = None;
+    for i in 0..table.samples() {
+        let unloaded = table.loads.row(i).amax() == 0.0;
+        let follows_load =
+            i > 0 && table.groups[i - 1] == table.groups[i] && table.loads.row(i - 1).amax() > 0.0;
+        match first.get(&table.groups[i]) {
+            None if unloaded => {
+                first.insert(table.groups[i], predicted[(i, axis)]);
+            }
+            Some(zero) if unloaded && follows_load => {
+                let change = (predicted[(i, axis)] - zero).abs();
+                greatest = Some(greatest.map_or(change, |most| most.max(change)));
+            }
+            _ => {}
+        }
+    }
+    greatest
+}
+
+fn creep(table: &LoadTable, predicted: &DMatrix<f64>, axis: usize) -> Option<f64> {
+    let times = table.times.as_ref()?;
+    let mut greatest: Option<f64> = None;
+    let mut start = 0;
+    for i in 1..table.samples() {
+        if table.groups[i] != table.groups[start] || table.loads.row(i) != table.loads.row(start) {
+            start = i;
+        } else if table.loads.row(i).amax() > 0.0 && times[i] > times[start] {
+            let change = (predicted[(i, axis)] - predicted[(start, axis)]).abs();
+            greatest = Some(greatest.map_or(change, |most| most.max(change)));
+        }
+    }
+    greatest
+}
+
+/// Cross-talk, % of full scale: row i, column j is the greatest false reading of axis i under loads
+/// of axis j alone; `None` where no load is of axis j alone.
+pub(crate) fn cross_talk(
+    table: &LoadTable,
+    full_scale: &[f64],
+    predicted: &DMatrix<f64>,
+) -> Vec<Vec<Option<f64>>> {
+    let axes = table.axes.len();
+    let mut result = vec![vec![None; axes]; axes];
+    for i in 0..table.samples() {
+        let share = |j: usize| (table.loads[(i, j)] / full_scale[j]).abs();
+        let Some(pure) = (0..axes).find(|j| share(*j) > 0.0) else { continue };
+        if (0..axes).any(|j| j != pure && share(j) > 1e-3 * share(pure)) {
+            continue;
+        }
+        for (axis, row) in result.iter_mut().enumerate().filter(|(axis, _)| *axis != pure) {
+            let error = 100.0 * (predicted[(i, axis)] - table.loads[(i, axis)]).abs() / full_scale[axis];
+            row[pure] = Some(row[pure].map_or(error, |most: f64| most.max(error)));
+        }
+    }
+    result
+}
+
+/// How well lines of action are found: what a calibration is worth for touch.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LineReport {
+    /// How many samples are pure forces on a known line.
+    pub lines: usize,
+    /// Median distance between the foot of the true line and the measured line \[mm\].
+    pub median_mm: f64,
+    /// Greatest such distance \[mm\].
+    pub greatest_mm: f64,
+    /// Median of the distance that the covariance of the fit makes one expect (root mean square
+    /// across the line) \[mm\].
+    pub expected_mm: Option<f64>,
+}
+
+/// Distances between true and measured lines of action, for samples that are pure forces of at least a
+/// fiftieth of full scale. `None` unless all six axes are there.
+pub(crate) fn lines(
+    table: &LoadTable,
+    full_scale: &[f64],
+    predicted: &DMatrix<f64>,
+    covariance: impl Fn(usize) -> Option<DMatrix<f64>>,
+) -> Option<LineReport> {
+    if table.axes != Axis::ALL {
+        return None;
+    }
+    let vector = |matrix: &DMatrix<f64>, i: usize, from: usize| {
+        Vector3::new(matrix[(i, from)], matrix[(i, from + 1)], matrix[(i, from + 2)])
+    };
+    let (mut distances, mut expected) = (Vec::new(), Vec::new());
+    for i in 0..table.samples() {
+        let (force, torque) = (vector(&table.loads, i, 0), vector(&table.loads, i, 3));
+        let large = (0..3).any(|j| (table.loads[(i, j)] / full_scale[j]).abs() >= 0.02);
+        if !large || force.dot(&torque).abs() > 1e-3 * force.norm() * torque.norm() {
+            continue;
+        }
+        let foot = force.cross(&torque) / force.norm_squared();
+        let (f, m) = (vector(predicted, i, 0), vector(predicted, i, 3));
+        let squared = f.norm_squared();
+        if !(squared > 0.0) {
+            continue;
+        }
+        // The foot of the true line lies off the measured line by |f × (m − r × f)| / |f|².
+        distances.push(1e3 * f.cross(&(m - foot.cross(&f))).norm() / squared);
+        if let Some(covariance) = covariance(i) {
+            let cross = f.cross_matrix() / squared;
+            let mut jacobian = DMatrix::zeros(3, 6);
+            jacobian.view_mut((0, 0), (3, 3)).copy_from(&(-cross * foot.cross_matrix()));
+            jacobian.view_mut((0, 3), (3, 3)).copy_from(&cross);
+            let spread = &jacobian * covariance * jacobian.transpose();
+            expected.push(1e3 * spread.trace().max(0.0).sqrt());
+        }
+    }
+    let median = |list: &mut Vec<f64>| {
+        list.sort_by(f64::total_cmp);
+        let n = list.len();
+        (n > 0).then(|| if n % 2 == 1 { list[n / 2] } else { 0.5 * (list[n / 2 - 1] + list[n / 2]) })
+    };
+    Some(LineReport {
+        lines: distances.len(),
+        median_mm: median(&mut distances)?,
+        greatest_mm: distances.last().copied()?,
+        expected_mm: median(&mut expected),
+    })
+}

@@ -1,0 +1,7 @@
+//! The recordings of others, where they are present: see `common` for where they are looked for.
+
+mod ati_files;
+mod certificates;
+mod common;
+mod fareke;
+mod optical_sensor;

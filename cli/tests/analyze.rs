@@ -1,0 +1,194 @@
+//! `fingertip analyze` on recordings whose answer is known, and on bad ones.
+
+mod common;
+
+use common::{Contacts, Folder};
+
+const SCENE: &str = "version = 1\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.01\n\
+                     [contact]\nleast_force_N = 0.5\n[friction]\nstatic_coefficient = 0.5\n\
+                     [slip]\ndetector = \"threshold\"\nnoise_N = 0.01\n";
+const HEADER: &str = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n";
+
+/// A push of 2 N on top of the sphere (z = 10 mm), with a tangential force along x.
+fn push(time: f64, tangential: f64) -> String {
+    format!("{time},{tangential},0,-2,0,{},0\n", 0.01 * tangential)
+}
+
+fn folder(rows: &str) -> Folder {
+    let folder = Folder::new();
+    folder.write("scene.toml", SCENE);
+    folder.write("touch.csv", &format!("{HEADER}{rows}"));
+    folder
+}
+
+const ANALYZE: [&str; 4] = ["analyze", "touch.csv", "--scene", "scene.toml"];
+
+fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    [&ANALYZE, more].concat()
+}
+
+#[test]
+fn every_outcome_has_its_word_and_every_contact_its_numbers() {
+    let rows = [
+        push(0.0, 0.0),
+        push(0.001, 0.6),
+        push(0.002, 1.2),
+        // Too weak, pulling beside the sphere, not a number.
+        "0.003,0,0,-0.4,0,0,0\n".to_owned(),
+        "0.004,0,0,-2,0.04,0,0\n".to_owned(),
+        "0.005,0,0,nan,0,0,0\n".to_owned(),
+    ];
+    let folder = folder(&rows.concat());
+    let summary = folder.succeed(&ANALYZE);
+    let contacts = Contacts::parse(&folder.read("contacts.csv"));
+    let expected = ["contact", "contact", "contact", "below_threshold", "misses", "unusable_row"];
+    assert_eq!(contacts.words("status"), expected);
+    assert_eq!(contacts.words("slip")[..3], ["holding", "holding", "slipping"]);
+    for (name, expected) in [
+        ("x_m", [0.0, 0.0, 0.0]),
+        ("z_m", [0.01; 3]),
+        ("nz", [1.0; 3]),
+        ("normal_N", [2.0; 3]),
+        ("tangential_N", [0.0, 0.6, 1.2]),
+        ("ratio", [0.0, 0.3, 0.6]),
+        // (μ f_n − |f_t|)/√(1 + μ²)
+        ("margin_N", [1.0, 0.4, -0.2].map(|x| x / 1.25_f64.sqrt())),
+        ("ty_Nm", [0.0, 0.006, 0.012]),
+    ] {
+        for (found, expected) in contacts.numbers(name).iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-7, "{name}: {found} for {expected}");
+        }
+    }
+    // The line of the fifth row passes at y = 20 mm, 10 mm beside the sphere.
+    assert!((contacts.numbers("gap_m")[4] - 0.01).abs() < 1e-8);
+    for expected in ["6 samples", "3 contacts", "One slip was seen", "misses the surface", "not finite"] {
+        assert!(summary.contains(expected), "{expected:?} is not in:\n{summary}");
+    }
+    let report = folder.read("report.html");
+    assert!(report.starts_with("<!doctype html>") && report.trim_end().ends_with("</html>"));
+    assert_eq!(report.matches("<svg viewBox").count(), report.matches("<figure>").count());
+    // Self-contained.
+    for outside in ["src=", "href=", "url(", "@import", "<script", "<link"] {
+        assert!(!report.contains(outside), "{outside}");
+    }
+    assert!(!report.contains("NaN") && !report.contains("inf"), "a number that is none in the report");
+}
+
+#[test]
+fn the_reaction_and_other_units_give_the_same_contacts() {
+    let folder = folder(&push(0.0, 0.6));
+    folder.succeed(&with(&["--no-report"]));
+    let expected = folder.read("contacts.csv");
+    folder.write("scene.toml", &SCENE.replace("on_fingertip", "reaction"));
+    folder.write(
+        "touch.csv",
+        "time_ms;finger Fx [mN];finger Fy [mN];finger Fz [mN];finger Tx [Nmm];finger Ty [Nmm];finger Tz [Nmm]\n0;-600;0;2000;0;-6;0\n",
+    );
+    folder.succeed(&with(&["--no-report"]));
+    let found = folder.read("contacts.csv");
+    // Signs of zeros differ.
+    assert_eq!(found.replace("-0.0,", "0.0,"), expected.replace("-0.0,", "0.0,"));
+    assert!(!folder.path("report.html").exists());
+}
+
+#[test]
+fn the_rest_is_taken_off_and_a_pose_moves_the_surface() {
+    let mut rows = String::new();
+    for i in 0..100 {
+        rows.push_str(&format!("{},0.3,0.1,-0.2,0.01,0.02,0.03\n", f64::from(i) * 0.001));
+    }
+    // The same push as above, at a sphere 5 mm higher, on top of the bias.
+    rows.push_str("0.1,0.9,0.1,-2.2,0.01,0.029,0.03\n");
+    let folder = folder(&rows);
+    let scene = SCENE.replace("[input]", "[pose]\ntranslation_m = [0.0, 0.0, 0.005]\n[input]\nrest_s = 0.1");
+    folder.write("scene.toml", &scene);
+    folder.succeed(&ANALYZE);
+    let contacts = Contacts::parse(&folder.read("contacts.csv"));
+    let status = contacts.words("status");
+    assert!(status[..100].iter().all(|word| *word == "rest"));
+    assert_eq!(status[100], "contact");
+    for (name, expected) in [("x_m", 0.0), ("z_m", 0.015), ("normal_N", 2.0), ("tangential_N", 0.6)] {
+        assert!((contacts.numbers(name)[100] - expected).abs() < 1e-7, "{name}");
+    }
+    folder.write("scene.toml", &scene.replace("rest_s = 0.1", "rest_s = 5"));
+    let error = folder.fail(1, &ANALYZE);
+    assert!(error.contains("5 s of rest") && error.contains("rest_s"), "{error}");
+}
+
+#[test]
+fn contacts_can_go_to_the_standard_output() {
+    let folder = folder(&push(0.0, 0.6));
+    let output = folder.run(&with(&["--output", "-", "--no-report"]));
+    assert!(output.status.success());
+    assert_eq!(Contacts::parse(core::str::from_utf8(&output.stdout).unwrap()).len(), 1);
+    assert!(String::from_utf8(output.stderr).unwrap().contains("1 contacts"));
+}
+
+#[test]
+fn bad_recordings_are_refused_in_one_sentence() {
+    let good = push(0.0, 0.0);
+    let cases = [
+        (String::new(), "is empty"),
+        (HEADER.to_owned(), "no rows"),
+        ("a,b\n1,2\n".to_owned(), "no column is a force"),
+        (format!("{}\n{good}", HEADER.replace("fx_N", "fx").trim()), "no unit"),
+        (format!("{HEADER}{good}0.001,x,0,0,0,0,0\n"), "line 3, column fx_N"),
+        (format!("{HEADER}{good}0.001,0,0\n"), "line 3: 3 cells"),
+        (format!("{}\n0,0,-2,0,0,0\n", "fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm"), "sample_rate_Hz"),
+        ("t_s,v1_V,v2_V,v3_V,v4_V,v5_V,v6_V\n0,1,2,3,4,5,6\n".to_owned(), "--calibration"),
+    ];
+    for (text, expected) in cases {
+        let folder = folder("");
+        folder.write("touch.csv", &text);
+        let error = folder.fail(1, &ANALYZE);
+        assert!(error.starts_with("error: ") && error.trim_end().lines().count() == 1, "{error}");
+        assert!(error.contains(expected) && error.contains("touch.csv"), "{expected:?} is not in {error}");
+    }
+}
+
+#[test]
+fn bad_paths_and_scenes_are_refused_in_one_sentence() {
+    let folder = folder(&push(0.0, 0.0));
+    folder.write("typo.toml", &SCENE.replace("radius_m", "radius_mm"));
+    folder.write("signless.toml", &SCENE.replace("convention = \"on_fingertip\"\n", ""));
+    folder.write("not.toml", "version = = 1");
+    folder.write("bad_calibration.toml", "version = 1\n");
+    let cases: [(&[&str], &str); 10] = [
+        (&["analyze", "none.csv", "--scene", "scene.toml"], "none.csv"),
+        (&["analyze", "touch.csv", "--scene", "none.toml"], "none.toml"),
+        (&["analyze", ".", "--scene", "scene.toml"], "recording"),
+        (&["analyze", "touch.csv", "--scene", "typo.toml"], "unknown field `radius_mm`"),
+        (&["analyze", "touch.csv", "--scene", "signless.toml"], "missing field `convention`"),
+        (&["analyze", "touch.csv", "--scene", "not.toml"], "not.toml, line 1"),
+        (&with(&["--output", "no/such/folder.csv"]), "no/such/folder.csv"),
+        (&with(&["--report", "no/such/report.html"]), "no/such/report.html"),
+        (&with(&["--output", "touch.csv"]), "would be overwritten"),
+        (&with(&["--calibration", "bad_calibration.toml"]), "bad_calibration.toml"),
+    ];
+    let recording = folder.read("touch.csv");
+    for (arguments, expected) in cases {
+        let error = folder.fail(1, arguments);
+        assert!(error.starts_with("error: ") && error.trim_end().lines().count() == 1, "{error}");
+        assert!(error.contains(expected), "{expected:?} is not in {error}");
+    }
+    assert_eq!(folder.read("touch.csv"), recording, "the recording was touched");
+}
+
+#[test]
+fn wrong_usage_is_told_apart() {
+    let folder = Folder::new();
+    for arguments in [
+        &[][..],
+        &["analyse"],
+        &["analyze"],
+        &["analyze", "touch.csv"],
+        &["analyze", "touch.csv", "--scene", "scene.toml", "--speed", "9"],
+        &["analyze", "touch.csv", "--scene", "s.toml", "--report", "r.html", "--no-report"],
+        &["demo", "--seed", "many"],
+    ] {
+        let error = folder.fail(2, arguments);
+        assert!(error.contains("--help"), "{error}");
+    }
+    assert!(folder.succeed(&["--help"]).contains("analyze"));
+    assert!(folder.succeed(&["--version"]).contains(env!("CARGO_PKG_VERSION")));
+}

@@ -1,0 +1,94 @@
+//! `fingertip demo`, and its volts through `fingertip analyze`.
+
+mod common;
+
+use common::{Contacts, Folder, scene};
+use fingertip_drivers::simulation::{Options, SimulatedFingertip, standard_session};
+
+#[test]
+fn the_demo_needs_nothing_and_finds_what_happened() {
+    let folder = Folder::new();
+    for seed in ["1", "2", "3"] {
+        let text = folder.succeed(&["demo", "--seed", seed]);
+        assert!(
+            text.contains("All 8 slips were found within 20 ms, with no false alarm."),
+            "seed {seed}:\n{text}"
+        );
+        let row = |load: &str| -> Vec<f64> {
+            let line = text.lines().find(|line| line.trim_start().starts_with(load)).unwrap();
+            line.split_whitespace().map(|cell| cell.parse().unwrap()).collect()
+        };
+        // Force error [%] and position error [mm]: the paper has about 2 %, 0.2 mm at 1 N, less than
+        // 0.1 mm at 10 N, and less than 1 mm over its range.
+        for (load, force_error, position_error) in
+            [("0.100 ", 15.0, 1.0), ("1.00 ", 4.0, 0.3), ("10.0 ", 3.0, 0.1), ("30.0 ", 3.0, 0.1)]
+        {
+            let row = row(load);
+            assert!(row[1] < force_error && row[2] < position_error, "seed {seed}: {row:?}");
+        }
+    }
+    let report = folder.read("report.html");
+    assert!(report.contains("Position error against load") && report.contains("prefers-color-scheme: dark"));
+    assert!(!report.contains("NaN"));
+}
+
+#[test]
+fn the_same_seed_gives_the_same_report() {
+    let folder = Folder::new();
+    let report = |seed: &str, name: &str| {
+        folder.succeed(&["demo", "--seed", seed, "--out", name]);
+        folder.read(name)
+    };
+    assert_eq!(report("7", "a.html"), report("7", "b.html"));
+    assert_ne!(report("8", "c.html"), folder.read("a.html"));
+}
+
+#[test]
+fn its_volts_analyzed_give_the_true_contacts() {
+    let folder = Folder::new();
+    folder.succeed(&["demo", "--recording", "volts.csv", "--calibration", "calibration.toml"]);
+    let paper = scene("paper_sphere.toml");
+    let analyze = ["analyze", "volts.csv", "--scene", &paper, "--calibration", "calibration.toml"];
+    let summary = folder.succeed(&analyze);
+    assert!(summary.contains("8 slips were seen"), "{summary}");
+
+    let contacts = Contacts::parse(&folder.read("contacts.csv"));
+    let truth: Vec<_> = SimulatedFingertip::new(&standard_session(), Options::default()).unwrap().collect();
+    assert_eq!(contacts.len(), truth.len());
+    let status = contacts.words("status");
+    let [normal, x, y, z] = ["normal_N", "x_m", "y_m", "z_m"].map(|name| contacts.numbers(name));
+    let mut compared = 0;
+    for (row, sample) in truth.iter().enumerate() {
+        if sample.truth.phase == 0 {
+            assert_eq!(status[row], "rest");
+            continue;
+        }
+        // Where the load is well above the noise, every sample is a contact near the true point.
+        let Some(contact) = sample.truth.contact.filter(|contact| contact.force.norm() > 2.0) else {
+            continue;
+        };
+        assert_eq!(status[row], "contact", "row {row}");
+        let error =
+            (contact.point.x - x[row]).hypot(contact.point.y - y[row]).hypot(contact.point.z - z[row]);
+        assert!(error < 1e-3, "row {row}: {error}");
+        assert!((normal[row] / contact.contact_force().normal - 1.0).abs() < 0.1, "row {row}");
+        compared += 1;
+    }
+    assert!(compared > 5000, "{compared}");
+
+    // A gauge at the end of its range is no reading.
+    let volts = folder.read("volts.csv");
+    let line = volts.lines().nth(5000).unwrap();
+    let mut cells: Vec<&str> = line.split(',').collect();
+    cells[3] = "0.0";
+    folder.write("volts.csv", &volts.replacen(line, &cells.join(","), 1));
+    folder.succeed(&analyze);
+    let status = folder.read("contacts.csv").lines().nth(5000).unwrap().split(',').nth(1).map(str::to_owned);
+    assert_eq!(status.as_deref(), Some("saturated"));
+
+    // A damaged calibration is refused.
+    let calibration = folder.read("calibration.toml");
+    folder.write("calibration.toml", &calibration.replacen("30.0", "31.0", 1));
+    let error = folder.fail(1, &analyze);
+    assert!(error.contains("calibration.toml") && error.contains("checksum"), "{error}");
+}
