@@ -4,6 +4,7 @@
 mod analyze;
 mod args;
 mod demo;
+mod design;
 mod error;
 mod observe;
 mod report;
@@ -23,6 +24,7 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Analyze(arguments) => analyze::run(&arguments),
+        Command::Design(arguments) => design::run(&arguments),
     };
     match done {
         // Whoever reads our output may stop when they have seen enough.
