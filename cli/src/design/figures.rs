@@ -65,12 +65,13 @@ fn landscape(outcome: &Outcome, axes: [usize; 2]) -> Result<Figure, DesignError>
         values: &values,
         marks: &marks,
     });
-    let caption = if parameters.len() == 2 {
-        "The cross is the best design.".to_owned()
-    } else {
-        "The other parameters are those of the best design, the red cross; black crosses are other local minima, which \
-         lie elsewhere in those."
-            .to_owned()
+    let caption = match (parameters.len() > 2, marks.len() > 1) {
+        (false, _) => "The red cross is the best design.",
+        (true, false) => "The red cross is the best design; the other parameters are held at it.",
+        (true, true) => {
+            "The red cross is the best design; the other parameters are held at it. The others are further local minima, \
+             which lie elsewhere in those."
+        }
     };
-    Ok(Figure { title, svg, keys, caption })
+    Ok(Figure { title, svg, keys, caption: caption.to_owned() })
 }

@@ -8,11 +8,11 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
+use fingertip::surfaces::Sphere;
 use fingertip_calibration::design::{
-    Accuracy, Assessment, DesignError, Findings as Found, LayoutFile, MatrixUsed, Placement, Progress, Search,
+    Accuracy, Assessment, DesignError, Findings as Found, LayoutFile, LoadedTube, MatrixUsed, Placement, Progress, Search,
     ToleranceReport, Touch, Touches, Trial, TubeLayout, TubeStrength, search, tolerance,
 };
-use fingertip::surfaces::Sphere;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::DesignArguments;
@@ -84,7 +84,7 @@ fn design(arguments: &DesignArguments) -> Result<Outcome, DesignError> {
     }
     let best = found.best().ok_or(DesignError::Singular { reason: "no start gave a sensor" })?;
     let layout = task.space.layout(&best.values)?;
-    let tube = fingertip_calibration::design::LoadedTube { radius: layout.beam.radius, ..task.tube };
+    let tube = LoadedTube { radius: layout.beam.radius, ..task.tube };
     let file = LayoutFile::new(&layout, &tube, task.excitation)?;
     let strength = tube.strength(layout.beam.thickness)?;
     let placement = Placement {

@@ -9,6 +9,8 @@ use crate::args::{CriterionName, DesignArguments, LayoutFamily};
 
 /// Angles of gauges that the search may use \[°\]: none along the axis, none where axial strain is nil.
 const ANGLES: (f64, f64) = (1.0, 59.0);
+/// Part of the clamped length that gauges may use: near the clamp the strain is not that of a beam.
+const USABLE: f64 = 0.8;
 /// Part of the fingertip that is touched, from its pole \[°\].
 const HALF_ANGLE: f64 = 90.0;
 
@@ -105,11 +107,11 @@ impl Task {
         let paper =
             TubeSpace::bicchi_dario(around(radius), degrees(ANGLES), around(distance), here, wall)?;
         let paper = paper.layout(&[radius, 14_f64.to_radians(), distance])?;
-        if distance <= self.tube.length {
+        if distance <= USABLE * self.tube.length {
             compared.push(("paper's gauges on this tube".to_owned(), self.assess(&paper)?));
         }
         if self.family != LayoutFamily::Rosettes {
-            let z = (0.0, self.tube.length);
+            let z = (0.0, USABLE * self.tube.length);
             let rosettes =
                 TubeSpace::rosettes(3, self.radius, degrees(ANGLES), z, self.tube, self.wall)?;
             let how = Search { starts: 10, seed: self.seed, ..Search::default() };
@@ -134,7 +136,7 @@ fn space(
     tube: LoadedTube,
     wall: Wall,
 ) -> Result<TubeSpace, DesignError> {
-    let (count, length) = (arguments.gauges, tube.length);
+    let (count, length) = (arguments.gauges, USABLE * tube.length);
     let wrong = |expected| DesignError::WrongCount { what: "gauges", found: count, expected };
     match arguments.layout {
         LayoutFamily::Paper if count != 6 => Err(wrong(6)),

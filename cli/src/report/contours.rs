@@ -59,6 +59,7 @@ pub(crate) fn draw(contours: &Contours<'_>) -> (String, Vec<(&'static str, Strin
         svg.curve(class, placed.iter().map(<[_; 2]>::as_slice));
         keys.push((class, short(level * least)));
     }
+    svg.end_clip();
     for (rank, mark) in marks.iter().enumerate() {
         let (mark_x, mark_y) = place(*mark);
         let size = if rank == 0 { 6.0 } else { 4.0 };
@@ -66,7 +67,6 @@ pub(crate) fn draw(contours: &Contours<'_>) -> (String, Vec<(&'static str, Strin
         svg.line(class, (mark_x - size, mark_y), (mark_x + size, mark_y));
         svg.line(class, (mark_x, mark_y - size), (mark_x, mark_y + size));
     }
-    svg.end_clip();
     (svg.finish(), keys)
 }
 
