@@ -9,8 +9,8 @@ use fingertip::Fingertip;
 use fingertip::surfaces::{PointContact, Sphere};
 use fingertip::wrench::{DummyGaugeAccumulator, GaussianElimination};
 use fingertip_calibration::design::{
-    Assessment, ContactWeight, Criterion, Excitation, LayoutFile, LoadedTube, Material, MatrixUsed, NominalLoads,
-    Placement, Search, Touch, Trial, TubeSpace, Wall, search,
+    Assessment, ContactWeight, Criterion, Excitation, LayoutFile, LoadedTube, Material, MatrixUsed,
+    NominalLoads, Placement, Search, Touch, Trial, TubeSpace, Wall, search,
 };
 use fingertip_drivers::simulation::{
     Design, Options, SessionReport, SessionScore, SimulatedFingertip, standard_session,
@@ -33,9 +33,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     let found = search(&space, &criterion, &loads, &Search::default(), &|_| ())?;
     let best = found.best().ok_or("no design")?;
     let layout = space.layout(&best.values)?;
-    println!("Best of {} local minima, reached from {:.0} % of the starts:", found.minima.len(), best.share * 100.0);
+    println!(
+        "Best of {} local minima, reached from {:.0} % of the starts:",
+        found.minima.len(),
+        best.share * 100.0
+    );
     for (parameter, value) in ["R", "Q", "Z"].iter().zip(&best.values) {
-        let shown = if *parameter == "Q" { format!("{:.2}°", value.to_degrees()) } else { format!("{:.2} mm", value * 1e3) };
+        let shown = if *parameter == "Q" {
+            format!("{:.2}°", value.to_degrees())
+        } else {
+            format!("{:.2} mm", value * 1e3)
+        };
         println!("  {parameter} = {shown}");
     }
 
@@ -94,7 +102,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// The standard session through the pipeline.
 fn play(design: Design) -> Result<SessionReport, Box<dyn Error>> {
-    let mut simulated = SimulatedFingertip::new(&standard_session(), Options { design, ..Options::default() })?;
+    let mut simulated =
+        SimulatedFingertip::new(&standard_session(), Options { design, ..Options::default() })?;
     let mut score = SessionScore::new(&simulated);
     let mut zero = DummyGaugeAccumulator::default();
     let first = loop {

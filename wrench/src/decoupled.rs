@@ -87,7 +87,9 @@ impl<T: Real, K: Combination<N>, const N: usize> Decoupled<T, K, N> {
             _ => NotDecoupled::OutOfRange,
         })?;
         let factors = GaussianElimination::new(&kept).map_err(|error| match error {
-            SingularMatrix::DependentGauge { gauge, .. } => NotDecoupled::BlindCombination { combination: gauge },
+            SingularMatrix::DependentGauge { gauge, .. } => {
+                NotDecoupled::BlindCombination { combination: gauge }
+            }
             SingularMatrix::OutOfRange => NotDecoupled::OutOfRange,
         })?;
         let normalised = factors.gain(&kept);
@@ -100,7 +102,8 @@ impl<T: Real, K: Combination<N>, const N: usize> Decoupled<T, K, N> {
             }
         }
         let mut solver = Self { inverse, neglected: Matrix6::zeros(), combination: PhantomData };
-        solver.neglected = matrix_residual(&Matrix6::identity(), &solver.gain(sensor), sensor.normalised()).abs();
+        solver.neglected =
+            matrix_residual(&Matrix6::identity(), &solver.gain(sensor), sensor.normalised()).abs();
         if !solver.inverse.iter().flatten().all(|x| x.is_number()) {
             return Err(NotDecoupled::OutOfRange);
         }

@@ -195,9 +195,8 @@ impl<T: Real> LinearSolver<T, 6> for GaussianElimination<T> {
             })
         });
         let backward = defect.abs() + counted;
-        let of_rows = Matrix6::from_fn(|i, k| {
-            magnitude[(i, row(k))] / (scaled.column[i] * self.rows[k][k].abs())
-        });
+        let of_rows =
+            Matrix6::from_fn(|i, k| magnitude[(i, row(k))] / (scaled.column[i] * self.rows[k][k].abs()));
         let of_scaled = of_rows * backward;
         let per_load = Matrix6::from_fn(|i, j| of_scaled[(i, j)] * scaled.column[i] / scaled.column[j])
             + Matrix6::identity() * relative_rounding::<T>(1);

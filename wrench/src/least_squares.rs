@@ -3,9 +3,9 @@
 use nalgebra::{Matrix6, SMatrix, SVector};
 use thiserror::Error;
 
-use crate::rounding::relative_rounding;
 use crate::compensated::matrix_residual;
 use crate::orthogonal::{DependentColumn, Orthogonal};
+use crate::rounding::relative_rounding;
 use crate::{LinearSolver, OwnError, Real, SensorMatrix, Wrench, WrenchSolver};
 
 /// The solver for extended sensors (N > 6 gauges; 6 work too): least squares, weighted or not.
@@ -64,7 +64,10 @@ impl<T: Real, const N: usize> LeastSquares<T, N> {
     ///
     /// # Errors
     /// [`LeastSquaresError`].
-    pub fn weighted(sensor: &SensorMatrix<T, N>, deviations: &SVector<T, N>) -> Result<Self, LeastSquaresError> {
+    pub fn weighted(
+        sensor: &SensorMatrix<T, N>,
+        deviations: &SVector<T, N>,
+    ) -> Result<Self, LeastSquaresError> {
         if let Some(gauge) = deviations.iter().position(|x| !(*x > T::zero() && x.is_number())) {
             return Err(LeastSquaresError::BadDeviation { gauge });
         }

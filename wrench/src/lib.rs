@@ -4,15 +4,15 @@
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!("fingertip-wrench needs one of the features `std` and `libm` for its square root");
 
+mod channels;
 mod combination;
 mod compensated;
 mod compensation;
 mod conditioning;
-mod contact_force;
-mod covariance;
-mod channels;
 mod consistency;
+mod contact_force;
 mod contact_frame;
+mod covariance;
 mod decoupled;
 mod dummy_gauge;
 mod equilibration;

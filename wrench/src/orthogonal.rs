@@ -35,7 +35,8 @@ impl<T: Real, const N: usize> Orthogonal<T, N> {
         let mut q_transposed = SMatrix::<T, N, N>::identity();
         let least = T::EPSILON * T::literal(8.0 * N as f64);
         for k in 0..6.min(N) {
-            let left = |a: &SMatrix<T, N, 6>, j: usize| (k..N).fold(T::zero(), |sum, i| sum + a[(i, j)] * a[(i, j)]);
+            let left =
+                |a: &SMatrix<T, N, 6>, j: usize| (k..N).fold(T::zero(), |sum, i| sum + a[(i, j)] * a[(i, j)]);
             let largest = (k..6).fold(k, |best, j| if left(&a, j) > left(&a, best) { j } else { best });
             a.swap_columns(k, largest);
             column_order.swap(k, largest);
@@ -76,8 +77,8 @@ impl<T: Real, const N: usize> Orthogonal<T, N> {
                 pseudo_inverse[(axis, row_order[gauge])] = x[k] * column_scale[axis];
             }
             for other in 0..N {
-                complement[(row_order[gauge], row_order[other])] =
-                    (6..N).fold(T::zero(), |sum, z| sum + q_transposed[(z, gauge)] * q_transposed[(z, other)]);
+                complement[(row_order[gauge], row_order[other])] = (6..N)
+                    .fold(T::zero(), |sum, z| sum + q_transposed[(z, gauge)] * q_transposed[(z, other)]);
             }
         }
         Ok(Self { pseudo_inverse, complement })

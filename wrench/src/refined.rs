@@ -6,8 +6,8 @@ use crate::compensated;
 use crate::equilibration::Equilibrated;
 use crate::rounding::relative_rounding;
 use crate::{
-    GaussianElimination, LinearSolver, OwnError, Real, SensorMatrix, SensorMatrixError, SingularMatrix, Wrench,
-    WrenchSolver,
+    GaussianElimination, LinearSolver, OwnError, Real, SensorMatrix, SensorMatrixError, SingularMatrix,
+    Wrench, WrenchSolver,
 };
 
 /// [`GaussianElimination`] with iterative refinement: the answer is the true one to the last digit
@@ -114,8 +114,9 @@ impl<T: Real> LinearSolver<T, 6> for Refined<T> {
         let ratio = self.equilibrated.nominal().component_div(sensor.nominal());
         let per_load = Matrix6::from_fn(|i, j| error[(i, j)] * ratio[i] / ratio[j])
             + identity * relative_rounding::<T>(1);
-        let magnitude =
-            Matrix6::from_fn(|axis, gauge| one_solve.magnitude[(axis, gauge)] * self.row[gauge] * ratio[axis]);
+        let magnitude = Matrix6::from_fn(|axis, gauge| {
+            one_solve.magnitude[(axis, gauge)] * self.row[gauge] * ratio[axis]
+        });
         OwnError { per_load, per_signal: Matrix6::zeros(), magnitude }
     }
 }

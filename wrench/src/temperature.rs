@@ -86,7 +86,8 @@ impl<T: Real, const N: usize, const TERMS: usize> TemperatureCompensation<T, N, 
             if !coefficients.all(|term| term[gauge].is_number()) {
                 return Err(BadTemperatureModel::NotFinite { gauge });
             }
-            let most = sensitivity.iter().rev().fold(T::zero(), |sum, term| (sum + term[gauge].abs()) * farthest);
+            let most =
+                sensitivity.iter().rev().fold(T::zero(), |sum, term| (sum + term[gauge].abs()) * farthest);
             if !(most < T::one()) {
                 return Err(BadTemperatureModel::SensitivityVanishes { gauge });
             }
@@ -102,7 +103,9 @@ impl<T: Real, const N: usize, const TERMS: usize> TemperatureCompensation<T, N, 
     }
 }
 
-impl<T: Real, const N: usize, const TERMS: usize> Compensation<T, N> for TemperatureCompensation<T, N, TERMS> {
+impl<T: Real, const N: usize, const TERMS: usize> Compensation<T, N>
+    for TemperatureCompensation<T, N, TERMS>
+{
     type Raw = GaugesAndTemperature<T, N>;
 
     /// A temperature that is NaN gives signals that are NaN, like a gauge that is.
@@ -119,7 +122,8 @@ impl<T: Real, const N: usize, const TERMS: usize> Compensation<T, N> for Tempera
         };
         let warmer = held - self.reference;
         let zero = self.zero.iter().rev().fold(SVector::zeros(), |sum, term| sum * warmer + term);
-        let gained = self.sensitivity.iter().rev().fold(SVector::<T, N>::zeros(), |sum, term| (sum + term) * warmer);
+        let gained =
+            self.sensitivity.iter().rev().fold(SVector::<T, N>::zeros(), |sum, term| (sum + term) * warmer);
         (raw.gauges - zero).component_div(&gained.add_scalar(T::one()))
     }
 }

@@ -3,8 +3,8 @@
 mod support;
 
 use fingertip_wrench::{
-    BicchiDario, Combination, Conditioning, Decoupled, ErrorBound, FourRosettes, GaussianElimination, Inverse,
-    LeastSquares, LinearSolver, Real, Refined, SensorMatrix, ThreeRosettes, Uncertainty, Wrench,
+    BicchiDario, Combination, Conditioning, Decoupled, ErrorBound, FourRosettes, GaussianElimination,
+    Inverse, LeastSquares, LinearSolver, Real, Refined, SensorMatrix, ThreeRosettes, Uncertainty, Wrench,
     WrenchCovariance,
 };
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
@@ -219,7 +219,8 @@ fn equation_14_holds() {
                 along = right.column(5).into_owned();
                 load = if trial % 4 == 0 { along } else { (along + load * 0.3).normalize() };
             }
-            let truth = matrix - across * along.transpose() * (matrix_error * conditioning.singular_values[0]);
+            let truth =
+                matrix - across * along.transpose() * (matrix_error * conditioning.singular_values[0]);
             let signals = matrix * load;
             let deviation = across * (signal_error * signals.norm());
             let perturbed = SensorMatrix::new(truth, *sensor.nominal()).expect("proper");

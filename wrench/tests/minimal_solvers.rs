@@ -3,7 +3,8 @@
 mod support;
 
 use fingertip_wrench::{
-    GaussianElimination, Inverse, Real, Refined, SensorMatrix, SensorMatrixError, SingularMatrix, WrenchSolver,
+    GaussianElimination, Inverse, Real, Refined, SensorMatrix, SensorMatrixError, SingularMatrix,
+    WrenchSolver,
 };
 use nalgebra::{Matrix6, Vector6};
 use rand::RngExt;
@@ -106,11 +107,9 @@ fn singular_is_refused<T: Real>() {
 
 fn assert_names<T: Real>(matrix: &Matrix6<T>, candidates: &[usize]) {
     let sensor = SensorMatrix::new(*matrix, Vector6::repeat(T::one())).expect("no gauge is dead");
-    for error in [
-        GaussianElimination::new(&sensor).err(),
-        Inverse::new(&sensor).err(),
-        Refined::new(&sensor).err(),
-    ] {
+    for error in
+        [GaussianElimination::new(&sensor).err(), Inverse::new(&sensor).err(), Refined::new(&sensor).err()]
+    {
         let Some(SingularMatrix::DependentGauge { gauge, pivot }) = error else {
             panic!("not refused: {error:?}: {matrix}");
         };

@@ -23,7 +23,8 @@ const ZERO: f64 = 1e-10;
 struct Candidate {
     factors: Vec<i8>,
     combined: Vector6<f64>,
-    terms: u32,
+    /// Sum of the factors' sizes.
+    size: f64,
 }
 
 impl Decoupling {
@@ -31,7 +32,7 @@ impl Decoupling {
     /// more than eight channels, or is not a finite matrix of six columns.
     ///
     /// Of several, the one with the fewest couplings is taken, then the one with the best signal to
-    /// noise, then the sparsest.
+    /// noise, then the one with the smallest factors.
     #[must_use]
     pub fn find(normalised: &DMatrix<f64>) -> Option<Self> {
         let channels = normalised.nrows();
@@ -124,11 +125,10 @@ fn candidates(normalised: &DMatrix<f64>, sizes: &[f64], greatest: i8) -> Vec<Can
         let first = factors.iter().find(|factor| **factor != 0);
         if first.is_some_and(|factor| *factor > 0) {
             let mut combined = Vector6::zeros();
-            let (mut terms, mut size) = (0, 0.0);
+            let mut size = 0.0;
             for (row, factor) in rows.iter().zip(&factors) {
                 if *factor != 0 {
                     combined += row * f64::from(*factor);
-                    terms += 1;
                     size += f64::from(factor.abs());
                 }
             }
@@ -138,7 +138,7 @@ fn candidates(normalised: &DMatrix<f64>, sizes: &[f64], greatest: i8) -> Vec<Can
                 }
             });
             if combined.iter().any(|x| *x == 0.0) && combined.iter().any(|x| *x != 0.0) {
-                found.push(Candidate { factors: factors.clone(), combined, terms });
+                found.push(Candidate { factors: factors.clone(), combined, size });
             }
         }
         // Count up, as an odometer does.
@@ -152,21 +152,21 @@ fn candidates(normalised: &DMatrix<f64>, sizes: &[f64], greatest: i8) -> Vec<Can
 
 /// The best combination that tells one more load from those not known.
 fn next(candidates: &[Candidate], known: [bool; 6]) -> Option<(usize, &Candidate)> {
-    let mut best: Option<(usize, &Candidate, (usize, f64, u32))> = None;
+    let mut best: Option<(usize, &Candidate, (usize, f64, f64))> = None;
     for candidate in candidates {
         let mut unknown = (0..6).filter(|axis| candidate.combined[*axis] != 0.0 && !known[*axis]);
         let (Some(axis), None) = (unknown.next(), unknown.next()) else { continue };
         let couplings = candidate.combined.iter().filter(|x| **x != 0.0).count();
         let noise = candidate.factors.iter().map(|factor| f64::from(*factor).powi(2)).sum::<f64>().sqrt();
         let signal = candidate.combined[axis].abs() / noise;
-        let better = best.as_ref().is_none_or(|(_, _, (fewest, largest, sparsest))| {
+        let better = best.as_ref().is_none_or(|(_, _, (fewest, largest, smallest))| {
             couplings < *fewest
                 || couplings == *fewest
                     && (signal > largest * (1.0 + 1e-9)
-                        || signal > largest * (1.0 - 1e-9) && candidate.terms < *sparsest)
+                        || signal > largest * (1.0 - 1e-9) && candidate.size < *smallest)
         });
         if better {
-            best = Some((axis, candidate, (couplings, signal, candidate.terms)));
+            best = Some((axis, candidate, (couplings, signal, candidate.size)));
         }
     }
     best.map(|(axis, candidate, _)| (axis, candidate))
@@ -209,6 +209,7 @@ mod tests {
         for count in [3, 4] {
             let found = check(&matrix(&rosettes(count), &[8e-3, 0.3, 0.0]));
             assert_eq!(found.couplings(), 0, "{count}");
+            assert!(found.rows[3].iter().all(|factor| factor.abs() == 1));
             let source = found.rust_source("Designed");
             assert!(source.contains(&format!("Combination<{}>", 2 * count)));
             assert_eq!(source.matches("true").count(), 6);

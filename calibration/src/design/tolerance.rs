@@ -1,11 +1,12 @@
 //! What becomes of a design when it is not made exactly as drawn.
 
-use nalgebra::{DMatrix, Vector6};
+use fingertip_wrench::Wrench;
+use nalgebra::{DMatrix, Matrix3x6, Matrix6, Vector6};
 use rand::SeedableRng as _;
 use rand_distr::{Distribution as _, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
-use super::{Assessment, ContactWeight, DesignError, NominalLoads, TubeLayout, TubeTheory};
+use super::{Assessment, ContactWeight, DesignError, NominalLoads, Touch, TubeLayout, TubeTheory};
 
 /// How well gauges can be placed: the standard deviations of normally distributed errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,9 +78,8 @@ pub struct ToleranceReport {
 
 /// Makes `sensors` sensors with placement errors and judges them. Deterministic by seed.
 ///
-/// `weight` is for wrenches in N and N·m. Without calibration the wrench found is `(C₀⁺C)w`, so the
-/// error of each component is linear in the load; averaged over the touches' own wrenches, whose
-/// second moment is `moment` (N, N·m), it is weighted as noise would be.
+/// Without calibration the wrench found is `C₀⁺C w`, with `C` as made and `C₀` as designed: its error is
+/// linear in the load, and so is that of the contact point, to first order.
 ///
 /// # Errors
 /// As [`TubeLayout::validate`]; [`DesignError::OutOfRange`] for a bad tolerance,
@@ -89,7 +89,7 @@ pub fn tolerance(
     layout: &TubeLayout,
     loads: &NominalLoads,
     placement: Placement,
-    touches: Option<&Touches<'_>>,
+    touches: Option<&Touches>,
     sensors: usize,
     seed: u64,
 ) -> Result<ToleranceReport, DesignError> {
@@ -116,12 +116,12 @@ pub fn tolerance(
         conditions.push(found.condition_number);
         calibrated.extend(found.contact_error);
         if let Some(touches) = touches {
-            let wrong = &inverse * &made;
-            uncalibrated.push(touches.error_of(|wrench| {
-                let load = wrench.component_div(&nominal);
-                let taken = &wrong * nalgebra::DVector::from_column_slice(load.as_slice());
-                (Vector6::from_fn(|i, _| taken[i]) - load).component_mul(&nominal)
-            }));
+            let taken = &inverse * &made;
+            let error = Matrix6::from_fn(|i, j| {
+                let exact = if i == j { 1.0 } else { 0.0 };
+                nominal[i] * (taken[(i, j)] - exact) / nominal[j]
+            });
+            uncalibrated.push(touches.error_of(&error));
         }
     }
     Ok(ToleranceReport {
@@ -132,17 +132,20 @@ pub fn tolerance(
 }
 
 /// Touches, and what they add up to.
-#[derive(Clone, Copy, Debug)]
-pub struct Touches<'a> {
-    list: &'a [super::Touch],
+#[derive(Clone, Debug)]
+pub struct Touches {
+    /// Wrench of each touch, and how its point moves with the wrench.
+    list: Vec<(Vector6<f64>, Matrix3x6<f64>)>,
     weight: ContactWeight,
 }
 
-impl<'a> Touches<'a> {
+impl Touches {
     /// # Errors
     /// As [`ContactWeight::over`].
-    pub fn new(list: &'a [super::Touch]) -> Result<Self, DesignError> {
-        Ok(Self { list, weight: ContactWeight::over(list.iter().copied())? })
+    pub fn new(touches: &[Touch]) -> Result<Self, DesignError> {
+        let weight = ContactWeight::over(touches.iter().copied())?;
+        let wrench = |touch: &Touch| Wrench::<f64>::from_force_at(&touch.point, touch.force).components();
+        Ok(Self { list: touches.iter().map(|touch| (wrench(touch), touch.jacobian())).collect(), weight })
     }
 
     /// Their weight, for wrenches in N and N·m.
@@ -152,19 +155,11 @@ impl<'a> Touches<'a> {
     }
 
     /// Root mean square of the first-order position error \[m\] over the touches, when the error of
-    /// the wrench is this function of the wrench.
-    fn error_of(&self, error: impl Fn(&Vector6<f64>) -> Vector6<f64>) -> f64 {
-        let sum: f64 = self
-            .list
-            .iter()
-            .map(|touch| {
-                let torque = touch.point.cross(&touch.force);
-                let mut wrench = Vector6::zeros();
-                wrench.fixed_rows_mut::<3>(0).copy_from(&touch.force);
-                wrench.fixed_rows_mut::<3>(3).copy_from(&torque);
-                (touch.jacobian() * error(&wrench)).norm_squared()
-            })
-            .sum();
-        (sum / self.list.len() as f64).sqrt()
+    /// the wrench is this matrix times the wrench.
+    fn error_of(&self, error: &Matrix6<f64>) -> f64 {
+        let square = |(wrench, jacobian): &(Vector6<f64>, Matrix3x6<f64>)| {
+            (jacobian * (error * wrench)).norm_squared()
+        };
+        (self.list.iter().map(square).sum::<f64>() / self.list.len() as f64).sqrt()
     }
 }

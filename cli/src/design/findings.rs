@@ -39,9 +39,19 @@ pub(super) fn of(outcome: &Outcome) -> Findings {
         _ => "No small combination of the signals separates the loads: solve by elimination.".to_owned(),
     });
     let mut findings = Findings {
-        title: format!("A sensor for {} N and {} N·m", short(task.tube.loads.force[0]), short(task.tube.loads.torque[0])),
+        title: format!(
+            "A sensor for {} N and {} N·m",
+            short(task.tube.loads.force[0]),
+            short(task.tube.loads.torque[0])
+        ),
         lead,
-        tables: vec![gauges(outcome), accuracy(outcome), comparison(outcome), tolerances(outcome), strengths(outcome)],
+        tables: vec![
+            gauges(outcome),
+            accuracy(outcome),
+            comparison(outcome),
+            tolerances(outcome),
+            strengths(outcome),
+        ],
         notes: notes(outcome),
     };
     findings.tables.insert(1, minima(outcome));
@@ -90,7 +100,12 @@ fn minima(outcome: &Outcome) -> Table {
         let share = format!("{:.0} %", minimum.share * 100.0);
         let mut row = vec![format!("{rank}"), shown(outcome, minimum.criterion), share];
         if few {
-            row.extend(parameters.iter().zip(&minimum.values).map(|(p, value)| format!("{:.2}", p.display(*value) + 0.0)));
+            row.extend(
+                parameters
+                    .iter()
+                    .zip(&minimum.values)
+                    .map(|(p, value)| format!("{:.2}", p.display(*value) + 0.0)),
+            );
         }
         table.rows.push(row);
     }
@@ -111,8 +126,10 @@ fn sensitivities(outcome: &Outcome) -> Option<Table> {
 }
 
 fn accuracy(outcome: &Outcome) -> Table {
-    let mut table =
-        Table::new("Accuracy to expect", ["", "at / N", "contact rms / mm", "95 % / mm", "force rms / %", "missed / %"]);
+    let mut table = Table::new(
+        "Accuracy to expect",
+        ["", "at / N", "contact rms / mm", "95 % / mm", "force rms / %", "missed / %"],
+    );
     for (name, force, accuracy) in &outcome.trials {
         table.row([
             (*name).to_owned(),
@@ -203,7 +220,9 @@ fn notes(outcome: &Outcome) -> Vec<String> {
             number(layout.beam.thickness * 1e3)
         ));
     }
-    if let Some((distance, first, second)) = layout.closest_gauges().filter(|(distance, _, _)| *distance < 3e-3) {
+    if let Some((distance, first, second)) =
+        layout.closest_gauges().filter(|(distance, _, _)| *distance < 3e-3)
+    {
         notes.push(format!(
             "Gauges {} and {} are {} mm apart from centre to centre: check that their carriers fit",
             first + 1,

@@ -10,8 +10,8 @@ use std::path::Path;
 
 use fingertip::surfaces::Sphere;
 use fingertip_calibration::design::{
-    Accuracy, Assessment, DesignError, Findings as Found, LayoutFile, LoadedTube, MatrixUsed, Placement, Progress, Search,
-    ToleranceReport, Touch, Touches, Trial, TubeLayout, TubeStrength, search, tolerance,
+    Accuracy, Assessment, DesignError, Findings as Found, LayoutFile, LoadedTube, MatrixUsed, Placement,
+    Progress, Search, ToleranceReport, Touch, Touches, Trial, TubeLayout, TubeStrength, search, tolerance,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -23,7 +23,7 @@ use task::Task;
 /// Sensors that are made to see what placement errors do.
 const SENSORS: usize = 200;
 /// Sensors of a trial, each touched all over.
-const TRIAL_SENSORS: usize = 20;
+const TRIAL_SENSORS: usize = 10;
 /// Loads of the simulated calibration, and how well they are known.
 const CALIBRATION_LOADS: usize = 100;
 const LOAD_ERROR: f64 = 2e-3;

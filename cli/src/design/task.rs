@@ -1,8 +1,8 @@
 //! What is asked for, in the words of the library.
 
 use fingertip_calibration::design::{
-    Assessment, ContactWeight, Criterion, DesignError, Excitation, LoadedTube, NominalLoads, Search, TubeLayout,
-    TubeSpace, Wall, search,
+    Assessment, ContactWeight, Criterion, DesignError, Excitation, LoadedTube, NominalLoads, Search,
+    TubeLayout, TubeSpace, Wall, search,
 };
 
 use crate::args::{CriterionName, DesignArguments, LayoutFamily};
@@ -104,21 +104,23 @@ impl Task {
         // The paper's own proportions, Q = 14° and d = 2R, on the same tube.
         let distance = 2.0 * radius;
         let around = |value: f64| (0.5 * value, 2.0 * value);
-        let paper =
-            TubeSpace::bicchi_dario(around(radius), degrees(ANGLES), around(distance), here, wall)?;
+        let paper = TubeSpace::bicchi_dario(around(radius), degrees(ANGLES), around(distance), here, wall)?;
         let paper = paper.layout(&[radius, 14_f64.to_radians(), distance])?;
         if distance <= USABLE * self.tube.length {
             compared.push(("paper's gauges on this tube".to_owned(), self.assess(&paper)?));
         }
         if self.family != LayoutFamily::Rosettes {
             let z = (0.0, USABLE * self.tube.length);
-            let rosettes =
-                TubeSpace::rosettes(3, self.radius, degrees(ANGLES), z, self.tube, self.wall)?;
+            let rosettes = TubeSpace::rosettes(3, self.radius, degrees(ANGLES), z, self.tube, self.wall)?;
             let how = Search { starts: 10, seed: self.seed, ..Search::default() };
             let found = search(&rosettes, &self.criterion, &self.tube.loads, &how, &|_| ())?;
             if let Some(best) = found.best() {
                 let layout = rosettes.layout(&best.values)?;
-                let name = format!("three pairs at ±{:.1}°, R {:.1} mm", best.values[1].to_degrees(), best.values[0] * 1e3);
+                let name = format!(
+                    "three pairs at ±{:.1}°, R {:.1} mm",
+                    best.values[1].to_degrees(),
+                    best.values[0] * 1e3
+                );
                 compared.push((name, self.assess(&layout)?));
             }
         }
