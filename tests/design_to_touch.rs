@@ -1,5 +1,6 @@
 //! A designed sensor, loaded from its file into the simulated fingertip and the solvers, against the
 //! paper's: the whole chain from gauges to contact points.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, which may fail so")]
 
 use fingertip::Fingertip;
 use fingertip::surfaces::PointContact;

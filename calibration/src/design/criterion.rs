@@ -7,6 +7,7 @@ use super::ContactWeight;
 /// What the optimiser minimises. All criteria are functions of `A = CᵀC`, with `C` the sensor
 /// matrix normalised by the nominal loads, and all are positive and smaller for a better sensor.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "there is one for a whole search")]
 pub enum Criterion {
     /// `N_c = σ_max/σ_min` (Bicchi & Dario 1987): how much relative errors of signals and matrix can
     /// grow. Indifferent to the size of the strains.

@@ -71,7 +71,7 @@ impl Stewart {
         DesignError::check_positive("platform radius", self.platform_radius)?;
         DesignError::check_positive("height", self.height)?;
         for value in [self.base_half_angle, self.platform_half_angle] {
-            if !(value >= 0.0 && value <= FRAC_PI_3) {
+            if !(0.0..=FRAC_PI_3).contains(&value) {
                 let requirement = "between 0 and 60°";
                 return Err(DesignError::OutOfRange { quantity: "half angle of a pair", value, requirement });
             }
