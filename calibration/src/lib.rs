@@ -1,13 +1,21 @@
 #![doc = include_str!("../README.md")]
 
+extern crate alloc;
+
 mod axis;
 pub mod design;
+pub mod experiment;
 pub mod file;
 pub mod fit;
+pub mod geometry;
+pub mod gravity;
+pub mod in_situ;
 pub mod linear;
 pub mod loads;
 pub mod model;
+pub mod motion;
 pub mod report;
+pub mod tare;
 pub mod units;
 
 pub use axis::Axis;

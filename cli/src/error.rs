@@ -54,6 +54,15 @@ pub(crate) enum CliError {
     /// The calibration cannot be used.
     #[error("calibration {path}: {message}", path = .path.display())]
     Calibration { path: PathBuf, message: String },
+    /// A table of loads, of poses or of rest cannot be used.
+    #[error("{path}: {message}", path = .path.display())]
+    Calibrate { path: PathBuf, message: String },
+    /// A calibration that was checked is wrong.
+    #[error(
+        "the calibration {calibration} does not hold on {loads}: {reason}",
+        calibration = .calibration.display(), loads = .loads.display()
+    )]
+    DoesNotHold { calibration: PathBuf, loads: PathBuf, reason: String },
     /// The simulated fingertip or a stage of the demo could not be built.
     #[error("the demo cannot run: {message}")]
     Demo { message: String },

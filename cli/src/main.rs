@@ -3,6 +3,7 @@
 
 mod analyze;
 mod args;
+mod calibrate;
 mod demo;
 mod design;
 mod error;
@@ -25,6 +26,9 @@ fn main() -> ExitCode {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Analyze(arguments) => analyze::run(&arguments),
         Command::Design(arguments) => design::run(&arguments),
+        Command::Calibrate(arguments) => calibrate::calibrate(&arguments),
+        Command::Check(arguments) => calibrate::check(&arguments),
+        Command::Tare(arguments) => calibrate::tare(&arguments),
     };
     match done {
         // Whoever reads our output may stop when they have seen enough.

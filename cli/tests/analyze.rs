@@ -75,6 +75,23 @@ fn every_outcome_has_its_word_and_every_contact_its_numbers() {
 }
 
 #[test]
+fn a_recording_without_a_contact_still_has_its_report() {
+    for (shape, rows) in [
+        ("sphere\"\nradius_m = 0.01", 1),
+        ("cylinder\"\nradius_m = 0.01\nhalf_length_m = 0.02", 3),
+        ("plane\"", 3),
+    ] {
+        let weak: String = (0..rows).map(|i| format!("{i},0,0,-0.1,0,0,0\n")).collect();
+        let folder = folder(&weak);
+        folder.write("scene.toml", &SCENE.replace("sphere\"\nradius_m = 0.01", shape));
+        let summary = folder.succeed(&ANALYZE);
+        assert!(summary.contains("0 contacts") && summary.contains("No slip was seen"), "{summary}");
+        let report = folder.read("report.html");
+        assert!(!report.contains("NaN") && !report.contains("inf"), "{shape}");
+    }
+}
+
+#[test]
 fn the_reaction_and_other_units_give_the_same_contacts() {
     let folder = folder(&push(0.0, 0.6));
     folder.succeed(&with(&["--no-report"]));

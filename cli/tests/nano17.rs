@@ -28,8 +28,8 @@ fn fingers_on_a_cylinder_are_found_on_their_pads() {
     let Some(recording) = recording() else { return };
     let recording = recording.display().to_string();
     let folder = Folder::new();
-    // Median friction ratio and greatest |angle| of nine in ten contacts, for thumb and ring finger,
-    // computed from the same rows by an independent script with the author's formulas.
+    // Median friction ratio and number of samples above 1 N for thumb and ring finger, computed from
+    // the same rows by an independent script with the author's formulas.
     for (sensor, ratio_expected, samples_expected) in [("S1", 0.245, 1287), ("S2", 0.169, 1302)] {
         let scene = scene("nano17_cylinder.toml");
         folder.succeed(&["analyze", &recording, "--scene", &scene, "--sensor", sensor]);

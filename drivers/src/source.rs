@@ -17,6 +17,8 @@ pub enum SourceErrorKind {
     Corrupt,
     /// The device says that its reading is beyond its range.
     Overload,
+    /// The device reports a fault of its own.
+    DeviceFault,
     /// The device or file does not have what is asked of it.
     Unsupported,
     /// Anything else.

@@ -9,7 +9,8 @@ use fingertip::wrench::{
     Compensation, DummyGauge, DummyGaugeAccumulator, GaussianElimination, Tare, WrenchSolver,
 };
 use fingertip_drivers::simulation::{
-    LevelScore, Options, SessionReport, SessionScore, SimulatedFingertip, SimulatedSample, standard_session,
+    Imperfections, LevelScore, Options, SessionReport, SessionScore, SimulatedFingertip, SimulatedSample,
+    ThermalDrift, standard_session,
 };
 use nalgebra::Vector3;
 
@@ -136,7 +137,7 @@ fn every_slip_is_found_within_20_ms_and_none_is_invented() {
 #[test]
 fn without_the_dummy_gauge_the_warming_spoils_small_forces() {
     // A sensor as drawn, so that the temperature alone makes the difference.
-    let imperfections = fingertip_drivers::simulation::Imperfections::none();
+    let imperfections = Imperfections::none();
     let options = Options { seed: 4, imperfections, ..Options::default() };
     let with = run(options, |rest| rest.zero, SimulatedSample::reading);
     let without = run(options, |rest| rest.tare, |sample| sample.reading().gauges);
@@ -147,9 +148,11 @@ fn without_the_dummy_gauge_the_warming_spoils_small_forces() {
 
 #[test]
 fn a_sensor_without_flaws_is_exact_to_the_bridge() {
-    let mut options = Options::default();
-    options.imperfections = fingertip_drivers::simulation::Imperfections::none();
-    options.thermal_drift = fingertip_drivers::simulation::ThermalDrift::none();
+    let mut options = Options {
+        imperfections: Imperfections::none(),
+        thermal_drift: ThermalDrift::none(),
+        ..Options::default()
+    };
     options.electronics.input_noise = 0.0;
     options.electronics.bits = 24;
     let fingertip = SimulatedFingertip::new(&standard_session(), options).unwrap();

@@ -32,8 +32,11 @@ pub fn leave_out(
     members.sort_unstable();
     let k = design.ncols();
     let alike = fit.trust.column_iter().all(|column| column == fit.trust.column(0));
-    let responses_together =
-        if alike { vec![0..responses.ncols()] } else { (0..responses.ncols()).map(|j| j..j + 1).collect() };
+    let responses_together: Vec<core::ops::Range<usize>> = if alike {
+        core::iter::once(0..responses.ncols()).collect()
+    } else {
+        (0..responses.ncols()).map(|j| j..j + 1).collect()
+    };
     // One factorisation where all responses trust the same samples, one each where they differ.
     let mut roots = Vec::new();
     for range in &responses_together {

@@ -9,6 +9,7 @@ mod leave_out;
 mod ransac;
 mod regression;
 mod ridge;
+mod temperature;
 #[cfg(test)]
 pub(crate) mod testing;
 mod total;
@@ -20,4 +21,5 @@ pub use leave_out::leave_out;
 pub use ransac::{Ransac, ransac};
 pub use regression::{Fit, FitError, least_squares};
 pub use ridge::ridge;
+pub use temperature::{TemperatureFit, fit_temperature};
 pub use total::total_least_squares;

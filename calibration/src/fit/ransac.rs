@@ -1,6 +1,6 @@
 //! Least squares of the largest set of samples that agree.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64Mcg;
 
@@ -39,7 +39,7 @@ impl Ransac {
     }
 }
 
-/// Draws as many samples as there are regressors, counts which others agree within the thresholds
+/// Draws as many (linearly independent) samples as there are regressors, counts which others agree within the thresholds
 /// in every response, and fits least squares to the largest set that agrees (Fischler & Bolles
 /// 1981). Samples outside get trust 0.
 ///
@@ -67,17 +67,19 @@ pub fn ransac(
             .collect()
     };
     let mut random = Pcg64Mcg::seed_from_u64(options.seed);
+    let mut equilibrated = design.clone();
+    for mut column in equilibrated.column_iter_mut() {
+        let norm = column.norm();
+        if norm > 0.0 {
+            column /= norm;
+        }
+    }
     let mut indices: Vec<usize> = (0..samples).collect();
     let mut best: Vec<usize> = Vec::new();
     for _ in 0..options.draws(size) {
-        // The first steps of a Fisher-Yates shuffle: a draw without repetition.
-        for k in 0..size {
-            let other = random.random_range(k..samples);
-            indices.swap(k, other);
-        }
-        let drawn = &indices[..size];
-        let Some(inverse) = design.select_rows(drawn).full_piv_lu().try_inverse() else { continue };
-        let set = agreeing(&(inverse * responses.select_rows(drawn)));
+        let Some(drawn) = draw_independent(&equilibrated, &mut indices, &mut random) else { break };
+        let Some(inverse) = design.select_rows(&drawn).full_piv_lu().try_inverse() else { continue };
+        let set = agreeing(&(inverse * responses.select_rows(&drawn)));
         if set.len() > best.len() {
             best = set;
         }
@@ -105,6 +107,39 @@ pub fn ransac(
         fit.trust.row_mut(i).fill(1.0);
     }
     Ok(fit)
+}
+
+/// As many samples as regressors, drawn at random but linearly independent: loads of a rig come in few
+/// directions, and most draws without this would be singular. `None` if there are not as many.
+fn draw_independent(
+    design: &DMatrix<f64>,
+    indices: &mut [usize],
+    random: &mut Pcg64Mcg,
+) -> Option<Vec<usize>> {
+    let size = design.ncols();
+    let mut drawn = Vec::with_capacity(size);
+    let mut basis: Vec<DVector<f64>> = Vec::with_capacity(size);
+    // A Fisher-Yates shuffle, stopped when enough samples are drawn.
+    for k in 0..indices.len() {
+        let other = random.random_range(k..indices.len());
+        indices.swap(k, other);
+        let row: DVector<f64> = design.row(indices[k]).transpose();
+        let length = row.norm();
+        let mut rest = row;
+        for direction in &basis {
+            let along = rest.dot(direction);
+            rest -= direction * along;
+        }
+        let left = rest.norm();
+        if left > 1e-3 * length {
+            basis.push(rest / left);
+            drawn.push(indices[k]);
+            if drawn.len() == size {
+                return Some(drawn);
+            }
+        }
+    }
+    None
 }
 
 fn fit_to(

@@ -115,6 +115,51 @@ impl LoadTable {
     }
 }
 
+/// Reads the signals alone of a CSV with the header of [`LoadTable::from_csv`]: samples × gauges, and
+/// their unit. Columns of loads are ignored.
+///
+/// # Errors
+/// [`LoadError`], naming line and column.
+pub fn signals_from_csv(reader: impl Read) -> Result<(DMatrix<f64>, SignalUnit), LoadError> {
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(reader);
+    let bad = |line: u64, column: &str, message: String| LoadError::BadText {
+        line,
+        column: column.to_owned(),
+        message,
+    };
+    let header = reader.headers().map_err(|error| bad(1, "", error.to_string()))?.clone();
+    let mut columns = Vec::new();
+    for name in &header {
+        // A load in an unknown unit does not matter here.
+        columns.push(match parse_name(name) {
+            Ok(Column::Load(..)) => Column::Ignored,
+            Ok(column) => column,
+            Err(_) if name.starts_with(['f', 't', 'm', 'F', 'T', 'M']) => Column::Ignored,
+            Err(message) => return Err(bad(1, name, message)),
+        });
+    }
+    let (_, gauges, unit) = signal_layout(&columns).map_err(|(column, message)| bad(1, &column, message))?;
+    let mut signals = Vec::new();
+    let mut samples = 0;
+    for record in reader.records() {
+        let record = record
+            .map_err(|error| bad(error.position().map_or(0, csv::Position::line), "", error.to_string()))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let start = signals.len();
+        signals.resize(start + gauges, 0.0);
+        for ((column, name), text) in columns.iter().zip(&header).zip(&record) {
+            if let Column::Signal(gauge, _, size) = *column {
+                let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
+                let number =
+                    number.ok_or_else(|| bad(line, name, format!("{text:?} is not a finite number")))?;
+                signals[start + gauge] = number * size;
+            }
+        }
+        samples += 1;
+    }
+    Ok((DMatrix::from_row_slice(samples, gauges, &signals), unit))
+}
+
 fn parse_name(name: &str) -> Result<Column, String> {
     match name {
         "case" | "level" => return Ok(Column::Case),
@@ -154,8 +199,19 @@ fn parse_name(name: &str) -> Result<Column, String> {
     Ok(Column::Signal(number - 1, unit, size))
 }
 
+type Layout = Result<(Vec<Axis>, usize, SignalUnit), (String, String)>;
+
 /// Axes in order, number of gauges, unit; or the column that is wrong and why.
-fn layout(columns: &[Column]) -> Result<(Vec<Axis>, usize, SignalUnit), (String, String)> {
+fn layout(columns: &[Column]) -> Layout {
+    let found = signal_layout(columns)?;
+    if found.0.is_empty() {
+        return Err(("fx_N".to_owned(), "there is no column of loads".to_owned()));
+    }
+    Ok(found)
+}
+
+/// As [`layout`], whether or not there are loads.
+fn signal_layout(columns: &[Column]) -> Layout {
     let mut axes = Vec::new();
     let mut gauges = Vec::new();
     let mut unit = None;
@@ -184,7 +240,6 @@ fn layout(columns: &[Column]) -> Result<(Vec<Axis>, usize, SignalUnit), (String,
     }
     match unit {
         None => Err(("v1_V".to_owned(), "there is no column of signals".to_owned())),
-        Some(_) if axes.is_empty() => Err(("fx_N".to_owned(), "there is no column of loads".to_owned())),
         Some(unit) => Ok((axes, gauges.len(), unit)),
     }
 }

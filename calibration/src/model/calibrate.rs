@@ -327,8 +327,8 @@ fn left_out_loads(
 fn overall(table: &LoadTable, nominal: &[f64], predicted: impl Fn(usize, usize) -> f64) -> f64 {
     let mut sum = 0.0;
     for i in 0..table.samples() {
-        for j in 0..table.axes.len() {
-            sum += ((predicted(i, j) - table.loads[(i, j)]) / nominal[j]).powi(2);
+        for (j, full_scale) in nominal.iter().enumerate() {
+            sum += ((predicted(i, j) - table.loads[(i, j)]) / full_scale).powi(2);
         }
     }
     100.0 * (sum / (table.samples() * table.axes.len()) as f64).sqrt()

@@ -1,7 +1,7 @@
 //! What is measured of a sensor, axis by axis (theory 8; terms of VDI/VDE 2638 and ISO 376, which
 //! know one axis only).
 
-use std::collections::BTreeMap;
+use alloc::collections::BTreeMap;
 
 use nalgebra::{DMatrix, Vector3};
 use serde::Serialize;

@@ -1,6 +1,7 @@
 //! What a calibration is worth.
 
 mod contents;
+mod html;
 mod metrics;
 mod outliers;
 mod suspicion;

@@ -16,11 +16,12 @@ use crate::loads::LoadTable;
 pub struct Suspicion {
     /// What seems to be wrong.
     pub mistake: Mistake,
-    /// RMS error over all axes as things are, % of full scale, the worst fifth of the samples left
-    /// aside (an outlier shall not hide a mistake).
+    /// RMS error over all axes as things are, % of full scale.
     pub before_percent: f64,
     /// The same with the mistake mended.
     pub after_percent: f64,
+    /// Whether both are without the worst fifth of the samples, where outliers would hide the mistake.
+    pub outliers_aside: bool,
 }
 
 /// What people get wrong.
@@ -91,8 +92,10 @@ impl fmt::Display for Suspicion {
         }
         write!(
             formatter,
-            " ({:.2} % of full scale as it is, {:.2} % if mended)",
-            self.before_percent, self.after_percent
+            " ({:.2} % of full scale as it is, {:.2} % if mended{})",
+            self.before_percent,
+            self.after_percent,
+            if self.outliers_aside { ", outliers aside" } else { "" }
         )
     }
 }
@@ -123,19 +126,28 @@ pub(crate) fn suspicions(
     predicted: &DMatrix<f64>,
 ) -> Vec<Suspicion> {
     let full_scale = &file.nominal;
-    let error = |loads: &DMatrix<f64>| {
+    // Over all samples, and without the worst fifth.
+    let errors = |loads: &DMatrix<f64>| {
         let difference = crate::model::normalised(&(loads - &table.loads), full_scale);
         let mut squares: Vec<f64> = difference.row_iter().map(|row| row.norm_squared()).collect();
         squares.sort_by(f64::total_cmp);
-        squares.truncate((squares.len() * 4).div_ceil(5).max(1));
-        100.0 * (squares.iter().sum::<f64>() / (squares.len() * full_scale.len()).max(1) as f64).sqrt()
+        let percent = |squares: &[f64]| {
+            100.0 * (squares.iter().sum::<f64>() / (squares.len() * full_scale.len()).max(1) as f64).sqrt()
+        };
+        [percent(&squares), percent(&squares[..squares.len().min((squares.len() * 4).div_ceil(5))])]
     };
-    let before = error(predicted);
+    let before = errors(predicted);
     let mut found = Vec::new();
     let mut consider = |mistake: Mistake, loads: &DMatrix<f64>| {
-        let after = error(loads);
-        if after.is_finite() && after * LEAST_GAIN < before {
-            found.push(Suspicion { mistake, before_percent: before, after_percent: after });
+        let after = errors(loads);
+        let explains = |k: usize| after[k].is_finite() && after[k] * LEAST_GAIN < before[k];
+        if let Some(k) = [0, 1].into_iter().find(|k| explains(*k)) {
+            found.push(Suspicion {
+                mistake,
+                before_percent: before[k],
+                after_percent: after[k],
+                outliers_aside: k == 1,
+            });
         }
     };
     for (mistake, loads) in of_the_matrix(file, table) {

@@ -102,7 +102,7 @@ fn published_matrix_and_errors_come_back() {
         let lines = report.lines.as_ref().unwrap();
         // The README's lines are of the published matrix, ours of the fitted one.
         for (found, line) in [lines.median_mm, lines.greatest_mm].into_iter().zip(line) {
-            assert!((found / line - 1.0).abs() < 0.01, "{serial}: {found} {line}");
+            assert!((found / line - 1.0).abs() < 0.015, "{serial}: {found} {line}");
         }
         let affine_fit = calibrate(&table, &options(&ati, true)).unwrap();
         close(serial, "affine", affine_fit.report.axes.iter().map(|axis| axis.rms_percent), &affine);

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-use fingertip_calibration::file::{CalibrationFile, Provenance, SignalUnit as CalibratedUnit};
+use fingertip_calibration::file::{CalibrationFile, FileError, Provenance, SignalUnit as CalibratedUnit};
 use fingertip_drivers::recording::{RecordingError, RecordingWriter, Schema, SignalUnit};
 use fingertip_drivers::simulation::{SimulatedFingertip, SimulatedSample};
 use nalgebra::DMatrix;
@@ -62,6 +62,11 @@ pub(super) fn calibration(path: &Path, simulated: &SimulatedFingertip) -> Result
             ..file
         }
     });
-    file.and_then(|file| file.write(path))
-        .map_err(|fault| CliError::write("calibration", path, io::Error::other(fault.to_string())))
+    file.and_then(|file| file.write(path)).map_err(|fault| {
+        let source = match fault {
+            FileError::Io { source, .. } => source,
+            other => io::Error::other(other.to_string()),
+        };
+        CliError::write("calibration", path, source)
+    })
 }

@@ -84,9 +84,8 @@ fn play(arguments: &DemoArguments) -> Result<Outcome, CliError> {
     let sphere = simulated.sphere();
     let pole = Vector3::x();
     let rim = simulated.options().design.greatest_angle();
-    let reference = [Vector3::y(), Vector3::z(), Vector3::x()];
-    let mut observations =
-        Observations::new(Projection::sphere(sphere.centre(), pole, Some(rim), &reference));
+    let frame = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let mut observations = Observations::new(Projection::sphere(sphere.centre(), pole, Some(rim), &frame));
 
     // The first phase is rest: its readings give the zero, and their spread the noise.
     let mut readings = Vec::new();

@@ -1,5 +1,6 @@
 //! `fingertip design`: from wanted ranges to a layout of gauges and the accuracy to expect.
 
+pub(crate) mod args;
 mod figures;
 mod findings;
 mod task;
@@ -15,9 +16,9 @@ use fingertip_calibration::design::{
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::args::DesignArguments;
 use crate::error::CliError;
 use crate::report;
+use args::DesignArguments;
 use task::Task;
 
 /// Sensors that are made to see what placement errors do.

@@ -5,7 +5,7 @@ use fingertip_calibration::design::{
     TubeLayout, TubeSpace, Wall, search,
 };
 
-use crate::args::{CriterionName, DesignArguments, LayoutFamily};
+use super::args::{CriterionName, DesignArguments, LayoutFamily};
 
 /// Angles of gauges that the search may use \[°\]: none along the axis, none where axial strain is nil.
 const ANGLES: (f64, f64) = (1.0, 59.0);

@@ -4,6 +4,8 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Scale {
     Linear,
+    /// As linear, with ticks at parts of the circle.
+    Degrees,
     /// Decades; values that are not positive lie at the low end.
     Log,
 }
@@ -37,6 +39,11 @@ impl Axis {
         Self { label: label.to_owned(), low, high, scale: Scale::Linear }
     }
 
+    /// An angle in degrees.
+    pub(crate) fn degrees(label: &str, low: f64, high: f64) -> Self {
+        Self { scale: Scale::Degrees, ..Self::linear(label, low, high) }
+    }
+
     /// As [`linear`](Self::linear), moved outward to the next ticks.
     pub(crate) fn rounded(label: &str, low: f64, high: f64) -> Self {
         let axis = Self::linear(label, low, high);
@@ -56,7 +63,7 @@ impl Axis {
     /// Where a value lies: 0 at the low end, 1 at the high end, limited to a little beyond.
     pub(crate) fn place(&self, value: f64) -> f64 {
         let place = match self.scale {
-            Scale::Linear => (value - self.low) / (self.high - self.low),
+            Scale::Linear | Scale::Degrees => (value - self.low) / (self.high - self.low),
             Scale::Log => (value.max(self.low * 1e-3) / self.low).ln() / (self.high / self.low).ln(),
         };
         place.clamp(-1.0, 2.0)
@@ -65,13 +72,20 @@ impl Axis {
     /// At most about `most` ticks at round values within the range.
     pub(crate) fn ticks(&self, most: usize) -> Vec<Tick> {
         match self.scale {
-            Scale::Linear => self.linear_ticks(most),
+            Scale::Linear => self.linear_ticks(step(self.high - self.low, most), most),
+            Scale::Degrees => {
+                let range = self.high - self.low;
+                let parts = [1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0];
+                let fits = |part: &f64| *part * most as f64 >= range;
+                let fine = range < most as f64;
+                let part = parts.into_iter().filter(|_| !fine).find(fits);
+                self.linear_ticks(part.unwrap_or_else(|| step(range, most)), most)
+            }
             Scale::Log => self.log_ticks(most),
         }
     }
 
-    fn linear_ticks(&self, most: usize) -> Vec<Tick> {
-        let step = step(self.high - self.low, most);
+    fn linear_ticks(&self, step: f64, most: usize) -> Vec<Tick> {
         let slack = 1e-9 * step;
         let first = ((self.low - slack) / step).ceil();
         let largest = self.low.abs().max(self.high.abs());
@@ -136,6 +150,9 @@ mod tests {
         assert_eq!(labels(&Axis::linear("", 0.0, 30.0), 6), ["0", "5", "10", "15", "20", "25", "30"]);
         assert_eq!(labels(&Axis::linear("", -0.34, 0.31), 5), ["−0.2", "0.0", "0.2"]);
         assert_eq!(labels(&Axis::linear("", 1e-7, 3e-7), 2), ["1e-7", "2e-7", "3e-7"]);
+        assert_eq!(labels(&Axis::degrees("", -185.0, 185.0), 6), ["−180", "−90", "0", "90", "180"]);
+        assert_eq!(labels(&Axis::degrees("", -5.0, 38.0), 6), ["0", "10", "20", "30"]);
+        assert_eq!(labels(&Axis::degrees("", 0.0, 0.4), 4), ["0.0", "0.1", "0.2", "0.3", "0.4"]);
         assert_eq!(labels(&Axis::log("", 0.1, 30.0), 5), ["0.1", "1", "10"]);
         assert_eq!(labels(&Axis::log("", 1.0, 10.0), 5), ["1", "2", "5", "10"]);
         for (low, high) in [(0.0, 1e-12), (-1e9, 1e9), (5.0, 5.0), (f64::NAN, 1.0), (0.0, 1.07), (3.0, 3.1)] {

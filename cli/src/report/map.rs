@@ -26,10 +26,10 @@ pub(crate) struct Map {
 pub(crate) fn draw(title: &str, projection: &Projection, points: &[MapPoint]) -> Map {
     let classes = Classes::of(points.iter().map(|point| point.normal_force));
     match projection.kind() {
-        MapKind::Polar { rim } => polar(title, rim, points, &classes),
-        MapKind::Flat => flat(title, None, points, &classes),
+        MapKind::Polar { rim } => polar(title, rim, projection.names(), points, &classes),
+        MapKind::Flat => flat(title, None, projection.names(), points, &classes),
         MapKind::Unrolled { radius, half_length } => {
-            flat(title, Some((radius, half_length)), points, &classes)
+            flat(title, Some((radius, half_length)), projection.names(), points, &classes)
         }
     }
 }
@@ -43,7 +43,7 @@ fn dots(svg: &mut Svg, points: &[MapPoint], classes: &Classes, place: impl Fn((f
 
 /// The sphere in a disk of radius 2 (in radii of the sphere), or less where nothing lies further
 /// out.
-fn polar(title: &str, rim: Option<f64>, points: &[MapPoint], classes: &Classes) -> Map {
+fn polar(title: &str, rim: Option<f64>, names: [&str; 2], points: &[MapPoint], classes: &Classes) -> Map {
     let chord = |polar: f64| 2.0 * (0.5 * polar).sin();
     let farthest = points.iter().map(|point| point.place.0.hypot(point.place.1)).fold(0.0, f64::max);
     let reach = farthest.max(rim.map_or(0.0, chord)).max(chord(PI / 6.0));
@@ -80,6 +80,8 @@ fn polar(title: &str, rim: Option<f64>, points: &[MapPoint], classes: &Classes) 
         svg.label("tick halo", (centre.0 + at * cos, centre.1 - at * sin + 3.5), Anchor::Middle, &label);
     }
     svg.label("name", (2.0, 12.0), Anchor::Start, "angle from the pole");
+    svg.label("name halo", (centre.0 + disk - 5.0, centre.1 - 5.0), Anchor::End, names[0]);
+    svg.label("name halo", (centre.0 + 6.0, TOP + 14.0), Anchor::Start, names[1]);
     classes.legend(&mut svg, (LEFT, height - LEGEND + 10.0), WIDTH - LEFT - RIGHT);
     let rim = rim.map_or_else(String::new, |rim| {
         format!(" The dashed circle is the rim of the active region, at {:.1}°.", rim.to_degrees())
@@ -91,7 +93,13 @@ fn polar(title: &str, rim: Option<f64>, points: &[MapPoint], classes: &Classes) 
 }
 
 /// A plane, or a cylinder of given radius and active half length, in millimetres.
-fn flat(title: &str, unrolled: Option<(f64, Option<f64>)>, points: &[MapPoint], classes: &Classes) -> Map {
+fn flat(
+    title: &str,
+    unrolled: Option<(f64, Option<f64>)>,
+    names: [&str; 2],
+    points: &[MapPoint],
+    classes: &Classes,
+) -> Map {
     let half_length = unrolled.and_then(|(_, half_length)| half_length);
     let (left, right) = window(points.iter().map(|point| point.place.0), None);
     let (low, high) = window(points.iter().map(|point| point.place.1), half_length);
@@ -105,11 +113,12 @@ fn flat(title: &str, unrolled: Option<(f64, Option<f64>)>, points: &[MapPoint], 
     let x = match unrolled {
         Some((radius, _)) => {
             let degrees = (1.0 / radius).to_degrees();
-            Axis::linear("angle around the axis / °", left * degrees, right * degrees)
+            Axis::degrees("angle around the axis / °", left * degrees, right * degrees)
         }
-        None => Axis::linear("x / mm", left, right),
+        None => Axis::linear(&format!("{} / mm", names[0]), left, right),
     };
-    let y = Axis::linear(if unrolled.is_some() { "height along the axis / mm" } else { "y / mm" }, low, high);
+    let up = if unrolled.is_some() { "height along the axis" } else { names[1] };
+    let y = Axis::linear(&format!("{up} / mm"), low, high);
     let place = |(u, v): (f64, f64)| {
         (LEFT + width * (u - left) / (right - left), TOP + map_height * (high - v) / (high - low))
     };

@@ -54,7 +54,7 @@ fn unbroken(text: &str) -> String {
 fn push_table(page: &mut String, table: &Table) {
     page.push_str(&format!("<section><h2>{}</h2><table><thead><tr>", escape(&table.title)));
     for head in &table.head {
-        page.push_str(&format!("<th scope=\"col\">{}</th>", escape(head)));
+        page.push_str(&format!("<th scope=\"col\">{}</th>", escape(&unbroken(head))));
     }
     page.push_str("</tr></thead><tbody>\n");
     for row in &table.rows {
@@ -62,7 +62,7 @@ fn push_table(page: &mut String, table: &Table) {
         for (column, cell) in row.iter().enumerate() {
             let tag = if column == 0 { "th scope=\"row\"" } else { "td" };
             let end = if column == 0 { "th" } else { "td" };
-            page.push_str(&format!("<{tag}>{}</{end}>", escape(cell)));
+            page.push_str(&format!("<{tag}>{}</{end}>", escape(&unbroken(cell))));
         }
         page.push_str("</tr>\n");
     }

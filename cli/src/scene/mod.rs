@@ -110,17 +110,9 @@ impl Scene {
 }
 
 fn parse(text: &str) -> Result<SceneFile, (Option<usize>, String)> {
-    let locate = |error: &toml::de::Error| {
-        let line = error
-            .span()
-            .and_then(|span| text.get(..span.start))
-            .map(|before| before.matches('\n').count() + 1);
-        let message = error.message().replace('\n', " ");
-        (line, format!("{message} (the keys are explained in examples/scenes/README.md)"))
-    };
-    let VersionOnly { version } = toml::from_str(text).map_err(|error| locate(&error))?;
+    let VersionOnly { version } = toml::from_str(text).map_err(|error| explain(text, &error))?;
     match version {
-        Some(VERSION) => toml::from_str(text).map_err(|error| locate(&error)),
+        Some(VERSION) => toml::from_str(text).map_err(|error| explain(text, &error)),
         Some(other) => Err((
             None,
             format!(
@@ -131,6 +123,46 @@ fn parse(text: &str) -> Result<SceneFile, (Option<usize>, String)> {
             Err((None, format!("it does not state its version; put `version = {VERSION}` on its first line")))
         }
     }
+}
+
+/// Line and sentence for an error of the parser.
+fn explain(text: &str, error: &toml::de::Error) -> (Option<usize>, String) {
+    let before = error.span().and_then(|span| text.get(..span.start));
+    let line = before.map(|before| before.matches('\n').count() + 1);
+    let message = error.message().replace('\n', " ");
+    let key = if message.starts_with("invalid") { culprit(text, error.message()) } else { None };
+    let key = key.map_or_else(String::new, |key| format!("key `{key}`: "));
+    (line, format!("{key}{message} (the keys are explained in examples/scenes/README.md)"))
+}
+
+/// The key whose value is wrong, which serde does not tell: the one without which the complaint is
+/// another.
+fn culprit(text: &str, message: &str) -> Option<String> {
+    let document: toml::Table = toml::from_str(text).ok()?;
+    let complaint = |document: &toml::Table| {
+        toml::Value::Table(document.clone())
+            .try_into::<SceneFile>()
+            .err()
+            .map(|error| error.message().to_owned())
+    };
+    let changed = |document: &toml::Table| complaint(document).as_deref() != Some(message);
+    // What tells the kinds of a section apart changes everything when it is gone.
+    let tells_apart = |key: &str| matches!(key, "shape" | "detector");
+    for (section, value) in &document {
+        let mut without = document.clone();
+        without.remove(section);
+        if !changed(&without) {
+            continue;
+        }
+        let Some(table) = value.as_table() else { return Some(section.clone()) };
+        return table.keys().filter(|key| !tells_apart(key)).find_map(|key| {
+            let mut smaller = table.clone();
+            smaller.remove(key);
+            without.insert(section.clone(), toml::Value::Table(smaller));
+            changed(&without).then(|| format!("{section}.{key}"))
+        });
+    }
+    None
 }
 
 impl SceneFile {
@@ -193,6 +225,10 @@ mod tests {
             (without("radius_m = 0.013\n"), "missing field `radius_m`"),
             (GOOD.replace("0.013", "-0.013"), "radius of a sphere"),
             (GOOD.replace("0.013", "nan"), "radius of a sphere"),
+            (GOOD.replace("0.013", "\"13 mm\""), "key `surface.radius_m`: invalid type: string"),
+            (format!("{GOOD}pole = [0.0, 1.0]\n"), "key `surface.pole`: invalid length 2"),
+            (GOOD.replace("[input]", "[input]\nsensor = 1"), "key `input.sensor`: invalid type: integer"),
+            (format!("name = 3\n{GOOD}"), "key `name`: invalid type: integer"),
             (format!("{GOOD}[contact]\nleast_force_N = -1.0\n"), "least force"),
             (format!("{GOOD}[friction]\nstatic_coefficient = 0.0\n"), "friction coefficient"),
             (format!("{GOOD}[slip]\ndetector = \"threshold\"\nnoise_N = 0.01\n"), "[friction]"),

@@ -75,14 +75,13 @@ impl SurfaceSection {
         let pose = pose.sensor_from_surface()?;
         let point = |p: &Triple| pose.transform_point(&Vector3::from(*p));
         let direction = |d: &Triple| pose.rotate(&Vector3::from(*d));
-        // Directions of the surface's frame, in the order in which a map prefers them.
-        let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| pose.rotate(&axis));
+        let frame = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| pose.rotate(&axis));
         match self {
             Self::Plane { point: through, normal } => {
                 let plane =
                     Plane::new(point(through), direction(normal)).map_err(|fault| fault.to_string())?;
                 let normal = unit("normal", direction(normal))?;
-                let map = Projection::plane(plane.point(), normal, &[x, y, z]);
+                let map = Projection::plane(plane.point(), normal, &frame);
                 Ok((Shape::Plane(plane), map))
             }
             Self::Sphere { radius, centre, pole, active_half_angle } => {
@@ -98,7 +97,7 @@ impl SurfaceSection {
                         return Err("`active_half_angle_deg` must be above 0 and at most 180".to_owned());
                     }
                 };
-                let map = Projection::sphere(sphere.centre(), pole, rim, &[x, y, z]);
+                let map = Projection::sphere(sphere.centre(), pole, rim, &frame);
                 Ok((Shape::Sphere(capped), map))
             }
             Self::Cylinder { radius, centre, axis, half_length } => {
@@ -107,13 +106,8 @@ impl SurfaceSection {
                 if let Some(half_length) = half_length {
                     cylinder = cylinder.with_half_length(*half_length).map_err(|fault| fault.to_string())?;
                 }
-                let map = Projection::cylinder(
-                    cylinder.centre(),
-                    cylinder.axis(),
-                    *radius,
-                    *half_length,
-                    &[z, x, y],
-                );
+                let map =
+                    Projection::cylinder(cylinder.centre(), cylinder.axis(), *radius, *half_length, &frame);
                 Ok((Shape::Cylinder(cylinder), map))
             }
         }

@@ -24,15 +24,17 @@ pub(crate) struct Projection {
     right: Vector3<f64>,
     up: Vector3<f64>,
     out: Vector3<f64>,
+    names: [&'static str; 2],
 }
 
 const MILLIMETRES: f64 = 1e3;
 
 impl Projection {
-    /// Seen against the outward unit normal; `reference` is drawn to the right.
-    pub(crate) fn plane(point: Vector3<f64>, normal: Vector3<f64>, reference: &[Vector3<f64>; 3]) -> Self {
-        let right = across(&normal, reference);
-        Self { kind: MapKind::Flat, centre: point, right, up: normal.cross(&right), out: normal }
+    /// Seen against the outward unit normal. `frame` holds the axes of the surface's own frame, as
+    /// for the other shapes: its x axis is drawn to the right unless the normal lies along it.
+    pub(crate) fn plane(point: Vector3<f64>, normal: Vector3<f64>, frame: &[Vector3<f64>; 3]) -> Self {
+        let [x, y, z] = *frame;
+        Self::new(MapKind::Flat, point, normal, across(&normal, &[x, y, z]), frame)
     }
 
     /// Seen from outside along the pole.
@@ -40,26 +42,44 @@ impl Projection {
         centre: Vector3<f64>,
         pole: Vector3<f64>,
         rim: Option<f64>,
-        reference: &[Vector3<f64>; 3],
+        frame: &[Vector3<f64>; 3],
     ) -> Self {
-        let right = across(&pole, reference);
-        Self { kind: MapKind::Polar { rim }, centre, right, up: pole.cross(&right), out: pole }
+        Self::new(MapKind::Polar { rim }, centre, pole, across(&pole, frame), frame)
     }
 
-    /// Angle zero is the first of `reference` that is not along the axis, made perpendicular to it.
+    /// Angle zero is the frame's z axis, or x if the cylinder lies along z.
     pub(crate) fn cylinder(
         centre: Vector3<f64>,
         axis: Vector3<f64>,
         radius: f64,
         half_length: Option<f64>,
-        reference: &[Vector3<f64>; 3],
+        frame: &[Vector3<f64>; 3],
     ) -> Self {
-        let out = across(&axis, reference);
+        let [x, y, z] = *frame;
+        let out = across(&axis, &[z, x, y]);
         let kind = MapKind::Unrolled {
             radius: radius * MILLIMETRES,
             half_length: half_length.map(|half| half * MILLIMETRES),
         };
-        Self { kind, centre, right: axis.cross(&out), up: axis, out }
+        Self::new(kind, centre, out, axis.cross(&out), frame)
+    }
+
+    fn new(
+        kind: MapKind,
+        centre: Vector3<f64>,
+        out: Vector3<f64>,
+        right: Vector3<f64>,
+        frame: &[Vector3<f64>; 3],
+    ) -> Self {
+        let up = out.cross(&right);
+        let names = [name(&right, frame).unwrap_or("right"), name(&up, frame).unwrap_or("up")];
+        Self { kind, centre, right, up, out, names }
+    }
+
+    /// What the directions to the right and up are called: axes of the surface's frame, if they
+    /// lie along one.
+    pub(crate) fn names(&self) -> [&'static str; 2] {
+        self.names
     }
 
     pub(crate) fn kind(&self) -> MapKind {
@@ -88,6 +108,21 @@ impl Projection {
     }
 }
 
+/// The axis of a frame that a unit vector lies along.
+fn name(direction: &Vector3<f64>, frame: &[Vector3<f64>; 3]) -> Option<&'static str> {
+    let names = [("x", "−x"), ("y", "−y"), ("z", "−z")];
+    frame.iter().zip(names).find_map(|(axis, (along, against))| {
+        let cosine = axis.dot(direction);
+        if cosine > 1.0 - 1e-9 {
+            Some(along)
+        } else if cosine < 1e-9 - 1.0 {
+            Some(against)
+        } else {
+            None
+        }
+    })
+}
+
 /// The first of some directions that is well away from a unit vector, made perpendicular to it.
 fn across(direction: &Vector3<f64>, candidates: &[Vector3<f64>; 3]) -> Vector3<f64> {
     let best = candidates
@@ -107,7 +142,7 @@ mod tests {
     use super::Projection;
 
     fn axes() -> [Vector3<f64>; 3] {
-        [Vector3::z(), Vector3::x(), Vector3::y()]
+        [Vector3::x(), Vector3::y(), Vector3::z()]
     }
 
     #[test]
@@ -137,8 +172,14 @@ mod tests {
 
     #[test]
     fn the_plane_is_seen_from_outside() {
-        let map =
-            Projection::plane(Vector3::zeros(), Vector3::z(), &[Vector3::x(), Vector3::y(), Vector3::z()]);
+        let map = Projection::plane(Vector3::zeros(), Vector3::z(), &axes());
         assert_eq!(map.project(&Vector3::new(0.001, 0.002, 0.0)), (1.0, 2.0));
+        assert_eq!(map.names(), ["x", "y"]);
+        let below = Projection::plane(Vector3::zeros(), -Vector3::z(), &axes());
+        assert_eq!(below.names(), ["x", "−y"]);
+        let slanted = Vector3::new(1.0, 1.0, 1.0).normalize();
+        assert_eq!(Projection::plane(Vector3::zeros(), slanted, &axes()).names(), ["right", "up"]);
+        let side = Projection::sphere(Vector3::zeros(), Vector3::x(), None, &axes());
+        assert_eq!(side.names(), ["y", "z"]);
     }
 }

@@ -1,24 +1,9 @@
 //! Which columns belong to which sensor.
 
 use super::column_name::{ColumnName, Meaning};
+use super::columns::{SignalColumns, WrenchColumns, of_sensor};
 use super::error::HeaderProblem;
 use super::unit::{ForceUnit, SignalUnit, TorqueUnit};
-
-/// The six columns of a wrench. Found by a [`Layout`], used on its rows.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WrenchColumns {
-    name: String,
-    pub(super) slots: [usize; 6],
-}
-
-/// The columns of the signals of one sensor. Found by a [`Layout`], used on its rows.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SignalColumns {
-    name: String,
-    unit: SignalUnit,
-    pub(super) slots: Vec<usize>,
-    pub(super) dummy: Option<usize>,
-}
 
 /// Columns that look like a sensor's but cannot be used, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,67 +39,6 @@ pub struct Layout {
 pub(super) struct UsedColumn {
     pub(super) column: usize,
     pub(super) scale: f64,
-}
-
-impl WrenchColumns {
-    /// Name of the sensor, lower case; empty if the header gives none.
-    #[must_use]
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-}
-
-impl SignalColumns {
-    /// Name of the sensor, lower case; empty if the header gives none.
-    #[must_use]
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// How many signals there are, without the dummy gauge.
-    #[must_use]
-    pub fn count(&self) -> usize {
-        self.slots.len()
-    }
-
-    /// What the numbers are.
-    #[must_use]
-    pub const fn unit(&self) -> SignalUnit {
-        self.unit
-    }
-
-    /// Whether there is a dummy gauge.
-    #[must_use]
-    pub const fn has_dummy(&self) -> bool {
-        self.dummy.is_some()
-    }
-
-    /// These columns, if they are as many as the sensor has gauges.
-    ///
-    /// # Errors
-    /// [`HeaderProblem::WrongSignalCount`].
-    pub fn expecting(&self, count: usize) -> Result<&Self, HeaderProblem> {
-        if self.count() == count {
-            return Ok(self);
-        }
-        Err(HeaderProblem::WrongSignalCount {
-            sensor: of_sensor(&self.name),
-            found: self.count(),
-            expected: count,
-        })
-    }
-
-    /// These columns, if they have a dummy gauge.
-    ///
-    /// # Errors
-    /// [`HeaderProblem::NoDummy`].
-    pub fn expecting_dummy(&self) -> Result<&Self, HeaderProblem> {
-        if self.has_dummy() {
-            Ok(self)
-        } else {
-            Err(HeaderProblem::NoDummy { sensor: of_sensor(&self.name) })
-        }
-    }
 }
 
 impl Layout {
@@ -376,10 +300,6 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let names: Vec<&str> =
         names.map(|name| if name.is_empty() { "(without a name)" } else { name }).collect();
     if names.is_empty() { "none".to_owned() } else { names.join(", ") }
-}
-
-fn of_sensor(name: &str) -> String {
-    if name.is_empty() { String::new() } else { format!(" of sensor {name}") }
 }
 
 /// The text, cut at `limit` characters.

@@ -34,18 +34,24 @@
 //! ```
 
 mod bounded;
+mod cell;
 mod column_name;
+mod columns;
 mod error;
 mod layout;
+mod playback;
 mod quality;
 mod reader;
 mod row;
+mod start;
 mod time_watch;
 mod unit;
 mod writer;
 
+pub use columns::{SignalColumns, WrenchColumns};
 pub use error::{HeaderProblem, RecordingError};
-pub use layout::{AssumedUnits, Layout, LeftOut, SignalColumns, WrenchColumns};
+pub use layout::{AssumedUnits, Layout, LeftOut};
+pub use playback::{SignalPlayback, WrenchPlayback};
 pub use quality::{FaultCount, Quality};
 pub use reader::{ReaderOptions, RecordingReader};
 pub use row::{Row, RowMarks};

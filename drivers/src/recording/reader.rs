@@ -8,10 +8,12 @@ use std::path::Path;
 use csv::ByteRecord;
 
 use super::bounded::Bounded;
+use super::cell::Cell;
 use super::error::{HeaderProblem, RecordingError};
 use super::layout::{AssumedUnits, Layout, UsedColumn, shortened};
 use super::quality::Quality;
 use super::row::{Row, RowMarks};
+use super::start::{delimiter, read_start};
 use super::time_watch::{Step, TimeWatch};
 
 /// How a recording is read.
@@ -271,56 +273,6 @@ impl Quality {
     }
 }
 
-/// What stands in a cell.
-enum Cell {
-    Number(f64),
-    NotFinite,
-    Empty,
-    Text,
-}
-
-impl Cell {
-    #[inline]
-    fn read(record: &ByteRecord, used: UsedColumn) -> Self {
-        let cell = record.get(used.column).unwrap_or_default();
-        // The whole cell first: cells with blanks around the number are rare.
-        match fast_float2::parse::<f64, _>(cell) {
-            Ok(number) => Self::finite(number * used.scale),
-            Err(_) => Self::unusual(cell.trim_ascii(), used.scale),
-        }
-    }
-
-    fn finite(number: f64) -> Self {
-        if number.is_finite() { Self::Number(number) } else { Self::NotFinite }
-    }
-
-    #[cold]
-    fn unusual(cell: &[u8], scale: f64) -> Self {
-        let missing: [&[u8]; 5] = [b"", b"na", b"n/a", b"null", b"none"];
-        if missing.iter().any(|text| cell.eq_ignore_ascii_case(text)) {
-            return Self::Empty;
-        }
-        fast_float2::parse::<f64, _>(cell).map_or(Self::Text, |number| Self::finite(number * scale))
-    }
-
-    /// Counts a cell without a number, whose value is then NaN; `None` for text.
-    fn count(&self, line: u64, marks: &mut RowMarks, quality: &mut Quality) -> Option<f64> {
-        match self {
-            Self::Number(number) => return Some(*number),
-            Self::Text => return None,
-            Self::Empty => {
-                marks.empty = true;
-                quality.empty_cells.add(line);
-            }
-            Self::NotFinite => {
-                marks.not_finite = true;
-                quality.not_finite_cells.add(line);
-            }
-        }
-        Some(f64::NAN)
-    }
-}
-
 #[cold]
 fn not_a_number(
     file: &str,
@@ -358,33 +310,4 @@ fn line_of_record<R: Read>(csv: &csv::Reader<R>) -> u64 {
 /// A line of nothing but blanks.
 fn is_blank(record: &ByteRecord) -> bool {
     record.len() <= 1 && record.get(0).is_none_or(|cell| cell.trim_ascii().is_empty())
-}
-
-/// The first bytes of the input, up to the end of the header if that is near.
-fn read_start(input: &mut impl Read) -> std::io::Result<Vec<u8>> {
-    let mut start = Vec::new();
-    let mut piece = [0; 4096];
-    while start.len() < 1 << 16 && header_line(&start).is_none() {
-        match input.read(&mut piece) {
-            Ok(0) => break,
-            Ok(count) => start.extend(piece.iter().take(count)),
-            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
-            Err(error) => return Err(error),
-        }
-    }
-    Ok(start)
-}
-
-/// The first line that is neither a comment nor blank, if it is complete.
-fn header_line(start: &[u8]) -> Option<&[u8]> {
-    let text = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
-    let end = text.iter().rposition(|byte| *byte == b'\n')?;
-    let mut lines = text.get(..end)?.split(|byte| *byte == b'\n');
-    lines.find(|line| !line.starts_with(b"#") && !line.trim_ascii().is_empty())
-}
-
-/// A comma, or what parts the columns of a header without one.
-fn delimiter(start: &[u8]) -> u8 {
-    let header = header_line(start).unwrap_or(start);
-    [b',', b';', b'\t'].into_iter().find(|delimiter| header.contains(delimiter)).unwrap_or(b',')
 }

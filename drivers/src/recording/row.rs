@@ -3,7 +3,7 @@
 use fingertip_wrench::Wrench;
 use nalgebra::{SVector, Vector3};
 
-use super::layout::{SignalColumns, WrenchColumns};
+use super::columns::{SignalColumns, WrenchColumns};
 
 /// What is remarkable about a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,0 +1,153 @@
+//! The pose of a surface from touches at known points of it.
+
+use fingertip_wrench::{RigidTransform, Wrench};
+use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
+
+use super::{Fitted, GeometryError};
+use crate::fit::{FitError, least_squares};
+
+/// Where a surface sits in the sensor frame, from touches at known points of the surface
+/// (coordinates in its own frame): `min Σ |m − (Q y + t) × f|²` over rigid motions (theory 8).
+///
+/// Gauss-Newton from the 24 rotations that map axes to axes; the best is taken. Deviations: rotation about x, y,
+/// z of the sensor \[rad\], then the origin x, y, z \[m\]. Three touches in general position are the least;
+/// four or more tell an error.
+///
+/// # Errors
+/// [`GeometryError`]; directions of the pose that the touches do not show are named.
+pub fn fit_pose(
+    touches: &[(Wrench<f64>, Vector3<f64>)],
+) -> Result<Fitted<RigidTransform<f64>>, GeometryError> {
+    for (touch, (wrench, point)) in touches.iter().enumerate() {
+        if !wrench.is_finite() || point.iter().any(|x| !x.is_finite()) {
+            return Err(GeometryError::BadTouch { touch, what: "a number is not finite" });
+        }
+    }
+    let mut best: Option<Solution> = None;
+    let mut last = None;
+    for start in axis_rotations() {
+        match descend(touches, start) {
+            Ok(solution) if best.as_ref().is_none_or(|other| solution.rms < other.rms) => {
+                best = Some(solution)
+            }
+            Ok(_) => {}
+            Err(error) => last = Some(error),
+        }
+    }
+    let Some(solution) = best else {
+        return Err(last.unwrap_or(GeometryError::NoConvergence { iterations: MOST_ITERATIONS }));
+    };
+    let rotation = Rotation3::from_matrix_unchecked(solution.rotation);
+    Ok(Fitted {
+        shape: RigidTransform::from_parts(rotation, solution.origin),
+        deviations: solution.deviations,
+        rms: solution.rms,
+    })
+}
+
+struct Solution {
+    rotation: Matrix3<f64>,
+    origin: Vector3<f64>,
+    deviations: Vec<f64>,
+    rms: f64,
+}
+
+const MOST_ITERATIONS: usize = 100;
+
+/// The 24 rotations that take axes to axes.
+fn axis_rotations() -> impl Iterator<Item = Matrix3<f64>> {
+    let signed = |i: usize| Vector3::ith(i / 2, if i.is_multiple_of(2) { 1.0 } else { -1.0 });
+    (0..6).flat_map(move |i| (0..6).filter(move |j| i / 2 != j / 2).map(move |j| (i, j))).map(
+        move |(i, j)| {
+            let (x, y) = (signed(i), signed(j));
+            Matrix3::from_columns(&[x, y, x.cross(&y)])
+        },
+    )
+}
+
+fn descend(touches: &[(Wrench<f64>, Vector3<f64>)], start: Matrix3<f64>) -> Result<Solution, GeometryError> {
+    let mut rotation = start;
+    let mut origin = Vector3::zeros();
+    let scale = touches.iter().map(|(_, y)| y.norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    for iteration in 0..MOST_ITERATIONS {
+        let mut design = DMatrix::zeros(3 * touches.len(), 6);
+        let mut left = DMatrix::zeros(3 * touches.len(), 1);
+        for (i, (wrench, point)) in touches.iter().enumerate() {
+            let arm = rotation * point;
+            let force = wrench.force().cross_matrix();
+            // m = (Q y + t) × f = −[f](Q y + t); turning by ω adds ω × Qy = −[Qy] ω.
+            design.view_mut((3 * i, 0), (3, 3)).copy_from(&(force * arm.cross_matrix()));
+            design.view_mut((3 * i, 3), (3, 3)).copy_from(&(-force));
+            let residual = wrench.torque() - (arm + origin).cross(&wrench.force());
+            left.view_mut((3 * i, 0), (3, 1)).copy_from(&residual);
+        }
+        let fit = least_squares(&design, &left, None).map_err(|error| match error {
+            FitError::Unobserved(mut unobserved) => {
+                let names = ["turn about x", "turn about y", "turn about z", "shift x", "shift y", "shift z"];
+                unobserved.names = names.map(str::to_owned).to_vec();
+                FitError::Unobserved(unobserved)
+            }
+            other => other,
+        })?;
+        let step = &fit.coefficients;
+        let turn = Vector3::new(step[0], step[1], step[2]);
+        let shift = Vector3::new(step[3], step[4], step[5]);
+        // A turn of more than a radian is out of the reach of the linearisation.
+        let damp = (1.0 / turn.norm().max(f64::MIN_POSITIVE)).min(1.0);
+        rotation = Rotation3::from_scaled_axis(turn * damp).into_inner() * rotation;
+        origin += shift * damp;
+        if iteration > 0 && turn.norm() < 1e-13 && shift.norm() < 1e-13 * scale
+            || iteration > 50 && turn.norm() < 1e-10
+        {
+            let variance = fit.residual_covariance[(0, 0)];
+            let rms = (left.norm_squared() / left.len().max(1) as f64).sqrt();
+            let deviations =
+                fit.inverse_gram.diagonal().iter().map(|g| (g * variance).max(0.0).sqrt()).collect();
+            return Ok(Solution { rotation, origin, deviations, rms });
+        }
+    }
+    Err(GeometryError::NoConvergence { iterations: MOST_ITERATIONS })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fit_pose;
+    use crate::fit::testing::gaussian;
+    use crate::geometry::GeometryError;
+    use fingertip_wrench::Wrench;
+    use nalgebra::{Rotation3, Vector3};
+    use rand::SeedableRng as _;
+    use rand_pcg::Pcg64Mcg;
+
+    #[test]
+    fn pose_comes_back() {
+        let random = &mut Pcg64Mcg::seed_from_u64(3);
+        for _ in 0..60 {
+            let mut vector = || Vector3::from_fn(|_, _| gaussian(random));
+            let rotation = Rotation3::from_scaled_axis(vector().normalize() * 2.5);
+            let origin = vector() * 0.01;
+            let touches: Vec<_> = (0..8)
+                .map(|_| {
+                    let y = vector() * 0.02;
+                    (Wrench::from_force_at(&(rotation * y + origin), vector()), y)
+                })
+                .collect();
+            let fit = fit_pose(&touches).unwrap();
+            assert!((fit.shape.rotation() - rotation.matrix()).amax() < 1e-9, "{}", fit.rms);
+            assert!((fit.shape.origin() - origin).amax() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn touches_at_one_point_leave_the_rotation_open() {
+        let random = &mut Pcg64Mcg::seed_from_u64(3);
+        let point = Vector3::new(0.01, 0.0, 0.0);
+        let touches: Vec<_> = (0..8)
+            .map(|_| (Wrench::from_force_at(&point, Vector3::from_fn(|_, _| gaussian(random))), point))
+            .collect();
+        assert!(matches!(
+            fit_pose(&touches),
+            Err(GeometryError::Fit(_) | GeometryError::NoConvergence { .. })
+        ));
+    }
+}

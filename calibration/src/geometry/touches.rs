@@ -1,0 +1,448 @@
+//! The shape of a fingertip from touches at known directions.
+
+use fingertip_surfaces::{BadShape, Cylinder, Sphere};
+use fingertip_wrench::Wrench;
+use nalgebra::{DMatrix, DVector, Vector3};
+use thiserror::Error;
+
+use crate::fit::{Fit, FitError, least_squares};
+
+/// A touch: what the sensor said, and the outward normal of the fingertip where it was touched, in
+/// the sensor frame (known from how the fingertip was pressed on a plane, say).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Load on the fingertip.
+    pub wrench: Wrench<f64>,
+    /// Outward normal at the touched point; any length.
+    pub normal: Vector3<f64>,
+}
+
+/// Why touches tell no shape.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum GeometryError {
+    /// The touches do not determine the shape: the error says which part of it.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// What was fitted is no shape.
+    #[error("the touches give no shape: {0}")]
+    BadShape(#[from] BadShape),
+    /// A normal or axis has no direction, or a number is not finite.
+    #[error("touch {touch}: {what}")]
+    BadTouch {
+        /// Which touch, from 0.
+        touch: usize,
+        /// What is wrong.
+        what: &'static str,
+    },
+    /// The search for the shape did not come to rest.
+    #[error("no convergence after {iterations} iterations")]
+    NoConvergence {
+        /// How many were made.
+        iterations: usize,
+    },
+}
+
+/// A fitted shape, and how sure it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fitted<S> {
+    /// The shape.
+    pub shape: S,
+    /// Standard deviation of each parameter \[m\], in the order that the function tells.
+    pub deviations: Vec<f64>,
+    /// RMS of the torque that is left \[N·m\].
+    pub rms: f64,
+}
+
+fn directions(touches: &[Touch]) -> Result<Vec<Vector3<f64>>, GeometryError> {
+    touches
+        .iter()
+        .enumerate()
+        .map(|(touch, t)| {
+            if !t.wrench.is_finite() {
+                return Err(GeometryError::BadTouch { touch, what: "the wrench is not finite" });
+            }
+            let norm = t.normal.norm();
+            if norm > 0.0 && norm.is_finite() {
+                Ok(t.normal / norm)
+            } else {
+                Err(GeometryError::BadTouch { touch, what: "the normal has no direction" })
+            }
+        })
+        .collect()
+}
+
+/// Least squares of `m = Σ parameter · column × f`, three rows a touch; unobserved parameters by name.
+fn torque_fit(
+    touches: &[Touch],
+    columns: &[Vec<Vector3<f64>>],
+    names: &[&str],
+) -> Result<(DVector<f64>, Vec<f64>, f64, Fit), GeometryError> {
+    let mut design = DMatrix::zeros(3 * touches.len(), columns.len());
+    let mut torque = DMatrix::zeros(3 * touches.len(), 1);
+    for (i, touch) in touches.iter().enumerate() {
+        for (j, column) in columns.iter().enumerate() {
+            design.view_mut((3 * i, j), (3, 1)).copy_from(&column[i].cross(&touch.wrench.force()));
+        }
+        torque.view_mut((3 * i, 0), (3, 1)).copy_from(&touch.wrench.torque());
+    }
+    for (j, column) in columns.iter().enumerate() {
+        let sizes = column
+            .iter()
+            .zip(touches)
+            .map(|(c, touch)| c.norm_squared() * touch.wrench.force().norm_squared());
+        drop_rounding(&mut design, j, sizes.sum::<f64>().sqrt());
+    }
+    let fit = least_squares(&design, &torque, None).map_err(|error| named(error, names))?;
+    let variance = fit.residual_covariance[(0, 0)];
+    let deviations = fit.inverse_gram.diagonal().iter().map(|g| (g * variance).max(0.0).sqrt()).collect();
+    let left = torque - design * &fit.coefficients;
+    let rms = (left.norm_squared() / left.len().max(1) as f64).sqrt();
+    Ok((fit.coefficients.column(0).into_owned(), deviations, rms, fit))
+}
+
+/// A column that is nothing but rounding observes nothing: it becomes zero.
+fn drop_rounding(design: &mut DMatrix<f64>, column: usize, size: f64) {
+    if design.column(column).norm() <= 64.0 * f64::EPSILON * size {
+        design.column_mut(column).fill(0.0);
+    }
+}
+
+fn named(error: FitError, names: &[&str]) -> FitError {
+    let FitError::Unobserved(mut unobserved) = error else { return error };
+    unobserved.names = names.iter().map(|name| (*name).to_owned()).collect();
+    FitError::Unobserved(unobserved)
+}
+
+/// Sphere from touches at known directions: `m = ρ n × f + t × f`, linear in radius ρ and centre t
+/// (theory 8). Deviations: radius, centre x, y, z.
+///
+/// The touches need friction: where all forces point along the normals, every line of action passes
+/// through the centre and the radius is not observable; the error says so.
+///
+/// # Errors
+/// [`GeometryError`].
+pub fn fit_sphere(touches: &[Touch]) -> Result<Fitted<Sphere<f64>>, GeometryError> {
+    let normals = directions(touches)?;
+    let constant = |axis: usize| vec![Vector3::ith(axis, 1.0); touches.len()];
+    let columns = [normals, constant(0), constant(1), constant(2)];
+    let names = ["radius", "centre x", "centre y", "centre z"];
+    let (p, deviations, rms, _) = torque_fit(touches, &columns, &names)?;
+    let shape = Sphere::new(Vector3::new(p[1], p[2], p[3]), p[0])?;
+    Ok(Fitted { shape, deviations, rms })
+}
+
+/// Cylinder with a known direction of its axis, from touches on its side at known directions: the
+/// position of each touch along the axis is not needed. Deviations: radius, then the point of the axis
+/// nearest to the origin along two directions across the axis.
+///
+/// Of `m = (ρ n + a + s d) × f` the part across `d × f`, which does not know of `s`, is linear in ρ
+/// and `a`.
+///
+/// # Errors
+/// [`GeometryError`]; the radius is not observable without friction.
+pub fn fit_cylinder(touches: &[Touch], axis: &Vector3<f64>) -> Result<Fitted<Cylinder<f64>>, GeometryError> {
+    let length = axis.norm();
+    if !(length > 0.0 && length.is_finite()) {
+        return Err(GeometryError::BadTouch { touch: 0, what: "the axis has no direction" });
+    }
+    let axis = axis / length;
+    let across = match axis.iamin() {
+        0 => Vector3::x(),
+        1 => Vector3::y(),
+        _ => Vector3::z(),
+    };
+    let first = axis.cross(&across).normalize();
+    let second = axis.cross(&first);
+    let normals = directions(touches)?;
+    let mut design = DMatrix::zeros(touches.len(), 3);
+    let mut torque = DMatrix::zeros(touches.len(), 1);
+    for (i, (touch, normal)) in touches.iter().zip(&normals).enumerate() {
+        let force = touch.wrench.force();
+        // Across both the force and d × f: what moving along the axis does not change.
+        let blind = axis.cross(&force);
+        let test = blind.cross(&force);
+        let size = test.norm();
+        if !(size > 0.0) {
+            continue;
+        }
+        // Weighted so that every equation has the dimension of a torque.
+        let test = test / size;
+        let radial = normal - axis * normal.dot(&axis);
+        for (j, column) in [radial, first, second].into_iter().enumerate() {
+            design[(i, j)] = test.dot(&column.cross(&force));
+        }
+        torque[(i, 0)] = test.dot(&touch.wrench.torque());
+    }
+    let size = touches.iter().map(|touch| touch.wrench.force().norm_squared()).sum::<f64>().sqrt();
+    (0..3).for_each(|column| drop_rounding(&mut design, column, size));
+    let fit = least_squares(&design, &torque, None)
+        .map_err(|error| named(error, &["radius", "axis offset 1", "axis offset 2"]))?;
+    let p = &fit.coefficients;
+    let left = &torque - &design * p;
+    let variance = fit.residual_covariance[(0, 0)];
+    let point = first * p[1] + second * p[2];
+    Ok(Fitted {
+        shape: Cylinder::new(point, axis, p[0])?,
+        deviations: fit.inverse_gram.diagonal().iter().map(|g| (g * variance).max(0.0).sqrt()).collect(),
+        rms: (left.norm_squared() / left.len().max(1) as f64).sqrt(),
+    })
+}
+
+/// The semi-axes and centre of an ellipsoid whose axes are those of the sensor frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EllipsoidParameters {
+    /// Semi-axes along x, y, z \[m\].
+    pub semi_axes: Vector3<f64>,
+    /// Centre \[m\].
+    pub centre: Vector3<f64>,
+}
+
+/// Ellipsoid with axes along the sensor's, from touches at known directions: the point with outward
+/// normal n is `t + A² n / √(nᵀA²n)`, A = diag(semi-axes). Gauss-Newton from the fitted sphere.
+/// Deviations: semi-axes x, y, z, centre x, y, z.
+///
+/// # Errors
+/// [`GeometryError`].
+pub fn fit_ellipsoid(touches: &[Touch]) -> Result<Fitted<EllipsoidParameters>, GeometryError> {
+    const MOST_ITERATIONS: usize = 100;
+    let normals = directions(touches)?;
+    let start = fit_sphere(touches)?.shape;
+    let mut semi_axes = Vector3::from_element(start.radius());
+    let mut centre = start.centre();
+    let names = ["semi-axis x", "semi-axis y", "semi-axis z", "centre x", "centre y", "centre z"];
+    for _ in 0..MOST_ITERATIONS {
+        let squares = semi_axes.component_mul(&semi_axes);
+        let mut columns: Vec<Vec<Vector3<f64>>> = vec![Vec::new(); 6];
+        let mut moved = touches.to_vec();
+        for (touch, n) in moved.iter_mut().zip(&normals) {
+            let scaled = squares.component_mul(n);
+            let width = n.dot(&scaled).sqrt();
+            let point = centre + scaled / width;
+            for j in 0..3 {
+                // d(A²n/w)/da_j = 2 a_j n_j e_j / w − A²n · a_j n_j² / w³.
+                let slope = Vector3::ith(j, 2.0 * semi_axes[j] * n[j] / width)
+                    - scaled * (semi_axes[j] * n[j] * n[j] / width.powi(3));
+                columns[j].push(slope);
+                columns[3 + j].push(Vector3::ith(j, 1.0));
+            }
+            let left = touch.wrench.torque() - point.cross(&touch.wrench.force());
+            touch.wrench = Wrench::on_fingertip(touch.wrench.force(), left);
+        }
+        let (step, deviations, rms, _) = torque_fit(&moved, &columns, &names)?;
+        // A semi-axis may shrink to a tenth of itself in one step, but not turn negative.
+        for j in 0..3 {
+            semi_axes[j] = (semi_axes[j] + step[j]).max(0.1 * semi_axes[j]);
+            centre[j] += step[3 + j];
+        }
+        if !(semi_axes.amax() + centre.amax()).is_finite() {
+            break;
+        }
+        if step.amax() <= 1e-12 * semi_axes.amax() {
+            return Ok(Fitted { shape: EllipsoidParameters { semi_axes, centre }, deviations, rms });
+        }
+    }
+    Err(GeometryError::NoConvergence { iterations: MOST_ITERATIONS })
+}
+
+/// The point through which the lines of action of all wrenches pass: a pivot on which the fingertip was held
+/// still while the force turned, or the centre of a sphere touched without friction. Deviations: x, y, z.
+///
+/// # Errors
+/// [`GeometryError`]: at least two forces that are not parallel are needed, with four equations to spare.
+pub fn fit_meeting_point(wrenches: &[Wrench<f64>]) -> Result<Fitted<Vector3<f64>>, GeometryError> {
+    let touches: Vec<Touch> =
+        wrenches.iter().map(|wrench| Touch { wrench: *wrench, normal: Vector3::z() }).collect();
+    directions(&touches)?;
+    let columns: Vec<_> = (0..3).map(|axis| vec![Vector3::ith(axis, 1.0); touches.len()]).collect();
+    let (p, deviations, rms, _) = torque_fit(&touches, &columns, &["point x", "point y", "point z"])?;
+    Ok(Fitted { shape: Vector3::new(p[0], p[1], p[2]), deviations, rms })
+}
+
+/// A plane `normal · x = offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaneParameters {
+    /// Unit normal.
+    pub normal: Vector3<f64>,
+    /// Distance from the origin along the normal \[m\].
+    pub offset: f64,
+}
+
+/// The plane of a flat fingertip from pivots: at each of three or more points of it, the force was turned
+/// while the contact held still. A single wrench tells nothing of the offset, since its line of action
+/// crosses every plane. The deviation is that of the offset; `outward` tells the side.
+///
+/// # Errors
+/// [`GeometryError`]; the points must not lie on a line.
+pub fn fit_plane(
+    pivots: &[Vec<Wrench<f64>>],
+    outward: &Vector3<f64>,
+) -> Result<Fitted<PlaneParameters>, GeometryError> {
+    let points: Vec<Vector3<f64>> = pivots
+        .iter()
+        .map(|wrenches| fit_meeting_point(wrenches).map(|fitted| fitted.shape))
+        .collect::<Result<_, _>>()?;
+    if points.len() < 3 {
+        return Err(FitError::TooFewSamples { samples: points.len(), coefficients: 3 }.into());
+    }
+    let count = points.len() as f64;
+    let mean = points.iter().sum::<Vector3<f64>>() / count;
+    let spread = DMatrix::from_fn(points.len(), 3, |i, j| points[i][j] - mean[j]);
+    let singular = crate::linear::Singular::new(&spread).ok_or(FitError::BadInput { what: "the pivots" })?;
+    if !(singular.values[1] > 1e-3 * singular.values[0]) {
+        return Err(GeometryError::BadTouch { touch: 0, what: "the pivots lie on a line" });
+    }
+    let normal = Vector3::new(singular.right[(0, 2)], singular.right[(1, 2)], singular.right[(2, 2)]);
+    let normal = if normal.dot(outward) < 0.0 { -normal } else { normal };
+    let rms = singular.values[2] / count.sqrt();
+    let freedom = (count - 3.0).max(1.0);
+    let deviation = (singular.values[2] * singular.values[2] / freedom / count).sqrt();
+    Ok(Fitted {
+        shape: PlaneParameters { normal, offset: normal.dot(&mean) },
+        deviations: vec![deviation],
+        rms,
+    })
+}
+
+/// What touches at unknown places say of a sphere's radius: with friction coefficient at most `friction`,
+/// `R ≥ greatest distance of a line of action from the centre / sin(atan μ)` (theory 8). `None` for a
+/// friction that is not positive or a wrench without line of action.
+#[must_use]
+pub fn least_radius(centre: &Vector3<f64>, wrenches: &[Wrench<f64>], friction: f64) -> Option<f64> {
+    let mut greatest = 0.0_f64;
+    for wrench in wrenches {
+        let force = wrench.force();
+        let distance = force.cross(&wrench.torque_about(centre)).norm() / force.norm_squared();
+        if !distance.is_finite() {
+            return None;
+        }
+        greatest = greatest.max(distance);
+    }
+    (friction > 0.0).then(|| greatest / friction.atan().sin())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{
+        GeometryError, Touch, fit_cylinder, fit_ellipsoid, fit_meeting_point, fit_plane, fit_sphere,
+        least_radius,
+    };
+    use crate::fit::testing::gaussian;
+    use fingertip_wrench::Wrench;
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+    use rand::SeedableRng as _;
+    use rand_pcg::Pcg64Mcg;
+
+    fn vector(random: &mut Pcg64Mcg) -> Vector3<f64> {
+        Vector3::from_fn(|_, _| gaussian(random))
+    }
+
+    /// Pressing with friction at a point.
+    fn touch(random: &mut Pcg64Mcg, point: Vector3<f64>, normal: Vector3<f64>, friction: f64) -> Touch {
+        let slide = vector(random).cross(&normal).normalize();
+        let force = (slide * friction - normal) * (1.0 + gaussian(random).abs());
+        Touch { wrench: Wrench::from_force_at(&point, force), normal: normal * 3.0 }
+    }
+
+    proptest! {
+        #[test]
+        fn shapes_come_back(seed in any::<u64>()) {
+            let random = &mut Pcg64Mcg::seed_from_u64(seed);
+            let centre = vector(random) * 0.01;
+            let normals: Vec<_> = (0..15).map(|_| vector(random).normalize()).collect();
+            let touches: Vec<_> =
+                normals.iter().map(|n| touch(random, centre + n * 0.013, *n, 0.4)).collect();
+            let sphere = fit_sphere(&touches).unwrap();
+            prop_assert!((sphere.shape.radius() - 0.013).abs() < 1e-12);
+            prop_assert!((sphere.shape.centre() - centre).amax() < 1e-12);
+            let wrenches: Vec<_> = touches.iter().map(|touch| touch.wrench).collect();
+            // All touches have friction 0.4, so the bound is sharp.
+            prop_assert!((least_radius(&centre, &wrenches, 0.4).unwrap() - 0.013).abs() < 1e-12);
+
+            let axes = Vector3::new(0.012, 0.015, 0.02);
+            let squares = axes.component_mul(&axes);
+            let touches: Vec<_> = normals
+                .iter()
+                .map(|n| {
+                    let s = squares.component_mul(n);
+                    touch(random, centre + s / n.dot(&s).sqrt(), *n, 0.4)
+                })
+                .collect();
+            let ellipsoid = fit_ellipsoid(&touches).unwrap();
+            prop_assert!((ellipsoid.shape.semi_axes - axes).amax() < 1e-10);
+            prop_assert!((ellipsoid.shape.centre - centre).amax() < 1e-10);
+
+            let axis = vector(random).normalize();
+            let base = centre - axis * centre.dot(&axis);
+            let touches: Vec<_> = normals
+                .iter()
+                .map(|n| {
+                    let radial = (n - axis * n.dot(&axis)).normalize();
+                    let along = 0.02 * gaussian(random);
+                    touch(random, base + radial * 0.008 + axis * along, radial, 0.3)
+                })
+                .collect();
+            let cylinder = fit_cylinder(&touches, &(axis * 2.0)).unwrap();
+            prop_assert!((cylinder.shape.radius() - 0.008).abs() < 1e-10);
+        }
+
+        #[test]
+        fn pivots_and_planes(seed in any::<u64>()) {
+            let random = &mut Pcg64Mcg::seed_from_u64(seed);
+            let normal = vector(random).normalize();
+            let pivots: Vec<Vec<_>> = (0..5)
+                .map(|_| {
+                    let point = normal * 0.01 + vector(random).cross(&normal) * 0.005;
+                    (0..5).map(|_| touch(random, point, normal, 0.4).wrench).collect()
+                })
+                .collect();
+            let plane = fit_plane(&pivots, &normal).unwrap();
+            prop_assert!((plane.shape.offset - 0.01).abs() < 1e-10 && (plane.shape.normal - normal).amax() < 1e-8);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_observed_is_said() {
+        let random = &mut Pcg64Mcg::seed_from_u64(1);
+        let centre = Vector3::new(0.001, 0.002, 0.003);
+        let frictionless: Vec<_> = (0..20)
+            .map(|_| {
+                let n = vector(random).normalize();
+                Touch { wrench: Wrench::from_force_at(&(centre + n * 0.013), -n), normal: n }
+            })
+            .collect();
+        let error = fit_sphere(&frictionless).unwrap_err();
+        assert!(error.to_string().contains("unobserved: radius"), "{error}");
+        // But the centre is.
+        let wrenches: Vec<_> = frictionless.iter().map(|touch| touch.wrench).collect();
+        assert!((fit_meeting_point(&wrenches).unwrap().shape - centre).amax() < 1e-12);
+        let parallel = vec![wrenches[0]; 5];
+        assert!(matches!(fit_meeting_point(&parallel), Err(GeometryError::Fit(_))));
+        let mut bad = frictionless;
+        bad[3].normal = Vector3::zeros();
+        assert!(matches!(fit_sphere(&bad), Err(GeometryError::BadTouch { touch: 3, .. })));
+    }
+
+    #[test]
+    fn deviations_are_those_of_many_trials() {
+        let random = &mut Pcg64Mcg::seed_from_u64(5);
+        let normals: Vec<_> = (0..20).map(|_| vector(random).normalize()).collect();
+        let clean: Vec<_> = normals.iter().map(|n| touch(random, n * 0.013, *n, 0.5)).collect();
+        let trials = 4000;
+        let (mut spread, mut expected) = (0.0, 0.0);
+        for _ in 0..trials {
+            let noisy: Vec<_> = clean
+                .iter()
+                .map(|t| Touch {
+                    wrench: Wrench::on_fingertip(t.wrench.force(), t.wrench.torque() + vector(random) * 1e-5),
+                    ..*t
+                })
+                .collect();
+            let fit = fit_sphere(&noisy).unwrap();
+            spread += (fit.shape.radius() - 0.013).powi(2) / f64::from(trials);
+            expected += fit.deviations[0].powi(2) / f64::from(trials);
+        }
+        assert!((spread / expected - 1.0).abs() < 0.08, "{spread:e} {expected:e}");
+    }
+}

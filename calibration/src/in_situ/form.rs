@@ -1,0 +1,179 @@
+//! What ordinary point contacts tell of a sensor: the form that vanishes on their signals.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::fit::FitError;
+use crate::linear::{Singular, Triangular};
+
+/// Gathers signals of point contacts, in bounded memory, and finds the symmetric form that vanishes on
+/// them.
+///
+/// Every point contact has a wrench without pitch, `f·m = 0`. With `wrench = B · signals` that is
+/// `Vᵀ S V = 0`, `S = Bᵀ J B`, J the matrix that exchanges forces and torques. Touches that nobody
+/// measured thus determine S up to a factor: 20 of the 36 numbers in B (theory 8). The other 16 (the
+/// group O(3,3) and a scale) need known loads: see [`super::refine`].
+#[derive(Clone, Debug)]
+pub struct PointContactForm {
+    gauges: usize,
+    triangular: Triangular,
+}
+
+/// The form of a sensor, up to a factor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Form {
+    /// Symmetric, gauges × gauges, of Frobenius norm 1; its sign is chosen so that its trace, or else its
+    /// first entry that is not zero, is positive.
+    pub matrix: DMatrix<f64>,
+    /// How many contacts stand behind it.
+    pub contacts: u64,
+    /// Smallest over second smallest singular value: near zero if the contacts determine the form and
+    /// are point contacts; near 1 if they do not.
+    pub ambiguity: f64,
+    /// Eigenvalues above and below zero: (3, 3) for any true sensor of six gauges.
+    pub signature: (usize, usize),
+}
+
+impl PointContactForm {
+    /// For a sensor of so many gauges.
+    #[must_use]
+    pub fn new(gauges: usize) -> Self {
+        Self { gauges, triangular: Triangular::new(0, gauges * (gauges + 1) / 2) }
+    }
+
+    /// Takes the signals (tared) of one touch; `false` if they are not finite or of the wrong number. The size of
+    /// the touch does not matter: signals are brought to unit length.
+    pub fn push(&mut self, signals: &[f64]) -> bool {
+        if signals.len() != self.gauges {
+            return false;
+        }
+        let norm = DVector::from_column_slice(signals).norm();
+        if !(norm > 0.0 && norm.is_finite()) {
+            return false;
+        }
+        let mut row = Vec::with_capacity(self.gauges * (self.gauges + 1) / 2);
+        for i in 0..self.gauges {
+            for j in i..self.gauges {
+                // √2 off the diagonal makes the norm of the coefficients that of the matrix.
+                let twice = if i == j { 1.0 } else { core::f64::consts::SQRT_2 };
+                row.push(twice * signals[i] * signals[j] / (norm * norm));
+            }
+        }
+        self.triangular.push(&[], &row)
+    }
+
+    /// The form that vanishes on the touches so far.
+    ///
+    /// # Errors
+    /// [`FitError::TooFewSamples`] with fewer touches than numbers to find.
+    pub fn solve(&mut self) -> Result<Form, FitError> {
+        let unknowns = self.gauges * (self.gauges + 1) / 2;
+        let contacts = self.triangular.samples();
+        if contacts < unknowns as u64 {
+            return Err(FitError::TooFewSamples {
+                samples: usize::try_from(contacts).unwrap_or(usize::MAX),
+                coefficients: unknowns,
+            });
+        }
+        let factors = self.triangular.factors();
+        let singular = Singular::new(&factors.residual).ok_or(FitError::BadInput { what: "the signals" })?;
+        let last = unknowns - 1;
+        let mut matrix = DMatrix::zeros(self.gauges, self.gauges);
+        let mut k = 0;
+        for i in 0..self.gauges {
+            for j in i..self.gauges {
+                let value = singular.right[(k, last)];
+                matrix[(i, j)] = if i == j { value } else { value / core::f64::consts::SQRT_2 };
+                matrix[(j, i)] = matrix[(i, j)];
+                k += 1;
+            }
+        }
+        let (matrix, signature) = canonical(matrix);
+        let ambiguity = match singular.values.get(last.saturating_sub(1)) {
+            Some(next) if *next > 0.0 => singular.values[last] / next,
+            _ => 1.0,
+        };
+        Ok(Form { matrix, contacts, ambiguity, signature })
+    }
+}
+
+/// Fixes norm and sign, and counts the signs of the eigenvalues.
+fn canonical(matrix: DMatrix<f64>) -> (DMatrix<f64>, (usize, usize)) {
+    let norm = matrix.norm();
+    let first = matrix.iter().copied().find(|x| x.abs() > 1e-6 * norm).unwrap_or(1.0);
+    let sign = if matrix.trace().abs() > 1e-6 * norm { matrix.trace().signum() } else { first.signum() };
+    let matrix = matrix * (sign / norm.max(f64::MIN_POSITIVE));
+    let eigenvalues = matrix.clone().symmetric_eigenvalues();
+    let least = 1e-9 * eigenvalues.amax();
+    let above = eigenvalues.iter().filter(|x| **x > least).count();
+    let below = eigenvalues.iter().filter(|x| **x < -least).count();
+    (matrix, (above, below))
+}
+
+/// The form that a calibrated sensor should have: `Bᵀ J B` for B from signals to wrench, 6 × gauges.
+#[must_use]
+pub fn form_of(loads_per_signal: &DMatrix<f64>) -> DMatrix<f64> {
+    let force = loads_per_signal.rows(0, 3);
+    let torque = loads_per_signal.rows(3, 3);
+    let product = force.transpose() * torque;
+    canonical(&product + product.transpose()).0
+}
+
+/// Angle between two forms \[rad\]: 0 if they are the same up to a factor.
+#[must_use]
+pub fn angle_between(a: &DMatrix<f64>, b: &DMatrix<f64>) -> f64 {
+    if a.shape() != b.shape() {
+        return core::f64::consts::FRAC_PI_2;
+    }
+    let cosine = (a.dot(b) / (a.norm() * b.norm())).abs();
+    let sine = (a / a.norm() - b * (a.dot(b).signum() / b.norm())).norm() / 2.0;
+    // The arc sine is the accurate one for small angles.
+    if cosine > 0.9 { 2.0 * sine.min(1.0).asin() } else { cosine.min(1.0).acos() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PointContactForm, angle_between, form_of};
+    use crate::fit::testing::{gaussian, sensor};
+    use nalgebra::{DVector, Vector3};
+    use rand::SeedableRng as _;
+    use rand_pcg::Pcg64Mcg;
+
+    #[test]
+    fn touches_determine_twenty_numbers() {
+        let random = &mut Pcg64Mcg::seed_from_u64(2);
+        for _ in 0..20 {
+            // From signals to wrench.
+            let b = sensor(random, 6, 6);
+            let c = b.clone().try_inverse().unwrap();
+            let mut gathered = PointContactForm::new(6);
+            for _ in 0..60 {
+                let mut vector = || Vector3::from_fn(|_, _| gaussian(random));
+                let (f, r) = (vector() * 3.0, vector());
+                let m = r.cross(&f);
+                let load = DVector::from_column_slice(&[f.x, f.y, f.z, m.x, m.y, m.z]);
+                assert!(gathered.push((&c * load).as_slice()));
+            }
+            let form = gathered.solve().unwrap();
+            assert!(angle_between(&form.matrix, &form_of(&b)) < 1e-10);
+            assert!(form.ambiguity < 1e-10 && form.signature == (3, 3));
+        }
+    }
+
+    #[test]
+    fn what_is_not_enough_is_said() {
+        let mut gathered = PointContactForm::new(6);
+        assert!(!gathered.push(&[0.0; 6]) && !gathered.push(&[f64::NAN; 6]) && !gathered.push(&[1.0; 5]));
+        let random = &mut Pcg64Mcg::seed_from_u64(2);
+        // Loads with arbitrary pitch: no form vanishes on them.
+        for _ in 0..20 {
+            let signals: Vec<f64> = (0..6).map(|_| gaussian(random)).collect();
+            gathered.push(&signals);
+        }
+        assert!(gathered.solve().is_err());
+        for _ in 0..2000 {
+            let signals: Vec<f64> = (0..6).map(|_| gaussian(random)).collect();
+            gathered.push(&signals);
+        }
+        assert!(gathered.solve().unwrap().ambiguity > 0.5);
+    }
+}

@@ -1,0 +1,191 @@
+//! Mending a calibration with touches and a few known loads.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::fit::FitError;
+use crate::linear::Singular;
+
+/// What mending a calibration gave.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refined {
+    /// From signals to loads in nominal loads, 6 × gauges.
+    pub loads_per_signal: DMatrix<f64>,
+    /// RMS of the pitch `f·m / (|f||m|)` of the touches, before and after: 0 for point contacts.
+    pub pitch: (f64, f64),
+    /// How many directions of the 6 × gauges numbers neither touches nor known loads show: they stay as
+    /// they were.
+    pub unobserved: usize,
+    /// Iterations.
+    pub iterations: usize,
+}
+
+/// Mends the map from signals to loads (in nominal loads, so that forces and torques weigh alike) so that
+/// the touches have no pitch and the known loads come out: Levenberg-Marquardt on `Σ (fᵀm / (|f||m|) / pitch_deviation)² +
+/// Σ |B V − P|² / load_deviation²` from the calibration that there is (theory 8). Changes that
+/// nothing asks for are not made.
+///
+/// Touches leave a scale and the group O(3,3) open, 16 numbers; known loads in general directions that
+/// are no point contacts leave 3 open if there are three of them, 1 with four, none with five (against
+/// six without touches).
+///
+/// `touches` and `signals` hold tared readings, samples × gauges; `loads` are samples × 6.
+///
+/// # Errors
+/// [`FitError`].
+pub fn refine(
+    start: &DMatrix<f64>,
+    touches: &DMatrix<f64>,
+    pitch_deviation: f64,
+    signals: &DMatrix<f64>,
+    loads: &DMatrix<f64>,
+    load_deviation: f64,
+) -> Result<Refined, FitError> {
+    const MOST_ITERATIONS: usize = 200;
+    let gauges = start.ncols();
+    let finite = |m: &DMatrix<f64>| m.iter().all(|x| x.is_finite());
+    if start.nrows() != 6 || touches.ncols() != gauges || !finite(start) || !finite(touches) {
+        return Err(FitError::BadInput { what: "the calibration or the touches" });
+    }
+    let matching = signals.ncols() == gauges && loads.ncols() == 6 && signals.nrows() == loads.nrows();
+    if !(matching || loads.is_empty()) || !finite(signals) || !finite(loads) {
+        return Err(FitError::BadInput { what: "the known loads" });
+    }
+    if !(pitch_deviation > 0.0 && load_deviation > 0.0) {
+        return Err(FitError::BadInput { what: "the standard deviations" });
+    }
+    // Each touch is weighted by the size that the start gives it, once and for all, so that the target is
+    // polynomial.
+    let sizes: Vec<f64> = touches
+        .row_iter()
+        .map(|row| {
+            let load = start * row.transpose();
+            (load.rows(0, 3).norm() * load.rows(3, 3).norm()).max(f64::MIN_POSITIVE)
+        })
+        .collect();
+    let evaluate = |b: &DMatrix<f64>| -> (DVector<f64>, DMatrix<f64>) {
+        let (t, p) = (touches.nrows(), loads.nrows());
+        let mut residual = DVector::zeros(t + 6 * p);
+        let mut jacobian = DMatrix::zeros(t + 6 * p, 6 * gauges);
+        for i in 0..t {
+            let v = touches.row(i);
+            let load = b * v.transpose();
+            let factor = 1.0 / (sizes[i] * pitch_deviation);
+            residual[i] = factor * load.rows(0, 3).dot(&load.rows(3, 3));
+            for axis in 0..6 {
+                // ∂(fᵀm)/∂B[axis][g] = (the other vector)[axis] V[g].
+                let other = load[(axis + 3) % 6] * factor;
+                for g in 0..gauges {
+                    jacobian[(i, axis * gauges + g)] = other * v[g];
+                }
+            }
+        }
+        for i in 0..p {
+            let v = signals.row(i);
+            let load = b * v.transpose();
+            for axis in 0..6 {
+                let row = t + 6 * i + axis;
+                residual[row] = (load[axis] - loads[(i, axis)]) / load_deviation;
+                for g in 0..gauges {
+                    jacobian[(row, axis * gauges + g)] = v[g] / load_deviation;
+                }
+            }
+        }
+        (residual, jacobian)
+    };
+    let pitch = |b: &DMatrix<f64>| {
+        let sum: f64 = touches
+            .row_iter()
+            .map(|row| {
+                let load = b * row.transpose();
+                let (f, m) = (load.rows(0, 3), load.rows(3, 3));
+                (f.dot(&m) / (f.norm() * m.norm()).max(f64::MIN_POSITIVE)).powi(2)
+            })
+            .sum();
+        (sum / touches.nrows().max(1) as f64).sqrt()
+    };
+    let mut map = start.clone();
+    let (mut residual, mut jacobian) = evaluate(&map);
+    let mut iterations = 0;
+    let mut unobserved = 0;
+    while iterations < MOST_ITERATIONS {
+        iterations += 1;
+        // The step of least norm, so that what is not observed does not move.
+        let singular = Singular::new(&jacobian).ok_or(FitError::BadInput { what: "the touches" })?;
+        let threshold = 1e-9 * singular.values.max();
+        unobserved = 6 * gauges - singular.values.iter().filter(|value| **value > threshold).count();
+        let mut damping = 0.0;
+        let mut better = false;
+        for _ in 0..30 {
+            let mut step = DVector::zeros(6 * gauges);
+            for (k, value) in singular.values.iter().enumerate() {
+                if *value > threshold {
+                    let along = singular.left.column(k).dot(&residual);
+                    step -= singular.right.column(k) * (along * value / (value * value + damping));
+                }
+            }
+            let trial = &map + DMatrix::from_row_slice(6, gauges, step.as_slice());
+            let (next, slope) = evaluate(&trial);
+            if next.norm() < residual.norm() {
+                let gain = 1.0 - next.norm() / residual.norm();
+                (map, residual, jacobian) = (trial, next, slope);
+                better = gain > 1e-12;
+                break;
+            }
+            damping = (damping * 10.0_f64).max(1e-6 * singular.values.max().powi(2));
+        }
+        if !better {
+            break;
+        }
+    }
+    Ok(Refined { pitch: (pitch(start), pitch(&map)), loads_per_signal: map, unobserved, iterations })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::refine;
+    use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
+    use nalgebra::{DMatrix, Vector3};
+    use rand::SeedableRng as _;
+    use rand_pcg::Pcg64Mcg;
+
+    fn touches(random: &mut Pcg64Mcg, count: usize, truth: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut loads = DMatrix::zeros(count, 6);
+        for i in 0..count {
+            let mut vector = || Vector3::from_fn(|_, _| gaussian(random));
+            let (f, r) = (vector(), vector());
+            loads.view_mut((i, 0), (1, 3)).copy_from(&f.transpose());
+            loads.view_mut((i, 3), (1, 3)).copy_from(&r.cross(&f).transpose());
+        }
+        let inverse = truth.clone().try_inverse().unwrap();
+        loads * inverse.transpose()
+    }
+
+    #[test]
+    fn touches_and_few_loads_mend_a_drifted_sensor() {
+        let random = &mut Pcg64Mcg::seed_from_u64(8);
+        let truth = sensor(random, 6, 6);
+        let drifted = &truth + gaussian_matrix(random, 6, 6) * 0.02;
+        let signals = touches(random, 100, &truth);
+        // Touches alone: 16 numbers stay open, and the pitch vanishes.
+        let empty = DMatrix::zeros(0, 6);
+        let alone = refine(&drifted, &signals, 1e-3, &empty, &empty, 1.0).unwrap();
+        assert_eq!(alone.unobserved, 16);
+        assert!(alone.pitch.1 < 1e-9 && alone.pitch.0 > 1e-3);
+        // What is left is the orthogonal group of what is perpendicular to the known loads: of dimension
+        // 15 − … = 3, 1, 0 after three, four, five of them. Without touches, 6 (6 − loads) stay open.
+        for (count, open) in [(3, 3), (4, 1), (5, 0)] {
+            let known = gaussian_matrix(random, count, 6);
+            let loads = &known * truth.transpose();
+            let both = refine(&drifted, &signals, 1e-3, &known, &loads, 1e-3).unwrap();
+            assert_eq!(both.unobserved, open);
+            if open == 0 {
+                assert!((both.loads_per_signal - &truth).amax() < 1e-7);
+            }
+            let none = DMatrix::zeros(0, 6);
+            assert_eq!(
+                refine(&drifted, &none, 1e-3, &known, &loads, 1e-3).unwrap().unobserved,
+                6 * (6 - count)
+            );
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! Shape from motion: a constant force in unknown directions.
+
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use thiserror::Error;
+
+use crate::fit::{FitError, least_squares};
+use crate::linear::{Singular, Unobserved};
+
+/// What a force of constant size in unknown directions tells of a sensor: its forces up to one
+/// rotation (or reflection) of all of them, and its zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConstantForce {
+    /// Forces \[N\] = this · (signals − zero), 3 × gauges; known up to an orthogonal matrix from the left.
+    pub force_from_signals: DMatrix<f64>,
+    /// The inverse on the span of the readings: signals − zero = this · force, gauges × 3.
+    pub signals_from_force: DMatrix<f64>,
+    /// The readings without load.
+    pub zero: DVector<f64>,
+    /// RMS deviation of the fitted forces' size from the given one, relative.
+    pub misfit: f64,
+    /// Fourth over third singular value of the readings: noise and nonlinearity over signal. Near
+    /// zero for a good sensor of three components.
+    pub leakage: f64,
+}
+
+/// Why motion tells no shape.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MotionError {
+    /// A size, count or number is wrong, or directions are too few or too alike.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// The readings lie on no ellipsoid: the force was not constant, or its directions cover too
+    /// little.
+    #[error(
+        "the readings do not lie on an ellipsoid: the force was not constant, or its directions are too alike"
+    )]
+    NotAnEllipsoid,
+    /// No start of the search came near a solution.
+    #[error("no solution in {starts} starts; the best leaves a relative residual of {residual:.2e}")]
+    NoSolution {
+        /// How many starts were made.
+        starts: usize,
+        /// What the best left.
+        residual: f64,
+    },
+    /// Directions for the alignment are missing or parallel.
+    #[error("two known directions that are not parallel are needed")]
+    NoAlignment,
+}
+
+/// Shape from motion for three components (Voyles, Morrow & Khosla 1997; theory 8): a weight of
+/// known size (`force` \[N\]) is turned into nine or more unknown directions.
+///
+/// The centred readings (samples × gauges) have rank three; in the coordinates of their singular
+/// vectors they lie on an ellipsoid, whose centre is the zero and whose shape is the sensor.
+///
+/// # Errors
+/// [`MotionError::NotAnEllipsoid`], or [`MotionError::Fit`] for too few or too similar directions.
+pub fn constant_force(signals: &DMatrix<f64>, force: f64) -> Result<ConstantForce, MotionError> {
+    let (samples, gauges) = signals.shape();
+    if !(force > 0.0 && force.is_finite()) || signals.iter().any(|x| !x.is_finite()) {
+        return Err(FitError::BadInput { what: "the force or the readings" }.into());
+    }
+    if samples < 10 || gauges < 3 {
+        return Err(FitError::TooFewSamples { samples, coefficients: 9 }.into());
+    }
+    let mean = signals.row_mean();
+    let mut centred = signals.clone();
+    for mut row in centred.row_iter_mut() {
+        row -= &mean;
+    }
+    let singular = Singular::new(&centred).ok_or(FitError::BadInput { what: "the matrix of readings" })?;
+    if singular.rank() < 3 {
+        let directions = singular.right.columns(singular.rank(), 3 - singular.rank()).into_owned();
+        return Err(
+            FitError::Unobserved(Unobserved { regressors: gauges, directions, names: Vec::new() }).into()
+        );
+    }
+    // Unit variance along each direction: the quadric is then near a sphere.
+    let scale = (samples as f64).sqrt();
+    let points = singular.left.columns(0, 3) * scale;
+    let mut design = DMatrix::zeros(samples, 9);
+    for i in 0..samples {
+        let (x, y, z) = (points[(i, 0)], points[(i, 1)], points[(i, 2)]);
+        for (j, value) in
+            [x * x, y * y, z * z, 2.0 * x * y, 2.0 * x * z, 2.0 * y * z, x, y, z].into_iter().enumerate()
+        {
+            design[(i, j)] = value;
+        }
+    }
+    let fit = least_squares(&design, &DMatrix::from_element(samples, 1, 1.0), None)?;
+    let c = &fit.coefficients;
+    let shape = Matrix3::new(c[0], c[3], c[4], c[3], c[1], c[5], c[4], c[5], c[2]);
+    let linear = Vector3::new(c[6], c[7], c[8]);
+    let factor = shape.cholesky().ok_or(MotionError::NotAnEllipsoid)?;
+    let centre = factor.solve(&linear) * -0.5;
+    let size = 1.0 + centre.dot(&(shape * centre));
+    let root =
+        (shape * (force * force / size)).cholesky().ok_or(MotionError::NotAnEllipsoid)?.l().transpose();
+    let inverse_root = root.try_inverse().ok_or(MotionError::NotAnEllipsoid)?;
+    // points = (signals − mean) · V Σ⁻¹ · scale.
+    let mut whiten = singular.right.columns(0, 3).into_owned();
+    let mut colour = whiten.clone();
+    for j in 0..3 {
+        whiten.column_mut(j).scale_mut(scale / singular.values[j]);
+        colour.column_mut(j).scale_mut(singular.values[j] / scale);
+    }
+    let dynamic = |m: &Matrix3<f64>| DMatrix::from_fn(3, 3, |i, j| m[(i, j)]);
+    let force_from_signals = dynamic(&root) * whiten.transpose();
+    let signals_from_force = &colour * dynamic(&inverse_root);
+    let zero = mean.transpose() + &colour * DVector::from_column_slice(centre.as_slice());
+    let squares: f64 = (0..samples)
+        .map(|i| {
+            let point = Vector3::new(points[(i, 0)], points[(i, 1)], points[(i, 2)]);
+            ((root * (point - centre)).norm() / force - 1.0).powi(2)
+        })
+        .sum();
+    Ok(ConstantForce {
+        force_from_signals,
+        signals_from_force,
+        zero,
+        misfit: (squares / samples as f64).sqrt(),
+        leakage: if gauges > 3 { singular.values[3] / singular.values[2] } else { 0.0 },
+    })
+}
+
+impl ConstantForce {
+    /// The force that a reading tells of.
+    #[must_use]
+    pub fn force(&self, reading: &DVector<f64>) -> Option<Vector3<f64>> {
+        if reading.len() != self.zero.len() {
+            return None;
+        }
+        let force = &self.force_from_signals * (reading - &self.zero);
+        Some(Vector3::new(force[0], force[1], force[2]))
+    }
+
+    /// Settles the rotation by readings under forces of known direction: at least two that are not
+    /// parallel (three that are not in a plane tell a reflection, too, which two cannot).
+    ///
+    /// # Errors
+    /// [`MotionError::NoAlignment`].
+    pub fn aligned(&self, known: &[(DVector<f64>, Vector3<f64>)]) -> Result<Self, MotionError> {
+        let mut covariance = Matrix3::zeros();
+        for (reading, direction) in known {
+            let force = self.force(reading).ok_or(MotionError::NoAlignment)?;
+            let norms = force.norm() * direction.norm();
+            if !(norms > 0.0 && norms.is_finite()) {
+                return Err(MotionError::NoAlignment);
+            }
+            covariance += direction * force.transpose() / norms;
+        }
+        let singular = Singular::new(&DMatrix::from_fn(3, 3, |i, j| covariance[(i, j)]))
+            .ok_or(MotionError::NoAlignment)?;
+        if !(singular.values[1] > 1e-6 * singular.values[0]) {
+            return Err(MotionError::NoAlignment);
+        }
+        let (mut u, v) = (singular.left, singular.right);
+        if !(singular.values[2] > 1e-9 * singular.values[0]) {
+            // Two directions: complete them to right-handed triples, which assumes no reflection.
+            let cross = |m: &DMatrix<f64>| {
+                let a = Vector3::new(m[(0, 0)], m[(1, 0)], m[(2, 0)]);
+                a.cross(&Vector3::new(m[(0, 1)], m[(1, 1)], m[(2, 1)]))
+            };
+            let (third, other) = (cross(&u), cross(&v));
+            let mut right = v;
+            right.set_column(2, &other);
+            u.set_column(2, &third);
+            return Ok(self.turned(&(u * right.transpose())));
+        }
+        Ok(self.turned(&(u * v.transpose())))
+    }
+
+    fn turned(&self, rotation: &DMatrix<f64>) -> Self {
+        Self {
+            force_from_signals: rotation * &self.force_from_signals,
+            signals_from_force: &self.signals_from_force * rotation.transpose(),
+            ..self.clone()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MotionError, constant_force};
+    use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
+    use nalgebra::{DMatrix, DVector, Vector3};
+    use proptest::prelude::*;
+    use rand::SeedableRng as _;
+    use rand_pcg::Pcg64Mcg;
+
+    fn directions(random: &mut Pcg64Mcg, count: usize) -> DMatrix<f64> {
+        let mut forces = gaussian_matrix(random, count, 3);
+        for mut row in forces.row_iter_mut() {
+            let norm = row.norm();
+            row *= 5.0 / norm;
+        }
+        forces
+    }
+
+    proptest! {
+        #[test]
+        fn forces_come_back_up_to_a_rotation(seed in any::<u64>(), gauges in 3..8_usize) {
+            let random = &mut Pcg64Mcg::seed_from_u64(seed);
+            let truth = sensor(random, 3, gauges);
+            let forces = directions(random, 30);
+            let zero = DVector::from_fn(gauges, |_, _| 10.0 * gaussian(random));
+            let mut signals = &forces * &truth;
+            for mut row in signals.row_iter_mut() {
+                row += zero.transpose();
+            }
+            let found = constant_force(&signals, 5.0).unwrap();
+            prop_assert!(found.misfit < 1e-9 && found.leakage < 1e-9);
+            prop_assert!((&found.zero - &zero).amax() < 1e-8);
+            // The Gram matrix does not know of rotations.
+            let again = DMatrix::from_fn(30, 3, |i, j| found.force(&signals.row(i).transpose()).unwrap()[j]);
+            let gram = &again * again.transpose();
+            prop_assert!((gram - &forces * forces.transpose()).amax() < 1e-7);
+            let known: Vec<_> = (0..3)
+                .map(|i| (signals.row(i).transpose(), Vector3::from_fn(|j, _| forces[(i, j)])))
+                .collect();
+            if let Ok(aligned) = found.aligned(&known) {
+                prop_assert!((aligned.signals_from_force - truth.transpose()).amax() < 1e-5);
+            }
+        }
+    }
+
+    #[test]
+    fn hopeless_data_are_refused() {
+        let random = &mut Pcg64Mcg::seed_from_u64(1);
+        let noise = gaussian_matrix(random, 200, 3);
+        if let Ok(found) = constant_force(&noise, 5.0) {
+            assert!(found.misfit > 0.2);
+        }
+        let mut flat = directions(random, 30);
+        flat.column_mut(2).fill(0.0);
+        assert!(matches!(constant_force(&flat, 5.0), Err(MotionError::Fit(_))));
+        assert!(matches!(constant_force(&noise.rows(0, 5).into(), 5.0), Err(MotionError::Fit(_))));
+        assert!(matches!(constant_force(&noise, f64::NAN), Err(MotionError::Fit(_))));
+    }
+}

@@ -1,0 +1,256 @@
+//! Shape from motion for six components: a weight on known lever arms.
+
+use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, UnitQuaternion, Vector3};
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64Mcg;
+
+use super::{ConstantForce, MotionError, constant_force};
+use crate::fit::FitError;
+use crate::linear::pseudo_inverse;
+
+/// A weight hung at one point of the sensor, turned into unknown directions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeverArm {
+    /// Where it hangs, in the sensor frame \[m\].
+    pub arm: Vector3<f64>,
+    /// Readings, samples × gauges; ten directions at least.
+    pub signals: DMatrix<f64>,
+}
+
+/// A sensor of six components found without knowing any direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeverArmFit {
+    /// signals − zero = this · \[force; torque\], gauges × 6, \[signal/N, signal/(N·m)\]. **Its sign is
+    /// not observable** from weights in unknown directions; see [`LeverArmFit::with_sign`].
+    pub sensitivities: DMatrix<f64>,
+    /// Readings without load: mean over the lever arms.
+    pub zero: DVector<f64>,
+    /// What is left of the blocks, relative.
+    pub residual: f64,
+    /// How many of the starts reached this solution.
+    pub hits: usize,
+    /// How many starts were made.
+    pub starts: usize,
+    /// Greatest relative misfit of the single lever arms.
+    pub misfit: f64,
+}
+
+/// Finds the matrix of a sensor from weights of known size at four or more known lever arms that do
+/// not lie in a plane, in unknown directions (theory 8).
+///
+/// Each arm alone gives `B_k = C G_k O_k`, `G_k = [I; [r_k]×]`, with an unknown orthogonal `O_k`
+/// ([`constant_force`]). The rotations are found by Levenberg-Marquardt on
+/// `min ‖[B_k O_kᵀ] (I − G⁺G)‖` from `starts` random starts, since the problem has many local minima; then
+/// `C = [B_k O_kᵀ] G⁺`.
+///
+/// # Errors
+/// [`MotionError`]; `NoSolution` if the best residual exceeds `tolerance` (1e-6 for clean data, a few times
+/// the relative noise otherwise).
+pub fn lever_arms(
+    arms: &[LeverArm],
+    force: f64,
+    tolerance: f64,
+    starts: usize,
+    seed: u64,
+) -> Result<LeverArmFit, MotionError> {
+    let gauges = arms.first().map_or(0, |arm| arm.signals.ncols());
+    if arms.len() < 4 || gauges < 6 || arms.iter().any(|arm| arm.signals.ncols() != gauges) {
+        return Err(FitError::BadInput {
+            what: "the list of lever arms (four at least, six gauges at least)",
+        }
+        .into());
+    }
+    let blocks: Vec<ConstantForce> =
+        arms.iter().map(|arm| constant_force(&arm.signals, force)).collect::<Result<_, _>>()?;
+    // Lengths in units of the arms', so that forces and torques weigh alike.
+    let length = arms.iter().map(|arm| arm.arm.norm()).fold(0.0, f64::max);
+    if !(length > 0.0 && length.is_finite()) {
+        return Err(FitError::BadInput { what: "the list of lever arms (all are zero)" }.into());
+    }
+    let count = arms.len();
+    let mut g = DMatrix::zeros(6, 3 * count);
+    for (k, arm) in arms.iter().enumerate() {
+        g.view_mut((0, 3 * k), (3, 3)).fill_with_identity();
+        g.view_mut((3, 3 * k), (3, 3)).copy_from(&(arm.arm / length).cross_matrix());
+    }
+    let inverse = pseudo_inverse(&g)
+        .ok_or(FitError::BadInput { what: "the list of lever arms (they lie in a plane)" })?;
+    let annihilator = DMatrix::identity(3 * count, 3 * count) - &inverse * &g;
+    let size = blocks.iter().map(|block| block.signals_from_force.norm_squared()).sum::<f64>().sqrt();
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let mut best: Option<(f64, DMatrix<f64>)> = None;
+    let mut residuals = Vec::with_capacity(starts);
+    for _ in 0..starts {
+        let mut map = DMatrix::zeros(gauges, 3 * count);
+        for (k, block) in blocks.iter().enumerate() {
+            let mut draw = || random.random_range(-1.0..1.0);
+            let q = nalgebra::Quaternion::new(draw(), draw(), draw(), draw());
+            let rotation = UnitQuaternion::from_quaternion(q).to_rotation_matrix();
+            // Each block's handedness is unknown; one sign for all is not observable.
+            let sign = if k > 0 && random.random_bool(0.5) { -1.0 } else { 1.0 };
+            set_block(&mut map, k, &(&block.signals_from_force * dynamic(&(rotation.matrix() * sign))));
+        }
+        let residual = refine(&mut map, &annihilator) / size;
+        residuals.push(residual);
+        if best.as_ref().is_none_or(|(least, _)| residual < *least) {
+            best = Some((residual, map));
+        }
+    }
+    let Some((residual, map)) = best.filter(|(residual, _)| *residual <= tolerance) else {
+        let residual = residuals.iter().copied().fold(f64::INFINITY, f64::min);
+        return Err(MotionError::NoSolution { starts, residual });
+    };
+    let mut sensitivities = map * inverse;
+    sensitivities.columns_mut(3, 3).scale_mut(1.0 / length);
+    let mut zero = DVector::zeros(gauges);
+    for block in &blocks {
+        zero += &block.zero / count as f64;
+    }
+    Ok(LeverArmFit {
+        sensitivities,
+        zero,
+        residual,
+        hits: residuals.iter().filter(|r| **r <= (2.0 * residual).max(tolerance)).count(),
+        starts,
+        misfit: blocks.iter().map(|block| block.misfit).fold(0.0, f64::max),
+    })
+}
+
+impl LeverArmFit {
+    /// Settles the sign by one reading under a force whose direction is known roughly (within 90°).
+    #[must_use]
+    pub fn with_sign(mut self, reading: &DVector<f64>, force: &Vector3<f64>) -> Option<Self> {
+        if reading.len() != self.zero.len() {
+            return None;
+        }
+        let load = pseudo_inverse(&self.sensitivities)? * (reading - &self.zero);
+        let along = force.dot(&Vector3::new(load[0], load[1], load[2]));
+        if !(along.abs() > 0.0) {
+            return None;
+        }
+        self.sensitivities *= along.signum();
+        Some(self)
+    }
+}
+
+fn dynamic(matrix: &Matrix3<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(3, 3, |i, j| matrix[(i, j)])
+}
+
+fn set_block(map: &mut DMatrix<f64>, k: usize, block: &DMatrix<f64>) {
+    map.view_mut((0, 3 * k), (block.nrows(), 3)).copy_from(block);
+}
+
+/// Levenberg-Marquardt over the rotations of the blocks; what is left of the residual.
+fn refine(map: &mut DMatrix<f64>, annihilator: &DMatrix<f64>) -> f64 {
+    let gauges = map.nrows();
+    let count = map.ncols() / 3;
+    let mut residual = &*map * annihilator;
+    let mut damping = 1e-3;
+    for _ in 0..200 {
+        let mut jacobian = DMatrix::zeros(residual.len(), 3 * count);
+        for k in 0..count {
+            let block = map.view((0, 3 * k), (gauges, 3)).into_owned();
+            for j in 0..3 {
+                let turn = dynamic(&Vector3::ith(j, 1.0).cross_matrix());
+                let change = &block * turn * annihilator.rows(3 * k, 3);
+                jacobian.set_column(3 * k + j, &DVector::from_column_slice(change.as_slice()));
+            }
+        }
+        // The damped step: small and well conditioned by the damping, so its normal equations do no harm.
+        let gradient = jacobian.transpose() * DVector::from_column_slice(residual.as_slice());
+        let mut normal = jacobian.transpose() * &jacobian;
+        let scale = normal.diagonal().max();
+        for i in 0..3 * count {
+            normal[(i, i)] += damping * scale;
+        }
+        let Some(factor) = normal.cholesky() else { break };
+        let step = factor.solve(&-gradient);
+        let mut trial = map.clone();
+        for k in 0..count {
+            let turn =
+                Rotation3::from_scaled_axis(Vector3::new(step[3 * k], step[3 * k + 1], step[3 * k + 2]));
+            let block = map.view((0, 3 * k), (gauges, 3)) * dynamic(turn.matrix());
+            set_block(&mut trial, k, &block);
+        }
+        let next = &trial * annihilator;
+        if next.norm() < residual.norm() {
+            let gain = 1.0 - next.norm() / residual.norm();
+            *map = trial;
+            residual = next;
+            damping = (damping * 0.2).max(1e-15);
+            if gain < 1e-9 && step.amax() < 1e-9 {
+                break;
+            }
+        } else {
+            damping *= 5.0;
+            if damping > 1e6 {
+                break;
+            }
+        }
+    }
+    residual.norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LeverArm, lever_arms};
+    use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
+    use crate::motion::MotionError;
+    use nalgebra::{DMatrix, DVector, Vector3};
+    use rand::SeedableRng as _;
+    use rand_pcg::Pcg64Mcg;
+
+    fn arms(random: &mut Pcg64Mcg, truth: &DMatrix<f64>, zero: &DVector<f64>, noise: f64) -> Vec<LeverArm> {
+        [[0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1], [-0.05, -0.06, 0.02]]
+            .into_iter()
+            .map(|arm| {
+                let arm = Vector3::from(arm);
+                let mut signals = DMatrix::zeros(20, truth.nrows());
+                for i in 0..20 {
+                    let f = Vector3::from_fn(|_, _| gaussian(random)).normalize() * 5.0;
+                    let m = arm.cross(&f);
+                    let load = DVector::from_column_slice(&[f.x, f.y, f.z, m.x, m.y, m.z]);
+                    signals.set_row(i, &(truth * load + zero).transpose());
+                }
+                LeverArm { arm, signals: signals + gaussian_matrix(random, 20, truth.nrows()) * noise }
+            })
+            .collect()
+    }
+
+    fn truth(random: &mut Pcg64Mcg) -> (DMatrix<f64>, DVector<f64>) {
+        let mut truth = sensor(random, 6, 6).transpose();
+        truth.columns_mut(3, 3).scale_mut(10.0);
+        (truth, DVector::from_fn(6, |i, _| i as f64))
+    }
+
+    #[test]
+    fn sensor_is_found_without_any_known_direction() {
+        let random = &mut Pcg64Mcg::seed_from_u64(11);
+        for seed in 0..3 {
+            let (truth, zero) = truth(random);
+            let arms = arms(random, &truth, &zero, 0.0);
+            let fit = lever_arms(&arms, 5.0, 1e-6, 300, seed).unwrap();
+            assert!((&fit.zero - &zero).amax() < 1e-6);
+            // One force is known to point roughly along −z.
+            let load = DVector::from_column_slice(&[1.0, 0.5, -3.0, 0.0, 0.0, 0.0]);
+            let fit = fit.with_sign(&(&truth * load + zero), &-Vector3::z()).unwrap();
+            assert!((&fit.sensitivities - &truth).amax() < 1e-5 * truth.amax(), "{}", fit.residual);
+            println!("{} of {} starts", fit.hits, fit.starts);
+        }
+    }
+
+    #[test]
+    fn noise_is_tolerated_and_nonsense_refused() {
+        let random = &mut Pcg64Mcg::seed_from_u64(12);
+        let (truth, zero) = truth(random);
+        let noisy = arms(random, &truth, &zero, 1e-3);
+        let fit = lever_arms(&noisy, 5.0, 1e-2, 300, 1).unwrap();
+        let fit = fit.with_sign(&(truth.column(0) + &zero), &Vector3::x()).unwrap();
+        assert!((&fit.sensitivities - &truth).amax() < 0.02 * truth.amax());
+        let mut wrong = noisy.clone();
+        wrong[2].arm = Vector3::new(0.0, 0.05, 0.03);
+        assert!(matches!(lever_arms(&wrong, 5.0, 1e-3, 100, 1), Err(MotionError::NoSolution { .. })));
+        assert!(lever_arms(&noisy[..3], 5.0, 1e-2, 10, 1).is_err());
+    }
+}

@@ -1,0 +1,176 @@
+//! A new zero for a calibrated sensor.
+
+use std::io::Read;
+
+use nalgebra::DMatrix;
+use thiserror::Error;
+
+use crate::file::{CalibrationFile, FileError, SignalUnit};
+use crate::loads::{LoadError, signals_from_csv};
+
+/// A calibration with a new zero, and what the recording of rest looked like.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tared {
+    /// The calibration with the new zero and noise.
+    pub file: CalibrationFile,
+    /// How many readings the zero is the mean of.
+    pub samples: usize,
+    /// By how much each zero moved.
+    pub moved: Vec<f64>,
+    /// The load \[N, N·m\] that the old zero would have read at rest.
+    pub load_before: Vec<f64>,
+    /// What to mind: a recording that was not at rest, a gauge at its end.
+    pub warnings: Vec<String>,
+}
+
+/// Why there is no new zero.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RestError {
+    /// The recording is wrong.
+    #[error(transparent)]
+    Recording(#[from] LoadError),
+    /// The calibration is wrong.
+    #[error(transparent)]
+    Calibration(#[from] FileError),
+    /// Fewer than two readings.
+    #[error("a zero needs at least 2 readings at rest, not {samples}")]
+    TooFewSamples {
+        /// How many there are.
+        samples: usize,
+    },
+    /// The recording is in another unit than the calibration.
+    #[error("the recording is in {recording:?}, the calibration in {calibration:?}")]
+    WrongUnit {
+        /// Unit of the recording.
+        recording: SignalUnit,
+        /// Unit of the calibration.
+        calibration: SignalUnit,
+    },
+    /// A gauge gives no other reading than the end of its range.
+    #[error("gauge {gauge} is saturated at rest")]
+    Saturated {
+        /// Which gauge, from 1.
+        gauge: usize,
+    },
+}
+
+impl CalibrationFile {
+    /// Takes the zero and the noise of the gauges from a recording of the sensor at rest, without load:
+    /// CSV with the columns `v1_V` … as in [`crate::loads::LoadTable::from_csv`].
+    ///
+    /// A recording whose second half differs from its first by more than five standard errors and by
+    /// more than one deviation of a single reading was not at rest (or drifts): that is a warning.
+    ///
+    /// # Errors
+    /// [`RestError`].
+    pub fn tared(&self, rest: impl Read) -> Result<Tared, RestError> {
+        let (signals, unit) = signals_from_csv(rest)?;
+        if unit != self.signal_unit {
+            return Err(RestError::WrongUnit { recording: unit, calibration: self.signal_unit });
+        }
+        self.tared_by(&signals)
+    }
+
+    /// As [`tared`](Self::tared), from readings (samples × gauges) in the calibration's unit.
+    ///
+    /// # Errors
+    /// [`RestError`].
+    pub fn tared_by(&self, signals: &DMatrix<f64>) -> Result<Tared, RestError> {
+        self.validate()?;
+        let (samples, gauges) = signals.shape();
+        if gauges != self.gauges() {
+            return Err(FileError::WrongGauges { found: self.gauges(), expected: gauges }.into());
+        }
+        if samples < 2 {
+            return Err(RestError::TooFewSamples { samples });
+        }
+        if let Some(range) = self.range {
+            let stuck =
+                |gauge: &usize| signals.column(*gauge).iter().all(|v| !(*v > range[0] && *v < range[1]));
+            if let Some(gauge) = (0..gauges).find(stuck) {
+                return Err(RestError::Saturated { gauge: gauge + 1 });
+            }
+        }
+        let mut file = self.clone();
+        let mut warnings = Vec::new();
+        let mut noise = Vec::with_capacity(gauges);
+        for (gauge, column) in signals.column_iter().enumerate() {
+            let (mean, deviation) = mean_and_deviation(column.as_slice());
+            let (first, second) = column.as_slice().split_at(samples / 2);
+            let drift = mean_and_deviation(second).0 - mean_and_deviation(first).0;
+            // The means of two halves differ by 2σ/√n.
+            if drift.abs() > 10.0 * deviation / (samples as f64).sqrt() && drift.abs() > deviation {
+                warnings.push(format!(
+                    "gauge {}: the recording was not at rest: its second half differs by {drift:.3e} from its first, \
+                     single readings by {deviation:.3e}",
+                    gauge + 1
+                ));
+            }
+            file.zero[gauge] = mean;
+            noise.push(deviation);
+        }
+        let mean: Vec<f64> = file.zero.clone();
+        let load_before = self.load(&mean).ok_or(FileError::Singular)?.as_slice().to_vec();
+        let moved = mean.iter().zip(&self.zero).map(|(new, old)| new - old).collect();
+        file.noise = Some(noise);
+        file.validate()?;
+        Ok(Tared { file, samples, moved, load_before, warnings })
+    }
+}
+
+/// Two passes, so that a large mean does not cancel.
+fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
+    let count = values.len().max(1) as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let squares: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
+    (mean, (squares / (count - 1.0).max(1.0)).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::RestError;
+    use crate::file::{CalibrationFile, SignalUnit};
+    use crate::fit::testing::gaussian;
+    use nalgebra::DMatrix;
+    use rand::SeedableRng as _;
+
+    fn file() -> CalibrationFile {
+        let matrix = DMatrix::from_diagonal_element(6, 6, 2.0);
+        CalibrationFile::new(matrix, vec![10.0; 6], vec![0.5; 6], SignalUnit::Volt).unwrap()
+    }
+
+    #[test]
+    fn zero_and_noise_are_those_of_the_rest() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(1);
+        let signals = DMatrix::from_fn(2000, 6, |_, j| j as f64 + 0.01 * gaussian(&mut random));
+        let tared = file().tared_by(&signals).unwrap();
+        for j in 0..6 {
+            assert!((tared.file.zero[j] - j as f64).abs() < 0.001);
+            assert!((tared.file.noise.as_ref().unwrap()[j] - 0.01).abs() < 0.001);
+            // A reading of 2 V is the nominal load of 10.
+            assert!((tared.load_before[j] - 5.0 * (j as f64 - 0.5)).abs() < 0.01);
+        }
+        assert!(tared.warnings.is_empty());
+        let mut moving = signals;
+        for i in 0..2000 {
+            moving[(i, 3)] += i as f64 * 1e-4;
+        }
+        assert!(file().tared_by(&moving).unwrap().warnings[0].contains("gauge 4"));
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        let text = "v1_V,v2_V,v3_V,v4_V,v5_V,v6_V\n1,2,3,4,5,6\n1,2,3,4,5,6\n";
+        assert_eq!(file().tared(text.as_bytes()).unwrap().file.zero[4], 5.0);
+        let counts = text.replace("_V", "_count");
+        assert!(matches!(file().tared(counts.as_bytes()), Err(RestError::WrongUnit { .. })));
+        assert!(matches!(file().tared("v1_V\n1\n2\n".as_bytes()), Err(RestError::Calibration(_))));
+        assert!(matches!(file().tared("a\n1\n".as_bytes()), Err(RestError::Recording(_))));
+        let mut ranged = file();
+        ranged.range = Some([-5.0, 5.0]);
+        assert!(matches!(ranged.tared(text.as_bytes()), Err(RestError::Saturated { gauge: 5 })));
+        let one = DMatrix::from_element(1, 6, 0.0);
+        assert!(matches!(file().tared_by(&one), Err(RestError::TooFewSamples { samples: 1 })));
+    }
+}

@@ -1,0 +1,27 @@
+//! ATI Net F/T and Axia over Ethernet: raw data transfer (RDT) in UDP datagrams. OnRobot
+//! (OptoForce) EtherDAQ sensors speak the same.
+//!
+//! Three layers, each usable alone: the wire format ([`Request`], [`RecordPacket`], [`Record`],
+//! `no_std`), the [`Receiver`] that tells news from repetitions and counts what was lost
+//! (`no_std`, no I/O), and the `RdtClient` over a UDP socket (feature `std`). With the feature
+//! `simulation` a `SimulatedNetFt` answers requests as the device does and injects faults.
+//!
+//! From the manufacturer's manual 9620-05-NET FT, section "UDP Interface Using RDT". Not here:
+//! configuration over HTTP (ask the sensor's page `netftapi2.xml` for counts per force `cfgcpf` and
+//! per torque `cfgcpt`, and for their units), CAN and EtherNet/IP.
+
+mod receiver;
+mod wire;
+
+#[cfg(feature = "std")]
+mod client;
+#[cfg(feature = "simulation")]
+mod simulator;
+
+pub use receiver::{CountsPerUnit, RdtError, Receiver};
+pub use wire::{Command, Record, RecordPacket, Request, WireError, records};
+
+#[cfg(feature = "std")]
+pub use client::{ClientError, RdtClient};
+#[cfg(feature = "simulation")]
+pub use simulator::{FaultPlan, RdtServer, SimulatedNetFt};

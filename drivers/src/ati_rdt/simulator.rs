@@ -1,0 +1,248 @@
+//! A sensor that is not there: it answers as a Net F/T does, and a link that loses, repeats,
+//! swaps and cuts.
+
+use alloc::collections::VecDeque;
+use alloc::sync::Arc;
+use core::net::SocketAddr;
+use core::sync::atomic::{AtomicBool, Ordering};
+use core::time::Duration;
+use std::io;
+use std::net::{ToSocketAddrs, UdpSocket};
+use std::thread::JoinHandle;
+use std::time::Instant;
+
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+use super::wire::{Command, Record, Request};
+use crate::LinkStatistics;
+
+/// What the link does to datagrams: probabilities between 0 and 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FaultPlan {
+    /// A datagram does not arrive.
+    pub loss: f64,
+    /// It arrives twice.
+    pub duplication: f64,
+    /// It arrives behind the one after it.
+    pub reorder: f64,
+    /// It arrives cut short, by less than a record.
+    pub truncation: f64,
+    /// Seed of the chance.
+    pub seed: u64,
+}
+
+/// The device and its link without a socket: requests in, datagrams out.
+#[derive(Clone, Debug)]
+pub struct SimulatedNetFt {
+    faults: FaultPlan,
+    random: Pcg64Mcg,
+    streaming: bool,
+    left: Option<u32>,
+    rdt_sequence: u32,
+    ft_sequence: u32,
+    status: u32,
+    bias: [i32; 6],
+    counts: [i32; 6],
+    held_back: Option<[u8; Record::LENGTH]>,
+    out: VecDeque<Vec<u8>>,
+    injected: LinkStatistics,
+}
+
+impl SimulatedNetFt {
+    /// A sensor at rest behind a link with faults.
+    #[must_use]
+    pub fn new(faults: FaultPlan) -> Self {
+        Self {
+            faults,
+            random: Pcg64Mcg::seed_from_u64(faults.seed),
+            streaming: false,
+            left: None,
+            rdt_sequence: 0,
+            ft_sequence: 0,
+            status: 0,
+            bias: [0; 6],
+            counts: [0; 6],
+            held_back: None,
+            out: VecDeque::new(),
+            injected: LinkStatistics::default(),
+        }
+    }
+
+    /// Lets the record count begin at a number, to come near its wrap-around.
+    #[must_use]
+    pub const fn counting_from(mut self, rdt_sequence: u32) -> Self {
+        self.rdt_sequence = rdt_sequence;
+        self
+    }
+
+    /// Sets the status word of all records from now on.
+    pub const fn set_status(&mut self, status: u32) {
+        self.status = status;
+    }
+
+    /// Takes a request; bytes that are none are ignored, as the device does.
+    pub fn request(&mut self, bytes: &[u8]) {
+        let Ok(Request { command, count }) = Request::parse(bytes) else { return };
+        match command {
+            Command::Stop => self.streaming = false,
+            Command::Stream | Command::StreamBuffered => {
+                self.streaming = true;
+                self.left = (count > 0).then_some(count);
+            }
+            Command::Bias => self.bias = self.counts,
+        }
+    }
+
+    /// Whether records are being sent.
+    #[must_use]
+    pub const fn is_streaming(&self) -> bool {
+        self.streaming
+    }
+
+    /// The sensor samples a load, in counts. While it streams, this sends a record.
+    pub fn sample(&mut self, counts: [i32; 6]) {
+        self.counts = counts;
+        self.ft_sequence = self.ft_sequence.wrapping_add(1);
+        if !self.streaming {
+            return;
+        }
+        if let Some(left) = &mut self.left {
+            *left = left.saturating_sub(1);
+            self.streaming = *left > 0;
+        }
+        self.rdt_sequence = self.rdt_sequence.wrapping_add(1);
+        let mut biased = counts;
+        for (count, bias) in biased.iter_mut().zip(self.bias) {
+            *count = count.saturating_sub(bias);
+        }
+        let record = Record {
+            rdt_sequence: self.rdt_sequence,
+            ft_sequence: self.ft_sequence,
+            status: self.status,
+            counts: biased,
+        };
+        self.send(record.emit());
+    }
+
+    fn send(&mut self, record: [u8; Record::LENGTH]) {
+        let chance = self.random.random::<f64>();
+        let FaultPlan { loss, duplication, reorder, truncation, .. } = self.faults;
+        // Late only if the one before it on the link arrives whole.
+        let held_back = self.held_back.take();
+        if chance < loss {
+            self.injected.lost += 1;
+        } else if chance < loss + duplication {
+            self.injected.duplicates += 1;
+            self.injected.late += u64::from(held_back.is_some());
+            self.out.extend([record.to_vec(), record.to_vec()]);
+        } else if chance < loss + duplication + reorder && held_back.is_none() {
+            self.held_back = Some(record);
+            return;
+        } else if chance < loss + duplication + reorder + truncation {
+            self.injected.corrupt += 1;
+            let length = self.random.random_range(0..Record::LENGTH);
+            self.out.push_back(record.iter().take(length).copied().collect());
+        } else {
+            self.injected.late += u64::from(held_back.is_some());
+            self.out.push_back(record.to_vec());
+        }
+        self.out.extend(held_back.map(|held| held.to_vec()));
+    }
+
+    /// The next datagram on the link.
+    pub fn datagram(&mut self) -> Option<Vec<u8>> {
+        self.out.pop_front()
+    }
+
+    /// What was done to the records so far: `received` stays zero.
+    #[must_use]
+    pub const fn injected(&self) -> &LinkStatistics {
+        &self.injected
+    }
+}
+
+/// A [`SimulatedNetFt`] that serves on a UDP port in a thread of its own, until it is dropped.
+#[derive(Debug)]
+pub struct RdtServer {
+    address: SocketAddr,
+    stop: Arc<AtomicBool>,
+    thread: Option<JoinHandle<SimulatedNetFt>>,
+}
+
+impl RdtServer {
+    /// Serves on an address (port 0 for any free one; the loopback interface unless you know what
+    /// you do). `load` gives the counts of each sample by its number; one is sent every `period`.
+    ///
+    /// # Errors
+    /// If the address cannot be had.
+    pub fn start(
+        address: impl ToSocketAddrs,
+        mut sensor: SimulatedNetFt,
+        period: Duration,
+        mut load: impl FnMut(u64) -> [i32; 6] + Send + 'static,
+    ) -> io::Result<Self> {
+        let socket = UdpSocket::bind(address)?;
+        socket.set_nonblocking(true)?;
+        let address = socket.local_addr()?;
+        let stop = Arc::new(AtomicBool::new(false));
+        let stopped = Arc::clone(&stop);
+        let thread = std::thread::Builder::new().name("simulated Net F/T".to_owned()).spawn(move || {
+            let mut client = None;
+            let mut next = Instant::now();
+            let mut number = 0;
+            while !stopped.load(Ordering::Relaxed) {
+                let mut bytes = [0; 64];
+                // The device serves one client: whoever asked last.
+                while let Ok((length, from)) = socket.recv_from(&mut bytes) {
+                    sensor.request(bytes.get(..length).unwrap_or_default());
+                    client = Some(from);
+                }
+                let now = Instant::now();
+                if now < next {
+                    std::thread::sleep((next - now).min(Duration::from_millis(1)));
+                    continue;
+                }
+                next += period;
+                sensor.sample(load(number));
+                number += 1;
+                while let (Some(datagram), Some(client)) = (sensor.datagram(), client) {
+                    match socket.send_to(&datagram, client) {
+                        // A client that has gone, or is too slow, is no trouble of the sensor's.
+                        Ok(_) | Err(_) => {}
+                    }
+                }
+            }
+            // What was asked before it was stopped is still heard.
+            let mut bytes = [0; 64];
+            while let Ok(length) = socket.recv(&mut bytes) {
+                sensor.request(bytes.get(..length).unwrap_or_default());
+            }
+            sensor
+        })?;
+        Ok(Self { address, stop, thread: Some(thread) })
+    }
+
+    /// Where it serves.
+    #[must_use]
+    pub const fn address(&self) -> SocketAddr {
+        self.address
+    }
+
+    /// Stops serving and gives the sensor back; `None` if its thread died.
+    #[must_use]
+    pub fn stop(mut self) -> Option<SimulatedNetFt> {
+        self.stop.store(true, Ordering::Relaxed);
+        self.thread.take()?.join().ok()
+    }
+}
+
+impl Drop for RdtServer {
+    fn drop(&mut self) {
+        self.stop.store(true, Ordering::Relaxed);
+        if let Some(thread) = self.thread.take() {
+            // A panic of the caller's load function has been reported by then.
+            let _ = thread.join();
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! The RDT receiver and client against the simulated sensor.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
+#![cfg(all(feature = "ati-rdt", feature = "simulation"))]
+
+use core::time::Duration;
+
+use fingertip_drivers::ati_rdt::{
+    ClientError, Command, CountsPerUnit, FaultPlan, RdtClient, RdtError, RdtServer, Receiver, Record,
+    Request, SimulatedNetFt, records,
+};
+use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
+
+fn counts() -> CountsPerUnit<f64> {
+    CountsPerUnit::million().unwrap()
+}
+
+/// The load of the sample of that number: the number itself can be read from it.
+fn load(number: i32) -> [i32; 6] {
+    [number, -number, number / 2, 7, -8, 9]
+}
+
+fn start() -> [u8; 8] {
+    Request { command: Command::Stream, count: 0 }.emit()
+}
+
+#[test]
+fn a_million_records_over_a_bad_link_give_nothing_wrong_and_every_loss_is_counted() {
+    let faults = FaultPlan { loss: 0.01, duplication: 0.01, reorder: 0.01, truncation: 0.001, seed: 11 };
+    // It wraps around on the way.
+    let mut sensor = SimulatedNetFt::new(faults).counting_from(u32::MAX - 300_000);
+    sensor.request(&start());
+    let mut receiver = Receiver::new(counts());
+    let (mut last, mut given) = (-1.0, 0_u64);
+    let mut first = None;
+    let samples = 1_000_000;
+    for number in 0..samples {
+        sensor.sample(load(number));
+        while let Some(datagram) = sensor.datagram() {
+            let Ok(packets) = records(&datagram) else {
+                receiver.note_corrupt();
+                continue;
+            };
+            for packet in packets {
+                let Some(wrench) = receiver.accept(&Record::parse(&packet)).unwrap() else { continue };
+                let seen = (wrench.force().x * 1e6).round();
+                // Newer than all before, and whole.
+                assert!(seen > last);
+                assert_eq!(wrench.force().y, -wrench.force().x);
+                assert_eq!(receiver.index() as f64, seen - *first.get_or_insert(seen));
+                (last, given) = (seen, given + 1);
+            }
+        }
+    }
+    let (found, injected) = (receiver.statistics(), sensor.injected());
+    println!("{found:?}\n{injected:?}");
+    assert_eq!(found.corrupt, injected.corrupt);
+    // A record that was cut is lost, too.
+    assert_eq!(found.lost, injected.lost + injected.corrupt);
+    assert_eq!((found.duplicates, found.late), (injected.duplicates, injected.late));
+    assert_eq!((found.doubtful, found.restarts), (0, 0));
+    assert_eq!(given + found.late + found.lost, samples as u64);
+}
+
+#[test]
+fn over_a_socket_nothing_is_lost_and_the_sensor_is_stopped_at_the_end() {
+    let sensor = SimulatedNetFt::new(FaultPlan::default());
+    let server =
+        RdtServer::start("127.0.0.1:0", sensor, Duration::from_millis(5), |n| load(n as i32)).unwrap();
+    let mut client =
+        RdtClient::connect(server.address(), counts(), Duration::from_secs(5)).unwrap().timed_by(200.0);
+    let mut last: Option<(f64, f64)> = None;
+    for _ in 0..60 {
+        let sample = client.next_wrench().unwrap().unwrap();
+        let (time, number) = (sample.time.unwrap(), (sample.value.force().x * 1e6).round());
+        if let Some((last_time, last_number)) = last {
+            assert_eq!(number, last_number + 1.0);
+            assert!((time - last_time - 5e-3).abs() < 1e-12);
+        }
+        last = Some((time, number));
+    }
+    assert_eq!((client.statistics().received, client.statistics().lost), (60, 0));
+    // The newest one, after a pause in which some have come.
+    std::thread::sleep(Duration::from_millis(50));
+    let latest = (client.latest_wrench().unwrap().value.force().x * 1e6).round();
+    assert!(latest > last.unwrap().1);
+    drop(client);
+    assert!(!server.stop().unwrap().is_streaming());
+}
+
+#[test]
+fn faults_of_the_sensor_and_silence_are_errors_of_their_kinds() {
+    let mut sensor = SimulatedNetFt::new(FaultPlan::default());
+    sensor.set_status(0x8000_0001);
+    let server = RdtServer::start("127.0.0.1:0", sensor, Duration::from_millis(1), |_| [0; 6]).unwrap();
+    let mut client = RdtClient::connect(server.address(), counts(), Duration::from_secs(5)).unwrap();
+    let error = client.next_wrench().unwrap_err();
+    assert!(matches!(error, ClientError::Rdt(RdtError::Status { status: 0x8000_0001, .. })), "{error}");
+    assert_eq!(error.kind(), SourceErrorKind::DeviceFault);
+    // A port where nobody serves: bound, so that nobody else can have it, but never answered.
+    let silent = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
+    let wait = Duration::from_millis(30);
+    let mut client = RdtClient::connect(silent.local_addr().unwrap(), counts(), wait).unwrap();
+    let error = client.next_wrench().unwrap_err();
+    assert_eq!(error.kind(), SourceErrorKind::Timeout, "{error}");
+    assert!(CountsPerUnit::new(0.0, 1.0).is_err() && CountsPerUnit::new(1.0, f64::NAN).is_err());
+}
+
+#[test]
+fn the_sensor_is_biased_only_on_request() {
+    let mut sensor = SimulatedNetFt::new(FaultPlan::default());
+    sensor.request(&Request { command: Command::Stream, count: 2 }.emit());
+    sensor.sample([5; 6]);
+    let first = sensor.datagram().unwrap();
+    sensor.request(&Request { command: Command::Bias, count: 0 }.emit());
+    sensor.sample([6; 6]);
+    let second = sensor.datagram().unwrap();
+    let counts_of = |datagram: &[u8]| records(datagram).unwrap().next().unwrap().counts();
+    assert_eq!((counts_of(&first), counts_of(&second)), ([5; 6], [1; 6]));
+    // Two were asked for.
+    sensor.sample([7; 6]);
+    assert_eq!((sensor.datagram(), sensor.is_streaming()), (None, false));
+}

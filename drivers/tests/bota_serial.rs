@@ -1,0 +1,86 @@
+//! Bota's sensor driver against the simulated sensor.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
+#![cfg(all(feature = "bota-serial", feature = "simulation"))]
+
+use fingertip_drivers::bota_serial::{BotaError, BotaSensor, Frame, LineFaults, SimulatedBota};
+use fingertip_drivers::{Sample, SourceError, SourceErrorKind, WrenchSource};
+use fingertip_wrench::Wrench;
+
+fn frame(number: u32) -> Frame {
+    let x = number as f32;
+    Frame {
+        components: [x, -x, 1.0, 2.0, 3.0, -0.5 * x],
+        // Wraps around on the way.
+        microseconds: (u32::MAX - 5_000_000).wrapping_add(number * 1250),
+        ..Frame::default()
+    }
+}
+
+type Next = Result<Option<Sample<f64, Wrench<f64>>>, BotaError>;
+
+#[test]
+fn a_bad_line_costs_the_damaged_frames_and_no_other() {
+    let faults = LineFaults { bit_flip: 0.01, lost_byte: 0.01, noise: 0.02, seed: 3 };
+    let mut line = SimulatedBota::new(faults);
+    let count = 200_000;
+    for number in 0..count {
+        line.send(&frame(number));
+    }
+    let damaged = line.damaged();
+    let mut sensor = BotaSensor::new(line);
+    let (mut given, mut last, mut start) = (0, -1.0, None);
+    while let Some(sample) = {
+        let next: Next = sensor.next_wrench();
+        next.unwrap()
+    } {
+        let (number, time) = (sample.value.force().x, sample.time.unwrap());
+        assert_eq!(sample.value, frame_wrench(number));
+        assert!(number > last);
+        let start = *start.get_or_insert(number);
+        assert!((time - (number - start) * 1.25e-3).abs() < 1e-9);
+        (given, last) = (given + 1, number);
+    }
+    println!(
+        "{count} frames, {damaged} damaged, {given} given, {} bytes skipped",
+        sensor.deframer().skipped()
+    );
+    assert_eq!(given, u64::from(count) - damaged);
+}
+
+fn frame_wrench(number: f64) -> Wrench<f64> {
+    Wrench::from_components(&nalgebra::Vector6::new(number, -number, 1.0, 2.0, 3.0, -0.5 * number))
+}
+
+#[test]
+fn what_the_sensor_says_of_itself_is_an_error() {
+    let mut line = SimulatedBota::new(LineFaults::default());
+    line.send(&Frame { status: Frame::OVERRANGE, ..frame(1) });
+    line.send(&Frame { status: Frame::INVALID, ..frame(2) });
+    line.send(&Frame { components: [f32::NAN; 6], ..frame(3) });
+    line.send(&frame(4));
+    let mut sensor = BotaSensor::new(line);
+    for kind in [SourceErrorKind::Overload, SourceErrorKind::DeviceFault, SourceErrorKind::DeviceFault] {
+        let next: Next = sensor.next_wrench();
+        assert_eq!(next.unwrap_err().kind(), kind);
+    }
+    let next: Next = sensor.next_wrench();
+    // Time runs on over the samples that were not given.
+    assert!((next.unwrap().unwrap().time.unwrap() - 3.75e-3).abs() < 1e-12);
+    let next: Next = sensor.next_wrench();
+    assert!(next.unwrap().is_none());
+}
+
+#[test]
+fn a_wrong_baud_rate_and_a_silent_line_are_told() {
+    let mut sensor = BotaSensor::new(std::io::repeat(0x55));
+    let next: Next = sensor.next_wrench();
+    assert!(matches!(next, Err(BotaError::NoFrame { .. })));
+    struct Silent;
+    impl std::io::Read for Silent {
+        fn read(&mut self, _: &mut [u8]) -> std::io::Result<usize> {
+            Err(std::io::ErrorKind::TimedOut.into())
+        }
+    }
+    let next: Next = BotaSensor::new(Silent).next_wrench();
+    assert_eq!(next.unwrap_err().kind(), SourceErrorKind::Timeout);
+}
