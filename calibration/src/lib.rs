@@ -3,6 +3,7 @@
 extern crate alloc;
 
 mod axis;
+pub mod design;
 pub mod experiment;
 pub mod file;
 pub mod fit;

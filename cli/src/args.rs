@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::calibrate::args::{CalibrateArguments, CheckArguments, TareArguments};
+use crate::design::args::DesignArguments;
 
 /// From the strain gauges behind a fingertip to contact, force and slip.
 #[derive(Debug, Parser)]
@@ -23,6 +24,8 @@ pub(crate) enum Command {
     Demo(DemoArguments),
     /// Turn a recording of wrenches or volts into contacts, slip and a report
     Analyze(AnalyzeArguments),
+    /// Design a sensor: from wanted ranges and size to a layout of gauges and the accuracy to expect
+    Design(DesignArguments),
     /// Fit a sensor to known loads, or a payload to poses, and say how good that is
     Calibrate(CalibrateArguments),
     /// Test a calibration on loads that it has not seen

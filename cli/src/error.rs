@@ -66,6 +66,9 @@ pub(crate) enum CliError {
     /// The simulated fingertip or a stage of the demo could not be built.
     #[error("the demo cannot run: {message}")]
     Demo { message: String },
+    /// No sensor for what is wanted.
+    #[error("no such sensor: {message}")]
+    Design { message: String },
     /// Whoever read our standard output has gone: not a fault.
     #[error("the reader of the standard output has closed it")]
     ClosedPipe,

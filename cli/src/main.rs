@@ -5,6 +5,7 @@ mod analyze;
 mod args;
 mod calibrate;
 mod demo;
+mod design;
 mod error;
 mod observe;
 mod report;
@@ -24,6 +25,7 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Analyze(arguments) => analyze::run(&arguments),
+        Command::Design(arguments) => design::run(&arguments),
         Command::Calibrate(arguments) => calibrate::calibrate(&arguments),
         Command::Check(arguments) => calibrate::check(&arguments),
         Command::Tare(arguments) => calibrate::tare(&arguments),

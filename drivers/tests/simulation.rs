@@ -166,7 +166,7 @@ fn parameters_out_of_range_are_refused() {
         &|options| options.sample_rate = f64::INFINITY,
         &|options| options.design.sphere_radius = f64::NAN,
         &|options| options.design.beam.thickness = 0.0,
-        &|options| options.design.ring_distance = f64::NAN,
+        &|options| options.design.gauges[4].z = f64::NAN,
         &|options| options.design.force_range = -1.0,
         &|options| options.electronics.amplification = f64::NAN,
         &|options| options.electronics.bits = 0,

@@ -3,10 +3,12 @@
 mod axis;
 mod chart;
 mod colours;
+pub(crate) mod contours;
 mod figures;
 mod map;
 mod page;
 mod svg;
+pub(crate) mod unrolled_tube;
 
 use std::fs;
 use std::path::Path;
@@ -44,6 +46,11 @@ pub(crate) fn with_figures(
 ) -> String {
     figures.extend(figures::of(observations, coefficient));
     page::render(findings, &figures)
+}
+
+/// The report of something else than a recording.
+pub(crate) fn of_design(findings: &Findings, figures: &[Figure]) -> String {
+    page::render(findings, figures)
 }
 
 /// Writes a report.

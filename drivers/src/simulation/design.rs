@@ -1,7 +1,7 @@
 //! Geometry and material of the paper's prototype.
 
 use fingertip_surfaces::Sphere;
-use fingertip_wrench::gauge_layout::{GaugeLayout, ThinWalledBeam};
+use fingertip_wrench::gauge_layout::{Gauge, GaugeLayout, ThinWalledBeam};
 use nalgebra::{Vector3, Vector6};
 
 use super::error::{SimulationError, positive};
@@ -24,10 +24,9 @@ pub struct Design {
     pub opening_radius: f64,
     /// The tube: 5 mm mean radius, 0.2 mm wall, aluminium (E = 70 GPa, μ = 0.33).
     pub beam: ThinWalledBeam<f64>,
-    /// Angle Q of the gauges \[rad\]: 14°.
-    pub gauge_angle: f64,
-    /// Distance d between the two rings of gauges \[m\]: 10 mm.
-    pub ring_distance: f64,
+    /// Where the gauges are: the paper's six with Q = 14° and d = 10 mm. Those of another design come
+    /// from its layout file.
+    pub gauges: [Gauge<f64>; 6],
     /// Range of the force \[N\]: 30 N.
     pub force_range: f64,
 }
@@ -43,8 +42,7 @@ impl Default for Design {
                 youngs_modulus: 70e9,
                 poisson_ratio: 0.33,
             },
-            gauge_angle: 14_f64.to_radians(),
-            ring_distance: 10e-3,
+            gauges: GaugeLayout::bicchi_dario_gauges(14_f64.to_radians(), 10e-3),
             force_range: 30.0,
         }
     }
@@ -81,8 +79,7 @@ impl Design {
     /// # Errors
     /// [`SimulationError::Layout`] for a beam that is none.
     pub fn layout(&self) -> Result<GaugeLayout<f64, 6>, SimulationError> {
-        let gauges = GaugeLayout::bicchi_dario_gauges(self.gauge_angle, self.ring_distance);
-        Ok(GaugeLayout::new(&self.beam, gauges)?)
+        Ok(GaugeLayout::new(&self.beam, self.gauges)?)
     }
 
     /// Nominal loads \[N, N·m\]: the force range, and the torque that it makes at 10 mm, as the

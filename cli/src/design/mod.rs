@@ -1,0 +1,143 @@
+//! `fingertip design`: from wanted ranges to a layout of gauges and the accuracy to expect.
+
+pub(crate) mod args;
+mod figures;
+mod findings;
+mod task;
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+
+use fingertip::surfaces::Sphere;
+use fingertip_calibration::design::{
+    Accuracy, Assessment, DesignError, Findings as Found, LayoutFile, LoadedTube, MatrixUsed, Placement,
+    Progress, Search, ToleranceReport, Touch, Touches, Trial, TubeLayout, TubeStrength, search, tolerance,
+};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::error::CliError;
+use crate::report;
+use args::DesignArguments;
+use task::Task;
+
+/// Sensors that are made to see what placement errors do.
+const SENSORS: usize = 200;
+/// Sensors of a trial, each touched all over.
+const TRIAL_SENSORS: usize = 10;
+/// Loads of the simulated calibration, and how well they are known.
+const CALIBRATION_LOADS: usize = 100;
+const LOAD_ERROR: f64 = 2e-3;
+
+/// Everything that the report tells.
+struct Outcome {
+    task: Task,
+    found: Found,
+    file: LayoutFile,
+    layout: TubeLayout,
+    strength: TubeStrength,
+    /// This design, and others on the same terms.
+    compared: Vec<(String, Assessment)>,
+    tolerance: ToleranceReport,
+    /// What was tried, at which force \[N\], and what came out.
+    trials: Vec<(&'static str, f64, Accuracy)>,
+}
+
+fn fault(error: impl ToString) -> CliError {
+    CliError::Design { message: error.to_string() }
+}
+
+pub(crate) fn run(arguments: &DesignArguments) -> Result<(), CliError> {
+    let outcome = design(arguments).map_err(fault)?;
+    let findings = findings::of(&outcome);
+    let figures = figures::of(&outcome).map_err(fault)?;
+    write("layout", &arguments.out, &outcome.file.to_toml().map_err(fault)?)?;
+    let mut written = vec![arguments.out.display().to_string()];
+    if let Some(path) = &arguments.calibration {
+        let file = outcome.file.predicted_calibration().map_err(fault)?;
+        write("calibration", path, &file.to_toml().map_err(fault)?)?;
+        written.push(path.display().to_string());
+    }
+    report::write(&arguments.report, &report::of_design(&findings, &figures))?;
+    written.push(arguments.report.display().to_string());
+    let text = format!("{findings}\nWritten: {}\n", written.join(", "));
+    let mut stdout = io::stdout();
+    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
+}
+
+fn write(what: &'static str, path: &Path, text: &str) -> Result<(), CliError> {
+    fs::write(path, text).map_err(|source| CliError::write(what, path, source))
+}
+
+fn design(arguments: &DesignArguments) -> Result<Outcome, DesignError> {
+    let task = Task::new(arguments)?;
+    let bar = bar(arguments.starts);
+    let how = Search { starts: arguments.starts, seed: arguments.seed, ..Search::default() };
+    let progress = |progress: Progress| {
+        if let Some(bar) = &bar {
+            bar.set_position(progress.done as u64);
+            bar.set_message(format!("{:.4}", progress.best));
+        }
+    };
+    let found = search(&task.space, &task.criterion, &task.tube.loads, &how, &progress)?;
+    if let Some(bar) = bar {
+        bar.finish_and_clear();
+    }
+    let best = found.best().ok_or(DesignError::Singular { reason: "no start gave a sensor" })?;
+    let layout = task.space.layout(&best.values)?;
+    let tube = LoadedTube { radius: layout.beam.radius, ..task.tube };
+    let file = LayoutFile::new(&layout, &tube, task.excitation)?;
+    let strength = tube.strength(layout.beam.thickness)?;
+    let placement = Placement {
+        angle: arguments.angle_tolerance_deg.to_radians(),
+        position: arguments.position_tolerance_mm * 1e-3,
+    };
+    let list = Touch::on_sphere(task.tip_radius, task.half_angle, arguments.friction, 0.1 * arguments.force)?;
+    let touches = Touches::new(&list)?;
+    let tolerance = tolerance(&layout, &task.tube.loads, placement, Some(&touches), SENSORS, arguments.seed)?;
+    let compared = task.compare(&layout)?;
+    let trials = trials(&task, &layout, placement, arguments)?;
+    Ok(Outcome { task, found, file, layout, strength, compared, tolerance, trials })
+}
+
+fn trials(
+    task: &Task,
+    layout: &TubeLayout,
+    placement: Placement,
+    arguments: &DesignArguments,
+) -> Result<Vec<(&'static str, f64, Accuracy)>, DesignError> {
+    let sphere = Sphere::centred(task.tip_radius)
+        .map_err(|_| DesignError::Singular { reason: "the fingertip has no radius" })?;
+    let exact = Placement { angle: 0.0, position: 0.0 };
+    let calibrated = MatrixUsed::Calibrated { loads: CALIBRATION_LOADS, load_error: LOAD_ERROR };
+    let cases = [
+        ("made exactly", exact, MatrixUsed::AsDesigned),
+        ("made with tolerance, calibrated", placement, calibrated),
+        ("made with tolerance, not calibrated", placement, MatrixUsed::AsDesigned),
+    ];
+    let mut trials = Vec::new();
+    for (name, placement, matrix) in cases {
+        for share in [1.0 / 30.0, 1.0 / 3.0] {
+            let force = share * arguments.force;
+            let touches = Touch::on_sphere(task.tip_radius, task.half_angle, arguments.friction, force)?;
+            let trial = Trial {
+                loads: task.tube.loads,
+                placement,
+                noise: task.noise,
+                resolution: 0.0,
+                matrix,
+                sensors: TRIAL_SENSORS,
+                seed: arguments.seed,
+            };
+            trials.push((name, force, trial.run(layout, &sphere, &touches)?));
+        }
+    }
+    Ok(trials)
+}
+
+/// A bar on the standard error, if that is a terminal.
+fn bar(starts: usize) -> Option<ProgressBar> {
+    let bar = ProgressBar::new(starts as u64);
+    bar.set_style(ProgressStyle::with_template("{wide_bar} start {pos} of {len}, best {msg}").ok()?);
+    Some(bar)
+}

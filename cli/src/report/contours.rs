@@ -1,0 +1,134 @@
+//! A function of two variables as a map with contour lines.
+
+use super::axis::Axis;
+use super::svg::{Anchor, Svg};
+use crate::table::short;
+
+const WIDTH: f64 = 520.0;
+const HEIGHT: f64 = 340.0;
+const LEFT: f64 = 48.0;
+const TOP: f64 = 24.0;
+const PLOT: (f64, f64) = (WIDTH - LEFT - 14.0, HEIGHT - TOP - 42.0);
+/// Each contour over the least value; no more than there are colours.
+const LEVELS: [f64; 7] = [1.02, 1.1, 1.3, 1.7, 2.5, 5.0, 15.0];
+
+/// A grid of values; what is not finite has no contour.
+pub(crate) struct Contours<'a> {
+    pub(crate) title: &'a str,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
+    pub(crate) xs: &'a [f64],
+    pub(crate) ys: &'a [f64],
+    /// `values[row][column]`.
+    pub(crate) values: &'a [Vec<f64>],
+    /// Places to mark, the best first.
+    pub(crate) marks: &'a [(f64, f64)],
+}
+
+type Segment = [(f64, f64); 2];
+
+/// Draws it; also the levels and the classes of their colours, for the key.
+pub(crate) fn draw(contours: &Contours<'_>) -> (String, Vec<(&'static str, String)>) {
+    let Contours { title, x, y, xs, ys, values, marks } = contours;
+    let mut svg = Svg::new(WIDTH, HEIGHT, title);
+    let bottom = TOP + PLOT.1;
+    for tick in y.ticks(6) {
+        let at = bottom - PLOT.1 * y.place(tick.value);
+        svg.line("grid", (LEFT, at), (LEFT + PLOT.0, at));
+        svg.label("tick", (LEFT - 5.0, at + 3.5), Anchor::End, &tick.label);
+    }
+    for tick in x.ticks(7) {
+        let at = LEFT + PLOT.0 * x.place(tick.value);
+        svg.line("grid", (at, TOP), (at, bottom));
+        svg.label("tick", (at, bottom + 15.0), Anchor::Middle, &tick.label);
+    }
+    svg.label("name", (2.0, 12.0), Anchor::Start, &y.label);
+    svg.label("name", (LEFT + PLOT.0, bottom + 32.0), Anchor::End, &x.label);
+
+    let least = values.iter().flatten().copied().fold(f64::INFINITY, f64::min);
+    let place = |(a, b): (f64, f64)| (LEFT + PLOT.0 * x.place(a), bottom - PLOT.1 * y.place(b));
+    let classes = ["q0", "q1", "q2", "q3", "q4", "q5", "q6"];
+    let mut keys = Vec::new();
+    svg.begin_clip((LEFT, TOP), PLOT);
+    for (level, class) in LEVELS.iter().zip(classes) {
+        let lines = segments(xs, ys, values, level * least);
+        if lines.is_empty() {
+            continue;
+        }
+        let placed: Vec<Segment> = lines.into_iter().map(|[a, b]| [place(a), place(b)]).collect();
+        svg.curve(class, placed.iter().map(<[_; 2]>::as_slice));
+        keys.push((class, short(level * least)));
+    }
+    svg.end_clip();
+    for (rank, mark) in marks.iter().enumerate() {
+        let (mark_x, mark_y) = place(*mark);
+        let size = if rank == 0 { 6.0 } else { 4.0 };
+        let class = if rank == 0 { "curve wide d" } else { "curve wide e" };
+        svg.line(class, (mark_x - size, mark_y), (mark_x + size, mark_y));
+        svg.line(class, (mark_x, mark_y - size), (mark_x, mark_y + size));
+    }
+    (svg.finish(), keys)
+}
+
+/// Where bilinear pieces cross a level (marching squares; a saddle is split by its middle).
+fn segments(xs: &[f64], ys: &[f64], values: &[Vec<f64>], level: f64) -> Vec<Segment> {
+    let mut found = Vec::new();
+    for (ys, rows) in ys.windows(2).zip(values.windows(2)) {
+        let cells = rows[0].windows(2).zip(rows[1].windows(2));
+        for (xs, (below, above)) in xs.windows(2).zip(cells) {
+            // Around the cell, from the lower left corner.
+            let corners = [
+                ((xs[0], ys[0]), below[0]),
+                ((xs[1], ys[0]), below[1]),
+                ((xs[1], ys[1]), above[1]),
+                ((xs[0], ys[1]), above[0]),
+            ];
+            if corners.iter().any(|(_, value)| !value.is_finite()) {
+                continue;
+            }
+            let mut crossings = Vec::with_capacity(4);
+            for side in 0..4 {
+                let ((a, low), (b, high)) = (corners[side], corners[(side + 1) % 4]);
+                if (low < level) != (high < level) {
+                    let part = (level - low) / (high - low);
+                    crossings.push((a.0 + part * (b.0 - a.0), a.1 + part * (b.1 - a.1)));
+                }
+            }
+            match crossings[..] {
+                [a, b] => found.push([a, b]),
+                [a, b, c, d] => {
+                    let middle = corners.iter().map(|(_, value)| value).sum::<f64>() / 4.0;
+                    if (middle < level) == (corners[0].1 < level) {
+                        found.extend([[a, b], [c, d]]);
+                    } else {
+                        found.extend([[d, a], [b, c]]);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::segments;
+
+    #[test]
+    fn contour_of_a_cone_is_a_circle() {
+        let grid: Vec<f64> = (0..=80).map(|i| f64::from(i) / 40.0 - 1.0).collect();
+        let values: Vec<Vec<f64>> = grid.iter().map(|y| grid.iter().map(|x| x.hypot(*y)).collect()).collect();
+        let found = segments(&grid, &grid, &values, 0.6);
+        let length: f64 = found.iter().map(|[a, b]| (a.0 - b.0).hypot(a.1 - b.1)).sum();
+        assert!((length / (core::f64::consts::TAU * 0.6) - 1.0).abs() < 2e-3, "{length}");
+        assert!(found.iter().flatten().all(|(x, y)| (x.hypot(*y) - 0.6).abs() < 1e-3));
+    }
+
+    #[test]
+    fn saddles_and_holes_are_no_trouble() {
+        let (xs, ys) = ([0.0, 1.0], [0.0, 1.0]);
+        assert_eq!(segments(&xs, &ys, &[vec![0.0, 1.0], vec![1.0, 0.0]], 0.5).len(), 2);
+        assert!(segments(&xs, &ys, &[vec![0.0, f64::INFINITY], vec![1.0, 0.0]], 0.5).is_empty());
+    }
+}

@@ -1,0 +1,73 @@
+//! `fingertip design`: files that load, numbers that stay, errors that help.
+
+mod common;
+
+use common::Folder;
+use fingertip_calibration::design::{LayoutFile, LoadedTube};
+use fingertip_calibration::file::CalibrationFile;
+
+#[test]
+fn writes_a_layout_that_loads() {
+    let folder = Folder::new();
+    let text = folder.succeed(&["design", "--starts", "6", "--calibration", "cal.toml"]);
+    assert!(text.contains("Condition number 1.41"), "{text}");
+    let file = LayoutFile::from_toml(&folder.read("layout.toml")).unwrap();
+    assert_eq!(file.find_decoupling().unwrap().map(|found| found.couplings()), Some(0));
+    let tube: LoadedTube = file.loaded_tube();
+    assert!((tube.radius - 10e-3).abs() < 1e-9);
+    // As thin as the safety allows, and no thinner.
+    let ratio = tube.strength(file.layout().beam.thickness).unwrap().worst_ratio();
+    assert!((ratio * 3.0 - 1.0).abs() < 1e-6, "{ratio}");
+    let calibration = CalibrationFile::from_toml(&folder.read("cal.toml")).unwrap();
+    let matrix = calibration.sensor_matrix::<6>().unwrap();
+    assert_eq!(matrix, file.sensor_matrix::<6>().unwrap());
+    let page = folder.read("design.html");
+    assert!(page.starts_with("<!doctype html>") && page.matches("<svg ").count() >= 4);
+    assert!(!page.contains("NaN") && !page.contains("inf "), "a number is missing");
+    assert!(
+        !page.contains("http://")
+            || page.matches("http://").count() == page.matches("http://www.w3.org").count()
+    );
+}
+
+#[test]
+fn the_seed_decides() {
+    let folder = Folder::new();
+    let free = ["design", "--layout", "free", "--starts", "3"];
+    let run = |seed: &str| {
+        folder.succeed(&[&free[..], &["--seed", seed]].concat());
+        folder.read("layout.toml")
+    };
+    assert_eq!(run("7"), run("7"));
+    assert_ne!(run("7"), run("8"));
+}
+
+#[test]
+fn every_family_and_criterion_works() {
+    let folder = Folder::new();
+    for criterion in ["contact-error", "worst-axis", "log-determinant"] {
+        let text =
+            folder.succeed(&["design", "--layout", "paper", "--starts", "1", "--criterion", criterion]);
+        assert!(text.contains("three pairs at"), "{text}");
+        assert!(!text.contains("NaN"), "{text}");
+    }
+    let text = folder.succeed(&["design", "--gauges", "8", "--starts", "2", "--wall-mm", "0.3"]);
+    assert!(text.contains("wall of 0.300 mm"), "{text}");
+}
+
+#[test]
+fn says_what_cannot_be() {
+    let folder = Folder::new();
+    let error = folder.fail(1, &["design", "--gauges", "7"]);
+    assert!(error.contains("gauges: 7 given, 8 needed"), "{error}");
+    let error = folder.fail(1, &["design", "--force", "0"]);
+    assert!(error.contains("nominal force"), "{error}");
+    let error = folder.fail(1, &["design", "--force", "1e7", "--torque", "1e5"]);
+    assert!(error.contains("no start gave a sensor") || error.contains("no thin wall"), "{error}");
+    let error = folder.fail(1, &["design", "--radius-mm", "9", "4"]);
+    assert!(error.contains("range of parameter R"), "{error}");
+    let error = folder.fail(2, &["design", "--material", "cheese"]);
+    assert!(error.contains("aluminium-7075-t6"), "{error}");
+    let error = folder.fail(1, &["design", "--starts", "2", "--out", "no/such/folder.toml"]);
+    assert!(error.contains("cannot write layout"), "{error}");
+}
