@@ -6,6 +6,8 @@ compile_error!("fingertip-wrench needs one of the features `std` and `libm` for 
 
 mod compensation;
 mod contact_force;
+#[cfg(feature = "num-dual")]
+mod dual;
 mod frame;
 pub mod gauge_layout;
 mod gaussian;
