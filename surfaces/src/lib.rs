@@ -7,6 +7,8 @@ mod contact_model;
 mod cylinder;
 mod plane;
 mod point_contact;
+mod smooth_surface;
+mod soft_finger;
 mod sphere;
 
 pub use active_surface::{ActiveSurface, BadShape, ClosestApproach, Crossing};
@@ -15,4 +17,8 @@ pub use contact_model::ContactModel;
 pub use cylinder::Cylinder;
 pub use plane::Plane;
 pub use point_contact::PointContact;
+pub use smooth_surface::{
+    Extent, Level, SmoothSurface, Topology, hessian_by_differences, shape_operator_by_differences,
+};
+pub use soft_finger::{Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};
 pub use sphere::Sphere;
