@@ -10,6 +10,7 @@ mod point_contact;
 mod smooth_surface;
 mod soft_finger;
 mod sphere;
+mod uncertainty;
 
 pub use active_surface::{ActiveSurface, BadShape, ClosestApproach, Crossing};
 pub use contact::{Contact, NoContact, Resolution};
@@ -22,3 +23,8 @@ pub use smooth_surface::{
 };
 pub use soft_finger::{Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};
 pub use sphere::Sphere;
+pub use uncertainty::{
+    ConfidenceEllipse, ContactCovariance, ContactJacobian, ConvexBound, ErrorBudget, GeometrySensitivity,
+    GeometryUncertainty, PaperBounds, SensorUncertainty, ShapeParameters, WorstCase, WrenchNoise, ball_bound,
+    sphere_bound,
+};
