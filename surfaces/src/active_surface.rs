@@ -2,7 +2,6 @@
 
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
-use thiserror::Error;
 
 /// Where a line passes through a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +46,9 @@ pub struct ClosestApproach<T: Real> {
 ///   reported nothing for, but shall answer sensibly for any.
 /// * [`normal`](Self::normal) is the outward unit normal at a point on (or within rounding of) the
 ///   surface.
+///
+/// A shape with an equation `f(x) = 0` gets all three from [`Implicit`](crate::Implicit). The
+/// module [`testing`](crate::testing) checks an implementation.
 pub trait ActiveSurface<T: Real> {
     /// Calls `visit` for every point where the line passes through the surface.
     fn crossings(&self, line: &Line<T>, visit: impl FnMut(Crossing<T>));
@@ -56,6 +58,21 @@ pub trait ActiveSurface<T: Real> {
 
     /// The outward unit normal at a point of the surface.
     fn normal(&self, point: &Vector3<T>) -> Vector3<T>;
+
+    /// `true` if the point is inside the fingertip.
+    ///
+    /// The default looks along a fixed line at the crossing nearest to the point: the normal there
+    /// tells on which side the point is. Shapes with an equation answer faster.
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        let direction = Vector3::new(T::literal(0.48), T::literal(0.6), T::literal(0.64));
+        let mut nearest: Option<Crossing<T>> = None;
+        self.crossings(&Line { point: *point, direction }, |crossing| {
+            if nearest.is_none_or(|n| crossing.along.abs() < n.along.abs()) {
+                nearest = Some(crossing);
+            }
+        });
+        nearest.is_some_and(|c| c.along * c.normal.dot(&direction) > T::zero())
+    }
 }
 
 impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for &S {
@@ -73,59 +90,9 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for &S {
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         (**self).normal(point)
     }
-}
 
-/// A parameter of a shape is out of range.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("the {parameter} of a {shape} must be {requirement}")]
-pub struct BadShape {
-    /// Which shape.
-    pub shape: &'static str,
-    /// Which parameter.
-    pub parameter: &'static str,
-    /// What it must be.
-    pub requirement: &'static str,
-}
-
-impl BadShape {
-    /// `value`, if it is a length: positive, finite, and with a reciprocal that is finite too.
-    pub(crate) fn check_length<T: Real>(
-        shape: &'static str,
-        parameter: &'static str,
-        value: T,
-    ) -> Result<T, Self> {
-        if value >= T::LEAST_NORMAL && value <= T::one() / T::LEAST_NORMAL {
-            Ok(value)
-        } else {
-            Err(Self { shape, parameter, requirement: "a positive finite length" })
-        }
-    }
-
-    /// `point`, if it is finite.
-    pub(crate) fn check_point<T: Real>(
-        shape: &'static str,
-        parameter: &'static str,
-        point: Vector3<T>,
-    ) -> Result<Vector3<T>, Self> {
-        if point.iter().all(|x| x.is_number()) {
-            Ok(point)
-        } else {
-            Err(Self { shape, parameter, requirement: "finite" })
-        }
-    }
-
-    /// The unit vector along `direction`, if it has a direction.
-    pub(crate) fn check_direction<T: Real>(
-        shape: &'static str,
-        parameter: &'static str,
-        direction: Vector3<T>,
-    ) -> Result<Vector3<T>, Self> {
-        let scaled = direction * direction.amax().normalising_factor();
-        let squared = scaled.norm_squared();
-        if squared > T::zero() && squared.is_number() {
-            Ok(scaled / squared.root())
-        } else {
-            Err(Self { shape, parameter, requirement: "finite and not zero" })
-        }
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        (**self).contains(point)
     }
 }

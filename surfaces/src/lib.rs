@@ -1,30 +1,35 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![doc = include_str!("../README.md")]
 
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
 mod active_surface;
+mod bad_shape;
+mod combinators;
 mod contact;
-mod contact_model;
-mod cylinder;
-mod plane;
-mod point_contact;
-mod smooth_surface;
+mod numeric;
+mod serde_parts;
+mod shapes;
+mod signed_distance;
+mod smooth;
 mod soft_finger;
-mod sphere;
+pub mod testing;
 mod uncertainty;
 
-pub use active_surface::{ActiveSurface, BadShape, ClosestApproach, Crossing};
-pub use contact::{Contact, NoContact, Resolution};
-pub use contact_model::ContactModel;
-pub use cylinder::Cylinder;
-pub use plane::Plane;
-pub use point_contact::PointContact;
-pub use smooth_surface::{
-    Extent, Level, SmoothSurface, Topology, hessian_by_differences, shape_operator_by_differences,
+pub use active_surface::{ActiveSurface, ClosestApproach, Crossing};
+pub use bad_shape::BadShape;
+pub use combinators::{Compound, HalfSpace, Offset, Posed, Region, Trimmed};
+pub use contact::{
+    Contact, ContactBound, ContactModel, NoContact, PointContact, Resolution, WorstErrors,
+};
+pub use shapes::*;
+pub use signed_distance::{Distance, SignedDistance};
+pub use smooth::{
+    Extent, Level, SmoothImplicit, SmoothSurface, Topology, hessian_by_differences, shape_operator_by_differences,
 };
 pub use soft_finger::{Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};
-pub use sphere::Sphere;
 pub use uncertainty::{
-    ConfidenceEllipse, ContactCovariance, ContactJacobian, ConvexBound, ErrorBudget, GeometrySensitivity,
-    GeometryUncertainty, PaperBounds, SensorUncertainty, ShapeParameters, WorstCase, WrenchNoise, ball_bound,
-    sphere_bound,
+    ConfidenceEllipse, ContactCovariance, ContactJacobian, ConvexBound, GeometrySensitivity,
+    GeometryUncertainty, PaperBounds, SensorUncertainty, ShapeParameters, WorstCase, WrenchNoise,
 };

@@ -1,5 +1,7 @@
 //! Contact with a spin torque about the normal: the soft finger.
 
+mod combinators;
+mod cone;
 mod convex;
 mod cylinder;
 mod ellipsoid;

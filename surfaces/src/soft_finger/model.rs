@@ -37,15 +37,9 @@ impl<T: Real> SoftFinger<T> {
     /// # Errors
     /// [`BadShape`] unless the threshold is finite and not negative.
     pub fn new(least_force: T) -> Result<Self, BadShape> {
-        if least_force >= T::zero() && least_force.is_number() {
-            Ok(Self { least_force })
-        } else {
-            Err(BadShape {
-                shape: "soft finger",
-                parameter: "least force",
-                requirement: "finite and not negative",
-            })
-        }
+        let good = least_force >= T::zero() && least_force.is_number();
+        BadShape::check("soft finger", "least force", "finite and not negative", good)
+            .map(|()| Self { least_force })
     }
 
     /// The least force that counts as a contact \[N\].

@@ -3,7 +3,7 @@
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
-use crate::{SmoothSurface, SoftContact};
+use crate::{Extent, SmoothSurface, SoftContact};
 
 /// The soft-finger problem in the units of the surface: lengths from the centre of its extent, in
 /// its radius; force and torque such that the larger is near 1.
@@ -59,8 +59,18 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
     /// For a finite wrench whose force is not zero.
     pub(super) fn new(surface: &'a S, force: &Vector3<T>, torque: &Vector3<T>) -> Self {
         let extent = surface.extent();
+        Self::with_extent(surface, &extent, force, &(torque - extent.centre.cross(force)))
+    }
+
+    /// With units from a given extent, and the torque about its centre.
+    pub(super) fn with_extent(
+        surface: &'a S,
+        extent: &Extent<T>,
+        force: &Vector3<T>,
+        torque: &Vector3<T>,
+    ) -> Self {
         let unit = extent.radius.normalising_factor();
-        let lever = (torque - extent.centre.cross(force)) * unit;
+        let lever = torque * unit;
         let wrench_unit = force.amax().max(lever.amax()).normalising_factor();
         let (force, torque) = (force * wrench_unit, lever * wrench_unit);
         let power = force.dot(&torque);

@@ -3,8 +3,8 @@
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
-use super::ErrorBudget;
-use crate::ActiveSurface;
+use crate::numeric::vectors::hypotenuse;
+use crate::{ActiveSurface, WorstErrors};
 use crate::soft_finger::newton::tangents;
 
 /// A region that certainly holds the true contact: a piece of the round tube about the measured
@@ -60,6 +60,11 @@ pub struct ConvexBound<T: Real> {
     pub past_silhouette: bool,
 }
 
+fn is_valid<T: Real>(errors: &WorstErrors<T>) -> bool {
+    let WorstErrors { force, torque, radius, centre } = *errors;
+    force.min(torque).min(radius).min(centre) >= T::zero() && (force + torque + radius + centre).is_number()
+}
+
 /// Corners of the polygon.
 const CORNERS: usize = 8;
 
@@ -68,27 +73,27 @@ impl<T: Real> ConvexBound<T> {
     /// origin of the sensor frame. Takes nine crossings of lines.
     ///
     /// The reported contact is the entry of the line of action or, if it misses, the point of the
-    /// surface closest to it. Size and position of the budget add up to `ε_s`.
+    /// surface closest to it. The errors of radius and centre add up to `ε_s`.
     ///
-    /// `None` if the budget is not valid or not smaller than the force, the wrench is not finite,
-    /// the line passes further from the surface than the budget explains, no line near it meets the
+    /// `None` if the errors are negative or not finite, or that of the force is not smaller than the force, the wrench is not finite,
+    /// the line passes further from the surface than the errors explain, no line near it meets the
     /// surface, or the body has no end along it (a half space), so that nothing can be said.
     #[must_use]
     pub fn new<S: ActiveSurface<T>>(
         surface: &S,
         wrench: &Wrench<T>,
-        budget: &ErrorBudget<T>,
+        errors: &WorstErrors<T>,
         reach: T,
     ) -> Option<Self> {
         let axis = wrench.line_of_action().ok()?;
-        if !budget.is_valid() || !(budget.force < axis.force) || !(reach >= T::zero() && reach.is_number()) {
+        if !is_valid(errors) || !(errors.force < axis.force) || !(reach >= T::zero() && reach.is_number()) {
             return None;
         }
-        let shape = budget.size + budget.position;
-        let turn = budget.force / axis.force;
+        let shape = errors.radius + errors.centre;
+        let turn = errors.force / axis.force;
         // Rounding moves the line by a few units in the last place of its distance and of the reach.
         let rounding = T::EPSILON * T::literal(16.0) * (reach + axis.line.point.amax());
-        let epsilon = (budget.torque + reach * budget.force) / axis.force + rounding;
+        let epsilon = (errors.torque + reach * errors.force) / axis.force + rounding;
         let u = axis.line.direction;
 
         let mut region =
@@ -136,9 +141,7 @@ impl<T: Real> ConvexBound<T> {
         let along = [low - offset - rounding, high - offset + rounding];
         let furthest = along[0].abs().max(along[1].abs());
         let across = epsilon + gap;
-        let scale = furthest.max(across).normalising_factor();
-        let (x, y) = (furthest * scale, across * scale);
-        let distance = (x * x + y * y).root() / scale;
+        let distance = hypotenuse(furthest, across);
         distance.is_number().then_some(Self { across: epsilon, along, distance, past_silhouette })
     }
 }

@@ -79,6 +79,14 @@ pub enum NoContact<T: Real> {
         /// Where the line meets the active surface \[m\].
         point: Vector3<T>,
     },
+    /// The force presses, but at so flat an angle that friction could not hold it.
+    #[error("the force meets the surface at a friction ratio of {friction_ratio}, more than it can hold")]
+    BeyondFriction {
+        /// Where it presses most squarely \[m\].
+        point: Vector3<T>,
+        /// The friction ratio `|f_t|/f_n` there.
+        friction_ratio: T,
+    },
     /// The force presses on a part of the shape that is not part of the active surface.
     #[error("the force presses outside the active region")]
     OutsideActiveRegion {

@@ -3,19 +3,12 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
+use crate::numeric::vectors::is_finite;
+use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
 
 /// A plane; the fingertip is on the side away from the normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "Parts<T>",
-        into = "Parts<T>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct Plane<T: Real> {
     point: Vector3<T>,
     normal: Vector3<T>,
@@ -39,6 +32,20 @@ impl<T: Real> Plane<T> {
     pub const fn point(&self) -> Vector3<T> {
         self.point
     }
+
+    /// The outward unit normal.
+    #[inline]
+    #[must_use]
+    pub const fn outward(&self) -> Vector3<T> {
+        self.normal
+    }
+
+    /// Signed distance of a point from the plane \[m\], positive outside.
+    #[inline]
+    #[must_use]
+    pub fn height(&self, point: &Vector3<T>) -> T {
+        (point - self.point).dot(&self.normal)
+    }
 }
 
 impl<T: Real> ActiveSurface<T> for Plane<T> {
@@ -48,16 +55,17 @@ impl<T: Real> ActiveSurface<T> for Plane<T> {
         let point = line.at(along);
         // A parallel line, or one so nearly parallel that it meets the plane beyond the range of
         // the type, does not cross it.
-        if (point.x + point.y + point.z).is_number() {
+        if is_finite(&point) {
             visit(Crossing { along, point, normal: self.normal, active: true });
         }
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
-        let height = (line.point - self.point).dot(&self.normal);
+        let height = self.height(&line.point);
+        let below = line.point - self.normal * height;
         ClosestApproach {
-            gap: height.abs(),
-            point: line.point - self.normal * height,
+            gap: height.abs().min(T::GREATEST),
+            point: if is_finite(&below) { below } else { self.point },
             normal: self.normal,
             active: true,
         }
@@ -67,28 +75,14 @@ impl<T: Real> ActiveSurface<T> for Plane<T> {
     fn normal(&self, _point: &Vector3<T>) -> Vector3<T> {
         self.normal
     }
-}
 
-/// How a plane is written in a file; reading one validates it again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-#[serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))]
-struct Parts<T: Real> {
-    point: Vector3<T>,
-    normal: Vector3<T>,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> From<Plane<T>> for Parts<T> {
-    fn from(plane: Plane<T>) -> Self {
-        Self { point: plane.point, normal: plane.normal }
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.height(point) < T::zero()
     }
 }
 
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Parts<T>> for Plane<T> {
-    type Error = BadShape;
-    fn try_from(parts: Parts<T>) -> Result<Self, BadShape> {
-        Self::new(parts.point, parts.normal)
-    }
-}
+serde_parts!(Plane {
+    point_m: Vector3<T> = |plane: &Plane<T>| plane.point,
+    normal: Vector3<T> = |plane: &Plane<T>| plane.normal,
+} => |parts| Plane::new(parts.point_m, parts.normal));

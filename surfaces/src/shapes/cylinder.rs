@@ -3,20 +3,13 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use crate::sphere::any_perpendicular;
+use super::axis::Axis;
+use crate::numeric::vectors::{is_finite, length};
+use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
 
 /// The lateral surface of a circular cylinder, unbounded or with an active part of finite length.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "Parts<T>",
-        into = "Parts<T>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct Cylinder<T: Real> {
     centre: Vector3<T>,
     axis: Vector3<T>,
@@ -83,6 +76,11 @@ impl<T: Real> Cylinder<T> {
     }
 
     #[inline]
+    fn around(&self) -> Axis<T> {
+        Axis { origin: self.centre, direction: self.axis }
+    }
+
+    #[inline]
     fn is_active(&self, height: T) -> bool {
         self.half_length.is_none_or(|half| height.abs() <= half)
     }
@@ -132,62 +130,40 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let (along, foot) = self.foot(line).map_or_else(
             || {
+                // Parallel to the axis: of all its points, the one nearest to the middle.
                 let from_centre = line.point - self.centre;
-                (T::zero(), (from_centre - self.axis * from_centre.dot(&self.axis)) * self.curvature)
+                let (_, across) = self.around().split(&from_centre);
+                (-from_centre.dot(&line.direction), across * self.curvature)
             },
             |(along, foot, ..)| (along, foot),
         );
-        let scale = foot.amax().normalising_factor();
-        let scaled = foot * scale;
-        let length = scaled.norm_squared().root();
-        let normal = if length > T::zero() { scaled / length } else { any_perpendicular(&self.axis) };
+        let normal = self.around().outward(&foot);
         let crossing = self.crossing(line, along, normal);
-        ClosestApproach {
-            gap: ((length / scale - T::one()).abs() * self.radius).min(T::GREATEST),
-            point: crossing.point,
-            normal,
-            active: crossing.active,
-        }
+        let gap = ((length(&foot) - T::one()).abs() * self.radius).min(T::GREATEST);
+        let point =
+            if is_finite(&crossing.point) { crossing.point } else { self.centre + normal * self.radius };
+        ClosestApproach { gap, point, normal, active: crossing.active }
     }
 
     #[inline]
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
-        let from_centre = point - self.centre;
-        let offset = from_centre - self.axis * from_centre.dot(&self.axis);
-        let scaled = offset * offset.amax().normalising_factor();
-        let length = scaled.norm_squared().root();
-        if length > T::zero() { scaled / length } else { any_perpendicular(&self.axis) }
+        self.around().outward(&self.around().split_point(point).1)
+    }
+
+    /// Between the ends, and closer to the axis than the radius.
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        let (height, across) = self.around().split_point(point);
+        self.is_active(height) && (across * self.curvature).norm_squared() < T::one()
     }
 }
 
-/// How a cylinder is written in a file; reading one validates it again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-#[serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))]
-struct Parts<T: Real> {
-    centre: Vector3<T>,
-    axis: Vector3<T>,
-    radius: T,
-    half_length: Option<T>,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> From<Cylinder<T>> for Parts<T> {
-    fn from(cylinder: Cylinder<T>) -> Self {
-        Self {
-            centre: cylinder.centre,
-            axis: cylinder.axis,
-            radius: cylinder.radius,
-            half_length: cylinder.half_length,
-        }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Parts<T>> for Cylinder<T> {
-    type Error = BadShape;
-    fn try_from(parts: Parts<T>) -> Result<Self, BadShape> {
-        let cylinder = Self::new(parts.centre, parts.axis, parts.radius)?;
-        parts.half_length.map_or(Ok(cylinder), |half| cylinder.with_half_length(half))
-    }
-}
+serde_parts!(Cylinder {
+    #[serde(default = "Vector3::zeros")] centre_m: Vector3<T> = |cylinder: &Cylinder<T>| cylinder.centre,
+    axis: Vector3<T> = |cylinder: &Cylinder<T>| cylinder.axis,
+    radius_m: T = |cylinder: &Cylinder<T>| cylinder.radius,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    half_length_m: Option<T> = |cylinder: &Cylinder<T>| cylinder.half_length,
+} => |parts| Cylinder::new(parts.centre_m, parts.axis, parts.radius_m).and_then(|cylinder| {
+    parts.half_length_m.map_or(Ok(cylinder), |half| cylinder.with_half_length(half))
+}));

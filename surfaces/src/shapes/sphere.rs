@@ -3,19 +3,12 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
+use crate::numeric::vectors::{any_perpendicular, length, unit_or};
+use crate::serde_parts::serde_parts;
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, SignedDistance};
 
 /// A sphere, its inside being the fingertip.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "Parts<T>",
-        into = "Parts<T>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct Sphere<T: Real> {
     centre: Vector3<T>,
     radius: T,
@@ -88,62 +81,38 @@ impl<T: Real> ActiveSurface<T> for Sphere<T> {
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let (foot, _) = self.foot(line);
-        let scale = foot.amax().normalising_factor();
-        let scaled = foot * scale;
-        let length = scaled.norm_squared().root();
         // A line through the centre is asked about only by mistake: any point of the circle
         // across it is then as good.
-        let normal = if length > T::zero() { scaled / length } else { any_perpendicular(&line.direction) };
-        let distance = length / scale;
-        ClosestApproach {
-            gap: ((distance - T::one()) * self.radius).max(T::zero()).min(T::GREATEST),
-            point: self.centre + normal * self.radius,
-            normal,
-            active: true,
-        }
+        let normal = unit_or(&foot, || any_perpendicular(&line.direction));
+        let gap = ((length(&foot) - T::one()) * self.radius).max(T::zero()).min(T::GREATEST);
+        ClosestApproach { gap, point: self.centre + normal * self.radius, normal, active: true }
     }
 
     #[inline]
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
-        let from_centre = point - self.centre;
-        let scaled = from_centre * from_centre.amax().normalising_factor();
-        let length = scaled.norm_squared().root();
-        if length > T::zero() { scaled / length } else { Vector3::z() }
+        unit_or(&(point - self.centre), Vector3::z)
+    }
+
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        ((point - self.centre) * self.curvature).norm_squared() < T::one()
     }
 }
 
-/// A unit vector across a unit vector.
-pub(crate) fn any_perpendicular<T: Real>(direction: &Vector3<T>) -> Vector3<T> {
-    let axis = match direction.iamin() {
-        0 => Vector3::x(),
-        1 => Vector3::y(),
-        _ => Vector3::z(),
-    };
-    let across = direction.cross(&axis);
-    let length = across.norm_squared().root();
-    if length > T::zero() { across / length } else { axis }
-}
+impl<T: Real> SignedDistance<T> for Sphere<T> {
+    const CONVEX: bool = true;
 
-/// How a sphere is written in a file; reading one validates it again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-#[serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))]
-struct Parts<T: Real> {
-    centre: Vector3<T>,
-    radius: T,
-}
+    fn signed_distance(&self, point: &Vector3<T>) -> Distance<T> {
+        let distance = length(&(point - self.centre)) - self.radius;
+        Distance { distance, normal: self.normal(point) }
+    }
 
-#[cfg(feature = "serde")]
-impl<T: Real> From<Sphere<T>> for Parts<T> {
-    fn from(sphere: Sphere<T>) -> Self {
-        Self { centre: sphere.centre, radius: sphere.radius }
+    fn bounds(&self) -> (Vector3<T>, T) {
+        (self.centre, self.radius)
     }
 }
 
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Parts<T>> for Sphere<T> {
-    type Error = BadShape;
-    fn try_from(parts: Parts<T>) -> Result<Self, BadShape> {
-        Self::new(parts.centre, parts.radius)
-    }
-}
+serde_parts!(Sphere {
+    #[serde(default = "Vector3::zeros")] centre_m: Vector3<T> = |sphere: &Sphere<T>| sphere.centre,
+    radius_m: T = |sphere: &Sphere<T>| sphere.radius,
+} => |parts| Sphere::new(parts.centre_m, parts.radius_m));

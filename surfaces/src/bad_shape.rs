@@ -1,0 +1,63 @@
+//! Why a shape cannot be made.
+
+use fingertip_wrench::Real;
+use nalgebra::Vector3;
+use thiserror::Error;
+
+use crate::numeric::vectors::{is_finite, unit_or};
+
+/// A parameter of a shape is out of range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("the {parameter} of a {shape} must be {requirement}")]
+pub struct BadShape {
+    /// Which shape.
+    pub shape: &'static str,
+    /// Which parameter.
+    pub parameter: &'static str,
+    /// What it must be.
+    pub requirement: &'static str,
+}
+
+impl BadShape {
+    /// `value`, if it is a length: positive, finite, and with a reciprocal that is finite too.
+    pub(crate) fn check_length<T: Real>(
+        shape: &'static str,
+        parameter: &'static str,
+        value: T,
+    ) -> Result<T, Self> {
+        if value >= T::LEAST_NORMAL && value <= T::one() / T::LEAST_NORMAL {
+            Ok(value)
+        } else {
+            Err(Self { shape, parameter, requirement: "a positive finite length" })
+        }
+    }
+
+    /// Nothing, if `condition` holds.
+    pub(crate) fn check(
+        shape: &'static str,
+        parameter: &'static str,
+        requirement: &'static str,
+        condition: bool,
+    ) -> Result<(), Self> {
+        if condition { Ok(()) } else { Err(Self { shape, parameter, requirement }) }
+    }
+
+    /// `point`, if it is finite.
+    pub(crate) fn check_point<T: Real>(
+        shape: &'static str,
+        parameter: &'static str,
+        point: Vector3<T>,
+    ) -> Result<Vector3<T>, Self> {
+        Self::check(shape, parameter, "finite", is_finite(&point)).map(|()| point)
+    }
+
+    /// The unit vector along `direction`, if it has a direction.
+    pub(crate) fn check_direction<T: Real>(
+        shape: &'static str,
+        parameter: &'static str,
+        direction: Vector3<T>,
+    ) -> Result<Vector3<T>, Self> {
+        let unit = unit_or(&direction, Vector3::zeros);
+        Self::check(shape, parameter, "finite and not zero", unit.amax() > T::zero()).map(|()| unit)
+    }
+}

@@ -1,0 +1,120 @@
+//! The union of two shapes.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use crate::{ActiveSurface, ClosestApproach, Crossing};
+
+/// Two shapes, possibly overlapping, as one: what lies inside the other is no surface. Nest it for
+/// more than two.
+///
+/// ```
+/// use fingertip_surfaces::{CappedCylinder, Compound, Sphere};
+/// use nalgebra::Vector3;
+///
+/// // A finger with a ball at its end.
+/// let shaft = CappedCylinder::new(Vector3::zeros(), Vector3::z(), 0.006, 0.02)?;
+/// let ball = Sphere::new(Vector3::new(0.0, 0.0, 0.02), 0.009)?;
+/// let finger = Compound::new(shaft, ball);
+/// # let _ = finger;
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Compound<A, B> {
+    first: A,
+    second: B,
+}
+
+impl<A, B> Compound<A, B> {
+    /// The union of both.
+    #[inline]
+    #[must_use]
+    pub const fn new(first: A, second: B) -> Self {
+        Self { first, second }
+    }
+
+    /// Both parts.
+    #[inline]
+    #[must_use]
+    pub const fn parts(&self) -> (&A, &B) {
+        (&self.first, &self.second)
+    }
+}
+
+/// `true` if the point at `along` on a line is inside a shape, told from the shape's own crossing
+/// with the same line that is nearest: so two shapes that meet in a seam agree on which of them owns
+/// it. A tie counts as inside if `tie`.
+pub(crate) fn is_inside_along<T: Real>(
+    shape: &impl ActiveSurface<T>,
+    line: &Line<T>,
+    along: T,
+    point: &Vector3<T>,
+    tie: bool,
+) -> bool {
+    let mut nearest: Option<(T, bool)> = None;
+    shape.crossings(line, |c| {
+        let distance = (c.along - along).abs();
+        if nearest.is_none_or(|(least, _)| distance < least) {
+            let leaves = c.normal.dot(&line.direction) > T::zero();
+            let inside = if c.along > along {
+                leaves
+            } else if c.along < along {
+                !leaves
+            } else {
+                tie
+            };
+            nearest = Some((distance, inside));
+        }
+    });
+    nearest.map_or_else(|| shape.contains(point), |(_, inside)| inside)
+}
+
+/// The nearer of two approaches.
+pub(crate) fn closest_of<T: Real>(a: ClosestApproach<T>, b: ClosestApproach<T>) -> ClosestApproach<T> {
+    if b.gap < a.gap { b } else { a }
+}
+
+impl<T: Real, A: ActiveSurface<T>, B: ActiveSurface<T>> ActiveSurface<T> for Compound<A, B> {
+    #[inline]
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        self.first.crossings(line, |c| {
+            if !is_inside_along(&self.second, line, c.along, &c.point, true) {
+                visit(c);
+            }
+        });
+        self.second.crossings(line, |c| {
+            if !is_inside_along(&self.first, line, c.along, &c.point, false) {
+                visit(c);
+            }
+        });
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        closest_of(self.first.closest_approach(line), self.second.closest_approach(line))
+    }
+
+    /// Of the part on whose surface the point is, told by which of the two a step along its normal
+    /// leaves.
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        let nearest = |distance: Option<T>, c: &Crossing<T>| {
+            Some(distance.map_or(c.along.abs(), |least: T| least.min(c.along.abs())))
+        };
+        let (first, second) = (self.first.normal(point), self.second.normal(point));
+        let (mut to_first, mut to_second) = (None, None);
+        self.first.crossings(&Line { point: *point, direction: first }, |c| to_first = nearest(to_first, &c));
+        self.second
+            .crossings(&Line { point: *point, direction: second }, |c| to_second = nearest(to_second, &c));
+        match (to_first, to_second) {
+            (Some(a), Some(b)) if b < a => second,
+            (None, Some(_)) => second,
+            _ => first,
+        }
+    }
+
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.first.contains(point) || self.second.contains(point)
+    }
+}

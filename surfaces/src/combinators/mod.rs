@@ -1,0 +1,12 @@
+//! Shapes made of shapes.
+
+mod compound;
+mod offset;
+mod posed;
+mod trimmed;
+
+pub use compound::Compound;
+pub(crate) use compound::{closest_of, is_inside_along};
+pub use offset::Offset;
+pub use posed::Posed;
+pub use trimmed::{HalfSpace, Region, Trimmed};

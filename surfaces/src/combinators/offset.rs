@@ -1,0 +1,152 @@
+//! The parallel surface.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use crate::numeric::closest::{by_search, to_convex};
+use crate::numeric::roots::{all_of_lipschitz, first_of_convex};
+use crate::numeric::vectors::foot;
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, SignedDistance};
+
+/// All points at one distance from a shape: outside it (a skin put over a fingertip), or inside
+/// (a skin pressed in; theory 4.3). Unlike a shape with larger semi-axes it has the same thickness
+/// everywhere.
+///
+/// Outside a convex shape it is convex and smooth. Inside, it ends where it would fold over itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Offset<T: Real, S> {
+    surface: S,
+    distance: T,
+}
+
+impl<T: Real, S: SignedDistance<T>> Offset<T, S> {
+    /// At a distance \[m\] outside `surface`, or inside if negative.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the distance is finite and leaves something of the shape's bounds.
+    pub fn new(surface: S, distance: T) -> Result<Self, BadShape> {
+        let (_, radius) = surface.bounds();
+        BadShape::check("parallel surface", "distance", "finite", distance.is_number())?;
+        BadShape::check_length("parallel surface", "size left", radius + distance)?;
+        Ok(Self { surface, distance })
+    }
+}
+
+impl<T: Real, S> Offset<T, S> {
+    /// The surface that it is parallel to.
+    #[inline]
+    #[must_use]
+    pub const fn inner(&self) -> &S {
+        &self.surface
+    }
+
+    /// The distance from it \[m\], positive outside.
+    #[inline]
+    #[must_use]
+    pub const fn distance(&self) -> T {
+        self.distance
+    }
+}
+
+impl<T: Real, S: SignedDistance<T>> ActiveSurface<T> for Offset<T, S> {
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        let (centre, radius) = self.bounds();
+        let (offset, along) = foot(line, &centre);
+        let scaled = offset / radius;
+        let squared = T::literal(1.001) - scaled.norm_squared();
+        if !(squared > T::zero()) {
+            return;
+        }
+        let reach = squared.root() * radius;
+        let start = centre + offset;
+        let distance = |t: T| {
+            let found = self.signed_distance(&(start + line.direction * t));
+            (found.distance, found.normal.dot(&line.direction))
+        };
+        let mut report = |t: T| {
+            let point = start + line.direction * t;
+            visit(Crossing { along: along + t, point, normal: self.normal(&point), active: true });
+        };
+        if S::CONVEX {
+            let entry = first_of_convex(-reach, T::one(), distance);
+            let exit = first_of_convex(reach, -T::one(), distance);
+            if let (Some(entry), Some(exit)) = (entry, exit) {
+                report(entry);
+                report(exit);
+            }
+        } else {
+            all_of_lipschitz(-reach, reach, T::one(), distance, report);
+        }
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        let (centre, reach) = self.bounds();
+        if S::CONVEX {
+            to_convex(line, &centre, reach, |point| self.signed_distance(point))
+        } else {
+            by_search(line, &centre, reach, |point| self.signed_distance(point))
+        }
+    }
+
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.surface.signed_distance(point).normal
+    }
+
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.signed_distance(point).distance < T::zero()
+    }
+}
+
+impl<T: Real, S: SignedDistance<T>> SignedDistance<T> for Offset<T, S> {
+    const CONVEX: bool = S::CONVEX;
+
+    fn signed_distance(&self, point: &Vector3<T>) -> Distance<T> {
+        let found = self.surface.signed_distance(point);
+        Distance { distance: found.distance - self.distance, ..found }
+    }
+
+    fn bounds(&self) -> (Vector3<T>, T) {
+        let (centre, radius) = self.surface.bounds();
+        (centre, radius + self.distance)
+    }
+}
+
+/// In files, the surface and the distance.
+#[cfg(feature = "serde")]
+mod files {
+    use fingertip_wrench::Real;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+
+    use super::Offset;
+    use crate::SignedDistance;
+
+    #[derive(Serialize)]
+    struct Written<'a, T, S> {
+        distance_m: T,
+        surface: &'a S,
+    }
+
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Read<T, S> {
+        distance_m: T,
+        surface: S,
+    }
+
+    impl<T: Real + Serialize, S: Serialize> Serialize for Offset<T, S> {
+        fn serialize<W: Serializer>(&self, serializer: W) -> Result<W::Ok, W::Error> {
+            Written { distance_m: self.distance, surface: &self.surface }.serialize(serializer)
+        }
+    }
+
+    impl<'de, T, S> Deserialize<'de> for Offset<T, S>
+    where
+        T: Real + Deserialize<'de>,
+        S: SignedDistance<T> + Deserialize<'de>,
+    {
+        fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            let Read { distance_m, surface } = Read::<T, S>::deserialize(deserializer)?;
+            Self::new(surface, distance_m).map_err(Error::custom)
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! A shape, moved.
+
+use fingertip_wrench::{Line, Real, RigidTransform};
+use nalgebra::Vector3;
+
+use crate::{ActiveSurface, ClosestApproach, Crossing, Distance, SignedDistance};
+
+/// A shape somewhere else in the sensor frame, turned.
+///
+/// ```
+/// use fingertip_surfaces::{Ellipsoid, Posed};
+/// use fingertip_wrench::RigidTransform;
+/// use nalgebra::Vector3;
+///
+/// // An ellipsoid 40 mm out along the sensor's z axis, turned by a right angle about it.
+/// let sensor_from_shape = RigidTransform::from_axis_angle(
+///     Vector3::new(0.0, 0.0, core::f64::consts::FRAC_PI_2),
+///     Vector3::new(0.0, 0.0, 0.04),
+/// )?;
+/// let tip = Posed::new(Ellipsoid::new(Vector3::new(0.008, 0.010, 0.015))?, sensor_from_shape);
+/// # let _ = tip;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Posed<T: Real, S> {
+    surface: S,
+    sensor_from_shape: RigidTransform<T>,
+}
+
+impl<T: Real, S> Posed<T, S> {
+    /// `surface`, whose frame `sensor_from_shape` takes to the sensor frame.
+    #[inline]
+    #[must_use]
+    pub const fn new(surface: S, sensor_from_shape: RigidTransform<T>) -> Self {
+        Self { surface, sensor_from_shape }
+    }
+
+    /// The shape in its own frame.
+    #[inline]
+    #[must_use]
+    pub const fn inner(&self) -> &S {
+        &self.surface
+    }
+
+    /// From the shape's frame to the sensor frame.
+    #[inline]
+    #[must_use]
+    pub const fn sensor_from_shape(&self) -> &RigidTransform<T> {
+        &self.sensor_from_shape
+    }
+
+    #[inline]
+    fn turned_back(&self, v: &Vector3<T>) -> Vector3<T> {
+        self.sensor_from_shape.rotation().tr_mul(v)
+    }
+
+    #[inline]
+    fn in_shape(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.turned_back(&(point - self.sensor_from_shape.origin()))
+    }
+
+    #[inline]
+    fn line_in_shape(&self, line: &Line<T>) -> Line<T> {
+        Line { point: self.in_shape(&line.point), direction: self.turned_back(&line.direction) }
+    }
+}
+
+impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
+    #[inline]
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        let pose = &self.sensor_from_shape;
+        self.surface.crossings(&self.line_in_shape(line), |c| {
+            visit(Crossing {
+                point: pose.transform_point(&c.point),
+                normal: pose.rotate(&c.normal),
+                ..c
+            });
+        });
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        let found = self.surface.closest_approach(&self.line_in_shape(line));
+        let pose = &self.sensor_from_shape;
+        ClosestApproach {
+            point: pose.transform_point(&found.point),
+            normal: pose.rotate(&found.normal),
+            ..found
+        }
+    }
+
+    #[inline]
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.sensor_from_shape.rotate(&self.surface.normal(&self.in_shape(point)))
+    }
+
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.surface.contains(&self.in_shape(point))
+    }
+}
+
+impl<T: Real, S: SignedDistance<T>> SignedDistance<T> for Posed<T, S> {
+    const CONVEX: bool = S::CONVEX;
+
+    fn signed_distance(&self, point: &Vector3<T>) -> Distance<T> {
+        let found = self.surface.signed_distance(&self.in_shape(point));
+        Distance { normal: self.sensor_from_shape.rotate(&found.normal), ..found }
+    }
+
+    fn bounds(&self) -> (Vector3<T>, T) {
+        let (centre, radius) = self.surface.bounds();
+        (self.sensor_from_shape.transform_point(&centre), radius)
+    }
+}
+
+/// In files, the pose is the shape's origin in the sensor frame and the rotation vector.
+#[cfg(feature = "serde")]
+mod files {
+    use fingertip_wrench::{Real, RigidTransform};
+    use nalgebra::{Rotation3, UnitQuaternion, Vector3};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+
+    use super::Posed;
+
+    #[derive(Serialize)]
+    struct Written<'a, T: Real, S> {
+        origin_m: Vector3<T>,
+        rotation_vector_rad: Vector3<T>,
+        surface: &'a S,
+    }
+
+    #[derive(Deserialize)]
+    #[serde(
+        deny_unknown_fields,
+        bound(deserialize = "T: Deserialize<'de>, S: Deserialize<'de>")
+    )]
+    struct Read<T: Real, S> {
+        #[serde(default = "Vector3::zeros")]
+        origin_m: Vector3<T>,
+        #[serde(default = "Vector3::zeros")]
+        rotation_vector_rad: Vector3<T>,
+        surface: S,
+    }
+
+    impl<T: Real + Serialize, S: Serialize> Serialize for Posed<T, S> {
+        fn serialize<W: Serializer>(&self, serializer: W) -> Result<W::Ok, W::Error> {
+            let rotation = Rotation3::from_matrix_unchecked(self.sensor_from_shape.rotation());
+            Written {
+                origin_m: self.sensor_from_shape.origin(),
+                rotation_vector_rad: UnitQuaternion::from_rotation_matrix(&rotation).scaled_axis(),
+                surface: &self.surface,
+            }
+            .serialize(serializer)
+        }
+    }
+
+    impl<'de, T: Real + Deserialize<'de>, S: Deserialize<'de>> Deserialize<'de> for Posed<T, S> {
+        fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            let Read { origin_m, rotation_vector_rad, surface } = Read::<T, S>::deserialize(deserializer)?;
+            let pose =
+                RigidTransform::from_axis_angle(rotation_vector_rad, origin_m).map_err(Error::custom)?;
+            Ok(Self::new(surface, pose))
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! A shape of which only a region may touch.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use crate::serde_parts::serde_parts;
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
+
+/// A part of space. Closures `Fn(&Vector3<T>) -> bool` are regions too.
+pub trait Region<T: Real> {
+    /// `true` if the point belongs to it.
+    fn includes(&self, point: &Vector3<T>) -> bool;
+}
+
+impl<T: Real, F: Fn(&Vector3<T>) -> bool> Region<T> for F {
+    #[inline]
+    fn includes(&self, point: &Vector3<T>) -> bool {
+        self(point)
+    }
+}
+
+/// All points on one side of a plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSpace<T: Real> {
+    point: Vector3<T>,
+    inward: Vector3<T>,
+}
+
+impl<T: Real> HalfSpace<T> {
+    /// From a point of the plane \[m\] and the direction, of any length, from there into the
+    /// region.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the point is finite and the direction has a direction.
+    pub fn new(point: Vector3<T>, inward: Vector3<T>) -> Result<Self, BadShape> {
+        Ok(Self {
+            point: BadShape::check_point("half-space", "point", point)?,
+            inward: BadShape::check_direction("half-space", "inward direction", inward)?,
+        })
+    }
+}
+
+impl<T: Real> Region<T> for HalfSpace<T> {
+    #[inline]
+    fn includes(&self, point: &Vector3<T>) -> bool {
+        (point - self.point).dot(&self.inward) >= T::zero()
+    }
+}
+
+serde_parts!(HalfSpace {
+    point_m: Vector3<T> = |region: &HalfSpace<T>| region.point,
+    inward: Vector3<T> = |region: &HalfSpace<T>| region.inward,
+} => |parts| HalfSpace::new(parts.point_m, parts.inward));
+
+/// A shape that is active only within a region: what lies outside is still part of the shape, and
+/// a force that presses there is reported as pressing outside the active region.
+///
+/// ```
+/// use fingertip_surfaces::{HalfSpace, Sphere, Trimmed};
+/// use nalgebra::Vector3;
+///
+/// let above = HalfSpace::new(Vector3::zeros(), Vector3::z())?;
+/// let dome = Trimmed::new(Sphere::centred(0.013)?, above);
+/// // Or, with any condition:
+/// let band = Trimmed::new(Sphere::centred(0.013)?, |p: &Vector3<f64>| p.z.abs() < 0.004);
+/// # let _ = (dome, band);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Trimmed<S, R> {
+    surface: S,
+    region: R,
+}
+
+impl<S, R> Trimmed<S, R> {
+    /// `surface`, active within `region` only.
+    #[inline]
+    #[must_use]
+    pub const fn new(surface: S, region: R) -> Self {
+        Self { surface, region }
+    }
+
+    /// The whole shape.
+    #[inline]
+    #[must_use]
+    pub const fn inner(&self) -> &S {
+        &self.surface
+    }
+
+    /// Where it is active.
+    #[inline]
+    #[must_use]
+    pub const fn region(&self) -> &R {
+        &self.region
+    }
+}
+
+impl<T: Real, S: ActiveSurface<T>, R: Region<T>> ActiveSurface<T> for Trimmed<S, R> {
+    #[inline]
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        self.surface.crossings(line, |c| {
+            visit(Crossing { active: c.active && self.region.includes(&c.point), ..c });
+        });
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        let found = self.surface.closest_approach(line);
+        ClosestApproach { active: found.active && self.region.includes(&found.point), ..found }
+    }
+
+    #[inline]
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.surface.normal(point)
+    }
+
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.surface.contains(point)
+    }
+}

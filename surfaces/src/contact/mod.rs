@@ -1,0 +1,11 @@
+//! From wrench and surface to contact.
+
+mod bound;
+mod contact_model;
+mod outcome;
+mod point_contact;
+
+pub use bound::{ContactBound, WorstErrors};
+pub use contact_model::ContactModel;
+pub use outcome::{Contact, NoContact, Resolution};
+pub use point_contact::PointContact;

@@ -1,0 +1,246 @@
+//! Contact in a point, without local torque.
+
+use fingertip_wrench::{LineOfAction, NoLineOfAction, Real, Wrench};
+use nalgebra::Vector3;
+
+use super::{Contact, ContactModel, NoContact, Resolution};
+use crate::numeric::vectors::hypotenuse;
+use crate::serde_parts::serde_parts;
+use crate::{ActiveSurface, BadShape, Crossing};
+
+/// A contact that transmits a force and no torque of its own: it lies where the wrench's line of
+/// action *enters* the surface (Salisbury 1984; equations (1), (2) of Bicchi & Dario 1987, mended
+/// in theory 1).
+///
+/// The pitch of the wrench is ignored. A shape that is not convex may be entered several times. Of
+/// those entries the ones that would need more friction than
+/// [`with_greatest_friction`](Self::with_greatest_friction) allows are set aside; of the rest the one
+/// nearest to the last contact is taken if that is given, otherwise the one where the force presses
+/// most squarely, which asks least of friction. [`Contact::alternatives`] counts the others, and
+/// [`candidates`](Self::candidates) reports them all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointContact<T: Real> {
+    least_force: T,
+    greatest_gap: T,
+    greatest_friction: Option<T>,
+    /// `1/√(1 + μ²)`: the least cosine between force and inward normal.
+    least_incidence: T,
+}
+
+impl<T: Real> PointContact<T> {
+    /// Forces below `least_force` \[N\] are no contact. Take it from the noise of the sensor: three
+    /// to five standard deviations of the force at rest. Zero accepts every force but zero.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the threshold is finite and not negative.
+    pub fn new(least_force: T) -> Result<Self, BadShape> {
+        Ok(Self {
+            least_force: check("least force", least_force)?,
+            greatest_gap: T::zero(),
+            greatest_friction: None,
+            least_incidence: T::zero(),
+        })
+    }
+
+    /// Accepts a line of action that misses the surface by at most `greatest_gap` \[m\], as noise
+    /// makes it do near grazing: the contact is then the closest point of the surface.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the gap is finite and not negative.
+    pub fn accepting_gap(self, greatest_gap: T) -> Result<Self, BadShape> {
+        Ok(Self { greatest_gap: check("accepted gap", greatest_gap)?, ..self })
+    }
+
+    /// No contact needs a friction ratio above `greatest_friction`: entries that do are left out,
+    /// and so are lines that miss, at which the ratio is infinite.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless it is finite and not negative.
+    pub fn with_greatest_friction(self, greatest_friction: T) -> Result<Self, BadShape> {
+        let mu = check("greatest friction", greatest_friction)?;
+        let least_incidence = T::one() / hypotenuse(T::one(), mu);
+        Ok(Self { greatest_friction: Some(mu), least_incidence, ..self })
+    }
+
+    /// The least force that counts as a contact \[N\].
+    #[inline]
+    #[must_use]
+    pub const fn least_force(&self) -> T {
+        self.least_force
+    }
+
+    /// By how much a line of action may miss the surface \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn greatest_gap(&self) -> T {
+        self.greatest_gap
+    }
+
+    /// The greatest friction ratio that a contact may need, if there is a limit.
+    #[inline]
+    #[must_use]
+    pub const fn greatest_friction(&self) -> Option<T> {
+        self.greatest_friction
+    }
+
+    /// The line of action, if the force is one.
+    #[inline]
+    fn axis(&self, wrench: &Wrench<T>) -> Result<LineOfAction<T>, NoContact<T>> {
+        match wrench.line_of_action() {
+            Ok(axis) if axis.force >= self.least_force => Ok(axis),
+            Ok(axis) => Err(NoContact::BelowThreshold { force: axis.force }),
+            Err(NoLineOfAction::NoForce) => Err(NoContact::BelowThreshold { force: T::zero() }),
+            Err(_) => Err(NoContact::NotFinite),
+        }
+    }
+
+    /// Calls `visit` with every contact that would explain the wrench, in no particular order: all
+    /// entries of the line of action into the active surface that friction can hold. Their
+    /// `alternatives` are left zero.
+    ///
+    /// # Errors
+    /// [`NoContact`] if there is none, as [`resolve`](ContactModel::resolve) would say.
+    pub fn candidates<S: ActiveSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        mut visit: impl FnMut(Contact<T>),
+    ) -> Result<(), NoContact<T>> {
+        let axis = self.axis(wrench)?;
+        let mut any = false;
+        surface.crossings(&axis.line, |crossing| {
+            let incidence = -axis.line.direction.dot(&crossing.normal);
+            if crossing.active && incidence > T::zero() && incidence >= self.least_incidence {
+                any = true;
+                visit(contact_at(wrench, crossing.point, crossing.normal, incidence));
+            }
+        });
+        if any {
+            return Ok(());
+        }
+        self.resolve(wrench, surface).into_result().map(&mut visit)
+    }
+}
+
+#[inline]
+fn contact_at<T: Real>(
+    wrench: &Wrench<T>,
+    point: Vector3<T>,
+    normal: Vector3<T>,
+    incidence: T,
+) -> Contact<T> {
+    Contact {
+        point,
+        normal,
+        force: wrench.force(),
+        spin_torque: T::zero(),
+        incidence: incidence.min(T::one()),
+        gap: T::zero(),
+        alternatives: 0,
+    }
+}
+
+fn check<T: Real>(parameter: &'static str, value: T) -> Result<T, BadShape> {
+    BadShape::check(
+        "point contact",
+        parameter,
+        "finite and not negative",
+        value >= T::zero() && value.is_number(),
+    )
+    .map(|()| value)
+}
+
+/// What has been seen of the crossings so far.
+struct Seen<T: Real> {
+    best: Option<(Crossing<T>, T)>,
+    candidates: u8,
+    too_flat: Option<(Vector3<T>, T)>,
+    pulling: Option<Vector3<T>>,
+    outside: Option<Vector3<T>>,
+}
+
+impl<T: Real> Seen<T> {
+    /// Why none of the crossings is a contact; `None` if there was none at all.
+    #[cold]
+    fn reason(&self) -> Option<NoContact<T>> {
+        if let Some((point, incidence)) = self.too_flat {
+            let sine = ((T::one() - incidence) * (T::one() + incidence)).max(T::zero()).root();
+            let friction_ratio = (sine / incidence).min(T::GREATEST);
+            return Some(NoContact::BeyondFriction { point, friction_ratio });
+        }
+        if let Some(point) = self.pulling {
+            return Some(NoContact::OnlyPulling { point });
+        }
+        self.outside.map(|point| NoContact::OutsideActiveRegion { point })
+    }
+}
+
+impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
+    #[inline]
+    fn resolve_near(&self, wrench: &Wrench<T>, surface: &S, last: Option<&Vector3<T>>) -> Resolution<T> {
+        let axis = match self.axis(wrench) {
+            Ok(axis) => axis,
+            Err(reason) => return Resolution::NoContact(reason),
+        };
+        let direction = axis.line.direction;
+        let mut seen = Seen { best: None, candidates: 0, too_flat: None, pulling: None, outside: None };
+        surface.crossings(&axis.line, |crossing| {
+            let incidence = -direction.dot(&crossing.normal);
+            if !crossing.active {
+                seen.outside = Some(crossing.point);
+                return;
+            }
+            if !(incidence > T::zero()) {
+                seen.pulling = Some(crossing.point);
+                return;
+            }
+            if incidence < self.least_incidence {
+                if seen.too_flat.is_none_or(|(_, best)| incidence > best) {
+                    seen.too_flat = Some((crossing.point, incidence));
+                }
+                return;
+            }
+            seen.candidates = seen.candidates.saturating_add(1);
+            let better = match (&seen.best, last) {
+                (None, _) => true,
+                (Some((best, _)), Some(last)) => {
+                    (crossing.point - last).norm_squared() < (best.point - last).norm_squared()
+                }
+                (Some((_, best)), None) => incidence > *best,
+            };
+            if better {
+                seen.best = Some((crossing, incidence));
+            }
+        });
+        if let Some((crossing, incidence)) = seen.best {
+            let contact = contact_at(wrench, crossing.point, crossing.normal, incidence);
+            return Resolution::Contact(Contact { alternatives: seen.candidates - 1, ..contact });
+        }
+        if let Some(reason) = seen.reason() {
+            return Resolution::NoContact(reason);
+        }
+        let approach = surface.closest_approach(&axis.line);
+        let incidence = (-direction.dot(&approach.normal)).max(T::zero());
+        if approach.gap <= self.greatest_gap && approach.active && incidence >= self.least_incidence {
+            let contact = contact_at(wrench, approach.point, approach.normal, incidence);
+            return Resolution::Contact(Contact { gap: approach.gap, ..contact });
+        }
+        Resolution::NoContact(NoContact::Misses {
+            gap: approach.gap,
+            closest: approach.point,
+            normal: approach.normal,
+        })
+    }
+}
+
+serde_parts!(PointContact {
+    least_force_n: T = |model: &PointContact<T>| model.least_force,
+    #[serde(default = "T::zero")] greatest_gap_m: T = |model: &PointContact<T>| model.greatest_gap,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    greatest_friction: Option<T> = |model: &PointContact<T>| model.greatest_friction,
+} => |parts| PointContact::new(parts.least_force_n)
+    .and_then(|model| model.accepting_gap(parts.greatest_gap_m))
+    .and_then(|model| match parts.greatest_friction {
+        Some(friction) => model.with_greatest_friction(friction),
+        None => Ok(model),
+    }));

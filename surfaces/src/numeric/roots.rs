@@ -1,0 +1,222 @@
+//! Certified root finding along a line, with bounded iterations.
+
+use fingertip_wrench::Real;
+
+/// More halvings than any interval of an `f64` allows.
+const MOST_HALVINGS: usize = 120;
+
+/// A root of `f` in `[low, high]`, at whose ends `f` has different signs (or is zero): Newton's
+/// method, kept inside the bracket, bisecting whenever it does not halve its step. `f` returns the
+/// value and the derivative.
+pub(crate) fn bracketed<T: Real>(low: T, high: T, f: impl Fn(T) -> (T, T)) -> T {
+    let half = T::literal(0.5);
+    let (at_low, _) = f(low);
+    let (at_high, _) = f(high);
+    if at_low == T::zero() {
+        return low;
+    }
+    if at_high == T::zero() {
+        return high;
+    }
+    // Orient so that f(below) < 0 < f(above).
+    let (mut below, mut above) = if at_low < T::zero() { (low, high) } else { (high, low) };
+    let mut t = (low + high) * half;
+    let mut step_before = (high - low).abs();
+    let (mut value, mut slope) = f(t);
+    for _ in 0..2 * MOST_HALVINGS {
+        if value < T::zero() {
+            below = t;
+        } else {
+            above = t;
+        }
+        let newton = value / slope;
+        let candidate = t - newton;
+        let inside = (candidate - below) * (candidate - above) < T::zero();
+        let next = if inside && newton.abs() * (T::one() + T::one()) < step_before {
+            step_before = newton.abs();
+            candidate
+        } else {
+            step_before = (above - below).abs() * half;
+            below + (above - below) * half
+        };
+        if next == t || value == T::zero() {
+            return t;
+        }
+        t = next;
+        (value, slope) = f(t);
+    }
+    t
+}
+
+/// Where a falling function of `[low, high]` changes sign, by its sign alone.
+pub(crate) fn bisected<T: Real>(mut low: T, mut high: T, is_before: impl Fn(T) -> bool) -> T {
+    for _ in 0..MOST_HALVINGS {
+        let middle = low + (high - low) * T::literal(0.5);
+        if !(middle > low && middle < high) {
+            break;
+        }
+        if is_before(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low + (high - low) * T::literal(0.5)
+}
+
+/// The first root of a convex function, coming from `start`, where it is positive and falls in the
+/// direction `towards` (+1 or −1); `None` if it has none before it rises again.
+///
+/// Newton's method on a convex function never oversteps its first root, since the tangent lies
+/// below the function; so an iterate that has passed the minimum without meeting a root proves
+/// that there is none. `f` returns value and derivative (any subgradient).
+pub(crate) fn first_of_convex<T: Real>(start: T, towards: T, f: impl Fn(T) -> (T, T)) -> Option<T> {
+    let mut t = start;
+    for _ in 0..MOST_HALVINGS {
+        let (value, slope) = f(t);
+        if !(value > T::zero()) {
+            return value.is_number().then_some(t);
+        }
+        if !(slope * towards < T::zero()) {
+            return None;
+        }
+        let next = t - value / slope;
+        if !((next - t) * towards > T::zero()) {
+            return Some(t);
+        }
+        t = next;
+    }
+    // Halving steps all along: a tangent line. The function is within rounding of zero here.
+    Some(t)
+}
+
+/// Greatest depth of subdivision in [`all_of_lipschitz`].
+const DEPTH: usize = 24;
+
+/// Every root of a function in `[low, high]` that is farther than `(high − low)·2⁻²⁰` from its
+/// neighbour, in ascending order. `f` returns value and derivative; the value changes by at most
+/// `steepest` per unit length, which lets whole intervals be ruled out: this is what certifies
+/// that no root is missed (theory 10.3). Where two roots are closer than that, the minimum between
+/// them is still looked for.
+///
+/// The work is bounded: at most a few thousand evaluations, for a line that stays tangent.
+pub(crate) fn all_of_lipschitz<T: Real>(
+    low: T,
+    high: T,
+    steepest: T,
+    f: impl Fn(T) -> (T, T),
+    mut found: impl FnMut(T),
+) {
+    let half = T::literal(0.5);
+    let finest = (high - low) * T::literal(0.5_f64.powi(20));
+    let mut budget = 6000_usize;
+    // Intervals still to be searched, the leftmost on top. Each is at most half of the one below.
+    let mut stack = [(T::zero(), T::zero()); DEPTH + 2];
+    let mut depth = 1;
+    stack[0] = (low, high);
+    while depth > 0 {
+        depth -= 1;
+        let Some(&(a, b)) = stack.get(depth) else { return };
+        let middle = a + (b - a) * half;
+        let reach = (b - a) * half;
+        let (value, _) = f(middle);
+        budget = budget.saturating_sub(1);
+        if !(value.abs() <= steepest * reach) {
+            continue;
+        }
+        let ((at_a, slope_a), (at_b, slope_b)) = (f(a), f(b));
+        let changes = (at_a < T::zero()) != (at_b < T::zero());
+        if b - a > finest && budget > 0 && depth + 2 <= stack.len() {
+            if let Some(slot) = stack.get_mut(depth) {
+                *slot = (middle, b);
+            }
+            if let Some(slot) = stack.get_mut(depth + 1) {
+                *slot = (a, middle);
+            }
+            depth += 2;
+        } else if changes {
+            found(bracketed(a, b, &f));
+        } else if (slope_a < T::zero()) != (slope_b < T::zero()) {
+            // An extremum: two roots if it lies on the other side of zero.
+            let falling = slope_a < T::zero();
+            let extremum = bisected(a, b, |t| (f(t).1 < T::zero()) == falling);
+            if (f(extremum).0 < T::zero()) != (at_a < T::zero()) {
+                found(bracketed(a, extremum, &f));
+                found(bracketed(extremum, b, &f));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{all_of_lipschitz, bracketed, first_of_convex};
+    use core::cell::Cell;
+
+    #[test]
+    fn brackets_converge_to_the_last_bit() {
+        let root = bracketed(0.0, 2.0, |t: f64| (t * t - 2.0, 2.0 * t));
+        assert!((root - 2.0_f64.sqrt()).abs() <= f64::EPSILON);
+        // A useless derivative degrades to bisection.
+        let root = bracketed(0.0_f32, 3.0, |t| (t.powi(9) - 1.0, 0.0));
+        assert!((root - 1.0).abs() <= f32::EPSILON);
+        let infinite = bracketed(-1.0, 1.0, |t: f64| (t.cbrt(), f64::INFINITY));
+        assert!(infinite.abs() < 1e-15);
+    }
+
+    #[test]
+    fn convex_roots_and_their_absence() {
+        let f = |offset: f64| move |t: f64| ((t * t + 1.0).sqrt() - offset, t / (t * t + 1.0).sqrt());
+        let root = first_of_convex(-50.0, 1.0, f(2.0)).unwrap();
+        assert!((root + 3.0_f64.sqrt()).abs() < 1e-15);
+        let root = first_of_convex(50.0, -1.0, f(2.0)).unwrap();
+        assert!((root - 3.0_f64.sqrt()).abs() < 1e-15);
+        assert_eq!(first_of_convex(-50.0, 1.0, f(0.5)), None);
+        assert_eq!(first_of_convex(-50.0, 1.0, f(1.0 - 1e-9)), None);
+    }
+
+    #[test]
+    fn all_roots_of_a_wave_with_bounded_work() {
+        let calls = Cell::new(0);
+        let mut roots = [0.0; 8];
+        let mut count = 0;
+        all_of_lipschitz(
+            0.5,
+            20.0,
+            1.0,
+            |t: f64| {
+                calls.set(calls.get() + 1);
+                (t.sin(), t.cos())
+            },
+            |t| {
+                roots[count] = t;
+                count += 1;
+            },
+        );
+        assert_eq!(count, 6);
+        for (k, root) in roots[..count].iter().enumerate() {
+            assert!((root - (k as f64 + 1.0) * std::f64::consts::PI).abs() < 1e-14);
+        }
+        assert!(calls.get() < 3000, "{} evaluations", calls.get());
+    }
+
+    #[test]
+    fn close_pairs_are_found_and_tangents_end() {
+        for gap in [1e-3_f64, 1e-6, 1e-9, 0.0, -1e-9] {
+            let calls = Cell::new(0);
+            let mut count = 0;
+            all_of_lipschitz(
+                -1.0,
+                1.3,
+                4.0,
+                |t: f64| {
+                    calls.set(calls.get() + 1);
+                    (t * t - gap * gap.abs(), 2.0 * t)
+                },
+                |_| count += 1,
+            );
+            assert!(if gap > 0.0 { count == 2 } else { count <= 2 }, "{gap}: {count}");
+            assert!(calls.get() < 30_000, "{gap}: {} evaluations", calls.get());
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Lengths and directions without over- or underflow.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+/// Euclidean length, for components over the whole range of the type.
+#[inline]
+pub(crate) fn length<T: Real>(v: &Vector3<T>) -> T {
+    let scale = v.amax().normalising_factor();
+    (v * scale).norm_squared().root() / scale
+}
+
+/// `√(a² + b²)` for numbers over the whole range of the type.
+#[inline]
+pub(crate) fn hypotenuse<T: Real>(a: T, b: T) -> T {
+    let scale = a.abs().max(b.abs()).normalising_factor();
+    let (a, b) = (a * scale, b * scale);
+    (a * a + b * b).root() / scale
+}
+
+/// The unit vector along `v`; `fallback` if `v` is zero or not finite.
+#[inline]
+pub(crate) fn unit_or<T: Real>(v: &Vector3<T>, fallback: impl FnOnce() -> Vector3<T>) -> Vector3<T> {
+    let scaled = v * v.amax().normalising_factor();
+    let squared = scaled.norm_squared();
+    if squared > T::zero() && squared.is_number() {
+        let unit = scaled / squared.root();
+        // A subnormal `v` could not be brought near 1: its squares have lost digits.
+        if squared < T::literal(0.5) { unit / unit.norm_squared().root() } else { unit }
+    } else {
+        fallback()
+    }
+}
+
+/// A unit vector across a unit vector.
+pub(crate) fn any_perpendicular<T: Real>(direction: &Vector3<T>) -> Vector3<T> {
+    let axis = match direction.iamin() {
+        0 => Vector3::x(),
+        1 => Vector3::y(),
+        _ => Vector3::z(),
+    };
+    let across = direction.cross(&axis);
+    let length = across.norm_squared().root();
+    if length > T::zero() { across / length } else { axis }
+}
+
+/// The line's point closest to `centre`, relative to `centre`, and its position along the line.
+///
+/// The second pass removes what cancellation left of the first, which matters where the line's own
+/// point is far away.
+#[inline]
+pub(crate) fn foot<T: Real>(line: &Line<T>, centre: &Vector3<T>) -> (Vector3<T>, T) {
+    let from_centre = line.point - centre;
+    let along = -from_centre.dot(&line.direction);
+    (from_centre + line.direction * along, along)
+}
+
+/// `true` if no component is NaN or infinite.
+#[inline]
+pub(crate) fn is_finite<T: Real>(v: &Vector3<T>) -> bool {
+    (v.x - v.x + (v.y - v.y) + (v.z - v.z)).is_number()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{hypotenuse, length, unit_or};
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn unit_vectors_are_unit_for_any_bits(bits in any::<[u32; 3]>()) {
+            let v = Vector3::from(bits.map(f32::from_bits));
+            let unit = unit_or(&v, Vector3::x);
+            let norm = unit.map(f64::from).norm();
+            prop_assert!((norm - 1.0).abs() < 4.0 * f64::from(f32::EPSILON), "{v:?} -> {unit:?}");
+        }
+
+        #[test]
+        fn lengths_agree_with_double_precision(bits in any::<[u32; 3]>()) {
+            let v = Vector3::from(bits.map(f32::from_bits));
+            prop_assume!(v.iter().all(|x| x.is_finite()));
+            let exact = v.map(f64::from).norm();
+            prop_assume!(exact < f64::from(f32::MAX));
+            let allowed = exact * 3e-7 + f64::from(f32::MIN_POSITIVE) * 1e-6;
+            prop_assert!((f64::from(length(&v)) - exact).abs() <= allowed);
+            let plane = f64::from(v.x).hypot(f64::from(v.y));
+            prop_assert!((f64::from(hypotenuse(v.x, v.y)) - plane).abs() <= plane * 3e-7 + 1e-44);
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! The circular cylinder, closed at its ends.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use crate::serde_parts::serde_parts;
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Frustum, SignedDistance};
+
+/// A circular cylinder with flat ends, all of it active: a [`Frustum`] with equal radii.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CappedCylinder<T: Real> {
+    solid: Frustum<T>,
+    centre: Vector3<T>,
+    half_length: T,
+}
+
+impl<T: Real> CappedCylinder<T> {
+    /// Around its centre \[m\], along an axis of any length, with a radius \[m\] and half its
+    /// length \[m\].
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the centre is finite, the axis has a direction, and radius and half
+    /// length are positive finite lengths.
+    pub fn new(
+        centre: Vector3<T>,
+        axis: Vector3<T>,
+        radius: T,
+        half_length: T,
+    ) -> Result<Self, BadShape> {
+        let shape = "capped cylinder";
+        let axis = BadShape::check_direction(shape, "axis", axis)?;
+        let half_length = BadShape::check_length(shape, "half length", half_length)?;
+        let radius = BadShape::check_length(shape, "radius", radius)?;
+        let base = centre - axis * half_length;
+        let solid = Frustum::new(base, axis, half_length + half_length, radius, radius)
+            .map_err(|bad| BadShape { shape, ..bad })?;
+        Ok(Self { solid, centre, half_length })
+    }
+
+    /// The middle \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn centre(&self) -> Vector3<T> {
+        self.centre
+    }
+
+    /// Unit vector along the axis.
+    #[inline]
+    #[must_use]
+    pub const fn axis(&self) -> Vector3<T> {
+        self.solid.axis()
+    }
+
+    /// Radius \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn radius(&self) -> T {
+        self.solid.base_radius()
+    }
+
+    /// Half the length \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn half_length(&self) -> T {
+        self.half_length
+    }
+}
+
+impl<T: Real> ActiveSurface<T> for CappedCylinder<T> {
+    #[inline]
+    fn crossings(&self, line: &Line<T>, visit: impl FnMut(Crossing<T>)) {
+        self.solid.crossings(line, visit);
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        self.solid.closest_approach(line)
+    }
+
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.solid.normal(point)
+    }
+
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.solid.contains(point)
+    }
+}
+
+impl<T: Real> SignedDistance<T> for CappedCylinder<T> {
+    const CONVEX: bool = true;
+
+    fn signed_distance(&self, point: &Vector3<T>) -> Distance<T> {
+        self.solid.signed_distance(point)
+    }
+
+    fn bounds(&self) -> (Vector3<T>, T) {
+        self.solid.bounds()
+    }
+}
+
+serde_parts!(CappedCylinder {
+    #[serde(default = "Vector3::zeros")]
+    centre_m: Vector3<T> = |cylinder: &CappedCylinder<T>| cylinder.centre,
+    axis: Vector3<T> = |cylinder: &CappedCylinder<T>| cylinder.axis(),
+    radius_m: T = |cylinder: &CappedCylinder<T>| cylinder.radius(),
+    half_length_m: T = |cylinder: &CappedCylinder<T>| cylinder.half_length,
+} => |parts| CappedCylinder::new(parts.centre_m, parts.axis, parts.radius_m, parts.half_length_m));

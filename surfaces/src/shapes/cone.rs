@@ -1,0 +1,163 @@
+//! The cone, open at its wide end.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use super::axis::Axis;
+use crate::numeric::closest::to_convex;
+use crate::numeric::quadratic::roots;
+use crate::numeric::vectors::{foot, is_finite, length};
+use crate::serde_parts::serde_parts;
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance};
+
+/// The side of a circular cone, unbounded or active down to a depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone<T: Real> {
+    /// From the apex into the cone.
+    axis: Axis<T>,
+    half_angle: T,
+    sine: T,
+    cosine: T,
+    depth: Option<T>,
+}
+
+impl<T: Real> Cone<T> {
+    /// From its apex \[m\], an axis of any length pointing into the cone, and the angle between
+    /// axis and side \[rad\].
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the apex is finite, the axis has a direction and the half angle lies
+    /// between 0 and π/2, by more than `√ε`.
+    pub fn new(apex: Vector3<T>, axis: Vector3<T>, half_angle: T) -> Result<Self, BadShape> {
+        let (sine, cosine) = (half_angle.sin(), half_angle.cos());
+        let least = T::EPSILON.root();
+        BadShape::check(
+            "cone",
+            "half angle",
+            "between 0 and a right angle",
+            half_angle > T::zero() && half_angle < T::frac_pi_2() && sine >= least && cosine >= least,
+        )?;
+        Ok(Self {
+            axis: Axis {
+                origin: BadShape::check_point("cone", "apex", apex)?,
+                direction: BadShape::check_direction("cone", "axis", axis)?,
+            },
+            half_angle,
+            sine,
+            cosine,
+            depth: None,
+        })
+    }
+
+    /// Only the part down to `depth` \[m\] from the apex, along the axis, is active.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless it is a positive finite length.
+    pub fn with_depth(self, depth: T) -> Result<Self, BadShape> {
+        Ok(Self { depth: Some(BadShape::check_length("cone", "depth", depth)?), ..self })
+    }
+
+    /// Apex \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn apex(&self) -> Vector3<T> {
+        self.axis.origin
+    }
+
+    /// Unit vector along the axis, into the cone.
+    #[inline]
+    #[must_use]
+    pub const fn axis(&self) -> Vector3<T> {
+        self.axis.direction
+    }
+
+    /// Angle between axis and side \[rad\].
+    #[inline]
+    #[must_use]
+    pub const fn half_angle(&self) -> T {
+        self.half_angle
+    }
+
+    #[inline]
+    fn is_active(&self, height: T) -> bool {
+        self.depth.is_none_or(|depth| height <= depth)
+    }
+
+    #[inline]
+    fn side_normal(&self, across: &Vector3<T>) -> Vector3<T> {
+        self.axis.outward(across) * self.cosine - self.axis.direction * self.sine
+    }
+
+    /// The solid is convex; its distance is that of the side, or of the apex for points above it.
+    fn distance(&self, point: &Vector3<T>) -> Distance<T> {
+        let from_apex = point - self.axis.origin;
+        let (height, across) = self.axis.split(&from_apex);
+        let outward = self.axis.outward(&across);
+        let radius = across.dot(&outward).abs();
+        let normal = self.side_normal(&across);
+        if radius * self.sine + height * self.cosine >= T::zero() {
+            return Distance { distance: radius * self.cosine - height * self.sine, normal };
+        }
+        let distance = length(&from_apex);
+        Distance { distance, normal: if distance > T::zero() { from_apex / distance } else { normal } }
+    }
+}
+
+impl<T: Real> ActiveSurface<T> for Cone<T> {
+    #[inline]
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        let (from_apex, along) = foot(line, &self.axis.origin);
+        let (height, across) = self.axis.split(&from_apex);
+        let (rise, drift) = self.axis.split_direction(line);
+        // |radius|·cos − |height|·sin and + of the line's point and of its direction: products of
+        // these instead of differences of squares keep the digits near the side.
+        let (r, d) = (across.norm_squared().root(), drift.norm_squared().root());
+        let (s, k) = (self.sine, self.cosine);
+        let a = (d * k - rise.abs() * s) * (d * k + rise.abs() * s);
+        let b = across.dot(&drift) * k * k - height * rise * s * s;
+        let c = (r * k - height.abs() * s) * (r * k + height.abs() * s);
+        let Some(ends) = roots(a, b, c) else { return };
+        for t in ends {
+            let depth = height + t * rise;
+            let radial = across + drift * t;
+            if !(depth >= T::zero()) || !(t.abs() < T::GREATEST) {
+                continue;
+            }
+            visit(Crossing {
+                along: along + t,
+                point: self.axis.origin + from_apex + line.direction * t,
+                normal: self.side_normal(&radial),
+                active: self.is_active(depth),
+            });
+        }
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        let (from_apex, _) = foot(line, &self.axis.origin);
+        let distance = length(&from_apex);
+        let reach = if is_finite(&from_apex) && distance > T::zero() { distance } else { T::one() };
+        let far = reach * T::literal(f64::from(1 << 20));
+        let approach = to_convex(line, &self.axis.origin, far.min(T::GREATEST.root()), |p| self.distance(p));
+        let depth = self.axis.split_point(&approach.point).0;
+        ClosestApproach { active: self.is_active(depth), ..approach }
+    }
+
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.side_normal(&self.axis.split_point(point).1)
+    }
+
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        let (height, across) = self.axis.split_point(point);
+        height > T::zero() && self.is_active(height) && length(&across) * self.cosine < height * self.sine
+    }
+}
+
+serde_parts!(Cone {
+    #[serde(default = "Vector3::zeros")] apex_m: Vector3<T> = |cone: &Cone<T>| cone.axis.origin,
+    axis: Vector3<T> = |cone: &Cone<T>| cone.axis.direction,
+    half_angle_rad: T = |cone: &Cone<T>| cone.half_angle,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    depth_m: Option<T> = |cone: &Cone<T>| cone.depth,
+} => |parts| Cone::new(parts.apex_m, parts.axis, parts.half_angle_rad)
+    .and_then(|cone| parts.depth_m.map_or(Ok(cone), |depth| cone.with_depth(depth))));

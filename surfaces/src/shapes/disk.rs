@@ -1,0 +1,77 @@
+//! The plane, bounded by a circle.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use crate::numeric::vectors::{foot, length};
+use crate::serde_parts::serde_parts;
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Plane};
+
+/// A plane of which only a disk is active.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disk<T: Real> {
+    plane: Plane<T>,
+    radius: T,
+}
+
+impl<T: Real> Disk<T> {
+    /// Around a centre \[m\], across an outward normal of any length, with a radius \[m\].
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the centre is finite, the normal has a direction and the radius is a
+    /// positive finite length.
+    pub fn new(centre: Vector3<T>, normal: Vector3<T>, radius: T) -> Result<Self, BadShape> {
+        let plane = Plane::new(centre, normal).map_err(|bad| BadShape { shape: "disk", ..bad })?;
+        Ok(Self { plane, radius: BadShape::check_length("disk", "radius", radius)? })
+    }
+
+    /// The plane in which the disk lies; its point is the centre.
+    #[inline]
+    #[must_use]
+    pub const fn plane(&self) -> &Plane<T> {
+        &self.plane
+    }
+
+    /// Radius \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn radius(&self) -> T {
+        self.radius
+    }
+
+    #[inline]
+    fn is_active(&self, point: &Vector3<T>) -> bool {
+        length(&(point - self.plane.point())) <= self.radius
+    }
+}
+
+impl<T: Real> ActiveSurface<T> for Disk<T> {
+    #[inline]
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        self.plane.crossings(line, |c| visit(Crossing { active: self.is_active(&c.point), ..c }));
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        // The point of the line over which the disk is nearest.
+        let (offset, _) = foot(line, &self.plane.point());
+        let nearest = Line { point: self.plane.point() + offset, direction: line.direction };
+        let approach = self.plane.closest_approach(&nearest);
+        ClosestApproach { active: self.is_active(&approach.point), ..approach }
+    }
+
+    #[inline]
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.plane.normal(point)
+    }
+
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.plane.contains(point)
+    }
+}
+
+serde_parts!(Disk {
+    #[serde(default = "Vector3::zeros")] centre_m: Vector3<T> = |disk: &Disk<T>| disk.plane.point(),
+    normal: Vector3<T> = |disk: &Disk<T>| disk.plane.outward(),
+    radius_m: T = |disk: &Disk<T>| disk.radius,
+} => |parts| Disk::new(parts.centre_m, parts.normal, parts.radius_m));

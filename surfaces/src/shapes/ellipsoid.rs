@@ -1,0 +1,133 @@
+//! The ellipsoid.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use crate::numeric::ellipse::closest_point;
+use crate::numeric::vectors::{any_perpendicular, foot, hypotenuse, is_finite, length, unit_or};
+use crate::serde_parts::serde_parts;
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, SignedDistance};
+
+/// An ellipsoid about the origin, its axes along x, y and z; [`Posed`](crate::Posed) puts it
+/// elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ellipsoid<T: Real> {
+    semi_axes: Vector3<T>,
+    curvatures: Vector3<T>,
+}
+
+impl<T: Real> Ellipsoid<T> {
+    /// From the three semi-axes \[m\].
+    ///
+    /// # Errors
+    /// [`BadShape`] unless they are positive finite lengths, none more than `1/√ε` times another.
+    pub fn new(semi_axes: Vector3<T>) -> Result<Self, BadShape> {
+        for axis in semi_axes.iter() {
+            BadShape::check_length("ellipsoid", "semi-axes", *axis)?;
+        }
+        BadShape::check(
+            "ellipsoid",
+            "semi-axes",
+            "of comparable size",
+            semi_axes.min() / semi_axes.max() >= T::EPSILON.root(),
+        )?;
+        Ok(Self { semi_axes, curvatures: semi_axes.map(|a| T::one() / a) })
+    }
+
+    /// The semi-axes \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn semi_axes(&self) -> Vector3<T> {
+        self.semi_axes
+    }
+
+    /// From a point scaled to the unit sphere.
+    #[inline]
+    fn normal_at(&self, scaled: &Vector3<T>) -> Vector3<T> {
+        unit_or(&scaled.component_mul(&self.curvatures), Vector3::z)
+    }
+}
+
+impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
+    /// Scaled to the unit sphere, the line is a line still, and `along` is kept (Bicchi, Salisbury
+    /// & Brock 1993 for the case without local torque; theory 3.2).
+    #[inline]
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        let point = line.point.component_mul(&self.curvatures);
+        let direction = line.direction.component_mul(&self.curvatures);
+        let inverse = T::one() / direction.norm_squared();
+        let along = -point.dot(&direction) * inverse;
+        let foot = point + direction * along;
+        let squared = T::one() - foot.norm_squared();
+        if squared >= T::zero() {
+            let half_chord = (squared * inverse).root();
+            for offset in [-half_chord, half_chord] {
+                let scaled = foot + direction * offset;
+                let gradient = scaled.component_mul(&self.curvatures);
+                let steepness = gradient.norm_squared().root();
+                visit(Crossing {
+                    along: along + offset,
+                    point: scaled.component_mul(&self.semi_axes),
+                    normal: gradient / steepness,
+                    active: true,
+                });
+            }
+        }
+    }
+
+    /// In the shadow along the line, the ellipsoid is an ellipse, the line a point (theory 10.4).
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        let (p, _) = foot(line, &Vector3::zeros());
+        let p = if is_finite(&p) { p } else { Vector3::zeros() };
+        let scale = self.semi_axes.max();
+        let stretched = |v: &Vector3<T>| v.component_mul(&(self.semi_axes / scale));
+        // The shadow is the ellipse with matrix Uᵀ A² U, for any two unit vectors U across the line;
+        // a rotation by `angle` makes it diagonal.
+        let first = any_perpendicular(&line.direction);
+        let second = line.direction.cross(&first);
+        let (s1, s2) = (stretched(&first), stretched(&second));
+        let (m11, m12, m22) = (s1.norm_squared(), s1.dot(&s2), s2.norm_squared());
+        let angle = (m12 + m12).atan2(m11 - m22) * T::literal(0.5);
+        let (sin, cos) = (angle.sin(), angle.cos());
+        let axes = [first * cos + second * sin, second * cos - first * sin];
+        let [u, v] = axes;
+        let lengths = [length(&stretched(&u)) * scale, length(&stretched(&v)) * scale];
+        let [x, y] = closest_point(&lengths, &[p.dot(&u), p.dot(&v)]);
+        // The normal of the shadow at that point is the surface's; its support point is the answer.
+        let [a, b] = lengths;
+        let normal = unit_or(&(u * (x / a * (scale / a)) + v * (y / b * (scale / b))), || u);
+        let support = stretched(&normal);
+        let point = stretched(&(support / length(&support))) * scale;
+        let gap = hypotenuse(p.dot(&u) - x, p.dot(&v) - y).min(T::GREATEST);
+        ClosestApproach { gap, point, normal, active: true }
+    }
+
+    #[inline]
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.normal_at(&point.component_mul(&self.curvatures))
+    }
+
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        point.component_mul(&self.curvatures).norm_squared() < T::one()
+    }
+}
+
+impl<T: Real> SignedDistance<T> for Ellipsoid<T> {
+    const CONVEX: bool = true;
+
+    fn signed_distance(&self, point: &Vector3<T>) -> Distance<T> {
+        let closest = Vector3::from(closest_point::<T, 3>(&self.semi_axes.into(), &(*point).into()));
+        let distance = length(&(point - closest));
+        let normal = self.normal(&closest);
+        Distance { distance: if self.contains(point) { -distance } else { distance }, normal }
+    }
+
+    fn bounds(&self) -> (Vector3<T>, T) {
+        (Vector3::zeros(), self.semi_axes.max())
+    }
+}
+
+serde_parts!(Ellipsoid {
+    semi_axes_m: Vector3<T> = |ellipsoid: &Ellipsoid<T>| ellipsoid.semi_axes,
+} => |parts| Ellipsoid::new(parts.semi_axes_m));

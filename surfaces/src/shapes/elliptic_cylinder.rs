@@ -1,0 +1,214 @@
+//! The elliptic cylinder, unbounded, open or closed.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use crate::numeric::closest::{from_distance, to_convex};
+use crate::numeric::ellipse::closest_point;
+use crate::numeric::interval::{End, Inside};
+use crate::numeric::vectors::{foot, hypotenuse, is_finite, unit_or};
+use crate::serde_parts::serde_parts;
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance};
+
+/// How an elliptic cylinder ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum CylinderEnds<T> {
+    /// Nowhere.
+    Unbounded,
+    /// Only the side within this height \[m\] of the middle is active.
+    Open(T),
+    /// With flat ends at this height \[m\] over and under the middle.
+    Capped(T),
+}
+
+/// A cylinder around the z axis, across which it is an ellipse with its axes along x and y;
+/// [`Posed`](crate::Posed) puts it elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EllipticCylinder<T: Real> {
+    semi_axes: [T; 2],
+    curvatures: [T; 2],
+    ends: CylinderEnds<T>,
+}
+
+impl<T: Real> EllipticCylinder<T> {
+    /// From the semi-axes along x and y \[m\] and the ends.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the semi-axes are positive finite lengths, none more than `1/√ε` times
+    /// the other, and the half length, if there is one, is a positive finite length.
+    pub fn new(semi_axes: [T; 2], ends: CylinderEnds<T>) -> Result<Self, BadShape> {
+        let shape = "elliptic cylinder";
+        let [a, b] = semi_axes;
+        BadShape::check_length(shape, "semi-axes", a)?;
+        BadShape::check_length(shape, "semi-axes", b)?;
+        BadShape::check(
+            shape,
+            "semi-axes",
+            "of comparable size",
+            a.min(b) / a.max(b) >= T::EPSILON.root(),
+        )?;
+        if let CylinderEnds::Open(half) | CylinderEnds::Capped(half) = ends {
+            BadShape::check_length(shape, "half length", half)?;
+        }
+        Ok(Self { semi_axes, curvatures: [T::one() / a, T::one() / b], ends })
+    }
+
+    /// The semi-axes along x and y \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn semi_axes(&self) -> [T; 2] {
+        self.semi_axes
+    }
+
+    /// How it ends.
+    #[inline]
+    #[must_use]
+    pub const fn ends(&self) -> CylinderEnds<T> {
+        self.ends
+    }
+
+    #[inline]
+    fn is_active(&self, height: T) -> bool {
+        match self.ends {
+            CylinderEnds::Open(half) => height.abs() <= half,
+            _ => true,
+        }
+    }
+
+    /// Of a point scaled to the unit circle.
+    #[inline]
+    fn side_normal(&self, x: T, y: T) -> Vector3<T> {
+        let [a, b] = self.curvatures;
+        unit_or(&Vector3::new(x * a, y * b, T::zero()), Vector3::x)
+    }
+
+    /// The part of the line within the ellipse, `start` being its point with position zero.
+    #[inline]
+    fn inside_side(&self, line: &Line<T>, start: &Vector3<T>) -> Option<Inside<T>> {
+        let [a, b] = self.curvatures;
+        let (x, y) = (start.x * a, start.y * b);
+        let (u, v) = (line.direction.x * a, line.direction.y * b);
+        let squared = u * u + v * v;
+        let parallel = T::EPSILON * a.max(b) * T::literal(4.0);
+        if squared <= parallel * parallel {
+            let end = |along| End { along, normal: Vector3::z(), active: false };
+            return (x * x + y * y <= T::one())
+                .then(|| Inside { entry: end(-T::GREATEST), exit: end(T::GREATEST) });
+        }
+        let foot = -(x * u + y * v) / squared;
+        let (x, y) = (x + u * foot, y + v * foot);
+        let remainder = T::one() - (x * x + y * y);
+        if !(remainder >= T::zero()) {
+            return None;
+        }
+        let half_chord = (remainder / squared).root();
+        let end = |offset: T| {
+            let along = foot + offset;
+            let active = self.is_active(start.z + along * line.direction.z);
+            End { along, normal: self.side_normal(x + u * offset, y + v * offset), active }
+        };
+        Some(Inside { entry: end(-half_chord), exit: end(half_chord) })
+    }
+
+    /// Distance from the side, as if unbounded.
+    fn side_distance(&self, point: &Vector3<T>) -> Distance<T> {
+        let ([a, b], [ka, kb]) = (self.semi_axes, self.curvatures);
+        let [x, y] = closest_point(&[a, b], &[point.x, point.y]);
+        let distance = hypotenuse(point.x - x, point.y - y);
+        let inside = {
+            let (x, y) = (point.x * ka, point.y * kb);
+            x * x + y * y < T::one()
+        };
+        let normal = self.side_normal(x * ka, y * kb);
+        Distance { distance: if inside { -distance } else { distance }, normal }
+    }
+
+    fn distance(&self, point: &Vector3<T>) -> Distance<T> {
+        let side = self.side_distance(point);
+        let CylinderEnds::Capped(half) = self.ends else { return side };
+        let beyond = point.z.abs() - half;
+        let end = Vector3::new(T::zero(), T::zero(), T::one().copysign(point.z));
+        if side.distance <= T::zero() || beyond <= T::zero() {
+            return if side.distance > beyond { side } else { Distance { distance: beyond, normal: end } };
+        }
+        let distance = hypotenuse(side.distance, beyond);
+        Distance { distance, normal: (side.normal * side.distance + end * beyond) / distance }
+    }
+}
+
+impl<T: Real> ActiveSurface<T> for EllipticCylinder<T> {
+    #[inline]
+    fn crossings(&self, line: &Line<T>, visit: impl FnMut(Crossing<T>)) {
+        let (start, along) = foot(line, &Vector3::zeros());
+        let Some(mut inside) = self.inside_side(line, &start) else { return };
+        if let CylinderEnds::Capped(half) = self.ends {
+            let (z, rise) = (start.z, line.direction.z);
+            let Some(capped) = inside
+                .below(half, z, rise, Vector3::z(), true)
+                .and_then(|inside| inside.below(half, -z, -rise, -Vector3::z(), true))
+            else {
+                return;
+            };
+            inside = capped;
+        }
+        inside.report(line, &start, along, visit);
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        let [a, b] = self.semi_axes;
+        if let CylinderEnds::Capped(half) = self.ends {
+            let reach = hypotenuse(half, a.max(b));
+            return to_convex(line, &Vector3::zeros(), reach, |point| self.distance(point));
+        }
+        let (start, _) = foot(line, &Vector3::zeros());
+        let start = if is_finite(&start) { start } else { Vector3::zeros() };
+        // The side that is parallel to the line, on the line's side of the axis.
+        let across = Vector3::new(line.direction.y, -line.direction.x, T::zero());
+        let least = T::EPSILON * T::literal(4.0);
+        if across.norm_squared() <= least * least {
+            let found = from_distance(&start, self.side_distance(&start));
+            return ClosestApproach { active: self.is_active(found.point.z), ..found };
+        }
+        let outward = unit_or(&across, Vector3::x);
+        let normal = if outward.dot(&start) < T::zero() { -outward } else { outward };
+        let (x, y) = (normal.x * a, normal.y * b);
+        let height = hypotenuse(x, y);
+        let side = Vector3::new(x / height * a, y / height * b, T::zero());
+        // Where the line passes over that side.
+        let along = (side - start).dot(&Vector3::new(line.direction.x, line.direction.y, T::zero()))
+            / across.norm_squared();
+        let z = start.z + along * line.direction.z;
+        let z = if z.is_number() { z } else { T::zero() };
+        ClosestApproach {
+            gap: (normal.dot(&start) - height).max(T::zero()).min(T::GREATEST),
+            point: Vector3::new(side.x, side.y, z),
+            normal,
+            active: self.is_active(z),
+        }
+    }
+
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        match self.ends {
+            CylinderEnds::Capped(_) => self.distance(point).normal,
+            _ => self.side_normal(point.x * self.curvatures[0], point.y * self.curvatures[1]),
+        }
+    }
+
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        let [a, b] = self.curvatures;
+        let (x, y) = (point.x * a, point.y * b);
+        let within = match self.ends {
+            CylinderEnds::Unbounded => true,
+            CylinderEnds::Open(half) | CylinderEnds::Capped(half) => point.z.abs() < half,
+        };
+        within && x * x + y * y < T::one()
+    }
+}
+
+serde_parts!(EllipticCylinder {
+    semi_axes_m: [T; 2] = |cylinder: &EllipticCylinder<T>| cylinder.semi_axes,
+    ends_m: CylinderEnds<T> = |cylinder: &EllipticCylinder<T>| cylinder.ends,
+} => |parts| EllipticCylinder::new(parts.semi_axes_m, parts.ends_m));

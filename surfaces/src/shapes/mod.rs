@@ -1,0 +1,40 @@
+//! The shapes, one file each.
+
+mod axis;
+mod capped_cylinder;
+mod capsule;
+mod cone;
+mod cylinder;
+mod disk;
+mod ellipsoid;
+mod elliptic_cylinder;
+mod frustum;
+mod implicit;
+mod paraboloid;
+mod plane;
+mod rectangle;
+mod revolution;
+mod rounded_box;
+mod sphere;
+mod spherical_cap;
+mod superquadric;
+mod torus;
+
+pub use capped_cylinder::CappedCylinder;
+pub use capsule::Capsule;
+pub use cone::Cone;
+pub use cylinder::Cylinder;
+pub use disk::Disk;
+pub use ellipsoid::Ellipsoid;
+pub use elliptic_cylinder::{CylinderEnds, EllipticCylinder};
+pub use frustum::Frustum;
+pub use implicit::{Implicit, ImplicitBounds, ImplicitSurface};
+pub use paraboloid::Paraboloid;
+pub use plane::Plane;
+pub use rectangle::Rectangle;
+pub use revolution::{Knot, Revolution};
+pub use rounded_box::RoundedBox;
+pub use sphere::Sphere;
+pub use spherical_cap::SphericalCap;
+pub use superquadric::Superquadric;
+pub use torus::Torus;

@@ -1,0 +1,131 @@
+//! The elliptic paraboloid.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use crate::numeric::quadratic::roots;
+use crate::numeric::support;
+use crate::numeric::vectors::{foot, unit_or};
+use crate::serde_parts::serde_parts;
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
+
+/// A dome whose top is the origin, with the z axis pointing out of it:
+/// `z = −x²/(2·R_x) − y²/(2·R_y)`; [`Posed`](crate::Posed) puts it elsewhere.
+///
+/// The radii of curvature at the top are what a calibration of a gently curved pad finds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Paraboloid<T: Real> {
+    radii: [T; 2],
+    curvatures: [T; 2],
+    depth: Option<T>,
+}
+
+impl<T: Real> Paraboloid<T> {
+    /// From the radii of curvature at the top, in the x-z and the y-z plane \[m\].
+    ///
+    /// # Errors
+    /// [`BadShape`] unless they are positive finite lengths, none more than `1/√ε` times the other.
+    pub fn new(radii: [T; 2]) -> Result<Self, BadShape> {
+        let shape = "paraboloid";
+        let [a, b] = radii;
+        BadShape::check_length(shape, "radii of curvature", a)?;
+        BadShape::check_length(shape, "radii of curvature", b)?;
+        BadShape::check(
+            shape,
+            "radii of curvature",
+            "of comparable size",
+            a.min(b) / a.max(b) >= T::EPSILON.root(),
+        )?;
+        Ok(Self { radii, curvatures: [T::one() / a, T::one() / b], depth: None })
+    }
+
+    /// Only the part down to `depth` \[m\] under the top is active.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless it is a positive finite length.
+    pub fn with_depth(self, depth: T) -> Result<Self, BadShape> {
+        Ok(Self { depth: Some(BadShape::check_length("paraboloid", "depth", depth)?), ..self })
+    }
+
+    /// Radii of curvature at the top \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn radii(&self) -> [T; 2] {
+        self.radii
+    }
+
+    /// Depth of the active part \[m\]; `None` if unbounded.
+    #[inline]
+    #[must_use]
+    pub const fn depth(&self) -> Option<T> {
+        self.depth
+    }
+
+    #[inline]
+    fn is_active(&self, z: T) -> bool {
+        self.depth.is_none_or(|depth| -z <= depth)
+    }
+
+    #[inline]
+    fn normal_at(&self, point: &Vector3<T>) -> Vector3<T> {
+        let [a, b] = self.curvatures;
+        unit_or(&Vector3::new(point.x * a, point.y * b, T::one()), Vector3::z)
+    }
+}
+
+impl<T: Real> ActiveSurface<T> for Paraboloid<T> {
+    #[inline]
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        let (start, along) = foot(line, &Vector3::zeros());
+        let ([ka, kb], direction) = (self.curvatures, &line.direction);
+        let a = direction.x * direction.x * ka + direction.y * direction.y * kb;
+        let b = start.x * direction.x * ka + start.y * direction.y * kb + direction.z;
+        let c = start.x * start.x * ka + start.y * start.y * kb + start.z + start.z;
+        let Some(ends) = roots(a, b, c) else { return };
+        for t in ends {
+            let point = start + direction * t;
+            // A line along the axis leaves at infinity.
+            if t.abs() < T::GREATEST.root() {
+                visit(Crossing {
+                    along: along + t,
+                    point,
+                    normal: self.normal_at(&point),
+                    active: self.is_active(point.z),
+                });
+            }
+        }
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        let approach = support::closest_approach(line, |normal| {
+            let [ra, rb] = self.radii;
+            if !(normal.z > T::EPSILON) {
+                return (T::GREATEST, Vector3::zeros());
+            }
+            let (x, y) = (normal.x / normal.z * ra, normal.y / normal.z * rb);
+            let height = (normal.x * x + normal.y * y) * T::literal(0.5);
+            let z = -(x * x / ra + y * y / rb) * T::literal(0.5);
+            (height, Vector3::new(x, y, z))
+        });
+        ClosestApproach { active: self.is_active(approach.point.z), ..approach }
+    }
+
+    #[inline]
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.normal_at(point)
+    }
+
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        let [a, b] = self.curvatures;
+        point.x * point.x * a + point.y * point.y * b + point.z + point.z < T::zero()
+            && self.is_active(point.z)
+    }
+}
+
+serde_parts!(Paraboloid {
+    radii_m: [T; 2] = |paraboloid: &Paraboloid<T>| paraboloid.radii,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    depth_m: Option<T> = |paraboloid: &Paraboloid<T>| paraboloid.depth,
+} => |parts| Paraboloid::new(parts.radii_m)
+    .and_then(|paraboloid| parts.depth_m.map_or(Ok(paraboloid), |depth| paraboloid.with_depth(depth))));

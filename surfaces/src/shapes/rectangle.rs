@@ -1,0 +1,99 @@
+//! The plane, bounded by a rectangle.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use crate::numeric::vectors::{foot, length};
+use crate::serde_parts::serde_parts;
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Plane};
+
+/// A plane of which only a rectangle is active.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rectangle<T: Real> {
+    plane: Plane<T>,
+    /// Unit vectors along the edges.
+    along: [Vector3<T>; 2],
+    half_lengths: [T; 2],
+}
+
+impl<T: Real> Rectangle<T> {
+    /// From its centre \[m\] and the vectors from there to the middles of two neighbouring edges
+    /// \[m\]. The outward normal is `first × second`.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless all is finite, the two are perpendicular (to `√ε`) and their lengths
+    /// positive finite lengths.
+    pub fn new(centre: Vector3<T>, first: Vector3<T>, second: Vector3<T>) -> Result<Self, BadShape> {
+        let shape = "rectangle";
+        let a = BadShape::check_direction(shape, "first half edge", first)?;
+        let b = BadShape::check_direction(shape, "second half edge", second)?;
+        BadShape::check(
+            shape,
+            "second half edge",
+            "perpendicular to the first",
+            a.dot(&b).abs() <= T::EPSILON.root(),
+        )?;
+        let b = BadShape::check_direction(shape, "second half edge", b - a * a.dot(&b))?;
+        Ok(Self {
+            plane: Plane::new(centre, a.cross(&b)).map_err(|bad| BadShape { shape, ..bad })?,
+            along: [a, b],
+            half_lengths: [
+                BadShape::check_length(shape, "first half edge", length(&first))?,
+                BadShape::check_length(shape, "second half edge", length(&second))?,
+            ],
+        })
+    }
+
+    /// The plane in which the rectangle lies; its point is the centre.
+    #[inline]
+    #[must_use]
+    pub const fn plane(&self) -> &Plane<T> {
+        &self.plane
+    }
+
+    /// From the centre to the middles of two neighbouring edges \[m\].
+    #[inline]
+    #[must_use]
+    pub fn half_edges(&self) -> [Vector3<T>; 2] {
+        let ([a, b], [m, n]) = (self.along, self.half_lengths);
+        [a * m, b * n]
+    }
+
+    #[inline]
+    fn is_active(&self, point: &Vector3<T>) -> bool {
+        let from_centre = point - self.plane.point();
+        let ([a, b], [m, n]) = (&self.along, self.half_lengths);
+        from_centre.dot(a).abs() <= m && from_centre.dot(b).abs() <= n
+    }
+}
+
+impl<T: Real> ActiveSurface<T> for Rectangle<T> {
+    #[inline]
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        self.plane.crossings(line, |c| visit(Crossing { active: self.is_active(&c.point), ..c }));
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        let (offset, _) = foot(line, &self.plane.point());
+        let nearest = Line { point: self.plane.point() + offset, direction: line.direction };
+        let approach = self.plane.closest_approach(&nearest);
+        ClosestApproach { active: self.is_active(&approach.point), ..approach }
+    }
+
+    #[inline]
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.plane.normal(point)
+    }
+
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.plane.contains(point)
+    }
+}
+
+serde_parts!(Rectangle {
+    #[serde(default = "Vector3::zeros")]
+    centre_m: Vector3<T> = |rectangle: &Rectangle<T>| rectangle.plane.point(),
+    first_half_edge_m: Vector3<T> = |rectangle: &Rectangle<T>| rectangle.half_edges()[0],
+    second_half_edge_m: Vector3<T> = |rectangle: &Rectangle<T>| rectangle.half_edges()[1],
+} => |parts| Rectangle::new(parts.centre_m, parts.first_half_edge_m, parts.second_half_edge_m));

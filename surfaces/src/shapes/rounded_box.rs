@@ -1,0 +1,118 @@
+//! The box with round edges and corners.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use crate::numeric::closest::to_convex;
+use crate::numeric::roots::first_of_convex;
+use crate::numeric::vectors::{foot, length, unit_or};
+use crate::serde_parts::serde_parts;
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, SignedDistance};
+
+/// A box about the origin, its edges along x, y and z and rounded; [`Posed`](crate::Posed) puts it
+/// elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RoundedBox<T: Real> {
+    /// Of the sharp box that is one rounding radius smaller all around.
+    core: Vector3<T>,
+    half_extents: Vector3<T>,
+    rounding: T,
+}
+
+impl<T: Real> RoundedBox<T> {
+    /// From half its extents along x, y and z and the radius of its edges \[m\], which may be
+    /// zero.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the half extents are positive finite lengths and the radius is between
+    /// zero and the least of them.
+    pub fn new(half_extents: Vector3<T>, rounding: T) -> Result<Self, BadShape> {
+        for half in half_extents.iter() {
+            BadShape::check_length("rounded box", "half extents", *half)?;
+        }
+        BadShape::check(
+            "rounded box",
+            "rounding radius",
+            "between zero and the least half extent",
+            rounding >= T::zero() && rounding <= half_extents.min(),
+        )?;
+        Ok(Self { core: half_extents.map(|half| half - rounding), half_extents, rounding })
+    }
+
+    /// Half the extents along x, y and z \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn half_extents(&self) -> Vector3<T> {
+        self.half_extents
+    }
+
+    /// Radius of the edges \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn rounding(&self) -> T {
+        self.rounding
+    }
+}
+
+impl<T: Real> ActiveSurface<T> for RoundedBox<T> {
+    /// The distance is convex along the line, and made of straight pieces and square roots: Newton's
+    /// method from outside takes a few steps and cannot miss.
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        let (start, along) = foot(line, &Vector3::zeros());
+        let reach = self.bounds().1 * T::literal(1.001);
+        let distance = |t: T| {
+            let found = self.signed_distance(&(start + line.direction * t));
+            (found.distance, found.normal.dot(&line.direction))
+        };
+        let Some(entry) = first_of_convex(-reach, T::one(), distance) else { return };
+        let Some(exit) = first_of_convex(reach, -T::one(), distance) else { return };
+        for t in [entry, exit] {
+            let point = start + line.direction * t;
+            visit(Crossing { along: along + t, point, normal: self.normal(&point), active: true });
+        }
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        let (centre, reach) = self.bounds();
+        to_convex(line, &centre, reach, |point| self.signed_distance(point))
+    }
+
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.signed_distance(point).normal
+    }
+
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.signed_distance(point).distance < T::zero()
+    }
+}
+
+impl<T: Real> SignedDistance<T> for RoundedBox<T> {
+    const CONVEX: bool = true;
+
+    #[inline]
+    fn signed_distance(&self, point: &Vector3<T>) -> Distance<T> {
+        let beyond = point.abs() - self.core;
+        let signed = |v: Vector3<T>| v.zip_map(point, |v, p| if p < T::zero() { -v } else { v });
+        let outside = beyond.map(|x| x.max(T::zero()));
+        let away = length(&outside);
+        if away > T::zero() {
+            return Distance { distance: away - self.rounding, normal: signed(unit_or(&outside, Vector3::z)) };
+        }
+        let (axis, nearest) = beyond.argmax();
+        let face = match axis {
+            0 => Vector3::x(),
+            1 => Vector3::y(),
+            _ => Vector3::z(),
+        };
+        Distance { distance: nearest - self.rounding, normal: signed(face) }
+    }
+
+    fn bounds(&self) -> (Vector3<T>, T) {
+        (Vector3::zeros(), length(&self.half_extents))
+    }
+}
+
+serde_parts!(RoundedBox {
+    half_extents_m: Vector3<T> = |rounded: &RoundedBox<T>| rounded.half_extents,
+    rounding_m: T = |rounded: &RoundedBox<T>| rounded.rounding,
+} => |parts| RoundedBox::new(parts.half_extents_m, parts.rounding_m));

@@ -1,0 +1,113 @@
+//! The sphere with an opening.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use crate::serde_parts::serde_parts;
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Sphere};
+
+/// A sphere that is active around a pole only: a dome, or, if the active part is more than half,
+/// a sphere with an opening for its support.
+///
+/// The sensorised fingertip of Bicchi & Dario 1987 is a sphere of 13 mm with an opening of 7 mm
+/// radius for the stem, which leaves 92 % of the directions:
+///
+/// ```
+/// use fingertip_surfaces::{Sphere, SphericalCap};
+/// use nalgebra::Vector3;
+///
+/// let sphere = Sphere::centred(0.013)?;
+/// let tip = SphericalCap::with_opening(sphere, Vector3::x(), 0.007)?;
+/// assert!((tip.active_fraction() - 0.92_f64).abs() < 0.005);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SphericalCap<T: Real> {
+    sphere: Sphere<T>,
+    pole: Vector3<T>,
+    least_cosine: T,
+}
+
+impl<T: Real> SphericalCap<T> {
+    /// The part of a sphere whose normal is within an angle of the direction to the pole; given
+    /// is the cosine of that angle: 0 for a hemisphere, −1 for the whole sphere.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the pole has a direction and the cosine lies within [−1, 1).
+    pub fn new(sphere: Sphere<T>, pole: Vector3<T>, least_cosine: T) -> Result<Self, BadShape> {
+        BadShape::check(
+            "spherical cap",
+            "least cosine",
+            "at least -1 and below 1",
+            least_cosine >= -T::one() && least_cosine < T::one(),
+        )?;
+        let pole = BadShape::check_direction("spherical cap", "pole", pole)?;
+        Ok(Self { sphere, pole, least_cosine })
+    }
+
+    /// All of a sphere but a round opening, of a radius \[m\], opposite to the pole.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the pole has a direction and the opening's radius is between zero and
+    /// that of the sphere.
+    pub fn with_opening(sphere: Sphere<T>, pole: Vector3<T>, opening: T) -> Result<Self, BadShape> {
+        let ratio = opening / sphere.radius();
+        BadShape::check(
+            "spherical cap",
+            "opening",
+            "between zero and the sphere's radius",
+            ratio >= T::zero() && ratio <= T::one(),
+        )?;
+        Self::new(sphere, pole, -((T::one() - ratio) * (T::one() + ratio)).root())
+    }
+
+    /// The whole sphere.
+    #[inline]
+    #[must_use]
+    pub const fn sphere(&self) -> &Sphere<T> {
+        &self.sphere
+    }
+
+    /// The part of the sphere that is active, between 0 and 1.
+    #[inline]
+    #[must_use]
+    pub fn active_fraction(&self) -> T {
+        (T::one() - self.least_cosine) * T::literal(0.5)
+    }
+
+    #[inline]
+    fn is_active(&self, normal: &Vector3<T>) -> bool {
+        normal.dot(&self.pole) >= self.least_cosine
+    }
+}
+
+impl<T: Real> ActiveSurface<T> for SphericalCap<T> {
+    #[inline]
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        self.sphere.crossings(line, |c| visit(Crossing { active: self.is_active(&c.normal), ..c }));
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        let approach = self.sphere.closest_approach(line);
+        ClosestApproach { active: self.is_active(&approach.normal), ..approach }
+    }
+
+    #[inline]
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.sphere.normal(point)
+    }
+
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.sphere.contains(point)
+    }
+}
+
+serde_parts!(SphericalCap {
+    #[serde(default = "Vector3::zeros")]
+    centre_m: Vector3<T> = |cap: &SphericalCap<T>| cap.sphere.centre(),
+    radius_m: T = |cap: &SphericalCap<T>| cap.sphere.radius(),
+    pole: Vector3<T> = |cap: &SphericalCap<T>| cap.pole,
+    least_cosine: T = |cap: &SphericalCap<T>| cap.least_cosine,
+} => |parts| Sphere::new(parts.centre_m, parts.radius_m)
+    .and_then(|sphere| SphericalCap::new(sphere, parts.pole, parts.least_cosine)));

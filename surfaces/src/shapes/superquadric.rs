@@ -1,0 +1,164 @@
+//! The convex superquadrics: from boxes over ellipsoids to octahedra.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use crate::numeric::roots::first_of_convex;
+use crate::numeric::support;
+use crate::numeric::vectors::unit_or;
+use crate::serde_parts::serde_parts;
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
+
+/// A superellipsoid about the origin, its axes along x, y and z:
+/// `((|x/a|^(2/e₂) + |y/b|^(2/e₂))^(e₂/e₁) + |z/c|^(2/e₁)) = 1` (Barr 1981);
+/// [`Posed`](crate::Posed) puts it elsewhere.
+///
+/// Exponents of 1 make an ellipsoid, small ones a box with round edges, 2 an octahedron.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Superquadric<T: Real> {
+    semi_axes: Vector3<T>,
+    curvatures: Vector3<T>,
+    /// Norms `2/e₁` and `2/e₂` and their duals.
+    norms: [T; 2],
+    duals: [T; 2],
+    exponents: [T; 2],
+}
+
+/// `(|a|^p + |b|^p)^(1/p)` and its derivatives by `a` and `b`, without over- or underflow.
+#[inline]
+fn norm<T: Real>(a: T, b: T, p: T) -> (T, T, T) {
+    let (x, y) = (a.abs(), b.abs());
+    let greatest = x.max(y);
+    if !(greatest > T::zero()) {
+        return (T::zero(), T::zero(), T::zero());
+    }
+    if !p.is_number() {
+        // The greatest component.
+        return if x >= y {
+            (x, T::one().copysign(a), T::zero())
+        } else {
+            (y, T::zero(), T::one().copysign(b))
+        };
+    }
+    let (x, y) = (x / greatest, y / greatest);
+    let (power_x, power_y) = (x.powf(p), y.powf(p));
+    let value = (power_x + power_y).powf(T::one() / p);
+    // d/dx = (x/N)^(p−1), from powers already known where x is not tiny.
+    let derivative = |x: T, signed: T| {
+        let ratio = (x / value).powf(p - T::one());
+        if x > T::zero() { ratio.copysign(signed) } else { T::zero() }
+    };
+    (value * greatest, derivative(x, a), derivative(y, b))
+}
+
+impl<T: Real> Superquadric<T> {
+    /// From the three semi-axes \[m\] and the exponents `[e₁, e₂]`: `e₁` shapes the outline seen
+    /// from the side, `e₂` the outline seen along z.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the semi-axes are positive finite lengths, none more than `1/√ε` times
+    /// another, and the exponents between 0.05 and 2 (beyond 2 the shape would not be convex).
+    pub fn new(semi_axes: Vector3<T>, exponents: [T; 2]) -> Result<Self, BadShape> {
+        let shape = "superquadric";
+        for axis in semi_axes.iter() {
+            BadShape::check_length(shape, "semi-axes", *axis)?;
+        }
+        let comparable = semi_axes.min() / semi_axes.max() >= T::EPSILON.root();
+        BadShape::check(shape, "semi-axes", "of comparable size", comparable)?;
+        let two = T::one() + T::one();
+        for exponent in exponents {
+            let good = exponent >= T::literal(0.05) && exponent <= two;
+            BadShape::check(shape, "exponents", "between 0.05 and 2", good)?;
+        }
+        let norms = exponents.map(|e| two / e);
+        Ok(Self {
+            semi_axes,
+            curvatures: semi_axes.map(|a| T::one() / a),
+            norms,
+            duals: norms.map(|p| if p > T::one() { p / (p - T::one()) } else { T::one() / T::zero() }),
+            exponents,
+        })
+    }
+
+    /// The semi-axes \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn semi_axes(&self) -> Vector3<T> {
+        self.semi_axes
+    }
+
+    /// The exponents `[e₁, e₂]`.
+    #[inline]
+    #[must_use]
+    pub const fn exponents(&self) -> [T; 2] {
+        self.exponents
+    }
+
+    /// The nested norm of a vector, and its gradient.
+    #[inline]
+    fn nested(v: &Vector3<T>, [outer, inner]: [T; 2]) -> (T, Vector3<T>) {
+        let (plane, dx, dy) = norm(v.x, v.y, inner);
+        let (value, d_plane, dz) = norm(plane, v.z, outer);
+        (value, Vector3::new(d_plane * dx, d_plane * dy, dz))
+    }
+
+    /// The gauge of a scaled point: 1 on the surface, less inside, convex along every line
+    /// (theory 10.3).
+    #[inline]
+    fn gauge(&self, scaled: &Vector3<T>) -> (T, Vector3<T>) {
+        Self::nested(scaled, self.norms)
+    }
+}
+
+impl<T: Real> ActiveSurface<T> for Superquadric<T> {
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        let point = line.point.component_mul(&self.curvatures);
+        let direction = line.direction.component_mul(&self.curvatures);
+        let squared = direction.norm_squared();
+        let along = -point.dot(&direction) / squared;
+        let start = point + direction * along;
+        // Scaled, the solid lies within a cube of half edge 1, that within a ball.
+        let reach_squared = T::literal(3.03) - start.norm_squared();
+        if !(reach_squared > T::zero()) {
+            return;
+        }
+        let reach = (reach_squared / squared).root();
+        let excess = |t: T| {
+            let (gauge, gradient) = self.gauge(&(start + direction * t));
+            (gauge - T::one(), gradient.dot(&direction))
+        };
+        let Some(entry) = first_of_convex(-reach, T::one(), excess) else { return };
+        let Some(exit) = first_of_convex(reach, -T::one(), excess) else { return };
+        for t in [entry, exit] {
+            let scaled = start + direction * t;
+            visit(Crossing {
+                along: along + t,
+                point: scaled.component_mul(&self.semi_axes),
+                normal: unit_or(&self.gauge(&scaled).1.component_mul(&self.curvatures), Vector3::z),
+                active: true,
+            });
+        }
+    }
+
+    /// By the support function, which is the dual norm of the scaled normal.
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        support::closest_approach(line, |normal| {
+            let (height, gradient) = Self::nested(&normal.component_mul(&self.semi_axes), self.duals);
+            (height, gradient.component_mul(&self.semi_axes))
+        })
+    }
+
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        let (_, gradient) = self.gauge(&point.component_mul(&self.curvatures));
+        unit_or(&gradient.component_mul(&self.curvatures), Vector3::z)
+    }
+
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.gauge(&point.component_mul(&self.curvatures)).0 < T::one()
+    }
+}
+
+serde_parts!(Superquadric {
+    semi_axes_m: Vector3<T> = |superquadric: &Superquadric<T>| superquadric.semi_axes,
+    exponents: [T; 2] = |superquadric: &Superquadric<T>| superquadric.exponents,
+} => |parts| Superquadric::new(parts.semi_axes_m, parts.exponents));

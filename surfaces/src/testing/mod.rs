@@ -1,0 +1,19 @@
+//! Laws that every surface obeys, to be run on your own shapes.
+//!
+//! ```
+//! use fingertip_surfaces::Sphere;
+//! use fingertip_surfaces::testing::SurfaceLaws;
+//! use nalgebra::Vector3;
+//!
+//! let centre = Vector3::new(0.0, 0.0, 0.03);
+//! let laws = SurfaceLaws::around(centre, 0.013_f64);
+//! laws.check(&Sphere::new(centre, 0.013)?)?;
+//! laws.check_scaling(|scale| Sphere::new(centre * scale, 0.013 * scale).ok())?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod collect;
+mod laws;
+mod random;
+
+pub use laws::{Law, SurfaceLaws, Violation};
