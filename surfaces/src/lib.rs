@@ -5,8 +5,10 @@
 extern crate alloc;
 
 mod active_surface;
+mod auto;
 mod bad_shape;
 mod combinators;
+mod compliant;
 mod contact;
 mod numeric;
 mod serde_parts;
@@ -17,6 +19,11 @@ mod soft_finger;
 pub mod testing;
 mod uncertainty;
 
+pub use auto::{Auto, Choice, PitchTest};
+pub use compliant::{
+    Compliant, CompliantContact, CompliantPointContact, CompliantSoftFinger, Hertz, Indentation, LinearStiffness,
+    LocalHertz, PowerLaw, SkinLaw, StiffnessLaw, Tabulated, contact_modulus,
+};
 pub use active_surface::{ActiveSurface, ClosestApproach, Crossing};
 pub use bad_shape::BadShape;
 pub use combinators::{Compound, HalfSpace, Offset, Posed, Region, Trimmed};
