@@ -62,6 +62,7 @@ struct Seen<T: Real> {
     best: Option<(SoftContact<T>, T)>,
     candidates: u8,
     outside: Option<Vector3<T>>,
+    beyond_range: bool,
 }
 
 impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
@@ -82,8 +83,14 @@ impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
             });
         }
         let direction = wrench.force() * scale;
-        let mut seen = Seen { best: None, candidates: 0, outside: None };
-        let search = surface.soft_contacts(wrench, last, |contact| {
+        // Bring the larger of force and torque near 1, so that lever arms cannot overflow.
+        let unit = wrench.force().amax().max(wrench.torque().amax()).normalising_factor();
+        let mut seen = Seen { best: None, candidates: 0, outside: None, beyond_range: false };
+        let search = surface.soft_contacts(&(*wrench * unit), last, |contact| {
+            if !(contact.point.sum() + contact.normal.sum() + contact.spin_torque).is_number() {
+                seen.beyond_range = true;
+                return;
+            }
             if !contact.active {
                 seen.outside = Some(contact.point);
                 return;
@@ -107,11 +114,14 @@ impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
                 point: contact.point,
                 normal: contact.normal,
                 force: wrench.force(),
-                spin_torque: contact.spin_torque,
+                spin_torque: (contact.spin_torque / unit).max(-T::GREATEST).min(T::GREATEST),
                 incidence: incidence.max(T::zero()).min(T::one()),
                 gap: T::zero(),
                 alternatives: seen.candidates - 1,
             });
+        }
+        if seen.beyond_range {
+            return Resolution::NoContact(NoContact::NotFinite);
         }
         Resolution::NoContact(match (search, seen.outside) {
             (_, Some(point)) => NoContact::OutsideActiveRegion { point },
