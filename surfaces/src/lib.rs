@@ -10,6 +10,7 @@ mod bad_shape;
 mod combinators;
 mod compliant;
 mod contact;
+mod fusion;
 mod numeric;
 mod serde_parts;
 mod shapes;
@@ -30,6 +31,7 @@ pub use combinators::{Compound, HalfSpace, Offset, Posed, Region, Trimmed};
 pub use contact::{
     Contact, ContactBound, ContactModel, NoContact, PointContact, Resolution, WorstErrors,
 };
+pub use fusion::{ArrayContact, Fused, FusedContact, Fusion};
 pub use shapes::*;
 pub use signed_distance::{Distance, SignedDistance};
 pub use smooth::{

@@ -57,7 +57,7 @@ mod tests {
 
     #[test]
     fn meets_its_points_and_lines_between_and_beyond() {
-        let law = Tabulated::new([[1.0, 0.1, 1.0], [3.0, 0.2, 1.5]]).unwrap();
+        let law = Tabulated::new([[1.0_f64, 0.1, 1.0], [3.0, 0.2, 1.5]]).unwrap();
         for (force, depth, radius) in
             [(0.0, 0.0, 0.0), (0.5, 0.05, 0.5), (1.0, 0.1, 1.0), (2.0, 0.15, 1.25), (3.0, 0.2, 1.5), (5.0, 0.3, 2.0)]
         {

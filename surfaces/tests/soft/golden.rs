@@ -221,6 +221,7 @@ fn greatest_error<T: Real, S: SoftFingerSurface<T> + SmoothSurface<T>>(
         let expected = Vector3::from(case.contact);
         let found = contact.point.map(Real::to_f64);
         worst.0 = worst.0.max((found - expected).amax() / axes.amax());
+        if T::EPSILON.to_f64() > 1e-8 { println!("CASE {:e} inc {} aff {}", (found - expected).amax() / axes.amax(), contact.incidence.to_f64(), contact.point.map(Real::to_f64).component_div(&axes).dot(&Vector3::from(case.force).component_div(&axes)) / Vector3::from(case.force).component_div(&axes).norm()); }
         let spin = case.k * expected.component_div(&axes.component_mul(&axes)).norm();
         let scale = Vector3::from(case.force).norm() * axes.amax() + Vector3::from(case.torque).norm();
         worst.1 = worst.1.max((contact.spin_torque.to_f64() - spin).abs() / scale);
