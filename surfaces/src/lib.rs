@@ -7,10 +7,17 @@ extern crate alloc;
 mod active_surface;
 mod auto;
 mod bad_shape;
+pub mod batch;
 mod combinators;
 mod compliant;
 mod contact;
+#[cfg(feature = "alloc")]
+mod dyn_surface;
 mod fusion;
+#[cfg(feature = "alloc")]
+mod heightfield;
+#[cfg(feature = "alloc")]
+mod mesh;
 mod numeric;
 mod serde_parts;
 mod shapes;
@@ -28,9 +35,13 @@ pub use compliant::{
 pub use active_surface::{ActiveSurface, ClosestApproach, Crossing};
 pub use bad_shape::BadShape;
 pub use combinators::{Compound, HalfSpace, Offset, Posed, Region, Trimmed};
-pub use contact::{
-    Contact, ContactBound, ContactModel, NoContact, PointContact, Resolution, WorstErrors,
-};
+pub use contact::{Contact, ContactBound, ContactModel, NoContact, PointContact, Resolution, WorstErrors};
+#[cfg(feature = "alloc")]
+pub use dyn_surface::{DynSurface, Parts};
+#[cfg(feature = "alloc")]
+pub use heightfield::Heightfield;
+#[cfg(feature = "alloc")]
+pub use mesh::{Mesh, MeshError};
 pub use fusion::{ArrayContact, Fused, FusedContact, Fusion};
 pub use shapes::*;
 pub use signed_distance::{Distance, SignedDistance};

@@ -50,11 +50,7 @@ laws!(rectangle, around(0.0, 0.0, 0.1, 1.0).open(), |k| {
 });
 laws!(sphere, around(0.3, -0.2, 0.1, 1.0), |k| Sphere::new(v(0.3, -0.2, 0.1) * k, k));
 laws!(spherical_cap, around(0.3, -0.2, 0.1, 1.0), |k| {
-    SphericalCap::with_opening(
-        Sphere::new(v(0.3, -0.2, 0.1) * k, k).unwrap(),
-        v(1.0, 0.5, 0.0),
-        k * l(0.54),
-    )
+    SphericalCap::with_opening(Sphere::new(v(0.3, -0.2, 0.1) * k, k).unwrap(), v(1.0, 0.5, 0.0), k * l(0.54))
 });
 laws!(ellipsoid, around(0.0, 0.0, 0.0, 1.2), |k| Ellipsoid::new(v(1.2, 0.8, 0.5) * k));
 laws!(flat_ellipsoid, around(0.0, 0.0, 0.0, 1.0), |k| Ellipsoid::new(v(1.0, 0.9, 0.1) * k));
@@ -76,7 +72,7 @@ laws!(capped_elliptic_cylinder, around(0.0, 0.0, 0.0, 1.5).with_edges(), |k| {
 laws!(capsule, around(0.3, -0.2, 0.1, 1.5), |k| {
     Capsule::new(v(0.3, -0.2, 0.1) * k, v(1.0, 2.0, 3.0), k, k * l(0.5))
 });
-laws!(cone, around(0.3, -0.2, 0.1, 1.5).open().with_edges(), |k| {
+laws!(cone, around(0.5, 0.2, 0.7, 1.5).open().with_edges(), |k| {
     Cone::new(v(0.3, -0.2, 0.1) * k, v(1.0, 2.0, 3.0), l(0.6)).and_then(|c| c.with_depth(k))
 });
 laws!(frustum, around(0.3, -0.2, 0.1, 1.5).with_edges(), |k| {
@@ -91,7 +87,10 @@ laws!(closed_cone, around(0.3, -0.2, 0.1, 1.5).with_edges(), |k| {
 laws!(torus, around(0.0, 0.0, 0.0, 1.3).roundings(l(128.0)), |k| Torus::new(k, k * l(0.3)));
 laws!(fat_torus, around(0.0, 0.0, 0.0, 1.9).roundings(l(128.0)), |k| Torus::new(k, k * l(0.9)));
 laws!(rounded_box, around(0.0, 0.0, 0.0, 1.3), |k| RoundedBox::new(v(1.0, 0.8, 0.4) * k, k * l(0.2)));
-laws!(sharp_box, around(0.0, 0.0, 0.0, 1.3).with_edges(), |k| RoundedBox::new(v(1.0, 0.8, 0.4) * k, k * l(0.0)));
+laws!(sharp_box, around(0.0, 0.0, 0.0, 1.3).with_edges(), |k| RoundedBox::new(
+    v(1.0, 0.8, 0.4) * k,
+    k * l(0.0)
+));
 laws!(round_superquadric, around(0.0, 0.0, 0.0, 1.3), |k| {
     Superquadric::new(v(1.0, 0.8, 0.5) * k, [l(0.7), l(1.2)])
 });

@@ -6,6 +6,7 @@ mod posed;
 mod trimmed;
 
 pub use compound::Compound;
+#[cfg(feature = "alloc")]
 pub(crate) use compound::{closest_of, is_inside_along};
 pub use offset::Offset;
 pub use posed::Posed;

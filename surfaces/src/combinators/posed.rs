@@ -70,11 +70,7 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let pose = &self.sensor_from_shape;
         self.surface.crossings(&self.line_in_shape(line), |c| {
-            visit(Crossing {
-                point: pose.transform_point(&c.point),
-                normal: pose.rotate(&c.normal),
-                ..c
-            });
+            visit(Crossing { point: pose.transform_point(&c.point), normal: pose.rotate(&c.normal), ..c });
         });
     }
 
@@ -121,24 +117,22 @@ mod files {
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
     use super::Posed;
+    use crate::numeric::vectors::{from_degrees, to_degrees};
 
     #[derive(Serialize)]
     struct Written<'a, T: Real, S> {
-        origin_m: Vector3<T>,
-        rotation_vector_rad: Vector3<T>,
+        translation_m: Vector3<T>,
+        rotation_deg: Vector3<T>,
         surface: &'a S,
     }
 
     #[derive(Deserialize)]
-    #[serde(
-        deny_unknown_fields,
-        bound(deserialize = "T: Deserialize<'de>, S: Deserialize<'de>")
-    )]
+    #[serde(deny_unknown_fields, bound(deserialize = "T: Deserialize<'de>, S: Deserialize<'de>"))]
     struct Read<T: Real, S> {
         #[serde(default = "Vector3::zeros")]
-        origin_m: Vector3<T>,
+        translation_m: Vector3<T>,
         #[serde(default = "Vector3::zeros")]
-        rotation_vector_rad: Vector3<T>,
+        rotation_deg: Vector3<T>,
         surface: S,
     }
 
@@ -146,8 +140,8 @@ mod files {
         fn serialize<W: Serializer>(&self, serializer: W) -> Result<W::Ok, W::Error> {
             let rotation = Rotation3::from_matrix_unchecked(self.sensor_from_shape.rotation());
             Written {
-                origin_m: self.sensor_from_shape.origin(),
-                rotation_vector_rad: UnitQuaternion::from_rotation_matrix(&rotation).scaled_axis(),
+                translation_m: self.sensor_from_shape.origin(),
+                rotation_deg: UnitQuaternion::from_rotation_matrix(&rotation).scaled_axis().map(to_degrees),
                 surface: &self.surface,
             }
             .serialize(serializer)
@@ -156,9 +150,9 @@ mod files {
 
     impl<'de, T: Real + Deserialize<'de>, S: Deserialize<'de>> Deserialize<'de> for Posed<T, S> {
         fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-            let Read { origin_m, rotation_vector_rad, surface } = Read::<T, S>::deserialize(deserializer)?;
-            let pose =
-                RigidTransform::from_axis_angle(rotation_vector_rad, origin_m).map_err(Error::custom)?;
+            let Read { translation_m, rotation_deg, surface } = Read::<T, S>::deserialize(deserializer)?;
+            let pose = RigidTransform::from_axis_angle(rotation_deg.map(from_degrees), translation_m)
+                .map_err(Error::custom)?;
             Ok(Self::new(surface, pose))
         }
     }

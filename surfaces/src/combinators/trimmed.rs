@@ -59,7 +59,7 @@ serde_parts!(HalfSpace {
 /// use fingertip_surfaces::{HalfSpace, Sphere, Trimmed};
 /// use nalgebra::Vector3;
 ///
-/// let above = HalfSpace::new(Vector3::zeros(), Vector3::z())?;
+/// let above = HalfSpace::new(Vector3::<f64>::zeros(), Vector3::z())?;
 /// let dome = Trimmed::new(Sphere::centred(0.013)?, above);
 /// // Or, with any condition:
 /// let band = Trimmed::new(Sphere::centred(0.013)?, |p: &Vector3<f64>| p.z.abs() < 0.004);

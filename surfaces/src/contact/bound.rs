@@ -51,7 +51,7 @@ impl<T: Real> Sphere<T> {
     /// smaller than the force.
     #[must_use]
     pub fn contact_bound(&self, wrench: &Wrench<T>, errors: &WorstErrors<T>) -> Option<ContactBound<T>> {
-        let (zero, four) = (T::zero(), T::literal(4.0));
+        let zero = T::zero();
         let axis = wrench.line_of_action().ok()?;
         let radius = self.radius();
         let from_centre = axis.line.point - self.centre();
@@ -59,7 +59,7 @@ impl<T: Real> Sphere<T> {
         let offset = length(&foot);
         // In units of the force, so that no product leaves the range of the type. Rounding acts as
         // an error of the wrench of a few units in the last place.
-        let rounding = four * T::EPSILON;
+        let rounding = T::literal(16.0) * T::EPSILON;
         let arm = length(&self.centre());
         let force_error = errors.force / axis.force + rounding;
         let torque_error = errors.torque / axis.force
@@ -78,11 +78,18 @@ impl<T: Real> Sphere<T> {
         let slack = (radius + errors.radius) * force_error + errors.centre;
         let (along, across, cosine);
         if offset < radius {
-            let chord = half_chord(radius, offset);
-            let beyond = if shortest > slack { (chord - shortest).abs() } else { chord + longest.min(slack) };
-            along = (chord - longest).abs().max(beyond);
+            // Rounding leaves the computed contact somewhere between these.
+            let hair = rounding * (radius + length(&axis.line.point) + arm);
+            let least = half_chord(radius, (offset + hair).min(radius));
+            let most = half_chord(radius, (offset - hair).max(zero));
+            let beyond = if shortest > slack {
+                (most - shortest).max(shortest - least)
+            } else {
+                most + longest.min(slack)
+            };
+            along = (longest - least).max(most - longest).max(beyond);
             across = tube;
-            cosine = chord / radius;
+            cosine = half_chord(radius, offset) / radius;
         } else {
             along = longest;
             across = offset - radius + tube;

@@ -155,6 +155,7 @@ struct Seen<T: Real> {
     best: Option<(Crossing<T>, T)>,
     candidates: u8,
     too_flat: Option<(Vector3<T>, T)>,
+    tangent: Option<Crossing<T>>,
     pulling: Option<Vector3<T>>,
     outside: Option<Vector3<T>>,
 }
@@ -183,7 +184,8 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
             Err(reason) => return Resolution::NoContact(reason),
         };
         let direction = axis.line.direction;
-        let mut seen = Seen { best: None, candidates: 0, too_flat: None, pulling: None, outside: None };
+        let mut seen =
+            Seen { best: None, candidates: 0, too_flat: None, tangent: None, pulling: None, outside: None };
         surface.crossings(&axis.line, |crossing| {
             let incidence = -direction.dot(&crossing.normal);
             if !crossing.active {
@@ -191,6 +193,9 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
                 return;
             }
             if !(incidence > T::zero()) {
+                if incidence >= -T::EPSILON * T::literal(64.0) {
+                    seen.tangent = Some(crossing);
+                }
                 seen.pulling = Some(crossing.point);
                 return;
             }
@@ -216,6 +221,10 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
             let contact = contact_at(wrench, crossing.point, crossing.normal, incidence);
             return Resolution::Contact(Contact { alternatives: seen.candidates - 1, ..contact });
         }
+        // A line that is tangent within rounding neither presses nor pulls, but touches.
+        if let (Some(crossing), true) = (seen.tangent, self.least_incidence <= T::zero()) {
+            return Resolution::Contact(contact_at(wrench, crossing.point, crossing.normal, T::zero()));
+        }
         if let Some(reason) = seen.reason() {
             return Resolution::NoContact(reason);
         }
@@ -234,11 +243,11 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
 }
 
 serde_parts!(PointContact {
-    least_force_n: T = |model: &PointContact<T>| model.least_force,
+    #[serde(rename = "least_force_N", default = "T::zero")] least_force: T = |model: &PointContact<T>| model.least_force,
     #[serde(default = "T::zero")] greatest_gap_m: T = |model: &PointContact<T>| model.greatest_gap,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     greatest_friction: Option<T> = |model: &PointContact<T>| model.greatest_friction,
-} => |parts| PointContact::new(parts.least_force_n)
+} => |parts| PointContact::new(parts.least_force)
     .and_then(|model| model.accepting_gap(parts.greatest_gap_m))
     .and_then(|model| match parts.greatest_friction {
         Some(friction) => model.with_greatest_friction(friction),

@@ -93,8 +93,8 @@ pub(crate) fn first_of_convex<T: Real>(start: T, towards: T, f: impl Fn(T) -> (T
 /// Greatest depth of subdivision in [`all_of_lipschitz`].
 const DEPTH: usize = 24;
 
-/// Every root of a function in `[low, high]` that is farther than `(high − low)·2⁻²⁰` from its
-/// neighbour, in ascending order. `f` returns value and derivative; the value changes by at most
+/// Every root of a function in `[low, high]` that is farther than `(high − low)·2⁻²⁰` (or 256
+/// rounding units, if that is more) from its neighbour, in ascending order. `f` returns value and derivative; the value changes by at most
 /// `steepest` per unit length, which lets whole intervals be ruled out: this is what certifies
 /// that no root is missed (theory 10.3). Where two roots are closer than that, the minimum between
 /// them is still looked for.
@@ -108,7 +108,10 @@ pub(crate) fn all_of_lipschitz<T: Real>(
     mut found: impl FnMut(T),
 ) {
     let half = T::literal(0.5);
-    let finest = (high - low) * T::literal(0.5_f64.powi(20));
+    // Not so fine that rounding of a slowly changing value looks like a change of sign.
+    let finest = (high - low) * T::literal(0.5_f64.powi(20)).max(T::EPSILON * T::literal(256.0));
+    // What rounding may add to a value.
+    let noise = steepest * (high - low) * T::EPSILON * T::literal(64.0);
     let mut budget = 6000_usize;
     // Intervals still to be searched, the leftmost on top. Each is at most half of the one below.
     let mut stack = [(T::zero(), T::zero()); DEPTH + 2];
@@ -121,7 +124,7 @@ pub(crate) fn all_of_lipschitz<T: Real>(
         let reach = (b - a) * half;
         let (value, _) = f(middle);
         budget = budget.saturating_sub(1);
-        if !(value.abs() <= steepest * reach) {
+        if !(value.abs() <= steepest * reach + noise) {
             continue;
         }
         let ((at_a, slope_a), (at_b, slope_b)) = (f(a), f(b));
@@ -195,7 +198,7 @@ mod tests {
         );
         assert_eq!(count, 6);
         for (k, root) in roots[..count].iter().enumerate() {
-            assert!((root - (k as f64 + 1.0) * std::f64::consts::PI).abs() < 1e-14);
+            assert!((root - (k as f64 + 1.0) * core::f64::consts::PI).abs() < 1e-14);
         }
         assert!(calls.get() < 3000, "{} evaluations", calls.get());
     }

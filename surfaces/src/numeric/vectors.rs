@@ -55,10 +55,22 @@ pub(crate) fn foot<T: Real>(line: &Line<T>, centre: &Vector3<T>) -> (Vector3<T>,
     (from_centre + line.direction * along, along)
 }
 
+/// An angle as files have it.
+#[cfg(feature = "serde")]
+pub(crate) fn to_degrees<T: Real>(radians: T) -> T {
+    radians * T::literal(180.0) / T::pi()
+}
+
+/// And back.
+#[cfg(feature = "serde")]
+pub(crate) fn from_degrees<T: Real>(degrees: T) -> T {
+    degrees / T::literal(180.0) * T::pi()
+}
+
 /// `true` if no component is NaN or infinite.
 #[inline]
 pub(crate) fn is_finite<T: Real>(v: &Vector3<T>) -> bool {
-    (v.x - v.x + (v.y - v.y) + (v.z - v.z)).is_number()
+    v.x.is_number() & v.y.is_number() & v.z.is_number()
 }
 
 #[cfg(test)]

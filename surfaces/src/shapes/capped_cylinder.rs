@@ -21,12 +21,7 @@ impl<T: Real> CappedCylinder<T> {
     /// # Errors
     /// [`BadShape`] unless the centre is finite, the axis has a direction, and radius and half
     /// length are positive finite lengths.
-    pub fn new(
-        centre: Vector3<T>,
-        axis: Vector3<T>,
-        radius: T,
-        half_length: T,
-    ) -> Result<Self, BadShape> {
+    pub fn new(centre: Vector3<T>, axis: Vector3<T>, radius: T, half_length: T) -> Result<Self, BadShape> {
         let shape = "capped cylinder";
         let axis = BadShape::check_direction(shape, "axis", axis)?;
         let half_length = BadShape::check_length(shape, "half length", half_length)?;
@@ -100,7 +95,7 @@ impl<T: Real> SignedDistance<T> for CappedCylinder<T> {
 serde_parts!(CappedCylinder {
     #[serde(default = "Vector3::zeros")]
     centre_m: Vector3<T> = |cylinder: &CappedCylinder<T>| cylinder.centre,
-    axis: Vector3<T> = |cylinder: &CappedCylinder<T>| cylinder.axis(),
+    #[serde(default = "Vector3::z")] axis: Vector3<T> = |cylinder: &CappedCylinder<T>| cylinder.axis(),
     radius_m: T = |cylinder: &CappedCylinder<T>| cylinder.radius(),
     half_length_m: T = |cylinder: &CappedCylinder<T>| cylinder.half_length,
 } => |parts| CappedCylinder::new(parts.centre_m, parts.axis, parts.radius_m, parts.half_length_m));

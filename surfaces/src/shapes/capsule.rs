@@ -26,12 +26,7 @@ impl<T: Real> Capsule<T> {
     /// # Errors
     /// [`BadShape`] unless the centre is finite, the axis has a direction and the two lengths are
     /// positive finite lengths.
-    pub fn new(
-        centre: Vector3<T>,
-        axis: Vector3<T>,
-        half_length: T,
-        radius: T,
-    ) -> Result<Self, BadShape> {
+    pub fn new(centre: Vector3<T>, axis: Vector3<T>, half_length: T, radius: T) -> Result<Self, BadShape> {
         let radius = BadShape::check_length("capsule", "radius", radius)?;
         Ok(Self {
             axis: Axis {
@@ -72,9 +67,9 @@ impl<T: Real> Capsule<T> {
         self.radius
     }
 
-    /// The point of the segment closest to a point, and the vector from it to there.
+    /// The vector to a point from the point of the segment closest to it.
     #[inline]
-    fn from_segment(&self, from_centre: &Vector3<T>) -> Vector3<T> {
+    fn off_segment(&self, from_centre: &Vector3<T>) -> Vector3<T> {
         let height = from_centre.dot(&self.axis.direction);
         from_centre - self.axis.direction * height.max(-self.half_length).min(self.half_length)
     }
@@ -123,8 +118,7 @@ impl<T: Real> ActiveSurface<T> for Capsule<T> {
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let (start, along) = foot(line, &self.axis.origin);
-        let (Some(entry), Some(exit)) =
-            (self.end(line, &start, -T::one()), self.end(line, &start, T::one()))
+        let (Some(entry), Some(exit)) = (self.end(line, &start, -T::one()), self.end(line, &start, T::one()))
         else {
             return;
         };
@@ -145,13 +139,13 @@ impl<T: Real> ActiveSurface<T> for Capsule<T> {
 
     #[inline]
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
-        let outward = self.from_segment(&(point - self.axis.origin));
+        let outward = self.off_segment(&(point - self.axis.origin));
         unit_or(&outward, || self.axis.outward(&Vector3::zeros()))
     }
 
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {
-        length(&self.from_segment(&(point - self.axis.origin))) < self.radius
+        length(&self.off_segment(&(point - self.axis.origin))) < self.radius
     }
 }
 
@@ -159,7 +153,7 @@ impl<T: Real> SignedDistance<T> for Capsule<T> {
     const CONVEX: bool = true;
 
     fn signed_distance(&self, point: &Vector3<T>) -> Distance<T> {
-        let outward = self.from_segment(&(point - self.axis.origin));
+        let outward = self.off_segment(&(point - self.axis.origin));
         Distance { distance: length(&outward) - self.radius, normal: self.normal(point) }
     }
 
@@ -170,7 +164,7 @@ impl<T: Real> SignedDistance<T> for Capsule<T> {
 
 serde_parts!(Capsule {
     #[serde(default = "Vector3::zeros")] centre_m: Vector3<T> = |capsule: &Capsule<T>| capsule.axis.origin,
-    axis: Vector3<T> = |capsule: &Capsule<T>| capsule.axis.direction,
+    #[serde(default = "Vector3::z")] axis: Vector3<T> = |capsule: &Capsule<T>| capsule.axis.direction,
     half_length_m: T = |capsule: &Capsule<T>| capsule.half_length,
     radius_m: T = |capsule: &Capsule<T>| capsule.radius,
 } => |parts| Capsule::new(parts.centre_m, parts.axis, parts.half_length_m, parts.radius_m));

@@ -7,6 +7,8 @@ use super::axis::Axis;
 use crate::numeric::closest::to_convex;
 use crate::numeric::quadratic::roots;
 use crate::numeric::vectors::{foot, is_finite, length};
+#[cfg(feature = "serde")]
+use crate::numeric::vectors::{from_degrees, to_degrees};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance};
 
@@ -155,9 +157,9 @@ impl<T: Real> ActiveSurface<T> for Cone<T> {
 
 serde_parts!(Cone {
     #[serde(default = "Vector3::zeros")] apex_m: Vector3<T> = |cone: &Cone<T>| cone.axis.origin,
-    axis: Vector3<T> = |cone: &Cone<T>| cone.axis.direction,
-    half_angle_rad: T = |cone: &Cone<T>| cone.half_angle,
+    #[serde(default = "Vector3::z")] axis: Vector3<T> = |cone: &Cone<T>| cone.axis.direction,
+    half_angle_deg: T = |cone: &Cone<T>| to_degrees(cone.half_angle),
     #[serde(default, skip_serializing_if = "Option::is_none")]
     depth_m: Option<T> = |cone: &Cone<T>| cone.depth,
-} => |parts| Cone::new(parts.apex_m, parts.axis, parts.half_angle_rad)
+} => |parts| Cone::new(parts.apex_m, parts.axis, from_degrees(parts.half_angle_deg))
     .and_then(|cone| parts.depth_m.map_or(Ok(cone), |depth| cone.with_depth(depth))));

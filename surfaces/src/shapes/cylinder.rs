@@ -160,7 +160,7 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
 
 serde_parts!(Cylinder {
     #[serde(default = "Vector3::zeros")] centre_m: Vector3<T> = |cylinder: &Cylinder<T>| cylinder.centre,
-    axis: Vector3<T> = |cylinder: &Cylinder<T>| cylinder.axis,
+    #[serde(default = "Vector3::z")] axis: Vector3<T> = |cylinder: &Cylinder<T>| cylinder.axis,
     radius_m: T = |cylinder: &Cylinder<T>| cylinder.radius,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     half_length_m: Option<T> = |cylinder: &Cylinder<T>| cylinder.half_length,

@@ -72,6 +72,6 @@ impl<T: Real> ActiveSurface<T> for Disk<T> {
 
 serde_parts!(Disk {
     #[serde(default = "Vector3::zeros")] centre_m: Vector3<T> = |disk: &Disk<T>| disk.plane.point(),
-    normal: Vector3<T> = |disk: &Disk<T>| disk.plane.outward(),
+    #[serde(default = "Vector3::z")] normal: Vector3<T> = |disk: &Disk<T>| disk.plane.outward(),
     radius_m: T = |disk: &Disk<T>| disk.radius,
 } => |parts| Disk::new(parts.centre_m, parts.normal, parts.radius_m));

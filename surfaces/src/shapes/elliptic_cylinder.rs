@@ -43,12 +43,7 @@ impl<T: Real> EllipticCylinder<T> {
         let [a, b] = semi_axes;
         BadShape::check_length(shape, "semi-axes", a)?;
         BadShape::check_length(shape, "semi-axes", b)?;
-        BadShape::check(
-            shape,
-            "semi-axes",
-            "of comparable size",
-            a.min(b) / a.max(b) >= T::EPSILON.root(),
-        )?;
+        BadShape::check(shape, "semi-axes", "of comparable size", a.min(b) / a.max(b) >= T::EPSILON.root())?;
         if let CylinderEnds::Open(half) | CylinderEnds::Capped(half) = ends {
             BadShape::check_length(shape, "half length", half)?;
         }

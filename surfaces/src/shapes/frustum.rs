@@ -42,11 +42,7 @@ impl<T: Real> Frustum<T> {
     ) -> Result<Self, BadShape> {
         let shape = "frustum";
         let check = |parameter, radius: T| {
-            if radius == T::zero() {
-                Ok(radius)
-            } else {
-                BadShape::check_length(shape, parameter, radius)
-            }
+            if radius == T::zero() { Ok(radius) } else { BadShape::check_length(shape, parameter, radius) }
         };
         let base_radius = check("base radius", base_radius)?;
         let top_radius = check("top radius", top_radius)?;
@@ -133,7 +129,13 @@ impl<T: Real> Frustum<T> {
             None if a < T::zero() => [-b / a, -b / a],
             None => return None,
         };
-        let (entry, exit) = if a >= T::zero() { (first, second) } else if shrink < T::zero() { (second, far) } else { (-far, first) };
+        let (entry, exit) = if a >= T::zero() {
+            (first, second)
+        } else if shrink < T::zero() {
+            (second, far)
+        } else {
+            (-far, first)
+        };
         let (entry, exit) = (entry.max(-far), exit.min(far));
         // Of the two cones that meet at the apex, the right one.
         let witness = if entry > -far { entry } else { exit };
@@ -241,7 +243,7 @@ impl<T: Real> SignedDistance<T> for Frustum<T> {
 serde_parts!(Frustum {
     #[serde(default = "Vector3::zeros")]
     base_centre_m: Vector3<T> = |frustum: &Frustum<T>| frustum.axis.origin,
-    axis: Vector3<T> = |frustum: &Frustum<T>| frustum.axis.direction,
+    #[serde(default = "Vector3::z")] axis: Vector3<T> = |frustum: &Frustum<T>| frustum.axis.direction,
     height_m: T = |frustum: &Frustum<T>| frustum.height,
     base_radius_m: T = |frustum: &Frustum<T>| frustum.base_radius,
     top_radius_m: T = |frustum: &Frustum<T>| frustum.top_radius,

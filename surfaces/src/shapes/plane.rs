@@ -83,6 +83,6 @@ impl<T: Real> ActiveSurface<T> for Plane<T> {
 }
 
 serde_parts!(Plane {
-    point_m: Vector3<T> = |plane: &Plane<T>| plane.point,
-    normal: Vector3<T> = |plane: &Plane<T>| plane.normal,
+    #[serde(default = "Vector3::zeros")] point_m: Vector3<T> = |plane: &Plane<T>| plane.point,
+    #[serde(default = "Vector3::z")] normal: Vector3<T> = |plane: &Plane<T>| plane.normal,
 } => |parts| Plane::new(parts.point_m, parts.normal));

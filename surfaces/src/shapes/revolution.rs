@@ -350,14 +350,15 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
                 continue;
             }
             let outside = |(t, squared): (T, Option<T>)| {
-                excess_at(t, squared.unwrap_or_else(|| piece.squared_at(start.z + direction.z * t))) >= T::zero()
+                excess_at(t, squared.unwrap_or_else(|| piece.squared_at(start.z + direction.z * t)))
+                    >= T::zero()
             };
             let middle = (low.0 + high.0) * T::literal(0.5);
             let m = start + direction * middle;
             let a = direction.x * direction.x + direction.y * direction.y
                 - piece.curvature * direction.z * direction.z;
-            let b = m.x * direction.x + m.y * direction.y
-                - piece.slope_at(m.z) * direction.z * T::literal(0.5);
+            let b =
+                m.x * direction.x + m.y * direction.y - piece.slope_at(m.z) * direction.z * T::literal(0.5);
             let c = m.x * m.x + m.y * m.y - piece.squared_at(m.z);
             let ends = roots(a, b, c).map(|ends| ends.map(|t| t + middle));
             let within = |t: &T| *t > low.0 && *t < high.0;

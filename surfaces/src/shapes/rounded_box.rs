@@ -96,7 +96,10 @@ impl<T: Real> SignedDistance<T> for RoundedBox<T> {
         let outside = beyond.map(|x| x.max(T::zero()));
         let away = length(&outside);
         if away > T::zero() {
-            return Distance { distance: away - self.rounding, normal: signed(unit_or(&outside, Vector3::z)) };
+            return Distance {
+                distance: away - self.rounding,
+                normal: signed(unit_or(&outside, Vector3::z)),
+            };
         }
         let (axis, nearest) = beyond.argmax();
         let face = match axis {

@@ -3,6 +3,8 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
+#[cfg(feature = "serde")]
+use crate::numeric::vectors::{from_degrees, to_degrees};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Sphere};
 
@@ -107,7 +109,9 @@ serde_parts!(SphericalCap {
     #[serde(default = "Vector3::zeros")]
     centre_m: Vector3<T> = |cap: &SphericalCap<T>| cap.sphere.centre(),
     radius_m: T = |cap: &SphericalCap<T>| cap.sphere.radius(),
-    pole: Vector3<T> = |cap: &SphericalCap<T>| cap.pole,
-    least_cosine: T = |cap: &SphericalCap<T>| cap.least_cosine,
-} => |parts| Sphere::new(parts.centre_m, parts.radius_m)
-    .and_then(|sphere| SphericalCap::new(sphere, parts.pole, parts.least_cosine)));
+    #[serde(default = "Vector3::z")] pole: Vector3<T> = |cap: &SphericalCap<T>| cap.pole,
+    active_half_angle_deg: T = |cap: &SphericalCap<T>| to_degrees(cap.least_cosine.acos()),
+} => |parts| Sphere::new(parts.centre_m, parts.radius_m).and_then(|sphere| {
+    let cosine = from_degrees(parts.active_half_angle_deg).cos();
+    SphericalCap::new(sphere, parts.pole, cosine)
+}));

@@ -3,7 +3,7 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use crate::numeric::roots::first_of_convex;
+use crate::numeric::roots::{bisected, first_of_convex};
 use crate::numeric::support;
 use crate::numeric::vectors::unit_or;
 use crate::serde_parts::serde_parts;
@@ -142,10 +142,19 @@ impl<T: Real> ActiveSurface<T> for Superquadric<T> {
 
     /// By the support function, which is the dual norm of the scaled normal.
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
-        support::closest_approach(line, |normal| {
+        let found = support::closest_approach(line, |normal| {
             let (height, gradient) = Self::nested(&normal.component_mul(&self.semi_axes), self.duals);
             (height, gradient.component_mul(&self.semi_axes))
-        })
+        });
+        // On a nearly flat side the support point is ill-conditioned, but the closest point lies on
+        // the line parallel to the given one that just touches: where the gauge is least on it.
+        let reach = self.semi_axes.max() * T::literal(4.0);
+        let direction = line.direction.component_mul(&self.curvatures);
+        let slide = bisected(-reach, reach, |t| {
+            let point = (found.point + line.direction * t).component_mul(&self.curvatures);
+            self.gauge(&point).1.dot(&direction) < T::zero()
+        });
+        ClosestApproach { point: found.point + line.direction * slide, ..found }
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {

@@ -15,12 +15,8 @@ pub(super) struct Crossings<T: Real> {
 
 impl<T: Real> Crossings<T> {
     pub(super) fn of(surface: &impl ActiveSurface<T>, line: &Line<T>) -> Self {
-        let nowhere = Crossing {
-            along: T::zero(),
-            point: Vector3::zeros(),
-            normal: Vector3::zeros(),
-            active: false,
-        };
+        let nowhere =
+            Crossing { along: T::zero(), point: Vector3::zeros(), normal: Vector3::zeros(), active: false };
         let mut all = Self { found: [nowhere; MOST], count: 0 };
         surface.crossings(line, |crossing| {
             if let Some(place) = all.found.get_mut(all.count) {
@@ -30,9 +26,8 @@ impl<T: Real> Crossings<T> {
         });
         all.count = all.count.min(MOST);
         if let Some(found) = all.found.get_mut(..all.count) {
-            found.sort_unstable_by(|a, b| {
-                a.along.partial_cmp(&b.along).unwrap_or(core::cmp::Ordering::Equal)
-            });
+            found
+                .sort_unstable_by(|a, b| a.along.partial_cmp(&b.along).unwrap_or(core::cmp::Ordering::Equal));
         }
         all
     }
@@ -50,8 +45,9 @@ impl<T: Real> Crossings<T> {
     pub(super) fn nearest(&self, line: &Line<T>, to: &Crossing<T>) -> Option<&Crossing<T>> {
         let faces = |c: &Crossing<T>| c.normal.dot(&line.direction) > T::zero();
         let distance = |c: &Crossing<T>| (c.point - to.point).norm_squared();
-        self.as_slice().iter().filter(|c| faces(c) == faces(to)).min_by(|a, b| {
-            distance(a).partial_cmp(&distance(b)).unwrap_or(core::cmp::Ordering::Equal)
-        })
+        self.as_slice()
+            .iter()
+            .filter(|c| faces(c) == faces(to))
+            .min_by(|a, b| distance(a).partial_cmp(&distance(b)).unwrap_or(core::cmp::Ordering::Equal))
     }
 }

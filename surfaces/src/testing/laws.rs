@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::collect::Crossings;
 use super::random::Random;
-use crate::numeric::vectors::{any_perpendicular, is_finite, length};
+use crate::numeric::vectors::{any_perpendicular, is_finite, length, unit_or};
 use crate::{ActiveSurface, Crossing, Posed};
 
 /// What a surface has to obey.
@@ -115,7 +115,7 @@ impl<T: Real> SurfaceLaws<T> {
         Self { closed: false, ..self }
     }
 
-    /// The surface has edges and corners, where normals jump.
+    /// The surface has edges and corners, where normals jump; the ball's centre lies inside.
     #[must_use]
     pub fn with_edges(self) -> Self {
         Self { edges: true, ..self }
@@ -236,7 +236,14 @@ impl<T: Real> SurfaceLaws<T> {
         if !self.edges || turned < half_the_digits {
             self.expect(Law::NormalAgrees, line, turned, half_the_digits)?;
         }
-        self.expect_on_surface(Law::CrossingOnSurface, surface, line, &crossing.point, &crossing.normal, allowed)
+        self.expect_on_surface(
+            Law::CrossingOnSurface,
+            surface,
+            line,
+            &crossing.point,
+            &crossing.normal,
+            allowed,
+        )
     }
 
     /// The surface must be met within `allowed` of a point along a normal.
@@ -252,8 +259,9 @@ impl<T: Real> SurfaceLaws<T> {
         let mut nearest = T::GREATEST;
         // Slightly tilted too, in case an edge or a tip is met by rounding only.
         let aside = any_perpendicular(normal) * T::literal(0.1);
-        for direction in [*normal, normal + aside, normal - aside] {
-            let direction = direction / length(&direction);
+        let inward = if self.edges { self.centre - point } else { *normal };
+        for direction in [*normal, normal + aside, normal - aside, inward] {
+            let direction = unit_or(&direction, Vector3::x);
             surface.crossings(&Line { point: *point, direction }, |c| nearest = nearest.min(c.along.abs()));
         }
         self.expect(law, line, nearest, allowed)
@@ -268,8 +276,13 @@ impl<T: Real> SurfaceLaws<T> {
         allowed: T,
         back: impl Fn(&Vector3<T>) -> Vector3<T>,
     ) -> Result<(), Violation<T>> {
+        let grazes = found.least_incidence(line) < T::literal(0.05);
         let (expected, found) = (expected.as_slice(), found.as_slice());
         if expected.len() != found.len() {
+            // Rounding decides whether a line that is nearly tangent crosses.
+            if grazes {
+                return Ok(());
+            }
             return Err(Violation { law, line: *line, found: T::GREATEST, allowed });
         }
         for (a, b) in expected.iter().zip(found) {
@@ -312,7 +325,8 @@ impl<T: Real> SurfaceLaws<T> {
         let incidence = crossings.least_incidence(line);
         let pose: RigidTransform<T> =
             RigidTransform::from_parts(random.rotation(), random.in_ball() * self.radius);
-        let moved = Line { point: pose.transform_point(&line.point), direction: pose.rotate(&line.direction) };
+        let moved =
+            Line { point: pose.transform_point(&line.point), direction: pose.rotate(&line.direction) };
         let there = Crossings::of(&Posed::new(surface, pose), &moved);
         let back = pose.inverse();
         let allowed = self.roundings * T::EPSILON * self.size() * T::literal(8.0) / incidence;
@@ -345,7 +359,12 @@ impl<T: Real> SurfaceLaws<T> {
             let before = found.iter().filter(|c| c.along < along).count();
             if surface.contains(&line.at(along)) != (before % 2 == 1) {
                 let found = T::literal(f64::from(k));
-                return Err(Violation { law: Law::AllCrossingsFound, line: *line, found, allowed: T::zero() });
+                return Err(Violation {
+                    law: Law::AllCrossingsFound,
+                    line: *line,
+                    found,
+                    allowed: T::zero(),
+                });
             }
         }
         Ok(())
@@ -382,15 +401,13 @@ impl<T: Real> SurfaceLaws<T> {
         let disagrees = (distance_from_line(&found.point) - found.gap).abs();
         self.expect(Law::ClosestOnSurface, line, disagrees, allowed)?;
         self.expect(Law::ClosestOnSurface, line, -found.gap, T::zero())?;
-        // The point may sit on an edge, where the line along the normal passes by.
-        let on_surface = if self.edges { (allowed * self.size()).root() } else { allowed };
         self.expect_on_surface(
             Law::ClosestOnSurface,
             surface,
             line,
             &(found.point - found.normal * (allowed / T::literal(4.0))),
             &found.normal,
-            on_surface,
+            allowed,
         )?;
         for sample in samples.iter().flatten() {
             let closer = found.gap - distance_from_line(sample);
@@ -408,7 +425,11 @@ impl<T: Real> SurfaceLaws<T> {
             let any = |random: &mut Random| {
                 let bits = random.bits();
                 // Every fourth within the common range, the others anywhere.
-                T::literal(if bits % 4 == 0 { random.symmetric() } else { f64::from_bits(random.bits()) })
+                T::literal(if bits.is_multiple_of(4) {
+                    random.symmetric()
+                } else {
+                    f64::from_bits(random.bits())
+                })
             };
             let point = Vector3::new(any(random), any(random), any(random));
             let direction = if k % 8 == 0 {
@@ -416,7 +437,7 @@ impl<T: Real> SurfaceLaws<T> {
                 Vector3::new(any(random), any(random), any(random))
             } else if k % 8 == 1 {
                 let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-                axes[(random.bits() % 3) as usize]
+                axes.get((random.bits() % 3) as usize).copied().unwrap_or_else(Vector3::x)
             } else {
                 random.direction()
             };

@@ -1,0 +1,327 @@
+//! Contact resolution: throughput per shape, against a hand-written kernel and against parry3d on
+//! the same lines, with the errors of both side by side (printed before the measurements).
+//!
+//! `cargo bench -p fingertip-benches --bench surfaces`
+
+use std::hint::black_box;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use fingertip::surfaces::batch::{BatchSurface, Contacts, Wrenches};
+use fingertip::surfaces::*;
+use fingertip::wrench::{Line, Real, Wrench};
+use nalgebra::Vector3;
+use parry3d::query::{Ray, RayCast};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+const COUNT: usize = 1024;
+
+/// Lines that pass a ball of this radius about the origin within 0.9 of it.
+fn lines(radius: f64) -> Vec<Line<f64>> {
+    let mut random = Pcg64Mcg::seed_from_u64(1);
+    let mut any = || Vector3::from_fn(|_, _| random.random_range(-1.0..1.0));
+    (0..COUNT)
+        .map(|_| {
+            let direction = any().normalize();
+            let aim = any().normalize() * radius * 0.5;
+            let point = aim - direction * direction.dot(&aim);
+            Line { point, direction }
+        })
+        .collect()
+}
+
+fn wrenches<T: Real>(radius: f64) -> Vec<Wrench<T>> {
+    lines(radius)
+        .iter()
+        .map(|line| {
+            let force = line.direction * 2.0;
+            Wrench::on_fingertip(force.map(T::literal), line.point.cross(&force).map(T::literal))
+        })
+        .collect()
+}
+
+/// What one would write by hand: no checks, no reasons, no normal force.
+#[inline]
+fn by_hand<T: Real>(f: &Vector3<T>, m: &Vector3<T>, radius: T) -> Option<(Vector3<T>, Vector3<T>)> {
+    let inverse = T::one() / f.norm_squared();
+    let foot = f.cross(m) * inverse;
+    let squared = radius * radius - foot.norm_squared();
+    if squared < T::zero() {
+        return None;
+    }
+    let point = foot - f * (squared * inverse).root();
+    Some((point, point / radius))
+}
+
+fn resolve_all<T: Real, S: ActiveSurface<T>>(
+    model: &PointContact<T>,
+    surface: &S,
+    wrenches: &[Wrench<T>],
+) -> T {
+    let mut sum = T::zero();
+    for wrench in wrenches {
+        if let Resolution::Contact(contact) = model.resolve(wrench, surface) {
+            sum += contact.point.x + contact.normal.y + contact.incidence;
+        }
+    }
+    sum
+}
+
+fn point_contact<T: Real>(c: &mut Criterion, scalar: &str) {
+    let l = T::literal;
+    let model = PointContact::new(l(0.1)).unwrap();
+    let small = wrenches::<T>(0.013);
+    let mut group = c.benchmark_group(format!("point contact {scalar}"));
+    group.throughput(Throughput::Elements(COUNT as u64));
+    let radius = l(0.013);
+    group.bench_function("sphere by hand", |b| {
+        b.iter(|| {
+            let mut sum = T::zero();
+            for wrench in black_box(&small) {
+                if let Some((point, normal)) = by_hand(&wrench.force(), &wrench.torque(), radius) {
+                    sum += point.x + normal.y;
+                }
+            }
+            sum
+        });
+    });
+    macro_rules! shape {
+        ($name:literal, $shape:expr) => {
+            let surface = $shape.unwrap();
+            group.bench_function($name, |b| b.iter(|| resolve_all(&model, &surface, black_box(&small))));
+        };
+    }
+    let z = Vector3::z();
+    let o = Vector3::zeros();
+    shape!("sphere", Sphere::centred(radius));
+    shape!("ellipsoid", Ellipsoid::new(Vector3::new(l(0.013), l(0.011), l(0.017))));
+    shape!("cylinder", Cylinder::new(o, z, radius));
+    shape!("plane", Plane::new(o, z));
+    shape!("capped cylinder", CappedCylinder::new(o, z, radius, radius));
+    shape!("capsule", Capsule::new(o, z, l(0.02), radius));
+    shape!("cone", Cone::new(z * l(0.02), -z, l(0.7)));
+    shape!("frustum", Frustum::new(-z * radius, z, l(0.026), radius, l(0.004)));
+    shape!("paraboloid", Paraboloid::new([radius, l(0.02)]));
+    shape!("torus", Torus::new(radius, l(0.004)));
+    shape!("rounded box", RoundedBox::new(Vector3::new(l(0.013), l(0.013), l(0.013)), l(0.003)));
+    shape!("superquadric", Superquadric::new(Vector3::new(l(0.013), l(0.011), l(0.017)), [l(0.5), l(0.7)]));
+    shape!(
+        "offset ellipsoid",
+        Ellipsoid::new(Vector3::new(l(0.013), l(0.011), l(0.017)))
+            .and_then(|inner| Offset::new(inner, l(0.001)))
+    );
+    shape!(
+        "revolution of 5 points",
+        Revolution::from_profile([
+            [l(-0.014), radius],
+            [l(-0.006), radius],
+            [l(0.004), l(0.012)],
+            [l(0.010), l(0.008)],
+            [l(0.014), l(0.0)],
+        ])
+    );
+    group.finish();
+}
+
+fn batch<T: Real>(c: &mut Criterion, scalar: &str) {
+    let all = wrenches::<T>(0.013);
+    let column = |k: usize| -> Vec<T> { all.iter().map(|w| w.components()[k]).collect() };
+    let columns: [Vec<T>; 6] = std::array::from_fn(column);
+    let mut group = c.benchmark_group(format!("batch {scalar}"));
+    group.throughput(Throughput::Elements(COUNT as u64));
+    let [fx, fy, fz, tx, ty, tz] = columns.each_ref().map(|column| &column[..]);
+    let mut out: [Vec<T>; 7] = std::array::from_fn(|_| vec![T::zero(); COUNT]);
+    let l = T::literal;
+    macro_rules! shape {
+        ($name:literal, $shape:expr) => {
+            let surface = $shape.unwrap();
+            group.bench_function($name, |b| {
+                b.iter(|| {
+                    let [px, py, pz, nx, ny, nz, gap] = &mut out;
+                    surface.contacts(
+                        black_box(Wrenches { force: [fx, fy, fz], torque: [tx, ty, tz] }),
+                        Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap },
+                    );
+                });
+            });
+        };
+    }
+    shape!("sphere", Sphere::centred(l(0.013)));
+    shape!("ellipsoid", Ellipsoid::new(Vector3::new(l(0.013), l(0.011), l(0.017))));
+    shape!("plane", Plane::new(Vector3::zeros(), Vector3::z()));
+    shape!("cylinder", Cylinder::new(Vector3::zeros(), Vector3::z(), l(0.013)));
+    shape!("capsule", Capsule::new(Vector3::zeros(), Vector3::z(), l(0.02), l(0.013)));
+    group.finish();
+}
+
+/// A ball of triangles, as in the tests.
+fn ball(rings: u32, sectors: u32) -> (Vec<Vector3<f32>>, Vec<[u32; 3]>) {
+    let mut vertices = vec![Vector3::z()];
+    for i in 1..rings {
+        let (sin, cos) = (std::f32::consts::PI * i as f32 / rings as f32).sin_cos();
+        for j in 0..sectors {
+            let (s, c) = (std::f32::consts::TAU * j as f32 / sectors as f32).sin_cos();
+            vertices.push(Vector3::new(sin * c, sin * s, cos));
+        }
+    }
+    vertices.push(-Vector3::z());
+    let last = vertices.len() as u32 - 1;
+    let at = |i: u32, j: u32| 1 + (i - 1) * sectors + j % sectors;
+    let mut triangles = Vec::new();
+    for j in 0..sectors {
+        triangles.push([0, at(1, j), at(1, j + 1)]);
+        triangles.push([last, at(rings - 1, j + 1), at(rings - 1, j)]);
+        for i in 1..rings - 1 {
+            triangles.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+            triangles.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+        }
+    }
+    (vertices, triangles)
+}
+
+fn mesh<T: Real>(rings: u32, sectors: u32) -> Mesh<T> {
+    let (vertices, triangles) = ball(rings, sectors);
+    let vertices: Vec<_> = vertices.iter().map(|v| v.map(|x| T::literal(f64::from(x)))).collect();
+    Mesh::new(&vertices, &triangles).unwrap()
+}
+
+fn meshes(c: &mut Criterion) {
+    let mut group = c.benchmark_group("mesh");
+    group.throughput(Throughput::Elements(COUNT as u64));
+    for (rings, sectors) in [(10, 25), (50, 51), (160, 157), (707, 708)] {
+        let (single, double) = (mesh::<f32>(rings, sectors), mesh::<f64>(rings, sectors));
+        let count = double.triangle_count();
+        let lines = lines(1.0);
+        group.bench_function(format!("f64 {count} triangles"), |b| {
+            b.iter(|| {
+                let mut sum = 0.0;
+                for line in black_box(&lines) {
+                    double.crossings(line, |c| sum += c.along);
+                }
+                sum
+            });
+        });
+        let lines: Vec<_> = lines
+            .iter()
+            .map(|line| Line { point: line.point.cast::<f32>(), direction: line.direction.cast() })
+            .collect();
+        group.bench_function(format!("f32 {count} triangles"), |b| {
+            b.iter(|| {
+                let mut sum = 0.0;
+                for line in black_box(&lines) {
+                    single.crossings(line, |c| sum += c.along);
+                }
+                sum
+            });
+        });
+    }
+    group.finish();
+}
+
+/// The first point at which a half-line meets a shape, by both, in f32.
+fn against_parry(c: &mut Criterion) {
+    type Vector = parry3d::math::Vector;
+    let lines = lines(1.0);
+    let to = |v: &Vector3<f64>| Vector::new(v.x as f32, v.y as f32, v.z as f32);
+    let rays: Vec<Ray> =
+        lines.iter().map(|l| Ray::new(to(&(l.point - l.direction * 4.0)), to(&l.direction))).collect();
+    let ours: Vec<Line<f32>> = rays
+        .iter()
+        .map(|ray| Line {
+            point: Vector3::new(ray.origin.x, ray.origin.y, ray.origin.z),
+            direction: Vector3::new(ray.dir.x, ray.dir.y, ray.dir.z),
+        })
+        .collect();
+    fn first<T: Real>(surface: &impl ActiveSurface<T>, line: &Line<T>) -> Option<T> {
+        let mut first = None;
+        surface.crossings(line, |c| {
+            if first.is_none_or(|t| c.along < t) {
+                first = Some(c.along);
+            }
+        });
+        first
+    }
+    let mut group = c.benchmark_group("against parry3d f32");
+    group.throughput(Throughput::Elements(COUNT as u64));
+    macro_rules! pair {
+        ($name:literal, $ours:expr, $exact:expr, $theirs:expr) => {{
+            let (surface, exact, theirs) = ($ours, $exact, $theirs);
+            let (mut worst, mut worst_theirs, mut lost, mut lost_theirs) = (0.0_f64, 0.0_f64, 0, 0);
+            for (line, ray) in ours.iter().zip(&rays) {
+                let wide = Line { point: line.point.cast::<f64>(), direction: line.direction.cast::<f64>() };
+                let Some(truth) = first(&exact, &wide) else { continue };
+                match first(&surface, line) {
+                    Some(t) => worst = worst.max((f64::from(t) - truth).abs()),
+                    None => lost += 1,
+                }
+                match theirs.cast_local_ray(ray, 100.0, true) {
+                    Some(t) => worst_theirs = worst_theirs.max((f64::from(t) - truth).abs()),
+                    None => lost_theirs += 1,
+                }
+            }
+            println!(
+                "{:<10} greatest error along the line [m], size 1 m: ours {worst:.1e} ({lost} lost), \
+                 parry3d {worst_theirs:.1e} ({lost_theirs} lost)",
+                $name
+            );
+            group.bench_function(concat!($name, ", ours"), |b| {
+                b.iter(|| black_box(&ours).iter().filter_map(|line| first(&surface, line)).sum::<f32>());
+            });
+            group.bench_function(concat!($name, ", parry3d"), |b| {
+                b.iter(|| {
+                    black_box(&rays)
+                        .iter()
+                        .filter_map(|ray| theirs.cast_local_ray_and_get_normal(ray, 100.0, true))
+                        .map(|hit| hit.time_of_impact)
+                        .sum::<f32>()
+                });
+            });
+        }};
+    }
+    use parry3d::shape;
+    pair!(
+        "ball",
+        Sphere::centred(1.0_f32).unwrap(),
+        Sphere::centred(1.0_f64).unwrap(),
+        shape::Ball::new(1.0)
+    );
+    fn capsule<T: Real>() -> Capsule<T> {
+        Capsule::new(Vector3::zeros(), Vector3::y(), T::literal(0.5), T::literal(0.75)).unwrap()
+    }
+    pair!("capsule", capsule::<f32>(), capsule::<f64>(), shape::Capsule::new_y(0.5, 0.75));
+    fn cylinder<T: Real>() -> CappedCylinder<T> {
+        CappedCylinder::new(Vector3::zeros(), Vector3::y(), T::literal(0.75), T::literal(0.5)).unwrap()
+    }
+    pair!("cylinder", cylinder::<f32>(), cylinder::<f64>(), shape::Cylinder::new(0.5, 0.75));
+    fn cone<T: Real>() -> Frustum<T> {
+        Frustum::new(Vector3::y() * T::literal(-0.5), Vector3::y(), T::one(), T::literal(0.75), T::zero())
+            .unwrap()
+    }
+    pair!("cone", cone::<f32>(), cone::<f64>(), shape::Cone::new(0.5, 0.75));
+    let (vertices, triangles) = ball(50, 51);
+    let points: Vec<Vector> = vertices.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect();
+    let hull = shape::ConvexPolyhedron::from_convex_mesh(points.clone(), &triangles).unwrap();
+    pair!("convex", mesh::<f32>(50, 51), mesh::<f64>(50, 51), hull);
+    let soup = shape::TriMesh::new(points, triangles).unwrap();
+    pair!("mesh", mesh::<f32>(50, 51), mesh::<f64>(50, 51), soup);
+    group.finish();
+}
+
+fn all(c: &mut Criterion) {
+    point_contact::<f64>(c, "f64");
+    point_contact::<f32>(c, "f32");
+    batch::<f32>(c, "f32");
+    batch::<f64>(c, "f64");
+    against_parry(c);
+    meshes(c);
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .warm_up_time(std::time::Duration::from_millis(300))
+        .measurement_time(std::time::Duration::from_secs(1))
+        .sample_size(30);
+    targets = all
+}
+criterion_main!(benches);

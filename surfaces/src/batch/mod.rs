@@ -1,0 +1,55 @@
+//! Point contacts of many wrenches at once, as structures of arrays that the compiler vectorises:
+//! for simulation and learning.
+//!
+//! ```
+//! use fingertip_surfaces::Sphere;
+//! use fingertip_surfaces::batch::{BatchSurface, Contacts, Wrenches};
+//!
+//! let sphere = Sphere::centred(0.013_f32)?;
+//! let force = [vec![0.0; 2], vec![0.0, 0.1], vec![-1.0, -2.0]];
+//! let torque = [vec![0.001, 0.0], vec![0.0; 2], vec![0.0; 2]];
+//! let [mut x, mut y, mut z] = [vec![0.0; 2], vec![0.0; 2], vec![0.0; 2]];
+//! let [mut nx, mut ny, mut nz, mut gap] = [vec![0.0; 2], vec![0.0; 2], vec![0.0; 2], vec![0.0; 2]];
+//! sphere.contacts(
+//!     Wrenches { force: force.each_ref().map(|v| &v[..]), torque: torque.each_ref().map(|v| &v[..]) },
+//!     Contacts { point: [&mut x, &mut y, &mut z], normal: [&mut nx, &mut ny, &mut nz], gap: &mut gap },
+//! );
+//! assert_eq!(gap, [0.0, 0.0]);
+//! # Ok::<(), fingertip_surfaces::BadShape>(())
+//! ```
+
+mod kernels;
+
+use fingertip_wrench::Real;
+
+/// Wrenches on the fingertip: one slice per component, x, y and z.
+#[derive(Clone, Copy, Debug)]
+pub struct Wrenches<'a, T> {
+    /// Force \[N\].
+    pub force: [&'a [T]; 3],
+    /// Torque about the origin of the sensor frame \[N·m\].
+    pub torque: [&'a [T]; 3],
+}
+
+/// Where the contacts are written: one slice per component.
+#[derive(Debug)]
+pub struct Contacts<'a, T> {
+    /// Point of entry, or for a line that misses the closest point of the surface \[m\].
+    pub point: [&'a mut [T]; 3],
+    /// Outward unit normal there.
+    pub normal: [&'a mut [T]; 3],
+    /// Zero for a contact; for a line that misses, its distance from the surface \[m\]; the
+    /// greatest finite number where there is no answer (no force, not finite, only pulling); point
+    /// and normal are zero then.
+    pub gap: &'a mut [T],
+}
+
+/// Surfaces that resolve point contacts in batches.
+///
+/// The outcome of each wrench is that of [`PointContact`](crate::PointContact) with no threshold, but
+/// for rounding, and that forces and torques beyond the fourth root of the range of the type have no
+/// answer. Of slices of different lengths, the shortest counts.
+pub trait BatchSurface<T: Real> {
+    /// Resolves all wrenches.
+    fn contacts(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>);
+}

@@ -1,0 +1,230 @@
+//! A surface chosen at run time.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use crate::combinators::{closest_of, is_inside_along};
+use crate::{
+    ActiveSurface, CappedCylinder, Capsule, ClosestApproach, Cone, Crossing, Cylinder, Disk, Ellipsoid,
+    EllipticCylinder, Frustum, HalfSpace, Heightfield, Knot, Mesh, Paraboloid, Plane, Posed, Rectangle,
+    Revolution, RoundedBox, Sphere, SphericalCap, Superquadric, Torus, Trimmed,
+};
+
+/// Any of the shapes: for files and programs that learn the shape at run time. On a hot path use
+/// the shape's own type, which costs no branch.
+///
+/// In a file the key `shape` names the shape, the other keys are its parameters, with units:
+///
+/// ```
+/// # #[cfg(feature = "serde")] {
+/// use fingertip_surfaces::DynSurface;
+///
+/// let finger: DynSurface<f64> = toml::from_str(r#"
+///     shape = "posed"
+///     translation_m = [0.0, 0.0, 0.03]
+///     rotation_deg = [0.0, 90.0, 0.0]
+///     [surface]
+///     shape = "capsule"
+///     half_length_m = 0.01
+///     radius_m = 0.007
+/// "#).unwrap();
+/// assert!(matches!(finger, DynSurface::Posed(_)));
+/// # }
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        tag = "shape",
+        rename_all = "snake_case",
+        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
+    )
+)]
+#[non_exhaustive]
+pub enum DynSurface<T: Real> {
+    /// [`Plane`].
+    Plane(Plane<T>),
+    /// [`Disk`].
+    Disk(Disk<T>),
+    /// [`Rectangle`].
+    Rectangle(Rectangle<T>),
+    /// [`Sphere`].
+    Sphere(Sphere<T>),
+    /// [`SphericalCap`].
+    SphericalCap(SphericalCap<T>),
+    /// [`Ellipsoid`].
+    Ellipsoid(Ellipsoid<T>),
+    /// [`Cylinder`].
+    Cylinder(Cylinder<T>),
+    /// [`CappedCylinder`].
+    CappedCylinder(CappedCylinder<T>),
+    /// [`EllipticCylinder`].
+    EllipticCylinder(EllipticCylinder<T>),
+    /// [`Capsule`].
+    Capsule(Capsule<T>),
+    /// [`Cone`].
+    Cone(Cone<T>),
+    /// [`Frustum`].
+    Frustum(Frustum<T>),
+    /// [`Torus`].
+    Torus(Torus<T>),
+    /// [`Superquadric`].
+    Superquadric(Superquadric<T>),
+    /// [`RoundedBox`].
+    RoundedBox(RoundedBox<T>),
+    /// [`Paraboloid`].
+    Paraboloid(Paraboloid<T>),
+    /// [`Revolution`].
+    Revolution(Revolution<T, Vec<Knot<T>>>),
+    /// [`Heightfield`].
+    Heightfield(Heightfield<T>),
+    /// [`Mesh`].
+    Mesh(Mesh<T>),
+    /// [`Posed`].
+    Posed(Box<Posed<T, Self>>),
+    /// [`Trimmed`] to a half-space.
+    Trimmed(Box<Trimmed<Self, HalfSpace<T>>>),
+    /// The union of any number of shapes, as [`Compound`](crate::Compound) is of two.
+    Compound(Parts<T>),
+}
+
+/// The members of a union.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        deny_unknown_fields,
+        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
+    )
+)]
+pub struct Parts<T: Real> {
+    /// The shapes; one at least, or nothing is ever met.
+    pub parts: Vec<DynSurface<T>>,
+}
+
+/// Calls a method of whichever shape it is.
+macro_rules! each {
+    ($surface:expr, $shape:ident => $call:expr) => {
+        match $surface {
+            DynSurface::Plane($shape) => $call,
+            DynSurface::Disk($shape) => $call,
+            DynSurface::Rectangle($shape) => $call,
+            DynSurface::Sphere($shape) => $call,
+            DynSurface::SphericalCap($shape) => $call,
+            DynSurface::Ellipsoid($shape) => $call,
+            DynSurface::Cylinder($shape) => $call,
+            DynSurface::CappedCylinder($shape) => $call,
+            DynSurface::EllipticCylinder($shape) => $call,
+            DynSurface::Capsule($shape) => $call,
+            DynSurface::Cone($shape) => $call,
+            DynSurface::Frustum($shape) => $call,
+            DynSurface::Torus($shape) => $call,
+            DynSurface::Superquadric($shape) => $call,
+            DynSurface::RoundedBox($shape) => $call,
+            DynSurface::Paraboloid($shape) => $call,
+            DynSurface::Revolution($shape) => $call,
+            DynSurface::Heightfield($shape) => $call,
+            DynSurface::Mesh($shape) => $call,
+            DynSurface::Posed($shape) => $call,
+            DynSurface::Trimmed($shape) => $call,
+            DynSurface::Compound($shape) => $call,
+        }
+    };
+}
+
+impl<T: Real> ActiveSurface<T> for DynSurface<T> {
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        // By reference, so that nested shapes do not make ever new types of visitors.
+        let visit: &mut dyn FnMut(Crossing<T>) = &mut visit;
+        each!(self, shape => shape.crossings(line, visit));
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        each!(self, shape => shape.closest_approach(line))
+    }
+
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        each!(self, shape => shape.normal(point))
+    }
+
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        each!(self, shape => shape.contains(point))
+    }
+}
+
+impl<T: Real> ActiveSurface<T> for Parts<T> {
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        for (k, part) in self.parts.iter().enumerate() {
+            part.crossings(line, |c| {
+                // Of two that cross in the same place, the later one owns it.
+                let mut others = self.parts.iter().enumerate().filter(|(other, _)| *other != k);
+                if !others.any(|(other, s)| is_inside_along(s, line, c.along, &c.point, other > k)) {
+                    visit(c);
+                }
+            });
+        }
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        let nothing = ClosestApproach {
+            gap: T::GREATEST,
+            point: Vector3::zeros(),
+            normal: Vector3::z(),
+            active: false,
+        };
+        self.parts.iter().fold(nothing, |best, part| closest_of(best, part.closest_approach(line)))
+    }
+
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        let mut best = (T::GREATEST, Vector3::z());
+        for part in &self.parts {
+            let direction = part.normal(point);
+            part.crossings(&Line { point: *point, direction }, |c| {
+                if c.along.abs() < best.0 {
+                    best = (c.along.abs(), direction);
+                }
+            });
+        }
+        best.1
+    }
+
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.parts.iter().any(|part| part.contains(point))
+    }
+}
+
+macro_rules! from {
+    ($($shape:ident),+ $(,)?) => {
+        $(impl<T: Real> From<$shape<T>> for DynSurface<T> {
+            fn from(shape: $shape<T>) -> Self {
+                Self::$shape(shape)
+            }
+        })+
+    };
+}
+
+from!(
+    Plane,
+    Disk,
+    Rectangle,
+    Sphere,
+    SphericalCap,
+    Ellipsoid,
+    Cylinder,
+    CappedCylinder,
+    EllipticCylinder,
+    Capsule,
+    Cone,
+    Frustum,
+    Torus,
+    Superquadric,
+    RoundedBox,
+    Paraboloid,
+    Heightfield,
+    Mesh,
+);

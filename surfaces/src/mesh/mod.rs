@@ -1,0 +1,226 @@
+//! Triangle meshes.
+
+mod bvh;
+mod closest;
+mod crossing;
+mod obj;
+mod stl;
+mod topology;
+
+use alloc::vec::Vec;
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::Vector3;
+
+use self::bvh::Bvh;
+use crate::numeric::vectors::{any_perpendicular, foot, is_finite, unit_or};
+use crate::{ActiveSurface, ClosestApproach, Crossing};
+
+pub use self::topology::MeshError;
+
+/// A closed surface of triangles.
+///
+/// Crossings are watertight: no line slips through an edge or a vertex, and none is counted twice
+/// there. The tree over the triangles is built once; a query takes a time that grows with the
+/// logarithm of their number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh<T: Real> {
+    centre: Vector3<T>,
+    /// A power of two that brings the mesh near size 1; vertices are stored so.
+    scale: T,
+    radius: T,
+    vertices: Vec<Vector3<T>>,
+    /// In the order of the tree's leaves.
+    triangles: Vec<[u32; 3]>,
+    normals: Vec<Vector3<T>>,
+    bvh: Bvh<T>,
+}
+
+impl<T: Real> Mesh<T> {
+    /// From vertices \[m\] and triangles that index them.
+    ///
+    /// Vertices at the same place are merged, triangles without area in the wake of that dropped;
+    /// slivers are kept. If all triangles are wound to face inward, they are turned.
+    ///
+    /// # Errors
+    /// [`MeshError`] if an index or a coordinate is bad, if edges are open or wound inconsistently
+    /// (with their number), or if nothing is enclosed.
+    pub fn new(vertices: &[Vector3<T>], triangles: &[[u32; 3]]) -> Result<Self, MeshError> {
+        let parts = topology::check(vertices, triangles)?;
+        let (bvh, order) = Bvh::build(&parts.vertices, &parts.triangles);
+        let triangles: Vec<[u32; 3]> =
+            order.iter().filter_map(|k| parts.triangles.get(*k as usize).copied()).collect();
+        let normals = triangles.iter().map(|triangle| normal_of(&parts.vertices, triangle)).collect();
+        let radius = parts.vertices.iter().fold(T::zero(), |r, v| r.max(v.norm_squared())).root();
+        Ok(Self {
+            centre: parts.centre,
+            scale: parts.scale,
+            radius: radius * T::literal(1.0001),
+            vertices: parts.vertices,
+            triangles,
+            normals,
+            bvh,
+        })
+    }
+
+    /// From the text or bytes of an STL file, ASCII or binary, in units of `metres_per_unit`
+    /// (0.001 for millimetres; STL does not say).
+    ///
+    /// # Errors
+    /// [`MeshError`] if the file is malformed or the mesh is not closed.
+    pub fn from_stl(bytes: &[u8], metres_per_unit: T) -> Result<Self, MeshError> {
+        let corners = stl::read(bytes, metres_per_unit)?;
+        let count = u32::try_from(corners.len() / 3).map_err(|_| MeshError::TooLarge)?;
+        let triangles: Vec<[u32; 3]> = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        Self::new(&corners, &triangles)
+    }
+
+    /// From the text of a Wavefront OBJ file, in units of `metres_per_unit`; faces with more than
+    /// three corners are cut into triangles, everything but `v` and `f` is ignored.
+    ///
+    /// # Errors
+    /// [`MeshError`] if the file is malformed or the mesh is not closed.
+    pub fn from_obj(text: &str, metres_per_unit: T) -> Result<Self, MeshError> {
+        let (vertices, triangles) = obj::read(text, metres_per_unit)?;
+        Self::new(&vertices, &triangles)
+    }
+
+    /// Reads an `.stl` or `.obj` file, told apart by its name.
+    ///
+    /// # Errors
+    /// [`MeshError`] if the file cannot be read, is malformed, or the mesh is not closed.
+    #[cfg(feature = "std")]
+    pub fn from_file(path: impl AsRef<std::path::Path>, metres_per_unit: T) -> Result<Self, MeshError> {
+        let path = path.as_ref();
+        let bytes = std::fs::read(path).map_err(|error| MeshError::Unreadable(error.kind()))?;
+        if path.extension().is_some_and(|name| name.eq_ignore_ascii_case("obj")) {
+            let text = core::str::from_utf8(&bytes).map_err(|_| MeshError::NotText)?;
+            Self::from_obj(text, metres_per_unit)
+        } else {
+            Self::from_stl(&bytes, metres_per_unit)
+        }
+    }
+
+    /// How many triangles there are.
+    #[inline]
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// The vertices \[m\].
+    pub fn vertices(&self) -> impl Iterator<Item = Vector3<T>> + '_ {
+        self.vertices.iter().map(|v| v / self.scale + self.centre)
+    }
+
+    /// The triangles, as indices of [`vertices`](Self::vertices).
+    #[inline]
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    #[inline]
+    fn corners(&self, triangle: usize) -> Option<[&Vector3<T>; 3]> {
+        let [a, b, c] = self.triangles.get(triangle)?;
+        Some([
+            self.vertices.get(*a as usize)?,
+            self.vertices.get(*b as usize)?,
+            self.vertices.get(*c as usize)?,
+        ])
+    }
+
+    #[inline]
+    fn normal_of(&self, triangle: usize) -> Vector3<T> {
+        self.normals.get(triangle).copied().unwrap_or_else(Vector3::z)
+    }
+}
+
+/// Unit normal of a triangle; across its longest edge if it has no area.
+fn normal_of<T: Real>(vertices: &[Vector3<T>], [a, b, c]: &[u32; 3]) -> Vector3<T> {
+    let at = |k: &u32| vertices.get(*k as usize).copied().unwrap_or_else(Vector3::zeros);
+    let (a, b, c) = (at(a), at(b), at(c));
+    // The two shorter edges give the best product.
+    let edges = [b - a, c - b, a - c];
+    let longest = edges.map(|e| e.norm_squared());
+    let product = if longest[0] >= longest[1] && longest[0] >= longest[2] {
+        edges[1].cross(&edges[2])
+    } else if longest[1] >= longest[2] {
+        edges[2].cross(&edges[0])
+    } else {
+        edges[0].cross(&edges[1])
+    };
+    unit_or(&product, || any_perpendicular(&unit_or(&(b - a), Vector3::x)))
+}
+
+impl<T: Real> ActiveSurface<T> for Mesh<T> {
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        let (start, along) = foot(line, &self.centre);
+        let start = start * self.scale;
+        if !(start.norm_squared() <= self.radius * self.radius) {
+            return;
+        }
+        let Some(shear) = crossing::Shear::new(&start, &line.direction) else { return };
+        let back = T::one() / self.scale;
+        self.bvh.visit_line(&shear, |triangle| {
+            let Some(corners) = self.corners(triangle) else { return };
+            if let Some(t) = shear.crosses(corners) {
+                let point = (start + line.direction * t) * back + self.centre;
+                visit(Crossing {
+                    along: along + t * back,
+                    point,
+                    normal: self.normal_of(triangle),
+                    active: true,
+                });
+            }
+        });
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+        let (start, _) = foot(line, &self.centre);
+        let start = if is_finite(&start) { start * self.scale } else { Vector3::zeros() };
+        let near = Line { point: start, direction: line.direction };
+        let found = closest::to_line(self, &near);
+        let point = found.point / self.scale + self.centre;
+        ClosestApproach { gap: (found.gap / self.scale).min(T::GREATEST), point, ..found }
+    }
+
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        let point = (point - self.centre) * self.scale;
+        let point = if is_finite(&point) { point } else { Vector3::zeros() };
+        self.normal_of(closest::to_point(self, &point))
+    }
+}
+
+/// In files, vertices and triangles.
+#[cfg(feature = "serde")]
+mod files {
+    use alloc::vec::Vec;
+
+    use fingertip_wrench::Real;
+    use nalgebra::Vector3;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+
+    use super::Mesh;
+
+    #[derive(Serialize, Deserialize)]
+    #[serde(deny_unknown_fields, bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
+    struct Parts<T: Real> {
+        vertices_m: Vec<Vector3<T>>,
+        triangles: Vec<[u32; 3]>,
+    }
+
+    impl<T: Real + Serialize> Serialize for Mesh<T> {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            Parts { vertices_m: self.vertices().collect(), triangles: self.triangles.clone() }
+                .serialize(serializer)
+        }
+    }
+
+    impl<'de, T: Real + Deserialize<'de>> Deserialize<'de> for Mesh<T> {
+        fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            let parts = Parts::<T>::deserialize(deserializer)?;
+            Self::new(&parts.vertices_m, &parts.triangles).map_err(Error::custom)
+        }
+    }
+}
