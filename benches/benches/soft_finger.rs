@@ -5,10 +5,10 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fingertip_surfaces::{
-    ActiveSurface, Auto, Capsule, CompliantSoftFinger, Cone, ContactCovariance, ContactJacobian, ContactModel,
-    ConvexBound, Cylinder, Ellipsoid, Hertz, Implicit, ImplicitBounds, ImplicitSurface, Plane, PointContact, Search,
-    SmoothImplicit, SmoothSurface, SoftContact, SoftFinger, SoftFingerSurface, Sphere, Superquadric, Topology, Torus,
-    WorstErrors, newton_soft_contacts,
+    ActiveSurface, Auto, Capsule, CompliantSoftFinger, Cone, ContactCovariance, ContactJacobian,
+    ContactModel, ConvexBound, Cylinder, Ellipsoid, Hertz, Implicit, ImplicitBounds, ImplicitSurface, Plane,
+    PointContact, Search, SmoothImplicit, SmoothSurface, SoftContact, SoftFinger, SoftFingerSurface, Sphere,
+    Superquadric, Topology, Torus, WorstErrors, newton_soft_contacts,
 };
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
@@ -109,7 +109,8 @@ fn cases<S: ActiveSurface<f64>>(surface: &S, spin: f64) -> Vec<Case> {
         if point.norm() > 0.05 || -force.dot(&normal) < 1.0 {
             continue;
         }
-        let torque = point.cross(&force) + normal * (spin * SIZE * 2.0 * (random.random::<f64>() * 2.0 - 1.0));
+        let torque =
+            point.cross(&force) + normal * (spin * SIZE * 2.0 * (random.random::<f64>() * 2.0 - 1.0));
         let before = point + direction(&mut random).cross(&normal) * 5e-4;
         cases.push(Case { wrench: Wrench::on_fingertip(force, torque), point, before });
     }
@@ -235,7 +236,9 @@ fn error_against_time(_: &mut Criterion) {
         row("Newton near the last", &cases, |case| {
             soft.resolve_near(&case.wrench, &hidden, Some(&case.before)).contact().map(|c| c.point)
         });
-        row("axis of the wrench", &cases, |case| point.resolve(&case.wrench, &surface).contact().map(|c| c.point));
+        row("axis of the wrench", &cases, |case| {
+            point.resolve(&case.wrench, &surface).contact().map(|c| c.point)
+        });
     }
 }
 

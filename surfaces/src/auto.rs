@@ -97,7 +97,8 @@ impl<T: Real> Auto<T> {
         let axis = wrench.line_of_action().ok()?;
         let scale = wrench.force().amax().normalising_factor();
         let (f, m) = (wrench.force() * scale, wrench.torque() * scale);
-        let spread = |gradient: &Vector6<T>| gradient.dot(&(self.noise * gradient)).max(T::zero()).root() * scale;
+        let spread =
+            |gradient: &Vector6<T>| gradient.dot(&(self.noise * gradient)).max(T::zero()).root() * scale;
         // d(f·m) = m·df + f·dm, and the same less twice the pitch for f·m/|f|².
         let power = f.dot(&m);
         let flat = Vector6::new(m.x, m.y, m.z, f.x, f.y, f.z);
@@ -107,11 +108,12 @@ impl<T: Real> Auto<T> {
         let less = m - f * (axis.pitch + axis.pitch);
         let steep = Vector6::new(less.x, less.y, less.z, f.x, f.y, f.z);
         let deviation = spread(&steep) / f.norm_squared();
-        let (excess, refused) = self.greatest_pitch.map_or((-T::GREATEST, false), |(greatest, deviations)| {
-            let beyond = axis.pitch.abs() - greatest;
-            let excess = if beyond.is_zero() { T::zero() } else { beyond / deviation };
-            (excess.max(-T::GREATEST).min(T::GREATEST), excess > deviations)
-        });
+        let (excess, refused) =
+            self.greatest_pitch.map_or((-T::GREATEST, false), |(greatest, deviations)| {
+                let beyond = axis.pitch.abs() - greatest;
+                let excess = if beyond.is_zero() { T::zero() } else { beyond / deviation };
+                (excess.max(-T::GREATEST).min(T::GREATEST), excess > deviations)
+            });
         let choice = if refused {
             Choice::NotOneContact
         } else if statistic > self.threshold {

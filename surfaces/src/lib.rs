@@ -27,26 +27,27 @@ mod soft_finger;
 pub mod testing;
 mod uncertainty;
 
-pub use auto::{Auto, Choice, PitchTest};
-pub use compliant::{
-    Compliant, CompliantContact, CompliantPointContact, CompliantSoftFinger, Hertz, Indentation, LinearStiffness,
-    LocalHertz, PowerLaw, SkinLaw, StiffnessLaw, Tabulated, contact_modulus,
-};
 pub use active_surface::{ActiveSurface, ClosestApproach, Crossing};
+pub use auto::{Auto, Choice, PitchTest};
 pub use bad_shape::BadShape;
 pub use combinators::{Compound, HalfSpace, Offset, Posed, Region, Trimmed};
+pub use compliant::{
+    Compliant, CompliantContact, CompliantPointContact, CompliantSoftFinger, Hertz, Indentation,
+    LinearStiffness, LocalHertz, PowerLaw, SkinLaw, StiffnessLaw, Tabulated, contact_modulus,
+};
 pub use contact::{Contact, ContactBound, ContactModel, NoContact, PointContact, Resolution, WorstErrors};
 #[cfg(feature = "alloc")]
 pub use dyn_surface::{DynSurface, Parts};
+pub use fusion::{ArrayContact, Fused, FusedContact, Fusion};
 #[cfg(feature = "alloc")]
 pub use heightfield::Heightfield;
 #[cfg(feature = "alloc")]
 pub use mesh::{Mesh, MeshError};
-pub use fusion::{ArrayContact, Fused, FusedContact, Fusion};
 pub use shapes::*;
 pub use signed_distance::{Distance, SignedDistance};
 pub use smooth::{
-    Extent, Level, SmoothImplicit, SmoothSurface, Topology, hessian_by_differences, shape_operator_by_differences,
+    Extent, Level, SmoothImplicit, SmoothSurface, Topology, hessian_by_differences,
+    shape_operator_by_differences,
 };
 pub use soft_finger::{Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};
 pub use uncertainty::{

@@ -20,9 +20,7 @@ pub(super) fn r_f<T: Real>(x: T, y: T, z: T) -> T {
         let dz = -(dx + dy);
         if dx.abs().max(dy.abs()).max(dz.abs()) <= close {
             let (e2, e3) = (dx * dy - dz * dz, dx * dy * dz);
-            let series = T::one() - e2 * T::literal(0.1)
-                + e3 / T::literal(14.0)
-                + e2 * e2 / T::literal(24.0)
+            let series = T::one() - e2 * T::literal(0.1) + e3 / T::literal(14.0) + e2 * e2 / T::literal(24.0)
                 - e2 * e3 * T::literal(3.0 / 44.0);
             result = series / mean.root();
             break;
@@ -54,7 +52,8 @@ pub(super) fn r_d<T: Real>(x: T, y: T, z: T) -> T {
             let e3 = (xy * T::literal(3.0) - zz * T::literal(8.0)) * dz;
             let e4 = (xy - zz) * zz * T::literal(3.0);
             let e5 = xy * zz * dz;
-            let series = T::one() - e2 * T::literal(3.0 / 14.0) + e3 / T::literal(6.0)
+            let series = T::one() - e2 * T::literal(3.0 / 14.0)
+                + e3 / T::literal(6.0)
                 + e2 * e2 * T::literal(9.0 / 88.0)
                 - e4 * T::literal(3.0 / 22.0)
                 - e2 * e3 * T::literal(9.0 / 52.0)

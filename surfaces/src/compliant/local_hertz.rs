@@ -51,6 +51,8 @@ impl<T: Real, S: SmoothSurface<T>> SkinLaw<T, S> for LocalHertz<T> {
         let (mean, apart) = ((w11 + w22) * half, (w11 - w22) * half);
         let spread = (apart * apart + w12 * w12).root();
         self.law([mean + spread, mean - spread])
-            .map_or(Indentation { depth: T::zero(), patch: [T::zero(); 2] }, |law| law.indentation(normal_force))
+            .map_or(Indentation { depth: T::zero(), patch: [T::zero(); 2] }, |law| {
+                law.indentation(normal_force)
+            })
     }
 }

@@ -56,8 +56,13 @@ impl<T: Real, M, L> Compliant<T, M, L> {
     /// # Errors
     /// [`BadShape`] unless the share is between 0 and 1.
     pub fn with_share(self, share: T) -> Result<Self, BadShape> {
-        BadShape::check("skin", "share of the indentation", "between 0 and 1", share >= T::zero() && share <= T::one())
-            .map(|()| Self { share, ..self })
+        BadShape::check(
+            "skin",
+            "share of the indentation",
+            "between 0 and 1",
+            share >= T::zero() && share <= T::one(),
+        )
+        .map(|()| Self { share, ..self })
     }
 
     /// The contact together with the indentation and the patch.

@@ -44,9 +44,11 @@ impl<T: Real, const N: usize> StiffnessLaw<T> for Tabulated<T, N> {
         let origin = [T::zero(); 3];
         let last = N.saturating_sub(1);
         let upper = self.points.get(after.min(last)).copied().unwrap_or(origin);
-        let lower = after.min(last).checked_sub(1).and_then(|i| self.points.get(i)).copied().unwrap_or(origin);
+        let lower =
+            after.min(last).checked_sub(1).and_then(|i| self.points.get(i)).copied().unwrap_or(origin);
         let share = (normal_force - lower[0]) / (upper[0] - lower[0]);
-        let between = |column: usize| (lower[column] + (upper[column] - lower[column]) * share).min(T::GREATEST);
+        let between =
+            |column: usize| (lower[column] + (upper[column] - lower[column]) * share).min(T::GREATEST);
         Indentation { depth: between(1), patch: [between(2); 2] }
     }
 }
@@ -58,11 +60,19 @@ mod tests {
     #[test]
     fn meets_its_points_and_lines_between_and_beyond() {
         let law = Tabulated::new([[1.0_f64, 0.1, 1.0], [3.0, 0.2, 1.5]]).unwrap();
-        for (force, depth, radius) in
-            [(0.0, 0.0, 0.0), (0.5, 0.05, 0.5), (1.0, 0.1, 1.0), (2.0, 0.15, 1.25), (3.0, 0.2, 1.5), (5.0, 0.3, 2.0)]
-        {
+        for (force, depth, radius) in [
+            (0.0, 0.0, 0.0),
+            (0.5, 0.05, 0.5),
+            (1.0, 0.1, 1.0),
+            (2.0, 0.15, 1.25),
+            (3.0, 0.2, 1.5),
+            (5.0, 0.3, 2.0),
+        ] {
             let found = law.indentation(force);
-            assert!((found.depth - depth).abs() < 1e-15 && (found.patch[0] - radius).abs() < 1e-15, "{force}");
+            assert!(
+                (found.depth - depth).abs() < 1e-15 && (found.patch[0] - radius).abs() < 1e-15,
+                "{force}"
+            );
         }
         assert!(Tabulated::new([[1.0, 0.1, 1.0], [1.0, 0.2, 1.5]]).is_err());
         assert!(Tabulated::<f64, 0>::new([]).is_err());

@@ -3,12 +3,12 @@
 use fingertip_wrench::Real;
 use nalgebra::{Matrix3, Vector3};
 
+use crate::ActiveSurface;
 use crate::numeric::vectors::{hypotenuse, length, unit_or};
 use crate::{
     Capsule, Cone, Cylinder, Extent, Level, Plane, RoundedBox, SmoothSurface, Sphere, SphericalCap, Topology,
     Torus,
 };
-use crate::ActiveSurface;
 
 impl<T: Real> SmoothSurface<T> for Sphere<T> {
     #[inline]
@@ -84,7 +84,10 @@ impl<T: Real> SmoothSurface<T> for Cylinder<T> {
     }
 
     fn extent(&self) -> Extent<T> {
-        Extent { centre: self.centre(), radius: self.half_length().map_or(self.radius(), |half| half.max(self.radius())) }
+        Extent {
+            centre: self.centre(),
+            radius: self.half_length().map_or(self.radius(), |half| half.max(self.radius())),
+        }
     }
 
     fn topology(&self) -> Topology {
@@ -155,8 +158,8 @@ impl<T: Real> SmoothSurface<T> for Torus<T> {
         let around = Vector3::new(-outward.y, outward.x, T::zero());
         let along = around.cross(&normal);
         // Curvature across the tube, and around the ring.
-        let hessian = along * along.transpose() / tube
-            + around * around.transpose() * (normal.dot(&outward) / radial);
+        let hessian =
+            along * along.transpose() / tube + around * around.transpose() * (normal.dot(&outward) / radial);
         Level { value: tube - self.tube_radius(), gradient: normal, hessian }
     }
 
@@ -180,9 +183,8 @@ impl<T: Real> SmoothSurface<T> for RoundedBox<T> {
         let distance = length(&outside);
         if distance > T::zero() {
             let normal = (outside / distance).component_mul(&sign);
-            let round = Matrix3::from_diagonal(
-                &beyond.map(|x| if x > T::zero() { T::one() } else { T::zero() }),
-            );
+            let round =
+                Matrix3::from_diagonal(&beyond.map(|x| if x > T::zero() { T::one() } else { T::zero() }));
             return Level {
                 value: distance - self.rounding(),
                 gradient: normal,

@@ -6,7 +6,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::numeric::vectors::length;
 use crate::{
-    CylinderEnds, Ellipsoid, EllipticCylinder, Extent, Level, Paraboloid, SmoothSurface, Superquadric, Topology,
+    CylinderEnds, Ellipsoid, EllipticCylinder, Extent, Level, Paraboloid, SmoothSurface, Superquadric,
+    Topology,
 };
 
 /// `|A⁻¹ r| − 1` with its derivatives: `g = A⁻² r/γ`, `H = (A⁻² − g gᵀ)/γ`.
@@ -127,8 +128,7 @@ impl<T: Real> SmoothSurface<T> for Superquadric<T> {
         let [wpp, wpz, wzz] = whole.second;
         let [pxx, pxy, pyy] = plane.second;
         let gradient = Vector3::new(wp * px, wp * py, wz).component_mul(&curvatures);
-        let (xx, xy, yy) =
-            (wpp * px * px + wp * pxx, wpp * px * py + wp * pxy, wpp * py * py + wp * pyy);
+        let (xx, xy, yy) = (wpp * px * px + wp * pxx, wpp * px * py + wp * pxy, wpp * py * py + wp * pyy);
         let (xz, yz) = (wpz * px, wpz * py);
         let scale = Matrix3::from_diagonal(&curvatures);
         let hessian = scale * Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, wzz) * scale;

@@ -31,7 +31,9 @@ impl<T: Real, S: SmoothSurface<T>> SmoothSurface<T> for Posed<T, S> {
     fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
         let pose = self.sensor_from_shape();
         let rotation = pose.rotation();
-        rotation * self.inner().shape_operator(&rotation.tr_mul(&(point - pose.origin()))) * rotation.transpose()
+        rotation
+            * self.inner().shape_operator(&rotation.tr_mul(&(point - pose.origin())))
+            * rotation.transpose()
     }
 }
 

@@ -74,15 +74,7 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
         let wrench_unit = force.amax().max(lever.amax()).normalising_factor();
         let (force, torque) = (force * wrench_unit, lever * wrench_unit);
         let power = force.dot(&torque);
-        Self {
-            surface,
-            centre: extent.centre,
-            length: T::one() / unit,
-            wrench_unit,
-            force,
-            torque,
-            power,
-        }
+        Self { surface, centre: extent.centre, length: T::one() / unit, wrench_unit, force, torque, power }
     }
 
     /// From the sensor frame.
@@ -193,7 +185,9 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
             before = size;
             let mut tries = 6;
             state = loop {
-                let next = self.place(state.place.point + shift).map(|place| self.state(place, state.spin + twist, torque));
+                let next = self
+                    .place(state.place.point + shift)
+                    .map(|place| self.state(place, state.spin + twist, torque));
                 match next {
                     Some(next) if small || next.merit < state.merit => break next,
                     _ if tries == 0 => return None,

@@ -23,7 +23,10 @@ pub(super) fn on_plane<T: Real>(
     }
     let point = m.cross(normal) / pressing;
     let spin_torque = -f.dot(&m) / pressing / scale;
-    (point.x + point.y + point.z + spin_torque)
-        .is_number()
-        .then_some(SoftContact { point, normal: *normal, spin_torque, active: true })
+    (point.x + point.y + point.z + spin_torque).is_number().then_some(SoftContact {
+        point,
+        normal: *normal,
+        spin_torque,
+        active: true,
+    })
 }

@@ -172,7 +172,8 @@ fn scatter<T: Real, S: SmoothSurface<T>>(
         for i in 0..lines {
             for j in 0..lines {
                 let point = extent.centre + across * at(i) + up * at(j);
-                surface.crossings(&Line { point, direction }, |crossing| visit(problem.inward(&crossing.point)));
+                surface
+                    .crossings(&Line { point, direction }, |crossing| visit(problem.inward(&crossing.point)));
             }
         }
     }

@@ -9,9 +9,9 @@ use super::ellipsoid::{on_ellipsoid, on_sphere};
 use super::newton::tangents;
 use super::plane::on_plane;
 use crate::{
-    ActiveSurface, Capsule, Cone, Cylinder, CylinderEnds, Disk, Ellipsoid, EllipticCylinder, Implicit, Paraboloid,
-    Plane, Rectangle, RoundedBox, Search, SmoothImplicit, SoftContact, SoftFingerSurface, Sphere, SphericalCap,
-    Superquadric, Torus, newton_soft_contacts,
+    ActiveSurface, Capsule, Cone, Cylinder, CylinderEnds, Disk, Ellipsoid, EllipticCylinder, Implicit,
+    Paraboloid, Plane, Rectangle, RoundedBox, Search, SmoothImplicit, SoftContact, SoftFingerSurface, Sphere,
+    SphericalCap, Superquadric, Torus, newton_soft_contacts,
 };
 use fingertip_wrench::Line;
 
@@ -31,7 +31,6 @@ pub(super) fn is_active<T: Real, S: ActiveSurface<T>>(surface: &S, contact: &Sof
     active
 }
 
-
 impl<T: Real> SoftFingerSurface<T> for Sphere<T> {
     #[inline]
     fn soft_contacts(
@@ -42,9 +41,10 @@ impl<T: Real> SoftFingerSurface<T> for Sphere<T> {
     ) -> Search<T> {
         let centre = self.centre();
         let torque = wrench.torque_about(&centre);
-        let search = on_sphere(self.radius(), T::one() / self.radius(), &wrench.force(), &torque, |contact| {
-            visit(SoftContact { point: contact.point + centre, ..contact });
-        });
+        let search =
+            on_sphere(self.radius(), T::one() / self.radius(), &wrench.force(), &torque, |contact| {
+                visit(SoftContact { point: contact.point + centre, ..contact });
+            });
         match search {
             Search::Grazing(pair) => Search::Grazing(pair.map(|point| point + centre)),
             other => other,

@@ -4,8 +4,8 @@ use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::numeric::vectors::hypotenuse;
-use crate::{ActiveSurface, WorstErrors};
 use crate::soft_finger::newton::tangents;
+use crate::{ActiveSurface, WorstErrors};
 
 /// A region that certainly holds the true contact: a piece of the round tube about the measured
 /// line of action.
@@ -129,9 +129,8 @@ impl<T: Real> ConvexBound<T> {
         let latest = region.latest_entry;
         let slope = latest / inner;
         let rise = slope * epsilon + shape * (T::one() + slope * slope).root();
-        let deep_enough = region.earliest_exit.is_some_and(|exit| {
-            rise + shape <= exit && latest + shape + shape <= exit
-        });
+        let deep_enough =
+            region.earliest_exit.is_some_and(|exit| rise + shape <= exit && latest + shape + shape <= exit);
         let excluded = (inner - margin) * cosine > high.max(T::zero()) * sine;
         let past_silhouette = !(all_hit && deep_enough && excluded && gap.is_zero());
         if !past_silhouette {
@@ -203,7 +202,8 @@ impl<T: Real> Region<T> {
         let entry = (chord.entry - origin).dot(u);
         let exit = (chord.exit - origin).dot(u);
         let slack = |normal: &Vector3<T>| {
-            let reach = self.shape + self.epsilon * normal.cross(u).norm_squared().root() + normal.dot(offset);
+            let reach =
+                self.shape + self.epsilon * normal.cross(u).norm_squared().root() + normal.dot(offset);
             reach / normal.dot(u).abs()
         };
         let (low, high) = (entry - slack(&chord.entry_normal), exit + slack(&chord.exit_normal));

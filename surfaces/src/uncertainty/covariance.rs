@@ -177,14 +177,7 @@ impl<T: Real> ContactCovariance<T> {
             let largest = tangential.m11.max(tangential.m22);
             return Matrix2::new(self.normal_force_variance(), T::zero(), T::zero(), largest);
         }
-        let row = Vector6::new(
-            T::zero(),
-            T::zero(),
-            T::zero(),
-            t1 / length,
-            t2 / length,
-            T::zero(),
-        );
+        let row = Vector6::new(T::zero(), T::zero(), T::zero(), t1 / length, t2 / length, T::zero());
         let with_row = self.local * row;
         Matrix2::new(self.normal_force_variance(), with_row[2], with_row[2], row.dot(&with_row))
     }

@@ -33,7 +33,8 @@ impl<T: Real, const N: usize> SensorUncertainty<T, N> {
     /// # Errors
     /// [`BadShape`] unless the covariance is finite and has no negative variance.
     pub fn new<S: WrenchSolver<T, N>>(solver: &S, signals: &SMatrix<T, N, N>) -> Result<Self, BadShape> {
-        let good = signals.iter().all(|x| x.is_number()) && signals.diagonal().iter().all(|x| *x >= T::zero());
+        let good =
+            signals.iter().all(|x| x.is_number()) && signals.diagonal().iter().all(|x| *x >= T::zero());
         if !good {
             return Err(BadShape {
                 shape: "sensor uncertainty",

@@ -1,8 +1,9 @@
 //! Random contacts on any shape.
 
 use fingertip_surfaces::{
-    ActiveSurface, Capsule, Cone, Cylinder, CylinderEnds, Ellipsoid, EllipticCylinder, Implicit, ImplicitBounds,
-    ImplicitSurface, Paraboloid, Plane, RoundedBox, SmoothImplicit, Sphere, Superquadric, Topology, Torus,
+    ActiveSurface, Capsule, Cone, Cylinder, CylinderEnds, Ellipsoid, EllipticCylinder, Implicit,
+    ImplicitBounds, ImplicitSurface, Paraboloid, Plane, RoundedBox, SmoothImplicit, Sphere, Superquadric,
+    Topology, Torus,
 };
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::{Matrix3, Vector3};
@@ -41,7 +42,11 @@ impl Random {
     }
 
     /// A point of the surface within a ball around the origin, with its normal.
-    pub(crate) fn place<S: ActiveSurface<f64>>(&mut self, surface: &S, reach: f64) -> (Vector3<f64>, Vector3<f64>) {
+    pub(crate) fn place<S: ActiveSurface<f64>>(
+        &mut self,
+        surface: &S,
+        reach: f64,
+    ) -> (Vector3<f64>, Vector3<f64>) {
         loop {
             let point = self.direction() * self.uniform(0.0, reach);
             let line = Line { point, direction: self.direction() };
@@ -136,7 +141,8 @@ impl<T: Real> SmoothImplicit<T> for Pillow {
 }
 
 pub(crate) fn sphere<T: Real>() -> Sphere<T> {
-    Sphere::new(Vector3::new(T::literal(0.001), T::literal(-0.002), T::literal(0.003)), T::literal(0.013)).unwrap()
+    Sphere::new(Vector3::new(T::literal(0.001), T::literal(-0.002), T::literal(0.003)), T::literal(0.013))
+        .unwrap()
 }
 
 pub(crate) fn ellipsoid<T: Real>() -> Ellipsoid<T> {
@@ -178,8 +184,13 @@ pub(crate) fn cone<T: Real>() -> Cone<T> {
 
 pub(crate) fn capsule<T: Real>() -> Capsule<T> {
     let number = T::literal;
-    Capsule::new(Vector3::zeros(), Vector3::new(number(0.3), number(0.1), number(1.0)), number(0.006), number(0.007))
-        .unwrap()
+    Capsule::new(
+        Vector3::zeros(),
+        Vector3::new(number(0.3), number(0.1), number(1.0)),
+        number(0.006),
+        number(0.007),
+    )
+    .unwrap()
 }
 
 pub(crate) fn torus<T: Real>() -> Torus<T> {
@@ -188,7 +199,8 @@ pub(crate) fn torus<T: Real>() -> Torus<T> {
 
 pub(crate) fn superquadric<T: Real>() -> Superquadric<T> {
     let number = T::literal;
-    Superquadric::new(Vector3::new(number(0.008), number(0.010), number(0.013)), [number(0.7), number(0.8)]).unwrap()
+    Superquadric::new(Vector3::new(number(0.008), number(0.010), number(0.013)), [number(0.7), number(0.8)])
+        .unwrap()
 }
 
 pub(crate) fn rounded_box<T: Real>() -> RoundedBox<T> {

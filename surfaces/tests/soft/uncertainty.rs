@@ -1,9 +1,9 @@
 //! Covariance against Monte Carlo, bounds against the worst that can be done.
 
 use fingertip_surfaces::{
-    ActiveSurface, Contact, ContactCovariance, ContactJacobian, ContactModel, ConvexBound, GeometryUncertainty,
-    PaperBounds, PointContact, SensorUncertainty, SmoothSurface, SoftFinger, SoftFingerSurface, Sphere, WorstErrors,
-    WrenchNoise, shape_operator_by_differences,
+    ActiveSurface, Contact, ContactCovariance, ContactJacobian, ContactModel, ConvexBound,
+    GeometryUncertainty, PaperBounds, PointContact, SensorUncertainty, SmoothSurface, SoftFinger,
+    SoftFingerSurface, Sphere, WorstErrors, WrenchNoise, shape_operator_by_differences,
 };
 use fingertip_wrench::{GaussianElimination, SensorMatrix, Wrench, WrenchSolver};
 use nalgebra::{Matrix2, Matrix3, Matrix6, Vector3, Vector6};
@@ -25,7 +25,11 @@ fn wrench_covariance(random: &mut Random) -> Matrix6<f64> {
 
 /// Spread of the sampled local numbers relative to the prediction, and the share of samples in
 /// the 95 % ellipse.
-fn monte_carlo<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(surface: &S, soft: bool, seed: u64) -> (f64, f64) {
+fn monte_carlo<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
+    surface: &S,
+    soft: bool,
+    seed: u64,
+) -> (f64, f64) {
     let mut random = Random::new(seed);
     let case = loop {
         let spins = if soft { [0.1, 0.5] } else { [1e-12, 1e-11] };
@@ -116,8 +120,15 @@ fn covariance_matches_monte_carlo() {
                 ("capsule", monte_carlo(&common::capsule::<f64>(), soft, seed)),
             ];
             for (name, (deviation, coverage)) in found {
-                println!("{name:10} soft {soft:5} Monte Carlo deviates {:.2} %, 95 % ellipse holds {:.2} %", 100.0 * deviation, 100.0 * coverage);
-                assert!(deviation < 0.03 && (0.94..=0.96).contains(&coverage), "{name} {deviation} {coverage}");
+                println!(
+                    "{name:10} soft {soft:5} Monte Carlo deviates {:.2} %, 95 % ellipse holds {:.2} %",
+                    100.0 * deviation,
+                    100.0 * coverage
+                );
+                assert!(
+                    deviation < 0.03 && (0.94..=0.96).contains(&coverage),
+                    "{name} {deviation} {coverage}"
+                );
             }
         }
     }
@@ -173,7 +184,8 @@ fn gauges_to_wrench_match_monte_carlo() {
         let mix = Matrix6::from_fn(|_, _| random.uniform(-0.5, 0.5)) + Matrix6::identity();
         scale * mix * mix.transpose() * scale
     });
-    let uncertainty = SensorUncertainty::independent(&solver, &noise).unwrap().with_calibration(rows).unwrap();
+    let uncertainty =
+        SensorUncertainty::independent(&solver, &noise).unwrap().with_calibration(rows).unwrap();
     let predicted = uncertainty.wrench_covariance(&wrench);
     let factors = rows.map(|row: Matrix6<f64>| row.cholesky().unwrap().l());
     let mut sums = Matrix6::zeros();
@@ -188,7 +200,8 @@ fn gauges_to_wrench_match_monte_carlo() {
         sums += error * error.transpose();
     }
     let deviations = predicted.diagonal().map(f64::sqrt);
-    let difference = (sums / f64::from(count) - predicted).component_div(&(deviations * deviations.transpose()));
+    let difference =
+        (sums / f64::from(count) - predicted).component_div(&(deviations * deviations.transpose()));
     assert!(difference.amax() < 0.03, "{difference}");
     let sheet = WrenchNoise { floor: Vector6::repeat(0.1), relative: 0.01 };
     assert!((sheet.covariance(&wrench)[(2, 2)] - (0.01 + 0.05_f64.powi(2))).abs() < 1e-15);
@@ -223,7 +236,8 @@ fn worst_cases_are_attained_and_not_exceeded() {
         for corner in 0..64_u8 {
             let signs = Vector6::from_fn(|i, _| if corner >> i & 1 == 1 { 1.0 } else { -1.0 });
             let moved = jacobian.point() * limits.component_mul(&signs);
-            attained = (attained.0.max(moved.norm()), attained.1.zip_map(&moved, |a: f64, b: f64| a.max(b.abs())));
+            attained =
+                (attained.0.max(moved.norm()), attained.1.zip_map(&moved, |a: f64, b: f64| a.max(b.abs())));
         }
         assert!((worst.distance / attained.0 - 1.0).abs() < 1e-12);
         assert!((worst.components - attained.1).amax() < 1e-12 * worst.distance);
@@ -233,7 +247,13 @@ fn worst_cases_are_attained_and_not_exceeded() {
 }
 
 /// The rigorous bound: how often it fails (never), and how much larger it is than the error.
-fn convex_bound<S: ActiveSurface<f64>>(name: &str, surface: &S, [size, reach]: [f64; 2], count: usize, seed: u64) -> f64 {
+fn convex_bound<S: ActiveSurface<f64>>(
+    name: &str,
+    surface: &S,
+    [size, reach]: [f64; 2],
+    count: usize,
+    seed: u64,
+) -> f64 {
     let mut random = Random::new(seed);
     let model = PointContact::new(0.0).unwrap().accepting_gap(1.0).unwrap();
     let (mut ratios, mut silent, mut past) = (Vec::new(), 0, 0);
@@ -358,9 +378,9 @@ fn the_bounds_of_the_first_paper() {
         let truth = point(wrench);
         let mut worst = (Vector3::<f64>::zeros(), 0.0_f64);
         for corner in 0..64_u8 {
-            let moved = wrench.components().map_with_location(|i, _, x| {
-                x * if corner >> i & 1 == 1 { 1.0 + 1e-6 } else { 1.0 - 1e-6 }
-            });
+            let moved = wrench
+                .components()
+                .map_with_location(|i, _, x| x * if corner >> i & 1 == 1 { 1.0 + 1e-6 } else { 1.0 - 1e-6 });
             let error = point(&Wrench::from_components(&moved)) - truth;
             worst = (worst.0.zip_map(&error, |a: f64, b: f64| a.max(b.abs())), worst.1.max(error.norm()));
         }
