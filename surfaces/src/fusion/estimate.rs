@@ -66,7 +66,8 @@ pub struct Fused<T: Real, const K: usize> {
     /// Dimension of the forces that the wrench cannot see: 0, 1, 3, 6 for one to four contacts, one
     /// more for three or four of them in a line.
     pub internal_forces: u8,
-    /// `false` if the iteration ended at its bound.
+    /// `false` if the iteration ended at its bound, or where the readings contradict the wrench by so
+    /// much that it found no rest: see [`disagreement`](Self::disagreement).
     pub settled: bool,
 }
 
@@ -122,7 +123,9 @@ impl<T: Real> Fusion<T> {
                 settled = true;
                 break;
             }
-            calm = search.step(surface, &bonds).ok_or(lost)?.0;
+            // Data that contradict each other by far may drive the estimate off the surface.
+            let Some((rested, _)) = search.step(surface, &bonds) else { break };
+            calm = rested;
             search.follow(&mut bonds).ok_or(lost)?;
         }
         search.into_cones(&bonds);

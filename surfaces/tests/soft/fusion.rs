@@ -32,8 +32,11 @@ fn scene<const K: usize>(random: &mut Random, surface: &Ellipsoid<f64>, spread: 
     for i in 0..K {
         let n = normals[i];
         let across = Vector3::from_fn(|_, _| random.normal());
-        let tangential = (across - n * across.dot(&n)) * (MU * pressures[i] * spread);
-        forces[i] = tangential - n * (pressures[i] + deviation * random.normal());
+        let tangential: Vector3<f64> = (across - n * across.dot(&n)) * (MU * pressures[i] * spread);
+        let pressing = pressures[i] + deviation * random.normal();
+        // What friction holds, and no more.
+        let held = (MU * pressing / tangential.norm()).min(1.0);
+        forces[i] = tangential * held - n * pressing;
         wrench = wrench + Wrench::from_force_at(&points[i], forces[i]);
         let blur = Vector3::from_fn(|_, _| random.normal()) * 2e-4;
         readings.push(ArrayContact {
