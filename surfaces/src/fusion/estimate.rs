@@ -4,7 +4,7 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix3, Matrix5, Matrix6, Matrix6x5, Vector2, Vector3, Vector6};
 
 use super::ArrayContact;
-use super::prior::{Bond, Prior, State};
+use super::prior::{Prior, State};
 use crate::numeric::vectors::length;
 use crate::{ActiveSurface, BadShape};
 
@@ -16,14 +16,14 @@ use crate::{ActiveSurface, BadShape};
 ///
 /// ```text
 /// min ‖w − Σ W(c_i) F_i‖²_Σ⁻¹ + Σ ‖c_i − ĉ_i‖²_R_i⁻¹ + Σ (N_i − N̂_i)²/σ_i² + Σ |F_t,i|²/(μ N̂_i)²
-/// subject to c_i on the surface, |F_t,i| ≤ μ N_i
+/// subject to c_i on the surface
 /// ```
 ///
 /// where the last sum stands for what friction says before any measurement. Since each contact's
 /// prior is its own, and only the wrench couples them, each step of the Gauss-Newton iteration
-/// solves a system of six equations, however many contacts there are. Where the estimate leaves a
-/// friction cone, it is bound to it (to the cone's tangent plane, which follows it), and set free
-/// again if that lowers the cost: an active-set method, at most 300 steps.
+/// solves a system of six equations, however many contacts there are. It knows no inequality: an
+/// estimate may lie outside its friction cone, by noise or because a contact slides.
+/// [`FusedContact::held`] is the nearest force that friction can hold.
 ///
 /// **What cannot be told**: forces that cancel within the grip of one fingertip ([`Fused::internal_forces`]
 /// of them). The wrench says nothing of these; what is reported there comes from the array and from
@@ -43,16 +43,16 @@ pub struct FusedContact<T: Real> {
     pub normal: Vector3<T>,
     /// Force on the fingertip \[N\].
     pub force: Vector3<T>,
-    /// Covariance of the point \[m²\], of rank 2, and of the force \[N²\], to first order and as if
-    /// no friction cone bound them.
+    /// Covariance of the point \[m²\], of rank 2, to first order.
     pub point_covariance: Matrix3<T>,
     /// Covariance of the force \[N²\].
     pub force_covariance: Matrix3<T>,
     /// How much of the variance of the force the wrench removed: 1, nearly all is known from the
     /// wrench; 0, nothing.
     pub share_from_wrench: T,
-    /// `true` if the friction cone bounds the force.
-    pub sliding: bool,
+    /// The force that friction can hold which is nearest to it: the same, unless it lies outside the
+    /// friction cone \[N\]. Forces changed so no longer add up to the wrench.
+    pub held: Vector3<T>,
 }
 
 /// The estimate.
@@ -114,22 +114,16 @@ impl<T: Real> Fusion<T> {
             return Err(lost);
         }
         let mut search = Search { fusion: self, wrench: wrench.components(), priors, states };
-        let mut bonds = [Bond::Free; K];
-        let (mut calm, disagreement) = search.step(surface, &bonds).ok_or(lost)?;
-        let mut settled = false;
-        for _ in 0..300 {
-            // Bonds change only once the forces have come to rest under the present ones.
-            if calm && !search.rebind(&mut bonds).ok_or(lost)? {
-                settled = true;
+        let (mut settled, disagreement) = search.step(surface).ok_or(lost)?;
+        for _ in 0..60 {
+            if settled {
                 break;
             }
             // Data that contradict each other by far may drive the estimate off the surface.
-            let Some((rested, _)) = search.step(surface, &bonds) else { break };
-            calm = rested;
-            search.follow(&mut bonds).ok_or(lost)?;
+            let Some((rested, _)) = search.step(surface) else { break };
+            settled = rested;
         }
-        search.into_cones(&bonds);
-        let (gain, covariances) = search.factors(&bonds).ok_or(lost)?;
+        let (gain, covariances) = search.factors().ok_or(lost)?;
         let mut contacts = [FusedContact {
             point: Vector3::zeros(),
             normal: Vector3::zeros(),
@@ -137,7 +131,7 @@ impl<T: Real> Fusion<T> {
             point_covariance: Matrix3::zeros(),
             force_covariance: Matrix3::zeros(),
             share_from_wrench: T::zero(),
-            sliding: false,
+            held: Vector3::zeros(),
         }; K];
         for (i, contact) in contacts.iter_mut().enumerate() {
             let (Some(prior), Some(state)) = (search.priors[i], search.states[i]) else { continue };
@@ -145,7 +139,7 @@ impl<T: Real> Fusion<T> {
             let through = jacobian * covariance;
             let posterior: Matrix5<T> = covariance - through.transpose() * gain * through;
             let force_covariance = posterior.fixed_view::<3, 3>(2, 2).into_owned();
-            let before = prior.given(&Bond::Free).0.fixed_view::<3, 3>(2, 2).trace();
+            let before = prior.covariance().fixed_view::<3, 3>(2, 2).trace();
             let [t1, t2] = prior.moved_tangents(&state);
             let shift = posterior.fixed_view::<2, 2>(0, 0);
             *contact = FusedContact {
@@ -159,11 +153,27 @@ impl<T: Real> Fusion<T> {
                 share_from_wrench: (T::one() - force_covariance.trace() / before)
                     .max(T::zero())
                     .min(T::one()),
-                sliding: !matches!(bonds[i], Bond::Free),
+                held: self.project(&state),
             };
         }
         let internal_forces = internal_forces(&contacts);
         Ok(Fused { contacts, disagreement, internal_forces, settled })
+    }
+
+    /// The point of the friction cone at a contact that is nearest to its force (theory 5).
+    fn project(&self, state: &State<T>) -> Vector3<T> {
+        let mu = self.friction;
+        let pressing = -state.force.dot(&state.normal);
+        let tangential = state.force + state.normal * pressing;
+        let magnitude = length(&tangential);
+        if magnitude <= mu * pressing {
+            return state.force;
+        }
+        if mu * magnitude <= -pressing {
+            return Vector3::zeros();
+        }
+        let normal = (mu * magnitude + pressing) / (T::one() + mu * mu);
+        tangential * (mu * normal / magnitude) - state.normal * normal
     }
 }
 
@@ -180,12 +190,12 @@ type Linear<T> = (Matrix5<T>, Matrix6x5<T>);
 impl<T: Real, const K: usize> Search<'_, T, K> {
     /// The inverse covariance of the innovation at the present states, with each contact's
     /// covariance and Jacobian.
-    fn factors(&self, bonds: &[Bond<T>; K]) -> Option<(Matrix6<T>, [Linear<T>; K])> {
+    fn factors(&self) -> Option<(Matrix6<T>, [Linear<T>; K])> {
         let mut linear = [(Matrix5::zeros(), Matrix6x5::zeros()); K];
         let mut total = self.fusion.wrench_covariance;
         for (i, slot) in linear.iter_mut().enumerate() {
             let (prior, state) = (self.priors[i].as_ref()?, self.states[i].as_ref()?);
-            let (covariance, _) = prior.given(&bonds[i]);
+            let covariance = prior.covariance();
             let jacobian = prior.jacobian(state);
             total += jacobian * covariance * jacobian.transpose();
             *slot = (covariance, jacobian);
@@ -195,13 +205,13 @@ impl<T: Real, const K: usize> Search<'_, T, K> {
 
     /// One step of Gauss and Newton; `true` if it changed nothing that matters. Also the square
     /// of the innovation.
-    fn step<S: ActiveSurface<T>>(&mut self, surface: &S, bonds: &[Bond<T>; K]) -> Option<(bool, T)> {
-        let (gain, linear) = self.factors(bonds)?;
+    fn step<S: ActiveSurface<T>>(&mut self, surface: &S) -> Option<(bool, T)> {
+        let (gain, linear) = self.factors()?;
         let mut innovation = self.wrench;
         let mut means = [Vector3::zeros(); K];
         for i in 0..K {
             let (prior, state) = (self.priors[i].as_ref()?, self.states[i].as_ref()?);
-            let (_, mean) = prior.given(&bonds[i]);
+            let mean = prior.force;
             means[i] = mean;
             let torque = state.point.cross(&state.force);
             let (f, m) = (state.force, torque);
@@ -240,113 +250,6 @@ impl<T: Real, const K: usize> Search<'_, T, K> {
             self.states[i] = Some(next);
         }
         Some((calm, innovation.dot(&weighted)))
-    }
-
-    /// Binds forces that have left their cones, frees those that would go back by themselves; `true`
-    /// if that changed anything.
-    fn rebind(&self, bonds: &mut [Bond<T>; K]) -> Option<bool> {
-        let mut rest = self.wrench;
-        for state in &self.states {
-            let state = state.as_ref()?;
-            let (f, m) = (state.force, state.point.cross(&state.force));
-            rest -= Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z);
-        }
-        let weighted = self.fusion.wrench_covariance.cholesky()?.solve(&rest);
-        let (by_force, by_torque) =
-            (weighted.fixed_rows::<3>(0).into_owned(), weighted.fixed_rows::<3>(3).into_owned());
-        let mut changed = false;
-        for (i, bond) in bonds.iter_mut().enumerate() {
-            let (prior, state) = (self.priors[i].as_ref()?, self.states[i].as_ref()?);
-            match bond {
-                Bond::Free => {
-                    let off = (self.project(state, &state.force) - state.force).amax();
-                    if off > T::EPSILON.root() * T::literal(1e-2) * state.force.amax() {
-                        *bond = self.bond(state);
-                        changed = true;
-                    }
-                }
-                Bond::Sliding { a, .. } => {
-                    // Half the gradient of the cost by this force; it must point into the cone.
-                    let pull = prior.pull(&state.force);
-                    let push = by_force + by_torque.cross(&state.point);
-                    let gradient = pull - push;
-                    if gradient.dot(a) > T::EPSILON.root() * (pull.norm() + push.norm()) * a.norm() {
-                        *bond = Bond::Free;
-                        changed = true;
-                    }
-                }
-                Bond::Lifted => {}
-            }
-        }
-        Some(changed)
-    }
-
-    /// Turns the bonds of sliding contacts to where their forces have moved.
-    fn follow(&self, bonds: &mut [Bond<T>; K]) -> Option<()> {
-        for (bond, state) in bonds.iter_mut().zip(&self.states) {
-            let Bond::Sliding { a: before, weight, turn: turned } = *bond else { continue };
-            let state = state.as_ref()?;
-            *bond = self.bond(state);
-            if let Bond::Sliding { a, weight: next, turn } = bond {
-                // Part of the way: where the wrench pulls a force far out of its cone, the whole way
-                // would overshoot, since the tangent plane does not bend as the cone does. Less
-                // after each overshoot, more otherwise.
-                *turn = before.cross(a).dot(&state.normal);
-                let factor = if *turn * turned < T::zero() { T::literal(0.5) } else { T::literal(1.25) };
-                *next = (weight * factor).min(T::one());
-                let across = |v: &Vector3<T>| v - state.normal * v.dot(&state.normal);
-                let mixed = across(&before) * (T::one() - *next) + across(a) * *next;
-                let size = length(&mixed);
-                if size > T::zero() {
-                    *a = mixed / size + state.normal * self.fusion.friction;
-                }
-            }
-        }
-        Some(())
-    }
-
-    /// The bond of a force that is outside its cone or on it.
-    fn bond(&self, state: &State<T>) -> Bond<T> {
-        let mu = self.fusion.friction;
-        let pressing = -state.force.dot(&state.normal);
-        let tangential = state.force + state.normal * pressing;
-        let magnitude = length(&tangential);
-        if mu * magnitude <= -pressing || !(magnitude > T::zero()) {
-            return Bond::Lifted;
-        }
-        // |F_t| − μ N ≤ 0.
-        Bond::Sliding {
-            a: tangential / magnitude + state.normal * mu,
-            weight: T::literal(0.5),
-            turn: T::zero(),
-        }
-    }
-
-    /// Takes what is left outside the cones by rounding.
-    fn into_cones(&mut self, bonds: &[Bond<T>; K]) {
-        for i in 0..K {
-            let Some(state) = self.states[i] else { continue };
-            if !matches!(bonds[i], Bond::Free) {
-                let force = self.project(&state, &state.force);
-                self.states[i] = Some(State { force, ..state });
-            }
-        }
-    }
-
-    /// The point of the friction cone at a contact that is nearest to a force (theory 5).
-    fn project(&self, state: &State<T>, force: &Vector3<T>) -> Vector3<T> {
-        let mu = self.fusion.friction;
-        let pressing = -force.dot(&state.normal);
-        let tangential = force + state.normal * pressing;
-        let magnitude = length(&tangential);
-        if magnitude <= mu * pressing {
-            return *force;
-        }
-        if mu * magnitude <= -pressing {
-            return Vector3::zeros();
-        }
-        let normal = (mu * magnitude + pressing) / (T::one() + mu * mu);
-        tangential * (mu * normal / magnitude) - state.normal * normal
     }
 }
 

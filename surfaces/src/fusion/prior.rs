@@ -52,24 +52,6 @@ pub(super) struct State<T: Real> {
     pub(super) normal: Vector3<T>,
 }
 
-/// How a friction cone bounds a force.
-#[derive(Clone, Copy)]
-pub(super) enum Bond<T: Real> {
-    /// Not at all: it is inside.
-    Free,
-    /// It lies on the cone, which has this outward normal there (of any length): `a·F = 0`.
-    Sliding {
-        /// The normal.
-        a: Vector3<T>,
-        /// How much of the way it is turned in a step.
-        weight: T,
-        /// Which way it was turned last.
-        turn: T,
-    },
-    /// It is zero.
-    Lifted,
-}
-
 impl<T: Real> Prior<T> {
     pub(super) fn new<S: ActiveSurface<T>>(
         surface: &S,
@@ -110,38 +92,14 @@ impl<T: Real> Prior<T> {
         (normal.dot(&self.normal) > T::zero()).then_some(State { shift, force, point, normal })
     }
 
-    /// Covariance of shift and force, and the mean force, given what friction says.
-    pub(super) fn given(&self, bond: &Bond<T>) -> (Matrix5<T>, Vector3<T>) {
-        let (covariance, mean) = match bond {
-            Bond::Free => (self.force_covariance(), self.force),
-            Bond::Lifted => (Matrix3::zeros(), Vector3::zeros()),
-            Bond::Sliding { a, .. } => {
-                // Conditioned on a·F = 0.
-                let covariance = self.force_covariance();
-                let along = covariance * a;
-                let variance = a.dot(&along);
-                (
-                    covariance - along * along.transpose() / variance,
-                    self.force - along * (a.dot(&self.force) / variance),
-                )
-            }
-        };
+    /// Covariance of shift and force.
+    pub(super) fn covariance(&self) -> Matrix5<T> {
+        let along = self.normal * self.normal.transpose();
+        let force = along * self.normal_variance + (Matrix3::identity() - along) * self.tangential_variance;
         let mut whole = Matrix5::zeros();
         whole.fixed_view_mut::<2, 2>(0, 0).copy_from(&self.shift_covariance);
-        whole.fixed_view_mut::<3, 3>(2, 2).copy_from(&covariance);
-        (whole, mean)
-    }
-
-    fn force_covariance(&self) -> Matrix3<T> {
-        let along = self.normal * self.normal.transpose();
-        along * self.normal_variance + (Matrix3::identity() - along) * self.tangential_variance
-    }
-
-    /// Half the gradient by the force of what the prior adds to the cost.
-    pub(super) fn pull(&self, force: &Vector3<T>) -> Vector3<T> {
-        let off = force - self.force;
-        let along = self.normal * off.dot(&self.normal);
-        along / self.normal_variance + (off - along) / self.tangential_variance
+        whole.fixed_view_mut::<3, 3>(2, 2).copy_from(&force);
+        whole
     }
 
     /// Derivatives of the contact's wrench by shift and force.

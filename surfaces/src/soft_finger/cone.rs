@@ -46,10 +46,10 @@ pub(super) fn on_cone<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Option<Sof
         let height = state.place.point.dot(&axis);
         (state.converged && problem.presses(&state) && height > T::zero()).then(|| problem.contact(&state))
     };
-    if c.z > T::zero() {
-        if let Some(contact) = finish(closed) {
-            return Some(contact);
-        }
+    if c.z > T::zero()
+        && let Some(contact) = finish(closed)
+    {
+        return Some(contact);
     }
     let mut found = None;
     if let Ok(line) = wrench.line_of_action() {

@@ -21,10 +21,11 @@ impl<T: Real, S: SmoothSurface<T>> Problem<'_, T, S> {
     /// holds from an entry to an entry.
     pub(super) fn on_convex(&self, start: Place<T>) -> Option<State<T>> {
         let spin = self.spin_at(&start)?;
-        if let Some(state) = self.newton(start, spin, &self.torque, 24) {
-            if state.converged && self.presses(&state) {
-                return Some(state);
-            }
+        if let Some(state) = self.newton(start, spin, &self.torque, 24)
+            && state.converged
+            && self.presses(&state)
+        {
+            return Some(state);
         }
         self.follow(start, spin)
     }

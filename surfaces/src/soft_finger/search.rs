@@ -83,14 +83,13 @@ fn starts_on_convex<T: Real, S: SmoothSurface<T>>(
     last: Option<&Vector3<T>>,
 ) -> Found<T> {
     // The last contact is usually a few steps away.
-    if let Some(place) = last.and_then(|last| problem.place(problem.inward(last))) {
-        if let Some(spin) = problem.spin_at(&place) {
-            if let Some(state) = problem.newton(place, spin, &problem.torque, 12) {
-                if state.converged && problem.presses(&state) {
-                    return Found::Contact(state);
-                }
-            }
-        }
+    if let Some(place) = last.and_then(|last| problem.place(problem.inward(last)))
+        && let Some(spin) = problem.spin_at(&place)
+        && let Some(state) = problem.newton(place, spin, &problem.torque, 12)
+        && state.converged
+        && problem.presses(&state)
+    {
+        return Found::Contact(state);
     }
     let entry = line_entries(problem, surface, wrench).into_iter().flatten().next();
     if problem.power.is_zero() && entry.is_none() {
@@ -100,10 +99,8 @@ fn starts_on_convex<T: Real, S: SmoothSurface<T>>(
     // rules, the normal points along the torque, which the ball around the surface knows.
     let squared = problem.force.norm_squared();
     let entry_first = entry.is_some() && problem.power.abs() < squared;
-    if entry_first {
-        if let Some(state) = entry.and_then(|place| problem.on_convex(place)) {
-            return Found::Contact(state);
-        }
+    if entry_first && let Some(state) = entry.and_then(|place| problem.on_convex(place)) {
+        return Found::Contact(state);
     }
     let direction = direction_on_ball(&problem.force, &problem.torque);
     let centre = surface.extent().centre;
@@ -199,10 +196,11 @@ impl<T: Real> Solutions<T> {
         // Two guesses of the spin torque: one from the force, one from the torque.
         let direct = (problem.torque - place.point.cross(&problem.force)).dot(&place.normal);
         for guess in [spin, direct] {
-            if let Some(state) = problem.newton(place, guess, &problem.torque, 24) {
-                if state.converged && problem.presses(&state) {
-                    self.keep(state);
-                }
+            if let Some(state) = problem.newton(place, guess, &problem.torque, 24)
+                && state.converged
+                && problem.presses(&state)
+            {
+                self.keep(state);
             }
         }
     }

@@ -86,7 +86,8 @@ impl<T: Real> ConvexBound<T> {
         reach: T,
     ) -> Option<Self> {
         let axis = wrench.line_of_action().ok()?;
-        if !is_valid(errors) || !(errors.force < axis.force) || !(reach >= T::zero() && reach.is_number()) {
+        let good = is_valid(errors) && errors.force < axis.force;
+        if !good || !reach.is_number() || reach < T::zero() {
             return None;
         }
         let shape = errors.radius + errors.centre;
