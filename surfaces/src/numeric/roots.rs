@@ -109,7 +109,7 @@ pub(crate) fn all_of_lipschitz<T: Real>(
 ) {
     let half = T::literal(0.5);
     // Not so fine that rounding of a slowly changing value looks like a change of sign.
-    let finest = (high - low) * T::literal(0.5_f64.powi(20)).max(T::EPSILON * T::literal(256.0));
+    let finest = (high - low) * T::literal(1.0 / 1_048_576.0).max(T::EPSILON * T::literal(256.0));
     // What rounding may add to a value.
     let noise = steepest * (high - low) * T::EPSILON * T::literal(64.0);
     let mut budget = 6000_usize;

@@ -174,7 +174,7 @@ fn pitch_test_has_the_rate_it_claims_and_finds_spin() {
     let rates = exceeded.map(|n| f64::from(n as u32) / f64::from(count));
     println!("pitch test: {rates:?} at 5, 1, 0.1 %; spin of 2 mN·m found in {softened} of {count}");
     for (rate, expected) in rates.iter().zip([0.05, 0.01, 0.001]) {
-        let allowed = 5.0 * (expected / f64::from(count) as f64).sqrt();
+        let allowed = 5.0 * (expected / f64::from(count)).sqrt();
         assert!((rate - expected).abs() < allowed, "{rate} {expected}");
     }
     assert!(softened == count as usize);
