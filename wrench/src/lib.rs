@@ -16,6 +16,8 @@ mod contact_force;
 mod contact_frame;
 mod covariance;
 mod decoupled;
+#[cfg(feature = "num-dual")]
+mod dual;
 mod dummy_gauge;
 mod equilibration;
 mod error_bound;

@@ -93,6 +93,33 @@ pub enum NoContact<T: Real> {
         /// Where it presses \[m\].
         point: Vector3<T>,
     },
+    /// There is a torque but no force: a contact that presses always has one.
+    #[error("a couple of {torque} N·m without a force is no contact")]
+    PureCouple {
+        /// Magnitude of the torque \[N·m\].
+        torque: T,
+    },
+    /// A pure force whose line misses the surface could, with a spin torque, only graze it: at
+    /// either of two points, with opposite spin torques.
+    #[error("two grazing contacts explain the wrench, with opposite spin torques")]
+    Ambiguous {
+        /// One of the points \[m\].
+        first: Vector3<T>,
+        /// The other \[m\].
+        second: Vector3<T>,
+    },
+    /// The search for a contact ended at its bound without an answer that it could vouch for.
+    #[error("no contact was found within the bound of the search")]
+    Unresolved,
+    /// No single contact of the stated friction gives such a wrench: there are several contacts,
+    /// or something else bears load.
+    #[error("no single contact gives the pitch {pitch} m, which is {excess} standard deviations too large")]
+    NotOneContact {
+        /// Pitch of the wrench `f·m/|f|²` \[m\].
+        pitch: T,
+        /// By how many standard deviations its magnitude exceeds what one contact can give.
+        excess: T,
+    },
 }
 
 /// Contact, or the reason why there is none.

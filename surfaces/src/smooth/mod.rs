@@ -1,0 +1,12 @@
+//! Curvature: what surfaces know beyond crossings and normals.
+
+mod distances;
+mod gauges;
+mod implicit;
+mod parameters;
+mod smooth_surface;
+
+pub use implicit::SmoothImplicit;
+pub use smooth_surface::{
+    Extent, Level, SmoothSurface, Topology, hessian_by_differences, shape_operator_by_differences,
+};

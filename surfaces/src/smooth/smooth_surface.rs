@@ -1,0 +1,152 @@
+//! Surfaces that know their curvature.
+
+use fingertip_wrench::Real;
+use nalgebra::{Matrix3, Vector3};
+
+use crate::ActiveSurface;
+
+/// A function that vanishes on a surface and grows outward, with its derivatives at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Level<T: Real> {
+    /// The value, in any unit; best if it grows about linearly across the surface, as a distance
+    /// or a gauge does.
+    pub value: T,
+    /// Its gradient.
+    pub gradient: Vector3<T>,
+    /// Its Hessian, symmetric.
+    pub hessian: Matrix3<T>,
+}
+
+impl<T: Real> Level<T> {
+    /// The outward unit normal and the length of the gradient; `None` where the gradient vanishes
+    /// or is not finite.
+    #[inline]
+    #[must_use]
+    pub fn normal(&self) -> Option<(Vector3<T>, T)> {
+        let scale = self.gradient.amax().normalising_factor();
+        let scaled = self.gradient * scale;
+        let length = scaled.norm_squared().root();
+        (length > T::zero() && length.is_number()).then(|| (scaled / length, length / scale))
+    }
+
+    /// The shape operator `W = (I − nnᵀ) H (I − nnᵀ)/|g|` \[1/m\]: the normal changes by `W dc` as
+    /// the point moves by `dc` on the surface. Its eigenvalues are zero, along the normal, and the
+    /// principal curvatures, positive where the surface is convex. Zero where the gradient
+    /// vanishes.
+    #[must_use]
+    pub fn shape_operator(&self) -> Matrix3<T> {
+        self.normal().map_or_else(Matrix3::zeros, |(normal, steepness)| {
+            let flat = Matrix3::identity() - normal * normal.transpose();
+            flat * self.hessian * flat / steepness
+        })
+    }
+}
+
+/// What is known of a surface as a whole: it tells how many contacts there can be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Topology {
+    /// The boundary of a convex body: at most one contact presses.
+    Convex,
+    /// Closed and not convex, with this Euler characteristic (2 for a dented ball, 0 for a ring).
+    Closed {
+        /// Vertices − edges + faces of any mesh of it.
+        euler_characteristic: i8,
+    },
+    /// Nothing is known.
+    Unknown,
+}
+
+/// A ball around the part of a surface that matters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent<T: Real> {
+    /// Centre of the ball \[m\].
+    pub centre: Vector3<T>,
+    /// Its radius \[m\].
+    pub radius: T,
+}
+
+/// A surface with a level function that is twice differentiable (almost) everywhere.
+///
+/// # For users
+/// What soft-finger contacts, curvature-dependent stiffness and the covariance of a contact are
+/// computed from.
+///
+/// # For implementers
+/// [`level`](Self::level) shall be finite in the extent. Where second derivatives are hard to
+/// come by, [`hessian_by_differences`] takes them from the gradient: contacts lose no accuracy by
+/// it, only time.
+pub trait SmoothSurface<T: Real>: ActiveSurface<T> {
+    /// The level function and its derivatives at a point near the surface.
+    fn level(&self, point: &Vector3<T>) -> Level<T>;
+
+    /// Where the surface is. For an unbounded surface, a ball around the part in use.
+    fn extent(&self) -> Extent<T>;
+
+    /// What is known of the surface as a whole.
+    fn topology(&self) -> Topology {
+        Topology::Unknown
+    }
+
+    /// The shape operator at a point of the surface, [`Level::shape_operator`].
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        self.level(point).shape_operator()
+    }
+}
+
+impl<T: Real, S: SmoothSurface<T>> SmoothSurface<T> for &S {
+    #[inline]
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        (**self).level(point)
+    }
+
+    #[inline]
+    fn extent(&self) -> Extent<T> {
+        (**self).extent()
+    }
+
+    #[inline]
+    fn topology(&self) -> Topology {
+        (**self).topology()
+    }
+
+    #[inline]
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        (**self).shape_operator(point)
+    }
+}
+
+/// The Hessian from central differences of the gradient over `step` \[m\] (best near `ε^(1/3)` of
+/// the size of the surface), made symmetric.
+pub fn hessian_by_differences<T: Real>(
+    point: &Vector3<T>,
+    step: T,
+    gradient: impl Fn(&Vector3<T>) -> Vector3<T>,
+) -> Matrix3<T> {
+    let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let columns = axes.map(|axis| {
+        let (ahead, behind) = (point + axis * step, point - axis * step);
+        (gradient(&ahead) - gradient(&behind)) / (step + step)
+    });
+    let hessian = Matrix3::from_columns(&columns);
+    (hessian + hessian.transpose()) * T::literal(0.5)
+}
+
+/// The shape operator \[1/m\] of any surface at one of its points, from central differences of
+/// [`ActiveSurface::normal`] over `step` \[m\] along the tangent plane. Exact to `(step·curvature)²`
+/// where the normal is smooth over the step; a surface of flat facets answers with the curvature
+/// averaged over the step.
+pub fn shape_operator_by_differences<T: Real, S: ActiveSurface<T>>(
+    surface: &S,
+    point: &Vector3<T>,
+    step: T,
+) -> Matrix3<T> {
+    let normal = surface.normal(point);
+    let slope = hessian_by_differences(point, step, |p| {
+        let offset = p - point;
+        surface.normal(&(point + offset - normal * offset.dot(&normal)))
+    });
+    let flat = Matrix3::identity() - normal * normal.transpose();
+    let operator = flat * slope * flat;
+    if operator.iter().all(|x| x.is_number()) { operator } else { Matrix3::zeros() }
+}

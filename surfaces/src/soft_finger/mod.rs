@@ -1,0 +1,18 @@
+//! Contact with a spin torque about the normal: the soft finger.
+
+mod combinators;
+mod cone;
+mod convex;
+mod cylinder;
+mod ellipsoid;
+mod model;
+pub(crate) mod newton;
+mod plane;
+mod search;
+mod shapes;
+mod solution;
+mod unit_sphere;
+
+pub use model::SoftFinger;
+pub use search::newton_soft_contacts;
+pub use solution::{Search, SoftContact, SoftFingerSurface};

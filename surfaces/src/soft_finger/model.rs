@@ -1,0 +1,150 @@
+//! The soft finger as a contact model.
+
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+
+use crate::{BadShape, Contact, ContactModel, NoContact, Resolution, Search, SoftContact, SoftFingerSurface};
+
+/// A contact that transmits a force and a torque about the normal: `m = c × f + τ n`, `c` on the
+/// surface, `f·n < 0` (Bicchi, Salisbury & Brock 1990, 1993).
+///
+/// The point is the contact centroid: for a patch on a plane, or one that is small against the
+/// radius of curvature, the centre of pressure, whatever the friction (on a sphere, up to
+/// 0.06 a²/R for a patch of radius `a` at a friction coefficient of 0.5; theory 3.6).
+///
+/// On a convex surface there is at most one such point; a shape that is not convex may have
+/// several, and [`Contact::alternatives`] counts the others. Then the one nearest to the last
+/// contact is taken if one is given, otherwise the one where the force presses most squarely.
+///
+/// Against [`PointContact`](crate::PointContact): it is right where there is a spin torque, and
+/// noisier where there is none, since it takes every torque along the force for spin (theory 3.4;
+/// the factor is the tangent of the angle between force and normal). [`Auto`](crate::Auto)
+/// chooses.
+///
+/// What is no contact is said by type: [`NoContact::PureCouple`] where there is a torque but no
+/// force, [`NoContact::Ambiguous`] where a pure force could only graze the surface at two points,
+/// [`NoContact::Unresolved`] where the search of a shape without closed form ended at its bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SoftFinger<T: Real> {
+    least_force: T,
+}
+
+impl<T: Real> SoftFinger<T> {
+    /// Forces below `least_force` \[N\] are no contact. Take it from the noise of the sensor: three
+    /// to five standard deviations of the force at rest. Zero accepts every force but zero.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the threshold is finite and not negative.
+    pub fn new(least_force: T) -> Result<Self, BadShape> {
+        let good = least_force >= T::zero() && least_force.is_number();
+        BadShape::check("soft finger", "least force", "finite and not negative", good)
+            .map(|()| Self { least_force })
+    }
+
+    /// The least force that counts as a contact \[N\].
+    #[inline]
+    #[must_use]
+    pub const fn least_force(&self) -> T {
+        self.least_force
+    }
+}
+
+/// Magnitude without over- or underflow, and the factor that brings the vector near 1.
+#[inline]
+pub(crate) fn magnitude<T: Real>(v: &Vector3<T>) -> (T, T) {
+    let scale = v.amax().normalising_factor();
+    ((v * scale).norm_squared().root() / scale, scale)
+}
+
+/// What has been seen of the solutions so far.
+struct Seen<T: Real> {
+    best: Option<(SoftContact<T>, T)>,
+    candidates: u8,
+    outside: Option<Vector3<T>>,
+    beyond_range: bool,
+}
+
+impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
+    #[inline]
+    fn resolve_near(&self, wrench: &Wrench<T>, surface: &S, last: Option<&Vector3<T>>) -> Resolution<T> {
+        let (force, scale) = magnitude(&wrench.force());
+        // One test instead of six: a NaN or an infinity survives the sum.
+        let witness = force + wrench.torque().sum();
+        if !witness.is_number() && !wrench.is_finite() {
+            return Resolution::NoContact(NoContact::NotFinite);
+        }
+        if !(force >= self.least_force) || !(force > T::zero()) {
+            let (torque, _) = magnitude(&wrench.torque());
+            return Resolution::NoContact(if force > T::zero() || torque.is_zero() {
+                NoContact::BelowThreshold { force }
+            } else {
+                NoContact::PureCouple { torque }
+            });
+        }
+        let direction = wrench.force() * scale;
+        // Bring the larger of force and torque near 1, so that lever arms cannot overflow.
+        let unit = wrench.force().amax().max(wrench.torque().amax()).normalising_factor();
+        let mut seen = Seen { best: None, candidates: 0, outside: None, beyond_range: false };
+        let search = surface.soft_contacts(&(*wrench * unit), last, |contact| {
+            if !(contact.point.sum() + contact.normal.sum() + contact.spin_torque).is_number() {
+                seen.beyond_range = true;
+                return;
+            }
+            if !contact.active {
+                seen.outside = Some(contact.point);
+                return;
+            }
+            seen.candidates = seen.candidates.saturating_add(1);
+            let incidence = -direction.dot(&contact.normal);
+            let better = match (&seen.best, last) {
+                (None, _) => true,
+                (Some((best, _)), Some(last)) => {
+                    (contact.point - last).norm_squared() < (best.point - last).norm_squared()
+                }
+                (Some((_, best)), None) => incidence > *best,
+            };
+            if better {
+                seen.best = Some((contact, incidence));
+            }
+        });
+        if let Some((contact, incidence)) = seen.best {
+            let incidence = incidence / (force * scale);
+            return Resolution::Contact(Contact {
+                point: contact.point,
+                normal: contact.normal,
+                force: wrench.force(),
+                spin_torque: (contact.spin_torque / unit).max(-T::GREATEST).min(T::GREATEST),
+                incidence: incidence.max(T::zero()).min(T::one()),
+                gap: T::zero(),
+                alternatives: seen.candidates - 1,
+            });
+        }
+        if seen.beyond_range {
+            return Resolution::NoContact(NoContact::NotFinite);
+        }
+        Resolution::NoContact(match (search, seen.outside) {
+            (_, Some(point)) => NoContact::OutsideActiveRegion { point },
+            (Search::Grazing([first, second]), _) => NoContact::Ambiguous { first, second },
+            (Search::Incomplete, _) => NoContact::Unresolved,
+            (Search::Complete, _) => why_none(wrench, surface),
+        })
+    }
+}
+
+/// The line of action misses, or meets the surface where it pulls.
+#[cold]
+fn why_none<T: Real, S: SoftFingerSurface<T>>(wrench: &Wrench<T>, surface: &S) -> NoContact<T> {
+    let Ok(axis) = wrench.line_of_action() else { return NoContact::NotFinite };
+    let mut pulling = None;
+    surface.crossings(&axis.line, |crossing| {
+        if axis.line.direction.dot(&crossing.normal) >= T::zero() {
+            pulling = Some(crossing.point);
+        }
+    });
+    if let Some(point) = pulling {
+        return NoContact::OnlyPulling { point };
+    }
+    let approach = surface.closest_approach(&axis.line);
+    NoContact::Misses { gap: approach.gap, closest: approach.point, normal: approach.normal }
+}

@@ -1,0 +1,229 @@
+//! Newton's method for the soft-finger equations on a smooth surface.
+
+use fingertip_wrench::Real;
+use nalgebra::Vector3;
+
+use crate::{Extent, SmoothSurface, SoftContact};
+
+/// The soft-finger problem in the units of the surface: lengths from the centre of its extent, in
+/// its radius; force and torque such that the larger is near 1.
+pub(super) struct Problem<'a, T: Real, S> {
+    surface: &'a S,
+    centre: Vector3<T>,
+    length: T,
+    wrench_unit: T,
+    pub(super) force: Vector3<T>,
+    pub(super) torque: Vector3<T>,
+    /// `f·m`, which every solution shares.
+    pub(super) power: T,
+}
+
+/// The surface at a point, in the units of the problem.
+#[derive(Clone, Copy)]
+pub(super) struct Place<T: Real> {
+    pub(super) point: Vector3<T>,
+    pub(super) normal: Vector3<T>,
+    /// Distance from the surface, to first order.
+    height: T,
+    /// Two unit vectors that span the tangent plane, `first × second = normal`.
+    first: Vector3<T>,
+    second: Vector3<T>,
+    /// `H first/|g|`, `H second/|g|`.
+    bend_first: Vector3<T>,
+    bend_second: Vector3<T>,
+}
+
+/// An approximate solution.
+#[derive(Clone, Copy)]
+pub(super) struct State<T: Real> {
+    pub(super) place: Place<T>,
+    pub(super) spin: T,
+    residual: Vector3<T>,
+    merit: T,
+    pub(super) converged: bool,
+}
+
+/// Two unit vectors that span the plane across `normal`, right-handed with it (Duff et al. 2017).
+#[inline]
+pub(crate) fn tangents<T: Real>(normal: &Vector3<T>) -> (Vector3<T>, Vector3<T>) {
+    let sign = if normal.z >= T::zero() { T::one() } else { -T::one() };
+    let a = -T::one() / (sign + normal.z);
+    let b = normal.x * normal.y * a;
+    (
+        Vector3::new(T::one() + sign * normal.x * normal.x * a, sign * b, -sign * normal.x),
+        Vector3::new(b, sign + normal.y * normal.y * a, -normal.y),
+    )
+}
+
+impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
+    /// For a finite wrench whose force is not zero.
+    pub(super) fn new(surface: &'a S, force: &Vector3<T>, torque: &Vector3<T>) -> Self {
+        let extent = surface.extent();
+        Self::with_extent(surface, &extent, force, &(torque - extent.centre.cross(force)))
+    }
+
+    /// With units from a given extent, and the torque about its centre.
+    pub(super) fn with_extent(
+        surface: &'a S,
+        extent: &Extent<T>,
+        force: &Vector3<T>,
+        torque: &Vector3<T>,
+    ) -> Self {
+        let unit = extent.radius.normalising_factor();
+        let lever = torque * unit;
+        let wrench_unit = force.amax().max(lever.amax()).normalising_factor();
+        let (force, torque) = (force * wrench_unit, lever * wrench_unit);
+        let power = force.dot(&torque);
+        Self { surface, centre: extent.centre, length: T::one() / unit, wrench_unit, force, torque, power }
+    }
+
+    /// From the sensor frame.
+    pub(super) fn inward(&self, point: &Vector3<T>) -> Vector3<T> {
+        (point - self.centre) / self.length
+    }
+
+    /// To the sensor frame.
+    pub(super) fn outward(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.centre + point * self.length
+    }
+
+    pub(super) fn contact(&self, state: &State<T>) -> SoftContact<T> {
+        SoftContact {
+            point: self.outward(&state.place.point),
+            normal: state.place.normal,
+            spin_torque: state.spin * self.length / self.wrench_unit,
+            active: true,
+        }
+    }
+
+    #[inline]
+    pub(super) fn place(&self, point: Vector3<T>) -> Option<Place<T>> {
+        let level = self.surface.level(&self.outward(&point));
+        let (normal, steepness) = level.normal()?;
+        let (first, second) = tangents(&normal);
+        let bend = self.length / steepness;
+        let place = Place {
+            point,
+            normal,
+            height: level.value / (steepness * self.length),
+            first,
+            second,
+            bend_first: level.hessian * first * bend,
+            bend_second: level.hessian * second * bend,
+        };
+        (place.height + place.bend_first.sum() + place.bend_second.sum()).is_number().then_some(place)
+    }
+
+    /// `det J` of theory 3.4, in these units and without its negative factor: `τ²κ + (f·n)²`. Its
+    /// sign is the index of the solution; zero is a fold, where two solutions merge.
+    pub(super) fn determinant(&self, state: &State<T>) -> T {
+        let (place, pressing) = (&state.place, self.force.dot(&state.place.normal));
+        let (w11, w22) = (place.first.dot(&place.bend_first), place.second.dot(&place.bend_second));
+        let w12 = place.first.dot(&place.bend_second);
+        state.spin * state.spin * (w11 * w22 - w12 * w12) + pressing * pressing
+    }
+
+    #[inline]
+    pub(super) fn state(&self, place: Place<T>, spin: T, torque: &Vector3<T>) -> State<T> {
+        let residual = place.normal * spin + place.point.cross(&self.force) - torque;
+        let merit = residual.norm_squared() + place.height * place.height;
+        State { place, spin, residual, merit, converged: false }
+    }
+
+    /// The Newton step in point and spin torque.
+    ///
+    /// The four equations `τ n + c × f = m`, `S(c) = 0` of Bicchi, Salisbury & Brock, taken apart
+    /// along the normal and the tangent plane: `n·dc = −S/|g|`, then two equations in the plane
+    /// with the matrix `τ W + (f·n) J₂`, then `dτ` from the normal one. The determinant is that of
+    /// theory 3.4. Second derivatives enter as `dn = (I − nnᵀ) H dc/|g|`.
+    #[inline]
+    fn step(&self, state: &State<T>) -> Option<(Vector3<T>, T)> {
+        let place = &state.place;
+        let (e1, e2, n) = (place.first, place.second, place.normal);
+        let (tau, f) = (state.spin, &self.force);
+        let drop = -place.height;
+        // H is symmetric: e·H n = n·H e.
+        let bend_normal = (place.bend_first.dot(&n), place.bend_second.dot(&n));
+        let turned = n.cross(f) * drop + state.residual;
+        let r1 = -(e1.dot(&turned) + tau * bend_normal.0 * drop);
+        let r2 = -(e2.dot(&turned) + tau * bend_normal.1 * drop);
+        let pressing = f.dot(&n);
+        let (w11, w22) = (tau * e1.dot(&place.bend_first), tau * e2.dot(&place.bend_second));
+        let w12 = tau * e1.dot(&place.bend_second);
+        let determinant = w11 * w22 - w12 * w12 + pressing * pressing;
+        let a1 = (w22 * r1 - (w12 + pressing) * r2) / determinant;
+        let a2 = (w11 * r2 - (w12 - pressing) * r1) / determinant;
+        let shift = e1 * a1 + e2 * a2 + n * drop;
+        let twist = -n.dot(&(state.residual + shift.cross(f)));
+        (shift.sum() + twist).is_number().then_some((shift, twist))
+    }
+
+    /// Damped Newton from a start, for the torque `torque` instead of the problem's own; at most
+    /// `bound` steps. Each step is halved until the residual falls.
+    pub(super) fn newton(
+        &self,
+        start: Place<T>,
+        spin: T,
+        torque: &Vector3<T>,
+        bound: u32,
+    ) -> Option<State<T>> {
+        let half = T::literal(0.5);
+        let fine = T::EPSILON.root();
+        let mut state = self.state(start, spin, torque);
+        let mut before = T::GREATEST;
+        for _ in 0..bound {
+            let (mut shift, mut twist) = self.step(&state)?;
+            let mut size = shift.amax();
+            if size > half {
+                let shorter = half / size;
+                shift *= shorter;
+                twist *= shorter;
+                size = half;
+            }
+            let small = size <= fine;
+            let last = size <= fine * T::literal(0.01) || (small && size + size >= before);
+            before = size;
+            let mut tries = 6;
+            state = loop {
+                let next = self
+                    .place(state.place.point + shift)
+                    .map(|place| self.state(place, state.spin + twist, torque));
+                match next {
+                    Some(next) if small || next.merit < state.merit => break next,
+                    _ if tries == 0 => return None,
+                    _ => {
+                        tries -= 1;
+                        shift *= half;
+                        twist *= half;
+                    }
+                }
+            };
+            if last {
+                state.converged = true;
+                return Some(state);
+            }
+        }
+        Some(state)
+    }
+
+    /// The spin torque that the force's component along the wrench asks for at a place,
+    /// `f·m/f·n`, if it presses there.
+    #[inline]
+    pub(super) fn spin_at(&self, place: &Place<T>) -> Option<T> {
+        let pressing = -self.force.dot(&place.normal);
+        let spin = -self.power / pressing;
+        (pressing > T::zero() && spin.is_number()).then_some(spin)
+    }
+
+    /// `true` if the force presses there, by more than rounding can turn round.
+    #[inline]
+    pub(super) fn presses(&self, state: &State<T>) -> bool {
+        // Along the solution f·m = τ f·n holds exactly: the sign of τ tells as well as f·n does,
+        // and better where the force grazes.
+        if self.power.abs() > T::EPSILON * T::literal(16.0) * self.force.amax() {
+            (state.spin > T::zero()) != (self.power > T::zero())
+        } else {
+            self.force.dot(&state.place.normal) < T::zero()
+        }
+    }
+}

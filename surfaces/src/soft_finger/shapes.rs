@@ -1,0 +1,261 @@
+//! The shapes with closed forms.
+
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+
+use super::cone::on_cone;
+use super::cylinder::on_cylinder;
+use super::ellipsoid::{on_ellipsoid, on_sphere};
+use super::newton::tangents;
+use super::plane::on_plane;
+use crate::{
+    ActiveSurface, Capsule, Cone, Cylinder, CylinderEnds, Disk, Ellipsoid, EllipticCylinder, Implicit,
+    Paraboloid, Plane, Rectangle, RoundedBox, Search, SmoothImplicit, SoftContact, SoftFingerSurface, Sphere,
+    SphericalCap, Superquadric, Torus, newton_soft_contacts,
+};
+use fingertip_wrench::Line;
+
+/// Whether a point of the surface belongs to its active part: as the crossing of the normal there
+/// says.
+pub(super) fn is_active<T: Real, S: ActiveSurface<T>>(surface: &S, contact: &SoftContact<T>) -> bool {
+    let mut nearest = T::GREATEST;
+    let mut active = false;
+    let line = Line { point: contact.point, direction: -contact.normal };
+    surface.crossings(&line, |crossing| {
+        let distance = crossing.along.abs();
+        if distance < nearest {
+            nearest = distance;
+            active = crossing.active;
+        }
+    });
+    active
+}
+
+impl<T: Real> SoftFingerSurface<T> for Sphere<T> {
+    #[inline]
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        _last: Option<&Vector3<T>>,
+        mut visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        let centre = self.centre();
+        let torque = wrench.torque_about(&centre);
+        let search =
+            on_sphere(self.radius(), T::one() / self.radius(), &wrench.force(), &torque, |contact| {
+                visit(SoftContact { point: contact.point + centre, ..contact });
+            });
+        match search {
+            Search::Grazing(pair) => Search::Grazing(pair.map(|point| point + centre)),
+            other => other,
+        }
+    }
+}
+
+impl<T: Real> SoftFingerSurface<T> for Plane<T> {
+    #[inline]
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        _last: Option<&Vector3<T>>,
+        mut visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        let origin = self.point();
+        let normal = self.normal(&origin);
+        if let Some(contact) = on_plane(&normal, &wrench.force(), &wrench.torque_about(&origin)) {
+            visit(SoftContact { point: contact.point + origin, ..contact });
+        }
+        Search::Complete
+    }
+}
+
+impl<T: Real> SoftFingerSurface<T> for Cylinder<T> {
+    #[inline]
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        _last: Option<&Vector3<T>>,
+        mut visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        let (centre, axis, radius) = (self.centre(), self.axis(), self.radius());
+        let (first, second) = tangents(&axis);
+        let inward = |v: &Vector3<T>| Vector3::new(v.dot(&first), v.dot(&second), v.dot(&axis));
+        let outward = |v: &Vector3<T>| first * v.x + second * v.y + axis * v.z;
+        let force = inward(&wrench.force());
+        let torque = inward(&wrench.torque_about(&centre));
+        let curvature = T::one() / radius;
+        on_cylinder([radius; 2], [curvature; 2], &force, &torque, |contact| {
+            visit(SoftContact {
+                point: outward(&contact.point) + centre,
+                normal: outward(&contact.normal),
+                active: self.half_length().is_none_or(|half| contact.point.z.abs() <= half),
+                ..contact
+            });
+        })
+    }
+}
+
+impl<T: Real> SoftFingerSurface<T> for Ellipsoid<T> {
+    #[inline]
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        _last: Option<&Vector3<T>>,
+        visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        let semi_axes = self.semi_axes();
+        let reciprocals = semi_axes.map(|a| T::one() / a);
+        on_ellipsoid(&semi_axes, &reciprocals, &wrench.force(), &wrench.torque(), visit)
+    }
+}
+
+/// The side by the closed form; flat ends as planes, within their outline. On the edge between
+/// them there is no normal and so no soft finger.
+impl<T: Real> SoftFingerSurface<T> for EllipticCylinder<T> {
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        _last: Option<&Vector3<T>>,
+        mut visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        let axes = self.semi_axes();
+        let reciprocals = axes.map(|a| T::one() / a);
+        let (force, torque) = (wrench.force(), wrench.torque());
+        on_cylinder(axes, reciprocals, &force, &torque, |contact| match self.ends() {
+            CylinderEnds::Unbounded => visit(contact),
+            CylinderEnds::Open(half) => {
+                visit(SoftContact { active: contact.point.z.abs() <= half, ..contact });
+            }
+            CylinderEnds::Capped(half) if contact.point.z.abs() <= half => visit(contact),
+            CylinderEnds::Capped(_) => {}
+        });
+        if let CylinderEnds::Capped(half) = self.ends() {
+            for normal in [Vector3::z(), -Vector3::z()] {
+                let origin = normal * half;
+                if let Some(contact) = on_plane(&normal, &force, &wrench.torque_about(&origin)) {
+                    let (x, y) = (contact.point.x * reciprocals[0], contact.point.y * reciprocals[1]);
+                    if x * x + y * y <= T::one() {
+                        visit(SoftContact { point: contact.point + origin, ..contact });
+                    }
+                }
+            }
+        }
+        Search::Complete
+    }
+}
+
+impl<T: Real> SoftFingerSurface<T> for Cone<T> {
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        _last: Option<&Vector3<T>>,
+        mut visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        if let Some(contact) = on_cone(self, wrench) {
+            visit(SoftContact { active: is_active(self, &contact), ..contact });
+        }
+        Search::Complete
+    }
+}
+
+/// The closed forms of the side and of the two round ends, each where it applies.
+impl<T: Real> SoftFingerSurface<T> for Capsule<T> {
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        _last: Option<&Vector3<T>>,
+        mut visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        let (centre, axis, half) = (self.centre(), self.axis(), self.half_length());
+        let mut found = false;
+        if let Ok(side) = Cylinder::new(centre, axis, self.radius()) {
+            side.soft_contacts(wrench, None, |contact| {
+                if (contact.point - centre).dot(&axis).abs() <= half {
+                    found = true;
+                    visit(contact);
+                }
+            });
+        }
+        let mut search = Search::Complete;
+        for end in [axis, -axis] {
+            // A convex surface has one contact at most; a point of the seam belongs to the side.
+            if found {
+                break;
+            }
+            if let Ok(ball) = Sphere::new(centre + end * half, self.radius()) {
+                let round = ball.soft_contacts(wrench, None, |contact| {
+                    if contact.normal.dot(&end) >= T::zero() {
+                        found = true;
+                        visit(contact);
+                    }
+                });
+                if let Search::Grazing([first, second]) = round {
+                    let outside = |point: &Vector3<T>| (point - ball.centre()).dot(&end) >= T::zero();
+                    if outside(&first) && outside(&second) {
+                        search = round;
+                    }
+                }
+            }
+        }
+        search
+    }
+}
+
+/// Shapes that are a part of another shape.
+macro_rules! part_of {
+    ($shape:ident, $whole:ident) => {
+        impl<T: Real> SoftFingerSurface<T> for $shape<T> {
+            #[inline]
+            fn soft_contacts(
+                &self,
+                wrench: &Wrench<T>,
+                last: Option<&Vector3<T>>,
+                mut visit: impl FnMut(SoftContact<T>),
+            ) -> Search<T> {
+                self.$whole().soft_contacts(wrench, last, |contact| {
+                    visit(SoftContact { active: is_active(self, &contact), ..contact });
+                })
+            }
+        }
+    };
+}
+
+part_of!(SphericalCap, sphere);
+part_of!(Disk, plane);
+part_of!(Rectangle, plane);
+
+/// Shapes without a closed form.
+macro_rules! by_newton {
+    ($shape:ident) => {
+        impl<T: Real> SoftFingerSurface<T> for $shape<T> {
+            #[inline]
+            fn soft_contacts(
+                &self,
+                wrench: &Wrench<T>,
+                last: Option<&Vector3<T>>,
+                mut visit: impl FnMut(SoftContact<T>),
+            ) -> Search<T> {
+                newton_soft_contacts(self, wrench, last, |contact| {
+                    visit(SoftContact { active: is_active(self, &contact), ..contact });
+                })
+            }
+        }
+    };
+}
+
+by_newton!(Torus);
+by_newton!(Superquadric);
+by_newton!(RoundedBox);
+by_newton!(Paraboloid);
+
+impl<T: Real, S: SmoothImplicit<T>> SoftFingerSurface<T> for Implicit<S> {
+    #[inline]
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        last: Option<&Vector3<T>>,
+        visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        newton_soft_contacts(self, wrench, last, visit)
+    }
+}

@@ -1,0 +1,91 @@
+//! How surfaces change with their parameters.
+
+use fingertip_wrench::Real;
+use nalgebra::{Matrix3, Vector3};
+
+/// How a surface changes near a contact, per unit of one of its parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GeometrySensitivity<T: Real> {
+    /// How far the surface moves along its outward normal.
+    pub displacement: T,
+    /// How its normal turns at the point that moves so: a vector in the tangent plane.
+    pub tilt: Vector3<T>,
+}
+
+impl<T: Real> GeometrySensitivity<T> {
+    /// The parallel surface, outward: a sphere's or a cylinder's radius, the thickness of a coat.
+    #[must_use]
+    pub fn offset() -> Self {
+        Self { displacement: T::one(), tilt: Vector3::zeros() }
+    }
+
+    /// The whole surface moves along the unit vector `direction`.
+    #[must_use]
+    pub fn translation(direction: &Vector3<T>, normal: &Vector3<T>, shape_operator: &Matrix3<T>) -> Self {
+        Self { displacement: direction.dot(normal), tilt: -(shape_operator * direction) }
+    }
+
+    /// The whole surface turns about the unit vector `axis` through `pivot` \[m\], per radian.
+    #[must_use]
+    pub fn rotation(
+        axis: &Vector3<T>,
+        pivot: &Vector3<T>,
+        point: &Vector3<T>,
+        normal: &Vector3<T>,
+        shape_operator: &Matrix3<T>,
+    ) -> Self {
+        let moved = axis.cross(&(point - pivot));
+        Self { displacement: moved.dot(normal), tilt: axis.cross(normal) - shape_operator * moved }
+    }
+
+    /// From a level function `S(x; θ)`: its derivative by the parameter, that of its gradient, and
+    /// gradient and Hessian at the contact.
+    #[must_use]
+    pub fn of_level(
+        value_change: T,
+        gradient_change: &Vector3<T>,
+        gradient: &Vector3<T>,
+        hessian: &Matrix3<T>,
+    ) -> Self {
+        let steepness = gradient.norm_squared().root();
+        let normal = gradient / steepness;
+        let displacement = -value_change / steepness;
+        let turned = (gradient_change + hessian * normal * displacement) / steepness;
+        Self { displacement, tilt: turned - normal * normal.dot(&turned) }
+    }
+}
+
+/// A shape that knows how its surface changes with its `P` parameters: radii, semi-axes. (Moving
+/// and turning need no such knowledge: [`GeometrySensitivity::translation`],
+/// [`GeometrySensitivity::rotation`].)
+pub trait ShapeParameters<T: Real, const P: usize> {
+    /// The change of the surface at one of its points, per unit of each parameter.
+    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; P];
+}
+
+/// How well the place and the size of a surface are known, as a covariance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GeometryUncertainty<T: Real> {
+    /// Variance of the surface's height along its normal \[m²\]: of a radius, of a coat, of the
+    /// shape's departure from its model.
+    pub offset: T,
+    /// Covariance of its position \[m²\].
+    pub position: Matrix3<T>,
+    /// Covariance of its attitude, as a rotation vector about [`pivot`](Self::pivot) \[rad²\].
+    pub attitude: Matrix3<T>,
+    /// About what point it may be turned \[m\].
+    pub pivot: Vector3<T>,
+}
+
+impl<T: Real> GeometryUncertainty<T> {
+    /// Known exactly.
+    #[must_use]
+    pub fn none() -> Self {
+        Self {
+            offset: T::zero(),
+            position: Matrix3::zeros(),
+            attitude: Matrix3::zeros(),
+            pivot: Vector3::zeros(),
+        }
+    }
+}

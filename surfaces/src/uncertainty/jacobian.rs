@@ -1,0 +1,216 @@
+//! First derivatives of a contact.
+
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::{Matrix2, Matrix3, Matrix3x6, Matrix6, Vector2, Vector3, Vector6};
+
+use super::GeometrySensitivity;
+use crate::Contact;
+use crate::soft_finger::newton::tangents;
+
+/// The first derivatives of a contact with respect to the wrench `(f, m)` \[N, N·m\] about the
+/// origin of the sensor frame, and to the geometry of the surface.
+///
+/// The contact is described in its tangent plane by six numbers: its position along the two
+/// tangents \[m\], the normal force, the tangential force along the two tangents \[N\], the spin
+/// torque \[N·m\]. As the contact moves over a curved surface the tangents are carried along
+/// without turning about the normal.
+///
+/// With outward normal `n`, shape operator `W` (the normal changes by `W dc`), tangents `E` and
+/// `b = dm − c × df`:
+///
+/// * **soft finger** (theory 3.4): `τ W dc + n dτ + dc × f = b` gives
+///   `(τ EᵀWE + (f·n) J₂) Eᵀdc = Eᵀb`, `dτ = n·b − n·(dc × f)`. The determinant is
+///   `τ²κ + (f·n)²`: a spin torque makes a convex surface *less* sensitive.
+/// * **point contact** (theory 2.2), of whatever pitch `p`: `dc × f = b − p df − f dp` gives
+///   `dc = n × (b − p df − f dp)/(f·n)`, which is `Π[f] dm/|f|² − Π[f]([c] + p) df/|f|²` with
+///   `Π = I − f nᵀ/(f·n)`.
+///
+/// Every surface will do: `W` comes from [`SmoothSurface`](crate::SmoothSurface) or
+/// from differences of its normal
+/// ([`shape_operator_by_differences`](crate::shape_operator_by_differences)). The position of a
+/// point contact does not depend on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactJacobian<T: Real> {
+    pub(super) rows: Matrix6<T>,
+    pub(super) tangents: [Vector3<T>; 2],
+    pub(super) normal: Vector3<T>,
+    point: Vector3<T>,
+    force: Vector3<T>,
+    spin: T,
+    /// Shape operator in the tangent plane.
+    pub(super) bend: Matrix2<T>,
+    /// From the two equations in the plane to the position in it.
+    solve: Matrix2<T>,
+}
+
+impl<T: Real> ContactJacobian<T> {
+    /// Of a contact that [`SoftFinger`](crate::SoftFinger) found. `None` where the derivative does
+    /// not exist: the force grazes and no curvature holds the contact, or two contacts merge.
+    #[must_use]
+    pub fn of_soft_finger(contact: &Contact<T>, shape_operator: &Matrix3<T>) -> Option<Self> {
+        let mut this = Self::prepare(contact, shape_operator);
+        let tau = contact.spin_torque;
+        let pressing = contact.force.dot(&contact.normal);
+        // Scaled, so that the determinant stays in range.
+        let scale = pressing.abs().max(tau.abs() * this.bend.amax()).normalising_factor();
+        let (fn_, t) = (pressing * scale, tau * scale);
+        let (w11, w12, w22) = (t * this.bend.m11, t * this.bend.m12, t * this.bend.m22);
+        let determinant = w11 * w22 - w12 * w12 + fn_ * fn_;
+        let inverse = scale / determinant;
+        this.solve = Matrix2::new(w22, -(w12 + fn_), fn_ - w12, w11) * inverse;
+        this.spin = tau;
+        let [e1, e2] = this.tangents;
+        let (b1, b2, bn) = (this.row(&e1), this.row(&e2), this.row(&contact.normal));
+        let a1 = b1 * this.solve.m11 + b2 * this.solve.m12;
+        let a2 = b1 * this.solve.m21 + b2 * this.solve.m22;
+        let across = contact.force.cross(&contact.normal);
+        let twist = bn - a1 * e1.dot(&across) - a2 * e2.dot(&across);
+        this.fill(&a1, &a2, &twist)
+    }
+
+    /// Of a contact that [`PointContact`](crate::PointContact) found in this wrench. `None` where
+    /// the force grazes.
+    #[must_use]
+    pub fn of_point_contact(
+        contact: &Contact<T>,
+        wrench: &Wrench<T>,
+        shape_operator: &Matrix3<T>,
+    ) -> Option<Self> {
+        let mut this = Self::prepare(contact, shape_operator);
+        let f = &contact.force;
+        let inverse = T::one() / f.dot(&contact.normal);
+        this.solve = Matrix2::new(T::zero(), -inverse, inverse, T::zero());
+        let scale = f.amax().normalising_factor();
+        let scaled = f * scale;
+        let squared = scaled.norm_squared();
+        let pitch = scaled.dot(&(wrench.torque() * scale)) / squared;
+        let [e1, e2] = this.tangents;
+        let with_pitch = |e: &Vector3<T>| this.with_force_part(e, e * pitch);
+        // dp = f·(dm − c × df − p df)/|f|²
+        let along = this.with_force_part(&scaled, scaled * pitch) * (T::one() / squared);
+        let b1 = with_pitch(&e1) - along * scaled.dot(&e1);
+        let b2 = with_pitch(&e2) - along * scaled.dot(&e2);
+        let (a1, a2) = (b2 * this.solve.m12, b1 * this.solve.m21);
+        this.fill(&a1, &a2, &Vector6::zeros())
+    }
+
+    fn prepare(contact: &Contact<T>, shape_operator: &Matrix3<T>) -> Self {
+        let (e1, e2) = tangents(&contact.normal);
+        let (w1, w2) = (shape_operator * e1, shape_operator * e2);
+        let mixed = (e1.dot(&w2) + e2.dot(&w1)) * T::literal(0.5);
+        Self {
+            rows: Matrix6::zeros(),
+            tangents: [e1, e2],
+            normal: contact.normal,
+            point: contact.point,
+            force: contact.force,
+            spin: T::zero(),
+            bend: Matrix2::new(e1.dot(&w1), mixed, mixed, e2.dot(&w2)),
+            solve: Matrix2::zeros(),
+        }
+    }
+
+    /// The row of `e·(dm − c × df)`.
+    #[inline]
+    fn row(&self, e: &Vector3<T>) -> Vector6<T> {
+        let arm = self.point.cross(e);
+        Vector6::new(arm.x, arm.y, arm.z, e.x, e.y, e.z)
+    }
+
+    /// The row of `e·(dm − c × df) − less·df`.
+    #[inline]
+    fn with_force_part(&self, e: &Vector3<T>, less: Vector3<T>) -> Vector6<T> {
+        let arm = self.point.cross(e) - less;
+        Vector6::new(arm.x, arm.y, arm.z, e.x, e.y, e.z)
+    }
+
+    /// Completes the rows from those of the position and the spin torque.
+    fn fill(mut self, a1: &Vector6<T>, a2: &Vector6<T>, twist: &Vector6<T>) -> Option<Self> {
+        let [e1, e2] = self.tangents;
+        let n = self.normal;
+        let from_force = |e: &Vector3<T>| Vector6::new(e.x, e.y, e.z, T::zero(), T::zero(), T::zero());
+        // dn along the tangents.
+        let tilt1 = a1 * self.bend.m11 + a2 * self.bend.m12;
+        let tilt2 = a1 * self.bend.m21 + a2 * self.bend.m22;
+        let (f1, f2, pressing) = (self.force.dot(&e1), self.force.dot(&e2), -self.force.dot(&n));
+        self.rows.set_row(0, &a1.transpose());
+        self.rows.set_row(1, &a2.transpose());
+        self.rows.set_row(2, &(-from_force(&n) - tilt1 * f1 - tilt2 * f2).transpose());
+        self.rows.set_row(3, &(from_force(&e1) + tilt1 * pressing).transpose());
+        self.rows.set_row(4, &(from_force(&e2) + tilt2 * pressing).transpose());
+        self.rows.set_row(5, &twist.transpose());
+        self.rows.sum().is_number().then_some(self)
+    }
+
+    /// The two tangents that positions and tangential forces refer to: unit vectors, right-handed
+    /// with the normal.
+    #[inline]
+    #[must_use]
+    pub const fn tangents(&self) -> [Vector3<T>; 2] {
+        self.tangents
+    }
+
+    /// Outward unit normal at the contact.
+    #[inline]
+    #[must_use]
+    pub const fn normal(&self) -> Vector3<T> {
+        self.normal
+    }
+
+    /// Derivatives of (two positions \[m\], normal force, two tangential forces \[N\], spin torque
+    /// \[N·m\]), as rows, with respect to `Fx … Tz`, as columns.
+    #[inline]
+    #[must_use]
+    pub const fn local(&self) -> &Matrix6<T> {
+        &self.rows
+    }
+
+    /// `∂c/∂(f, m)` in the sensor frame; its columns lie in the tangent plane.
+    #[must_use]
+    pub fn point(&self) -> Matrix3x6<T> {
+        self.tangents[0] * self.rows.row(0) + self.tangents[1] * self.rows.row(1)
+    }
+
+    /// `∂n/∂(f, m)`: how the normal at the contact turns.
+    #[must_use]
+    pub fn normal_change(&self) -> Matrix3x6<T> {
+        let (a1, a2) = (self.rows.row(0), self.rows.row(1));
+        self.tangents[0] * (a1 * self.bend.m11 + a2 * self.bend.m12)
+            + self.tangents[1] * (a1 * self.bend.m21 + a2 * self.bend.m22)
+    }
+
+    /// How the contact answers to a change of the surface, the wrench staying what it is: the same
+    /// six numbers as the rows of [`local`](Self::local), per unit of the parameter. The point
+    /// moves along the normal too, by [`GeometrySensitivity::displacement`].
+    #[must_use]
+    pub fn answer_to(&self, change: &GeometrySensitivity<T>) -> Vector6<T> {
+        let [e1, e2] = self.tangents;
+        let n = self.normal;
+        let (f, rise) = (&self.force, change.displacement);
+        let pushed = n.cross(f) * rise + change.tilt * self.spin;
+        let in_plane = self.solve * Vector2::new(-e1.dot(&pushed), -e2.dot(&pushed));
+        let tilt = self.bend * in_plane + Vector2::new(e1.dot(&change.tilt), e2.dot(&change.tilt));
+        let across = f.cross(&n);
+        let pressing = -f.dot(&n);
+        let twist = if self.spin.is_zero() {
+            T::zero()
+        } else {
+            -(in_plane.x * e1.dot(&across) + in_plane.y * e2.dot(&across))
+        };
+        Vector6::new(
+            in_plane.x,
+            in_plane.y,
+            -(f.dot(&e1) * tilt.x + f.dot(&e2) * tilt.y),
+            tilt.x * pressing,
+            tilt.y * pressing,
+            twist,
+        )
+    }
+
+    /// `∂c/∂θ` in the sensor frame for a change of the surface.
+    #[must_use]
+    pub fn point_answer_to(&self, change: &GeometrySensitivity<T>) -> Vector3<T> {
+        let local = self.answer_to(change);
+        self.tangents[0] * local.x + self.tangents[1] * local.y + self.normal * change.displacement
+    }
+}

@@ -1,0 +1,28 @@
+//! How sure a contact is: Jacobians, covariance, worst case, rigorous bounds.
+//!
+//! Three answers to three questions, from the cheapest to the safest:
+//!
+//! | question | answer | holds |
+//! |---|---|---|
+//! | how does noise spread the contact? | [`ContactJacobian`], [`ContactCovariance`] | to first order |
+//! | how far can errors of known size push it? | [`ContactJacobian::worst_case`], [`Contact::first_order_bound`](crate::Contact::first_order_bound) | to first order |
+//! | where can the true contact not be? | [`Sphere::contact_bound`](crate::Sphere::contact_bound), [`ConvexBound`] | always |
+//!
+//! First order fails near grazing: it needs `ε sin φ ≪ R cos² φ`, where `ε` is the error of the
+//! line of action and `φ` the angle between force and inward normal (theory 2.4).
+
+mod convex_bound;
+mod covariance;
+mod geometry;
+mod jacobian;
+mod paper;
+mod sensor;
+mod worst_case;
+
+pub use convex_bound::ConvexBound;
+pub use covariance::{ConfidenceEllipse, ContactCovariance};
+pub use geometry::{GeometrySensitivity, GeometryUncertainty, ShapeParameters};
+pub use jacobian::ContactJacobian;
+pub use paper::PaperBounds;
+pub use sensor::{SensorUncertainty, WrenchNoise};
+pub use worst_case::WorstCase;

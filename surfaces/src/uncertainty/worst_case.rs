@@ -1,0 +1,57 @@
+//! Worst cases of the linearised contact over a box of errors.
+
+use fingertip_wrench::Real;
+use nalgebra::{Vector3, Vector6};
+
+use super::ContactJacobian;
+
+/// How far errors within a box push a contact, to first order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorstCase<T: Real> {
+    /// Greatest change of each coordinate of the contact in the sensor frame \[m\]: attained by
+    /// some errors of the box, in general others for each coordinate.
+    pub components: Vector3<T>,
+    /// Greatest distance that the contact moves \[m\]: attained by some corner of the box.
+    pub distance: T,
+    /// Greatest change of the normal force \[N\].
+    pub normal_force: T,
+    /// Greatest change of the spin torque \[N·m\].
+    pub spin_torque: T,
+}
+
+impl<T: Real> ContactJacobian<T> {
+    /// Over all errors of the wrench with `|dw_j| ≤ box_j` \[N, N·m\]. The distance is the maximum
+    /// of a convex function over a box, so one of its 64 corners attains it; corners that are
+    /// opposite count once.
+    #[must_use]
+    pub fn worst_case(&self, errors: &Vector6<T>) -> WorstCase<T> {
+        let absolute = |row: Vector6<T>| row.abs().dot(&errors.abs());
+        let point = self.point();
+        let row = |i: usize| self.local().row(i).transpose();
+        let (a1, a2) = (row(0).component_mul(errors), row(1).component_mul(errors));
+        let mut greatest = T::zero();
+        for corner in 0..32_u8 {
+            let (mut x, mut y) = (a1[5], a2[5]);
+            for axis in 0..5 {
+                if corner >> axis & 1 == 1 {
+                    x += a1[axis];
+                    y += a2[axis];
+                } else {
+                    x -= a1[axis];
+                    y -= a2[axis];
+                }
+            }
+            greatest = greatest.max(x * x + y * y);
+        }
+        WorstCase {
+            components: Vector3::new(
+                absolute(point.row(0).transpose()),
+                absolute(point.row(1).transpose()),
+                absolute(point.row(2).transpose()),
+            ),
+            distance: greatest.root(),
+            normal_force: absolute(row(2)),
+            spin_torque: absolute(row(5)),
+        }
+    }
+}

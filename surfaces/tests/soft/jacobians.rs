@@ -1,0 +1,311 @@
+//! Every analytic Jacobian against dual numbers.
+
+use fingertip_surfaces::{
+    ActiveSurface, Contact, ContactJacobian, ContactModel, Cylinder, Ellipsoid, GeometrySensitivity,
+    PointContact, ShapeParameters, SmoothSurface, SoftFinger, SoftFingerSurface, Sphere,
+};
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::{Matrix6, Vector3, Vector6};
+use num_dual::Dual64;
+
+use crate::common::{self, Case, Random};
+
+type Dual = Dual64;
+
+fn lift(v: &Vector3<f64>) -> Vector3<Dual> {
+    v.map(Dual::from_re)
+}
+
+/// The wrench with the derivative of its `axis`-th component switched on.
+fn seeded(wrench: &Wrench<f64>, axis: Option<usize>) -> Wrench<Dual> {
+    let mut components = wrench.components().map(Dual::from_re);
+    if let Some(axis) = axis {
+        components[axis].eps = 1.0;
+    }
+    Wrench::from_components(&components)
+}
+
+/// The derivative of the six local numbers, from a contact of dual numbers.
+fn local(contact: &Contact<Dual>, tangents: &[Vector3<f64>; 2]) -> Vector6<f64> {
+    let [e1, e2] = tangents;
+    let change = contact.point.map(|x| x.eps);
+    let (force, normal) = (contact.force, contact.normal);
+    let pressing = -force.dot(&normal);
+    let tangential = force + normal * pressing;
+    let along = tangential.map(|x| x.eps);
+    Vector6::new(
+        change.dot(e1),
+        change.dot(e2),
+        pressing.eps,
+        along.dot(e1),
+        along.dot(e2),
+        contact.spin_torque.eps,
+    )
+}
+
+#[derive(Clone, Copy)]
+enum Model {
+    Point,
+    Soft,
+}
+
+fn dual_contact<S: SoftFingerSurface<Dual> + SmoothSurface<Dual>>(
+    model: Model,
+    surface: &S,
+    wrench: &Wrench<Dual>,
+    near: &Vector3<f64>,
+) -> Contact<Dual> {
+    let near = lift(near);
+    let resolution = match model {
+        Model::Point => {
+            PointContact::new(Dual::from_re(0.0)).unwrap().resolve_near(wrench, surface, Some(&near))
+        }
+        Model::Soft => {
+            SoftFinger::new(Dual::from_re(0.0)).unwrap().resolve_near(wrench, surface, Some(&near))
+        }
+    };
+    let contact = *resolution.contact().unwrap();
+    let Model::Point = model else { return contact };
+    // Bracketing finds the value but not its derivative: a Newton step along the line does.
+    let direction = contact.force.normalize();
+    let level = surface.level(&contact.point);
+    let point = contact.point - direction * (level.value / level.gradient.dot(&direction));
+    Contact { point, normal: surface.level(&point).gradient.normalize(), ..contact }
+}
+
+fn contact_and_jacobian<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
+    model: Model,
+    surface: &S,
+    case: &Case,
+) -> (Contact<f64>, ContactJacobian<f64>) {
+    let near = Some(&case.point);
+    match model {
+        Model::Point => {
+            let contact = PointContact::new(0.0).unwrap().resolve_near(&case.wrench, surface, near);
+            let contact = *contact.contact().unwrap();
+            let bend = surface.shape_operator(&contact.point);
+            (contact, ContactJacobian::of_point_contact(&contact, &case.wrench, &bend).unwrap())
+        }
+        Model::Soft => {
+            let contact = SoftFinger::new(0.0).unwrap().resolve_near(&case.wrench, surface, near);
+            let contact = *contact.contact().unwrap();
+            let bend = surface.shape_operator(&contact.point);
+            (contact, ContactJacobian::of_soft_finger(&contact, &bend).unwrap())
+        }
+    }
+}
+
+/// A case with a moderate spin torque: none for a point contact on a surface that the line hits.
+/// Not near the apex of a cone, where the curvature has no bound and takes digits with it.
+fn case<S: ActiveSurface<f64> + SmoothSurface<f64>>(
+    random: &mut Random,
+    surface: &S,
+    size: f64,
+    model: Model,
+) -> Case {
+    let greatest = match model {
+        Model::Point => 1e-2,
+        Model::Soft => 3.0,
+    };
+    loop {
+        let case = Case::random(random, surface, size, [1e-4, greatest], 2.0);
+        if case.incidence > 0.3 && surface.shape_operator(&case.point).norm() * size < 8.0 {
+            return case;
+        }
+    }
+}
+
+/// Greatest deviation, relative to the greatest entry of each row.
+fn deviation(ours: &Matrix6<f64>, dual: &Matrix6<f64>) -> f64 {
+    (0..6)
+        .map(|row| (ours.row(row) - dual.row(row)).amax() / dual.row(row).amax().max(1e-3))
+        .fold(0.0, f64::max)
+}
+
+fn by_wrench<S, D>(name: &str, surface: &S, dual: &D, size: f64, tolerance: f64)
+where
+    S: SoftFingerSurface<f64> + SmoothSurface<f64>,
+    D: SoftFingerSurface<Dual> + SmoothSurface<Dual>,
+{
+    for model in [Model::Point, Model::Soft] {
+        let mut random = Random::new(23);
+        let mut worst = 0.0_f64;
+        for _ in 0..200 {
+            let case = case(&mut random, surface, size, model);
+            let (contact, jacobian) = contact_and_jacobian(model, surface, &case);
+            let mut reference = Matrix6::zeros();
+            for axis in 0..6 {
+                let found = dual_contact(model, dual, &seeded(&case.wrench, Some(axis)), &contact.point);
+                reference.set_column(axis, &local(&found, &jacobian.tangents()));
+                // The point moves in the tangent plane.
+                let change = found.point.map(|x| x.eps);
+                assert!(change.dot(&contact.normal).abs() <= tolerance * change.norm().max(1e-3), "{name}");
+                let whole = jacobian.point().column(axis) - change;
+                assert!(
+                    whole.norm() <= tolerance * change.norm().max(size),
+                    "{name} {whole} {change} {case:?}"
+                );
+                let turned = jacobian.normal_change().column(axis) - found.normal.map(|x| x.eps);
+                assert!(turned.norm() <= tolerance * 10.0 * (1.0 + change.norm() / size), "{name} {turned}");
+            }
+            worst = worst.max(deviation(jacobian.local(), &reference));
+        }
+        let which = match model {
+            Model::Point => "point",
+            Model::Soft => "soft",
+        };
+        println!("{name:16} {which:5} ∂/∂(f, m) against dual numbers: {worst:.1e}");
+        assert!(worst <= tolerance, "{name} {worst:e}");
+    }
+}
+
+macro_rules! by_wrench {
+    ($name:ident, $size:literal) => {
+        #[test]
+        fn $name() {
+            by_wrench(stringify!($name), &common::$name::<f64>(), &common::$name::<Dual>(), $size, 1e-12);
+        }
+    };
+}
+
+by_wrench!(sphere, 0.017);
+by_wrench!(ellipsoid, 0.017);
+by_wrench!(plane, 0.017);
+by_wrench!(cylinder, 0.017);
+by_wrench!(elliptic_cylinder, 0.017);
+by_wrench!(cone, 0.017);
+by_wrench!(capsule, 0.017);
+by_wrench!(paraboloid, 0.02);
+by_wrench!(superquadric, 0.017);
+by_wrench!(rounded_box, 0.017);
+by_wrench!(pillow, 0.012);
+by_wrench!(torus, 0.0135);
+
+/// A surface with one parameter switched on, at the value it has.
+fn by_parameter<S, D, const P: usize>(
+    name: &str,
+    surface: &S,
+    size: f64,
+    sensitivities: impl Fn(&Vector3<f64>) -> [GeometrySensitivity<f64>; P],
+    dual: impl Fn(usize) -> D,
+) where
+    S: SoftFingerSurface<f64> + SmoothSurface<f64>,
+    D: SoftFingerSurface<Dual> + SmoothSurface<Dual>,
+{
+    for model in [Model::Point, Model::Soft] {
+        let mut random = Random::new(29);
+        let mut worst = 0.0_f64;
+        for _ in 0..200 {
+            let case = case(&mut random, surface, size, model);
+            let (contact, jacobian) = contact_and_jacobian(model, surface, &case);
+            for (index, change) in sensitivities(&contact.point).iter().enumerate() {
+                let found = dual_contact(model, &dual(index), &seeded(&case.wrench, None), &contact.point);
+                let reference = local(&found, &jacobian.tangents());
+                let ours = jacobian.answer_to(change);
+                let scale = Vector6::new(1.0, 1.0, 200.0, 200.0, 200.0, 2.0);
+                worst = worst.max((ours - reference).component_div(&scale).amax());
+                let point = jacobian.point_answer_to(change) - found.point.map(|x| x.eps);
+                worst = worst.max(point.amax());
+            }
+        }
+        println!("{name:16} ∂/∂θ against dual numbers: {worst:.1e}");
+        assert!(worst <= 1e-12, "{name} {worst:e}");
+    }
+}
+
+fn on(value: f64, switched: bool) -> Dual {
+    Dual::new(value, f64::from(u8::from(switched)))
+}
+
+#[test]
+fn parameters_of_the_sphere() {
+    let surface = common::sphere::<f64>();
+    let (centre, radius) = (surface.centre(), surface.radius());
+    by_parameter(
+        "sphere",
+        &surface,
+        0.017,
+        |point| {
+            let moved = GeometrySensitivity::rigid_motions(&surface, point, &Vector3::zeros());
+            [ShapeParameters::<f64, 1>::sensitivities(&surface, point)[0], moved[0], moved[1], moved[2]]
+        },
+        |index| {
+            let moved =
+                Vector3::new(on(centre.x, index == 1), on(centre.y, index == 2), on(centre.z, index == 3));
+            Sphere::new(moved, on(radius, index == 0)).unwrap()
+        },
+    );
+}
+
+#[test]
+fn parameters_of_the_ellipsoid() {
+    let surface = common::ellipsoid::<f64>();
+    let axes = surface.semi_axes();
+    by_parameter(
+        "ellipsoid",
+        &surface,
+        0.017,
+        |point| surface.sensitivities(point),
+        |index| {
+            Ellipsoid::new(Vector3::new(
+                on(axes.x, index == 0),
+                on(axes.y, index == 1),
+                on(axes.z, index == 2),
+            ))
+            .unwrap()
+        },
+    );
+}
+
+/// Turning a cylinder about an axis through the origin turns its axis and its centre.
+#[test]
+fn attitude_of_the_cylinder() {
+    let surface = common::cylinder::<f64>();
+    by_parameter(
+        "cylinder",
+        &surface,
+        0.017,
+        |point| {
+            let moved = GeometrySensitivity::rigid_motions(&surface, point, &Vector3::zeros());
+            [moved[3], moved[4], moved[5], ShapeParameters::<f64, 1>::sensitivities(&surface, point)[0]]
+        },
+        |index| {
+            let turned = |v: Vector3<f64>| {
+                let rate = [Vector3::x(), Vector3::y(), Vector3::z()]
+                    .get(index)
+                    .map_or(Vector3::zeros(), |axis: &Vector3<f64>| axis.cross(&v));
+                v.zip_map(&rate, Dual::new)
+            };
+            Cylinder::new(turned(surface.centre()), turned(surface.axis()), on(surface.radius(), index == 3))
+                .unwrap()
+        },
+    );
+}
+
+#[test]
+fn agrees_with_the_position_sensitivity_of_a_contact() {
+    let surface = common::ellipsoid::<f64>();
+    let mut random = Random::new(31);
+    for _ in 0..300 {
+        let case = case(&mut random, &surface, 0.017, Model::Point);
+        let (contact, jacobian) = contact_and_jacobian(Model::Point, &surface, &case);
+        let other = contact.sensitivity(&case.wrench).unwrap();
+        assert!((jacobian.point() - other).amax() <= 1e-13 * other.amax());
+    }
+}
+
+#[test]
+fn spin_steadies_a_contact_on_a_sphere() {
+    // ‖∂c/∂m‖ = 1/√(f_n² + (τ/R)²) (theory 3.4).
+    let surface = common::sphere::<f64>();
+    let mut random = Random::new(37);
+    for _ in 0..300 {
+        let case = case(&mut random, &surface, 0.017, Model::Soft);
+        let (contact, jacobian) = contact_and_jacobian(Model::Soft, &surface, &case);
+        let by_torque = jacobian.local().fixed_view::<2, 3>(0, 3).into_owned();
+        let squared = (by_torque * by_torque.transpose()).symmetric_eigenvalues().max();
+        let expected = 1.0 / contact.normal_force().hypot(contact.spin_torque / surface.radius());
+        assert!((squared.sqrt() / expected - 1.0).abs() < 1e-12);
+    }
+    assert!(Dual::literal(2.0).root().re.is_number());
+}

@@ -1,0 +1,13 @@
+//! Soft fingers, skins, and how sure a contact is.
+
+// Helpers of tests are tests too.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+mod compliant;
+mod fusion;
+mod golden;
+mod jacobians;
+mod shapes;
+mod torus;
+mod uncertainty;

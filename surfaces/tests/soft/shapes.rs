@@ -1,0 +1,243 @@
+//! Every shape finds the contact that a wrench was made from.
+
+use fingertip_surfaces::{
+    Contact, ContactModel, NoContact, Resolution, SmoothSurface, SoftFinger, SoftFingerSurface,
+};
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+
+use crate::common::{self, Case, Random};
+
+fn resolve<T: Real, S: SoftFingerSurface<T>>(
+    surface: &S,
+    wrench: &Wrench<f64>,
+    near: Vector3<f64>,
+) -> Resolution<T> {
+    let number = |v: Vector3<f64>| v.map(T::literal);
+    let wrench = Wrench::on_fingertip(number(wrench.force()), number(wrench.torque()));
+    // On shapes that are not convex the contact nearest to the truth is asked for.
+    SoftFinger::new(T::zero()).unwrap().resolve_near(&wrench, surface, Some(&number(near)))
+}
+
+/// Error and spin error, relative, of a contact.
+fn errors<T: Real>(
+    contact: &Contact<T>,
+    point: &Vector3<f64>,
+    spin: f64,
+    size: f64,
+    wrench: &Wrench<f64>,
+) -> [f64; 2] {
+    let distance = (contact.point.map(Real::to_f64) - point).amax() / size;
+    let scale = wrench.force().norm() * size + wrench.torque().norm();
+    [distance, (contact.spin_torque.to_f64() - spin).abs() / scale]
+}
+
+struct Outcome {
+    failures: usize,
+    worst: [f64; 2],
+    /// The error of the point times the incidence: what is left if the conditioning is taken out.
+    conditioned: f64,
+}
+
+/// How much the rounding of a wrench moves a contact of its own accord, in units of `ε·size`: the
+/// size of the torque, times the inverse of `τ EᵀWE + (f·n) J₂`, which takes torques to positions
+/// (theory 3.4). Where the surface is curved both ways a large spin torque steadies the contact;
+/// where it is flat one way, rounding of a spin torque `τ` moves it by `τ²/(R f_n)²·ε`, whatever
+/// the method.
+fn conditioning<S: SmoothSurface<f64>>(surface: &S, case: &Case, size: f64) -> f64 {
+    let bend = surface.shape_operator(&case.point);
+    let normal_force = case.wrench.force().dot(&case.normal);
+    let norm = case.spin.powi(2) * bend.norm_squared() + 2.0 * normal_force.powi(2);
+    let minors = (bend.trace().powi(2) - bend.norm_squared()) / 2.0;
+    let determinant = case.spin.powi(2) * minors.max(0.0) + normal_force.powi(2);
+    let load = case.wrench.force().norm() + case.wrench.torque().norm() / size;
+    load * norm.sqrt() / determinant
+}
+
+fn run<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
+    name: &str,
+    surface: &S,
+    size: f64,
+    count: usize,
+    tolerance: f64,
+) {
+    let mut random = Random::new(17);
+    let mut outcome = Outcome { failures: 0, worst: [0.0; 2], conditioned: 0.0 };
+    for _ in 0..count {
+        let magnitude = random.log_uniform(1e-6, 1e6);
+        let case = Case::random(&mut random, surface, size, [1e-16, 1e4], magnitude);
+        match resolve::<f64, _>(surface, &case.wrench, case.point) {
+            Resolution::Contact(contact) => {
+                let [point, spin] = errors(&contact, &case.point, case.spin, size, &case.wrench);
+                let allowed = conditioning(surface, &case, size);
+                outcome.worst = [outcome.worst[0].max(point), outcome.worst[1].max(spin)];
+                outcome.conditioned = outcome.conditioned.max(point / allowed);
+            }
+            Resolution::NoContact(reason) => {
+                if outcome.failures < 3 {
+                    println!("{name}: {reason:?} {case:?}");
+                }
+                outcome.failures += 1;
+            }
+        }
+    }
+    println!(
+        "{name:18} f64 n={count} failures {} error/size {:.1e} (spin {:.1e}), in units of its conditioning {:.1e}",
+        outcome.failures, outcome.worst[0], outcome.worst[1], outcome.conditioned
+    );
+    assert_eq!(outcome.failures, 0, "{name}");
+    assert!(outcome.conditioned <= 24.0 * f64::EPSILON, "{name}: {:e}", outcome.conditioned);
+    assert!(
+        outcome.worst[0] <= tolerance && outcome.worst[1] <= tolerance.max(1e-13),
+        "{name}: {:?}",
+        outcome.worst
+    );
+}
+
+/// In f32 against the solution in f64 of the same, rounded, wrench.
+fn run_single<S: SoftFingerSurface<f32>, D: SoftFingerSurface<f64> + SmoothSurface<f64>>(
+    name: &str,
+    single: &S,
+    double: &D,
+    size: f64,
+    count: usize,
+) {
+    let mut random = Random::new(18);
+    let (mut failures, mut hopeless, mut worst, mut conditioned) = (0, 0, 0.0_f64, 0.0_f64);
+    for _ in 0..count {
+        let magnitude = random.log_uniform(1e-6, 1e6);
+        let case = Case::random(&mut random, double, size, [1e-16, 1e4], magnitude);
+        let rounded = |v: Vector3<f64>| v.map(|x| f64::from(x as f32));
+        let wrench = Wrench::on_fingertip(rounded(case.wrench.force()), rounded(case.wrench.torque()));
+        let Resolution::Contact(reference) = resolve::<f64, _>(double, &wrench, case.point) else { continue };
+        match resolve::<f32, _>(single, &wrench, case.point) {
+            Resolution::Contact(contact) => {
+                let [point, _] = errors(&contact, &reference.point, reference.spin_torque, size, &wrench);
+                worst = worst.max(point);
+                conditioned = conditioned.max(point / conditioning(double, &case, size));
+            }
+            // The rounding of the wrench alone moves such a contact by millimetres, or off the surface.
+            Resolution::NoContact(_)
+                if conditioning(double, &case, size) * f64::from(f32::EPSILON) > 0.002 =>
+            {
+                hopeless += 1;
+            }
+            Resolution::NoContact(reason) => {
+                if failures < 3 {
+                    println!("{name}: {reason:?} {case:?}");
+                }
+                failures += 1;
+            }
+        }
+    }
+    println!(
+        "{name:18} f32 n={count} failures {failures} (and {hopeless} hopeless) error/size {worst:.1e}, in units of its conditioning {conditioned:.1e}"
+    );
+    assert_eq!(failures, 0, "{name}");
+    assert!(conditioned <= 24.0 * f64::from(f32::EPSILON), "{name}: {conditioned:e}");
+}
+
+macro_rules! shape_test {
+    ($name:ident, $size:literal, $count:literal, $tolerance:literal) => {
+        #[test]
+        fn $name() {
+            run(stringify!($name), &common::$name::<f64>(), $size, $count, $tolerance);
+            run_single(
+                stringify!($name),
+                &common::$name::<f32>(),
+                &common::$name::<f64>(),
+                $size,
+                $count / 5,
+            );
+        }
+    };
+}
+
+shape_test!(sphere, 0.017, 100_000, 1e-13);
+shape_test!(ellipsoid, 0.017, 100_000, 1e-13);
+// Where a surface is flat one way or both, a spin torque of 1e4 f R costs up to eight digits: the
+// conditioning, not the method.
+shape_test!(plane, 0.017, 100_000, 1e-10);
+shape_test!(cylinder, 0.017, 100_000, 1e-3);
+shape_test!(elliptic_cylinder, 0.017, 100_000, 1e-3);
+shape_test!(cone, 0.017, 20_000, 1e-3);
+shape_test!(capsule, 0.017, 100_000, 1e-3);
+shape_test!(paraboloid, 0.02, 20_000, 1e-13);
+shape_test!(superquadric, 0.017, 10_000, 1e-13);
+shape_test!(rounded_box, 0.017, 10_000, 1e-3);
+shape_test!(pillow, 0.012, 10_000, 1e-13);
+
+#[test]
+fn degenerate_wrenches_have_types() {
+    let surface = common::sphere::<f64>();
+    let model = SoftFinger::new(0.0).unwrap();
+    let reason = |force: [f64; 3], torque: [f64; 3]| {
+        let wrench = Wrench::on_fingertip(Vector3::from(force), Vector3::from(torque));
+        match model.resolve(&wrench, &surface) {
+            Resolution::NoContact(reason) => reason,
+            Resolution::Contact(contact) => panic!("{contact:?}"),
+        }
+    };
+    assert!(
+        matches!(reason([0.0; 3], [0.0, 0.3, 0.4]), NoContact::PureCouple { torque } if (torque - 0.5).abs() < 1e-15)
+    );
+    assert!(matches!(reason([0.0; 3], [0.0; 3]), NoContact::BelowThreshold { .. }));
+    assert!(matches!(reason([f64::NAN, 0.0, 0.0], [0.0; 3]), NoContact::NotFinite));
+    assert!(matches!(reason([1.0, 0.0, 0.0], [0.0, f64::INFINITY, 0.0]), NoContact::NotFinite));
+    // Along z, 20 mm beside the centre of a sphere of 13 mm: f·m is exactly zero.
+    let centre = surface.centre();
+    let beside = Vector3::new(centre.x + 0.02, centre.y, 0.0);
+    let force = Vector3::new(0.0, 0.0, -1.0);
+    match reason(force.into(), beside.cross(&force).into()) {
+        NoContact::Ambiguous { first, second } => {
+            for point in [first, second] {
+                let normal = (point - centre) / surface.radius();
+                assert!((normal.norm() - 1.0).abs() < 1e-14 && normal.dot(&force).abs() < 1e-14);
+                let q = beside.cross(&force) - point.cross(&force);
+                assert!(q.cross(&normal).norm() < 1e-16, "the rest of the torque is spin");
+            }
+        }
+        other => panic!("{other:?}"),
+    }
+    let strict = SoftFinger::new(2.0).unwrap();
+    let weak = Wrench::on_fingertip(force, Vector3::zeros());
+    assert!(matches!(
+        strict.resolve(&weak, &surface),
+        Resolution::NoContact(NoContact::BelowThreshold { force }) if force == 1.0
+    ));
+    assert!(SoftFinger::new(-1.0).is_err() && SoftFinger::new(f64::NAN).is_err());
+}
+
+#[test]
+fn extreme_numbers_give_no_nan() {
+    fn check<T: Real, S: SoftFingerSurface<T>>(surface: &S, wrench: &Wrench<T>) {
+        if let Resolution::Contact(c) = SoftFinger::new(T::zero()).unwrap().resolve(wrench, surface) {
+            let sum = c.point.sum() + c.normal.sum() + c.incidence;
+            assert!(sum.is_number(), "{c:?} {wrench:?}");
+            assert!((c.normal.norm_squared() - T::one()).abs() < T::EPSILON * T::literal(64.0), "{c:?}");
+        }
+    }
+    let mut random = Random::new(5);
+    for round in 0..60_000 {
+        let exponent = |random: &mut Random| 10_f64.powf(random.uniform(-44.0, 38.0)) as f32;
+        let mut component =
+            || random.sign() as f32 * exponent(&mut random) * f32::from(u8::from(round % 7 != 0));
+        let force = Vector3::new(component(), component(), component());
+        let torque = Vector3::new(component(), component(), component());
+        let single = Wrench::on_fingertip(force, torque);
+        check::<f32, _>(&common::sphere(), &single);
+        check::<f32, _>(&common::ellipsoid(), &single);
+        check::<f32, _>(&common::cylinder(), &single);
+        check::<f32, _>(&common::plane(), &single);
+        check::<f32, _>(&common::capsule(), &single);
+        if round % 8 == 0 {
+            check::<f32, _>(&common::cone(), &single);
+            check::<f32, _>(&common::superquadric(), &single);
+            check::<f32, _>(&common::pillow::<f32>(), &single);
+            check::<f32, _>(&common::rounded_box(), &single);
+        }
+        if round % 64 == 0 {
+            check::<f32, _>(&common::torus(), &single);
+        }
+    }
+}

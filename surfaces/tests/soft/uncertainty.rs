@@ -1,0 +1,417 @@
+//! Covariance against Monte Carlo, bounds against the worst that can be done.
+
+use fingertip_surfaces::{
+    ActiveSurface, Contact, ContactCovariance, ContactJacobian, ContactModel, ConvexBound,
+    GeometryUncertainty, PaperBounds, PointContact, SensorUncertainty, SmoothSurface, SoftFinger,
+    SoftFingerSurface, Sphere, WorstErrors, WrenchNoise, shape_operator_by_differences,
+};
+use fingertip_wrench::{GaussianElimination, SensorMatrix, Wrench, WrenchSolver};
+use nalgebra::{Matrix2, Matrix3, Matrix6, Vector3, Vector6};
+
+use crate::common::{self, Case, Random};
+
+fn noisy(random: &mut Random, wrench: &Wrench<f64>, factor: &Matrix6<f64>) -> Wrench<f64> {
+    let noise = Vector6::from_fn(|_, _| random.normal());
+    Wrench::from_components(&(wrench.components() + factor * noise))
+}
+
+/// A covariance with correlations, of about 1 mN and 10 µN·m.
+fn wrench_covariance(random: &mut Random) -> Matrix6<f64> {
+    let scale = Vector6::new(1e-3, 1e-3, 1e-3, 1e-5, 1e-5, 1e-5);
+    let mix = Matrix6::from_fn(|_, _| random.uniform(-0.5, 0.5)) + Matrix6::identity();
+    let factor = Matrix6::from_diagonal(&scale) * mix;
+    factor * factor.transpose()
+}
+
+/// Spread of the sampled local numbers relative to the prediction, and the share of samples in
+/// the 95 % ellipse.
+fn monte_carlo<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
+    surface: &S,
+    soft: bool,
+    seed: u64,
+) -> (f64, f64) {
+    let mut random = Random::new(seed);
+    let case = loop {
+        let spins = if soft { [0.1, 0.5] } else { [1e-12, 1e-11] };
+        let case = Case::random(&mut random, surface, 0.017, spins, 2.0);
+        if case.incidence > 0.6 {
+            break case;
+        }
+    };
+    let covariance = wrench_covariance(&mut random);
+    let factor = covariance.cholesky().unwrap().l();
+    let resolve = |wrench: &Wrench<f64>| -> Contact<f64> {
+        let near = Some(&case.point);
+        *if soft {
+            SoftFinger::new(0.0).unwrap().resolve_near(wrench, surface, near)
+        } else {
+            PointContact::new(0.0).unwrap().resolve_near(wrench, surface, near)
+        }
+        .contact()
+        .unwrap()
+    };
+    let truth = resolve(&case.wrench);
+    let bend = surface.shape_operator(&truth.point);
+    let jacobian = if soft {
+        ContactJacobian::of_soft_finger(&truth, &bend)
+    } else {
+        ContactJacobian::of_point_contact(&truth, &case.wrench, &bend)
+    }
+    .unwrap();
+    let predicted = ContactCovariance::new(&jacobian, &covariance);
+    let ellipse = predicted.ellipse(0.95).unwrap();
+    let [e1, e2] = predicted.tangents();
+    let (mut sums, mut inside) = (Matrix6::zeros(), 0);
+    let mut forces = Matrix2::zeros();
+    let tangential = |c: &Contact<f64>| c.tangential_force().norm();
+    let count = 40_000;
+    for _ in 0..count {
+        let contact = resolve(&noisy(&mut random, &case.wrench, &factor));
+        let moved = contact.point - truth.point;
+        let slid = contact.tangential_force() - truth.tangential_force();
+        let local = Vector6::new(
+            moved.dot(&e1),
+            moved.dot(&e2),
+            contact.normal_force() - truth.normal_force(),
+            slid.dot(&e1),
+            slid.dot(&e2),
+            contact.spin_torque - truth.spin_torque,
+        );
+        sums += local * local.transpose();
+        let pair = nalgebra::Vector2::new(local[2], tangential(&contact) - tangential(&truth));
+        forces += pair * pair.transpose();
+        let [a, b] = [0, 1].map(|i| moved.dot(&ellipse.directions[i]) / ellipse.semi_axes[i]);
+        inside += usize::from(a * a + b * b <= 1.0);
+    }
+    let sampled = sums / f64::from(count);
+    let deviations = predicted.local().diagonal().map(f64::sqrt);
+    let mut worst = 0.0_f64;
+    for i in 0..6 {
+        for j in 0..6 {
+            let scale = deviations[i] * deviations[j];
+            if scale > 0.0 {
+                worst = worst.max((sampled[(i, j)] - predicted.local()[(i, j)]).abs() / scale);
+            }
+        }
+    }
+    let pair = predicted.normal_and_tangential(&truth);
+    let difference = (forces / f64::from(count) - pair).component_div(&Matrix2::new(
+        pair.m11,
+        (pair.m11 * pair.m22).sqrt(),
+        (pair.m11 * pair.m22).sqrt(),
+        pair.m22,
+    ));
+    let rank_two = predicted.point() * truth.normal;
+    assert!(rank_two.norm() <= 1e-15 * predicted.point().norm());
+    let position = ContactCovariance::position_only(&jacobian, &covariance);
+    assert!((position - predicted.position()).amax() <= 1e-14 * position.amax());
+    (worst.max(difference.amax()), inside as f64 / f64::from(count))
+}
+
+#[test]
+fn covariance_matches_monte_carlo() {
+    for seed in 0..3 {
+        for soft in [false, true] {
+            let found = [
+                ("sphere", monte_carlo(&common::sphere::<f64>(), soft, seed)),
+                ("ellipsoid", monte_carlo(&common::ellipsoid::<f64>(), soft, seed)),
+                ("cylinder", monte_carlo(&common::cylinder::<f64>(), soft, seed)),
+                ("plane", monte_carlo(&common::plane::<f64>(), soft, seed)),
+                ("capsule", monte_carlo(&common::capsule::<f64>(), soft, seed)),
+            ];
+            for (name, (deviation, coverage)) in found {
+                println!(
+                    "{name:10} soft {soft:5} Monte Carlo deviates {:.2} %, 95 % ellipse holds {:.2} %",
+                    100.0 * deviation,
+                    100.0 * coverage
+                );
+                assert!(
+                    deviation < 0.03 && (0.94..=0.96).contains(&coverage),
+                    "{name} {deviation} {coverage}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn uncertain_geometry_matches_monte_carlo() {
+    let sphere = common::sphere::<f64>();
+    let mut random = Random::new(2);
+    let case = Case::random(&mut random, &sphere, 0.017, [0.05, 0.2], 2.0);
+    let resolve = |sphere: &Sphere<f64>| {
+        *SoftFinger::new(0.0).unwrap().resolve(&case.wrench, sphere).contact().unwrap()
+    };
+    let truth = resolve(&sphere);
+    let jacobian = ContactJacobian::of_soft_finger(&truth, &sphere.shape_operator(&truth.point)).unwrap();
+    let geometry = GeometryUncertainty {
+        offset: 1e-10,
+        position: Matrix3::new(4e-10, 1e-10, 0.0, 1e-10, 2e-10, 0.0, 0.0, 0.0, 1e-10),
+        ..GeometryUncertainty::none()
+    };
+    let predicted =
+        ContactCovariance::new(&jacobian, &Matrix6::zeros()).with_geometry(&jacobian, &truth, &geometry);
+    let factor = geometry.position.cholesky().unwrap().l();
+    let [e1, e2] = predicted.tangents();
+    let (mut sums, mut height) = (Matrix2::zeros(), 0.0);
+    let count = 60_000;
+    for _ in 0..count {
+        let moved = factor * Vector3::from_fn(|_, _| random.normal());
+        let other = Sphere::new(sphere.centre() + moved, sphere.radius() + 1e-5 * random.normal()).unwrap();
+        let change = resolve(&other).point - truth.point;
+        let local = nalgebra::Vector2::new(change.dot(&e1), change.dot(&e2));
+        sums += local * local.transpose();
+        height += change.dot(&truth.normal).powi(2);
+    }
+    let sampled = sums / f64::from(count);
+    assert!((sampled - predicted.position()).amax() < 0.03 * predicted.position().amax());
+    assert!((height / f64::from(count) / predicted.height_variance() - 1.0).abs() < 0.03);
+}
+
+/// From gauges with noise and a matrix with errors to the wrench.
+#[test]
+fn gauges_to_wrench_match_monte_carlo() {
+    let mut random = Random::new(7);
+    let matrix = Matrix6::from_fn(|i, j| if i == j { 2.0 } else { 0.0 } + random.uniform(-0.4, 0.4));
+    let nominal = Vector6::new(10.0, 10.0, 10.0, 0.1, 0.1, 0.1);
+    let sensor = SensorMatrix::new(matrix, nominal).unwrap();
+    let solver = GaussianElimination::new(&sensor).unwrap();
+    let wrench = Wrench::from_components(&Vector6::new(2.0, -3.0, 5.0, 0.02, 0.01, -0.03));
+    let noise = Vector6::new(1e-3, 2e-3, 1e-3, 3e-3, 1e-3, 2e-3);
+    // Relative errors of 1e-3 in the sensitivities, correlated within each row.
+    let rows = core::array::from_fn(|_| {
+        let scale = Matrix6::from_diagonal(&nominal.map(|n| 2e-3 / n));
+        let mix = Matrix6::from_fn(|_, _| random.uniform(-0.5, 0.5)) + Matrix6::identity();
+        scale * mix * mix.transpose() * scale
+    });
+    let uncertainty =
+        SensorUncertainty::independent(&solver, &noise).unwrap().with_calibration(rows).unwrap();
+    let predicted = uncertainty.wrench_covariance(&wrench);
+    let factors = rows.map(|row: Matrix6<f64>| row.cholesky().unwrap().l());
+    let mut sums = Matrix6::zeros();
+    let count = 60_000;
+    for _ in 0..count {
+        let mut signals = sensor.signals(&wrench);
+        for gauge in 0..6 {
+            let wrong = factors[gauge] * Vector6::from_fn(|_, _| random.normal());
+            signals[gauge] += noise[gauge] * random.normal() - wrong.dot(&wrench.components());
+        }
+        let error = solver.solve(&signals).components() - wrench.components();
+        sums += error * error.transpose();
+    }
+    let deviations = predicted.diagonal().map(f64::sqrt);
+    let difference =
+        (sums / f64::from(count) - predicted).component_div(&(deviations * deviations.transpose()));
+    assert!(difference.amax() < 0.03, "{difference}");
+    let sheet = WrenchNoise { floor: Vector6::repeat(0.1), relative: 0.01 };
+    assert!((sheet.covariance(&wrench)[(2, 2)] - (0.01 + 0.05_f64.powi(2))).abs() < 1e-15);
+    let nan = Vector6::repeat(f64::NAN);
+    assert!(SensorUncertainty::independent(&solver, &nan).is_err());
+}
+
+#[test]
+fn curvature_from_differences_of_the_normal() {
+    let surface = common::ellipsoid::<f64>();
+    let mut random = Random::new(12);
+    for _ in 0..500 {
+        let (point, _) = random.place(&surface, 0.017);
+        let exact = surface.shape_operator(&point);
+        let found = shape_operator_by_differences(&surface, &point, 1e-7);
+        assert!((exact - found).amax() < 1e-6 * exact.amax());
+    }
+}
+
+#[test]
+fn worst_cases_are_attained_and_not_exceeded() {
+    let surface = common::ellipsoid::<f64>();
+    let mut random = Random::new(13);
+    for _ in 0..200 {
+        let case = Case::random(&mut random, &surface, 0.017, [1e-3, 1.0], 2.0);
+        let contact = *SoftFinger::new(0.0).unwrap().resolve(&case.wrench, &surface).contact().unwrap();
+        let bend = surface.shape_operator(&contact.point);
+        let jacobian = ContactJacobian::of_soft_finger(&contact, &bend).unwrap();
+        let limits = Vector6::from_fn(|i, _| random.uniform(0.1, 1.0) * if i < 3 { 0.01 } else { 1e-4 });
+        let worst = jacobian.worst_case(&limits);
+        let mut attained = (0.0_f64, Vector3::zeros());
+        for corner in 0..64_u8 {
+            let signs = Vector6::from_fn(|i, _| if corner >> i & 1 == 1 { 1.0 } else { -1.0 });
+            let moved = jacobian.point() * limits.component_mul(&signs);
+            attained =
+                (attained.0.max(moved.norm()), attained.1.zip_map(&moved, |a: f64, b: f64| a.max(b.abs())));
+        }
+        assert!((worst.distance / attained.0 - 1.0).abs() < 1e-12);
+        assert!((worst.components - attained.1).amax() < 1e-12 * worst.distance);
+        let cheap = worst.components.norm();
+        assert!(worst.distance <= cheap * (1.0 + 1e-12));
+    }
+}
+
+/// The rigorous bound: how often it fails (never), and how much larger it is than the error.
+fn convex_bound<S: ActiveSurface<f64>>(
+    name: &str,
+    surface: &S,
+    [size, reach]: [f64; 2],
+    count: usize,
+    seed: u64,
+) -> f64 {
+    let mut random = Random::new(seed);
+    let model = PointContact::new(0.0).unwrap().accepting_gap(1.0).unwrap();
+    let (mut ratios, mut silent, mut past) = (Vec::new(), 0, 0);
+    let mut tightest = 0.0_f64;
+    for _ in 0..count {
+        let (point, normal) = random.place(surface, size);
+        // All incidences, and often grazing.
+        let force = if random.sign() > 0.0 {
+            random.force(&normal, 0.0, 1.0)
+        } else {
+            let across = random.direction().cross(&normal).normalize();
+            (across - normal * random.log_uniform(1e-6, 1.0)).normalize()
+        };
+        let truth: Wrench<f64> = Wrench::from_force_at(&point, force);
+        let relative = random.log_uniform(1e-8, 0.1);
+        // Errors of the full length allowed, in the worst of some random directions or none.
+        let (force_error, torque_error) =
+            (relative * random.uniform(0.0, 1.0), relative * size * random.uniform(0.0, 1.0));
+        let measured = Wrench::on_fingertip(
+            truth.force() + random.direction() * force_error,
+            truth.torque() + random.direction() * torque_error,
+        );
+        let errors = WorstErrors::of_wrench(force_error, torque_error);
+        let Some(bound) = ConvexBound::new(surface, &measured, &errors, reach) else {
+            silent += 1;
+            continue;
+        };
+        let Some(contact) = model.resolve(&measured, surface).contact().copied() else {
+            silent += 1;
+            continue;
+        };
+        let error = (contact.point - point).norm();
+        assert!(error <= bound.distance, "{name}: {error:e} > {bound:?} at {truth:?}, measured {measured:?}");
+        let along = (point - contact.point).dot(&measured.force().normalize());
+        assert!(bound.along[0] <= along && along <= bound.along[1], "{name} {along} {bound:?}");
+        past += usize::from(bound.past_silhouette);
+        tightest = tightest.max(error / bound.distance);
+        ratios.push(bound.distance / error);
+    }
+    ratios.sort_by(f64::total_cmp);
+    let median = ratios[ratios.len() / 2];
+    println!(
+        "{name:14} rigorous bound n={count}: 0 violated, median bound/error {median:.2}, tightest {:.2}, grazing {past}, silent {silent}",
+        1.0 / tightest
+    );
+    assert!(median <= 5.0, "{name} {median}");
+    assert!(silent * 1000 < count, "{name}: silent {silent}");
+    median
+}
+
+fn all_convex_bounds(count: usize) {
+    convex_bound("sphere", &common::sphere::<f64>(), [0.017, 0.017], count, 41);
+    convex_bound("ellipsoid", &common::ellipsoid::<f64>(), [0.017, 0.017], count, 42);
+    convex_bound("cylinder", &common::cylinder::<f64>(), [0.017, 0.031], count, 43);
+    convex_bound("capsule", &common::capsule::<f64>(), [0.017, 0.0131], count, 44);
+    convex_bound("rounded box", &common::rounded_box::<f64>(), [0.017, 0.0183], count / 4, 45);
+    convex_bound("superquadric", &common::superquadric::<f64>(), [0.017, 0.0184], count / 10, 46);
+}
+
+#[test]
+fn convex_bound_is_never_violated() {
+    all_convex_bounds(20_000);
+}
+
+#[test]
+#[ignore = "a million trials for each of six shapes"]
+fn convex_bound_is_never_violated_in_a_million() {
+    all_convex_bounds(1_000_000);
+}
+
+/// With an uncertain shape: the truth is an ellipsoid that lies within the tolerance.
+#[test]
+fn convex_bound_holds_for_an_uncertain_shape() {
+    let mut random = Random::new(47);
+    let model_shape = common::ellipsoid::<f64>();
+    let model = PointContact::new(0.0).unwrap().accepting_gap(1.0).unwrap();
+    let mut ratios = Vec::new();
+    for _ in 0..20_000 {
+        let tolerance = random.log_uniform(1e-7, 3e-4);
+        let axes = model_shape.semi_axes().map(|a| a + tolerance * random.uniform(-1.0, 1.0));
+        let truth_shape = fingertip_surfaces::Ellipsoid::new(axes).unwrap();
+        let (point, normal) = random.place(&truth_shape, 0.017);
+        let force = random.force(&normal, 0.0, 1.0);
+        let measured = Wrench::from_force_at(&point, force);
+        // Support functions differ by at most the change of the semi-axes.
+        let errors = WorstErrors { force: 1e-9, torque: 1e-11, radius: tolerance, centre: 0.0 };
+        let Some(bound) = ConvexBound::new(&model_shape, &measured, &errors, 0.03) else { continue };
+        let contact = *model.resolve(&measured, &model_shape).contact().unwrap();
+        let error = (contact.point - point).norm();
+        assert!(error <= bound.distance, "{error} {bound:?}");
+        ratios.push(bound.distance / error);
+    }
+    ratios.sort_by(f64::total_cmp);
+    println!("uncertain ellipsoid: n={}, median bound/error {:.2}", ratios.len(), ratios[ratios.len() / 2]);
+    assert!(ratios.len() > 19_900);
+}
+
+#[test]
+fn a_convex_bound_refuses_what_it_cannot_answer() {
+    let surface = common::sphere::<f64>();
+    let press = Wrench::from_force_at(&surface.centre(), Vector3::new(0.0, 0.0, -1.0));
+    let errors = |force, torque| WorstErrors::of_wrench(force, torque);
+    assert!(ConvexBound::new(&surface, &press, &errors(1.0, 0.0), 0.02).is_none());
+    assert!(ConvexBound::new(&surface, &press, &errors(f64::NAN, 0.0), 0.02).is_none());
+    assert!(ConvexBound::new(&surface, &press, &errors(-0.1, 0.0), 0.02).is_none());
+    let far = Wrench::from_force_at(&Vector3::new(0.1, 0.0, 0.0), Vector3::new(0.0, 0.0, -1.0));
+    assert!(ConvexBound::new(&surface, &far, &errors(0.001, 1e-5), 0.02).is_none());
+    let plane = common::plane::<f64>();
+    assert!(ConvexBound::new(&plane, &press, &errors(0.001, 1e-5), 0.02).is_none());
+}
+
+/// (3)-(9): the corrected bounds hold, the sharp ones are attained, the table is right.
+#[test]
+fn the_bounds_of_the_first_paper() {
+    let mut random = Random::new(53);
+    let bounds = PaperBounds::new(0.013, 1e-6);
+    let sphere = Sphere::centred(0.013).unwrap();
+    let point = |wrench: &Wrench<f64>| {
+        PointContact::new(0.0).unwrap().resolve(wrench, &sphere).contact().unwrap().point
+    };
+    let corners = |wrench: &Wrench<f64>| {
+        let truth = point(wrench);
+        let mut worst = (Vector3::<f64>::zeros(), 0.0_f64);
+        for corner in 0..64_u8 {
+            let moved = wrench
+                .components()
+                .map_with_location(|i, _, x| x * if corner >> i & 1 == 1 { 1.0 + 1e-6 } else { 1.0 - 1e-6 });
+            let error = point(&Wrench::from_components(&moved)) - truth;
+            worst = (worst.0.zip_map(&error, |a: f64, b: f64| a.max(b.abs())), worst.1.max(error.norm()));
+        }
+        worst
+    };
+    for _ in 0..500 {
+        let normal = random.direction();
+        let force = random.force(&normal, 0.1, 3.0);
+        let wrench = Wrench::from_force_at(&(normal * 0.013), force);
+        let (components, _) = corners(&wrench);
+        let allowed = bounds.contact(&force, &wrench.torque());
+        assert!((0..3).all(|i| components[i] <= allowed[i] * (1.0 + 1e-5)), "{components} {allowed}");
+        // (7) and (8), for a force through the centre: sharp to first order.
+        let (components, distance) = corners(&Wrench::on_fingertip(force, Vector3::zeros()));
+        let sharp = bounds.central_contact_sharp(&force);
+        assert!((components - sharp).amax() < 1e-5 * bounds.central_distance());
+        assert!((0..3).all(|i| sharp[i] <= bounds.central_contact(&force)[i]));
+        let sharp = bounds.central_distance_sharp(&force);
+        assert!((distance / sharp - 1.0).abs() < 1e-4, "{distance:e} {sharp:e}");
+        assert!(sharp <= bounds.central_distance() / 2.0 * (1.0 + 1e-12));
+    }
+    assert_eq!(bounds.force(), 1e-6);
+    let table = [
+        (0.1_f64, 1.082_024_211_591_926_5, 0.552_493_781_056_044_5),
+        (0.3, 1.606_123_340_793_895, 0.672_015_325_445_527_6),
+        (0.5, 2.343_074_902_771_996, 0.809_016_994_374_947_5),
+    ];
+    for (tan, corrected, worst_frame) in table {
+        let angle = tan.atan();
+        assert!((bounds.obliquity(angle) - corrected).abs() < 1e-13, "{}", bounds.obliquity(angle));
+        assert!((bounds.obliquity_sharp(angle) - tan).abs() < 1e-15);
+        assert!((bounds.obliquity_worst_frame(angle) - worst_frame).abs() < 1e-14);
+    }
+}
