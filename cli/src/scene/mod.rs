@@ -274,4 +274,37 @@ mod tests {
         assert!(message.contains("unknown field `convection`"), "{message}");
         assert!(message.contains("`convention`") && message.contains("`sample_rate_Hz`"), "{message}");
     }
+
+    #[test]
+    fn the_shapes_of_the_readme_are_understood() {
+        let shapes = [
+            "shape = 'disk'\nradius_m = 0.01",
+            "shape = 'rectangle'\nfirst_half_edge_m = [0.01, 0.0, 0.0]\nsecond_half_edge_m = [0.0, 0.02, 0.0]",
+            "shape = 'spherical_cap'\nradius_m = 0.01\nactive_half_angle_deg = 90.0",
+            "shape = 'ellipsoid'\nsemi_axes_m = [0.01, 0.02, 0.03]",
+            "shape = 'capped_cylinder'\nradius_m = 0.01\nhalf_length_m = 0.02",
+            "shape = 'elliptic_cylinder'\nsemi_axes_m = [0.01, 0.02]\nends_m = 'unbounded'",
+            "shape = 'elliptic_cylinder'\nsemi_axes_m = [0.01, 0.02]\nends_m = { capped = 0.01 }",
+            "shape = 'capsule'\nradius_m = 0.01\nhalf_length_m = 0.02",
+            "shape = 'cone'\nhalf_angle_deg = 30.0\ndepth_m = 0.02",
+            "shape = 'frustum'\nbase_radius_m = 0.02\ntop_radius_m = 0.01\nheight_m = 0.02",
+            "shape = 'torus'\nring_radius_m = 0.03\ntube_radius_m = 0.01",
+            "shape = 'superquadric'\nsemi_axes_m = [0.01, 0.02, 0.03]\nexponents = [0.5, 0.5]",
+            "shape = 'rounded_box'\nhalf_extents_m = [0.01, 0.02, 0.03]\nrounding_m = 0.002",
+            "shape = 'paraboloid'\nradii_m = [0.01, 0.02]\ndepth_m = 0.01",
+            "shape = 'heightfield'\ncorner_m = [0.0, 0.0]\nspacing_m = [0.01, 0.01]\ncolumns = 2\nheights_m = [0.0, 0.0, 0.0, 0.001]",
+        ];
+        let readme = include_str!("../../../examples/scenes/README.md");
+        let (head, _) = GOOD.split_once("shape").unwrap();
+        for shape in shapes {
+            let scene = check(&format!("{head}{shape}\n[map]\npole = [1.0, 0.0, 0.0]\n"));
+            assert!(matches!(scene.unwrap().shape, Shape::Other(_)), "{shape}");
+            for key in shape.lines().skip(1).filter_map(|line| line.split_once(" =")) {
+                assert!(readme.contains(&format!("`{}`", key.0)), "{}", key.0);
+            }
+            assert!(check(&format!("{head}{shape}\nradius_mm = 1.0\n")).is_err(), "{shape}");
+        }
+        let error = check(&format!("{GOOD}[map]\n")).unwrap_err();
+        assert!(error.contains("[map]"), "{error}");
+    }
 }
