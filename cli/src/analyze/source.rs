@@ -153,9 +153,7 @@ impl Source {
         let rested = time - self.first_time.unwrap_or(time);
         match self.rest {
             // A row without time is no reason to end the rest.
-            Some(rest) if !(rested >= rest) => {
-                Ok(Reading::Without(if self.recorded.rest(row) { Status::Rest } else { Status::UnusableRow }))
-            }
+            Some(rest) if !(rested >= rest) => Ok(Reading::Without(self.recorded.rest(row))),
             _ => {
                 let rest = self.rest.take().unwrap_or(0.0);
                 self.recorded.end_rest().map_err(|_| CliError::NoRest { rest })?;
@@ -174,8 +172,8 @@ pub(super) trait Recorded {
     /// The load as recorded, less the zero, or why there is none.
     fn read(&self, row: &Row<'_>) -> Result<Wrench<f64>, Status>;
 
-    /// Takes a row of the rest; `false` if it is unusable.
-    fn rest(&mut self, row: &Row<'_>) -> bool;
+    /// Takes a row of the rest: [`Status::Rest`], or why it cannot be used.
+    fn rest(&mut self, row: &Row<'_>) -> Status;
 
     /// The mean of the rest is the zero from now on.
     fn end_rest(&mut self) -> Result<(), TareError>;

@@ -8,6 +8,7 @@ use fingertip::wrench::{
 };
 use fingertip_calibration::file::{CalibrationFile, SignalUnit as CalibratedUnit, Verdict};
 use fingertip_drivers::recording::{HeaderProblem, Layout, Row, SignalColumns, SignalUnit};
+use nalgebra::SVector;
 
 use super::rest::{Doubt, RestWatch};
 use super::source::Recorded;
@@ -114,6 +115,13 @@ impl<S: WrenchSolver<f64, N> + 'static, const N: usize> Volts<S, N> {
     }
 }
 
+impl<S, const N: usize> Volts<S, N> {
+    #[inline]
+    fn is_saturated(&self, gauges: &SVector<f64, N>) -> bool {
+        self.range.is_some_and(|[low, high]| !gauges.iter().all(|gauge| *gauge > low && *gauge < high))
+    }
+}
+
 impl<S: WrenchSolver<f64, N>, const N: usize> Recorded for Volts<S, N> {
     fn sensor(&self) -> &str {
         self.columns.name()
@@ -122,9 +130,7 @@ impl<S: WrenchSolver<f64, N>, const N: usize> Recorded for Volts<S, N> {
     /// The wrench as the calibration has it.
     fn read(&self, row: &Row<'_>) -> Result<Wrench<f64>, Status> {
         let gauges = row.signals::<N>(&self.columns).ok_or(Status::UnusableRow)?;
-        if let Some([low, high]) = self.range
-            && !gauges.iter().all(|gauge| *gauge > low && *gauge < high)
-        {
+        if self.is_saturated(&gauges) {
             return Err(Status::Saturated);
         }
         let signals = match &self.zero {
@@ -137,21 +143,25 @@ impl<S: WrenchSolver<f64, N>, const N: usize> Recorded for Volts<S, N> {
         Ok(self.solver.solve(&signals))
     }
 
-    fn rest(&mut self, row: &Row<'_>) -> bool {
-        let Some(gauges) = row.signals::<N>(&self.columns) else { return false };
+    fn rest(&mut self, row: &Row<'_>) -> Status {
+        let Some(gauges) = row.signals::<N>(&self.columns) else { return Status::UnusableRow };
+        if self.is_saturated(&gauges) {
+            return Status::Saturated;
+        }
         let (taken, signals) = match &mut self.zero {
             Zero::Tare { resting, tare } => (resting.add(&gauges), tare.compensate(&gauges)),
             Zero::Dummy { resting, zero } => {
-                let Some(dummy) = row.dummy(&self.columns) else { return false };
+                let Some(dummy) = row.dummy(&self.columns) else { return Status::UnusableRow };
                 let reading = GaugesAndDummy { gauges, dummy };
                 // A drift that the dummy gauge shows too is taken off, and no motion.
                 (resting.add(&reading), zero.compensate(&reading))
             }
         };
-        if taken {
-            self.watch.add(&gauges, &signals, &self.solver.solve(&signals));
+        if !taken {
+            return Status::UnusableRow;
         }
-        taken
+        self.watch.add(&gauges, &signals, &self.solver.solve(&signals));
+        Status::Rest
     }
 
     fn end_rest(&mut self) -> Result<(), TareError> {

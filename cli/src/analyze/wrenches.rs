@@ -42,14 +42,14 @@ impl Recorded for Wrenches {
         Ok(Wrench::from_components(&(recorded.components() - self.zero)))
     }
 
-    fn rest(&mut self, row: &Row<'_>) -> bool {
-        let Some(wrench) = row.wrench(&self.columns) else { return false };
+    fn rest(&mut self, row: &Row<'_>) -> Status {
+        let Some(wrench) = row.wrench(&self.columns) else { return Status::UnusableRow };
         let components = wrench.components();
-        let taken = self.resting.add(&components);
-        if taken {
-            self.watch.add(&components, &components, &wrench);
+        if !self.resting.add(&components) {
+            return Status::UnusableRow;
         }
-        taken
+        self.watch.add(&components, &components, &wrench);
+        Status::Rest
     }
 
     fn end_rest(&mut self) -> Result<(), TareError> {
