@@ -51,6 +51,13 @@ pub(crate) enum CliError {
     /// Nothing to take the tare from.
     #[error("fewer than 2 usable rows within the {rest} s of rest; lengthen `rest_s` of the scene")]
     NoRest { rest: f64 },
+    /// The rest of the scene was clearly none.
+    #[error(
+        "{path} is not at rest within the first {rest} s, from which the tare is to be taken: {seen}; shorten `rest_s` \
+         of the scene to the part without load and motion, or set `rest_s = 0` for no tare",
+        path = .path.display()
+    )]
+    NotAtRest { path: PathBuf, rest: f64, seen: String },
     /// The calibration cannot be used.
     #[error("calibration {path}: {message}", path = .path.display())]
     Calibration { path: PathBuf, message: String },

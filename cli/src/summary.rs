@@ -65,6 +65,17 @@ pub(crate) fn of_recording(run: &Run<'_>) -> Findings {
         tables: vec![outcomes(observations), distributions(observations)],
         notes: run.notes.to_vec(),
     };
+    let (contacts, pulling) =
+        (observations.count_of(Status::Contact), observations.count_of(Status::OnlyPulling));
+    if pulling > contacts {
+        let tare = if scene.rest.is_some() { ", and that nothing touched during rest_s" } else { "" };
+        findings.notes.insert(
+            0,
+            format!(
+                "more forces pull outward than press; check `convention` and the pose in the scene{tare}"
+            ),
+        );
+    }
     findings.lead.retain(|sentence| !sentence.is_empty());
     if observations.slips.count() > 0 {
         findings.tables.push(slip_table(observations));

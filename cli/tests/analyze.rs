@@ -209,3 +209,53 @@ fn wrong_usage_is_told_apart() {
     assert!(folder.succeed(&["--help"]).contains("analyze"));
     assert!(folder.succeed(&["--version"]).contains(env!("CARGO_PKG_VERSION")));
 }
+
+#[test]
+fn a_rest_that_was_none_is_warned_of_or_refused() {
+    // Noise of 10 mN in steps of 2 mN; a finger that presses with up to `load` during the rest.
+    let recording = |load: f64| {
+        let mut rows = String::new();
+        for i in 0..1000_u32 {
+            let noise = (f64::from(i * 7919 % 1009) / 1009.0 - 0.5) * 0.03;
+            let moving = if i < 600 { load * (f64::from(i) * 0.008).sin() } else { 2.0 };
+            let force = ((noise - moving) / 0.002).round() * 0.002;
+            rows.push_str(&format!("{},0,0,{force:.3},0,0,0\n", f64::from(i) * 0.001));
+        }
+        rows
+    };
+    let rest = SCENE.replace("[input]", "[input]\nrest_s = 0.5");
+    let run = |load: f64, scene: &str| {
+        let folder = folder(&recording(load));
+        folder.write("scene.toml", scene);
+        let output = folder.run(&ANALYZE);
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        let report = if output.status.success() { folder.read("report.html") } else { String::new() };
+        (output.status.code(), text(output.stdout), text(output.stderr), report)
+    };
+
+    // A true rest is passed in silence.
+    let (code, summary, errors, _) = run(0.0, &rest);
+    assert_eq!((code, errors.as_str()), (Some(0), ""));
+    assert!(!summary.contains("at rest"), "{summary}");
+
+    // A hand that moves is seen, named and told how to be mended, everywhere.
+    let (code, summary, errors, report) = run(3.0, &rest);
+    assert_eq!(code, Some(0));
+    assert!(errors.starts_with("warning: ") && errors.trim_end().lines().count() == 1, "{errors}");
+    for text in [&summary, &errors, &report] {
+        for expected in ["may not have been at rest", "fz", "rest_s", "tare may be off"] {
+            assert!(text.contains(expected), "{expected:?} is not in {text}");
+        }
+    }
+
+    // What ranges over more than a hundred thresholds is refused.
+    let (code, _, error, _) = run(60.0, &rest);
+    assert_eq!(code, Some(1));
+    assert!(error.starts_with("error: ") && error.trim_end().lines().count() == 1, "{error}");
+    assert!(error.contains("not at rest") && error.contains("rest_s = 0"), "{error}");
+
+    // Without the tare the same recording is taken as it is.
+    let (code, summary, errors, _) = run(60.0, &SCENE.replace("[input]", "[input]\nrest_s = 0"));
+    assert_eq!((code, errors.as_str()), (Some(0), ""));
+    assert!(summary.contains("no tare"), "{summary}");
+}

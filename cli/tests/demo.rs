@@ -86,6 +86,16 @@ fn its_volts_analyzed_give_the_true_contacts() {
     let status = folder.read("contacts.csv").lines().nth(5000).unwrap().split(',').nth(1).map(str::to_owned);
     assert_eq!(status.as_deref(), Some("saturated"));
 
+    // Nor does it enter the tare.
+    let line = volts.lines().nth(500).unwrap();
+    let mut cells: Vec<&str> = line.split(',').collect();
+    cells[3] = "0.0";
+    folder.write("volts.csv", &volts.replacen(line, &cells.join(","), 1));
+    let output = folder.run(&analyze);
+    assert!(output.status.success() && output.stderr.is_empty());
+    let status = folder.read("contacts.csv").lines().nth(500).unwrap().split(',').nth(1).map(str::to_owned);
+    assert_eq!(status.as_deref(), Some("saturated"));
+
     // A damaged calibration is refused.
     let calibration = folder.read("calibration.toml");
     folder.write("calibration.toml", &calibration.replacen("30.0", "31.0", 1));

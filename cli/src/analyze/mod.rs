@@ -3,6 +3,7 @@
 mod contacts;
 mod files;
 mod progress;
+mod rest;
 mod source;
 mod volts;
 mod wrenches;
@@ -48,6 +49,7 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
         Shape::Plane(plane) => pass.over(plane),
         Shape::Sphere(sphere) => pass.over(sphere),
         Shape::Cylinder(cylinder) => pass.over(cylinder),
+        Shape::Other(ref other) => pass.over(other.as_ref().clone()),
     }?;
     progress.finish();
     contacts.finish()?;

@@ -1,11 +1,13 @@
 //! From the rows of a recording to wrenches on the fingertip.
 
 use std::fs::File;
+use std::path::PathBuf;
 
 use fingertip::wrench::{TareError, Wrench};
 use fingertip_drivers::recording::{HeaderProblem, RecordingReader, Row};
 
-use super::volts::Volts;
+use super::rest::Doubt;
+use super::volts;
 use super::wrenches::Wrenches;
 use crate::args::AnalyzeArguments;
 use crate::error::CliError;
@@ -18,22 +20,25 @@ pub(super) enum Reading {
     Without(Status),
 }
 
+/// A rest that fails its test while its forces range over so many times the threshold of contact is
+/// no rest.
+const UNMISTAKABLE: f64 = 100.0;
+
 /// Turns rows into wrenches: unit and sign, tare, and for volts the calibration.
 pub(super) struct Source {
-    kind: Kind,
+    recorded: Box<dyn Recorded>,
+    /// Forces below this are no contact \[N\].
+    least_force: f64,
     convention: Convention,
     /// Seconds at the start in which the sensor is unloaded, while they last.
     rest: Option<f64>,
     /// For recordings without time \[s\].
     sample_interval: Option<f64>,
+    /// For messages.
+    recording: PathBuf,
     rows: u64,
     first_time: Option<f64>,
     notes: Vec<String>,
-}
-
-enum Kind {
-    Wrenches(Box<Wrenches>),
-    Volts(Box<Volts>),
 }
 
 impl Source {
@@ -52,30 +57,29 @@ impl Source {
         let header = |problem: HeaderProblem| CliError::Recording(reader.header_error(problem));
         let sensor = arguments.sensor.as_deref().or(scene.sensor.as_deref());
         let mut notes = Vec::new();
-        let kind = if let Some(calibration) = &arguments.calibration {
-            let volts = Volts::new(layout, sensor, calibration, scene.rest.is_some(), &mut notes, header)?;
-            Kind::Volts(Box::new(volts))
+        let recorded: Box<dyn Recorded> = if let Some(calibration) = &arguments.calibration {
+            volts::open(layout, sensor, calibration, scene.rest.is_some(), &mut notes, header)?
         } else {
             if layout.wrenches().is_empty() && sensor.is_none() {
                 return Err(CliError::NeedsCalibration { path: arguments.recording.clone() });
             }
-            Kind::Wrenches(Box::new(Wrenches::new(layout, sensor).map_err(header)?))
+            Box::new(Wrenches::new(layout, sensor).map_err(header)?)
         };
         if scene.rest.is_none() {
-            notes.push(match kind {
-                Kind::Wrenches(_) => {
-                    "no tare: the scene gives no rest_s, the wrenches are taken as they are".to_owned()
-                }
-                Kind::Volts(_) => {
-                    "tare: the zero of the calibration, since the scene gives no rest_s".to_owned()
-                }
-            });
+            let note = if arguments.calibration.is_some() {
+                "tare: the zero of the calibration, since the scene gives no rest_s"
+            } else {
+                "no tare: the scene gives no rest_s, the wrenches are taken as they are"
+            };
+            notes.push(note.to_owned());
         }
         Ok(Self {
-            kind,
+            recorded,
+            least_force: scene.model.least_force(),
             convention: scene.convention,
             rest: scene.rest,
             sample_interval: if layout.has_time() { None } else { scene.sample_rate.map(f64::recip) },
+            recording: arguments.recording.clone(),
             rows: 0,
             first_time: None,
             notes,
@@ -84,7 +88,7 @@ impl Source {
 
     /// Name of the sensor; empty if the recording gives none.
     pub(super) fn sensor(&self) -> &str {
-        self.kind.sensor()
+        self.recorded.sensor()
     }
 
     /// What the reader of the results should know.
@@ -113,7 +117,31 @@ impl Source {
         if self.rest.is_some() {
             return self.read_at_rest(row, time);
         }
-        Ok(self.kind.read(row, self.convention))
+        Ok(self.read_load(row))
+    }
+
+    #[inline]
+    fn read_load(&self, row: &Row<'_>) -> Reading {
+        match self.recorded.read(row) {
+            Ok(load) => Reading::Wrench(self.convention.wrench(load.force(), load.torque())),
+            Err(status) => Reading::Without(status),
+        }
+    }
+
+    /// Refuses a rest that clearly was none, and warns of a doubtful one.
+    fn judge_rest(&mut self, rest: f64) -> Result<(), CliError> {
+        let Some(doubt) = self.recorded.doubt() else { return Ok(()) };
+        if self.least_force > 0.0 && doubt.force_range > UNMISTAKABLE * self.least_force {
+            return Err(CliError::NotAtRest { path: self.recording.clone(), rest, seen: doubt.to_string() });
+        }
+        let warning = format!(
+            "the sensor may not have been at rest in the first {rest} s, from which the tare is taken: {doubt}; if \
+             contacts look wrong, shorten rest_s of the scene to the part without load and motion, or set it to 0"
+        );
+        // Those who read only the table of contacts should learn of it too.
+        eprintln!("warning: {warning}");
+        self.notes.insert(0, warning);
+        Ok(())
     }
 
     /// Collects the tare; the first row behind the rest ends it.
@@ -125,52 +153,31 @@ impl Source {
         let rested = time - self.first_time.unwrap_or(time);
         match self.rest {
             // A row without time is no reason to end the rest.
-            Some(rest) if !(rested >= rest) => {
-                Ok(Reading::Without(if self.kind.rest(row) { Status::Rest } else { Status::UnusableRow }))
-            }
+            Some(rest) if !(rested >= rest) => Ok(Reading::Without(self.recorded.rest(row))),
             _ => {
-                let rest = self.rest.take();
-                self.kind.end_rest().map_err(|_| CliError::NoRest { rest: rest.unwrap_or(0.0) })?;
-                Ok(self.kind.read(row, self.convention))
+                let rest = self.rest.take().unwrap_or(0.0);
+                self.recorded.end_rest().map_err(|_| CliError::NoRest { rest })?;
+                self.judge_rest(rest)?;
+                Ok(self.read_load(row))
             }
         }
     }
 }
 
-impl Kind {
-    #[inline]
-    fn read(&self, row: &Row<'_>, convention: Convention) -> Reading {
-        let recorded = match self {
-            Self::Wrenches(wrenches) => wrenches.read(row),
-            Self::Volts(volts) => volts.read(row),
-        };
-        match recorded {
-            Ok(load) => Reading::Wrench(convention.wrench(load.force(), load.torque())),
-            Err(status) => Reading::Without(status),
-        }
-    }
-
-    /// Takes a row of the rest; `false` if it is unusable.
-    fn rest(&mut self, row: &Row<'_>) -> bool {
-        match self {
-            Self::Wrenches(wrenches) => wrenches.rest(row),
-            Self::Volts(volts) => volts.rest(row),
-        }
-    }
-
-    /// Makes the tare of what was collected.
-    fn end_rest(&mut self) -> Result<(), TareError> {
-        match self {
-            Self::Wrenches(wrenches) => wrenches.end_rest(),
-            Self::Volts(volts) => volts.end_rest(),
-        }
-    }
-
+/// What a row of a recording holds of one sensor.
+pub(super) trait Recorded {
     /// Name of the sensor; empty if the recording gives none.
-    fn sensor(&self) -> &str {
-        match self {
-            Self::Wrenches(wrenches) => wrenches.sensor(),
-            Self::Volts(volts) => volts.sensor(),
-        }
-    }
+    fn sensor(&self) -> &str;
+
+    /// The load as recorded, less the zero, or why there is none.
+    fn read(&self, row: &Row<'_>) -> Result<Wrench<f64>, Status>;
+
+    /// Takes a row of the rest: [`Status::Rest`], or why it cannot be used.
+    fn rest(&mut self, row: &Row<'_>) -> Status;
+
+    /// The mean of the rest is the zero from now on.
+    fn end_rest(&mut self) -> Result<(), TareError>;
+
+    /// Why the rest may not have been one.
+    fn doubt(&self) -> Option<Doubt>;
 }

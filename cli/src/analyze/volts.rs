@@ -3,88 +3,134 @@
 use std::path::Path;
 
 use fingertip::wrench::{
-    Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy, GaussianElimination, Tare,
+    Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy, GaussianElimination, LeastSquares, Tare,
     TareAccumulator, TareError, Wrench, WrenchSolver,
 };
 use fingertip_calibration::file::{CalibrationFile, SignalUnit as CalibratedUnit, Verdict};
 use fingertip_drivers::recording::{HeaderProblem, Layout, Row, SignalColumns, SignalUnit};
+use nalgebra::SVector;
 
+use super::rest::{Doubt, RestWatch};
+use super::source::Recorded;
 use crate::error::CliError;
 use crate::observe::Status;
 
 /// The signals of one sensor and its calibration.
-pub(super) struct Volts {
+struct Volts<S, const N: usize> {
     columns: SignalColumns,
-    solver: GaussianElimination<f64>,
-    zero: Zero,
+    solver: S,
+    zero: Zero<N>,
+    watch: RestWatch<N>,
     /// Readings at or beyond these are saturated.
     range: Option<[f64; 2]>,
 }
 
 /// What is taken off the signals.
-enum Zero {
+enum Zero<const N: usize> {
     /// The zero of the calibration, or of the rest when that is over.
-    Tare { resting: TareAccumulator<f64, 6>, tare: Tare<f64, 6> },
+    Tare { resting: TareAccumulator<f64, N>, tare: Tare<f64, N> },
     /// The same, and the drift that the dummy gauge shows since the rest.
-    Dummy { resting: DummyGaugeAccumulator<f64, 6>, zero: DummyGauge<f64, 6> },
+    Dummy { resting: DummyGaugeAccumulator<f64, N>, zero: DummyGauge<f64, N> },
 }
 
-impl Volts {
-    /// Reads the calibration; what is to be minded about it is added to `notes`.
-    pub(super) fn new(
-        layout: &Layout,
-        sensor: Option<&str>,
-        calibration: &Path,
+/// Reads the calibration; what is to be minded about it is added to `notes`.
+pub(super) fn open(
+    layout: &Layout,
+    sensor: Option<&str>,
+    calibration: &Path,
+    has_rest: bool,
+    notes: &mut Vec<String>,
+    header: impl Fn(HeaderProblem) -> CliError,
+) -> Result<Box<dyn Recorded>, CliError> {
+    let fault = |message: String| CliError::Calibration { path: calibration.to_owned(), message };
+    let file = CalibrationFile::read(calibration).map_err(|error| fault(error.to_string()))?;
+    let columns = match sensor {
+        Some(sensor) => layout.signals_of(sensor),
+        None => layout.only_signals(),
+    };
+    let columns = columns.and_then(|columns| columns.expecting(file.gauges())).map_err(&header)?.clone();
+    if !agree(columns.unit(), file.signal_unit) {
+        return Err(fault(format!(
+            "it is for signals in {:?}, but the recording holds {:?}; use the calibration that belongs to the \
+             recording",
+            file.signal_unit,
+            columns.unit()
+        )));
+    }
+    if file.quality.verdict == Verdict::Bad {
+        notes.push(format!("the calibration calls itself bad: {}", file.quality.reasons.join("; ")));
+    }
+    if file.temperature.is_some() {
+        notes.push("the calibration's drift with temperature is not applied".to_owned());
+    }
+    if columns.has_dummy() && !has_rest {
+        notes.push("the dummy gauge is not used: that needs rest_s in the scene".to_owned());
+    }
+    // Six gauges give the wrench exactly, more by least squares. The number is part of the type, so
+    // that the loop over the gauges is unrolled.
+    let solved = match file.gauges() {
+        6 => file.sensor_matrix::<6>().map_err(|error| error.to_string()).and_then(|matrix| {
+            let solver = GaussianElimination::new(&matrix).map_err(|error| error.to_string())?;
+            Volts::<_, 6>::boxed(solver, &file, columns, has_rest)
+        }),
+        7 => redundant::<7>(&file, columns, has_rest),
+        8 => redundant::<8>(&file, columns, has_rest),
+        9 => redundant::<9>(&file, columns, has_rest),
+        10 => redundant::<10>(&file, columns, has_rest),
+        11 => redundant::<11>(&file, columns, has_rest),
+        12 => redundant::<12>(&file, columns, has_rest),
+        13 => redundant::<13>(&file, columns, has_rest),
+        14 => redundant::<14>(&file, columns, has_rest),
+        15 => redundant::<15>(&file, columns, has_rest),
+        16 => redundant::<16>(&file, columns, has_rest),
+        other => Err(format!("it has {other} gauges, but this program reads 6 to 16; leave some out")),
+    };
+    solved.map_err(fault)
+}
+
+fn redundant<const N: usize>(
+    file: &CalibrationFile,
+    columns: SignalColumns,
+    has_rest: bool,
+) -> Result<Box<dyn Recorded>, String> {
+    let matrix = file.sensor_matrix::<N>().map_err(|error| error.to_string())?;
+    let solver = LeastSquares::new(&matrix).map_err(|error| error.to_string())?;
+    Volts::<_, N>::boxed(solver, file, columns, has_rest)
+}
+
+impl<S: WrenchSolver<f64, N> + 'static, const N: usize> Volts<S, N> {
+    fn boxed(
+        solver: S,
+        file: &CalibrationFile,
+        columns: SignalColumns,
         has_rest: bool,
-        notes: &mut Vec<String>,
-        header: impl Fn(HeaderProblem) -> CliError,
-    ) -> Result<Self, CliError> {
-        let fault = |message: String| CliError::Calibration { path: calibration.to_owned(), message };
-        let file = CalibrationFile::read(calibration).map_err(|error| fault(error.to_string()))?;
-        let columns = match sensor {
-            Some(sensor) => layout.signals_of(sensor),
-            None => layout.only_signals(),
-        };
-        let columns = columns.and_then(|columns| columns.expecting(file.gauges())).map_err(&header)?.clone();
-        if !agree(columns.unit(), file.signal_unit) {
-            return Err(fault(format!(
-                "it is for signals in {:?}, but the recording holds {:?}; use the calibration that belongs to the \
-                 recording",
-                file.signal_unit,
-                columns.unit()
-            )));
-        }
-        let matrix = file.sensor_matrix::<6>().map_err(|error| fault(error.to_string()))?;
-        let solver = GaussianElimination::new(&matrix).map_err(|error| fault(error.to_string()))?;
-        let tare = file.zero::<6>().map_err(|error| fault(error.to_string()))?;
-        if file.quality.verdict == Verdict::Bad {
-            notes.push(format!("the calibration calls itself bad: {}", file.quality.reasons.join("; ")));
-        }
-        if file.temperature.is_some() {
-            notes.push("the calibration's drift with temperature is not applied".to_owned());
-        }
-        if columns.has_dummy() && !has_rest {
-            notes.push("the dummy gauge is not used: that needs rest_s in the scene".to_owned());
-        }
+    ) -> Result<Box<dyn Recorded>, String> {
+        let tare = file.zero::<N>().map_err(|error| error.to_string())?;
         let zero = if columns.has_dummy() && has_rest {
             Zero::Dummy { resting: DummyGaugeAccumulator::default(), zero: DummyGauge::new(tare, 0.0) }
         } else {
             Zero::Tare { resting: TareAccumulator::default(), tare }
         };
-        Ok(Self { columns, solver, zero, range: file.range })
+        Ok(Box::new(Self { columns, solver, zero, watch: RestWatch::default(), range: file.range }))
     }
+}
 
-    pub(super) fn sensor(&self) -> &str {
+impl<S, const N: usize> Volts<S, N> {
+    #[inline]
+    fn is_saturated(&self, gauges: &SVector<f64, N>) -> bool {
+        self.range.is_some_and(|[low, high]| !gauges.iter().all(|gauge| *gauge > low && *gauge < high))
+    }
+}
+
+impl<S: WrenchSolver<f64, N>, const N: usize> Recorded for Volts<S, N> {
+    fn sensor(&self) -> &str {
         self.columns.name()
     }
 
-    /// The wrench as the calibration has it, or why there is none.
-    #[inline]
-    pub(super) fn read(&self, row: &Row<'_>) -> Result<Wrench<f64>, Status> {
-        let gauges = row.signals::<6>(&self.columns).ok_or(Status::UnusableRow)?;
-        if let Some([low, high]) = self.range
-            && !gauges.iter().all(|gauge| *gauge > low && *gauge < high)
-        {
+    /// The wrench as the calibration has it.
+    fn read(&self, row: &Row<'_>) -> Result<Wrench<f64>, Status> {
+        let gauges = row.signals::<N>(&self.columns).ok_or(Status::UnusableRow)?;
+        if self.is_saturated(&gauges) {
             return Err(Status::Saturated);
         }
         let signals = match &self.zero {
@@ -97,24 +143,37 @@ impl Volts {
         Ok(self.solver.solve(&signals))
     }
 
-    /// Takes a row of the rest; `false` if it is unusable.
-    pub(super) fn rest(&mut self, row: &Row<'_>) -> bool {
-        let Some(gauges) = row.signals(&self.columns) else { return false };
-        match &mut self.zero {
-            Zero::Tare { resting, .. } => resting.add(&gauges),
-            Zero::Dummy { resting, .. } => {
-                row.dummy(&self.columns).is_some_and(|dummy| resting.add(&GaugesAndDummy { gauges, dummy }))
-            }
+    fn rest(&mut self, row: &Row<'_>) -> Status {
+        let Some(gauges) = row.signals::<N>(&self.columns) else { return Status::UnusableRow };
+        if self.is_saturated(&gauges) {
+            return Status::Saturated;
         }
+        let (taken, signals) = match &mut self.zero {
+            Zero::Tare { resting, tare } => (resting.add(&gauges), tare.compensate(&gauges)),
+            Zero::Dummy { resting, zero } => {
+                let Some(dummy) = row.dummy(&self.columns) else { return Status::UnusableRow };
+                let reading = GaugesAndDummy { gauges, dummy };
+                // A drift that the dummy gauge shows too is taken off, and no motion.
+                (resting.add(&reading), zero.compensate(&reading))
+            }
+        };
+        if !taken {
+            return Status::UnusableRow;
+        }
+        self.watch.add(&gauges, &signals, &self.solver.solve(&signals));
+        Status::Rest
     }
 
-    /// The mean of the rest is the zero from now on.
-    pub(super) fn end_rest(&mut self) -> Result<(), TareError> {
+    fn end_rest(&mut self) -> Result<(), TareError> {
         match &mut self.zero {
             Zero::Tare { resting, tare } => *tare = resting.finish()?,
             Zero::Dummy { resting, zero } => *zero = resting.finish()?,
         }
         Ok(())
+    }
+
+    fn doubt(&self) -> Option<Doubt> {
+        self.watch.doubt(|gauge| format!("gauge {}", gauge + 1))
     }
 }
 

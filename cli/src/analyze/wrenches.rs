@@ -4,12 +4,15 @@ use fingertip::wrench::{TareAccumulator, TareError, Wrench};
 use fingertip_drivers::recording::{HeaderProblem, Layout, Row, WrenchColumns};
 use nalgebra::Vector6;
 
+use super::rest::{Doubt, RestWatch};
+use super::source::Recorded;
 use crate::observe::Status;
 
 /// The wrench of one sensor, tared.
 pub(super) struct Wrenches {
     columns: WrenchColumns,
     resting: TareAccumulator<f64, 6>,
+    watch: RestWatch<6>,
     zero: Vector6<f64>,
 }
 
@@ -19,28 +22,43 @@ impl Wrenches {
             Some(sensor) => layout.wrench(sensor),
             None => layout.only_wrench(),
         }?;
-        Ok(Self { columns: columns.clone(), resting: TareAccumulator::default(), zero: Vector6::zeros() })
+        Ok(Self {
+            columns: columns.clone(),
+            resting: TareAccumulator::default(),
+            watch: RestWatch::default(),
+            zero: Vector6::zeros(),
+        })
     }
+}
 
-    pub(super) fn sensor(&self) -> &str {
+impl Recorded for Wrenches {
+    fn sensor(&self) -> &str {
         self.columns.name()
     }
 
-    /// The wrench as recorded, less the tare, or why there is none.
-    #[inline]
-    pub(super) fn read(&self, row: &Row<'_>) -> Result<Wrench<f64>, Status> {
+    /// The wrench as recorded, less the tare.
+    fn read(&self, row: &Row<'_>) -> Result<Wrench<f64>, Status> {
         let recorded = row.wrench(&self.columns).ok_or(Status::UnusableRow)?;
         Ok(Wrench::from_components(&(recorded.components() - self.zero)))
     }
 
-    /// Takes a row of the rest; `false` if it is unusable.
-    pub(super) fn rest(&mut self, row: &Row<'_>) -> bool {
-        row.wrench(&self.columns).is_some_and(|wrench| self.resting.add(&wrench.components()))
+    fn rest(&mut self, row: &Row<'_>) -> Status {
+        let Some(wrench) = row.wrench(&self.columns) else { return Status::UnusableRow };
+        let components = wrench.components();
+        if !self.resting.add(&components) {
+            return Status::UnusableRow;
+        }
+        self.watch.add(&components, &components, &wrench);
+        Status::Rest
     }
 
-    /// The mean of the rest is the zero from now on.
-    pub(super) fn end_rest(&mut self) -> Result<(), TareError> {
+    fn end_rest(&mut self) -> Result<(), TareError> {
         self.zero = *self.resting.finish()?.zero();
         Ok(())
+    }
+
+    fn doubt(&self) -> Option<Doubt> {
+        let names = ["fx", "fy", "fz", "tx", "ty", "tz"];
+        self.watch.doubt(|component| names.get(component).copied().unwrap_or("a component").to_owned())
     }
 }

@@ -11,6 +11,8 @@ pub(crate) enum Status {
     OnlyPulling,
     OutsideActiveRegion,
     NotFinite,
+    /// The force is steeper than friction allows.
+    BeyondFriction,
     /// A reason that this program has no word for yet.
     Other,
     /// Part of the rest at the start, from which the tare is taken.
@@ -22,13 +24,14 @@ pub(crate) enum Status {
 }
 
 impl Status {
-    pub(crate) const ALL: [Self; 10] = [
+    pub(crate) const ALL: [Self; 11] = [
         Self::Contact,
         Self::BelowThreshold,
         Self::Misses,
         Self::OnlyPulling,
         Self::OutsideActiveRegion,
         Self::NotFinite,
+        Self::BeyondFriction,
         Self::Other,
         Self::Rest,
         Self::Saturated,
@@ -44,6 +47,7 @@ impl Status {
             Resolution::NoContact(NoContact::OnlyPulling { .. }) => Self::OnlyPulling,
             Resolution::NoContact(NoContact::OutsideActiveRegion { .. }) => Self::OutsideActiveRegion,
             Resolution::NoContact(NoContact::NotFinite) => Self::NotFinite,
+            Resolution::NoContact(NoContact::BeyondFriction { .. }) => Self::BeyondFriction,
             Resolution::NoContact(_) => Self::Other,
         }
     }
@@ -57,6 +61,7 @@ impl Status {
             Self::OnlyPulling => "only_pulling",
             Self::OutsideActiveRegion => "outside_active_region",
             Self::NotFinite => "not_finite",
+            Self::BeyondFriction => "beyond_friction",
             Self::Other => "other",
             Self::Rest => "rest",
             Self::Saturated => "saturated",
@@ -73,6 +78,7 @@ impl Status {
             Self::OnlyPulling => "force pulls outward",
             Self::OutsideActiveRegion => "presses outside the active region",
             Self::NotFinite => "reading not finite",
+            Self::BeyondFriction => "more tangential than friction allows",
             Self::Other => "another reason",
             Self::Rest => "rest at the start, for the tare",
             Self::Saturated => "a gauge is saturated",

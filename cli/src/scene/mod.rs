@@ -8,17 +8,18 @@ mod surface;
 use std::fs;
 use std::path::Path;
 
-use fingertip::surfaces::PointContact;
+use fingertip::surfaces::{DynSurface, PointContact};
 use fingertip::wrench::Wrench;
 use nalgebra::Vector3;
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
 pub(crate) use stages::{Friction, SlipWatch};
 
 use crate::error::{CliError, Place};
 use crate::shape::{Projection, Shape};
 use stages::{ContactSection, FrictionSection, SlipSection};
-use surface::{PoseSection, SurfaceSection};
+use surface::{MapSection, MeshSection, PoseSection, Surface, SurfaceSection};
 
 /// The version of the format that this program reads.
 const VERSION: u32 = 1;
@@ -57,25 +58,28 @@ struct InputSection {
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct SceneFile {
+struct SceneFile<S> {
     /// Checked before the rest is read.
     #[serde(rename = "version")]
     _version: u32,
     name: Option<String>,
     input: InputSection,
-    surface: SurfaceSection,
+    surface: S,
     #[serde(default)]
     pose: PoseSection,
+    map: Option<MapSection>,
     #[serde(default)]
     contact: ContactSection,
     friction: Option<FrictionSection>,
     slip: Option<SlipSection>,
 }
 
-/// Only the version, so that a scene of another version is told apart from a bad one.
+/// What tells kinds of scenes apart: the version, so that a scene of another version is not taken for
+/// a bad one, and the shape.
 #[derive(Deserialize)]
-struct VersionOnly {
+struct Kind {
     version: Option<u32>,
+    surface: Option<toml::Value>,
 }
 
 /// A scene that has been checked: every stage can be built from it.
@@ -101,18 +105,26 @@ impl Scene {
     pub(crate) fn load(path: &Path) -> Result<Self, CliError> {
         let text = fs::read_to_string(path).map_err(|source| CliError::read("scene", path, source))?;
         let fault = |line, message| CliError::Scene { path: path.to_owned(), place: Place(line), message };
-        let file = parse(&text).map_err(|(line, message)| fault(line, message))?;
-        let name = file.name.clone().unwrap_or_else(|| {
-            path.file_stem().map_or_else(|| "scene".to_owned(), |stem| stem.to_string_lossy().into_owned())
-        });
-        file.check(name).map_err(|message| fault(None, message))
+        let name = path.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
+        let folder = path.parent().unwrap_or(Path::new(""));
+        parse(&text, &name, folder).map_err(|(line, message)| fault(line, message))
     }
 }
 
-fn parse(text: &str) -> Result<SceneFile, (Option<usize>, String)> {
-    let VersionOnly { version } = toml::from_str(text).map_err(|error| explain(text, &error))?;
+/// Line, if it is known, and sentence.
+type Fault = (Option<usize>, String);
+
+/// A scene of which the file is called `name`, in a folder that relative paths start from.
+fn parse(text: &str, name: &str, folder: &Path) -> Result<Scene, Fault> {
+    let Kind { version, surface } =
+        toml::from_str(text).map_err(|error| explain::<SurfaceSection>(text, &error))?;
+    let word = |key| surface.as_ref().and_then(|surface| surface.get(key)).and_then(toml::Value::as_str);
     match version {
-        Some(VERSION) => toml::from_str(text).map_err(|error| explain(text, &error)),
+        Some(VERSION) => match word("shape") {
+            Some("mesh") if word("file").is_some() => parse_with::<MeshSection>(text, name, folder),
+            Some(shape) if !SurfaceSection::knows(shape) => parse_with::<DynSurface<f64>>(text, name, folder),
+            _ => parse_with::<SurfaceSection>(text, name, folder),
+        },
         Some(other) => Err((
             None,
             format!(
@@ -125,23 +137,28 @@ fn parse(text: &str) -> Result<SceneFile, (Option<usize>, String)> {
     }
 }
 
+fn parse_with<S: Surface + DeserializeOwned>(text: &str, name: &str, folder: &Path) -> Result<Scene, Fault> {
+    let file: SceneFile<S> = toml::from_str(text).map_err(|error| explain::<S>(text, &error))?;
+    file.check(name, folder).map_err(|message| (None, message))
+}
+
 /// Line and sentence for an error of the parser.
-fn explain(text: &str, error: &toml::de::Error) -> (Option<usize>, String) {
+fn explain<S: DeserializeOwned>(text: &str, error: &toml::de::Error) -> Fault {
     let before = error.span().and_then(|span| text.get(..span.start));
     let line = before.map(|before| before.matches('\n').count() + 1);
     let message = error.message().replace('\n', " ");
-    let key = if message.starts_with("invalid") { culprit(text, error.message()) } else { None };
+    let key = if message.starts_with("invalid") { culprit::<S>(text, error.message()) } else { None };
     let key = key.map_or_else(String::new, |key| format!("key `{key}`: "));
     (line, format!("{key}{message} (the keys are explained in examples/scenes/README.md)"))
 }
 
 /// The key whose value is wrong, which serde does not tell: the one without which the complaint is
 /// another.
-fn culprit(text: &str, message: &str) -> Option<String> {
+fn culprit<S: DeserializeOwned>(text: &str, message: &str) -> Option<String> {
     let document: toml::Table = toml::from_str(text).ok()?;
     let complaint = |document: &toml::Table| {
         toml::Value::Table(document.clone())
-            .try_into::<SceneFile>()
+            .try_into::<SceneFile<S>>()
             .err()
             .map(|error| error.message().to_owned())
     };
@@ -165,8 +182,8 @@ fn culprit(text: &str, message: &str) -> Option<String> {
     None
 }
 
-impl SceneFile {
-    fn check(self, name: String) -> Result<Scene, String> {
+impl<S: Surface> SceneFile<S> {
+    fn check(self, name: &str, folder: &Path) -> Result<Scene, String> {
         let positive = |what: &str, value: Option<f64>| match value {
             Some(value) if !(value > 0.0 && value.is_finite()) => {
                 Err(format!("`{what}` must be a positive number, not {value}"))
@@ -174,11 +191,11 @@ impl SceneFile {
             other => Ok(other),
         };
         let sample_rate = positive("sample_rate_Hz", self.input.sample_rate)?;
-        let rest = positive("rest_s", self.input.rest)?;
-        let (shape, projection) = self.surface.place(&self.pose)?;
+        let rest = positive("rest_s", self.input.rest.filter(|rest| *rest != 0.0))?;
+        let (shape, projection) = self.surface.place(&self.pose, self.map.as_ref(), folder)?;
         let friction = Friction::from_section(self.friction.as_ref())?;
         Ok(Scene {
-            name,
+            name: self.name.unwrap_or_else(|| name.to_owned()),
             convention: self.input.convention,
             sensor: self.input.sensor,
             sample_rate,
@@ -194,6 +211,8 @@ impl SceneFile {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::{Convention, Scene, parse};
     use crate::shape::Shape;
 
@@ -201,7 +220,7 @@ mod tests {
         "version = 1\n[input]\nconvention = \"reaction\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
 
     fn check(text: &str) -> Result<Scene, String> {
-        parse(text).map_err(|(_, message)| message)?.check("test".to_owned())
+        parse(text, "test", Path::new("")).map_err(|(_, message)| message)
     }
 
     #[test]
@@ -221,7 +240,7 @@ mod tests {
             (GOOD.replace("reaction", "object"), "expected `on_fingertip` or `reaction`"),
             (format!("{GOOD}radius_mm = 13.0\n"), "unknown field `radius_mm`"),
             (format!("{GOOD}[contacts]\n"), "unknown field `contacts`"),
-            (GOOD.replace("sphere", "cone"), "unknown variant `cone`"),
+            (GOOD.replace("sphere", "cube"), "unknown variant `cube`"),
             (without("radius_m = 0.013\n"), "missing field `radius_m`"),
             (GOOD.replace("0.013", "-0.013"), "radius of a sphere"),
             (GOOD.replace("0.013", "nan"), "radius of a sphere"),
@@ -233,7 +252,7 @@ mod tests {
             (format!("{GOOD}[friction]\nstatic_coefficient = 0.0\n"), "friction coefficient"),
             (format!("{GOOD}[slip]\ndetector = \"threshold\"\nnoise_N = 0.01\n"), "[friction]"),
             (format!("{GOOD}[slip]\ndetector = \"drop\"\nnoise_N = 0.0\n"), "noise"),
-            (GOOD.replace("[input]", "[input]\nrest_s = 0"), "rest_s"),
+            (GOOD.replace("[input]", "[input]\nrest_s = -1"), "rest_s"),
             (GOOD.replace("[input]", "[input]\nsample_rate_Hz = -5.0"), "sample_rate_Hz"),
             (format!("{GOOD}active_half_angle_deg = 190.0\n"), "active_half_angle_deg"),
             (format!("{GOOD}pole = [0.0, 0.0, 0.0]\n"), "pole"),
@@ -249,9 +268,43 @@ mod tests {
 
     #[test]
     fn an_unknown_key_is_answered_with_the_known_ones_and_its_line() {
-        let (line, message) = parse(&GOOD.replace("convention", "convection")).unwrap_err();
+        let (line, message) =
+            parse(&GOOD.replace("convention", "convection"), "test", Path::new("")).unwrap_err();
         assert_eq!(line, Some(3));
         assert!(message.contains("unknown field `convection`"), "{message}");
         assert!(message.contains("`convention`") && message.contains("`sample_rate_Hz`"), "{message}");
+    }
+
+    #[test]
+    fn the_shapes_of_the_readme_are_understood() {
+        let shapes = [
+            "shape = 'disk'\nradius_m = 0.01",
+            "shape = 'rectangle'\nfirst_half_edge_m = [0.01, 0.0, 0.0]\nsecond_half_edge_m = [0.0, 0.02, 0.0]",
+            "shape = 'spherical_cap'\nradius_m = 0.01\nactive_half_angle_deg = 90.0",
+            "shape = 'ellipsoid'\nsemi_axes_m = [0.01, 0.02, 0.03]",
+            "shape = 'capped_cylinder'\nradius_m = 0.01\nhalf_length_m = 0.02",
+            "shape = 'elliptic_cylinder'\nsemi_axes_m = [0.01, 0.02]\nends_m = 'unbounded'",
+            "shape = 'elliptic_cylinder'\nsemi_axes_m = [0.01, 0.02]\nends_m = { capped = 0.01 }",
+            "shape = 'capsule'\nradius_m = 0.01\nhalf_length_m = 0.02",
+            "shape = 'cone'\nhalf_angle_deg = 30.0\ndepth_m = 0.02",
+            "shape = 'frustum'\nbase_radius_m = 0.02\ntop_radius_m = 0.01\nheight_m = 0.02",
+            "shape = 'torus'\nring_radius_m = 0.03\ntube_radius_m = 0.01",
+            "shape = 'superquadric'\nsemi_axes_m = [0.01, 0.02, 0.03]\nexponents = [0.5, 0.5]",
+            "shape = 'rounded_box'\nhalf_extents_m = [0.01, 0.02, 0.03]\nrounding_m = 0.002",
+            "shape = 'paraboloid'\nradii_m = [0.01, 0.02]\ndepth_m = 0.01",
+            "shape = 'heightfield'\ncorner_m = [0.0, 0.0]\nspacing_m = [0.01, 0.01]\ncolumns = 2\nheights_m = [0.0, 0.0, 0.0, 0.001]",
+        ];
+        let readme = include_str!("../../../examples/scenes/README.md");
+        let (head, _) = GOOD.split_once("shape").unwrap();
+        for shape in shapes {
+            let scene = check(&format!("{head}{shape}\n[map]\npole = [1.0, 0.0, 0.0]\n"));
+            assert!(matches!(scene.unwrap().shape, Shape::Other(_)), "{shape}");
+            for key in shape.lines().skip(1).filter_map(|line| line.split_once(" =")) {
+                assert!(readme.contains(&format!("`{}`", key.0)), "{}", key.0);
+            }
+            assert!(check(&format!("{head}{shape}\nradius_mm = 1.0\n")).is_err(), "{shape}");
+        }
+        let error = check(&format!("{GOOD}[map]\n")).unwrap_err();
+        assert!(error.contains("[map]"), "{error}");
     }
 }

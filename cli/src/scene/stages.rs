@@ -24,6 +24,7 @@ pub(super) struct ContactSection {
     least_force: f64,
     #[serde(rename = "greatest_gap_m")]
     greatest_gap: f64,
+    greatest_friction_ratio: Option<f64>,
 }
 
 impl ContactSection {
@@ -31,6 +32,10 @@ impl ContactSection {
         match self.model {
             Model::Point => PointContact::new(self.least_force)
                 .and_then(|model| model.accepting_gap(self.greatest_gap))
+                .and_then(|model| match self.greatest_friction_ratio {
+                    Some(ratio) => model.with_greatest_friction(ratio),
+                    None => Ok(model),
+                })
                 .map_err(|fault| fault.to_string()),
         }
     }

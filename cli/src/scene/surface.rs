@@ -1,6 +1,8 @@
 //! The surface of a scene and its pose.
 
-use fingertip::surfaces::{Cylinder, Plane, Sphere};
+use std::path::{Path, PathBuf};
+
+use fingertip::surfaces::{Cylinder, DynSurface, Mesh, Plane, Posed, Sphere};
 use fingertip::wrench::RigidTransform;
 use nalgebra::Vector3;
 use serde::Deserialize;
@@ -17,7 +19,19 @@ const fn along_z() -> Triple {
     [0.0, 0.0, 1.0]
 }
 
-/// A shape in coordinates of its own frame.
+/// A surface in coordinates of its own frame, as a scene states it.
+pub(super) trait Surface {
+    /// The shape in the sensor frame, and its map, whose directions are those of the surface's own
+    /// frame. Files are looked for in `folder`.
+    fn place(
+        &self,
+        pose: &PoseSection,
+        map: Option<&MapSection>,
+        folder: &Path,
+    ) -> Result<(Shape, Projection), String>;
+}
+
+/// The shapes that have types and maps of their own here. All others are [`DynSurface`]s.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
 pub(super) enum SurfaceSection {
@@ -69,9 +83,24 @@ impl PoseSection {
 }
 
 impl SurfaceSection {
-    /// The shape in the sensor frame, and its map, whose directions are those of the surface's own
-    /// frame.
-    pub(super) fn place(&self, pose: &PoseSection) -> Result<(Shape, Projection), String> {
+    /// Whether this is a shape of [`SurfaceSection`].
+    pub(super) fn knows(shape: &str) -> bool {
+        matches!(shape, "plane" | "sphere" | "cylinder")
+    }
+}
+
+impl Surface for SurfaceSection {
+    fn place(
+        &self,
+        pose: &PoseSection,
+        map: Option<&MapSection>,
+        _: &Path,
+    ) -> Result<(Shape, Projection), String> {
+        if map.is_some() {
+            return Err(
+                "[map] is for other shapes than plane, sphere and cylinder, whose maps need none".to_owned()
+            );
+        }
         let pose = pose.sensor_from_surface()?;
         let point = |p: &Triple| pose.transform_point(&Vector3::from(*p));
         let direction = |d: &Triple| pose.rotate(&Vector3::from(*d));
@@ -111,6 +140,61 @@ impl SurfaceSection {
                 Ok((Shape::Cylinder(cylinder), map))
             }
         }
+    }
+}
+
+/// The middle of the map of a shape that has none of its own, in the surface's frame.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MapSection {
+    #[serde(rename = "centre_m", default = "origin")]
+    centre: Triple,
+    #[serde(default = "along_z")]
+    pole: Triple,
+}
+
+/// A triangle mesh in a file beside the scene.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MeshSection {
+    #[serde(rename = "shape")]
+    _shape: String,
+    file: PathBuf,
+    metres_per_unit: f64,
+}
+
+impl Surface for MeshSection {
+    fn place(
+        &self,
+        pose: &PoseSection,
+        map: Option<&MapSection>,
+        folder: &Path,
+    ) -> Result<(Shape, Projection), String> {
+        let path = folder.join(&self.file);
+        let mesh = Mesh::from_file(&path, self.metres_per_unit)
+            .map_err(|fault| format!("mesh {}: {fault}", path.display()))?;
+        DynSurface::Mesh(mesh).place(pose, map, folder)
+    }
+}
+
+impl Surface for DynSurface<f64> {
+    fn place(
+        &self,
+        pose: &PoseSection,
+        map: Option<&MapSection>,
+        _: &Path,
+    ) -> Result<(Shape, Projection), String> {
+        let placed = pose.sensor_from_surface()?;
+        let MapSection { centre, pole } =
+            map.copied().unwrap_or(MapSection { centre: ORIGIN, pole: along_z() });
+        let centre = placed.transform_point(&Vector3::from(centre));
+        if !centre.iter().all(|x| x.is_finite()) {
+            return Err("`centre_m` of [map] must be finite numbers".to_owned());
+        }
+        let pole = unit("pole", placed.rotate(&Vector3::from(pole)))?;
+        let frame = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| placed.rotate(&axis));
+        let map = Projection::sphere(centre, pole, None, &frame);
+        Ok((Shape::Other(Box::new(Posed::new(self.clone(), placed))), map))
     }
 }
 

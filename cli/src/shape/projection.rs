@@ -7,7 +7,8 @@ use nalgebra::Vector3;
 pub(crate) enum MapKind {
     /// Plane: true to scale.
     Flat,
-    /// Sphere, Lambert's azimuthal equal-area projection around the pole: a polar angle θ is drawn
+    /// Sphere, and shapes without a map of their own by the direction of the point from a centre:
+    /// Lambert's azimuthal equal-area projection around the pole: a polar angle θ is drawn
     /// at the distance `2 sin(θ/2)`. `rim` is the polar angle \[rad\] of the active region's edge.
     Polar { rim: Option<f64> },
     /// Cylinder unrolled: the arc from the zero direction across, the height along the axis up;

@@ -1,0 +1,140 @@
+//! The rest at the start of a recording: its mean is the tare, and it is checked to be a rest.
+
+use core::fmt;
+
+use fingertip::wrench::{NotAtRest, RestTest, Wrench};
+use nalgebra::{SVector, Vector3};
+
+/// The fraction of good rests that are called into question. Small, since the noise of converters
+/// is not quite independent from reading to reading.
+const FALSE_ALARM_RATE: f64 = 1e-4;
+
+/// What made a rest doubtful, and how large it was.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Doubt {
+    /// What was seen.
+    pub(super) seen: String,
+    /// Length of the box in which the forces at rest lie \[N\]: so far the tare may be off.
+    pub(super) force_range: f64,
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            out,
+            "{}, and the force ranged over {} N, so far the tare may be off",
+            self.seen,
+            crate::table::number(self.force_range)
+        )
+    }
+}
+
+/// Watches the readings at rest of `N` channels.
+#[derive(Clone, Debug)]
+pub(super) struct RestWatch<const N: usize> {
+    /// Nothing only if the rate above were none.
+    test: Option<RestTest<f64, N>>,
+    /// The smallest change of each channel, which is the step of its converter if that shows in
+    /// the noise, and otherwise next to nothing; 0 while there was no change.
+    step: SVector<f64, N>,
+    before: Option<SVector<f64, N>>,
+    least: Vector3<f64>,
+    greatest: Vector3<f64>,
+}
+
+impl<const N: usize> Default for RestWatch<N> {
+    fn default() -> Self {
+        Self {
+            test: RestTest::new(FALSE_ALARM_RATE).ok(),
+            step: SVector::zeros(),
+            before: None,
+            least: Vector3::repeat(f64::INFINITY),
+            greatest: Vector3::repeat(f64::NEG_INFINITY),
+        }
+    }
+}
+
+impl<const N: usize> RestWatch<N> {
+    /// Takes a reading as recorded, the same with known drift taken off, and the wrench that it
+    /// stands for, up to a constant.
+    pub(super) fn add(&mut self, raw: &SVector<f64, N>, reading: &SVector<f64, N>, wrench: &Wrench<f64>) {
+        if let Some(test) = &mut self.test {
+            test.add(reading);
+        }
+        if let Some(before) = self.before {
+            self.step = self.step.zip_map(&(raw - before).abs(), |step, change| {
+                if change > 0.0 && change.is_finite() && !(step > 0.0 && step <= change) {
+                    change
+                } else {
+                    step
+                }
+            });
+        }
+        self.before = Some(*raw);
+        self.least = self.least.inf(&wrench.force());
+        self.greatest = self.greatest.sup(&wrench.force());
+    }
+
+    /// Why it may not have been a rest; `name` names a channel.
+    pub(super) fn doubt(&self, name: impl Fn(usize) -> String) -> Option<Doubt> {
+        let test = self.test?.with_resolution(self.step).ok()?;
+        let seen = match test.finish().err()? {
+            NotAtRest::TooFewSamples { samples, needed } => {
+                format!("{samples} samples are too few to tell a rest, which takes {needed}")
+            }
+            NotAtRest::Drifts { gauge, over_noise } => {
+                format!("{} moved by {over_noise:.1} times its spread from start to end", name(gauge))
+            }
+            NotAtRest::Unsteady { gauge } => format!("{} wandered slowly", name(gauge)),
+            NotAtRest::Outlier { gauge, over_noise } => {
+                format!("{} was once {over_noise:.0} times its spread away from its mean", name(gauge))
+            }
+            other => other.to_string(),
+        };
+        let range = (self.greatest - self.least).norm();
+        Some(Doubt { seen, force_range: if range.is_finite() { range } else { 0.0 } })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fingertip::wrench::Wrench;
+    use nalgebra::{Vector3, Vector6};
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+
+    use super::RestWatch;
+
+    /// A rest in steps of `step`, with noise of `noise`, moving by `drift` in all.
+    fn watched(step: f64, noise: f64, drift: f64, seed: u64) -> RestWatch<6> {
+        let mut random = Pcg64Mcg::seed_from_u64(seed);
+        let mut watch = RestWatch::default();
+        for i in 0..500 {
+            let reading = Vector6::from_fn(|channel, _| {
+                // Twelve uniform numbers are nearly a normal one.
+                let normal = (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+                let moved = if channel == 2 { drift * f64::from(i) / 499.0 } else { 0.0 };
+                ((normal * noise + moved + 0.3) / step).round() * step
+            });
+            watch.add(
+                &reading,
+                &reading,
+                &Wrench::on_fingertip(reading.fixed_rows::<3>(0).into(), Vector3::zeros()),
+            );
+        }
+        watch
+    }
+
+    #[test]
+    fn steps_of_a_converter_are_rest_and_a_drift_is_not() {
+        for seed in 0..40 {
+            for (step, noise) in [(1e-9, 0.01), (0.01, 0.01), (0.01, 0.003), (0.05, 0.001)] {
+                let quiet = watched(step, noise, 0.0, seed);
+                assert_eq!(quiet.doubt(|i| i.to_string()), None, "step {step}, noise {noise}, seed {seed}");
+            }
+            let doubt = watched(0.001, 0.01, 2.0, seed).doubt(|i| format!("channel {i}")).unwrap();
+            assert!(doubt.seen.starts_with("channel 2 moved"), "{doubt}");
+            assert!((1.9..2.2).contains(&doubt.force_range), "{doubt}");
+        }
+    }
+}
