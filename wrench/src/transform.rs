@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 use core::ops::Mul;
 
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 use thiserror::Error;
 
 use crate::{Frame, Real, Sensor};
@@ -114,7 +114,19 @@ impl<T: Real, To: Frame, From: Frame> RigidTransform<T, To, From> {
         if !axis_angle.iter().chain(origin.iter()).all(|x| x.is_number()) {
             return Err(TransformError::NotFinite);
         }
-        Ok(Self::from_parts(Rotation3::from_scaled_axis(axis_angle), origin))
+        // The length by way of a vector near 1: its square would overflow for angles that do not.
+        let scale = axis_angle.amax().normalising_factor();
+        let scaled = axis_angle * scale;
+        let length = scaled.norm_squared().root();
+        if length <= T::zero() {
+            return Ok(Self::translation(origin));
+        }
+        let angle = length / scale;
+        if !angle.is_number() {
+            return Err(TransformError::NotFinite);
+        }
+        let axis = Unit::new_unchecked(scaled / length);
+        Ok(Self::from_parts(Rotation3::from_axis_angle(&axis, angle), origin))
     }
 
     /// From a quaternion `(w, x, y, z)`, normalised here, and the origin of `From` in `To` \[m\].

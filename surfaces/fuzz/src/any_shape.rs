@@ -30,7 +30,7 @@ fn is_finite<T: Real>(v: &Vector3<T>) -> bool {
     v.iter().all(|x| x.is_number())
 }
 
-fn check<T: Real>(surface: &impl ActiveSurface<T>, numbers: &mut Numbers<'_, T>) {
+fn check<T: Real, S: ActiveSurface<T> + core::fmt::Debug>(surface: &S, numbers: &mut Numbers<'_, T>) {
     let model = PointContact::new(T::zero()).expect("zero is valid");
     let model = model.accepting_gap(numbers.one()).unwrap_or(model);
     let model = model.with_greatest_friction(numbers.one()).unwrap_or(model);
@@ -40,13 +40,19 @@ fn check<T: Real>(surface: &impl ActiveSurface<T>, numbers: &mut Numbers<'_, T>)
         match model.resolve_near(&wrench, surface, Some(&last)) {
             Resolution::Contact(contact) => {
                 assert!(wrench.is_finite());
-                assert!(is_finite(&contact.point) && is_finite(&contact.normal), "{wrench:?} {contact:?}");
+                assert!(
+                    is_finite(&contact.point) && is_finite(&contact.normal),
+                    "{surface:?} {wrench:?} {contact:?}"
+                );
                 assert!(contact.incidence >= T::zero() && contact.incidence <= T::one());
                 assert!(contact.gap >= T::zero() && contact.gap.is_number());
             }
             Resolution::NoContact(NoContact::Misses { gap, closest, normal }) => {
-                assert!(gap >= T::zero() && gap.is_number(), "{wrench:?} {gap}");
-                assert!(is_finite(&closest) && is_finite(&normal), "{wrench:?} {closest:?} {normal:?}");
+                assert!(gap >= T::zero() && gap.is_number(), "{surface:?} {wrench:?} {gap}");
+                assert!(
+                    is_finite(&closest) && is_finite(&normal),
+                    "{surface:?} {wrench:?} {closest:?} {normal:?}"
+                );
             }
             Resolution::NoContact(_) => {}
         }
@@ -59,7 +65,8 @@ fn check<T: Real>(surface: &impl ActiveSurface<T>, numbers: &mut Numbers<'_, T>)
     surface.crossings(&line, |_| ());
     let _ = surface.closest_approach(&line);
     let _ = surface.contains(&line.point);
-    assert!(!is_finite(&line.point) || is_finite(&surface.normal(&line.point)));
+    let normal = surface.normal(&line.point);
+    assert!(!is_finite(&line.point) || is_finite(&normal), "{surface:?} {line:?} {normal:?}");
 }
 
 fn any_shape<T: Real>(kind: u8, all: &[T]) {

@@ -110,7 +110,8 @@ impl<T: Real> PointContact<T> {
         let mut any = false;
         surface.crossings(&axis.line, |crossing| {
             let incidence = -axis.line.direction.dot(&crossing.normal);
-            if crossing.active && incidence > T::zero() && incidence >= self.least_incidence {
+            let pressing = incidence > T::zero() && incidence >= self.least_incidence;
+            if crossing.active && pressing && in_range(&crossing.point) {
                 any = true;
                 visit(contact_at(wrench, crossing.point, crossing.normal, incidence));
             }
@@ -120,6 +121,13 @@ impl<T: Real> PointContact<T> {
         }
         self.resolve(wrench, surface).into_result().map(&mut visit)
     }
+}
+
+/// `false` for a point beyond the range of the type, as where a line is parallel to a surface but for
+/// a rounding error. No shape of this crate shall report one; a user's might.
+#[inline]
+fn in_range<T: Real>(point: &Vector3<T>) -> bool {
+    (point.x + point.y + point.z).is_number()
 }
 
 #[inline]
@@ -186,7 +194,8 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
         let direction = axis.line.direction;
         if let Some(entry) = surface.sole_entry(&axis.line) {
             let incidence = -direction.dot(&entry.normal);
-            if entry.active && incidence > T::zero() && incidence >= self.least_incidence {
+            let pressing = incidence > T::zero() && incidence >= self.least_incidence;
+            if entry.active && pressing && in_range(&entry.point) {
                 return Resolution::Contact(contact_at(wrench, entry.point, entry.normal, incidence));
             }
         }
@@ -207,6 +216,9 @@ impl<T: Real> PointContact<T> {
         let mut seen =
             Seen { best: None, candidates: 0, too_flat: None, tangent: None, pulling: None, outside: None };
         surface.crossings(&axis.line, |crossing| {
+            if !in_range(&crossing.point) {
+                return;
+            }
             let incidence = -direction.dot(&crossing.normal);
             if !crossing.active {
                 seen.outside = Some(crossing.point);
@@ -249,6 +261,9 @@ impl<T: Real> PointContact<T> {
             return Resolution::NoContact(reason);
         }
         let approach = surface.closest_approach(&axis.line);
+        if !(in_range(&approach.point) && approach.gap.is_number()) {
+            return Resolution::NoContact(NoContact::NotFinite);
+        }
         let incidence = (-direction.dot(&approach.normal)).max(T::zero());
         if approach.gap <= self.greatest_gap && approach.active && incidence >= self.least_incidence {
             let contact = contact_at(wrench, approach.point, approach.normal, incidence);

@@ -38,17 +38,15 @@ pub(crate) fn closest_point<T: Real, const N: usize>(semi_axes: &[T; N], point: 
         // Near the middle, in the plane across the shortest axis: the closest point lies off it.
         low
     } else {
-        let tightest = squared
-            .iter()
-            .zip(&scaled)
-            .fold(low, |low, (r, z)| if *r <= T::one() { low.max(*z - T::one()) } else { low });
+        // No term of the sum exceeds 1 at the root, so that none overflows from there on.
+        let tightest = squared.iter().zip(&scaled).fold(low, |low, (r, z)| low.max(*r * (*z - T::one())));
         bracketed(tightest, reach, f)
     };
     let mut closest = [T::zero(); N];
     let mut left = T::one();
     for ((c, (r, y)), a) in closest.iter_mut().zip(squared.iter().zip(point)).zip(semi_axes) {
         if s + *r > T::zero() {
-            *c = *r * *y / (s + *r);
+            *c = *y / (s / *r + T::one());
             left -= (*c / *a) * (*c / *a);
         }
     }
