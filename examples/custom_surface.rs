@@ -33,7 +33,7 @@ impl ImplicitSurface<f64> for GelTip {
     }
 }
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> Result<(), Box<dyn core::error::Error>> {
     let tip = Implicit::new(GelTip { radius: 0.010, height: 0.014 })?;
 
     SurfaceLaws::around(Vector3::zeros(), 0.0172).roundings(256.0).check(&tip)?;

@@ -1,7 +1,8 @@
 //! Soft fingers, their covariance, and error against run time of the methods.
 
-use std::hint::black_box;
-use std::time::{Duration, Instant};
+use core::hint::black_box;
+use core::time::Duration;
+use std::time::Instant;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fingertip_surfaces::{
