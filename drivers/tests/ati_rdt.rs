@@ -8,6 +8,7 @@ use fingertip_drivers::ati_rdt::{
     ClientError, Command, CountsPerUnit, FaultPlan, RdtClient, RdtError, RdtServer, Receiver, Record,
     Request, SimulatedNetFt, records,
 };
+use fingertip_drivers::middleware::Watched;
 use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
 
 fn counts() -> CountsPerUnit<f64> {
@@ -81,9 +82,11 @@ fn over_a_socket_nothing_is_lost_and_the_sensor_is_stopped_at_the_end() {
     assert_eq!((client.statistics().received, client.statistics().lost), (60, 0));
     // The newest one, after a pause in which some have come.
     std::thread::sleep(Duration::from_millis(50));
-    let latest = (client.latest_wrench().unwrap().value.force().x * 1e6).round();
-    assert!(latest > last.unwrap().1);
-    drop(client);
+    let mut watched = Watched::new(client, Some(5e-3));
+    let latest = watched.latest(0.0).unwrap().unwrap();
+    assert!((latest.sample.value.force().x * 1e6).round() > last.unwrap().1);
+    assert_eq!((watched.counts().given, watched.counts().missing), (1, 0));
+    drop(watched);
     assert!(!server.stop().unwrap().is_streaming());
 }
 

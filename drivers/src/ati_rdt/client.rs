@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use super::receiver::{CountsPerUnit, RdtError, Receiver};
 use super::wire::{Command, Record, Request, WireError, records};
-use crate::{ErrorType, LinkStatistics, Sample, SourceError, SourceErrorKind, WrenchSource};
+use crate::{ErrorType, LinkStatistics, NbWrenchSource, Sample, SourceError, SourceErrorKind, WrenchSource};
 
 /// Why a client has no wrench to give.
 #[derive(Debug, Error)]
@@ -58,6 +58,8 @@ pub struct RdtClient<T: Real> {
     length: usize,
     /// Where the next record of the datagram begins.
     next: usize,
+    /// Whether the socket waits for a datagram.
+    waits: bool,
 }
 
 impl<T: Real> RdtClient<T> {
@@ -93,6 +95,7 @@ impl<T: Real> RdtClient<T> {
             datagram: Box::new([0; LARGEST]),
             length: 0,
             next: 0,
+            waits: true,
         };
         client.send(Command::Stream)?;
         Ok(client)
@@ -139,6 +142,15 @@ impl<T: Real> RdtClient<T> {
         Ok(Record::parse(&packet))
     }
 
+    /// Makes the socket wait or not; a call of the system only if that changes.
+    fn wait(&mut self, wait: bool) -> Result<(), ClientError> {
+        if self.waits != wait {
+            self.socket.set_nonblocking(!wait)?;
+            self.waits = wait;
+        }
+        Ok(())
+    }
+
     fn receive(&mut self) -> Result<(), ClientError> {
         (self.next, self.length) = (0, 0);
         let length = match self.socket.recv(&mut self.datagram[..]) {
@@ -154,25 +166,6 @@ impl<T: Real> RdtClient<T> {
         }
         self.length = length;
         Ok(())
-    }
-
-    /// Throws away what waits in the socket but for the newest wrench: for control that must not
-    /// lag. What is thrown away is not counted as lost. Waits for a wrench if none is there.
-    ///
-    /// # Errors
-    /// As [`next_wrench`](WrenchSource::next_wrench).
-    pub fn latest_wrench(&mut self) -> Result<Sample<T, Wrench<T>>, ClientError> {
-        let mut latest = self.next_sample()?;
-        self.socket.set_nonblocking(true)?;
-        let drained = loop {
-            match self.next_sample() {
-                Ok(sample) => latest = sample,
-                Err(ClientError::Timeout { .. }) => break Ok(latest),
-                Err(error) => break Err(error),
-            }
-        };
-        self.socket.set_nonblocking(false)?;
-        drained
     }
 
     fn next_sample(&mut self) -> Result<Sample<T, Wrench<T>>, ClientError> {
@@ -200,6 +193,20 @@ impl<T: Real> ErrorType for RdtClient<T> {
 
 impl<T: Real> WrenchSource<T> for RdtClient<T> {
     fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, ClientError> {
+        self.wait(true)?;
         self.next_sample().map(Some)
+    }
+}
+
+/// For control that must not lag, put it into a [`Watched`](crate::middleware::Watched) and read the
+/// latest.
+impl<T: Real> NbWrenchSource<T> for RdtClient<T> {
+    fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, ClientError> {
+        self.wait(false)?;
+        match self.next_sample() {
+            Ok(sample) => Ok(Some(sample)),
+            Err(ClientError::Timeout { .. }) => Err(nb::Error::WouldBlock),
+            Err(error) => Err(nb::Error::Other(error)),
+        }
     }
 }
