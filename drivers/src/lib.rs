@@ -1,7 +1,7 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![doc = include_str!("../README.md")]
 
-#[cfg(feature = "simulation")]
+#[cfg(any(feature = "simulation", feature = "mcap"))]
 extern crate alloc;
 
 #[cfg(feature = "ati-rdt")]

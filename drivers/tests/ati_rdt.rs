@@ -123,3 +123,23 @@ fn the_sensor_is_biased_only_on_request() {
     sensor.sample([7; 6]);
     assert_eq!((sensor.datagram(), sensor.is_streaming()), (None, false));
 }
+
+#[test]
+fn the_configuration_is_asked_for_over_http() {
+    use std::io::{Read, Write};
+    let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = listener.local_addr().unwrap();
+    let server = std::thread::spawn(move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        let mut request = [0; 31];
+        stream.read_exact(&mut request).unwrap();
+        assert!(request.starts_with(b"GET /netftapi2.xml HTTP/1.0\r\n"));
+        let page =
+            "<netft><scfgfu>N</scfgfu><scfgtu>Nmm</scfgtu><cfgcpf>1000</cfgcpf><cfgcpt>50</cfgcpt></netft>";
+        write!(stream, "HTTP/1.0 200 OK\r\n\r\n{page}").unwrap();
+    });
+    let configuration = RdtClient::<f64>::configuration(address, Duration::from_secs(5)).unwrap();
+    server.join().unwrap();
+    assert_eq!((configuration.counts_per_newton, configuration.rate), (1000.0, None));
+    assert!((configuration.counts_per_newton_metre - 50_000.0).abs() < 1e-9);
+}

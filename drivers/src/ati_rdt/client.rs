@@ -1,12 +1,14 @@
 //! A client over a UDP socket.
 
 use core::time::Duration;
-use std::io;
-use std::net::{ToSocketAddrs, UdpSocket};
+use std::io::{self, Read, Write};
+use std::net::{TcpStream, ToSocketAddrs, UdpSocket};
 
 use fingertip_wrench::{Real, Wrench};
+use socket2::SockRef;
 use thiserror::Error;
 
+use super::configuration::{Configuration, ConfigurationError};
 use super::receiver::{CountsPerUnit, RdtError, Receiver};
 use super::wire::{Command, Record, Request, WireError, records};
 use crate::{ErrorType, LinkStatistics, NbWrenchSource, Sample, SourceError, SourceErrorKind, WrenchSource};
@@ -27,6 +29,9 @@ pub enum ClientError {
     /// A datagram is no record.
     #[error("a datagram that is no record: {0}")]
     Corrupt(#[from] WireError),
+    /// The sensor's page of its configuration tells nothing that can be used.
+    #[error("configuration of the sensor: {0}")]
+    Configuration(#[from] ConfigurationError),
     /// The sensor reports a fault, or the settings are wrong.
     #[error(transparent)]
     Rdt(#[from] RdtError),
@@ -38,6 +43,7 @@ impl SourceError for ClientError {
             Self::Socket(_) => SourceErrorKind::Transport,
             Self::Timeout { .. } => SourceErrorKind::Timeout,
             Self::Corrupt(_) => SourceErrorKind::Corrupt,
+            Self::Configuration(_) => SourceErrorKind::Unsupported,
             Self::Rdt(error) => error.kind(),
         }
     }
@@ -65,6 +71,28 @@ pub struct RdtClient<T: Real> {
 impl<T: Real> RdtClient<T> {
     /// The port of the protocol.
     pub const PORT: u16 = 49152;
+    /// Receive buffer that is asked for \[bytes\]. A record of 36 bytes takes some 770 of them.
+    const RECEIVE_BUFFER: usize = 4 << 20;
+
+    /// Asks a sensor (its name or address with port 80) for its configuration over HTTP.
+    ///
+    /// # Errors
+    /// [`ClientError::Socket`] or [`ClientError::Configuration`].
+    pub fn configuration(
+        sensor: impl ToSocketAddrs,
+        timeout: Duration,
+    ) -> Result<Configuration, ClientError> {
+        let address = sensor.to_socket_addrs()?.next();
+        let address = address.ok_or_else(|| io::Error::from(io::ErrorKind::AddrNotAvailable))?;
+        let mut stream = TcpStream::connect_timeout(&address, timeout)?;
+        stream.set_read_timeout(Some(timeout))?;
+        stream.set_write_timeout(Some(timeout))?;
+        stream.write_all(Configuration::REQUEST.as_bytes())?;
+        let mut page = Vec::new();
+        // A page is some kilobytes; whatever serves more is no sensor.
+        stream.take(1 << 20).read_to_end(&mut page)?;
+        Ok(Configuration::parse(&String::from_utf8_lossy(&page))?)
+    }
 
     /// Starts streaming from a sensor, one record to a datagram. `timeout` is how long to wait for a
     /// record.
@@ -87,6 +115,9 @@ impl<T: Real> RdtClient<T> {
         let socket = UdpSocket::bind((any, 0))?;
         socket.connect(sensor)?;
         socket.set_read_timeout(Some(timeout))?;
+        // Room for the records of some milliseconds in which this thread does not run. What the system
+        // grants may be less; a smaller buffer works, and what it loses is counted.
+        let _ = SockRef::from(&socket).set_recv_buffer_size(Self::RECEIVE_BUFFER);
         let client = Self {
             socket,
             timeout,
