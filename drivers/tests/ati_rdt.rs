@@ -8,6 +8,7 @@ use fingertip_drivers::ati_rdt::{
     ClientError, Command, CountsPerUnit, FaultPlan, RdtClient, RdtError, RdtServer, Receiver, Record,
     Request, SimulatedNetFt, records,
 };
+use fingertip_drivers::middleware::Watched;
 use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
 
 fn counts() -> CountsPerUnit<f64> {
@@ -81,9 +82,11 @@ fn over_a_socket_nothing_is_lost_and_the_sensor_is_stopped_at_the_end() {
     assert_eq!((client.statistics().received, client.statistics().lost), (60, 0));
     // The newest one, after a pause in which some have come.
     std::thread::sleep(Duration::from_millis(50));
-    let latest = (client.latest_wrench().unwrap().value.force().x * 1e6).round();
-    assert!(latest > last.unwrap().1);
-    drop(client);
+    let mut watched = Watched::new(client, Some(5e-3));
+    let latest = watched.latest(0.0).unwrap().unwrap();
+    assert!((latest.sample.value.force().x * 1e6).round() > last.unwrap().1);
+    assert_eq!((watched.counts().given, watched.counts().missing), (1, 0));
+    drop(watched);
     assert!(!server.stop().unwrap().is_streaming());
 }
 
@@ -119,4 +122,24 @@ fn the_sensor_is_biased_only_on_request() {
     // Two were asked for.
     sensor.sample([7; 6]);
     assert_eq!((sensor.datagram(), sensor.is_streaming()), (None, false));
+}
+
+#[test]
+fn the_configuration_is_asked_for_over_http() {
+    use std::io::{Read, Write};
+    let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = listener.local_addr().unwrap();
+    let server = std::thread::spawn(move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        let mut request = [0; 31];
+        stream.read_exact(&mut request).unwrap();
+        assert!(request.starts_with(b"GET /netftapi2.xml HTTP/1.0\r\n"));
+        let page =
+            "<netft><scfgfu>N</scfgfu><scfgtu>Nmm</scfgtu><cfgcpf>1000</cfgcpf><cfgcpt>50</cfgcpt></netft>";
+        write!(stream, "HTTP/1.0 200 OK\r\n\r\n{page}").unwrap();
+    });
+    let configuration = RdtClient::<f64>::configuration(address, Duration::from_secs(5)).unwrap();
+    server.join().unwrap();
+    assert_eq!((configuration.counts_per_newton, configuration.rate), (1000.0, None));
+    assert!((configuration.counts_per_newton_metre - 50_000.0).abs() < 1e-9);
 }

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 #![cfg(all(feature = "bota-serial", feature = "simulation"))]
 
-use fingertip_drivers::bota_serial::{BotaError, BotaSensor, Frame, LineFaults, SimulatedBota};
+use fingertip_drivers::bota_serial::{BotaDecoder, BotaFault, Frame};
+use fingertip_drivers::line::{LineDecoder, LineError, LineFaults, LineSensor, SimulatedLine};
 use fingertip_drivers::{Sample, SourceError, SourceErrorKind, WrenchSource};
 use fingertip_wrench::Wrench;
 
@@ -16,18 +17,18 @@ fn frame(number: u32) -> Frame {
     }
 }
 
-type Next = Result<Option<Sample<f64, Wrench<f64>>>, BotaError>;
+type Next = Result<Option<Sample<f64, Wrench<f64>>>, LineError<std::io::Error, BotaFault>>;
 
 #[test]
 fn a_bad_line_costs_the_damaged_frames_and_no_other() {
-    let faults = LineFaults { bit_flip: 0.01, lost_byte: 0.01, noise: 0.02, seed: 3 };
-    let mut line = SimulatedBota::new(faults);
+    let faults = LineFaults { bit_flip: 0.01, lost_byte: 0.01, lost_frame: 0.01, noise: 0.02, seed: 3 };
+    let mut line = SimulatedLine::new(faults);
     let count = 200_000;
     for number in 0..count {
-        line.send(&frame(number));
+        line.send(&frame(number).emit());
     }
     let damaged = line.damaged();
-    let mut sensor = BotaSensor::new(line);
+    let mut sensor = LineSensor::new(line, BotaDecoder::new());
     let (mut given, mut last, mut start) = (0, -1.0, None);
     while let Some(sample) = {
         let next: Next = sensor.next_wrench();
@@ -42,7 +43,7 @@ fn a_bad_line_costs_the_damaged_frames_and_no_other() {
     }
     println!(
         "{count} frames, {damaged} damaged, {given} given, {} bytes skipped",
-        sensor.deframer().skipped()
+        LineDecoder::<f64>::statistics(sensor.decoder()).skipped
     );
     assert_eq!(given, u64::from(count) - damaged);
 }
@@ -53,12 +54,12 @@ fn frame_wrench(number: f64) -> Wrench<f64> {
 
 #[test]
 fn what_the_sensor_says_of_itself_is_an_error() {
-    let mut line = SimulatedBota::new(LineFaults::default());
-    line.send(&Frame { status: Frame::OVERRANGE, ..frame(1) });
-    line.send(&Frame { status: Frame::INVALID, ..frame(2) });
-    line.send(&Frame { components: [f32::NAN; 6], ..frame(3) });
-    line.send(&frame(4));
-    let mut sensor = BotaSensor::new(line);
+    let mut line = SimulatedLine::new(LineFaults::default());
+    line.send(&Frame { status: Frame::OVERRANGE, ..frame(1) }.emit());
+    line.send(&Frame { status: Frame::INVALID, ..frame(2) }.emit());
+    line.send(&Frame { components: [f32::NAN; 6], ..frame(3) }.emit());
+    line.send(&frame(4).emit());
+    let mut sensor = LineSensor::new(line, BotaDecoder::new());
     for kind in [SourceErrorKind::Overload, SourceErrorKind::DeviceFault, SourceErrorKind::DeviceFault] {
         let next: Next = sensor.next_wrench();
         assert_eq!(next.unwrap_err().kind(), kind);
@@ -72,15 +73,15 @@ fn what_the_sensor_says_of_itself_is_an_error() {
 
 #[test]
 fn a_wrong_baud_rate_and_a_silent_line_are_told() {
-    let mut sensor = BotaSensor::new(std::io::repeat(0x55));
+    let mut sensor = LineSensor::new(std::io::repeat(0x55), BotaDecoder::new());
     let next: Next = sensor.next_wrench();
-    assert!(matches!(next, Err(BotaError::NoFrame { .. })));
+    assert!(matches!(next, Err(LineError::NoFrame { .. })));
     struct Silent;
     impl std::io::Read for Silent {
         fn read(&mut self, _: &mut [u8]) -> std::io::Result<usize> {
             Err(std::io::ErrorKind::TimedOut.into())
         }
     }
-    let next: Next = BotaSensor::new(Silent).next_wrench();
+    let next: Next = LineSensor::new(Silent, BotaDecoder::new()).next_wrench();
     assert_eq!(next.unwrap_err().kind(), SourceErrorKind::Timeout);
 }

@@ -1,15 +1,17 @@
 //! A client over a UDP socket.
 
 use core::time::Duration;
-use std::io;
-use std::net::{ToSocketAddrs, UdpSocket};
+use std::io::{self, Read, Write};
+use std::net::{TcpStream, ToSocketAddrs, UdpSocket};
 
 use fingertip_wrench::{Real, Wrench};
+use socket2::SockRef;
 use thiserror::Error;
 
+use super::configuration::{Configuration, ConfigurationError};
 use super::receiver::{CountsPerUnit, RdtError, Receiver};
 use super::wire::{Command, Record, Request, WireError, records};
-use crate::{ErrorType, LinkStatistics, Sample, SourceError, SourceErrorKind, WrenchSource};
+use crate::{ErrorType, LinkStatistics, NbWrenchSource, Sample, SourceError, SourceErrorKind, WrenchSource};
 
 /// Why a client has no wrench to give.
 #[derive(Debug, Error)]
@@ -27,6 +29,9 @@ pub enum ClientError {
     /// A datagram is no record.
     #[error("a datagram that is no record: {0}")]
     Corrupt(#[from] WireError),
+    /// The sensor's page of its configuration tells nothing that can be used.
+    #[error("configuration of the sensor: {0}")]
+    Configuration(#[from] ConfigurationError),
     /// The sensor reports a fault, or the settings are wrong.
     #[error(transparent)]
     Rdt(#[from] RdtError),
@@ -38,6 +43,7 @@ impl SourceError for ClientError {
             Self::Socket(_) => SourceErrorKind::Transport,
             Self::Timeout { .. } => SourceErrorKind::Timeout,
             Self::Corrupt(_) => SourceErrorKind::Corrupt,
+            Self::Configuration(_) => SourceErrorKind::Unsupported,
             Self::Rdt(error) => error.kind(),
         }
     }
@@ -58,11 +64,35 @@ pub struct RdtClient<T: Real> {
     length: usize,
     /// Where the next record of the datagram begins.
     next: usize,
+    /// Whether the socket waits for a datagram.
+    waits: bool,
 }
 
 impl<T: Real> RdtClient<T> {
     /// The port of the protocol.
     pub const PORT: u16 = 49152;
+    /// Receive buffer that is asked for \[bytes\]. A record of 36 bytes takes some 770 of them.
+    const RECEIVE_BUFFER: usize = 4 << 20;
+
+    /// Asks a sensor (its name or address with port 80) for its configuration over HTTP.
+    ///
+    /// # Errors
+    /// [`ClientError::Socket`] or [`ClientError::Configuration`].
+    pub fn configuration(
+        sensor: impl ToSocketAddrs,
+        timeout: Duration,
+    ) -> Result<Configuration, ClientError> {
+        let address = sensor.to_socket_addrs()?.next();
+        let address = address.ok_or_else(|| io::Error::from(io::ErrorKind::AddrNotAvailable))?;
+        let mut stream = TcpStream::connect_timeout(&address, timeout)?;
+        stream.set_read_timeout(Some(timeout))?;
+        stream.set_write_timeout(Some(timeout))?;
+        stream.write_all(Configuration::REQUEST.as_bytes())?;
+        let mut page = Vec::new();
+        // A page is some kilobytes; whatever serves more is no sensor.
+        stream.take(1 << 20).read_to_end(&mut page)?;
+        Ok(Configuration::parse(&String::from_utf8_lossy(&page))?)
+    }
 
     /// Starts streaming from a sensor, one record to a datagram. `timeout` is how long to wait for a
     /// record.
@@ -85,6 +115,9 @@ impl<T: Real> RdtClient<T> {
         let socket = UdpSocket::bind((any, 0))?;
         socket.connect(sensor)?;
         socket.set_read_timeout(Some(timeout))?;
+        // Room for the records of some milliseconds in which this thread does not run. What the system
+        // grants may be less; a smaller buffer works, and what it loses is counted.
+        let _ = SockRef::from(&socket).set_recv_buffer_size(Self::RECEIVE_BUFFER);
         let client = Self {
             socket,
             timeout,
@@ -93,6 +126,7 @@ impl<T: Real> RdtClient<T> {
             datagram: Box::new([0; LARGEST]),
             length: 0,
             next: 0,
+            waits: true,
         };
         client.send(Command::Stream)?;
         Ok(client)
@@ -139,6 +173,15 @@ impl<T: Real> RdtClient<T> {
         Ok(Record::parse(&packet))
     }
 
+    /// Makes the socket wait or not; a call of the system only if that changes.
+    fn wait(&mut self, wait: bool) -> Result<(), ClientError> {
+        if self.waits != wait {
+            self.socket.set_nonblocking(!wait)?;
+            self.waits = wait;
+        }
+        Ok(())
+    }
+
     fn receive(&mut self) -> Result<(), ClientError> {
         (self.next, self.length) = (0, 0);
         let length = match self.socket.recv(&mut self.datagram[..]) {
@@ -154,25 +197,6 @@ impl<T: Real> RdtClient<T> {
         }
         self.length = length;
         Ok(())
-    }
-
-    /// Throws away what waits in the socket but for the newest wrench: for control that must not
-    /// lag. What is thrown away is not counted as lost. Waits for a wrench if none is there.
-    ///
-    /// # Errors
-    /// As [`next_wrench`](WrenchSource::next_wrench).
-    pub fn latest_wrench(&mut self) -> Result<Sample<T, Wrench<T>>, ClientError> {
-        let mut latest = self.next_sample()?;
-        self.socket.set_nonblocking(true)?;
-        let drained = loop {
-            match self.next_sample() {
-                Ok(sample) => latest = sample,
-                Err(ClientError::Timeout { .. }) => break Ok(latest),
-                Err(error) => break Err(error),
-            }
-        };
-        self.socket.set_nonblocking(false)?;
-        drained
     }
 
     fn next_sample(&mut self) -> Result<Sample<T, Wrench<T>>, ClientError> {
@@ -200,6 +224,20 @@ impl<T: Real> ErrorType for RdtClient<T> {
 
 impl<T: Real> WrenchSource<T> for RdtClient<T> {
     fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, ClientError> {
+        self.wait(true)?;
         self.next_sample().map(Some)
+    }
+}
+
+/// For control that must not lag, put it into a [`Watched`](crate::middleware::Watched) and read the
+/// latest.
+impl<T: Real> NbWrenchSource<T> for RdtClient<T> {
+    fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, ClientError> {
+        self.wait(false)?;
+        match self.next_sample() {
+            Ok(sample) => Ok(Some(sample)),
+            Err(ClientError::Timeout { .. }) => Err(nb::Error::WouldBlock),
+            Err(error) => Err(nb::Error::Other(error)),
+        }
     }
 }

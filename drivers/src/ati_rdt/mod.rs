@@ -6,15 +6,18 @@
 //! (`no_std`, no I/O), and the `RdtClient` over a UDP socket (feature `std`). With the feature
 //! `simulation` a `SimulatedNetFt` answers requests as the device does and injects faults.
 //!
-//! From the manufacturer's manual 9620-05-NET FT, section "UDP Interface Using RDT". Not here:
-//! configuration over HTTP (ask the sensor's page `netftapi2.xml` for counts per force `cfgcpf` and
-//! per torque `cfgcpt`, and for their units), CAN and EtherNet/IP.
+//! From the manufacturer's manual 9620-05-NET FT, section "UDP Interface Using RDT". What a
+//! sensor's numbers mean stands on its page `netftapi2.xml`: read it with `Configuration` (feature
+//! `std`), or ask for it with `RdtClient::configuration`. Not here: setting the configuration, CAN and
+//! EtherNet/IP.
 
 mod receiver;
 mod wire;
 
 #[cfg(feature = "std")]
 mod client;
+#[cfg(feature = "std")]
+mod configuration;
 #[cfg(feature = "simulation")]
 mod simulator;
 
@@ -23,5 +26,7 @@ pub use wire::{Command, Record, RecordPacket, Request, WireError, records};
 
 #[cfg(feature = "std")]
 pub use client::{ClientError, RdtClient};
+#[cfg(feature = "std")]
+pub use configuration::{Configuration, ConfigurationError};
 #[cfg(feature = "simulation")]
 pub use simulator::{FaultPlan, RdtServer, SimulatedNetFt};

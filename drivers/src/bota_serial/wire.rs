@@ -12,6 +12,8 @@
 use crc::{CRC_16_IBM_SDLC, Crc};
 use thiserror::Error;
 
+use crate::line::FrameFormat;
+
 /// CRC-16/X-25 is the IBM-SDLC one by another name.
 const CRC: Crc<u16> = Crc::<u16>::new(&CRC_16_IBM_SDLC);
 
@@ -109,6 +111,22 @@ impl Frame {
             *place = byte;
         }
         bytes
+    }
+}
+
+/// How frames look, for a [`Deframer`](crate::line::Deframer).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Format;
+
+impl FrameFormat<{ Frame::LENGTH }> for Format {
+    type Frame = Frame;
+
+    fn may_begin(&self, start: &[u8]) -> bool {
+        start.first().is_none_or(|first| *first == Frame::HEADER)
+    }
+
+    fn frame(&self, bytes: &[u8; Frame::LENGTH]) -> Option<Frame> {
+        Frame::parse(bytes).ok()
     }
 }
 

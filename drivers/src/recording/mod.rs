@@ -39,6 +39,8 @@ mod column_name;
 mod columns;
 mod error;
 mod layout;
+#[cfg(feature = "mcap")]
+pub mod mcap;
 mod playback;
 mod quality;
 mod reader;

@@ -1,0 +1,102 @@
+//! Records at 100 000 a second over the loopback interface, each followed from the datagram to the
+//! contact: `cargo run --release -p fingertip-drivers --features ati-rdt --example rdt_latency`
+//!
+//! One thread sends and notes when; the other receives through the client, resolves the contact on a
+//! sphere with a friction margin, and notes when that is done. On a machine with one free core the two
+//! take turns and the figures mean little.
+
+extern crate alloc;
+
+use alloc::sync::Arc;
+use core::error::Error;
+use core::sync::atomic::{AtomicU64, Ordering};
+use core::time::Duration;
+use std::net::UdpSocket;
+use std::time::Instant;
+
+use fingertip::Fingertip;
+use fingertip::friction::Coulomb;
+use fingertip::surfaces::{PointContact, Sphere};
+use fingertip_drivers::ati_rdt::{ClientError, CountsPerUnit, RdtClient, Record};
+use fingertip_drivers::{NbWrenchSource, WrenchSource};
+
+const RECORDS: u32 = 500_000;
+const RATE: f64 = 100_000.0;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let polled = std::env::args().any(|argument| argument == "--poll");
+    let begin = Instant::now();
+    let now = move || u64::try_from(begin.elapsed().as_nanos()).unwrap_or(u64::MAX);
+    let sensor = UdpSocket::bind("127.0.0.1:0")?;
+    let mut client: RdtClient<f64> =
+        RdtClient::connect(sensor.local_addr()?, CountsPerUnit::million()?, Duration::from_millis(500))?;
+    let mut request = [0; 8];
+    let (_, address) = sensor.recv_from(&mut request)?;
+    sensor.connect(address)?;
+    let sent: Arc<Vec<AtomicU64>> = Arc::new((0..RECORDS).map(|_| AtomicU64::new(0)).collect());
+    let note = Arc::clone(&sent);
+    let sender = std::thread::spawn(move || -> std::io::Result<f64> {
+        let start = Instant::now();
+        for (number, place) in (0_u32..).zip(note.iter()) {
+            let due = f64::from(number) / RATE;
+            while start.elapsed().as_secs_f64() < due {
+                core::hint::spin_loop();
+            }
+            // 0.5 N along x and 2 N against z, moving about.
+            let x = 500_000 + i32::try_from(number % 1000).unwrap_or(0);
+            let counts = [x, 0, -2_000_000, 0, 6_500, 0];
+            let record = Record { rdt_sequence: number + 1, ft_sequence: number, status: 0, counts };
+            place.store(now(), Ordering::Release);
+            sensor.send(&record.emit())?;
+        }
+        Ok(f64::from(RECORDS) / start.elapsed().as_secs_f64())
+    });
+    let mut fingertip = Fingertip::builder()
+        .contact(Sphere::centred(13e-3)?, PointContact::new(0.1)?)
+        .friction(Coulomb::new(0.6)?)
+        .build();
+    let mut latencies = Vec::with_capacity(sent.len());
+    let mut contacts = 0_u32;
+    while client.statistics().received < u64::from(RECORDS) {
+        let next = if polled {
+            match client.poll_wrench() {
+                Ok(sample) => Ok(sample),
+                Err(nb::Error::WouldBlock) if sender.is_finished() => break,
+                Err(nb::Error::WouldBlock) => continue,
+                Err(nb::Error::Other(error)) => Err(error),
+            }
+        } else {
+            client.next_wrench()
+        };
+        let wrench = match next {
+            Ok(Some(sample)) => sample.value,
+            Err(ClientError::Timeout { .. }) | Ok(None) => break,
+            Err(error) => return Err(error.into()),
+        };
+        let touch = fingertip.feel(wrench, 1.0 / RATE, None);
+        contacts += u32::from(touch.resolution.into_result().is_ok());
+        let index = usize::try_from(client.statistics().received + client.statistics().lost - 1)?;
+        if let Some(time) = sent.get(index) {
+            latencies.push(now().saturating_sub(time.load(Ordering::Acquire)));
+        }
+    }
+    let rate = sender.join().map_err(|_| "the sender died")??;
+    let statistics = *client.statistics();
+    latencies.sort_unstable();
+    let quantile = |share: f64| {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
+        let index = ((latencies.len() as f64 - 1.0).max(0.0) * share) as usize;
+        latencies.get(index).map_or(f64::NAN, |nanoseconds| *nanoseconds as f64 * 1e-3)
+    };
+    println!(
+        "{}: {rate:.0} records/s sent; {} received, {} lost, {contacts} contacts; datagram to contact: median {:.1} µs, 99 % {:.1} µs, 99.9 % {:.1} µs, worst {:.1} µs",
+        if polled { "polled" } else { "blocking" },
+        statistics.received,
+        u64::from(RECORDS) - statistics.received,
+        quantile(0.5),
+        quantile(0.99),
+        quantile(0.999),
+        quantile(1.0),
+    );
+    Ok(())
+}

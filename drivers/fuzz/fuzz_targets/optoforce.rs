@@ -1,0 +1,19 @@
+//! Bytes of a line with a OptoForce sensor.
+#![no_main]
+
+use fingertip_drivers::line::LineDecoder;
+use fingertip_drivers::optoforce::OptoForceDecoder;
+use fingertip_drivers::{AxisCounts, Sample};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    let Ok(counts) = AxisCounts::uniform(50.0, 2000.0) else { return };
+    let mut decoder = OptoForceDecoder::new(counts);
+    for byte in bytes {
+        if let Some(Ok(Sample { value, .. })) = LineDecoder::<f64>::push(&mut decoder, *byte) {
+            assert!(value.is_finite());
+        }
+    }
+    let statistics = LineDecoder::<f64>::statistics(&decoder);
+    assert!(statistics.skipped <= bytes.len() as u64);
+});

@@ -1,0 +1,186 @@
+//! What a sensor says of itself on its page `netftapi2.xml`.
+
+use fingertip_wrench::Real;
+use thiserror::Error;
+
+use super::receiver::{CountsPerUnit, RdtError};
+
+/// Why a page tells nothing that can be used.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ConfigurationError {
+    /// An element is not there.
+    #[error("the page has no element <{element}>")]
+    Missing {
+        /// Its name.
+        element: &'static str,
+    },
+    /// An element cannot be read.
+    #[error("element <{element}> is “{found}”, which is no number")]
+    NotANumber {
+        /// Its name.
+        element: &'static str,
+        /// What stands there, cut short.
+        found: String,
+    },
+    /// A unit is not known.
+    #[error("element <{element}> is “{found}”; known are {known}")]
+    Unit {
+        /// Its name.
+        element: &'static str,
+        /// What stands there, cut short.
+        found: String,
+        /// The units that are known.
+        known: &'static str,
+    },
+    /// Counts per unit that cannot be.
+    #[error(transparent)]
+    Counts(#[from] RdtError),
+}
+
+/// How a sensor is set: what its numbers mean, and how quickly they come.
+///
+/// The page is that of the manual 9620-05-NET FT, chapter "Common Gateway Interface"; it is asked for
+/// with [`REQUEST`](Self::REQUEST). Where an element stands is not relied on, only its name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Configuration {
+    /// Counts per newton: those per force unit, converted.
+    pub counts_per_newton: f64,
+    /// Counts per newton metre: those per torque unit, converted.
+    pub counts_per_newton_metre: f64,
+    /// Records a second while streaming, if the page tells.
+    pub rate: Option<f64>,
+}
+
+const FORCE_UNITS: [(&str, f64); 5] = [
+    ("N", 1.0),
+    ("lbf", 4.448_221_615_260_5),
+    ("klbf", 4_448.221_615_260_5),
+    ("kN", 1000.0),
+    ("kgf", 9.806_65),
+];
+const TORQUE_UNITS: [(&str, f64); 7] = [
+    ("Nm", 1.0),
+    ("Nmm", 1e-3),
+    ("kNm", 1000.0),
+    ("lbfin", 4.448_221_615_260_5 * 0.0254),
+    ("lbfft", 4.448_221_615_260_5 * 0.3048),
+    ("kgfcm", 0.098_066_5),
+    ("gcm", 9.806_65e-5),
+];
+
+impl Configuration {
+    /// Asks a sensor for its page, over TCP on port 80; the sensor closes the connection behind it.
+    pub const REQUEST: &str = "GET /netftapi2.xml HTTP/1.0\r\n\r\n";
+
+    /// Reads the page, with or without the head of the HTTP answer before it.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`].
+    pub fn parse(page: &str) -> Result<Self, ConfigurationError> {
+        let per_force = number(page, "cfgcpf")?.ok_or(ConfigurationError::Missing { element: "cfgcpf" })?;
+        let per_torque = number(page, "cfgcpt")?.ok_or(ConfigurationError::Missing { element: "cfgcpt" })?;
+        let force = unit(page, "scfgfu", &FORCE_UNITS, "N, lbf, klbf, kN, kgf")?;
+        let torque = unit(page, "scfgtu", &TORQUE_UNITS, "Nm, Nmm, kNm, lbf-in, lbf-ft, kgf-cm, g-cm")?;
+        let rate = number(page, "comrdtrate")?.filter(|rate| *rate > 0.0);
+        let counts_per_newton = per_force / force;
+        let counts_per_newton_metre = per_torque / torque;
+        CountsPerUnit::new(counts_per_newton, counts_per_newton_metre)?;
+        Ok(Self { counts_per_newton, counts_per_newton_metre, rate })
+    }
+
+    /// For a receiver or client.
+    ///
+    /// # Errors
+    /// [`RdtError::BadCounts`] for counts that `T` cannot hold, or that were changed to ones that
+    /// cannot be.
+    pub fn counts<T: Real>(&self) -> Result<CountsPerUnit<T>, RdtError> {
+        CountsPerUnit::new(T::literal(self.counts_per_newton), T::literal(self.counts_per_newton_metre))
+    }
+}
+
+/// The text of the first element of that name. The page is flat and its elements have no attributes,
+/// comments or escapes that matter for numbers and units.
+fn element<'a>(page: &'a str, name: &str) -> Option<&'a str> {
+    let mut rest = page;
+    loop {
+        let (_, behind) = rest.split_once('<')?;
+        if let Some(text) = behind.strip_prefix(name).and_then(|behind| behind.strip_prefix('>')) {
+            return text.split_once("</").map(|(text, _)| text.trim());
+        }
+        rest = behind;
+    }
+}
+
+fn shortened(text: &str) -> String {
+    text.chars().take(40).collect()
+}
+
+fn number(page: &str, name: &'static str) -> Result<Option<f64>, ConfigurationError> {
+    let Some(text) = element(page, name) else { return Ok(None) };
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite());
+    match number {
+        Some(number) => Ok(Some(number)),
+        None => Err(ConfigurationError::NotANumber { element: name, found: shortened(text) }),
+    }
+}
+
+fn unit(
+    page: &str,
+    name: &'static str,
+    units: &[(&str, f64)],
+    known: &'static str,
+) -> Result<f64, ConfigurationError> {
+    let text = element(page, name).ok_or(ConfigurationError::Missing { element: name })?;
+    let plain =
+        |text: &str| -> String { text.chars().filter(|c| !matches!(c, '-' | '·' | ' ' | '.')).collect() };
+    let found = plain(text);
+    let unit = units.iter().find(|(unit, _)| unit.eq_ignore_ascii_case(&found));
+    let unknown = || ConfigurationError::Unit { element: name, found: shortened(text), known };
+    unit.map(|(_, size)| *size).ok_or_else(unknown)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const PAGE: &str = "HTTP/1.0 200 OK\r\nContent-Type: text/xml\r\n\r\n<?xml version=\"1.0\"?><netft>\
+        <cfgnam>Mini40</cfgnam><scfgfu>lbf</scfgfu><scfgtu>lbf-in</scfgtu><cfgcpf>1000000</cfgcpf>\
+        <cfgcpt> 2000000 </cfgcpt><comrdtrate>7000</comrdtrate></netft>";
+
+    #[test]
+    fn counts_are_converted_from_the_units_of_the_sensor() {
+        let configuration = Configuration::parse(PAGE).unwrap();
+        // A pound-force is 4.4482216152605 N, an inch 25.4 mm.
+        assert!((configuration.counts_per_newton - 224_808.943_099_710_5).abs() < 1e-6);
+        assert!((configuration.counts_per_newton_metre - 2e6 / 0.112_984_829_027_616_7).abs() < 1e-4);
+        assert_eq!(configuration.rate, Some(7000.0));
+        let wrench = configuration.counts::<f64>().unwrap().wrench(&[1_000_000, 0, 0, 2_000_000, 0, 0]);
+        assert!((wrench.force().x - 4.448_221_615_260_5).abs() < 1e-12);
+        assert!((wrench.torque().x - 0.112_984_829_027_616_7).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_cannot_be_used_is_named() {
+        let said =
+            |from: &str, to: &str| Configuration::parse(&PAGE.replace(from, to)).unwrap_err().to_string();
+        assert!(said("<cfgcpf>", "<x>").contains("no element <cfgcpf>"));
+        assert!(said("1000000", "many").contains("“many”"));
+        assert!(said("lbf-in", "stone").contains("lbf-ft"));
+        assert!(said("1000000", "0").contains("positive"));
+        assert!(said("1000000", "NaN").contains("no number"));
+        let without_rate = Configuration::parse(&PAGE.replace("comrdtrate", "x")).unwrap();
+        assert_eq!(without_rate.rate, None);
+    }
+
+    proptest! {
+        #[test]
+        fn any_text_is_a_page_or_none(text in ".{0,200}", pieces in prop::collection::vec(
+            prop::sample::select(vec!["<", ">", "</", "cfgcpf", "cfgcpt", "scfgfu", "scfgtu", "N", "Nm", "1e400", "-", "7", "é"]), 0..60,
+        )) {
+            let _ = Configuration::parse(&text);
+            let _ = Configuration::parse(&pieces.concat());
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! What the bytes of a line mean.
+
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+
+use super::deframer::LineStatistics;
+use crate::{Sample, SourceError};
+
+/// Turns the bytes that a device sends into samples, one byte at a time, without I/O and without a
+/// clock.
+pub trait LineDecoder<T: Real> {
+    /// What the device can say is wrong with itself.
+    type Fault: SourceError;
+    /// How many bytes may pass without a frame before the line is said to carry none: a wrong baud
+    /// rate or device. Some tens of frames.
+    const PATIENCE: usize;
+
+    /// Takes the next byte. If it completes a sound frame, its wrench, or why there is none.
+    #[allow(clippy::type_complexity, reason = "a name for it would hide that a frame can be a fault")]
+    fn push(&mut self, byte: u8) -> Option<Result<Sample<T, Wrench<T>>, Self::Fault>>;
+
+    /// Forgets what waits for the rest of its frame: a frame begins with the next byte, as after a
+    /// silence of the line.
+    fn restart(&mut self);
+
+    /// How the line has behaved so far.
+    fn statistics(&self) -> LineStatistics;
+}
+
+/// The load on the fingertip from what a device reports, if it is finite.
+pub(crate) fn finite_wrench<T: Real>(components: [f64; 6]) -> Option<Wrench<T>> {
+    let [fx, fy, fz, tx, ty, tz] = components.map(T::literal);
+    let wrench = Wrench::on_fingertip(Vector3::new(fx, fy, fz), Vector3::new(tx, ty, tz));
+    wrench.is_finite().then_some(wrench)
+}

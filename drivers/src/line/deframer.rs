@@ -1,0 +1,180 @@
+//! Finds frames in a stream of bytes.
+
+/// How the frames of a device look.
+pub trait FrameFormat<const LENGTH: usize> {
+    /// A frame that was read.
+    type Frame;
+
+    /// Whether a frame can begin with these bytes (at most `LENGTH`): its header, as far as it is
+    /// there. The more is asked here, the sooner noise is dropped; a format without a header says
+    /// `true`.
+    fn may_begin(&self, start: &[u8]) -> bool;
+
+    /// The frame, if all that can be checked about it is right: above all its checksum.
+    fn frame(&self, bytes: &[u8; LENGTH]) -> Option<Self::Frame>;
+}
+
+/// How a line has behaved so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct LineStatistics {
+    /// Frames that were sound.
+    pub frames: u64,
+    /// What began like a frame and was none: damaged frames, and bytes inside one that look like a
+    /// header.
+    pub failed: u64,
+    /// Bytes that belong to no frame.
+    pub skipped: u64,
+}
+
+/// Collects bytes and gives the frames among them.
+///
+/// What looks like a header can stand inside a frame too, so a frame counts only if its checksum
+/// fits; if it does not, one byte is dropped and the search goes on behind it. So a damaged frame
+/// never takes a sound one with it that begins inside its bytes.
+#[derive(Clone, Copy, Debug)]
+pub struct Deframer<F, const LENGTH: usize> {
+    format: F,
+    bytes: [u8; LENGTH],
+    length: usize,
+    statistics: LineStatistics,
+}
+
+impl<F: FrameFormat<LENGTH>, const LENGTH: usize> Deframer<F, LENGTH> {
+    /// Nothing seen yet.
+    #[must_use]
+    pub const fn new(format: F) -> Self {
+        let statistics = LineStatistics { frames: 0, failed: 0, skipped: 0 };
+        Self { format, bytes: [0; LENGTH], length: 0, statistics }
+    }
+
+    /// Takes the next byte; a frame if it completes one.
+    #[inline]
+    pub fn push(&mut self, byte: u8) -> Option<F::Frame> {
+        if let Some(place) = self.bytes.get_mut(self.length) {
+            *place = byte;
+            self.length += 1;
+        }
+        if !self.format.may_begin(self.held()) {
+            self.drop_to_header();
+        }
+        if self.length < LENGTH {
+            return None;
+        }
+        let frame = self.format.frame(&self.bytes);
+        if frame.is_some() {
+            self.length = 0;
+            self.statistics.frames += 1;
+        } else {
+            self.statistics.failed += 1;
+            self.drop_to_header();
+        }
+        frame
+    }
+
+    fn held(&self) -> &[u8] {
+        self.bytes.get(..self.length).unwrap_or_default()
+    }
+
+    /// Drops bytes from the front: at least one, and up to where a frame may begin.
+    fn drop_to_header(&mut self) {
+        let held = self.held();
+        let starts = 1..self.length;
+        let dropped = starts
+            .into_iter()
+            .find(|start| self.format.may_begin(held.get(*start..).unwrap_or_default()))
+            .unwrap_or(self.length);
+        self.statistics.skipped += dropped as u64;
+        self.bytes.copy_within(dropped..self.length, 0);
+        self.length -= dropped;
+    }
+
+    /// Forgets the bytes that wait for the rest of their frame, and counts them as skipped: for a
+    /// line that is known to have fallen silent between frames.
+    pub fn clear(&mut self) {
+        self.statistics.skipped += self.length as u64;
+        self.length = 0;
+    }
+
+    /// The format.
+    #[must_use]
+    pub const fn format(&self) -> &F {
+        &self.format
+    }
+
+    /// How the line has behaved so far.
+    #[must_use]
+    pub const fn statistics(&self) -> LineStatistics {
+        self.statistics
+    }
+
+    /// Bytes that wait for the rest of their frame.
+    #[must_use]
+    pub const fn waiting(&self) -> usize {
+        self.length
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Two bytes of header, four of which one is their sum.
+    struct Sum;
+
+    impl FrameFormat<6> for Sum {
+        type Frame = [u8; 3];
+
+        fn may_begin(&self, start: &[u8]) -> bool {
+            start.iter().zip([1, 2]).all(|(byte, header)| *byte == header)
+        }
+
+        fn frame(&self, bytes: &[u8; 6]) -> Option<[u8; 3]> {
+            let [1, 2, a, b, c, sum] = *bytes else { return None };
+            (sum == a.wrapping_add(b).wrapping_add(c)).then_some([a, b, c])
+        }
+    }
+
+    /// What the stream holds by trying every place, with all of it at hand.
+    fn searched(stream: &[u8]) -> Vec<[u8; 3]> {
+        let (mut found, mut at) = (Vec::new(), 0);
+        while let Some(bytes) = stream.get(at..at + 6) {
+            match Sum.frame(bytes.try_into().unwrap()) {
+                Some(frame) => {
+                    found.push(frame);
+                    at += 6;
+                }
+                None => at += 1,
+            }
+        }
+        found
+    }
+
+    proptest! {
+        #[test]
+        fn a_stream_gives_what_a_search_of_all_of_it_gives(
+            // Few different bytes, so that headers and frames come by chance and overlap.
+            noise in prop::collection::vec(0_u8..4, 0..400),
+        ) {
+            let mut deframer = Deframer::new(Sum);
+            let found: Vec<[u8; 3]> = noise.iter().filter_map(|byte| deframer.push(*byte)).collect();
+            let statistics = deframer.statistics();
+            let accounted = statistics.skipped + deframer.waiting() as u64 + 6 * statistics.frames;
+            prop_assert_eq!(accounted, noise.len() as u64);
+            prop_assert_eq!(statistics.frames, found.len() as u64);
+            prop_assert_eq!(found, searched(&noise));
+        }
+    }
+
+    #[test]
+    fn a_line_that_fell_silent_can_be_begun_anew() {
+        let mut deframer = Deframer::new(Sum);
+        assert!([1, 2, 3].iter().all(|byte| deframer.push(*byte).is_none()));
+        deframer.clear();
+        assert_eq!((deframer.waiting(), deframer.statistics().skipped), (0, 3));
+        let frames: Vec<[u8; 3]> =
+            [1, 2, 3, 4, 5, 12].iter().filter_map(|byte| deframer.push(*byte)).collect();
+        assert_eq!(frames, [[3, 4, 5]]);
+    }
+}

@@ -1,0 +1,119 @@
+//! A sensor on a line of a microcontroller.
+
+use core::fmt::Display;
+
+use embedded_io::{ErrorType as LineErrorType, Read, ReadReady};
+use fingertip_wrench::{Real, Wrench};
+
+use super::decoder::LineDecoder;
+use super::error::LineError;
+use super::pump::{Pump, Step};
+use crate::{AsyncWrenchSource, ErrorType, NbWrenchSource, Sample, WrenchSource};
+
+/// A sensor on any `embedded_io::Read`, blocking; polled, too, if the line can say whether bytes are
+/// there (`ReadReady`).
+#[derive(Debug)]
+pub struct EmbeddedLine<L, T, D> {
+    line: L,
+    pump: Pump<T, D>,
+}
+
+/// A sensor on any `embedded_io_async::Read`. No sample is lost if a call is dropped: what was read is
+/// kept, as long as the line keeps what it was asked for when its own call is dropped.
+#[derive(Debug)]
+pub struct AsyncLine<L, T, D> {
+    line: L,
+    pump: Pump<T, D>,
+}
+
+macro_rules! line_methods {
+    ($name:ident) => {
+        impl<L, T: Real, D: LineDecoder<T>> $name<L, T, D> {
+            /// On an open line.
+            #[must_use]
+            pub const fn new(line: L, decoder: D) -> Self {
+                Self { line, pump: Pump::new(decoder) }
+            }
+
+            /// What decodes the bytes; it knows how the line has behaved.
+            #[must_use]
+            pub const fn decoder(&self) -> &D {
+                self.pump.decoder()
+            }
+
+            /// Drops the bytes that were read and not yet used: a frame begins with the next one that is
+            /// read. For a line that has fallen silent, or before a request is sent.
+            pub fn restart(&mut self) {
+                self.pump.restart();
+            }
+
+            /// The line, to send the sensor a request.
+            #[must_use]
+            pub const fn line_mut(&mut self) -> &mut L {
+                &mut self.line
+            }
+        }
+
+        impl<L: LineErrorType, T: Real, D: LineDecoder<T>> ErrorType for $name<L, T, D>
+        where
+            D::Fault: Display,
+        {
+            type Error = LineError<L::Error, D::Fault>;
+        }
+    };
+}
+
+line_methods!(EmbeddedLine);
+line_methods!(AsyncLine);
+
+/// The next sample of a pump; reading is the caller's, in its own way to wait.
+macro_rules! pumped {
+    ($sensor:ident, $read:expr) => {
+        loop {
+            match $sensor.pump.step() {
+                Step::Sample(sample) => break Ok(Some(sample)),
+                Step::Fault(fault) => break Err(LineError::Device(fault).into()),
+                Step::NoFrame(bytes) => break Err(LineError::NoFrame { bytes }.into()),
+                Step::Empty => {}
+            }
+            match $read {
+                Ok(0) => break Ok(None),
+                Ok(length) => $sensor.pump.filled(length),
+                Err(error) => break Err(LineError::Line(error).into()),
+            }
+        }
+    };
+}
+
+impl<L: Read, T: Real, D: LineDecoder<T>> WrenchSource<T> for EmbeddedLine<L, T, D>
+where
+    D::Fault: Display,
+{
+    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
+        pumped!(self, self.line.read(self.pump.buffer()))
+    }
+}
+
+impl<L: Read + ReadReady, T: Real, D: LineDecoder<T>> NbWrenchSource<T> for EmbeddedLine<L, T, D>
+where
+    D::Fault: Display,
+{
+    fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
+        pumped!(self, {
+            match self.line.read_ready() {
+                Ok(true) => self.line.read(self.pump.buffer()),
+                Ok(false) => return Err(nb::Error::WouldBlock),
+                Err(error) => Err(error),
+            }
+        })
+    }
+}
+
+impl<L: embedded_io_async::Read, T: Real, D: LineDecoder<T>> AsyncWrenchSource<T> for AsyncLine<L, T, D>
+where
+    D::Fault: Display,
+{
+    async fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
+        pumped!(self, self.line.read(self.pump.buffer()).await)
+    }
+}

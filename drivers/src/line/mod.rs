@@ -1,0 +1,32 @@
+//! Sensors that send frames of bytes over a line: what all of them have in common.
+//!
+//! A device gives a [`FrameFormat`] (how its frames look), from which a [`Deframer`] finds them
+//! among noise, and a [`LineDecoder`] (what they mean). Neither does I/O. On top of one core there
+//! are three faces: `LineSensor` blocks on any `std::io::Read` (feature `std`), `EmbeddedLine` blocks
+//! or polls any `embedded_io::Read`, and `AsyncLine` awaits any `embedded_io_async::Read` (feature
+//! `embedded-io`).
+
+mod decoder;
+mod deframer;
+mod error;
+mod pump;
+
+#[cfg(feature = "embedded-io")]
+mod embedded;
+#[cfg(feature = "std")]
+mod sensor;
+#[cfg(feature = "simulation")]
+mod simulator;
+
+pub use decoder::LineDecoder;
+pub use deframer::{Deframer, FrameFormat, LineStatistics};
+pub use error::LineError;
+
+#[cfg(feature = "embedded-io")]
+pub use embedded::{AsyncLine, EmbeddedLine};
+#[cfg(feature = "std")]
+pub use sensor::LineSensor;
+#[cfg(feature = "simulation")]
+pub use simulator::{LineFaults, SimulatedLine};
+
+pub(crate) use decoder::finite_wrench;

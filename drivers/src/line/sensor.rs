@@ -1,0 +1,92 @@
+//! A sensor on a line of the standard library: a serial port, a file, a socket.
+
+use std::io::{self, Read};
+
+use fingertip_wrench::{Real, Wrench};
+
+use super::decoder::LineDecoder;
+use super::error::LineError;
+use super::pump::{Pump, Step};
+use crate::{ErrorType, NbWrenchSource, Sample, WrenchSource};
+
+/// A sensor on anything that can be read, such as an open serial port. Set the read timeout of a
+/// port to some periods of the sensor.
+///
+/// It blocks as a [`WrenchSource`]. As an [`NbWrenchSource`] it takes the timeout of the line (`TimedOut` or
+/// `WouldBlock`) for "nothing yet": open the line as non-blocking, or with a timeout of zero.
+#[derive(Debug)]
+pub struct LineSensor<L, T, D> {
+    line: L,
+    pump: Pump<T, D>,
+}
+
+impl<L: Read, T: Real, D: LineDecoder<T>> LineSensor<L, T, D> {
+    /// On an open line.
+    #[must_use]
+    pub const fn new(line: L, decoder: D) -> Self {
+        Self { line, pump: Pump::new(decoder) }
+    }
+
+    /// What decodes the bytes; it knows how the line has behaved.
+    #[must_use]
+    pub const fn decoder(&self) -> &D {
+        self.pump.decoder()
+    }
+
+    /// Drops the bytes that were read and not yet used: a frame begins with the next one that is
+    /// read. For a line that has fallen silent, or before a request is sent.
+    pub fn restart(&mut self) {
+        self.pump.restart();
+    }
+
+    /// The line, to send the sensor a request.
+    #[must_use]
+    pub const fn line_mut(&mut self) -> &mut L {
+        &mut self.line
+    }
+}
+
+impl<L, T: Real, D: LineDecoder<T>> ErrorType for LineSensor<L, T, D>
+where
+    D::Fault: core::fmt::Display,
+{
+    type Error = LineError<io::Error, D::Fault>;
+}
+
+impl<L: Read, T: Real, D: LineDecoder<T>> WrenchSource<T> for LineSensor<L, T, D>
+where
+    D::Fault: core::fmt::Display,
+{
+    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
+        loop {
+            match self.pump.step() {
+                Step::Sample(sample) => return Ok(Some(sample)),
+                Step::Fault(fault) => return Err(LineError::Device(fault)),
+                Step::NoFrame(bytes) => return Err(LineError::NoFrame { bytes }),
+                Step::Empty => {}
+            }
+            match self.line.read(self.pump.buffer()) {
+                Ok(0) => return Ok(None),
+                Ok(length) => self.pump.filled(length),
+                Err(error) => match error.kind() {
+                    io::ErrorKind::Interrupted => {}
+                    io::ErrorKind::TimedOut | io::ErrorKind::WouldBlock => return Err(LineError::Timeout),
+                    _ => return Err(LineError::Line(error)),
+                },
+            }
+        }
+    }
+}
+
+impl<L: Read, T: Real, D: LineDecoder<T>> NbWrenchSource<T> for LineSensor<L, T, D>
+where
+    D::Fault: core::fmt::Display,
+{
+    fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
+        match self.next_wrench() {
+            Ok(sample) => Ok(sample),
+            Err(LineError::Timeout) => Err(nb::Error::WouldBlock),
+            Err(error) => Err(nb::Error::Other(error)),
+        }
+    }
+}

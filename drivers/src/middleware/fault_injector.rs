@@ -1,0 +1,228 @@
+//! Breaks a source on purpose.
+
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::SVector;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use thiserror::Error;
+
+use crate::{ErrorType, Sample, SignalSource, SourceError, SourceErrorKind, WrenchSource};
+
+/// What happens to samples: probabilities between 0 and 1, taken in this order; at most one happens
+/// to a sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SampleFaults {
+    /// The sample is lost.
+    pub loss: f64,
+    /// It comes twice.
+    pub duplication: f64,
+    /// It comes behind the one after it.
+    pub reorder: f64,
+    /// An error comes in its place.
+    pub error: f64,
+    /// One component is not a number. No sound source does this; a pipeline must survive it.
+    pub not_a_number: f64,
+    /// One component is far off.
+    pub spike: f64,
+    /// The value freezes: this sample and the following ones have the value of the one before.
+    pub freeze: f64,
+    /// How many samples a freeze lasts.
+    pub freeze_length: u32,
+    /// What is added by a spike, in the unit of the component.
+    pub spike_size: f64,
+    /// Seed of the chance.
+    pub seed: u64,
+}
+
+/// What was done so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Injections {
+    /// Samples lost.
+    pub lost: u64,
+    /// Samples given twice.
+    pub duplicated: u64,
+    /// Samples given behind their successor.
+    pub reordered: u64,
+    /// Errors given in place of a sample.
+    pub errors: u64,
+    /// Samples with a NaN.
+    pub not_a_number: u64,
+    /// Samples with a spike.
+    pub spikes: u64,
+    /// Samples whose value was frozen.
+    pub frozen: u64,
+}
+
+/// An error of the source, or one that was injected.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum InjectedError<E> {
+    /// Of the source inside.
+    #[error(transparent)]
+    Source(E),
+    /// Injected: as of a frame whose checksum is wrong.
+    #[error("an injected fault: the sample is corrupt")]
+    Injected,
+}
+
+impl<E: SourceError> SourceError for InjectedError<E> {
+    fn kind(&self) -> SourceErrorKind {
+        match self {
+            Self::Source(error) => error.kind(),
+            Self::Injected => SourceErrorKind::Corrupt,
+        }
+    }
+}
+
+/// What has components that can be broken.
+trait Components<T>: Copy {
+    fn component_mut(&mut self, index: usize, change: impl FnOnce(&mut T));
+}
+
+impl<T: Real> Components<T> for Wrench<T> {
+    fn component_mut(&mut self, index: usize, change: impl FnOnce(&mut T)) {
+        let mut components = self.components();
+        components.get_mut(index % 6).map(change);
+        *self = Self::from_components(&components);
+    }
+}
+
+impl<T: Real, const N: usize> Components<T> for SVector<T, N> {
+    fn component_mut(&mut self, index: usize, change: impl FnOnce(&mut T)) {
+        self.as_mut_slice().get_mut(index % N.max(1)).map(change);
+    }
+}
+
+/// A source with faults. `V` is what it gives: `Wrench<T>`, or `SVector<T, N>` for signals.
+#[derive(Clone, Debug)]
+pub struct FaultInjector<S, T, V> {
+    source: S,
+    faults: SampleFaults,
+    random: Pcg64Mcg,
+    injections: Injections,
+    /// Given before anything else is asked of the source.
+    waiting: Option<Sample<T, V>>,
+    last: Option<Sample<T, V>>,
+    freeze: u32,
+}
+
+impl<S, T: Real, V: Copy> FaultInjector<S, T, V> {
+    /// Around a source.
+    #[must_use]
+    pub fn new(source: S, faults: SampleFaults) -> Self {
+        let random = Pcg64Mcg::seed_from_u64(faults.seed);
+        Self {
+            source,
+            faults,
+            random,
+            injections: Injections::default(),
+            waiting: None,
+            last: None,
+            freeze: 0,
+        }
+    }
+
+    /// What was done so far.
+    #[must_use]
+    pub const fn injections(&self) -> &Injections {
+        &self.injections
+    }
+
+    /// The source inside.
+    #[must_use]
+    pub const fn source(&self) -> &S {
+        &self.source
+    }
+
+    fn inject<E>(
+        &mut self,
+        mut next: impl FnMut(&mut S) -> Result<Option<Sample<T, V>>, E>,
+    ) -> Result<Option<Sample<T, V>>, InjectedError<E>>
+    where
+        V: Components<T>,
+    {
+        if let Some(sample) = self.waiting.take() {
+            return Ok(Some(sample));
+        }
+        loop {
+            let Some(mut sample) = next(&mut self.source).map_err(InjectedError::Source)? else {
+                return Ok(None);
+            };
+            if let (true, Some(last)) = (self.freeze > 0, self.last) {
+                self.freeze -= 1;
+                self.injections.frozen += 1;
+                return Ok(Some(Sample { value: last.value, ..sample }));
+            }
+            let chance: f64 = self.random.random();
+            let axis: usize = self.random.random_range(0..64);
+            let f = self.faults;
+            let limits = [f.loss, f.duplication, f.reorder, f.error, f.not_a_number, f.spike, f.freeze];
+            let mut sum = 0.0;
+            let fault = limits.iter().position(|limit| {
+                sum += limit;
+                chance < sum
+            });
+            match fault {
+                Some(0) => {
+                    self.injections.lost += 1;
+                    continue;
+                }
+                Some(1) => {
+                    self.injections.duplicated += 1;
+                    self.waiting = Some(sample);
+                }
+                Some(2) => {
+                    if let Some(following) = next(&mut self.source).map_err(InjectedError::Source)? {
+                        self.injections.reordered += 1;
+                        self.waiting = Some(sample);
+                        sample = following;
+                    }
+                }
+                Some(3) => {
+                    self.injections.errors += 1;
+                    return Err(InjectedError::Injected);
+                }
+                Some(4) => {
+                    self.injections.not_a_number += 1;
+                    sample.value.component_mut(axis, |component| *component = T::literal(f64::NAN));
+                    return Ok(Some(sample));
+                }
+                Some(5) => {
+                    self.injections.spikes += 1;
+                    let size = T::literal(f.spike_size);
+                    sample.value.component_mut(axis, |component| *component += size);
+                    return Ok(Some(sample));
+                }
+                Some(6) => {
+                    if let Some(last) = self.last {
+                        self.freeze = f.freeze_length.saturating_sub(1);
+                        self.injections.frozen += 1;
+                        return Ok(Some(Sample { value: last.value, ..sample }));
+                    }
+                }
+                _ => {}
+            }
+            self.last = Some(sample);
+            return Ok(Some(sample));
+        }
+    }
+}
+
+impl<S: ErrorType, T, V> ErrorType for FaultInjector<S, T, V> {
+    type Error = InjectedError<S::Error>;
+}
+
+impl<T: Real, S: WrenchSource<T>> WrenchSource<T> for FaultInjector<S, T, Wrench<T>> {
+    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
+        self.inject(S::next_wrench)
+    }
+}
+
+impl<T: Real, const N: usize, S: SignalSource<T, N>> SignalSource<T, N>
+    for FaultInjector<S, T, SVector<T, N>>
+{
+    fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
+        self.inject(S::next_signals)
+    }
+}

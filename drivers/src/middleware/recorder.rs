@@ -1,0 +1,170 @@
+//! Writes down what passes through.
+
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::SVector;
+
+use crate::{
+    AsyncSignalSource, AsyncWrenchSource, ErrorType, NbSignalSource, NbWrenchSource, Sample, SignalSource,
+    WrenchSource,
+};
+
+/// Where samples are written down: a CSV or MCAP file, a ring buffer, a closure.
+pub trait Record<T, V> {
+    /// Why a sample cannot be written down.
+    type Error;
+
+    /// Writes down a sample.
+    ///
+    /// # Errors
+    /// Whatever keeps it from being written.
+    fn record(&mut self, sample: &Sample<T, V>) -> Result<(), Self::Error>;
+}
+
+impl<T, V, E, F: FnMut(&Sample<T, V>) -> Result<(), E>> Record<T, V> for F {
+    type Error = E;
+
+    fn record(&mut self, sample: &Sample<T, V>) -> Result<(), E> {
+        self(sample)
+    }
+}
+
+/// A source whose samples are written down before they are given.
+///
+/// A disk that is full does not stop the hand: if a sample cannot be written, it is given all the
+/// same. The record ends there, so that it has no hole; the reason and the number of samples that
+/// are missing at its end are kept for [`failure`](Self::failure) and [`unrecorded`](Self::unrecorded).
+/// Ask for them.
+///
+/// ```
+/// use fingertip_drivers::middleware::Recorder;
+/// use fingertip_drivers::recording::{RecordingReader, RecordingWriter, Schema, WrenchPlayback};
+/// use fingertip_drivers::{Sample, WrenchSource};
+/// use fingertip_wrench::Wrench;
+///
+/// let file = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0.5,0.0,0.0,-1.0,0.0,0.0,0.0\n";
+/// let source = WrenchPlayback::new(RecordingReader::new("example.csv", file.as_bytes())?, "")?;
+/// let mut copy = RecordingWriter::new(Vec::new(), &Schema::default().time().wrench(""))?;
+/// let mut source = Recorder::new(source, |sample: &Sample<f64, Wrench<f64>>| {
+///     copy.write_wrench(sample.time.unwrap_or(f64::NAN), &sample.value)
+/// });
+/// while let Some(_) = source.next_wrench()? {}
+/// assert!(source.failure().is_none());
+/// assert_eq!(copy.finish()?, file.as_bytes());
+/// # Ok::<(), fingertip_drivers::recording::RecordingError>(())
+/// ```
+#[derive(Debug)]
+pub struct Recorder<S, R, E> {
+    source: S,
+    record: R,
+    failure: Option<E>,
+    unrecorded: u64,
+}
+
+impl<S, R, E> Recorder<S, R, E> {
+    /// Around a source.
+    #[must_use]
+    pub const fn new(source: S, record: R) -> Self {
+        Self { source, record, failure: None, unrecorded: 0 }
+    }
+
+    /// Why the record ended early, if it did.
+    #[must_use]
+    pub const fn failure(&self) -> Option<&E> {
+        self.failure.as_ref()
+    }
+
+    /// How many samples were given that are not on record.
+    #[must_use]
+    pub const fn unrecorded(&self) -> u64 {
+        self.unrecorded
+    }
+
+    /// The source and the record, to close it.
+    #[must_use]
+    pub fn into_parts(self) -> (S, R) {
+        (self.source, self.record)
+    }
+
+    fn recorded<T, V>(&mut self, sample: Option<Sample<T, V>>) -> Option<Sample<T, V>>
+    where
+        R: Record<T, V, Error = E>,
+    {
+        if let Some(sample) = &sample {
+            if self.failure.is_none() {
+                self.failure = self.record.record(sample).err();
+            }
+            self.unrecorded += u64::from(self.failure.is_some());
+        }
+        sample
+    }
+}
+
+impl<S: ErrorType, R, E> ErrorType for Recorder<S, R, E> {
+    type Error = S::Error;
+}
+
+impl<T: Real, S, R, E> WrenchSource<T> for Recorder<S, R, E>
+where
+    S: WrenchSource<T>,
+    R: Record<T, Wrench<T>, Error = E>,
+{
+    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, S::Error> {
+        let sample = self.source.next_wrench()?;
+        Ok(self.recorded(sample))
+    }
+}
+
+impl<T: Real, S, R, E> NbWrenchSource<T> for Recorder<S, R, E>
+where
+    S: NbWrenchSource<T>,
+    R: Record<T, Wrench<T>, Error = E>,
+{
+    fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, S::Error> {
+        let sample = self.source.poll_wrench()?;
+        Ok(self.recorded(sample))
+    }
+}
+
+impl<T: Real, S, R, E> AsyncWrenchSource<T> for Recorder<S, R, E>
+where
+    S: AsyncWrenchSource<T>,
+    R: Record<T, Wrench<T>, Error = E>,
+{
+    async fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, S::Error> {
+        let sample = self.source.next_wrench().await?;
+        Ok(self.recorded(sample))
+    }
+}
+
+impl<T: Real, const N: usize, S, R, E> SignalSource<T, N> for Recorder<S, R, E>
+where
+    S: SignalSource<T, N>,
+    R: Record<T, SVector<T, N>, Error = E>,
+{
+    fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, S::Error> {
+        let sample = self.source.next_signals()?;
+        Ok(self.recorded(sample))
+    }
+}
+
+impl<T: Real, const N: usize, S, R, E> NbSignalSource<T, N> for Recorder<S, R, E>
+where
+    S: NbSignalSource<T, N>,
+    R: Record<T, SVector<T, N>, Error = E>,
+{
+    fn poll_signals(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, S::Error> {
+        let sample = self.source.poll_signals()?;
+        Ok(self.recorded(sample))
+    }
+}
+
+impl<T: Real, const N: usize, S, R, E> AsyncSignalSource<T, N> for Recorder<S, R, E>
+where
+    S: AsyncSignalSource<T, N>,
+    R: Record<T, SVector<T, N>, Error = E>,
+{
+    async fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, S::Error> {
+        let sample = self.source.next_signals().await?;
+        Ok(self.recorded(sample))
+    }
+}

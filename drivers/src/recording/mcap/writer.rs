@@ -1,0 +1,151 @@
+//! Writes an MCAP file.
+
+use alloc::collections::BTreeMap;
+use core::fmt;
+use std::io::{Seek, Write};
+
+use ::mcap::records::MessageHeader;
+use ::mcap::{WriteOptions, Writer};
+use fingertip_wrench::Wrench;
+
+use super::definitions::{CONTACT, Definition, SIGNALS, WRENCH};
+use super::error::McapError;
+use super::messages::{Header, Recorded, RecordedContact, RecordedSignals};
+
+/// A topic of a file that is being written, from the writer that made it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Topic {
+    index: usize,
+    number: u16,
+}
+
+struct Channel {
+    number: u16,
+    frame: String,
+    definition: &'static str,
+    sequence: u32,
+}
+
+/// Writes wrenches, signals and contacts. Call [`finish`](Self::finish): a file without its end can be
+/// read, but has no index.
+pub struct McapWriter<W: Write + Seek> {
+    writer: Writer<W>,
+    channels: Vec<Channel>,
+}
+
+impl<W: Write + Seek> fmt::Debug for McapWriter<W> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("McapWriter").field("topics", &self.channels.len()).finish_non_exhaustive()
+    }
+}
+
+impl<W: Write + Seek> McapWriter<W> {
+    /// Begins a file. Put a [`std::io::BufWriter`] around one.
+    ///
+    /// # Errors
+    /// [`McapError::File`].
+    pub fn new(out: W) -> Result<Self, McapError> {
+        let library = concat!("fingertip ", env!("CARGO_PKG_VERSION"));
+        let options = WriteOptions::new().compression(None).profile("ros2").library(library);
+        Ok(Self { writer: options.create(out)?, channels: Vec::new() })
+    }
+
+    fn topic(&mut self, name: &str, frame: &str, definition: &Definition) -> Result<Topic, McapError> {
+        let schema = self.writer.add_schema(definition.name, "ros2msg", definition.text.as_bytes())?;
+        let number = self.writer.add_channel(schema, name, "cdr", &BTreeMap::new())?;
+        let frame = frame.to_owned();
+        self.channels.push(Channel { number, frame, definition: definition.name, sequence: 0 });
+        Ok(Topic { index: self.channels.len() - 1, number })
+    }
+
+    /// A topic of wrenches, in a frame of that name.
+    ///
+    /// # Errors
+    /// [`McapError::File`].
+    pub fn wrenches(&mut self, name: &str, frame: &str) -> Result<Topic, McapError> {
+        self.topic(name, frame, &WRENCH)
+    }
+
+    /// A topic of signals, of a sensor with a frame of that name.
+    ///
+    /// # Errors
+    /// [`McapError::File`].
+    pub fn signals(&mut self, name: &str, frame: &str) -> Result<Topic, McapError> {
+        self.topic(name, frame, &SIGNALS)
+    }
+
+    /// A topic of contacts, in a frame of that name.
+    ///
+    /// # Errors
+    /// [`McapError::File`].
+    pub fn contacts(&mut self, name: &str, frame: &str) -> Result<Topic, McapError> {
+        self.topic(name, frame, &CONTACT)
+    }
+
+    /// Writes a wrench at a time \[s\].
+    ///
+    /// # Errors
+    /// [`McapError::Time`], [`McapError::WrongTopic`] or [`McapError::File`].
+    pub fn write_wrench(&mut self, topic: Topic, time: f64, wrench: &Wrench<f64>) -> Result<(), McapError> {
+        self.write(topic, time, &WRENCH, &Recorded::Wrench(*wrench))
+    }
+
+    /// Writes signals at a time \[s\].
+    ///
+    /// # Errors
+    /// As [`write_wrench`](Self::write_wrench).
+    pub fn write_signals(
+        &mut self,
+        topic: Topic,
+        time: f64,
+        signals: RecordedSignals,
+    ) -> Result<(), McapError> {
+        self.write(topic, time, &SIGNALS, &Recorded::Signals(signals))
+    }
+
+    /// Writes a contact at a time \[s\].
+    ///
+    /// # Errors
+    /// As [`write_wrench`](Self::write_wrench).
+    pub fn write_contact(
+        &mut self,
+        topic: Topic,
+        time: f64,
+        contact: RecordedContact,
+    ) -> Result<(), McapError> {
+        self.write(topic, time, &CONTACT, &Recorded::Contact(contact))
+    }
+
+    fn write(
+        &mut self,
+        topic: Topic,
+        time: f64,
+        definition: &Definition,
+        recorded: &Recorded,
+    ) -> Result<(), McapError> {
+        let wrong = McapError::WrongTopic { topic: topic.number, what: definition.name };
+        let channel = self.channels.get_mut(topic.index).ok_or(wrong)?;
+        if channel.definition != definition.name || channel.number != topic.number {
+            return Err(McapError::WrongTopic { topic: topic.number, what: definition.name });
+        }
+        let header = Header::stamped(time, &channel.frame).ok_or(McapError::Time { time })?;
+        let log_time = header.log_time();
+        let message = MessageHeader {
+            channel_id: channel.number,
+            sequence: channel.sequence,
+            log_time,
+            publish_time: log_time,
+        };
+        channel.sequence = channel.sequence.wrapping_add(1);
+        Ok(self.writer.write_to_known_channel(&message, &recorded.emit(&header))?)
+    }
+
+    /// Writes the index and the end, and gives the output back.
+    ///
+    /// # Errors
+    /// [`McapError::File`].
+    pub fn finish(mut self) -> Result<W, McapError> {
+        self.writer.finish()?;
+        Ok(self.writer.into_inner())
+    }
+}

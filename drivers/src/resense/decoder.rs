@@ -1,0 +1,123 @@
+//! From bytes to wrenches, as far as they can be trusted.
+
+use fingertip_wrench::{Real, Wrench};
+use thiserror::Error;
+
+use super::wire::Reading;
+use crate::line::{LineDecoder, LineStatistics, finite_wrench};
+use crate::{Sample, SourceError, SourceErrorKind};
+
+/// What a reading can be: what is beyond it is taken for bytes that are out of step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Greatest magnitude of a force \[N\]: the sensor's range with its reserve.
+    pub force: f32,
+    /// Greatest magnitude of a torque \[N·m\].
+    pub torque: f32,
+    /// Least and greatest temperature \[°C\].
+    pub temperature: [f32; 2],
+    /// Greatest change of the temperature from one reading to the next \[K\].
+    pub temperature_step: f32,
+}
+
+/// Why there is no wrench.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ResenseFault {
+    /// A reading was impossible: the bytes are out of step, or damaged. Nothing more is given until the
+    /// decoder is restarted.
+    #[error("a reading is impossible: the line is out of step; restart when it has been silent")]
+    OutOfStep,
+}
+
+impl SourceError for ResenseFault {
+    fn kind(&self) -> SourceErrorKind {
+        SourceErrorKind::Corrupt
+    }
+}
+
+/// Decodes what the sensor sends. Samples have no time.
+#[derive(Clone, Copy, Debug)]
+pub struct ResenseDecoder {
+    limits: Limits,
+    bytes: [u8; Reading::LENGTH],
+    length: usize,
+    out_of_step: bool,
+    temperature: Option<f32>,
+    statistics: LineStatistics,
+}
+
+impl ResenseDecoder {
+    /// Within limits. A reading begins with the first byte that it takes.
+    #[must_use]
+    pub const fn new(limits: Limits) -> Self {
+        let statistics = LineStatistics { frames: 0, failed: 0, skipped: 0 };
+        Self {
+            limits,
+            bytes: [0; Reading::LENGTH],
+            length: 0,
+            out_of_step: false,
+            temperature: None,
+            statistics,
+        }
+    }
+
+    /// Temperature of the last reading \[°C\].
+    #[must_use]
+    pub const fn temperature(&self) -> Option<f32> {
+        self.temperature
+    }
+
+    fn is_possible(&self, reading: &Reading) -> bool {
+        let Limits { force, torque, temperature: [coldest, hottest], temperature_step } = self.limits;
+        let within = |numbers: &[f32], limit: f32| numbers.iter().all(|number| number.abs() <= limit);
+        let step = self.temperature.map_or(0.0, |last| (reading.temperature - last).abs());
+        within(&reading.force, force)
+            && within(&reading.torque_millinewton_metres, torque * 1e3)
+            && (coldest..=hottest).contains(&reading.temperature)
+            && step <= temperature_step
+    }
+}
+
+impl<T: Real> LineDecoder<T> for ResenseDecoder {
+    type Fault = ResenseFault;
+    /// Some 18 readings.
+    const PATIENCE: usize = 500;
+
+    fn push(&mut self, byte: u8) -> Option<Result<Sample<T, Wrench<T>>, ResenseFault>> {
+        if let Some(place) = self.bytes.get_mut(self.length) {
+            *place = byte;
+            self.length += 1;
+        }
+        if self.length < Reading::LENGTH {
+            return None;
+        }
+        self.length = 0;
+        let reading = Reading::parse(&self.bytes);
+        self.out_of_step |= !self.is_possible(&reading);
+        let [fx, fy, fz] = reading.force.map(f64::from);
+        let [tx, ty, tz] = reading.torque_millinewton_metres.map(|torque| f64::from(torque) * 1e-3);
+        let wrench = finite_wrench([fx, fy, fz, tx, ty, tz]).filter(|_| !self.out_of_step);
+        Some(match wrench {
+            Some(value) => {
+                self.temperature = Some(reading.temperature);
+                self.statistics.frames += 1;
+                Ok(Sample { time: None, value })
+            }
+            None => {
+                self.statistics.failed += 1;
+                self.statistics.skipped += Reading::LENGTH as u64;
+                Err(ResenseFault::OutOfStep)
+            }
+        })
+    }
+
+    fn restart(&mut self) {
+        self.statistics.skipped += self.length as u64;
+        (self.length, self.out_of_step) = (0, false);
+    }
+
+    fn statistics(&self) -> LineStatistics {
+        self.statistics
+    }
+}
