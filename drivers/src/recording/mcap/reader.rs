@@ -5,7 +5,7 @@ use core::fmt;
 
 use ::mcap::parse_record;
 use ::mcap::read::ChannelAccumulator;
-use ::mcap::records::{MessageHeader, Record};
+use ::mcap::records::{MessageHeader, Record, op};
 use ::mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
 use super::error::McapError;
@@ -86,6 +86,10 @@ impl<'a> McapReader<'a> {
                 }
                 LinearReadEvent::Record { opcode, data } => (opcode, data),
             };
+            // Only what is used here is parsed: the library panics on an attachment whose length is wrong.
+            if ![op::SCHEMA, op::CHANNEL, op::MESSAGE, op::DATA_END].contains(&opcode) {
+                continue;
+            }
             match parse_record(opcode, data)? {
                 Record::Schema { header, data } => {
                     self.channels.add_schema(header, Cow::Owned(data.into_owned()))?;
