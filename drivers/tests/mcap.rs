@@ -132,3 +132,20 @@ fn a_damaged_file_is_an_error_and_never_gives_wrong_wrenches() {
         }
     }
 }
+
+#[test]
+fn an_attachment_whose_length_is_wrong_is_passed_over() {
+    // Found by fuzzing: a record of 67 bytes that says it holds an attachment longer than itself.
+    let mut file = b"\x89MCAP0\r\n".to_vec();
+    file.extend([0x09, 67, 0, 0, 0, 0, 0, 0, 0]);
+    let mut attachment = [0_u8; 67];
+    attachment[4] = 0x22;
+    attachment[6] = 5;
+    for length in [0_u8, 1, 3, 4, 20, 31, 32, 33, 66, 255] {
+        attachment[16] = length;
+        attachment[24] = length;
+        let file = [&file[..], &attachment].concat();
+        let mut reader = McapReader::new(&file).unwrap();
+        assert!(reader.next_entry().is_err(), "the file has no end");
+    }
+}

@@ -1,6 +1,7 @@
 //! What the bytes of a line mean.
 
 use fingertip_wrench::{Real, Wrench};
+#[cfg(any(feature = "bota-serial", feature = "resense", feature = "schunk-fts"))]
 use nalgebra::Vector3;
 
 use super::deframer::LineStatistics;
@@ -28,6 +29,7 @@ pub trait LineDecoder<T: Real> {
 }
 
 /// The load on the fingertip from what a device reports, if it is finite.
+#[cfg(any(feature = "bota-serial", feature = "resense", feature = "schunk-fts"))]
 pub(crate) fn finite_wrench<T: Real>(components: [f64; 6]) -> Option<Wrench<T>> {
     let [fx, fy, fz, tx, ty, tz] = components.map(T::literal);
     let wrench = Wrench::on_fingertip(Vector3::new(fx, fy, fz), Vector3::new(tx, ty, tz));

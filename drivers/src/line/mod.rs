@@ -9,6 +9,7 @@
 mod decoder;
 mod deframer;
 mod error;
+#[cfg(any(feature = "std", feature = "embedded-io"))]
 mod pump;
 
 #[cfg(feature = "embedded-io")]
@@ -29,4 +30,5 @@ pub use sensor::LineSensor;
 #[cfg(feature = "simulation")]
 pub use simulator::{LineFaults, SimulatedLine};
 
+#[cfg(any(feature = "bota-serial", feature = "resense", feature = "schunk-fts"))]
 pub(crate) use decoder::finite_wrench;

@@ -5,11 +5,14 @@ use core::fmt;
 
 use ::mcap::parse_record;
 use ::mcap::read::ChannelAccumulator;
-use ::mcap::records::{MessageHeader, Record};
-use ::mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use ::mcap::records::{MessageHeader, Record, op};
+use crc::{CRC_32_ISO_HDLC, Crc};
 
 use super::error::McapError;
 use super::messages::{Header, Recorded};
+
+/// The CRC of MCAP is that of zlib.
+const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
 /// One message of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,8 +31,9 @@ pub struct Entry {
 /// there. The checksum of a chunk is checked before anything in it is given. A file that was cut is
 /// read up to the last whole chunk; the error comes behind it.
 pub struct McapReader<'a> {
+    /// The records behind the one at hand, and those of the chunk at hand.
     rest: &'a [u8],
-    reader: LinearReader,
+    chunk: &'a [u8],
     channels: ChannelAccumulator<'static>,
     past_data: bool,
 }
@@ -49,13 +53,8 @@ impl<'a> McapReader<'a> {
         if !file.starts_with(::mcap::MAGIC) {
             return Err(McapError::File(::mcap::McapError::BadMagic));
         }
-        // The library's own stream of messages does not look at the checksums of chunks. No record is
-        // longer than the file, whatever a damaged length says.
-        let options = LinearReaderOptions::default()
-            .with_prevalidate_chunk_crcs(true)
-            .with_record_length_limit(file.len());
-        let reader = LinearReader::new_with_options(options);
-        Ok(Self { rest: file, reader, channels: ChannelAccumulator::default(), past_data: false })
+        let rest = file.get(::mcap::MAGIC.len()..).unwrap_or_default();
+        Ok(Self { rest, chunk: &[], channels: ChannelAccumulator::default(), past_data: false })
     }
 
     /// The next message, or `None` at the end. Behind an error of the file nothing more can be read.
@@ -72,20 +71,16 @@ impl<'a> McapReader<'a> {
 
     fn next_message(&mut self) -> Result<Option<Entry>, McapError> {
         while !self.past_data {
-            let Some(event) = self.reader.next_event() else { break };
-            let (opcode, data) = match event? {
-                LinearReadEvent::ReadRequest(need) => {
-                    let length = need.min(self.rest.len());
-                    let (bytes, rest) = self.rest.split_at_checked(length).unwrap_or_default();
-                    if let Some(place) = self.reader.insert(length).get_mut(..length) {
-                        place.copy_from_slice(bytes);
-                    }
-                    self.reader.notify_read(length);
-                    self.rest = rest;
-                    continue;
-                }
-                LinearReadEvent::Record { opcode, data } => (opcode, data),
-            };
+            let from = if self.chunk.is_empty() { &mut self.rest } else { &mut self.chunk };
+            let (opcode, data) = next_record(from)?;
+            if opcode == op::CHUNK {
+                self.chunk = checked_chunk(data)?;
+                continue;
+            }
+            // Only what is used here is parsed: the library panics on an attachment whose length is wrong.
+            if ![op::SCHEMA, op::CHANNEL, op::MESSAGE, op::DATA_END].contains(&opcode) {
+                continue;
+            }
             match parse_record(opcode, data)? {
                 Record::Schema { header, data } => {
                     self.channels.add_schema(header, Cow::Owned(data.into_owned()))?;
@@ -122,4 +117,41 @@ impl<'a> McapReader<'a> {
         let Header { frame, .. } = header;
         Ok(Entry { topic, time, frame, recorded })
     }
+}
+
+/// Takes the next record: its kind, its length in eight bytes, and so many bytes.
+///
+/// The library's own readers either do not look at the checksums of chunks or trust the lengths of the
+/// records in them.
+fn next_record<'a>(from: &mut &'a [u8]) -> Result<(u8, &'a [u8]), McapError> {
+    let cut = || McapError::File(::mcap::McapError::UnexpectedEof);
+    let (&[opcode, length @ ..], behind) = from.split_first_chunk::<9>().ok_or_else(cut)?;
+    let length = usize::try_from(u64::from_le_bytes(length)).map_err(|_| cut())?;
+    let (data, rest) = behind.split_at_checked(length).ok_or_else(cut)?;
+    *from = rest;
+    Ok((opcode, data))
+}
+
+/// The records of a chunk whose checksum fits (zero means that there is none).
+fn checked_chunk(chunk: &[u8]) -> Result<&[u8], McapError> {
+    let cut = || McapError::File(::mcap::McapError::UnexpectedEof);
+    // Two times and the size of the contents come first.
+    let behind = chunk.get(24..).ok_or_else(cut)?;
+    let (saved, behind) = behind.split_first_chunk::<4>().ok_or_else(cut)?;
+    let (length, behind) = behind.split_first_chunk::<4>().ok_or_else(cut)?;
+    let length = usize::try_from(u32::from_le_bytes(*length)).map_err(|_| cut())?;
+    let (compression, behind) = behind.split_at_checked(length).ok_or_else(cut)?;
+    if !compression.is_empty() {
+        let name = String::from_utf8_lossy(compression).into_owned();
+        return Err(McapError::File(::mcap::McapError::UnsupportedCompression(name)));
+    }
+    let (length, records) = behind.split_first_chunk::<8>().ok_or_else(cut)?;
+    if u64::from_le_bytes(*length) != records.len() as u64 {
+        return Err(cut());
+    }
+    let (saved, calculated) = (u32::from_le_bytes(*saved), CRC.checksum(records));
+    if saved != 0 && saved != calculated {
+        return Err(McapError::File(::mcap::McapError::BadChunkCrc { saved, calculated }));
+    }
+    Ok(records)
 }
