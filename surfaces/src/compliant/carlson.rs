@@ -79,7 +79,8 @@ mod tests {
     /// Values of Carlson (1995), "Numerical computation of real or complex elliptic integrals".
     #[test]
     fn published_values() {
-        let near = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 2e-14, "{a} {b}");
+        // To half a unit of the last of 14 printed digits.
+        let near = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 5e-14, "{a} {b}");
         near(r_f(1.0, 2.0, 0.0), 1.311_028_777_146_1);
         near(r_f(2.0, 3.0, 4.0), 0.584_082_841_677_15);
         near(r_d(0.0, 2.0, 1.0), 1.797_210_352_103_4);
