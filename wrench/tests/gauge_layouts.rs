@@ -136,6 +136,11 @@ fn decoupled_is_elimination<T: Real, K: Combination<6>>(
         let off = wide(&(a - b).components().component_div(sensor.nominal())).norm();
         let size = wide(&a.components().component_div(sensor.nominal())).norm();
         assert!(off <= 20.0 * condition * epsilon * size, "{off} {size}");
+        // Over the range of forces: the same digits.
+        let far = T::literal(2.0_f64.powi(if epsilon < 1e-10 { 100 } else { 50 }));
+        for factor in [far, T::one() / far] {
+            assert_eq!(decoupled.solve(&(signals * factor)), b * factor);
+        }
     }
 }
 
