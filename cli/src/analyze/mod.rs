@@ -3,6 +3,7 @@
 mod contacts;
 mod files;
 mod progress;
+mod recorded;
 mod rest;
 mod source;
 mod volts;

@@ -3,10 +3,10 @@
 use std::fs::File;
 use std::path::PathBuf;
 
-use fingertip::wrench::{TareError, Wrench};
+use fingertip::wrench::Wrench;
 use fingertip_drivers::recording::{HeaderProblem, RecordingReader, Row};
 
-use super::rest::Doubt;
+use super::recorded::Recorded;
 use super::volts;
 use super::wrenches::Wrenches;
 use crate::args::AnalyzeArguments;
@@ -162,22 +162,4 @@ impl Source {
             }
         }
     }
-}
-
-/// What a row of a recording holds of one sensor.
-pub(super) trait Recorded {
-    /// Name of the sensor; empty if the recording gives none.
-    fn sensor(&self) -> &str;
-
-    /// The load as recorded, less the zero, or why there is none.
-    fn read(&self, row: &Row<'_>) -> Result<Wrench<f64>, Status>;
-
-    /// Takes a row of the rest: [`Status::Rest`], or why it cannot be used.
-    fn rest(&mut self, row: &Row<'_>) -> Status;
-
-    /// The mean of the rest is the zero from now on.
-    fn end_rest(&mut self) -> Result<(), TareError>;
-
-    /// Why the rest may not have been one.
-    fn doubt(&self) -> Option<Doubt>;
 }

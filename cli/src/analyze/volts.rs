@@ -10,8 +10,8 @@ use fingertip_calibration::file::{CalibrationFile, SignalUnit as CalibratedUnit,
 use fingertip_drivers::recording::{HeaderProblem, Layout, Row, SignalColumns, SignalUnit};
 use nalgebra::SVector;
 
+use super::recorded::Recorded;
 use super::rest::{Doubt, RestWatch};
-use super::source::Recorded;
 use crate::error::CliError;
 use crate::observe::Status;
 

@@ -4,8 +4,8 @@ use fingertip::wrench::{TareAccumulator, TareError, Wrench};
 use fingertip_drivers::recording::{HeaderProblem, Layout, Row, WrenchColumns};
 use nalgebra::Vector6;
 
+use super::recorded::Recorded;
 use super::rest::{Doubt, RestWatch};
-use super::source::Recorded;
 use crate::observe::Status;
 
 /// The wrench of one sensor, tared.

@@ -1,0 +1,25 @@
+//! What a row of a recording holds of one sensor, be it wrenches or volts.
+
+use fingertip::wrench::{TareError, Wrench};
+use fingertip_drivers::recording::Row;
+
+use super::rest::Doubt;
+use crate::observe::Status;
+
+/// What a row of a recording holds of one sensor.
+pub(super) trait Recorded {
+    /// Name of the sensor; empty if the recording gives none.
+    fn sensor(&self) -> &str;
+
+    /// The load as recorded, less the zero, or why there is none.
+    fn read(&self, row: &Row<'_>) -> Result<Wrench<f64>, Status>;
+
+    /// Takes a row of the rest: [`Status::Rest`], or why it cannot be used.
+    fn rest(&mut self, row: &Row<'_>) -> Status;
+
+    /// The mean of the rest is the zero from now on.
+    fn end_rest(&mut self) -> Result<(), TareError>;
+
+    /// Why the rest may not have been one.
+    fn doubt(&self) -> Option<Doubt>;
+}
