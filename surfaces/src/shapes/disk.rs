@@ -3,7 +3,7 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use crate::numeric::vectors::{foot, length};
+use crate::numeric::vectors::length;
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Plane};
 
@@ -52,11 +52,7 @@ impl<T: Real> ActiveSurface<T> for Disk<T> {
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
-        // The point of the line over which the disk is nearest.
-        let (offset, _) = foot(line, &self.plane.point());
-        let nearest = Line { point: self.plane.point() + offset, direction: line.direction };
-        let approach = self.plane.closest_approach(&nearest);
-        ClosestApproach { active: self.is_active(&approach.point), ..approach }
+        self.plane.closest_to_part(line, |point| self.is_active(point))
     }
 
     #[inline]

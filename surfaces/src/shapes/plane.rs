@@ -3,7 +3,7 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use crate::numeric::vectors::is_finite;
+use crate::numeric::vectors::{foot, is_finite};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
 
@@ -45,6 +45,21 @@ impl<T: Real> Plane<T> {
     #[must_use]
     pub fn height(&self, point: &Vector3<T>) -> T {
         (point - self.point).dot(&self.normal)
+    }
+}
+
+impl<T: Real> Plane<T> {
+    /// The closest approach to a part of the plane around its point: at the point of the line over
+    /// which that part is nearest.
+    pub(super) fn closest_to_part(
+        &self,
+        line: &Line<T>,
+        is_active: impl FnOnce(&Vector3<T>) -> bool,
+    ) -> ClosestApproach<T> {
+        let (offset, _) = foot(line, &self.point);
+        let nearest = Line { point: self.point + offset, direction: line.direction };
+        let approach = self.closest_approach(&nearest);
+        ClosestApproach { active: is_active(&approach.point), ..approach }
     }
 }
 
