@@ -85,7 +85,7 @@ proptest! {
         let touch = fingertip.sense(&Vector6::from(bits.map(f32::from_bits)), 1e-3);
         if let Resolution::Contact(contact) = touch.resolution {
             prop_assert!(contact.point.iter().all(|x| x.is_finite()));
-            prop_assert!((0.0..=1.0).contains(&contact.incidence));
+            prop_assert!((0.0..=1.0).contains(&contact.incidence()));
             let margin = touch.grip.unwrap();
             prop_assert!(!margin.newtons.is_nan() && !margin.utilisation.is_nan());
         }

@@ -62,7 +62,7 @@ fn resolve_all<T: Real, S: ActiveSurface<T>>(
     let mut sum = T::zero();
     for wrench in wrenches {
         if let Resolution::Contact(contact) = model.resolve(wrench, surface) {
-            sum += contact.point.x + contact.normal.y + contact.incidence;
+            sum += contact.point.x + contact.normal.y + contact.incidence();
         }
     }
     sum

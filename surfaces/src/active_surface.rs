@@ -3,6 +3,8 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
+use crate::ForceLine;
+
 /// Where a line passes through a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing<T: Real> {
@@ -14,6 +16,20 @@ pub struct Crossing<T: Real> {
     pub normal: Vector3<T>,
     /// `false` where the point belongs to the shape but not to the part that may touch: beyond
     /// the rim of a disk, past the end of an open cylinder.
+    pub active: bool,
+}
+
+/// Where a force enters a surface that its line enters only once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry<T: Real> {
+    /// The point of the surface \[m\].
+    pub point: Vector3<T>,
+    /// Outward unit normal there.
+    pub normal: Vector3<T>,
+    /// The square of the normal force \[N²\]. Closed forms know it before they know the normal;
+    /// unless it is positive the line misses, and the other fields mean nothing.
+    pub normal_force_squared: T,
+    /// `false` where the point belongs to the shape but not to the part that may touch.
     pub active: bool,
 }
 
@@ -59,14 +75,15 @@ pub trait ActiveSurface<T: Real> {
     /// The outward unit normal at a point of the surface.
     fn normal(&self, point: &Vector3<T>) -> Vector3<T>;
 
-    /// Where the line enters, for shapes that no line enters twice: a shortcut past
+    /// Where a force enters, for shapes that no line enters twice: a shortcut past
     /// [`crossings`](Self::crossings) that point contact takes first.
     ///
-    /// `None`, as the default answers, says nothing; an answer shall be the same as the one crossing
-    /// with a normal against the line's direction.
+    /// `None`, as the default answers, says nothing. An answer with a positive square of the normal
+    /// force shall be finite and agree, but for rounding, with the one crossing that has a normal
+    /// against the force.
     #[inline]
-    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
-        let _ = line;
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let _ = push;
         None
     }
 
@@ -103,8 +120,8 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for &S {
     }
 
     #[inline]
-    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
-        (**self).sole_entry(line)
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        (**self).sole_entry(push)
     }
 
     #[inline]

@@ -13,6 +13,7 @@ mod compliant;
 mod contact;
 #[cfg(feature = "alloc")]
 mod dyn_surface;
+mod force_line;
 mod fusion;
 #[cfg(feature = "alloc")]
 mod heightfield;
@@ -27,7 +28,7 @@ mod soft_finger;
 pub mod testing;
 mod uncertainty;
 
-pub use active_surface::{ActiveSurface, ClosestApproach, Crossing};
+pub use active_surface::{ActiveSurface, ClosestApproach, Crossing, Entry};
 pub use auto::{Auto, Choice, PitchTest};
 pub use bad_shape::BadShape;
 pub use combinators::{Compound, HalfSpace, Offset, Posed, Region, Trimmed};
@@ -38,6 +39,7 @@ pub use compliant::{
 pub use contact::{Contact, ContactBound, ContactModel, NoContact, PointContact, Resolution, WorstErrors};
 #[cfg(feature = "alloc")]
 pub use dyn_surface::{DynSurface, Parts};
+pub use force_line::ForceLine;
 pub use fusion::{ArrayContact, Fused, FusedContact, Fusion};
 #[cfg(feature = "alloc")]
 pub use heightfield::Heightfield;

@@ -49,11 +49,11 @@ fn agrees<T: Real, S: ActiveSurface<T> + BatchSurface<T>>(surface: &S, exact_mis
         match model.resolve(&wrench, surface) {
             Resolution::Contact(contact) => {
                 // Rounding decides on lines that are nearly tangent.
-                if contact.incidence > T::literal(1e-3) {
+                if contact.incidence() > T::literal(1e-3) {
                     met += 1;
                     assert_eq!(gap, T::zero(), "{k}: {contact:?}");
-                    near(&point, &contact.point, contact.incidence);
-                    near(&normal, &contact.normal, contact.incidence);
+                    near(&point, &contact.point, contact.incidence());
+                    near(&normal, &contact.normal, contact.incidence());
                 }
             }
             Resolution::NoContact(NoContact::Misses { gap: expected, closest, .. }) => {

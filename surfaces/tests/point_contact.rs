@@ -86,7 +86,7 @@ fn line_through_the_centre() {
         let found = model().resolve(&Wrench::on_fingertip(direction, Vector3::zeros()), &tip());
         let contact = found.contact().unwrap();
         assert!((contact.point + direction * 0.013).norm() < 1e-15);
-        assert!((contact.incidence - 1.0).abs() < 1e-15);
+        assert!((contact.incidence() - 1.0).abs() < 1e-15);
     }
 }
 
@@ -156,7 +156,7 @@ fn near_miss_gives_point_and_gap() {
     assert!((closest - v(0.013, 0.0, 0.0)).norm() < 1e-16 && (normal - v(1.0, 0.0, 0.0)).norm() < 1e-15);
     let tolerant = model().accepting_gap(0.0002).unwrap();
     let contact = *tolerant.resolve(&wrench, &tip()).contact().unwrap();
-    assert_eq!((contact.gap, contact.point, contact.incidence), (gap, closest, 0.0));
+    assert_eq!((contact.gap, contact.point, contact.incidence()), (gap, closest, 0.0));
 }
 
 #[test]

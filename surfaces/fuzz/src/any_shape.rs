@@ -44,7 +44,7 @@ fn check<T: Real, S: ActiveSurface<T> + core::fmt::Debug>(surface: &S, numbers: 
                     is_finite(&contact.point) && is_finite(&contact.normal),
                     "{surface:?} {wrench:?} {contact:?}"
                 );
-                assert!(contact.incidence >= T::zero() && contact.incidence <= T::one());
+                assert!(contact.incidence() >= T::zero() && contact.incidence() <= T::one());
                 assert!(contact.gap >= T::zero() && contact.gap.is_number());
             }
             Resolution::NoContact(NoContact::Misses { gap, closest, normal }) => {

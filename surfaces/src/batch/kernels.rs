@@ -3,13 +3,24 @@
 use fingertip_wrench::Real;
 
 use super::{BatchSurface, Contacts, Wrenches};
-use crate::{Capsule, Cylinder, Ellipsoid, Plane, Sphere};
+use crate::{Capsule, Cylinder, Ellipsoid, ForceLine, Plane, Sphere};
 
-/// A line of action, and what remains to be known of its contact.
+/// A force, what it turns about the origin, and the reciprocal of its square.
 #[derive(Clone, Copy)]
-struct Axis<T> {
-    point: [T; 3],
-    direction: [T; 3],
+struct Push<T> {
+    force: [T; 3],
+    torque: [T; 3],
+    inverse: T,
+}
+
+impl<T: Real> Push<T> {
+    /// The point of the line of action closest to a centre, seen from there, times a factor.
+    #[inline(always)]
+    fn foot(&self, centre: [T; 3], factor: T) -> [T; 3] {
+        let turned = cross(self.force, centre);
+        let torque = zip(self.torque, turned, |m, t| m + t);
+        scale(cross(self.force, torque), self.inverse * factor)
+    }
 }
 
 struct Answer<T> {
@@ -29,13 +40,18 @@ fn add<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3], k: T) -> [T; 3] {
 }
 
 #[inline(always)]
-fn sub<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3]) -> [T; 3] {
-    [a - x, b - y, c - z]
+fn cross<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3]) -> [T; 3] {
+    [b * z - c * y, c * x - a * z, a * y - b * x]
 }
 
 #[inline(always)]
-fn times<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3]) -> [T; 3] {
-    [a * x, b * y, c * z]
+fn zip<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3], join: impl Fn(T, T) -> T) -> [T; 3] {
+    [join(a, x), join(b, y), join(c, z)]
+}
+
+#[inline(always)]
+fn times<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+    zip(a, b, |a, b| a * b)
 }
 
 #[inline(always)]
@@ -48,50 +64,79 @@ fn pick<T: Real>(condition: bool, yes: T, no: T) -> T {
     if condition { yes } else { no }
 }
 
+/// How a quadric scaled to the unit sphere is met, given the foot's and the direction's squares.
+#[derive(Clone, Copy)]
+struct Meeting<T> {
+    /// What the foot is to be multiplied by, to reach the surface where the line misses.
+    shrink: T,
+    /// How far back along the direction the line enters.
+    back: T,
+    /// How far the foot is outside.
+    outside: T,
+}
+
+impl<T: Real> Meeting<T> {
+    /// One root serves the line that meets and the line that misses.
+    #[inline(always)]
+    fn new(foot_squared: T, inverse_direction_squared: T) -> Self {
+        let remainder = T::one() - foot_squared;
+        let meets = remainder >= T::zero();
+        let root = pick(meets, remainder * inverse_direction_squared, foot_squared).root();
+        Self {
+            shrink: T::one() / pick(meets, T::one(), root),
+            back: pick(meets, root, T::zero()),
+            outside: pick(meets, T::zero(), root - T::one()),
+        }
+    }
+}
+
 /// Runs a kernel over all wrenches.
 #[inline(always)]
-fn run<T: Real>(wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>, kernel: impl Fn(Axis<T>) -> Answer<T>) {
-    let [fx, fy, fz] = wrenches.force;
-    let [tx, ty, tz] = wrenches.torque;
-    let [px, py, pz] = contacts.point;
-    let [nx, ny, nz] = contacts.normal;
-    let gap = contacts.gap;
-    let lengths = [
-        fx.len(),
-        fy.len(),
-        fz.len(),
-        tx.len(),
-        ty.len(),
-        tz.len(),
-        px.len(),
-        py.len(),
-        pz.len(),
-        nx.len(),
-        ny.len(),
-        nz.len(),
-        gap.len(),
-    ];
-    let n = lengths.into_iter().fold(usize::MAX, usize::min);
+fn run<T: Real>(wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>, kernel: impl Fn(Push<T>) -> Answer<T>) {
+    let ([fx, fy, fz], [tx, ty, tz]) = (wrenches.force, wrenches.torque);
+    let Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap } = contacts;
+    let given = [fx, fy, fz, tx, ty, tz];
+    // Wider vectors do the same operations on more wrenches at once: nothing is fused or reordered.
+    #[cfg(feature = "simd")]
+    pulp::Arch::new().dispatch(
+        #[inline(always)]
+        || sweep(given, px, py, pz, nx, ny, nz, gap, kernel),
+    );
+    #[cfg(not(feature = "simd"))]
+    sweep(given, px, py, pz, nx, ny, nz, gap, kernel);
+}
+
+/// The loop. Slices that are arguments of their own are known not to overlap, which the compiler
+/// would have to test otherwise, and would rather not vectorise.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+fn sweep<T: Real>(
+    given: [&[T]; 6],
+    px: &mut [T],
+    py: &mut [T],
+    pz: &mut [T],
+    nx: &mut [T],
+    ny: &mut [T],
+    nz: &mut [T],
+    gap: &mut [T],
+    kernel: impl Fn(Push<T>) -> Answer<T>,
+) {
+    let shortest = given.iter().map(|column| column.len()).fold(gap.len(), usize::min);
+    let wanted = [px.len(), py.len(), pz.len(), nx.len(), ny.len(), nz.len()];
+    let count = wanted.into_iter().fold(shortest, usize::min);
     // Slices of one known length let the compiler drop every bounds check from the loop.
-    let (fx, fy, fz) = (&fx[..n], &fy[..n], &fz[..n]);
-    let (tx, ty, tz) = (&tx[..n], &ty[..n], &tz[..n]);
-    let (px, py, pz) = (&mut px[..n], &mut py[..n], &mut pz[..n]);
-    let (nx, ny, nz, gap) = (&mut nx[..n], &mut ny[..n], &mut nz[..n], &mut gap[..n]);
-    for k in 0..n {
-        let (f, m) = ([fx[k], fy[k], fz[k]], [tx[k], ty[k], tz[k]]);
-        // Scaled by the greatest component, squares neither over- nor underflow.
-        let greatest = f[0].abs().max(f[1].abs()).max(f[2].abs());
-        let shrink = T::one() / greatest;
-        let (f, m) = (scale(f, shrink), scale(m, shrink));
-        let root = dot(f, f).root();
-        let inverse = T::one() / root;
-        let u = scale(f, inverse);
-        let m = scale(m, inverse);
-        let point = [u[1] * m[2] - u[2] * m[1], u[2] * m[0] - u[0] * m[2], u[0] * m[1] - u[1] * m[0]];
-        let answer = kernel(Axis { point, direction: u });
+    let [fx, fy, fz, tx, ty, tz] = given.map(|column| &column[..count]);
+    let (px, py, pz) = (&mut px[..count], &mut py[..count], &mut pz[..count]);
+    let (nx, ny, nz, gap) = (&mut nx[..count], &mut ny[..count], &mut nz[..count], &mut gap[..count]);
+    let (least, greatest) = (ForceLine::least_squared(), ForceLine::greatest_squared());
+    for k in 0..count {
+        let force = [fx[k], fy[k], fz[k]];
+        let squared = dot(force, force);
+        let push = Push { force, torque: [tx[k], ty[k], tz[k]], inverse: T::one() / squared };
+        let answer = kernel(push);
         // Anything not finite on the way ends up here.
         let witness = answer.gap + dot(answer.point, answer.normal);
-        let good = witness.abs() <= T::GREATEST;
+        let good = (squared >= least) & (squared <= greatest) & (witness.abs() <= T::GREATEST);
         let keep = |x: T| pick(good, x, T::zero());
         [px[k], py[k], pz[k]] = answer.point.map(keep);
         [nx[k], ny[k], nz[k]] = answer.normal.map(keep);
@@ -104,23 +149,17 @@ impl<T: Real> BatchSurface<T> for Sphere<T> {
     fn contacts(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
         let (centre, radius) = (self.centre().into(), self.radius());
         let curvature = T::one() / radius;
-        run(wrenches, contacts, |axis| {
-            let from_centre = sub(axis.point, centre);
-            let along = dot(from_centre, axis.direction);
-            let foot = scale(add(from_centre, axis.direction, -along), curvature);
-            let squared = dot(foot, foot);
-            let hit = squared <= T::one();
-            let half_chord = (T::one() - squared).max(T::zero()).root();
-            let length = squared.root();
-            // A line that misses has a foot outside the sphere, whose direction is the normal.
-            let shrink = pick(hit, T::one(), T::one() / length);
-            let normal = add(scale(foot, shrink), axis.direction, -half_chord);
-            Answer {
-                point: add(centre, normal, radius),
-                normal,
-                gap: (length - T::one()).max(T::zero()) * radius,
-            }
-        });
+        run(
+            wrenches,
+            contacts,
+            #[inline(always)]
+            |push| {
+                let foot = push.foot(centre, curvature);
+                let meeting = Meeting::new(dot(foot, foot), push.inverse);
+                let normal = add(scale(foot, meeting.shrink), push.force, -meeting.back);
+                Answer { point: add(centre, normal, radius), normal, gap: meeting.outside * radius }
+            },
+        );
     }
 }
 
@@ -128,12 +167,18 @@ impl<T: Real> BatchSurface<T> for Plane<T> {
     #[inline]
     fn contacts(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
         let (origin, normal): ([T; 3], [T; 3]) = (self.point().into(), self.outward().into());
-        run(wrenches, contacts, |axis| {
-            let slope = dot(axis.direction, normal);
-            let along = -dot(sub(axis.point, origin), normal) / slope;
-            let point = add(axis.point, axis.direction, along);
-            Answer { point, normal, gap: pick(slope < T::zero(), T::zero(), T::one() / T::zero()) }
-        });
+        run(
+            wrenches,
+            contacts,
+            #[inline(always)]
+            |push| {
+                let slope = dot(push.force, normal);
+                let foot = push.foot(origin, T::one());
+                let across = add(foot, push.force, -dot(foot, normal) / slope);
+                let gap = pick(slope < T::zero(), T::zero(), T::one() / T::zero());
+                Answer { point: zip(origin, across, |o, a| o + a), normal, gap }
+            },
+        );
     }
 }
 
@@ -143,26 +188,28 @@ impl<T: Real> BatchSurface<T> for Cylinder<T> {
     fn contacts(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
         let (centre, core, radius) = (self.centre().into(), self.axis().into(), self.radius());
         let curvature = T::one() / radius;
-        run(wrenches, contacts, |axis| {
-            let from_centre = sub(axis.point, centre);
-            let across = add(from_centre, core, -dot(from_centre, core));
-            let drift = add(axis.direction, core, -dot(axis.direction, core));
-            let inverse = T::one() / dot(drift, drift);
-            let along = -dot(across, drift) * inverse;
-            let foot = scale(add(across, drift, along), curvature);
-            let squared = dot(foot, foot);
-            let hit = squared <= T::one();
-            let half_chord = ((T::one() - squared).max(T::zero()) * inverse).root();
-            let length = squared.root();
-            let shrink = pick(hit, T::one(), T::one() / length);
-            let normal = add(scale(foot, shrink), drift, -half_chord);
-            let height = dot(from_centre, core) + (along - half_chord * radius) * dot(axis.direction, core);
-            Answer {
-                point: add(add(centre, core, height), normal, radius),
-                normal,
-                gap: (length - T::one()).max(T::zero()) * radius,
-            }
-        });
+        run(
+            wrenches,
+            contacts,
+            #[inline(always)]
+            |push| {
+                let start = push.foot(centre, T::one());
+                let (height, rise) = (dot(start, core), dot(push.force, core));
+                let across = add(start, core, -height);
+                let drift = add(push.force, core, -rise);
+                let inverse = T::one() / dot(drift, drift);
+                let along = -dot(across, drift) * inverse;
+                let foot = scale(add(across, drift, along), curvature);
+                let meeting = Meeting::new(dot(foot, foot), inverse);
+                let normal = add(scale(foot, meeting.shrink), drift, -meeting.back);
+                let height = height + (along - meeting.back * radius) * rise;
+                Answer {
+                    point: add(add(centre, core, height), normal, radius),
+                    normal,
+                    gap: meeting.outside * radius,
+                }
+            },
+        );
     }
 }
 
@@ -174,25 +221,26 @@ impl<T: Real> BatchSurface<T> for Ellipsoid<T> {
     fn contacts(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
         let semi_axes: [T; 3] = self.semi_axes().into();
         let curvatures = semi_axes.map(|a| T::one() / a);
-        run(wrenches, contacts, |axis| {
-            let p = times(axis.point, curvatures);
-            let u = times(axis.direction, curvatures);
-            let inverse = T::one() / dot(u, u);
-            let foot = add(p, u, -dot(p, u) * inverse);
-            let squared = dot(foot, foot);
-            let hit = squared <= T::one();
-            let half_chord = ((T::one() - squared).max(T::zero()) * inverse).root();
-            let length = squared.root();
-            let shrink = pick(hit, T::one(), T::one() / length);
-            let scaled = add(scale(foot, shrink), u, -half_chord);
-            let gradient = times(scaled, curvatures);
-            let inverse = T::one() / dot(gradient, gradient).root();
-            Answer {
-                point: times(scaled, semi_axes),
-                normal: scale(gradient, inverse),
-                gap: (length - T::one()).max(T::zero()) * inverse,
-            }
-        });
+        run(
+            wrenches,
+            contacts,
+            #[inline(always)]
+            |push| {
+                let start = times(scale(cross(push.force, push.torque), push.inverse), curvatures);
+                let direction = times(push.force, curvatures);
+                let inverse = T::one() / dot(direction, direction);
+                let foot = add(start, direction, -dot(start, direction) * inverse);
+                let meeting = Meeting::new(dot(foot, foot), inverse);
+                let scaled = add(scale(foot, meeting.shrink), direction, -meeting.back);
+                let gradient = times(scaled, curvatures);
+                let flatness = T::one() / dot(gradient, gradient).root();
+                Answer {
+                    point: times(scaled, semi_axes),
+                    normal: scale(gradient, flatness),
+                    gap: meeting.outside * flatness,
+                }
+            },
+        );
     }
 }
 
@@ -202,44 +250,45 @@ impl<T: Real> BatchSurface<T> for Capsule<T> {
         let (centre, core): ([T; 3], [T; 3]) = (self.centre().into(), self.axis().into());
         let (half, radius) = (self.half_length(), self.radius());
         let curvature = T::one() / radius;
-        run(wrenches, contacts, |axis| {
-            let u = axis.direction;
-            let from_centre = sub(axis.point, centre);
-            let start = add(from_centre, u, -dot(from_centre, u));
-            let (height, rise) = (dot(start, core), dot(u, core));
-            let across = add(start, core, -height);
-            let drift = add(u, core, -rise);
-            // Where the line enters the unbounded side, or comes closest to it; from infinitely far
-            // along the axis if it never does.
-            let squared = dot(drift, drift).max(T::LEAST_NORMAL.root());
-            let nearest = -dot(across, drift) / squared;
-            let foot = scale(add(across, drift, nearest), curvature);
-            let left = T::one() - dot(foot, foot);
-            let chord = (left.max(T::zero()) / squared).root() * radius;
-            // The end of the segment that governs: where the entry is beyond one, that.
-            let entry = height + (nearest - chord) * rise;
-            let middle = entry.max(-half).min(half);
-            let inside = entry == middle;
-            // On the side.
-            let side = nearest - chord;
-            // On the ball about the end.
-            let from_end = add(start, core, -middle);
-            let to_end = -dot(from_end, u);
-            let ball_foot = scale(add(from_end, u, to_end), curvature);
-            let ball_left = T::one() - dot(ball_foot, ball_foot);
-            let ball = to_end - ball_left.max(T::zero()).root() * radius;
-            let along = pick(inside, side, ball);
-            let point = add(start, u, along);
-            let reached = dot(point, core).max(-half).min(half);
-            let outward = add(point, core, -reached);
-            let distance = dot(outward, outward).root();
-            let normal = scale(outward, T::one() / distance);
-            let hit = pick(inside, left, ball_left) >= T::zero();
-            Answer {
-                point: add(add(centre, core, reached), normal, radius),
-                normal,
-                gap: pick(hit, T::zero(), (distance - radius).max(T::zero())),
-            }
-        });
+        run(
+            wrenches,
+            contacts,
+            #[inline(always)]
+            |push| {
+                let u = scale(push.force, push.inverse.root());
+                let start = push.foot(centre, T::one());
+                let (height, rise) = (dot(start, core), dot(u, core));
+                let across = add(start, core, -height);
+                let drift = add(u, core, -rise);
+                // Where the line enters the unbounded side, or comes closest to it; from infinitely far
+                // along the axis if it never does.
+                let inverse = T::one() / dot(drift, drift).max(T::LEAST_NORMAL.root());
+                let nearest = -dot(across, drift) * inverse;
+                let foot = scale(add(across, drift, nearest), curvature);
+                let left = T::one() - dot(foot, foot);
+                let side = nearest - (left.max(T::zero()) * inverse).root() * radius;
+                // The end of the segment that governs: where the entry is beyond one, that.
+                let entry = height + side * rise;
+                let middle = entry.max(-half).min(half);
+                let inside = entry == middle;
+                // On the ball about the end.
+                let from_end = add(start, core, -middle);
+                let to_end = -dot(from_end, u);
+                let ball_foot = scale(add(from_end, u, to_end), curvature);
+                let ball_left = T::one() - dot(ball_foot, ball_foot);
+                let ball = to_end - ball_left.max(T::zero()).root() * radius;
+                let point = add(start, u, pick(inside, side, ball));
+                let reached = dot(point, core).max(-half).min(half);
+                let outward = add(point, core, -reached);
+                let distance = dot(outward, outward).root();
+                let normal = scale(outward, T::one() / distance);
+                let hit = pick(inside, left, ball_left) >= T::zero();
+                Answer {
+                    point: add(add(centre, core, reached), normal, radius),
+                    normal,
+                    gap: pick(hit, T::zero(), (distance - radius).max(T::zero())),
+                }
+            },
+        );
     }
 }

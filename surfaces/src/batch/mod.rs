@@ -47,8 +47,9 @@ pub struct Contacts<'a, T> {
 /// Surfaces that resolve point contacts in batches.
 ///
 /// The outcome of each wrench is that of [`PointContact`](crate::PointContact) with no threshold, but
-/// for rounding, and that forces and torques beyond the fourth root of the range of the type have no
-/// answer. Of slices of different lengths, the shortest counts.
+/// for rounding, and that forces whose square
+/// [`ForceLine`](crate::ForceLine) does not take (below 1e-12 N or above 1e12 N in single precision) have
+/// no answer. Of slices of different lengths, the shortest counts.
 pub trait BatchSurface<T: Real> {
     /// Resolves all wrenches.
     fn contacts(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>);

@@ -3,7 +3,7 @@
 use fingertip_wrench::{Line, Real, RigidTransform};
 use nalgebra::Vector3;
 
-use crate::{ActiveSurface, ClosestApproach, Crossing, Distance, SignedDistance};
+use crate::{ActiveSurface, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
 /// A shape somewhere else in the sensor frame, turned.
 ///
@@ -75,12 +75,12 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
     }
 
     #[inline]
-    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         let pose = &self.sensor_from_shape;
-        self.surface.sole_entry(&self.line_in_shape(line)).map(|c| Crossing {
-            point: pose.transform_point(&c.point),
-            normal: pose.rotate(&c.normal),
-            ..c
+        self.surface.sole_entry(&push.seen_from(pose)).map(|e| Entry {
+            point: pose.transform_point(&e.point),
+            normal: pose.rotate(&e.normal),
+            ..e
         })
     }
 

@@ -4,7 +4,7 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use crate::serde_parts::serde_parts;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, ForceLine};
 
 /// A part of space. Closures `Fn(&Vector3<T>) -> bool` are regions too.
 pub trait Region<T: Real> {
@@ -106,9 +106,9 @@ impl<T: Real, S: ActiveSurface<T>, R: Region<T>> ActiveSurface<T> for Trimmed<S,
     }
 
     #[inline]
-    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
-        let active = |c: &Crossing<T>| c.active && self.region.includes(&c.point);
-        self.surface.sole_entry(line).map(|c| Crossing { active: active(&c), ..c })
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let active = |e: &Entry<T>| e.active && self.region.includes(&e.point);
+        self.surface.sole_entry(push).map(|e| Entry { active: active(&e), ..e })
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {

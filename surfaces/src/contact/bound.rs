@@ -112,7 +112,7 @@ impl<T: Real> Contact<T> {
     #[must_use]
     pub fn first_order_bound(&self, force_error: T, torque_error: T) -> Option<T> {
         let force = length(&self.force);
-        let bound = (torque_error / force + length(&self.point) * (force_error / force)) / self.incidence;
+        let bound = (torque_error / force + length(&self.point) * (force_error / force)) / self.incidence();
         bound.is_number().then_some(bound)
     }
 

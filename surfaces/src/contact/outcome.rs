@@ -15,9 +15,6 @@ pub struct Contact<T: Real> {
     pub force: Vector3<T>,
     /// Spin torque on the fingertip about the outward normal \[N·m\]; zero for a point contact.
     pub spin_torque: T,
-    /// Cosine of the angle between the force and the inward normal, in [0, 1]: 1 for a push
-    /// straight in. Errors of the contact point grow as its reciprocal (theory 2.2, 2.4).
-    pub incidence: T,
     /// Distance between the line of action and the contact point \[m\]: zero unless the line
     /// missed the surface by less than the gap that the model was told to accept.
     pub gap: T,
@@ -39,6 +36,16 @@ impl<T: Real> Contact<T> {
     #[must_use]
     pub fn normal_force(&self) -> T {
         -self.force.dot(&self.normal)
+    }
+
+    /// Cosine of the angle between the force and the inward normal, in [0, 1]: 1 for a push
+    /// straight in. Errors of the contact point grow as its reciprocal (theory 2.2, 2.4).
+    #[inline]
+    #[must_use]
+    pub fn incidence(&self) -> T {
+        let scale = self.force.amax().normalising_factor();
+        let force = self.force * scale;
+        (-force.dot(&self.normal) / force.norm_squared().root()).max(T::zero()).min(T::one())
     }
 
     /// Tangential force on the fingertip \[N\].

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use super::{Contact, ContactModel, NoContact, Resolution};
 use crate::numeric::vectors::hypotenuse;
 use crate::serde_parts::serde_parts;
-use crate::{ActiveSurface, BadShape, Crossing};
+use crate::{ActiveSurface, BadShape, Crossing, ForceLine};
 
 /// A contact that transmits a force and no torque of its own: it lies where the wrench's line of
 /// action *enters* the surface (Salisbury 1984; equations (1), (2) of Bicchi & Dario 1987, mended
@@ -25,6 +25,14 @@ pub struct PointContact<T: Real> {
     greatest_friction: Option<T>,
     /// `1/√(1 + μ²)`: the least cosine between force and inward normal.
     least_incidence: T,
+    /// The least square of a force, and of the cosine, that take the short way.
+    short_way: [T; 2],
+}
+
+/// Below this cosine of incidence, where rounding errors grow more than threefold, the long way is
+/// taken.
+fn flat<T: Real>() -> T {
+    T::literal(0.3)
 }
 
 impl<T: Real> PointContact<T> {
@@ -34,11 +42,13 @@ impl<T: Real> PointContact<T> {
     /// # Errors
     /// [`BadShape`] unless the threshold is finite and not negative.
     pub fn new(least_force: T) -> Result<Self, BadShape> {
+        let least_force = check("least force", least_force)?;
         Ok(Self {
-            least_force: check("least force", least_force)?,
+            least_force,
             greatest_gap: T::zero(),
             greatest_friction: None,
             least_incidence: T::zero(),
+            short_way: [(least_force * least_force).max(ForceLine::least_squared()), flat::<T>().powi(2)],
         })
     }
 
@@ -59,7 +69,9 @@ impl<T: Real> PointContact<T> {
     pub fn with_greatest_friction(self, greatest_friction: T) -> Result<Self, BadShape> {
         let mu = check("greatest friction", greatest_friction)?;
         let least_incidence = T::one() / hypotenuse(T::one(), mu);
-        Ok(Self { greatest_friction: Some(mu), least_incidence, ..self })
+        let [least_squared, _] = self.short_way;
+        let short_way = [least_squared, least_incidence.max(flat()).powi(2)];
+        Ok(Self { greatest_friction: Some(mu), least_incidence, short_way, ..self })
     }
 
     /// The least force that counts as a contact \[N\].
@@ -113,7 +125,7 @@ impl<T: Real> PointContact<T> {
             let pressing = incidence > T::zero() && incidence >= self.least_incidence;
             if crossing.active && pressing && in_range(&crossing.point) {
                 any = true;
-                visit(contact_at(wrench, crossing.point, crossing.normal, incidence));
+                visit(contact_at(wrench, crossing.point, crossing.normal));
             }
         });
         if any {
@@ -131,21 +143,8 @@ fn in_range<T: Real>(point: &Vector3<T>) -> bool {
 }
 
 #[inline]
-fn contact_at<T: Real>(
-    wrench: &Wrench<T>,
-    point: Vector3<T>,
-    normal: Vector3<T>,
-    incidence: T,
-) -> Contact<T> {
-    Contact {
-        point,
-        normal,
-        force: wrench.force(),
-        spin_torque: T::zero(),
-        incidence: incidence.min(T::one()),
-        gap: T::zero(),
-        alternatives: 0,
-    }
+fn contact_at<T: Real>(wrench: &Wrench<T>, point: Vector3<T>, normal: Vector3<T>) -> Contact<T> {
+    Contact { point, normal, force: wrench.force(), spin_torque: T::zero(), gap: T::zero(), alternatives: 0 }
 }
 
 fn check<T: Real>(parameter: &'static str, value: T) -> Result<T, BadShape> {
@@ -187,24 +186,24 @@ impl<T: Real> Seen<T> {
 impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
     #[inline]
     fn resolve_near(&self, wrench: &Wrench<T>, surface: &S, last: Option<&Vector3<T>>) -> Resolution<T> {
-        let axis = match self.axis(wrench) {
-            Ok(axis) => axis,
-            Err(reason) => return Resolution::NoContact(reason),
-        };
-        let direction = axis.line.direction;
-        if let Some(entry) = surface.sole_entry(&axis.line) {
-            let incidence = -direction.dot(&entry.normal);
-            let pressing = incidence > T::zero() && incidence >= self.least_incidence;
-            if entry.active && pressing && in_range(&entry.point) {
-                return Resolution::Contact(contact_at(wrench, entry.point, entry.normal, incidence));
+        let [least_squared, least_steepness] = self.short_way;
+        if let Some(push) = ForceLine::new(wrench, least_squared)
+            && let Some(entry) = surface.sole_entry(&push)
+        {
+            if entry.active && entry.normal_force_squared >= least_steepness * push.squared() {
+                return Resolution::Contact(contact_at(wrench, entry.point, entry.normal));
             }
         }
-        self.choose(wrench, surface, &axis, last)
+        match self.axis(wrench) {
+            Ok(axis) => self.choose(wrench, surface, &axis, last),
+            Err(reason) => Resolution::NoContact(reason),
+        }
     }
 }
 
 impl<T: Real> PointContact<T> {
     /// Of all crossings, the contact, or the reason why there is none.
+    #[inline(never)]
     fn choose<S: ActiveSurface<T>>(
         &self,
         wrench: &Wrench<T>,
@@ -249,13 +248,13 @@ impl<T: Real> PointContact<T> {
                 seen.best = Some((crossing, incidence));
             }
         });
-        if let Some((crossing, incidence)) = seen.best {
-            let contact = contact_at(wrench, crossing.point, crossing.normal, incidence);
+        if let Some((crossing, _)) = seen.best {
+            let contact = contact_at(wrench, crossing.point, crossing.normal);
             return Resolution::Contact(Contact { alternatives: seen.candidates - 1, ..contact });
         }
         // A line that is tangent within rounding neither presses nor pulls, but touches.
         if let (Some(crossing), true) = (seen.tangent, self.least_incidence <= T::zero()) {
-            return Resolution::Contact(contact_at(wrench, crossing.point, crossing.normal, T::zero()));
+            return Resolution::Contact(contact_at(wrench, crossing.point, crossing.normal));
         }
         if let Some(reason) = seen.reason() {
             return Resolution::NoContact(reason);
@@ -266,7 +265,7 @@ impl<T: Real> PointContact<T> {
         }
         let incidence = (-direction.dot(&approach.normal)).max(T::zero());
         if approach.gap <= self.greatest_gap && approach.active && incidence >= self.least_incidence {
-            let contact = contact_at(wrench, approach.point, approach.normal, incidence);
+            let contact = contact_at(wrench, approach.point, approach.normal);
             return Resolution::Contact(Contact { gap: approach.gap, ..contact });
         }
         Resolution::NoContact(NoContact::Misses {

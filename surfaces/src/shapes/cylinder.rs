@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use super::axis::Axis;
 use crate::numeric::vectors::{is_finite, length};
 use crate::serde_parts::serde_parts;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, ForceLine};
 
 /// The lateral surface of a circular cylinder, unbounded or with an active part of finite length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -128,12 +128,15 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
     }
 
     #[inline]
-    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
-        let (along, foot, across, squared) = self.foot(line)?;
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let line = push.line();
+        let (along, foot, across, squared) = self.foot(&line)?;
         let remainder = T::one() - foot.norm_squared();
         (remainder >= T::zero()).then(|| {
             let half_chord = (remainder / squared).root();
-            self.crossing(line, along - half_chord * self.radius, foot - across * half_chord)
+            let entry = self.crossing(&line, along - half_chord * self.radius, foot - across * half_chord);
+            let normal_force_squared = remainder * squared * push.squared();
+            Entry { point: entry.point, normal: entry.normal, normal_force_squared, active: entry.active }
         })
     }
 

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use crate::numeric::ellipse::closest_point;
 use crate::numeric::vectors::{any_perpendicular, foot, hypotenuse, is_finite, length, unit_or};
 use crate::serde_parts::serde_parts;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, SignedDistance};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
 /// An ellipsoid about the origin, its axes along x, y and z; [`Posed`](crate::Posed) puts it
 /// elsewhere.
@@ -94,9 +94,32 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
         }
     }
 
+    /// The same, with one division for both the foot and its scaled image.
     #[inline]
-    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
-        self.chord(line).map(|chord| self.end(&chord, -chord.half))
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let force = push.force();
+        let direction = force.component_mul(&self.curvatures);
+        let squared = direction.norm_squared();
+        let both = squared * push.squared();
+        let (least, greatest) = (ForceLine::least_squared(), T::GREATEST);
+        if !(squared >= least && both >= least && both <= greatest) {
+            return None;
+        }
+        let inverse_both = T::one() / both;
+        let (inverse, inverse_force) = (inverse_both * push.squared(), inverse_both * squared);
+        let point = force.cross(&push.torque()).component_mul(&self.curvatures);
+        let foot = (point - direction * (point.dot(&direction) * inverse)) * inverse_force;
+        let remainder = T::one() - foot.norm_squared();
+        let scaled = foot - direction * (remainder * inverse).root();
+        let gradient = scaled.component_mul(&self.curvatures);
+        let flatness = T::one() / gradient.norm_squared().root();
+        Some(Entry {
+            point: scaled.component_mul(&self.semi_axes),
+            normal: gradient * flatness,
+            // f·n = direction·scaled·flatness, and the foot is square to the direction.
+            normal_force_squared: remainder * squared * (flatness * flatness),
+            active: true,
+        })
     }
 
     /// In the shadow along the line, the ellipsoid is an ellipse, the line a point (theory 10.4).

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use crate::numeric::vectors::{foot, is_finite};
 use crate::serde_parts::serde_parts;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, ForceLine};
 
 /// A plane; the fingertip is on the side away from the normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,12 +76,21 @@ impl<T: Real> ActiveSurface<T> for Plane<T> {
     }
 
     #[inline]
-    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
-        let mut found = None;
-        if line.direction.dot(&self.normal) < T::zero() {
-            self.crossings(line, |crossing| found = Some(crossing));
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let slope = push.force().dot(&self.normal);
+        if !(slope < T::zero()) {
+            return None;
         }
-        found
+        // From the plane's point to the foot of the line, and along the force back to the plane.
+        let foot = push.force().cross(&push.torque_about(&self.point)) / push.squared();
+        let across = foot - push.force() * (foot.dot(&self.normal) / slope);
+        let point = self.point + across;
+        is_finite(&point).then(|| Entry {
+            point,
+            normal: self.normal,
+            normal_force_squared: slope * slope,
+            active: true,
+        })
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {

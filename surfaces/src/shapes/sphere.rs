@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use crate::numeric::vectors::{any_perpendicular, length, unit_or};
 use crate::serde_parts::serde_parts;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, SignedDistance};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
 /// A sphere, its inside being the fingertip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,19 +79,21 @@ impl<T: Real> ActiveSurface<T> for Sphere<T> {
         }
     }
 
+    /// In radii, too: the foot of the line seen from the centre, `f × m_c/(R·|f|²)`, and from there
+    /// back against the force by half a chord.
     #[inline]
-    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
-        let (foot, along) = self.foot(line);
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let force = push.force();
+        let inverse = T::one() / push.squared();
+        let foot = force.cross(&push.torque_about(&self.centre)) * (inverse * self.curvature);
+        // The square of the cosine of incidence, and of half the chord.
         let squared = T::one() - foot.norm_squared();
-        (squared >= T::zero()).then(|| {
-            let half_chord = squared.root();
-            let normal = foot - line.direction * half_chord;
-            Crossing {
-                along: along - half_chord * self.radius,
-                point: self.centre + normal * self.radius,
-                normal,
-                active: true,
-            }
+        let normal = foot - force * (squared * inverse).root();
+        Some(Entry {
+            point: self.centre + normal * self.radius,
+            normal,
+            normal_force_squared: squared * push.squared(),
+            active: true,
         })
     }
 

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 #[cfg(feature = "serde")]
 use crate::numeric::vectors::{from_degrees, to_degrees};
 use crate::serde_parts::serde_parts;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Sphere};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, ForceLine, Sphere};
 
 /// A sphere that is active around a pole only: a dome, or, if the active part is more than half,
 /// a sphere with an opening for its support.
@@ -90,8 +90,8 @@ impl<T: Real> ActiveSurface<T> for SphericalCap<T> {
     }
 
     #[inline]
-    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
-        self.sphere.sole_entry(line).map(|c| Crossing { active: self.is_active(&c.normal), ..c })
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        self.sphere.sole_entry(push).map(|e| Entry { active: self.is_active(&e.normal), ..e })
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {

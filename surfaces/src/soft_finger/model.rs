@@ -108,14 +108,12 @@ impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
                 seen.best = Some((contact, incidence));
             }
         });
-        if let Some((contact, incidence)) = seen.best {
-            let incidence = incidence / (force * scale);
+        if let Some((contact, _)) = seen.best {
             return Resolution::Contact(Contact {
                 point: contact.point,
                 normal: contact.normal,
                 force: wrench.force(),
                 spin_torque: (contact.spin_torque / unit).max(-T::GREATEST).min(T::GREATEST),
-                incidence: incidence.max(T::zero()).min(T::one()),
                 gap: T::zero(),
                 alternatives: seen.candidates - 1,
             });

@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::collect::Crossings;
 use super::random::Random;
 use crate::numeric::vectors::{any_perpendicular, is_finite, length, unit_or};
-use crate::{ActiveSurface, Crossing, Posed};
+use crate::{ActiveSurface, Crossing, ForceLine, Posed};
 
 /// What a surface has to obey.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub enum Law {
     CrossingOnLine,
     /// A crossing lies on the surface: a line through it along its normal meets the surface there.
     CrossingOnSurface,
-    /// `sole_entry`, if it answers, is the crossing at which the line enters.
+    /// `sole_entry`, if it answers, is the crossing at which the line enters, but for rounding.
     SoleEntry,
     /// Normals have length 1.
     UnitNormal,
@@ -140,11 +140,23 @@ impl<T: Real> SurfaceLaws<T> {
         for _ in 0..self.lines {
             let line = random.line(&self.centre, self.radius);
             let crossings = Crossings::of(surface, &line);
-            if let Some(entry) = surface.sole_entry(&line) {
-                let entering = |c: &&Crossing<T>| c.normal.dot(&line.direction) <= T::EPSILON;
-                let mut entries = crossings.as_slice().iter().filter(entering);
-                let same = entries.any(|c| *c == entry);
-                self.expect(Law::SoleEntry, &line, if same { T::zero() } else { T::one() }, T::zero())?;
+            if let Some(entry) = surface.sole_entry(&ForceLine::along(&line))
+                && entry.normal_force_squared > T::zero()
+            {
+                let incidence = entry.normal_force_squared.root();
+                let exact = self.roundings * T::EPSILON * self.size() * T::literal(4.0);
+                let allowed = if incidence > T::literal(0.05) {
+                    exact / incidence
+                } else {
+                    exact / T::literal(0.05) + (T::EPSILON * self.roundings).root() * self.radius
+                };
+                let error = crossings
+                    .as_slice()
+                    .iter()
+                    .filter(|c| c.active == entry.active && c.normal.dot(&line.direction) <= T::EPSILON)
+                    .map(|c| length(&(c.point - entry.point)))
+                    .fold(T::GREATEST, |least, error| if error < least { error } else { least });
+                self.expect(Law::SoleEntry, &line, error, allowed)?;
             }
             for crossing in crossings.as_slice() {
                 self.check_crossing(surface, &line, crossing)?;

@@ -85,7 +85,7 @@ fn worst<T: Real, S: ActiveSurface<T>>(
         let found = model.resolve(&wrench, &case.surface);
         // On the sharp rim of a pancake, rounding alone can push a line past the surface.
         let point = match found {
-            Resolution::Contact(contact) if contact.incidence.to_f64() < 0.05 => continue,
+            Resolution::Contact(contact) if contact.incidence().to_f64() < 0.05 => continue,
             Resolution::Contact(contact) => contact.point,
             Resolution::NoContact(NoContact::Misses { closest, .. }) => closest,
             Resolution::NoContact(reason) => panic!("{wrench:?}: {reason:?}"),

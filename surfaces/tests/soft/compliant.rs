@@ -32,7 +32,6 @@ where
             normal,
             force,
             spin_torque: contact_spin,
-            incidence: 1.0,
             gap: 0.0,
             alternatives: 0,
         };

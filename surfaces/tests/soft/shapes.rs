@@ -212,7 +212,7 @@ fn degenerate_wrenches_have_types() {
 fn extreme_numbers_give_no_nan() {
     fn check<T: Real, S: SoftFingerSurface<T>>(surface: &S, wrench: &Wrench<T>) {
         if let Resolution::Contact(c) = SoftFinger::new(T::zero()).unwrap().resolve(wrench, surface) {
-            let sum = c.point.sum() + c.normal.sum() + c.incidence;
+            let sum = c.point.sum() + c.normal.sum() + c.incidence();
             assert!(sum.is_number(), "{c:?} {wrench:?}");
             assert!((c.normal.norm_squared() - T::one()).abs() < T::EPSILON * T::literal(64.0), "{c:?}");
         }

@@ -1,0 +1,107 @@
+//! The line of action before anything has been divided.
+
+use fingertip_wrench::{Line, Real, RigidTransform, Wrench};
+use nalgebra::Vector3;
+
+/// The line along which a force acts, given by the force and its torque about the origin: what a
+/// closed form needs of a wrench, without the division and the root that a unit direction and a
+/// foot point cost.
+///
+/// The magnitude of the force lies between [`LEAST_SQUARED`](Self::LEAST_SQUARED) and
+/// [`GREATEST_SQUARED`](Self::GREATEST_SQUARED), so that its square is as good as exact; the torque
+/// may be anything, NaN included, and may have a part along the force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceLine<T: Real> {
+    force: Vector3<T>,
+    torque: Vector3<T>,
+    squared: T,
+}
+
+impl<T: Real> ForceLine<T> {
+    /// `ν/ε²`, ν being the least normal number: the square of 1e-12 N in single precision.
+    /// Products that underflow then move the line by less than ε³ metres.
+    #[inline]
+    #[must_use]
+    pub fn least_squared() -> T {
+        T::LEAST_NORMAL / (T::EPSILON * T::EPSILON)
+    }
+
+    /// The force must not be larger, lest products overflow: the largest number times ε².
+    #[inline]
+    #[must_use]
+    pub fn greatest_squared() -> T {
+        T::GREATEST * (T::EPSILON * T::EPSILON)
+    }
+
+    /// `None` if the square of the force \[N²\] is below `least_squared` or beyond the range that this
+    /// shortcut is for.
+    #[inline]
+    #[must_use]
+    pub fn new(wrench: &Wrench<T>, least_squared: T) -> Option<Self> {
+        let force = wrench.force();
+        let squared = force.norm_squared();
+        (squared >= least_squared && squared <= Self::greatest_squared()).then(|| Self {
+            force,
+            torque: wrench.torque(),
+            squared,
+        })
+    }
+
+    /// Along a line, with a force of 1 N.
+    #[must_use]
+    pub fn along(line: &Line<T>) -> Self {
+        let torque = line.point.cross(&line.direction);
+        Self { force: line.direction, torque, squared: line.direction.norm_squared() }
+    }
+
+    /// The force \[N\].
+    #[inline]
+    #[must_use]
+    pub const fn force(&self) -> Vector3<T> {
+        self.force
+    }
+
+    /// Its torque about the origin \[N·m\]; a part along the force says nothing of the line.
+    #[inline]
+    #[must_use]
+    pub const fn torque(&self) -> Vector3<T> {
+        self.torque
+    }
+
+    /// The torque about another point \[N·m\].
+    #[inline]
+    #[must_use]
+    pub fn torque_about(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.torque + self.force.cross(point)
+    }
+
+    /// The square of the force \[N²\].
+    #[inline]
+    #[must_use]
+    pub const fn squared(&self) -> T {
+        self.squared
+    }
+
+    /// The line with its foot point and a unit direction, for shapes that work with these.
+    #[inline]
+    #[must_use]
+    pub fn line(&self) -> Line<T> {
+        let inverse = T::one() / self.squared;
+        Line {
+            point: self.force.cross(&self.torque) * inverse,
+            direction: self.force * (inverse * self.squared.root()),
+        }
+    }
+
+    /// Seen from a frame whose place in this one is `pose`.
+    #[inline]
+    #[must_use]
+    pub fn seen_from(&self, pose: &RigidTransform<T>) -> Self {
+        let back = |v: &Vector3<T>| pose.rotation().tr_mul(v);
+        Self {
+            force: back(&self.force),
+            torque: back(&self.torque_about(&pose.origin())),
+            squared: self.squared,
+        }
+    }
+}
