@@ -87,6 +87,17 @@ pub trait ActiveSurface<T: Real> {
         None
     }
 
+    /// How far a point that should be on the surface is outside it by rounding \[m\], to first order
+    /// and with twice the digits of the type.
+    ///
+    /// Point contact asks for it where a force meets the surface at a flat angle, and such errors
+    /// grow. The default, zero, takes crossings at their word.
+    #[inline]
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        let _ = point;
+        T::zero()
+    }
+
     /// `true` if the point is inside the fingertip.
     ///
     /// The default looks along a fixed line at the crossing nearest to the point: the normal there
@@ -122,6 +133,11 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for &S {
     #[inline]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         (**self).sole_entry(push)
+    }
+
+    #[inline]
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        (**self).outside_by(point)
     }
 
     #[inline]

@@ -34,6 +34,7 @@ fn agrees<T: Real, S: ActiveSurface<T> + BatchSurface<T>>(surface: &S, exact_mis
         Wrenches { force: [fx, fy, fz], torque: [tx, ty, tz] },
         Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap },
     );
+    alone_or_together(surface, [fx, fy, fz, tx, ty, tz], &out);
     let model = PointContact::new(T::zero()).unwrap();
     let (mut met, mut missed, mut nothing) = (0, 0, 0);
     for k in 0..count {
@@ -73,6 +74,22 @@ fn agrees<T: Real, S: ActiveSurface<T> + BatchSurface<T>>(surface: &S, exact_mis
         }
     }
     assert!(met > 1000 && nothing >= 50, "{met} {missed} {nothing}");
+}
+
+/// Wide vectors, narrow ones and the remainder of a loop all give the same bits.
+fn alone_or_together<T: Real, S: BatchSurface<T>>(surface: &S, given: [&[T]; 6], together: &[Vec<T>; 7]) {
+    for k in 0..together[0].len() {
+        let [fx, fy, fz, tx, ty, tz] = given.map(|column| &column[k..=k]);
+        let mut alone = [[T::zero()]; 7];
+        let [px, py, pz, nx, ny, nz, gap] = &mut alone;
+        surface.contacts(
+            Wrenches { force: [fx, fy, fz], torque: [tx, ty, tz] },
+            Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap },
+        );
+        for (alone, together) in alone.iter().zip(together) {
+            assert_eq!(alone[0], together[k], "{k}");
+        }
+    }
 }
 
 fn v<T: Real>(x: f64, y: f64, z: f64) -> Vector3<T> {

@@ -99,6 +99,11 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
         self.sensor_from_shape.rotate(&self.surface.normal(&self.in_shape(point)))
     }
 
+    /// Moving a point rounds it, which this does not undo.
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        self.surface.outside_by(&self.in_shape(point))
+    }
+
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.surface.contains(&self.in_shape(point))

@@ -121,6 +121,10 @@ impl<T: Real, S: ActiveSurface<T>, R: Region<T>> ActiveSurface<T> for Trimmed<S,
         self.surface.normal(point)
     }
 
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        self.surface.outside_by(point)
+    }
+
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.surface.contains(point)

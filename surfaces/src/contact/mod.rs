@@ -2,6 +2,7 @@
 
 mod bound;
 mod contact_model;
+mod onto_line;
 mod outcome;
 mod point_contact;
 

@@ -3,6 +3,7 @@
 use fingertip_wrench::{LineOfAction, NoLineOfAction, Real, Wrench};
 use nalgebra::Vector3;
 
+use super::onto_line::onto_line;
 use super::{Contact, ContactModel, NoContact, Resolution};
 use crate::numeric::vectors::hypotenuse;
 use crate::serde_parts::serde_parts;
@@ -125,7 +126,7 @@ impl<T: Real> PointContact<T> {
             let pressing = incidence > T::zero() && incidence >= self.least_incidence;
             if crossing.active && pressing && in_range(&crossing.point) {
                 any = true;
-                visit(contact_at(wrench, crossing.point, crossing.normal));
+                visit(entered(wrench, surface, &crossing, incidence));
             }
         });
         if any {
@@ -145,6 +146,20 @@ fn in_range<T: Real>(point: &Vector3<T>) -> bool {
 #[inline]
 fn contact_at<T: Real>(wrench: &Wrench<T>, point: Vector3<T>, normal: Vector3<T>) -> Contact<T> {
     Contact { point, normal, force: wrench.force(), spin_torque: T::zero(), gap: T::zero(), alternatives: 0 }
+}
+
+/// The contact at a crossing; where the force meets the surface at a flat angle, without the rounding
+/// errors that grow there.
+fn entered<T: Real, S: ActiveSurface<T>>(
+    wrench: &Wrench<T>,
+    surface: &S,
+    crossing: &Crossing<T>,
+    incidence: T,
+) -> Contact<T> {
+    let Crossing { point, normal, .. } = *crossing;
+    let point =
+        if incidence < flat() { onto_line(wrench, surface, point, &normal, incidence) } else { point };
+    contact_at(wrench, point, normal)
 }
 
 fn check<T: Real>(parameter: &'static str, value: T) -> Result<T, BadShape> {
@@ -189,10 +204,10 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
         let [least_squared, least_steepness] = self.short_way;
         if let Some(push) = ForceLine::new(wrench, least_squared)
             && let Some(entry) = surface.sole_entry(&push)
+            && entry.active
+            && entry.normal_force_squared >= least_steepness * push.squared()
         {
-            if entry.active && entry.normal_force_squared >= least_steepness * push.squared() {
-                return Resolution::Contact(contact_at(wrench, entry.point, entry.normal));
-            }
+            return Resolution::Contact(contact_at(wrench, entry.point, entry.normal));
         }
         match self.axis(wrench) {
             Ok(axis) => self.choose(wrench, surface, &axis, last),
@@ -248,8 +263,8 @@ impl<T: Real> PointContact<T> {
                 seen.best = Some((crossing, incidence));
             }
         });
-        if let Some((crossing, _)) = seen.best {
-            let contact = contact_at(wrench, crossing.point, crossing.normal);
+        if let Some((crossing, incidence)) = seen.best {
+            let contact = entered(wrench, surface, &crossing, incidence);
             return Resolution::Contact(Contact { alternatives: seen.candidates - 1, ..contact });
         }
         // A line that is tangent within rounding neither presses nor pulls, but touches.

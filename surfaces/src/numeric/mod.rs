@@ -6,4 +6,5 @@ pub(crate) mod interval;
 pub(crate) mod quadratic;
 pub(crate) mod roots;
 pub(crate) mod support;
+pub(crate) mod twofold;
 pub(crate) mod vectors;

@@ -163,6 +163,10 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
         self.around().outward(&self.around().split_point(point).1)
     }
 
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        self.around().outside_by(point, self.radius)
+    }
+
     /// Between the ends, and closer to the axis than the radius.
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {

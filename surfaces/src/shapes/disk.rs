@@ -60,6 +60,10 @@ impl<T: Real> ActiveSurface<T> for Disk<T> {
         self.plane.normal(point)
     }
 
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        self.plane.outside_by(point)
+    }
+
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.plane.contains(point)

@@ -4,6 +4,7 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use crate::numeric::ellipse::closest_point;
+use crate::numeric::twofold::{Twofold, dot};
 use crate::numeric::vectors::{any_perpendicular, foot, hypotenuse, is_finite, length, unit_or};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
@@ -57,8 +58,11 @@ impl<T: Real> Ellipsoid<T> {
         let point = line.point.component_mul(&self.curvatures);
         let direction = line.direction.component_mul(&self.curvatures);
         let inverse = T::one() / direction.norm_squared();
-        let along = -point.dot(&direction) * inverse;
-        let foot = point + direction * along;
+        let first = -point.dot(&direction) * inverse;
+        let foot = point + direction * first;
+        // Once more: of a flat shape's point, scaled up along its short axis, most has cancelled.
+        let rest = -foot.dot(&direction) * inverse;
+        let (foot, along) = (foot + direction * rest, first + rest);
         let squared = T::one() - foot.norm_squared();
         (squared >= T::zero()).then(|| Chord { foot, direction, along, half: (squared * inverse).root() })
     }
@@ -152,6 +156,15 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
     #[inline]
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         self.normal_at(&point.component_mul(&self.curvatures))
+    }
+
+    /// `(Σ xᵢ²/aᵢ² − 1)` over the length of its gradient.
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        let scaled = |k: usize| Twofold::new(point[k]).over(self.semi_axes[k]);
+        let scaled = [scaled(0), scaled(1), scaled(2)];
+        let excess = dot(scaled, scaled).minus(Twofold::new(T::one())).value();
+        let gradient = point.component_mul(&self.curvatures).component_mul(&self.curvatures);
+        excess / (length(&gradient) * T::literal(2.0))
     }
 
     #[inline]

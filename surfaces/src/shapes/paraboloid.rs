@@ -5,7 +5,8 @@ use nalgebra::Vector3;
 
 use crate::numeric::quadratic::roots;
 use crate::numeric::support;
-use crate::numeric::vectors::{foot, unit_or};
+use crate::numeric::twofold::Twofold;
+use crate::numeric::vectors::{foot, length, unit_or};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
 
@@ -115,6 +116,16 @@ impl<T: Real> ActiveSurface<T> for Paraboloid<T> {
     #[inline]
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         self.normal_at(point)
+    }
+
+    /// `(x²/a + y²/b + 2z)` over the length of its gradient.
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        let [a, b] = self.radii;
+        let part = |x: T, radius: T| Twofold::new(x).over(radius).times(Twofold::new(x));
+        let excess = part(point.x, a).plus(part(point.y, b)).plus(Twofold::new(point.z + point.z)).value();
+        let [ca, cb] = self.curvatures;
+        let slope = Vector3::new(point.x * ca, point.y * cb, T::one());
+        excess / (length(&slope) * T::literal(2.0))
     }
 
     #[inline]

@@ -3,6 +3,7 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
+use crate::numeric::twofold::{difference, dot_with};
 use crate::numeric::vectors::{foot, is_finite};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, ForceLine};
@@ -107,6 +108,10 @@ impl<T: Real> ActiveSurface<T> for Plane<T> {
     #[inline]
     fn normal(&self, _point: &Vector3<T>) -> Vector3<T> {
         self.normal
+    }
+
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        dot_with(difference(point, &self.point), &self.normal).value()
     }
 
     #[inline]

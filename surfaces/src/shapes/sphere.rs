@@ -3,6 +3,7 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
+use crate::numeric::twofold::{Twofold, difference, dot};
 use crate::numeric::vectors::{any_perpendicular, length, unit_or};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
@@ -109,6 +110,14 @@ impl<T: Real> ActiveSurface<T> for Sphere<T> {
     #[inline]
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         unit_or(&(point - self.centre), Vector3::z)
+    }
+
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        let scale = self.radius.normalising_factor();
+        let radius = self.radius * scale;
+        let from_centre = difference(&(point * scale), &(self.centre * scale));
+        let excess = dot(from_centre, from_centre).minus(Twofold::new(radius).squared());
+        excess.value() / (radius + radius) / scale
     }
 
     #[inline]

@@ -104,6 +104,10 @@ impl<T: Real> ActiveSurface<T> for SphericalCap<T> {
         self.sphere.normal(point)
     }
 
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        self.sphere.outside_by(point)
+    }
+
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.sphere.contains(point)

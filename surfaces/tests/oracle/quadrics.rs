@@ -205,9 +205,7 @@ macro_rules! accurate {
                 let (double, single) = (worst(trials, 1, $shape), worst(trials, 2, $shape32));
                 println!("{}: f64 {double:.2e}, f32 {single:.2e}", stringify!($name));
                 assert!(double <= 1e-14, "f64: {double:e}");
-                // The rarest cases reach 20 rounding units: the line of action's own rounding, 1/cos φ = 20
-                // times over.
-                let allowed = if trials > 10_000 { 3e-6 } else { 1e-6 };
+                let allowed = 1e-6;
                 assert!(single <= allowed, "f32: {single:e}");
             }
 
