@@ -26,9 +26,9 @@ pub struct Entry<T: Real> {
     pub point: Vector3<T>,
     /// Outward unit normal there.
     pub normal: Vector3<T>,
-    /// The square of the normal force \[N²\]. Closed forms know it before they know the normal;
-    /// unless it is positive the line misses, and the other fields mean nothing.
-    pub normal_force_squared: T,
+    /// The square of the cosine of incidence, `(f·n)²/|f|²`. Closed forms know it before they know
+    /// the normal; unless it is positive the line misses, and the other fields mean nothing.
+    pub incidence_squared: T,
     /// `false` where the point belongs to the shape but not to the part that may touch.
     pub active: bool,
 }
@@ -78,8 +78,8 @@ pub trait ActiveSurface<T: Real> {
     /// Where a force enters, for shapes that no line enters twice: a shortcut past
     /// [`crossings`](Self::crossings) that point contact takes first.
     ///
-    /// `None`, as the default answers, says nothing. An answer with a positive square of the normal
-    /// force shall be finite and agree, but for rounding, with the one crossing that has a normal
+    /// `None`, as the default answers, says nothing. An answer with a positive square of the
+    /// incidence shall be finite and agree, but for rounding, with the one crossing that has a normal
     /// against the force.
     #[inline]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {

@@ -205,7 +205,7 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
         if let Some(push) = ForceLine::new(wrench, least_squared)
             && let Some(entry) = surface.sole_entry(&push)
             && entry.active
-            && entry.normal_force_squared >= least_steepness * push.squared()
+            && entry.incidence_squared >= least_steepness
         {
             return Resolution::Contact(contact_at(wrench, entry.point, entry.normal));
         }

@@ -135,8 +135,8 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
         (remainder >= T::zero()).then(|| {
             let half_chord = (remainder / squared).root();
             let entry = self.crossing(&line, along - half_chord * self.radius, foot - across * half_chord);
-            let normal_force_squared = remainder * squared * push.squared();
-            Entry { point: entry.point, normal: entry.normal, normal_force_squared, active: entry.active }
+            let incidence_squared = remainder * squared;
+            Entry { point: entry.point, normal: entry.normal, incidence_squared, active: entry.active }
         })
     }
 

@@ -121,7 +121,7 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
             point: scaled.component_mul(&self.semi_axes),
             normal: gradient * flatness,
             // f·n = direction·scaled·flatness, and the foot is square to the direction.
-            normal_force_squared: remainder * squared * (flatness * flatness),
+            incidence_squared: remainder * squared * (flatness * flatness) * inverse_force,
             active: true,
         })
     }

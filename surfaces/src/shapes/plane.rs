@@ -83,13 +83,14 @@ impl<T: Real> ActiveSurface<T> for Plane<T> {
             return None;
         }
         // From the plane's point to the foot of the line, and along the force back to the plane.
-        let foot = push.force().cross(&push.torque_about(&self.point)) / push.squared();
+        let inverse = T::one() / push.squared();
+        let foot = push.force().cross(&push.torque_about(&self.point)) * inverse;
         let across = foot - push.force() * (foot.dot(&self.normal) / slope);
         let point = self.point + across;
         is_finite(&point).then(|| Entry {
             point,
             normal: self.normal,
-            normal_force_squared: slope * slope,
+            incidence_squared: slope * slope * inverse,
             active: true,
         })
     }

@@ -93,7 +93,7 @@ impl<T: Real> ActiveSurface<T> for Sphere<T> {
         Some(Entry {
             point: self.centre + normal * self.radius,
             normal,
-            normal_force_squared: squared * push.squared(),
+            incidence_squared: squared,
             active: true,
         })
     }

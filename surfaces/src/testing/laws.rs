@@ -141,9 +141,9 @@ impl<T: Real> SurfaceLaws<T> {
             let line = random.line(&self.centre, self.radius);
             let crossings = Crossings::of(surface, &line);
             if let Some(entry) = surface.sole_entry(&ForceLine::along(&line))
-                && entry.normal_force_squared > T::zero()
+                && entry.incidence_squared > T::zero()
             {
-                let incidence = entry.normal_force_squared.root();
+                let incidence = entry.incidence_squared.root();
                 let exact = self.roundings * T::EPSILON * self.size() * T::literal(4.0);
                 let allowed = if incidence > T::literal(0.05) {
                     exact / incidence
