@@ -2,7 +2,7 @@
 
 use fingertip_wrench::{ContactForce, Real};
 
-use crate::ratio_tracker::{Evidence, RatioTracker};
+use crate::ratio_tracker::RatioTracker;
 use crate::{BadNoise, Cusum, ForceNoise, SlipDetector, SlipVerdict};
 
 /// Finds the fall of the friction ratio from its static peak to its kinetic level, without knowing
@@ -66,19 +66,7 @@ impl<T: Real> DropDetector<T> {
 impl<T: Real> SlipDetector<T> for DropDetector<T> {
     #[inline]
     fn update(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict {
-        let passed = match self.tracker.take(force, time_step) {
-            Evidence::NotPressing => return SlipVerdict::NotPressing,
-            Evidence::None => return SlipVerdict::Holding,
-            Evidence::Repeated => self.sum.add(T::zero()),
-            Evidence::Fall(fall) => self.sum.add(fall),
-        };
-        if passed {
-            self.sum.reset();
-            self.tracker.restart();
-            SlipVerdict::Slipping
-        } else {
-            SlipVerdict::Holding
-        }
+        self.tracker.update(&mut self.sum, force, time_step)
     }
 
     fn reset(&mut self) {

@@ -6,6 +6,8 @@
 //! `slip.html` (tables and the receiver operating curve) into the folder, by default
 //! `target/slip_report`.
 
+mod cost;
+
 use core::error::Error;
 use core::fmt::Write as _;
 use std::path::PathBuf;
@@ -350,6 +352,10 @@ fn plot(points: &[(f64, f64, f64)]) -> Result<String, Failure> {
 }
 
 fn main() -> Result<(), Failure> {
+    if std::env::args().nth(1).as_deref() == Some("--cost") {
+        println!("{}", cost::table()?);
+        return Ok(());
+    }
     let folder =
         std::env::args_os().nth(1).map_or_else(|| PathBuf::from("target/slip_report"), PathBuf::from);
     std::fs::create_dir_all(&folder)?;
