@@ -84,6 +84,32 @@ fn kinetic_friction_matches_the_sliding_part() {
     }
 }
 
+/// When the fingertip had slipped by 5 µm for good, were the stiffness of the stroke `share` of the
+/// one in its row: how the labels are made, from the motion and the force of the recording itself.
+fn slipped_for_good(samples: &[Vec<f64>], stroke: &[f64], share: f64) -> f64 {
+    let direction = stroke[2];
+    let (start, peak) = (stroke[0], stroke[4]);
+    let within: Vec<_> = samples.iter().filter(|row| row[0] >= start && row[0] <= peak).collect();
+    let first = within[0];
+    let slip = |row: &[f64]| {
+        let force = (row[3] - first[3]) * -direction;
+        direction * (row[2] - first[2]) - force / (stroke[7] * share)
+    };
+    let last = within.iter().rposition(|row| slip(row) <= 5e-3).unwrap();
+    within[(last + 1).min(within.len() - 1)][0]
+}
+
+/// The stiffness of a stroke scatters by 0.74 % and 0.91 % among the strokes of one direction, the
+/// first left out; the lesser is taken for what is not known of it. It moves a label by up to 20 ms.
+const STIFFNESS_DEVIATION: f64 = 0.0074;
+/// The recording's sample time \[s\], by which each label and each onset may be late.
+const SAMPLE: f64 = 5e-3;
+
+/// 97 of the 100 onsets are within 50 ms of the published label. The other three:
+/// - stroke 5's label marks where the apparent slip *falls* through 5 µm (the pad is at its
+///   stiffest, 52 N/mm, there). It passes 5 µm for good 120 ms later, and there the onset is found.
+/// - strokes 56 and 86: 54 ms late, less than one sample above 50 ms, while a stiffness lower by its
+///   own standard deviation puts their labels 20 ms later.
 #[test]
 fn onsets_match_the_labels() {
     let (Some(samples), Some(strokes)) = (read("reciprocating.csv"), read("strokes.csv")) else { return };
@@ -100,27 +126,43 @@ fn onsets_match_the_labels() {
         slips += usize::from(verdict == SlipVerdict::Slipping && last == SlipVerdict::Warning);
         last = verdict;
     }
-    let mut errors = Vec::new();
+    let (mut errors, mut corrected, mut beyond) = (Vec::new(), Vec::new(), Vec::new());
     let mut outside = onsets.len();
-    for stroke in &strokes {
+    for (number, stroke) in strokes.iter().enumerate() {
         let within: Vec<_> = onsets.iter().filter(|t| **t >= stroke[0] && **t <= stroke[1]).collect();
         outside -= within.len();
-        assert!(within.len() <= 1, "{stroke:?} {within:?}");
-        if let Some(onset) = within.first() {
-            errors.push(**onset - stroke[8]);
+        assert_eq!(within.len(), 1, "stroke {number}: {within:?}");
+        let onset = *within[0];
+        errors.push(onset - stroke[8]);
+        if (onset - stroke[8]).abs() > 0.05 + 1e-9 {
+            beyond.push(number);
         }
+        // The label can be made again from the recording, but for one that is not an onset.
+        let label = slipped_for_good(&samples, stroke, 1.0);
+        let made_again = (label - stroke[8]).abs() <= SAMPLE + 1e-9;
+        assert_eq!(made_again, number != 5, "stroke {number}: {label} {}", stroke[8]);
+        let early = slipped_for_good(&samples, stroke, 1.0 + STIFFNESS_DEVIATION);
+        let late = slipped_for_good(&samples, stroke, 1.0 - STIFFNESS_DEVIATION);
+        assert!(early <= label && label <= late);
+        corrected.push(onset - onset.clamp(early, late));
     }
     errors.sort_by(f64::total_cmp);
-    let close = errors.iter().filter(|e| e.abs() <= 0.05 + 1e-9).count();
+    corrected.sort_by(f64::total_cmp);
+    let close = errors.len() - beyond.len();
     println!(
-        "onsets found in {} strokes, {close} within 50 ms of the label, median {:.1} ms, from {:.1} to {:.1} ms; \
-         {outside} alarms in the dwells; gross slip called in {slips}",
+        "onsets found in {} strokes, {close} within 50 ms of the label, median {:.1} ms, from {:.1} to {:.1} ms, \
+         beyond: strokes {beyond:?}; from where the label lies within one deviation of the stiffness: {:.1} to \
+         {:.1} ms; {outside} alarms in the dwells; gross slip called in {slips}",
         errors.len(),
         errors[errors.len() / 2] * 1e3,
         errors[0] * 1e3,
-        errors[errors.len() - 1] * 1e3
+        errors[errors.len() - 1] * 1e3,
+        corrected[0] * 1e3,
+        corrected[corrected.len() - 1] * 1e3,
     );
     assert_eq!(errors.len(), 100);
     assert_eq!(outside, 0);
-    assert!(close >= 95, "{close}");
+    assert_eq!(slips, 100);
+    assert!(close >= 97, "{close}");
+    assert!(corrected.iter().all(|e| e.abs() <= 0.05 + 1e-9), "{corrected:?}");
 }
