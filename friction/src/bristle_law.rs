@@ -3,6 +3,7 @@
 use fingertip_wrench::Real;
 
 use crate::cone::{not_negative, positive};
+use crate::stored::stored;
 use crate::{BadFriction, Stribeck};
 
 /// A friction law `F = σ₀z + σ₁ż + σ₂v`, `ż = v − α(z, v) σ₀|v|z/g(|v|)` (theory 6.1).
@@ -43,7 +44,6 @@ pub trait BristleLaw<T: Real> {
 
 /// Dahl's law (1968): LuGre without Stribeck effect and damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Dahl<T> {
     stiffness: T,
     friction: T,
@@ -51,27 +51,17 @@ pub struct Dahl<T> {
 
 /// The LuGre law (Canudas de Wit, Olsson, Åström & Lischinsky 1995).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LuGre<T: Real> {
     stiffness: T,
     damping: T,
     viscous: T,
-    #[cfg_attr(
-        feature = "serde",
-        serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
-    )]
     curve: Stribeck<T>,
 }
 
 /// The elasto-plastic law (Dupont, Hayward, Armstrong & Altpeter 2002): LuGre with a purely elastic
 /// range, so that it does not creep under a load that stays below break-away.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ElastoPlastic<T: Real> {
-    #[cfg_attr(
-        feature = "serde",
-        serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
-    )]
     sliding: LuGre<T>,
     elastic_share: T,
 }
@@ -229,14 +219,9 @@ impl<T: Real> BristleLaw<T> for ElastoPlastic<T> {
 /// Dry friction on a Stribeck curve with a stiff elastic contact: meant for
 /// [`ReturnMap`](crate::ReturnMap), with which it sticks below F_s and slides at `g(v) + σ₂v`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StribeckFriction<T: Real> {
     stiffness: T,
     viscous: T,
-    #[cfg_attr(
-        feature = "serde",
-        serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
-    )]
     curve: Stribeck<T>,
 }
 
@@ -274,4 +259,33 @@ impl<T: Real> BristleLaw<T> for StribeckFriction<T> {
     fn greatest(&self) -> T {
         self.curve.breakaway()
     }
+}
+
+stored! {
+    Dahl<T>, [T: Real],
+    |law| { stiffness: T = law.stiffness, friction: T = law.friction },
+    Self::new(stiffness, friction)
+}
+
+stored! {
+    LuGre<T>, [T: Real],
+    |law| {
+        stiffness: T = law.stiffness,
+        damping: T = law.damping,
+        viscous: T = law.viscous,
+        curve: Stribeck<T> = law.curve,
+    },
+    Self::new(stiffness, damping, viscous, curve)
+}
+
+stored! {
+    ElastoPlastic<T>, [T: Real],
+    |law| { sliding: LuGre<T> = law.sliding, elastic_share: T = law.elastic_share },
+    Self::new(sliding, elastic_share)
+}
+
+stored! {
+    StribeckFriction<T>, [T: Real],
+    |law| { stiffness: T = law.stiffness, viscous: T = law.viscous, curve: Stribeck<T> = law.curve },
+    Self::new(stiffness, viscous, curve)
 }

@@ -4,6 +4,7 @@ use fingertip_wrench::Real;
 use thiserror::Error;
 
 use crate::ratio_tracker::ChangeTest;
+use crate::stored::stored;
 
 /// A one-sided cumulative sum `S ← max(0, S + x − k)` that passes at `S > h` (Page 1954). The
 /// Page-Hinkley test is the same statistic.
@@ -12,7 +13,6 @@ use crate::ratio_tracker::ChangeTest;
 /// allowance `k` is half the smallest change of the mean worth finding; the threshold `h` sets the
 /// rate of false alarms ([`for_false_alarms`](Self::for_false_alarms), theory 7.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cusum<T> {
     allowance: T,
     threshold: T,
@@ -121,4 +121,10 @@ impl<T: Real> ChangeTest<T> for Cusum<T> {
     fn reset(&mut self) {
         Self::reset(self);
     }
+}
+
+stored! {
+    Cusum<T>, [T: Real],
+    |sum| { allowance: T = sum.allowance, threshold: T = sum.threshold },
+    Self::new(allowance, threshold)
 }

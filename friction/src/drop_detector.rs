@@ -3,6 +3,7 @@
 use fingertip_wrench::{ContactForce, Real};
 
 use crate::ratio_tracker::RatioTracker;
+use crate::stored::stored;
 use crate::{BadNoise, Cusum, ForceNoise, SlipDetector, SlipVerdict};
 
 /// Finds the fall of the friction ratio from its static peak to its kinetic level, without knowing
@@ -30,7 +31,6 @@ use crate::{BadNoise, Cusum, ForceNoise, SlipDetector, SlipVerdict};
 /// # What it can't tell
 /// A load that is taken off in a few samples while the normal force stays looks like slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DropDetector<T> {
     tracker: RatioTracker<T>,
     sum: Cusum<T>,
@@ -73,6 +73,12 @@ impl<T: Real> SlipDetector<T> for DropDetector<T> {
         self.tracker.reset();
         self.sum.reset();
     }
+}
+
+stored! {
+    DropDetector<T>, [T: Real],
+    |detector| { noise: ForceNoise<T> = detector.tracker.noise(), sum: Cusum<T> = detector.sum },
+    Self::with_sum(noise, sum)
 }
 
 #[cfg(test)]

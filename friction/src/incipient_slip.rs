@@ -3,6 +3,7 @@
 use fingertip_wrench::{ContactForce, Real};
 use nalgebra::Vector3;
 
+use crate::stored::stored;
 use crate::{BadDetector, NormalForceGate, SlipVerdict};
 
 /// How many places divide the window.
@@ -191,4 +192,15 @@ impl<T: Real> State<T> {
             stiffness: None,
         }
     }
+}
+
+stored! {
+    IncipientSlip<T>, [T: Real],
+    |detector| {
+        gate: NormalForceGate<T> = detector.gate,
+        #[serde(rename = "window_m")]
+        window: T = detector.window,
+        warning_share: T = detector.warning_share,
+    },
+    Self::new(gate, window, warning_share)
 }

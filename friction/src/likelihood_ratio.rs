@@ -4,6 +4,7 @@ use fingertip_wrench::{ContactForce, Real};
 
 use crate::ratio_tracker::{ChangeTest, RatioTracker};
 use crate::run_length::{likelihood_ratio_threshold, run_length_for};
+use crate::stored::stored;
 use crate::{BadDetector, BadNoise, ForceNoise, SlipDetector, SlipVerdict};
 
 /// `max_j S_j²/(2j) > threshold` over the sums `S_j > 0` of the last `j ≤ W` standardised samples:
@@ -133,11 +134,19 @@ impl<T: Real, const W: usize> LikelihoodRatioDetector<T, W> {
     ) -> Result<Self, BadDetector> {
         let length = run_length_for(false_alarms_per_minute, sample_rate);
         let threshold = T::literal(likelihood_ratio_threshold(W, length)?);
+        Self::with_ratio(noise, LikelihoodRatio::new(threshold)?)
+    }
+
+    /// With another likelihood ratio.
+    ///
+    /// # Errors
+    /// [`BadDetector`] unless both deviations, and their squares, are positive and finite.
+    pub fn with_ratio(noise: ForceNoise<T>, ratio: LikelihoodRatio<T, W>) -> Result<Self, BadDetector> {
         let tracker = RatioTracker::new(noise).map_err(|BadNoise { .. }| BadDetector {
             parameter: "noise",
             requirement: "positive and finite",
         })?;
-        Ok(Self { tracker, ratio: LikelihoodRatio::new(threshold)? })
+        Ok(Self { tracker, ratio })
     }
 }
 
@@ -151,4 +160,20 @@ impl<T: Real, const W: usize> SlipDetector<T> for LikelihoodRatioDetector<T, W> 
         self.tracker.reset();
         self.ratio.reset();
     }
+}
+
+stored! {
+    LikelihoodRatio<T, W>, [T: Real, const W: usize],
+    |ratio| { window: usize = ratio.window, threshold: T = ratio.threshold },
+    Self::with_window(window, threshold)
+}
+
+stored! {
+    LikelihoodRatioDetector<T, W>, [T: Real, const W: usize],
+    |detector| {
+        noise: ForceNoise<T> = detector.tracker.noise(),
+        window: usize = detector.ratio.window,
+        threshold: T = detector.ratio.threshold,
+    },
+    LikelihoodRatio::with_window(window, threshold).and_then(|ratio| Self::with_ratio(noise, ratio))
 }

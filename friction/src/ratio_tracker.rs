@@ -45,8 +45,8 @@ const GREATEST_GAP: f64 = 16.0;
 /// steps. For a step of `s` nominal times the gain is `αs/(1−α+αs)`, which is α at `s = 1` and
 /// tends to the continuous-time tracker for small `s` and to "forget all" for large `s`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct RatioTracker<T> {
+    noise: ForceNoise<T>,
     gate: NormalForceGate<T>,
     variances: Variances<T>,
     state: Option<State<T>>,
@@ -54,7 +54,6 @@ pub(crate) struct RatioTracker<T> {
 
 /// Noise of the innovations.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Variances<T> {
     normal: T,
     tangential: T,
@@ -65,7 +64,6 @@ struct Variances<T> {
 /// In this order, since compilers join neighbouring lines into one vector of four `f32`, whose
 /// shuffles cost more than they save.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C)]
 struct State<T> {
     ratio: Line<T>,
@@ -90,7 +88,6 @@ struct State<T> {
 
 /// Samples not yet taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Block<T> {
     normal: T,
     tangential: T,
@@ -114,7 +111,6 @@ impl<T: Real> Block<T> {
 
 /// A value and its slope per nominal sample time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Line<T> {
     value: T,
     slope: T,
@@ -289,6 +285,7 @@ impl<T: Real> RatioTracker<T> {
             return Err(BadNoise { component: "tangential" });
         }
         Ok(Self {
+            noise,
             gate: NormalForceGate::from_noise(&noise),
             variances: Variances {
                 normal: squares.0 * widening,
@@ -297,6 +294,12 @@ impl<T: Real> RatioTracker<T> {
             },
             state: None,
         })
+    }
+
+    /// The noise it was made for.
+    #[cfg(feature = "serde")]
+    pub(crate) const fn noise(&self) -> ForceNoise<T> {
+        self.noise
     }
 
     /// Takes a sample and tells what `test` says of its evidence; after a slip both start anew. A

@@ -3,6 +3,7 @@
 use fingertip_wrench::{ContactForce, Real};
 
 use crate::cone::{Cone, hypot, positive, rescaled};
+use crate::stored::stored;
 use crate::{BadFriction, FrictionLimit, FrictionModel, PressureDistribution, SlipDirection, SlipMargin};
 
 /// The elliptic soft-finger limit `|f_t|² + (τ/e)² ≤ (μ f_n)²` (Howe & Cutkosky 1996; theory 5).
@@ -14,15 +15,6 @@ use crate::{BadFriction, FrictionLimit, FrictionModel, PressureDistribution, Sli
 ///
 /// The margin is the signed distance in the norm `√(|δf_t|² + (δτ/e)² + δf_n²)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "Parts<T>",
-        into = "Parts<T>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct SoftFingerLimit<T: Real> {
     cone: Cone<T>,
     arm: T,
@@ -34,15 +26,6 @@ pub struct SoftFingerLimit<T: Real> {
 /// The margin is the signed distance in the norm `√((|δf_t|^q + |δτ/e|^q)^(2/q) + δf_n²)`, which
 /// exceeds the Euclidean length of the same change by at most `2^(1/q−1/2)` (6 % at q = 1.72).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "PowerParts<T>",
-        into = "PowerParts<T>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct PowerLimit<T: Real> {
     cone: Cone<T>,
     arm: T,
@@ -235,51 +218,19 @@ pub(crate) fn direction<T: Real>(
         .then_some(SlipDirection { velocity, spin: rate })
 }
 
-/// How the elliptic limit is written in a file; reading one validates it again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-struct Parts<T> {
-    coefficient: T,
-    #[serde(rename = "arm_m")]
-    arm: T,
+stored! {
+    SoftFingerLimit<T>, [T: Real],
+    |model| { coefficient: T = model.coefficient(), #[serde(rename = "arm_m")] arm: T = model.arm() },
+    Self::new(coefficient, arm)
 }
 
-#[cfg(feature = "serde")]
-impl<T: Real> From<SoftFingerLimit<T>> for Parts<T> {
-    fn from(model: SoftFingerLimit<T>) -> Self {
-        Self { coefficient: model.coefficient(), arm: model.arm }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Parts<T>> for SoftFingerLimit<T> {
-    type Error = BadFriction;
-    fn try_from(parts: Parts<T>) -> Result<Self, BadFriction> {
-        Self::new(parts.coefficient, parts.arm)
-    }
-}
-
-/// How the power limit is written in a file; reading one validates it again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-struct PowerParts<T> {
-    coefficient: T,
-    #[serde(rename = "arm_m")]
-    arm: T,
-    exponent: T,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> From<PowerLimit<T>> for PowerParts<T> {
-    fn from(model: PowerLimit<T>) -> Self {
-        Self { coefficient: model.coefficient(), arm: model.arm, exponent: model.exponent }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<PowerParts<T>> for PowerLimit<T> {
-    type Error = BadFriction;
-    fn try_from(parts: PowerParts<T>) -> Result<Self, BadFriction> {
-        Self::new(parts.coefficient, parts.arm, parts.exponent)
-    }
+stored! {
+    PowerLimit<T>, [T: Real],
+    |model| {
+        coefficient: T = model.coefficient(),
+        #[serde(rename = "arm_m")]
+        arm: T = model.arm(),
+        exponent: T = model.exponent(),
+    },
+    Self::new(coefficient, arm, exponent)
 }
