@@ -42,11 +42,40 @@ pub trait BristleLaw<T: Real> {
     }
 }
 
+/// The methods of a law that slides as its field `sliding` does.
+macro_rules! slides_by_lugre {
+    () => {
+        #[inline]
+        fn stiffness(&self) -> T {
+            self.sliding.stiffness()
+        }
+
+        #[inline]
+        fn damping(&self) -> T {
+            self.sliding.damping()
+        }
+
+        #[inline]
+        fn viscous(&self) -> T {
+            self.sliding.viscous()
+        }
+
+        #[inline]
+        fn steady(&self, speed: T) -> T {
+            self.sliding.steady(speed)
+        }
+
+        #[inline]
+        fn greatest(&self) -> T {
+            self.sliding.greatest()
+        }
+    };
+}
+
 /// Dahl's law (1968): LuGre without Stribeck effect and damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dahl<T> {
-    stiffness: T,
-    friction: T,
+pub struct Dahl<T: Real> {
+    sliding: LuGre<T>,
 }
 
 /// The LuGre law (Canudas de Wit, Olsson, Åström & Lischinsky 1995).
@@ -72,28 +101,13 @@ impl<T: Real> Dahl<T> {
     /// # Errors
     /// [`BadFriction`] unless both are positive and finite.
     pub fn new(stiffness: T, friction: T) -> Result<Self, BadFriction> {
-        Ok(Self {
-            stiffness: positive(stiffness, "stiffness")?,
-            friction: positive(friction, "kinetic friction")?,
-        })
+        let curve = Stribeck::constant(friction)?;
+        Ok(Self { sliding: LuGre::new(stiffness, T::zero(), T::zero(), curve)? })
     }
 }
 
 impl<T: Real> BristleLaw<T> for Dahl<T> {
-    #[inline]
-    fn stiffness(&self) -> T {
-        self.stiffness
-    }
-
-    #[inline]
-    fn steady(&self, _speed: T) -> T {
-        self.friction
-    }
-
-    #[inline]
-    fn greatest(&self) -> T {
-        self.friction
-    }
+    slides_by_lugre!();
 }
 
 impl<T: Real> LuGre<T> {
@@ -175,30 +189,7 @@ impl<T: Real> ElastoPlastic<T> {
 }
 
 impl<T: Real> BristleLaw<T> for ElastoPlastic<T> {
-    #[inline]
-    fn stiffness(&self) -> T {
-        self.sliding.stiffness
-    }
-
-    #[inline]
-    fn damping(&self) -> T {
-        self.sliding.damping
-    }
-
-    #[inline]
-    fn viscous(&self) -> T {
-        self.sliding.viscous
-    }
-
-    #[inline]
-    fn steady(&self, speed: T) -> T {
-        self.sliding.steady(speed)
-    }
-
-    #[inline]
-    fn greatest(&self) -> T {
-        self.sliding.greatest()
-    }
+    slides_by_lugre!();
 
     #[inline]
     fn plastic_share(&self, deflection: T, opposed: bool, speed: T) -> T {
@@ -220,9 +211,7 @@ impl<T: Real> BristleLaw<T> for ElastoPlastic<T> {
 /// [`ReturnMap`](crate::ReturnMap), with which it sticks below F_s and slides at `g(v) + σ₂v`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StribeckFriction<T: Real> {
-    stiffness: T,
-    viscous: T,
-    curve: Stribeck<T>,
+    sliding: LuGre<T>,
 }
 
 impl<T: Real> StribeckFriction<T> {
@@ -231,39 +220,17 @@ impl<T: Real> StribeckFriction<T> {
     /// # Errors
     /// [`BadFriction`] unless the stiffness is positive and σ₂ not negative, both finite.
     pub fn new(stiffness: T, viscous: T, curve: Stribeck<T>) -> Result<Self, BadFriction> {
-        Ok(Self {
-            stiffness: positive(stiffness, "stiffness")?,
-            viscous: not_negative(viscous, "viscous friction")?,
-            curve,
-        })
+        Ok(Self { sliding: LuGre::new(stiffness, T::zero(), viscous, curve)? })
     }
 }
 
 impl<T: Real> BristleLaw<T> for StribeckFriction<T> {
-    #[inline]
-    fn stiffness(&self) -> T {
-        self.stiffness
-    }
-
-    #[inline]
-    fn viscous(&self) -> T {
-        self.viscous
-    }
-
-    #[inline]
-    fn steady(&self, speed: T) -> T {
-        self.curve.at(speed)
-    }
-
-    #[inline]
-    fn greatest(&self) -> T {
-        self.curve.breakaway()
-    }
+    slides_by_lugre!();
 }
 
 stored! {
     Dahl<T>, [T: Real],
-    |law| { stiffness: T = law.stiffness, friction: T = law.friction },
+    |law| { stiffness: T = law.sliding.stiffness, friction: T = law.sliding.curve.kinetic() },
     Self::new(stiffness, friction)
 }
 
@@ -286,6 +253,10 @@ stored! {
 
 stored! {
     StribeckFriction<T>, [T: Real],
-    |law| { stiffness: T = law.stiffness, viscous: T = law.viscous, curve: Stribeck<T> = law.curve },
+    |law| {
+        stiffness: T = law.sliding.stiffness,
+        viscous: T = law.sliding.viscous,
+        curve: Stribeck<T> = law.sliding.curve,
+    },
     Self::new(stiffness, viscous, curve)
 }

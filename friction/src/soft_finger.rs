@@ -69,33 +69,9 @@ impl<T: Real> SoftFingerLimit<T> {
     fn load(&self, force: &ContactForce<T>) -> T {
         hypot(force.tangential_magnitude(), force.spin / self.arm)
     }
-}
-
-impl<T: Real> FrictionModel<T> for SoftFingerLimit<T> {
-    #[inline]
-    fn slip_margin(&self, force: &ContactForce<T>) -> SlipMargin<T> {
-        self.cone.margin(self.load(force), force.normal)
-    }
 
     #[inline]
-    fn least_normal_force(&self, force: &ContactForce<T>, safety: T) -> T {
-        self.cone.least_normal(self.load(force), safety)
-    }
-}
-
-impl<T: Real> FrictionLimit<T> for SoftFingerLimit<T> {
-    #[inline]
-    fn normal_force_keeping(&self, force: &ContactForce<T>, margin: T) -> T {
-        self.cone.normal_keeping(self.load(force), margin)
-    }
-
-    #[inline]
-    fn project(&self, force: &ContactForce<T>) -> ContactForce<T> {
-        rescaled(force, self.cone.project(self.load(force), force.normal))
-    }
-
-    #[inline]
-    fn slip_direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>> {
+    fn direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>> {
         direction(force, self.arm, |share| share)
     }
 }
@@ -157,38 +133,51 @@ impl<T: Real> PowerLimit<T> {
         }
         greater * (T::one() + (lesser / greater).powf(self.exponent)).powf(T::one() / self.exponent)
     }
-}
-
-impl<T: Real> FrictionModel<T> for PowerLimit<T> {
-    #[inline]
-    fn slip_margin(&self, force: &ContactForce<T>) -> SlipMargin<T> {
-        self.cone.margin(self.load(force), force.normal)
-    }
 
     #[inline]
-    fn least_normal_force(&self, force: &ContactForce<T>, safety: T) -> T {
-        self.cone.least_normal(self.load(force), safety)
-    }
-}
-
-impl<T: Real> FrictionLimit<T> for PowerLimit<T> {
-    #[inline]
-    fn normal_force_keeping(&self, force: &ContactForce<T>, margin: T) -> T {
-        self.cone.normal_keeping(self.load(force), margin)
-    }
-
-    #[inline]
-    fn project(&self, force: &ContactForce<T>) -> ContactForce<T> {
-        rescaled(force, self.cone.project(self.load(force), force.normal))
-    }
-
-    #[inline]
-    fn slip_direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>> {
+    fn direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>> {
         direction(force, self.arm, |share| {
             if share > T::zero() { share.powf(self.exponent - T::one()) } else { T::zero() }
         })
     }
 }
+
+/// What the limits share: a friction cone over their norm of tangential force and spin torque.
+macro_rules! limit_on_cone {
+    ($limit:ident) => {
+        impl<T: Real> FrictionModel<T> for $limit<T> {
+            #[inline]
+            fn slip_margin(&self, force: &ContactForce<T>) -> SlipMargin<T> {
+                self.cone.margin(self.load(force), force.normal)
+            }
+
+            #[inline]
+            fn least_normal_force(&self, force: &ContactForce<T>, safety: T) -> T {
+                self.cone.least_normal(self.load(force), safety)
+            }
+        }
+
+        impl<T: Real> FrictionLimit<T> for $limit<T> {
+            #[inline]
+            fn normal_force_keeping(&self, force: &ContactForce<T>, margin: T) -> T {
+                self.cone.normal_keeping(self.load(force), margin)
+            }
+
+            #[inline]
+            fn project(&self, force: &ContactForce<T>) -> ContactForce<T> {
+                rescaled(force, self.cone.project(self.load(force), force.normal))
+            }
+
+            #[inline]
+            fn slip_direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>> {
+                self.direction(force)
+            }
+        }
+    };
+}
+
+limit_on_cone!(SoftFingerLimit);
+limit_on_cone!(PowerLimit);
 
 /// The inward normal of a limit whose gradient in each of |f_t| and |τ|/e is `gradient(share of
 /// the greater of the two)`.
