@@ -29,7 +29,15 @@ use crate::{BadNoise, Cusum, ForceNoise, SlipDetector, SlipVerdict};
 /// It gives no evidence in the first 8 samples after contact, after a gap, or after an alarm.
 ///
 /// # What it can't tell
-/// A load that is taken off in a few samples while the normal force stays looks like slip.
+/// - A load that is taken off, or a drag that turns around, while the normal force stays: from the
+///   force alone it looks like slip, be it in a few samples or, where it sets in at once and falls by
+///   a deviation of the noise or so per sample, in some hundred milliseconds. Where the motion is
+///   known, [`IncipientSlip`](crate::IncipientSlip) is not deceived.
+/// - A faint drop, because the tracker follows it: all of those by five deviations of the ratio
+///   ([`ForceNoise::ratio_deviation`]) and 95 % of those by four are found, but 40 % of those by
+///   three and 2 % of those by two. A friction ratio falling from 0.5 to 0.4 is five deviations at
+///   56 times the noise in normal force, so press harder or average the sensor. A longer window
+///   does not help: by the tenth sample the tracker's forecast has come down too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DropDetector<T> {
     tracker: RatioTracker<T>,
