@@ -343,8 +343,7 @@ impl<T: Real> RatioTracker<T> {
             && square < T::GREATEST
             && normal > self.gate.least()
             && normal <= T::GREATEST
-            && force.spin.is_number()
-            && time_step.is_number();
+            && force.spin.is_number();
         if plain { Some((normal, square.root())) } else { self.pressing_at_all(force, time_step) }
     }
 
@@ -394,6 +393,9 @@ impl<T: Real> RatioTracker<T> {
     /// The evidence of any sample.
     #[inline(never)]
     fn any(&mut self, normal: T, tangential: T, time_step: T) -> Evidence<T> {
+        if !time_step.is_number() {
+            return Evidence::NotPressing;
+        }
         let Some(state) = &mut self.state else {
             self.start(normal, tangential, T::zero());
             return Evidence::None;

@@ -117,9 +117,10 @@ fn points(steps: &[f64], errors: &[f64]) -> Vec<(f64, f64, Option<f64>)> {
 pub(crate) fn report(page: &mut Page) -> Result<(), Failure> {
     page.say("\n## Integrators of dynamic friction over the step\n");
     page.say(
-        "LuGre friction with the parameters of 1995, against Radau's method at a relative tolerance of 1e-9. Explicit \
-         Euler is the bad example: it needs a step below 2g/(σ0|v|), 2e-4 s at 0.1 m/s, and no damping that \
-         makes it worse.",
+        "LuGre friction with the parameters of 1995, against Radau's method at a relative tolerance of 1e-9. \
+         Explicit Euler is the bad example: it needs a step below 2g/(σ0|v|), which is 2e-4 s at 0.1 m/s, and \
+         diverges above, where the others stay bounded and passive. The return map is another law, without \
+         memory of the rate: it differs from LuGre at every step.",
     );
     let reference = reference::moved(velocity, DURATION, INTERVAL)?;
     let counts = [10_000, 3000, 1000, 300, 100, 40, 20, 10, 5, 2, 1_u32];

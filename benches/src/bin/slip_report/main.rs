@@ -27,7 +27,7 @@ fn main() -> Result<(), Failure> {
     let folder = argument.map_or_else(|| PathBuf::from("target/slip_report"), PathBuf::from);
     std::fs::create_dir_all(&folder)?;
     let mut page = page::Page::default();
-    page.say("# Slip detectors, scored\n");
+    page.say("# Slip detectors and friction integrators, scored\n");
     let rows = detectors::report(&mut page)?;
     tribometer::report(&mut page)?;
     page.say(&cost::table()?);

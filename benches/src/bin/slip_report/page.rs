@@ -11,6 +11,9 @@ use crate::Failure;
 
 const COLOURS: [RGBColor; 5] = [RED, BLUE, GREEN, MAGENTA, BLACK];
 
+/// Headings of the columns that hold names.
+const HEADS_OF_NAMES: [&str; 2] = ["detector", "figure"];
+
 /// The ranges of a plot; x is logarithmic, y where wanted.
 pub(crate) struct Scale {
     pub(crate) x: core::ops::Range<f64>,
@@ -83,13 +86,15 @@ impl Page {
                             Some(EmptyElement::at((p.0, p.1)) + Text::new(text, (7, -14), label.clone()))
                         }))?;
                     }
-                    chart
-                        .configure_series_labels()
-                        .position(SeriesLabelPosition::LowerRight)
-                        .background_style(WHITE)
-                        .border_style(BLACK)
-                        .label_font(("sans-serif", 13))
-                        .draw()?;
+                    if series.len() > 1 {
+                        chart
+                            .configure_series_labels()
+                            .position(SeriesLabelPosition::LowerRight)
+                            .background_style(WHITE)
+                            .border_style(BLACK)
+                            .label_font(("sans-serif", 13))
+                            .draw()?;
+                    }
                 };
             }
             if scale.logarithmic {
@@ -134,7 +139,8 @@ impl Page {
                 continue;
             }
             if let Some(cells) = line.strip_prefix("| ") {
-                let tag = if inside { "td" } else { "th" };
+                let inside_head = !inside;
+                let tag = if inside_head { "th" } else { "td" };
                 if !inside {
                     body += "<div style='overflow-x:auto'><table>";
                 }
@@ -143,7 +149,11 @@ impl Page {
                 for cell in cells.trim_end_matches('|').split('|') {
                     let cell = cell.trim();
                     // Names to the left, numbers to the right.
-                    let name = cell.parse::<f64>().is_err() && cell != "-";
+                    let name = if inside_head {
+                        HEADS_OF_NAMES.contains(&cell)
+                    } else {
+                        cell.parse::<f64>().is_err() && !["-", "diverges"].contains(&cell)
+                    };
                     let class = if name { " class='name'" } else { "" };
                     body += &format!("<{tag}{class}>{}</{tag}>", cell.replace('<', "&lt;"));
                 }
@@ -172,7 +182,7 @@ impl Page {
              <meta name='viewport' content='width=device-width'><title>Slip detectors</title>\
              <style>body{{font-family:sans-serif;margin:1em auto;padding:0 1em;max-width:60em;line-height:1.4}}\
              table{{border-collapse:collapse}}td,th{{border:1px solid #999;padding:.2em .5em;text-align:right}}\
-             th{{background:#eee;vertical-align:bottom}}.name{{text-align:left}}figure{{margin:1em 0}}\
+             th{{background:#eee;vertical-align:bottom}}.name{{text-align:left;white-space:nowrap}}figure{{margin:1em 0}}\
              figcaption{{font-weight:bold}}svg{{max-width:100%;height:auto}}</style>{body}</html>"
         )
     }
