@@ -6,7 +6,7 @@ use crate::cone::{not_negative, positive};
 use crate::stored::stored;
 use crate::{BadFriction, FrictionModel, SlipVerdict};
 
-/// Limits and habits of a gripping finger.
+/// Limits and habits of a gripping finger; [`GripController::new`] validates them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GripSettings<T> {
