@@ -4,6 +4,7 @@ use fingertip_wrench::{ContactForce, Real};
 use nalgebra::Vector3;
 
 use crate::cone::{hypot, positive, saturated};
+use crate::stored::stored;
 use crate::{BadFriction, FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
 
 /// The elliptic cone `(f₁/μ₁)² + (f₂/μ₂)² ≤ f_n²` (theory 5), with coefficients along two
@@ -14,15 +15,6 @@ use crate::{BadFriction, FrictionLimit, FrictionModel, SlipDirection, SlipMargin
 /// root and two divisions). The spin torque is not limited. A tangential force outside the plane of
 /// the two directions (there should be none) counts against the lower coefficient.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "Parts<T>",
-        into = "Parts<T>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct AnisotropicCoulomb<T: Real> {
     /// The direction of the lower coefficient first.
     directions: [Vector3<T>; 2],
@@ -252,25 +244,11 @@ impl<T: Real> FrictionLimit<T> for AnisotropicCoulomb<T> {
     }
 }
 
-/// How the model is written in a file; reading one validates it again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-struct Parts<T> {
-    directions: [[T; 3]; 2],
-    coefficients: [T; 2],
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> From<AnisotropicCoulomb<T>> for Parts<T> {
-    fn from(model: AnisotropicCoulomb<T>) -> Self {
-        Self { directions: model.directions.map(Into::into), coefficients: model.coefficients }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Parts<T>> for AnisotropicCoulomb<T> {
-    type Error = BadFriction;
-    fn try_from(parts: Parts<T>) -> Result<Self, BadFriction> {
-        Self::new(parts.directions.map(Into::into), parts.coefficients)
-    }
+stored! {
+    AnisotropicCoulomb<T>, [T: Real],
+    |model| {
+        directions: [[T; 3]; 2] = model.directions.map(Into::into),
+        coefficients: [T; 2] = model.coefficients,
+    },
+    Self::new(directions.map(Into::into), coefficients)
 }

@@ -326,3 +326,54 @@ fn clamped<T: Real, const D: usize>(v: SVector<T, D>, limit: T) -> (SVector<T, D
         (v * scale * (limit / (length * scale)), true)
     }
 }
+
+/// How a state is written: its law, its deflection and its load. The integrator is a type, and is
+/// not.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(bound(
+    serialize = "T: serde::Serialize, Law: serde::Serialize",
+    deserialize = "T: serde::Deserialize<'de>, Law: serde::Deserialize<'de>"
+))]
+struct Parts<T: Real, Law, const D: usize> {
+    law: Law,
+    #[serde(rename = "deflection_m")]
+    deflection: SVector<T, D>,
+    load: T,
+}
+
+#[cfg(feature = "serde")]
+impl<T, Law, const D: usize, Method> serde::Serialize for Bristle<T, Law, D, Method>
+where
+    T: Real + serde::Serialize,
+    Law: Clone + serde::Serialize,
+{
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (law, deflection, load) = (self.law.clone(), self.deflection, self.load);
+        Parts { law, deflection, load }.serialize(serializer)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<'de, T, Law, const D: usize, Method> serde::Deserialize<'de> for Bristle<T, Law, D, Method>
+where
+    T: Real + serde::Deserialize<'de>,
+    Law: BristleLaw<T> + serde::Deserialize<'de>,
+    Method: Integrator,
+{
+    fn deserialize<S: serde::Deserializer<'de>>(deserializer: S) -> Result<Self, S::Error> {
+        let Parts::<T, Law, D> { law, deflection, load } = serde::Deserialize::deserialize(deserializer)?;
+        let mut bristle = Self::with_method(law);
+        if !(load >= T::zero() && load.is_number()) {
+            return Err(serde::de::Error::custom("the load of a bristle must be finite and not negative"));
+        }
+        // What the steps keep, to rounding.
+        let greatest = bristle.greatest_deflection() * (T::one() + T::literal(16.0) * T::EPSILON);
+        if !(length(&deflection) <= greatest) {
+            return Err(serde::de::Error::custom("the deflection of a bristle must be within its law"));
+        }
+        bristle.load = load;
+        bristle.deflection = deflection;
+        Ok(bristle)
+    }
+}

@@ -3,6 +3,7 @@
 use fingertip_wrench::Real;
 
 use crate::cone::{not_negative, positive};
+use crate::stored::stored;
 use crate::{BadFriction, Stribeck};
 
 /// A friction law `F = σ₀z + σ₁ż + σ₂v`, `ż = v − α(z, v) σ₀|v|z/g(|v|)` (theory 6.1).
@@ -41,37 +42,55 @@ pub trait BristleLaw<T: Real> {
     }
 }
 
+/// The methods of a law that slides as its field `sliding` does.
+macro_rules! slides_by_lugre {
+    () => {
+        #[inline]
+        fn stiffness(&self) -> T {
+            self.sliding.stiffness()
+        }
+
+        #[inline]
+        fn damping(&self) -> T {
+            self.sliding.damping()
+        }
+
+        #[inline]
+        fn viscous(&self) -> T {
+            self.sliding.viscous()
+        }
+
+        #[inline]
+        fn steady(&self, speed: T) -> T {
+            self.sliding.steady(speed)
+        }
+
+        #[inline]
+        fn greatest(&self) -> T {
+            self.sliding.greatest()
+        }
+    };
+}
+
 /// Dahl's law (1968): LuGre without Stribeck effect and damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Dahl<T> {
-    stiffness: T,
-    friction: T,
+pub struct Dahl<T: Real> {
+    sliding: LuGre<T>,
 }
 
 /// The LuGre law (Canudas de Wit, Olsson, Åström & Lischinsky 1995).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LuGre<T: Real> {
     stiffness: T,
     damping: T,
     viscous: T,
-    #[cfg_attr(
-        feature = "serde",
-        serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
-    )]
     curve: Stribeck<T>,
 }
 
 /// The elasto-plastic law (Dupont, Hayward, Armstrong & Altpeter 2002): LuGre with a purely elastic
 /// range, so that it does not creep under a load that stays below break-away.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ElastoPlastic<T: Real> {
-    #[cfg_attr(
-        feature = "serde",
-        serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
-    )]
     sliding: LuGre<T>,
     elastic_share: T,
 }
@@ -82,28 +101,13 @@ impl<T: Real> Dahl<T> {
     /// # Errors
     /// [`BadFriction`] unless both are positive and finite.
     pub fn new(stiffness: T, friction: T) -> Result<Self, BadFriction> {
-        Ok(Self {
-            stiffness: positive(stiffness, "stiffness")?,
-            friction: positive(friction, "kinetic friction")?,
-        })
+        let curve = Stribeck::constant(friction)?;
+        Ok(Self { sliding: LuGre::new(stiffness, T::zero(), T::zero(), curve)? })
     }
 }
 
 impl<T: Real> BristleLaw<T> for Dahl<T> {
-    #[inline]
-    fn stiffness(&self) -> T {
-        self.stiffness
-    }
-
-    #[inline]
-    fn steady(&self, _speed: T) -> T {
-        self.friction
-    }
-
-    #[inline]
-    fn greatest(&self) -> T {
-        self.friction
-    }
+    slides_by_lugre!();
 }
 
 impl<T: Real> LuGre<T> {
@@ -185,30 +189,7 @@ impl<T: Real> ElastoPlastic<T> {
 }
 
 impl<T: Real> BristleLaw<T> for ElastoPlastic<T> {
-    #[inline]
-    fn stiffness(&self) -> T {
-        self.sliding.stiffness
-    }
-
-    #[inline]
-    fn damping(&self) -> T {
-        self.sliding.damping
-    }
-
-    #[inline]
-    fn viscous(&self) -> T {
-        self.sliding.viscous
-    }
-
-    #[inline]
-    fn steady(&self, speed: T) -> T {
-        self.sliding.steady(speed)
-    }
-
-    #[inline]
-    fn greatest(&self) -> T {
-        self.sliding.greatest()
-    }
+    slides_by_lugre!();
 
     #[inline]
     fn plastic_share(&self, deflection: T, opposed: bool, speed: T) -> T {
@@ -229,15 +210,8 @@ impl<T: Real> BristleLaw<T> for ElastoPlastic<T> {
 /// Dry friction on a Stribeck curve with a stiff elastic contact: meant for
 /// [`ReturnMap`](crate::ReturnMap), with which it sticks below F_s and slides at `g(v) + σ₂v`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StribeckFriction<T: Real> {
-    stiffness: T,
-    viscous: T,
-    #[cfg_attr(
-        feature = "serde",
-        serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
-    )]
-    curve: Stribeck<T>,
+    sliding: LuGre<T>,
 }
 
 impl<T: Real> StribeckFriction<T> {
@@ -246,32 +220,43 @@ impl<T: Real> StribeckFriction<T> {
     /// # Errors
     /// [`BadFriction`] unless the stiffness is positive and σ₂ not negative, both finite.
     pub fn new(stiffness: T, viscous: T, curve: Stribeck<T>) -> Result<Self, BadFriction> {
-        Ok(Self {
-            stiffness: positive(stiffness, "stiffness")?,
-            viscous: not_negative(viscous, "viscous friction")?,
-            curve,
-        })
+        Ok(Self { sliding: LuGre::new(stiffness, T::zero(), viscous, curve)? })
     }
 }
 
 impl<T: Real> BristleLaw<T> for StribeckFriction<T> {
-    #[inline]
-    fn stiffness(&self) -> T {
-        self.stiffness
-    }
+    slides_by_lugre!();
+}
 
-    #[inline]
-    fn viscous(&self) -> T {
-        self.viscous
-    }
+stored! {
+    Dahl<T>, [T: Real],
+    |law| { stiffness: T = law.sliding.stiffness, friction: T = law.sliding.curve.kinetic() },
+    Self::new(stiffness, friction)
+}
 
-    #[inline]
-    fn steady(&self, speed: T) -> T {
-        self.curve.at(speed)
-    }
+stored! {
+    LuGre<T>, [T: Real],
+    |law| {
+        stiffness: T = law.stiffness,
+        damping: T = law.damping,
+        viscous: T = law.viscous,
+        curve: Stribeck<T> = law.curve,
+    },
+    Self::new(stiffness, damping, viscous, curve)
+}
 
-    #[inline]
-    fn greatest(&self) -> T {
-        self.curve.breakaway()
-    }
+stored! {
+    ElastoPlastic<T>, [T: Real],
+    |law| { sliding: LuGre<T> = law.sliding, elastic_share: T = law.elastic_share },
+    Self::new(sliding, elastic_share)
+}
+
+stored! {
+    StribeckFriction<T>, [T: Real],
+    |law| {
+        stiffness: T = law.sliding.stiffness,
+        viscous: T = law.sliding.viscous,
+        curve: Stribeck<T> = law.sliding.curve,
+    },
+    Self::new(stiffness, viscous, curve)
 }

@@ -4,6 +4,7 @@ use fingertip_wrench::{ContactForce, Real};
 use thiserror::Error;
 
 use crate::cone::{Cone, rescaled};
+use crate::stored::stored;
 use crate::{FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
 
 /// Coulomb's cone `|f_t| ≤ μ f_n` (theory 5). The spin torque is not limited: a point contact
@@ -12,15 +13,6 @@ use crate::{FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
 /// The margin is the signed Euclidean distance of the contact force to the cone:
 /// `(μ f_n − |f_t|)/√(1+μ²)`, and minus the length of the force where the apex is nearest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "Parts<T>",
-        into = "Parts<T>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct Coulomb<T: Real> {
     cone: Cone<T>,
 }
@@ -95,24 +87,8 @@ impl<T: Real> FrictionLimit<T> for Coulomb<T> {
     }
 }
 
-/// How the model is written in a file; reading one validates it again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-struct Parts<T> {
-    coefficient: T,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> From<Coulomb<T>> for Parts<T> {
-    fn from(model: Coulomb<T>) -> Self {
-        Self { coefficient: model.coefficient() }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Parts<T>> for Coulomb<T> {
-    type Error = BadFriction;
-    fn try_from(parts: Parts<T>) -> Result<Self, BadFriction> {
-        Self::new(parts.coefficient)
-    }
+stored! {
+    Coulomb<T>, [T: Real],
+    |model| { coefficient: T = model.coefficient() },
+    Self::new(coefficient)
 }

@@ -3,6 +3,9 @@
 use fingertip_wrench::Real;
 use thiserror::Error;
 
+use crate::ratio_tracker::ChangeTest;
+use crate::stored::stored;
+
 /// A one-sided cumulative sum `S ← max(0, S + x − k)` that passes at `S > h` (Page 1954). The
 /// Page-Hinkley test is the same statistic.
 ///
@@ -10,7 +13,6 @@ use thiserror::Error;
 /// allowance `k` is half the smallest change of the mean worth finding; the threshold `h` sets the
 /// rate of false alarms ([`for_false_alarms`](Self::for_false_alarms), theory 7.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cusum<T> {
     allowance: T,
     threshold: T,
@@ -69,13 +71,14 @@ impl<T: Real> Cusum<T> {
     /// ignored.
     #[inline]
     pub fn add(&mut self, sample: T) -> bool {
-        let sum = self.sum + sample - self.allowance;
-        // A NaN compares false with everything; an infinite sum stays bounded by twice the
-        // threshold so that it can come down again.
-        if sum > T::zero() {
-            self.sum = sum.min(self.threshold + self.threshold);
-        } else if sum <= T::zero() {
-            self.sum = T::zero();
+        // False for a NaN alone.
+        if sample.abs() >= T::zero() {
+            // Choices between values, not branches: the sum is above zero in no foreseeable way.
+            let sum = self.sum + sample - self.allowance;
+            let sum = if sum > T::zero() { sum } else { T::zero() };
+            // Twice the threshold bounds it, so that it comes down again from an infinite sample.
+            let greatest = self.threshold + self.threshold;
+            self.sum = if sum < greatest { sum } else { greatest };
         }
         self.sum > self.threshold
     }
@@ -106,4 +109,22 @@ impl<T: Real> Cusum<T> {
     pub fn reset(&mut self) {
         self.sum = T::zero();
     }
+}
+
+impl<T: Real> ChangeTest<T> for Cusum<T> {
+    #[inline]
+    fn add(&mut self, sample: T) -> bool {
+        Self::add(self, sample)
+    }
+
+    #[inline]
+    fn reset(&mut self) {
+        Self::reset(self);
+    }
+}
+
+stored! {
+    Cusum<T>, [T: Real],
+    |sum| { allowance: T = sum.allowance, threshold: T = sum.threshold },
+    Self::new(allowance, threshold)
 }

@@ -267,3 +267,34 @@ fn finds_every_drop_of_stick_slip_once() {
         .count();
     assert_eq!(alarms, 100);
 }
+
+/// How many of 2000 drops of so many deviations are found, when they last; and how many of the
+/// loads that turn around within a few samples are taken for slip.
+#[test]
+fn what_it_can_not_tell() {
+    let mut rng = Pcg64Mcg::seed_from_u64(21);
+    let noise = ForceNoise::isotropic(0.02).unwrap();
+    let mut found = |after: &dyn Fn(usize) -> f64| {
+        (0..2000)
+            .filter(|_| {
+                let mut detector = DropDetector::new(noise).unwrap();
+                (0..160).any(|index| {
+                    let f_t = if index < 60 { 1.6 } else { after(index - 60) };
+                    let noisy = sample::<f64>(4.0 + 0.02 * normal(&mut rng), f_t + 0.02 * normal(&mut rng));
+                    detector.update(&noisy, 1e-3) == SlipVerdict::Slipping
+                })
+            })
+            .count() as f64
+            / 2000.0
+    };
+    let deviation = 0.02 * (1.0_f64 + 0.4 * 0.4).sqrt();
+    let shares = [2.0, 3.0, 4.0, 5.0, 6.0].map(|size| found(&|_| 1.6 - size * deviation));
+    println!("found of drops by 2, 3, 4, 5, 6 deviations: {shares:?}");
+    assert!(shares.is_sorted() && shares[0] < 0.2 && shares[3] > 0.85 && shares[4] > 0.98, "{shares:?}");
+    // From 1.6 N through nothing to 1.6 N the other way, in 2, 20 and 200 samples.
+    let turned = [2.0, 20.0, 200.0]
+        .map(|count| found(&|index| (1.6 - 3.2 * (index as f64 + 1.0) / count).abs().min(1.6)));
+    println!("taken for slip of turns in 2, 20, 200 ms: {turned:?}");
+    // So the documentation says; were it to get better, this is the place to see it.
+    assert!(turned.iter().all(|share| *share > 0.9), "{turned:?}");
+}

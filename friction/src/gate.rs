@@ -3,9 +3,11 @@
 use fingertip_wrench::{ContactForce, Real};
 use thiserror::Error;
 
+#[cfg(feature = "serde")]
+use crate::cone::positive;
+use crate::stored::stored;
 /// Standard deviations of the noise of a contact force.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ForceNoise<T> {
     /// Of the normal force \[N\].
     pub normal: T,
@@ -53,7 +55,6 @@ impl<T: Real> ForceNoise<T> {
 
 /// Lets a sample through only when the normal force stands well above its noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NormalForceGate<T> {
     least: T,
 }
@@ -80,4 +81,16 @@ impl<T: Real> NormalForceGate<T> {
     pub fn ratio(&self, force: &ContactForce<T>) -> Option<T> {
         if force.normal > self.least { force.friction_ratio() } else { None }
     }
+}
+
+stored! {
+    ForceNoise<T>, [T: Real],
+    |noise| { normal: T = noise.normal, tangential: T = noise.tangential },
+    Self { normal, tangential }.checked()
+}
+
+stored! {
+    NormalForceGate<T>, [T: Real],
+    |gate| { least: T = gate.least },
+    positive(least, "least normal force").map(|least| Self { least })
 }

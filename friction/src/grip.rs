@@ -3,9 +3,10 @@
 use fingertip_wrench::{ContactForce, Real};
 
 use crate::cone::{not_negative, positive};
+use crate::stored::stored;
 use crate::{BadFriction, FrictionModel, SlipVerdict};
 
-/// Limits and habits of a gripping finger.
+/// Limits and habits of a gripping finger; [`GripController::new`] validates them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GripSettings<T> {
@@ -29,7 +30,6 @@ pub struct GripSettings<T> {
 /// The people's grip does the same (Johansson & Westling 1984). A boost after slip decays at the
 /// falling rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GripController<T> {
     settings: GripSettings<T>,
     command: T,
@@ -107,6 +107,12 @@ impl<T: Real> GripController<T> {
             self.boosted = self.settings.least;
         }
     }
+}
+
+stored! {
+    GripController<T>, [T: Real],
+    |grip| { settings: GripSettings<T> = grip.settings },
+    Self::new(settings)
 }
 
 #[cfg(test)]

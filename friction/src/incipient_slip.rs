@@ -3,6 +3,7 @@
 use fingertip_wrench::{ContactForce, Real};
 use nalgebra::Vector3;
 
+use crate::stored::stored;
 use crate::{BadDetector, NormalForceGate, SlipVerdict};
 
 /// How many places divide the window.
@@ -20,6 +21,8 @@ const PLACES: usize = 4;
 pub struct IncipientSlip<T: Real> {
     gate: NormalForceGate<T>,
     window: T,
+    /// Places per metre.
+    scale: T,
     warning_share: T,
     state: Option<State<T>>,
 }
@@ -30,9 +33,11 @@ struct State<T: Real> {
     turn: Place<T>,
     /// The place farthest from it.
     farthest: Place<T>,
-    farthest_distance: T,
-    /// The last places, a quarter window apart, oldest first.
+    /// Square of its distance from the turn, in steps between places.
+    farthest_square: T,
+    /// The last places, a quarter window apart, the oldest after the newest.
     places: [Place<T>; PLACES + 1],
+    newest: usize,
     known: usize,
     verdict: SlipVerdict,
     /// Stiffness since the turn, once known \[N/m\].
@@ -46,14 +51,19 @@ struct Place<T: Real> {
 }
 
 impl<T: Real> Place<T> {
-    /// Distance and stiffness from another place, along the way between them.
-    fn from(&self, other: &Self) -> (T, T) {
-        let way = self.displacement - other.displacement;
-        let scale = way.amax().normalising_factor();
-        let square = (way * scale).norm_squared();
-        // The force on the fingertip opposes its displacement.
-        let stiffness = -(self.force - other.force).dot(&(way * scale)) * scale / square;
-        (square.root() / scale, stiffness)
+    /// Square of the distance from another place in steps of which `scale` make a metre: it
+    /// underflows only far below a step, and where it overflows it is far.
+    #[inline]
+    fn square_from(&self, other: &Self, scale: T) -> T {
+        ((self.displacement - other.displacement) * scale).norm_squared()
+    }
+
+    /// Stiffness \[N/m\] from another place: the force on the fingertip opposes its displacement.
+    /// Not a number where they are one, or too far apart for the square.
+    #[inline]
+    fn stiffness_from(&self, other: &Self, scale: T) -> T {
+        let way = (self.displacement - other.displacement) * scale;
+        -(self.force - other.force).dot(&way) * scale / way.norm_squared()
     }
 }
 
@@ -71,10 +81,14 @@ impl<T: Real> IncipientSlip<T> {
         if !(window > T::zero() && window.is_number()) {
             return Err(BadDetector { parameter: "window", requirement: "positive and finite" });
         }
+        let scale = T::literal(PLACES as f64) / window;
+        if !scale.is_number() {
+            return Err(BadDetector { parameter: "window", requirement: "no subnormal number" });
+        }
         if !(warning_share > T::literal(0.2) && warning_share < T::one()) {
             return Err(BadDetector { parameter: "warning share", requirement: "between 0.2 and 1" });
         }
-        Ok(Self { gate, window, warning_share, state: None })
+        Ok(Self { gate, window, scale, warning_share, state: None })
     }
 
     /// Takes the contact force and the displacement of the fingertip over the object \[m\] at the
@@ -89,58 +103,35 @@ impl<T: Real> IncipientSlip<T> {
             return SlipVerdict::NotPressing;
         }
         let here = Place { displacement: *displacement, force: force.tangential };
-        let quarter = self.window / T::literal(PLACES as f64);
+        let scale = self.scale;
         let Some(state) = &mut self.state else {
             self.state = Some(State::at(here));
             return SlipVerdict::Holding;
         };
-        let (distance, _) = here.from(&state.turn);
-        let (back, _) = here.from(&state.farthest);
-        if distance > state.farthest_distance {
+        let square = here.square_from(&state.turn, scale);
+        if square > state.farthest_square {
             state.farthest = here;
-            state.farthest_distance = distance;
-        } else if back > quarter {
-            // It turned: the farthest place is the new start.
-            let start = state.farthest;
-            *state = State::at(start);
-            state.farthest = here;
-            state.farthest_distance = back;
+            state.farthest_square = square;
+        } else {
+            let back = here.square_from(&state.farthest, scale);
+            if back > T::one() {
+                // It turned: the farthest place is the new start.
+                let start = state.farthest;
+                *state = State::at(start);
+                state.farthest = here;
+                state.farthest_square = back;
+            }
         }
-        if distance < quarter && state.known == 1 {
+        if square < T::one() && state.known == 1 {
             // At rest before the motion: the force may relax.
             state.turn.force = here.force;
             state.places[0] = state.turn;
             return state.verdict;
         }
-        let newest = state.places[state.known - 1];
-        let (step, _) = here.from(&newest);
-        if step < quarter {
+        if here.square_from(&state.places[state.newest], scale) < T::one() {
             return state.verdict;
         }
-        if state.known <= PLACES {
-            state.places[state.known] = here;
-            state.known += 1;
-        } else {
-            state.places.copy_within(1.., 0);
-            state.places[PLACES] = here;
-        }
-        if state.known <= PLACES {
-            return state.verdict;
-        }
-        let oldest = state.places[0];
-        let (way, mean) = oldest.from(&state.turn);
-        let (_, local) = here.from(&oldest);
-        // The first stretches settle: fewer than four windows tell no mean stiffness.
-        if way >= self.window * T::literal(4.0) && mean > T::zero() && mean.is_number() {
-            state.stiffness = Some(mean);
-            if state.verdict == SlipVerdict::Holding && local < mean * self.warning_share {
-                state.verdict = SlipVerdict::Warning;
-            }
-            if state.verdict == SlipVerdict::Warning && local < mean * T::literal(0.2) {
-                state.verdict = SlipVerdict::Slipping;
-            }
-        }
-        state.verdict
+        state.arrive(here, scale, self.warning_share)
     }
 
     /// The mean tangential stiffness \[N/m\] since the motion last turned; `None` before enough
@@ -157,15 +148,59 @@ impl<T: Real> IncipientSlip<T> {
 }
 
 impl<T: Real> State<T> {
+    /// Takes a new place, and judges the stiffness up to it.
+    #[inline(never)]
+    fn arrive(&mut self, here: Place<T>, scale: T, warning_share: T) -> SlipVerdict {
+        let after = |index: usize| if index >= PLACES { 0 } else { index + 1 };
+        self.newest = after(self.newest);
+        self.places[self.newest] = here;
+        if self.known <= PLACES {
+            self.known += 1;
+        }
+        if self.known <= PLACES {
+            return self.verdict;
+        }
+        // The first stretches settle: fewer than four windows tell no mean stiffness.
+        let settled = T::literal((4 * PLACES * 4 * PLACES) as f64);
+        let oldest = &self.places[after(self.newest)];
+        if oldest.square_from(&self.turn, scale) < settled {
+            return self.verdict;
+        }
+        let mean = oldest.stiffness_from(&self.turn, scale);
+        let local = here.stiffness_from(oldest, scale);
+        if mean > T::zero() && mean.is_number() {
+            self.stiffness = Some(mean);
+            if self.verdict == SlipVerdict::Holding && local < mean * warning_share {
+                self.verdict = SlipVerdict::Warning;
+            }
+            if self.verdict == SlipVerdict::Warning && local < mean * T::literal(0.2) {
+                self.verdict = SlipVerdict::Slipping;
+            }
+        }
+        self.verdict
+    }
+
     fn at(place: Place<T>) -> Self {
         Self {
             turn: place,
             farthest: place,
-            farthest_distance: T::zero(),
+            farthest_square: T::zero(),
             places: [place; PLACES + 1],
+            newest: 0,
             known: 1,
             verdict: SlipVerdict::Holding,
             stiffness: None,
         }
     }
+}
+
+stored! {
+    IncipientSlip<T>, [T: Real],
+    |detector| {
+        gate: NormalForceGate<T> = detector.gate,
+        #[serde(rename = "window_m")]
+        window: T = detector.window,
+        warning_share: T = detector.warning_share,
+    },
+    Self::new(gate, window, warning_share)
 }

@@ -2,6 +2,7 @@
 
 use fingertip_wrench::{ContactForce, Real};
 
+use crate::stored::stored;
 use crate::{BadNoise, Cusum, ForceNoise, FrictionEstimate, NormalForceGate};
 
 /// Fits `|f_t| = μ f_n` to the samples of a slide, with noise on both (Deming's regression through
@@ -13,7 +14,6 @@ use crate::{BadNoise, Cusum, ForceNoise, FrictionEstimate, NormalForceGate};
 /// A two-sided cumulative sum of the residuals notices another surface, whereupon the sums start
 /// anew.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct KineticFriction<T> {
     noise: ForceNoise<T>,
     gate: NormalForceGate<T>,
@@ -144,6 +144,16 @@ impl<T: Real> KineticFriction<T> {
         self.above.reset();
         self.below.reset();
     }
+}
+
+stored! {
+    KineticFriction<T>, [T: Real],
+    |friction| {
+        noise: ForceNoise<T> = friction.noise,
+        #[serde(rename = "memory_s")]
+        memory: T = friction.memory,
+    },
+    Self::new(noise, memory)
 }
 
 #[cfg(test)]

@@ -2,14 +2,20 @@
 
 use fingertip_wrench::{ContactForce, Real};
 
-use crate::ratio_tracker::{Evidence, RatioTracker};
+use crate::ratio_tracker::{ChangeTest, RatioTracker};
 use crate::run_length::{likelihood_ratio_threshold, run_length_for};
+use crate::stored::stored;
 use crate::{BadDetector, BadNoise, ForceNoise, SlipDetector, SlipVerdict};
 
 /// `max_j S_j²/(2j) > threshold` over the sums `S_j > 0` of the last `j ≤ W` standardised samples:
 /// it needs no guess of the size of the change, as the cumulative sum does.
 ///
-/// One update costs W additions; it is recomputed from the samples, so that no rounding adds up.
+/// # Cost
+/// The sums are taken anew from the samples, so that no rounding adds up: W additions. But hardly
+/// any update needs them. The line through the first and the last point of the bound `√(2j·threshold)`
+/// lies below all of it, the root being concave; so a sum that passes the bound has passed the line,
+/// and then so has Page's cumulative sum with the line's slope as allowance, which costs one
+/// addition. Only while that is above the line's intercept are the sums looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LikelihoodRatio<T, const W: usize> {
     /// The last samples, newest at `next − 1`.
@@ -18,6 +24,10 @@ pub struct LikelihoodRatio<T, const W: usize> {
     filled: usize,
     window: usize,
     threshold: T,
+    /// Slope and intercept of the line below the bound on the sums, and the cumulative sum.
+    slope: T,
+    intercept: T,
+    screen: T,
 }
 
 impl<T: Real, const W: usize> LikelihoodRatio<T, W> {
@@ -40,7 +50,13 @@ impl<T: Real, const W: usize> LikelihoodRatio<T, W> {
         if !(threshold > T::zero() && threshold.is_number()) {
             return Err(BadDetector { parameter: "threshold", requirement: "positive and finite" });
         }
-        Ok(Self { samples: [T::zero(); W], next: 0, filled: 0, window, threshold })
+        let first = (threshold + threshold).root();
+        let last = first * T::literal(window as f64).root();
+        let slope = (last - first) / T::literal(window as f64 - 1.0);
+        // Lowered by far more than what the rounding of sums of that size comes to.
+        let intercept = (first - slope) - last * (T::EPSILON * T::literal(window as f64)).root();
+        let samples = [T::zero(); W];
+        Ok(Self { samples, next: 0, filled: 0, window, threshold, slope, intercept, screen: T::zero() })
     }
 
     /// Takes one standardised sample and tells whether the ratio is above the threshold. A NaN is
@@ -55,6 +71,13 @@ impl<T: Real, const W: usize> LikelihoodRatio<T, W> {
         }
         self.next = if self.next + 1 >= self.window { 0 } else { self.next + 1 };
         self.filled = (self.filled + 1).min(self.window);
+        let screen = self.screen + sample - self.slope;
+        self.screen = (if screen > T::zero() { screen } else { T::zero() }).min(T::GREATEST);
+        self.screen > self.intercept && self.any_sum_passes()
+    }
+
+    #[inline(never)]
+    fn any_sum_passes(&self) -> bool {
         let (newer, older) = self.samples.split_at(self.next);
         let older = older.get(..self.window - self.next).unwrap_or(&[]);
         let twice = self.threshold + self.threshold;
@@ -74,6 +97,19 @@ impl<T: Real, const W: usize> LikelihoodRatio<T, W> {
     pub fn reset(&mut self) {
         self.filled = 0;
         self.next = 0;
+        self.screen = T::zero();
+    }
+}
+
+impl<T: Real, const W: usize> ChangeTest<T> for LikelihoodRatio<T, W> {
+    #[inline]
+    fn add(&mut self, sample: T) -> bool {
+        Self::add(self, sample)
+    }
+
+    #[inline]
+    fn reset(&mut self) {
+        Self::reset(self);
     }
 }
 
@@ -98,34 +134,46 @@ impl<T: Real, const W: usize> LikelihoodRatioDetector<T, W> {
     ) -> Result<Self, BadDetector> {
         let length = run_length_for(false_alarms_per_minute, sample_rate);
         let threshold = T::literal(likelihood_ratio_threshold(W, length)?);
+        Self::with_ratio(noise, LikelihoodRatio::new(threshold)?)
+    }
+
+    /// With another likelihood ratio.
+    ///
+    /// # Errors
+    /// [`BadDetector`] unless both deviations, and their squares, are positive and finite.
+    pub fn with_ratio(noise: ForceNoise<T>, ratio: LikelihoodRatio<T, W>) -> Result<Self, BadDetector> {
         let tracker = RatioTracker::new(noise).map_err(|BadNoise { .. }| BadDetector {
             parameter: "noise",
             requirement: "positive and finite",
         })?;
-        Ok(Self { tracker, ratio: LikelihoodRatio::new(threshold)? })
+        Ok(Self { tracker, ratio })
     }
 }
 
 impl<T: Real, const W: usize> SlipDetector<T> for LikelihoodRatioDetector<T, W> {
     #[inline]
     fn update(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict {
-        let passed = match self.tracker.take(force, time_step) {
-            Evidence::NotPressing => return SlipVerdict::NotPressing,
-            Evidence::None => return SlipVerdict::Holding,
-            Evidence::Repeated => self.ratio.add(T::zero()),
-            Evidence::Fall(fall) => self.ratio.add(fall),
-        };
-        if passed {
-            self.ratio.reset();
-            self.tracker.restart();
-            SlipVerdict::Slipping
-        } else {
-            SlipVerdict::Holding
-        }
+        self.tracker.update(&mut self.ratio, force, time_step)
     }
 
     fn reset(&mut self) {
         self.tracker.reset();
         self.ratio.reset();
     }
+}
+
+stored! {
+    LikelihoodRatio<T, W>, [T: Real, const W: usize],
+    |ratio| { window: usize = ratio.window, threshold: T = ratio.threshold },
+    Self::with_window(window, threshold)
+}
+
+stored! {
+    LikelihoodRatioDetector<T, W>, [T: Real, const W: usize],
+    |detector| {
+        noise: ForceNoise<T> = detector.tracker.noise(),
+        window: usize = detector.ratio.window,
+        threshold: T = detector.ratio.threshold,
+    },
+    LikelihoodRatio::with_window(window, threshold).and_then(|ratio| Self::with_ratio(noise, ratio))
 }

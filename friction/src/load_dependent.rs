@@ -4,6 +4,7 @@ use fingertip_wrench::{ContactForce, Real};
 
 use crate::cone::{Cone, hypot, not_negative, positive, rescaled, saturated};
 use crate::soft_finger::direction;
+use crate::stored::stored;
 use crate::{BadFriction, FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
 
 /// The elliptic soft-finger limit `|f_t|² + (τ/e(f_n))² ≤ (μ f_n)²` whose torque arm grows with
@@ -16,15 +17,6 @@ use crate::{BadFriction, FrictionLimit, FrictionModel, SlipDirection, SlipMargin
 /// `√(|δf_t|² + (δτ/e)² + δf_n²)` with `e` at the present normal force) makes it slip. Outside, it
 /// is minus the distance to the cone with the present arm.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "Parts<T>",
-        into = "Parts<T>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct LoadDependentLimit<T: Real> {
     cone: Cone<T>,
     arm: T,
@@ -183,34 +175,15 @@ impl<T: Real> FrictionLimit<T> for LoadDependentLimit<T> {
     }
 }
 
-/// How the model is written in a file; reading one validates it again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-struct Parts<T> {
-    coefficient: T,
-    #[serde(rename = "arm_m")]
-    arm: T,
-    #[serde(rename = "reference_N")]
-    reference: T,
-    growth: T,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> From<LoadDependentLimit<T>> for Parts<T> {
-    fn from(model: LoadDependentLimit<T>) -> Self {
-        Self {
-            coefficient: model.cone.coefficient,
-            arm: model.arm,
-            reference: model.reference,
-            growth: model.growth,
-        }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Parts<T>> for LoadDependentLimit<T> {
-    type Error = BadFriction;
-    fn try_from(parts: Parts<T>) -> Result<Self, BadFriction> {
-        Self::new(parts.coefficient, parts.arm, parts.reference, parts.growth)
-    }
+stored! {
+    LoadDependentLimit<T>, [T: Real],
+    |model| {
+        coefficient: T = model.cone.coefficient,
+        #[serde(rename = "arm_m")]
+        arm: T = model.arm,
+        #[serde(rename = "reference_N")]
+        reference: T = model.reference,
+        growth: T = model.growth,
+    },
+    Self::new(coefficient, arm, reference, growth)
 }

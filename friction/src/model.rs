@@ -29,6 +29,11 @@ impl<T: Real> SlipMargin<T> {
 /// the arm is the model's ratio of the greatest spin torque to the greatest tangential force (zero
 /// spin for a model without one).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct SlipDirection<T: Real> {
     /// Direction of the sliding velocity of the fingertip relative to the object, in the frame of
     /// the contact force.

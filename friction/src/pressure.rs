@@ -5,6 +5,7 @@ use crate::BadFriction;
 /// An axially symmetric pressure on a circular patch; `x` is the radius over that of the patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(remote = "Self"))]
 #[non_exhaustive]
 pub enum PressureDistribution {
     /// Constant: a flat punch on a soft layer.
@@ -73,6 +74,21 @@ impl PressureDistribution {
 /// Euler's beta function for arguments above zero, through the logarithm of Γ.
 fn beta(a: f64, b: f64) -> f64 {
     libm::exp(libm::lgamma(a) + libm::lgamma(b) - libm::lgamma(a + b))
+}
+
+/// The derived functions, but for the exponent that is checked on reading.
+#[cfg(feature = "serde")]
+impl serde::Serialize for PressureDistribution {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Self::serialize(self, serializer)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<'de> serde::Deserialize<'de> for PressureDistribution {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Self::deserialize(deserializer)?.checked().map_err(serde::de::Error::custom)
+    }
 }
 
 #[cfg(test)]

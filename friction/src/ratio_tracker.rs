@@ -2,7 +2,7 @@
 
 use fingertip_wrench::{ContactForce, Real};
 
-use crate::{BadNoise, ForceNoise, NormalForceGate};
+use crate::{BadNoise, ForceNoise, NormalForceGate, SlipVerdict};
 
 /// Gain of the tracker on the value, per sample at the nominal rate.
 const ALPHA: f64 = 0.15;
@@ -45,39 +45,49 @@ const GREATEST_GAP: f64 = 16.0;
 /// steps. For a step of `s` nominal times the gain is `αs/(1−α+αs)`, which is α at `s = 1` and
 /// tends to the continuous-time tracker for small `s` and to "forget all" for large `s`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct RatioTracker<T> {
+    noise: ForceNoise<T>,
     gate: NormalForceGate<T>,
-    normal_variance: T,
-    tangential_variance: T,
-    /// 1/(standard deviation of the innovation of the tangential force).
-    tangential_weight: T,
+    variances: Variances<T>,
     state: Option<State<T>>,
 }
 
+/// Noise of the innovations.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Variances<T> {
+    normal: T,
+    tangential: T,
+    /// 1/√tangential.
+    tangential_weight: T,
+}
+
+/// In this order, since compilers join neighbouring lines into one vector of four `f32`, whose
+/// shuffles cost more than they save.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 struct State<T> {
     ratio: Line<T>,
-    tangential: Line<T>,
     last_normal: T,
     last_tangential: T,
     /// Nominal sample time \[s\].
     period: T,
     block: Block<T>,
-    /// One over the deviation of the ratio's innovation times the normal force, and the ratio for
-    /// which it was worked out.
+    tangential: Line<T>,
+    /// One over the deviation of the ratio's innovation times the normal force, and the range of
+    /// ratios for which it is good.
     weight: T,
-    weighed_at: T,
+    weighed_from: T,
+    weighed_to: T,
     /// Variance of the standardised innovation, from below by the stated noise.
     roughness: T,
+    /// One over the root of the greater of roughness and 1.
+    smoothing: T,
     /// Samples taken, up to `STEADY`.
     samples: u8,
 }
 
 /// Samples not yet taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Block<T> {
     normal: T,
     tangential: T,
@@ -91,37 +101,43 @@ impl<T: Real> Block<T> {
     fn empty() -> Self {
         Self { normal: T::zero(), tangential: T::zero(), count: T::zero(), elapsed: T::zero() }
     }
+
+    /// No sample waits, and no time: what waits has taken time.
+    #[inline]
+    fn is_empty(&self) -> bool {
+        self.elapsed <= T::zero()
+    }
 }
 
 /// A value and its slope per nominal sample time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Line<T> {
     value: T,
     slope: T,
 }
 
 /// What a sample says.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Evidence<T> {
+enum Evidence<T> {
     /// Nothing: not pressing, or not finite.
     NotPressing,
     /// Nothing yet: the tracker starts, or the time has not advanced.
     None,
-    /// The sample repeats the one before; it is no independent evidence.
-    Repeated,
     /// Standardised fall below the forecast: Gaussian with unit variance while nothing happens.
     Fall(T),
+}
+
+/// A test for a change of the mean, from zero, of a sequence of unit variance.
+pub(crate) trait ChangeTest<T> {
+    /// Takes one sample, unless it is NaN, and tells whether the mean has grown.
+    fn add(&mut self, sample: T) -> bool;
+
+    /// Forgets all samples.
+    fn reset(&mut self);
 }
 
 impl<T: Real> Line<T> {
     const fn at(value: T, zero: T) -> Self {
         Self { value, slope: zero }
-    }
-
-    #[inline]
-    fn is_number(&self) -> bool {
-        self.value.is_number() && self.slope.is_number()
     }
 
     /// Takes a measurement and returns its innovation.
@@ -144,12 +160,23 @@ struct Step<T> {
     slope_gain: T,
 }
 
+/// Whether a time step is the nominal one, but for jitter.
+#[inline]
+fn is_regular<T: Real>(elapsed: T, period: T) -> bool {
+    (elapsed - period).abs() <= period * T::literal(1.0 / 64.0)
+}
+
 impl<T: Real> Step<T> {
+    /// One nominal sample time, once started up.
     #[inline]
+    fn steady() -> Self {
+        Self { length: T::one(), value_gain: T::literal(ALPHA), slope_gain: T::literal(BETA) }
+    }
+
     fn new(elapsed: T, period: T, samples: u8) -> Self {
-        let regular = (elapsed - period).abs() <= period * T::literal(1.0 / 64.0);
+        let regular = is_regular(elapsed, period);
         if regular && samples >= STEADY {
-            return Self { length: T::one(), value_gain: T::literal(ALPHA), slope_gain: T::literal(BETA) };
+            return Self::steady();
         }
         let length = if regular { T::one() } else { elapsed / period };
         let scaled = length * T::literal(ALPHA);
@@ -165,6 +192,81 @@ impl<T: Real> Step<T> {
         };
         Self { length, value_gain, slope_gain: slope_gain / length }
     }
+}
+
+/// What is taken in at one step: a sample, or the mean of some.
+struct Sample<T> {
+    normal: T,
+    tangential: T,
+    ratio: T,
+    /// By how much its noise is less than that of one sample.
+    sharper: T,
+}
+
+impl<T: Real> State<T> {
+    #[inline]
+    fn is_steady(&self) -> bool {
+        self.samples >= STEADY
+    }
+
+    /// Whether the lines are so far within the range that, on their way back to ordinary samples,
+    /// they stay there: a slope adds to its value for some 1/α samples at most.
+    fn is_followed(&self) -> bool {
+        let (ratio, tangential) = (&self.ratio, &self.tangential);
+        let greatest = T::GREATEST * T::literal(1.0 / 1024.0);
+        [ratio.value, ratio.slope, tangential.value, tangential.slope].iter().all(|x| x.abs() < greatest)
+    }
+
+    /// Takes in a sample; returns the standardised innovations of the ratio and of the force.
+    #[inline(always)]
+    fn follow(&mut self, variances: &Variances<T>, sample: &Sample<T>, step: &Step<T>) -> (T, T) {
+        let slow = self.ratio.value + self.ratio.slope * step.length;
+        if slow < self.weighed_from || slow > self.weighed_to {
+            self.weigh(slow, variances);
+        }
+        // Times the normal force, without waiting for the quotient.
+        let innovation = sample.tangential - slow * sample.normal;
+        self.ratio.take(sample.ratio, step);
+        let of_ratio = innovation * sample.sharper * self.weight;
+        let of_force =
+            self.tangential.take(sample.tangential, step) * sample.sharper * variances.tangential_weight;
+        (of_ratio, of_force)
+    }
+
+    /// The part of the innovations that speaks for slip, in deviations.
+    #[inline(always)]
+    fn fall(&mut self, &(of_ratio, of_force): &(T, T)) -> T {
+        let square = lesser(of_ratio * of_ratio, T::literal(9.0));
+        self.roughness += (square - self.roughness) * T::literal(1.0 / 256.0);
+        // By what was known before this sample.
+        let fall = lesser(-of_ratio, -of_force) * self.smoothing;
+        // One step of Newton's method for 1/√: since the roughness moves by at most 3 % a sample,
+        // this stays within 1e-3 of it, without a root, a division or a branch.
+        let half = T::literal(0.5) * greater(self.roughness, T::one()) * self.smoothing;
+        self.smoothing *= T::literal(1.5) - half * self.smoothing;
+        fall
+    }
+
+    #[inline(never)]
+    fn weigh(&mut self, ratio: T, variances: &Variances<T>) {
+        // The error of the weight is below that of the ratio.
+        let slack = ratio.abs() * T::literal(1.0 / 64.0);
+        self.weighed_from = ratio - slack;
+        self.weighed_to = ratio + slack;
+        self.weight = T::one() / (variances.tangential + ratio * ratio * variances.normal).root();
+    }
+}
+
+/// The lesser of two, and the second where the first is NaN: one instruction.
+#[inline]
+fn lesser<T: Real>(a: T, b: T) -> T {
+    if a < b { a } else { b }
+}
+
+/// The greater of two, and the second where the first is NaN.
+#[inline]
+fn greater<T: Real>(a: T, b: T) -> T {
+    if a > b { a } else { b }
 }
 
 impl<T: Real> RatioTracker<T> {
@@ -183,39 +285,115 @@ impl<T: Real> RatioTracker<T> {
             return Err(BadNoise { component: "tangential" });
         }
         Ok(Self {
+            noise,
             gate: NormalForceGate::from_noise(&noise),
-            normal_variance: squares.0 * widening,
-            tangential_variance: squares.1 * widening,
-            tangential_weight: T::one() / (noise.tangential * widening.root()),
+            variances: Variances {
+                normal: squares.0 * widening,
+                tangential: squares.1 * widening,
+                tangential_weight: T::one() / (noise.tangential * widening.root()),
+            },
             state: None,
         })
     }
 
-    /// Takes a sample. One that is not finite, in force or time, leaves the state as it was, but
-    /// for the time that has passed.
+    /// The noise it was made for.
+    #[cfg(feature = "serde")]
+    pub(crate) const fn noise(&self) -> ForceNoise<T> {
+        self.noise
+    }
+
+    /// Takes a sample and tells what `test` says of its evidence; after a slip both start anew. A
+    /// sample that is not finite, in force or time, leaves the state as it was, but for the time
+    /// that has passed.
     #[inline]
-    pub(crate) fn take(&mut self, force: &ContactForce<T>, time_step: T) -> Evidence<T> {
+    pub(crate) fn update(
+        &mut self,
+        test: &mut impl ChangeTest<T>,
+        force: &ContactForce<T>,
+        time_step: T,
+    ) -> SlipVerdict {
+        let Some((normal, tangential)) = self.pressing(force, time_step) else {
+            return SlipVerdict::NotPressing;
+        };
+        let fall = match self.ordinary(normal, tangential, time_step) {
+            Some(fall) => fall,
+            None => match self.any(normal, tangential, time_step) {
+                Evidence::NotPressing => return SlipVerdict::NotPressing,
+                Evidence::None => return SlipVerdict::Holding,
+                Evidence::Fall(fall) => fall,
+            },
+        };
+        if test.add(fall) {
+            test.reset();
+            self.restart();
+            SlipVerdict::Slipping
+        } else {
+            SlipVerdict::Holding
+        }
+    }
+
+    /// Normal and tangential force of a sample from which something may be learnt.
+    #[inline(always)]
+    fn pressing(&mut self, force: &ContactForce<T>, time_step: T) -> Option<(T, T)> {
+        let normal = force.normal;
+        let square = force.tangential.norm_squared();
+        // In this range no product over- or underflows and, since the square of the gate is a
+        // normal number, no ratio either; and no component is NaN or infinite.
+        let plain = square > T::LEAST_NORMAL / T::EPSILON
+            && square < T::GREATEST
+            && normal > self.gate.least()
+            && normal <= T::GREATEST
+            && force.spin.is_number();
+        if plain { Some((normal, square.root())) } else { self.pressing_at_all(force, time_step) }
+    }
+
+    /// The same over the whole range.
+    #[inline(never)]
+    fn pressing_at_all(&mut self, force: &ContactForce<T>, time_step: T) -> Option<(T, T)> {
         if !(force.is_finite() && time_step.is_number()) {
             if let Some(state) = &mut self.state
                 && time_step.is_number()
             {
                 state.block.elapsed += time_step.max(T::zero());
             }
-            return Evidence::NotPressing;
+            return None;
         }
-        let square = force.tangential.norm_squared();
-        let tangential = if square > T::LEAST_NORMAL / T::EPSILON && square < T::GREATEST {
-            square.root()
-        } else {
-            force.tangential_magnitude()
-        };
-        let normal = force.normal;
+        let (normal, tangential) = (force.normal, force.tangential_magnitude());
         if !(normal > self.gate.least()) {
             self.state = None;
-            return Evidence::NotPressing;
+            return None;
         }
-        let ratio = tangential / normal;
-        if !ratio.is_number() {
+        // Else their ratio is not a number.
+        (tangential < T::GREATEST * normal).then_some((normal, tangential))
+    }
+
+    /// The evidence of an ordinary sample: new, of a started tracker, at an even rate below 2 kHz.
+    /// Says and does nothing for others.
+    #[inline(always)]
+    fn ordinary(&mut self, normal: T, tangential: T, time_step: T) -> Option<T> {
+        let state = self.state.as_mut()?;
+        let even = state.is_steady()
+            && state.block.is_empty()
+            // The period is no less than the shortest step.
+            && is_regular(time_step, state.period)
+            && !(normal == state.last_normal && tangential == state.last_tangential);
+        if !even {
+            return None;
+        }
+        state.last_normal = normal;
+        state.last_tangential = tangential;
+        state.period += (time_step - state.period) * T::literal(1.0 / 16.0);
+        // The reciprocal does not wait for the root.
+        let ratio = tangential * (T::one() / normal);
+        let sample = Sample { normal, tangential, ratio, sharper: T::one() };
+        let innovations = state.follow(&self.variances, &sample, &Step::steady());
+        Some(state.fall(&innovations))
+    }
+
+    /// The evidence of any sample.
+    #[inline(never)]
+    fn any(&mut self, normal: T, tangential: T, time_step: T) -> Evidence<T> {
+        if !time_step.is_number() {
             return Evidence::NotPressing;
         }
         let Some(state) = &mut self.state else {
@@ -237,14 +415,13 @@ impl<T: Real> RatioTracker<T> {
         if block.elapsed < T::literal(SHORTEST_STEP) {
             return Evidence::None;
         }
-        let elapsed = block.elapsed;
-        let repeated = block.count <= T::zero();
-        // Noise of the mean, as a factor on the standardised values.
-        let (normal, tangential, ratio, sharper) = if block.count > T::one() {
-            let (normal, tangential) = (block.normal / block.count, block.tangential / block.count);
-            (normal, tangential, tangential / normal, block.count.root())
+        let Block { elapsed, count, .. } = *block;
+        let sample = if count > T::one() {
+            // The noise of the mean is less.
+            let (normal, tangential) = (block.normal / count, block.tangential / count);
+            Sample { normal, tangential, ratio: tangential / normal, sharper: count.root() }
         } else {
-            (normal, tangential, ratio, T::one())
+            Sample { normal, tangential, ratio: tangential / normal, sharper: T::one() }
         };
         state.block = Block::empty();
         if state.period <= T::zero() {
@@ -254,39 +431,26 @@ impl<T: Real> RatioTracker<T> {
             // Learn a slower rate, but only slowly believe in it.
             state.period *= T::literal(17.0 / 16.0);
             let period = state.period;
-            self.start(normal, tangential, period);
+            self.start(sample.normal, sample.tangential, period);
             return Evidence::None;
         }
         let step = Step::new(elapsed, state.period, state.samples);
         state.period += (elapsed - state.period) * T::literal(1.0 / 16.0);
-
-        let slow = state.ratio.value + state.ratio.slope * step.length;
-        // Kept while the ratio stays within 1/64, which bounds its error by as much.
-        if (slow - state.weighed_at).abs() > state.weighed_at.abs() * T::literal(1.0 / 64.0) {
-            state.weighed_at = slow;
-            state.weight = T::one() / (self.tangential_variance + slow * slow * self.normal_variance).root();
-        }
-        let of_ratio = state.ratio.take(ratio, &step) * normal * sharper * state.weight;
-        let of_force = state.tangential.take(tangential, &step) * sharper * self.tangential_weight;
-        if !(state.ratio.is_number() && state.tangential.is_number()) {
+        let innovations = state.follow(&self.variances, &sample, &step);
+        if !state.is_followed() {
             // Forces near the end of the range: nothing to be followed.
             self.state = None;
             return Evidence::NotPressing;
         }
-        if state.samples < STEADY {
+        if !state.is_steady() {
             state.samples += 1;
             if state.samples <= LEARNING {
                 return Evidence::None;
             }
         }
-        let square = (of_ratio * of_ratio).min(T::literal(9.0));
-        state.roughness += (square - state.roughness) * T::literal(1.0 / 256.0);
-        if repeated {
-            return Evidence::Repeated;
-        }
-        let fall = -of_ratio.max(of_force);
-        let fall = if state.roughness > T::one() { fall / state.roughness.root() } else { fall };
-        if fall.is_number() { Evidence::Fall(fall) } else { Evidence::None }
+        let fall = state.fall(&innovations);
+        // A repeated sample is no independent evidence.
+        Evidence::Fall(if count > T::zero() { fall } else { T::zero() })
     }
 
     /// Starts anew from the last sample, keeping what is known of time and noise.
@@ -320,9 +484,11 @@ impl<T: Real> RatioTracker<T> {
             last_tangential: tangential,
             period: period.max(T::zero()),
             block: Block::empty(),
-            weight: self.tangential_weight,
-            weighed_at: T::zero(),
+            weight: self.variances.tangential_weight,
+            weighed_from: T::zero(),
+            weighed_to: T::zero(),
             roughness: T::one(),
+            smoothing: T::one(),
             samples: 1,
         });
     }

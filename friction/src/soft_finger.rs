@@ -3,6 +3,7 @@
 use fingertip_wrench::{ContactForce, Real};
 
 use crate::cone::{Cone, hypot, positive, rescaled};
+use crate::stored::stored;
 use crate::{BadFriction, FrictionLimit, FrictionModel, PressureDistribution, SlipDirection, SlipMargin};
 
 /// The elliptic soft-finger limit `|f_t|² + (τ/e)² ≤ (μ f_n)²` (Howe & Cutkosky 1996; theory 5).
@@ -14,15 +15,6 @@ use crate::{BadFriction, FrictionLimit, FrictionModel, PressureDistribution, Sli
 ///
 /// The margin is the signed distance in the norm `√(|δf_t|² + (δτ/e)² + δf_n²)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "Parts<T>",
-        into = "Parts<T>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct SoftFingerLimit<T: Real> {
     cone: Cone<T>,
     arm: T,
@@ -34,15 +26,6 @@ pub struct SoftFingerLimit<T: Real> {
 /// The margin is the signed distance in the norm `√((|δf_t|^q + |δτ/e|^q)^(2/q) + δf_n²)`, which
 /// exceeds the Euclidean length of the same change by at most `2^(1/q−1/2)` (6 % at q = 1.72).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "PowerParts<T>",
-        into = "PowerParts<T>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct PowerLimit<T: Real> {
     cone: Cone<T>,
     arm: T,
@@ -86,33 +69,9 @@ impl<T: Real> SoftFingerLimit<T> {
     fn load(&self, force: &ContactForce<T>) -> T {
         hypot(force.tangential_magnitude(), force.spin / self.arm)
     }
-}
-
-impl<T: Real> FrictionModel<T> for SoftFingerLimit<T> {
-    #[inline]
-    fn slip_margin(&self, force: &ContactForce<T>) -> SlipMargin<T> {
-        self.cone.margin(self.load(force), force.normal)
-    }
 
     #[inline]
-    fn least_normal_force(&self, force: &ContactForce<T>, safety: T) -> T {
-        self.cone.least_normal(self.load(force), safety)
-    }
-}
-
-impl<T: Real> FrictionLimit<T> for SoftFingerLimit<T> {
-    #[inline]
-    fn normal_force_keeping(&self, force: &ContactForce<T>, margin: T) -> T {
-        self.cone.normal_keeping(self.load(force), margin)
-    }
-
-    #[inline]
-    fn project(&self, force: &ContactForce<T>) -> ContactForce<T> {
-        rescaled(force, self.cone.project(self.load(force), force.normal))
-    }
-
-    #[inline]
-    fn slip_direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>> {
+    fn direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>> {
         direction(force, self.arm, |share| share)
     }
 }
@@ -174,38 +133,51 @@ impl<T: Real> PowerLimit<T> {
         }
         greater * (T::one() + (lesser / greater).powf(self.exponent)).powf(T::one() / self.exponent)
     }
-}
-
-impl<T: Real> FrictionModel<T> for PowerLimit<T> {
-    #[inline]
-    fn slip_margin(&self, force: &ContactForce<T>) -> SlipMargin<T> {
-        self.cone.margin(self.load(force), force.normal)
-    }
 
     #[inline]
-    fn least_normal_force(&self, force: &ContactForce<T>, safety: T) -> T {
-        self.cone.least_normal(self.load(force), safety)
-    }
-}
-
-impl<T: Real> FrictionLimit<T> for PowerLimit<T> {
-    #[inline]
-    fn normal_force_keeping(&self, force: &ContactForce<T>, margin: T) -> T {
-        self.cone.normal_keeping(self.load(force), margin)
-    }
-
-    #[inline]
-    fn project(&self, force: &ContactForce<T>) -> ContactForce<T> {
-        rescaled(force, self.cone.project(self.load(force), force.normal))
-    }
-
-    #[inline]
-    fn slip_direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>> {
+    fn direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>> {
         direction(force, self.arm, |share| {
             if share > T::zero() { share.powf(self.exponent - T::one()) } else { T::zero() }
         })
     }
 }
+
+/// What the limits share: a friction cone over their norm of tangential force and spin torque.
+macro_rules! limit_on_cone {
+    ($limit:ident) => {
+        impl<T: Real> FrictionModel<T> for $limit<T> {
+            #[inline]
+            fn slip_margin(&self, force: &ContactForce<T>) -> SlipMargin<T> {
+                self.cone.margin(self.load(force), force.normal)
+            }
+
+            #[inline]
+            fn least_normal_force(&self, force: &ContactForce<T>, safety: T) -> T {
+                self.cone.least_normal(self.load(force), safety)
+            }
+        }
+
+        impl<T: Real> FrictionLimit<T> for $limit<T> {
+            #[inline]
+            fn normal_force_keeping(&self, force: &ContactForce<T>, margin: T) -> T {
+                self.cone.normal_keeping(self.load(force), margin)
+            }
+
+            #[inline]
+            fn project(&self, force: &ContactForce<T>) -> ContactForce<T> {
+                rescaled(force, self.cone.project(self.load(force), force.normal))
+            }
+
+            #[inline]
+            fn slip_direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>> {
+                self.direction(force)
+            }
+        }
+    };
+}
+
+limit_on_cone!(SoftFingerLimit);
+limit_on_cone!(PowerLimit);
 
 /// The inward normal of a limit whose gradient in each of |f_t| and |τ|/e is `gradient(share of
 /// the greater of the two)`.
@@ -235,51 +207,19 @@ pub(crate) fn direction<T: Real>(
         .then_some(SlipDirection { velocity, spin: rate })
 }
 
-/// How the elliptic limit is written in a file; reading one validates it again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-struct Parts<T> {
-    coefficient: T,
-    #[serde(rename = "arm_m")]
-    arm: T,
+stored! {
+    SoftFingerLimit<T>, [T: Real],
+    |model| { coefficient: T = model.coefficient(), #[serde(rename = "arm_m")] arm: T = model.arm() },
+    Self::new(coefficient, arm)
 }
 
-#[cfg(feature = "serde")]
-impl<T: Real> From<SoftFingerLimit<T>> for Parts<T> {
-    fn from(model: SoftFingerLimit<T>) -> Self {
-        Self { coefficient: model.coefficient(), arm: model.arm }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Parts<T>> for SoftFingerLimit<T> {
-    type Error = BadFriction;
-    fn try_from(parts: Parts<T>) -> Result<Self, BadFriction> {
-        Self::new(parts.coefficient, parts.arm)
-    }
-}
-
-/// How the power limit is written in a file; reading one validates it again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-struct PowerParts<T> {
-    coefficient: T,
-    #[serde(rename = "arm_m")]
-    arm: T,
-    exponent: T,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> From<PowerLimit<T>> for PowerParts<T> {
-    fn from(model: PowerLimit<T>) -> Self {
-        Self { coefficient: model.coefficient(), arm: model.arm, exponent: model.exponent }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<PowerParts<T>> for PowerLimit<T> {
-    type Error = BadFriction;
-    fn try_from(parts: PowerParts<T>) -> Result<Self, BadFriction> {
-        Self::new(parts.coefficient, parts.arm, parts.exponent)
-    }
+stored! {
+    PowerLimit<T>, [T: Real],
+    |model| {
+        coefficient: T = model.coefficient(),
+        #[serde(rename = "arm_m")]
+        arm: T = model.arm(),
+        exponent: T = model.exponent(),
+    },
+    Self::new(coefficient, arm, exponent)
 }

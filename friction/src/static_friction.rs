@@ -2,6 +2,7 @@
 
 use fingertip_wrench::{ContactForce, Real};
 
+use crate::stored::stored;
 use crate::uncertain::normal_quantile;
 use crate::{BadDetector, BadNoise, ForceNoise, NormalForceGate};
 
@@ -86,6 +87,19 @@ impl<T: Real, const N: usize> StaticFriction<T, N> {
             filled: 0,
             known: None,
         })
+    }
+
+    /// With what is known of the surface: log μ and its variance.
+    #[cfg(feature = "serde")]
+    fn knowing(self, known: Option<(T, T)>) -> Result<Self, BadNoise> {
+        match known {
+            Some((log, variance))
+                if !(log.exp().is_number() && variance >= T::zero() && variance.is_number()) =>
+            {
+                Err(BadNoise { component: "known friction and the" })
+            }
+            _ => Ok(Self { known, ..self }),
+        }
     }
 
     /// Takes a sample; one that does not press forgets the window, one that is not finite counts
@@ -201,6 +215,18 @@ impl<T: Real> StaticFriction<T, 64> {
         Self::new(noise, T::literal(0.05), T::literal(0.01))
             .map_err(|_| BadDetector { parameter: "noise", requirement: "positive and finite" })
     }
+}
+
+stored! {
+    StaticFriction<T, N>, [T: Real, const N: usize],
+    |friction| {
+        noise: ForceNoise<T> = friction.noise,
+        scatter: T = friction.scatter,
+        wander: T = friction.wander,
+        /// What is known of the surface.
+        log_coefficient_and_variance: Option<(T, T)> = friction.known,
+    },
+    Self::new(noise, scatter, wander).and_then(|new| new.knowing(log_coefficient_and_variance))
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use fingertip_wrench::{ContactForce, Real};
 
+use crate::stored::stored;
 use crate::{DropDetector, SlipDetector, SlipVerdict};
 
 /// A periodic stick-slip motion.
@@ -17,7 +18,6 @@ pub struct StickSlip<T> {
 /// Watches the drops of a [`DropDetector`] and calls them stick-slip when three periods in a row
 /// differ by less than 20 % of their mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StickSlipDetector<T> {
     drops: DropDetector<T>,
     /// Time since the last drop \[s\]; none before the first.
@@ -81,4 +81,10 @@ impl<T: Real> StickSlipDetector<T> {
         self.since = None;
         self.known = 0;
     }
+}
+
+stored! {
+    StickSlipDetector<T>, [T: Real],
+    |detector| { drops: DropDetector<T> = detector.drops },
+    Ok::<_, crate::BadNoise>(Self::new(drops))
 }

@@ -4,19 +4,11 @@ use fingertip_wrench::Real;
 
 use crate::BadFriction;
 use crate::cone::positive;
+use crate::stored::stored;
 
 /// Stribeck's curve `g(v) = F_c + (F_s − F_c) e^{−(v/v_s)²}`: the friction force of steady sliding
 /// without its viscous part (theory 6.1).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "Parts<T>",
-        into = "Parts<T>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct Stribeck<T: Real> {
     kinetic: T,
     breakaway: T,
@@ -84,28 +76,14 @@ impl<T: Real> Stribeck<T> {
     }
 }
 
-/// How the curve is written in a file; reading one validates it again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-struct Parts<T> {
-    kinetic: T,
-    #[serde(rename = "static")]
-    breakaway: T,
-    #[serde(rename = "speed_m_per_s")]
-    speed: T,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> From<Stribeck<T>> for Parts<T> {
-    fn from(curve: Stribeck<T>) -> Self {
-        Self { kinetic: curve.kinetic, breakaway: curve.breakaway, speed: curve.speed }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Parts<T>> for Stribeck<T> {
-    type Error = BadFriction;
-    fn try_from(parts: Parts<T>) -> Result<Self, BadFriction> {
-        Self::new(parts.kinetic, parts.breakaway, parts.speed)
-    }
+stored! {
+    Stribeck<T>, [T: Real],
+    |curve| {
+        kinetic: T = curve.kinetic,
+        #[serde(rename = "static")]
+        breakaway: T = curve.breakaway,
+        #[serde(rename = "speed_m_per_s")]
+        speed: T = curve.speed,
+    },
+    Self::new(kinetic, breakaway, speed)
 }

@@ -2,16 +2,17 @@
 
 use fingertip_wrench::{ContactForce, Real};
 
+use crate::stored::stored;
 use crate::{BadFriction, NormalForceGate, SlipDetector, SlipVerdict};
 
 /// Warns when the friction ratio passes a safe share of the static coefficient, and says slip at
 /// the coefficient itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RatioThreshold<T> {
     gate: NormalForceGate<T>,
     warning: T,
     limit: T,
+    share: T,
 }
 
 impl<T: Real> RatioThreshold<T> {
@@ -33,7 +34,12 @@ impl<T: Real> RatioThreshold<T> {
         if !(warning_share > T::zero() && warning_share <= T::one()) {
             return Err(BadFriction { parameter: "warning share", requirement: "between 0 and 1" });
         }
-        Ok(Self { gate, warning: static_coefficient * warning_share, limit: static_coefficient })
+        Ok(Self {
+            gate,
+            warning: static_coefficient * warning_share,
+            limit: static_coefficient,
+            share: warning_share,
+        })
     }
 }
 
@@ -50,4 +56,14 @@ impl<T: Real> SlipDetector<T> for RatioThreshold<T> {
 
     #[inline]
     fn reset(&mut self) {}
+}
+
+stored! {
+    RatioThreshold<T>, [T: Real],
+    |detector| {
+        gate: NormalForceGate<T> = detector.gate,
+        static_coefficient: T = detector.limit,
+        warning_share: T = detector.share,
+    },
+    Self::new(gate, static_coefficient, warning_share)
 }

@@ -3,6 +3,7 @@
 use fingertip_wrench::{ContactForce, Real};
 
 use crate::cone::{not_negative, positive, saturated};
+use crate::stored::stored;
 use crate::{BadFriction, ForceNoise};
 
 /// Coulomb friction with a standard deviation on its coefficient and noise on the force: how
@@ -10,7 +11,6 @@ use crate::{BadFriction, ForceNoise};
 ///
 /// First order: `z = (μN − |f_t|)/√(σ_t² + μ²σ_n² + N²σ_μ²)`, and slip with probability Φ(−z).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct UncertainCoulomb<T> {
     coefficient: T,
     deviation: T,
@@ -158,6 +158,16 @@ pub(crate) fn normal_quantile(probability: f64) -> f64 {
         }
     }
     x
+}
+
+stored! {
+    UncertainCoulomb<T>, [T: Real],
+    |model| {
+        coefficient: T = model.coefficient,
+        deviation: T = model.deviation,
+        noise: Option<ForceNoise<T>> = model.noise,
+    },
+    Self::new(coefficient, deviation, noise)
 }
 
 #[cfg(test)]

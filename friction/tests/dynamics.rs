@@ -2,7 +2,6 @@
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use differential_equations::prelude::{IVP, ImplicitRungeKutta, Matrix, ODE};
 use fingertip_friction::testing::Draws;
 use fingertip_friction::{
     Bristle, BristleLaw, Dahl, Drive, DynamicFriction, ElastoPlastic, Exponential, Implicit, Integrator,
@@ -10,6 +9,9 @@ use fingertip_friction::{
 };
 use fingertip_wrench::Real;
 use nalgebra::{SVector, Vector1};
+
+#[path = "support/stick_slip.rs"]
+mod reference;
 
 /// From `low` to `high`, evenly in the logarithm.
 fn spread(draws: &mut Draws, low: f64, high: f64) -> f64 {
@@ -194,43 +196,6 @@ fn states_of_one_law_do_not_part() {
     }
 }
 
-/// Theory 6.3's benchmark as a differential equation: a mass of 1 kg on LuGre friction, pulled
-/// through a spring of 2 N/m whose end moves at 0.1 m/s. The third state is the deflection in
-/// units of 10 µm, which evens the tolerances.
-struct StickSlip;
-
-impl ODE<f64, [f64; 3]> for StickSlip {
-    fn diff(&self, t: f64, y: &[f64; 3], dydt: &mut [f64; 3]) {
-        let (v, z) = (y[1], y[2] * 1e-5);
-        let g = 1.0 + 0.5 * (-(v / 1e-3) * (v / 1e-3)).exp();
-        let rate = v - 1e5 * v.abs() * z / g;
-        dydt[0] = v;
-        dydt[1] = 2.0 * (0.1 * t - y[0]) - (1e5 * z + 1e5_f64.sqrt() * rate + 0.4 * v);
-        dydt[2] = rate / 1e-5;
-    }
-
-    fn jacobian(&self, _t: f64, y: &[f64; 3], j: &mut Matrix<f64>) {
-        let (v, z) = (y[1], y[2] * 1e-5);
-        let bell = 0.5 * (-(v / 1e-3) * (v / 1e-3)).exp();
-        let g = 1.0 + bell;
-        let slope = -2.0 * v / 1e-6 * bell;
-        let of_v = 1.0 - 1e5 * z * (v.signum() / g - v.abs() * slope / (g * g));
-        let of_z = -1e5 * v.abs() / g;
-        let damping = 1e5_f64.sqrt();
-        for row in 0..3 {
-            for column in 0..3 {
-                j[(row, column)] = 0.0;
-            }
-        }
-        j[(0, 1)] = 1.0;
-        j[(1, 0)] = -2.0;
-        j[(1, 1)] = -damping * of_v - 0.4;
-        j[(1, 2)] = -(1e5 + damping * of_z) * 1e-5;
-        j[(2, 1)] = of_v / 1e-5;
-        j[(2, 2)] = of_z;
-    }
-}
-
 fn stick_slip(h: f64) -> Vec<f64> {
     let mut bristle = Bristle::<f64, _, 1>::new(LuGre::reference().unwrap());
     let (mut x, mut v) = (0.0, Vector1::new(0.0));
@@ -251,22 +216,40 @@ fn stick_slip(h: f64) -> Vec<f64> {
 
 #[test]
 fn stick_slip_agrees_with_radau() {
-    let solution = IVP::ode(&StickSlip, 0.0, 20.0, [0.0, 0.0, 0.0])
-        .even(0.1)
-        .method(ImplicitRungeKutta::radau5().rtol(1e-9).atol(1e-11).h0(1e-7).max_steps(10_000_000))
-        .solve()
-        .unwrap();
-    let reference: Vec<(f64, f64)> = solution.iter().map(|(t, y)| (*t, y[0])).collect();
+    let reference = reference::stick_slip().unwrap();
     assert_eq!(reference.len(), 201);
     // It slides, and sticks, and slides again.
-    let travelled = reference.last().unwrap().1;
+    let travelled = *reference.last().unwrap();
     assert!(travelled > 0.7, "{travelled}");
     for (h, bound) in [(1e-5, 5e-5), (1e-4, 1e-4), (1e-3, 3e-2)] {
         let own = stick_slip(h);
-        let error = own.iter().zip(&reference).map(|(x, r)| (x - r.1).abs()).fold(0.0, f64::max);
+        let error = own.iter().zip(&reference).map(|(x, r)| (x - r).abs()).fold(0.0, f64::max);
         println!("step {h:e}: greatest position error {error:.2e} m over {travelled:.3} m");
         assert!(error < bound, "step {h}: {error}");
     }
+}
+
+/// Each integrator on a motion to and fro against the same reference.
+#[test]
+fn prescribed_motion_agrees_with_radau() {
+    let velocity = |t: f64| 1e-2 * (100.0 * t).sin();
+    let reference = reference::moved(velocity, 0.2, 1e-3).unwrap();
+    fn error<M: Integrator>(reference: &[f64], velocity: impl Fn(f64) -> f64) -> f64 {
+        let mut bristle = Bristle::<f64, _, 1, M>::with_method(LuGre::reference().unwrap());
+        let (h, mut worst) = (1e-5, 0.0_f64);
+        for (index, exact) in reference.iter().enumerate().skip(1) {
+            for step in 0..100 {
+                let t = (index - 1) as f64 * 1e-3 + h * (f64::from(step) + 0.5);
+                bristle.step(&Vector1::new(velocity(t)), h);
+            }
+            worst = worst.max((bristle.deflection()[0] - exact).abs());
+        }
+        worst / 1.5e-5
+    }
+    let exponential = error::<Exponential>(&reference, velocity);
+    let implicit = error::<Implicit>(&reference, velocity);
+    println!("prescribed motion: exponential {exponential:.1e}, implicit {implicit:.1e} of the greatest");
+    assert!(exponential < 1e-4 && implicit < 3e-3, "{exponential} {implicit}");
 }
 
 /// Theory 6.3's drift oracle: a load that oscillates below break-away.

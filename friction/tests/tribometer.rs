@@ -2,72 +2,35 @@
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use std::path::PathBuf;
+use fingertip_friction::{ForceNoise, KineticFriction};
 
-use fingertip_friction::{
-    ForceNoise, IncipientSlip, KineticFriction, NormalForceGate, SlipVerdict, StaticFriction,
-};
-use fingertip_wrench::ContactForce;
-use nalgebra::Vector3;
+#[path = "support/tribometer.rs"]
+mod recording;
 
-/// The columns of a file of numbers; `None` where it is absent.
-fn read(name: &str) -> Option<Vec<Vec<f64>>> {
-    let folder = std::env::var_os("FINGERTIP_DATA")
-        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/data"), PathBuf::from);
-    let path = folder.join("friction_tribometer").join(name);
-    let Ok(text) = std::fs::read_to_string(&path) else {
-        println!("skipped: no {}", path.display());
-        return None;
-    };
-    Some(text.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect())
-}
-
-fn force(normal: f64, friction: f64) -> ContactForce<f64> {
-    ContactForce { normal, tangential: Vector3::new(friction, 0.0, 0.0), spin: 0.0 }
-}
-
-/// The recording's own noise, rounded up.
-fn noise() -> ForceNoise<f64> {
-    ForceNoise { normal: 1e-3, tangential: 2e-4 }
-}
+use recording::{Recording, force};
 
 #[test]
 fn peaks_match_the_strokes() {
-    let (Some(samples), Some(strokes)) = (read("reciprocating.csv"), read("strokes.csv")) else { return };
-    let mut worst = 0.0_f64;
-    let (mut within, mut total) = (0, 0);
-    for stroke in &strokes {
-        // A window over the whole stroke, since the peak comes up to half a second after onset.
-        let mut friction = StaticFriction::<f64, 256>::new(noise(), 0.05, 0.01).unwrap();
-        for row in samples.iter().filter(|row| row[0] >= stroke[0] && row[0] <= stroke[1]) {
-            // The stroke starts with the friction of the last one: only force along it counts.
-            if row[3] * stroke[2] < 0.0 {
-                friction.observe(&force(row[1], row[3]));
-            }
-        }
-        let found = friction.onset().unwrap().coefficient;
-        let error = (found / stroke[3] - 1.0).abs();
-        worst = worst.max(error);
-        within += usize::from(error < 0.01);
-        total += 1;
-    }
-    println!("peak within 1 % in {within} of {total} strokes, worst {:.3} %", worst * 100.0);
-    assert_eq!(total, 100);
-    assert_eq!(within, total);
+    let Some(recording) = Recording::open() else { return };
+    let errors = recording.peak_errors().unwrap();
+    let worst = errors.iter().fold(0.0_f64, |worst, error| worst.max(error.abs()));
+    let within = errors.iter().filter(|error| error.abs() < 0.01).count();
+    println!("peak within 1 % in {within} of {} strokes, worst {:.3} %", errors.len(), worst * 100.0);
+    assert_eq!((within, errors.len()), (100, 100));
 }
 
 #[test]
 fn kinetic_friction_matches_the_sliding_part() {
-    let (Some(samples), Some(strokes)) = (read("reciprocating.csv"), read("strokes.csv")) else { return };
+    let Some(recording) = Recording::open() else { return };
     for direction in [1.0, -1.0] {
         let (mut sum, mut reference, mut count) = (0.0, 0.0, 0.0);
-        for stroke in strokes.iter().filter(|stroke| stroke[2] == direction) {
+        for stroke in recording.strokes.iter().filter(|stroke| stroke[2] == direction) {
             // The friction itself wanders along the stroke by far more than the sensor's noise.
             let roughness = ForceNoise { normal: 0.013, tangential: 0.1 };
             let mut friction = KineticFriction::new(roughness, 10.0).unwrap();
             // The last fifth of a second of the motion.
             let mut plain = (0.0, 0.0);
-            for row in samples.iter().filter(|row| row[0] >= stroke[1] - 0.25 && row[0] <= stroke[1] - 0.05) {
+            for row in recording.between(stroke[1] - 0.25, stroke[1] - 0.05) {
                 friction.observe(&force(row[1], row[3]), 5e-3);
                 plain = (plain.0 + row[3].abs(), plain.1 + row[1]);
             }
@@ -84,43 +47,65 @@ fn kinetic_friction_matches_the_sliding_part() {
     }
 }
 
+/// The stiffness of a stroke scatters by 0.74 % and 0.91 % among the strokes of one direction, the
+/// first left out; the lesser is taken for what is not known of it. It moves a label by up to 20 ms.
+const STIFFNESS_DEVIATION: f64 = 0.0074;
+/// The recording's sample time \[s\], by which each label and each onset may be late.
+const SAMPLE: f64 = 5e-3;
+
+/// 97 of the 100 onsets are within 50 ms of the published label. The other three:
+/// - stroke 5's label marks where the apparent slip *falls* through 5 µm (the pad is at its
+///   stiffest, 52 N/mm, there). It passes 5 µm for good 120 ms later, and there the onset is found.
+/// - strokes 56 and 86: 54 ms late, less than one sample above 50 ms, while a stiffness lower by its
+///   own standard deviation puts their labels 20 ms later.
 #[test]
 fn onsets_match_the_labels() {
-    let (Some(samples), Some(strokes)) = (read("reciprocating.csv"), read("strokes.csv")) else { return };
-    let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.05).unwrap());
-    let mut detector = IncipientSlip::new(gate, 4e-6, 0.65).unwrap();
-    let mut onsets = Vec::new();
-    let mut last = SlipVerdict::Holding;
-    let mut slips = 0;
-    for row in &samples {
-        let verdict = detector.update(&force(row[1], row[3]), &Vector3::new(row[2] * 1e-3, 0.0, 0.0));
-        if verdict == SlipVerdict::Warning && last != SlipVerdict::Warning {
-            onsets.push(row[0]);
-        }
-        slips += usize::from(verdict == SlipVerdict::Slipping && last == SlipVerdict::Warning);
-        last = verdict;
-    }
-    let mut errors = Vec::new();
-    let mut outside = onsets.len();
-    for stroke in &strokes {
-        let within: Vec<_> = onsets.iter().filter(|t| **t >= stroke[0] && **t <= stroke[1]).collect();
+    let Some(recording) = Recording::open() else { return };
+    let onsets = recording.onsets().unwrap();
+    let (mut errors, mut corrected, mut beyond) = (Vec::new(), Vec::new(), Vec::new());
+    let mut outside = onsets.times.len();
+    for (number, stroke) in recording.strokes.iter().enumerate() {
+        let within: Vec<_> = onsets.times.iter().filter(|t| **t >= stroke[0] && **t <= stroke[1]).collect();
         outside -= within.len();
-        assert!(within.len() <= 1, "{stroke:?} {within:?}");
-        if let Some(onset) = within.first() {
-            errors.push(**onset - stroke[8]);
+        assert_eq!(within.len(), 1, "stroke {number}: {within:?}");
+        let onset = *within[0];
+        errors.push(onset - stroke[8]);
+        if (onset - stroke[8]).abs() > 0.05 + 1e-9 {
+            beyond.push(number);
         }
+        // The label can be made again from the recording, but for one that is not an onset.
+        let label = recording.slipped_for_good(stroke, 1.0).unwrap();
+        let made_again = (label - stroke[8]).abs() <= SAMPLE + 1e-9;
+        assert_eq!(made_again, number != 5, "stroke {number}: {label} {}", stroke[8]);
+        if number == 5 {
+            // It falls there.
+            let rows: Vec<_> = recording.between(stroke[0], stroke[8] + 0.025).collect();
+            let slipped = |row: &[f64]| Recording::slipped(stroke, rows[0], row, 1.0);
+            assert!(slipped(rows[rows.len() - 11]) > slipped(rows[rows.len() - 1]) + 1e-3);
+        }
+        let early = recording.slipped_for_good(stroke, 1.0 + STIFFNESS_DEVIATION).unwrap();
+        let late = recording.slipped_for_good(stroke, 1.0 - STIFFNESS_DEVIATION).unwrap();
+        assert!(early <= label && label <= late);
+        corrected.push(onset - onset.clamp(early, late));
     }
     errors.sort_by(f64::total_cmp);
-    let close = errors.iter().filter(|e| e.abs() <= 0.05 + 1e-9).count();
+    corrected.sort_by(f64::total_cmp);
+    let close = errors.len() - beyond.len();
     println!(
-        "onsets found in {} strokes, {close} within 50 ms of the label, median {:.1} ms, from {:.1} to {:.1} ms; \
-         {outside} alarms in the dwells; gross slip called in {slips}",
+        "onsets found in {} strokes, {close} within 50 ms of the label, median {:.1} ms, from {:.1} to {:.1} ms, \
+         beyond: strokes {beyond:?}; from where the label lies within one deviation of the stiffness: {:.1} to \
+         {:.1} ms; {outside} alarms in the dwells; gross slip called in {}",
         errors.len(),
         errors[errors.len() / 2] * 1e3,
         errors[0] * 1e3,
-        errors[errors.len() - 1] * 1e3
+        errors[errors.len() - 1] * 1e3,
+        corrected[0] * 1e3,
+        corrected[corrected.len() - 1] * 1e3,
+        onsets.slips,
     );
     assert_eq!(errors.len(), 100);
     assert_eq!(outside, 0);
-    assert!(close >= 95, "{close}");
+    assert_eq!(onsets.slips, 100);
+    assert!(close >= 97, "{close}");
+    assert!(corrected.iter().all(|e| e.abs() <= 0.05 + 1e-9), "{corrected:?}");
 }

@@ -1,108 +1,17 @@
-//! Scores the slip detectors on simulated ramps.
-//!
-//! `cargo run --release -p fingertip-benches --bin slip_report [-- FOLDER]`
-//!
-//! Prints the tables as Markdown, and writes `slip.csv` (one row per ramp and detector) and
-//! `slip.html` (tables and the receiver operating curve) into the folder, by default
-//! `target/slip_report`.
+//! The detectors' scores on the ramps.
 
-use core::error::Error;
 use core::fmt::Write as _;
-use std::path::PathBuf;
 
 use fingertip_friction::{
-    Bristle, Cusum, Drive, DropDetector, ForceNoise, LikelihoodRatioDetector, LuGre, NormalForceGate,
-    RatioThreshold, SlipDetector, SlipVerdict, Stribeck,
-};
-use fingertip_wrench::ContactForce;
-use nalgebra::{Vector1, Vector3};
-use plotters::prelude::{
-    BLACK, ChartBuilder, Circle, Color, EmptyElement, IntoDrawingArea, IntoFont, IntoLogRange, LineSeries,
-    RED, SVGBackend, Text, WHITE,
+    Cusum, DropDetector, ForceNoise, LikelihoodRatioDetector, NormalForceGate, RatioThreshold, SlipDetector,
+    SlipVerdict,
 };
 use rand::{RngExt, SeedableRng};
-use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
-type Failure = Box<dyn Error>;
-
-/// Steps of the mechanics per second.
-const MECHANICS: f64 = 50_000.0;
-const RAMPS: usize = 1000;
-const STRIBECK_SPEED: f64 = 1e-3;
-
-/// One object pulled until it slips: the truth at 10 kHz.
-struct Ramp {
-    normal: f64,
-    static_coefficient: f64,
-    tangential: Vec<f64>,
-    /// When it passed the Stribeck speed \[s\].
-    slip: f64,
-    /// The noise, and the step of the converter, with which it is read.
-    noise: f64,
-    step: f64,
-}
-
-fn ramp(rng: &mut Pcg64Mcg, plain: bool) -> Result<Ramp, Failure> {
-    let normal = rng.random_range(1.0..10.0);
-    let static_coefficient = rng.random_range(0.4..1.0);
-    let kinetic = static_coefficient * rng.random_range(0.6..0.85);
-    // The parameters of Canudas de Wit et al. 1995, per newton of normal force.
-    let curve = Stribeck::new(kinetic, static_coefficient, STRIBECK_SPEED)?;
-    let mut friction = Bristle::<f64, _, 1>::new(LuGre::new(1e5, 1e5_f64.sqrt(), 0.4, curve)?);
-    friction.set_load(normal);
-    let mass = rng.random_range(0.02..0.3);
-    let rate = normal * static_coefficient / rng.random_range(0.3..1.0);
-    let (mut velocity, mut slip, mut index) = (Vector1::new(0.0), f64::NAN, 0_u32);
-    let mut tangential = Vec::new();
-    let h = 1.0 / MECHANICS;
-    loop {
-        let time = f64::from(index) * h;
-        let drive = Drive { mass: Vector1::new(mass), force: Vector1::new(rate * time), stiffness: 0.0 };
-        let end = friction.step_body(&velocity, &drive, h);
-        velocity = end.velocity;
-        if index.is_multiple_of(5) {
-            tangential.push(end.friction[0]);
-        }
-        if slip.is_nan() && velocity[0] > STRIBECK_SPEED {
-            slip = time;
-        }
-        if time > slip + 0.1 {
-            break;
-        }
-        if time > 3.0 {
-            return Err("a ramp did not slip".into());
-        }
-        index += 1;
-    }
-    let (noise, step) = if plain {
-        (0.02, 0.0)
-    } else {
-        // 60 N of span at 12 or 16 bits, or no converter.
-        let step = [0.0, 60.0 / 65536.0, 60.0 / 4096.0][rng.random_range(0..3)];
-        (5e-3 * 10_f64.powf(rng.random_range(0.0..1.0)), step)
-    };
-    Ok(Ramp { normal, static_coefficient, tangential, slip, noise, step })
-}
-
-fn read(rng: &mut Pcg64Mcg, value: f64, noise: f64, step: f64) -> f64 {
-    let draw: f64 = StandardNormal.sample(rng);
-    let value = value + noise * draw;
-    if step > 0.0 { (value / step).round() * step } else { value }
-}
-
-fn sample(rng: &mut Pcg64Mcg, normal: f64, tangential: f64, noise: f64, step: f64) -> ContactForce<f64> {
-    ContactForce {
-        normal: read(rng, normal, noise, step),
-        tangential: Vector3::new(read(rng, tangential, noise, step), 0.0, 0.0),
-        spin: 0.0,
-    }
-}
-
-/// What a user would state: the noise with that of the converter's steps.
-fn stated(noise: f64, step: f64) -> Result<ForceNoise<f64>, Failure> {
-    Ok(ForceNoise::isotropic((noise * noise + step * step / 12.0).sqrt())?)
-}
+use crate::Failure;
+use crate::page::{Page, Scale, Series};
+use crate::ramps::{RAMPS, Ramp, ramps, sample, stated};
 
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
@@ -148,6 +57,9 @@ impl Kind {
     }
 }
 
+/// What is drawn where half an hour passed without an alarm.
+const LEAST_RATE: f64 = 0.03;
+
 struct Score {
     rate: f64,
     name: String,
@@ -161,7 +73,7 @@ struct Score {
     false_alarms_per_minute: f64,
 }
 
-fn quantile(sorted: &[f64], share: f64) -> f64 {
+pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
     let last = sorted.len().saturating_sub(1) as f64;
     sorted.get((last * share).round() as usize).copied().unwrap_or(f64::NAN)
 }
@@ -272,93 +184,12 @@ fn table(title: &str, scores: &[Score]) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// Markdown tables and headings as HTML.
-fn html(markdown: &str, plot: &str) -> String {
-    let mut body = String::new();
-    let mut inside = false;
-    for line in markdown.lines() {
-        if line.starts_with("|---") {
-            continue;
-        }
-        if let Some(cells) = line.strip_prefix("| ") {
-            let tag = if inside { "td" } else { "th" };
-            if !inside {
-                body += "<div style='overflow-x:auto'><table>";
-            }
-            inside = true;
-            body += "<tr>";
-            for cell in cells.trim_end_matches('|').split('|') {
-                body += &format!("<{tag}>{}</{tag}>", cell.trim().replace('<', "&lt;"));
-            }
-            body += "</tr>\n";
-            continue;
-        }
-        if inside {
-            body += "</table></div>\n";
-            inside = false;
-        }
-        if let Some(title) = line.strip_prefix("## ") {
-            body += &format!("<h2>{title}</h2>\n");
-        } else if let Some(title) = line.strip_prefix("# ") {
-            body += &format!("<h1>{title}</h1>\n");
-        } else if !line.is_empty() {
-            body += &format!("<p>{line}</p>\n");
-        }
-    }
-    if inside {
-        body += "</table></div>\n";
-    }
-    format!(
-        "<!doctype html><html lang='en'><meta charset='utf-8'>\
-         <meta name='viewport' content='width=device-width'><title>Slip detectors</title>\
-         <style>body{{font-family:sans-serif;margin:1em;max-width:60em}}table{{border-collapse:collapse}}\
-         td,th{{border:1px solid #999;padding:.2em .5em;text-align:right}}svg{{max-width:100%;height:auto}}</style>\
-         {body}<h2>Missed slips against false alarms</h2>{plot}</html>"
-    )
-}
-
-/// Missed share over false alarms a minute, one point per threshold.
-fn plot(points: &[(f64, f64, f64)]) -> Result<String, Failure> {
-    let mut svg = String::new();
-    {
-        let area = SVGBackend::with_string(&mut svg, (640, 420)).into_drawing_area();
-        area.fill(&WHITE)?;
-        let top = points.iter().map(|p| p.1).fold(1e-3, f64::max) * 1.1;
-        let mut chart = ChartBuilder::on(&area)
-            .caption("faint slips, 1 kHz; numbers are the threshold h", ("sans-serif", 16))
-            .margin(12)
-            .x_label_area_size(42)
-            .y_label_area_size(56)
-            .build_cartesian_2d((0.02_f64..2000.0).log_scale(), 0.0..top)?;
-        chart
-            .configure_mesh()
-            .x_desc("false alarms per minute (at most 0.03 where none was seen)")
-            .y_desc("share of slips missed")
-            .draw()?;
-        let place = |p: &(f64, f64, f64)| (p.0.max(0.03), p.1);
-        chart.draw_series(LineSeries::new(points.iter().map(place), RED))?;
-        chart.draw_series(points.iter().map(|p| Circle::new(place(p), 3, RED.filled())))?;
-        let label = ("sans-serif", 12).into_font().color(&BLACK);
-        chart.draw_series(
-            points
-                .iter()
-                .map(|p| EmptyElement::at(place(p)) + Text::new(format!("{}", p.2), (6, -14), label.clone())),
-        )?;
-        area.present()?;
-    }
-    Ok(svg)
-}
-
-fn main() -> Result<(), Failure> {
-    let folder =
-        std::env::args_os().nth(1).map_or_else(|| PathBuf::from("target/slip_report"), PathBuf::from);
-    std::fs::create_dir_all(&folder)?;
+/// Scores every detector; returns the rows of the file, one per ramp and detector.
+pub(crate) fn report(page: &mut Page) -> Result<String, Failure> {
     let mut rows = String::from(
         "set,rate_Hz,detector,ramp,normal_N,static_coefficient,noise_N,step_N,slip_s,delay_s,lead_s,early\n",
     );
-    let mut rng = Pcg64Mcg::seed_from_u64(1);
-    let plain: Vec<Ramp> = (0..RAMPS).map(|_| ramp(&mut rng, true)).collect::<Result<_, _>>()?;
-    let mixed: Vec<Ramp> = (0..RAMPS).map(|_| ramp(&mut rng, false)).collect::<Result<_, _>>()?;
+    let [plain, mixed] = ramps()?;
     let kinds = [
         Kind::Threshold,
         Kind::Drop,
@@ -366,15 +197,14 @@ fn main() -> Result<(), Failure> {
         Kind::CumulativeSum { allowance: 1.0, threshold: None },
         Kind::LikelihoodRatio,
     ];
-    let mut text = String::from("# Slip detectors, scored\n\n");
-    writeln!(
-        text,
+    page.say(&format!(
         "{RAMPS} ramps of LuGre friction (parameters of 1995 per newton of normal force), static coefficient \
          0.4-1, kinetic 0.6-0.85 of it, normal force 1-10 N, mass 20-300 g. Delays count from the Stribeck \
          speed of 1 mm/s; early is an alarm more than 5 ms (or two samples) before it. False alarms are \
          counted in holds with 20 mN of noise: constant, drifting, with steps of the normal force. Lead is \
-         the time by which a warning came before slip."
-    )?;
+         the time by which a warning came before slip. The ratio threshold, which knows the coefficient, \
+         misses where it did not warn before slip: a fast pull breaks away below the static coefficient."
+    ));
     for (title, set, ramps) in [
         ("Noise 20 mN, no converter", "plain", &plain),
         ("Noise 5-50 mN; converter none, 12 or 16 bits over 60 N", "mixed", &mixed),
@@ -386,23 +216,27 @@ fn main() -> Result<(), Failure> {
                 scores.push(score(kind, ramps, rate, minutes, &mut rows, set)?);
             }
         }
-        text += &table(title, &scores)?;
+        page.say(&table(title, &scores)?);
     }
 
     // The receiver operating curve, on slips faint enough to be missed.
     let faint: Vec<Ramp> = plain.into_iter().map(|ramp| Ramp { noise: 0.08, ..ramp }).collect();
-    let mut curve = Vec::new();
-    let mut scores = Vec::new();
+    let (mut curve, mut scores) = (Vec::new(), Vec::new());
     for h in [1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0] {
         let kind = Kind::CumulativeSum { allowance: 0.75, threshold: Some(h) };
         let s = score(kind, &faint, 1000.0, 30.0, &mut rows, "faint")?;
-        curve.push((s.false_alarms_per_minute, s.missed as f64 / RAMPS as f64, h));
+        let rate = s.false_alarms_per_minute.max(LEAST_RATE);
+        curve.push((rate, s.missed as f64 / RAMPS as f64, Some(h)));
         scores.push(s);
     }
-    text += &table("Receiver operating curve: noise 80 mN (faint slips), 1 kHz", &scores)?;
-    println!("{text}");
-    std::fs::write(folder.join("slip.csv"), rows)?;
-    std::fs::write(folder.join("slip.html"), html(&text, &plot(&curve)?))?;
-    println!("Wrote {}", folder.join("slip.html").display());
-    Ok(())
+    page.say(&table("Receiver operating curve: noise 80 mN (faint slips), 1 kHz", &scores)?);
+    page.plot(
+        "missed",
+        "Missed slips against false alarms: faint slips, 1 kHz; the numbers are the threshold h",
+        "false alarms per minute (0.03 or fewer at the left edge)",
+        "share of slips missed",
+        Scale { x: 0.02..2000.0, y: 0.0..0.25, logarithmic: false },
+        &[Series { name: "drop, k = 0.75", points: curve }],
+    )?;
+    Ok(rows)
 }
