@@ -67,6 +67,11 @@ impl<T: Real> ActiveSurface<T> for CappedCylinder<T> {
         self.solid.crossings(line, visit);
     }
 
+    #[inline(always)]
+    fn sole_entry(&self, line: &Line<T>) -> Option<Crossing<T>> {
+        self.solid.sole_entry(line)
+    }
+
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         self.solid.closest_approach(line)
     }
