@@ -6,7 +6,7 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use crate::Crossing;
-use crate::numeric::vectors::{any_perpendicular, foot, unit_or};
+use crate::numeric::vectors::{any_perpendicular, foot, unit_or, within_range};
 
 /// An oriented axis with an origin, and a frame around it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,20 +56,25 @@ impl<T: Real> Local<T> {
         let (p, u) = (&self.start, &self.direction);
         let drift = (u.x * u.x + u.y * u.y).root();
         let (x, y, drift) = if drift > T::EPSILON * T::literal(4.0) {
-            let inverse = T::one() / drift;
-            (u.x * inverse, u.y * inverse, drift * steepness)
+            (u.x / drift, u.y / drift, drift * steepness)
         } else {
             (T::one(), T::zero(), T::zero())
         };
-        let (with, aside) = ((p.x * x + p.y * y) * steepness, (p.x * y - p.y * x) * steepness);
+        let with = p.x * x + p.y * y;
+        let (aside_x, aside_y) = ((p.x - x * with) * steepness, (p.y - y * with) * steepness);
+        let (with, aside) = (with * steepness, aside_x * aside_x + aside_y * aside_y);
+        // Positions count in units that make the greater of both one: exactly so for a cylinder.
+        let unit = drift.max(shrink.abs());
+        let (drift, shrink) = (drift / unit, shrink / unit);
         let a = (drift - shrink.abs()) * (drift + shrink.abs());
         let b = with * drift + radius * shrink;
         let lean = radius * drift + shrink * with;
-        let root = (lean * lean - aside * aside * a).root();
+        let root = (lean * lean - aside * a).root();
         // Without cancellation.
         let sum = b.abs() + root;
-        let outside = with * with + aside * aside - radius * radius;
-        select_unpredictable(b > T::zero(), -sum, outside) / select_unpredictable(b > T::zero(), a, sum)
+        let outside = with * with + aside - radius * radius;
+        let falls = b > T::zero();
+        select_unpredictable(falls, -sum, outside) / (select_unpredictable(falls, a, sum) * unit)
     }
 
     #[inline]
@@ -146,8 +151,7 @@ impl<T: Real> Axis<T> {
     /// leaves the range is treated as if it were nearer.
     #[inline]
     pub(super) fn split_point(&self, point: &Vector3<T>) -> (T, Vector3<T>) {
-        let far = T::GREATEST * T::literal(0.0625);
-        self.split(&(point - self.origin).map(|x| x.max(-far).min(far)))
+        self.split(&within_range(&(point - self.origin)))
     }
 
     /// The unit vector away from the axis; any across it for a point on the axis.

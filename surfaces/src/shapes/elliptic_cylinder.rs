@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use crate::numeric::closest::{from_distance, to_convex};
 use crate::numeric::ellipse::closest_point;
 use crate::numeric::interval::{End, Inside};
-use crate::numeric::vectors::{foot, hypotenuse, is_finite, unit_or};
+use crate::numeric::vectors::{foot, hypotenuse, is_finite, unit_or, within_range};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance};
 
@@ -121,6 +121,7 @@ impl<T: Real> EllipticCylinder<T> {
     }
 
     fn distance(&self, point: &Vector3<T>) -> Distance<T> {
+        let point = &within_range(point);
         let side = self.side_distance(point);
         let CylinderEnds::Capped(half) = self.ends else { return side };
         let beyond = point.z.abs() - half;

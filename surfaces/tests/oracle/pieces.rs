@@ -254,7 +254,7 @@ fn revolution<T: Real>() -> impl FnMut(&mut Pcg64Mcg, f64) -> Case<Revolution<T,
     }
 }
 
-/// A gently twisted patch: `z = k·x·y` on four cells, `k = 1/(8·spacing)`.
+/// A gently twisted patch: `z = 2·k·x·y` on four cells, `k = 1/(16·spacing)`.
 fn heightfield<T: Real>() -> impl FnMut(&mut Pcg64Mcg, f64) -> Case<Heightfield<T>> {
     |random, scale| {
         let step = rounded::<T>(scale);
@@ -262,7 +262,7 @@ fn heightfield<T: Real>() -> impl FnMut(&mut Pcg64Mcg, f64) -> Case<Heightfield<
         let corner = [T::literal(-step); 2];
         let spacing = [T::literal(step); 2];
         let (x, y) = (random.random_range(-0.99..0.99), random.random_range(-0.99..0.99));
-        let k = &Big::new(1.0) / &(&Big::new(8.0) * &Big::new(step));
+        let k = &Big::new(1.0) / &(&Big::new(16.0) * &Big::new(step));
         Case {
             surface: Heightfield::new(corner, spacing, 3, heights.map(T::literal).collect()).unwrap(),
             quadric: Quadric {

@@ -63,12 +63,18 @@ fn as_f64<T: Real>(v: Vector3<T>) -> [f64; 3] {
 }
 
 /// Greatest error of the contact point over the size.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct Worst {
     /// Against the exact line of action of the wrench.
     pub(crate) of_wrench: f64,
     /// Against the line of action as the scalar type has it: what the surface adds.
     pub(crate) of_line: f64,
+}
+
+impl core::fmt::Display for Worst {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "{:.1e} ({:.1e} on the rounded line)", self.of_wrench, self.of_line)
+    }
 }
 
 pub(crate) fn worst<T: Real, S: ActiveSurface<T>>(
@@ -237,13 +243,12 @@ macro_rules! accurate {
                     $crate::quadrics::worst(trials, 1, $shape),
                     $crate::quadrics::worst(trials, 2, $shape32),
                 );
-                println!("{}: f64 {double:.1e?}, f32 {single:.1e?}", stringify!($name));
-                assert!(double.of_wrench <= 1e-14 && double.of_line <= 1e-14, "f64: {double:e?}");
-                assert!(single.of_line <= 1e-6, "f32: {single:e?}");
-                // The rarest cases reach 20 rounding units: the line of action's own rounding, 1/cos φ = 20
-                // times over.
-                let allowed = if trials > 10_000 { 3e-6 } else { 1e-6 };
-                assert!(single.of_wrench <= allowed, "f32: {single:e?}");
+                println!("{}: f64 {double}, f32 {single}", stringify!($name));
+                assert!(double.of_wrench <= 1e-14 && double.of_line <= 1e-14, "f64: {double}");
+                // The rarest cases reach 20 rounding units, 1/cos φ = 20 times over one: of what the surface
+                // adds, and of the line of action's own rounding, which grows with its distance.
+                let (on_line, of_wrench) = if trials > 10_000 { (2e-6, 4e-6) } else { (1.5e-6, 4e-6) };
+                assert!(single.of_line <= on_line && single.of_wrench <= of_wrench, "f32: {single}");
             }
 
             #[test]
