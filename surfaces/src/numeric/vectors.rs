@@ -67,6 +67,13 @@ pub(crate) fn from_degrees<T: Real>(degrees: T) -> T {
     degrees / T::literal(180.0) * T::pi()
 }
 
+/// The vector, or one that is nearer by so much that its length does not leave the range.
+#[inline]
+pub(crate) fn within_range<T: Real>(v: &Vector3<T>) -> Vector3<T> {
+    let far = T::GREATEST * T::literal(0.0625);
+    v.map(|x| x.max(-far).min(far))
+}
+
 /// `true` if no component is NaN or infinite.
 #[inline]
 pub(crate) fn is_finite<T: Real>(v: &Vector3<T>) -> bool {

@@ -4,7 +4,9 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use crate::serde_parts::serde_parts;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Frustum, SignedDistance};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, Frustum, SignedDistance,
+};
 
 /// A circular cylinder with flat ends, all of it active: a [`Frustum`] with equal radii.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,6 +67,11 @@ impl<T: Real> ActiveSurface<T> for CappedCylinder<T> {
     #[inline]
     fn crossings(&self, line: &Line<T>, visit: impl FnMut(Crossing<T>)) {
         self.solid.crossings(line, visit);
+    }
+
+    #[inline(always)]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        self.solid.sole_entry(push)
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use crate::numeric::closest::to_convex;
 use crate::numeric::roots::first_of_convex;
+use crate::numeric::twofold::{Twofold, dot};
 use crate::numeric::vectors::{foot, length, unit_or};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, SignedDistance};
@@ -79,6 +80,30 @@ impl<T: Real> ActiveSurface<T> for RoundedBox<T> {
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         self.signed_distance(point).normal
+    }
+
+    /// From the nearest point of the sharp box within: a plane's, a cylinder's or a ball's distance.
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        let scale = self.half_extents.max().normalising_factor();
+        let rounding = Twofold::new(self.rounding * scale);
+        // What a coordinate exceeds the inner box by, and whether it is beyond at all.
+        let beyond = |k: usize| {
+            let half = self.half_extents[k] * scale;
+            let excess = Twofold::difference(point[k].abs() * scale, half).plus(rounding);
+            (excess, excess.value() > T::zero())
+        };
+        match [beyond(0), beyond(1), beyond(2)] {
+            [(x, true), (_, false), (_, false)]
+            | [(_, false), (x, true), (_, false)]
+            | [(_, false), (_, false), (x, true)] => x.minus(rounding).value() / scale,
+            three => {
+                let part = |(x, out): (Twofold<T>, bool)| if out { x } else { Twofold::new(T::zero()) };
+                let [x, y, z] = three.map(part);
+                let excess = dot([x, y, z], [x, y, z]).minus(rounding.squared()).value();
+                let outside = excess / (rounding.value() + rounding.value()) / scale;
+                if outside.is_number() { outside } else { T::zero() }
+            }
+        }
     }
 
     fn contains(&self, point: &Vector3<T>) -> bool {
