@@ -181,14 +181,23 @@ impl<T: Real> Axis<T> {
 
     /// How far a point is outside the circular cylinder around the axis, with twice the digits.
     pub(super) fn outside_by(&self, point: &Vector3<T>, radius: T) -> T {
-        let scale = radius.normalising_factor();
-        let radius = radius * scale;
+        self.outside_cone_by(point, radius, Twofold::new(T::zero()), T::one())
+    }
+
+    /// How far a point is outside the cone around the axis whose radius is `radius` at the origin and
+    /// shrinks by `taper` per unit of height, with twice the digits; `cosine` is the side's normal's
+    /// across the axis.
+    pub(super) fn outside_cone_by(&self, point: &Vector3<T>, radius: T, taper: Twofold<T>, cosine: T) -> T {
+        let scale = (point - self.origin).amax().normalising_factor();
         let from_origin = difference(&(point * scale), &(self.origin * scale));
-        // The axis is a unit vector but for rounding: h²/|a|² = h²·(2 − |a|²).
+        // The axis is a unit vector but for rounding: h/|a| = h·(3 − |a|²)/2.
         let axis = [self.direction.x, self.direction.y, self.direction.z].map(Twofold::new);
-        let short = Twofold::new(T::literal(2.0)).minus(dot(axis, axis));
-        let along = dot(from_origin, axis).squared().times(short);
-        let excess = dot(from_origin, from_origin).minus(along).minus(Twofold::new(radius).squared());
-        excess.value() / (radius + radius) / scale
+        let long = Twofold::new(T::literal(3.0)).minus(dot(axis, axis)).times(Twofold::new(T::literal(0.5)));
+        let height = dot(from_origin, axis).times(long);
+        let radius = Twofold::new(radius * scale).minus(taper.times(height));
+        let excess = dot(from_origin, from_origin).minus(height.squared()).minus(radius.squared());
+        let outside = excess.value() * cosine / (radius.value() + radius.value()) / scale;
+        // At the apex there is no telling.
+        if outside.is_number() { outside } else { T::zero() }
     }
 }

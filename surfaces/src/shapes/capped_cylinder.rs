@@ -82,6 +82,10 @@ impl<T: Real> ActiveSurface<T> for CappedCylinder<T> {
         self.solid.normal(point)
     }
 
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        self.solid.outside_by(point)
+    }
+
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.solid.contains(point)
     }

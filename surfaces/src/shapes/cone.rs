@@ -1,10 +1,11 @@
 //! The cone, open at its wide end.
 
 use fingertip_wrench::{Line, Real};
-use nalgebra::Vector3;
+use nalgebra::{ComplexField, Vector3};
 
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
+use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, is_finite, length, unit_or};
 #[cfg(feature = "serde")]
 use crate::numeric::vectors::{from_degrees, to_degrees};
@@ -19,6 +20,8 @@ pub struct Cone<T: Real> {
     half_angle: T,
     sine: T,
     cosine: T,
+    /// What rounding took from `sine/cosine`, for a type narrower than `f64`.
+    tangent_rest: T,
     depth: Option<T>,
 }
 
@@ -38,7 +41,9 @@ impl<T: Real> Cone<T> {
             "between 0 and a right angle",
             half_angle > T::zero() && half_angle < T::frac_pi_2() && sine >= least && cosine >= least,
         )?;
+        let tangent = ComplexField::tan(half_angle.to_f64());
         Ok(Self {
+            tangent_rest: T::literal(tangent - (sine / cosine).to_f64()),
             axis: Axis::new(
                 BadShape::check_point("cone", "apex", apex)?,
                 BadShape::check_direction("cone", "axis", axis)?,
@@ -151,6 +156,11 @@ impl<T: Real> ActiveSurface<T> for Cone<T> {
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         self.side_normal(&self.axis.split_point(point).1)
+    }
+
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        let taper = Twofold::difference(-self.sine / self.cosine, self.tangent_rest);
+        self.axis.outside_cone_by(point, T::zero(), taper, self.cosine)
     }
 
     #[inline]

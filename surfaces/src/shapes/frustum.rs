@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
+use crate::numeric::twofold::{Twofold, difference, dot_with};
 use crate::numeric::vectors::{hypotenuse, unit_or};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
@@ -168,6 +169,17 @@ impl<T: Real> ActiveSurface<T> for Frustum<T> {
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         self.signed_distance(point).normal
+    }
+
+    /// Outside the side or the nearer end, whichever it is on.
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        let taper = Twofold::difference(self.base_radius, self.top_radius).over(self.height);
+        let side = self.axis.outside_cone_by(point, self.base_radius, taper, self.side_cosine);
+        let from_base = difference(point, &self.axis.origin);
+        let height = dot_with(from_base, &self.axis.direction);
+        let over_top = height.minus(Twofold::new(self.height)).value();
+        let end = over_top.max(-height.value());
+        if end.abs() < side.abs() { end } else { side }
     }
 
     #[inline]
