@@ -213,6 +213,9 @@ fn plane<T: Real>() -> impl FnMut(&mut Pcg64Mcg, f64) -> Case<Plane<T>> {
 
 macro_rules! accurate {
     ($name:ident, $shape:expr, $shape32:expr) => {
+        $crate::quadrics::accurate!($name, $shape, $shape32, 1e-6);
+    };
+    ($name:ident, $shape:expr, $shape32:expr, $single:expr) => {
         mod $name {
             use super::*;
 
@@ -223,7 +226,7 @@ macro_rules! accurate {
                 );
                 println!("{}: f64 {double:.1e}, f32 {single:.1e}", stringify!($name));
                 assert!(double <= 1e-14, "f64: {double:e}");
-                assert!(single <= 1e-6, "f32: {single:e}");
+                assert!(single <= $single, "f32: {single:e}");
             }
 
             #[test]
