@@ -62,7 +62,7 @@ impl Node {
             let half = at(&self.half, lane);
             (half.x >= T::zero()).then(|| {
                 (
-                    *child | (self.leaves >> lane & 1) * LEAF,
+                    *child | (((self.leaves >> lane) & 1) * LEAF),
                     at(&self.centre, lane),
                     half.norm_squared().root(),
                 )

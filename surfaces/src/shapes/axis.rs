@@ -78,6 +78,16 @@ impl<T: Real> Local<T> {
         select_unpredictable(falls, -sum, outside) / (select_unpredictable(falls, a, sum) * unit)
     }
 
+    /// The same for a cylinder, from the point of the line closest to the axis.
+    #[inline(always)]
+    pub(super) fn enters_cylinder(&self, radius: T) -> T {
+        let (p, u) = (&self.start, &self.direction);
+        let inverse = T::one() / (u.x * u.x + u.y * u.y);
+        let foot = -(p.x * u.x + p.y * u.y) * inverse;
+        let (x, y) = (p.x + u.x * foot, p.y + u.y * foot);
+        foot - ((radius * radius - (x * x + y * y)) * inverse).root()
+    }
+
     #[inline]
     pub(super) fn at(&self, t: T) -> Vector3<T> {
         self.start + self.direction * t

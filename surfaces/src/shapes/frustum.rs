@@ -117,7 +117,12 @@ impl<T: Real> Frustum<T> {
         let to_end = (end - p.z) / u.z;
         let (x, y) = (p.x + to_end * u.x, p.y + to_end * u.y);
         let through_end = x * x + y * y <= radius * radius;
-        let to_side = line.enters_cone(T::one(), middle_radius - self.taper * p.z, self.taper * u.z);
+        let is_cylinder = self.taper == T::zero();
+        let to_side = if is_cylinder {
+            line.enters_cylinder(middle_radius)
+        } else {
+            line.enters_cone(T::one(), middle_radius - self.taper * p.z, self.taper * u.z)
+        };
         let along = select_unpredictable(through_end, to_end, to_side);
         let z = select_unpredictable(through_end, end, p.z + to_side * u.z);
         // Where side and end meet, rounding may find a line outside both: a hair's breadth.
@@ -128,7 +133,10 @@ impl<T: Real> Frustum<T> {
         let (x, y) = (p.x + along * u.x, p.y + along * u.y);
         let squared = x * x + y * y;
         let steep = select_unpredictable(through_end, T::zero(), self.side_cosine);
-        let normal = if squared > T::LEAST_NORMAL / T::EPSILON {
+        let normal = if is_cylinder {
+            let scale = steep / middle_radius;
+            Vector3::new(x * scale, y * scale, T::zero())
+        } else if squared > T::LEAST_NORMAL / T::EPSILON {
             let scale = steep / squared.root();
             Vector3::new(x * scale, y * scale, self.taper * steep)
         } else {

@@ -388,6 +388,8 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
     }
 
     /// Takes some microseconds: the distance from the profile is searched for along the line.
+    /// By a search: the gap may be too large by 1/64 of the solid's reach where two places of the line
+    /// are nearly equally near.
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let (centre, reach) = self.bounds();
         let found = by_search(line, &centre, reach, |point| self.distance(point).0);
