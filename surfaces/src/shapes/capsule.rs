@@ -1,5 +1,7 @@
 //! The cylinder with round ends.
 
+use core::hint::select_unpredictable;
+
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
@@ -86,7 +88,8 @@ impl<T: Real> Capsule<T> {
         let aside = p.x * u.y - p.y * u.x;
         let root = (squared - aside * aside).root();
         let to_side = -(p.x * u.x + p.y * u.y + root) / squared;
-        let height = (p.z + to_side * u.z).min(half_length).max(-half_length);
+        let z = p.z + to_side * u.z;
+        let height = z.min(half_length).max(-half_length);
         let from_centre = Vector3::new(p.x, p.y, p.z - height);
         let foot = -from_centre.dot(u);
         let radial = from_centre + u * foot;
@@ -96,9 +99,11 @@ impl<T: Real> Capsule<T> {
             return None;
         }
         let half_chord = remainder.max(T::zero()).root();
-        let normal = radial - u * half_chord;
+        let mut normal = radial - u * half_chord;
         let mut point = normal * self.radius;
         point.z += height * self.radius;
+        // The normal would keep the error of the place.
+        normal.z = select_unpredictable(z.abs() <= half_length, T::zero(), normal.z);
         Some(LocalEntry { along: (foot - half_chord) * self.radius, point, normal })
     }
 }
