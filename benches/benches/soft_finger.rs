@@ -185,14 +185,12 @@ fn resolution(c: &mut Criterion) {
     });
     throughput(c, "ellipsoid, with position covariance", &cases, |case| {
         let Some(contact) = soft.resolve(&case.wrench, &ellipsoid).contact().copied() else { return 0.0 };
-        let bend = ellipsoid.shape_operator(&contact.point);
-        ContactJacobian::of_soft_finger(&contact, &bend)
+        ContactJacobian::of_soft_finger_on(&contact, &ellipsoid)
             .map_or(0.0, |jacobian| ContactCovariance::position_only(&jacobian, &noise).m11)
     });
     throughput(c, "ellipsoid, with the whole covariance", &cases, |case| {
         let Some(contact) = soft.resolve(&case.wrench, &ellipsoid).contact().copied() else { return 0.0 };
-        let bend = ellipsoid.shape_operator(&contact.point);
-        ContactJacobian::of_soft_finger(&contact, &bend)
+        ContactJacobian::of_soft_finger_on(&contact, &ellipsoid)
             .map_or(0.0, |jacobian| ContactCovariance::new(&jacobian, &noise).spin_variance())
     });
     let errors = WorstErrors::of_wrench(1e-3, 1e-5);

@@ -3,6 +3,19 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
+/// The largest magnitude of a component. Unlike `amax` it passes over a NaN, which costs nothing:
+/// what is scaled by it stays NaN.
+#[inline]
+pub(crate) fn largest<T: Real>(v: &Vector3<T>) -> T {
+    larger(larger(v.x.abs(), v.y.abs()), v.z.abs())
+}
+
+/// The larger of two numbers; the second if one is NaN.
+#[inline]
+pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
+    if a > b { a } else { b }
+}
+
 /// Euclidean length, for components over the whole range of the type.
 #[inline]
 pub(crate) fn length<T: Real>(v: &Vector3<T>) -> T {

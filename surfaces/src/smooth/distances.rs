@@ -1,7 +1,7 @@
 //! Shapes whose level function is a distance.
 
 use fingertip_wrench::Real;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::ActiveSurface;
 use crate::numeric::vectors::{hypotenuse, length, unit_or};
@@ -34,6 +34,11 @@ impl<T: Real> SmoothSurface<T> for Sphere<T> {
     fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
         let normal = self.normal(point);
         (Matrix3::identity() - normal * normal.transpose()) / self.radius()
+    }
+
+    #[inline]
+    fn bend(&self, _point: &Vector3<T>, _normal: &Vector3<T>, _tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        Matrix2::from_diagonal_element(self.curvature())
     }
 }
 

@@ -3,6 +3,7 @@
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
+use crate::numeric::vectors::{larger, largest};
 use super::unit_sphere::{OnUnitSphere, on_unit_sphere};
 use crate::{Search, SoftContact};
 
@@ -16,13 +17,13 @@ pub(super) fn on_sphere<T: Real>(
     mut visit: impl FnMut(SoftContact<T>),
 ) -> Search<T> {
     let lever = torque * curvature;
-    let scale = force.amax().max(lever.amax()).normalising_factor();
+    let scale = larger(largest(force), largest(&lever)).normalising_factor();
     match on_unit_sphere(&(force * scale), &(lever * scale)) {
         OnUnitSphere::Contact { point, spin } => {
             visit(SoftContact {
                 point: point * radius,
                 normal: point,
-                spin_torque: spin * radius / scale,
+                spin_torque: spin * radius * scale.normalising_factor(),
                 active: true,
             });
             Search::Complete
@@ -47,25 +48,22 @@ pub(super) fn on_ellipsoid<T: Real>(
 ) -> Search<T> {
     // Lengths in units of the largest semi-axis, by a power of two; then the product of two
     // reciprocals is at least 1/4 and overflows only where the shape itself is not representable.
-    let unit = semi_axes.amax().normalising_factor();
-    let length = T::one() / unit;
-    let (a, b) = (semi_axes * unit, reciprocals * length);
-    let lever = torque * unit;
-    let scale = force.amax().max(lever.amax()).normalising_factor();
-    let f = force.component_mul(&b) * scale;
-    let across = Vector3::new(b.y * b.z, b.z * b.x, b.x * b.y);
-    let m = lever.component_mul(&across) * scale;
-    // In the affine frame the wrench may have grown again.
-    let again = f.amax().max(m.amax()).normalising_factor();
-    match on_unit_sphere(&(f * again), &(m * again)) {
+    let unit = largest(semi_axes).normalising_factor();
+    let length = unit.normalising_factor();
+    let b = reciprocals * length;
+    let f = force.component_mul(&b);
+    let across = Vector3::new(b.y * b.z, b.z * b.x, b.x * b.y) * unit;
+    let m = torque.component_mul(&across);
+    let scale = larger(largest(&f), largest(&m)).normalising_factor();
+    match on_unit_sphere(&(f * scale), &(m * scale)) {
         OnUnitSphere::Contact { point, spin } => {
             let gradient = point.component_mul(&b);
             let steepness = gradient.norm_squared().root();
-            let volume = a.x * a.y * a.z;
+            let volume = (semi_axes.x * unit) * (semi_axes.y * unit) * semi_axes.z;
             visit(SoftContact {
                 point: point.component_mul(semi_axes),
-                normal: gradient / steepness,
-                spin_torque: spin * volume * steepness / (again * scale) * length,
+                normal: gradient * (T::one() / steepness),
+                spin_torque: spin * volume * steepness * scale.normalising_factor(),
                 active: true,
             });
             Search::Complete

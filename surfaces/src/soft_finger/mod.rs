@@ -11,6 +11,7 @@ mod plane;
 mod search;
 mod shapes;
 mod solution;
+mod torus;
 mod unit_sphere;
 
 pub use model::SoftFinger;

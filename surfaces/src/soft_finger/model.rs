@@ -3,6 +3,7 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
+use crate::numeric::vectors::{largest, length};
 use crate::{BadShape, Contact, ContactModel, NoContact, Resolution, Search, SoftContact, SoftFingerSurface};
 
 /// A contact that transmits a force and a torque about the normal: `m = c × f + τ n`, `c` on the
@@ -50,11 +51,11 @@ impl<T: Real> SoftFinger<T> {
     }
 }
 
-/// Magnitude without over- or underflow, and the factor that brings the vector near 1.
+/// A factor that brings a wrench near 1, or 1 if lever arms and squares can do it no harm.
 #[inline]
-pub(crate) fn magnitude<T: Real>(v: &Vector3<T>) -> (T, T) {
-    let scale = v.amax().normalising_factor();
-    ((v * scale).norm_squared().root() / scale, scale)
+fn unit_of<T: Real>(largest: T) -> Option<T> {
+    let tame = largest > T::LEAST_NORMAL.root() && largest < T::GREATEST.root();
+    (!tame).then(|| largest.normalising_factor())
 }
 
 /// What has been seen of the solutions so far.
@@ -68,25 +69,29 @@ struct Seen<T: Real> {
 impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
     #[inline]
     fn resolve_near(&self, wrench: &Wrench<T>, surface: &S, last: Option<&Vector3<T>>) -> Resolution<T> {
-        let (force, scale) = magnitude(&wrench.force());
+        let (most_force, most_torque) = (largest(&wrench.force()), largest(&wrench.torque()));
+        let scale = most_force.normalising_factor();
+        let direction = wrench.force() * scale;
+        let steepness = direction.norm_squared().root();
+        // The factor of a power of two is its reciprocal.
+        let force = steepness * scale.normalising_factor();
         // One test instead of six: a NaN or an infinity survives the sum.
         let witness = force + wrench.torque().sum();
         if !witness.is_number() && !wrench.is_finite() {
             return Resolution::NoContact(NoContact::NotFinite);
         }
         if !(force >= self.least_force) || !(force > T::zero()) {
-            let (torque, _) = magnitude(&wrench.torque());
-            return Resolution::NoContact(if force > T::zero() || torque.is_zero() {
+            return Resolution::NoContact(if force > T::zero() || most_torque.is_zero() {
                 NoContact::BelowThreshold { force }
             } else {
-                NoContact::PureCouple { torque }
+                NoContact::PureCouple { torque: length(&wrench.torque()) }
             });
         }
-        let direction = wrench.force() * scale;
-        // Bring the larger of force and torque near 1, so that lever arms cannot overflow.
-        let unit = wrench.force().amax().max(wrench.torque().amax()).normalising_factor();
+        // Lever arms shall not overflow.
+        let unit = unit_of(if most_torque > most_force { most_torque } else { most_force });
+        let tame = unit.map_or(*wrench, |unit| *wrench * unit);
         let mut seen = Seen { best: None, candidates: 0, outside: None, beyond_range: false };
-        let search = surface.soft_contacts(&(*wrench * unit), last, |contact| {
+        let search = surface.soft_contacts(&tame, last, |contact| {
             if !(contact.point.sum() + contact.normal.sum() + contact.spin_torque).is_number() {
                 seen.beyond_range = true;
                 return;
@@ -109,12 +114,15 @@ impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
             }
         });
         if let Some((contact, incidence)) = seen.best {
-            let incidence = incidence / (force * scale);
+            let incidence = incidence / steepness;
+            let spin_torque = unit.map_or(contact.spin_torque, |unit| {
+                (contact.spin_torque / unit).max(-T::GREATEST).min(T::GREATEST)
+            });
             return Resolution::Contact(Contact {
                 point: contact.point,
                 normal: contact.normal,
                 force: wrench.force(),
-                spin_torque: (contact.spin_torque / unit).max(-T::GREATEST).min(T::GREATEST),
+                spin_torque,
                 incidence: incidence.max(T::zero()).min(T::one()),
                 gap: T::zero(),
                 alternatives: seen.candidates - 1,

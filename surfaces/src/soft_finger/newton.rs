@@ -24,7 +24,7 @@ pub(super) struct Place<T: Real> {
     pub(super) point: Vector3<T>,
     pub(super) normal: Vector3<T>,
     /// Distance from the surface, to first order.
-    height: T,
+    pub(super) height: T,
     /// Two unit vectors that span the tangent plane, `first × second = normal`.
     first: Vector3<T>,
     second: Vector3<T>,
@@ -181,7 +181,10 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
                 size = half;
             }
             let small = size <= fine;
-            let last = size <= fine * T::literal(0.01) || (small && size + size >= before);
+            // Near its end the step shrinks to `C·size²`; the last two tell `C`. So one step more
+            // than needed is saved where Newton's method converges as it should.
+            let quadratic = size <= before * before * T::literal(4.0) && before < T::one();
+            let last = small && (quadratic || size <= fine * T::literal(0.01) || size + size >= before);
             before = size;
             let mut tries = 6;
             state = loop {

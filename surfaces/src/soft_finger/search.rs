@@ -91,6 +91,14 @@ fn starts_on_convex<T: Real, S: SmoothSurface<T>>(
     {
         return Found::Contact(state);
     }
+    // Nothing but Newton, from where the contact would be on the ball around the surface: it needs no
+    // point of the surface, and where it ends well, the answer is certain, since a convex surface has
+    // only one contact. Not without a spin torque, when there may be none.
+    if problem.power.abs() > T::EPSILON.root() * problem.force.norm_squared()
+        && let Some(state) = problem.from_ball()
+    {
+        return Found::Contact(state);
+    }
     let entry = line_entries(problem, surface, wrench).into_iter().flatten().next();
     if problem.power.is_zero() && entry.is_none() {
         return Found::Nothing;

@@ -8,6 +8,7 @@ use super::cylinder::on_cylinder;
 use super::ellipsoid::{on_ellipsoid, on_sphere};
 use super::newton::tangents;
 use super::plane::on_plane;
+use super::torus::on_torus;
 use crate::{
     ActiveSurface, Capsule, Cone, Cylinder, CylinderEnds, Disk, Ellipsoid, EllipticCylinder, Implicit,
     Paraboloid, Plane, Rectangle, RoundedBox, Search, SmoothImplicit, SoftContact, SoftFingerSurface, Sphere,
@@ -42,7 +43,7 @@ impl<T: Real> SoftFingerSurface<T> for Sphere<T> {
         let centre = self.centre();
         let torque = wrench.torque_about(&centre);
         let search =
-            on_sphere(self.radius(), T::one() / self.radius(), &wrench.force(), &torque, |contact| {
+            on_sphere(self.radius(), self.curvature(), &wrench.force(), &torque, |contact| {
                 visit(SoftContact { point: contact.point + centre, ..contact });
             });
         match search {
@@ -103,9 +104,7 @@ impl<T: Real> SoftFingerSurface<T> for Ellipsoid<T> {
         _last: Option<&Vector3<T>>,
         visit: impl FnMut(SoftContact<T>),
     ) -> Search<T> {
-        let semi_axes = self.semi_axes();
-        let reciprocals = semi_axes.map(|a| T::one() / a);
-        on_ellipsoid(&semi_axes, &reciprocals, &wrench.force(), &wrench.torque(), visit)
+        on_ellipsoid(&self.semi_axes(), &self.curvatures(), &wrench.force(), &wrench.torque(), visit)
     }
 }
 
@@ -224,6 +223,17 @@ part_of!(SphericalCap, sphere);
 part_of!(Disk, plane);
 part_of!(Rectangle, plane);
 
+impl<T: Real> SoftFingerSurface<T> for Torus<T> {
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        _last: Option<&Vector3<T>>,
+        visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        on_torus(self, wrench, visit)
+    }
+}
+
 /// Shapes without a closed form.
 macro_rules! by_newton {
     ($shape:ident) => {
@@ -243,7 +253,6 @@ macro_rules! by_newton {
     };
 }
 
-by_newton!(Torus);
 by_newton!(Superquadric);
 by_newton!(RoundedBox);
 by_newton!(Paraboloid);

@@ -43,7 +43,8 @@ pub enum Search<T: Real> {
 /// [`newton_soft_contacts`](crate::newton_soft_contacts).
 ///
 /// `visit` shall be called once for every solution that presses, those outside the active region
-/// too. The wrench is finite and its force is not zero. Solutions shall be accurate for spin
+/// too. The wrench is finite, its force is not zero, and its largest component lies between the roots
+/// of the least and of the greatest number of the type. Solutions shall be accurate for spin
 /// torques down to zero.
 pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
     /// Calls `visit` for every solution that presses. `last`, the contact point of the sample

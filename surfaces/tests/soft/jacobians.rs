@@ -89,8 +89,7 @@ fn contact_and_jacobian<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
         Model::Soft => {
             let contact = SoftFinger::new(0.0).unwrap().resolve_near(&case.wrench, surface, near);
             let contact = *contact.contact().unwrap();
-            let bend = surface.shape_operator(&contact.point);
-            (contact, ContactJacobian::of_soft_finger(&contact, &bend).unwrap())
+            (contact, ContactJacobian::of_soft_finger_on(&contact, surface).unwrap())
         }
     }
 }
@@ -148,7 +147,7 @@ where
                 let turned = jacobian.normal_change().column(axis) - found.normal.map(|x| x.eps);
                 assert!(turned.norm() <= tolerance * 10.0 * (1.0 + change.norm() / size), "{name} {turned}");
             }
-            worst = worst.max(deviation(jacobian.local(), &reference));
+            worst = worst.max(deviation(&jacobian.local(), &reference));
         }
         let which = match model {
             Model::Point => "point",
