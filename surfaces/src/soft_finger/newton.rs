@@ -209,6 +209,14 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
         Some(state)
     }
 
+    /// A contact that is right but for rounding, after one step of Newton's method or two.
+    pub(super) fn polished(&self, contact: &SoftContact<T>) -> Option<SoftContact<T>> {
+        let place = self.place(self.inward(&contact.point))?;
+        let spin = contact.spin_torque * self.wrench_unit / self.length;
+        let state = self.newton(place, spin, &self.torque, 3)?;
+        (state.converged && self.presses(&state)).then(|| self.contact(&state))
+    }
+
     /// The spin torque that the force's component along the wrench asks for at a place,
     /// `f·m/f·n`, if it presses there.
     #[inline]

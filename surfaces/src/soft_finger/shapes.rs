@@ -6,11 +6,12 @@ use nalgebra::Vector3;
 use super::cone::on_cone;
 use super::cylinder::on_cylinder;
 use super::ellipsoid::{on_ellipsoid, on_sphere};
-use super::newton::tangents;
+use super::frustum::{on_frustum, on_round_side};
 use super::plane::on_plane;
+use super::rim::on_rim;
 use super::torus::on_torus;
 use crate::{
-    ActiveSurface, Capsule, Cone, Cylinder, CylinderEnds, Disk, Ellipsoid, EllipticCylinder, Implicit,
+    ActiveSurface, CappedCylinder, Capsule, Cone, Cylinder, CylinderEnds, Disk, Ellipsoid, EllipticCylinder, Frustum, Implicit,
     Paraboloid, Plane, Rectangle, RoundedBox, Search, SmoothImplicit, SoftContact, SoftFingerSurface, Sphere,
     SphericalCap, Superquadric, Torus, newton_soft_contacts,
 };
@@ -78,21 +79,37 @@ impl<T: Real> SoftFingerSurface<T> for Cylinder<T> {
         _last: Option<&Vector3<T>>,
         mut visit: impl FnMut(SoftContact<T>),
     ) -> Search<T> {
-        let (centre, axis, radius) = (self.centre(), self.axis(), self.radius());
-        let (first, second) = tangents(&axis);
-        let inward = |v: &Vector3<T>| Vector3::new(v.dot(&first), v.dot(&second), v.dot(&axis));
-        let outward = |v: &Vector3<T>| first * v.x + second * v.y + axis * v.z;
-        let force = inward(&wrench.force());
-        let torque = inward(&wrench.torque_about(&centre));
-        let curvature = T::one() / radius;
-        on_cylinder([radius; 2], [curvature; 2], &force, &torque, |contact| {
-            visit(SoftContact {
-                point: outward(&contact.point) + centre,
-                normal: outward(&contact.normal),
-                active: self.half_length().is_none_or(|half| contact.point.z.abs() <= half),
-                ..contact
-            });
-        })
+        let (centre, axis) = (self.centre(), self.axis());
+        if let Some(contact) = on_round_side(&centre, &axis, self.radius(), wrench) {
+            let height = (contact.point - centre).dot(&axis);
+            let active = self.half_length().is_none_or(|half| height.abs() <= half);
+            visit(SoftContact { active, ..contact });
+        }
+        Search::Complete
+    }
+}
+
+impl<T: Real> SoftFingerSurface<T> for Frustum<T> {
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        _last: Option<&Vector3<T>>,
+        visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        on_frustum(self, wrench, visit);
+        Search::Complete
+    }
+}
+
+impl<T: Real> SoftFingerSurface<T> for CappedCylinder<T> {
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        _last: Option<&Vector3<T>>,
+        visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        on_frustum(self.solid(), wrench, visit);
+        Search::Complete
     }
 }
 
@@ -152,7 +169,19 @@ impl<T: Real> SoftFingerSurface<T> for Cone<T> {
     ) -> Search<T> {
         if let Some(contact) = on_cone(self, wrench) {
             visit(SoftContact { active: is_active(self, &contact), ..contact });
+            return Search::Complete;
         }
+        // On the tip any normal will do that is steeper than the side's.
+        let (apex, tip) = (self.apex(), -self.axis());
+        let least = self.half_angle().sin();
+        on_rim(
+            T::zero(),
+            &tip,
+            &wrench.force(),
+            &wrench.torque_about(&apex),
+            |normal, _| normal.dot(&tip) >= least,
+            |contact| visit(SoftContact { point: apex, ..contact }),
+        );
         Search::Complete
     }
 }

@@ -3,6 +3,7 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
+use super::newton::Problem;
 use super::unit_sphere::{OnUnitSphere, on_unit_sphere_with_power};
 use crate::numeric::roots::{bisected, bracketed};
 use crate::numeric::vectors::{larger, largest};
@@ -55,17 +56,18 @@ pub(super) fn on_torus<T: Real>(
         return Search::Complete;
     }
     let around = Around { force, torque, tube, power };
+    let problem = Problem::new(torus, &wrench.force(), &wrench.torque());
     around.roots(|angle| {
         let at = around.at(angle);
-        // Once more, which also carries the derivative of a dual number.
-        let step = at.value / at.slope;
-        let at = if step.abs() < T::EPSILON.root() { around.at(angle - step) } else { at };
-        visit(SoftContact {
+        let found = SoftContact {
             point: (at.outward + at.normal * tube) * ring,
             normal: at.normal,
             spin_torque: at.spin * ring / scale,
             active: true,
-        });
+        };
+        // A last step on all equations at once takes the rounding of the angle away, and carries the
+        // derivative of a dual number.
+        visit(problem.polished(&found).unwrap_or(found));
     });
     Search::Complete
 }

@@ -30,13 +30,14 @@ pub(crate) enum OnUnitSphere<T: Real> {
 ///
 /// The larger of `|f|` and `|m|` must be near 1, so that squares stay in range. It must not be
 /// zero, and the force must not be.
-#[inline]
+#[inline(always)]
 pub(crate) fn on_unit_sphere<T: Real>(f: &Vector3<T>, m: &Vector3<T>) -> OnUnitSphere<T> {
     on_unit_sphere_with_power(f, m, f.dot(m))
 }
 
 /// The same with `f·m` from where it is known better than from the two vectors.
-#[inline]
+// Called, it costs as much again as it computes, for what it returns does not fit into registers.
+#[inline(always)]
 pub(crate) fn on_unit_sphere_with_power<T: Real>(
     f: &Vector3<T>,
     m: &Vector3<T>,
@@ -54,12 +55,16 @@ pub(crate) fn on_unit_sphere_with_power<T: Real>(
     let (spin, along) = if sigma < T::zero() {
         (-smaller, -larger)
     } else if power.is_zero() {
-        let along_m = m * larger;
-        return OnUnitSphere::Grazing([(cross + along_m) * inverse, (cross - along_m) * inverse]);
+        return grazing(&cross, &(m * larger), inverse);
     } else if power > T::zero() {
         (-larger, -smaller)
     } else {
         (larger, smaller)
     };
     OnUnitSphere::Contact { point: (m * spin + cross + f * along) * inverse, spin }
+}
+
+#[cold]
+fn grazing<T: Real>(cross: &Vector3<T>, along_m: &Vector3<T>, inverse: T) -> OnUnitSphere<T> {
+    OnUnitSphere::Grazing([(cross + along_m) * inverse, (cross - along_m) * inverse])
 }
