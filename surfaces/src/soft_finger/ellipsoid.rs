@@ -3,8 +3,8 @@
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
-use crate::numeric::vectors::{larger, largest};
 use super::unit_sphere::{OnUnitSphere, on_unit_sphere};
+use crate::numeric::vectors::{larger, largest};
 use crate::{Search, SoftContact};
 
 /// The soft-finger contact on a sphere around the origin, for a wrench about its centre.

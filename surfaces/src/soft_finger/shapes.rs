@@ -11,9 +11,9 @@ use super::plane::on_plane;
 use super::rim::on_rim;
 use super::torus::on_torus;
 use crate::{
-    ActiveSurface, CappedCylinder, Capsule, Cone, Cylinder, CylinderEnds, Disk, Ellipsoid, EllipticCylinder, Frustum, Implicit,
-    Paraboloid, Plane, Rectangle, RoundedBox, Search, SmoothImplicit, SoftContact, SoftFingerSurface, Sphere,
-    SphericalCap, Superquadric, Torus, newton_soft_contacts,
+    ActiveSurface, CappedCylinder, Capsule, Cone, Cylinder, CylinderEnds, Disk, Ellipsoid, EllipticCylinder,
+    Frustum, Implicit, Paraboloid, Plane, Rectangle, RoundedBox, Search, SmoothImplicit, SoftContact,
+    SoftFingerSurface, Sphere, SphericalCap, Superquadric, Torus, newton_soft_contacts,
 };
 use fingertip_wrench::Line;
 
@@ -43,10 +43,9 @@ impl<T: Real> SoftFingerSurface<T> for Sphere<T> {
     ) -> Search<T> {
         let centre = self.centre();
         let torque = wrench.torque_about(&centre);
-        let search =
-            on_sphere(self.radius(), self.curvature(), &wrench.force(), &torque, |contact| {
-                visit(SoftContact { point: contact.point + centre, ..contact });
-            });
+        let search = on_sphere(self.radius(), self.curvature(), &wrench.force(), &torque, |contact| {
+            visit(SoftContact { point: contact.point + centre, ..contact });
+        });
         match search {
             Search::Grazing(pair) => Search::Grazing(pair.map(|point| point + centre)),
             other => other,

@@ -111,8 +111,8 @@ impl<T: Real> Around<T> {
         let turning = -tangent.cross(&self.force);
         let turning = turning - normal * normal.dot(&turning);
         let pressing = force.dot(&normal);
-        let turned = (turning * spin - turning.cross(&normal) * pressing)
-            / (spin * spin + pressing * pressing);
+        let turned =
+            (turning * spin - turning.cross(&normal) * pressing) / (spin * spin + pressing * pressing);
         At {
             angle,
             outward,
@@ -164,11 +164,7 @@ impl<T: Real> Around<T> {
                         at_low = at;
                     }
                 }
-                let at = if end == high && k == CELLS {
-                    At { angle: high, ..first }
-                } else {
-                    self.at(end)
-                };
+                let at = if end == high && k == CELLS { At { angle: high, ..first } } else { self.at(end) };
                 self.within(at_low, at, &mut found);
                 at_low = at;
                 (from, from_misses) = (end, end_misses);

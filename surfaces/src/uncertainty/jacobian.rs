@@ -5,8 +5,8 @@ use nalgebra::{Matrix2, Matrix3, Matrix3x6, Matrix6, Vector2, Vector3, Vector6};
 
 use super::GeometrySensitivity;
 use crate::numeric::vectors::larger;
-use crate::{Contact, SmoothSurface};
 use crate::soft_finger::newton::tangents;
+use crate::{Contact, SmoothSurface};
 
 /// The first derivatives of a contact with respect to the wrench `(f, m)` \[N, N·m\] about the
 /// origin of the sensor frame, and to the geometry of the surface.
