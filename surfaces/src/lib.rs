@@ -38,7 +38,7 @@ pub use compliant::{
 pub use contact::{Contact, ContactBound, ContactModel, NoContact, PointContact, Resolution, WorstErrors};
 #[cfg(feature = "alloc")]
 pub use dyn_surface::{DynSurface, Parts};
-pub use fusion::{ArrayContact, Fused, FusedContact, Fusion};
+pub use fusion::{ArrayContact, Fused, FusedContact, Fusion, Grip};
 #[cfg(feature = "alloc")]
 pub use heightfield::Heightfield;
 #[cfg(feature = "alloc")]

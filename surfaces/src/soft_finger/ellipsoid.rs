@@ -4,7 +4,7 @@ use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 use super::unit_sphere::{OnUnitSphere, on_unit_sphere};
-use crate::numeric::vectors::{larger, largest};
+use crate::numeric::vectors::{larger, largest, taming_factor};
 use crate::{Search, SoftContact};
 
 /// The soft-finger contact on a sphere around the origin, for a wrench about its centre.
@@ -17,7 +17,7 @@ pub(super) fn on_sphere<T: Real>(
     mut visit: impl FnMut(SoftContact<T>),
 ) -> Search<T> {
     let lever = torque * curvature;
-    let scale = larger(largest(force), largest(&lever)).normalising_factor();
+    let scale = taming_factor(larger(largest(force), largest(&lever)));
     match on_unit_sphere(&(force * scale), &(lever * scale)) {
         OnUnitSphere::Contact { point, spin } => {
             visit(SoftContact {
@@ -54,7 +54,7 @@ pub(super) fn on_ellipsoid<T: Real>(
     let f = force.component_mul(&b);
     let across = Vector3::new(b.y * b.z, b.z * b.x, b.x * b.y) * unit;
     let m = torque.component_mul(&across);
-    let scale = larger(largest(&f), largest(&m)).normalising_factor();
+    let scale = taming_factor(larger(largest(&f), largest(&m)));
     match on_unit_sphere(&(f * scale), &(m * scale)) {
         OnUnitSphere::Contact { point, spin } => {
             let gradient = point.component_mul(&b);

@@ -3,7 +3,7 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::numeric::vectors::{largest, length};
+use crate::numeric::vectors::{is_tame, larger, largest, length};
 use crate::{BadShape, Contact, ContactModel, NoContact, Resolution, Search, SoftContact, SoftFingerSurface};
 
 /// A contact that transmits a force and a torque about the normal: `m = c × f + τ n`, `c` on the
@@ -51,13 +51,6 @@ impl<T: Real> SoftFinger<T> {
     }
 }
 
-/// A factor that brings a wrench near 1, or 1 if lever arms and squares can do it no harm.
-#[inline]
-fn unit_of<T: Real>(largest: T) -> Option<T> {
-    let tame = largest > T::LEAST_NORMAL.root() && largest < T::GREATEST.root();
-    (!tame).then(|| largest.normalising_factor())
-}
-
 /// What has been seen of the solutions so far.
 struct Seen<T: Real> {
     best: Option<(SoftContact<T>, T)>,
@@ -69,30 +62,71 @@ struct Seen<T: Real> {
 impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
     #[inline]
     fn resolve_near(&self, wrench: &Wrench<T>, surface: &S, last: Option<&Vector3<T>>) -> Resolution<T> {
-        let (most_force, most_torque) = (largest(&wrench.force()), largest(&wrench.torque()));
-        let scale = most_force.normalising_factor();
-        let direction = wrench.force() * scale;
-        let steepness = direction.norm_squared().root();
-        // The factor of a power of two is its reciprocal.
-        let force = steepness * scale.normalising_factor();
-        // One test instead of six: a NaN or an infinity survives the sum.
-        let witness = force + wrench.torque().sum();
-        if !witness.is_number() && !wrench.is_finite() {
+        let most_torque = largest(&wrench.torque());
+        if is_tame(largest(&wrench.force())) && !(most_torque > T::zero() && !is_tame(most_torque)) {
+            let force = wrench.force().norm_squared().root();
+            // A NaN may have hidden behind a number.
+            let torque = wrench.torque();
+            if (force + torque.x + torque.y + torque.z).is_number() {
+                return if force >= self.least_force {
+                    self.search(wrench, &Scaled { wrench: *wrench, force, unit: None }, surface, last)
+                } else {
+                    Resolution::NoContact(NoContact::BelowThreshold { force })
+                };
+            }
+        }
+        self.resolve_extreme(wrench, surface, last)
+    }
+}
+
+/// A wrench whose squares stay within the range of the type, times a factor if that was needed.
+struct Scaled<T: Real> {
+    wrench: Wrench<T>,
+    /// Length of its force.
+    force: T,
+    unit: Option<T>,
+}
+
+impl<T: Real> SoftFinger<T> {
+    /// Tiny, huge, zero, NaN.
+    #[cold]
+    #[inline(never)]
+    fn resolve_extreme<S: SoftFingerSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        last: Option<&Vector3<T>>,
+    ) -> Resolution<T> {
+        if !wrench.is_finite() {
             return Resolution::NoContact(NoContact::NotFinite);
         }
+        let (force, torque) = (length(&wrench.force()), length(&wrench.torque()));
         if !(force >= self.least_force) || !(force > T::zero()) {
-            return Resolution::NoContact(if force > T::zero() || most_torque.is_zero() {
+            return Resolution::NoContact(if force > T::zero() || torque.is_zero() {
                 NoContact::BelowThreshold { force }
             } else {
-                NoContact::PureCouple { torque: length(&wrench.torque()) }
+                NoContact::PureCouple { torque }
             });
         }
-        // Lever arms shall not overflow.
-        let unit = unit_of(if most_torque > most_force { most_torque } else { most_force });
-        let tame = unit.map_or(*wrench, |unit| *wrench * unit);
+        let unit = larger(largest(&wrench.force()), largest(&wrench.torque())).normalising_factor();
+        let scaled = *wrench * unit;
+        let scaled = Scaled { wrench: scaled, force: length(&scaled.force()), unit: Some(unit) };
+        self.search(wrench, &scaled, surface, last)
+    }
+
+    #[inline(always)]
+    fn search<S: SoftFingerSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        scaled: &Scaled<T>,
+        surface: &S,
+        last: Option<&Vector3<T>>,
+    ) -> Resolution<T> {
+        let direction = scaled.wrench.force();
         let mut seen = Seen { best: None, candidates: 0, outside: None, beyond_range: false };
-        let search = surface.soft_contacts(&tame, last, |contact| {
-            if !(contact.point.sum() + contact.normal.sum() + contact.spin_torque).is_number() {
+        let search = surface.soft_contacts(&scaled.wrench, last, |contact| {
+            let c = contact.point;
+            if !(c.x + c.y + c.z + contact.spin_torque).is_number() {
                 seen.beyond_range = true;
                 return;
             }
@@ -114,8 +148,8 @@ impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
             }
         });
         if let Some((contact, incidence)) = seen.best {
-            let incidence = incidence / steepness;
-            let spin_torque = unit.map_or(contact.spin_torque, |unit| {
+            let incidence = incidence / scaled.force;
+            let spin_torque = scaled.unit.map_or(contact.spin_torque, |unit| {
                 (contact.spin_torque / unit).max(-T::GREATEST).min(T::GREATEST)
             });
             return Resolution::Contact(Contact {

@@ -28,7 +28,7 @@ pub(crate) enum OnUnitSphere<T: Real> {
 ///
 /// which divides by nothing that is small: a spin torque of zero is an ordinary case.
 ///
-/// The larger of `|f|` and `|m|` must be near 1, so that squares stay in range. It must not be
+/// The larger of `|f|` and `|m|` must be tame, so that fourth powers stay in range. It must not be
 /// zero, and the force must not be.
 #[inline(always)]
 pub(crate) fn on_unit_sphere<T: Real>(f: &Vector3<T>, m: &Vector3<T>) -> OnUnitSphere<T> {

@@ -12,3 +12,4 @@ mod jacobians;
 mod shapes;
 mod torus;
 mod uncertainty;
+mod uniqueness;
