@@ -4,7 +4,7 @@
 use fingertip_wrench::Real;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
-use crate::numeric::vectors::{largest, length};
+use crate::numeric::vectors::length;
 use crate::{
     CylinderEnds, Ellipsoid, EllipticCylinder, Extent, Level, Paraboloid, SmoothSurface, Superquadric,
     Topology,
@@ -28,11 +28,10 @@ impl<T: Real> SmoothSurface<T> for Ellipsoid<T> {
 
     /// `eᵀA⁻²e/|A⁻²c|`.
     #[inline]
-    fn bend(&self, point: &Vector3<T>, _normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
         let curvatures = self.curvatures();
-        let gradient = point.component_mul(&curvatures).component_mul(&curvatures);
-        let scale = largest(&gradient).normalising_factor();
-        let inverse = scale / (gradient * scale).norm_squared().root();
+        // |g| = g·n, without squares.
+        let inverse = T::one() / point.component_mul(&curvatures).dot(&normal.component_mul(&curvatures));
         let [e1, e2] = tangents.map(|e| e.component_mul(&curvatures));
         let mixed = e1.dot(&e2) * inverse;
         Matrix2::new(e1.norm_squared() * inverse, mixed, mixed, e2.norm_squared() * inverse)

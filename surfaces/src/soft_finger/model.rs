@@ -68,11 +68,18 @@ impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
             // A NaN may have hidden behind a number.
             let torque = wrench.torque();
             if (force + torque.x + torque.y + torque.z).is_number() {
-                return if force >= self.least_force {
-                    self.search(wrench, &Scaled { wrench: *wrench, force, unit: None }, surface, last)
-                } else {
-                    Resolution::NoContact(NoContact::BelowThreshold { force })
-                };
+                if !(force >= self.least_force) {
+                    return Resolution::NoContact(NoContact::BelowThreshold { force });
+                }
+                if let Some(contact) = surface.sole_soft_contact(wrench)
+                    && contact.active
+                    && is_in_range(&contact)
+                {
+                    let incidence = -wrench.force().dot(&contact.normal) / force;
+                    return Resolution::Contact(contact_at(wrench, &contact, incidence, contact.spin_torque));
+                }
+                let scaled = Scaled { wrench: *wrench, force, unit: None };
+                return self.search(wrench, &scaled, surface, last);
             }
         }
         self.resolve_extreme(wrench, surface, last)
@@ -114,7 +121,6 @@ impl<T: Real> SoftFinger<T> {
         self.search(wrench, &scaled, surface, last)
     }
 
-    #[inline(always)]
     fn search<S: SoftFingerSurface<T>>(
         &self,
         wrench: &Wrench<T>,
@@ -125,8 +131,7 @@ impl<T: Real> SoftFinger<T> {
         let direction = scaled.wrench.force();
         let mut seen = Seen { best: None, candidates: 0, outside: None, beyond_range: false };
         let search = surface.soft_contacts(&scaled.wrench, last, |contact| {
-            let c = contact.point;
-            if !(c.x + c.y + c.z + contact.spin_torque).is_number() {
+            if !is_in_range(&contact) {
                 seen.beyond_range = true;
                 return;
             }
@@ -152,15 +157,8 @@ impl<T: Real> SoftFinger<T> {
             let spin_torque = scaled.unit.map_or(contact.spin_torque, |unit| {
                 (contact.spin_torque / unit).max(-T::GREATEST).min(T::GREATEST)
             });
-            return Resolution::Contact(Contact {
-                point: contact.point,
-                normal: contact.normal,
-                force: wrench.force(),
-                spin_torque,
-                incidence: incidence.max(T::zero()).min(T::one()),
-                gap: T::zero(),
-                alternatives: seen.candidates - 1,
-            });
+            let found = contact_at(wrench, &contact, incidence, spin_torque);
+            return Resolution::Contact(Contact { alternatives: seen.candidates - 1, ..found });
         }
         if seen.beyond_range {
             return Resolution::NoContact(NoContact::NotFinite);
@@ -171,6 +169,30 @@ impl<T: Real> SoftFinger<T> {
             (Search::Incomplete, _) => NoContact::Unresolved,
             (Search::Complete, _) => why_none(wrench, surface),
         })
+    }
+}
+
+#[inline]
+fn is_in_range<T: Real>(contact: &SoftContact<T>) -> bool {
+    let c = contact.point;
+    (c.x + c.y + c.z + contact.spin_torque).is_number()
+}
+
+#[inline]
+fn contact_at<T: Real>(
+    wrench: &Wrench<T>,
+    found: &SoftContact<T>,
+    incidence: T,
+    spin_torque: T,
+) -> Contact<T> {
+    Contact {
+        point: found.point,
+        normal: found.normal,
+        force: wrench.force(),
+        spin_torque,
+        incidence: incidence.max(T::zero()).min(T::one()),
+        gap: T::zero(),
+        alternatives: 0,
     }
 }
 

@@ -33,23 +33,47 @@ pub(super) fn is_active<T: Real, S: ActiveSurface<T>>(surface: &S, contact: &Sof
     active
 }
 
+/// What a closed form found, as a search.
+#[inline]
+fn report<T: Real>(
+    found: Result<SoftContact<T>, [Vector3<T>; 2]>,
+    mut visit: impl FnMut(SoftContact<T>),
+) -> Search<T> {
+    match found {
+        Ok(contact) => {
+            visit(contact);
+            Search::Complete
+        }
+        Err(pair) => Search::Grazing(pair),
+    }
+}
+
+/// About the sensor's origin.
+#[inline(always)]
+fn sphere_contact<T: Real>(
+    sphere: &Sphere<T>,
+    wrench: &Wrench<T>,
+) -> Result<SoftContact<T>, [Vector3<T>; 2]> {
+    let centre = sphere.centre();
+    let torque = wrench.torque_about(&centre);
+    on_sphere(sphere.radius(), sphere.curvature(), &wrench.force(), &torque)
+        .map(|contact| SoftContact { point: contact.point + centre, ..contact })
+        .map_err(|pair| pair.map(|point| point + centre))
+}
+
 impl<T: Real> SoftFingerSurface<T> for Sphere<T> {
-    #[inline]
     fn soft_contacts(
         &self,
         wrench: &Wrench<T>,
         _last: Option<&Vector3<T>>,
-        mut visit: impl FnMut(SoftContact<T>),
+        visit: impl FnMut(SoftContact<T>),
     ) -> Search<T> {
-        let centre = self.centre();
-        let torque = wrench.torque_about(&centre);
-        let search = on_sphere(self.radius(), self.curvature(), &wrench.force(), &torque, |contact| {
-            visit(SoftContact { point: contact.point + centre, ..contact });
-        });
-        match search {
-            Search::Grazing(pair) => Search::Grazing(pair.map(|point| point + centre)),
-            other => other,
-        }
+        report(sphere_contact(self, wrench), visit)
+    }
+
+    #[inline]
+    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+        sphere_contact(self, wrench).ok()
     }
 }
 
@@ -67,6 +91,13 @@ impl<T: Real> SoftFingerSurface<T> for Plane<T> {
             visit(SoftContact { point: contact.point + origin, ..contact });
         }
         Search::Complete
+    }
+
+    #[inline]
+    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+        let origin = self.point();
+        on_plane(&self.outward(), &wrench.force(), &wrench.torque_about(&origin))
+            .map(|contact| SoftContact { point: contact.point + origin, ..contact })
     }
 }
 
@@ -113,14 +144,19 @@ impl<T: Real> SoftFingerSurface<T> for CappedCylinder<T> {
 }
 
 impl<T: Real> SoftFingerSurface<T> for Ellipsoid<T> {
-    #[inline]
     fn soft_contacts(
         &self,
         wrench: &Wrench<T>,
         _last: Option<&Vector3<T>>,
         visit: impl FnMut(SoftContact<T>),
     ) -> Search<T> {
-        on_ellipsoid(&self.semi_axes(), &self.curvatures(), &wrench.force(), &wrench.torque(), visit)
+        let (force, torque) = (wrench.force(), wrench.torque());
+        report(on_ellipsoid(&self.semi_axes(), &self.curvatures(), &force, &torque), visit)
+    }
+
+    #[inline]
+    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+        on_ellipsoid(&self.semi_axes(), &self.curvatures(), &wrench.force(), &wrench.torque()).ok()
     }
 }
 

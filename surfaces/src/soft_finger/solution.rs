@@ -55,6 +55,17 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
         last: Option<&Vector3<T>>,
         visit: impl FnMut(SoftContact<T>),
     ) -> Search<T>;
+
+    /// The contact, for shapes that have but one and know it in closed form: a shortcut past
+    /// [`soft_contacts`](Self::soft_contacts) that [`SoftFinger`](crate::SoftFinger) takes first.
+    ///
+    /// `None`, as the default answers, says nothing; an answer shall be the only contact that
+    /// `soft_contacts` would visit.
+    #[inline]
+    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+        let _ = wrench;
+        None
+    }
 }
 
 impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
@@ -66,5 +77,10 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
         visit: impl FnMut(SoftContact<T>),
     ) -> Search<T> {
         (**self).soft_contacts(wrench, last, visit)
+    }
+
+    #[inline]
+    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+        (**self).sole_soft_contact(wrench)
     }
 }

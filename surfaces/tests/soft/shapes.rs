@@ -44,7 +44,7 @@ struct Outcome {
 /// (theory 3.4). Where the surface is curved both ways a large spin torque steadies the contact;
 /// where it is flat one way, rounding of a spin torque `τ` moves it by `τ²/(R f_n)²·ε`, whatever
 /// the method.
-fn conditioning<S: SmoothSurface<f64>>(surface: &S, case: &Case, size: f64) -> f64 {
+pub(crate) fn conditioning<S: SmoothSurface<f64>>(surface: &S, case: &Case, size: f64) -> f64 {
     let bend = surface.shape_operator(&case.point);
     let normal_force = case.wrench.force().dot(&case.normal);
     let norm = case.spin.powi(2) * bend.norm_squared() + 2.0 * normal_force.powi(2);

@@ -29,8 +29,8 @@ fn index(torus: &Torus<f64>, force: &Vector3<f64>, contact: &SoftContact<f64>) -
 /// 3 and 30 of them. The contacts are the zeros of a continuous function on the circle of the ring, so
 /// an odd number can only be a fold, of measure zero, or a search that missed one: with those that an
 /// odd number lacks, these are 2 in 267 of 300 (89 %) and 4 in 33 (11 %). That is what is found here.
-/// Only contacts that press are counted, all of the ring being active; those that pull are as many
-/// again, the contacts of the opposite wrench.
+/// Only contacts that press are counted, all of the ring being active; those that pull are the
+/// contacts of the opposite wrench.
 #[test]
 fn counts() {
     let torus = Torus::new(1.0, 0.35).unwrap();
