@@ -210,6 +210,11 @@ impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
         let visit: &mut dyn FnMut(SoftContact<T>) = &mut visit;
         each!(self, shape => shape.soft_contacts(wrench, last, visit))
     }
+
+    #[inline]
+    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+        each!(self, shape => shape.sole_soft_contact(wrench))
+    }
 }
 
 impl<T: Real> SoftFingerSurface<T> for Parts<T> {

@@ -49,10 +49,7 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
     ) -> Search<T> {
         let pose = self.sensor_from_shape();
         let (rotation, origin) = (pose.rotation(), pose.origin());
-        let inside = Wrench::on_fingertip(
-            rotation.tr_mul(&wrench.force()),
-            rotation.tr_mul(&wrench.torque_about(&origin)),
-        );
+        let inside = inward(self, wrench);
         let last = last.map(|last| rotation.tr_mul(&(last - origin)));
         let search = self.inner().soft_contacts(&inside, last.as_ref(), |contact| {
             visit(SoftContact {
@@ -66,6 +63,28 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
             other => other,
         }
     }
+
+    #[inline]
+    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+        let contact = self.inner().sole_soft_contact(&inward(self, wrench))?;
+        let (rotation, origin) = (self.sensor_from_shape().rotation(), self.sensor_from_shape().origin());
+        Some(SoftContact {
+            point: rotation * contact.point + origin,
+            normal: rotation * contact.normal,
+            ..contact
+        })
+    }
+}
+
+/// A wrench as the shape inside the pose sees it.
+#[inline]
+fn inward<T: Real, S>(posed: &Posed<T, S>, wrench: &Wrench<T>) -> Wrench<T> {
+    let pose = posed.sensor_from_shape();
+    let rotation = pose.rotation();
+    Wrench::on_fingertip(
+        rotation.tr_mul(&wrench.force()),
+        rotation.tr_mul(&wrench.torque_about(&pose.origin())),
+    )
 }
 
 impl<T: Real, S: SmoothSurface<T>, R: Region<T>> SmoothSurface<T> for Trimmed<S, R> {

@@ -1,6 +1,6 @@
 //! The shapes with closed forms.
 
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
 use super::cone::on_cone;
@@ -15,7 +15,6 @@ use crate::{
     Frustum, Implicit, Paraboloid, Plane, Rectangle, RoundedBox, Search, SmoothImplicit, SoftContact,
     SoftFingerSurface, Sphere, SphericalCap, Superquadric, Torus, newton_soft_contacts,
 };
-use fingertip_wrench::Line;
 
 /// Whether a point of the surface belongs to its active part: as the crossing of the normal there
 /// says.
@@ -33,6 +32,34 @@ pub(super) fn is_active<T: Real, S: ActiveSurface<T>>(surface: &S, contact: &Sof
     active
 }
 
+/// Gives a shape its soft fingers: from the shape, the wrench and the last contact, to a search that
+/// visits what it finds.
+macro_rules! soft_finger {
+    ($(#[$doc:meta])* $shape:ident, |$this:ident, $wrench:ident, $last:pat_param, $visit:ident| $search:expr
+        $(, sole |$only:ident, $load:ident| $sole:expr)?) => {
+        $(#[$doc])*
+        impl<T: Real> SoftFingerSurface<T> for $shape<T> {
+            #[inline]
+            #[allow(unused_mut)]
+            fn soft_contacts(
+                &self,
+                $wrench: &Wrench<T>,
+                $last: Option<&Vector3<T>>,
+                mut $visit: impl FnMut(SoftContact<T>),
+            ) -> Search<T> {
+                let $this = self;
+                $search
+            }
+
+            $(#[inline]
+            fn sole_soft_contact(&self, $load: &Wrench<T>) -> Option<SoftContact<T>> {
+                let $only = self;
+                $sole
+            })?
+        }
+    };
+}
+
 /// What a closed form found, as a search.
 #[inline]
 fn report<T: Real>(
@@ -48,6 +75,13 @@ fn report<T: Real>(
     }
 }
 
+/// The same for a closed form that finds a contact or none.
+#[inline]
+fn report_any<T: Real>(found: Option<SoftContact<T>>, visit: impl FnMut(SoftContact<T>)) -> Search<T> {
+    found.into_iter().for_each(visit);
+    Search::Complete
+}
+
 /// About the sensor's origin.
 #[inline(always)]
 fn sphere_contact<T: Real>(
@@ -61,118 +95,76 @@ fn sphere_contact<T: Real>(
         .map_err(|pair| pair.map(|point| point + centre))
 }
 
-impl<T: Real> SoftFingerSurface<T> for Sphere<T> {
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        report(sphere_contact(self, wrench), visit)
-    }
+soft_finger!(
+    Sphere,
+    |shape, wrench, _, visit| report(sphere_contact(shape, wrench), visit),
+    sole | shape,
+    wrench | sphere_contact(shape, wrench).ok()
+);
 
-    #[inline]
-    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
-        sphere_contact(self, wrench).ok()
-    }
+#[inline(always)]
+fn ellipsoid_contact<T: Real>(
+    shape: &Ellipsoid<T>,
+    wrench: &Wrench<T>,
+) -> Result<SoftContact<T>, [Vector3<T>; 2]> {
+    on_ellipsoid(&shape.semi_axes(), &shape.curvatures(), &wrench.force(), &wrench.torque())
 }
 
-impl<T: Real> SoftFingerSurface<T> for Plane<T> {
-    #[inline]
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        mut visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        let origin = self.point();
-        let normal = self.normal(&origin);
-        if let Some(contact) = on_plane(&normal, &wrench.force(), &wrench.torque_about(&origin)) {
-            visit(SoftContact { point: contact.point + origin, ..contact });
-        }
-        Search::Complete
-    }
+soft_finger!(
+    Ellipsoid,
+    |shape, wrench, _, visit| report(ellipsoid_contact(shape, wrench), visit),
+    sole | shape,
+    wrench | ellipsoid_contact(shape, wrench).ok()
+);
 
-    #[inline]
-    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
-        let origin = self.point();
-        on_plane(&self.outward(), &wrench.force(), &wrench.torque_about(&origin))
-            .map(|contact| SoftContact { point: contact.point + origin, ..contact })
-    }
+#[inline]
+fn plane_contact<T: Real>(plane: &Plane<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+    let origin = plane.point();
+    on_plane(&plane.outward(), &wrench.force(), &wrench.torque_about(&origin))
+        .map(|contact| SoftContact { point: contact.point + origin, ..contact })
 }
 
-impl<T: Real> SoftFingerSurface<T> for Cylinder<T> {
-    #[inline]
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        mut visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        let (centre, axis) = (self.centre(), self.axis());
-        if let Some(contact) = on_round_side(&centre, &axis, self.radius(), wrench) {
-            let height = (contact.point - centre).dot(&axis);
-            let active = self.half_length().is_none_or(|half| height.abs() <= half);
-            visit(SoftContact { active, ..contact });
-        }
-        Search::Complete
-    }
+soft_finger!(
+    Plane,
+    |shape, wrench, _, visit| report_any(plane_contact(shape, wrench), visit),
+    sole | shape,
+    wrench | plane_contact(shape, wrench)
+);
+
+#[inline]
+fn cylinder_contact<T: Real>(shape: &Cylinder<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+    let (centre, axis) = (shape.centre(), shape.axis());
+    let contact = on_round_side(&centre, &axis, shape.radius(), wrench)?;
+    let height = (contact.point - centre).dot(&axis);
+    Some(SoftContact { active: shape.half_length().is_none_or(|half| height.abs() <= half), ..contact })
 }
 
-impl<T: Real> SoftFingerSurface<T> for Frustum<T> {
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        on_frustum(self, wrench, visit);
-        Search::Complete
-    }
-}
+soft_finger!(
+    Cylinder,
+    |shape, wrench, _, visit| report_any(cylinder_contact(shape, wrench), visit),
+    sole | shape,
+    wrench | cylinder_contact(shape, wrench)
+);
 
-impl<T: Real> SoftFingerSurface<T> for CappedCylinder<T> {
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        on_frustum(self.solid(), wrench, visit);
-        Search::Complete
-    }
-}
+soft_finger!(Frustum, |shape, wrench, _, visit| {
+    on_frustum(shape, wrench, visit);
+    Search::Complete
+});
 
-impl<T: Real> SoftFingerSurface<T> for Ellipsoid<T> {
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        let (force, torque) = (wrench.force(), wrench.torque());
-        report(on_ellipsoid(&self.semi_axes(), &self.curvatures(), &force, &torque), visit)
-    }
+soft_finger!(CappedCylinder, |shape, wrench, _, visit| {
+    on_frustum(shape.solid(), wrench, visit);
+    Search::Complete
+});
 
-    #[inline]
-    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
-        on_ellipsoid(&self.semi_axes(), &self.curvatures(), &wrench.force(), &wrench.torque()).ok()
-    }
-}
-
-/// The side by the closed form; flat ends as planes, within their outline. On the edge between
-/// them there is no normal and so no soft finger.
-impl<T: Real> SoftFingerSurface<T> for EllipticCylinder<T> {
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        mut visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        let axes = self.semi_axes();
+soft_finger!(
+    /// The side by the closed form; flat ends as planes, within their outline. On the edge between
+    /// them there is no normal and so no soft finger.
+    EllipticCylinder,
+    |shape, wrench, _, visit| {
+        let axes = shape.semi_axes();
         let reciprocals = axes.map(|a| T::one() / a);
         let (force, torque) = (wrench.force(), wrench.torque());
-        on_cylinder(axes, reciprocals, &force, &torque, |contact| match self.ends() {
+        on_cylinder(axes, reciprocals, &force, &torque, |contact| match shape.ends() {
             CylinderEnds::Unbounded => visit(contact),
             CylinderEnds::Open(half) => {
                 visit(SoftContact { active: contact.point.z.abs() <= half, ..contact });
@@ -180,7 +172,7 @@ impl<T: Real> SoftFingerSurface<T> for EllipticCylinder<T> {
             CylinderEnds::Capped(half) if contact.point.z.abs() <= half => visit(contact),
             CylinderEnds::Capped(_) => {}
         });
-        if let CylinderEnds::Capped(half) = self.ends() {
+        if let CylinderEnds::Capped(half) = shape.ends() {
             for normal in [Vector3::z(), -Vector3::z()] {
                 let origin = normal * half;
                 if let Some(contact) = on_plane(&normal, &force, &wrench.torque_about(&origin)) {
@@ -193,22 +185,18 @@ impl<T: Real> SoftFingerSurface<T> for EllipticCylinder<T> {
         }
         Search::Complete
     }
-}
+);
 
-impl<T: Real> SoftFingerSurface<T> for Cone<T> {
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        mut visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        if let Some(contact) = on_cone(self, wrench) {
-            visit(SoftContact { active: is_active(self, &contact), ..contact });
+soft_finger!(
+    /// The side, or the tip, on which any normal will do that is steeper than the side's.
+    Cone,
+    |shape, wrench, _, visit| {
+        if let Some(contact) = on_cone(shape, wrench) {
+            visit(SoftContact { active: is_active(shape, &contact), ..contact });
             return Search::Complete;
         }
-        // On the tip any normal will do that is steeper than the side's.
-        let (apex, tip) = (self.apex(), -self.axis());
-        let least = self.half_angle().sin();
+        let (apex, tip) = (shape.apex(), -shape.axis());
+        let least = shape.half_angle().sin();
         on_rim(
             T::zero(),
             &tip,
@@ -219,67 +207,49 @@ impl<T: Real> SoftFingerSurface<T> for Cone<T> {
         );
         Search::Complete
     }
-}
+);
 
-/// The closed forms of the side and of the two round ends, each where it applies.
-impl<T: Real> SoftFingerSurface<T> for Capsule<T> {
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        mut visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        let (centre, axis, half) = (self.centre(), self.axis(), self.half_length());
-        let mut found = false;
-        if let Ok(side) = Cylinder::new(centre, axis, self.radius()) {
-            side.soft_contacts(wrench, None, |contact| {
-                if (contact.point - centre).dot(&axis).abs() <= half {
-                    found = true;
-                    visit(contact);
-                }
-            });
+soft_finger!(
+    /// The closed forms of the side and of the two round ends, each where it applies.
+    Capsule,
+    |shape, wrench, _, visit| {
+        let (centre, axis, half) = (shape.centre(), shape.axis(), shape.half_length());
+        if let Some(contact) = on_round_side(&centre, &axis, shape.radius(), wrench)
+            && (contact.point - centre).dot(&axis).abs() <= half
+        {
+            visit(contact);
+            return Search::Complete;
         }
         let mut search = Search::Complete;
         for end in [axis, -axis] {
             // A convex surface has one contact at most; a point of the seam belongs to the side.
-            if found {
-                break;
-            }
-            if let Ok(ball) = Sphere::new(centre + end * half, self.radius()) {
-                let round = ball.soft_contacts(wrench, None, |contact| {
-                    if contact.normal.dot(&end) >= T::zero() {
-                        found = true;
-                        visit(contact);
-                    }
-                });
-                if let Search::Grazing([first, second]) = round {
+            let Ok(ball) = Sphere::new(centre + end * half, shape.radius()) else { continue };
+            match sphere_contact(&ball, wrench) {
+                Ok(contact) if contact.normal.dot(&end) >= T::zero() => {
+                    visit(contact);
+                    return Search::Complete;
+                }
+                Ok(_) => {}
+                Err(pair) => {
                     let outside = |point: &Vector3<T>| (point - ball.centre()).dot(&end) >= T::zero();
-                    if outside(&first) && outside(&second) {
-                        search = round;
+                    if pair.iter().all(outside) {
+                        search = Search::Grazing(pair);
                     }
                 }
             }
         }
         search
     }
-}
+);
 
 /// Shapes that are a part of another shape.
 macro_rules! part_of {
     ($shape:ident, $whole:ident) => {
-        impl<T: Real> SoftFingerSurface<T> for $shape<T> {
-            #[inline]
-            fn soft_contacts(
-                &self,
-                wrench: &Wrench<T>,
-                last: Option<&Vector3<T>>,
-                mut visit: impl FnMut(SoftContact<T>),
-            ) -> Search<T> {
-                self.$whole().soft_contacts(wrench, last, |contact| {
-                    visit(SoftContact { active: is_active(self, &contact), ..contact });
-                })
-            }
-        }
+        soft_finger!($shape, |shape, wrench, last, visit| {
+            shape.$whole().soft_contacts(wrench, last, |contact| {
+                visit(SoftContact { active: is_active(shape, &contact), ..contact });
+            })
+        });
     };
 }
 
@@ -287,39 +257,16 @@ part_of!(SphericalCap, sphere);
 part_of!(Disk, plane);
 part_of!(Rectangle, plane);
 
-impl<T: Real> SoftFingerSurface<T> for Torus<T> {
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        on_torus(self, wrench, visit)
-    }
-}
+soft_finger!(Torus, |shape, wrench, _, visit| on_torus(shape, wrench, visit));
 
-/// Shapes without a closed form.
-macro_rules! by_newton {
-    ($shape:ident) => {
-        impl<T: Real> SoftFingerSurface<T> for $shape<T> {
-            #[inline]
-            fn soft_contacts(
-                &self,
-                wrench: &Wrench<T>,
-                last: Option<&Vector3<T>>,
-                mut visit: impl FnMut(SoftContact<T>),
-            ) -> Search<T> {
-                newton_soft_contacts(self, wrench, last, |contact| {
-                    visit(SoftContact { active: is_active(self, &contact), ..contact });
-                })
-            }
-        }
-    };
-}
-
-by_newton!(Superquadric);
-by_newton!(RoundedBox);
-by_newton!(Paraboloid);
+// Shapes without a closed form; the first two are active all over.
+soft_finger!(Superquadric, |shape, wrench, last, visit| newton_soft_contacts(shape, wrench, last, visit));
+soft_finger!(RoundedBox, |shape, wrench, last, visit| newton_soft_contacts(shape, wrench, last, visit));
+soft_finger!(Paraboloid, |shape, wrench, last, visit| {
+    newton_soft_contacts(shape, wrench, last, |contact| {
+        visit(SoftContact { active: is_active(shape, &contact), ..contact });
+    })
+});
 
 impl<T: Real, S: SmoothImplicit<T>> SoftFingerSurface<T> for Implicit<S> {
     #[inline]
