@@ -6,10 +6,10 @@ use std::time::Instant;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fingertip_surfaces::{
-    ActiveSurface, Auto, Capsule, CompliantSoftFinger, Cone, ContactCovariance, ContactJacobian,
-    ContactModel, ConvexBound, Cylinder, Ellipsoid, Hertz, Implicit, ImplicitBounds, ImplicitSurface, Plane,
-    PointContact, Search, SmoothImplicit, SmoothSurface, SoftContact, SoftFinger, SoftFingerSurface, Sphere,
-    Superquadric, Topology, Torus, WorstErrors, newton_soft_contacts,
+    ActiveSurface, Auto, CappedCylinder, Capsule, CompliantSoftFinger, Cone, ContactCovariance,
+    ContactJacobian, ContactModel, ConvexBound, Cylinder, Ellipsoid, Heightfield, Hertz, Implicit,
+    ImplicitBounds, ImplicitSurface, Plane, PointContact, Search, SmoothImplicit, SmoothSurface, SoftContact,
+    SoftFinger, SoftFingerSurface, Sphere, Superquadric, Topology, Torus, WorstErrors, newton_soft_contacts,
 };
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
@@ -152,6 +152,14 @@ fn resolution(c: &mut Criterion) {
     let Ok(capsule) = Capsule::new(Vector3::zeros(), Vector3::z(), 0.006, 0.007) else { return };
     let Ok(superquadric) = Superquadric::new(Vector3::new(0.008, 0.010, 0.013), [0.7, 0.8]) else { return };
     let Ok(torus) = Torus::new(0.010, 0.0035) else { return };
+    let Ok(capped) = CappedCylinder::new(Vector3::zeros(), Vector3::new(0.2, 0.1, 1.0), 0.007, 0.011) else {
+        return;
+    };
+    let heights = (0..33 * 33_u16).map(|k| {
+        let (x, y) = (f64::from(k % 33) * 5e-4 - 0.008, f64::from(k / 33) * 5e-4 - 0.008);
+        -(x * x / 0.010 + y * y / 0.015) / 2.0
+    });
+    let Ok(field) = Heightfield::new([-0.008; 2], [5e-4; 2], 33, heights.collect()) else { return };
     let Ok(pillow) = Implicit::new::<f64>(Pillow) else { return };
     shape(c, "sphere", &sphere);
     shape(c, "ellipsoid", &ellipsoid);
@@ -161,6 +169,8 @@ fn resolution(c: &mut Criterion) {
     shape(c, "capsule", &capsule);
     shape(c, "implicit surface", &pillow);
     shape(c, "superquadric", &superquadric);
+    shape(c, "capped cylinder", &capped);
+    shape(c, "heightfield of 33 × 33", &field);
     shape(c, "ellipsoid by Newton", &ByNewton(ellipsoid));
     shape(c, "torus, all solutions", &torus);
 

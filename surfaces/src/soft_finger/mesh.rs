@@ -34,7 +34,7 @@ impl<T: Real> SoftFingerSurface<T> for Mesh<T> {
         let power = force.dot(&torque);
         let about = |a: u32, b: u32| {
             let (Some(first), Some(second)) = (self.stored(a), self.stored(b)) else { return T::zero() };
-            let moment = torque.dot(&(second - first)) + force.dot(&first.cross(&second));
+            let moment = torque.dot(&(second - first)) + force.dot(&first.cross(second));
             // A tie is settled by the order of the vertices, the same for both facets.
             if !moment.is_zero() {
                 moment

@@ -17,6 +17,14 @@ use crate::{BadShape, Contact, ContactModel, NoContact, Resolution, Search, Soft
 /// several, and [`Contact::alternatives`] counts the others. Then the one nearest to the last
 /// contact is taken if one is given, otherwise the one where the force presses most squarely.
 ///
+/// Where a body has edges, corners or a tip, a contact there has a normal between those of the faces
+/// that meet, such that something flat could touch. Meshes and heightfields are taken for the bodies of
+/// facets that they are.
+///
+/// Where a body has a round edge of no thickness, a corner or a tip, a contact there has a normal
+/// between those of the faces that meet, such that something flat could touch. Meshes and heightfields
+/// are taken for the bodies of facets that they are.
+///
 /// Against [`PointContact`](crate::PointContact): it is right where there is a spin torque, and
 /// noisier where there is none, since it takes every torque along the force for spin (theory 3.4;
 /// the factor is the tangent of the angle between force and normal). [`Auto`](crate::Auto)
@@ -63,7 +71,7 @@ impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
     #[inline]
     fn resolve_near(&self, wrench: &Wrench<T>, surface: &S, last: Option<&Vector3<T>>) -> Resolution<T> {
         let most_torque = largest(&wrench.torque());
-        if is_tame(largest(&wrench.force())) && !(most_torque > T::zero() && !is_tame(most_torque)) {
+        if is_tame(largest(&wrench.force())) && (is_tame(most_torque) || most_torque.is_zero()) {
             let force = wrench.force().norm_squared().root();
             // A NaN may have hidden behind a number.
             let torque = wrench.torque();

@@ -11,6 +11,8 @@ pub(super) struct Problem<'a, T: Real, S> {
     surface: &'a S,
     centre: Vector3<T>,
     length: T,
+    /// Radius of the extent, in its own units: from 1 to 2.
+    pub(super) reach: T,
     wrench_unit: T,
     pub(super) force: Vector3<T>,
     pub(super) torque: Vector3<T>,
@@ -74,7 +76,16 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
         let wrench_unit = force.amax().max(lever.amax()).normalising_factor();
         let (force, torque) = (force * wrench_unit, lever * wrench_unit);
         let power = force.dot(&torque);
-        Self { surface, centre: extent.centre, length: T::one() / unit, wrench_unit, force, torque, power }
+        Self {
+            surface,
+            centre: extent.centre,
+            length: T::one() / unit,
+            reach: extent.radius * unit,
+            wrench_unit,
+            force,
+            torque,
+            power,
+        }
     }
 
     /// From the sensor frame.

@@ -123,13 +123,15 @@ impl<T: Real> Around<T> {
         }
     }
 
-    /// By how much the line of action misses the sphere at an angle, `|M|² − r²|f|²`, and the
-    /// derivative.
-    fn miss(&self, angle: T) -> (T, T) {
+    /// By how much the line of action misses the sphere at an angle, `|M|² − r²|f|²`, and its first two
+    /// derivatives.
+    fn miss(&self, angle: T) -> [T; 3] {
         let (outward, tangent) = Self::frame(angle);
-        let torque = self.torque - outward.cross(&self.force);
-        let change = torque.dot(&tangent.cross(&self.force));
-        (torque.norm_squared() - self.force.norm_squared() * self.tube * self.tube, -(change + change))
+        let (aside, along) = (outward.cross(&self.force), tangent.cross(&self.force));
+        let torque = self.torque - aside;
+        let (slope, bend) = (-torque.dot(&along), along.norm_squared() + torque.dot(&aside));
+        let touch = self.force.norm_squared() * self.tube * self.tube;
+        [torque.norm_squared() - touch, slope + slope, bend + bend]
     }
 
     /// Every zero of `F`.
@@ -144,20 +146,26 @@ impl<T: Real> Around<T> {
             let high = end_of(k);
             let miss_high = self.miss(high);
             // Where the line is nearest to the ring or farthest, and where it touches.
-            let turns = (miss_low.1 < T::zero()) != (miss_high.1 < T::zero());
+            let turns = (miss_low[1] < T::zero()) != (miss_high[1] < T::zero());
             let turn = if turns {
-                bisected(low, high, |t| (self.miss(t).1 < T::zero()) == (miss_low.1 < T::zero()))
+                bracketed(low, high, |t| {
+                    let [_, slope, bend] = self.miss(t);
+                    (slope, bend)
+                })
             } else {
                 high
             };
-            let (mut from, mut from_misses) = (low, miss_low.0);
+            let (mut from, mut from_misses) = (low, miss_low[0]);
             for end in [turn, high] {
                 if !(end > from) {
                     continue;
                 }
-                let end_misses = self.miss(end).0;
+                let end_misses = self.miss(end)[0];
                 if (from_misses < T::zero()) != (end_misses < T::zero()) {
-                    let touch = bracketed(from, end, |t| self.miss(t));
+                    let touch = bracketed(from, end, |t| {
+                        let [value, slope, _] = self.miss(t);
+                        (value, slope)
+                    });
                     if touch > from && touch < end {
                         let at = self.at(touch);
                         self.within(at_low, at, &mut found);
