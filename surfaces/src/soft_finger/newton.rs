@@ -170,7 +170,7 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
     }
 
     /// Damped Newton from a start, for the torque `torque` instead of the problem's own; at most
-    /// `bound` steps. Each step is halved until the residual falls.
+    /// `bound` steps. Each step is halved until the residual falls, or the next step would.
     pub(super) fn newton(
         &self,
         start: Place<T>,
@@ -203,7 +203,11 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
                     .place(state.place.point + shift)
                     .map(|place| self.state(place, state.spin + twist, torque));
                 match next {
-                    Some(next) if small || next.merit < state.merit => break next,
+                    Some(next)
+                        if small || next.merit < state.merit || self.brings_nearer(&state, &next, &shift) =>
+                    {
+                        break next;
+                    }
                     _ if tries == 0 => return None,
                     _ => {
                         tries -= 1;
@@ -218,6 +222,17 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
             }
         }
         Some(state)
+    }
+
+    /// The natural test of a step (Deuflhard 1974): the step that would follow with the same Jacobian
+    /// is no more than half as long. Where the surface is sharply bent one way and straight the other,
+    /// as near the tip of a cone under a large spin torque, the residual says nothing of how far off the
+    /// contact is along the straight way, and may rise on the way to it.
+    #[cold]
+    fn brings_nearer(&self, state: &State<T>, next: &State<T>, shift: &Vector3<T>) -> bool {
+        let place = Place { height: next.place.height, ..state.place };
+        let mixed = State { place, residual: next.residual, ..*state };
+        self.step(&mixed).is_some_and(|(left, _)| left.amax() * (T::one() + T::one()) < shift.amax())
     }
 
     /// A contact that is right but for rounding, after one step of Newton's method or two.
