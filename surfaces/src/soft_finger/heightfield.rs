@@ -84,6 +84,9 @@ fn in_patch<T: Real>(
     let twist = a - b + c - d;
     let moment = |place: Vector3<T>, line: Vector3<T>| (torque - place.cross(force)).dot(&line);
     let ts = zeros(bottom, top, |t| moment(a + across * t, along + twist * t));
+    if ts == [None; 2] {
+        return;
+    }
     let ss = zeros(left, right, |s| moment(a + along * s, across + twist * s));
     for t in ts.into_iter().flatten() {
         for s in ss.into_iter().flatten() {
@@ -107,9 +110,14 @@ fn zeros<T: Real>(at_zero: T, at_one: T, f: impl Fn(T) -> T) -> [Option<T>; 2] {
     // f(x) = bend x² + 2 slope x + f(0), from the value in the middle.
     let bend = (at_zero + at_one - two * f(half)) * two;
     let slope = (at_one - at_zero - bend) * half;
+    // Bernstein: between its control values a polynomial stays.
+    let negative = at_zero < T::zero();
+    if negative == (at_one < T::zero()) && negative == (at_zero + slope < T::zero()) {
+        return [None; 2];
+    }
     let found = roots(bend, slope, at_zero).unwrap_or([T::zero() / T::zero(); 2]);
     let inside = |x: T| (x >= T::zero() && x <= T::one()).then_some(x);
-    if (at_zero < T::zero()) == (at_one < T::zero()) {
+    if negative == (at_one < T::zero()) {
         let curved = bend.abs() > T::zero();
         return if curved { found.map(inside) } else { [None; 2] };
     }

@@ -17,10 +17,6 @@ use crate::{BadShape, Contact, ContactModel, NoContact, Resolution, Search, Soft
 /// several, and [`Contact::alternatives`] counts the others. Then the one nearest to the last
 /// contact is taken if one is given, otherwise the one where the force presses most squarely.
 ///
-/// Where a body has edges, corners or a tip, a contact there has a normal between those of the faces
-/// that meet, such that something flat could touch. Meshes and heightfields are taken for the bodies of
-/// facets that they are.
-///
 /// Where a body has a round edge of no thickness, a corner or a tip, a contact there has a normal
 /// between those of the faces that meet, such that something flat could touch. Meshes and heightfields
 /// are taken for the bodies of facets that they are.
