@@ -3,6 +3,7 @@
 mod bvh;
 mod closest;
 mod crossing;
+mod fans;
 mod lanes;
 mod node;
 mod obj;
@@ -17,6 +18,7 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use self::bvh::Bvh;
+use self::fans::Fans;
 use crate::numeric::vectors::{foot, is_finite};
 use crate::{ActiveSurface, ClosestApproach, Crossing};
 
@@ -36,6 +38,7 @@ pub struct Mesh<T: Real> {
     vertices: Vec<Vector3<T>>,
     /// In the order of the tree's leaves.
     triangles: Vec<[u32; 3]>,
+    fans: Fans,
     bvh: Bvh<T>,
 }
 
@@ -56,6 +59,7 @@ impl<T: Real> Mesh<T> {
         let (vertices, triangles) = in_order_of_use(&parts.vertices, &triangles);
         let radius = vertices.iter().fold(T::zero(), |r, v| r.max(v.norm_squared())).root();
         Ok(Self {
+            fans: Fans::new(vertices.len(), &triangles),
             centre: parts.centre,
             scale: parts.scale,
             radius: radius * T::literal(1.0001),
@@ -132,8 +136,25 @@ impl<T: Real> Mesh<T> {
         ])
     }
 
+    /// The origin of the stored vertices \[m\], and the factor that they are scaled by.
     #[inline]
-    fn normal_of(&self, triangle: usize) -> Vector3<T> {
+    pub(crate) const fn frame(&self) -> (Vector3<T>, T) {
+        (self.centre, self.scale)
+    }
+
+    /// A vertex as stored.
+    #[inline]
+    pub(crate) fn stored(&self, vertex: u32) -> Option<&Vector3<T>> {
+        self.vertices.get(vertex as usize)
+    }
+
+    /// Every vertex with those at the other ends of its edges.
+    pub(crate) fn fans(&self) -> impl Iterator<Item = (u32, &[u32])> + '_ {
+        self.fans.iter()
+    }
+
+    #[inline]
+    pub(crate) fn normal_of(&self, triangle: usize) -> Vector3<T> {
         self.corners(triangle).map_or_else(Vector3::z, |corners| packet::normal_of(&corners.map(|v| *v)))
     }
 }

@@ -34,6 +34,12 @@ impl<T: Real> CappedCylinder<T> {
         Ok(Self { solid, centre, half_length })
     }
 
+    /// As the frustum that it is.
+    #[inline]
+    pub(crate) const fn solid(&self) -> &Frustum<T> {
+        &self.solid
+    }
+
     /// The middle \[m\].
     #[inline]
     #[must_use]

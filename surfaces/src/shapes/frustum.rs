@@ -99,6 +99,18 @@ impl<T: Real> Frustum<T> {
         self.top_radius
     }
 
+    /// By how much the radius shrinks per height.
+    #[inline]
+    pub(crate) const fn taper(&self) -> T {
+        self.taper
+    }
+
+    /// Cosine of the angle between the side and the axis.
+    #[inline]
+    pub(crate) const fn side_cosine(&self) -> T {
+        self.side_cosine
+    }
+
     #[inline]
     fn side_normal(&self, across: &Vector3<T>) -> Vector3<T> {
         (self.axis.outward(across) + self.axis.direction * self.taper) * self.side_cosine
