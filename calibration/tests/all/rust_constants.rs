@@ -1,5 +1,4 @@
 //! The exported constants compile and give back the calibration.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, which may fail so")]
 
 use fingertip_calibration::file::{CalibrationFile, FileError, Scalar, SignalUnit, Verdict};
 use fingertip_calibration::nalgebra::DMatrix;
@@ -27,7 +26,7 @@ fn text_is_what_is_compiled() {
     assert_eq!(
         text,
         include_str!("rust_constants/exported.rs"),
-        "write this to tests/rust_constants/exported.rs"
+        "write this to tests/all/rust_constants/exported.rs"
     );
     assert!(text.contains("Quality: BAD") && text.contains("made up"));
 }

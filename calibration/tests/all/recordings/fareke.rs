@@ -6,7 +6,7 @@ use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{Direction, Limits, Options, calibrate};
 use fingertip_calibration::report::{Mistake, Report};
 
-use crate::common;
+use super::common;
 
 const GRAM_FORCE: f64 = 9.80665e-3;
 

@@ -1,5 +1,4 @@
 //! The report in its three forms, on a sensor made for the purpose.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, which may fail so")]
 
 use fingertip_calibration::Axis;
 use fingertip_calibration::file::{SignalUnit, Verdict};
