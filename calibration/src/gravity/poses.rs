@@ -6,7 +6,6 @@ use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3, Vector6};
 
 use crate::Axis;
 use crate::loads::LoadError;
-use crate::units::{Quantity, si};
 
 /// One pose and what the sensor said in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,10 +66,9 @@ pub fn poses_from_csv(reader: impl Read) -> Result<Vec<Pose>, LoadError> {
     let quaternion = [position("qx")?, position("qy")?, position("qz")?, position("qw")?];
     let mut components = Vec::new();
     for axis in Axis::ALL {
-        let quantity = if axis.is_torque() { Quantity::Torque } else { Quantity::Force };
         let found = header.iter().enumerate().find_map(|(index, name)| {
             let (stem, unit) = name.rsplit_once('_')?;
-            (Axis::from_name(stem) == Some(axis)).then_some((index, si(quantity, unit)))
+            (Axis::from_name(stem) == Some(axis)).then_some((index, axis.unit_size(unit)))
         });
         match found {
             Some((index, Some(size))) => components.push((index, size)),

@@ -7,7 +7,6 @@ use nalgebra::DMatrix;
 use super::{LoadError, LoadTable};
 use crate::Axis;
 use crate::file::SignalUnit;
-use crate::units::{Quantity, si};
 
 /// What a column of the header means.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,9 +171,9 @@ fn parse_name(name: &str) -> Result<Column, String> {
     }
     let (stem, unit) = name.rsplit_once('_').unwrap_or((name, ""));
     if let Some(axis) = Axis::from_name(stem) {
-        let quantity = if axis.is_torque() { Quantity::Torque } else { Quantity::Force };
-        let size = si(quantity, unit).ok_or_else(|| {
-            format!("{unit:?} is not a unit of {quantity:?}; write such as `{stem}_N` or `tx_Nm`")
+        let size = axis.unit_size(unit).ok_or_else(|| {
+            let quantity = if axis.is_torque() { "torque" } else { "force" };
+            format!("{unit:?} is not a unit of {quantity}; write such as `fx_N` or `tx_Nm`")
         })?;
         return Ok(Column::Load(axis, size));
     }
@@ -189,7 +188,7 @@ fn parse_name(name: &str) -> Result<Column, String> {
         "count" | "counts" => (SignalUnit::Count, 1.0),
         "mVpV" | "mV/V" => (SignalUnit::MillivoltPerVolt, 1.0),
         "strain" => (SignalUnit::Strain, 1.0),
-        _ => match si(Quantity::Force, unit).or_else(|| si(Quantity::Torque, unit)) {
+        _ => match Axis::Fx.unit_size(unit).or_else(|| Axis::Tx.unit_size(unit)) {
             Some(size) => (SignalUnit::Wrench, size),
             None => {
                 return Err(format!("{unit:?} is not a unit of signals; write such as `v1_V`, `v1_count`"));
