@@ -248,6 +248,9 @@ impl AtiCalibration {
         if file.quadratic.is_some() {
             return Err(refuse("quadratic", "absent in a .cal file"));
         }
+        if let Some(drift) = &file.temperature {
+            return Err(FileError::NeedsTemperature { reference: drift.reference_celsius });
+        }
         if file.signal_unit != SignalUnit::Volt {
             return Err(refuse("signal_unit", "V for a .cal file"));
         }

@@ -39,6 +39,14 @@ impl Pose {
     }
 }
 
+impl Pose {
+    /// The pose of the sensor, if this one is of the flange that it sits on.
+    #[must_use]
+    pub fn on_mount(&self, sensor_from_flange: &Matrix3<f64>) -> Self {
+        Self { base_from_sensor: self.base_from_sensor * sensor_from_flange.transpose(), ..*self }
+    }
+}
+
 /// Turns force and torque.
 pub(super) fn turn(rotation: &Matrix3<f64>, wrench: &Vector6<f64>) -> Vector6<f64> {
     let force = rotation * wrench.fixed_rows::<3>(0);

@@ -1,8 +1,9 @@
 //! Known loads: the table that calibrations are fitted to, and its CSV.
 
+mod carrying;
 mod merge;
 mod table;
 mod text;
 
 pub use table::{LoadError, LoadTable};
-pub use text::signals_from_csv;
+pub use text::{Rest, signals_from_csv};

@@ -21,6 +21,8 @@ enum Column {
     Time,
     Temperature,
     Weight,
+    /// Part of the orientation: x, y, z, w.
+    Quaternion(usize),
     Ignored,
 }
 
@@ -38,6 +40,7 @@ impl LoadTable {
     /// | `group` | any text; samples of one mounting, which share a zero |
     /// | `name` | what reports call the sample |
     /// | `t_s`, `temperature_C`, `weight` | time, temperature, weight |
+    /// | `qx`, `qy`, `qz`, `qw` | orientation of the sensor (or its flange) in the base frame, for what hangs on it: see [`carrying`](Self::carrying) |
     ///
     /// An axis without column is taken as not measured, unless `axes` asks for it, which then is an
     /// error.
@@ -60,6 +63,11 @@ impl LoadTable {
         let (axes, gauges, unit) = layout(&columns).map_err(|(column, message)| bad(1, &column, message))?;
         let (mut loads, mut signals) = (Vec::new(), Vec::new());
         let (mut times, mut temperatures, mut weights) = (Vec::new(), Vec::new(), Vec::new());
+        let mut orientations: Vec<[f64; 4]> = Vec::new();
+        let parts = columns.iter().filter(|column| matches!(column, Column::Quaternion(_))).count();
+        if parts != 0 && parts != 4 {
+            return Err(bad(1, "qx", "an orientation takes qx, qy, qz and qw, each once".to_owned()));
+        }
         let (mut names, mut cases, mut groups) = (Vec::new(), Vec::new(), Vec::new());
         let mut samples = 0;
         for record in reader.records() {
@@ -87,6 +95,12 @@ impl LoadTable {
                     Column::Time => times.push(number()?),
                     Column::Temperature => temperatures.push(number()?),
                     Column::Weight => weights.push(number()?),
+                    Column::Quaternion(part) => {
+                        if orientations.len() == samples {
+                            orientations.push([0.0; 4]);
+                        }
+                        orientations[samples][part] = number()?;
+                    }
                     Column::Case => cases.push(text.to_owned()),
                     Column::Group => groups.push(text.to_owned()),
                     Column::Name => names.push(text.to_owned()),
@@ -108,18 +122,30 @@ impl LoadTable {
         }
         let some = |list: Vec<f64>| (!list.is_empty()).then_some(list);
         (table.times, table.temperatures, table.weights) = (some(times), some(temperatures), some(weights));
+        table.orientations = (!orientations.is_empty()).then_some(orientations);
         table.validate()?;
         let ignored = header.iter().zip(&columns).filter(|(_, column)| **column == Column::Ignored);
         Ok((table, ignored.map(|(name, _)| name.to_owned()).collect()))
     }
 }
 
-/// Reads the signals alone of a CSV with the header of [`LoadTable::from_csv`]: samples × gauges, and
-/// their unit. Columns of loads are ignored.
+/// Readings without load.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rest {
+    /// Samples × gauges.
+    pub signals: DMatrix<f64>,
+    /// Unit of the signals.
+    pub unit: SignalUnit,
+    /// Temperature of each sample \[°C\], if the file has them.
+    pub temperatures: Option<Vec<f64>>,
+}
+
+/// Reads the signals alone of a CSV with the header of [`LoadTable::from_csv`], and their temperatures.
+/// Columns of loads are ignored.
 ///
 /// # Errors
 /// [`LoadError`], naming line and column.
-pub fn signals_from_csv(reader: impl Read) -> Result<(DMatrix<f64>, SignalUnit), LoadError> {
+pub fn signals_from_csv(reader: impl Read) -> Result<Rest, LoadError> {
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(reader);
     let bad = |line: u64, column: &str, message: String| LoadError::BadText {
         line,
@@ -138,7 +164,7 @@ pub fn signals_from_csv(reader: impl Read) -> Result<(DMatrix<f64>, SignalUnit),
         });
     }
     let (_, gauges, unit) = signal_layout(&columns).map_err(|(column, message)| bad(1, &column, message))?;
-    let mut signals = Vec::new();
+    let (mut signals, mut temperatures) = (Vec::new(), Vec::new());
     let mut samples = 0;
     for record in reader.records() {
         let record = record
@@ -147,16 +173,20 @@ pub fn signals_from_csv(reader: impl Read) -> Result<(DMatrix<f64>, SignalUnit),
         let start = signals.len();
         signals.resize(start + gauges, 0.0);
         for ((column, name), text) in columns.iter().zip(&header).zip(&record) {
-            if let Column::Signal(gauge, _, size) = *column {
+            let number = || {
                 let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
-                let number =
-                    number.ok_or_else(|| bad(line, name, format!("{text:?} is not a finite number")))?;
-                signals[start + gauge] = number * size;
+                number.ok_or_else(|| bad(line, name, format!("{text:?} is not a finite number")))
+            };
+            match *column {
+                Column::Signal(gauge, _, size) => signals[start + gauge] = number()? * size,
+                Column::Temperature => temperatures.push(number()?),
+                _ => {}
             }
         }
         samples += 1;
     }
-    Ok((DMatrix::from_row_slice(samples, gauges, &signals), unit))
+    let signals = DMatrix::from_row_slice(samples, gauges, &signals);
+    Ok(Rest { signals, unit, temperatures: (!temperatures.is_empty()).then_some(temperatures) })
 }
 
 fn parse_name(name: &str) -> Result<Column, String> {
@@ -167,6 +197,10 @@ fn parse_name(name: &str) -> Result<Column, String> {
         "t_s" => return Ok(Column::Time),
         "temperature_C" => return Ok(Column::Temperature),
         "weight" => return Ok(Column::Weight),
+        "qx" => return Ok(Column::Quaternion(0)),
+        "qy" => return Ok(Column::Quaternion(1)),
+        "qz" => return Ok(Column::Quaternion(2)),
+        "qw" => return Ok(Column::Quaternion(3)),
         _ => {}
     }
     let (stem, unit) = name.rsplit_once('_').unwrap_or((name, ""));

@@ -117,7 +117,8 @@ impl Report {
     ///
     /// # Errors
     /// [`CalibrationError::BadOption`] if sensor and table have not the same gauges and axes,
-    /// [`CalibrationError::Loads`] for a bad table, [`CalibrationError::Singular`].
+    /// [`CalibrationError::Loads`] for a bad table, [`CalibrationError::File`] if the calibration needs
+    /// the temperature of the samples and the table has none, [`CalibrationError::Singular`].
     pub fn of_check(
         file: &CalibrationFile,
         table: &LoadTable,
@@ -152,6 +153,8 @@ impl Report {
         let mut predicted = DMatrix::zeros(table.samples(), table.axes.len());
         for i in 0..table.samples() {
             let reading: Vec<f64> = table.signals.row(i).iter().copied().collect();
+            let celsius = table.temperatures.as_ref().map(|temperatures| temperatures[i]);
+            let reading = file.brought_to_reference(&reading, celsius)?;
             let load = file.load_with(&inverse, &reading).ok_or(CalibrationError::Singular)?;
             predicted.set_row(i, &load.transpose());
         }
@@ -161,6 +164,9 @@ impl Report {
         report.condition_number =
             Singular::new(&file.matrix).map(|s| s.condition_number()).filter(|number| number.is_finite());
         report.lines = lines(table, &file.nominal, &predicted, |_| None);
+        if table.temperatures.is_some() && file.temperature.is_none() {
+            report.notes.push("temperatures are known, but the calibration has no terms for them".to_owned());
+        }
         report.suspicions = suspicions(file, table, &predicted);
         report.judge(limits);
         if file.quality.verdict == Verdict::Bad {

@@ -50,7 +50,7 @@ mod time_watch;
 mod unit;
 mod writer;
 
-pub use columns::{SignalColumns, WrenchColumns};
+pub use columns::{NumberColumn, SignalColumns, WrenchColumns};
 pub use error::{HeaderProblem, RecordingError};
 pub use fingertip_wrench::units::{ForceUnit, TorqueUnit};
 pub use layout::{AssumedUnits, Layout, LeftOut};

@@ -147,6 +147,17 @@ impl<R: Read> RecordingReader<R> {
         &self.layout
     }
 
+    /// Reads the column called so too, whatever its case, from the next row on; `None` if there is no
+    /// such column. For what belongs to no sensor, such as `temperature_C` or `qx`: numbers are given as
+    /// they stand in the file.
+    pub fn watch(&mut self, name: &str) -> Option<NumberColumn> {
+        let column = self.layout.columns().iter().position(|column| column.eq_ignore_ascii_case(name))?;
+        self.layout.used.push(UsedColumn { column, scale: 1.0 });
+        self.values.push(f64::NAN);
+        self.last_values.push(f64::NAN);
+        Some(NumberColumn { slot: self.values.len() - 1 })
+    }
+
     /// What was wrong so far.
     #[must_use]
     pub const fn quality(&self) -> &Quality {
