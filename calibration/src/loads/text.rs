@@ -48,73 +48,26 @@ impl LoadTable {
     /// # Errors
     /// [`LoadError`], naming line and column.
     pub fn from_csv(reader: impl Read) -> Result<(Self, Vec<String>), LoadError> {
-        let mut reader =
-            csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(reader);
-        let bad = |line: u64, column: &str, message: String| LoadError::BadText {
-            line,
-            column: column.to_owned(),
-            message,
-        };
-        let header = reader.headers().map_err(|error| bad(1, "", error.to_string()))?.clone();
-        let columns = header
-            .iter()
-            .map(|name| parse_name(name).map_err(|message| bad(1, name, message)))
-            .collect::<Result<Vec<_>, _>>()?;
-        let (axes, gauges, unit) = layout(&columns).map_err(|(column, message)| bad(1, &column, message))?;
+        let mut reader = LoadReader::new(reader)?;
         let (mut loads, mut signals) = (Vec::new(), Vec::new());
         let (mut times, mut temperatures, mut weights) = (Vec::new(), Vec::new(), Vec::new());
-        let mut orientations: Vec<[f64; 4]> = Vec::new();
-        let parts = columns.iter().filter(|column| matches!(column, Column::Quaternion(_))).count();
-        if parts != 0 && parts != 4 {
-            return Err(bad(1, "qx", "an orientation takes qx, qy, qz and qw, each once".to_owned()));
-        }
         let (mut names, mut cases, mut groups) = (Vec::new(), Vec::new(), Vec::new());
-        let mut samples = 0;
-        for record in reader.records() {
-            let record = record.map_err(|error| {
-                let line = error.position().map_or(0, csv::Position::line);
-                bad(line, "", error.to_string())
-            })?;
-            let line = record.position().map_or(0, csv::Position::line);
-            let start = (loads.len(), signals.len());
-            loads.resize(start.0 + axes.len(), 0.0);
-            signals.resize(start.1 + gauges, 0.0);
-            for ((column, name), text) in columns.iter().zip(&header).zip(&record) {
-                let number = || match text.parse::<f64>() {
-                    Ok(number) if number.is_finite() => Ok(number),
-                    Ok(_) => Err(bad(line, name, format!("{text:?} is not a finite number"))),
-                    Err(_) => Err(bad(line, name, format!("{text:?} is not a number"))),
-                };
-                match *column {
-                    Column::Load(axis, size) => {
-                        if let Some(slot) = axes.iter().position(|a| *a == axis) {
-                            loads[start.0 + slot] = number()? * size;
-                        }
-                    }
-                    Column::Signal(gauge, _, size) => signals[start.1 + gauge] = number()? * size,
-                    Column::Time => times.push(number()?),
-                    Column::Temperature => temperatures.push(number()?),
-                    Column::Weight => weights.push(number()?),
-                    Column::Quaternion(part) => {
-                        if orientations.len() == samples {
-                            orientations.push([0.0; 4]);
-                        }
-                        orientations[samples][part] = number()?;
-                    }
-                    Column::Case => cases.push(text.to_owned()),
-                    Column::Group => groups.push(text.to_owned()),
-                    Column::Name => names.push(text.to_owned()),
-                    Column::Ignored => {}
-                }
-            }
-            samples += 1;
-            if names.len() < samples {
-                names.push(format!("line {line}"));
-            }
+        let mut orientations = Vec::new();
+        while let Some(row) = reader.next_row()? {
+            loads.extend_from_slice(&row.loads);
+            signals.extend_from_slice(&row.signals);
+            times.extend(row.time);
+            temperatures.extend(row.temperature);
+            weights.extend(row.weight);
+            orientations.extend(row.orientation);
+            names.push(row.name.clone().unwrap_or_else(|| format!("line {}", row.line)));
+            cases.extend(row.case.clone());
+            groups.extend(row.group.clone());
         }
-        let loads = DMatrix::from_row_slice(samples, axes.len(), &loads);
-        let signals = DMatrix::from_row_slice(samples, gauges, &signals);
-        let mut table = Self::new(&axes, loads, signals, unit)?;
+        let samples = names.len();
+        let loads = DMatrix::from_row_slice(samples, reader.axes().len(), &loads);
+        let signals = DMatrix::from_row_slice(samples, reader.gauges(), &signals);
+        let mut table = Self::new(reader.axes(), loads, signals, reader.signal_unit())?;
         table.names = names;
         table.cases = if cases.is_empty() { same_loads(&table.loads) } else { numbered(&cases) };
         if !groups.is_empty() {
@@ -124,8 +77,149 @@ impl LoadTable {
         (table.times, table.temperatures, table.weights) = (some(times), some(temperatures), some(weights));
         table.orientations = (!orientations.is_empty()).then_some(orientations);
         table.validate()?;
-        let ignored = header.iter().zip(&columns).filter(|(_, column)| **column == Column::Ignored);
-        Ok((table, ignored.map(|(name, _)| name.to_owned()).collect()))
+        Ok((table, reader.ignored()))
+    }
+}
+
+/// Reads a table of loads row by row, in the memory of one row: the format of
+/// [`LoadTable::from_csv`].
+#[derive(Debug)]
+pub struct LoadReader<R> {
+    csv: csv::Reader<R>,
+    record: csv::StringRecord,
+    header: csv::StringRecord,
+    columns: Vec<Column>,
+    axes: Vec<Axis>,
+    unit: SignalUnit,
+    row: LoadRow,
+}
+
+/// One row of a table of loads.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LoadRow {
+    /// Line of the file, counting from 1.
+    pub line: u64,
+    /// The known load \[N, N·m\], in the order of the axes.
+    pub loads: Vec<f64>,
+    /// The readings.
+    pub signals: Vec<f64>,
+    /// Time \[s\].
+    pub time: Option<f64>,
+    /// Temperature \[°C\].
+    pub temperature: Option<f64>,
+    /// Weight.
+    pub weight: Option<f64>,
+    /// Quaternion x, y, z, w.
+    pub orientation: Option<[f64; 4]>,
+    /// What to call the sample.
+    pub name: Option<String>,
+    /// Its load case.
+    pub case: Option<String>,
+    /// Its group.
+    pub group: Option<String>,
+}
+
+fn bad(line: u64, column: &str, message: String) -> LoadError {
+    LoadError::BadText { line, column: column.to_owned(), message }
+}
+
+impl<R: Read> LoadReader<R> {
+    /// Reads the header.
+    ///
+    /// # Errors
+    /// [`LoadError::BadText`], naming the column.
+    pub fn new(reader: R) -> Result<Self, LoadError> {
+        let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(reader);
+        let header = csv.headers().map_err(|error| bad(1, "", error.to_string()))?.clone();
+        let columns = header
+            .iter()
+            .map(|name| parse_name(name).map_err(|message| bad(1, name, message)))
+            .collect::<Result<Vec<_>, _>>()?;
+        let (axes, gauges, unit) = layout(&columns).map_err(|(column, message)| bad(1, &column, message))?;
+        let parts: Vec<usize> = columns
+            .iter()
+            .filter_map(|column| if let Column::Quaternion(part) = column { Some(*part) } else { None })
+            .collect();
+        if !parts.is_empty() && !(parts.len() == 4 && (0..4).all(|part| parts.contains(&part))) {
+            return Err(bad(1, "qx", "an orientation takes qx, qy, qz and qw, each once".to_owned()));
+        }
+        let row = LoadRow {
+            loads: vec![0.0; axes.len()],
+            signals: vec![0.0; gauges],
+            orientation: (!parts.is_empty()).then_some([0.0; 4]),
+            ..LoadRow::default()
+        };
+        Ok(Self { csv, record: csv::StringRecord::new(), header, columns, axes, unit, row })
+    }
+
+    /// The axes that have loads.
+    #[must_use]
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// How many gauges there are.
+    #[must_use]
+    pub fn gauges(&self) -> usize {
+        self.row.signals.len()
+    }
+
+    /// Unit of the readings.
+    #[must_use]
+    pub const fn signal_unit(&self) -> SignalUnit {
+        self.unit
+    }
+
+    /// Names of the columns that are not used.
+    #[must_use]
+    pub fn ignored(&self) -> Vec<String> {
+        let ignored = self.header.iter().zip(&self.columns).filter(|(_, column)| **column == Column::Ignored);
+        ignored.map(|(name, _)| name.to_owned()).collect()
+    }
+
+    /// The next row; `None` at the end.
+    ///
+    /// # Errors
+    /// [`LoadError::BadText`], naming line and column.
+    pub fn next_row(&mut self) -> Result<Option<&LoadRow>, LoadError> {
+        let more = self.csv.read_record(&mut self.record).map_err(|error| {
+            let line = error.position().map_or(0, csv::Position::line);
+            bad(line, "", error.to_string())
+        })?;
+        if !more {
+            return Ok(None);
+        }
+        let line = self.record.position().map_or(0, csv::Position::line);
+        let row = &mut self.row;
+        row.line = line;
+        for ((column, name), text) in self.columns.iter().zip(&self.header).zip(&self.record) {
+            let number = || match text.parse::<f64>() {
+                Ok(number) if number.is_finite() => Ok(number),
+                Ok(_) => Err(bad(line, name, format!("{text:?} is not a finite number"))),
+                Err(_) => Err(bad(line, name, format!("{text:?} is not a number"))),
+            };
+            match *column {
+                Column::Load(axis, size) => {
+                    if let Some(slot) = self.axes.iter().position(|a| *a == axis) {
+                        row.loads[slot] = number()? * size;
+                    }
+                }
+                Column::Signal(gauge, _, size) => row.signals[gauge] = number()? * size,
+                Column::Time => row.time = Some(number()?),
+                Column::Temperature => row.temperature = Some(number()?),
+                Column::Weight => row.weight = Some(number()?),
+                Column::Quaternion(part) => {
+                    if let Some(orientation) = &mut row.orientation {
+                        orientation[part] = number()?;
+                    }
+                }
+                Column::Case => row.case = Some(text.to_owned()),
+                Column::Group => row.group = Some(text.to_owned()),
+                Column::Name => row.name = Some(text.to_owned()),
+                Column::Ignored => {}
+            }
+        }
+        Ok(Some(row))
     }
 }
 
@@ -147,11 +241,6 @@ pub struct Rest {
 /// [`LoadError`], naming line and column.
 pub fn signals_from_csv(reader: impl Read) -> Result<Rest, LoadError> {
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(reader);
-    let bad = |line: u64, column: &str, message: String| LoadError::BadText {
-        line,
-        column: column.to_owned(),
-        message,
-    };
     let header = reader.headers().map_err(|error| bad(1, "", error.to_string()))?.clone();
     let mut columns = Vec::new();
     for name in &header {

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
+use super::contact::{ContactReport, TouchSet, contact_report};
 use super::metrics::{AxisReport, LineReport, axis_reports, cross_talk, lines};
 use super::outliers::Outlier;
 use super::suspicion::{Suspicion, suspicions};
@@ -39,6 +40,8 @@ pub struct Report {
     pub matrix_deviations: Option<Vec<Vec<f64>>>,
     /// How well lines of action are found.
     pub lines: Option<LineReport>,
+    /// What the uncertainty of the calibration does to contact points of a given surface.
+    pub contacts: Option<ContactReport>,
     /// Samples that were left out, and why.
     pub excluded: Vec<Exclusion>,
     /// Samples that do not fit the others but were kept.
@@ -101,6 +104,10 @@ impl Report {
                 axis.deviation_percent = Some(100.0 * covariance[(j, j)].max(0.0).sqrt() / axis.full_scale);
             }
         }
+        if let (Some(set), Some(covariance)) = (&options.touches, model.covariance()) {
+            let matrix = model.matrix_and_zero()?.0;
+            report.contacts = contact_report(&model.axes, &matrix, &model.nominal, &covariance, set);
+        }
         report.matrix_deviations = model.covariance().map(|covariance| {
             let entry =
                 |i: usize, j: usize| (covariance.signals[(i, i)] * covariance.loads[(j, j)]).max(0.0).sqrt();
@@ -123,6 +130,7 @@ impl Report {
         file: &CalibrationFile,
         table: &LoadTable,
         limits: &Limits,
+        touches: Option<&TouchSet>,
     ) -> Result<Self, CalibrationError> {
         table.validate()?;
         if file.gauges() != table.gauges() || file.axes != table.axes {
@@ -164,6 +172,9 @@ impl Report {
         report.condition_number =
             Singular::new(&file.matrix).map(|s| s.condition_number()).filter(|number| number.is_finite());
         report.lines = lines(table, &file.nominal, &predicted, |_| None);
+        if let (Some(set), Some(covariance)) = (touches, &file.covariance) {
+            report.contacts = contact_report(&file.axes, &file.matrix, &file.nominal, covariance, set);
+        }
         if table.temperatures.is_some() && file.temperature.is_none() {
             report.notes.push("temperatures are known, but the calibration has no terms for them".to_owned());
         }
@@ -204,6 +215,7 @@ impl Report {
             cross_talk_percent: cross_talk(table, full_scale, predicted),
             matrix_deviations: None,
             lines: None,
+            contacts: None,
             excluded: Vec::new(),
             outliers: Vec::new(),
             needed_cases: left_out.map_or_else(Vec::new, missing),

@@ -1,5 +1,6 @@
 //! What a calibration is worth.
 
+mod contact;
 mod contents;
 mod html;
 mod metrics;
@@ -7,6 +8,7 @@ mod outliers;
 mod suspicion;
 mod terminal;
 
+pub use contact::{ContactReport, TouchSet};
 pub use contents::{Exclusion, Report, SampleReport};
 pub use metrics::{AxisReport, LineReport};
 pub use outliers::{Outlier, outliers};

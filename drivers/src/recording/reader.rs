@@ -9,6 +9,7 @@ use csv::ByteRecord;
 
 use super::bounded::Bounded;
 use super::cell::Cell;
+use super::columns::NumberColumn;
 use super::error::{HeaderProblem, RecordingError};
 use super::layout::{AssumedUnits, Layout, UsedColumn, shortened};
 use super::quality::Quality;
