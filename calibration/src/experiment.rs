@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::fit::FitError;
+use crate::linear::Triangular;
 
 /// How much a fit knows: `(Σ x xᵀ)` of the loads so far, with and without bias, kept as its inverse.
 ///
@@ -96,8 +97,8 @@ pub struct Plan {
 ///
 /// # Errors
 /// [`FitError::BadInput`] for an accuracy that is not positive or candidates that are not finite,
-/// [`FitError::TooFewSamples`] if `most` loads are not enough (as when candidates leave a direction
-/// open).
+/// [`FitError::Unobserved`] if the candidates leave a direction open, [`FitError::TooFewSamples`] if
+/// `most` loads are not enough.
 pub fn plan(candidates: &DMatrix<f64>, bias: bool, accuracy: f64, most: usize) -> Result<Plan, FitError> {
     plan_after(&DMatrix::zeros(0, candidates.ncols()), candidates, bias, accuracy, most)
 }
@@ -117,11 +118,19 @@ pub fn plan_after(
         return Err(FitError::BadInput { what: "the accuracy or the list of candidates" });
     }
     let rows: Vec<Vec<f64>> = candidates.row_iter().map(|row| row.iter().copied().collect()).collect();
+    if done.ncols() != candidates.ncols() || done.iter().any(|x| !x.is_finite()) {
+        return Err(FitError::BadInput { what: "the list of loads that were applied" });
+    }
+    let mut all = Triangular::new(candidates.ncols() + usize::from(bias), 0);
+    for load in done.row_iter().chain(candidates.row_iter()) {
+        let mut regressors: Vec<f64> = load.iter().copied().collect();
+        regressors.extend(bias.then_some(1.0));
+        all.push(&regressors, &[]);
+    }
+    all.factors().coefficients()?;
     let mut information = Information::new(candidates.ncols(), bias);
     for load in done.row_iter() {
-        if !information.add(&load.iter().copied().collect::<Vec<_>>()) {
-            return Err(FitError::BadInput { what: "the list of loads that were applied" });
-        }
+        information.add(&load.iter().copied().collect::<Vec<_>>());
     }
     let mut result = Plan { order: Vec::new(), deviation: Vec::new() };
     while result.order.len() < most {
@@ -143,6 +152,7 @@ pub fn plan_after(
 #[cfg(test)]
 mod tests {
     use super::{Information, plan, plan_after};
+    use crate::fit::FitError;
     use crate::fit::testing::gaussian_matrix;
     use nalgebra::DMatrix;
     use rand::SeedableRng as _;
@@ -184,9 +194,8 @@ mod tests {
         first.sort_unstable();
         assert_eq!(first, [0, 1, 2, 3, 4, 5]);
         assert!(plan.deviation[4].is_infinite() && (plan.deviation[5] - 1.0).abs() < 1e-5);
-        assert!(
-            super::plan(&candidates.columns(0, 5).into_owned().insert_column(5, 0.0), true, 0.5, 200).is_ok()
-        );
+        let never = candidates.columns(0, 5).into_owned().insert_column(5, 0.0);
+        assert!(matches!(super::plan(&never, true, 0.5, 200), Err(FitError::Unobserved(_))));
         // What was done need not be done again.
         let done = candidates.select_rows(&plan.order[..20]);
         assert_eq!(plan_after(&done, &candidates, false, 0.5, 200).unwrap().order.len(), 4);

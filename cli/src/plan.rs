@@ -69,9 +69,13 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<(), CliError> {
     let plan = plan_after(&done, &normalised(candidates.clone()), bias, arguments.accuracy, most).map_err(
         |error| {
             let message = match error {
+                FitError::Unobserved(mut unobserved) => {
+                    unobserved.names = axes.iter().map(ToString::to_string).collect();
+                    unobserved.names.extend(bias.then(|| "constant".to_owned()));
+                    unobserved.to_string()
+                }
                 FitError::TooFewSamples { .. } => format!(
-                    "{most} of these loads are not enough for {}: they leave a direction open, or it is too \
-                     much to ask (see --most)",
+                    "{most} of these loads are not enough for an accuracy of {}; see --most",
                     arguments.accuracy
                 ),
                 other => other.to_string(),

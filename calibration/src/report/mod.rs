@@ -5,6 +5,7 @@ mod contents;
 mod html;
 mod metrics;
 mod outliers;
+mod plot;
 mod suspicion;
 mod terminal;
 
