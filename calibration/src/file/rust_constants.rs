@@ -95,12 +95,11 @@ impl CalibrationFile {
     }
 }
 
+/// Writes the numbers of a field as a list.
+type ListInRust<'a> = dyn Fn(&str, &mut dyn Iterator<Item = f64>) -> Result<String, FileError> + 'a;
+
 /// Constants and function of the drift with temperature.
-fn drift_in_rust(
-    drift: &Temperature,
-    name: &str,
-    list: &dyn Fn(&str, &mut dyn Iterator<Item = f64>) -> Result<String, FileError>,
-) -> Result<String, FileError> {
+fn drift_in_rust(drift: &Temperature, name: &str, list: &ListInRust<'_>) -> Result<String, FileError> {
     let mut text = String::new();
     let range = [drift.reference_celsius, drift.range_celsius[0], drift.range_celsius[1]];
     let _ = writeln!(

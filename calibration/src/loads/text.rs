@@ -140,7 +140,8 @@ impl<R: Read> LoadReader<R> {
             .iter()
             .filter_map(|column| if let Column::Quaternion(part) = column { Some(*part) } else { None })
             .collect();
-        if !parts.is_empty() && !(parts.len() == 4 && (0..4).all(|part| parts.contains(&part))) {
+        let whole = parts.len() == 4 && (0..4).all(|part| parts.contains(&part));
+        if !(parts.is_empty() || whole) {
             return Err(bad(1, "qx", "an orientation takes qx, qy, qz and qw, each once".to_owned()));
         }
         let row = LoadRow {

@@ -36,7 +36,9 @@ pub struct Report {
     pub axes: Vec<AxisReport>,
     /// Cross-talk, % of full scale: row = axis that reads falsely, column = axis loaded alone.
     pub cross_talk_percent: Vec<Vec<Option<f64>>>,
-    /// Standard deviation of the entries of the normalised matrix, gauges × axes, in signals.
+    /// The normalised matrix, gauges × axes, in signals.
+    pub matrix: Option<Vec<Vec<f64>>>,
+    /// Standard deviation of its entries.
     pub matrix_deviations: Option<Vec<Vec<f64>>>,
     /// How well lines of action are found.
     pub lines: Option<LineReport>,
@@ -108,6 +110,10 @@ impl Report {
             let matrix = model.matrix_and_zero()?.0;
             report.contacts = contact_report(&model.axes, &matrix, &model.nominal, &covariance, set);
         }
+        report.matrix = model
+            .matrix_and_zero()
+            .ok()
+            .map(|(matrix, _)| matrix.row_iter().map(|row| row.iter().copied().collect()).collect());
         report.matrix_deviations = model.covariance().map(|covariance| {
             let entry =
                 |i: usize, j: usize| (covariance.signals[(i, i)] * covariance.loads[(j, j)]).max(0.0).sqrt();
@@ -213,6 +219,7 @@ impl Report {
             condition_number: None,
             axes: axis_reports(table, full_scale, predicted, left_out),
             cross_talk_percent: cross_talk(table, full_scale, predicted),
+            matrix: None,
             matrix_deviations: None,
             lines: None,
             contacts: None,

@@ -9,7 +9,7 @@ use crate::file::Verdict;
 const STYLE: &str = "body{font-family:sans-serif;max-width:66em;margin:2em auto;padding:0 1em;color:#1f2328}\
     table{border-collapse:collapse;margin:.8em 0}td,th{padding:.25em .7em;text-align:right;\
     border-bottom:1px solid #d0d7de}td:first-child,th:first-child{text-align:left}\
-    thead th{border-bottom:2px solid #8c959f}tr.first td{font-weight:bold}\
+    .text td,.text th{text-align:left}thead th{border-bottom:2px solid #8c959f}tr.first td{font-weight:bold}\
     .wide{overflow-x:auto}.verdict{font-weight:bold}.good{color:#1a7f37}.bad{color:#cf222e}\
     .unchecked{color:#9a6700}figure{display:inline-block;margin:.5em}figcaption{text-align:center}\
     .legend span{display:inline-block;width:.7em;height:.7em;border-radius:50%;margin:0 .4em 0 1em}\
@@ -60,7 +60,7 @@ impl Report {
         self.deviations(&mut page);
         if !self.excluded.is_empty() {
             page.push_str(
-                "<h2>Samples left out</h2>\n<table><thead><tr><th>sample</th><th>why</th></tr></thead>\n",
+                "<h2>Samples left out</h2>\n<table class=\"text\"><thead><tr><th>sample</th><th>why</th></tr></thead>\n",
             );
             for excluded in &self.excluded {
                 let (sample, reason) = (escape(&excluded.sample), escape(&excluded.reason));
@@ -77,7 +77,7 @@ impl Report {
         let number = self.condition_number.map_or("infinite (singular)".to_owned(), |n| format!("{n:.2}"));
         let _ = write!(
             page,
-            "<p>{}: {} samples in {} load cases",
+            "<p>Method: {}; {} samples in {} load cases",
             escape(&self.method),
             self.samples,
             self.cases
@@ -177,20 +177,20 @@ impl Report {
     }
 
     fn deviations(&self, page: &mut String) {
-        let Some(rows) = &self.matrix_deviations else { return };
+        let (Some(matrix), Some(deviations)) = (&self.matrix, &self.matrix_deviations) else { return };
         page.push_str(
-            "<h2>Uncertainty of the matrix</h2>\n<p class=\"small\">Standard deviation of the entries of the \
-             normalised matrix, in signals: row a gauge, column an axis.</p>\n<div class=\"wide\"><table><thead><tr>\
-             <th></th>",
+            "<h2>The matrix</h2>\n<p class=\"small\">Signal of each gauge (row) under the full scale of each axis \
+             (column), and its standard deviation.</p>\n<div class=\"wide\"><table><thead><tr><th></th>",
         );
         for axis in &self.axes {
             let _ = write!(page, "<th>{}</th>", axis.axis);
         }
         page.push_str("</tr></thead>\n");
-        for (gauge, row) in rows.iter().enumerate() {
+        for (gauge, (row, spread)) in matrix.iter().zip(deviations).enumerate() {
             let _ = write!(page, "<tr><td>gauge {}</td>", gauge + 1);
-            for value in row {
-                let _ = write!(page, "<td>{value:.2e}</td>");
+            for (value, deviation) in row.iter().zip(spread) {
+                let digits = digits(*deviation, 2);
+                let _ = write!(page, "<td>{value:.digits$} ± {deviation:.digits$}</td>");
             }
             page.push_str("</tr>\n");
         }
@@ -233,10 +233,16 @@ fn cell(value: Option<f64>) -> String {
 
 /// Four significant digits.
 fn short(value: f64) -> String {
-    let digits = (3.0 - value.abs().max(1e-12).log10().floor()).clamp(0.0, 12.0);
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let digits = digits as usize;
+    let digits = digits(value, 4);
     format!("{value:.digits$}")
+}
+
+/// Digits behind the point that make so many significant ones.
+fn digits(value: f64, significant: u8) -> usize {
+    let digits = f64::from(significant) - 1.0 - value.abs().max(1e-12).log10().floor();
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let digits = digits.clamp(0.0, 12.0) as usize;
+    digits
 }
 
 fn escape(text: &str) -> String {

@@ -151,6 +151,17 @@ impl<R: Read> RecordingReader<R> {
     /// Reads the column called so too, whatever its case, from the next row on; `None` if there is no
     /// such column. For what belongs to no sensor, such as `temperature_C` or `qx`: numbers are given as
     /// they stand in the file.
+    ///
+    /// ```
+    /// use fingertip_drivers::recording::RecordingReader;
+    ///
+    /// let file = "t_s,v1_V,temperature_C\n0,0.5,21.5\n1,0.5,\n";
+    /// let mut reader = RecordingReader::new("example.csv", file.as_bytes())?;
+    /// let celsius = reader.watch("temperature_c").ok_or("no such column")?;
+    /// assert_eq!(reader.next_row()?.and_then(|row| row.number(&celsius)), Some(21.5));
+    /// assert_eq!(reader.next_row()?.and_then(|row| row.number(&celsius)), None);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn watch(&mut self, name: &str) -> Option<NumberColumn> {
         let column = self.layout.columns().iter().position(|column| column.eq_ignore_ascii_case(name))?;
         self.layout.used.push(UsedColumn { column, scale: 1.0 });
