@@ -20,6 +20,9 @@ pub const POUND_FORCE: f64 = 4.448_221_615_260_5;
 /// One inch in metres, exactly.
 pub const INCH: f64 = 0.025_4;
 
+/// One foot in metres, exactly.
+pub const FOOT: f64 = 0.304_8;
+
 /// A unit of force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -182,7 +185,7 @@ impl TorqueUnit {
             Self::NewtonCentimetre => 1e-2,
             Self::KilonewtonMetre => 1e3,
             Self::PoundForceInch => POUND_FORCE * INCH,
-            Self::PoundForceFoot => POUND_FORCE * INCH * 12.0,
+            Self::PoundForceFoot => POUND_FORCE * FOOT,
             Self::OunceForceInch => POUND_FORCE / 16.0 * INCH,
             Self::KilogramForceMetre => STANDARD_GRAVITY,
             Self::KilogramForceCentimetre => STANDARD_GRAVITY * 1e-2,
@@ -207,7 +210,7 @@ impl LengthUnit {
             Self::Centimetre => 1e-2,
             Self::Millimetre => 1e-3,
             Self::Inch => INCH,
-            Self::Foot => INCH * 12.0,
+            Self::Foot => FOOT,
         }
     }
 
