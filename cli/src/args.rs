@@ -31,7 +31,7 @@ pub(crate) enum Command {
     /// Design a sensor: from wanted ranges and size to a layout of gauges and the accuracy to expect
     Design(DesignArguments),
     /// Fit a sensor to known loads, or a payload to poses, and say how good that is
-    Calibrate(CalibrateArguments),
+    Calibrate(Box<CalibrateArguments>),
     /// Test a calibration on loads that it has not seen
     Check(CheckArguments),
     /// Give a calibration a new zero from a recording at rest
