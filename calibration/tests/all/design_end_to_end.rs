@@ -1,5 +1,4 @@
 //! The paper's sensor against the rosette, from touch to contact point.
-#![allow(clippy::unwrap_used, reason = "helpers of tests, which may fail so")]
 
 use fingertip_calibration::design::{
     Accuracy, Assessment, Criterion, LoadedTube, Material, MatrixUsed, NominalLoads, Placement, Search,

@@ -1,4 +1,4 @@
-// Calibration fnv1a64:3b7d9f580febf5bd, written by fingertip-calibration 0.1.0.
+// Calibration fnv1a64:645eaf68c2f32513, written by fingertip-calibration 0.1.0.
 // Sensor: demo 1
 // Quality: BAD
 // - made up
@@ -32,5 +32,35 @@ pub fn sensor_matrix()
     fingertip_wrench::SensorMatrix::new(
         nalgebra::SMatrix::<f32, GAUGES, 6>::from_fn(|gauge, axis| NORMALISED[gauge][axis]),
         nalgebra::Vector6::from(NOMINAL),
+    )
+}
+
+/// Reference temperature, least and greatest temperature of the calibration [°C].
+pub const CELSIUS: [f32; 3] = [22.0, 15.0, 45.0];
+
+/// Drift of each zero [signal/K].
+pub const ZERO_DRIFT: [f32; GAUGES] = [0.0, 0.001, 0.002, 0.003, 0.004, 0.005, 0.006];
+
+/// Curvature of each zero [signal/K²].
+pub const ZERO_CURVATURE: [f32; GAUGES] = [1e-5, 1e-5, 1e-5, 1e-5, 1e-5, 1e-5, 1e-5];
+
+/// Drift of each gain [1/K].
+pub const GAIN_DRIFT: [f32; GAUGES] = [-0.0002, -0.0002, -0.0002, -0.0002, -0.0002, -0.0002, -0.0002];
+
+/// Takes zero and drift off a reading: use this, not `ZERO` alone.
+///
+/// # Errors
+/// Never for the numbers above; only if they were edited into nonsense.
+pub fn temperature_compensation() -> Result<
+    fingertip_wrench::TemperatureCompensation<f32, GAUGES, 3>,
+    fingertip_wrench::BadTemperatureModel,
+> {
+    let vector = nalgebra::SVector::<f32, GAUGES>::from;
+    let [reference, least, greatest] = CELSIUS;
+    fingertip_wrench::TemperatureCompensation::new(
+        reference,
+        (least, greatest),
+        [vector(ZERO), vector(ZERO_DRIFT), vector(ZERO_CURVATURE)],
+        [vector(GAIN_DRIFT), vector([0.0; GAUGES]), vector([0.0; GAUGES])],
     )
 }

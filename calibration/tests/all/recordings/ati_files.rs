@@ -3,7 +3,7 @@
 use fingertip_calibration::Axis;
 use fingertip_calibration::file::{AtiCalibration, CalibrationFile};
 
-use crate::common;
+use super::common;
 
 #[test]
 fn all_files_are_read_and_their_matrices_agree() {

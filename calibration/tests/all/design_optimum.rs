@@ -1,6 +1,5 @@
 //! What the optimiser must find: the condition numbers of the paper, its optimum, and the layouts
 //! that beat it.
-#![allow(clippy::unwrap_used, reason = "helpers of tests, which may fail so")]
 
 use core::num::NonZero;
 use core::sync::atomic::{AtomicUsize, Ordering};

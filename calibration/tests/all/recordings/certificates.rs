@@ -5,7 +5,7 @@ use fingertip_calibration::file::{AtiCalibration, SignalUnit, Verdict};
 use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{Calibration, Direction, Options, calibrate};
 
-use crate::common;
+use super::common;
 
 /// Loads in the units of the certificate: the README's figures are of these.
 fn certificate(serial: &str) -> Option<(AtiCalibration, LoadTable)> {

@@ -3,7 +3,7 @@
 use fingertip_calibration::gravity::{PayloadOptions, Pose, fit_payload};
 use fingertip_calibration::nalgebra::{Vector3, Vector6};
 
-use crate::common;
+use super::common;
 
 #[test]
 fn published_weight_and_biases_come_back() {

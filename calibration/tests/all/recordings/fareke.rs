@@ -6,7 +6,7 @@ use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{Direction, Limits, Options, calibrate};
 use fingertip_calibration::report::{Mistake, Report};
 
-use crate::common;
+use super::common;
 
 const GRAM_FORCE: f64 = 9.80665e-3;
 
@@ -75,7 +75,7 @@ fn transposition_is_noticed() {
         let tared = table.tared_by_group().unwrap();
         let calibration = calibrate(&table, &options()).unwrap();
         let mut file = calibration.to_file().unwrap();
-        let right = Report::of_check(&file, &tared, &Limits::default()).unwrap();
+        let right = Report::of_check(&file, &tared, &Limits::default(), None).unwrap();
         assert!(right.suspicions.is_empty(), "{right}");
         // As a user would: the matrix in counts per newton, rows and columns exchanged.
         let mut sensitivities = file.matrix.clone();
@@ -86,7 +86,7 @@ fn transposition_is_noticed() {
         for (mut column, nominal) in file.matrix.column_iter_mut().zip(&file.nominal) {
             column *= *nominal;
         }
-        let wrong = Report::of_check(&file, &tared, &Limits::default()).unwrap();
+        let wrong = Report::of_check(&file, &tared, &Limits::default(), None).unwrap();
         assert_eq!(wrong.suspicions[0].mistake, Mistake::Transposed, "{wrong}");
         assert_eq!(wrong.verdict, Verdict::Bad);
         println!("cell {number}: {}", wrong.suspicions[0]);
@@ -98,7 +98,8 @@ fn validation_of_cell_2_is_as_published() {
     let (Some(table), Some(unseen)) = (cell("2", "0"), cell("2", "1")) else { return };
     let mut file = calibrate(&table, &options()).unwrap().to_file().unwrap();
     file.nominal.iter_mut().for_each(|load| assert!((*load / GRAM_FORCE - 872.1).abs() < 1e-9));
-    let report = Report::of_check(&file, &unseen.tared_by_group().unwrap(), &Limits::default()).unwrap();
+    let report =
+        Report::of_check(&file, &unseen.tared_by_group().unwrap(), &Limits::default(), None).unwrap();
     for (axis, rms) in report.axes.iter().zip([4.609, 12.062, 19.601]) {
         assert!((axis.rms / GRAM_FORCE - rms).abs() < 6e-4, "{}", axis.rms / GRAM_FORCE);
     }

@@ -5,7 +5,7 @@ use fingertip_calibration::file::{CalibrationFile, SignalUnit, Verdict};
 use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{CalibrationError, Direction, Options, calibrate};
 
-use crate::common;
+use super::common;
 
 fn poses() -> Option<LoadTable> {
     let path = common::data("jonurce_fts8/poses.csv")?;

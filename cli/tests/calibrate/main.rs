@@ -1,12 +1,18 @@
-//! `calibrate`, `check` and `tare` from outside.
+//! The commands that calibrate, from outside.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, which may fail so")]
 
+#[path = "../common/mod.rs"]
 mod common;
+mod payload;
+mod sensor;
+mod surface;
+mod temperature;
 
 use common::Folder;
 
 /// Loads of each axis up and down; gauge i reads 2 V under 10 N or 0.1 N·m of axis i, and a tenth of its
 /// neighbour's; zeros of 0.1 V, readings rounded to 0.1 mV.
-fn loads(gain: f64) -> String {
+pub(crate) fn loads(gain: f64) -> String {
     let mut text = String::from("case,fx_N,fy_N,fz_N,tx_Nmm,ty_Nmm,tz_Nmm,v1_V,v2_V,v3_V,v4_V,v5_V,v6_V\n");
     for case in 0..24 {
         let mut share = [0.0; 6];
@@ -126,6 +132,9 @@ fn gravity() {
     }
     folder.write("poses.csv", &text);
     let said = folder.succeed(&["calibrate", "--gravity", "poses.csv"]);
+    assert!(
+        said.contains("Written: payload.toml") && folder.read("payload.toml").contains("mass_kg = 0.2039")
+    );
     assert!(said.contains("2.00000 ±") && said.contains("+30.00000 mm"), "{said}");
     assert!(said.contains("+1.00000 +2.00000 +3.00000 N"), "{said}");
 }

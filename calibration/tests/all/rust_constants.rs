@@ -1,7 +1,6 @@
 //! The exported constants compile and give back the calibration.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, which may fail so")]
 
-use fingertip_calibration::file::{CalibrationFile, FileError, Scalar, SignalUnit, Verdict};
+use fingertip_calibration::file::{CalibrationFile, FileError, Scalar, SignalUnit, Temperature, Verdict};
 use fingertip_calibration::nalgebra::DMatrix;
 
 /// What `to_rust` wrote of [`example`], compiled here.
@@ -15,6 +14,13 @@ fn example() -> CalibrationFile {
     let nominal = vec![10.0, 10.0, 20.0, 0.1, 0.1, 0.05];
     let zero = (0..7).map(|i| f64::from(i) * 0.01 - 0.02).collect();
     let mut file = CalibrationFile::new(matrix, nominal, zero, SignalUnit::Volt).unwrap();
+    file.temperature = Some(Temperature {
+        reference_celsius: 22.0,
+        range_celsius: [15.0, 45.0],
+        zero_drift: (0..7).map(|i| 1e-3 * f64::from(i)).collect(),
+        zero_curvature: vec![1e-5; 7],
+        gain_drift: vec![-2e-4; 7],
+    });
     file.provenance.serial = "demo\n1".to_owned();
     file.quality.verdict = Verdict::Bad;
     file.quality.reasons = vec!["made up".to_owned()];
@@ -27,7 +33,7 @@ fn text_is_what_is_compiled() {
     assert_eq!(
         text,
         include_str!("rust_constants/exported.rs"),
-        "write this to tests/rust_constants/exported.rs"
+        "write this to tests/all/rust_constants/exported.rs"
     );
     assert!(text.contains("Quality: BAD") && text.contains("made up"));
 }
@@ -38,6 +44,8 @@ fn constants_are_the_nearest_numbers() {
     assert_eq!(exported::sensor_matrix().unwrap(), expected);
     assert_eq!(exported::ZERO.map(f64::from)[6], f64::from(0.04_f32));
     assert_eq!(exported::GAUGES, 7);
+    let expected = example().temperature_compensation::<f32, 7>().unwrap().unwrap();
+    assert_eq!(exported::temperature_compensation().unwrap(), expected);
 }
 
 #[test]

@@ -1,5 +1,4 @@
 //! The report in its three forms, on a sensor made for the purpose.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, which may fail so")]
 
 use fingertip_calibration::Axis;
 use fingertip_calibration::file::{SignalUnit, Verdict};
@@ -83,7 +82,7 @@ fn exchanged_axes_units_and_gauges_are_suspected() {
     let table = table();
     let file = calibrate(&table, &Options::default()).unwrap().to_file().unwrap();
     let limits = Options::default().limits;
-    let check = |table: &LoadTable| Report::of_check(&file, table, &limits).unwrap();
+    let check = |table: &LoadTable| Report::of_check(&file, table, &limits, None).unwrap();
     assert!(check(&table).suspicions.is_empty());
     let mut wrong = table.clone();
     wrong.loads.swap_columns(0, 1);
