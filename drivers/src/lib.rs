@@ -4,17 +4,26 @@
 #[cfg(any(feature = "simulation", feature = "mcap"))]
 extern crate alloc;
 
+#[cfg(feature = "ads131m")]
+pub mod ads131m;
 #[cfg(feature = "ati-rdt")]
 pub mod ati_rdt;
 #[cfg(any(feature = "robotous", feature = "dynpick", feature = "optoforce"))]
 mod axis_counts;
 #[cfg(feature = "bota-serial")]
 pub mod bota_serial;
+pub mod bridge;
+#[cfg(feature = "converter")]
+pub mod converter;
 #[cfg(feature = "dynpick")]
 pub mod dynpick;
 mod faces;
+#[cfg(feature = "hx711")]
+pub mod hx711;
 pub mod line;
 pub mod middleware;
+#[cfg(feature = "nau7802")]
+pub mod nau7802;
 #[cfg(feature = "optoforce")]
 pub mod optoforce;
 #[cfg(feature = "std")]
