@@ -4,6 +4,8 @@
 #[cfg(any(feature = "simulation", feature = "mcap"))]
 extern crate alloc;
 
+#[cfg(feature = "ads1256")]
+pub mod ads1256;
 #[cfg(feature = "ads131m")]
 pub mod ads131m;
 #[cfg(feature = "ati-rdt")]
@@ -21,6 +23,8 @@ mod faces;
 #[cfg(feature = "hx711")]
 pub mod hx711;
 pub mod line;
+#[cfg(feature = "mcp3564")]
+pub mod mcp3564;
 pub mod middleware;
 #[cfg(feature = "nau7802")]
 pub mod nau7802;

@@ -52,6 +52,8 @@ pub struct ConverterStatistics {
     pub corrupt: u64,
     /// Answers that held nothing new.
     pub stale: u64,
+    /// Conversions that were passed over because their cycle of channels was not whole.
+    pub incomplete: u64,
     /// How often the device said that what it was sent was damaged.
     pub rejected: u64,
     /// How often the device did not become ready in time.

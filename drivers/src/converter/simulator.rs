@@ -228,8 +228,8 @@ impl<D: SimulatedConverter> SimulatedBench<D> {
 
     /// The "ready" pin.
     #[must_use]
-    pub fn ready(&self) -> SimulatedReady<D> {
-        SimulatedReady(self.clone())
+    pub fn ready(&self) -> SimulatedLine<D> {
+        SimulatedLine::new(self.clone(), |bench, _| !bench.is_low(), 0)
     }
 }
 
@@ -255,33 +255,31 @@ impl<D: SimulatedConverter> embedded_hal_async::spi::SpiDevice for SimulatedSpi<
     }
 }
 
-/// The "ready" pin of a [`SimulatedBench`].
+/// A line that a device on a [`SimulatedBench`] drives, to be looked at or waited for.
 #[derive(Clone, Debug)]
-pub struct SimulatedReady<D>(SimulatedBench<D>);
-
-impl<D> digital::ErrorType for SimulatedReady<D> {
-    type Error = Infallible;
+pub struct SimulatedLine<D> {
+    bench: SimulatedBench<D>,
+    is_high: fn(&mut Inner<D>, usize) -> bool,
+    index: usize,
 }
 
-impl<D: SimulatedConverter> InputPin for SimulatedReady<D> {
-    fn is_high(&mut self) -> Result<bool, Infallible> {
-        Ok(!self.0.lock().is_low())
+impl<D: SimulatedDevice> SimulatedLine<D> {
+    /// The line of that index, whose level is read from the bench.
+    pub(crate) const fn new(bench: SimulatedBench<D>, is_high: fn(&mut Inner<D>, usize) -> bool, index: usize) -> Self {
+        Self { bench, is_high, index }
     }
 
-    fn is_low(&mut self) -> Result<bool, Infallible> {
-        Ok(self.0.lock().is_low())
+    fn level(&self) -> bool {
+        (self.is_high)(&mut self.bench.lock(), self.index)
     }
-}
 
-impl<D: SimulatedConverter> SimulatedReady<D> {
     /// Each time that a task looks in vain, a microsecond goes by.
-    async fn until(&mut self, mut condition: impl FnMut(bool) -> bool) {
+    async fn until(&self, high: bool) {
         core::future::poll_fn(|context| {
-            let mut bench = self.0.lock();
-            if condition(bench.is_low()) {
+            if self.level() == high {
                 return Poll::Ready(());
             }
-            bench.advance(1000);
+            self.bench.advance(1000);
             context.waker().wake_by_ref();
             Poll::Pending
         })
@@ -289,30 +287,46 @@ impl<D: SimulatedConverter> SimulatedReady<D> {
     }
 }
 
-impl<D: SimulatedConverter> Wait for SimulatedReady<D> {
+impl<D> digital::ErrorType for SimulatedLine<D> {
+    type Error = Infallible;
+}
+
+impl<D: SimulatedDevice> InputPin for SimulatedLine<D> {
+    fn is_high(&mut self) -> Result<bool, Infallible> {
+        Ok(self.level())
+    }
+
+    fn is_low(&mut self) -> Result<bool, Infallible> {
+        Ok(!self.level())
+    }
+}
+
+impl<D: SimulatedDevice> Wait for SimulatedLine<D> {
     async fn wait_for_high(&mut self) -> Result<(), Infallible> {
-        self.until(|low| !low).await;
+        self.until(true).await;
         Ok(())
     }
 
     async fn wait_for_low(&mut self) -> Result<(), Infallible> {
-        self.until(|low| low).await;
+        self.until(false).await;
         Ok(())
     }
 
     async fn wait_for_rising_edge(&mut self) -> Result<(), Infallible> {
-        self.wait_for_low().await?;
-        self.wait_for_high().await
+        self.until(false).await;
+        self.until(true).await;
+        Ok(())
     }
 
     async fn wait_for_falling_edge(&mut self) -> Result<(), Infallible> {
-        self.wait_for_high().await?;
-        self.wait_for_low().await
+        self.until(true).await;
+        self.until(false).await;
+        Ok(())
     }
 
     async fn wait_for_any_edge(&mut self) -> Result<(), Infallible> {
-        let was = self.0.lock().is_low();
-        self.until(|low| low != was).await;
+        let now = self.level();
+        self.until(!now).await;
         Ok(())
     }
 }

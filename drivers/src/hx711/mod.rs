@@ -48,4 +48,4 @@ pub use driver::{AsyncHx711, Hx711};
 pub use wire::{Mode, Shift};
 
 #[cfg(feature = "simulation")]
-pub use simulator::{SimulatedClock, SimulatedData, SimulatedHx711s};
+pub use simulator::{SimulatedClock, SimulatedHx711s};

@@ -3,13 +3,11 @@
 use alloc::boxed::Box;
 use core::convert::Infallible;
 use core::fmt;
-use core::task::Poll;
 
-use embedded_hal::digital::{self, InputPin, OutputPin};
-use embedded_hal_async::digital::Wait;
+use embedded_hal::digital::{self, OutputPin};
 
 use super::wire::Mode;
-use crate::converter::{Level, SimulatedBench, SimulatedDevice};
+use crate::converter::{Inner, Level, SimulatedBench, SimulatedDevice, SimulatedLine};
 
 #[derive(Clone, Copy, Debug)]
 struct Chip {
@@ -179,8 +177,12 @@ impl<const N: usize> SimulatedBench<SimulatedHx711s<N>> {
 
     /// The data lines.
     #[must_use]
-    pub fn data(&self) -> [SimulatedData<N>; N] {
-        core::array::from_fn(|chip| SimulatedData { bench: self.clone(), chip })
+    pub fn data(&self) -> [SimulatedLine<SimulatedHx711s<N>>; N] {
+        let is_high = |bench: &mut Inner<SimulatedHx711s<N>>, chip: usize| match bench.faults.stuck_data {
+            Some(level) => level == Level::High,
+            None => bench.device.is_off() || bench.device.chips.get(chip).is_none_or(|chip| chip.output),
+        };
+        core::array::from_fn(|chip| SimulatedLine::new(self.clone(), is_high, chip))
     }
 }
 
@@ -215,79 +217,6 @@ impl<const N: usize> OutputPin for SimulatedClock<N> {
 
     fn set_high(&mut self) -> Result<(), Infallible> {
         self.set(true);
-        Ok(())
-    }
-}
-
-/// The data line of a simulated chip.
-#[derive(Clone, Debug)]
-pub struct SimulatedData<const N: usize> {
-    bench: SimulatedBench<SimulatedHx711s<N>>,
-    chip: usize,
-}
-
-impl<const N: usize> SimulatedData<N> {
-    fn is_high_now(&self) -> bool {
-        let bench = self.bench.lock();
-        match bench.faults.stuck_data {
-            Some(level) => level == Level::High,
-            None => bench.device.is_off() || bench.device.chips.get(self.chip).is_none_or(|chip| chip.output),
-        }
-    }
-
-    async fn until(&mut self, high: bool) {
-        core::future::poll_fn(|context| {
-            if self.is_high_now() == high {
-                return Poll::Ready(());
-            }
-            self.bench.advance(1000);
-            context.waker().wake_by_ref();
-            Poll::Pending
-        })
-        .await;
-    }
-}
-
-impl<const N: usize> digital::ErrorType for SimulatedData<N> {
-    type Error = Infallible;
-}
-
-impl<const N: usize> InputPin for SimulatedData<N> {
-    fn is_high(&mut self) -> Result<bool, Infallible> {
-        Ok(self.is_high_now())
-    }
-
-    fn is_low(&mut self) -> Result<bool, Infallible> {
-        Ok(!self.is_high_now())
-    }
-}
-
-impl<const N: usize> Wait for SimulatedData<N> {
-    async fn wait_for_high(&mut self) -> Result<(), Infallible> {
-        self.until(true).await;
-        Ok(())
-    }
-
-    async fn wait_for_low(&mut self) -> Result<(), Infallible> {
-        self.until(false).await;
-        Ok(())
-    }
-
-    async fn wait_for_rising_edge(&mut self) -> Result<(), Infallible> {
-        self.until(false).await;
-        self.until(true).await;
-        Ok(())
-    }
-
-    async fn wait_for_falling_edge(&mut self) -> Result<(), Infallible> {
-        self.until(true).await;
-        self.until(false).await;
-        Ok(())
-    }
-
-    async fn wait_for_any_edge(&mut self) -> Result<(), Infallible> {
-        let now = self.is_high_now();
-        self.until(!now).await;
         Ok(())
     }
 }

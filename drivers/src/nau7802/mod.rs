@@ -47,4 +47,4 @@ pub use driver::{AsyncNau7802, Nau7802};
 pub use wire::{ADDRESS, Calibration, Configuration, Control, Gain, Input, Rate, Reading, Regulator, Register};
 
 #[cfg(feature = "simulation")]
-pub use simulator::{SimulatedI2c, SimulatedNau7802, SimulatedNau7802Ready};
+pub use simulator::{SimulatedI2c, SimulatedNau7802};

@@ -1,16 +1,12 @@
 //! A chip that is not there.
 
 use alloc::boxed::Box;
-use core::convert::Infallible;
 use core::fmt;
-use core::task::Poll;
 
-use embedded_hal::digital::{self, InputPin};
 use embedded_hal::i2c::{self, ErrorKind, I2c, NoAcknowledgeSource, Operation};
-use embedded_hal_async::digital::Wait;
 
 use super::wire::{ADDRESS, CALIBRATE, CALIBRATION_ERROR, Control, Reading, Register};
-use crate::converter::{Level, SimulatedBench, SimulatedDevice};
+use crate::converter::{Inner, Level, SimulatedBench, SimulatedDevice, SimulatedLine};
 
 /// An NAU7802, to be put on a [`SimulatedBench`]. It powers up, converts at the rate of its registers, calibrates
 /// its offset (which it has, 1000 counts) and says when it cannot. Not simulated: the filter, gain calibration.
@@ -198,8 +194,13 @@ impl SimulatedBench<SimulatedNau7802> {
 
     /// The pin DRDY.
     #[must_use]
-    pub fn data_ready(&self) -> SimulatedNau7802Ready {
-        SimulatedNau7802Ready(self.clone())
+    pub fn data_ready(&self) -> SimulatedLine<SimulatedNau7802> {
+        let is_high = |bench: &mut Inner<SimulatedNau7802>, _: usize| match bench.faults.stuck_ready {
+            Some(level) => level == Level::High,
+            // CTRL1.CRP turns it round.
+            None => bench.device.is_ready() != (bench.device.register(Register::CTRL1) & 1 << 7 != 0),
+        };
+        SimulatedLine::new(self.clone(), is_high, 0)
     }
 }
 
@@ -262,75 +263,5 @@ impl I2c for SimulatedI2c {
 impl embedded_hal_async::i2c::I2c for SimulatedI2c {
     async fn transaction(&mut self, address: u8, operations: &mut [Operation<'_>]) -> Result<(), ErrorKind> {
         self.run(address, operations)
-    }
-}
-
-/// The pin DRDY of a simulated chip.
-#[derive(Clone, Debug)]
-pub struct SimulatedNau7802Ready(SimulatedBench<SimulatedNau7802>);
-
-impl SimulatedNau7802Ready {
-    fn level(&self) -> bool {
-        let bench = self.0.lock();
-        match bench.faults.stuck_ready {
-            Some(level) => level == Level::High,
-            None => bench.device.is_ready() != (bench.device.register(Register::CTRL1) & 1 << 7 != 0),
-        }
-    }
-
-    async fn until(&mut self, high: bool) {
-        core::future::poll_fn(|context| {
-            if self.level() == high {
-                return Poll::Ready(());
-            }
-            self.0.advance(1000);
-            context.waker().wake_by_ref();
-            Poll::Pending
-        })
-        .await;
-    }
-}
-
-impl digital::ErrorType for SimulatedNau7802Ready {
-    type Error = Infallible;
-}
-
-impl InputPin for SimulatedNau7802Ready {
-    fn is_high(&mut self) -> Result<bool, Infallible> {
-        Ok(self.level())
-    }
-
-    fn is_low(&mut self) -> Result<bool, Infallible> {
-        Ok(!self.level())
-    }
-}
-
-impl Wait for SimulatedNau7802Ready {
-    async fn wait_for_high(&mut self) -> Result<(), Infallible> {
-        self.until(true).await;
-        Ok(())
-    }
-
-    async fn wait_for_low(&mut self) -> Result<(), Infallible> {
-        self.until(false).await;
-        Ok(())
-    }
-
-    async fn wait_for_rising_edge(&mut self) -> Result<(), Infallible> {
-        self.until(false).await;
-        self.until(true).await;
-        Ok(())
-    }
-
-    async fn wait_for_falling_edge(&mut self) -> Result<(), Infallible> {
-        self.until(true).await;
-        self.until(false).await;
-        Ok(())
-    }
-
-    async fn wait_for_any_edge(&mut self) -> Result<(), Infallible> {
-        let now = self.level();
-        self.until(!now).await;
-        Ok(())
     }
 }

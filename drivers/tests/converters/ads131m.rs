@@ -8,7 +8,7 @@ use fingertip_drivers::ads131m::{
     SimulatedAds131m,
 };
 use fingertip_drivers::converter::{
-    ConverterError, ConverterFault, Level, Patience, SimulatedBench, SimulatedDelay, SimulatedReady, SimulatedSpi,
+    ConverterError, ConverterFault, Level, Patience, SimulatedBench, SimulatedDelay, SimulatedLine, SimulatedSpi,
     Unwired, WireFaults,
 };
 use fingertip_drivers::{AsyncSignalSource, NbSignalSource, SignalSource, SourceError, SourceErrorKind};
@@ -18,7 +18,7 @@ use super::block_on;
 type Bench = SimulatedBench<SimulatedAds131m<8>>;
 type Chip = Ads131m<
     SimulatedSpi<SimulatedAds131m<8>>,
-    SimulatedReady<SimulatedAds131m<8>>,
+    SimulatedLine<SimulatedAds131m<8>>,
     SimulatedDelay<SimulatedAds131m<8>>,
     8,
 >;

@@ -9,7 +9,11 @@
     feature = "simulation"
 ))]
 
+mod ads1256;
 mod ads131m;
+mod hx711;
+mod mcp3564;
+mod nau7802;
 
 use core::future::Future;
 use core::pin::pin;
