@@ -167,7 +167,8 @@ impl SimulatedConverter for SimulatedAds1256 {
                     *register = *register & fixed | byte & !fixed;
                 }
                 let next = address.saturating_add(1);
-                self.rest = if left == 0 { Rest::None } else { Rest::Values { address: next, left: left - 1 } };
+                self.rest =
+                    if left == 0 { Rest::None } else { Rest::Values { address: next, left: left - 1 } };
             }
             Rest::None => {
                 if let Some(answer) = self.answer.pop_front() {

@@ -311,7 +311,8 @@ mod tests {
 
     #[test]
     fn bytes_and_times_are_those_of_the_data_sheet() {
-        let configuration = Configuration::new([Input::SECOND, Input { positive: Pin::Ain7, negative: Pin::Common }]);
+        let configuration =
+            Configuration::new([Input::SECOND, Input { positive: Pin::Ain7, negative: Pin::Common }]);
         assert_eq!(configuration.registers(), [0x02, 0x23, 0x06, 0xA1]);
         assert_eq!(configuration.inputs[1].emit(), 0x78);
         // 50 clocks of 7.68 MHz are 6.51 µs.

@@ -261,7 +261,8 @@ mod tests {
         configuration.external_reference = true;
         configuration.chopping = Some(5);
         let registers: Vec<_> = configuration.registers().collect();
-        let value = |address| registers.iter().find(|(at, _)| *at == address).map(|(_, value)| *value).unwrap();
+        let value =
+            |address| registers.iter().find(|(at, _)| *at == address).map(|(_, value)| *value).unwrap();
         assert_eq!((value(Register::GAIN1), value(Register::GAIN2)), (0x5555, 0x1555));
         assert_eq!(value(Register::CLOCK), 0xFB00 | 1 << 6 | 1 << 2 | 2);
         assert_eq!((value(0x0E), value(0x0F), value(0x10)), (2, 0xFFFF, 0xFE00));

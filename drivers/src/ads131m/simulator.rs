@@ -35,7 +35,10 @@ pub struct SimulatedAds131m<const N: usize> {
 
 impl<const N: usize> fmt::Debug for SimulatedAds131m<N> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.debug_struct("SimulatedAds131m").field("conversions", &self.conversions).finish_non_exhaustive()
+        formatter
+            .debug_struct("SimulatedAds131m")
+            .field("conversions", &self.conversions)
+            .finish_non_exhaustive()
     }
 }
 
@@ -151,7 +154,8 @@ impl<const N: usize> SimulatedAds131m<N> {
             2 => 0.16 / gain,
             _ => -0.16 / gain,
         };
-        let offset = i32::from(self.register(base + 1).cast_signed()) << 8 | i32::from(self.register(base + 2) >> 8);
+        let offset =
+            i32::from(self.register(base + 1).cast_signed()) << 8 | i32::from(self.register(base + 2) >> 8);
         let gain = u32::from(self.register(base + 3)) << 8 | u32::from(self.register(base + 4) >> 8);
         let code = (volts / range * 8_388_608.0 - f64::from(offset)) * f64::from(gain) / 8_388_608.0;
         #[allow(clippy::cast_possible_truncation, reason = "clipped as the chip does")]
@@ -182,7 +186,8 @@ impl<const N: usize> SimulatedAds131m<N> {
                 }
                 match address {
                     Register::MODE => {
-                        self.status = self.status & !(Status::RESET | 0x0300) | value & (Status::RESET | 0x0300);
+                        self.status =
+                            self.status & !(Status::RESET | 0x0300) | value & (Status::RESET | 0x0300);
                     }
                     Register::CLOCK => self.restart(),
                     _ => {}
@@ -225,7 +230,8 @@ impl<const N: usize> SimulatedConverter for SimulatedAds131m<N> {
         if self.held.is_empty() {
             self.fresh = 0;
         }
-        Answer { response, counts: self.last }.emit(self.answer.get_mut(..Answer::<N>::LENGTH).unwrap_or_default());
+        Answer { response, counts: self.last }
+            .emit(self.answer.get_mut(..Answer::<N>::LENGTH).unwrap_or_default());
     }
 
     fn shift(&mut self, byte: u8) -> u8 {

@@ -57,10 +57,8 @@ impl<const N: usize> Core<N> {
     /// What the device answered to a command, if it is what it must be.
     pub(super) fn acknowledged(&mut self, request: Request, response: u16) -> Result<(), ConverterFault> {
         match request.acknowledgement(Self::CHANNELS) {
-            Some(expected) if expected != response => Err(self.fault(ConverterFault::Answer {
-                expected: u32::from(expected),
-                found: u32::from(response),
-            })),
+            Some(expected) if expected != response => Err(self
+                .fault(ConverterFault::Answer { expected: u32::from(expected), found: u32::from(response) })),
             _ => Ok(()),
         }
     }

@@ -145,7 +145,8 @@ impl Request {
     /// [`ConverterFault::Checksum`].
     pub fn parse(frame: &[u8], checked: bool) -> Result<Option<Self>, ConverterFault> {
         let (words, _) = frame.as_chunks::<WORD>();
-        let word = |index: usize| words.get(index).map_or(0, |[high, low, _]| u16::from_be_bytes([*high, *low]));
+        let word =
+            |index: usize| words.get(index).map_or(0, |[high, low, _]| u16::from_be_bytes([*high, *low]));
         let command = word(0);
         #[allow(clippy::cast_possible_truncation, reason = "six bits")]
         let address = (command >> 7 & 0x3F) as u8;

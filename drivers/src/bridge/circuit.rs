@@ -45,11 +45,7 @@ impl<T: Real> BridgeCircuit<T> {
     pub const GREATEST_CHANGE: f64 = 0.5;
 
     fn new(numerator: f64, constant: f64, slope: f64) -> Self {
-        Self {
-            numerator: T::literal(numerator),
-            constant: T::literal(constant),
-            slope: T::literal(slope),
-        }
+        Self { numerator: T::literal(numerator), constant: T::literal(constant), slope: T::literal(slope) }
     }
 
     /// One gauge.

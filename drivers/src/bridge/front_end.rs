@@ -100,11 +100,18 @@ impl<T: Real, const N: usize, const M: usize> BridgeFrontEnd<T, N, M> {
     ///
     /// # Errors
     /// [`BridgeFrontEndError`].
-    pub fn new(channels: [BridgeChannel<T>; N], excitation: Excitation<T>) -> Result<Self, BridgeFrontEndError> {
+    pub fn new(
+        channels: [BridgeChannel<T>; N],
+        excitation: Excitation<T>,
+    ) -> Result<Self, BridgeFrontEndError> {
         let is_scale = |number: T| number.is_number() && !number.is_zero() && (T::one() / number).is_number();
         for (channel, bridge) in channels.iter().enumerate() {
             let checked = |holds: bool, parameter, requirement| {
-                if holds { Ok(()) } else { Err(BridgeFrontEndError::BadParameter { channel, parameter, requirement }) }
+                if holds {
+                    Ok(())
+                } else {
+                    Err(BridgeFrontEndError::BadParameter { channel, parameter, requirement })
+                }
             };
             if bridge.input >= M {
                 return Err(BridgeFrontEndError::NoSuchInput { channel });
@@ -114,8 +121,16 @@ impl<T: Real, const N: usize, const M: usize> BridgeFrontEnd<T, N, M> {
             let is_share = |number: T| number >= T::zero() && number < T::one();
             checked(is_scale(bridge.gauge_factor), "gauge factor", finite)?;
             checked(is_scale(scale.full_scale), "full scale", finite)?;
-            checked(scale.full_scale_counts > T::one() && is_scale(scale.full_scale_counts), "counts at full scale", "finite and more than 1")?;
-            checked(is_scale(scale.full_scale / scale.full_scale_counts), "full scale over its counts", finite)?;
+            checked(
+                scale.full_scale_counts > T::one() && is_scale(scale.full_scale_counts),
+                "counts at full scale",
+                "finite and more than 1",
+            )?;
+            checked(
+                is_scale(scale.full_scale / scale.full_scale_counts),
+                "full scale over its counts",
+                finite,
+            )?;
             checked(is_share(bridge.gauge_factor_tolerance), "tolerance of the gauge factor", share)?;
             checked(is_share(scale.tolerance), "tolerance of the full scale", share)?;
             let noise = bridge.noise_counts;
@@ -192,18 +207,23 @@ impl<T: Real, const N: usize, const M: usize> BridgeFrontEnd<T, N, M> {
     pub fn strain_with_bounds(&self, counts: &SVector<T, M>) -> Result<Strains<T, N>, BridgeFault> {
         let (per_excitation, excitation_error) = self.per_excitation(counts)?;
         let zeros = SVector::zeros();
-        let mut strains =
-            Strains { strain: zeros, resolution: zeros, scale_error: zeros, noise: zeros, saturated: [false; N] };
+        let mut strains = Strains {
+            strain: zeros,
+            resolution: zeros,
+            scale_error: zeros,
+            noise: zeros,
+            saturated: [false; N],
+        };
         for (channel, bridge) in self.channels.iter().enumerate() {
             let (ratio, saturated) = self.ratio(bridge, counts, per_excitation);
             let factor = bridge.gauge_factor;
             let change = bridge.circuit.change(ratio).ok_or(BridgeFault::Implausible { channel })?;
             let strain = change / factor;
-            let per_count =
-                (bridge.scale.full_scale / bridge.scale.full_scale_counts * per_excitation).abs();
+            let per_count = (bridge.scale.full_scale / bridge.scale.full_scale_counts * per_excitation).abs();
             // Half a count of the bridge, half of one of the excitation, and eight roundings.
             let lost = per_count * T::literal(0.5)
-                + ratio.abs() * (excitation_error / (T::one() - excitation_error) + T::literal(8.0) * T::EPSILON);
+                + ratio.abs()
+                    * (excitation_error / (T::one() - excitation_error) + T::literal(8.0) * T::EPSILON);
             // The relation is convex or concave throughout, so that the ends of the interval bound it.
             let slope = |ratio: T| bridge.circuit.slope_of_change(ratio) / factor.abs();
             let steepest = |width: T| {
@@ -296,7 +316,8 @@ mod tests {
     fn noise_is_that_of_many_samples() {
         use rand::SeedableRng;
         use rand_distr::{Distribution, StandardNormal};
-        let bridge = BridgeChannel::new(0, BridgeCircuit::quarter(), 2.0, CountScale::bits24(0.02)).noise(50.0);
+        let bridge =
+            BridgeChannel::new(0, BridgeCircuit::quarter(), 2.0, CountScale::bits24(0.02)).noise(50.0);
         let front_end = BridgeFrontEnd::<f64, 1, 1>::new([bridge], Excitation::Reference).unwrap();
         let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(1);
         let stated = front_end.strain_with_bounds(&Vector1::new(4e6)).unwrap().noise.x;
@@ -337,7 +358,10 @@ mod tests {
         for bad in [0.0, f64::NAN, f64::INFINITY, 1e-320] {
             assert!(made(BridgeChannel { gauge_factor: bad, ..good }, Excitation::Reference).is_err());
             assert!(made(quarter(bad), Excitation::Reference).is_err());
-            assert_eq!(made(good, Excitation::Steady { volts: bad }), Err(BridgeFrontEndError::BadExcitation));
+            assert_eq!(
+                made(good, Excitation::Steady { volts: bad }),
+                Err(BridgeFrontEndError::BadExcitation)
+            );
         }
         assert!(made(good.noise(-1.0), Excitation::Reference).is_err());
         assert!(made(good.gauge_factor_within(1.0), Excitation::Reference).is_err());

@@ -7,7 +7,9 @@ use nalgebra::SVector;
 use thiserror::Error;
 
 use super::front_end::{BridgeFault, BridgeFrontEnd};
-use crate::{AsyncSignalSource, ErrorType, NbSignalSource, Sample, SignalSource, SourceError, SourceErrorKind};
+use crate::{
+    AsyncSignalSource, ErrorType, NbSignalSource, Sample, SignalSource, SourceError, SourceErrorKind,
+};
 
 /// Why there is no strain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -69,14 +71,18 @@ impl<S: ErrorType, T, const N: usize, const M: usize> ErrorType for Bridged<S, T
     type Error = BridgedError<S::Error>;
 }
 
-impl<T: Real, S: SignalSource<T, M>, const N: usize, const M: usize> SignalSource<T, N> for Bridged<S, T, N, M> {
+impl<T: Real, S: SignalSource<T, M>, const N: usize, const M: usize> SignalSource<T, N>
+    for Bridged<S, T, N, M>
+{
     fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
         let sample = self.source.next_signals().map_err(BridgedError::Source)?;
         self.strained(sample)
     }
 }
 
-impl<T: Real, S: NbSignalSource<T, M>, const N: usize, const M: usize> NbSignalSource<T, N> for Bridged<S, T, N, M> {
+impl<T: Real, S: NbSignalSource<T, M>, const N: usize, const M: usize> NbSignalSource<T, N>
+    for Bridged<S, T, N, M>
+{
     fn poll_signals(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
         let sample = self.source.poll_signals().map_err(|error| error.map(BridgedError::Source))?;
         self.strained(sample).map_err(nb::Error::Other)

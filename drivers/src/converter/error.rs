@@ -19,7 +19,9 @@ pub enum ConverterFault {
         found: u16,
     },
     /// An answer is not of the form that it must have.
-    #[error("the converter answers {found:#010x} where {expected:#010x} is due; is it this chip, wired and powered?")]
+    #[error(
+        "the converter answers {found:#010x} where {expected:#010x} is due; is it this chip, wired and powered?"
+    )]
     Answer {
         /// What must come.
         expected: u32,

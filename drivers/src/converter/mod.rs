@@ -34,14 +34,15 @@ pub use ready::{Patience, Unwired};
 
 #[cfg(feature = "simulation")]
 pub use simulator::{
-    Level, SimulatedBench, SimulatedConverter, SimulatedDelay, SimulatedDevice, SimulatedLine, SimulatedSpi, WireFaults,
+    Level, SimulatedBench, SimulatedConverter, SimulatedDelay, SimulatedDevice, SimulatedLine, SimulatedSpi,
+    WireFaults,
 };
 
+#[cfg(feature = "simulation")]
+#[allow(unused_imports, reason = "which of them depends on the converters that are on")]
+pub(crate) use simulator::Inner;
 #[allow(unused_imports, reason = "which of them depends on the converters that are on")]
 pub(crate) use {
     conversion::sign_extended,
     ready::{ready_in_time, ready_in_time_async},
 };
-#[cfg(feature = "simulation")]
-#[allow(unused_imports, reason = "which of them depends on the converters that are on")]
-pub(crate) use simulator::Inner;

@@ -94,7 +94,8 @@ impl<D: SimulatedConverter> Inner<D> {
         let conversion = self.device.conversions();
         if conversion != self.drawn {
             self.drawn = conversion;
-            self.silenced = self.faults.lost_ready > 0.0 && self.random.random::<f64>() < self.faults.lost_ready;
+            self.silenced =
+                self.faults.lost_ready > 0.0 && self.random.random::<f64>() < self.faults.lost_ready;
         }
         self.device.is_ready() && !self.silenced
     }
@@ -144,7 +145,13 @@ impl<D: SimulatedConverter> Inner<D> {
         self.device.deselect();
     }
 
-    fn byte(&mut self, sent: u8, at: &mut usize, request_flip: Option<usize>, answer_flip: Option<usize>) -> u8 {
+    fn byte(
+        &mut self,
+        sent: u8,
+        at: &mut usize,
+        request_flip: Option<usize>,
+        answer_flip: Option<usize>,
+    ) -> u8 {
         let flip = |flip: Option<usize>| flip.filter(|bit| bit / 8 == *at).map_or(0, |bit| 1 << (bit % 8));
         let got = self.device.shift(sent ^ flip(request_flip)) ^ flip(answer_flip);
         *at += 1;
@@ -265,7 +272,11 @@ pub struct SimulatedLine<D> {
 
 impl<D: SimulatedDevice> SimulatedLine<D> {
     /// The line of that index, whose level is read from the bench.
-    pub(crate) const fn new(bench: SimulatedBench<D>, is_high: fn(&mut Inner<D>, usize) -> bool, index: usize) -> Self {
+    pub(crate) const fn new(
+        bench: SimulatedBench<D>,
+        is_high: fn(&mut Inner<D>, usize) -> bool,
+        index: usize,
+    ) -> Self {
         Self { bench, is_high, index }
     }
 

@@ -58,8 +58,15 @@ impl<const N: usize> SimulatedHx711s<N> {
             shifting: 0,
             output: true,
         });
-        let mut simulated =
-            Self { input: Box::new(input), chips, clock: false, high_since: 0, now: 0, resets: 0, conversions: 0 };
+        let mut simulated = Self {
+            input: Box::new(input),
+            chips,
+            clock: false,
+            high_since: 0,
+            now: 0,
+            resets: 0,
+            conversions: 0,
+        };
         simulated.reset();
         simulated
     }
@@ -127,7 +134,9 @@ impl<const N: usize> SimulatedHx711s<N> {
         // keeps it back until the clock has been still for 20 µs.
         let busy = now - self.high_since < 20_000;
         for index in 0..N {
-            while let Some(chip) = self.chips.get_mut(index).filter(|chip| chip.next <= now && !(busy && chip.pulses > 0)) {
+            while let Some(chip) =
+                self.chips.get_mut(index).filter(|chip| chip.next <= now && !(busy && chip.pulses > 0))
+            {
                 #[allow(clippy::cast_precision_loss, reason = "a time")]
                 let time = chip.next as f64 * 1e-9;
                 chip.next += chip.period;
@@ -149,7 +158,8 @@ impl<const N: usize> SimulatedHx711s<N> {
                 let (a, b) = (self.input)(time).get(index).copied().unwrap_or_default();
                 let ratio = if mode == Mode::B32 { b } else { a };
                 #[allow(clippy::cast_possible_truncation, reason = "clipped as the chip does")]
-                let code = (ratio / mode.full_scale() * 8_388_608.0).round().clamp(-8_388_608.0, 8_388_607.0) as i32;
+                let code =
+                    (ratio / mode.full_scale() * 8_388_608.0).round().clamp(-8_388_608.0, 8_388_607.0) as i32;
                 if let Some(chip) = self.chips.get_mut(index) {
                     chip.word = Some(code.cast_unsigned() & 0xFF_FFFF);
                     chip.output = false;

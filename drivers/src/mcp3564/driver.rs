@@ -51,7 +51,11 @@ impl<const N: usize> State<N> {
 
     /// Takes a reading of `ADCDATA`: whether it was new, and the sample if it completes one.
     #[allow(clippy::type_complexity, reason = "two answers that belong together")]
-    fn accept(&mut self, status: Status, bytes: [u8; 4]) -> Result<(bool, Option<Conversion<N>>), ConverterFault> {
+    fn accept(
+        &mut self,
+        status: Status,
+        bytes: [u8; 4],
+    ) -> Result<(bool, Option<Conversion<N>>), ConverterFault> {
         if status.was_off() || status.registers_damaged() {
             return Err(self.fault(ConverterFault::Reset));
         }

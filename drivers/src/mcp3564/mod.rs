@@ -63,7 +63,8 @@ mod simulator;
 
 pub use driver::{AsyncMcp3564, Mcp3564};
 pub use wire::{
-    Channel, Clock, Configuration, Data, FastCommand, Gain, Oversampling, Reference, Register, Request, Status,
+    Channel, Clock, Configuration, Data, FastCommand, Gain, Oversampling, Reference, Register, Request,
+    Status,
 };
 
 #[cfg(feature = "simulation")]

@@ -56,9 +56,9 @@ impl<const N: usize> Scan<N> {
             return (None, lost);
         }
         self.count = 0;
-        let counts = self.inputs.map(|input| {
-            self.cycle.iter().find(|data| data.channel == input).map_or(0, |data| data.counts)
-        });
+        let counts = self
+            .inputs
+            .map(|input| self.cycle.iter().find(|data| data.channel == input).map_or(0, |data| data.counts));
         (Some(counts), lost)
     }
 

@@ -88,7 +88,8 @@ impl SimulatedMcp3564 {
     }
 
     fn reset(&mut self) {
-        self.registers = [0, 0xC0, 0x0C, 0x8B, 0, 0x73, 0x01, 0, 0, 0, 0x80_0000, 0x90_0000, 0x50, Self::OPEN, 0x0F, 0];
+        self.registers =
+            [0, 0xC0, 0x0C, 0x8B, 0, 0x73, 0x01, 0, 0, 0, 0x80_0000, 0x90_0000, 0x50, Self::OPEN, 0x0F, 0];
         (self.converts, self.new, self.locked, self.at, self.next) = (false, false, None, None, u64::MAX);
     }
 
@@ -98,14 +99,17 @@ impl SimulatedMcp3564 {
 
     fn status(&self) -> u8 {
         let damaged = self.locked.is_some_and(|locked| locked != self.registers);
-        Status::address_bits(Self::DEVICE) | u8::from(!self.new) << 2 | u8::from(!damaged) << 1 | u8::from(!self.was_off)
+        Status::address_bits(Self::DEVICE)
+            | u8::from(!self.new) << 2
+            | u8::from(!damaged) << 1
+            | u8::from(!self.was_off)
     }
 
     fn period(&self) -> u64 {
-        const RATIOS: [u64; 16] = [
-            32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 20480, 24576, 40960, 49152, 81920, 98304,
-        ];
-        let ratio = RATIOS.get((self.register(Register::CONFIG1) >> 2 & 0xF) as usize).copied().unwrap_or(256);
+        const RATIOS: [u64; 16] =
+            [32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 20480, 24576, 40960, 49152, 81920, 98304];
+        let ratio =
+            RATIOS.get((self.register(Register::CONFIG1) >> 2 & 0xF) as usize).copied().unwrap_or(256);
         4 * ratio * 1_000_000_000 / 4_915_200
     }
 
@@ -127,7 +131,8 @@ impl SimulatedMcp3564 {
         #[allow(clippy::cast_precision_loss, reason = "a time")]
         let ratio = (self.input)(self.next as f64 * 1e-9, channel);
         let gain = [Gain::Third, Gain::X1, Gain::X2, Gain::X4, Gain::X8, Gain::X16, Gain::X32, Gain::X64];
-        let gain = gain.get((self.register(Register::CONFIG2) >> 3 & 7) as usize).map_or(1.0, |gain| gain.factor());
+        let gain =
+            gain.get((self.register(Register::CONFIG2) >> 3 & 7) as usize).map_or(1.0, |gain| gain.factor());
         #[allow(clippy::cast_possible_truncation, reason = "clipped as the chip does")]
         let counts = (ratio * gain * 8_388_608.0).round().clamp(-16_777_216.0, 16_777_215.0) as i32;
         self.data = Data { channel, counts };
@@ -190,12 +195,11 @@ impl SimulatedMcp3564 {
         }
         let value = core::mem::take(&mut self.written);
         self.writing = 0;
-        self.command = Some(Request::Write { address: address + 1 & 0xF });
+        self.command = Some(Request::Write { address: (address + 1) & 0xF });
         let open = self.register(Register::LOCK) == Self::OPEN;
-        if address == Register::LOCK || (open && address != Register::ADCDATA) {
-            if let Some(register) = self.registers.get_mut(usize::from(address)) {
-                *register = value;
-            }
+        let writable = address == Register::LOCK || (open && address != Register::ADCDATA);
+        if let Some(register) = self.registers.get_mut(usize::from(address)).filter(|_| writable) {
+            *register = value;
         }
         if address == Register::LOCK {
             self.locked = (value != Self::OPEN).then_some(self.registers);

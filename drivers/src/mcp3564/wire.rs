@@ -140,8 +140,14 @@ impl Status {
 ///
 /// # Errors
 /// [`ConverterFault::Answer`] if the status is not that of the device, [`ConverterFault::Checksum`].
-pub(super) fn parse_answer<const L: usize>(bytes: &[u8], device: u8) -> Result<(Status, [u8; L]), ConverterFault> {
-    let short = ConverterFault::Answer { expected: 1 + L as u32 + 2, found: u32::try_from(bytes.len()).unwrap_or(u32::MAX) };
+pub(super) fn parse_answer<const L: usize>(
+    bytes: &[u8],
+    device: u8,
+) -> Result<(Status, [u8; L]), ConverterFault> {
+    let short = ConverterFault::Answer {
+        expected: 1 + L as u32 + 2,
+        found: u32::try_from(bytes.len()).unwrap_or(u32::MAX),
+    };
     let (status, rest) = bytes.split_first().ok_or(short)?;
     let (data, checksum) = rest.split_first_chunk::<L>().ok_or(short)?;
     let [high, low] = *checksum else { return Err(short) };
@@ -280,9 +286,8 @@ impl Oversampling {
     /// The ratio.
     #[must_use]
     pub fn ratio(self) -> u32 {
-        const RATIOS: [u32; 16] = [
-            32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 20480, 24576, 40960, 49152, 81920, 98304,
-        ];
+        const RATIOS: [u32; 16] =
+            [32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 20480, 24576, 40960, 49152, 81920, 98304];
         RATIOS.get(self as usize).copied().unwrap_or(256)
     }
 }
@@ -407,7 +412,9 @@ mod tests {
     fn the_checksum_is_that_of_readings_of_a_real_chip() {
         // Published by a user of an MCP3561R, with the bytes of the number in the order of a little-endian
         // memory; 13 is the status of device 1 with new data.
-        for (number, crc) in [([0xFF, 0xEF, 0xC8], 0x90B5), ([0xFF, 0xEF, 0xCA], 0x10BA), ([0xFF, 0x7C, 0xEA], 0xFA73)] {
+        for (number, crc) in
+            [([0xFF, 0xEF, 0xC8], 0x90B5), ([0xFF, 0xEF, 0xCA], 0x10BA), ([0xFF, 0x7C, 0xEA], 0xFA73)]
+        {
             let [high, low] = u16::to_be_bytes(crc);
             let [n0, n1, n2] = number;
             let (status, data) = parse_answer::<3>(&[0x13, n0, n1, n2, high, low], 1).unwrap();
@@ -421,7 +428,10 @@ mod tests {
     fn bytes_are_those_of_the_data_sheet() {
         assert_eq!(Request::Fast(FastCommand::Start).emit(1), 0x68);
         assert_eq!(Request::Fast(FastCommand::Reset).emit(1), 0x78);
-        assert_eq!((Request::Read { address: 0 }.emit(1), Request::Write { address: 1 }.emit(1)), (0x41, 0x46));
+        assert_eq!(
+            (Request::Read { address: 0 }.emit(1), Request::Write { address: 1 }.emit(1)),
+            (0x41, 0x46)
+        );
         assert_eq!(Status::address_bits(1), 0b0001_0000);
         let configuration = Configuration::new([Channel::PairA, Channel::Pin4]);
         assert_eq!(configuration.registers()[..9], [0xE2, 0x0C, 0x8B, 0xF4, 0x06, 0x01, 0, 0x01, 0x10]);

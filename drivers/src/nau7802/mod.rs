@@ -44,7 +44,9 @@ mod wire;
 mod simulator;
 
 pub use driver::{AsyncNau7802, Nau7802};
-pub use wire::{ADDRESS, Calibration, Configuration, Control, Gain, Input, Rate, Reading, Regulator, Register};
+pub use wire::{
+    ADDRESS, Calibration, Configuration, Control, Gain, Input, Rate, Reading, Register, Regulator,
+};
 
 #[cfg(feature = "simulation")]
 pub use simulator::{SimulatedI2c, SimulatedNau7802};

@@ -52,7 +52,9 @@ impl SimulatedNau7802 {
     /// Resets it, as a dip of the supply does.
     pub fn reset(&mut self) {
         self.registers = [0; Register::COUNT];
-        for (address, value) in [(Register::GCAL1 + 1, 0x80), (Register::GCAL2 + 1, 0x80), (Register::REVISION, 0x0F)] {
+        for (address, value) in
+            [(Register::GCAL1 + 1, 0x80), (Register::GCAL2 + 1, 0x80), (Register::REVISION, 0x0F)]
+        {
             self.set(address, value);
         }
         (self.powered_at, self.next, self.calibrated_at) = (None, u64::MAX, None);
@@ -239,7 +241,8 @@ impl SimulatedI2c {
                         let pointer = bench.device.pointer;
                         let byte = bench.device.read(pointer);
                         bench.device.pointer = pointer.wrapping_add(1);
-                        let flipped = byte ^ flip.filter(|bit| bit / 8 == index).map_or(0, |bit| 1 << (bit % 8));
+                        let flipped =
+                            byte ^ flip.filter(|bit| bit / 8 == index).map_or(0, |bit| 1 << (bit % 8));
                         *place = if bench.faults.stuck_data.is_some() { 0 } else { flipped };
                         bench.advance(22_500);
                     }

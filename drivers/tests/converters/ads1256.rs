@@ -6,7 +6,8 @@ use fingertip_drivers::ads1256::{
     Ads1256, AsyncAds1256, Calibration, Configuration, Gain, Input, Pin, Rate, SimulatedAds1256,
 };
 use fingertip_drivers::converter::{
-    ConverterFault, Level, Patience, SimulatedBench, SimulatedDelay, SimulatedLine, SimulatedSpi, Unwired, WireFaults,
+    ConverterFault, Level, Patience, SimulatedBench, SimulatedDelay, SimulatedLine, SimulatedSpi, Unwired,
+    WireFaults,
 };
 use fingertip_drivers::{AsyncSignalSource, NbSignalSource, SignalSource, SourceError, SourceErrorKind};
 
@@ -26,7 +27,12 @@ fn bench(faults: WireFaults) -> SimulatedBench<SimulatedAds1256> {
 
 const EXPECTED: [i32; 3] = [1997, 6992, -1];
 
-type Chip = Ads1256<SimulatedSpi<SimulatedAds1256>, SimulatedLine<SimulatedAds1256>, SimulatedDelay<SimulatedAds1256>, 3>;
+type Chip = Ads1256<
+    SimulatedSpi<SimulatedAds1256>,
+    SimulatedLine<SimulatedAds1256>,
+    SimulatedDelay<SimulatedAds1256>,
+    3,
+>;
 
 fn started(bench: &SimulatedBench<SimulatedAds1256>) -> Chip {
     let mut chip = Ads1256::new(bench.spi(), bench.ready(), bench.delay(), PATIENCE);
@@ -73,7 +79,8 @@ fn one_input_is_converted_without_beginning_anew() {
 #[test]
 fn the_other_faces_give_the_same_without_the_pin_as_well() {
     let one = bench(WireFaults::default());
-    let mut awaited: AsyncAds1256<_, _, _, 3> = AsyncAds1256::new(one.spi(), one.ready(), one.delay(), PATIENCE);
+    let mut awaited: AsyncAds1256<_, _, _, 3> =
+        AsyncAds1256::new(one.spi(), one.ready(), one.delay(), PATIENCE);
     block_on(awaited.configure(&Configuration::new(INPUTS))).unwrap();
     let sample = block_on(AsyncSignalSource::<f32, 3>::next_signals(&mut awaited)).unwrap().unwrap();
     assert_eq!(sample.value, nalgebra::Vector3::from(EXPECTED.map(|count| count as f32)));
@@ -126,7 +133,13 @@ fn a_reset_a_multiplexer_that_does_not_obey_and_stuck_lines_are_noticed() {
     assert!(chip.statistics().stale > 20);
     // What is sent to it gets damaged: a multiplexer that stands elsewhere, or a command that is another, is an
     // error and not a number of another input.
-    bench.set_faults(WireFaults { request_flip: 0.02, answer_flip: 0.02, lost_ready: 0.02, seed: 8, ..WireFaults::default() });
+    bench.set_faults(WireFaults {
+        request_flip: 0.02,
+        answer_flip: 0.02,
+        lost_ready: 0.02,
+        seed: 8,
+        ..WireFaults::default()
+    });
     let (mut given, mut refused) = (0, 0);
     for _ in 0..4000 {
         match chip.read() {
@@ -136,7 +149,10 @@ fn a_reset_a_multiplexer_that_does_not_obey_and_stuck_lines_are_noticed() {
             }
             Err(_) => {
                 refused += 1;
-                while chip.configure(&Configuration { rate: Rate::Hz30000, ..Configuration::new(INPUTS) }).is_err() {}
+                while chip
+                    .configure(&Configuration { rate: Rate::Hz30000, ..Configuration::new(INPUTS) })
+                    .is_err()
+                {}
             }
         }
     }
@@ -146,17 +162,30 @@ fn a_reset_a_multiplexer_that_does_not_obey_and_stuck_lines_are_noticed() {
 
 #[test]
 fn an_end_of_the_range_is_an_error() {
-    let bench = SimulatedBench::new(SimulatedAds1256::new(|_, positive, _| if positive == 2 { 9.0 } else { 0.0 }), WireFaults::default());
+    let bench = SimulatedBench::new(
+        SimulatedAds1256::new(|_, positive, _| if positive == 2 { 9.0 } else { 0.0 }),
+        WireFaults::default(),
+    );
     let mut chip: Ads1256<_, _, _, 3> = Ads1256::new(bench.spi(), bench.ready(), bench.delay(), PATIENCE);
     chip.configure(&Configuration::new(INPUTS)).unwrap();
     let error = SignalSource::<f64, 3>::next_signals(&mut chip).unwrap_err();
-    assert_eq!((error, error.kind()), (ConverterFault::Saturated { channel: 0 }.into(), SourceErrorKind::Overload));
+    assert_eq!(
+        (error, error.kind()),
+        (ConverterFault::Saturated { channel: 0 }.into(), SourceErrorKind::Overload)
+    );
 }
 
 #[test]
 fn the_bytes_on_the_bus_are_those_of_the_data_sheet() {
     let (t6, t11, sync) = (6511, 521, 3125);
-    let send = |bytes: &[u8]| vec![Spi::transaction_start(), Spi::write_vec(bytes.to_vec()), Spi::delay(t11), Spi::transaction_end()];
+    let send = |bytes: &[u8]| {
+        vec![
+            Spi::transaction_start(),
+            Spi::write_vec(bytes.to_vec()),
+            Spi::delay(t11),
+            Spi::transaction_end(),
+        ]
+    };
     let registers = |answer: &[u8]| {
         let number = answer.len() as u8 - 1;
         vec![

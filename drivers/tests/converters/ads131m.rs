@@ -8,8 +8,8 @@ use fingertip_drivers::ads131m::{
     SimulatedAds131m,
 };
 use fingertip_drivers::converter::{
-    ConverterError, ConverterFault, Level, Patience, SimulatedBench, SimulatedDelay, SimulatedLine, SimulatedSpi,
-    Unwired, WireFaults,
+    ConverterError, ConverterFault, Level, Patience, SimulatedBench, SimulatedDelay, SimulatedLine,
+    SimulatedSpi, Unwired, WireFaults,
 };
 use fingertip_drivers::{AsyncSignalSource, NbSignalSource, SignalSource, SourceError, SourceErrorKind};
 
@@ -44,7 +44,12 @@ fn bench(faults: WireFaults) -> Bench {
 }
 
 fn configuration() -> Configuration<8> {
-    let fast = Configuration { oversampling: Oversampling::X256, watch_registers: true, lock: true, ..Configuration::default() };
+    let fast = Configuration {
+        oversampling: Oversampling::X256,
+        watch_registers: true,
+        lock: true,
+        ..Configuration::default()
+    };
     fast.gain(Gain::X32)
 }
 
@@ -77,7 +82,8 @@ fn conversions_come_in_order_without_a_gap() {
 fn both_faces_send_the_same_and_give_the_same() {
     let (one, two) = (bench(WireFaults::default()), bench(WireFaults::default()));
     let mut blocking = started(&one);
-    let mut awaited: AsyncAds131m<_, _, _, 8> = AsyncAds131m::new(two.spi(), two.ready(), two.delay(), PATIENCE);
+    let mut awaited: AsyncAds131m<_, _, _, 8> =
+        AsyncAds131m::new(two.spi(), two.ready(), two.delay(), PATIENCE);
     block_on(awaited.configure(&configuration())).unwrap();
     let first = |source: &mut Chip| SignalSource::<f32, 8>::next_signals(source).unwrap().unwrap().value;
     let mut last = [0.0; 2];
@@ -129,7 +135,13 @@ fn flipped_bits_cost_their_conversion_and_no_wrong_one_is_given() {
     let bench = bench(WireFaults::default());
     let mut chip = started(&bench);
     let mut last = chip.read().unwrap().counts[0] / 8;
-    bench.set_faults(WireFaults { answer_flip: 0.02, request_flip: 0.02, lost_ready: 0.005, seed: 4, ..WireFaults::default() });
+    bench.set_faults(WireFaults {
+        answer_flip: 0.02,
+        request_flip: 0.02,
+        lost_ready: 0.005,
+        seed: 4,
+        ..WireFaults::default()
+    });
     let (mut given, mut corrupt) = (0, 0);
     for _ in 0..60_000 {
         match chip.read() {
@@ -233,7 +245,8 @@ fn clipped_channels_are_refused_and_those_that_are_off_are_not_asked() {
     let mut chip: Ads131m<_, _, _, 8> = Ads131m::new(bench.spi(), bench.ready(), bench.delay(), PATIENCE);
     let mut configuration = Configuration::<8>::default();
     configuration.channels[6] = ChannelSetup::off();
-    configuration.channels[3] = ChannelSetup { input: Input::PositiveTest, ..ChannelSetup::with_gain(Gain::X2) };
+    configuration.channels[3] =
+        ChannelSetup { input: Input::PositiveTest, ..ChannelSetup::with_gain(Gain::X2) };
     chip.configure(&configuration).unwrap();
     let conversion = chip.read().unwrap();
     assert_eq!(conversion.saturated, [false, false, false, false, true, true, false, false]);
@@ -241,9 +254,13 @@ fn clipped_channels_are_refused_and_those_that_are_off_are_not_asked() {
     // 160 mV over the gain against 1.2 V over the gain.
     assert_eq!(conversion.counts[3], (0.16 / 1.2 * 8_388_608.0_f64).round() as i32);
     let error = SignalSource::<f64, 8>::next_signals(&mut chip).unwrap_err();
-    assert_eq!((error.kind(), error), (SourceErrorKind::Overload, ConverterFault::Saturated { channel: 4 }.into()));
+    assert_eq!(
+        (error.kind(), error),
+        (SourceErrorKind::Overload, ConverterFault::Saturated { channel: 4 }.into())
+    );
     configuration.channels[4] = ChannelSetup::off();
-    configuration.channels[5] = ChannelSetup { offset: -100, gain_correction: 0x40_0000, ..ChannelSetup::default() };
+    configuration.channels[5] =
+        ChannelSetup { offset: -100, gain_correction: 0x40_0000, ..ChannelSetup::default() };
     chip.configure(&configuration).unwrap();
     let value = SignalSource::<f64, 8>::next_signals(&mut chip).unwrap().unwrap().value;
     assert_eq!(value[0], (0.1 / 1.2 * 8_388_608.0_f64).round());
@@ -288,7 +305,12 @@ fn the_bytes_on_the_bus_are_those_of_the_data_sheet() {
     bus.extend(frame(Request::Null, status(0x0100)));
     bus.extend(frame(Request::Null, Answer { response: 0x010F, counts: [1, -1, 0x7F_FFFE, -0x7F_FFFF] }));
     let spi = SpiMock::new(&bus);
-    let pin = PinMock::new(&[Pin::get(State::High), Pin::get(State::Low), Pin::get(State::Low), Pin::get(State::Low)]);
+    let pin = PinMock::new(&[
+        Pin::get(State::High),
+        Pin::get(State::Low),
+        Pin::get(State::Low),
+        Pin::get(State::Low),
+    ]);
     let mut chip: Ads131m<_, _, _, 4> = Ads131m::new(spi.clone(), pin.clone(), NoopDelay::new(), PATIENCE);
     chip.configure(&configuration).unwrap();
     assert!(matches!(chip.read(), Err(ConverterError::Fault(ConverterFault::Checksum { .. }))));
@@ -302,9 +324,15 @@ fn the_bytes_on_the_bus_are_those_of_the_data_sheet() {
 #[test]
 fn the_pin_is_low_for_half_and_for_twice_the_time_of_a_reset() {
     use embedded_hal_mock::eh1::delay::{CheckedDelay, Transaction as Delay};
-    let mut pin = PinMock::new(&[Pin::set(State::Low), Pin::set(State::High), Pin::set(State::Low), Pin::set(State::High)]);
+    let mut pin = PinMock::new(&[
+        Pin::set(State::Low),
+        Pin::set(State::High),
+        Pin::set(State::Low),
+        Pin::set(State::High),
+    ]);
     // 1024 and 4096 clocks of 8 MHz.
-    let mut delay = CheckedDelay::new(&[Delay::delay_ns(128_000), Delay::delay_ns(512_000), Delay::delay_us(10)]);
+    let mut delay =
+        CheckedDelay::new(&[Delay::delay_ns(128_000), Delay::delay_ns(512_000), Delay::delay_us(10)]);
     let spi = SpiMock::new(&[]);
     let mut chip: Ads131m<_, _, _, 8> = Ads131m::new(spi, Unwired, delay.clone(), PATIENCE);
     chip.synchronise(&mut pin, 8_000_000).unwrap();

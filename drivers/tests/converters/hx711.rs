@@ -86,11 +86,15 @@ fn stuck_lines_and_ends_of_the_range_are_errors() {
     let conversion = chips.read().unwrap();
     assert_eq!(Vector3::from(conversion.counts.map(f64::from)), expected(Mode::A128));
 
-    let wide = SimulatedBench::new(SimulatedHx711s::new(|_| [(1e-3, 0.0), (5e-3, 0.0)]), WireFaults::default());
+    let wide =
+        SimulatedBench::new(SimulatedHx711s::new(|_| [(1e-3, 0.0), (5e-3, 0.0)]), WireFaults::default());
     let mut chips = Hx711::new(wide.clock(), wide.data(), wide.delay(), Mode::A128, PATIENCE);
     chips.start().unwrap();
     let error = SignalSource::<f64, 2>::next_signals(&mut chips).unwrap_err();
-    assert_eq!((error, error.kind()), (ConverterFault::Saturated { channel: 1 }.into(), SourceErrorKind::Overload));
+    assert_eq!(
+        (error, error.kind()),
+        (ConverterFault::Saturated { channel: 1 }.into(), SourceErrorKind::Overload)
+    );
     assert_eq!(chips.statistics().saturated, 1);
 }
 
@@ -140,7 +144,8 @@ fn the_pulses_are_those_of_the_data_sheet() {
     }
     let [first, second] = pins.map(|pin| PinMock::new(&pin));
     let clock = PinMock::new(&clock);
-    let mut chips = Hx711::new(clock.clone(), [first.clone(), second.clone()], NoopDelay::new(), Mode::A64, PATIENCE);
+    let mut chips =
+        Hx711::new(clock.clone(), [first.clone(), second.clone()], NoopDelay::new(), Mode::A64, PATIENCE);
     chips.start().unwrap();
     assert_eq!(chips.read().unwrap().counts, [-2, 0x5A_5A5A]);
     for mut mock in [clock, first, second] {

@@ -6,14 +6,16 @@ use fingertip_drivers::converter::{
     ConverterError, ConverterFault, Level, Patience, SimulatedBench, Unwired, WireFaults,
 };
 use fingertip_drivers::mcp3564::{
-    AsyncMcp3564, Channel, Configuration, Data, FastCommand, Gain, Mcp3564, Oversampling, Register, SimulatedMcp3564,
+    AsyncMcp3564, Channel, Configuration, Data, FastCommand, Gain, Mcp3564, Oversampling, Register,
+    SimulatedMcp3564,
 };
 use fingertip_drivers::{AsyncSignalSource, NbSignalSource, SignalSource, SourceError, SourceErrorKind};
 
 use super::block_on;
 
 const PATIENCE: Patience = Patience { limit: 20_000, pause: 10 };
-const INPUTS: [Channel; 5] = [Channel::PairC, Channel::PairA, Channel::PairB, Channel::PairD, Channel::Supply];
+const INPUTS: [Channel; 5] =
+    [Channel::PairC, Channel::PairA, Channel::PairB, Channel::PairD, Channel::Supply];
 
 /// A chip whose input tells the number of the conversion and the channel.
 fn bench(down: bool, faults: WireFaults) -> SimulatedBench<SimulatedMcp3564> {
@@ -26,7 +28,12 @@ fn bench(down: bool, faults: WireFaults) -> SimulatedBench<SimulatedMcp3564> {
 }
 
 fn configuration() -> Configuration<5> {
-    Configuration { gain: Gain::X8, oversampling: Oversampling::X1024, lock: true, ..Configuration::new(INPUTS) }
+    Configuration {
+        gain: Gain::X8,
+        oversampling: Oversampling::X1024,
+        lock: true,
+        ..Configuration::new(INPUTS)
+    }
 }
 
 /// Number of the conversion of each input, if all are of the input that they should be and of one cycle.
@@ -65,7 +72,8 @@ fn whole_cycles_come_in_order_whichever_way_the_list_runs() {
 #[test]
 fn the_other_faces_give_the_same_without_the_pin_as_well() {
     let one = bench(false, WireFaults::default());
-    let mut awaited: AsyncMcp3564<_, _, _, 5> = AsyncMcp3564::new(one.spi(), one.ready(), one.delay(), PATIENCE);
+    let mut awaited: AsyncMcp3564<_, _, _, 5> =
+        AsyncMcp3564::new(one.spi(), one.ready(), one.delay(), PATIENCE);
     block_on(awaited.configure(&configuration())).unwrap();
     let sample = block_on(AsyncSignalSource::<f32, 5>::next_signals(&mut awaited)).unwrap().unwrap();
     cycle(core::array::from_fn(|channel| sample.value[channel] as i32));
@@ -155,7 +163,8 @@ fn stuck_lines_a_lost_supply_and_damaged_registers_are_noticed() {
 
 #[test]
 fn a_count_beyond_the_range_is_an_error() {
-    let chip = SimulatedMcp3564::new(false, |_, channel| if channel == Channel::PairB as u8 { 1.1 } else { -0.5 });
+    let chip =
+        SimulatedMcp3564::new(false, |_, channel| if channel == Channel::PairB as u8 { 1.1 } else { -0.5 });
     let bench = SimulatedBench::new(chip, WireFaults::default());
     let mut chip: Mcp3564<_, _, _, 2> = Mcp3564::new(bench.spi(), bench.ready(), bench.delay(), PATIENCE);
     chip.configure(&Configuration::new([Channel::PairA, Channel::PairB])).unwrap();

@@ -3,7 +3,9 @@
 use embedded_hal::i2c::ErrorKind;
 use embedded_hal_mock::eh1::delay::NoopDelay;
 use embedded_hal_mock::eh1::i2c::{Mock as I2cMock, Transaction as I2c};
-use fingertip_drivers::converter::{ConverterError, ConverterFault, Level, Patience, SimulatedBench, Unwired, WireFaults};
+use fingertip_drivers::converter::{
+    ConverterError, ConverterFault, Level, Patience, SimulatedBench, Unwired, WireFaults,
+};
 use fingertip_drivers::nau7802::{
     ADDRESS, AsyncNau7802, Calibration, Configuration, Gain, Input, Nau7802, Rate, Register, Regulator,
     SimulatedNau7802,
@@ -122,7 +124,8 @@ fn an_end_of_the_range_is_an_error() {
 fn the_bytes_on_the_bus_are_those_of_the_data_sheet() {
     let write = |address: u8, value: u8| I2c::write(ADDRESS, vec![address, value]);
     let read = |address: u8, bytes: &[u8]| I2c::write_read(ADDRESS, vec![address], bytes.to_vec());
-    let registers = [(Register::CTRL1, 0x87), (Register::CTRL2, 0x30), (0x15, 0x30), (0x1B, 0x00), (0x1C, 0x00)];
+    let registers =
+        [(Register::CTRL1, 0x87), (Register::CTRL2, 0x30), (0x15, 0x30), (0x1B, 0x00), (0x1C, 0x00)];
     // Reset, digital part on, powered after the second look, revision.
     let mut bus = vec![write(0, 1), write(0, 2), read(0, &[0x02]), read(0, &[0x0A]), read(0x1F, &[0x0F])];
     bus.extend(registers.map(|(address, value)| write(address, value)));
