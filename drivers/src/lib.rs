@@ -17,6 +17,8 @@ pub mod bota_serial;
 pub mod bridge;
 #[cfg(feature = "converter")]
 pub mod converter;
+#[cfg(all(feature = "simulation", any(feature = "ati-rdt", feature = "schunk-fts")))]
+mod datagram_link;
 #[cfg(feature = "dynpick")]
 pub mod dynpick;
 mod faces;
@@ -46,6 +48,8 @@ mod source;
 
 #[cfg(any(feature = "robotous", feature = "dynpick", feature = "optoforce"))]
 pub use axis_counts::{AxisCounts, BadAxisCounts};
+#[cfg(all(feature = "simulation", any(feature = "ati-rdt", feature = "schunk-fts")))]
+pub use datagram_link::FaultPlan;
 pub use faces::{AsyncSignalSource, AsyncWrenchSource, NbSignalSource, NbWrenchSource};
 #[cfg(any(feature = "ati-rdt", feature = "schunk-fts"))]
 pub use sequence_watch::{Arrival, LinkStatistics, SequenceWatch};

@@ -6,6 +6,7 @@
 
 mod recorder;
 mod solved;
+mod supervised;
 mod watch;
 
 #[cfg(feature = "simulation")]
@@ -15,6 +16,7 @@ mod paced;
 
 pub use recorder::{Record, Recorder};
 pub use solved::Solved;
+pub use supervised::{OnLoss, Supervised, SupervisedError};
 pub use watch::{Fresh, ReadCounts, Watch, Watched};
 
 #[cfg(feature = "simulation")]
