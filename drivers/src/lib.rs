@@ -16,6 +16,16 @@ mod axis_counts;
 pub mod bota_serial;
 pub mod bridge;
 #[cfg(feature = "converter")]
+#[cfg_attr(
+    not(any(
+        feature = "ads131m",
+        feature = "ads1256",
+        feature = "hx711",
+        feature = "mcp3564",
+        feature = "nau7802"
+    )),
+    allow(dead_code, reason = "without a converter there is nobody to use it")
+)]
 pub mod converter;
 #[cfg(all(feature = "simulation", any(feature = "ati-rdt", feature = "schunk-fts")))]
 mod datagram_link;

@@ -33,6 +33,9 @@ struct State<const N: usize> {
     at: usize,
     /// A conversion of this cycle was not the same when it was read again.
     damaged: Option<ConverterFault>,
+    /// A conversion is being taken. Still set at the next call if the one before was dropped while it was on the
+    /// bus, and nobody knows how far it came.
+    taking: bool,
     statistics: ConverterStatistics,
 }
 
@@ -73,6 +76,7 @@ impl<const N: usize> State<N> {
 
     /// Takes the conversion of the input that was due, read twice: the sample, if it completes a cycle.
     fn accept(&mut self, bytes: [u8; 3], again: [u8; 3]) -> Result<Option<Conversion<N>>, ConverterFault> {
+        self.taking = false;
         if bytes != again {
             let word = |[high, middle, low]: [u8; 3]| u32::from_be_bytes([0, high, middle, low]);
             self.damaged = Some(ConverterFault::Answer { expected: word(bytes), found: word(again) });
@@ -114,7 +118,7 @@ macro_rules! face {
             #[must_use]
             pub fn new(bus: S, ready: P, delay: D, patience: Patience) -> Self {
                 let statistics = ConverterStatistics::default();
-                let state = State { patience, configuration: None, counts: [0; N], at: 0, damaged: None, statistics };
+                let state = State { patience, configuration: None, counts: [0; N], at: 0, damaged: None, taking: false, statistics };
                 Self { bus, ready, delay, state }
             }
 
@@ -173,7 +177,7 @@ macro_rules! face {
             /// Those of the bus.
             pub $($async)? fn restart(&mut self) -> Result<(), Failure<S, P>> {
                 let configuration = self.state.configuration()?;
-                (self.state.at, self.state.damaged) = (0, None);
+                (self.state.at, self.state.damaged, self.state.taking) = (0, None, false);
                 let write = Command::WriteRegisters { address: Register::MUX }.emit();
                 let mux = self.state.input(&configuration).emit();
                 self.send(&configuration, &[write, 0, mux]) $($await)* ?;
@@ -215,6 +219,10 @@ macro_rules! face {
             #[allow(clippy::type_complexity, reason = "two steps of not yet")]
             $($async)? fn step(&mut self) -> Result<Option<Option<Conversion<N>>>, Failure<S, P>> {
                 let configuration = self.state.configuration()?;
+                if self.state.taking {
+                    self.restart() $($await)* ?;
+                    return Ok(None);
+                }
                 let registers = self.read_registers(&configuration, Register::STATUS) $($await)* ?;
                 if !self.state.is_ready(registers)? {
                     return Ok(None);
@@ -223,6 +231,7 @@ macro_rules! face {
                 let (t6, t11, sync) =
                     (configuration.clocks(T6), configuration.clocks(T11), configuration.clocks(T11_SYNC));
                 let read = [Command::ReadData.emit()];
+                self.state.taking = true;
                 let result = if N > 1 {
                     let next = configuration.inputs.get(self.state.after()).copied().unwrap_or(Input::FIRST);
                     let write = [Command::WriteRegisters { address: Register::MUX }.emit(), 0, next.emit()];
@@ -316,7 +325,8 @@ face! {
 }
 
 face! {
-    /// An ADS1255 or ADS1256 that goes through `N` inputs, in a task.
+    /// An ADS1255 or ADS1256 that goes through `N` inputs, in a task. After a call that was dropped while it was
+    /// on the bus, or an error of the bus, the cycle begins anew.
     AsyncAds1256, embedded_hal_async::spi::SpiDevice, embedded_hal_async::digital::Wait,
     embedded_hal_async::delay::DelayNs, ready_in_time_async, [async], [.await]
 }

@@ -107,7 +107,8 @@ macro_rules! face {
             }
 
             /// Sends a command and waits for it to be acknowledged. A register that is written so, or a
-            /// standby, is the caller's business: `configure` knows nothing of it.
+            /// standby, is the caller's business: `configure` knows nothing of it. Conversions that come in
+            /// these two frames are not given.
             ///
             /// # Errors
             /// [`ConverterFault::Answer`] if it is not acknowledged: damaged on the way, or locked.

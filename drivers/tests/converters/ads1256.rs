@@ -250,3 +250,52 @@ fn the_bytes_on_the_bus_are_those_of_the_data_sheet() {
     let (mut spi, ..) = chip.release();
     spi.done();
 }
+
+#[test]
+fn a_call_that_is_dropped_anywhere_does_no_harm() {
+    use core::future::Future;
+    use core::pin::pin;
+    use core::task::{Context, Waker};
+    /// A bus whose transactions take two looks: one before and one after.
+    struct Slow(SimulatedSpi<SimulatedAds1256>);
+    impl embedded_hal::spi::ErrorType for Slow {
+        type Error = core::convert::Infallible;
+    }
+    impl embedded_hal_async::spi::SpiDevice for Slow {
+        async fn transaction(
+            &mut self,
+            operations: &mut [embedded_hal::spi::Operation<'_, u8>],
+        ) -> Result<(), Self::Error> {
+            pause().await;
+            embedded_hal::spi::SpiDevice::transaction(&mut self.0, operations)?;
+            pause().await;
+            Ok(())
+        }
+    }
+    async fn pause() {
+        let mut asked = false;
+        core::future::poll_fn(|_| {
+            if core::mem::replace(&mut asked, true) {
+                core::task::Poll::Ready(())
+            } else {
+                core::task::Poll::Pending
+            }
+        })
+        .await;
+    }
+    let bench = bench(WireFaults::default());
+    let mut chip: AsyncAds1256<_, _, _, 3> =
+        AsyncAds1256::new(Slow(bench.spi()), bench.ready(), bench.delay(), PATIENCE);
+    block_on(chip.configure(&Configuration { rate: Rate::Hz30000, ..Configuration::new(INPUTS) })).unwrap();
+    for looks in 0..400 {
+        {
+            let mut reading = pin!(chip.read());
+            for _ in 0..looks {
+                if reading.as_mut().poll(&mut Context::from_waker(Waker::noop())).is_ready() {
+                    break;
+                }
+            }
+        }
+        assert_eq!(block_on(chip.read()).unwrap().counts, EXPECTED, "{looks} looks");
+    }
+}
