@@ -172,7 +172,7 @@ fn faults_silence_and_strangers_are_told_apart() {
 fn a_sensor_that_goes_away_is_found_again_or_the_end_by_choice() {
     let (server, local) = served(SimulatedFts::new(FaultPlan::default()));
     let address = std::sync::Arc::new(std::sync::Mutex::new(server.address()));
-    let timeout = Duration::from_millis(200);
+    let timeout = Duration::from_millis(500);
     let connect = |_| FtsClient::connect(*address.lock().unwrap(), local, timeout);
     let mut source = Supervised::new(connect, OnLoss::Reconnect { attempts: 20 }).unwrap();
     let next = |source: &mut dyn WrenchSource<f64, Error = SupervisedError<FtsClientError>>| {

@@ -19,10 +19,10 @@ pub struct Patience {
 }
 
 impl Patience {
-    /// How many looks fit in.
+    /// How many looks fit in, at least one.
     #[must_use]
     pub const fn looks(self) -> u32 {
-        self.limit / if self.pause == 0 { 1 } else { self.pause } + 1
+        (self.limit / if self.pause == 0 { 1 } else { self.pause }).saturating_add(1)
     }
 }
 
@@ -104,4 +104,16 @@ pub(crate) async fn ready_in_time_async<P: Wait>(
         late.as_mut().poll(context).map(|()| Ok(false))
     })
     .await
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn there_is_always_one_look_and_never_one_too_many() {
+        for (limit, pause, looks) in [(0, 0, 1), (100, 10, 11), (u32::MAX, 0, u32::MAX), (5, u32::MAX, 1)] {
+            assert_eq!(Patience { limit, pause }.looks(), looks);
+        }
+    }
 }

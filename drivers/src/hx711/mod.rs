@@ -37,6 +37,10 @@
 //! within a critical section: a reading takes some 60 µs.
 //!
 //! The task's face awaits the pins, but makes the pulses without pausing, for the same reason.
+//!
+//! # What was confirmed, and what was not
+//! Nothing was tried with a chip. All figures were read in pages of the data sheet. What a chip does with a
+//! conversion that ends while it is read is not in there.
 
 mod driver;
 mod wire;

@@ -49,8 +49,9 @@ impl<E: SourceError> SourceError for SupervisedError<E> {
 /// kind [`Transport`](SourceErrorKind::Transport) or [`Timeout`](SourceErrorKind::Timeout). All other errors pass
 /// through.
 ///
-/// `connect` makes a source; it is given the number of the attempt, 0 for the first one of each loss, so that it
-/// can pause before it tries again as it sees fit. A source that is lost is dropped before a new one is
+/// `connect` makes a source; it is given how many attempts since the loss have failed, so that it can pause
+/// before it tries again as it sees fit. A source that is lost before it gives anything is an attempt that
+/// failed. A source that is lost is dropped before a new one is
 /// made. Nothing is set in the device by connecting, its zero least of all.
 ///
 /// Samples of a new source begin anew with their times and their counts: compare
@@ -88,7 +89,7 @@ impl<S: ErrorType, C: FnMut(u32) -> Result<S, S::Error>> Supervised<S, C> {
     pub fn new(connect: C, on_loss: OnLoss) -> Result<Self, SupervisedError<S::Error>> {
         let mut supervised =
             Self { connect, source: None, on_loss, stopped: false, reconnections: 0, losses: 0 };
-        supervised.connect()?;
+        supervised.connect(&mut 0)?;
         Ok(supervised)
     }
 
@@ -116,27 +117,30 @@ impl<S: ErrorType, C: FnMut(u32) -> Result<S, S::Error>> Supervised<S, C> {
     /// [`SupervisedError::Lost`] if that fails; it stays stopped then.
     pub fn resume(&mut self) -> Result<(), SupervisedError<S::Error>> {
         self.source = None;
-        self.connect()?;
+        self.connect(&mut 0)?;
         self.reconnections += 1;
         self.stopped = false;
         Ok(())
     }
 
-    fn connect(&mut self) -> Result<(), SupervisedError<S::Error>> {
-        let attempts = match self.on_loss {
+    fn attempts(&self) -> u32 {
+        match self.on_loss {
             OnLoss::FailStop => 1,
             OnLoss::Reconnect { attempts } => attempts.max(1),
-        };
-        let mut attempt = 0;
+        }
+    }
+
+    /// Connects, and counts the attempts that failed.
+    fn connect(&mut self, tried: &mut u32) -> Result<(), SupervisedError<S::Error>> {
         loop {
-            match (self.connect)(attempt) {
+            match (self.connect)(*tried) {
                 Ok(source) => {
                     self.source = Some(source);
                     return Ok(());
                 }
                 Err(error) => {
-                    attempt += 1;
-                    if attempt >= attempts {
+                    *tried += 1;
+                    if *tried >= self.attempts() {
                         return Err(SupervisedError::Lost(error));
                     }
                 }
@@ -149,14 +153,16 @@ impl<S: ErrorType, C: FnMut(u32) -> Result<S, S::Error>> Supervised<S, C> {
         &mut self,
         mut next: impl FnMut(&mut S) -> Result<Option<V>, S::Error>,
     ) -> Result<Option<V>, SupervisedError<S::Error>> {
-        let mut tried = 0;
+        let (mut tried, mut lost) = (0, false);
         loop {
             if self.stopped {
                 return Err(SupervisedError::Stopped);
             }
             let Some(source) = &mut self.source else {
-                self.connect()?;
+                self.connect(&mut tried)?;
                 self.reconnections += 1;
+                // From now on a loss is one of a source that was just made.
+                lost = true;
                 continue;
             };
             let error = match next(source) {
@@ -168,18 +174,12 @@ impl<S: ErrorType, C: FnMut(u32) -> Result<S, S::Error>> Supervised<S, C> {
             }
             self.losses += 1;
             self.source = None;
-            match self.on_loss {
-                OnLoss::FailStop => {
-                    self.stopped = true;
-                    return Err(SupervisedError::Lost(error));
-                }
-                // A source that connects and is lost at once, again and again, ends as well.
-                OnLoss::Reconnect { attempts } => {
-                    tried += 1;
-                    if tried > attempts.max(1) {
-                        return Err(SupervisedError::Lost(error));
-                    }
-                }
+            // A source that connects and is lost at once has failed as well: without a connection, as over UDP,
+            // that is the only way to notice.
+            tried += u32::from(lost);
+            self.stopped = self.on_loss == OnLoss::FailStop;
+            if self.stopped || tried >= self.attempts() {
+                return Err(SupervisedError::Lost(error));
             }
         }
     }
