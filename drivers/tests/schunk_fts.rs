@@ -101,7 +101,7 @@ fn load(number: u64) -> [f32; 6] {
 }
 
 /// A port for datagrams that is free, and a server that sends to it.
-fn served(sensor: SimulatedFts) -> (FtsServer, std::net::SocketAddr) {
+fn served(sensor: SimulatedFts) -> (FtsServer, core::net::SocketAddr) {
     let free = std::net::UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
     (FtsServer::start("127.0.0.1:0", free.port(), sensor, Duration::from_millis(2), load).unwrap(), free)
 }
@@ -171,7 +171,7 @@ fn faults_silence_and_strangers_are_told_apart() {
 #[test]
 fn a_sensor_that_goes_away_is_found_again_or_the_end_by_choice() {
     let (server, local) = served(SimulatedFts::new(FaultPlan::default()));
-    let address = std::sync::Arc::new(std::sync::Mutex::new(server.address()));
+    let address = std::sync::Mutex::new(server.address());
     let timeout = Duration::from_millis(500);
     let connect = |_| FtsClient::connect(*address.lock().unwrap(), local, timeout);
     let mut source = Supervised::new(connect, OnLoss::Reconnect { attempts: 20 }).unwrap();

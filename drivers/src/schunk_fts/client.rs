@@ -1,8 +1,9 @@
 //! A client over sockets: commands over TCP, samples over UDP.
 
+use core::net::IpAddr;
 use core::time::Duration;
 use std::io::{self, Read, Write};
-use std::net::{IpAddr, TcpStream, ToSocketAddrs, UdpSocket};
+use std::net::{TcpStream, ToSocketAddrs, UdpSocket};
 
 use fingertip_wrench::{Real, Wrench};
 use thiserror::Error;

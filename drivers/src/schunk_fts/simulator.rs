@@ -134,10 +134,10 @@ impl FtsServer {
             let mut next = Instant::now();
             let mut number = 0;
             while !stopped.load(Ordering::Relaxed) {
-                if let Ok((stream, from)) = listener.accept() {
-                    if stream.set_nonblocking(true).is_ok() {
-                        client = Some((stream, SocketAddr::new(from.ip(), client_port)));
-                    }
+                if let Ok((stream, from)) = listener.accept()
+                    && stream.set_nonblocking(true).is_ok()
+                {
+                    client = Some((stream, SocketAddr::new(from.ip(), client_port)));
                 }
                 if let Some((stream, _)) = &mut client {
                     let mut bytes = [0; Command::LENGTH];
