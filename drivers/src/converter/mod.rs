@@ -13,8 +13,9 @@
 //! become strain in the module [`bridge`](crate::bridge).
 //!
 //! # What is promised
-//! * A sample that is given is new, whole and within range. One with a wrong checksum, one that was read
-//!   before, and one at an end of the converter's range are errors or are waited for, never numbers.
+//! * A sample that is given is new and within range, and whole as far as the chip protects it. One with a
+//!   wrong checksum, one that was read before, and one at an end of the converter's range are errors or are
+//!   waited for, never numbers. What a chip leaves unprotected stands in its module.
 //! * A device that has reset itself, and so has lost its configuration, is noticed where the chip lets
 //!   one notice it; each module says how.
 //! * Nothing waits without end: every wait has a limit, in [`Patience`].
