@@ -4,13 +4,20 @@
 mod analyze;
 mod args;
 mod calibrate;
+mod convert;
 mod demo;
 mod design;
 mod error;
+mod felt;
+mod live;
 mod observe;
+mod record;
 mod report;
 mod scene;
+mod sensor;
+mod serve;
 mod shape;
+mod stop;
 mod summary;
 mod table;
 
@@ -25,6 +32,10 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Analyze(arguments) => analyze::run(&arguments),
+        Command::Record(arguments) => record::run(&arguments),
+        Command::Live(arguments) => live::run(&arguments),
+        Command::Convert(arguments) => convert::run(&arguments),
+        Command::Simulate(arguments) => serve::run(&arguments),
         Command::Design(arguments) => design::run(&arguments),
         Command::Calibrate(arguments) => calibrate::calibrate(&arguments),
         Command::Check(arguments) => calibrate::check(&arguments),

@@ -150,6 +150,12 @@ impl SimulatedNetFt {
         self.out.extend(held_back.map(|held| held.to_vec()));
     }
 
+    /// Number of the newest record. It counts those that the link then lost, too.
+    #[must_use]
+    pub const fn rdt_sequence(&self) -> u32 {
+        self.rdt_sequence
+    }
+
     /// The next datagram on the link.
     pub fn datagram(&mut self) -> Option<Vec<u8>> {
         self.out.pop_front()
@@ -172,7 +178,8 @@ pub struct RdtServer {
 
 impl RdtServer {
     /// Serves on an address (port 0 for any free one; the loopback interface unless you know what
-    /// you do). `load` gives the counts of each sample by its number; one is sent every `period`.
+    /// you do). `load` gives the counts of each sample by its number, which begins anew with each client that
+    /// lets it stream; one is sent every `period`.
     ///
     /// # Errors
     /// If the address cannot be had.
@@ -195,7 +202,11 @@ impl RdtServer {
                 let mut bytes = [0; 64];
                 // The device serves one client: whoever asked last.
                 while let Ok((length, from)) = socket.recv_from(&mut bytes) {
+                    let streamed = sensor.is_streaming();
                     sensor.request(bytes.get(..length).unwrap_or_default());
+                    if sensor.is_streaming() && !streamed {
+                        number = 0;
+                    }
                     client = Some(from);
                 }
                 let now = Instant::now();

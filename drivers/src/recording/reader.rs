@@ -208,6 +208,7 @@ impl<R: Read> RecordingReader<R> {
         for ((used, value), last) in self.layout.used.iter().zip(&mut self.values).zip(&self.last_values) {
             *value = match Cell::read(&self.record, *used) {
                 Cell::Number(number) => number,
+                Cell::Empty if used.optional => f64::NAN,
                 bad => {
                     any_bad = true;
                     bad.count(self.line, &mut marks, &mut self.quality).ok_or_else(|| {

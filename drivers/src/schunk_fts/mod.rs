@@ -3,15 +3,19 @@
 //!
 //! Layers, each usable alone and without I/O: the wire format ([`Packet`], [`FtsSample`],
 //! [`Command`], [`CommandAnswer`]) and the [`FtsReceiver`], which tells news from repetitions, counts
-//! what was lost and refuses samples whose status is not clean. There is no client over sockets: open a UDP
-//! socket on the port, send [`Command::StartUdp`] over TCP and give the datagrams to the receiver.
+//! what was lost and refuses samples whose status is not clean. The `FtsClient` over
+//! sockets (feature `std`) puts them together.
 //!
 //! After the manufacturer's own published client and dummy. Of the status, bit 0 (ready) and bit 1
 //! (data invalid) are known from there; every other bit is taken for a fault. Reading and setting
 //! parameters is not here.
 
+#[cfg(feature = "std")]
+mod client;
 mod receiver;
 mod wire;
 
+#[cfg(feature = "std")]
+pub use client::{FtsClient, FtsClientError};
 pub use receiver::{FtsFault, FtsReceiver};
 pub use wire::{Command, CommandAnswer, FtsSample, FtsWireError, Packet, TCP_PORT, UDP_PORT, emit_packet};
