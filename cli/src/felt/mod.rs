@@ -85,15 +85,6 @@ impl SceneFeel {
         Self { scene, feel, rest, last: None }
     }
 
-    pub(crate) const fn scene(&self) -> &Scene {
-        &self.scene
-    }
-
-    /// Whether the zero is still being taken.
-    pub(crate) const fn is_resting(&self) -> bool {
-        self.rest.is_resting()
-    }
-
     /// What a sample means; `None` while the zero is taken.
     pub(crate) fn feel(&mut self, time: f64, reported: &Wrench<f64>) -> Result<Option<SceneTouch>, String> {
         let Some(tared) = self.rest.take(time, reported)? else { return Ok(None) };

@@ -54,10 +54,9 @@ fn said(state: &State, contact: Option<&Contact<f64>>) -> String {
     let [x, y, z] = (contact.point * 1e3).into();
     let within = state.ellipse.map_or_else(String::new, |ellipse| {
         let [longer, _] = ellipse.semi_axes;
-        format!(" mm ± {} (95 %)", number(longer * 1e3))
+        format!(" ±{} (95 %)", number(longer * 1e3))
     });
-    let within = if within.is_empty() { " mm".to_owned() } else { within };
-    format!("contact at {x:.1}, {y:.1}, {z:.1}{within}")
+    format!("at {x:.1}, {y:.1}, {z:.1} mm{within}")
 }
 
 /// Half the width and height of what is to be seen, in units of the map.

@@ -3,7 +3,7 @@
 use fingertip::friction::SlipVerdict;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::{Color, Style, Stylize};
+use ratatui::style::{Color, Style};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, LineGauge, Paragraph};
 
@@ -36,11 +36,11 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let force = state.touch.as_ref().and_then(|touch| touch.resolution.contact()).map(|c| c.contact_force());
     let Some(force) = force else { return };
     let margin = state.touch.as_ref().and_then(|touch| touch.grip.flatten());
-    let mut text =
-        format!("normal {} N, tangential {} N", number(force.normal), number(force.tangential_magnitude()));
+    let mut text = format!("fn {}, ft {}", number(force.normal), number(force.tangential_magnitude()));
     if let Some(margin) = margin {
-        text.push_str(&format!(", margin {} N", number(margin.newtons)));
+        text.push_str(&format!(", margin {}", number(margin.newtons)));
     }
+    text.push_str(" N");
     frame.render_widget(Paragraph::new(text), forces);
     let Some(ratio) = force.friction_ratio().filter(|ratio| ratio.is_finite()) else { return };
     let Some(coefficient) = state.coefficient else {
@@ -57,6 +57,9 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let gauge_line = LineGauge::default()
         .ratio(if share.is_finite() { share } else { 0.0 })
         .label(label)
+        // So that it can be read without colours.
+        .filled_symbol("█")
+        .unfilled_symbol("░")
         .filled_style(Style::new().fg(colour))
         .unfilled_style(Style::new().fg(Color::DarkGray));
     frame.render_widget(gauge_line, gauge);

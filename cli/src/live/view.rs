@@ -210,7 +210,7 @@ mod tests {
     fn a_press_shows_as_numbers_bars_and_a_point() {
         let state = pressed(Vector3::new(-1.5, -1.2, 0.3), 100);
         let text = picture(&state, (80, 24));
-        for expected in ["live", "fx", "-1.50 N", "contact", "holding", "µ 0.4", "normal", "q ends", "mm ±"]
+        for expected in ["live", "fx", "-1.50 N", "contact", "holding", "µ 0.4", "fn 1.9", "q ends", "mm ±"]
         {
             assert!(text.contains(expected), "{expected} is missing:\n{text}");
         }
@@ -224,8 +224,8 @@ mod tests {
     }
 
     #[test]
-    fn a_pull_says_why_there_is_no_contact() {
-        let text = picture(&pressed(Vector3::new(1.5, 1.2, 0.3), 10), (80, 24));
-        assert!(text.contains("force pulls outward") && !text.contains('●'), "{text}");
+    fn what_is_no_contact_says_why() {
+        let text = picture(&pressed(Vector3::new(-0.05, -0.01, 0.0), 10), (80, 24));
+        assert!(text.contains("force below the threshold") && !text.contains('●'), "{text}");
     }
 }

@@ -158,7 +158,9 @@ impl<'a> Recording<'a> {
                 Some(Output::create(&self.arguments.output, self.arguments.force, has_volts, has_contacts)?);
         }
         let Some(output) = &mut self.output else { return Ok(()) };
-        let row = Row { time: time + self.epoch, wrench: &wrench, volts: reading.volts.as_ref(), contact };
+        // Whole nanoseconds, as MCAP has them: so both formats hold the same.
+        let written = ((time + self.epoch) * 1e9).round() / 1e9;
+        let row = Row { time: written, wrench: &wrench, volts: reading.volts.as_ref(), contact };
         output.write(&row)?;
         self.samples += 1;
         self.contacts += u64::from(contact.is_some());

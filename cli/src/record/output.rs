@@ -77,7 +77,8 @@ enum Writer {
     Mcap {
         writer: Box<McapWriter<BufWriter<File>>>,
         wrench: Topic,
-        signals: Option<Topic>,
+        /// Of the gauges, and of the dummy gauge.
+        signals: Option<[Topic; 2]>,
         contact: Option<Topic>,
     },
 }
@@ -107,8 +108,12 @@ impl Output {
                 let open = || {
                     let mut writer = McapWriter::new(file)?;
                     let wrench = writer.wrenches("/fingertip/wrench", FRAME)?;
-                    let signals =
-                        if has_volts { Some(writer.signals("/fingertip/signals", FRAME)?) } else { None };
+                    let signals = if has_volts {
+                        let gauges = writer.signals("/fingertip/signals", FRAME)?;
+                        Some([gauges, writer.signals("/fingertip/dummy", FRAME)?])
+                    } else {
+                        None
+                    };
                     let contact =
                         if has_contacts { Some(writer.contacts("/fingertip/contact", FRAME)?) } else { None };
                     Ok(Writer::Mcap { writer: Box::new(writer), wrench, signals, contact })
@@ -134,10 +139,12 @@ impl Output {
             }
             Writer::Mcap { writer, wrench, signals, contact } => {
                 let mut write = || {
-                    if let (Some(topic), Some(volts)) = (*signals, row.volts) {
-                        let unit = "V".to_owned();
-                        let values = volts.iter().copied().collect();
-                        writer.write_signals(topic, row.time, RecordedSignals { unit, values })?;
+                    if let (Some([gauges, dummy]), Some(volts)) = (*signals, row.volts) {
+                        let parts = [(gauges, volts.as_slice().get(..6)), (dummy, volts.as_slice().get(6..))];
+                        for (topic, values) in parts {
+                            let (unit, values) = ("V".to_owned(), values.unwrap_or_default().to_vec());
+                            writer.write_signals(topic, row.time, RecordedSignals { unit, values })?;
+                        }
                     }
                     writer.write_wrench(*wrench, row.time, row.wrench)?;
                     if let (Some(topic), Some(ContactCells { position, normal, wrench })) =

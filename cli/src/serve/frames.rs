@@ -62,11 +62,17 @@ impl SerialDevice {
     }
 
     /// What the address of this sensor must say, behind its question mark.
-    pub(super) const fn options(device: Device) -> &'static str {
+    pub(super) fn options(device: Device) -> String {
         match device {
-            Device::Optoforce => "?counts_per_N=100&counts_per_Nm=10000",
-            Device::Resense => "?greatest_N=200&greatest_Nm=10",
-            _ => "",
+            Device::Optoforce => {
+                let [force, torque] = OPTOFORCE;
+                format!("?counts_per_N={force}&counts_per_Nm={torque}")
+            }
+            Device::Resense => {
+                let [force, torque] = RESENSE;
+                format!("?greatest_N={force}&greatest_Nm={torque}")
+            }
+            _ => String::new(),
         }
     }
 
@@ -188,14 +194,6 @@ impl SerialDevice {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn options_agree_with_what_is_sent() {
-        let [f, t] = OPTOFORCE;
-        assert_eq!(SerialDevice::options(Device::Optoforce), format!("?counts_per_N={f}&counts_per_Nm={t}"));
-        let [f, t] = RESENSE;
-        assert_eq!(SerialDevice::options(Device::Resense), format!("?greatest_N={f}&greatest_Nm={t}"));
-    }
 
     #[test]
     fn requests_are_heard_among_noise_and_in_pieces() {

@@ -7,7 +7,7 @@ use std::thread;
 
 use fingertip_drivers::line::{LineFaults, SimulatedLine};
 
-use super::args::{Carrier, Device, SimulateArguments};
+use super::args::{Carrier, SimulateArguments};
 use super::frames::SerialDevice;
 use super::load::Load;
 use super::{End, Pace, announce, fault, tally};

@@ -178,8 +178,7 @@ pub struct RdtServer {
 
 impl RdtServer {
     /// Serves on an address (port 0 for any free one; the loopback interface unless you know what
-    /// you do). `load` gives the counts of each sample by its number, which begins anew with each client that
-    /// lets it stream; one is sent every `period`.
+    /// you do). `load` gives the counts of each sample by its number, which begins anew with each client; one is sent every `period`.
     ///
     /// # Errors
     /// If the address cannot be had.
@@ -202,12 +201,10 @@ impl RdtServer {
                 let mut bytes = [0; 64];
                 // The device serves one client: whoever asked last.
                 while let Ok((length, from)) = socket.recv_from(&mut bytes) {
-                    let streamed = sensor.is_streaming();
                     sensor.request(bytes.get(..length).unwrap_or_default());
-                    if sensor.is_streaming() && !streamed {
+                    if client.replace(from) != Some(from) {
                         number = 0;
                     }
-                    client = Some(from);
                 }
                 let now = Instant::now();
                 if now < next {
