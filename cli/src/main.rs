@@ -1,6 +1,8 @@
 //! The `fingertip` command: what the crates do, from files to files.
 #![doc = include_str!("../README.md")]
 
+extern crate alloc;
+
 mod analyze;
 mod args;
 mod calibrate;

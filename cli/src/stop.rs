@@ -1,7 +1,7 @@
 //! Ctrl-C, and what else asks a program to end.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use alloc::sync::Arc;
+use core::sync::atomic::{AtomicBool, Ordering};
 
 /// Turns true when the user wants to end: Ctrl-C, or a request of the system. A second one is no more
 /// urgent than the first: what is being written is finished.

@@ -30,7 +30,7 @@ impl Server {
         let lines = BufReader::new(child.stdout.as_mut().unwrap()).lines();
         let address =
             lines.map(Result::unwrap).find_map(|line| line.strip_prefix("Address: ").map(str::to_owned));
-        Self { child, address: address.expect("no address was printed") }
+        Self { child, address: address.unwrap() }
     }
 }
 

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 #![cfg(all(feature = "schunk-fts", feature = "simulation"))]
 
-use fingertip_drivers::schunk_fts::{FtsReceiver, FtsSample, Packet, emit_packet};
+use fingertip_drivers::schunk_fts::{Command, CommandAnswer, FtsReceiver, FtsSample, Packet, emit_packet};
 use fingertip_wrench::Wrench;
 use rand::{RngExt, SeedableRng};
 
@@ -87,4 +87,58 @@ fn a_sample_whose_status_is_not_clean_is_a_fault() {
         let fault = receiver.accept::<f64>(&packet).unwrap().next().unwrap().unwrap_err();
         assert_eq!(fault.status, status);
     }
+}
+
+/// A sensor that answers one command and sends three datagrams, the second one lost.
+#[test]
+fn a_client_starts_the_sensor_and_takes_its_samples() {
+    use core::time::Duration;
+    use std::io::{Read, Write};
+    use std::net::{TcpListener, UdpSocket};
+
+    use fingertip_drivers::schunk_fts::{FtsClient, FtsClientError};
+    use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
+
+    let commands = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = commands.local_addr().unwrap();
+    let free = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
+    let sensor = std::thread::spawn(move || {
+        let mut heard = Vec::new();
+        for error in [7, 0] {
+            let (mut stream, _) = commands.accept().unwrap();
+            let mut bytes = [0; Command::LENGTH];
+            stream.read_exact(&mut bytes).unwrap();
+            let (counter, command) = Command::parse(&bytes).unwrap();
+            stream.write_all(&CommandAnswer { command, error }.emit(counter)).unwrap();
+            heard.push(command);
+            if error > 0 {
+                continue;
+            }
+            let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+            for (counter, status) in [(5, 1), (7, 1), (8, 3)] {
+                let components = [f32::from(counter), 0.0, 0.0, 0.0, 0.0, 0.5];
+                let mut datagram = [0; 100];
+                let samples = [FtsSample { status, components }];
+                let length = emit_packet(u16::from(counter), 0, &samples, &mut datagram).unwrap();
+                socket.send_to(&datagram[..length], free).unwrap();
+            }
+            // Until it is told to stop.
+            stream.read_exact(&mut bytes).unwrap();
+            heard.push(Command::parse(&bytes).unwrap().1);
+        }
+        heard
+    });
+    let wait = Duration::from_secs(5);
+    let refused = FtsClient::<f64>::connect(address, free, wait).unwrap_err();
+    assert!(matches!(refused, FtsClientError::Refused { command: Command::StartUdp, error: 7 }), "{refused}");
+    let mut client = FtsClient::<f64>::connect(address, free, wait).unwrap().timed_by(1000.0);
+    let first = client.next_wrench().unwrap().unwrap();
+    let second = client.next_wrench().unwrap().unwrap();
+    assert_eq!((first.value.force().x, second.value.force().x), (5.0, 7.0));
+    // The time goes on over the one that is lost.
+    assert!((second.time.unwrap() - first.time.unwrap() - 2e-3).abs() < 1e-12);
+    assert_eq!(client.next_wrench().unwrap_err().kind(), SourceErrorKind::DeviceFault);
+    assert_eq!((client.statistics().received, client.statistics().lost), (3, 1));
+    drop(client);
+    assert_eq!(sensor.join().unwrap(), [Command::StartUdp, Command::StartUdp, Command::StopUdp]);
 }

@@ -7,12 +7,14 @@ mod slip;
 mod state;
 mod view;
 
+use alloc::sync::Arc;
+use core::sync::atomic::{AtomicBool, Ordering};
+use core::time::Duration;
 use std::io::{self, IsTerminal};
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use args::LiveArguments;
 use ratatui::DefaultTerminal;
@@ -74,8 +76,14 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
     let shared =
         Arc::new(Shared { state: Mutex::new(state), stop: Stop::listen(), tare: AtomicBool::new(false) });
     let reading = Arc::clone(&shared);
-    let reader =
-        thread::Builder::new().name("samples".to_owned()).spawn(move || read(&reading, stream, rest, feel));
+    let reader = thread::Builder::new().name("samples".to_owned()).spawn(move || {
+        let read = read(&reading, stream, rest, feel);
+        if read.is_err() {
+            // The view ends with it, and it is said when the terminal is as it was.
+            reading.stop.ask();
+        }
+        read
+    });
     let reader = reader.map_err(|error| fault(format!("no thread for its samples: {error}")))?;
 
     let shown = ratatui::try_init().and_then(|terminal| show(terminal, &shared, arguments.frames));
@@ -118,17 +126,9 @@ fn read(
         if shared.tare.swap(false, Ordering::Relaxed) {
             rest = Rest::new(Some(ZERO));
         }
-        let event = match stream.next() {
-            Ok(event) => event,
-            Err(why) => {
-                // The view ends with it, and it is said when the terminal is as it was.
-                shared.stop.ask();
-                return Err(why);
-            }
-        };
-        match event {
-            Event::Sample(time, reading) => match rest.take(time, &reading.wrench) {
-                Ok(Some(wrench)) => {
+        match stream.next()? {
+            Event::Sample(time, reading) => match rest.take(time, &reading.wrench)? {
+                Some(wrench) => {
                     let touch = match &mut feel {
                         Some(feel) => feel.feel(time, &wrench)?,
                         None => None,
@@ -137,11 +137,7 @@ fn read(
                     state.sample(time, &wrench, touch, Instant::now());
                     state.losses = stream.losses();
                 }
-                Ok(None) => shared.state().health = Health::Resting,
-                Err(why) => {
-                    shared.stop.ask();
-                    return Err(why);
-                }
+                None => shared.state().health = Health::Resting,
             },
             Event::Fault(why) => {
                 let mut state = shared.state();

@@ -30,7 +30,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     };
     let line = Line::from(vec![
         Span::styled(format!(" ■ {word} "), Style::new().fg(Color::Black).bg(colour).bold()),
-        Span::raw(format!("  {} slips", count(state.slips))),
+        Span::raw(format!("  slips: {}", count(state.slips))),
     ]);
     frame.render_widget(Paragraph::new(line), light);
     let force = state.touch.as_ref().and_then(|touch| touch.resolution.contact()).map(|c| c.contact_force());

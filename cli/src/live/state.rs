@@ -1,7 +1,8 @@
 //! What the view shows, as the samples leave it.
 
-use std::collections::VecDeque;
-use std::time::{Duration, Instant};
+use alloc::collections::VecDeque;
+use core::time::Duration;
+use std::time::Instant;
 
 use fingertip::friction::SlipVerdict;
 use fingertip::surfaces::ConfidenceEllipse;

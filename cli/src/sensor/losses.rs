@@ -61,7 +61,7 @@ impl fmt::Display for Losses {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.lost {
             Some(lost) => write!(out, "{} lost", count(lost))?,
-            None => write!(out, "lost: not told by this protocol")?,
+            None => write!(out, "lost: not told")?,
         }
         write!(
             out,

@@ -41,7 +41,7 @@ pub(crate) fn open(path: &Path, sensor: &str, speed: f64) -> Result<Box<dyn Feed
     Ok(Box::new(SourceFeed { source: Paced::new(playback, speed), losses: |_: &_| whole() }))
 }
 
-struct InMemory(std::vec::IntoIter<Sample<f64, Wrench<f64>>>);
+struct InMemory(alloc::vec::IntoIter<Sample<f64, Wrench<f64>>>);
 
 impl ErrorType for InMemory {
     type Error = Infallible;

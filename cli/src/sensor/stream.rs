@@ -1,6 +1,7 @@
 //! A feed with a clock, that can be connected anew.
 
-use std::time::{Duration, Instant};
+use core::time::Duration;
+use std::time::Instant;
 
 use super::losses::Losses;
 use super::{Feed, Next, Reading};
@@ -167,7 +168,7 @@ impl Stream {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
+    use core::time::Duration;
 
     use fingertip::wrench::Wrench;
 

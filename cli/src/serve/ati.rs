@@ -1,10 +1,10 @@
 //! ATI Net F/T: records over UDP, the page of the configuration over HTTP.
 
+use alloc::sync::Arc;
+use core::sync::atomic::{AtomicU64, Ordering};
 use core::time::Duration;
 use std::io::{self, Read, Write};
 use std::net::{TcpListener, TcpStream};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
 use fingertip_drivers::ati_rdt::{Configuration, FaultPlan, RdtClient, RdtServer, SimulatedNetFt};

@@ -13,6 +13,7 @@ use std::thread;
 use std::time::Instant;
 
 use args::{Device, SimulateArguments};
+use clap::ValueEnum;
 use load::Load;
 
 use crate::error::CliError;
@@ -96,10 +97,11 @@ fn announce(arguments: &SimulateArguments, load: &Load, address: &str) -> Result
         Some(path) => path.display().to_string(),
         None => format!("{:?}", arguments.scenario).to_lowercase(),
     };
+    let name =
+        arguments.serve.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());
     say(&format!(
-        "Simulated {:?} sensor: {} samples/s, {what} ({} s, begun anew by each client, then repeated)\nAddress: \
+        "Simulated sensor {name}: {} samples/s, {what} ({} s, begun anew by each client, then repeated)\nAddress: \
          {address}\nTry: fingertip live --scene sim '{address}'\nCtrl-C ends it.\n",
-        arguments.serve,
         short(arguments.rate),
         short(load.duration())
     ))

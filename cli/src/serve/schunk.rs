@@ -51,11 +51,11 @@ pub(super) fn serve(
     let mut zero = [0.0; 6];
     let mut counter: u16 = 0;
     while !end.has_come() {
-        if let Ok((stream, from)) = listener.accept() {
-            if stream.set_nonblocking(true).is_ok() {
-                let samples_to = SocketAddr::new(from.ip(), arguments.udp_port);
-                client = Some(Client { stream, samples_to, heard: Vec::new(), streaming: false });
-            }
+        if let Ok((stream, from)) = listener.accept()
+            && stream.set_nonblocking(true).is_ok()
+        {
+            let samples_to = SocketAddr::new(from.ip(), arguments.udp_port);
+            client = Some(Client { stream, samples_to, heard: Vec::new(), streaming: false });
         }
         let mut tare = None;
         if let Some(talking) = &mut client {
