@@ -115,7 +115,7 @@ fn a_client_starts_the_sensor_and_takes_its_samples() {
                 continue;
             }
             let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
-            for (counter, status) in [(5, 1), (7, 1), (8, 3)] {
+            for (counter, status) in [(5_u8, 1), (7, 1), (8, 3)] {
                 let components = [f32::from(counter), 0.0, 0.0, 0.0, 0.0, 0.5];
                 let mut datagram = [0; 100];
                 let samples = [FtsSample { status, components }];
