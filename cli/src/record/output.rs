@@ -27,7 +27,7 @@ impl Kind {
     pub(crate) fn of(path: &Path) -> Result<Self, CliError> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref() {
-            Some("csv" | "txt" | "tsv") => Ok(Self::Csv),
+            Some("csv" | "txt") => Ok(Self::Csv),
             Some("mcap") => Ok(Self::Mcap),
             _ => Err(CliError::UnknownEnding { path: path.to_owned() }),
         }

@@ -6,22 +6,25 @@ use core::str::FromStr;
 /// What an address can look like, for help texts.
 pub(crate) const EXAMPLES: &str = "\
 Addresses of sensors: PROTOCOL://PLACE?KEY=VALUE&…
-  ati://192.168.1.1                      ATI Net F/T, Axia: counts and rate from its page over HTTP;
-                                         ?counts_per_N=1e6&counts_per_Nm=1e6&rate_Hz=7000 does without,
-                                         ?http=8080 asks another port
-  onrobot://192.168.1.1                  OnRobot (OptoForce) EtherDAQ: ?rate_Hz=
-  schunk://192.168.0.100                 SCHUNK FTS: ?rate_Hz=8000, ?udp=54843 is the local port
-  bota:///dev/ttyUSB0                    Bota Systems serial
-  robotous:///dev/ttyUSB0                Robotous RFT serial: ?counts_per_N=50&counts_per_Nm=2000
-  dynpick:///dev/ttyUSB0                 WACOH DynPick: asks for its sensitivities;
-                                         ?counts_per_N=24.9&counts_per_Nm=1664 does without
-  optoforce:///dev/ttyACM0?counts_per_N=100&counts_per_Nm=2000
-                                         OptoForce USB: counts from its report; ?rate_Hz=1000 sets its rate
-  resense:///dev/ttyUSB0?greatest_N=50&greatest_Nm=2
-                                         Resense HEX: its range with reserve; ?request=3A0A asks for each
-                                         reading with those bytes
-  sim                                    the simulated fingertip, without any wire: ?seed=1&rate_Hz=1000
-Serial protocols take ?baud=, and speak over TCP with +tcp: bota+tcp://10.0.0.7:4000. Where a sensor
+
+  ati://192.168.1.1           ATI Net F/T, Axia; asks its page over HTTP for
+                              counts and rate (?http=80 is the port), or
+                              ?counts_per_N=1e6&counts_per_Nm=1e6&rate_Hz=7000
+  onrobot://192.168.1.1       OnRobot (OptoForce) EtherDAQ; ?rate_Hz=
+  schunk://192.168.0.100      SCHUNK FTS; ?rate_Hz=8000&udp=54843 (local port)
+  bota:///dev/ttyUSB0         Bota Systems serial
+  robotous:///dev/ttyUSB0     Robotous RFT; ?counts_per_N=50&counts_per_Nm=2000
+  dynpick:///dev/ttyUSB0      WACOH DynPick; asks for its sensitivities, or
+                              ?counts_per_N=24.9&counts_per_Nm=1664
+  optoforce:///dev/ttyACM0    OptoForce USB; ?counts_per_N=&counts_per_Nm= are
+                              needed, ?rate_Hz=1000 sets its rate
+  resense:///dev/ttyUSB0      Resense HEX; ?greatest_N=&greatest_Nm= are needed:
+                              its range with reserve; ?request=3A0A asks for
+                              each reading with these bytes
+  sim                         the simulated fingertip; ?seed=1&rate_Hz=1000
+
+Serial protocols take ?baud=, and speak over TCP with +tcp, such as
+bota+tcp://10.0.0.7:4000. Put an address with ? or & in quotes. Where a sensor
 sends no time, samples have that of their arrival.";
 
 /// An address, taken apart.

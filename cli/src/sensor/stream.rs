@@ -121,7 +121,7 @@ impl Stream {
             // A line that ends is a sensor that was unplugged; a recording has no connection to lose.
             Ok(Next::End) if self.options.reconnect => self.lose("the line was closed".to_owned()),
             Ok(Next::End) => Ok(Event::End),
-            Err(why) => self.lose(why),
+            Err(why) => self.lose(format!("{why}; is the sensor on, and can it be reached?")),
         }
     }
 
@@ -199,7 +199,7 @@ mod tests {
         for expected in [0.0, 1.0, 2.0] {
             assert!(matches!(stream.next(), Ok(Event::Sample(time, _)) if time == expected));
         }
-        assert_eq!(stream.next().unwrap_err(), "unplugged");
+        assert!(stream.next().unwrap_err().starts_with("unplugged; is the sensor on"));
     }
 
     #[test]
