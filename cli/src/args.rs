@@ -5,11 +5,15 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::calibrate::args::{CalibrateArguments, CheckArguments, TareArguments};
+use crate::convert::ConvertArguments;
 use crate::design::args::DesignArguments;
 use crate::geometry::GeometryArguments;
+use crate::live::args::LiveArguments;
 use crate::motion::MotionArguments;
 use crate::plan::PlanArguments;
+use crate::record::args::RecordArguments;
 use crate::refine::RefineArguments;
+use crate::serve::args::SimulateArguments;
 
 /// From the strain gauges behind a fingertip to contact, force and slip.
 #[derive(Debug, Parser)]
@@ -28,6 +32,14 @@ pub(crate) enum Command {
     Demo(DemoArguments),
     /// Turn a recording of wrenches or volts into contacts, slip and a report
     Analyze(AnalyzeArguments),
+    /// Record a real or simulated sensor into a CSV or MCAP file
+    Record(RecordArguments),
+    /// Watch a sensor, a simulation or a recording in the terminal: forces, contact, slip
+    Live(LiveArguments),
+    /// Convert a recording from CSV to MCAP or back
+    Convert(ConvertArguments),
+    /// Serve a simulated fingertip over the protocol of a real sensor
+    Simulate(SimulateArguments),
     /// Design a sensor: from wanted ranges and size to a layout of gauges and the accuracy to expect
     Design(DesignArguments),
     /// Fit a sensor to known loads, or a payload to poses, and say how good that is

@@ -76,6 +76,24 @@ pub(crate) enum CliError {
     /// No sensor for what is wanted.
     #[error("no such sensor: {message}")]
     Design { message: String },
+    /// An MCAP file cannot be used.
+    #[error("{path}: {message}", path = .path.display())]
+    Mcap { path: PathBuf, message: String },
+    /// A file of another kind.
+    #[error("{path} is neither .csv nor .mcap; give it one of these endings", path = .path.display())]
+    UnknownEnding { path: PathBuf },
+    /// What was to be converted cannot be.
+    #[error("cannot convert {path}: {message}", path = .path.display())]
+    Convert { path: PathBuf, message: String },
+    /// A sensor cannot be reached, or was lost.
+    #[error("{address}: {message}")]
+    Sensor { address: String, message: String },
+    /// The simulated sensor cannot be served.
+    #[error("cannot simulate: {message}")]
+    Simulate { message: String },
+    /// The terminal does not do what a live view needs.
+    #[error("terminal: {0}; `fingertip live` needs a terminal, `fingertip record` does not")]
+    Terminal(io::Error),
     /// Whoever read our standard output has gone: not a fault.
     #[error("the reader of the standard output has closed it")]
     ClosedPipe,

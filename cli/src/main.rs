@@ -1,20 +1,29 @@
 //! The `fingertip` command: what the crates do, from files to files.
 #![doc = include_str!("../README.md")]
 
+extern crate alloc;
+
 mod analyze;
 mod args;
 mod calibrate;
+mod convert;
 mod demo;
 mod design;
 mod error;
+mod felt;
 mod geometry;
+mod live;
 mod motion;
 mod observe;
 mod plan;
+mod record;
 mod refine;
 mod report;
 mod scene;
+mod sensor;
+mod serve;
 mod shape;
+mod stop;
 mod summary;
 mod table;
 
@@ -29,6 +38,10 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Analyze(arguments) => analyze::run(&arguments),
+        Command::Record(arguments) => record::run(&arguments),
+        Command::Live(arguments) => live::run(&arguments),
+        Command::Convert(arguments) => convert::run(&arguments),
+        Command::Simulate(arguments) => serve::run(&arguments),
         Command::Design(arguments) => design::run(&arguments),
         Command::Calibrate(arguments) => calibrate::calibrate(&arguments),
         Command::Check(arguments) => calibrate::check::run(&arguments),

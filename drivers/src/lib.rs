@@ -1,7 +1,7 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![doc = include_str!("../README.md")]
 
-#[cfg(any(feature = "simulation", feature = "mcap"))]
+#[cfg(any(feature = "simulation", feature = "mcap", all(feature = "schunk-fts", feature = "std")))]
 extern crate alloc;
 
 #[cfg(feature = "ads1256")]

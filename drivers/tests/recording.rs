@@ -3,8 +3,11 @@
 #![cfg(feature = "std")]
 
 use fingertip_drivers::recording::{
-    Quality, ReaderOptions, RecordingError, RecordingReader, RecordingWriter, Schema, SignalUnit,
+    ContactCells, Quality, ReaderOptions, RecordingError, RecordingReader, RecordingWriter, Schema,
+    SignalUnit,
 };
+use fingertip_wrench::Wrench;
+use nalgebra::Vector3;
 use proptest::prelude::*;
 
 const WRENCH: &str = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n";
@@ -350,4 +353,40 @@ proptest! {
     fn any_header_gives_a_layout_or_a_reason(header in "[a-zA-Z0-9_ ,()µ·.\\-]{0,80}") {
         let _ = RecordingReader::new("test.csv", header.as_bytes());
     }
+}
+
+#[test]
+fn contacts_are_read_as_they_were_written() {
+    let wrench = Wrench::on_fingertip(Vector3::new(0.25, -0.5, -2.0), Vector3::new(0.0, 0.0, 1e-3));
+    let contact = ContactCells {
+        position: Vector3::new(1e-3, 2e-3, 13e-3),
+        normal: Vector3::new(0.0, 0.6, 0.8),
+        wrench,
+    };
+    let schema = Schema::default().time().wrench("").contact();
+    let mut writer = RecordingWriter::new(Vec::new(), &schema).unwrap();
+    for (time, contact) in [(0.0, None), (0.5, Some(contact))] {
+        let cells = contact.map_or([f64::NAN; 12], |contact: ContactCells| contact.cells());
+        let load = wrench.components();
+        writer.write([time].into_iter().chain(load.iter().copied()).chain(cells)).unwrap();
+    }
+    let file = writer.finish().unwrap();
+    let mut reader = RecordingReader::new("contacts.csv", file.as_slice()).unwrap();
+    // The columns of a contact are those of no other sensor.
+    let sensor = reader.layout().only_wrench().unwrap().clone();
+    let columns = *reader.layout().contacts().unwrap();
+    assert_eq!(reader.layout().ignored().count(), 0);
+    let mut seen = Vec::new();
+    while let Some(row) = reader.next_row().unwrap() {
+        assert_eq!(row.wrench(&sensor), Some(wrench));
+        seen.push(row.contact(&columns));
+    }
+    assert_eq!(seen, [None, Some(contact)]);
+    // No contact is no fault of the file.
+    assert!(reader.quality().is_clean());
+    // Some of the columns alone mean nothing, and are none of a wrench.
+    let part = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,contact_x_m,contact_load_x_N\n0,0,0,0,0,0,0,,\n";
+    let reader = RecordingReader::new("part.csv", part.as_bytes()).unwrap();
+    assert!(reader.layout().contacts().is_none() && reader.layout().only_wrench().is_ok());
+    assert_eq!(reader.layout().ignored().collect::<Vec<_>>(), ["contact_x_m", "contact_load_x_N"]);
 }

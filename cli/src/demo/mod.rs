@@ -130,7 +130,7 @@ fn play(arguments: &DemoArguments) -> Result<Outcome, CliError> {
 }
 
 /// The friction coefficient that is safe for every drag of the script.
-fn least_static_coefficient(simulated: &SimulatedFingertip) -> Option<f64> {
+pub(crate) fn least_static_coefficient(simulated: &SimulatedFingertip) -> Option<f64> {
     let drags = simulated.phases().iter().filter_map(|phase| match phase.segment {
         Segment::Drag { static_coefficient, .. } => Some(static_coefficient),
         _ => None,

@@ -2,6 +2,7 @@
 //!
 //! Format, units and defaults are documented in `examples/scenes/README.md`, and nowhere else.
 
+mod simulated;
 mod stages;
 mod surface;
 
@@ -101,6 +102,11 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
+    /// Reads and checks a scene; `sim` is that of the simulated fingertip, unless there is a file of this name.
+    pub(crate) fn load_or_simulated(path: &Path) -> Result<Self, CliError> {
+        if path == Path::new("sim") && !path.exists() { simulated::scene() } else { Self::load(path) }
+    }
+
     /// Reads and checks a scene.
     pub(crate) fn load(path: &Path) -> Result<Self, CliError> {
         let text = fs::read_to_string(path).map_err(|source| CliError::read("scene", path, source))?;

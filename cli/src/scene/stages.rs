@@ -126,6 +126,11 @@ impl SlipWatch {
 }
 
 impl SlipWatch {
+    /// Watches for sudden falls of the friction ratio.
+    pub(super) const fn falls(detector: DropDetector<f64>) -> Self {
+        Self::Drop(detector)
+    }
+
     /// Whether anything is watched for.
     pub(crate) const fn is_on(&self) -> bool {
         !matches!(self, Self::Off)

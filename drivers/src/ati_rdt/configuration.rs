@@ -74,6 +74,20 @@ impl Configuration {
         Ok(Self { counts_per_newton, counts_per_newton_metre, rate })
     }
 
+    /// A page that says this, in newtons and newton metres, with the head of the HTTP answer: what a
+    /// simulated sensor serves.
+    #[must_use]
+    pub fn page(&self) -> String {
+        let Self { counts_per_newton, counts_per_newton_metre, rate } = self;
+        let rate = rate.map_or_else(String::new, |rate| format!("<comrdtrate>{rate}</comrdtrate>"));
+        format!(
+            "HTTP/1.0 200 OK\r\nContent-Type: text/xml\r\nConnection: close\r\n\r\n<?xml version=\"1.0\" \
+             encoding=\"iso-8859-1\"?>\n<netft><prodname>simulated fingertip</prodname><scfgfu>N</scfgfu>\
+             <scfgtu>Nm</scfgtu><cfgcpf>{counts_per_newton}</cfgcpf><cfgcpt>{counts_per_newton_metre}</cfgcpt>\
+             {rate}</netft>\n"
+        )
+    }
+
     /// For a receiver or client.
     ///
     /// # Errors
@@ -152,6 +166,15 @@ mod tests {
         assert!(said("1000000", "NaN").contains("no number"));
         let without_rate = Configuration::parse(&PAGE.replace("comrdtrate", "x")).unwrap();
         assert_eq!(without_rate.rate, None);
+    }
+
+    #[test]
+    fn a_page_says_what_it_is_made_of() {
+        let configuration =
+            Configuration { counts_per_newton: 1e6, counts_per_newton_metre: 12_345.5, rate: Some(500.0) };
+        assert_eq!(Configuration::parse(&configuration.page()), Ok(configuration));
+        let unrated = Configuration { rate: None, ..configuration };
+        assert_eq!(Configuration::parse(&unrated.page()), Ok(unrated));
     }
 
     proptest! {

@@ -99,6 +99,12 @@ impl SimulatedNetFt {
         self.link.send(&record.emit());
     }
 
+    /// Number of the newest record. It counts those that the link then lost, too.
+    #[must_use]
+    pub const fn rdt_sequence(&self) -> u32 {
+        self.rdt_sequence
+    }
+
     /// The next datagram on the link.
     pub fn datagram(&mut self) -> Option<Vec<u8>> {
         self.link.receive()
@@ -121,7 +127,7 @@ pub struct RdtServer {
 
 impl RdtServer {
     /// Serves on an address (port 0 for any free one; the loopback interface unless you know what
-    /// you do). `load` gives the counts of each sample by its number; one is sent every `period`.
+    /// you do). `load` gives the counts of each sample by its number, which begins anew with each client; one is sent every `period`.
     ///
     /// # Errors
     /// If the address cannot be had.
@@ -145,7 +151,9 @@ impl RdtServer {
                 // The device serves one client: whoever asked last.
                 while let Ok((length, from)) = socket.recv_from(&mut bytes) {
                     sensor.request(bytes.get(..length).unwrap_or_default());
-                    client = Some(from);
+                    if client.replace(from) != Some(from) {
+                        number = 0;
+                    }
                 }
                 let now = Instant::now();
                 if now < next {

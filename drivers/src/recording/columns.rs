@@ -1,5 +1,8 @@
 //! The columns that belong to one sensor.
 
+use fingertip_wrench::Wrench;
+use nalgebra::Vector3;
+
 use super::error::HeaderProblem;
 use super::unit::SignalUnit;
 
@@ -24,6 +27,62 @@ pub struct SignalColumns {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NumberColumn {
     pub(super) slot: usize,
+}
+
+/// The columns of the contacts. Found by a [`Layout`](super::Layout), used on its rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ContactColumns {
+    pub(super) slots: [usize; CONTACT_COLUMNS.len()],
+}
+
+/// Names of the columns of a contact. In a row without contact their cells are empty.
+pub(super) const CONTACT_COLUMNS: [&str; 12] = [
+    "contact_x_m",
+    "contact_y_m",
+    "contact_z_m",
+    "contact_nx",
+    "contact_ny",
+    "contact_nz",
+    "contact_load_x_N",
+    "contact_load_y_N",
+    "contact_load_z_N",
+    "contact_spin_x_Nm",
+    "contact_spin_y_Nm",
+    "contact_spin_z_Nm",
+];
+
+/// A contact in a row of a recording, in the frame of the sensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactCells {
+    /// The contact point \[m\].
+    pub position: Vector3<f64>,
+    /// The outward normal.
+    pub normal: Vector3<f64>,
+    /// The load at the contact point: its force, and the spin torque as a vector.
+    pub wrench: Wrench<f64>,
+}
+
+impl ContactCells {
+    /// The numbers in the order of the columns.
+    #[must_use]
+    pub fn cells(&self) -> [f64; 12] {
+        let Self { position, normal, wrench } = self;
+        let (mut cells, load) = ([0.0; 12], wrench.components());
+        let numbers = position.iter().chain(normal).chain(load.iter()).copied();
+        for (cell, number) in cells.iter_mut().zip(numbers) {
+            *cell = number;
+        }
+        cells
+    }
+
+    pub(super) fn from_cells(cells: [f64; 12]) -> Option<Self> {
+        if !cells.iter().all(|cell| cell.is_finite()) {
+            return None;
+        }
+        let [x, y, z, nx, ny, nz, wrench @ ..] = cells;
+        let (position, normal) = (Vector3::new(x, y, z), Vector3::new(nx, ny, nz));
+        Some(Self { position, normal, wrench: Wrench::from_components(&wrench.into()) })
+    }
 }
 
 impl WrenchColumns {

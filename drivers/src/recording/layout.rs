@@ -3,7 +3,7 @@
 use fingertip_wrench::units::{ForceUnit, TorqueUnit};
 
 use super::column_name::{ColumnName, Meaning};
-use super::columns::{SignalColumns, WrenchColumns, of_sensor};
+use super::columns::{CONTACT_COLUMNS, ContactColumns, SignalColumns, WrenchColumns, of_sensor};
 use super::error::HeaderProblem;
 use super::unit::SignalUnit;
 
@@ -33,6 +33,7 @@ pub struct Layout {
     pub(super) time: Option<UsedColumn>,
     wrenches: Vec<WrenchColumns>,
     signals: Vec<SignalColumns>,
+    contacts: Option<ContactColumns>,
     left_out: Vec<LeftOut>,
 }
 
@@ -41,6 +42,8 @@ pub struct Layout {
 pub(super) struct UsedColumn {
     pub(super) column: usize,
     pub(super) scale: f64,
+    /// Whether an empty cell is as good as a number.
+    pub(super) optional: bool,
 }
 
 impl Layout {
@@ -59,6 +62,7 @@ impl Layout {
             time: None,
             wrenches: Vec::new(),
             signals: Vec::new(),
+            contacts: None,
             left_out: Vec::new(),
         };
         layout.find_time(&parsed)?;
@@ -68,6 +72,7 @@ impl Layout {
                 sensors.push(&column.sensor);
             }
         }
+        layout.find_contacts();
         for sensor in sensors {
             layout.find_wrench(sensor, &parsed, assumed)?;
             layout.find_signals(sensor, &parsed)?;
@@ -96,12 +101,24 @@ impl Layout {
                     let example = format!("{}_s", self.name(column));
                     return Err(HeaderProblem::MissingUnit { column: self.name(column), example });
                 };
-                if let Some(first) = self.time.replace(UsedColumn { column, scale }) {
+                if let Some(first) = self.time.replace(UsedColumn { column, scale, optional: false }) {
                     return Err(self.duplicate(first.column, column));
                 }
             }
         }
         Ok(())
+    }
+
+    /// All columns of a contact, or none: some of them alone mean something else.
+    fn find_contacts(&mut self) {
+        let place = |name| self.columns.iter().position(|column| column.eq_ignore_ascii_case(name));
+        let found: Vec<usize> = CONTACT_COLUMNS.into_iter().filter_map(place).collect();
+        let Ok(mut slots) = <[usize; CONTACT_COLUMNS.len()]>::try_from(found) else { return };
+        for slot in &mut slots {
+            self.used.push(UsedColumn { column: *slot, scale: 1.0, optional: true });
+            *slot = self.used.len() - 1;
+        }
+        self.contacts = Some(ContactColumns { slots });
     }
 
     fn find_wrench(
@@ -125,7 +142,9 @@ impl Layout {
                 let example = format!("{}_{unit}", self.name(column));
                 problem = Some(HeaderProblem::MissingUnit { column: self.name(column), example });
             }
-            if let Some(first) = place.replace(UsedColumn { column, scale: scale.unwrap_or(1.0) }) {
+            if let Some(first) =
+                place.replace(UsedColumn { column, scale: scale.unwrap_or(1.0), optional: false })
+            {
                 return Err(self.duplicate(first.column, column));
             }
         }
@@ -163,10 +182,12 @@ impl Layout {
                     if let Some((.., first)) = found.iter().find(|(known, ..)| *known == number) {
                         return Err(self.duplicate(first.column, column));
                     }
-                    found.push((number, unit, UsedColumn { column, scale }));
+                    found.push((number, unit, UsedColumn { column, scale, optional: false }));
                 }
                 Meaning::Dummy(unit, scale) => {
-                    if let Some((_, first)) = dummy.replace((unit, UsedColumn { column, scale })) {
+                    if let Some((_, first)) =
+                        dummy.replace((unit, UsedColumn { column, scale, optional: false }))
+                    {
                         return Err(self.duplicate(first.column, column));
                     }
                 }
@@ -222,6 +243,12 @@ impl Layout {
     #[must_use]
     pub fn signals(&self) -> &[SignalColumns] {
         &self.signals
+    }
+
+    /// The contacts, if the file has them.
+    #[must_use]
+    pub const fn contacts(&self) -> Option<&ContactColumns> {
+        self.contacts.as_ref()
     }
 
     /// Sensors whose columns are incomplete or without units.

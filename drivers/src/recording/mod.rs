@@ -9,6 +9,7 @@
 //! | `tx_Nm` … `tz_Nm` (or `mx` …) | torque | `Nm`, `Nmm`, `mNm`, `Ncm`, `kNm`, `lbf-in`, `lbf-ft`, `kgf-m`, `kgf-cm`, `gf-cm` |
 //! | `v1_V` … `vN_V` (or `v0`, `s1`, `ch1`, `gauge1`) | signals | `V`, `mV`, `uV`, `counts` (`raw`, `lsb`, `adc`); none: taken as they are |
 //! | `dummy_V` | the unloaded seventh gauge | as signals |
+//! | `contact_x_m` …, `contact_nx` …, `contact_load_x_N` …, `contact_spin_x_Nm` … | a contact: point, outward normal, force, spin torque; empty where there is none | only these |
 //!
 //! Case does not matter, and `fx (N)`, `Fx[N]`, `force_x_N` are read as `fx_N`. What else stands in
 //! a name tells sensors apart: `S1_Fx_N`, `S2_Fx_N`, `Fx_meas_N` belong to the sensors `s1`, `s2`
@@ -50,7 +51,7 @@ mod time_watch;
 mod unit;
 mod writer;
 
-pub use columns::{NumberColumn, SignalColumns, WrenchColumns};
+pub use columns::{ContactCells, ContactColumns, NumberColumn, SignalColumns, WrenchColumns};
 pub use error::{HeaderProblem, RecordingError};
 pub use fingertip_wrench::units::{ForceUnit, TorqueUnit};
 pub use layout::{AssumedUnits, Layout, LeftOut};

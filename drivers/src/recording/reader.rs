@@ -164,7 +164,7 @@ impl<R: Read> RecordingReader<R> {
     /// ```
     pub fn watch(&mut self, name: &str) -> Option<NumberColumn> {
         let column = self.layout.columns().iter().position(|column| column.eq_ignore_ascii_case(name))?;
-        self.layout.used.push(UsedColumn { column, scale: 1.0 });
+        self.layout.used.push(UsedColumn { column, scale: 1.0, optional: false });
         self.values.push(f64::NAN);
         self.last_values.push(f64::NAN);
         Some(NumberColumn { slot: self.values.len() - 1 })
@@ -231,6 +231,7 @@ impl<R: Read> RecordingReader<R> {
         for ((used, value), last) in self.layout.used.iter().zip(&mut self.values).zip(&self.last_values) {
             *value = match Cell::read(&self.record, *used) {
                 Cell::Number(number) => number,
+                Cell::Empty if used.optional => f64::NAN,
                 bad => {
                     any_bad = true;
                     bad.count(self.line, &mut marks, &mut self.quality).ok_or_else(|| {

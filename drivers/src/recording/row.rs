@@ -3,7 +3,7 @@
 use fingertip_wrench::Wrench;
 use nalgebra::{SVector, Vector3};
 
-use super::columns::{NumberColumn, SignalColumns, WrenchColumns};
+use super::columns::{ContactCells, ContactColumns, NumberColumn, SignalColumns, WrenchColumns};
 
 /// What is remarkable about a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -119,10 +119,23 @@ impl Row<'_> {
         (self.is_usable() && value.is_finite()).then_some(value)
     }
 
+    /// The contact. `None` where there is none, and if the row is unusable or a number is missing.
+    #[must_use]
+    pub fn contact(&self, columns: &ContactColumns) -> Option<ContactCells> {
+        let cells = columns.slots.map(|slot| self.value(slot));
+        ContactCells::from_cells(cells).filter(|_| self.is_usable())
+    }
+
     /// The numbers of a wrench whatever is wrong with the row; NaN where one is missing.
     #[must_use]
     pub fn unchecked_components(&self, sensor: &WrenchColumns) -> [f64; 6] {
         sensor.slots.map(|slot| self.value(slot))
+    }
+
+    /// The numbers of the signals whatever is wrong with the row, then that of the dummy gauge if there is
+    /// one; NaN where one is missing.
+    pub fn unchecked_signals(&self, sensor: &SignalColumns) -> impl Iterator<Item = f64> {
+        sensor.slots.iter().chain(&sensor.dummy).map(|slot| self.value(*slot))
     }
 
     #[inline]

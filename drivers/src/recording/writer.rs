@@ -5,6 +5,7 @@ use std::io::Write;
 
 use fingertip_wrench::Wrench;
 
+use super::columns::CONTACT_COLUMNS;
 use super::error::RecordingError;
 use super::unit::SignalUnit;
 
@@ -47,6 +48,12 @@ impl Schema {
     /// Adds the dummy gauge of a sensor.
     pub fn dummy(self, sensor: &str, unit: SignalUnit) -> Self {
         self.column(&prefixed(sensor, &format!("dummy{}", unit.suffix())))
+    }
+
+    /// Adds the columns of a contact: write [`ContactCells::cells`](super::ContactCells::cells), or NaN
+    /// where there is none.
+    pub fn contact(self) -> Self {
+        CONTACT_COLUMNS.into_iter().fold(self, |schema, name| schema.column(name))
     }
 
     /// Adds a column of another meaning, with the unit in its name; commas, quotes and line ends

@@ -118,6 +118,14 @@ impl Request {
         })
     }
 
+    /// Reads a frame on a serial line; `None` if its marks or its sum are wrong, or the request is not known
+    /// here.
+    #[must_use]
+    pub fn parse_serial(bytes: &[u8; Self::SERIAL_LENGTH]) -> Option<Self> {
+        let [START, data @ .., checksum, END] = bytes else { return None };
+        (sum(data) == *checksum).then(|| Self::parse(data)).flatten()
+    }
+
     /// The data of a CAN frame.
     #[must_use]
     pub const fn emit(self) -> [u8; Self::LENGTH] {
@@ -168,6 +176,12 @@ mod tests {
     fn bytes_are_those_of_the_published_examples() {
         assert_eq!(Request::Stream.emit_serial(), [0x55, 0x0B, 0, 0, 0, 0, 0, 0, 0, 0x0B, 0xAA]);
         assert_eq!(Request::Bias { set: true }.emit_serial(), [0x55, 0x11, 1, 0, 0, 0, 0, 0, 0, 0x12, 0xAA]);
+        for request in [Request::Single, Request::Stream, Request::Stop, Request::Bias { set: false }] {
+            let mut bytes = request.emit_serial();
+            assert_eq!(Request::parse_serial(&bytes), Some(request));
+            bytes[3] ^= 1;
+            assert_eq!(Request::parse_serial(&bytes), None);
+        }
         let reading = Reading { streamed: true, counts: [1, -1, 256, 0, 0, -2], overload: 3 };
         let expected = [0x55, 0x0B, 0, 1, 255, 255, 1, 0, 0, 0, 0, 0, 255, 254, 3, 0, 0, 0x0B, 0xAA];
         assert_eq!(reading.emit_serial()[..17], expected[..17]);

@@ -81,6 +81,8 @@ pub struct FtsClient {
     /// Whether the datagram at hand is news.
     news: bool,
     waits: bool,
+    /// Time between samples \[s\], where that was stated.
+    period: Option<f64>,
 }
 
 impl FtsClient {
@@ -116,9 +118,18 @@ impl FtsClient {
             given: 0,
             news: false,
             waits: true,
+            period: None,
         };
         client.command(Command::StartUdp)?;
         Ok(client)
+    }
+
+    /// States the sensor's rate \[samples/s\], so that samples have a time: that of the sensor's count of
+    /// datagrams, the lost ones included.
+    #[must_use]
+    pub fn timed_by(mut self, rate: f64) -> Self {
+        self.period = (rate > 0.0 && rate.is_finite()).then(|| rate.recip());
+        self
     }
 
     /// Takes the present load as zero, in the sensor. Collect a [`Tare`](fingertip_wrench::Tare) instead where
@@ -199,9 +210,13 @@ impl FtsClient {
         loop {
             let bytes = self.datagram.get(..self.length).unwrap_or_default();
             let sample = Packet::new_checked(bytes).ok().filter(|_| self.news);
+            let count = sample.map_or(0, |packet| packet.samples().count());
             if let Some(sample) = sample.and_then(|packet| packet.samples().nth(self.given)) {
+                let number = self.receiver.index() * count as u64 + self.given as u64;
                 self.given += 1;
-                return Ok(Sample { time: None, value: FtsReceiver::wrench(&sample)? });
+                #[expect(clippy::cast_precision_loss, reason = "exact for 10^15 samples")]
+                let time = self.period.map(|period| T::literal(period * number as f64));
+                return Ok(Sample { time, value: FtsReceiver::wrench(&sample)? });
             }
             self.receive()?;
         }
@@ -219,7 +234,7 @@ impl ErrorType for FtsClient {
     type Error = FtsClientError;
 }
 
-/// Samples have no time: the sensor sends none, and its rate is a setting that the client does not know.
+/// The sensor sends no time: samples have one only if its rate is stated, by [`timed_by`](FtsClient::timed_by).
 impl<T: Real> WrenchSource<T> for FtsClient {
     fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, FtsClientError> {
         self.wait(true)?;

@@ -33,10 +33,10 @@ impl FtsReceiver {
     /// Takes a datagram. `None` for one that is late, repeated or of doubtful number: it is counted, and
     /// never given as if it were news. The counter has 16 bits: after a pause of more than 32 767
     /// datagrams, news can look late.
-    pub fn accept<T: Real>(
+    pub fn accept<'p, T: Real>(
         &mut self,
-        packet: &Packet<'_>,
-    ) -> Option<impl ExactSizeIterator<Item = Result<Wrench<T>, FtsFault>>> {
+        packet: &Packet<'p>,
+    ) -> Option<impl ExactSizeIterator<Item = Result<Wrench<T>, FtsFault>> + use<'p, T>> {
         let number = self.unwrap(packet.counter());
         let arrival = self.watch.arrive(number);
         if arrival.is_news() {

@@ -142,7 +142,7 @@ impl<'a> Packet<'a> {
     }
 
     /// The samples, the oldest first.
-    pub fn samples(&self) -> impl ExactSizeIterator<Item = FtsSample> + 'a {
+    pub fn samples(&self) -> impl ExactSizeIterator<Item = FtsSample> + use<'a> {
         self.samples.iter().map(FtsSample::parse)
     }
 }

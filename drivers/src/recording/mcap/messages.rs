@@ -21,7 +21,13 @@ impl Header {
     /// The stamp \[s\].
     #[must_use]
     pub fn time(&self) -> f64 {
-        f64::from(self.seconds) + f64::from(self.nanoseconds) * 1e-9
+        let nanoseconds = i64::from(self.seconds) * 1_000_000_000 + i64::from(self.nanoseconds);
+        if nanoseconds.unsigned_abs() < 1 << f64::MANTISSA_DIGITS {
+            // Exact until it is divided: the number that is nearest to the stamp.
+            #[allow(clippy::cast_precision_loss, reason = "checked to be none")]
+            return nanoseconds as f64 / 1e9;
+        }
+        f64::from(self.seconds) + f64::from(self.nanoseconds) / 1e9
     }
 
     /// The stamp of a time \[s\], rounded to nanoseconds; `None` unless it is from 0 to 2147483647 s.

@@ -1,0 +1,109 @@
+//! `fingertip convert`: recordings from CSV to MCAP and back.
+
+mod from_csv;
+mod from_mcap;
+
+use core::fmt::Display;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::error::CliError;
+use crate::record::output::Kind;
+use crate::table::count;
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+CSV holds one row for each time, MCAP one message for each sensor and time:
+  fx_N … tz_Nm                       /fingertip/wrench, geometry_msgs/msg/WrenchStamped
+  v1_V …                             /fingertip/signals, fingertip_msgs/msg/Signals
+  dummy_V                            /fingertip/dummy, the same
+  contact_x_m … contact_spin_z_Nm    /fingertip/contact, tactile_msgs/msg/TactileContact
+A sensor NAME (columns NAME_fx_N …) has the topics /fingertip/NAME/wrench and so on. Whatever the other
+format cannot hold is counted and named at the end.")]
+pub(crate) struct ConvertArguments {
+    /// The recording to read: .csv or .mcap
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+    /// The recording to write: .mcap or .csv
+    #[arg(value_name = "OUT")]
+    pub(crate) output: PathBuf,
+    /// Samples per second of a CSV file that has no column of time
+    #[arg(long, value_name = "HZ")]
+    pub(crate) rate: Option<f64>,
+    /// Write over a file that exists
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// What was converted, and what was not.
+#[derive(Clone, Debug, Default)]
+struct Account {
+    written: Vec<(&'static str, u64)>,
+    lost: Vec<String>,
+    notes: Vec<String>,
+}
+
+impl Account {
+    fn written(&mut self, what: &'static str, number: u64) {
+        if number > 0 {
+            self.written.push((what, number));
+        }
+    }
+
+    /// Says that something was lost so many times, if it was.
+    fn lost(&mut self, number: u64, what: impl Display) {
+        if number > 0 {
+            self.lost.push(format!("{} {what}", count(number)));
+        }
+    }
+}
+
+pub(crate) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
+    let ConvertArguments { input, output, .. } = arguments;
+    if let (Ok(from), Ok(to)) = (fs::canonicalize(input), fs::canonicalize(output))
+        && from == to
+    {
+        return Err(CliError::WouldOverwrite { what: "recording", path: output.clone() });
+    }
+    if let Some(rate) = arguments.rate
+        && !(rate > 0.0 && rate.is_finite())
+    {
+        return Err(fault(input, "--rate must be above 0"));
+    }
+    let existed = output.exists();
+    let converted = match (Kind::of(input)?, Kind::of(output)?) {
+        (Kind::Csv, Kind::Mcap) => from_csv::convert(arguments),
+        (Kind::Mcap, Kind::Csv) => from_mcap::convert(arguments),
+        _ => Err(fault(input, "input and output are of the same kind; one must be .csv and the other .mcap")),
+    };
+    if converted.is_err() && !existed {
+        // Half a file would be taken for a whole one. That it is not there is as good.
+        let _ = fs::remove_file(output);
+    }
+    let account = converted?;
+    let mut text = String::new();
+    let written: Vec<String> =
+        account.written.iter().map(|(what, number)| format!("{} {what}", count(*number))).collect();
+    text.push_str(&format!("{} → {}: {}\n", input.display(), output.display(), written.join(", ")));
+    for note in &account.notes {
+        text.push_str(&format!("Note: {note}\n"));
+    }
+    match account.lost.as_slice() {
+        [] => text.push_str("Nothing was lost.\n"),
+        lost => text.push_str(&format!("Lost: {}\n", lost.join("; "))),
+    }
+    let mut stdout = io::stdout();
+    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
+}
+
+fn fault(path: &Path, message: impl Display) -> CliError {
+    CliError::Convert { path: path.to_owned(), message: message.to_string() }
+}
+
+/// The topic of a sensor's messages.
+fn topic(sensor: &str, what: &str) -> String {
+    if sensor.is_empty() { format!("/fingertip/{what}") } else { format!("/fingertip/{sensor}/{what}") }
+}

@@ -1,0 +1,136 @@
+//! The surface drawn flat, with the contact point and its uncertainty.
+
+use core::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use fingertip::surfaces::Contact;
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::style::{Color, Stylize};
+use ratatui::symbols::Marker;
+use ratatui::text::Line;
+use ratatui::widgets::Block;
+use ratatui::widgets::canvas::{Canvas, Circle, Context, Line as Stroke, Points, Rectangle};
+
+use super::state::State;
+use super::view::status;
+use crate::shape::{MapKind, Projection};
+use crate::table::number;
+
+/// Fewer rows show nothing.
+pub(super) const LEAST_HEIGHT: u16 = 6;
+/// Corners of the ellipse.
+const CORNERS: u32 = 32;
+/// Half the width of the map of a plane, if nothing is farther out \[mm\].
+const PLANE: f64 = 10.0;
+
+pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
+    let Some(projection) = &state.projection else { return };
+    if area.height < LEAST_HEIGHT || area.width < 8 {
+        return;
+    }
+    let contact = state.touch.as_ref().and_then(|touch| touch.resolution.contact());
+    let [right, up] = projection.names();
+    let block = Block::bordered()
+        .title(format!("Contact ({right} right, {up} up)"))
+        .title_bottom(Line::from(said(state, contact)));
+    let inner = block.inner(area);
+    // Dots of a cell: two by four, and as wide as high.
+    let (wide, high) = (f64::from(inner.width.max(1)) * 2.0, f64::from(inner.height.max(1)) * 4.0);
+    let (half_width, half_height) = extent(projection, state);
+    let dot = (2.0 * half_width / wide).max(2.0 * half_height / high) * 1.05;
+    let (x, y) = (dot * wide / 2.0, dot * high / 2.0);
+    let canvas = Canvas::default()
+        .block(block)
+        .marker(Marker::Braille)
+        .x_bounds([-x, x])
+        .y_bounds([-y, y])
+        .paint(|canvas| paint(canvas, projection, state, contact));
+    frame.render_widget(canvas, area);
+}
+
+/// Where the contact is, or why there is none.
+fn said(state: &State, contact: Option<&Contact<f64>>) -> String {
+    let Some(contact) = contact else { return status(state).to_owned() };
+    let [x, y, z] = (contact.point * 1e3).into();
+    let within = state.ellipse.map_or_else(String::new, |ellipse| {
+        let [longer, _] = ellipse.semi_axes;
+        format!(" ±{} (95 %)", number(longer * 1e3))
+    });
+    format!("at {x:.1}, {y:.1}, {z:.1} mm{within}")
+}
+
+/// Half the width and height of what is to be seen, in units of the map.
+fn extent(projection: &Projection, state: &State) -> (f64, f64) {
+    let farthest = |pick: fn(&(f64, f64)) -> f64| {
+        state.trail.iter().map(|place| pick(place).abs()).filter(|far| far.is_finite()).fold(0.0, f64::max)
+    };
+    match projection.kind() {
+        MapKind::Polar { rim } => {
+            let radius = edge(rim);
+            (radius, radius)
+        }
+        MapKind::Unrolled { radius, half_length } => {
+            (PI * radius, half_length.unwrap_or_else(|| farthest(|place| place.1).max(PI * radius / 2.0)))
+        }
+        MapKind::Flat => {
+            let far = farthest(|place| place.0).max(farthest(|place| place.1)).max(PLANE);
+            (far, far)
+        }
+    }
+}
+
+/// Radius of the active region on the map of a sphere.
+fn edge(rim: Option<f64>) -> f64 {
+    2.0 * (0.5 * rim.unwrap_or(PI)).sin()
+}
+
+fn paint(canvas: &mut Context<'_>, projection: &Projection, state: &State, contact: Option<&Contact<f64>>) {
+    match projection.kind() {
+        MapKind::Polar { rim } => {
+            let equator = 2.0 * (0.5 * FRAC_PI_2).sin();
+            canvas.draw(&Circle { x: 0.0, y: 0.0, radius: edge(rim), color: Color::Gray });
+            if edge(rim) > equator {
+                canvas.draw(&Circle { x: 0.0, y: 0.0, radius: equator, color: Color::DarkGray });
+            }
+        }
+        MapKind::Unrolled { radius, half_length } => {
+            let half = half_length.unwrap_or_else(|| extent(projection, state).1);
+            canvas.draw(&Rectangle {
+                x: -PI * radius,
+                y: -half,
+                width: TAU * radius,
+                height: 2.0 * half,
+                color: Color::Gray,
+            });
+        }
+        MapKind::Flat => {
+            let (far, _) = extent(projection, state);
+            let cross = [(-far, 0.0, far, 0.0), (0.0, -far, 0.0, far)];
+            for (x1, y1, x2, y2) in cross {
+                canvas.draw(&Stroke { x1, y1, x2, y2, color: Color::DarkGray });
+            }
+        }
+    }
+    let trail: Vec<(f64, f64)> = state.trail.iter().copied().collect();
+    canvas.draw(&Points { coords: &trail, color: Color::Blue });
+    let Some(contact) = contact else { return };
+    canvas.layer();
+    if let Some(ellipse) = state.ellipse {
+        let [a, b] = ellipse.semi_axes;
+        let [along, across] = ellipse.directions;
+        let corner = |index: u32| {
+            let angle = TAU * f64::from(index) / f64::from(CORNERS);
+            projection.project(&(contact.point + along * (a * angle.cos()) + across * (b * angle.sin())))
+        };
+        for index in 0..CORNERS {
+            let ((x1, y1), (x2, y2)) = (corner(index), corner(index + 1));
+            if [x1, y1, x2, y2].iter().all(|number| number.is_finite()) {
+                canvas.draw(&Stroke { x1, y1, x2, y2, color: Color::Cyan });
+            }
+        }
+    }
+    let (x, y) = projection.project(&contact.point);
+    if x.is_finite() && y.is_finite() {
+        canvas.print(x, y, Line::from("●").fg(Color::White).bold());
+    }
+}

@@ -1,0 +1,195 @@
+//! `fingertip live`: what a fingertip feels, in the terminal.
+
+pub(crate) mod args;
+mod forces;
+mod map;
+mod slip;
+mod state;
+mod view;
+
+use alloc::sync::Arc;
+use core::sync::atomic::{AtomicBool, Ordering};
+use core::time::Duration;
+use std::io::{self, IsTerminal};
+use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::Instant;
+
+use args::LiveArguments;
+use ratatui::DefaultTerminal;
+use ratatui::crossterm::event::{self, Event as Input, KeyCode, KeyEventKind, KeyModifiers};
+use state::{Health, State};
+
+use crate::error::CliError;
+use crate::felt::{Rest, SceneFeel};
+use crate::scene::Scene;
+use crate::sensor::{self, Event, Stream, StreamOptions};
+use crate::stop::Stop;
+
+/// How long a zero takes that is asked for by a key \[s\].
+const ZERO: f64 = 1.0;
+
+/// What the reader of samples and the view share.
+struct Shared {
+    state: Mutex<State>,
+    stop: Stop,
+    tare: AtomicBool,
+}
+
+impl Shared {
+    fn state(&self) -> MutexGuard<'_, State> {
+        // What a thread that died left is still good enough to be shown.
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
+    if !io::stdout().is_terminal() {
+        return Err(CliError::Terminal(io::Error::other("the standard output is none")));
+    }
+    let source = match &arguments.replay {
+        Some(path) => path.display().to_string(),
+        None => arguments.address.to_string(),
+    };
+    let fault = |message: String| CliError::Sensor { address: source.clone(), message };
+    if !(arguments.frames > 0.0 && arguments.frames <= 1000.0) {
+        return Err(fault(format!("--frames {} must be above 0, up to 1000", arguments.frames)));
+    }
+    if let Some(tare) = arguments.tare.filter(|tare| !(*tare > 0.0 && tare.is_finite())) {
+        return Err(fault(format!("--tare {tare} must be a number of seconds above 0")));
+    }
+    let simulated = arguments.replay.is_none() && arguments.address.is_simulated();
+    let scene = arguments.scene.clone().or_else(|| simulated.then(|| PathBuf::from("sim")));
+    let scene = scene.as_deref().map(Scene::load_or_simulated).transpose()?;
+
+    let mut state = State::new(source.clone());
+    if let Some(scene) = &scene {
+        state.projection = Some(scene.projection);
+        state.coefficient = scene.friction.coefficient();
+        state.watches_slip = scene.slip.is_on();
+    }
+    let rest = Rest::new(arguments.tare.or_else(|| scene.as_ref().and_then(|scene| scene.rest)));
+    let feel = scene.map(|scene| SceneFeel::new(scene, true));
+    // Before the terminal is taken, so that what is wrong is said in plain lines.
+    let stream = open(arguments)?;
+    let shared =
+        Arc::new(Shared { state: Mutex::new(state), stop: Stop::listen(), tare: AtomicBool::new(false) });
+    let reading = Arc::clone(&shared);
+    let reader = thread::Builder::new().name("samples".to_owned()).spawn(move || {
+        let read = read(&reading, stream, rest, feel);
+        if read.is_err() {
+            // The view ends with it, and it is said when the terminal is as it was.
+            reading.stop.ask();
+        }
+        read
+    });
+    let reader = reader.map_err(|error| fault(format!("no thread for its samples: {error}")))?;
+
+    let shown = ratatui::try_init().and_then(|terminal| show(terminal, &shared, arguments.frames));
+    ratatui::restore();
+    shared.stop.ask();
+    let read =
+        reader.join().unwrap_or_else(|_| Err("the reader of samples died; please report it".to_owned()));
+    shown.map_err(CliError::Terminal)?;
+    read.map_err(fault)
+}
+
+fn open(arguments: &LiveArguments) -> Result<Stream, CliError> {
+    let fault = |address: String| move |message| CliError::Sensor { address, message };
+    let silence = Duration::from_secs(2);
+    match &arguments.replay {
+        Some(path) => {
+            let mut first =
+                Some(sensor::replay(path, arguments.sensor.as_deref().unwrap_or(""), arguments.speed)?);
+            let again = move || first.take().ok_or_else(|| "the recording is over".to_owned());
+            let options = StreamOptions { silence, reconnect: false };
+            Stream::new(Box::new(again), options).map_err(fault(path.display().to_string()))
+        }
+        None => {
+            let address = arguments.address.clone();
+            let options = StreamOptions { silence, reconnect: !arguments.no_reconnect };
+            Stream::new(Box::new(move || sensor::open(&address)), options)
+                .map_err(fault(arguments.address.to_string()))
+        }
+    }
+}
+
+/// Takes samples until it is asked to end.
+fn read(
+    shared: &Shared,
+    mut stream: Stream,
+    mut rest: Rest,
+    mut feel: Option<SceneFeel>,
+) -> Result<(), String> {
+    while !shared.stop.is_asked() {
+        if shared.tare.swap(false, Ordering::Relaxed) {
+            rest = Rest::new(Some(ZERO));
+        }
+        match stream.next()? {
+            Event::Sample(time, reading) => match rest.take(time, &reading.wrench)? {
+                Some(wrench) => {
+                    let touch = match &mut feel {
+                        Some(feel) => feel.feel(time, &wrench)?,
+                        None => None,
+                    };
+                    let mut state = shared.state();
+                    state.sample(time, &wrench, touch, Instant::now());
+                    state.losses = stream.losses();
+                }
+                None => shared.state().health = Health::Resting,
+            },
+            Event::Fault(why) => {
+                let mut state = shared.state();
+                state.faults += 1;
+                state.last_fault = Some(why);
+                state.losses = stream.losses();
+            }
+            Event::Nothing => shared.state().reconnections = stream.reconnections(),
+            Event::Lost(why) => shared.state().health = Health::Lost(why),
+            Event::End => {
+                shared.state().health = Health::Ended;
+                return Ok(());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Draws until the user has seen enough.
+fn show(mut terminal: DefaultTerminal, shared: &Shared, frames: f64) -> io::Result<()> {
+    let period = Duration::from_secs_f64(1.0 / frames);
+    let mut held: Option<State> = None;
+    while !shared.stop.is_asked() {
+        let state = match &held {
+            Some(held) => held.clone(),
+            None => {
+                let mut state = shared.state();
+                state.refresh();
+                state.clone()
+            }
+        };
+        terminal.draw(|frame| view::draw(frame, &state, held.is_some()))?;
+        let next = Instant::now() + period;
+        loop {
+            let left = next.saturating_duration_since(Instant::now());
+            if !event::poll(left)? {
+                break;
+            }
+            match event::read()? {
+                Input::Key(key) if key.kind != KeyEventKind::Release => match key.code {
+                    KeyCode::Char('q') | KeyCode::Esc => return Ok(()),
+                    KeyCode::Char('c') if key.modifiers.contains(KeyModifiers::CONTROL) => return Ok(()),
+                    KeyCode::Char(' ') => held = if held.is_some() { None } else { Some(state.clone()) },
+                    KeyCode::Char('t') => shared.tare.store(true, Ordering::Relaxed),
+                    KeyCode::Char('r') => shared.state().forget(),
+                    _ => {}
+                },
+                // Drawn anew at once.
+                Input::Resize(..) => break,
+                _ => {}
+            }
+        }
+    }
+    Ok(())
+}

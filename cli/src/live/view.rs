@@ -1,0 +1,231 @@
+//! The picture as a whole, at any size.
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Color, Style, Stylize};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Paragraph;
+
+use super::state::{Health, State};
+use super::{forces, map, slip};
+use crate::observe::Status;
+use crate::table::{count, short};
+
+/// Below this the picture is one line.
+const LEAST: (u16, u16) = (28, 8);
+/// From this width on, the map stands beside the numbers.
+const WIDE: u16 = 72;
+
+pub(super) fn draw(frame: &mut Frame<'_>, state: &State, held: bool) {
+    let area = frame.area();
+    if area.width < LEAST.0 || area.height < LEAST.1 {
+        frame.render_widget(Paragraph::new(in_a_word(state)), area);
+        return;
+    }
+    let [head, body, link, keys] = Layout::vertical([
+        Constraint::Length(1),
+        Constraint::Min(0),
+        Constraint::Length(1),
+        Constraint::Length(1),
+    ])
+    .areas(area);
+    frame.render_widget(Paragraph::new(title(state, held)), head);
+    frame.render_widget(Paragraph::new(statistics(state)), link);
+    let help = "q ends  space holds  t zero (1 s)  r forgets trail and scale";
+    frame.render_widget(Paragraph::new(help).fg(Color::DarkGray), keys);
+    parts(frame, body, state);
+}
+
+fn parts(frame: &mut Frame<'_>, body: Rect, state: &State) {
+    let has_scene = state.projection.is_some();
+    let slip_height = if has_scene { slip::HEIGHT } else { 0 };
+    if body.width >= WIDE {
+        let numbers = if has_scene { Constraint::Percentage(50) } else { Constraint::Percentage(100) };
+        let [left, right] = Layout::horizontal([numbers, Constraint::Min(0)]).areas(body);
+        let [bars, light] =
+            Layout::vertical([Constraint::Min(forces::HEIGHT), Constraint::Length(slip_height)]).areas(left);
+        forces::draw(frame, bars, state);
+        slip::draw(frame, light, state);
+        map::draw(frame, right, state);
+    } else {
+        let spare = body.height.saturating_sub(forces::HEIGHT + slip_height);
+        // What is most wanted stays when there is no room: forces, then slip, then the map.
+        let map_height = if has_scene && spare >= map::LEAST_HEIGHT { spare } else { 0 };
+        let [bars, light, place] = Layout::vertical([
+            Constraint::Length(forces::HEIGHT),
+            Constraint::Length(slip_height),
+            Constraint::Length(map_height),
+        ])
+        .areas(body);
+        forces::draw(frame, bars, state);
+        slip::draw(frame, light, state);
+        map::draw(frame, place, state);
+    }
+}
+
+/// Whether there is a contact, or why not.
+pub(super) fn status(state: &State) -> &'static str {
+    match (&state.touch, &state.wrench) {
+        (Some(touch), _) => Status::of(&touch.resolution).meaning(),
+        (None, Some(_)) => "no scene",
+        (None, None) => "nothing yet",
+    }
+}
+
+fn in_a_word(state: &State) -> String {
+    match (&state.health, &state.wrench) {
+        (Health::Running | Health::Ended, Some(wrench)) => {
+            format!("{} N {}", short(wrench.force().norm()), status(state))
+        }
+        (health, _) => words(health).0.to_owned(),
+    }
+}
+
+fn words(health: &Health) -> (&str, Color) {
+    match health {
+        Health::Waiting => ("waiting for the first sample", Color::Yellow),
+        Health::Running => ("live", Color::Green),
+        Health::Resting => ("taking the zero: do not touch", Color::Yellow),
+        Health::Lost(_) => ("lost, connecting anew", Color::Red),
+        Health::Ended => ("the recording is over", Color::Cyan),
+    }
+}
+
+fn title(state: &State, held: bool) -> Line<'_> {
+    let (word, colour) = if held { ("held", Color::Yellow) } else { words(&state.health) };
+    let mut spans = vec![
+        Span::styled(format!(" {word} "), Style::new().fg(Color::Black).bg(colour)),
+        Span::raw(format!(" {} ", state.source)).bold(),
+    ];
+    if let Health::Lost(why) = &state.health {
+        spans.push(Span::raw(why.clone()).red());
+    }
+    Line::from(spans)
+}
+
+fn statistics(state: &State) -> Line<'_> {
+    let mut spans = vec![Span::raw(format!(
+        "{} samples/s, {} s, {}",
+        short(state.rate.round()),
+        short(state.time),
+        state.losses
+    ))];
+    if state.losses.lost.is_some_and(|lost| lost > 0) {
+        spans = spans.into_iter().map(Stylize::yellow).collect();
+    }
+    if state.reconnections > 0 {
+        spans.push(Span::raw(format!(", connected anew {} times", count(state.reconnections))).yellow());
+    }
+    if state.faults > 0 {
+        let last = state.last_fault.as_deref().unwrap_or_default();
+        spans.push(Span::raw(format!(", {} bad ({last})", count(state.faults))).red());
+    }
+    Line::from(spans)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+    use std::time::Instant;
+
+    use fingertip::wrench::Wrench;
+    use nalgebra::Vector3;
+    use ratatui::Terminal;
+    use ratatui::backend::TestBackend;
+
+    use super::{Health, State, draw};
+    use crate::felt::SceneFeel;
+    use crate::scene::Scene;
+
+    const SIZES: [(u16, u16); 12] = [
+        (0, 0),
+        (1, 1),
+        (3, 40),
+        (200, 1),
+        (20, 5),
+        (28, 8),
+        (30, 12),
+        (40, 30),
+        (71, 24),
+        (72, 10),
+        (80, 24),
+        (200, 60),
+    ];
+
+    /// The picture as text.
+    fn picture(state: &State, (width, height): (u16, u16)) -> String {
+        let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+        terminal.draw(|frame| draw(frame, state, false)).unwrap();
+        let buffer = terminal.backend().buffer();
+        let mut text = String::new();
+        for row in 0..height {
+            for column in 0..width {
+                text.push_str(buffer[(column, row)].symbol());
+            }
+            text.push('\n');
+        }
+        text
+    }
+
+    fn pressed(force: Vector3<f64>, samples: u32) -> State {
+        let scene = Scene::load_or_simulated(Path::new("sim")).unwrap();
+        let mut state = State::new("test".to_owned());
+        state.projection = Some(scene.projection);
+        state.coefficient = scene.friction.coefficient();
+        state.watches_slip = true;
+        let mut feel = SceneFeel::new(scene, true);
+        for sample in 0..samples {
+            let time = f64::from(sample) * 1e-3;
+            // A point at 45° from the top, and something like noise.
+            let point = Vector3::new(0.0092, 0.0092, 0.0) * (1.0 + 1e-4 * f64::from(sample % 3));
+            let wrench = Wrench::from_force_at(&point, force);
+            let touch = feel.feel(time, &wrench).unwrap();
+            state.sample(time, &wrench, touch, Instant::now());
+        }
+        state.refresh();
+        state
+    }
+
+    #[test]
+    fn every_state_can_be_drawn_at_every_size() {
+        let mut states = vec![State::new("x".repeat(300))];
+        let force = Vector3::new(-1.5, -1.2, 0.3);
+        states.push(pressed(force, 100));
+        states.push(pressed(-force, 100));
+        states.push(pressed(Vector3::repeat(f64::NAN), 100));
+        states.push(pressed(force * 1e300, 100));
+        states.push(pressed(force * 1e-300, 100));
+        let mut lost = pressed(force, 3);
+        lost.health = Health::Lost("unplugged".to_owned());
+        lost.faults = 12_345;
+        states.push(lost);
+        for state in &states {
+            for size in SIZES {
+                picture(state, size);
+            }
+        }
+    }
+
+    #[test]
+    fn a_press_shows_as_numbers_bars_and_a_point() {
+        let state = pressed(Vector3::new(-1.5, -1.2, 0.3), 100);
+        let text = picture(&state, (80, 24));
+        for expected in ["live", "fx", "-1.50 N", "contact", "holding", "µ 0.4", "fn 1.9", "q ends", "mm ±"]
+        {
+            assert!(text.contains(expected), "{expected} is missing:\n{text}");
+        }
+        assert!(text.contains('●') && text.contains('█'), "{text}");
+        assert!(picture(&state, (20, 5)).contains("1.94 N contact"));
+        // Without a scene there is no map, and it is said how to get one.
+        let mut plain = State::new("test".to_owned());
+        plain.sample(0.0, &Wrench::on_fingertip(Vector3::x(), Vector3::zeros()), None, Instant::now());
+        let text = picture(&plain, (80, 24));
+        assert!(text.contains("--scene") && !text.contains('●'), "{text}");
+    }
+
+    #[test]
+    fn what_is_no_contact_says_why() {
+        let text = picture(&pressed(Vector3::new(-0.05, -0.01, 0.0), 10), (80, 24));
+        assert!(text.contains("force below the threshold") && !text.contains('●'), "{text}");
+    }
+}

@@ -1,0 +1,246 @@
+//! `fingertip record`: a sensor into a file.
+
+pub(crate) mod args;
+pub(crate) mod output;
+
+use core::time::Duration;
+use std::io::{self, Write};
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
+
+use indicatif::ProgressBar;
+
+use args::RecordArguments;
+use output::{Kind, Output, Row};
+
+use crate::error::CliError;
+use crate::felt::{Rest, SceneFeel};
+use crate::scene::Scene;
+use crate::sensor::{self, Event, Reading, Stream, StreamOptions};
+use crate::stop::Stop;
+use crate::table::{count, number, short};
+
+/// How often the terminal is told how far it is.
+const NEWS: Duration = Duration::from_millis(500);
+/// How many faults are printed one by one.
+const FAULTS_SHOWN: u64 = 3;
+
+pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
+    let fault = |message: String| CliError::Sensor { address: arguments.address.to_string(), message };
+    Kind::of(&arguments.output)?;
+    let limits =
+        [("duration", arguments.duration), ("tare", arguments.tare), ("silence", Some(arguments.silence))];
+    for (name, limit) in limits {
+        if limit.is_some_and(|limit| !(limit > 0.0 && limit < 1e9)) {
+            return Err(fault(format!("--{name} must be a number of seconds above 0")));
+        }
+    }
+    let scene = arguments.scene.as_deref().map(Scene::load_or_simulated).transpose()?;
+    let mut feel = scene.map(|scene| SceneFeel::new(scene, arguments.tare.is_some()));
+    let stop = Stop::listen();
+    let address = arguments.address.clone();
+    let options =
+        StreamOptions { silence: Duration::from_secs_f64(arguments.silence), reconnect: arguments.reconnect };
+    let mut stream = Stream::new(Box::new(move || sensor::open(&address)), options).map_err(fault)?;
+    let mut recording = Recording::new(arguments);
+    // The first sample says what there is to be written: until then no file is made.
+    let mut ended = Ok(());
+    while !stop.is_asked() && !recording.is_full() {
+        match stream.next() {
+            Ok(Event::Sample(time, reading)) => {
+                if let Err(error) = recording.take(time, &reading, feel.as_mut()) {
+                    ended = Err(error);
+                    break;
+                }
+            }
+            Ok(Event::Fault(why)) => recording.fault(&why),
+            Ok(Event::Nothing) => {}
+            Ok(Event::Lost(why)) => recording.warn(&format!("{}: {why}; connecting anew", arguments.address)),
+            Ok(Event::End) => break,
+            Err(why) => {
+                ended = Err(fault(why));
+                break;
+            }
+        }
+        recording.news();
+    }
+    // Whatever happened: what is there is a whole file.
+    let summary = recording.finish(&stream)?;
+    match (ended, summary) {
+        (ended, Some(summary)) => {
+            if !arguments.quiet {
+                say(&summary)?;
+            }
+            ended
+        }
+        (Ok(()), None) => {
+            Err(fault("no sample came, so nothing was written; is the sensor on and streaming?".into()))
+        }
+        (ended, None) => ended,
+    }
+}
+
+fn say(text: &str) -> Result<(), CliError> {
+    let mut stdout = io::stdout();
+    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
+}
+
+struct Recording<'a> {
+    arguments: &'a RecordArguments,
+    output: Option<Output>,
+    rest: Rest,
+    /// What is added to times \[s\].
+    epoch: f64,
+    samples: u64,
+    contacts: u64,
+    not_finite: u64,
+    backward: u64,
+    faults: u64,
+    first: Option<f64>,
+    last: f64,
+    /// On the standard error, if that is a terminal.
+    news: Option<ProgressBar>,
+    told: Instant,
+}
+
+impl<'a> Recording<'a> {
+    fn new(arguments: &'a RecordArguments) -> Self {
+        Self {
+            arguments,
+            output: None,
+            rest: Rest::new(arguments.tare),
+            epoch: 0.0,
+            samples: 0,
+            contacts: 0,
+            not_finite: 0,
+            backward: 0,
+            faults: 0,
+            first: None,
+            last: f64::NEG_INFINITY,
+            news: (!arguments.quiet).then(ProgressBar::new_spinner),
+            told: Instant::now(),
+        }
+    }
+
+    /// How long it is \[s\].
+    fn length(&self) -> f64 {
+        self.first.map_or(0.0, |first| self.last - first)
+    }
+
+    fn is_full(&self) -> bool {
+        self.arguments.samples.is_some_and(|samples| self.samples >= samples)
+            || self.arguments.duration.is_some_and(|duration| self.length() >= duration)
+    }
+
+    fn take(&mut self, time: f64, reading: &Reading, feel: Option<&mut SceneFeel>) -> Result<(), CliError> {
+        if !reading.wrench.is_finite() {
+            self.not_finite += 1;
+            return Ok(());
+        }
+        let fault = |message| CliError::Sensor { address: self.arguments.address.to_string(), message };
+        let Some(wrench) = self.rest.take(time, &reading.wrench).map_err(fault)? else { return Ok(()) };
+        if time <= self.last {
+            // Two samples that arrive at once where only the arrival tells the time: both are kept.
+            self.backward += 1;
+        }
+        let has_contacts = feel.is_some();
+        let touch = match feel {
+            Some(feel) => feel.feel(time, &wrench).map_err(fault)?,
+            None => None,
+        };
+        let contact = touch.as_ref().and_then(output::contact);
+        if self.output.is_none() {
+            if self.arguments.unix_time {
+                let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+                self.epoch = now.as_secs_f64() - time;
+            }
+            let has_volts = reading.volts.is_some();
+            self.output =
+                Some(Output::create(&self.arguments.output, self.arguments.force, has_volts, has_contacts)?);
+        }
+        let Some(output) = &mut self.output else { return Ok(()) };
+        // Whole nanoseconds, as MCAP has them: so both formats hold the same.
+        let written = ((time + self.epoch) * 1e9).round() / 1e9;
+        let row = Row { time: written, wrench: &wrench, volts: reading.volts.as_ref(), contact };
+        output.write(&row)?;
+        self.samples += 1;
+        self.contacts += u64::from(contact.is_some());
+        self.first.get_or_insert(time);
+        self.last = self.last.max(time);
+        Ok(())
+    }
+
+    fn fault(&mut self, why: &str) {
+        self.faults += 1;
+        if self.faults <= FAULTS_SHOWN && !self.arguments.quiet {
+            let last = if self.faults == FAULTS_SHOWN { " (further ones are only counted)" } else { "" };
+            self.warn(&format!("{why}{last}"));
+        }
+    }
+
+    /// Prints a warning, above the line of news.
+    fn warn(&self, what: &str) {
+        let print = || eprintln!("warning: {what}");
+        match &self.news {
+            Some(news) => news.suspend(print),
+            None => print(),
+        }
+    }
+
+    fn news(&mut self) {
+        let Some(news) = &self.news else { return };
+        if self.told.elapsed() > NEWS {
+            self.told = Instant::now();
+            let state =
+                if self.rest.is_resting() { "taking the zero: do not touch" } else { "Ctrl-C ends it" };
+            let (samples, seconds) = (count(self.samples), short(self.length()));
+            news.set_message(format!("{samples} samples, {seconds} s ({state})"));
+            news.tick();
+        }
+    }
+
+    /// Finishes the file, and says what is in it; `None` if there is none.
+    fn finish(&mut self, stream: &Stream) -> Result<Option<String>, CliError> {
+        if let Some(news) = &self.news {
+            news.finish_and_clear();
+        }
+        let Some(output) = self.output.take() else { return Ok(None) };
+        output.finish()?;
+        let mut text = format!("{} samples in {} s", count(self.samples), short(self.length()));
+        if self.samples > 1 && self.length() > 0.0 {
+            text.push_str(&format!(" ({} samples/s)", short((self.samples - 1) as f64 / self.length())));
+        }
+        if self.arguments.scene.is_some() {
+            text.push_str(&format!(", {} with a contact", count(self.contacts)));
+        }
+        text.push_str(&format!("\nLink: {}\n", stream.losses()));
+        let mut note = |happened: bool, what: String| {
+            if happened {
+                text.push_str(&what);
+                text.push('\n');
+            }
+        };
+        note(
+            self.faults > 0,
+            format!("Samples that the sensor marked as bad or that were damaged: {}", count(self.faults)),
+        );
+        note(
+            self.not_finite > 0,
+            format!("Samples that are not finite, left out: {}", count(self.not_finite)),
+        );
+        note(
+            self.backward > 0,
+            format!("Samples whose time is not after that of the one before: {}", count(self.backward)),
+        );
+        note(stream.reconnections() > 0, format!("Connected anew {} times", stream.reconnections()));
+        note(
+            stream.is_timed_by_arrival(),
+            "Times are those of arrival at this computer: the sensor sends none".to_owned(),
+        );
+        if self.arguments.tare.is_some() {
+            let zero: Vec<String> = self.rest.zero().iter().map(|component| number(*component)).collect();
+            note(true, format!("Zero taken off [N, N·m]: {}", zero.join(", ")));
+        }
+        text.push_str(&format!("Written: {}\n", self.arguments.output.display()));
+        Ok(Some(text))
+    }
+}

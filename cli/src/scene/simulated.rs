@@ -1,0 +1,46 @@
+//! The scene of the simulated fingertip.
+
+use fingertip::friction::{Coulomb, DropDetector, ForceNoise};
+use fingertip::surfaces::PointContact;
+use fingertip_drivers::simulation::{Options, SimulatedFingertip, standard_session};
+use nalgebra::Vector3;
+
+use super::{Convention, Friction, Scene, SlipWatch};
+use crate::demo::least_static_coefficient;
+use crate::error::CliError;
+use crate::shape::{Capped, Projection, Shape};
+
+/// The paper's threshold of contact \[N\].
+const LEAST_FORCE: f64 = 0.1;
+/// Noise of a force component \[N\].
+const NOISE: f64 = 0.02;
+
+/// The sphere on its beam, with the friction that is safe for every drag of the session.
+pub(super) fn scene() -> Result<Scene, CliError> {
+    build().map_err(|message| CliError::Simulate { message })
+}
+
+fn build() -> Result<Scene, String> {
+    let simulated = SimulatedFingertip::new(&standard_session(), Options::default()).map_err(text)?;
+    let (sphere, pole) = (simulated.sphere(), Vector3::x());
+    let rim = simulated.options().design.greatest_angle();
+    let frame = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let coefficient = least_static_coefficient(&simulated).ok_or("the session has no drag")?;
+    let noise = ForceNoise::isotropic(NOISE).map_err(text)?;
+    Ok(Scene {
+        name: "simulated fingertip".to_owned(),
+        convention: Convention::OnFingertip,
+        sensor: None,
+        sample_rate: None,
+        rest: None,
+        shape: Shape::Sphere(Capped::within(sphere, pole, rim)),
+        projection: Projection::sphere(sphere.centre(), pole, Some(rim), &frame),
+        model: PointContact::new(LEAST_FORCE).map_err(text)?,
+        friction: Friction::known(Coulomb::new(coefficient).map_err(text)?),
+        slip: SlipWatch::falls(DropDetector::new(noise).map_err(text)?),
+    })
+}
+
+fn text(error: impl ToString) -> String {
+    error.to_string()
+}

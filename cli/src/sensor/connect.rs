@@ -1,0 +1,191 @@
+//! Opens the sensor of an address.
+
+use fingertip_drivers::AxisCounts;
+use fingertip_drivers::ati_rdt::{CountsPerUnit, RdtClient};
+use fingertip_drivers::bota_serial::BotaDecoder;
+use fingertip_drivers::dynpick::{self, DynPickDecoder, Sensitivities};
+use fingertip_drivers::optoforce::{self, OptoForceDecoder};
+use fingertip_drivers::resense::{Limits, ResenseDecoder};
+use fingertip_drivers::robotous::{Request, RobotousDecoder};
+use fingertip_drivers::schunk_fts::{self, FtsClient};
+
+use super::address::{Address, Protocol};
+use super::line::{self, Line, WAIT};
+use super::losses::Losses;
+use super::{Feed, SourceFeed, simulated};
+
+/// Opens the sensor and lets it stream. No zero is set in any sensor.
+pub(crate) fn open(address: &Address) -> Result<Box<dyn Feed>, String> {
+    match address.protocol {
+        Protocol::Ati => ati(address),
+        Protocol::OnRobot => {
+            rdt(address, CountsPerUnit::onrobot().map_err(text)?, address.positive("rate_Hz")?)
+        }
+        Protocol::Schunk => schunk(address),
+        Protocol::Bota => line::streaming(line::open(address, 460_800)?, BotaDecoder::new(), &[], |_| None),
+        Protocol::Robotous => {
+            let counts =
+                counts(address)?.map_or_else(|| AxisCounts::uniform(50.0, 2000.0).map_err(text), Ok)?;
+            let line = line::open(address, 115_200)?;
+            line::streaming(line, RobotousDecoder::new(counts), &Request::Stream.emit_serial(), |_| None)
+        }
+        Protocol::DynPick => dynpick(address),
+        Protocol::OptoForce => optoforce(address),
+        Protocol::Resense => resense(address),
+        Protocol::Simulated => simulated::open(address),
+    }
+}
+
+fn text(error: impl core::fmt::Display) -> String {
+    error.to_string()
+}
+
+/// Counts per unit that the address states: both or none.
+fn counts(address: &Address) -> Result<Option<AxisCounts>, String> {
+    match (address.positive("counts_per_N")?, address.positive("counts_per_Nm")?) {
+        (Some(force), Some(torque)) => AxisCounts::uniform(force, torque).map(Some).map_err(text),
+        (None, None) => Ok(None),
+        _ => Err("counts_per_N and counts_per_Nm belong together; state both".to_owned()),
+    }
+}
+
+fn ati(address: &Address) -> Result<Box<dyn Feed>, String> {
+    let rate = address.positive("rate_Hz")?;
+    let stated = (address.positive("counts_per_N")?, address.positive("counts_per_Nm")?);
+    match stated {
+        (Some(force), Some(torque)) => rdt(address, CountsPerUnit::new(force, torque).map_err(text)?, rate),
+        (None, None) => {
+            let port: u16 = address.whole("http")?.unwrap_or(80);
+            let page = format!("{}:{port}", address.host_only());
+            let configuration =
+                RdtClient::<f64>::configuration(page.as_str(), 10 * WAIT).map_err(|error| {
+                    format!(
+                        "cannot read the sensor's counts per newton from http://{page}/netftapi2.xml: {error}; state \
+                         them in the address: ?counts_per_N=1e6&counts_per_Nm=1e6"
+                    )
+                })?;
+            rdt(address, configuration.counts().map_err(text)?, rate.or(configuration.rate))
+        }
+        _ => Err("counts_per_N and counts_per_Nm belong together; state both".to_owned()),
+    }
+}
+
+fn rdt(address: &Address, counts: CountsPerUnit<f64>, rate: Option<f64>) -> Result<Box<dyn Feed>, String> {
+    let host = address.host(RdtClient::<f64>::PORT);
+    let client = RdtClient::connect(host.as_str(), counts, WAIT)
+        .map_err(|error| format!("cannot reach {host}: {error}; check the address and the network"))?;
+    let source = client.timed_by(rate.unwrap_or(0.0));
+    Ok(Box::new(SourceFeed {
+        source,
+        losses: |client: &RdtClient<f64>| Losses::of_link(client.statistics()),
+    }))
+}
+
+fn schunk(address: &Address) -> Result<Box<dyn Feed>, String> {
+    let host = address.host(schunk_fts::TCP_PORT);
+    let port: u16 = address.whole("udp")?.unwrap_or(schunk_fts::UDP_PORT);
+    // The sensor sends to whoever told it to start: only from this machine if it is on this machine.
+    let local = if address.host_only() == "127.0.0.1" { "127.0.0.1" } else { "0.0.0.0" };
+    let client = FtsClient::connect(host.as_str(), (local, port), 10 * WAIT).map_err(|error| {
+        format!("cannot start {host}, with samples to UDP port {port} here: {error}; check the address and the ports")
+    })?;
+    let source = client.timed_by(address.positive("rate_Hz")?.unwrap_or(0.0));
+    Ok(Box::new(SourceFeed { source, losses: |client: &FtsClient| Losses::of_link(client.statistics()) }))
+}
+
+fn dynpick(address: &Address) -> Result<Box<dyn Feed>, String> {
+    let mut line = line::open(address, 921_600)?;
+    let counts = match counts(address)? {
+        Some(counts) => counts,
+        None => {
+            let answer = ask(&mut *line, &[dynpick::REQUEST_SENSITIVITIES]);
+            let answer = answer.map_err(|error| format!("cannot ask for the sensitivities: {error}"))?;
+            Sensitivities::parse(&answer)
+                .map_err(|error| {
+                    format!(
+                        "the sensor does not tell its sensitivities ({error}); state them from its data sheet: \
+                         ?counts_per_N=24.9&counts_per_Nm=1664"
+                    )
+                })?
+                .counts()
+        }
+    };
+    let missing = |decoder: &DynPickDecoder| Some(decoder.missing());
+    Ok(line::asked(line, DynPickDecoder::new(counts), vec![dynpick::REQUEST], missing))
+}
+
+/// Sends a request and reads one line of text, as far as it comes in time.
+fn ask(line: &mut dyn Line, request: &[u8]) -> std::io::Result<Vec<u8>> {
+    line.write_all(request)?;
+    let mut answer = Vec::new();
+    let mut byte = [0];
+    while answer.len() < 200 && answer.last() != Some(&b'\n') {
+        match line.read(&mut byte) {
+            Ok(0) => break,
+            Ok(_) => answer.extend(byte),
+            Err(error)
+                if matches!(error.kind(), std::io::ErrorKind::TimedOut | std::io::ErrorKind::WouldBlock) =>
+            {
+                break;
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(answer)
+}
+
+fn optoforce(address: &Address) -> Result<Box<dyn Feed>, String> {
+    let report = "it stands in the sensor's sensitivity report";
+    let counts = AxisCounts::uniform(
+        address.needed("counts_per_N", report)?,
+        address.needed("counts_per_Nm", report)?,
+    )
+    .map_err(text)?;
+    let start = match address.whole::<u32>("rate_Hz")? {
+        None => Vec::new(),
+        Some(rate) => {
+            let rate = match rate {
+                1000 => optoforce::Rate::Hz1000,
+                333 => optoforce::Rate::Hz333,
+                100 => optoforce::Rate::Hz100,
+                30 => optoforce::Rate::Hz30,
+                10 => optoforce::Rate::Hz10,
+                other => return Err(format!("rate_Hz={other}: the sensor has 1000, 333, 100, 30 and 10")),
+            };
+            let filter = optoforce::Filter::None;
+            optoforce::Configuration { rate, filter, zero: false }.emit().to_vec()
+        }
+    };
+    let line = line::open(address, 1_000_000)?;
+    line::streaming(line, OptoForceDecoder::new(counts), &start, |decoder| Some(decoder.missing()))
+}
+
+fn resense(address: &Address) -> Result<Box<dyn Feed>, String> {
+    let range = "readings beyond it show that the line is out of step; take the sensor's range with reserve";
+    #[expect(clippy::cast_possible_truncation, reason = "a limit")]
+    let limits = Limits {
+        force: address.needed("greatest_N", range)? as f32,
+        torque: address.needed("greatest_Nm", range)? as f32,
+        temperature: [-40.0, 125.0],
+        temperature_step: 5.0,
+    };
+    let decoder = ResenseDecoder::new(limits);
+    let request = address.option("request").map(bytes).transpose()?;
+    let line = line::open(address, 2_000_000)?;
+    match request {
+        Some(request) => Ok(line::asked(line, decoder, request, |_| None)),
+        None => line::streaming(line, decoder, &[], |_| None),
+    }
+}
+
+/// Bytes from hexadecimal digits.
+fn bytes(digits: &str) -> Result<Vec<u8>, String> {
+    let wrong = || format!("request={digits} must be hexadecimal digits, two for each byte");
+    if digits.is_empty() || !digits.len().is_multiple_of(2) {
+        return Err(wrong());
+    }
+    (0..digits.len())
+        .step_by(2)
+        .map(|at| digits.get(at..at + 2).and_then(|pair| u8::from_str_radix(pair, 16).ok()).ok_or_else(wrong))
+        .collect()
+}

@@ -1,0 +1,81 @@
+//! What went missing on the way.
+
+use core::fmt;
+
+use fingertip_drivers::LinkStatistics;
+use fingertip_drivers::line::LineStatistics;
+
+use crate::table::count;
+
+/// What a link lost or damaged. Some protocols number their samples, others do not: there a loss leaves
+/// no trace.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Losses {
+    /// Samples or datagrams that never came; `None` where the protocol does not tell.
+    pub(crate) lost: Option<u64>,
+    /// Came behind a newer one, and were not used.
+    pub(crate) late: u64,
+    /// Came more than once.
+    pub(crate) duplicates: u64,
+    /// Could not be read, or had a number that makes no sense.
+    pub(crate) corrupt: u64,
+    /// Bytes that belong to no frame.
+    pub(crate) skipped_bytes: u64,
+    /// How often the sensor began to count anew.
+    pub(crate) restarts: u64,
+}
+
+impl Losses {
+    pub(super) fn of_link(link: &LinkStatistics) -> Self {
+        Self {
+            lost: Some(link.lost),
+            late: link.late,
+            duplicates: link.duplicates,
+            corrupt: link.corrupt + link.doubtful,
+            skipped_bytes: 0,
+            restarts: link.restarts,
+        }
+    }
+
+    pub(super) fn of_line(line: LineStatistics, missing: Option<u64>) -> Self {
+        Self { lost: missing, corrupt: line.failed, skipped_bytes: line.skipped, ..Self::default() }
+    }
+
+    /// Those of a connection before, and of this one.
+    pub(super) fn and(self, other: Self) -> Self {
+        Self {
+            lost: match (self.lost, other.lost) {
+                (Some(a), Some(b)) => Some(a + b),
+                (a, b) => a.or(b),
+            },
+            late: self.late + other.late,
+            duplicates: self.duplicates + other.duplicates,
+            corrupt: self.corrupt + other.corrupt,
+            skipped_bytes: self.skipped_bytes + other.skipped_bytes,
+            restarts: self.restarts + other.restarts,
+        }
+    }
+}
+
+impl fmt::Display for Losses {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.lost {
+            Some(lost) => write!(out, "{} lost", count(lost))?,
+            None => write!(out, "lost: not told")?,
+        }
+        write!(
+            out,
+            ", {} late, {} repeated, {} damaged",
+            count(self.late),
+            count(self.duplicates),
+            count(self.corrupt)
+        )?;
+        if self.skipped_bytes > 0 {
+            write!(out, ", {} bytes skipped", count(self.skipped_bytes))?;
+        }
+        if self.restarts > 0 {
+            write!(out, ", counted anew {} times", count(self.restarts))?;
+        }
+        Ok(())
+    }
+}

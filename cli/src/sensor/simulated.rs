@@ -1,0 +1,78 @@
+//! The simulated fingertip, in this process: its volts through tare, dummy gauge and solver.
+
+use core::convert::Infallible;
+
+use fingertip::wrench::{
+    Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy, GaussianElimination, WrenchSolver,
+};
+use fingertip_drivers::middleware::Paced;
+use fingertip_drivers::simulation::{Options, SimulatedFingertip, standard_session};
+use fingertip_drivers::{ErrorType, Sample, SignalSource};
+use nalgebra::Vector6;
+
+use super::address::Address;
+use super::losses::Losses;
+use super::{Feed, Next, Reading, Volts};
+
+/// A session that is played again and again, its time going on.
+struct Rounds {
+    fingertip: SimulatedFingertip,
+    fresh: SimulatedFingertip,
+    /// Length of the rounds before \[s\].
+    before: f64,
+}
+
+impl ErrorType for Rounds {
+    type Error = Infallible;
+}
+
+impl SignalSource<f64, 7> for Rounds {
+    fn next_signals(&mut self) -> Result<Option<Sample<f64, Volts>>, Infallible> {
+        let next = self.fingertip.next_sample().or_else(|| {
+            self.before += self.fresh.duration();
+            self.fingertip = self.fresh.clone();
+            self.fingertip.next_sample()
+        });
+        Ok(next.map(|sample| Sample { time: Some(self.before + sample.time), value: sample.raw }))
+    }
+}
+
+struct Simulated {
+    source: Paced<Rounds>,
+    solver: GaussianElimination<f64>,
+    zero: DummyGauge<f64, 6>,
+}
+
+pub(super) fn open(address: &Address) -> Result<Box<dyn Feed>, String> {
+    let options = Options {
+        seed: address.whole("seed")?.unwrap_or(1),
+        sample_rate: address.positive("rate_Hz")?.unwrap_or(1000.0),
+        ..Options::default()
+    };
+    let fresh = SimulatedFingertip::new(&standard_session(), options)
+        .map_err(|error| format!("simulation: {error}"))?;
+    let solver = GaussianElimination::new(fresh.calibrated_matrix()).map_err(|error| error.to_string())?;
+    // The session begins with a rest: it gives the zero, as on a bench before the work begins.
+    let mut rest = DummyGaugeAccumulator::default();
+    for sample in fresh.clone().take_while(|sample| sample.truth.phase == 0) {
+        rest.add(&sample.reading());
+    }
+    let zero = rest.finish().map_err(|error| error.to_string())?;
+    let source = Paced::new(Rounds { fingertip: fresh.clone(), fresh, before: 0.0 }, 1.0);
+    Ok(Box::new(Simulated { source, solver, zero }))
+}
+
+impl Feed for Simulated {
+    fn next(&mut self) -> Result<Next, String> {
+        let Ok(sample) = self.source.next_signals();
+        let Some(Sample { time, value: volts }) = sample else { return Ok(Next::End) };
+        let [v1, v2, v3, v4, v5, v6, dummy] = volts.into();
+        let reading = GaugesAndDummy { gauges: Vector6::new(v1, v2, v3, v4, v5, v6), dummy };
+        let wrench = self.solver.solve(&self.zero.compensate(&reading));
+        Ok(Next::Reading(Reading { time, wrench, volts: Some(volts) }))
+    }
+
+    fn losses(&self) -> Losses {
+        Losses { lost: Some(0), ..Losses::default() }
+    }
+}

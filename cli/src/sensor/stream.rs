@@ -1,0 +1,220 @@
+//! A feed with a clock, that can be connected anew.
+
+use core::time::Duration;
+use std::time::Instant;
+
+use super::losses::Losses;
+use super::{Feed, Next, Reading};
+
+/// Opens the sensor, the first time and after it was lost.
+pub(crate) type Open = Box<dyn FnMut() -> Result<Box<dyn Feed>, String> + Send>;
+
+/// What to do when nothing comes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StreamOptions {
+    /// A sensor that is silent for so long is lost.
+    pub(crate) silence: Duration,
+    /// Whether to connect to a lost sensor anew, until it is there again.
+    pub(crate) reconnect: bool,
+}
+
+/// What comes next.
+#[derive(Clone, Debug)]
+pub(crate) enum Event {
+    /// A sample and its time \[s\].
+    Sample(f64, Reading),
+    /// A sample that cannot be used, and why.
+    Fault(String),
+    /// Nothing for the moment.
+    Nothing,
+    /// The connection was lost, and why; it is tried anew.
+    Lost(String),
+    /// The recording is over.
+    End,
+}
+
+/// Samples with a time that goes on over reconnections.
+pub(crate) struct Stream {
+    open: Open,
+    /// Nothing while the sensor is lost.
+    feed: Option<Box<dyn Feed>>,
+    options: StreamOptions,
+    begun: Instant,
+    /// When the last sample came, or the connection was opened.
+    heard: Instant,
+    /// What is added to the sensor's time, known with the first sample of a connection \[s\].
+    offset: Option<f64>,
+    /// Whether samples have come at all.
+    any: bool,
+    timed_by_arrival: bool,
+    /// \[s\]
+    last_arrival: f64,
+    before: Losses,
+    reconnections: u64,
+}
+
+/// How often a lost sensor is tried anew.
+const RETRY: Duration = Duration::from_millis(300);
+/// Least step between samples whose time is that of their arrival \[s\].
+const TOGETHER: f64 = 1e-6;
+
+impl Stream {
+    /// Opens the sensor; its first sample is expected within the silence that is allowed.
+    pub(crate) fn new(mut open: Open, options: StreamOptions) -> Result<Self, String> {
+        let feed = open()?;
+        let now = Instant::now();
+        Ok(Self {
+            open,
+            feed: Some(feed),
+            options,
+            begun: now,
+            heard: now,
+            offset: None,
+            any: false,
+            timed_by_arrival: false,
+            last_arrival: 0.0,
+            before: Losses::default(),
+            reconnections: 0,
+        })
+    }
+
+    /// Whether samples have the time of their arrival, since the sensor sends none.
+    pub(crate) const fn is_timed_by_arrival(&self) -> bool {
+        self.timed_by_arrival
+    }
+
+    /// What went missing so far.
+    pub(crate) fn losses(&self) -> Losses {
+        match &self.feed {
+            Some(feed) if self.reconnections > 0 => self.before.and(feed.losses()),
+            Some(feed) => feed.losses(),
+            None => self.before,
+        }
+    }
+
+    /// How often the sensor was connected anew.
+    pub(crate) const fn reconnections(&self) -> u64 {
+        self.reconnections
+    }
+
+    /// The next sample, or what came in its place; waits for a fraction of a second.
+    ///
+    /// # Errors
+    /// If the sensor is lost and is not to be connected anew.
+    pub(crate) fn next(&mut self) -> Result<Event, String> {
+        let Some(feed) = &mut self.feed else { return self.reopen() };
+        match feed.next() {
+            Ok(Next::Reading(reading)) => {
+                self.heard = Instant::now();
+                Ok(Event::Sample(self.time(&reading), reading))
+            }
+            Ok(Next::Fault(why)) => {
+                self.heard = Instant::now();
+                Ok(Event::Fault(why))
+            }
+            Ok(Next::Silence) if self.heard.elapsed() > self.options.silence => {
+                let what = if self.any { "fell silent" } else { "sends nothing" };
+                let seconds = self.options.silence.as_secs_f64();
+                self.lose(format!("the sensor {what}: no sample for {seconds} s"))
+            }
+            Ok(Next::Silence) => Ok(Event::Nothing),
+            // A line that ends is a sensor that was unplugged; a recording has no connection to lose.
+            Ok(Next::End) if self.options.reconnect => self.lose("the line was closed".to_owned()),
+            Ok(Next::End) => Ok(Event::End),
+            Err(why) => self.lose(format!("{why}; is the sensor on, and can it be reached?")),
+        }
+    }
+
+    fn lose(&mut self, why: String) -> Result<Event, String> {
+        if !self.options.reconnect {
+            return Err(why);
+        }
+        self.before = self.losses();
+        self.feed = None;
+        Ok(Event::Lost(why))
+    }
+
+    fn reopen(&mut self) -> Result<Event, String> {
+        std::thread::sleep(RETRY);
+        if let Ok(feed) = (self.open)() {
+            self.feed = Some(feed);
+            self.reconnections += 1;
+            self.offset = None;
+            self.heard = Instant::now();
+        }
+        Ok(Event::Nothing)
+    }
+
+    /// The sensor's own time, counted from the first sample; the arrival's where it has none. Behind a
+    /// reconnection it goes on where the clock of this computer is by then.
+    fn time(&mut self, reading: &Reading) -> f64 {
+        if !self.any {
+            self.any = true;
+            self.begun = self.heard;
+        }
+        let arrival = self.heard.saturating_duration_since(self.begun).as_secs_f64();
+        match reading.time {
+            Some(time) => time + *self.offset.get_or_insert(arrival - time),
+            None => {
+                // Two samples in one piece of the line do arrive together, but were not taken together.
+                let after = if self.timed_by_arrival { self.last_arrival + TOGETHER } else { 0.0 };
+                self.timed_by_arrival = true;
+                self.last_arrival = arrival.max(after);
+                self.last_arrival
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use core::time::Duration;
+
+    use fingertip::wrench::Wrench;
+
+    use super::super::{Feed, Losses, Next, Reading};
+    use super::{Event, Stream, StreamOptions};
+
+    /// Gives some samples with times, then fails.
+    struct Short(Vec<f64>);
+
+    impl Feed for Short {
+        fn next(&mut self) -> Result<Next, String> {
+            let time = self.0.pop().ok_or("unplugged")?;
+            Ok(Next::Reading(Reading { time: Some(time), wrench: Wrench::zero(), volts: None }))
+        }
+        fn losses(&self) -> Losses {
+            Losses { lost: Some(3), ..Losses::default() }
+        }
+    }
+
+    fn stream(reconnect: bool) -> Stream {
+        let open = || Ok(Box::new(Short(vec![102.0, 101.0, 100.0])) as Box<dyn Feed>);
+        Stream::new(Box::new(open), StreamOptions { silence: Duration::from_secs(1), reconnect }).unwrap()
+    }
+
+    #[test]
+    fn time_counts_from_the_first_sample_and_a_lost_sensor_ends_it() {
+        let mut stream = stream(false);
+        for expected in [0.0, 1.0, 2.0] {
+            assert!(matches!(stream.next(), Ok(Event::Sample(time, _)) if time == expected));
+        }
+        assert!(stream.next().unwrap_err().starts_with("unplugged; is the sensor on"));
+    }
+
+    #[test]
+    fn a_sensor_that_comes_back_goes_on() {
+        let mut stream = stream(true);
+        let mut times = Vec::new();
+        while times.len() < 6 {
+            if let Event::Sample(time, _) = stream.next().unwrap() {
+                times.push(time);
+            }
+        }
+        assert_eq!(stream.reconnections(), 1);
+        assert_eq!(stream.losses().lost, Some(6));
+        // The second connection's clock starts anew, at the time that has passed here.
+        assert!(times[3] >= 0.3 && times[3] < 2.0, "{times:?}");
+        assert!((times[5] - times[3] - 2.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,150 @@
+//! The command line of `fingertip simulate`.
+
+use core::net::IpAddr;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+/// The device that is simulated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Device {
+    /// ATI Net F/T: RDT over UDP, its page over HTTP
+    Ati,
+    /// SCHUNK FTS: commands over TCP, samples over UDP
+    Schunk,
+    /// Bota Systems serial
+    Bota,
+    /// Robotous RFT serial
+    Robotous,
+    /// WACOH DynPick: one reading for each request
+    Dynpick,
+    /// OptoForce USB serial
+    Optoforce,
+    /// Resense HEX serial
+    Resense,
+}
+
+/// What touches the fingertip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Scenario {
+    /// The session of `fingertip demo`: presses, a roll, drags that slip; 26 s
+    Session,
+    /// Presses of 2 N at five points
+    Press,
+    /// Drags that slip, in four directions
+    Slip,
+    /// A contact that rolls over the tip under 3 N
+    Roll,
+    /// Nothing
+    Rest,
+}
+
+/// What carries a serial protocol.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Carrier {
+    /// A pseudo-terminal, whose path is printed
+    Pty,
+    /// TCP
+    Tcp,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "The wrench is that about the centre of a sphere of 13 mm: examples/scenes/paper_sphere.toml \
+    is its scene. The scenario begins anew with each client, and is repeated.\n\nExample, in two terminals:\n  \
+    fingertip simulate --serve ati\n  fingertip live --scene sim 'ati://127.0.0.1:49152?http=…'   (the address is printed)"
+)]
+pub(crate) struct SimulateArguments {
+    /// The device whose protocol is served
+    #[arg(long, value_enum, value_name = "DEVICE")]
+    pub(crate) serve: Device,
+    /// What touches the fingertip
+    #[arg(long, value_enum, default_value_t = Scenario::Session, conflicts_with = "script")]
+    pub(crate) scenario: Scenario,
+    /// A scenario of your own: TOML with a list of [[segments]], each with `do` = rest, press, hold,
+    /// squeeze, roll, drag or release
+    #[arg(long, value_name = "FILE.toml")]
+    pub(crate) script: Option<PathBuf>,
+    /// Samples per second
+    #[arg(long, value_name = "HZ", default_value_t = 1000.0)]
+    pub(crate) rate: f64,
+    /// Standard deviation of the noise of each force component [N]; that of torques is 5 mm times this
+    #[arg(long, value_name = "N", default_value_t = 0.01)]
+    pub(crate) noise: f64,
+    /// Seed of noise and faults
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// End after so many seconds; otherwise Ctrl-C ends it
+    #[arg(long, value_name = "S")]
+    pub(crate) duration: Option<f64>,
+    /// The local address to serve on; another than loopback lets other computers in
+    #[arg(long, value_name = "IP", default_value = "127.0.0.1")]
+    pub(crate) listen: IpAddr,
+    /// The port to serve on, 0 for any free one [default: 49152 for ati, otherwise 0]
+    #[arg(long, value_name = "PORT")]
+    pub(crate) port: Option<u16>,
+    /// The port of the HTTP page of ati, 0 for any free one
+    #[arg(long, value_name = "PORT", default_value_t = 0)]
+    pub(crate) http_port: u16,
+    /// The port that schunk sends its samples to, at the client
+    #[arg(long, value_name = "PORT", default_value_t = fingertip_drivers::schunk_fts::UDP_PORT)]
+    pub(crate) udp_port: u16,
+    /// What carries a serial protocol
+    #[arg(long, value_enum, default_value_t = if cfg!(unix) { Carrier::Pty } else { Carrier::Tcp })]
+    pub(crate) over: Carrier,
+    #[command(flatten)]
+    pub(crate) faults: FaultArguments,
+}
+
+/// Probabilities from 0 to 1.
+#[derive(Clone, Copy, Debug, Args)]
+#[command(next_help_heading = "Faults, each with its probability from 0 to 1")]
+pub(crate) struct FaultArguments {
+    /// A datagram or frame is lost
+    #[arg(long, value_name = "P", default_value_t = 0.0)]
+    pub(crate) loss: f64,
+    /// A datagram comes twice (ati)
+    #[arg(long, value_name = "P", default_value_t = 0.0)]
+    pub(crate) duplicate: f64,
+    /// A datagram comes behind the next one (ati)
+    #[arg(long, value_name = "P", default_value_t = 0.0)]
+    pub(crate) reorder: f64,
+    /// A datagram is cut short (ati)
+    #[arg(long, value_name = "P", default_value_t = 0.0)]
+    pub(crate) truncate: f64,
+    /// A bit of a frame is flipped (serial)
+    #[arg(long, value_name = "P", default_value_t = 0.0)]
+    pub(crate) bit_flip: f64,
+    /// A byte of a frame is lost (serial)
+    #[arg(long, value_name = "P", default_value_t = 0.0)]
+    pub(crate) lost_byte: f64,
+    /// Bytes that mean nothing come before a frame (serial)
+    #[arg(long, value_name = "P", default_value_t = 0.0)]
+    pub(crate) garbage: f64,
+}
+
+impl FaultArguments {
+    /// Refuses what is no probability, and faults that the device's link does not have.
+    pub(super) fn check(&self, device: Device) -> Result<(), String> {
+        let datagrams =
+            [("--duplicate", self.duplicate), ("--reorder", self.reorder), ("--truncate", self.truncate)];
+        let serial =
+            [("--bit-flip", self.bit_flip), ("--lost-byte", self.lost_byte), ("--garbage", self.garbage)];
+        let foreign: &[(&str, f64)] = match device {
+            Device::Ati => &serial,
+            Device::Schunk => &[datagrams, serial].concat(),
+            _ => &datagrams,
+        };
+        for (name, chance) in [("--loss", self.loss)].iter().chain(&datagrams).chain(&serial) {
+            if !(0.0..=1.0).contains(chance) {
+                return Err(format!("{name} {chance} is no probability; give one from 0 to 1"));
+            }
+        }
+        match foreign.iter().find(|(_, chance)| *chance > 0.0) {
+            Some((name, _)) => {
+                Err(format!("{name} is a fault that the link of this device does not have; see --help"))
+            }
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! Ctrl-C, and what else asks a program to end.
+
+use alloc::sync::Arc;
+use core::sync::atomic::{AtomicBool, Ordering};
+
+/// Turns true when the user wants to end: Ctrl-C, or a request of the system. A second one is no more
+/// urgent than the first: what is being written is finished.
+#[derive(Clone, Debug)]
+pub(crate) struct Stop(Arc<AtomicBool>);
+
+impl Stop {
+    /// Listens from now on. Call it once.
+    pub(crate) fn listen() -> Self {
+        let stop = Self(Arc::new(AtomicBool::new(false)));
+        let flag = Arc::clone(&stop.0);
+        // Without it Ctrl-C ends the program at once, as it ends any other.
+        let _ = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed));
+        stop
+    }
+
+    /// Whether to end.
+    pub(crate) fn is_asked(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+
+    /// Asks for it from within.
+    pub(crate) fn ask(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}

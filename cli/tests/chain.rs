@@ -1,0 +1,265 @@
+//! The whole chain: a simulated sensor is served, recorded, converted and analysed, by the command itself.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, which may fail so")]
+
+mod common;
+
+use std::io::{BufRead, BufReader};
+use std::net::UdpSocket;
+use std::process::{Child, Stdio};
+
+use common::{Contacts, Folder, scene};
+
+/// Nothing for 0.2 s, then 2 N at 30° from the top.
+const SCRIPT: &str = "[[segments]]\ndo = 'rest'\nduration = 0.2\n\
+    [[segments]]\ndo = 'press'\nat = { from_top = 0.5235987755982988, azimuth = 0.0 }\nforce = 2.0\nduration = 0.05\n\
+    [[segments]]\ndo = 'hold'\nduration = 100.0\n";
+/// The load of the hold: 2 N against the normal (cos 30°, sin 30°, 0), through the centre.
+const HELD: [f64; 6] = [-1.732_050_807_568_877_2, -1.0, 0.0, 0.0, 0.0, 0.0];
+
+/// A server that ends with the test.
+struct Server {
+    child: Child,
+    address: String,
+}
+
+impl Server {
+    fn start(folder: &Folder, arguments: &[&str]) -> Self {
+        let mut all = vec!["simulate", "--duration", "60"];
+        all.extend(arguments);
+        let mut child = folder.command(&all).stdout(Stdio::piped()).spawn().unwrap();
+        let lines = BufReader::new(child.stdout.as_mut().unwrap()).lines();
+        let address =
+            lines.map(Result::unwrap).find_map(|line| line.strip_prefix("Address: ").map(str::to_owned));
+        Self { child, address: address.unwrap() }
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// Asks a program to end, as Ctrl-C does.
+#[cfg(unix)]
+fn interrupt(child: &Child) {
+    let killed = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(killed.success());
+}
+
+/// Serves a device, records some samples, and looks at them: all there, at rest first, then under the load to
+/// within what the device can say.
+fn recorded(device: &str, more: &[&str], tolerance: f64) -> String {
+    let folder = Folder::new();
+    folder.write("script.toml", SCRIPT);
+    let mut arguments = vec!["--serve", device, "--script", "script.toml", "--rate", "1000", "--noise", "0"];
+    arguments.extend(more);
+    let server = Server::start(&folder, &arguments);
+    let said = folder.succeed(&["record", &server.address, "-o", "out.csv", "--samples", "600"]);
+    assert!(said.starts_with("600 samples in "), "{device}: {said}");
+    let rows = Contacts::parse(&folder.read("out.csv"));
+    assert_eq!(rows.len(), 600, "{device}");
+    let times = rows.numbers("t_s");
+    assert_eq!(times[0], 0.0);
+    assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{device}");
+    for (name, held) in ["fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm"].iter().zip(HELD) {
+        let values = rows.numbers(name);
+        let (first, last) = (values[0], values[599]);
+        assert!(
+            first.abs() <= tolerance && (last - held).abs() <= tolerance,
+            "{device} {name}: {first} {last}"
+        );
+    }
+    said
+}
+
+#[test]
+fn what_is_served_over_ethernet_is_recorded() {
+    let said = recorded("ati", &["--port", "0"], 1e-6);
+    assert!(said.contains("Link: 0 lost, 0 late, 0 repeated, 0 damaged"), "{said}");
+    // A port that is free now.
+    let port = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port().to_string();
+    let said = recorded("schunk", &["--udp-port", &port], 1e-6);
+    assert!(said.contains("Link: 0 lost"), "{said}");
+}
+
+#[test]
+fn what_is_served_over_serial_protocols_is_recorded() {
+    // Half a count, and the single precision of those who send it.
+    let devices =
+        [("bota", 1e-6), ("robotous", 0.0101), ("dynpick", 0.0126), ("optoforce", 0.0051), ("resense", 1e-6)];
+    let threads = devices.map(|(device, tolerance)| {
+        std::thread::spawn(move || recorded(device, &["--over", "tcp"], tolerance))
+    });
+    let said = threads.map(|thread| thread.join().unwrap());
+    assert!(
+        said[1].contains("lost: not told") && said[1].contains("Times are those of arrival"),
+        "{}",
+        said[1]
+    );
+    assert!(said[3].contains("Link: 0 lost, 0 late, 0 repeated, 0 damaged"), "{}", said[3]);
+}
+
+#[test]
+#[cfg(unix)]
+fn a_pseudo_terminal_is_a_serial_port() {
+    for device in ["bota", "dynpick"] {
+        recorded(device, &["--over", "pty"], 0.0126);
+    }
+}
+
+#[test]
+fn losses_are_counted_exactly() {
+    let folder = Folder::new();
+    let server = Server::start(
+        &folder,
+        &["--serve", "ati", "--port", "0", "--loss", "0.1", "--duplicate", "0.05", "--truncate", "0.02"],
+    );
+    let said = folder.succeed(&["record", &server.address, "-o", "out.csv", "--samples", "1000"]);
+    let number = |word: &str| -> f64 {
+        let (before, _) = said.split_once(&format!(" {word}")).unwrap();
+        before.rsplit([' ', ',']).next().unwrap().parse().unwrap()
+    };
+    let lost = number("lost");
+    // Three standard deviations and more about 12 % of some 1136.
+    assert!((90.0..190.0).contains(&lost), "{said}");
+    assert!((20.0..100.0).contains(&number("repeated")) && number("damaged") > 3.0, "{said}");
+    // The sensor's count of records goes on over those that are lost: so does the time.
+    let rows = Contacts::parse(&folder.read("out.csv"));
+    let last = rows.numbers("t_s")[999];
+    assert!((last - (999.0 + lost) / 1000.0).abs() < 1e-9, "{last} s, {lost} lost");
+}
+
+#[test]
+fn served_recorded_converted_and_analysed() {
+    let folder = Folder::new();
+    let script = SCRIPT.replace("duration = 0.2", "duration = 1.1");
+    folder.write("script.toml", &script);
+    let server = Server::start(
+        &folder,
+        &["--serve", "ati", "--port", "0", "--script", "script.toml", "--noise", "0.002"],
+    );
+    let said =
+        folder.succeed(&["record", &server.address, "-o", "a.csv", "--duration", "1.6", "--scene", "sim"]);
+    assert!(said.contains("1\u{202f}601 samples in 1.6 s") && said.contains("with a contact"), "{said}");
+    // The contacts of the recording itself: 30° from the top of a sphere of 13 mm.
+    let expected = [13e-3 * 0.866_025_403_784_438_6, 6.5e-3, 0.0];
+    let rows = Contacts::parse(&folder.read("a.csv"));
+    for (name, place) in ["contact_x_m", "contact_y_m", "contact_z_m"].iter().zip(expected) {
+        let values = rows.numbers(name);
+        assert!(values[0].is_nan() && (values[1600] - place).abs() < 1e-4, "{name}: {}", values[1600]);
+    }
+    // There and back again, without any loss but that of a name.
+    let said = folder.succeed(&["convert", "a.csv", "a.mcap"]);
+    assert!(said.contains("1\u{202f}601 wrenches") && said.contains("Nothing was lost"), "{said}");
+    let said = folder.succeed(&["convert", "a.mcap", "b.csv"]);
+    assert!(said.contains("names of frames: fingertip_sensor"), "{said}");
+    assert_eq!(folder.read("b.csv"), folder.read("a.csv"));
+    // The same contacts once more, from the wrenches.
+    let paper = scene("paper_sphere.toml");
+    folder.succeed(&["analyze", "b.csv", "--scene", &paper, "--output", "c.csv", "--no-report"]);
+    let contacts = Contacts::parse(&folder.read("c.csv"));
+    assert_eq!(contacts.len(), 1601);
+    assert_eq!((contacts.words("status")[0], contacts.words("status")[1600]), ("rest", "contact"));
+    for (name, place) in ["x_m", "y_m", "z_m"].iter().zip(expected) {
+        assert!((contacts.numbers(name)[1600] - place).abs() < 1e-4);
+    }
+    assert!((contacts.numbers("normal_N")[1600] - 2.0).abs() < 0.02);
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interrupted_recording_is_whole() {
+    let folder = Folder::new();
+    for file in ["a.mcap", "a.csv"] {
+        // The simulation in the process itself, with volts.
+        let mut child = folder
+            .command(&["record", "sim", "-o", file])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let path = folder.path(file);
+        while !std::fs::metadata(&path).is_ok_and(|_| true) {
+            std::thread::sleep(core::time::Duration::from_millis(10));
+        }
+        std::thread::sleep(core::time::Duration::from_millis(300));
+        interrupt(&child);
+        assert!(child.wait().unwrap().success());
+    }
+    let said = folder.succeed(&["convert", "a.mcap", "b.csv"]);
+    assert!(said.contains("signals") && said.contains("wrenches"), "{said}");
+    let (a, b) = (Contacts::parse(&folder.read("a.csv")), Contacts::parse(&folder.read("b.csv")));
+    assert!(a.len() > 100 && b.len() > 100);
+    let mut columns = ["v1_V", "dummy_V", "fx_N", "tz_Nm"].iter();
+    assert!(columns.all(|column| a.numbers(column)[50] == b.numbers(column)[50]));
+}
+
+#[test]
+fn a_zero_is_taken_off_only_on_request() {
+    let folder = Folder::new();
+    folder.write(
+        "script.toml",
+        &SCRIPT
+            .replace(
+                "'rest'\nduration = 0.2",
+                "'press'\nat = { from_top = 0.0, azimuth = 0.0 }\nforce = 1.0\nduration = 0.05",
+            )
+            .replace("do = 'press'\nat = { from_top = 0.5", "do = 'roll'\nto = { from_top = 0.5")
+            .replace("force = 2.0\n", ""),
+    );
+    let server = Server::start(
+        &folder,
+        &["--serve", "bota", "--over", "tcp", "--script", "script.toml", "--noise", "0"],
+    );
+    let last = |file: &str, more: &[&str]| {
+        let mut arguments = vec!["record", &server.address, "-o", file, "--samples", "100"];
+        arguments.extend(more);
+        let said = folder.succeed(&arguments);
+        (Contacts::parse(&folder.read(file)).numbers("fx_N")[99], said)
+    };
+    // The load stands at 1 N from the first tenth of a second on, turned by 30° by then.
+    let (tared, said) = last("tared.csv", &["--tare", "0.3"]);
+    assert!(said.contains("Zero taken off") && tared.abs() < 0.2, "{tared} {said}");
+    let (plain, said) = last("plain.csv", &[]);
+    assert!(!said.contains("Zero") && (plain + 0.866).abs() < 0.2, "{plain}");
+}
+
+#[test]
+fn what_cannot_be_done_is_said() {
+    let folder = Folder::new();
+    folder.write(
+        "old.csv",
+        "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,mood\n0.5,0,0,-1,0,0,0,3\n1.0,0,0,,0,0,0,4\n",
+    );
+    let cases: [(i32, &[&str], &str); 12] = [
+        (2, &["record", "carrier-pigeon://coop"], "no protocol that is known"),
+        (2, &["record", "bota"], "where is the sensor"),
+        (1, &["record", "sim", "-o", "out.xyz"], "neither .csv nor .mcap"),
+        (1, &["record", "sim", "-o", "old.csv", "--samples", "1"], "--force"),
+        (1, &["record", "bota:///no/such/port"], "/no/such/port"),
+        (1, &["record", "optoforce:///dev/null"], "counts_per_N is needed"),
+        (1, &["record", "ati://127.0.0.1?http=1"], "?counts_per_N="),
+        (
+            1,
+            &["record", "ati://127.0.0.1:9?counts_per_N=1&counts_per_Nm=1", "--silence", "0.3"],
+            "127.0.0.1:9",
+        ),
+        (1, &["simulate", "--serve", "ati", "--bit-flip", "0.1"], "--bit-flip"),
+        (1, &["simulate", "--serve", "bota", "--rate", "0"], "--rate"),
+        (1, &["convert", "old.csv", "new.csv"], "the same kind"),
+        (1, &["live"], "needs a terminal"),
+    ];
+    for (code, arguments, expected) in cases {
+        let error = folder.fail(code, arguments);
+        assert!(error.contains(expected), "{arguments:?}: {error}");
+    }
+    assert!(folder.read("old.csv").contains("mood"));
+    // What a format cannot hold is named.
+    let said = folder.succeed(&["convert", "old.csv", "new.mcap"]);
+    assert!(
+        said.contains("1 wrenches") && said.contains("mood") && said.contains("1 samples of which"),
+        "{said}"
+    );
+}
