@@ -183,6 +183,22 @@ struct Seen<T: Real> {
 }
 
 impl<T: Real> Seen<T> {
+    /// Takes note of why a crossing is no contact.
+    #[inline(never)]
+    fn refuse(&mut self, crossing: &Crossing<T>, incidence: T) {
+        if !in_range(&crossing.point) {
+        } else if !crossing.active {
+            self.outside = Some(crossing.point);
+        } else if !(incidence > T::zero()) {
+            if incidence >= -T::EPSILON * T::literal(64.0) {
+                self.tangent = Some(*crossing);
+            }
+            self.pulling = Some(crossing.point);
+        } else if self.too_flat.is_none_or(|(_, best)| incidence > best) {
+            self.too_flat = Some((crossing.point, incidence));
+        }
+    }
+
     /// Why none of the crossings is a contact; `None` if there was none at all.
     #[cold]
     fn reason(&self) -> Option<NoContact<T>> {
@@ -209,10 +225,7 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
         {
             return Resolution::Contact(contact_at(wrench, entry.point, entry.normal));
         }
-        match self.axis(wrench) {
-            Ok(axis) => self.choose(wrench, surface, &axis, last),
-            Err(reason) => Resolution::NoContact(reason),
-        }
+        self.choose(wrench, surface, last)
     }
 }
 
@@ -223,32 +236,20 @@ impl<T: Real> PointContact<T> {
         &self,
         wrench: &Wrench<T>,
         surface: &S,
-        axis: &LineOfAction<T>,
         last: Option<&Vector3<T>>,
     ) -> Resolution<T> {
+        let axis = match self.axis(wrench) {
+            Ok(axis) => axis,
+            Err(reason) => return Resolution::NoContact(reason),
+        };
         let direction = axis.line.direction;
         let mut seen =
             Seen { best: None, candidates: 0, too_flat: None, tangent: None, pulling: None, outside: None };
         surface.crossings(&axis.line, |crossing| {
-            if !in_range(&crossing.point) {
-                return;
-            }
             let incidence = -direction.dot(&crossing.normal);
-            if !crossing.active {
-                seen.outside = Some(crossing.point);
-                return;
-            }
-            if !(incidence > T::zero()) {
-                if incidence >= -T::EPSILON * T::literal(64.0) {
-                    seen.tangent = Some(crossing);
-                }
-                seen.pulling = Some(crossing.point);
-                return;
-            }
-            if incidence < self.least_incidence {
-                if seen.too_flat.is_none_or(|(_, best)| incidence > best) {
-                    seen.too_flat = Some((crossing.point, incidence));
-                }
+            let pressing = incidence > T::zero() && incidence >= self.least_incidence;
+            if !(crossing.active && pressing && in_range(&crossing.point)) {
+                seen.refuse(&crossing, incidence);
                 return;
             }
             seen.candidates = seen.candidates.saturating_add(1);
