@@ -57,7 +57,7 @@ fn pushes() -> Vec<Wrench<f32>> {
     let targets = [(0.3, 0.2, 1.0), (-0.4, 0.5, 0.9), (0.1, -0.6, 1.2), (0.5, 0.4, 0.8)];
     targets
         .map(|(x, y, z)| {
-            let from = Vector3::new(x, y, z);
+            let from = Vector3::<f32>::new(x, y, z);
             let through = Vector3::new(y, z, x) * 1e-3;
             Wrench::from_force_at(&through, from * -(2.0 / from.norm()))
         })
