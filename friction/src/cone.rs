@@ -114,6 +114,18 @@ pub(crate) fn saturated<T: Real>(force: T) -> T {
 /// `√(a² + b²)` without over- or underflow between.
 #[inline]
 pub(crate) fn hypot<T: Real>(a: T, b: T) -> T {
+    let squared = a * a + b * b;
+    // Above ν/ε², ν being the least normal number, no square that counts has underflowed.
+    if squared >= T::LEAST_NORMAL / (T::EPSILON * T::EPSILON) && squared <= T::GREATEST {
+        squared.root()
+    } else {
+        scaled_hypot(a, b)
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn scaled_hypot<T: Real>(a: T, b: T) -> T {
     let scale = a.abs().max(b.abs()).normalising_factor();
     let (a, b) = (a * scale, b * scale);
     (a * a + b * b).root() / scale

@@ -143,6 +143,13 @@ fn in_range<T: Real>(point: &Vector3<T>) -> bool {
     (point.x + point.y + point.z).is_number()
 }
 
+/// The same vector. A compiler that sees one block of memory copied hands that memory on, and the short
+/// way would have to go through it as well.
+#[inline(always)]
+fn by_components<T: Real>(v: &Vector3<T>) -> Vector3<T> {
+    Vector3::new(v.x, v.y, v.z)
+}
+
 #[inline]
 fn contact_at<T: Real>(wrench: &Wrench<T>, point: Vector3<T>, normal: Vector3<T>) -> Contact<T> {
     Contact { point, normal, force: wrench.force(), spin_torque: T::zero(), gap: T::zero(), alternatives: 0 }
@@ -215,7 +222,9 @@ impl<T: Real> Seen<T> {
 }
 
 impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
-    #[inline]
+    /// Always in line, with the long way kept out of the registers: a contact that is found the short
+    /// way then never goes through memory on its way to friction.
+    #[inline(always)]
     fn resolve_near(&self, wrench: &Wrench<T>, surface: &S, last: Option<&Vector3<T>>) -> Resolution<T> {
         let [least_squared, least_steepness] = self.short_way;
         if let Some(push) = ForceLine::new(wrench, least_squared)
@@ -225,7 +234,16 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
         {
             return Resolution::Contact(contact_at(wrench, entry.point, entry.normal));
         }
-        self.choose(wrench, surface, last)
+        let copy = Wrench::on_fingertip(by_components(&wrench.force()), by_components(&wrench.torque()));
+        match self.choose(&copy, surface, last) {
+            Resolution::Contact(contact) => Resolution::Contact(Contact {
+                point: by_components(&contact.point),
+                normal: by_components(&contact.normal),
+                force: by_components(&contact.force),
+                ..contact
+            }),
+            none => none,
+        }
     }
 }
 
