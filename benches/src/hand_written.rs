@@ -45,13 +45,7 @@ impl Friction {
     /// That of the scenes.
     #[must_use]
     pub fn of_scenes() -> Self {
-        Self {
-            coefficient: 0.6,
-            cosine: 1.0 / 1.36_f32.sqrt(),
-            warning: 0.45,
-            gate: 0.2,
-            inverse_arm: 500.0,
-        }
+        Self { coefficient: 0.6, cosine: 1.0 / 1.36_f32.sqrt(), warning: 0.45, gate: 0.2, inverse_arm: 500.0 }
     }
 
     #[inline(always)]

@@ -57,8 +57,7 @@ impl<T: Real> Cone<T> {
         } else {
             (self.coefficient * normal - load) * self.cosine
         };
-        let utilisation =
-            if load <= T::zero() && normal >= T::zero() { T::zero() } else { T::GREATEST };
+        let utilisation = if load <= T::zero() && normal >= T::zero() { T::zero() } else { T::GREATEST };
         if newtons.is_number() { SlipMargin { newtons, utilisation } } else { SlipMargin::unknown() }
     }
 

@@ -43,8 +43,14 @@ fn solvers() -> Result<(), Failure> {
     let eight = SceneC::sensor().ok_or("no sensor")?;
     let (wide, volts) = ([signals::<f64>()], [signals::<f32>()]);
     let redundant = [Volts::<8>::from_fn(|gauge, _| volts[0][gauge % 6])];
-    count!(gauss_f64, GaussianElimination::new(&paper)?, GaussianElimination<f64>, wide, |s, v: Vector6<f64>| s.solve(v));
-    count!(gauss_f32, GaussianElimination::new(&narrow)?, GaussianElimination<f32>, volts, |s, v: Vector6<f32>| s.solve(v));
+    count!(gauss_f64, GaussianElimination::new(&paper)?, GaussianElimination<f64>, wide, |s,
+                                                                                          v: Vector6<
+        f64,
+    >| s.solve(v));
+    count!(gauss_f32, GaussianElimination::new(&narrow)?, GaussianElimination<f32>, volts, |s,
+                                                                                            v: Vector6<
+        f32,
+    >| s.solve(v));
     count!(refined_f64, Refined::new(&paper)?, Refined<f64>, wide, |s, v: Vector6<f64>| s.solve(v));
     count!(inverse_f32, Inverse::new(&narrow)?, Inverse<f32>, volts, |s, v: Vector6<f32>| s.solve(v));
     count!(decoupled_f32, Decoupled::new(&narrow)?, Decoupled<f32, BicchiDario, 6>, volts, |s, v: Vector6<f32>| s.solve(v));
@@ -97,10 +103,23 @@ fn friction() -> Result<(), Failure> {
     let noise = ForceNoise::isotropic(0.02_f32)?;
     let gate = NormalForceGate::from_noise(&noise);
     count!(coulomb, Coulomb::new(0.6)?, Coulomb<f32>, forces, |s, f: ContactForce<f32>| s.slip_margin(f));
-    count!(ellipse, SoftFingerLimit::new(0.6, 3e-3)?, SoftFingerLimit<f32>, forces, |s, f: ContactForce<f32>| s.slip_margin(f));
-    count!(power_limit, PowerLimit::new(0.6, 3e-3, 1.72)?, PowerLimit<f32>, forces, |s, f: ContactForce<f32>| s.slip_margin(f));
-    count!(ratio_threshold, RatioThreshold::new(gate, 0.6, 0.75)?, RatioThreshold<f32>, forces, |s, f: ContactForce<f32>| s.update(f, 1e-3));
-    count!(drop_detector, DropDetector::new(noise)?, DropDetector<f32>, forces, |s, f: ContactForce<f32>| s.update(f, 1e-3));
+    count!(ellipse, SoftFingerLimit::new(0.6, 3e-3)?, SoftFingerLimit<f32>, forces, |s,
+                                                                                     f: ContactForce<
+        f32,
+    >| s.slip_margin(f));
+    count!(power_limit, PowerLimit::new(0.6, 3e-3, 1.72)?, PowerLimit<f32>, forces, |s,
+                                                                                     f: ContactForce<
+        f32,
+    >| s.slip_margin(f));
+    count!(
+        ratio_threshold,
+        RatioThreshold::new(gate, 0.6, 0.75)?,
+        RatioThreshold<f32>,
+        forces,
+        |s, f: ContactForce<f32>| s.update(f, 1e-3)
+    );
+    count!(drop_detector, DropDetector::new(noise)?, DropDetector<f32>, forces, |s, f: ContactForce<f32>| s
+        .update(f, 1e-3));
     count!(
         likelihood_ratio,
         LikelihoodRatioDetector::new(noise, 1.0, 1000.0)?,
@@ -123,8 +142,10 @@ fn scenes() -> Result<(), Failure> {
     count!(scene_b, SceneB::new().ok_or(none)?, SceneB, pressing::<SceneB, 6>(), |s, v: Volts<6>| s.sense(v));
     count!(scene_c, SceneC::new().ok_or(none)?, SceneC, pressing::<SceneC, 8>(), |s, v: Volts<8>| s.sense(v));
     count!(scene_d, SceneD::new().ok_or(none)?, SceneD, pressing::<SceneD, 8>(), |s, v: Volts<8>| s.sense(v));
-    count!(hand_a, HandA::new().ok_or(none)?, HandA, pressing::<SceneA, 6>(), |s, v: Volts<6>| s.sense(v.as_ref()));
-    count!(hand_b, HandB::new().ok_or(none)?, HandB, pressing::<SceneB, 6>(), |s, v: Volts<6>| s.sense(v.as_ref()));
+    count!(hand_a, HandA::new().ok_or(none)?, HandA, pressing::<SceneA, 6>(), |s, v: Volts<6>| s
+        .sense(v.as_ref()));
+    count!(hand_b, HandB::new().ok_or(none)?, HandB, pressing::<SceneB, 6>(), |s, v: Volts<6>| s
+        .sense(v.as_ref()));
     Ok(())
 }
 

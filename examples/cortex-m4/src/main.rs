@@ -88,4 +88,5 @@ fn main() -> ! {
     loop {}
 }
 
-static mut HEAP_ROOM: [core::mem::MaybeUninit<u8>; HEAP_BYTES] = [core::mem::MaybeUninit::uninit(); HEAP_BYTES];
+static mut HEAP_ROOM: [core::mem::MaybeUninit<u8>; HEAP_BYTES] =
+    [core::mem::MaybeUninit::uninit(); HEAP_BYTES];

@@ -99,15 +99,18 @@ fn main() -> Result<(), Box<dyn Error>> {
     let samples: Vec<_> = fingertip.collect();
 
     let six = design.layout()?;
-    let eight =
-        GaugeLayout::new(&design.beam, GaugeLayout::four_rosettes(isotropic_angle(design.beam.poisson_ratio)))?;
+    let eight = GaugeLayout::new(
+        &design.beam,
+        GaugeLayout::four_rosettes(isotropic_angle(design.beam.poisson_ratio)),
+    )?;
     let six_gauges: SensorMatrix<f64, 6> = six.sensor_matrix(electronics.gain(), nominal)?;
     let eight_gauges: SensorMatrix<f64, 8> = eight.sensor_matrix(electronics.gain(), nominal)?;
 
     let mut random = Pcg64Mcg::seed_from_u64(2);
     let spread = Imperfections::default().unbalance;
     let mut draw = || -> f64 { spread * Distribution::<f64>::sample(&StandardNormal, &mut random) };
-    let (of_six, of_eight) = (SVector::<f64, 6>::from_fn(|_, _| draw()), SVector::<f64, 8>::from_fn(|_, _| draw()));
+    let (of_six, of_eight) =
+        (SVector::<f64, 6>::from_fn(|_, _| draw()), SVector::<f64, 8>::from_fn(|_, _| draw()));
     let (mut a, mut b, mut c, mut d) = (vec![], vec![], vec![], vec![]);
     for sample in &samples {
         let sums = sample.raw.fixed_rows::<6>(0) * f64::from(electronics.conversions);
@@ -127,7 +130,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("//! `cargo run -p fingertip-scenes-record`.");
     let loads: Vec<f32> = nominal.iter().map(|x| *x as f32).collect();
     println!("\n/// Nominal loads [N, N·m].\npub(crate) const NOMINAL: [f32; 6] = {loads:?};");
-    print!("{}", matrix("PAPER", "The paper's sensor with six gauges, calibrated [V].", of_paper.normalised()));
+    print!(
+        "{}",
+        matrix("PAPER", "The paper's sensor with six gauges, calibrated [V].", of_paper.normalised())
+    );
     print!("{}", matrix("SIX", "The same as drawn [V].", six_gauges.normalised()));
     print!("{}", matrix("EIGHT", "Four rosettes [V].", eight_gauges.normalised()));
     print!("{}", session("A", "On a sphere of 13 mm.", &a));

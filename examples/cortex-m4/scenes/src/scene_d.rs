@@ -63,11 +63,8 @@ fn mesh() -> Option<Mesh<f32>> {
     let mut corners = vertices.iter_mut();
     let mut place = |octant: u8, i: u16, j: u16| {
         let sign = |bit: u8| if octant & bit == 0 { 1.0 } else { -1.0 };
-        let raw = Vector3::new(
-            f32::from(i) * sign(1),
-            f32::from(j) * sign(2),
-            f32::from(CUTS - i - j) * sign(4),
-        );
+        let raw =
+            Vector3::new(f32::from(i) * sign(1), f32::from(j) * sign(2), f32::from(CUTS - i - j) * sign(4));
         if let Some(corner) = corners.next() {
             *corner = raw * (RADIUS / fingertip::wrench::Real::root(raw.norm_squared()));
         }
