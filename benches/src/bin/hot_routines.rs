@@ -1,7 +1,7 @@
 //! Runs every routine of the hot path a thousand times, for `.ci/instructions` to count instructions
 //! under callgrind. Each is a function of its own, by whose name it is found.
 
-use std::hint::black_box;
+use core::hint::black_box;
 
 use fingertip_benches::hand_written::{HandA, HandB};
 use fingertip_benches::{paper_sensor, signals};
@@ -35,7 +35,7 @@ macro_rules! count {
     }};
 }
 
-type Failure = Box<dyn std::error::Error>;
+type Failure = Box<dyn core::error::Error>;
 
 fn solvers() -> Result<(), Failure> {
     let paper: SensorMatrix<f64, 6> = paper_sensor()?;

@@ -194,7 +194,9 @@ impl<T: Real> Seen<T> {
     #[inline(never)]
     fn refuse(&mut self, crossing: &Crossing<T>, incidence: T) {
         if !in_range(&crossing.point) {
-        } else if !crossing.active {
+            return;
+        }
+        if !crossing.active {
             self.outside = Some(crossing.point);
         } else if !(incidence > T::zero()) {
             if incidence >= -T::EPSILON * T::literal(64.0) {
