@@ -32,12 +32,16 @@ pub(crate) fn unit_or<T: Real>(v: &Vector3<T>, fallback: impl FnOnce() -> Vector
     }
 }
 
-/// A unit vector across a unit vector (Duff et al. 2017: without branch or root).
+/// A unit vector across a unit vector.
 pub(crate) fn any_perpendicular<T: Real>(direction: &Vector3<T>) -> Vector3<T> {
-    let (x, y, z) = (direction.x, direction.y, direction.z);
-    let side = if z < T::zero() { -T::one() } else { T::one() };
-    let share = x / (side + z);
-    Vector3::new(T::one() - side * x * share, -side * y * share, -side * x)
+    let axis = match direction.iamin() {
+        0 => Vector3::x(),
+        1 => Vector3::y(),
+        _ => Vector3::z(),
+    };
+    let across = direction.cross(&axis);
+    let length = across.norm_squared().root();
+    if length > T::zero() { across / length } else { axis }
 }
 
 /// The line's point closest to `centre`, relative to `centre`, and its position along the line.
