@@ -44,7 +44,9 @@ impl<Solver, Surface, Model, Friction, Detector, Zero>
     Fingertip<Solver, Surface, Model, Friction, Detector, Zero>
 {
     /// One raw reading, and the time since the one before \[s\].
-    #[inline]
+    // Always in line: an answer that goes through memory is written in small pieces and read in large
+    // ones, which costs more than a sample of a small scene.
+    #[inline(always)]
     pub fn sense<T, const N: usize>(
         &mut self,
         raw: &Zero::Raw,
@@ -64,7 +66,7 @@ impl<Solver, Surface, Model, Friction, Detector, Zero>
 
     /// One wrench, from a sensor that reports wrenches, and the time since the one before \[s\].
     /// `last` is the contact point of the sample before, for shapes that are not convex.
-    #[inline]
+    #[inline(always)]
     pub fn feel<T>(
         &mut self,
         wrench: Wrench<T>,

@@ -1,6 +1,8 @@
 //! Benchmarks of the fingertip workspace; see the `benches` folder. This library holds the inputs
 //! that they share.
 
+pub mod hand_written;
+
 use fingertip_wrench::gauge_layout::{GaugeLayout, LayoutError, ThinWalledBeam};
 use fingertip_wrench::{Real, SensorMatrix};
 use nalgebra::Vector6;

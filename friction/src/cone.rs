@@ -29,27 +29,36 @@ impl<T: Real> Cone<T> {
         Ok(Self { coefficient, cosine })
     }
 
+    /// `load` is not negative, or NaN.
     #[inline]
     pub(crate) fn margin(&self, load: T, normal: T) -> SlipMargin<T> {
         let holding = self.coefficient * normal;
+        if !(holding > T::zero()) {
+            return self.margin_without_hold(load, normal);
+        }
+        let newtons = (holding - load) * self.cosine;
+        let used = load / holding;
+        // A ratio that is not a number belongs to a margin that is none either.
+        if newtons.is_number() {
+            SlipMargin { newtons, utilisation: if used < T::GREATEST { used } else { T::GREATEST } }
+        } else {
+            SlipMargin::unknown()
+        }
+    }
+
+    /// Where friction holds nothing: the contact does not press, or so little that the product with μ
+    /// is zero.
+    #[cold]
+    #[inline(never)]
+    fn margin_without_hold(&self, load: T, normal: T) -> SlipMargin<T> {
         let newtons = if self.coefficient * load <= -normal {
             // The apex is nearest.
             -hypot(load, normal)
         } else {
-            (holding - load) * self.cosine
+            (self.coefficient * normal - load) * self.cosine
         };
-        let utilisation = if load <= T::zero() && normal >= T::zero() {
-            T::zero()
-        } else if holding > T::zero() {
-            (load / holding).min(T::GREATEST)
-        } else {
-            T::GREATEST
-        };
-        if newtons.is_number() && utilisation.is_number() {
-            SlipMargin { newtons, utilisation }
-        } else {
-            SlipMargin::unknown()
-        }
+        let utilisation = if load <= T::zero() && normal >= T::zero() { T::zero() } else { T::GREATEST };
+        if newtons.is_number() { SlipMargin { newtons, utilisation } } else { SlipMargin::unknown() }
     }
 
     #[inline]
@@ -104,6 +113,18 @@ pub(crate) fn saturated<T: Real>(force: T) -> T {
 /// `√(a² + b²)` without over- or underflow between.
 #[inline]
 pub(crate) fn hypot<T: Real>(a: T, b: T) -> T {
+    let squared = a * a + b * b;
+    // Above ν/ε², ν being the least normal number, no square that counts has underflowed.
+    if squared >= T::LEAST_NORMAL / (T::EPSILON * T::EPSILON) && squared <= T::GREATEST {
+        squared.root()
+    } else {
+        scaled_hypot(a, b)
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn scaled_hypot<T: Real>(a: T, b: T) -> T {
     let scale = a.abs().max(b.abs()).normalising_factor();
     let (a, b) = (a * scale, b * scale);
     (a * a + b * b).root() / scale

@@ -43,8 +43,15 @@ impl<T: Real> ContactForce<T> {
     #[inline]
     #[must_use]
     pub fn tangential_magnitude(&self) -> T {
-        let scale = self.tangential.amax().normalising_factor();
-        (self.tangential * scale).norm_squared().root() / scale
+        let squared = self.tangential.norm_squared();
+        // Above ν/ε², ν being the least normal number, no square that counts has underflowed.
+        if squared >= T::LEAST_NORMAL / (T::EPSILON * T::EPSILON) && squared <= T::GREATEST {
+            squared.root()
+        } else {
+            // By value: a force whose address is taken has to be written to memory.
+            let [x, y, z] = self.tangential.into();
+            scaled_length(x, y, z)
+        }
     }
 
     /// The friction ratio `|f_t|/f_n` (the paper's R_nt); `None` unless the contact presses and
@@ -66,4 +73,13 @@ impl<T: Real> ContactForce<T> {
     pub fn is_finite(&self) -> bool {
         self.normal.is_number() && self.spin.is_number() && self.tangential.iter().all(|x| x.is_number())
     }
+}
+
+/// The length of a vector that is very short, very long, zero, or no vector of numbers.
+#[cold]
+#[inline(never)]
+fn scaled_length<T: Real>(x: T, y: T, z: T) -> T {
+    let v = Vector3::new(x, y, z);
+    let scale = v.amax().normalising_factor();
+    (v * scale).norm_squared().root() / scale
 }

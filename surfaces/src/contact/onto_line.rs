@@ -29,17 +29,9 @@ pub(super) fn onto_line<T: Real, S: ActiveSurface<T>>(
     }
     let scale = wrench.force().amax().normalising_factor();
     let (f, m) = (wrench.force() * scale, wrench.torque() * scale);
-    // The torque that is left about the point, each component once more than its digits.
-    let left = |m: T, y: T, fz: T, z: T, fy: T| {
-        let product = |a: T, b: T| Twofold::new(a).times(Twofold::new(b));
-        Twofold::new(m).minus(product(y, fz)).plus(product(z, fy))
-    };
-    let tx = left(m.x, point.y, f.z, point.z, f.y);
-    let ty = left(m.y, point.z, f.x, point.x, f.z);
-    let tz = left(m.z, point.x, f.y, point.y, f.x);
-    let across = |fy: T, tz: Twofold<T>, fz: T, ty: Twofold<T>| {
-        tz.times(Twofold::new(fy)).minus(ty.times(Twofold::new(fz))).value()
-    };
+    let tx = torque_left(m.x, point.y, f.z, point.z, f.y);
+    let ty = torque_left(m.y, point.z, f.x, point.x, f.z);
+    let tz = torque_left(m.z, point.x, f.y, point.y, f.x);
     let squared = f.norm_squared();
     let off =
         Vector3::new(across(f.y, tz, f.z, ty), across(f.z, tx, f.x, tz), across(f.x, ty, f.y, tx)) / squared;
@@ -48,4 +40,17 @@ pub(super) fn onto_line<T: Real, S: ActiveSurface<T>>(
     let size = point.amax() + (m.amax() / squared.root());
     let allowed = T::literal(64.0) * T::EPSILON * size / incidence;
     if step.amax() <= allowed { point + step } else { point }
+}
+
+/// A component of the torque that is left about a point, `m − (y·fz − z·fy)`.
+#[inline(never)]
+fn torque_left<T: Real>(m: T, y: T, fz: T, z: T, fy: T) -> Twofold<T> {
+    let product = |a: T, b: T| Twofold::new(a).times(Twofold::new(b));
+    Twofold::new(m).minus(product(y, fz)).plus(product(z, fy))
+}
+
+/// A component of the force times that torque, `fy·tz − fz·ty`.
+#[inline(never)]
+fn across<T: Real>(fy: T, tz: Twofold<T>, fz: T, ty: Twofold<T>) -> T {
+    tz.times(Twofold::new(fy)).minus(ty.times(Twofold::new(fz))).value()
 }

@@ -143,6 +143,13 @@ fn in_range<T: Real>(point: &Vector3<T>) -> bool {
     (point.x + point.y + point.z).is_number()
 }
 
+/// The same vector. A compiler that sees one block of memory copied hands that memory on, and the short
+/// way would have to go through it as well.
+#[inline(always)]
+fn by_components<T: Real>(v: &Vector3<T>) -> Vector3<T> {
+    Vector3::new(v.x, v.y, v.z)
+}
+
 #[inline]
 fn contact_at<T: Real>(wrench: &Wrench<T>, point: Vector3<T>, normal: Vector3<T>) -> Contact<T> {
     Contact { point, normal, force: wrench.force(), spin_torque: T::zero(), gap: T::zero(), alternatives: 0 }
@@ -183,6 +190,24 @@ struct Seen<T: Real> {
 }
 
 impl<T: Real> Seen<T> {
+    /// Takes note of why a crossing is no contact.
+    #[inline(never)]
+    fn refuse(&mut self, crossing: &Crossing<T>, incidence: T) {
+        if !in_range(&crossing.point) {
+            return;
+        }
+        if !crossing.active {
+            self.outside = Some(crossing.point);
+        } else if !(incidence > T::zero()) {
+            if incidence >= -T::EPSILON * T::literal(64.0) {
+                self.tangent = Some(*crossing);
+            }
+            self.pulling = Some(crossing.point);
+        } else if self.too_flat.is_none_or(|(_, best)| incidence > best) {
+            self.too_flat = Some((crossing.point, incidence));
+        }
+    }
+
     /// Why none of the crossings is a contact; `None` if there was none at all.
     #[cold]
     fn reason(&self) -> Option<NoContact<T>> {
@@ -199,7 +224,9 @@ impl<T: Real> Seen<T> {
 }
 
 impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
-    #[inline]
+    /// Always in line, with the long way kept out of the registers: a contact that is found the short
+    /// way then never goes through memory on its way to friction.
+    #[inline(always)]
     fn resolve_near(&self, wrench: &Wrench<T>, surface: &S, last: Option<&Vector3<T>>) -> Resolution<T> {
         let [least_squared, least_steepness] = self.short_way;
         if let Some(push) = ForceLine::new(wrench, least_squared)
@@ -209,9 +236,15 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
         {
             return Resolution::Contact(contact_at(wrench, entry.point, entry.normal));
         }
-        match self.axis(wrench) {
-            Ok(axis) => self.choose(wrench, surface, &axis, last),
-            Err(reason) => Resolution::NoContact(reason),
+        let copy = Wrench::on_fingertip(by_components(&wrench.force()), by_components(&wrench.torque()));
+        match self.choose(&copy, surface, last) {
+            Resolution::Contact(contact) => Resolution::Contact(Contact {
+                point: by_components(&contact.point),
+                normal: by_components(&contact.normal),
+                force: by_components(&contact.force),
+                ..contact
+            }),
+            none => none,
         }
     }
 }
@@ -223,32 +256,20 @@ impl<T: Real> PointContact<T> {
         &self,
         wrench: &Wrench<T>,
         surface: &S,
-        axis: &LineOfAction<T>,
         last: Option<&Vector3<T>>,
     ) -> Resolution<T> {
+        let axis = match self.axis(wrench) {
+            Ok(axis) => axis,
+            Err(reason) => return Resolution::NoContact(reason),
+        };
         let direction = axis.line.direction;
         let mut seen =
             Seen { best: None, candidates: 0, too_flat: None, tangent: None, pulling: None, outside: None };
         surface.crossings(&axis.line, |crossing| {
-            if !in_range(&crossing.point) {
-                return;
-            }
             let incidence = -direction.dot(&crossing.normal);
-            if !crossing.active {
-                seen.outside = Some(crossing.point);
-                return;
-            }
-            if !(incidence > T::zero()) {
-                if incidence >= -T::EPSILON * T::literal(64.0) {
-                    seen.tangent = Some(crossing);
-                }
-                seen.pulling = Some(crossing.point);
-                return;
-            }
-            if incidence < self.least_incidence {
-                if seen.too_flat.is_none_or(|(_, best)| incidence > best) {
-                    seen.too_flat = Some((crossing.point, incidence));
-                }
+            let pressing = incidence > T::zero() && incidence >= self.least_incidence;
+            if !(crossing.active && pressing && in_range(&crossing.point)) {
+                seen.refuse(&crossing, incidence);
                 return;
             }
             seen.candidates = seen.candidates.saturating_add(1);

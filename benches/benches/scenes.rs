@@ -1,0 +1,76 @@
+//! What a sample of each scene costs, from volts to the detector's verdict in single precision,
+//! beside the yardstick that was written by hand. Both store their answers.
+
+#![allow(missing_docs, reason = "criterion's macros")]
+
+use core::hint::black_box;
+use core::time::Duration;
+
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use fingertip_benches::hand_written::{HandA, HandB};
+use fingertip_scenes::{Felt, Scene, SceneA, SceneB, SceneC, SceneD, Volts};
+
+/// Not a power of two, lest inputs and outputs meet in the same lines of the cache.
+const COUNT: usize = 1013;
+
+/// The samples of the session that are in contact, over and over.
+fn volts<S: Scene<N>, const N: usize>() -> Vec<Volts<N>> {
+    let session = S::session();
+    let pressing = session.get(60..session.len() - 30).unwrap_or(session);
+    pressing.iter().cycle().take(COUNT).map(|sums| S::volts(sums)).collect()
+}
+
+fn run<I, O: Clone + Default>(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    name: &str,
+    inputs: &[I],
+    mut sense: impl FnMut(&I) -> O,
+) {
+    let mut answers = vec![O::default(); inputs.len()];
+    group.bench_function(name, |b| {
+        b.iter(|| {
+            for (input, answer) in inputs.iter().zip(&mut answers) {
+                // One at a time, as they come: no two are to be done in one vector.
+                *answer = sense(black_box(input));
+            }
+            black_box(&mut answers);
+        });
+    });
+}
+
+fn scene<S: Scene<N>, const N: usize>(group: &mut BenchmarkGroup<'_, WallTime>)
+where
+    S::Answer: Clone + Default,
+{
+    let Some(mut scene) = S::new() else { return };
+    run(group, &format!("{}, pipeline", S::NAME), &volts::<S, N>(), |volts| scene.sense(volts));
+}
+
+fn scenes(c: &mut Criterion) {
+    let mut group = c.benchmark_group("scenes");
+    group.throughput(Throughput::Elements(COUNT as u64));
+    scene::<SceneA, 6>(&mut group);
+    if let Some(hand) = HandA::new() {
+        let volts: Vec<[f32; 6]> = volts::<SceneA, 6>().into_iter().map(Into::into).collect();
+        run(&mut group, "a, by hand", &volts, |volts| -> Felt { hand.sense(volts) });
+    }
+    scene::<SceneB, 6>(&mut group);
+    if let Some(hand) = HandB::new() {
+        let volts: Vec<[f32; 6]> = volts::<SceneB, 6>().into_iter().map(Into::into).collect();
+        run(&mut group, "b, by hand", &volts, |volts| -> Felt { hand.sense(volts) });
+    }
+    scene::<SceneC, 8>(&mut group);
+    scene::<SceneD, 8>(&mut group);
+    group.finish();
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_millis(700))
+        .sample_size(40);
+    targets = scenes
+}
+criterion_main!(benches);

@@ -1,0 +1,157 @@
+//! Runs every routine of the hot path a thousand times, for `.ci/instructions` to count instructions
+//! under callgrind. Each is a function of its own, by whose name it is found.
+
+use core::hint::black_box;
+
+use fingertip_benches::hand_written::{HandA, HandB};
+use fingertip_benches::{paper_sensor, signals};
+use fingertip_friction::{
+    Coulomb, DropDetector, ForceNoise, FrictionModel, LikelihoodRatioDetector, NormalForceGate, PowerLimit,
+    RatioThreshold, SlipDetector, SoftFingerLimit,
+};
+use fingertip_scenes::{Scene, SceneA, SceneB, SceneC, SceneD, Volts};
+use fingertip_surfaces::{
+    Capsule, Cone, ContactModel, Cylinder, Ellipsoid, Plane, PointContact, SoftFinger, Sphere, Torus,
+};
+use fingertip_wrench::{
+    BicchiDario, ContactForce, Decoupled, GaussianElimination, Inverse, LeastSquares, Refined, SensorMatrix,
+    Wrench, WrenchSolver,
+};
+use nalgebra::{Vector3, Vector6};
+
+const CALLS: usize = 1000;
+
+/// Defines a function that calls one routine, and calls it.
+macro_rules! count {
+    ($name:ident, $state:expr, $kind:ty, $inputs:expr, |$this:ident, $input:ident: $input_kind:ty| $call:expr) => {{
+        #[inline(never)]
+        fn $name($this: &mut $kind, $input: &$input_kind) {
+            black_box($call);
+        }
+        let mut state: $kind = $state;
+        for input in $inputs.iter().cycle().take(CALLS) {
+            $name(black_box(&mut state), black_box(input));
+        }
+    }};
+}
+
+type Failure = Box<dyn core::error::Error>;
+
+fn solvers() -> Result<(), Failure> {
+    let paper: SensorMatrix<f64, 6> = paper_sensor()?;
+    let narrow: SensorMatrix<f32, 6> = paper_sensor()?;
+    let eight = SceneC::sensor().ok_or("no sensor")?;
+    let (wide, volts) = ([signals::<f64>()], [signals::<f32>()]);
+    let redundant = [Volts::<8>::from_fn(|gauge, _| volts[0][gauge % 6])];
+    count!(gauss_f64, GaussianElimination::new(&paper)?, GaussianElimination<f64>, wide, |s,
+                                                                                          v: Vector6<
+        f64,
+    >| s.solve(v));
+    count!(gauss_f32, GaussianElimination::new(&narrow)?, GaussianElimination<f32>, volts, |s,
+                                                                                            v: Vector6<
+        f32,
+    >| s.solve(v));
+    count!(refined_f64, Refined::new(&paper)?, Refined<f64>, wide, |s, v: Vector6<f64>| s.solve(v));
+    count!(inverse_f32, Inverse::new(&narrow)?, Inverse<f32>, volts, |s, v: Vector6<f32>| s.solve(v));
+    count!(decoupled_f32, Decoupled::new(&narrow)?, Decoupled<f32, BicchiDario, 6>, volts, |s, v: Vector6<f32>| s.solve(v));
+    count!(least_squares_f32, LeastSquares::new(&eight)?, LeastSquares<f32, 8>, redundant, |s, v: Volts<8>| s.solve(v));
+    Ok(())
+}
+
+/// Pushes of 2 N straight and askew into a shape that encloses the origin or lies below it.
+fn pushes() -> Vec<Wrench<f32>> {
+    let targets = [(0.3, 0.2, 1.0), (-0.4, 0.5, 0.9), (0.1, -0.6, 1.2), (0.5, 0.4, 0.8)];
+    targets
+        .map(|(x, y, z)| {
+            let from = Vector3::<f32>::new(x, y, z);
+            let through = Vector3::new(y, z, x) * 1e-3;
+            Wrench::from_force_at(&through, from * -(2.0 / from.norm()))
+        })
+        .to_vec()
+}
+
+fn contacts() -> Result<(), Failure> {
+    let wrenches = pushes();
+    let (point, soft) = (PointContact::new(0.1_f32)?, SoftFinger::new(0.1_f32)?);
+    macro_rules! shapes {
+        ($($name:ident: $kind:ty, $model:ident = $shape:expr;)*) => { $(
+            count!($name, ($shape, $model), $kind, wrenches, |s, w: Wrench<f32>| s.1.resolve(w, &s.0));
+        )* };
+    }
+    let (centre, up) = (Vector3::zeros(), Vector3::z());
+    let axes = Vector3::new(0.014, 0.011, 0.009);
+    shapes! {
+        point_on_sphere: (Sphere<f32>, PointContact<f32>), point = Sphere::centred(0.013)?;
+        point_on_ellipsoid: (Ellipsoid<f32>, PointContact<f32>), point = Ellipsoid::new(axes)?;
+        point_on_cylinder: (Cylinder<f32>, PointContact<f32>), point = Cylinder::new(centre, Vector3::x(), 0.009)?;
+        point_on_plane: (Plane<f32>, PointContact<f32>), point = Plane::new(centre, up)?;
+        point_on_capsule: (Capsule<f32>, PointContact<f32>), point = Capsule::new(centre, up, 0.004, 0.009)?;
+        point_on_cone: (Cone<f32>, PointContact<f32>), point = Cone::new(Vector3::new(0.0, 0.0, 0.02), -up, 0.6)?;
+        point_on_torus: (Torus<f32>, PointContact<f32>), point = Torus::new(0.01, 0.0035)?;
+        soft_on_sphere: (Sphere<f32>, SoftFinger<f32>), soft = Sphere::centred(0.013)?;
+        soft_on_ellipsoid: (Ellipsoid<f32>, SoftFinger<f32>), soft = Ellipsoid::new(axes)?;
+    }
+    Ok(())
+}
+
+fn friction() -> Result<(), Failure> {
+    let forces = [0.0_f32, 0.01, -0.02, 0.015, -0.005].map(|noise| ContactForce {
+        normal: 4.0 + noise,
+        tangential: Vector3::new(1.2 - noise, 0.9 + noise, 1e-3 * noise),
+        spin: 1e-3,
+    });
+    let noise = ForceNoise::isotropic(0.02_f32)?;
+    let gate = NormalForceGate::from_noise(&noise);
+    count!(coulomb, Coulomb::new(0.6)?, Coulomb<f32>, forces, |s, f: ContactForce<f32>| s.slip_margin(f));
+    count!(ellipse, SoftFingerLimit::new(0.6, 3e-3)?, SoftFingerLimit<f32>, forces, |s,
+                                                                                     f: ContactForce<
+        f32,
+    >| s.slip_margin(f));
+    count!(power_limit, PowerLimit::new(0.6, 3e-3, 1.72)?, PowerLimit<f32>, forces, |s,
+                                                                                     f: ContactForce<
+        f32,
+    >| s.slip_margin(f));
+    count!(
+        ratio_threshold,
+        RatioThreshold::new(gate, 0.6, 0.75)?,
+        RatioThreshold<f32>,
+        forces,
+        |s, f: ContactForce<f32>| s.update(f, 1e-3)
+    );
+    count!(drop_detector, DropDetector::new(noise)?, DropDetector<f32>, forces, |s, f: ContactForce<f32>| s
+        .update(f, 1e-3));
+    count!(
+        likelihood_ratio,
+        LikelihoodRatioDetector::new(noise, 1.0, 1000.0)?,
+        LikelihoodRatioDetector<f32, 16>,
+        forces,
+        |s, f: ContactForce<f32>| s.update(f, 1e-3)
+    );
+    Ok(())
+}
+
+/// The samples of a session that are in contact.
+fn pressing<S: Scene<N>, const N: usize>() -> Vec<Volts<N>> {
+    let session = S::session();
+    session.iter().skip(60).take(session.len() - 90).map(|sums| S::volts(sums)).collect()
+}
+
+fn scenes() -> Result<(), Failure> {
+    let none = "a scene cannot be built";
+    count!(scene_a, SceneA::new().ok_or(none)?, SceneA, pressing::<SceneA, 6>(), |s, v: Volts<6>| s.sense(v));
+    count!(scene_b, SceneB::new().ok_or(none)?, SceneB, pressing::<SceneB, 6>(), |s, v: Volts<6>| s.sense(v));
+    count!(scene_c, SceneC::new().ok_or(none)?, SceneC, pressing::<SceneC, 8>(), |s, v: Volts<8>| s.sense(v));
+    count!(scene_d, SceneD::new().ok_or(none)?, SceneD, pressing::<SceneD, 8>(), |s, v: Volts<8>| s.sense(v));
+    count!(hand_a, HandA::new().ok_or(none)?, HandA, pressing::<SceneA, 6>(), |s, v: Volts<6>| s
+        .sense(v.as_ref()));
+    count!(hand_b, HandB::new().ok_or(none)?, HandB, pressing::<SceneB, 6>(), |s, v: Volts<6>| s
+        .sense(v.as_ref()));
+    Ok(())
+}
+
+fn main() -> Result<(), Failure> {
+    solvers()?;
+    contacts()?;
+    friction()?;
+    scenes()
+}
