@@ -1,0 +1,26 @@
+//! Every routine under every stress case keeps its bound. The report of the benches runs the same
+//! table with more trials and shows it: `cargo run --release -p fingertip-benches --bin report`.
+#![cfg(feature = "friction")]
+
+extern crate alloc;
+
+#[path = "stability/mod.rs"]
+mod cases;
+
+#[test]
+fn no_case_loses_more_digits_than_its_conditioning() {
+    let rows = cases::all(12);
+    let mut bad = 0;
+    for row in &rows {
+        if !row.good() {
+            bad += 1;
+            println!(
+                "{} | {} | {}: worst {:.2e} of its bound, {} failures, {} NaN in {} trials: {}",
+                row.routine, row.case, row.scalar, row.worst, row.failures, row.nan, row.trials, row.note
+            );
+        }
+    }
+    println!("{} rows", rows.len());
+    assert!(bad == 0, "{bad} of {} rows broke their bound", rows.len());
+    assert!(rows.len() > 300, "the matrix is whole: {}", rows.len());
+}
