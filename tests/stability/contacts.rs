@@ -16,7 +16,11 @@ use super::matrix::Row;
 use super::shapes::{Visitor, each};
 
 /// Rounding units of the lengths involved that an answer may be off.
-const UNITS: f64 = 8.0;
+const UNITS: f64 = 16.0;
+
+/// The same for the nearest point to a line that misses, which is found by iteration in the space
+/// where a needle is a ball: 1e-13 of the size in `f64` (theory 12).
+const NEAR_MISS_UNITS: f64 = 450.0;
 
 pub(crate) fn wide<T: Real>(v: &Vector3<T>) -> [f64; 3] {
     v.map(Real::to_f64).into()
@@ -134,10 +138,15 @@ impl<T: Real> Visitor<T> for Contacts<'_> {
                 }
             };
             let place = big3(wide(&place));
-            let bound = UNITS * epsilon * (size + length(&place) + length(&line.0));
-            let note = || format!("{wrench:?}: {found:?}");
-            row.error(off_line(&place, &line), bound, note);
-            row.error(level.distance(&place, size), bound, note);
+            let missed = matches!(found, Resolution::NoContact(NoContact::Misses { .. }));
+            let units = if missed { NEAR_MISS_UNITS } else { UNITS };
+            let bound = units * epsilon * (size + length(&place) + length(&line.0));
+            let (aside, above) = (off_line(&place, &line), level.distance(&place, size));
+            let note = || {
+                format!("{aside:.1e} off the line, {above:.1e} off the surface, bound {bound:.1e}: {wrench:?}: {found:?}")
+            };
+            row.error(aside, bound, note);
+            row.error(above, bound, note);
         }
         self.rows.push(row);
         if self.case == "ordinary" {
@@ -234,9 +243,12 @@ fn meshes<T: Real>(trials: usize, rows: &mut Vec<Row>) {
                 };
                 let place = big3(wide(&contact.point));
                 let bound = UNITS * T::EPSILON.to_f64() * 3.0;
-                let note = || format!("{wrench:?}: {found:?}");
-                row.error(off_line(&place, &line), bound, note);
-                row.error(off_mesh(&place, &exact, &triangles), bound, note);
+                let (aside, above) = (off_line(&place, &line), off_mesh(&place, &exact, &triangles));
+                let note = || {
+                    format!("{aside:.1e} off the line, {above:.1e} off the mesh, bound {bound:.1e}: {wrench:?}: {found:?}")
+                };
+                row.error(aside, bound, note);
+                row.error(above, bound, note);
             }
             rows.push(row);
         }

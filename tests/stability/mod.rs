@@ -7,7 +7,7 @@
 #[path = "../../surfaces/tests/oracle/big.rs"]
 #[allow(dead_code, clippy::unwrap_used, reason = "an oracle of finite numbers")]
 pub(crate) mod big;
-mod contacts;
+pub(crate) mod contacts;
 mod detectors;
 mod fits;
 mod friction;
@@ -15,7 +15,7 @@ pub(crate) mod levels;
 mod lines;
 pub(crate) mod matrix;
 pub(crate) mod shapes;
-mod soft;
+pub(crate) mod soft;
 pub(crate) mod solve;
 pub(crate) mod solvers;
 

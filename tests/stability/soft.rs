@@ -19,7 +19,7 @@ use super::levels::Level;
 use super::matrix::Row;
 use super::shapes::{Visitor, each};
 
-const UNITS: f64 = 8.0;
+const UNITS: f64 = 16.0;
 
 /// A surface by Newton's method, whatever closed form it has, that counts the evaluations.
 pub(crate) struct Newton<'a, S> {
@@ -116,19 +116,23 @@ impl Contacts<'_> {
             let (f, m) = (big3(wide(&wrench.force())), big3(wide(&wrench.torque())));
             let place = big3(wide(&contact.point));
             let normal = big3(wide(&contact.normal));
+            let wide_spin = contact.spin_torque.to_f64().abs();
             let spin = Big::new(contact.spin_torque.to_f64());
             let arm = cross(&place, &f);
             let rest = [0, 1, 2].map(|k| &(&m[k] - &arm[k]) - &(&spin * &normal[k]));
             let lever = size + length(&place);
             let moments = length(&f) * lever + length(&m);
-            row.error(length(&rest), UNITS * epsilon * moments, note);
-            row.error(level.distance(&place, size), UNITS * epsilon * lever, note);
             // The normal, as far as rounding of the point leaves it known.
             let exact = level.normal(&place, size);
             let off = |a: &[Big; 3], b: &[Big; 3]| length(&[0, 1, 2].map(|k| &a[k] - &b[k]));
             let hair = &Big::new(UNITS * epsilon * size);
             let aside = level.normal(&[0, 1, 2].map(|k| &place[k] + &(&exact[(k + 1) % 3] * hair)), size);
-            row.error(off(&normal, &exact), UNITS * epsilon + 4.0 * off(&aside, &exact), note);
+            let unknown = off(&aside, &exact);
+            // What rounding the point does to the normal, the spin torque sees.
+            let turned = wide_spin * unknown;
+            row.error(length(&rest), UNITS * epsilon * moments + turned, || format!("moments: {}", note()));
+            row.error(level.distance(&place, size), UNITS * epsilon * lever, || format!("off the surface: {}", note()));
+            row.error(off(&normal, &exact), UNITS * epsilon + 4.0 * unknown, || format!("normal: {}", note()));
         }
         row
     }

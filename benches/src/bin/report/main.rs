@@ -21,7 +21,11 @@ mod table;
 mod timing;
 
 #[path = "../slip_report/ramps.rs"]
+#[allow(dead_code, reason = "the slip report asks for more of it")]
 mod ramps;
+/// The table of stress cases, which the test of the root crate runs too.
+#[path = "../../../../tests/stability/mod.rs"]
+mod stability;
 
 use core::error::Error;
 use std::path::PathBuf;
