@@ -126,8 +126,11 @@ impl Contacts<'_> {
             let exact = level.normal(&place, size);
             let off = |a: &[Big; 3], b: &[Big; 3]| length(&[0, 1, 2].map(|k| &a[k] - &b[k]));
             let hair = &Big::new(UNITS * epsilon * size);
-            let aside = level.normal(&[0, 1, 2].map(|k| &place[k] + &(&exact[(k + 1) % 3] * hair)), size);
-            let unknown = off(&aside, &exact);
+            let turned_by = |to: usize| {
+                let moved = [0, 1, 2].map(|k| &place[k] + &(&exact[(k + to) % 3] * hair));
+                off(&level.normal(&moved, size), &exact)
+            };
+            let unknown = turned_by(1).max(turned_by(2));
             // What rounding the point does to the normal, the spin torque sees.
             let turned = wide_spin * unknown;
             row.error(length(&rest), UNITS * epsilon * moments + turned, || format!("moments: {}", note()));

@@ -40,7 +40,7 @@ impl Family {
     fn settings(self, effort: Effort) -> Vec<f64> {
         let all: &[f64] = match self {
             Self::Sum(_) => &[2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0],
-            Self::Ratio => &[1e3, 100.0, 10.0, 1.0, 0.1, 0.01],
+            Self::Ratio => &[500.0, 100.0, 10.0, 1.0, 0.1, 0.01],
         };
         all.iter().copied().step_by(effort.choose(3, 1)).collect()
     }
