@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use fingertip_wrench::units::{ForceUnit, TorqueUnit};
 use serde::{Deserialize, Serialize};
 
 /// One component of a wrench.
@@ -44,6 +45,16 @@ impl Axis {
     #[must_use]
     pub const fn unit(self) -> &'static str {
         if self.is_torque() { "N·m" } else { "N" }
+    }
+
+    /// The size in SI of the unit called so, if it is one of this axis: see [`crate::units`].
+    #[must_use]
+    pub fn unit_size(self, name: &str) -> Option<f64> {
+        if self.is_torque() {
+            TorqueUnit::from_name(name).map(TorqueUnit::in_newton_metres)
+        } else {
+            ForceUnit::from_name(name).map(ForceUnit::in_newtons)
+        }
     }
 
     /// The name as it stands in files and headers: `"fx"` … `"tz"`.

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::fit::FitError;
+use crate::linear::Triangular;
 
 /// How much a fit knows: `(Σ x xᵀ)` of the loads so far, with and without bias, kept as its inverse.
 ///
@@ -96,14 +97,41 @@ pub struct Plan {
 ///
 /// # Errors
 /// [`FitError::BadInput`] for an accuracy that is not positive or candidates that are not finite,
-/// [`FitError::TooFewSamples`] if `most` loads are not enough (as when candidates leave a direction
-/// open).
+/// [`FitError::Unobserved`] if the candidates leave a direction open, [`FitError::TooFewSamples`] if
+/// `most` loads are not enough.
 pub fn plan(candidates: &DMatrix<f64>, bias: bool, accuracy: f64, most: usize) -> Result<Plan, FitError> {
+    plan_after(&DMatrix::zeros(0, candidates.ncols()), candidates, bias, accuracy, most)
+}
+
+/// As [`plan`], with loads that were applied already (rows, in nominal loads).
+///
+/// # Errors
+/// The same; also [`FitError::BadInput`] for loads of another number of axes.
+pub fn plan_after(
+    done: &DMatrix<f64>,
+    candidates: &DMatrix<f64>,
+    bias: bool,
+    accuracy: f64,
+    most: usize,
+) -> Result<Plan, FitError> {
     if !(accuracy > 0.0) || candidates.is_empty() || candidates.iter().any(|x| !x.is_finite()) {
         return Err(FitError::BadInput { what: "the accuracy or the list of candidates" });
     }
     let rows: Vec<Vec<f64>> = candidates.row_iter().map(|row| row.iter().copied().collect()).collect();
+    if done.ncols() != candidates.ncols() || done.iter().any(|x| !x.is_finite()) {
+        return Err(FitError::BadInput { what: "the list of loads that were applied" });
+    }
+    let mut all = Triangular::new(candidates.ncols() + usize::from(bias), 0);
+    for load in done.row_iter().chain(candidates.row_iter()) {
+        let mut regressors: Vec<f64> = load.iter().copied().collect();
+        regressors.extend(bias.then_some(1.0));
+        all.push(&regressors, &[]);
+    }
+    all.factors().coefficients()?;
     let mut information = Information::new(candidates.ncols(), bias);
+    for load in done.row_iter() {
+        information.add(&load.iter().copied().collect::<Vec<_>>());
+    }
     let mut result = Plan { order: Vec::new(), deviation: Vec::new() };
     while result.order.len() < most {
         let Some(best) = information.rank(candidates).first().copied() else { break };
@@ -111,8 +139,8 @@ pub fn plan(candidates: &DMatrix<f64>, bias: bool, accuracy: f64, most: usize) -
         result.order.push(best.candidate);
         let worst = rows.iter().filter_map(|row| information.variance(row)).fold(0.0, f64::max);
         // While a direction is open, its variance is that of the beginning.
-        let determined =
-            result.order.len() >= candidates.ncols() + usize::from(bias) && worst < 1e-3 / BEGINNING;
+        let determined = done.nrows() + result.order.len() >= candidates.ncols() + usize::from(bias)
+            && worst < 1e-3 / BEGINNING;
         result.deviation.push(if determined { worst.sqrt() } else { f64::INFINITY });
         if determined && worst.sqrt() <= accuracy {
             return Ok(result);
@@ -123,7 +151,8 @@ pub fn plan(candidates: &DMatrix<f64>, bias: bool, accuracy: f64, most: usize) -
 
 #[cfg(test)]
 mod tests {
-    use super::{Information, plan};
+    use super::{Information, plan, plan_after};
+    use crate::fit::FitError;
     use crate::fit::testing::gaussian_matrix;
     use nalgebra::DMatrix;
     use rand::SeedableRng as _;
@@ -165,9 +194,12 @@ mod tests {
         first.sort_unstable();
         assert_eq!(first, [0, 1, 2, 3, 4, 5]);
         assert!(plan.deviation[4].is_infinite() && (plan.deviation[5] - 1.0).abs() < 1e-5);
-        assert!(
-            super::plan(&candidates.columns(0, 5).into_owned().insert_column(5, 0.0), true, 0.5, 200).is_ok()
-        );
+        let never = candidates.columns(0, 5).into_owned().insert_column(5, 0.0);
+        assert!(matches!(super::plan(&never, true, 0.5, 200), Err(FitError::Unobserved(_))));
+        // What was done need not be done again.
+        let done = candidates.select_rows(&plan.order[..20]);
+        assert_eq!(plan_after(&done, &candidates, false, 0.5, 200).unwrap().order.len(), 4);
+        assert!(plan_after(&done.columns(0, 5).into_owned(), &candidates, false, 0.5, 200).is_err());
         let blind = candidates.rows(0, 4).into_owned();
         assert!(super::plan(&blind, true, 1e-9, 50).is_err());
     }

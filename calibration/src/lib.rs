@@ -16,9 +16,9 @@ pub mod model;
 pub mod motion;
 pub mod report;
 pub mod tare;
-pub mod units;
 
 pub use axis::Axis;
+pub use fingertip_wrench::units;
 pub use nalgebra;
 
 /// Name and version of this library, as files and reports name their maker.

@@ -2,11 +2,12 @@
 
 use std::io::Read;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, RowDVector};
 use thiserror::Error;
 
 use crate::file::{CalibrationFile, FileError, SignalUnit};
-use crate::loads::{LoadError, signals_from_csv};
+use crate::linear::pseudo_inverse;
+use crate::loads::{LoadError, Rest, signals_from_csv};
 
 /// A calibration with a new zero, and what the recording of rest looked like.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,17 +60,29 @@ impl CalibrationFile {
     /// Takes the zero and the noise of the gauges from a recording of the sensor at rest, without load:
     /// CSV with the columns `v1_V` … as in [`crate::loads::LoadTable::from_csv`].
     ///
+    /// A calibration with temperature terms needs the column `temperature_C`, or the temperature of the
+    /// whole recording; the zero is then that of the reference temperature.
+    ///
     /// A recording whose second half differs from its first by more than five standard errors and by
     /// more than one deviation of a single reading was not at rest (or drifts): that is a warning.
     ///
     /// # Errors
     /// [`RestError`].
-    pub fn tared(&self, rest: impl Read) -> Result<Tared, RestError> {
-        let (signals, unit) = signals_from_csv(rest)?;
+    pub fn tared(&self, rest: impl Read, celsius: Option<f64>) -> Result<Tared, RestError> {
+        let Rest { mut signals, unit, temperatures } = signals_from_csv(rest)?;
         if unit != self.signal_unit {
             return Err(RestError::WrongUnit { recording: unit, calibration: self.signal_unit });
         }
-        self.tared_by(&signals)
+        self.check_readings(&signals)?;
+        if let Some(drift) = &self.temperature {
+            for (i, mut row) in signals.row_iter_mut().enumerate() {
+                let known = temperatures.as_ref().map(|list| list[i]).or(celsius);
+                let reference = drift.reference_celsius;
+                let celsius = known.ok_or(FileError::NeedsTemperature { reference })?;
+                row -= RowDVector::from_vec(drift.drift_of_zero(celsius));
+            }
+        }
+        self.tared_at_reference(&signals)
     }
 
     /// As [`tared`](Self::tared), from readings (samples × gauges) in the calibration's unit.
@@ -77,6 +90,14 @@ impl CalibrationFile {
     /// # Errors
     /// [`RestError`].
     pub fn tared_by(&self, signals: &DMatrix<f64>) -> Result<Tared, RestError> {
+        if let Some(drift) = &self.temperature {
+            return Err(FileError::NeedsTemperature { reference: drift.reference_celsius }.into());
+        }
+        self.check_readings(signals)?;
+        self.tared_at_reference(signals)
+    }
+
+    fn check_readings(&self, signals: &DMatrix<f64>) -> Result<(), RestError> {
         self.validate()?;
         let (samples, gauges) = signals.shape();
         if gauges != self.gauges() {
@@ -92,9 +113,14 @@ impl CalibrationFile {
                 return Err(RestError::Saturated { gauge: gauge + 1 });
             }
         }
+        Ok(())
+    }
+
+    fn tared_at_reference(&self, signals: &DMatrix<f64>) -> Result<Tared, RestError> {
+        let samples = signals.nrows();
         let mut file = self.clone();
         let mut warnings = Vec::new();
-        let mut noise = Vec::with_capacity(gauges);
+        let mut noise = Vec::with_capacity(self.gauges());
         for (gauge, column) in signals.column_iter().enumerate() {
             let (mean, deviation) = mean_and_deviation(column.as_slice());
             let (first, second) = column.as_slice().split_at(samples / 2);
@@ -111,7 +137,8 @@ impl CalibrationFile {
             noise.push(deviation);
         }
         let mean: Vec<f64> = file.zero.clone();
-        let load_before = self.load(&mean).ok_or(FileError::Singular)?.as_slice().to_vec();
+        let inverse = pseudo_inverse(&self.matrix).ok_or(FileError::Singular)?;
+        let load_before = self.load_with(&inverse, &mean).ok_or(FileError::Singular)?.as_slice().to_vec();
         let moved = mean.iter().zip(&self.zero).map(|(new, old)| new - old).collect();
         file.noise = Some(noise);
         file.validate()?;
@@ -130,7 +157,7 @@ fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::RestError;
-    use crate::file::{CalibrationFile, SignalUnit};
+    use crate::file::{CalibrationFile, FileError, SignalUnit, Temperature};
     use crate::fit::testing::gaussian;
     use nalgebra::DMatrix;
     use rand::SeedableRng as _;
@@ -162,14 +189,30 @@ mod tests {
     #[test]
     fn mistakes_are_named() {
         let text = "v1_V,v2_V,v3_V,v4_V,v5_V,v6_V\n1,2,3,4,5,6\n1,2,3,4,5,6\n";
-        assert_eq!(file().tared(text.as_bytes()).unwrap().file.zero[4], 5.0);
+        assert_eq!(file().tared(text.as_bytes(), None).unwrap().file.zero[4], 5.0);
         let counts = text.replace("_V", "_count");
-        assert!(matches!(file().tared(counts.as_bytes()), Err(RestError::WrongUnit { .. })));
-        assert!(matches!(file().tared("v1_V\n1\n2\n".as_bytes()), Err(RestError::Calibration(_))));
-        assert!(matches!(file().tared("a\n1\n".as_bytes()), Err(RestError::Recording(_))));
+        assert!(matches!(file().tared(counts.as_bytes(), None), Err(RestError::WrongUnit { .. })));
+        assert!(matches!(file().tared("v1_V\n1\n2\n".as_bytes(), None), Err(RestError::Calibration(_))));
+        assert!(matches!(file().tared("a\n1\n".as_bytes(), None), Err(RestError::Recording(_))));
         let mut ranged = file();
         ranged.range = Some([-5.0, 5.0]);
-        assert!(matches!(ranged.tared(text.as_bytes()), Err(RestError::Saturated { gauge: 5 })));
+        assert!(matches!(ranged.tared(text.as_bytes(), None), Err(RestError::Saturated { gauge: 5 })));
+        // A zero that drifts: 0.01 V/K.
+        let mut drifting = file();
+        drifting.temperature = Some(Temperature {
+            reference_celsius: 20.0,
+            range_celsius: [10.0, 30.0],
+            zero_drift: vec![0.01; 6],
+            zero_curvature: vec![0.0; 6],
+            gain_drift: vec![0.1; 6],
+        });
+        let needs = |error| matches!(error, RestError::Calibration(FileError::NeedsTemperature { .. }));
+        assert!(needs(drifting.tared(text.as_bytes(), None).unwrap_err()));
+        assert!(needs(drifting.tared_by(&DMatrix::zeros(3, 6)).unwrap_err()));
+        let warm =
+            "v1_V,v2_V,v3_V,v4_V,v5_V,v6_V,temperature_C\n1,1,1,1,1,1,22\n1.05,1.05,1.05,1.05,1.05,1.05,27\n";
+        assert!((drifting.tared(warm.as_bytes(), None).unwrap().file.zero[2] - 0.98).abs() < 1e-12);
+        assert!((drifting.tared(text.as_bytes(), Some(25.0)).unwrap().file.zero[4] - 4.95).abs() < 1e-12);
         let one = DMatrix::from_element(1, 6, 0.0);
         assert!(matches!(file().tared_by(&one), Err(RestError::TooFewSamples { samples: 1 })));
     }

@@ -6,6 +6,10 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::calibrate::args::{CalibrateArguments, CheckArguments, TareArguments};
 use crate::design::args::DesignArguments;
+use crate::geometry::GeometryArguments;
+use crate::motion::MotionArguments;
+use crate::plan::PlanArguments;
+use crate::refine::RefineArguments;
 
 /// From the strain gauges behind a fingertip to contact, force and slip.
 #[derive(Debug, Parser)]
@@ -27,11 +31,19 @@ pub(crate) enum Command {
     /// Design a sensor: from wanted ranges and size to a layout of gauges and the accuracy to expect
     Design(DesignArguments),
     /// Fit a sensor to known loads, or a payload to poses, and say how good that is
-    Calibrate(CalibrateArguments),
+    Calibrate(Box<CalibrateArguments>),
     /// Test a calibration on loads that it has not seen
     Check(CheckArguments),
     /// Give a calibration a new zero from a recording at rest
     Tare(TareArguments),
+    /// Say which loads to apply, and how many are enough
+    Plan(PlanArguments),
+    /// Find the shape or the pose of the fingertip's surface from touches
+    Geometry(GeometryArguments),
+    /// Calibrate by a weight of known size in unknown directions
+    Motion(MotionArguments),
+    /// Say what ordinary point contacts tell of a calibration, and mend it by them
+    Refine(RefineArguments),
 }
 
 #[derive(Debug, Args)]
@@ -61,6 +73,14 @@ pub(crate) struct AnalyzeArguments {
     /// The calibration, for a recording of volts
     #[arg(long, value_name = "CAL.toml")]
     pub(crate) calibration: Option<PathBuf>,
+    /// What hangs on the sensor, as `calibrate --gravity` wrote it: its weight is taken off, by the columns
+    /// qx, qy, qz, qw of the recording
+    #[arg(long, value_name = "PAYLOAD.toml")]
+    pub(crate) payload: Option<PathBuf>,
+    /// Temperature of the whole recording, for a calibration that drifts with it and a recording without
+    /// column temperature_C
+    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true)]
+    pub(crate) celsius: Option<f64>,
     /// Which sensor of the recording: the prefix of its columns (S1 for S1_Fx_N); overrides the scene
     #[arg(long, value_name = "PREFIX")]
     pub(crate) sensor: Option<String>,

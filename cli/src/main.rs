@@ -7,7 +7,11 @@ mod calibrate;
 mod demo;
 mod design;
 mod error;
+mod geometry;
+mod motion;
 mod observe;
+mod plan;
+mod refine;
 mod report;
 mod scene;
 mod shape;
@@ -27,8 +31,12 @@ fn main() -> ExitCode {
         Command::Analyze(arguments) => analyze::run(&arguments),
         Command::Design(arguments) => design::run(&arguments),
         Command::Calibrate(arguments) => calibrate::calibrate(&arguments),
-        Command::Check(arguments) => calibrate::check(&arguments),
-        Command::Tare(arguments) => calibrate::tare(&arguments),
+        Command::Check(arguments) => calibrate::check::run(&arguments),
+        Command::Tare(arguments) => calibrate::tare::run(&arguments),
+        Command::Plan(arguments) => plan::run(&arguments),
+        Command::Geometry(arguments) => geometry::run(&arguments),
+        Command::Motion(arguments) => motion::run(&arguments),
+        Command::Refine(arguments) => refine::run(&arguments),
     };
     match done {
         // Whoever reads our output may stop when they have seen enough.

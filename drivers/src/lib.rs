@@ -4,17 +4,42 @@
 #[cfg(any(feature = "simulation", feature = "mcap"))]
 extern crate alloc;
 
+#[cfg(feature = "ads1256")]
+pub mod ads1256;
+#[cfg(feature = "ads131m")]
+pub mod ads131m;
 #[cfg(feature = "ati-rdt")]
 pub mod ati_rdt;
 #[cfg(any(feature = "robotous", feature = "dynpick", feature = "optoforce"))]
 mod axis_counts;
 #[cfg(feature = "bota-serial")]
 pub mod bota_serial;
+pub mod bridge;
+#[cfg(feature = "converter")]
+#[cfg_attr(
+    not(any(
+        feature = "ads131m",
+        feature = "ads1256",
+        feature = "hx711",
+        feature = "mcp3564",
+        feature = "nau7802"
+    )),
+    allow(dead_code, reason = "without a converter there is nobody to use it")
+)]
+pub mod converter;
+#[cfg(all(feature = "simulation", any(feature = "ati-rdt", feature = "schunk-fts")))]
+mod datagram_link;
 #[cfg(feature = "dynpick")]
 pub mod dynpick;
 mod faces;
+#[cfg(feature = "hx711")]
+pub mod hx711;
 pub mod line;
+#[cfg(feature = "mcp3564")]
+pub mod mcp3564;
 pub mod middleware;
+#[cfg(feature = "nau7802")]
+pub mod nau7802;
 #[cfg(feature = "optoforce")]
 pub mod optoforce;
 #[cfg(feature = "std")]
@@ -33,6 +58,8 @@ mod source;
 
 #[cfg(any(feature = "robotous", feature = "dynpick", feature = "optoforce"))]
 pub use axis_counts::{AxisCounts, BadAxisCounts};
+#[cfg(all(feature = "simulation", any(feature = "ati-rdt", feature = "schunk-fts")))]
+pub use datagram_link::FaultPlan;
 pub use faces::{AsyncSignalSource, AsyncWrenchSource, NbSignalSource, NbWrenchSource};
 #[cfg(any(feature = "ati-rdt", feature = "schunk-fts"))]
 pub use sequence_watch::{Arrival, LinkStatistics, SequenceWatch};

@@ -8,7 +8,7 @@ use fingertip_drivers::ati_rdt::{
     ClientError, Command, CountsPerUnit, FaultPlan, RdtClient, RdtError, RdtServer, Receiver, Record,
     Request, SimulatedNetFt, records,
 };
-use fingertip_drivers::middleware::Watched;
+use fingertip_drivers::middleware::{OnLoss, Supervised, SupervisedError, Watched};
 use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
 
 fn counts() -> CountsPerUnit<f64> {
@@ -142,4 +142,36 @@ fn the_configuration_is_asked_for_over_http() {
     server.join().unwrap();
     assert_eq!((configuration.counts_per_newton, configuration.rate), (1000.0, None));
     assert!((configuration.counts_per_newton_metre - 50_000.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_sensor_that_falls_silent_is_asked_again_or_given_up_by_choice() {
+    let serve = |address: core::net::SocketAddr| {
+        let sensor = SimulatedNetFt::new(FaultPlan::default());
+        RdtServer::start(address, sensor, Duration::from_millis(2), |_| load(7)).unwrap()
+    };
+    let server = serve("127.0.0.1:0".parse().unwrap());
+    let address = server.address();
+    let connect = |attempt: u32| {
+        std::thread::sleep(Duration::from_millis(5) * attempt.min(1));
+        RdtClient::<f64>::connect(address, counts(), Duration::from_millis(300))
+    };
+    let mut again = Supervised::new(connect, OnLoss::Reconnect { attempts: 200 }).unwrap();
+    let mut stops = Supervised::new(connect, OnLoss::FailStop).unwrap();
+    // The sensor serves whoever asked last.
+    assert_eq!(stops.next_wrench().unwrap().unwrap().value.force().x, 7e-6);
+    drop(server);
+    while stops.next_wrench().is_ok() {}
+    assert!(matches!(stops.next_wrench(), Err(SupervisedError::Stopped)));
+    let restarted = std::thread::spawn(move || {
+        std::thread::sleep(Duration::from_millis(150));
+        serve(address)
+    });
+    assert_eq!(again.next_wrench().unwrap().unwrap().value.force().x, 7e-6);
+    assert!(again.losses() >= 1 && again.reconnections() == again.losses());
+    // It stays stopped until it is told to go on, though the sensor is back.
+    assert!(matches!(stops.next_wrench(), Err(SupervisedError::Stopped)));
+    stops.resume().unwrap();
+    assert!(stops.next_wrench().is_ok());
+    drop(restarted.join().unwrap());
 }

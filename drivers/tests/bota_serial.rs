@@ -4,8 +4,11 @@
 
 use fingertip_drivers::bota_serial::{BotaDecoder, BotaFault, Frame};
 use fingertip_drivers::line::{LineDecoder, LineError, LineFaults, LineSensor, SimulatedLine};
+use fingertip_drivers::middleware::Watch;
 use fingertip_drivers::{Sample, SourceError, SourceErrorKind, WrenchSource};
 use fingertip_wrench::Wrench;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 
 fn frame(number: u32) -> Frame {
     let x = number as f32;
@@ -84,4 +87,111 @@ fn a_wrong_baud_rate_and_a_silent_line_are_told() {
     }
     let next: Next = LineSensor::new(Silent, BotaDecoder::new()).next_wrench();
     assert_eq!(next.unwrap_err().kind(), SourceErrorKind::Timeout);
+}
+
+#[test]
+fn a_million_frames_that_are_lost_repeated_swapped_and_damaged_give_nothing_wrong_and_all_losses_are_counted()
+{
+    let mut random = Pcg64Mcg::seed_from_u64(21);
+    let mut line = SimulatedLine::new(LineFaults {
+        bit_flip: 5e-4,
+        lost_byte: 5e-4,
+        noise: 1e-3,
+        seed: 6,
+        ..LineFaults::default()
+    });
+    let mut decoder = BotaDecoder::new();
+    let mut watch = Watch::<f64, Wrench<f64>>::new(Some(1.25e-3));
+    // Values that a float holds exactly, from which the number of the frame can be read.
+    let (count, modulus) = (1_000_000_u32, 1 << 20);
+    let (mut held, mut out) = (None::<u32>, Vec::new());
+    let (mut lost, mut repeated, mut late) = (0_u64, 0_u64, 0_u64);
+    let mut last = None::<u32>;
+    for number in 0..count {
+        out.clear();
+        // The first and the last ones arrive, and begin and end the count.
+        let chance = if number == 0 || number + 2 >= count { 1.0 } else { random.random::<f64>() };
+        match chance {
+            chance if chance < 0.01 => lost += 1,
+            chance if chance < 0.02 => out.extend([number, number]),
+            chance if chance < 0.03 && held.is_none() => {
+                held = Some(number);
+                continue;
+            }
+            _ => out.push(number),
+        }
+        if !out.is_empty() {
+            out.extend(held.take());
+        }
+        for sent in &out {
+            let calm = *sent == 0 || *sent + 2 >= count;
+            let mut clean = SimulatedLine::new(LineFaults::default());
+            let line = if calm { &mut clean } else { &mut line };
+            let whole = line.send_seen(&frame(*sent).emit());
+            let mut take = |sample| check(sample, modulus, &mut last, &mut watch);
+            std::io::copy(line, &mut Feed(&mut decoder, &mut take)).unwrap();
+            repeated +=
+                u64::from(whole && *sent == number && out.iter().filter(|one| *one == sent).count() == 2);
+            late += u64::from(whole && *sent != number);
+        }
+    }
+    // Of a pair that arrives whole twice, the second is the repetition.
+    let counts = *watch.counts();
+    println!(
+        "{counts:?}, {lost} lost, {} damaged, {late} late, {} not news, {repeated} whole of pairs",
+        line.damaged(),
+        decoder.not_news()
+    );
+    // Every number between the first and the last is given or missing, by the sensor's own clock.
+    assert_eq!(counts.given + counts.missing, u64::from(count));
+    assert_eq!((counts.backward, counts.repeated, decoder.restarts()), (0, 0, 0));
+    // What is missing was lost, damaged or came late; nothing else. (A damaged frame may be one of a pair.)
+    assert!(counts.missing <= lost + line.damaged() + late && counts.missing >= lost);
+    assert!(decoder.not_news() <= late + repeated / 2 && decoder.not_news() > 15_000);
+}
+
+/// Takes what is sent down a line.
+struct Feed<'a, F>(&'a mut BotaDecoder, F);
+
+impl<F: FnMut(Sample<f64, Wrench<f64>>)> std::io::Write for Feed<'_, F> {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        for byte in bytes {
+            if let Some(sample) = LineDecoder::<f64>::push(self.0, *byte) {
+                (self.1)(sample.unwrap());
+            }
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+fn check(
+    sample: Sample<f64, Wrench<f64>>,
+    modulus: u32,
+    last: &mut Option<u32>,
+    watch: &mut Watch<f64, Wrench<f64>>,
+) {
+    let number = sample.value.force().x;
+    assert_eq!(sample.value, frame_wrench(number));
+    let number = number as u32;
+    assert!(number < modulus && last.is_none_or(|last| number > last), "{number} after {last:?}");
+    assert!((sample.time.unwrap() - f64::from(number) * 1.25e-3).abs() < 1e-9);
+    *last = Some(number);
+    watch.arrive(sample, sample.time.unwrap());
+}
+
+#[test]
+fn a_sensor_that_was_switched_off_and_on_is_heard_again() {
+    let mut decoder = BotaDecoder::new();
+    let mut give = |number: u32, microseconds: u32| {
+        let bytes = Frame { microseconds, ..frame(number) }.emit();
+        bytes.iter().find_map(|byte| LineDecoder::<f64>::push(&mut decoder, *byte)).is_some()
+    };
+    assert!((0..100).all(|number| give(number, 1_000_000 + 1250 * number)));
+    let given = (0..100).filter(|number| give(*number, 1250 * number)).count();
+    assert_eq!(given, 100 - BotaDecoder::RESTARTED as usize + 1);
+    assert_eq!((decoder.restarts(), decoder.not_news()), (1, u64::from(BotaDecoder::RESTARTED)));
 }

@@ -225,3 +225,93 @@ fn all_faces_give_the_same() {
     }
     assert!(given > 1700);
 }
+
+#[test]
+fn resense_over_a_million_readings_is_never_off_by_more_than_a_step() {
+    use rand::{RngExt, SeedableRng};
+    let limits = Limits { force: 100.0, torque: 10.0, temperature: [-20.0, 80.0], temperature_step: 0.1 };
+    // A slow swing, so that each reading differs from all around it and by less than a step.
+    let (force_step, torque_step) = (0.05, 0.005);
+    let reading = |number: u64| {
+        let phase = number as f32 * 1e-3;
+        resense::Reading {
+            force: [20.0 * phase.sin(), 15.0 * phase.cos(), -30.0 + phase.sin()],
+            torque_millinewton_metres: [500.0 * phase.cos(), 300.0 * phase.sin(), 100.0],
+            temperature: 30.5 + 1e-6 * number as f32,
+        }
+    };
+    let mut outcomes = Vec::new();
+    for steps in [None, Some((force_step, torque_step))] {
+        let mut decoder = ResenseDecoder::new(limits);
+        if let Some((force, torque)) = steps {
+            decoder = decoder.stepping_at_most(force, torque);
+        }
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(9);
+        let mut line = SimulatedLine::new(LineFaults { noise: 0.0, lost_frame: 0.0, ..FAULTS });
+        let (mut held, mut lost) = (None::<u64>, 0_u64);
+        let (mut given, mut refused, mut beyond, mut sent_in_all, mut unanswered) =
+            (0_u64, 0_u64, 0_u64, 0_u64, 0_u64);
+        for number in 0..FRAMES {
+            let mut out = Vec::new();
+            match random.random::<f64>() {
+                chance if chance < 0.01 => lost += 1,
+                chance if chance < 0.02 => out.extend([number, number]),
+                chance if chance < 0.03 && held.is_none() => {
+                    held = Some(number);
+                    continue;
+                }
+                _ => {
+                    out.push(number);
+                    out.extend(held.take());
+                }
+            }
+            if out.is_empty() {
+                unanswered += 1;
+            }
+            for sent in out {
+                sent_in_all += 1;
+                line.send(&reading(sent).emit());
+                let mut buffer = [0; 64];
+                let length = std::io::Read::read(&mut line, &mut buffer).unwrap();
+                let (before, refused_before) = (given + refused, refused);
+                for byte in &buffer[..length] {
+                    match decoder.push(*byte) {
+                        Some(Ok(sample)) => {
+                            given += 1;
+                            let sample: fingertip_drivers::Sample<f64, Wrench<f64>> = sample;
+                            let truth = reading(sent);
+                            let force = (sample.value.force()
+                                - nalgebra::Vector3::from(truth.force.map(f64::from)))
+                            .amax();
+                            let torque =
+                                truth.torque_millinewton_metres.map(|torque| f64::from(torque) * 1e-3);
+                            let torque = (sample.value.torque() - nalgebra::Vector3::from(torque)).amax();
+                            // Two steps: the one before may have been off by one.
+                            beyond += u64::from(
+                                force > 2.0 * f64::from(force_step) || torque > 2.0 * f64::from(torque_step),
+                            );
+                        }
+                        Some(Err(_)) => refused += 1,
+                        None => {}
+                    }
+                }
+                // Silence until the next one: a reading that is not whole, or refused, is gone.
+                if length < 28 || refused > refused_before {
+                    LineDecoder::<f64>::restart(&mut decoder);
+                    unanswered += u64::from(given + refused == before);
+                }
+            }
+        }
+        println!(
+            "steps {steps:?}: {sent_in_all} sent, {given} given, {refused} refused, {} damaged, {beyond} off by more than two steps, {unanswered} unanswered",
+            line.damaged()
+        );
+        // Every reading that was sent is given, refused or not whole; every one that was not is noticed by asking.
+        assert_eq!(given + refused + unanswered, sent_in_all + lost);
+        outcomes.push((beyond, line.damaged()));
+    }
+    // Without a stated step some flipped bits pass, within the limits; with it none.
+    let [(without, damaged), (with, _)] = outcomes[..] else { panic!("two runs") };
+    assert!(without > 0 && without < damaged / 2, "{without} of {damaged}");
+    assert_eq!(with, 0);
+}

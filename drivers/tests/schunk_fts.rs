@@ -2,7 +2,13 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 #![cfg(all(feature = "schunk-fts", feature = "simulation"))]
 
-use fingertip_drivers::schunk_fts::{FtsReceiver, FtsSample, Packet, emit_packet};
+use core::time::Duration;
+
+use fingertip_drivers::middleware::{OnLoss, Supervised, SupervisedError};
+use fingertip_drivers::schunk_fts::{
+    FtsClient, FtsClientError, FtsReceiver, FtsSample, FtsServer, Packet, SimulatedFts, emit_packet,
+};
+use fingertip_drivers::{FaultPlan, NbWrenchSource, SourceError, SourceErrorKind, WrenchSource};
 use fingertip_wrench::Wrench;
 use rand::{RngExt, SeedableRng};
 
@@ -87,4 +93,122 @@ fn a_sample_whose_status_is_not_clean_is_a_fault() {
         let fault = receiver.accept::<f64>(&packet).unwrap().next().unwrap().unwrap_err();
         assert_eq!(fault.status, status);
     }
+}
+
+fn load(number: u64) -> [f32; 6] {
+    let x = number as f32;
+    [x, -x, 1.0, 2.0, x, 3.0]
+}
+
+/// A port for datagrams that is free, and a server that sends to it.
+fn served(sensor: SimulatedFts) -> (FtsServer, core::net::SocketAddr) {
+    let free = std::net::UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
+    (FtsServer::start("127.0.0.1:0", free.port(), sensor, Duration::from_millis(2), load).unwrap(), free)
+}
+
+#[test]
+fn over_sockets_nothing_is_lost_and_the_sensor_is_stopped_at_the_end() {
+    // The datagrams' count wraps around on the way.
+    let (server, local) = served(SimulatedFts::new(FaultPlan::default()).counting_from(65_500));
+    let mut client = FtsClient::connect(server.address(), local, Duration::from_secs(5)).unwrap();
+    let next = |client: &mut FtsClient| WrenchSource::<f64>::next_wrench(client).unwrap().unwrap().value;
+    let first = next(&mut client).force().x;
+    for number in 1..60 {
+        assert_eq!(next(&mut client).force().x, first + f64::from(number));
+    }
+    assert_eq!((client.statistics().received, client.statistics().lost), (60, 0));
+    // The zero is set only on request.
+    client.tare().unwrap();
+    let tared = (0..200).any(|_| next(&mut client).force().z == 0.0);
+    client.reset_tare().unwrap();
+    let reset = (0..200).any(|_| next(&mut client).force().z == 1.0);
+    assert!(tared && reset);
+    // Polled: as many as come, and none that is waited for.
+    let mut blocked = 0;
+    let mut last = next(&mut client).force().x;
+    let mut polled = 0;
+    while polled < 20 {
+        match NbWrenchSource::<f64>::poll_wrench(&mut client) {
+            Ok(sample) => {
+                let x = sample.unwrap().value.force().x;
+                assert_eq!(x, last + 1.0);
+                (last, polled) = (x, polled + 1);
+            }
+            Err(nb::Error::WouldBlock) => {
+                blocked += 1;
+                std::thread::sleep(Duration::from_micros(300));
+            }
+            Err(nb::Error::Other(error)) => panic!("{error}"),
+        }
+    }
+    assert!(blocked > 5);
+    drop(client);
+    assert!(!server.stop().unwrap().is_streaming());
+}
+
+#[test]
+fn faults_silence_and_strangers_are_told_apart() {
+    let mut sensor = SimulatedFts::new(FaultPlan { truncation: 1.0, ..FaultPlan::default() });
+    sensor.set_status(0x10);
+    let (server, local) = served(sensor);
+    let mut client = FtsClient::connect(server.address(), local, Duration::from_secs(5)).unwrap();
+    let kind = |client: &mut FtsClient| WrenchSource::<f64>::next_wrench(client).unwrap_err().kind();
+    assert_eq!(kind(&mut client), SourceErrorKind::Corrupt);
+    assert!(client.statistics().corrupt > 0);
+    drop((client, server));
+    let mut sensor = SimulatedFts::new(FaultPlan::default());
+    sensor.set_status(0x10);
+    let (server, local) = served(sensor);
+    let mut client = FtsClient::connect(server.address(), local, Duration::from_secs(5)).unwrap();
+    assert_eq!(kind(&mut client), SourceErrorKind::DeviceFault);
+    drop((client, server));
+    // Nobody there.
+    let gone = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
+    let error = FtsClient::connect(gone, "127.0.0.1:0", Duration::from_millis(100)).unwrap_err();
+    assert_eq!(error.kind(), SourceErrorKind::Transport, "{error}");
+}
+
+#[test]
+fn a_sensor_that_goes_away_is_found_again_or_the_end_by_choice() {
+    let (server, local) = served(SimulatedFts::new(FaultPlan::default()));
+    let address = std::sync::Mutex::new(server.address());
+    let timeout = Duration::from_millis(500);
+    let connect = |_| FtsClient::connect(*address.lock().unwrap(), local, timeout);
+    let mut source = Supervised::new(connect, OnLoss::Reconnect { attempts: 20 }).unwrap();
+    let next = |source: &mut dyn WrenchSource<f64, Error = SupervisedError<FtsClientError>>| {
+        source.next_wrench().map(|sample| sample.unwrap().value.force().z)
+    };
+    assert_eq!(next(&mut source).unwrap(), 1.0);
+    drop(server);
+    // It comes back at another port, as a sensor does at another address.
+    let server = FtsServer::start(
+        "127.0.0.1:0",
+        local.port(),
+        SimulatedFts::new(FaultPlan::default()),
+        Duration::from_millis(2),
+        load,
+    )
+    .unwrap();
+    *address.lock().unwrap() = server.address();
+    // What was in the socket's buffer before is given, too.
+    let mut given = 0;
+    while source.reconnections() == 0 {
+        assert_eq!(next(&mut source).unwrap(), 1.0);
+        given += 1;
+        assert!(given < 1000);
+    }
+    assert_eq!(next(&mut source).unwrap(), 1.0);
+    drop(source);
+    let mut stops = Supervised::new(connect, OnLoss::FailStop).unwrap();
+    assert_eq!(next(&mut stops).unwrap(), 1.0);
+    drop(server);
+    let error = loop {
+        if let Err(error) = next(&mut stops) {
+            break error;
+        }
+    };
+    assert!(matches!(error, SupervisedError::Lost(_)));
+    assert!(matches!(next(&mut stops), Err(SupervisedError::Stopped)));
+    assert!(stops.resume().is_err());
+    assert!(matches!(next(&mut stops), Err(SupervisedError::Stopped)));
 }

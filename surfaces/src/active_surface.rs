@@ -33,6 +33,20 @@ pub struct Entry<T: Real> {
     pub active: bool,
 }
 
+impl<T: Real> Entry<T> {
+    /// The crossing at which a line of this unit direction enters.
+    #[inline]
+    pub fn at(crossing: &Crossing<T>, direction: &Vector3<T>) -> Self {
+        let incidence = -crossing.normal.dot(direction);
+        Self {
+            point: crossing.point,
+            normal: crossing.normal,
+            incidence_squared: incidence * incidence.abs(),
+            active: crossing.active,
+        }
+    }
+}
+
 /// The point of a surface closest to a line that misses it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosestApproach<T: Real> {

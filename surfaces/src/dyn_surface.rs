@@ -3,14 +3,16 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::combinators::{closest_of, is_inside_along};
+use crate::soft_finger::combinators::{is_covered, of_both};
 use crate::{
     ActiveSurface, CappedCylinder, Capsule, ClosestApproach, Cone, Crossing, Cylinder, Disk, Ellipsoid,
     EllipticCylinder, Frustum, HalfSpace, Heightfield, Knot, Mesh, Paraboloid, Plane, Posed, Rectangle,
-    Revolution, RoundedBox, Sphere, SphericalCap, Superquadric, Torus, Trimmed,
+    Revolution, RoundedBox, Search, SoftContact, SoftFingerSurface, Sphere, SphericalCap, Superquadric,
+    Torus, Trimmed,
 };
 
 /// Any of the shapes: for files and programs that learn the shape at run time. On a hot path use
@@ -195,6 +197,46 @@ impl<T: Real> ActiveSurface<T> for Parts<T> {
 
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.parts.iter().any(|part| part.contains(point))
+    }
+}
+
+impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        last: Option<&Vector3<T>>,
+        mut visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        let visit: &mut dyn FnMut(SoftContact<T>) = &mut visit;
+        each!(self, shape => shape.soft_contacts(wrench, last, visit))
+    }
+
+    #[inline]
+    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+        each!(self, shape => shape.sole_soft_contact(wrench))
+    }
+}
+
+impl<T: Real> SoftFingerSurface<T> for Parts<T> {
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        last: Option<&Vector3<T>>,
+        mut visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        let mut search = Search::Complete;
+        let mut seen = false;
+        for (k, part) in self.parts.iter().enumerate() {
+            let of_part = part.soft_contacts(wrench, last, |contact| {
+                let mut others = self.parts.iter().enumerate().filter(|(other, _)| *other != k);
+                if !others.any(|(other, part)| is_covered(part, &contact, other > k)) {
+                    seen = true;
+                    visit(contact);
+                }
+            });
+            search = of_both(search, of_part, false);
+        }
+        if seen { of_both(search, Search::Complete, true) } else { search }
     }
 }
 

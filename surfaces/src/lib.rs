@@ -40,7 +40,7 @@ pub use contact::{Contact, ContactBound, ContactModel, NoContact, PointContact, 
 #[cfg(feature = "alloc")]
 pub use dyn_surface::{DynSurface, Parts};
 pub use force_line::ForceLine;
-pub use fusion::{ArrayContact, Fused, FusedContact, Fusion};
+pub use fusion::{ArrayContact, Fused, FusedContact, Fusion, Grip};
 #[cfg(feature = "alloc")]
 pub use heightfield::Heightfield;
 #[cfg(feature = "alloc")]

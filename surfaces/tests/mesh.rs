@@ -128,6 +128,37 @@ fn fine_mesh_agrees_with_the_sphere() {
     }
 }
 
+/// A ball of spikes, so that a line crosses dozens of triangles: the tree leaves none out.
+#[test]
+fn tree_finds_what_trying_every_triangle_finds() {
+    let mut random = Pcg64Mcg::seed_from_u64(8);
+    let (mut vertices, triangles) = ball(60, 90);
+    for vertex in &mut vertices {
+        *vertex *= 10_f64.powf(random.random_range(-1.0..0.0));
+    }
+    let surface = mesh::<f64>(&vertices, &triangles);
+    let mut most = 0;
+    for _ in 0..1000 {
+        let mut any = || Vector3::from_fn(|_, _| random.random_range(-1.0..1.0));
+        let line = Line { point: any() * 0.3, direction: any().normalize() };
+        // The line passes all three edges on the same side.
+        let passes = |[a, b, c]: &[u32; 3]| {
+            let [a, b, c] = [a, b, c].map(|k| vertices[*k as usize] - line.point);
+            let sides = [(a, b), (b, c), (c, a)].map(|(a, b)| line.direction.dot(&a.cross(&b)) > 0.0);
+            sides == [true; 3] || sides == [false; 3]
+        };
+        let expected = triangles.iter().filter(|triangle| passes(triangle)).count();
+        let (mut found, mut sum) = (0, 0);
+        surface.crossings(&line, |c| {
+            found += 1;
+            sum += if c.normal.dot(&line.direction) > 0.0 { 1 } else { -1 };
+        });
+        assert_eq!((found, sum), (expected, 0), "{line:?}");
+        most = most.max(found);
+    }
+    assert!(most > 40, "{most}");
+}
+
 fn tetrahedron() -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
     let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     (vertices.map(Vector3::from).to_vec(), vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])

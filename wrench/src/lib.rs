@@ -43,6 +43,7 @@ mod solver;
 mod tare;
 mod temperature;
 mod transform;
+pub mod units;
 mod wrench;
 
 pub use channels::{BadLimits, ChannelFault, ChannelLimits, ChannelMonitor};

@@ -81,6 +81,52 @@ impl Touch {
         }
         Ok(touches)
     }
+
+    /// Touches all over the active part of any surface: lines of all directions through a ball
+    /// about `centre` of radius `reach` \[m\] are crossed with it, which meets every part of the
+    /// surface in proportion to its area (Cauchy). Deterministic; none if no line meets it.
+    ///
+    /// # Errors
+    /// [`DesignError::OutOfRange`] for bad numbers.
+    pub fn on_surface<S: ActiveSurface<f64>>(
+        surface: &S,
+        centre: Vector3<f64>,
+        reach: f64,
+        friction: f64,
+        force: f64,
+    ) -> Result<Vec<Self>, DesignError> {
+        DesignError::check_positive("reach", reach)?;
+        DesignError::check_positive("force of a touch", force)?;
+        DesignError::check_not_negative("friction ratio", friction)?;
+        let mut touches = Vec::new();
+        let lines = POINTS * 100;
+        for i in 0..lines {
+            // Direction on a sphere and place on a disc from four sequences of the R4 kind
+            // (Roberts 2018): powers of the root of x⁵ = x + 1.
+            let root = 1.167_303_978_261_418_7_f64;
+            let [a, b, c, d] =
+                [1, 2, 3, 4].map(|power| (0.5 + f64::from(i) * root.powi(-power)).rem_euclid(1.0));
+            let along = 1.0 - 2.0 * a;
+            let across = (1.0 - along * along).max(0.0).sqrt();
+            let (sin, cos) = (TAU * b).sin_cos();
+            let direction = Vector3::new(along, across * cos, across * sin);
+            let helper = Vector3::ith(direction.iamin(), 1.0);
+            let first = direction.cross(&helper).normalize();
+            let second = direction.cross(&first);
+            let (sin, cos) = (TAU * d).sin_cos();
+            let point = centre + (first * cos + second * sin) * (reach * c.sqrt());
+            surface.crossings(&Line { point, direction }, |crossing| {
+                if crossing.active {
+                    touches.extend(forces(crossing.normal, friction, force).map(|force| Self {
+                        point: crossing.point,
+                        normal: crossing.normal,
+                        force,
+                    }));
+                }
+            });
+        }
+        Ok(touches)
+    }
 }
 
 /// Directions of force per contact point.
@@ -142,13 +188,10 @@ impl ContactWeight {
         Self::over(Touch::on_sphere(radius, half_angle, friction, force)?)
     }
 
-    /// Touches all over the active part of any surface: lines of all directions through a ball
-    /// about `centre` of radius `reach` \[m\] are crossed with it, which meets every part of the
-    /// surface in proportion to its area (Cauchy). Deterministic.
+    /// Touches all over the active part of any surface: the mean over [`Touch::on_surface`].
     ///
     /// # Errors
-    /// [`DesignError::OutOfRange`] for bad numbers, [`DesignError::WrongCount`] if no line meets the
-    /// active surface.
+    /// As there, and [`DesignError::WrongCount`] if no line meets the active surface.
     pub fn on_surface<S: ActiveSurface<f64>>(
         surface: &S,
         centre: Vector3<f64>,
@@ -156,37 +199,7 @@ impl ContactWeight {
         friction: f64,
         force: f64,
     ) -> Result<Self, DesignError> {
-        DesignError::check_positive("reach", reach)?;
-        DesignError::check_positive("force of a touch", force)?;
-        DesignError::check_not_negative("friction ratio", friction)?;
-        let mut touches = Vec::new();
-        let lines = POINTS * 100;
-        for i in 0..lines {
-            // Direction on a sphere and place on a disc from four sequences of the R4 kind
-            // (Roberts 2018): powers of the root of x⁵ = x + 1.
-            let root = 1.167_303_978_261_418_7_f64;
-            let [a, b, c, d] =
-                [1, 2, 3, 4].map(|power| (0.5 + f64::from(i) * root.powi(-power)).rem_euclid(1.0));
-            let along = 1.0 - 2.0 * a;
-            let across = (1.0 - along * along).max(0.0).sqrt();
-            let (sin, cos) = (TAU * b).sin_cos();
-            let direction = Vector3::new(along, across * cos, across * sin);
-            let helper = Vector3::ith(direction.iamin(), 1.0);
-            let first = direction.cross(&helper).normalize();
-            let second = direction.cross(&first);
-            let (sin, cos) = (TAU * d).sin_cos();
-            let point = centre + (first * cos + second * sin) * (reach * c.sqrt());
-            surface.crossings(&Line { point, direction }, |crossing| {
-                if crossing.active {
-                    touches.extend(forces(crossing.normal, friction, force).map(|force| Touch {
-                        point: crossing.point,
-                        normal: crossing.normal,
-                        force,
-                    }));
-                }
-            });
-        }
-        Self::over(touches)
+        Self::over(Touch::on_surface(surface, centre, reach, friction, force)?)
     }
 
     /// The same for a wrench in nominal loads: `W` of `wrench/nominal`.

@@ -1,12 +1,12 @@
 //! ATI's calibration files (`FTxxxxx.cal`), both layouts.
 
+use fingertip_wrench::units::LengthUnit;
 use nalgebra::{DMatrix, Vector3};
 use roxmltree::{Document, Node};
 use thiserror::Error;
 
 use super::{CalibrationFile, FileError, Provenance, Quality, SignalUnit, Verdict};
 use crate::linear::pseudo_inverse;
-use crate::units::{self, Quantity};
 use crate::{Axis, TOOL};
 
 /// What an ATI `.cal` file says: the matrix from gauge volts to loads, in the units of the file.
@@ -141,9 +141,9 @@ impl AtiCalibration {
             file_version: text(sensor, "CalFileVersion"),
             part_number: text(calibration, "PartNumber"),
             date: text(calibration, "CalDate"),
-            force_unit: unit(calibration, "ForceUnits", Quantity::Force)?,
-            torque_unit: unit(calibration, "TorqueUnits", Quantity::Torque)?,
-            distance_unit: unit(calibration, "DistUnits", Quantity::Length)?,
+            force_unit: unit(calibration, "ForceUnits", |name| Axis::Fx.unit_size(name))?,
+            torque_unit: unit(calibration, "TorqueUnits", |name| Axis::Tx.unit_size(name))?,
+            distance_unit: unit(calibration, "DistUnits", length)?,
             other: calibration
                 .attributes()
                 .filter(|attribute| !known.contains(&attribute.name()))
@@ -181,7 +181,7 @@ impl AtiCalibration {
         if self.rotation.iter().any(|angle| *angle != 0.0) {
             return Err(AtiError::Turned);
         }
-        let length = units::si(Quantity::Length, &self.distance_unit).unwrap_or(1.0);
+        let length = length(&self.distance_unit).unwrap_or(f64::NAN);
         let origin = Vector3::from(self.translation) * length;
         let mut matrix = self.in_si(&self.axes);
         for mut column in matrix.column_iter_mut() {
@@ -248,6 +248,9 @@ impl AtiCalibration {
         if file.quadratic.is_some() {
             return Err(refuse("quadratic", "absent in a .cal file"));
         }
+        if let Some(drift) = &file.temperature {
+            return Err(FileError::NeedsTemperature { reference: drift.reference_celsius });
+        }
         if file.signal_unit != SignalUnit::Volt {
             return Err(refuse("signal_unit", "V for a .cal file"));
         }
@@ -290,13 +293,9 @@ impl AtiCalibration {
     }
 
     fn size(&self, axis: Axis) -> f64 {
-        let size = if axis.is_torque() {
-            units::si(Quantity::Torque, &self.torque_unit)
-        } else {
-            units::si(Quantity::Force, &self.force_unit)
-        };
         // Only a struct made by hand can have a unit that is not known; reading refuses it.
-        size.unwrap_or(f64::NAN)
+        axis.unit_size(if axis.is_torque() { &self.torque_unit } else { &self.force_unit })
+            .unwrap_or(f64::NAN)
     }
 
     fn in_si(&self, rows: &[AtiAxis; 6]) -> DMatrix<f64> {
@@ -337,9 +336,14 @@ fn number(node: Node<'_, '_>, name: &str) -> Result<f64, AtiError> {
     if number.is_finite() { Ok(number) } else { Err(bad(node, name, text, "must be finite")) }
 }
 
-fn unit(node: Node<'_, '_>, name: &str, quantity: Quantity) -> Result<String, AtiError> {
+/// Metres of a unit of length.
+fn length(name: &str) -> Option<f64> {
+    LengthUnit::from_name(name).map(LengthUnit::in_metres)
+}
+
+fn unit(node: Node<'_, '_>, name: &str, size: impl Fn(&str) -> Option<f64>) -> Result<String, AtiError> {
     let text = attribute(node, name)?.trim();
-    match units::si(quantity, text) {
+    match size(text) {
         Some(_) => Ok(text.to_owned()),
         None => Err(bad(node, name, text, "not a unit that is known")),
     }

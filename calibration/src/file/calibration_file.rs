@@ -4,7 +4,7 @@ use fingertip_wrench::{Real, SensorMatrix, Tare};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector6};
 use serde::{Deserialize, Serialize};
 
-use super::{FileError, rows};
+use super::{FileError, Temperature, rows};
 use crate::Axis;
 
 /// Everything that is known of a calibrated sensor: what turns its readings into a wrench, how
@@ -106,21 +106,6 @@ pub struct Covariance {
     /// Inverse of the sum of load·loadᵀ over the calibration, loads in nominal loads.
     #[serde(with = "rows")]
     pub loads: DMatrix<f64>,
-}
-
-/// Drift of the readings with ΔT = temperature − reference:
-/// `reading = zero + zero_drift·ΔT + zero_curvature·ΔT² + (1 + gain_drift·ΔT)·matrix·(load/nominal)`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Temperature {
-    /// Reference temperature \[°C\].
-    pub reference_celsius: f64,
-    /// Drift of each gauge's zero \[signal/K\].
-    pub zero_drift: Vec<f64>,
-    /// Curvature of each gauge's zero \[signal/K²\].
-    pub zero_curvature: Vec<f64>,
-    /// Drift of each gauge's gain \[1/K\].
-    pub gain_drift: Vec<f64>,
 }
 
 /// Where a calibration comes from.
@@ -254,14 +239,19 @@ impl CalibrationFile {
     /// The readings without load.
     ///
     /// # Errors
-    /// [`FileError::WrongGauges`] if the sensor has not `N` gauges.
+    /// [`FileError::WrongGauges`] if the sensor has not `N` gauges, [`FileError::NeedsTemperature`] if
+    /// its zero drifts with a temperature that is known: see
+    /// [`temperature_compensation`](Self::temperature_compensation).
     pub fn zero<const N: usize>(&self) -> Result<Tare<f64, N>, FileError> {
         self.validate()?;
         self.check_gauges::<N>()?;
+        if let Some(drift) = &self.temperature {
+            return Err(FileError::NeedsTemperature { reference: drift.reference_celsius });
+        }
         Ok(Tare::new(SVector::from_fn(|i, _| self.zero[i])))
     }
 
-    fn check_gauges<const N: usize>(&self) -> Result<(), FileError> {
+    pub(super) fn check_gauges<const N: usize>(&self) -> Result<(), FileError> {
         if self.gauges() == N {
             Ok(())
         } else {
@@ -269,17 +259,18 @@ impl CalibrationFile {
         }
     }
 
-    /// The load \[N, N·m, in the order of `axes`\] that a reading tells of, at the reference
-    /// temperature: `nominal ∘ (C⁺ s + Q (s ⊗ s))` with `s = reading − zero`, C⁺ the least-squares
-    /// inverse and Q the quadratic terms. `None` if the reading has the wrong length or the matrix
-    /// no full rank. Meant for reports; on the hot path use a solver of `fingertip-wrench`.
-    #[must_use]
-    pub fn load(&self, reading: &[f64]) -> Option<DVector<f64>> {
-        let inverse = crate::linear::pseudo_inverse(&self.matrix)?;
-        self.load_with(&inverse, reading)
+    /// The load \[N, N·m, in the order of `axes`\] that a reading tells of:
+    /// `nominal ∘ (C⁺ s + Q (s ⊗ s))` with `s = reading − zero`, C⁺ the least-squares inverse and Q the
+    /// quadratic terms. Meant for reports; on the hot path use a solver of `fingertip-wrench`.
+    ///
+    /// # Errors
+    /// [`FileError::NeedsTemperature`] for a calibration with temperature terms: use
+    /// [`load_at`](Self::load_at); otherwise as that.
+    pub fn load(&self, reading: &[f64]) -> Result<DVector<f64>, FileError> {
+        self.load_at(reading, f64::NAN)
     }
 
-    /// As [`load`](Self::load), with the inverse computed before.
+    /// The load of a reading at the reference temperature, with the inverse computed before.
     pub(crate) fn load_with(&self, inverse: &DMatrix<f64>, reading: &[f64]) -> Option<DVector<f64>> {
         if reading.len() != self.gauges() || self.zero.len() != self.gauges() {
             return None;

@@ -18,7 +18,7 @@ pub enum FileError {
         source: io::Error,
     },
     /// The text is not TOML, lacks a field, has a field of the wrong type or one that is not known.
-    #[error("not a calibration: {message}")]
+    #[error("the file cannot be used: {message}")]
     Malformed {
         /// What the parser says; it names line and field.
         message: String,
@@ -79,6 +79,14 @@ pub enum FileError {
     NotSixAxes {
         /// How many components it measures.
         found: usize,
+    },
+    /// The calibration has temperature terms, and no temperature is known.
+    #[error(
+        "field `temperature`: the readings drift with temperature (reference {reference} °C), and none is given for them"
+    )]
+    NeedsTemperature {
+        /// Reference temperature of the calibration \[°C\].
+        reference: f64,
     },
     /// The matrix is not that of a sensor.
     #[error("field `matrix`: {0}")]

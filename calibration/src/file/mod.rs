@@ -1,19 +1,22 @@
-//! Calibration files: our versioned TOML, ATI's `.cal`, and Rust constants for firmware.
+//! Calibration and payload files: our versioned TOML, ATI's `.cal`, and Rust constants for firmware.
 
 mod ati;
 mod ati_writer;
 mod calibration_file;
 mod checksum;
+mod document;
 mod error;
+mod payload_file;
 mod rows;
 mod rust_constants;
+mod temperature;
 mod text;
 mod validate;
 
 pub use ati::{AtiAxis, AtiCalibration, AtiError};
-pub use calibration_file::{
-    CalibrationFile, Covariance, Provenance, Quality, SignalUnit, Temperature, Verdict,
-};
+pub use calibration_file::{CalibrationFile, Covariance, Provenance, Quality, SignalUnit, Verdict};
+pub use document::VERSION;
 pub use error::FileError;
+pub use payload_file::{PayloadFile, PayloadQuality};
 pub use rust_constants::Scalar;
-pub use text::VERSION;
+pub use temperature::Temperature;

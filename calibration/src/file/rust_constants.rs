@@ -2,12 +2,13 @@
 
 use core::fmt::Write as _;
 
-use super::{CalibrationFile, FileError, Verdict};
+use super::{CalibrationFile, FileError, Temperature, Verdict};
 use crate::Axis;
 
 impl CalibrationFile {
     /// A Rust module with the calibration as `const` arrays of `f32` or `f64` and a function that
-    /// makes the [`SensorMatrix`](fingertip_wrench::SensorMatrix) of them. It needs only
+    /// makes the [`SensorMatrix`](fingertip_wrench::SensorMatrix) of them; with temperature terms also a
+    /// [`TemperatureCompensation`](fingertip_wrench::TemperatureCompensation). It needs only
     /// `fingertip_wrench` and `nalgebra`, neither heap nor `std`.
     ///
     /// Numbers are written with as many digits as it takes to give the nearest number of the type.
@@ -87,8 +88,59 @@ impl CalibrationFile {
                      nalgebra::SMatrix::<{name}, GAUGES, 6>::from_fn(|gauge, axis| NORMALISED[gauge][axis]),\n        \
                      nalgebra::Vector6::from(NOMINAL),\n    )\n}}\n"
         );
+        if let Some(drift) = &self.temperature {
+            text.push_str(&drift_in_rust(drift, name, &list)?);
+        }
         Ok(text)
     }
+}
+
+/// Writes the numbers of a field as a list.
+type ListInRust<'a> = dyn Fn(&str, &mut dyn Iterator<Item = f64>) -> Result<String, FileError> + 'a;
+
+/// Constants and function of the drift with temperature.
+fn drift_in_rust(drift: &Temperature, name: &str, list: &ListInRust<'_>) -> Result<String, FileError> {
+    let mut text = String::new();
+    let range = [drift.reference_celsius, drift.range_celsius[0], drift.range_celsius[1]];
+    let _ = writeln!(
+        text,
+        "\n/// Reference temperature, least and greatest temperature of the calibration [°C].\n\
+         pub const CELSIUS: [{name}; 3] = {};",
+        list("temperature", &mut range.into_iter())?
+    );
+    for (constant, meaning, field, values) in [
+        ("ZERO_DRIFT", "Drift of each zero [signal/K].", "temperature.zero_drift", &drift.zero_drift),
+        (
+            "ZERO_CURVATURE",
+            "Curvature of each zero [signal/K²].",
+            "temperature.zero_curvature",
+            &drift.zero_curvature,
+        ),
+        ("GAIN_DRIFT", "Drift of each gain [1/K].", "temperature.gain_drift", &drift.gain_drift),
+    ] {
+        let values = list(field, &mut values.iter().copied())?;
+        let _ = writeln!(text, "\n/// {meaning}\npub const {constant}: [{name}; GAUGES] = {values};");
+    }
+    let _ = write!(
+        text,
+        "\n/// Takes zero and drift off a reading: use this, not `ZERO` alone.\n\
+         ///\n\
+         /// # Errors\n\
+         /// Never for the numbers above; only if they were edited into nonsense.\n\
+         pub fn temperature_compensation() -> Result<\n    \
+             fingertip_wrench::TemperatureCompensation<{name}, GAUGES, 3>,\n    \
+             fingertip_wrench::BadTemperatureModel,\n\
+         > {{\n    \
+             let vector = nalgebra::SVector::<{name}, GAUGES>::from;\n    \
+             let [reference, least, greatest] = CELSIUS;\n    \
+             fingertip_wrench::TemperatureCompensation::new(\n        \
+                 reference,\n        \
+                 (least, greatest),\n        \
+                 [vector(ZERO), vector(ZERO_DRIFT), vector(ZERO_CURVATURE)],\n        \
+                 [vector(GAIN_DRIFT), vector([0.0; GAUGES]), vector([0.0; GAUGES])],\n    \
+             )\n}}\n"
+    );
+    Ok(text)
 }
 
 /// Scalar type of exported constants.

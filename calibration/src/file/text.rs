@@ -1,15 +1,12 @@
 //! Reading and writing calibration files.
 
-use core::fmt::Write as _;
 use std::{fs, path::Path};
 
 use nalgebra::DMatrix;
 use toml::{Table, Value};
 
-use super::{CalibrationFile, FileError, checksum::checksum};
-
-/// The version of the format that this library reads and writes.
-pub const VERSION: i64 = 1;
+use super::document::{checksum_of, compare, malformed, open, write};
+use super::{CalibrationFile, FileError};
 
 impl CalibrationFile {
     /// Reads a calibration file.
@@ -40,22 +37,11 @@ impl CalibrationFile {
     /// # Errors
     /// As [`read`](Self::read).
     pub fn from_toml(text: &str) -> Result<Self, FileError> {
-        let mut table: Table = text.parse().map_err(malformed)?;
-        match table.remove("version") {
-            Some(Value::Integer(VERSION)) => {}
-            Some(Value::Integer(found)) => return Err(FileError::UnknownVersion { found, known: VERSION }),
-            Some(_) => return Err(malformed("field `version` is not an integer")),
-            None => return Err(malformed("missing field `version`")),
-        }
-        let found = match table.remove("checksum") {
-            Some(Value::String(found)) => found,
-            Some(_) => return Err(malformed("field `checksum` is not a text")),
-            None => return Err(malformed("missing field `checksum`")),
-        };
+        let (table, found) = open(text)?;
         let file = field_by_field(table)?;
         file.validate()?;
-        let expected = file.checksum()?;
-        if found == expected { Ok(file) } else { Err(FileError::WrongChecksum { found, expected }) }
+        compare(&file, found)?;
+        Ok(file)
     }
 
     /// The text of the calibration file: rows of matrices one to a line.
@@ -64,26 +50,7 @@ impl CalibrationFile {
     /// [`FileError`] if the calibration is not valid.
     pub fn to_toml(&self) -> Result<String, FileError> {
         self.validate()?;
-        let mut text = String::from("# Calibration of a force/torque sensor, written by fingertip.\n");
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "version = {VERSION}\nchecksum = {:?}\n", self.checksum()?);
-        let value = Value::try_from(self).map_err(malformed)?;
-        let Value::Table(fields) = value else {
-            return Err(malformed("a calibration is a table"));
-        };
-        // Top-level values come before the tables, or they would belong to the last of these.
-        for (key, value) in fields.iter().filter(|(_, value)| !value.is_table()) {
-            write_entry(&mut text, key, value);
-        }
-        for (key, value) in &fields {
-            if let Value::Table(entries) = value {
-                let _ = writeln!(text, "\n[{key}]");
-                for (key, value) in entries {
-                    write_entry(&mut text, key, value);
-                }
-            }
-        }
-        Ok(text)
+        write("Calibration of a force/torque sensor", self)
     }
 
     /// The checksum of the contents: FNV-1a, 64 bits, of one line `path=type:value` per value,
@@ -92,23 +59,7 @@ impl CalibrationFile {
     /// # Errors
     /// [`FileError::Malformed`] if the contents cannot be represented.
     pub fn checksum(&self) -> Result<String, FileError> {
-        Ok(checksum(&Value::try_from(self).map_err(malformed)?))
-    }
-}
-
-/// Matrices get a row to a line, everything else a line.
-fn write_entry(text: &mut String, key: &str, value: &Value) {
-    match value {
-        Value::Array(rows) if rows.first().is_some_and(Value::is_array) => {
-            let _ = writeln!(text, "{key} = [");
-            for row in rows {
-                let _ = writeln!(text, "    {row},");
-            }
-            let _ = writeln!(text, "]");
-        }
-        _ => {
-            let _ = writeln!(text, "{key} = {value}");
-        }
+        checksum_of(self)
     }
 }
 
@@ -134,10 +85,6 @@ fn field_by_field(table: Table) -> Result<CalibrationFile, FileError> {
             Err(malformed(error))
         }
     }
-}
-
-fn malformed(message: impl ToString) -> FileError {
-    FileError::Malformed { message: message.to_string().trim_end().to_owned() }
 }
 
 #[cfg(test)]
@@ -166,6 +113,7 @@ mod tests {
         file.covariance = Some(Covariance { signals: matrix(gauges, gauges, 3), loads: matrix(6, 6, 9) });
         file.temperature = Some(Temperature {
             reference_celsius: 22.5,
+            range_celsius: [10.0, 40.0],
             zero_drift: list(gauges, 1),
             zero_curvature: list(gauges, 2),
             gain_drift: list(gauges, 5),
@@ -271,6 +219,7 @@ mod tests {
             nalgebra::SMatrix::<f64, 7, 6>::from_fn(|i, j| file.matrix[(i, j)])
         );
         assert!(matches!(file.sensor_matrix::<6>(), Err(FileError::WrongGauges { found: 7, expected: 6 })));
+        file.temperature = None;
         assert_eq!(file.zero::<7>().unwrap().zero()[3], file.zero[3]);
         assert_eq!(file.sensor_matrix_in::<f32, 7>().unwrap().nominal()[0], file.nominal[0] as f32);
     }

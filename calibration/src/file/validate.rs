@@ -55,6 +55,14 @@ impl CalibrationFile {
         }
         if let Some(temperature) = &self.temperature {
             finite_list("temperature.reference_celsius", &[temperature.reference_celsius], 1)?;
+            let [least, greatest] = temperature.range_celsius;
+            finite_list("temperature.range_celsius", &temperature.range_celsius, 2)?;
+            if !(least <= temperature.reference_celsius && temperature.reference_celsius <= greatest) {
+                return Err(out_of_range(
+                    "temperature.range_celsius",
+                    "two temperatures about the reference",
+                ));
+            }
             finite_list("temperature.zero_drift", &temperature.zero_drift, gauges)?;
             finite_list("temperature.zero_curvature", &temperature.zero_curvature, gauges)?;
             finite_list("temperature.gain_drift", &temperature.gain_drift, gauges)?;

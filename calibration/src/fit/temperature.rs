@@ -18,6 +18,9 @@ pub struct TemperatureFit {
     pub temperature: Temperature,
     /// Standard deviation of the residuals of each gauge.
     pub residual_deviation: DVector<f64>,
+    /// Covariance of what was fitted to each gauge: its row of the matrix, its zero, drift and curvature
+    /// of the zero, drift of the gain.
+    pub covariances: Vec<DMatrix<f64>>,
 }
 
 const MOST_ITERATIONS: usize = 100;
@@ -50,11 +53,16 @@ pub fn fit_temperature(
         zero: DVector::zeros(gauges),
         temperature: Temperature {
             reference_celsius,
+            range_celsius: [
+                celsius.iter().fold(reference_celsius, |least, t| least.min(*t)),
+                celsius.iter().fold(reference_celsius, |most, t| most.max(*t)),
+            ],
             zero_drift: vec![0.0; gauges],
             zero_curvature: vec![0.0; gauges],
             gain_drift: vec![0.0; gauges],
         },
         residual_deviation: DVector::zeros(gauges),
+        covariances: Vec::with_capacity(gauges),
     };
     let mut design = DMatrix::zeros(samples, k + 3);
     for i in 0..samples {
@@ -67,6 +75,7 @@ pub fn fit_temperature(
         let mut gain = 0.0;
         let mut matrix = DVector::zeros(k);
         let mut settled = false;
+        let mut covariance = DMatrix::zeros(0, 0);
         for iteration in 0..MOST_ITERATIONS {
             for i in 0..samples {
                 for j in 0..k {
@@ -90,6 +99,7 @@ pub fn fit_temperature(
             result.temperature.zero_drift[gauge] = fit.coefficients[(k + 1, 0)];
             result.temperature.zero_curvature[gauge] = fit.coefficients[(k + 2, 0)];
             result.residual_deviation[gauge] = fit.residual_covariance[(0, 0)].sqrt();
+            covariance = fit.inverse_gram * fit.residual_covariance[(0, 0)];
             let span = difference.iter().fold(0.0_f64, |most, t| most.max(t.abs()));
             if iteration > 0 && (step * span).abs() < 1e-13 {
                 settled = true;
@@ -104,6 +114,7 @@ pub fn fit_temperature(
         }
         result.matrix.set_row(gauge, &matrix.transpose());
         result.temperature.gain_drift[gauge] = gain;
+        result.covariances.push(covariance);
     }
     Ok(result)
 }

@@ -42,6 +42,7 @@ pub fn fit_pose(
         shape: RigidTransform::from_parts(rotation, solution.origin),
         deviations: solution.deviations,
         rms: solution.rms,
+        unobserved: Vec::new(),
     })
 }
 

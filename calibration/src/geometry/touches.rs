@@ -1,6 +1,6 @@
 //! The shape of a fingertip from touches at known directions.
 
-use fingertip_surfaces::{BadShape, Cylinder, Sphere};
+use fingertip_surfaces::{BadShape, Sphere};
 use fingertip_wrench::Wrench;
 use nalgebra::{DMatrix, DVector, Vector3};
 use thiserror::Error;
@@ -52,9 +52,11 @@ pub struct Fitted<S> {
     pub deviations: Vec<f64>,
     /// RMS of the torque that is left \[N·m\].
     pub rms: f64,
+    /// What the touches cannot tell of the shape, in words; empty if they tell everything.
+    pub unobserved: Vec<String>,
 }
 
-fn directions(touches: &[Touch]) -> Result<Vec<Vector3<f64>>, GeometryError> {
+pub(super) fn directions(touches: &[Touch]) -> Result<Vec<Vector3<f64>>, GeometryError> {
     touches
         .iter()
         .enumerate()
@@ -73,7 +75,7 @@ fn directions(touches: &[Touch]) -> Result<Vec<Vector3<f64>>, GeometryError> {
 }
 
 /// Least squares of `m = Σ parameter · column × f`, three rows a touch; unobserved parameters by name.
-fn torque_fit(
+pub(super) fn torque_fit(
     touches: &[Touch],
     columns: &[Vec<Vector3<f64>>],
     names: &[&str],
@@ -102,13 +104,13 @@ fn torque_fit(
 }
 
 /// A column that is nothing but rounding observes nothing: it becomes zero.
-fn drop_rounding(design: &mut DMatrix<f64>, column: usize, size: f64) {
+pub(super) fn drop_rounding(design: &mut DMatrix<f64>, column: usize, size: f64) {
     if design.column(column).norm() <= 64.0 * f64::EPSILON * size {
         design.column_mut(column).fill(0.0);
     }
 }
 
-fn named(error: FitError, names: &[&str]) -> FitError {
+pub(super) fn named(error: FitError, names: &[&str]) -> FitError {
     let FitError::Unobserved(mut unobserved) = error else { return error };
     unobserved.names = names.iter().map(|name| (*name).to_owned()).collect();
     FitError::Unobserved(unobserved)
@@ -129,120 +131,7 @@ pub fn fit_sphere(touches: &[Touch]) -> Result<Fitted<Sphere<f64>>, GeometryErro
     let names = ["radius", "centre x", "centre y", "centre z"];
     let (p, deviations, rms, _) = torque_fit(touches, &columns, &names)?;
     let shape = Sphere::new(Vector3::new(p[1], p[2], p[3]), p[0])?;
-    Ok(Fitted { shape, deviations, rms })
-}
-
-/// Cylinder with a known direction of its axis, from touches on its side at known directions: the
-/// position of each touch along the axis is not needed. Deviations: radius, then the point of the axis
-/// nearest to the origin along two directions across the axis.
-///
-/// Of `m = (ρ n + a + s d) × f` the part across `d × f`, which does not know of `s`, is linear in ρ
-/// and `a`.
-///
-/// # Errors
-/// [`GeometryError`]; the radius is not observable without friction.
-pub fn fit_cylinder(touches: &[Touch], axis: &Vector3<f64>) -> Result<Fitted<Cylinder<f64>>, GeometryError> {
-    let length = axis.norm();
-    if !(length > 0.0 && length.is_finite()) {
-        return Err(GeometryError::BadTouch { touch: 0, what: "the axis has no direction" });
-    }
-    let axis = axis / length;
-    let across = match axis.iamin() {
-        0 => Vector3::x(),
-        1 => Vector3::y(),
-        _ => Vector3::z(),
-    };
-    let first = axis.cross(&across).normalize();
-    let second = axis.cross(&first);
-    let normals = directions(touches)?;
-    let mut design = DMatrix::zeros(touches.len(), 3);
-    let mut torque = DMatrix::zeros(touches.len(), 1);
-    for (i, (touch, normal)) in touches.iter().zip(&normals).enumerate() {
-        let force = touch.wrench.force();
-        // Across both the force and d × f: what moving along the axis does not change.
-        let blind = axis.cross(&force);
-        let test = blind.cross(&force);
-        let size = test.norm();
-        if !(size > 0.0) {
-            continue;
-        }
-        // Weighted so that every equation has the dimension of a torque.
-        let test = test / size;
-        let radial = normal - axis * normal.dot(&axis);
-        for (j, column) in [radial, first, second].into_iter().enumerate() {
-            design[(i, j)] = test.dot(&column.cross(&force));
-        }
-        torque[(i, 0)] = test.dot(&touch.wrench.torque());
-    }
-    let size = touches.iter().map(|touch| touch.wrench.force().norm_squared()).sum::<f64>().sqrt();
-    (0..3).for_each(|column| drop_rounding(&mut design, column, size));
-    let fit = least_squares(&design, &torque, None)
-        .map_err(|error| named(error, &["radius", "axis offset 1", "axis offset 2"]))?;
-    let p = &fit.coefficients;
-    let left = &torque - &design * p;
-    let variance = fit.residual_covariance[(0, 0)];
-    let point = first * p[1] + second * p[2];
-    Ok(Fitted {
-        shape: Cylinder::new(point, axis, p[0])?,
-        deviations: fit.inverse_gram.diagonal().iter().map(|g| (g * variance).max(0.0).sqrt()).collect(),
-        rms: (left.norm_squared() / left.len().max(1) as f64).sqrt(),
-    })
-}
-
-/// The semi-axes and centre of an ellipsoid whose axes are those of the sensor frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EllipsoidParameters {
-    /// Semi-axes along x, y, z \[m\].
-    pub semi_axes: Vector3<f64>,
-    /// Centre \[m\].
-    pub centre: Vector3<f64>,
-}
-
-/// Ellipsoid with axes along the sensor's, from touches at known directions: the point with outward
-/// normal n is `t + A² n / √(nᵀA²n)`, A = diag(semi-axes). Gauss-Newton from the fitted sphere.
-/// Deviations: semi-axes x, y, z, centre x, y, z.
-///
-/// # Errors
-/// [`GeometryError`].
-pub fn fit_ellipsoid(touches: &[Touch]) -> Result<Fitted<EllipsoidParameters>, GeometryError> {
-    const MOST_ITERATIONS: usize = 100;
-    let normals = directions(touches)?;
-    let start = fit_sphere(touches)?.shape;
-    let mut semi_axes = Vector3::from_element(start.radius());
-    let mut centre = start.centre();
-    let names = ["semi-axis x", "semi-axis y", "semi-axis z", "centre x", "centre y", "centre z"];
-    for _ in 0..MOST_ITERATIONS {
-        let squares = semi_axes.component_mul(&semi_axes);
-        let mut columns: Vec<Vec<Vector3<f64>>> = vec![Vec::new(); 6];
-        let mut moved = touches.to_vec();
-        for (touch, n) in moved.iter_mut().zip(&normals) {
-            let scaled = squares.component_mul(n);
-            let width = n.dot(&scaled).sqrt();
-            let point = centre + scaled / width;
-            for j in 0..3 {
-                // d(A²n/w)/da_j = 2 a_j n_j e_j / w − A²n · a_j n_j² / w³.
-                let slope = Vector3::ith(j, 2.0 * semi_axes[j] * n[j] / width)
-                    - scaled * (semi_axes[j] * n[j] * n[j] / width.powi(3));
-                columns[j].push(slope);
-                columns[3 + j].push(Vector3::ith(j, 1.0));
-            }
-            let left = touch.wrench.torque() - point.cross(&touch.wrench.force());
-            touch.wrench = Wrench::on_fingertip(touch.wrench.force(), left);
-        }
-        let (step, deviations, rms, _) = torque_fit(&moved, &columns, &names)?;
-        // A semi-axis may shrink to a tenth of itself in one step, but not turn negative.
-        for j in 0..3 {
-            semi_axes[j] = (semi_axes[j] + step[j]).max(0.1 * semi_axes[j]);
-            centre[j] += step[3 + j];
-        }
-        if !(semi_axes.amax() + centre.amax()).is_finite() {
-            break;
-        }
-        if step.amax() <= 1e-12 * semi_axes.amax() {
-            return Ok(Fitted { shape: EllipsoidParameters { semi_axes, centre }, deviations, rms });
-        }
-    }
-    Err(GeometryError::NoConvergence { iterations: MOST_ITERATIONS })
+    Ok(Fitted { shape, deviations, rms, unobserved: Vec::new() })
 }
 
 /// The point through which the lines of action of all wrenches pass: a pivot on which the fingertip was held
@@ -256,7 +145,7 @@ pub fn fit_meeting_point(wrenches: &[Wrench<f64>]) -> Result<Fitted<Vector3<f64>
     directions(&touches)?;
     let columns: Vec<_> = (0..3).map(|axis| vec![Vector3::ith(axis, 1.0); touches.len()]).collect();
     let (p, deviations, rms, _) = torque_fit(&touches, &columns, &["point x", "point y", "point z"])?;
-    Ok(Fitted { shape: Vector3::new(p[0], p[1], p[2]), deviations, rms })
+    Ok(Fitted { shape: Vector3::new(p[0], p[1], p[2]), deviations, rms, unobserved: Vec::new() })
 }
 
 /// A plane `normal · x = offset`.
@@ -301,6 +190,7 @@ pub fn fit_plane(
         shape: PlaneParameters { normal, offset: normal.dot(&mean) },
         deviations: vec![deviation],
         rms,
+        unobserved: Vec::new(),
     })
 }
 
@@ -323,10 +213,7 @@ pub fn least_radius(centre: &Vector3<f64>, wrenches: &[Wrench<f64>], friction: f
 
 #[cfg(test)]
 mod tests {
-    use super::{
-        GeometryError, Touch, fit_cylinder, fit_ellipsoid, fit_meeting_point, fit_plane, fit_sphere,
-        least_radius,
-    };
+    use super::{GeometryError, Touch, fit_meeting_point, fit_plane, fit_sphere, least_radius};
     use crate::fit::testing::gaussian;
     use fingertip_wrench::Wrench;
     use nalgebra::Vector3;
@@ -359,32 +246,6 @@ mod tests {
             let wrenches: Vec<_> = touches.iter().map(|touch| touch.wrench).collect();
             // All touches have friction 0.4, so the bound is sharp.
             prop_assert!((least_radius(&centre, &wrenches, 0.4).unwrap() - 0.013).abs() < 1e-12);
-
-            let axes = Vector3::new(0.012, 0.015, 0.02);
-            let squares = axes.component_mul(&axes);
-            let touches: Vec<_> = normals
-                .iter()
-                .map(|n| {
-                    let s = squares.component_mul(n);
-                    touch(random, centre + s / n.dot(&s).sqrt(), *n, 0.4)
-                })
-                .collect();
-            let ellipsoid = fit_ellipsoid(&touches).unwrap();
-            prop_assert!((ellipsoid.shape.semi_axes - axes).amax() < 1e-10);
-            prop_assert!((ellipsoid.shape.centre - centre).amax() < 1e-10);
-
-            let axis = vector(random).normalize();
-            let base = centre - axis * centre.dot(&axis);
-            let touches: Vec<_> = normals
-                .iter()
-                .map(|n| {
-                    let radial = (n - axis * n.dot(&axis)).normalize();
-                    let along = 0.02 * gaussian(random);
-                    touch(random, base + radial * 0.008 + axis * along, radial, 0.3)
-                })
-                .collect();
-            let cylinder = fit_cylinder(&touches, &(axis * 2.0)).unwrap();
-            prop_assert!((cylinder.shape.radius() - 0.008).abs() < 1e-10);
         }
 
         #[test]
@@ -429,7 +290,7 @@ mod tests {
         let random = &mut Pcg64Mcg::seed_from_u64(5);
         let normals: Vec<_> = (0..20).map(|_| vector(random).normalize()).collect();
         let clean: Vec<_> = normals.iter().map(|n| touch(random, n * 0.013, *n, 0.5)).collect();
-        let trials = 4000;
+        let trials = 10_000;
         let (mut spread, mut expected) = (0.0, 0.0);
         for _ in 0..trials {
             let noisy: Vec<_> = clean
@@ -443,6 +304,6 @@ mod tests {
             spread += (fit.shape.radius() - 0.013).powi(2) / f64::from(trials);
             expected += fit.deviations[0].powi(2) / f64::from(trials);
         }
-        assert!((spread / expected - 1.0).abs() < 0.08, "{spread:e} {expected:e}");
+        assert!((spread / expected - 1.0).abs() < 0.05, "{spread:e} {expected:e}");
     }
 }

@@ -1,12 +1,12 @@
 //! Mass, centre of mass and zero from the weight of what the sensor carries.
 
+use fingertip_wrench::units::STANDARD_GRAVITY;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use thiserror::Error;
 
 use super::poses::{Pose, turn, unit};
 use crate::fit::{Fit, FitError, least_squares};
 use crate::linear::Singular;
-use crate::units::STANDARD_GRAVITY;
 
 /// What is known of gravity and of the body.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,9 +4,7 @@ use std::io::Read;
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3, Vector6};
 
-use crate::Axis;
-use crate::loads::LoadError;
-use crate::units::{Quantity, si};
+use crate::loads::{Columns, LoadError};
 
 /// One pose and what the sensor said in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +38,14 @@ impl Pose {
     }
 }
 
+impl Pose {
+    /// The pose of the sensor, if this one is of the flange that it sits on.
+    #[must_use]
+    pub fn on_mount(&self, sensor_from_flange: &Matrix3<f64>) -> Self {
+        Self { base_from_sensor: self.base_from_sensor * sensor_from_flange.transpose(), ..*self }
+    }
+}
+
 /// Turns force and torque.
 pub(super) fn turn(rotation: &Matrix3<f64>, wrench: &Vector6<f64>) -> Vector6<f64> {
     let force = rotation * wrench.fixed_rows::<3>(0);
@@ -54,56 +60,19 @@ pub(super) fn turn(rotation: &Matrix3<f64>, wrench: &Vector6<f64>) -> Vector6<f6
 /// # Errors
 /// [`LoadError::BadText`], naming line and column.
 pub fn poses_from_csv(reader: impl Read) -> Result<Vec<Pose>, LoadError> {
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(reader);
-    let bad = |line: u64, column: &str, message: &str| LoadError::BadText {
-        line,
-        column: column.to_owned(),
-        message: message.to_owned(),
-    };
-    let header = reader.headers().map_err(|error| bad(1, "", &error.to_string()))?.clone();
-    let position = |wanted: &str| {
-        header.iter().position(|name| name == wanted).ok_or_else(|| bad(1, wanted, "there is no such column"))
-    };
-    let quaternion = [position("qx")?, position("qy")?, position("qz")?, position("qw")?];
-    let mut components = Vec::new();
-    for axis in Axis::ALL {
-        let quantity = if axis.is_torque() { Quantity::Torque } else { Quantity::Force };
-        let found = header.iter().enumerate().find_map(|(index, name)| {
-            let (stem, unit) = name.rsplit_once('_')?;
-            (Axis::from_name(stem) == Some(axis)).then_some((index, si(quantity, unit)))
-        });
-        match found {
-            Some((index, Some(size))) => components.push((index, size)),
-            Some((index, None)) => {
-                return Err(bad(1, header.get(index).unwrap_or(""), "the unit is not known"));
-            }
-            None => {
-                return Err(bad(1, axis.name(), "there is no such column with a unit, such as fx_N, tx_Nm"));
-            }
-        }
-    }
-    let mut poses = Vec::new();
-    for record in reader.records() {
-        let record = record
-            .map_err(|error| bad(error.position().map_or(0, csv::Position::line), "", &error.to_string()))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let number = |index: usize| {
-            let number = record.get(index).and_then(|text| text.parse::<f64>().ok());
-            number
-                .filter(|number| number.is_finite())
-                .ok_or_else(|| bad(line, header.get(index).unwrap_or(""), "not a finite number"))
-        };
-        let mut wrench = Vector6::zeros();
-        for (slot, (index, size)) in wrench.iter_mut().zip(&components) {
-            *slot = number(*index)? * size;
-        }
-        let [x, y, z, w] = quaternion;
-        let xyzw = [number(x)?, number(y)?, number(z)?, number(w)?];
-        poses.push(
-            Pose::from_quaternion(xyzw, wrench).ok_or_else(|| bad(line, "qw", "the quaternion is zero"))?,
-        );
-    }
-    Ok(poses)
+    let columns = Columns::from_csv(reader)?;
+    let wrenches = columns.wrenches()?;
+    let [x, y, z] = ["qx", "qy", "qz"].map(|name| columns.numbers(name));
+    let (x, y, z, w) = (x?, y?, z?, columns.numbers("qw")?);
+    (0..columns.rows())
+        .map(|i| {
+            Pose::from_quaternion([x[i], y[i], z[i], w[i]], wrenches[i]).ok_or_else(|| LoadError::BadText {
+                line: columns.line(i),
+                column: "qw".to_owned(),
+                message: "the quaternion is zero".to_owned(),
+            })
+        })
+        .collect()
 }
 
 /// A direction as a unit vector; `None` if it has none.

@@ -6,7 +6,7 @@ use super::{LoadError, LoadTable};
 
 impl LoadTable {
     /// Joins sessions with the same axes, gauges and unit: groups and cases stay apart, lists that only some have
-    /// (times, temperatures) are dropped, missing weights are 1.
+    /// (times, temperatures, orientations) are dropped, missing weights are 1.
     ///
     /// Sessions of one sensor differ in their zero: follow with
     /// [`tared_by_group`](Self::tared_by_group) if each has an unloaded sample, or with
@@ -54,6 +54,13 @@ impl LoadTable {
             };
             result.times = both(result.times.take(), &session.times);
             result.temperatures = both(result.temperatures.take(), &session.temperatures);
+            result.orientations = match (result.orientations.take(), &session.orientations) {
+                (Some(mut a), Some(b)) => {
+                    a.extend(b);
+                    Some(a)
+                }
+                _ => None,
+            };
             result.weights = match (result.weights.take(), &session.weights) {
                 (None, None) => None,
                 (a, b) => {

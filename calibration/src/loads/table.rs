@@ -30,6 +30,8 @@ pub struct LoadTable {
     pub times: Option<Vec<f64>>,
     /// Temperature of each sample \[°C\].
     pub temperatures: Option<Vec<f64>>,
+    /// Orientation of the sensor, or of the flange it is on, in the base frame: quaternion x, y, z, w.
+    pub orientations: Option<Vec<[f64; 4]>>,
     /// Weight of each sample: variance of a sample of weight 1 over its own.
     pub weights: Option<Vec<f64>>,
 }
@@ -103,6 +105,7 @@ impl LoadTable {
             groups: vec![0; samples],
             times: None,
             temperatures: None,
+            orientations: None,
             weights: None,
         };
         table.validate()?;
@@ -140,6 +143,7 @@ impl LoadTable {
             ("times", length(&self.times)),
             ("temperatures", length(&self.temperatures)),
             ("weights", length(&self.weights)),
+            ("orientations", self.orientations.as_ref().map_or(samples, Vec::len)),
         ] {
             if found != samples {
                 return Err(LoadError::WrongLength { field, found, expected: samples });
@@ -206,6 +210,7 @@ impl LoadTable {
             groups: kept.iter().map(|i| self.groups[*i]).collect(),
             times: pick(&self.times),
             temperatures: pick(&self.temperatures),
+            orientations: self.orientations.as_ref().map(|list| kept.iter().map(|i| list[*i]).collect()),
             weights: pick(&self.weights),
         }
     }

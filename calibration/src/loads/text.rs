@@ -7,7 +7,6 @@ use nalgebra::DMatrix;
 use super::{LoadError, LoadTable};
 use crate::Axis;
 use crate::file::SignalUnit;
-use crate::units::{Quantity, si};
 
 /// What a column of the header means.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +21,8 @@ enum Column {
     Time,
     Temperature,
     Weight,
+    /// Part of the orientation: x, y, z, w.
+    Quaternion(usize),
     Ignored,
 }
 
@@ -39,6 +40,7 @@ impl LoadTable {
     /// | `group` | any text; samples of one mounting, which share a zero |
     /// | `name` | what reports call the sample |
     /// | `t_s`, `temperature_C`, `weight` | time, temperature, weight |
+    /// | `qx`, `qy`, `qz`, `qw` | orientation of the sensor (or its flange) in the base frame, for what hangs on it: see [`carrying`](Self::carrying) |
     ///
     /// An axis without column is taken as not measured, unless `axes` asks for it, which then is an
     /// error.
@@ -46,62 +48,26 @@ impl LoadTable {
     /// # Errors
     /// [`LoadError`], naming line and column.
     pub fn from_csv(reader: impl Read) -> Result<(Self, Vec<String>), LoadError> {
-        let mut reader =
-            csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(reader);
-        let bad = |line: u64, column: &str, message: String| LoadError::BadText {
-            line,
-            column: column.to_owned(),
-            message,
-        };
-        let header = reader.headers().map_err(|error| bad(1, "", error.to_string()))?.clone();
-        let columns = header
-            .iter()
-            .map(|name| parse_name(name).map_err(|message| bad(1, name, message)))
-            .collect::<Result<Vec<_>, _>>()?;
-        let (axes, gauges, unit) = layout(&columns).map_err(|(column, message)| bad(1, &column, message))?;
+        let mut reader = LoadReader::new(reader)?;
         let (mut loads, mut signals) = (Vec::new(), Vec::new());
         let (mut times, mut temperatures, mut weights) = (Vec::new(), Vec::new(), Vec::new());
         let (mut names, mut cases, mut groups) = (Vec::new(), Vec::new(), Vec::new());
-        let mut samples = 0;
-        for record in reader.records() {
-            let record = record.map_err(|error| {
-                let line = error.position().map_or(0, csv::Position::line);
-                bad(line, "", error.to_string())
-            })?;
-            let line = record.position().map_or(0, csv::Position::line);
-            let start = (loads.len(), signals.len());
-            loads.resize(start.0 + axes.len(), 0.0);
-            signals.resize(start.1 + gauges, 0.0);
-            for ((column, name), text) in columns.iter().zip(&header).zip(&record) {
-                let number = || match text.parse::<f64>() {
-                    Ok(number) if number.is_finite() => Ok(number),
-                    Ok(_) => Err(bad(line, name, format!("{text:?} is not a finite number"))),
-                    Err(_) => Err(bad(line, name, format!("{text:?} is not a number"))),
-                };
-                match *column {
-                    Column::Load(axis, size) => {
-                        if let Some(slot) = axes.iter().position(|a| *a == axis) {
-                            loads[start.0 + slot] = number()? * size;
-                        }
-                    }
-                    Column::Signal(gauge, _, size) => signals[start.1 + gauge] = number()? * size,
-                    Column::Time => times.push(number()?),
-                    Column::Temperature => temperatures.push(number()?),
-                    Column::Weight => weights.push(number()?),
-                    Column::Case => cases.push(text.to_owned()),
-                    Column::Group => groups.push(text.to_owned()),
-                    Column::Name => names.push(text.to_owned()),
-                    Column::Ignored => {}
-                }
-            }
-            samples += 1;
-            if names.len() < samples {
-                names.push(format!("line {line}"));
-            }
+        let mut orientations = Vec::new();
+        while let Some(row) = reader.next_row()? {
+            loads.extend_from_slice(&row.loads);
+            signals.extend_from_slice(&row.signals);
+            times.extend(row.time);
+            temperatures.extend(row.temperature);
+            weights.extend(row.weight);
+            orientations.extend(row.orientation);
+            names.push(row.name.clone().unwrap_or_else(|| format!("line {}", row.line)));
+            cases.extend(row.case.clone());
+            groups.extend(row.group.clone());
         }
-        let loads = DMatrix::from_row_slice(samples, axes.len(), &loads);
-        let signals = DMatrix::from_row_slice(samples, gauges, &signals);
-        let mut table = Self::new(&axes, loads, signals, unit)?;
+        let samples = names.len();
+        let loads = DMatrix::from_row_slice(samples, reader.axes().len(), &loads);
+        let signals = DMatrix::from_row_slice(samples, reader.gauges(), &signals);
+        let mut table = Self::new(reader.axes(), loads, signals, reader.signal_unit())?;
         table.names = names;
         table.cases = if cases.is_empty() { same_loads(&table.loads) } else { numbered(&cases) };
         if !groups.is_empty() {
@@ -109,24 +75,173 @@ impl LoadTable {
         }
         let some = |list: Vec<f64>| (!list.is_empty()).then_some(list);
         (table.times, table.temperatures, table.weights) = (some(times), some(temperatures), some(weights));
+        table.orientations = (!orientations.is_empty()).then_some(orientations);
         table.validate()?;
-        let ignored = header.iter().zip(&columns).filter(|(_, column)| **column == Column::Ignored);
-        Ok((table, ignored.map(|(name, _)| name.to_owned()).collect()))
+        Ok((table, reader.ignored()))
     }
 }
 
-/// Reads the signals alone of a CSV with the header of [`LoadTable::from_csv`]: samples × gauges, and
-/// their unit. Columns of loads are ignored.
+/// Reads a table of loads row by row, in the memory of one row: the format of
+/// [`LoadTable::from_csv`].
+#[derive(Debug)]
+pub struct LoadReader<R> {
+    csv: csv::Reader<R>,
+    record: csv::StringRecord,
+    header: csv::StringRecord,
+    columns: Vec<Column>,
+    axes: Vec<Axis>,
+    unit: SignalUnit,
+    row: LoadRow,
+}
+
+/// One row of a table of loads.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LoadRow {
+    /// Line of the file, counting from 1.
+    pub line: u64,
+    /// The known load \[N, N·m\], in the order of the axes.
+    pub loads: Vec<f64>,
+    /// The readings.
+    pub signals: Vec<f64>,
+    /// Time \[s\].
+    pub time: Option<f64>,
+    /// Temperature \[°C\].
+    pub temperature: Option<f64>,
+    /// Weight.
+    pub weight: Option<f64>,
+    /// Quaternion x, y, z, w.
+    pub orientation: Option<[f64; 4]>,
+    /// What to call the sample.
+    pub name: Option<String>,
+    /// Its load case.
+    pub case: Option<String>,
+    /// Its group.
+    pub group: Option<String>,
+}
+
+fn bad(line: u64, column: &str, message: String) -> LoadError {
+    LoadError::BadText { line, column: column.to_owned(), message }
+}
+
+impl<R: Read> LoadReader<R> {
+    /// Reads the header.
+    ///
+    /// # Errors
+    /// [`LoadError::BadText`], naming the column.
+    pub fn new(reader: R) -> Result<Self, LoadError> {
+        let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(reader);
+        let header = csv.headers().map_err(|error| bad(1, "", error.to_string()))?.clone();
+        let columns = header
+            .iter()
+            .map(|name| parse_name(name).map_err(|message| bad(1, name, message)))
+            .collect::<Result<Vec<_>, _>>()?;
+        let (axes, gauges, unit) = layout(&columns).map_err(|(column, message)| bad(1, &column, message))?;
+        let parts: Vec<usize> = columns
+            .iter()
+            .filter_map(|column| if let Column::Quaternion(part) = column { Some(*part) } else { None })
+            .collect();
+        let whole = parts.len() == 4 && (0..4).all(|part| parts.contains(&part));
+        if !(parts.is_empty() || whole) {
+            return Err(bad(1, "qx", "an orientation takes qx, qy, qz and qw, each once".to_owned()));
+        }
+        let row = LoadRow {
+            loads: vec![0.0; axes.len()],
+            signals: vec![0.0; gauges],
+            orientation: (!parts.is_empty()).then_some([0.0; 4]),
+            ..LoadRow::default()
+        };
+        Ok(Self { csv, record: csv::StringRecord::new(), header, columns, axes, unit, row })
+    }
+
+    /// The axes that have loads.
+    #[must_use]
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// How many gauges there are.
+    #[must_use]
+    pub fn gauges(&self) -> usize {
+        self.row.signals.len()
+    }
+
+    /// Unit of the readings.
+    #[must_use]
+    pub const fn signal_unit(&self) -> SignalUnit {
+        self.unit
+    }
+
+    /// Names of the columns that are not used.
+    #[must_use]
+    pub fn ignored(&self) -> Vec<String> {
+        let ignored = self.header.iter().zip(&self.columns).filter(|(_, column)| **column == Column::Ignored);
+        ignored.map(|(name, _)| name.to_owned()).collect()
+    }
+
+    /// The next row; `None` at the end.
+    ///
+    /// # Errors
+    /// [`LoadError::BadText`], naming line and column.
+    pub fn next_row(&mut self) -> Result<Option<&LoadRow>, LoadError> {
+        let more = self.csv.read_record(&mut self.record).map_err(|error| {
+            let line = error.position().map_or(0, csv::Position::line);
+            bad(line, "", error.to_string())
+        })?;
+        if !more {
+            return Ok(None);
+        }
+        let line = self.record.position().map_or(0, csv::Position::line);
+        let row = &mut self.row;
+        row.line = line;
+        for ((column, name), text) in self.columns.iter().zip(&self.header).zip(&self.record) {
+            let number = || match text.parse::<f64>() {
+                Ok(number) if number.is_finite() => Ok(number),
+                Ok(_) => Err(bad(line, name, format!("{text:?} is not a finite number"))),
+                Err(_) => Err(bad(line, name, format!("{text:?} is not a number"))),
+            };
+            match *column {
+                Column::Load(axis, size) => {
+                    if let Some(slot) = self.axes.iter().position(|a| *a == axis) {
+                        row.loads[slot] = number()? * size;
+                    }
+                }
+                Column::Signal(gauge, _, size) => row.signals[gauge] = number()? * size,
+                Column::Time => row.time = Some(number()?),
+                Column::Temperature => row.temperature = Some(number()?),
+                Column::Weight => row.weight = Some(number()?),
+                Column::Quaternion(part) => {
+                    if let Some(orientation) = &mut row.orientation {
+                        orientation[part] = number()?;
+                    }
+                }
+                Column::Case => row.case = Some(text.to_owned()),
+                Column::Group => row.group = Some(text.to_owned()),
+                Column::Name => row.name = Some(text.to_owned()),
+                Column::Ignored => {}
+            }
+        }
+        Ok(Some(row))
+    }
+}
+
+/// Readings without load.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rest {
+    /// Samples × gauges.
+    pub signals: DMatrix<f64>,
+    /// Unit of the signals.
+    pub unit: SignalUnit,
+    /// Temperature of each sample \[°C\], if the file has them.
+    pub temperatures: Option<Vec<f64>>,
+}
+
+/// Reads the signals alone of a CSV with the header of [`LoadTable::from_csv`], and their temperatures.
+/// Columns of loads are ignored.
 ///
 /// # Errors
 /// [`LoadError`], naming line and column.
-pub fn signals_from_csv(reader: impl Read) -> Result<(DMatrix<f64>, SignalUnit), LoadError> {
+pub fn signals_from_csv(reader: impl Read) -> Result<Rest, LoadError> {
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(reader);
-    let bad = |line: u64, column: &str, message: String| LoadError::BadText {
-        line,
-        column: column.to_owned(),
-        message,
-    };
     let header = reader.headers().map_err(|error| bad(1, "", error.to_string()))?.clone();
     let mut columns = Vec::new();
     for name in &header {
@@ -139,7 +254,7 @@ pub fn signals_from_csv(reader: impl Read) -> Result<(DMatrix<f64>, SignalUnit),
         });
     }
     let (_, gauges, unit) = signal_layout(&columns).map_err(|(column, message)| bad(1, &column, message))?;
-    let mut signals = Vec::new();
+    let (mut signals, mut temperatures) = (Vec::new(), Vec::new());
     let mut samples = 0;
     for record in reader.records() {
         let record = record
@@ -148,16 +263,20 @@ pub fn signals_from_csv(reader: impl Read) -> Result<(DMatrix<f64>, SignalUnit),
         let start = signals.len();
         signals.resize(start + gauges, 0.0);
         for ((column, name), text) in columns.iter().zip(&header).zip(&record) {
-            if let Column::Signal(gauge, _, size) = *column {
+            let number = || {
                 let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
-                let number =
-                    number.ok_or_else(|| bad(line, name, format!("{text:?} is not a finite number")))?;
-                signals[start + gauge] = number * size;
+                number.ok_or_else(|| bad(line, name, format!("{text:?} is not a finite number")))
+            };
+            match *column {
+                Column::Signal(gauge, _, size) => signals[start + gauge] = number()? * size,
+                Column::Temperature => temperatures.push(number()?),
+                _ => {}
             }
         }
         samples += 1;
     }
-    Ok((DMatrix::from_row_slice(samples, gauges, &signals), unit))
+    let signals = DMatrix::from_row_slice(samples, gauges, &signals);
+    Ok(Rest { signals, unit, temperatures: (!temperatures.is_empty()).then_some(temperatures) })
 }
 
 fn parse_name(name: &str) -> Result<Column, String> {
@@ -168,13 +287,17 @@ fn parse_name(name: &str) -> Result<Column, String> {
         "t_s" => return Ok(Column::Time),
         "temperature_C" => return Ok(Column::Temperature),
         "weight" => return Ok(Column::Weight),
+        "qx" => return Ok(Column::Quaternion(0)),
+        "qy" => return Ok(Column::Quaternion(1)),
+        "qz" => return Ok(Column::Quaternion(2)),
+        "qw" => return Ok(Column::Quaternion(3)),
         _ => {}
     }
     let (stem, unit) = name.rsplit_once('_').unwrap_or((name, ""));
     if let Some(axis) = Axis::from_name(stem) {
-        let quantity = if axis.is_torque() { Quantity::Torque } else { Quantity::Force };
-        let size = si(quantity, unit).ok_or_else(|| {
-            format!("{unit:?} is not a unit of {quantity:?}; write such as `{stem}_N` or `tx_Nm`")
+        let size = axis.unit_size(unit).ok_or_else(|| {
+            let quantity = if axis.is_torque() { "torque" } else { "force" };
+            format!("{unit:?} is not a unit of {quantity}; write such as `fx_N` or `tx_Nm`")
         })?;
         return Ok(Column::Load(axis, size));
     }
@@ -189,7 +312,7 @@ fn parse_name(name: &str) -> Result<Column, String> {
         "count" | "counts" => (SignalUnit::Count, 1.0),
         "mVpV" | "mV/V" => (SignalUnit::MillivoltPerVolt, 1.0),
         "strain" => (SignalUnit::Strain, 1.0),
-        _ => match si(Quantity::Force, unit).or_else(|| si(Quantity::Torque, unit)) {
+        _ => match Axis::Fx.unit_size(unit).or_else(|| Axis::Tx.unit_size(unit)) {
             Some(size) => (SignalUnit::Wrench, size),
             None => {
                 return Err(format!("{unit:?} is not a unit of signals; write such as `v1_V`, `v1_count`"));

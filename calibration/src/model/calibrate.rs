@@ -1,6 +1,6 @@
 //! From a table of loads to a calibration.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, RowDVector};
 use thiserror::Error;
 
 use super::sensor_model::{design, normalised, responses};
@@ -27,7 +27,7 @@ pub struct Calibration {
 }
 
 /// Why there is no calibration.
-#[derive(Clone, Debug, PartialEq, Error)]
+#[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CalibrationError {
     /// The table of loads is wrong.
@@ -36,6 +36,9 @@ pub enum CalibrationError {
     /// The fit has no answer.
     #[error(transparent)]
     Fit(#[from] FitError),
+    /// The calibration file cannot be used with the table.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// The options contradict each other or the table.
     #[error("option `{option}`: {message}")]
     BadOption {
@@ -143,16 +146,11 @@ fn take_off_drift(
     let fit = fit_temperature(&normalised(&table.loads, nominal), &table.signals, celsius, reference)?;
     let drift = fit.temperature;
     for (i, celsius) in celsius.iter().enumerate() {
-        let difference = celsius - reference;
-        for gauge in 0..table.signals.ncols() {
-            let zero = difference * (drift.zero_drift[gauge] + drift.zero_curvature[gauge] * difference);
-            let gain = 1.0 + drift.gain_drift[gauge] * difference;
-            if !(gain > 0.0) {
-                return Err(bad("the fitted drift of the gain changes its sign"));
-            }
-            let signal = (table.signals[(i, gauge)] - fit.zero[gauge] - zero) / gain;
-            table.signals[(i, gauge)] = fit.zero[gauge] + signal;
-        }
+        let reading: Vec<f64> = table.signals.row(i).iter().copied().collect();
+        let reading = drift
+            .at_reference(&reading, fit.zero.as_slice(), *celsius)
+            .ok_or_else(|| bad("the fitted drift of the gain changes its sign"))?;
+        table.signals.set_row(i, &RowDVector::from_vec(reading));
     }
     Ok(drift)
 }

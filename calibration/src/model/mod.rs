@@ -4,6 +4,7 @@ mod calibrate;
 mod options;
 mod pairs;
 mod sensor_model;
+mod streamed;
 
 pub(crate) use crate::fit::deviation;
 pub use calibrate::{Calibration, CalibrationError, calibrate};
@@ -11,3 +12,4 @@ pub use options::{Direction, Limits, Method, Options};
 pub use pairs::pairs;
 pub use sensor_model::SensorModel;
 pub(crate) use sensor_model::normalised;
+pub use streamed::StreamedFit;

@@ -1,6 +1,7 @@
 //! How to calibrate.
 
 use crate::file::CalibrationFile;
+use crate::report::TouchSet;
 
 /// Which of load and signal is taken as the cause in the regression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,6 +93,8 @@ pub struct Options {
     pub reference_celsius: Option<f64>,
     /// Whether to leave out samples that the outlier test names.
     pub reject_outliers: bool,
+    /// Touches on which to say what the calibration is worth; `None` for no such statement.
+    pub touches: Option<TouchSet>,
     /// What a good calibration must reach.
     pub limits: Limits,
 }
@@ -109,6 +112,7 @@ impl Default for Options {
             tare_groups: false,
             reference_celsius: None,
             reject_outliers: false,
+            touches: None,
             limits: Limits::default(),
         }
     }

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
+use super::contact::{ContactReport, TouchSet, contact_report};
 use super::metrics::{AxisReport, LineReport, axis_reports, cross_talk, lines};
 use super::outliers::Outlier;
 use super::suspicion::{Suspicion, suspicions};
@@ -35,10 +36,14 @@ pub struct Report {
     pub axes: Vec<AxisReport>,
     /// Cross-talk, % of full scale: row = axis that reads falsely, column = axis loaded alone.
     pub cross_talk_percent: Vec<Vec<Option<f64>>>,
-    /// Standard deviation of the entries of the normalised matrix, gauges × axes, in signals.
+    /// The normalised matrix, gauges × axes, in signals.
+    pub matrix: Option<Vec<Vec<f64>>>,
+    /// Standard deviation of its entries.
     pub matrix_deviations: Option<Vec<Vec<f64>>>,
     /// How well lines of action are found.
     pub lines: Option<LineReport>,
+    /// What the uncertainty of the calibration does to contact points of a given surface.
+    pub contacts: Option<ContactReport>,
     /// Samples that were left out, and why.
     pub excluded: Vec<Exclusion>,
     /// Samples that do not fit the others but were kept.
@@ -101,6 +106,14 @@ impl Report {
                 axis.deviation_percent = Some(100.0 * covariance[(j, j)].max(0.0).sqrt() / axis.full_scale);
             }
         }
+        if let (Some(set), Some(covariance)) = (&options.touches, model.covariance()) {
+            let matrix = model.matrix_and_zero()?.0;
+            report.contacts = contact_report(&model.axes, &matrix, &model.nominal, &covariance, set);
+        }
+        report.matrix = model
+            .matrix_and_zero()
+            .ok()
+            .map(|(matrix, _)| matrix.row_iter().map(|row| row.iter().copied().collect()).collect());
         report.matrix_deviations = model.covariance().map(|covariance| {
             let entry =
                 |i: usize, j: usize| (covariance.signals[(i, i)] * covariance.loads[(j, j)]).max(0.0).sqrt();
@@ -117,11 +130,13 @@ impl Report {
     ///
     /// # Errors
     /// [`CalibrationError::BadOption`] if sensor and table have not the same gauges and axes,
-    /// [`CalibrationError::Loads`] for a bad table, [`CalibrationError::Singular`].
+    /// [`CalibrationError::Loads`] for a bad table, [`CalibrationError::File`] if the calibration needs
+    /// the temperature of the samples and the table has none, [`CalibrationError::Singular`].
     pub fn of_check(
         file: &CalibrationFile,
         table: &LoadTable,
         limits: &Limits,
+        touches: Option<&TouchSet>,
     ) -> Result<Self, CalibrationError> {
         table.validate()?;
         if file.gauges() != table.gauges() || file.axes != table.axes {
@@ -152,6 +167,8 @@ impl Report {
         let mut predicted = DMatrix::zeros(table.samples(), table.axes.len());
         for i in 0..table.samples() {
             let reading: Vec<f64> = table.signals.row(i).iter().copied().collect();
+            let celsius = table.temperatures.as_ref().map(|temperatures| temperatures[i]);
+            let reading = file.brought_to_reference(&reading, celsius)?;
             let load = file.load_with(&inverse, &reading).ok_or(CalibrationError::Singular)?;
             predicted.set_row(i, &load.transpose());
         }
@@ -161,6 +178,12 @@ impl Report {
         report.condition_number =
             Singular::new(&file.matrix).map(|s| s.condition_number()).filter(|number| number.is_finite());
         report.lines = lines(table, &file.nominal, &predicted, |_| None);
+        if let (Some(set), Some(covariance)) = (touches, &file.covariance) {
+            report.contacts = contact_report(&file.axes, &file.matrix, &file.nominal, covariance, set);
+        }
+        if table.temperatures.is_some() && file.temperature.is_none() {
+            report.notes.push("temperatures are known, but the calibration has no terms for them".to_owned());
+        }
         report.suspicions = suspicions(file, table, &predicted);
         report.judge(limits);
         if file.quality.verdict == Verdict::Bad {
@@ -196,8 +219,10 @@ impl Report {
             condition_number: None,
             axes: axis_reports(table, full_scale, predicted, left_out),
             cross_talk_percent: cross_talk(table, full_scale, predicted),
+            matrix: None,
             matrix_deviations: None,
             lines: None,
+            contacts: None,
             excluded: Vec::new(),
             outliers: Vec::new(),
             needed_cases: left_out.map_or_else(Vec::new, missing),

@@ -1,46 +1,219 @@
-//! A report as a web page with plots.
+//! A report as a web page with tables and plots.
 
 use core::fmt::Write as _;
 
-use plotters::prelude::*;
-
-use super::{Report, SampleReport};
+use super::plot::{FITTED, LEFT_OUT};
+use super::{AxisReport, Report};
 use crate::file::Verdict;
 
-const WIDTH: u32 = 480;
-const HEIGHT: u32 = 300;
+const STYLE: &str = "body{font-family:sans-serif;max-width:66em;margin:2em auto;padding:0 1em;color:#1f2328}\
+    table{border-collapse:collapse;margin:.8em 0}td,th{padding:.25em .7em;text-align:right;\
+    border-bottom:1px solid #d0d7de}td:first-child,th:first-child{text-align:left}\
+    .text td,.text th{text-align:left}thead th{border-bottom:2px solid #8c959f}tr.first td{font-weight:bold}\
+    .wide{overflow-x:auto}.verdict{font-weight:bold}.good{color:#1a7f37}.bad{color:#cf222e}\
+    .unchecked{color:#9a6700}figure{display:inline-block;margin:.5em}figcaption{text-align:center}\
+    .legend span{display:inline-block;width:.7em;height:.7em;border-radius:50%;margin:0 .4em 0 1em}\
+    p.small{color:#57606a;font-size:90%}svg{max-width:100%;height:auto}";
+
+type Column = fn(&AxisReport) -> Option<f64>;
+
+/// Rows of the table of errors, and what each means.
+const ROWS: [(&str, &str, Column); 10] = [
+    ("RMS", "root mean square of the error on these loads", |a| Some(a.rms_percent)),
+    ("greatest", "greatest error on these loads", |a| Some(a.greatest_percent)),
+    ("left out, RMS", "each load case predicted by a fit without it", |a| a.left_out_percent),
+    ("left out, greatest", "the same, greatest", |a| a.left_out_greatest_percent),
+    ("one reading", "standard deviation of one reading, from what the fit leaves", |a| a.deviation_percent),
+    ("linearity", "greatest deviation from the best line through zero", |a| a.linearity_percent),
+    ("hysteresis", "greatest difference between rising and falling load", |a| a.hysteresis_percent),
+    ("repeatability", "standard deviation of readings of the same load", |a| a.repeatability_percent),
+    ("zero return", "greatest change of the reading without load, after loading", |a| a.zero_return_percent),
+    ("creep", "greatest change of the reading while a load is held", |a| a.creep_percent),
+];
 
 impl Report {
     /// As one HTML page without scripts or outside files, plots as SVG within.
     #[must_use]
     pub fn to_html(&self, title: &str) -> String {
-        let mut page = String::from("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n");
         let title = escape(title);
-        let (word, colour) = match self.verdict {
-            Verdict::Good => ("good", "#1a7f37"),
-            Verdict::Bad => ("bad", "#cf222e"),
-            Verdict::Unchecked => ("unchecked", "#9a6700"),
+        let word = match self.verdict {
+            Verdict::Good => "good",
+            Verdict::Bad => "bad",
+            Verdict::Unchecked => "unchecked",
         };
-        // Writing to a String cannot fail.
-        let _ = write!(
-            page,
-            "<title>{title}</title>\n<style>body{{font-family:sans-serif;max-width:64em;margin:2em auto;padding:0 1em}}\
-             pre{{background:#f6f8fa;padding:1em;overflow-x:auto}}.verdict{{color:{colour}}}\
-             figure{{display:inline-block;margin:0.5em}}</style></head><body>\n\
-             <h1>{title}</h1>\n<p>This calibration is <strong class=\"verdict\">{word}</strong>.</p>\n"
+        let mut page = format!(
+            "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" \
+             content=\"width=device-width,initial-scale=1\">\n<title>{title}</title>\n<style>{STYLE}</style></head>\
+             <body>\n<h1>{title}</h1>\n<p>This calibration is <span class=\"verdict {word}\">{word}</span>.</p>\n"
         );
         for (heading, items) in [("Why", &self.reasons), ("Mind", &self.notes)] {
             if !items.is_empty() {
-                let _ = write!(page, "<h2>{heading}</h2>\n<ul>");
-                for item in items {
-                    let _ = write!(page, "<li>{}</li>", escape(item));
-                }
-                page.push_str("</ul>\n");
+                let items: String = items.iter().map(|item| format!("<li>{}</li>", escape(item))).collect();
+                // Writing to a String cannot fail.
+                let _ = writeln!(page, "<h2>{heading}</h2>\n<ul>{items}</ul>");
             }
         }
-        let _ = write!(page, "<h2>Figures</h2>\n<pre>{}</pre>\n<h2>Plots</h2>\n", escape(&self.to_string()));
-        for index in 0..self.axes.len() {
-            let axis = &self.axes[index];
+        self.summary(&mut page);
+        self.errors(&mut page);
+        self.cross_talk(&mut page);
+        self.places(&mut page);
+        self.deviations(&mut page);
+        if !self.excluded.is_empty() {
+            page.push_str(
+                "<h2>Samples left out</h2>\n<table class=\"text\"><thead><tr><th>sample</th><th>why</th></tr></thead>\n",
+            );
+            for excluded in &self.excluded {
+                let (sample, reason) = (escape(&excluded.sample), escape(&excluded.reason));
+                let _ = writeln!(page, "<tr><td>{sample}</td><td>{reason}</td></tr>");
+            }
+            page.push_str("</table>\n");
+        }
+        self.plots(&mut page);
+        page.push_str("</body></html>\n");
+        page
+    }
+
+    fn summary(&self, page: &mut String) {
+        let number = self.condition_number.map_or("infinite (singular)".to_owned(), |n| format!("{n:.2}"));
+        let _ = write!(
+            page,
+            "<p>Method: {}; {} samples in {} load cases",
+            escape(&self.method),
+            self.samples,
+            self.cases
+        );
+        if self.coefficients > 0 {
+            let _ = write!(page, ", {} coefficients each", self.coefficients);
+        }
+        let _ = writeln!(page, "; condition number N<sub>c</sub> = {number}.</p>");
+    }
+
+    fn errors(&self, page: &mut String) {
+        page.push_str("<h2>Errors, % of full scale</h2>\n<div class=\"wide\"><table><thead><tr><th></th>");
+        for axis in &self.axes {
+            let _ = write!(page, "<th>{}</th>", axis.axis);
+        }
+        page.push_str("</tr></thead>\n<tr><td>full scale</td>");
+        for axis in &self.axes {
+            let _ = write!(page, "<td>{} {}</td>", short(axis.full_scale), axis.axis.unit());
+        }
+        page.push_str("</tr>\n");
+        for (name, meaning, value) in ROWS {
+            if self.axes.iter().any(|axis| value(axis).is_some()) {
+                let first = if name == "RMS" { " class=\"first\"" } else { "" };
+                let _ = write!(page, "<tr{first} title=\"{meaning}\"><td>{name}</td>");
+                for axis in &self.axes {
+                    let _ = write!(page, "<td>{}</td>", cell(value(axis)));
+                }
+                page.push_str("</tr>\n");
+            }
+        }
+        page.push_str("</table></div>\n<p class=\"small\">");
+        for (name, meaning, value) in ROWS {
+            if self.axes.iter().any(|axis| value(axis).is_some()) {
+                let _ = write!(page, "<b>{name}</b>: {meaning}. ");
+            }
+        }
+        page.push_str("A dash: these loads do not tell.</p>\n");
+    }
+
+    fn cross_talk(&self, page: &mut String) {
+        let all: Vec<f64> = self.cross_talk_percent.iter().flatten().flatten().copied().collect();
+        let most = all.iter().copied().fold(0.0, f64::max);
+        if all.is_empty() {
+            return;
+        }
+        page.push_str(
+            "<h2>Cross-talk, % of full scale</h2>\n<p class=\"small\">Greatest false reading of an axis (row) under \
+             loads of another one alone (column).</p>\n<table><thead><tr><th></th>",
+        );
+        for axis in &self.axes {
+            let _ = write!(page, "<th>{}</th>", axis.axis);
+        }
+        page.push_str("</tr></thead>\n");
+        for (axis, row) in self.axes.iter().zip(&self.cross_talk_percent) {
+            let _ = write!(page, "<tr><td>{}</td>", axis.axis);
+            for value in row {
+                let shade = value.map_or(0.0, |value| 0.35 * value / most.max(f64::MIN_POSITIVE));
+                let _ =
+                    write!(page, "<td style=\"background:rgba(207,34,46,{shade:.2})\">{}</td>", cell(*value));
+            }
+            page.push_str("</tr>\n");
+        }
+        page.push_str("</table>\n");
+    }
+
+    /// Lines of action and contact points.
+    fn places(&self, page: &mut String) {
+        if self.lines.is_some() || self.contacts.is_some() {
+            page.push_str("<h2>Where touches are found</h2>\n");
+        }
+        if let Some(lines) = &self.lines {
+            let expected = lines
+                .expected_mm
+                .map_or(String::new(), |mm| format!(" ({mm:.3} mm expected of the covariance)"));
+            let _ = writeln!(
+                page,
+                "<p>Lines of action of the {} pure forces of these loads: off by <b>{:.3} mm</b> in the median{expected}, \
+                 {:.3} mm at most.</p>",
+                lines.lines, lines.median_mm, lines.greatest_mm
+            );
+        }
+        if let Some(contacts) = &self.contacts {
+            let _ = writeln!(
+                page,
+                "<p>Contact points on {} under {:.3} N, expected of the covariance ({} touches all over it): off by \
+                 <b>{:.3} mm</b> (root mean square), {:.3} mm where it is worst. Of that, {:.3} mm come of the matrix, \
+                 which no averaging mends, and {:.3} mm of the noise of one reading.</p>",
+                escape(&contacts.surface),
+                contacts.force,
+                contacts.touches,
+                contacts.together_mm,
+                contacts.worst_mm,
+                contacts.calibration_mm,
+                contacts.reading_mm
+            );
+        }
+    }
+
+    fn deviations(&self, page: &mut String) {
+        let (Some(matrix), Some(deviations)) = (&self.matrix, &self.matrix_deviations) else { return };
+        page.push_str(
+            "<h2>The matrix</h2>\n<p class=\"small\">Signal of each gauge (row) under the full scale of each axis \
+             (column), and its standard deviation.</p>\n<div class=\"wide\"><table><thead><tr><th></th>",
+        );
+        for axis in &self.axes {
+            let _ = write!(page, "<th>{}</th>", axis.axis);
+        }
+        page.push_str("</tr></thead>\n");
+        for (gauge, (row, spread)) in matrix.iter().zip(deviations).enumerate() {
+            let _ = write!(page, "<tr><td>gauge {}</td>", gauge + 1);
+            for (value, deviation) in row.iter().zip(spread) {
+                let digits = digits(*deviation, 2);
+                let _ = write!(page, "<td>{value:.digits$} ± {deviation:.digits$}</td>");
+            }
+            page.push_str("</tr>\n");
+        }
+        page.push_str("</table></div>\n");
+    }
+
+    fn plots(&self, page: &mut String) {
+        let colour = |c: plotters::style::RGBColor| format!("rgb({},{},{})", c.0, c.1, c.2);
+        let _ = write!(
+            page,
+            "<h2>Plots</h2>\n<p class=\"legend\"><span style=\"background:{}\"></span>{}",
+            colour(FITTED),
+            if self.coefficients > 0 { "loads of the fit" } else { "these loads" }
+        );
+        if self.details.iter().any(|sample| sample.left_out.is_some()) {
+            let _ = write!(
+                page,
+                "<span style=\"border:1.5px solid {}\"></span>the same loads, left out of the fit",
+                colour(LEFT_OUT)
+            );
+        }
+        page.push_str("</p>\n");
+        for (index, axis) in self.axes.iter().enumerate() {
             for (caption, svg) in [
                 (format!("{}: error over load", axis.axis), self.error_over_load(index)),
                 (format!("{}: error, sample after sample", axis.axis), self.error_over_samples(index)),
@@ -51,87 +224,25 @@ impl Report {
                 }
             }
         }
-        page.push_str("</body></html>\n");
-        page
-    }
-
-    /// Error, % of full scale, over the applied load: points of the fit, and of the loads left out.
-    #[must_use]
-    pub fn error_over_load(&self, axis: usize) -> Option<String> {
-        let report = self.axes.get(axis)?;
-        let label = format!("{} [{}]", report.axis, report.axis.unit());
-        self.plot(axis, &label, |_, sample| sample.applied.get(axis).copied())
-    }
-
-    /// Error, % of full scale, in the order of the samples.
-    #[must_use]
-    pub fn error_over_samples(&self, axis: usize) -> Option<String> {
-        self.plot(axis, "sample", |index, _| Some(index as f64 + 1.0))
-    }
-
-    fn plot(
-        &self,
-        axis: usize,
-        label: &str,
-        position: impl Fn(usize, &SampleReport) -> Option<f64>,
-    ) -> Option<String> {
-        let full_scale = self.axes.get(axis)?.full_scale;
-        let (mut fitted, mut left_out) = (Vec::new(), Vec::new());
-        for (index, sample) in self.details.iter().enumerate() {
-            let (x, applied) = (position(index, sample)?, *sample.applied.get(axis)?);
-            let percent = |value: f64| 100.0 * (value - applied) / full_scale;
-            fitted.push((x, percent(*sample.measured.get(axis)?)));
-            if let Some(value) = sample.left_out.as_ref().and_then(|load| load.get(axis)) {
-                left_out.push((x, percent(*value)));
-            }
-        }
-        let all = || fitted.iter().chain(&left_out);
-        let least = all().map(|p| p.0).fold(f64::INFINITY, f64::min);
-        let most = all().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
-        let error = all().map(|p| p.1.abs()).fold(0.0, f64::max);
-        if !(least.is_finite() && most.is_finite() && error.is_finite()) {
-            return None;
-        }
-        let margin = if most > least { 0.05 * (most - least) } else { 1.0 };
-        let error = if error > 0.0 { 1.1 * error } else { 1.0 };
-        let mut svg = String::new();
-        draw(&mut svg, label, (least - margin, most + margin), error, &fitted, &left_out).ok()?;
-        Some(svg)
     }
 }
 
-type Failure = Box<dyn core::error::Error>;
+fn cell(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| format!("{value:.3}"))
+}
 
-fn draw(
-    svg: &mut String,
-    label: &str,
-    (least, most): (f64, f64),
-    error: f64,
-    fitted: &[(f64, f64)],
-    left_out: &[(f64, f64)],
-) -> Result<(), Failure> {
-    let describe = |error: DrawingAreaErrorKind<_>| -> Failure { format!("{error}").into() };
-    let area = SVGBackend::with_string(svg, (WIDTH, HEIGHT)).into_drawing_area();
-    area.fill(&WHITE).map_err(describe)?;
-    let mut chart = ChartBuilder::on(&area)
-        .margin(8)
-        .x_label_area_size(36)
-        .y_label_area_size(56)
-        .build_cartesian_2d(least..most, -error..error)
-        .map_err(describe)?;
-    chart.configure_mesh().x_desc(label).y_desc("error [% FS]").draw().map_err(describe)?;
-    let hollow = RGBColor(207, 34, 46);
-    chart
-        .draw_series(left_out.iter().map(|point| Circle::new(*point, 4, hollow.stroke_width(1))))
-        .map_err(describe)?
-        .label("left out");
-    let solid = RGBColor(9, 105, 218);
-    chart
-        .draw_series(fitted.iter().map(|point| Circle::new(*point, 2, solid.filled())))
-        .map_err(describe)?
-        .label("fitted");
-    area.present().map_err(describe)?;
-    Ok(())
+/// Four significant digits.
+fn short(value: f64) -> String {
+    let digits = digits(value, 4);
+    format!("{value:.digits$}")
+}
+
+/// Digits behind the point that make so many significant ones.
+fn digits(value: f64, significant: u8) -> usize {
+    let digits = f64::from(significant) - 1.0 - value.abs().max(1e-12).log10().floor();
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let digits = digits.clamp(0.0, 12.0) as usize;
+    digits
 }
 
 fn escape(text: &str) -> String {

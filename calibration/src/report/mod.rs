@@ -1,12 +1,15 @@
 //! What a calibration is worth.
 
+mod contact;
 mod contents;
 mod html;
 mod metrics;
 mod outliers;
+mod plot;
 mod suspicion;
 mod terminal;
 
+pub use contact::{ContactReport, TouchSet};
 pub use contents::{Exclusion, Report, SampleReport};
 pub use metrics::{AxisReport, LineReport};
 pub use outliers::{Outlier, outliers};

@@ -81,6 +81,21 @@ impl fmt::Display for Report {
                 None => writeln!(f)?,
             }
         }
+        if let Some(contacts) = &self.contacts {
+            writeln!(
+                f,
+                "\nContact points on {} under {:.3} N, expected of the covariance ({} touches):\n  \
+                 off by {:.3} mm because of the matrix, {:.3} mm because of the noise of one reading,\n  \
+                 {:.3} mm in all (root mean square), {:.3} mm where it is worst",
+                contacts.surface,
+                contacts.force,
+                contacts.touches,
+                contacts.calibration_mm,
+                contacts.reading_mm,
+                contacts.together_mm,
+                contacts.worst_mm
+            )?;
+        }
         for excluded in &self.excluded {
             writeln!(f, "left out: {}: {}", excluded.sample, excluded.reason)?;
         }

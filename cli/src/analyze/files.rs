@@ -10,7 +10,12 @@ use crate::summary::Findings;
 
 /// Refuses to write over what is read.
 pub(super) fn guard(arguments: &AnalyzeArguments) -> Result<(), CliError> {
-    let inputs = [Some(&arguments.recording), Some(&arguments.scene), arguments.calibration.as_ref()];
+    let inputs = [
+        Some(&arguments.recording),
+        Some(&arguments.scene),
+        arguments.calibration.as_ref(),
+        arguments.payload.as_ref(),
+    ];
     let report = (!arguments.no_report).then_some(&arguments.report);
     for (what, output) in [("contacts file", Some(&arguments.output)), ("report", report)] {
         let Some(output) = output else { continue };

@@ -2,6 +2,7 @@
 
 mod contacts;
 mod files;
+mod payload;
 mod progress;
 mod recorded;
 mod rest;
@@ -34,7 +35,7 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let (file, length) =
         files::open(recording).map_err(|source| CliError::read("recording", recording, source))?;
     let mut reader = RecordingReader::new(recording.display().to_string(), file)?;
-    let mut source = Source::new(&reader, &scene, arguments)?;
+    let mut source = Source::new(&mut reader, &scene, arguments)?;
     let mut contacts = ContactWriter::create(&arguments.output)?;
     let mut progress = Progress::new(length);
 

@@ -6,8 +6,9 @@ use std::path::PathBuf;
 use fingertip::wrench::Wrench;
 use fingertip_drivers::recording::{HeaderProblem, RecordingReader, Row};
 
+use super::payload::Carried;
 use super::recorded::Recorded;
-use super::volts;
+use super::volts::{self, KnownTemperature};
 use super::wrenches::Wrenches;
 use crate::args::AnalyzeArguments;
 use crate::error::CliError;
@@ -27,6 +28,8 @@ const UNMISTAKABLE: f64 = 100.0;
 /// Turns rows into wrenches: unit and sign, tare, and for volts the calibration.
 pub(super) struct Source {
     recorded: Box<dyn Recorded>,
+    /// What hangs on the sensor.
+    carried: Option<Carried>,
     /// Forces below this are no contact \[N\].
     least_force: f64,
     convention: Convention,
@@ -43,12 +46,17 @@ pub(super) struct Source {
 
 impl Source {
     pub(super) fn new(
-        reader: &RecordingReader<File>,
+        reader: &mut RecordingReader<File>,
         scene: &Scene,
         arguments: &AnalyzeArguments,
     ) -> Result<Self, CliError> {
+        let temperature = match arguments.celsius {
+            Some(celsius) => Some(KnownTemperature::Constant(celsius)),
+            None => reader.watch("temperature_C").map(KnownTemperature::Column),
+        };
         let layout = reader.layout();
-        if !layout.has_time() && scene.sample_rate.is_none() {
+        let has_time = layout.has_time();
+        if !has_time && scene.sample_rate.is_none() {
             return Err(CliError::NoTime {
                 path: arguments.recording.clone(),
                 scene: arguments.scene.clone(),
@@ -58,7 +66,8 @@ impl Source {
         let sensor = arguments.sensor.as_deref().or(scene.sensor.as_deref());
         let mut notes = Vec::new();
         let recorded: Box<dyn Recorded> = if let Some(calibration) = &arguments.calibration {
-            volts::open(layout, sensor, calibration, scene.rest.is_some(), &mut notes, header)?
+            let has_rest = scene.rest.is_some();
+            volts::open(layout, sensor, calibration, has_rest, temperature, &mut notes, header)?
         } else {
             if layout.wrenches().is_empty() && sensor.is_none() {
                 return Err(CliError::NeedsCalibration { path: arguments.recording.clone() });
@@ -73,12 +82,17 @@ impl Source {
             };
             notes.push(note.to_owned());
         }
+        let carried = match &arguments.payload {
+            Some(path) => Some(Carried::open(path, reader, recorded.sensor())?),
+            None => None,
+        };
         Ok(Self {
             recorded,
+            carried,
             least_force: scene.model.least_force(),
             convention: scene.convention,
             rest: scene.rest,
-            sample_interval: if layout.has_time() { None } else { scene.sample_rate.map(f64::recip) },
+            sample_interval: if has_time { None } else { scene.sample_rate.map(f64::recip) },
             recording: arguments.recording.clone(),
             rows: 0,
             first_time: None,
@@ -123,7 +137,15 @@ impl Source {
     #[inline]
     fn read_load(&self, row: &Row<'_>) -> Reading {
         match self.recorded.read(row) {
-            Ok(load) => Reading::Wrench(self.convention.wrench(load.force(), load.torque())),
+            Ok(load) => {
+                let load = self.convention.wrench(load.force(), load.torque());
+                match &self.carried {
+                    None => Reading::Wrench(load),
+                    Some(carried) => carried
+                        .taken_off(row, &load)
+                        .map_or(Reading::Without(Status::UnusableRow), Reading::Wrench),
+                }
+            }
             Err(status) => Reading::Without(status),
         }
     }
@@ -153,11 +175,19 @@ impl Source {
         let rested = time - self.first_time.unwrap_or(time);
         match self.rest {
             // A row without time is no reason to end the rest.
-            Some(rest) if !(rested >= rest) => Ok(Reading::Without(self.recorded.rest(row))),
+            Some(rest) if !(rested >= rest) => {
+                if self.carried.as_mut().is_some_and(|carried| !carried.rest(row)) {
+                    return Ok(Reading::Without(Status::UnusableRow));
+                }
+                Ok(Reading::Without(self.recorded.rest(row)))
+            }
             _ => {
                 let rest = self.rest.take().unwrap_or(0.0);
                 self.recorded.end_rest().map_err(|_| CliError::NoRest { rest })?;
                 self.judge_rest(rest)?;
+                if let Some(carried) = &mut self.carried {
+                    carried.end_rest();
+                }
                 Ok(self.read_load(row))
             }
         }

@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use fingertip::wrench::{
-    Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy, GaussianElimination, LeastSquares, Tare,
-    TareAccumulator, TareError, Wrench, WrenchSolver,
+    Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy, GaugesAndTemperature,
+    GaussianElimination, LeastSquares, Tare, TareAccumulator, TareError, TemperatureCompensation, Wrench,
+    WrenchSolver,
 };
 use fingertip_calibration::file::{CalibrationFile, SignalUnit as CalibratedUnit, Verdict};
-use fingertip_drivers::recording::{HeaderProblem, Layout, Row, SignalColumns, SignalUnit};
+use fingertip_drivers::recording::{HeaderProblem, Layout, NumberColumn, Row, SignalColumns, SignalUnit};
 use nalgebra::SVector;
 
 use super::recorded::Recorded;
@@ -29,8 +30,33 @@ struct Volts<S, const N: usize> {
 enum Zero<const N: usize> {
     /// The zero of the calibration, or of the rest when that is over.
     Tare { resting: TareAccumulator<f64, N>, tare: Tare<f64, N> },
+    /// Zero and drift at the temperature of the sensor, and what the rest left of it.
+    Warm {
+        drift: Box<TemperatureCompensation<f64, N, 3>>,
+        celsius: KnownTemperature,
+        resting: TareAccumulator<f64, N>,
+        tare: Tare<f64, N>,
+    },
     /// The same, and the drift that the dummy gauge shows since the rest.
     Dummy { resting: DummyGaugeAccumulator<f64, N>, zero: DummyGauge<f64, N> },
+}
+
+/// Where the temperature of the sensor is known from.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum KnownTemperature {
+    /// It is in the recording.
+    Column(NumberColumn),
+    /// The user has said it \[°C\].
+    Constant(f64),
+}
+
+impl KnownTemperature {
+    fn of(self, row: &Row<'_>) -> Option<f64> {
+        match self {
+            Self::Column(column) => row.number(&column),
+            Self::Constant(celsius) => Some(celsius),
+        }
+    }
 }
 
 /// Reads the calibration; what is to be minded about it is added to `notes`.
@@ -39,6 +65,7 @@ pub(super) fn open(
     sensor: Option<&str>,
     calibration: &Path,
     has_rest: bool,
+    temperature: Option<KnownTemperature>,
     notes: &mut Vec<String>,
     header: impl Fn(HeaderProblem) -> CliError,
 ) -> Result<Box<dyn Recorded>, CliError> {
@@ -60,10 +87,24 @@ pub(super) fn open(
     if file.quality.verdict == Verdict::Bad {
         notes.push(format!("the calibration calls itself bad: {}", file.quality.reasons.join("; ")));
     }
-    if file.temperature.is_some() {
-        notes.push("the calibration's drift with temperature is not applied".to_owned());
-    }
-    if columns.has_dummy() && !has_rest {
+    let temperature = match (&file.temperature, temperature) {
+        (Some(drift), None) => {
+            return Err(fault(format!(
+                "its readings drift with temperature (reference {} °C), and the recording has no column \
+                 temperature_C; add one, or state the temperature with --celsius",
+                drift.reference_celsius
+            )));
+        }
+        (Some(_), known) => known,
+        (None, Some(_)) => {
+            notes.push("the temperature is known, but the calibration has no terms for it".to_owned());
+            None
+        }
+        (None, None) => None,
+    };
+    if columns.has_dummy() && temperature.is_some() {
+        notes.push("the dummy gauge is not used: the temperature terms of the calibration are".to_owned());
+    } else if columns.has_dummy() && !has_rest {
         notes.push("the dummy gauge is not used: that needs rest_s in the scene".to_owned());
     }
     // Six gauges give the wrench exactly, more by least squares. The number is part of the type, so
@@ -71,18 +112,18 @@ pub(super) fn open(
     let solved = match file.gauges() {
         6 => file.sensor_matrix::<6>().map_err(|error| error.to_string()).and_then(|matrix| {
             let solver = GaussianElimination::new(&matrix).map_err(|error| error.to_string())?;
-            Volts::<_, 6>::boxed(solver, &file, columns, has_rest)
+            Volts::<_, 6>::boxed(solver, &file, columns, has_rest, temperature)
         }),
-        7 => redundant::<7>(&file, columns, has_rest),
-        8 => redundant::<8>(&file, columns, has_rest),
-        9 => redundant::<9>(&file, columns, has_rest),
-        10 => redundant::<10>(&file, columns, has_rest),
-        11 => redundant::<11>(&file, columns, has_rest),
-        12 => redundant::<12>(&file, columns, has_rest),
-        13 => redundant::<13>(&file, columns, has_rest),
-        14 => redundant::<14>(&file, columns, has_rest),
-        15 => redundant::<15>(&file, columns, has_rest),
-        16 => redundant::<16>(&file, columns, has_rest),
+        7 => redundant::<7>(&file, columns, has_rest, temperature),
+        8 => redundant::<8>(&file, columns, has_rest, temperature),
+        9 => redundant::<9>(&file, columns, has_rest, temperature),
+        10 => redundant::<10>(&file, columns, has_rest, temperature),
+        11 => redundant::<11>(&file, columns, has_rest, temperature),
+        12 => redundant::<12>(&file, columns, has_rest, temperature),
+        13 => redundant::<13>(&file, columns, has_rest, temperature),
+        14 => redundant::<14>(&file, columns, has_rest, temperature),
+        15 => redundant::<15>(&file, columns, has_rest, temperature),
+        16 => redundant::<16>(&file, columns, has_rest, temperature),
         other => Err(format!("it has {other} gauges, but this program reads 6 to 16; leave some out")),
     };
     solved.map_err(fault)
@@ -92,10 +133,11 @@ fn redundant<const N: usize>(
     file: &CalibrationFile,
     columns: SignalColumns,
     has_rest: bool,
+    temperature: Option<KnownTemperature>,
 ) -> Result<Box<dyn Recorded>, String> {
     let matrix = file.sensor_matrix::<N>().map_err(|error| error.to_string())?;
     let solver = LeastSquares::new(&matrix).map_err(|error| error.to_string())?;
-    Volts::<_, N>::boxed(solver, file, columns, has_rest)
+    Volts::<_, N>::boxed(solver, file, columns, has_rest, temperature)
 }
 
 impl<S: WrenchSolver<f64, N> + 'static, const N: usize> Volts<S, N> {
@@ -104,7 +146,20 @@ impl<S: WrenchSolver<f64, N> + 'static, const N: usize> Volts<S, N> {
         file: &CalibrationFile,
         columns: SignalColumns,
         has_rest: bool,
+        temperature: Option<KnownTemperature>,
     ) -> Result<Box<dyn Recorded>, String> {
+        let drift = file.temperature_compensation::<f64, N>().map_err(|error| error.to_string())?;
+        if let (Some(drift), Some(celsius)) = (drift, temperature) {
+            let (resting, tare) = (TareAccumulator::default(), Tare::new(SVector::zeros()));
+            let zero = Zero::Warm { drift: Box::new(drift), celsius, resting, tare };
+            return Ok(Box::new(Self {
+                columns,
+                solver,
+                zero,
+                watch: RestWatch::default(),
+                range: file.range,
+            }));
+        }
         let tare = file.zero::<N>().map_err(|error| error.to_string())?;
         let zero = if columns.has_dummy() && has_rest {
             Zero::Dummy { resting: DummyGaugeAccumulator::default(), zero: DummyGauge::new(tare, 0.0) }
@@ -135,6 +190,10 @@ impl<S: WrenchSolver<f64, N>, const N: usize> Recorded for Volts<S, N> {
         }
         let signals = match &self.zero {
             Zero::Tare { tare, .. } => tare.compensate(&gauges),
+            Zero::Warm { drift, celsius, tare, .. } => {
+                let temperature = celsius.of(row).ok_or(Status::UnusableRow)?;
+                tare.compensate(&drift.compensate(&GaugesAndTemperature { gauges, temperature }))
+            }
             Zero::Dummy { zero, .. } => {
                 let dummy = row.dummy(&self.columns).ok_or(Status::UnusableRow)?;
                 zero.compensate(&GaugesAndDummy { gauges, dummy })
@@ -150,6 +209,12 @@ impl<S: WrenchSolver<f64, N>, const N: usize> Recorded for Volts<S, N> {
         }
         let (taken, signals) = match &mut self.zero {
             Zero::Tare { resting, tare } => (resting.add(&gauges), tare.compensate(&gauges)),
+            Zero::Warm { drift, celsius, resting, .. } => {
+                let Some(temperature) = celsius.of(row) else { return Status::UnusableRow };
+                // A drift that the thermometer shows too is taken off, and no motion.
+                let signals = drift.compensate(&GaugesAndTemperature { gauges, temperature });
+                (resting.add(&signals), signals)
+            }
             Zero::Dummy { resting, zero } => {
                 let Some(dummy) = row.dummy(&self.columns) else { return Status::UnusableRow };
                 let reading = GaugesAndDummy { gauges, dummy };
@@ -166,7 +231,7 @@ impl<S: WrenchSolver<f64, N>, const N: usize> Recorded for Volts<S, N> {
 
     fn end_rest(&mut self) -> Result<(), TareError> {
         match &mut self.zero {
-            Zero::Tare { resting, tare } => *tare = resting.finish()?,
+            Zero::Tare { resting, tare } | Zero::Warm { resting, tare, .. } => *tare = resting.finish()?,
             Zero::Dummy { resting, zero } => *zero = resting.finish()?,
         }
         Ok(())

@@ -4,13 +4,19 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::touches::TouchArguments;
+
+/// The methods that need to know how uncertain loads and readings are.
+const UNCERTAIN: [(&str, &str); 2] = [("method", "total"), ("method", "gauss-helmert")];
+
 #[derive(Debug, Args)]
 pub(crate) struct CalibrateArguments {
     /// Known loads and readings: CSV with units in the column names (fx_N, tz_Nm, v1_V; also case, group)
     #[arg(value_name = "LOADS.csv", required_unless_present = "gravity")]
     pub(crate) loads: Vec<PathBuf>,
-    /// Find weight, centre of mass and zero from poses instead: CSV with qx, qy, qz, qw, fx_N … tz_Nm
-    #[arg(long, value_name = "POSES.csv", conflicts_with_all = ["loads", "output", "html", "json", "cal", "rust"])]
+    /// Find weight, centre of mass and zero from poses instead, and write a payload: CSV with qx, qy, qz,
+    /// qw (the sensor in the base frame), fx_N … tz_Nm
+    #[arg(long, value_name = "POSES.csv", conflicts_with_all = ["loads", "html", "json", "cal", "rust"])]
     pub(crate) gravity: Option<PathBuf>,
     /// With --gravity: the readings are in the axes of the base, not of the sensor
     #[arg(long, requires = "gravity")]
@@ -21,9 +27,15 @@ pub(crate) struct CalibrateArguments {
     /// With --gravity: the centre of mass is known to lie on this axis of the sensor
     #[arg(long, requires = "gravity", value_name = "AXIS")]
     pub(crate) centre_on: Option<SensorAxis>,
-    /// Where to write the calibration
-    #[arg(short, long, value_name = "FILE", default_value = "calibration.toml")]
-    pub(crate) output: PathBuf,
+    /// With --gravity: the quaternions are those of the flange; find how the sensor sits on it too
+    #[arg(long, requires = "gravity", conflicts_with_all = ["wrench_in_base", "fit_down"])]
+    pub(crate) fit_mounting: bool,
+    /// With --gravity: the readings are what the fingertip does to the world, not the load on it
+    #[arg(long, requires = "gravity")]
+    pub(crate) reaction: bool,
+    /// Where to write the calibration (calibration.toml), or with --gravity the payload (payload.toml)
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
     /// Also write the report with plots
     #[arg(long, value_name = "FILE")]
     pub(crate) html: Option<PathBuf>,
@@ -39,6 +51,34 @@ pub(crate) struct CalibrateArguments {
     /// How to fit
     #[arg(long, value_enum, default_value_t = FitMethod::LeastSquares)]
     pub(crate) method: FitMethod,
+    /// Standard deviation of the known loads (total, gauss-helmert): of forces and of torques, or one for
+    /// each axis [N, N·m], separated by commas
+    #[arg(long, value_delimiter = ',', value_name = "LOADS", required_if_eq_any = UNCERTAIN)]
+    pub(crate) load_error: Option<Vec<f64>>,
+    /// Standard deviation of a load relative to itself, on top of --load-error (gauss-helmert)
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    pub(crate) load_error_share: f64,
+    /// Standard deviation of the readings (total, gauss-helmert): one for all gauges, or one for each
+    #[arg(long, value_delimiter = ',', value_name = "READINGS", required_if_eq_any = UNCERTAIN)]
+    pub(crate) reading_error: Option<Vec<f64>>,
+    /// Earlier calibration that the fit is drawn towards where the loads tell little (implies --method prior)
+    #[arg(long, value_name = "CAL.toml", required_if_eq("method", "prior"))]
+    pub(crate) prior: Option<PathBuf>,
+    /// How well the earlier calibration is believed: deviation of its entries relative to their RMS
+    #[arg(long, value_name = "SHARE", default_value_t = 0.1, requires = "prior")]
+    pub(crate) prior_error: f64,
+    /// Share of samples that may be bad (ransac)
+    #[arg(long, value_name = "SHARE", default_value_t = 0.2)]
+    pub(crate) bad_share: f64,
+    /// What hangs on the sensor: its weight is added to the loads (columns qx, qy, qz, qw)
+    #[arg(long, value_name = "PAYLOAD.toml", conflicts_with_all = ["gravity", "tare_groups"])]
+    pub(crate) payload: Option<PathBuf>,
+    /// Read the files row by row, in bounded memory, however long: least squares only, no leaving out
+    #[arg(long, conflicts_with_all = ["gravity", "quadratic", "tare_groups", "reference_celsius",
+        "reject_outliers", "payload", "prior", "inverse", "json", "html"])]
+    pub(crate) stream: bool,
+    #[command(flatten)]
+    pub(crate) touches: TouchArguments,
     /// Fit loads from signals, as many makers do, instead of signals from loads
     #[arg(long)]
     pub(crate) inverse: bool,
@@ -85,6 +125,14 @@ pub(crate) struct CheckArguments {
     /// Subtract the zero of each group first, and use no zero of the calibration
     #[arg(long)]
     pub(crate) tare_groups: bool,
+    /// What hangs on the sensor: its weight is added to the loads (columns qx, qy, qz, qw)
+    #[arg(long, value_name = "PAYLOAD.toml")]
+    pub(crate) payload: Option<PathBuf>,
+    /// Temperature at which all of it was recorded, if there is no column temperature_C
+    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true)]
+    pub(crate) celsius: Option<f64>,
+    #[command(flatten)]
+    pub(crate) touches: TouchArguments,
     /// Greatest RMS error that is good, % of full scale
     #[arg(long, value_name = "PERCENT")]
     pub(crate) limit: Option<f64>,
@@ -104,6 +152,9 @@ pub(crate) struct TareArguments {
     /// A recording of the sensor at rest without load: CSV with v1_V …
     #[arg(value_name = "REST.csv")]
     pub(crate) rest: PathBuf,
+    /// Temperature at which all of it was recorded, if there is no column temperature_C
+    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true)]
+    pub(crate) celsius: Option<f64>,
     /// Where to write the calibration with its new zero
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
@@ -115,8 +166,14 @@ pub(crate) enum FitMethod {
     LeastSquares,
     /// Huber's, which outliers cannot spoil
     Huber,
-    /// Of the largest set of samples that agree; up to a fifth may be bad
+    /// Of the largest set of samples that agree
     Ransac,
+    /// Total least squares: the loads are uncertain too
+    Total,
+    /// As total, with errors that grow with the load
+    GaussHelmert,
+    /// Towards an earlier calibration (ridge, Bayes)
+    Prior,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

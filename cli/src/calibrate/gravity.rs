@@ -1,23 +1,40 @@
-//! `fingertip calibrate --gravity`: weight, centre of mass and zero from poses.
+//! `fingertip calibrate --gravity`: weight, centre of mass and zero from poses, as a payload file.
 
-use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use fingertip_calibration::gravity::{PayloadOptions, fit_payload, poses_from_csv};
+use fingertip_calibration::file::PayloadFile;
+use fingertip_calibration::gravity::{PayloadOptions, fit_orientation, fit_payload, poses_from_csv};
 use nalgebra::Vector3;
 
 use super::args::{CalibrateArguments, SensorAxis};
-use super::print;
+use super::files::{bad, guard, open, say, write};
 use crate::error::CliError;
 
 pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), CliError> {
-    let file = fs::File::open(path).map_err(|source| CliError::read("table of poses", path, source))?;
-    let bad = |message: String| CliError::Calibrate { path: path.to_owned(), message };
-    let mut poses = poses_from_csv(file).map_err(|error| bad(error.to_string()))?;
+    let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from("payload.toml"));
+    guard(&[path.to_owned()], [&output])?;
+    let fault = |error: &dyn core::fmt::Display| bad(path, &error);
+    let mut poses = poses_from_csv(open("table of poses", path)?).map_err(|error| fault(&error))?;
+    if arguments.reaction {
+        poses.iter_mut().for_each(|pose| pose.wrench.neg_mut());
+    }
     if arguments.wrench_in_base {
         poses = poses.iter().map(|pose| pose.with_wrench_in_base(&pose.wrench)).collect();
     }
     let mut options = PayloadOptions::default();
+    let mut text = String::new();
+    let mut mounting = None;
+    if arguments.fit_mounting {
+        let fit = fit_orientation(&poses, &-Vector3::z()).map_err(|error| fault(&error))?;
+        poses = poses.iter().map(|pose| pose.on_mount(&fit.sensor_from_flange)).collect();
+        let turn = nalgebra::Rotation3::from_matrix_unchecked(fit.sensor_from_flange);
+        text.push_str(&format!(
+            "mounting        turned by {} degrees (rotation vector), distortion {:.2} %\n",
+            triple(&turn.scaled_axis(), 180.0 / core::f64::consts::PI),
+            100.0 * fit.distortion
+        ));
+        mounting = Some(fit.sensor_from_flange);
+    }
     if arguments.fit_down {
         options.down = None;
     }
@@ -26,10 +43,16 @@ pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), Cli
         SensorAxis::Y => Vector3::y(),
         SensorAxis::Z => Vector3::z(),
     });
-    let fit = fit_payload(&poses, &options).map_err(|error| bad(error.to_string()))?;
-    let triple =
-        |v: &Vector3<f64>, scale: f64| format!("{:+.5} {:+.5} {:+.5}", scale * v.x, scale * v.y, scale * v.z);
-    let mut text = format!("{} poses, condition number {:.1}\n", poses.len(), fit.condition_number);
+    let fit = fit_payload(&poses, &options).map_err(|error| fault(&error))?;
+    let mut file = PayloadFile::of_fit(&fit, poses.len()).map_err(|error| fault(&error))?;
+    if let Some(turn) = mounting {
+        file.sensor_from_flange = core::array::from_fn(|i| core::array::from_fn(|j| turn[(i, j)]));
+    }
+    file.provenance.serial.clone_from(&arguments.serial);
+    file.provenance.date.clone_from(&arguments.date);
+    file.provenance.source = path.display().to_string();
+    write("payload", &output, &file.to_toml().map_err(|error| fault(&error))?)?;
+    text.insert_str(0, &format!("{} poses, condition number {:.1}\n", poses.len(), fit.condition_number));
     text.push_str(&format!(
         "weight          {:.5} ± {:.5} N (mass {:.5} kg)\n",
         fit.weight.norm(),
@@ -52,8 +75,9 @@ pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), Cli
     text.push_str(&format!("torque at rest  {} N·m\n", triple(&fit.torque_bias, 1.0)));
     let rms: Vec<String> = fit.rms.iter().map(|rms| format!("{rms:.5}")).collect();
     text.push_str(&format!("RMS left        {} (N, N·m)\n", rms.join(" ")));
-    for warning in &fit.warnings {
-        text.push_str(&format!("note: {warning}\n"));
-    }
-    print(&text)
+    say(&text, &fit.warnings, &[output])
+}
+
+fn triple(v: &Vector3<f64>, scale: f64) -> String {
+    format!("{:+.5} {:+.5} {:+.5}", scale * v.x, scale * v.y, scale * v.z)
 }

@@ -1,53 +1,49 @@
 //! `fingertip calibrate`, `check` and `tare`: files to files, by `fingertip-calibration`.
 
 pub(crate) mod args;
+pub(crate) mod check;
+pub(crate) mod files;
 mod gravity;
+mod stream;
+pub(crate) mod tare;
+mod touches;
 
-use std::fs;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use fingertip_calibration::file::{AtiCalibration, CalibrationFile, Scalar, Verdict};
+use fingertip_calibration::file::{AtiCalibration, CalibrationFile, Scalar};
 use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{Direction, Limits, Method, Options, calibrate as fit};
-use fingertip_calibration::report::Report;
 
 use crate::error::CliError;
-use args::{CalibrateArguments, CheckArguments, FitMethod, TareArguments};
+use args::{CalibrateArguments, FitMethod};
+use files::{bad, guard, read_calibration, read_loads, read_payload, say, write, write_reports};
 
 /// `fingertip calibrate`.
 pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> {
     if let Some(poses) = &arguments.gravity {
         return gravity::run(poses, arguments);
     }
-    let outputs = [Some(&arguments.output), arguments.html.as_ref(), arguments.json.as_ref()];
+    let output = arguments.output.clone().unwrap_or_else(|| "calibration.toml".into());
+    let outputs = [Some(&output), arguments.html.as_ref(), arguments.json.as_ref()];
     let extra = [arguments.cal.as_ref(), arguments.rust.as_ref()];
     guard(&arguments.loads, outputs.into_iter().chain(extra).flatten())?;
+    if arguments.stream {
+        return stream::run(arguments, &output);
+    }
     let mut notes = Vec::new();
     let sessions =
         arguments.loads.iter().map(|path| read_loads(path, &mut notes)).collect::<Result<Vec<_>, _>>()?;
     let first = arguments.loads.first().cloned().unwrap_or_default();
-    let bad = |message: String| CliError::Calibrate { path: first.clone(), message };
-    let table = LoadTable::merged(&sessions).map_err(|error| bad(error.to_string()))?;
-    let options = options(arguments);
-    let calibration = fit(&table, &options).map_err(|error| bad(error.to_string()))?;
-    let mut file = calibration.to_file().map_err(|error| bad(error.to_string()))?;
-    file.provenance.serial.clone_from(&arguments.serial);
-    file.provenance.date.clone_from(&arguments.date);
-    let sources: Vec<String> = arguments.loads.iter().map(|path| path.display().to_string()).collect();
-    file.provenance.source = sources.join(", ");
-    file.range = options.range;
-    write("calibration", &arguments.output, &file.to_toml().map_err(|error| bad(error.to_string()))?)?;
-    let mut written = vec![arguments.output.clone()];
-    if let Some(path) = &arguments.cal {
-        let ati = AtiCalibration::from_calibration(&file).map_err(|error| bad(error.to_string()))?;
-        write(".cal file", path, &ati.to_xml())?;
-        written.push(path.clone());
+    let fault = |error: &dyn core::fmt::Display| bad(&first, &error);
+    let mut table = LoadTable::merged(&sessions).map_err(|error| fault(&error))?;
+    if let Some(path) = &arguments.payload {
+        let payload = read_payload(path)?;
+        table.loads = table.carrying(&payload, false).map_err(|error| fault(&error))?.loads;
     }
-    if let Some(path) = &arguments.rust {
-        write("Rust file", path, &file.to_rust(Scalar::F32).map_err(|error| bad(error.to_string()))?)?;
-        written.push(path.clone());
-    }
+    let options = options(arguments, &table)?;
+    let calibration = fit(&table, &options).map_err(|error| fault(&error))?;
+    let file = calibration.to_file().map_err(|error| fault(&error))?;
+    let mut written = write_calibration(file, arguments, &output)?;
     let title = if arguments.serial.is_empty() { "Calibration" } else { &arguments.serial };
     write_reports(
         &calibration.report,
@@ -56,152 +52,107 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
         arguments.json.as_ref(),
         &mut written,
     )?;
-    say(&calibration.report, &notes, &written)
+    say(&calibration.report.to_string(), &notes, &written)
 }
 
-/// `fingertip check`: an error if the calibration does not hold.
-pub(crate) fn check(arguments: &CheckArguments) -> Result<(), CliError> {
-    let inputs = [arguments.calibration.clone(), arguments.loads.clone()];
-    guard(&inputs, [arguments.html.as_ref(), arguments.json.as_ref()].into_iter().flatten())?;
-    let mut file = read_calibration(&arguments.calibration)?;
-    let mut notes = Vec::new();
-    let mut table = read_loads(&arguments.loads, &mut notes)?;
-    let bad = |message: String| CliError::Calibrate { path: arguments.loads.clone(), message };
-    if arguments.tare_groups {
-        table = table.tared_by_group().map_err(|error| bad(error.to_string()))?;
-        file.zero.fill(0.0);
-        // The range is that of untared readings.
-        file.range = None;
+/// Writes the calibration in every form that was asked for.
+fn write_calibration(
+    mut file: CalibrationFile,
+    arguments: &CalibrateArguments,
+    output: &Path,
+) -> Result<Vec<PathBuf>, CliError> {
+    let first = arguments.loads.first().cloned().unwrap_or_default();
+    let fault = |error: &dyn core::fmt::Display| bad(&first, &error);
+    file.provenance.serial.clone_from(&arguments.serial);
+    file.provenance.date.clone_from(&arguments.date);
+    let sources: Vec<String> = arguments.loads.iter().map(|path| path.display().to_string()).collect();
+    file.provenance.source = sources.join(", ");
+    file.range = range(arguments);
+    write("calibration", output, &file.to_toml().map_err(|error| fault(&error))?)?;
+    let mut written = vec![output.to_owned()];
+    if let Some(path) = &arguments.cal {
+        let ati = AtiCalibration::from_calibration(&file).map_err(|error| fault(&error))?;
+        write(".cal file", path, &ati.to_xml())?;
+        written.push(path.clone());
     }
-    let report =
-        Report::of_check(&file, &table, &limits(arguments.limit)).map_err(|error| bad(error.to_string()))?;
-    let mut written = Vec::new();
-    write_reports(&report, "Check", arguments.html.as_ref(), arguments.json.as_ref(), &mut written)?;
-    say(&report, &notes, &written)?;
-    if report.verdict == Verdict::Bad {
-        return Err(CliError::DoesNotHold {
-            calibration: arguments.calibration.clone(),
-            loads: arguments.loads.clone(),
-            reason: report.reasons.first().cloned().unwrap_or_default(),
-        });
+    if let Some(path) = &arguments.rust {
+        write("Rust file", path, &file.to_rust(Scalar::F32).map_err(|error| fault(&error))?)?;
+        written.push(path.clone());
     }
-    Ok(())
+    Ok(written)
 }
 
-/// `fingertip tare`.
-pub(crate) fn tare(arguments: &TareArguments) -> Result<(), CliError> {
-    // Writing over the calibration itself is what taring often means.
-    guard(core::slice::from_ref(&arguments.rest), [&arguments.output])?;
-    let file = read_calibration(&arguments.calibration)?;
-    let text = fs::File::open(&arguments.rest)
-        .map_err(|source| CliError::read("recording", &arguments.rest, source))?;
-    let bad = |message: String| CliError::Calibrate { path: arguments.rest.clone(), message };
-    let tared = file.tared(text).map_err(|error| bad(error.to_string()))?;
-    write("calibration", &arguments.output, &tared.file.to_toml().map_err(|error| bad(error.to_string()))?)?;
-    let mut text = format!("Zero of {} readings at rest.\n", tared.samples);
-    for (axis, load) in file.axes.iter().zip(&tared.load_before) {
-        text.push_str(&format!("{axis}: the old zero read {load:+.4} {}\n", axis.unit()));
-    }
-    for warning in &tared.warnings {
-        text.push_str(&format!("note: {warning}\n"));
-    }
-    text.push_str(&format!("\nWritten: {}\n", arguments.output.display()));
-    print(&text)
+fn range(arguments: &CalibrateArguments) -> Option<[f64; 2]> {
+    arguments.range.as_deref().and_then(|range| <[f64; 2]>::try_from(range).ok())
 }
 
-fn options(arguments: &CalibrateArguments) -> Options {
-    Options {
+fn options(arguments: &CalibrateArguments, table: &LoadTable) -> Result<Options, CliError> {
+    let full_scale = arguments.full_scale.clone().unwrap_or_else(|| table.greatest_loads());
+    Ok(Options {
         direction: if arguments.inverse { Direction::LoadsFromSignals } else { Direction::SignalsFromLoads },
         bias: !arguments.no_bias,
         quadratic: arguments.quadratic,
-        method: match arguments.method {
-            FitMethod::LeastSquares => Method::LeastSquares,
-            FitMethod::Huber => Method::Huber,
-            FitMethod::Ransac => Method::Ransac { outliers: 0.2, seed: 1 },
-        },
+        method: method(arguments, table)?,
         nominal: arguments.full_scale.clone(),
-        range: arguments.range.as_deref().and_then(|range| <[f64; 2]>::try_from(range).ok()),
+        range: range(arguments),
         tare_groups: arguments.tare_groups,
         reference_celsius: arguments.reference_celsius,
         reject_outliers: arguments.reject_outliers,
+        touches: arguments.touches.set(&table.axes, &full_scale)?,
         limits: limits(arguments.limit),
+    })
+}
+
+fn method(arguments: &CalibrateArguments, table: &LoadTable) -> Result<Method, CliError> {
+    let first = arguments.loads.first().map_or(Path::new(""), PathBuf::as_path);
+    let wrong = |option: &str, needed: String| {
+        Err(bad(first, &format!("{option} must have {needed}, all positive numbers")))
+    };
+    let axes = &table.axes;
+    let load_error = arguments.load_error.as_deref().unwrap_or_default();
+    let load_deviations: Vec<f64> = match load_error {
+        // Two: forces and torques.
+        [force, torque] if axes.len() > 2 => {
+            axes.iter().map(|axis| if axis.is_torque() { *torque } else { *force }).collect()
+        }
+        [force] if axes.iter().all(|axis| !axis.is_torque()) => vec![*force; axes.len()],
+        list => list.to_vec(),
+    };
+    let reading_error = arguments.reading_error.as_deref().unwrap_or_default();
+    let signal_deviations = match reading_error {
+        [one] => vec![*one; table.gauges()],
+        list => list.to_vec(),
+    };
+    let uncertain = matches!(arguments.method, FitMethod::Total | FitMethod::GaussHelmert);
+    let positive = |list: &[f64], length| list.len() == length && list.iter().all(|x| *x > 0.0);
+    if uncertain && !positive(&load_deviations, axes.len()) {
+        return wrong("--load-error", format!("2 numbers (forces, torques) or {}", axes.len()));
     }
+    if uncertain && !positive(&signal_deviations, table.gauges()) {
+        return wrong("--reading-error", format!("1 number or {}", table.gauges()));
+    }
+    if let Some(path) = &arguments.prior {
+        if !matches!(arguments.method, FitMethod::Prior | FitMethod::LeastSquares) {
+            return Err(bad(first, &"--prior is for --method prior alone"));
+        }
+        let prior = read_calibration(path)?;
+        if prior.axes != *axes || prior.gauges() != table.gauges() || prior.signal_unit != table.signal_unit {
+            return Err(bad(path, &"the earlier calibration has other axes, gauges or units than the loads"));
+        }
+        return Ok(Method::Prior { prior: Box::new(prior), relative: arguments.prior_error });
+    }
+    Ok(match arguments.method {
+        FitMethod::LeastSquares | FitMethod::Prior => Method::LeastSquares,
+        FitMethod::Huber => Method::Huber,
+        FitMethod::Ransac => Method::Ransac { outliers: arguments.bad_share, seed: 1 },
+        FitMethod::Total => Method::Total { load_deviations, signal_deviations },
+        FitMethod::GaussHelmert => {
+            Method::GaussHelmert { load_deviations, relative: arguments.load_error_share, signal_deviations }
+        }
+    })
 }
 
 fn limits(percent: Option<f64>) -> Limits {
     let limits = Limits::default();
     Limits { left_out_percent: percent.unwrap_or(limits.left_out_percent), ..limits }
-}
-
-fn read_loads(path: &Path, notes: &mut Vec<String>) -> Result<LoadTable, CliError> {
-    let file = fs::File::open(path).map_err(|source| CliError::read("table of loads", path, source))?;
-    let (table, ignored) = LoadTable::from_csv(io::BufReader::new(file))
-        .map_err(|error| CliError::Calibrate { path: path.to_owned(), message: error.to_string() })?;
-    if !ignored.is_empty() {
-        notes.push(format!("{}: columns not used: {}", path.display(), ignored.join(", ")));
-    }
-    Ok(table)
-}
-
-/// Our TOML, or ATI's `.cal` by its extension.
-fn read_calibration(path: &Path) -> Result<CalibrationFile, CliError> {
-    let bad = |message: String| CliError::Calibration { path: path.to_owned(), message };
-    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("cal")) {
-        let text = fs::read_to_string(path).map_err(|source| CliError::read("calibration", path, source))?;
-        let ati = AtiCalibration::from_xml(&text).map_err(|error| bad(error.to_string()))?;
-        return ati.to_calibration().map_err(|error| bad(error.to_string()));
-    }
-    let text = fs::read_to_string(path).map_err(|source| CliError::read("calibration", path, source))?;
-    CalibrationFile::from_toml(&text).map_err(|error| bad(error.to_string()))
-}
-
-/// Refuses to write over what is read.
-fn guard<'a>(inputs: &[PathBuf], outputs: impl IntoIterator<Item = &'a PathBuf>) -> Result<(), CliError> {
-    for output in outputs {
-        let Ok(place) = fs::canonicalize(output) else { continue };
-        if inputs.iter().any(|input| fs::canonicalize(input).is_ok_and(|input| input == place)) {
-            return Err(CliError::WouldOverwrite { what: "output", path: output.clone() });
-        }
-    }
-    Ok(())
-}
-
-fn write(what: &'static str, path: &Path, text: &str) -> Result<(), CliError> {
-    fs::write(path, text).map_err(|source| CliError::write(what, path, source))
-}
-
-fn write_reports(
-    report: &Report,
-    title: &str,
-    html: Option<&PathBuf>,
-    json: Option<&PathBuf>,
-    written: &mut Vec<PathBuf>,
-) -> Result<(), CliError> {
-    if let Some(path) = html {
-        write("report", path, &report.to_html(title))?;
-        written.push(path.clone());
-    }
-    if let Some(path) = json {
-        let text = report.to_json().map_err(|error| CliError::write("report", path, error.into()))?;
-        write("report", path, &text)?;
-        written.push(path.clone());
-    }
-    Ok(())
-}
-
-fn say(report: &Report, notes: &[String], written: &[PathBuf]) -> Result<(), CliError> {
-    let mut text = report.to_string();
-    for note in notes {
-        text.push_str(&format!("note: {note}\n"));
-    }
-    if !written.is_empty() {
-        let list: Vec<String> = written.iter().map(|path| path.display().to_string()).collect();
-        text.push_str(&format!("\nWritten: {}\n", list.join(", ")));
-    }
-    print(&text)
-}
-
-fn print(text: &str) -> Result<(), CliError> {
-    let mut stdout = io::stdout();
-    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
 }

@@ -25,6 +25,11 @@ impl<S> Capped<S> {
         Self { inner, pole, least_cosine: half_angle.cos() }
     }
 
+    /// The whole surface.
+    pub(crate) const fn inner(&self) -> &S {
+        &self.inner
+    }
+
     fn is_active(&self, normal: &Vector3<f64>) -> bool {
         normal.dot(&self.pole) >= self.least_cosine
     }

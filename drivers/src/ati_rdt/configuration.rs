@@ -1,6 +1,7 @@
 //! What a sensor says of itself on its page `netftapi2.xml`.
 
 use fingertip_wrench::Real;
+use fingertip_wrench::units::{ForceUnit, TorqueUnit};
 use thiserror::Error;
 
 use super::receiver::{CountsPerUnit, RdtError};
@@ -52,23 +53,6 @@ pub struct Configuration {
     pub rate: Option<f64>,
 }
 
-const FORCE_UNITS: [(&str, f64); 5] = [
-    ("N", 1.0),
-    ("lbf", 4.448_221_615_260_5),
-    ("klbf", 4_448.221_615_260_5),
-    ("kN", 1000.0),
-    ("kgf", 9.806_65),
-];
-const TORQUE_UNITS: [(&str, f64); 7] = [
-    ("Nm", 1.0),
-    ("Nmm", 1e-3),
-    ("kNm", 1000.0),
-    ("lbfin", 4.448_221_615_260_5 * 0.0254),
-    ("lbfft", 4.448_221_615_260_5 * 0.3048),
-    ("kgfcm", 0.098_066_5),
-    ("gcm", 9.806_65e-5),
-];
-
 impl Configuration {
     /// Asks a sensor for its page, over TCP on port 80; the sensor closes the connection behind it.
     pub const REQUEST: &str = "GET /netftapi2.xml HTTP/1.0\r\n\r\n";
@@ -80,8 +64,9 @@ impl Configuration {
     pub fn parse(page: &str) -> Result<Self, ConfigurationError> {
         let per_force = number(page, "cfgcpf")?.ok_or(ConfigurationError::Missing { element: "cfgcpf" })?;
         let per_torque = number(page, "cfgcpt")?.ok_or(ConfigurationError::Missing { element: "cfgcpt" })?;
-        let force = unit(page, "scfgfu", &FORCE_UNITS, "N, lbf, klbf, kN, kgf")?;
-        let torque = unit(page, "scfgtu", &TORQUE_UNITS, "Nm, Nmm, kNm, lbf-in, lbf-ft, kgf-cm, g-cm")?;
+        let force = unit(page, "scfgfu", ForceUnit::from_name, "N, lbf, klbf, kN, kgf")?.in_newtons();
+        let known = "Nm, Nmm, kNm, lbf-in, lbf-ft, kgf-cm, g-cm";
+        let torque = unit(page, "scfgtu", TorqueUnit::from_name, known)?.in_newton_metres();
         let rate = number(page, "comrdtrate")?.filter(|rate| *rate > 0.0);
         let counts_per_newton = per_force / force;
         let counts_per_newton_metre = per_torque / torque;
@@ -125,19 +110,14 @@ fn number(page: &str, name: &'static str) -> Result<Option<f64>, ConfigurationEr
     }
 }
 
-fn unit(
+fn unit<U>(
     page: &str,
     name: &'static str,
-    units: &[(&str, f64)],
+    from_name: impl Fn(&str) -> Option<U>,
     known: &'static str,
-) -> Result<f64, ConfigurationError> {
+) -> Result<U, ConfigurationError> {
     let text = element(page, name).ok_or(ConfigurationError::Missing { element: name })?;
-    let plain =
-        |text: &str| -> String { text.chars().filter(|c| !matches!(c, '-' | '·' | ' ' | '.')).collect() };
-    let found = plain(text);
-    let unit = units.iter().find(|(unit, _)| unit.eq_ignore_ascii_case(&found));
-    let unknown = || ConfigurationError::Unit { element: name, found: shortened(text), known };
-    unit.map(|(_, size)| *size).ok_or_else(unknown)
+    from_name(text).ok_or_else(|| ConfigurationError::Unit { element: name, found: shortened(text), known })
 }
 
 #[cfg(test)]

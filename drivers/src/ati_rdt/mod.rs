@@ -24,9 +24,11 @@ mod simulator;
 pub use receiver::{CountsPerUnit, RdtError, Receiver};
 pub use wire::{Command, Record, RecordPacket, Request, WireError, records};
 
+#[cfg(feature = "simulation")]
+pub use crate::datagram_link::FaultPlan;
 #[cfg(feature = "std")]
 pub use client::{ClientError, RdtClient};
 #[cfg(feature = "std")]
 pub use configuration::{Configuration, ConfigurationError};
 #[cfg(feature = "simulation")]
-pub use simulator::{FaultPlan, RdtServer, SimulatedNetFt};
+pub use simulator::{RdtServer, SimulatedNetFt};

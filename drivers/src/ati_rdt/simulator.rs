@@ -1,7 +1,6 @@
 //! A sensor that is not there: it answers as a Net F/T does, and a link that loses, repeats,
 //! swaps and cuts.
 
-use alloc::collections::VecDeque;
 use alloc::sync::Arc;
 use core::net::SocketAddr;
 use core::sync::atomic::{AtomicBool, Ordering};
@@ -11,32 +10,14 @@ use std::net::{ToSocketAddrs, UdpSocket};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64Mcg;
-
 use super::wire::{Command, Record, Request};
 use crate::LinkStatistics;
-
-/// What the link does to datagrams: probabilities between 0 and 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FaultPlan {
-    /// A datagram does not arrive.
-    pub loss: f64,
-    /// It arrives twice.
-    pub duplication: f64,
-    /// It arrives behind the one after it.
-    pub reorder: f64,
-    /// It arrives cut short, by less than a record.
-    pub truncation: f64,
-    /// Seed of the chance.
-    pub seed: u64,
-}
+use crate::datagram_link::{DatagramLink, FaultPlan};
 
 /// The device and its link without a socket: requests in, datagrams out.
 #[derive(Clone, Debug)]
 pub struct SimulatedNetFt {
-    faults: FaultPlan,
-    random: Pcg64Mcg,
+    link: DatagramLink,
     streaming: bool,
     left: Option<u32>,
     rdt_sequence: u32,
@@ -44,9 +25,6 @@ pub struct SimulatedNetFt {
     status: u32,
     bias: [i32; 6],
     counts: [i32; 6],
-    held_back: Option<[u8; Record::LENGTH]>,
-    out: VecDeque<Vec<u8>>,
-    injected: LinkStatistics,
 }
 
 impl SimulatedNetFt {
@@ -54,8 +32,7 @@ impl SimulatedNetFt {
     #[must_use]
     pub fn new(faults: FaultPlan) -> Self {
         Self {
-            faults,
-            random: Pcg64Mcg::seed_from_u64(faults.seed),
+            link: DatagramLink::new(faults),
             streaming: false,
             left: None,
             rdt_sequence: 0,
@@ -63,9 +40,6 @@ impl SimulatedNetFt {
             status: 0,
             bias: [0; 6],
             counts: [0; 6],
-            held_back: None,
-            out: VecDeque::new(),
-            injected: LinkStatistics::default(),
         }
     }
 
@@ -122,43 +96,18 @@ impl SimulatedNetFt {
             status: self.status,
             counts: biased,
         };
-        self.send(record.emit());
-    }
-
-    fn send(&mut self, record: [u8; Record::LENGTH]) {
-        let chance = self.random.random::<f64>();
-        let FaultPlan { loss, duplication, reorder, truncation, .. } = self.faults;
-        // Late only if the one before it on the link arrives whole.
-        let held_back = self.held_back.take();
-        if chance < loss {
-            self.injected.lost += 1;
-        } else if chance < loss + duplication {
-            self.injected.duplicates += 1;
-            self.injected.late += u64::from(held_back.is_some());
-            self.out.extend([record.to_vec(), record.to_vec()]);
-        } else if chance < loss + duplication + reorder && held_back.is_none() {
-            self.held_back = Some(record);
-            return;
-        } else if chance < loss + duplication + reorder + truncation {
-            self.injected.corrupt += 1;
-            let length = self.random.random_range(0..Record::LENGTH);
-            self.out.push_back(record.iter().take(length).copied().collect());
-        } else {
-            self.injected.late += u64::from(held_back.is_some());
-            self.out.push_back(record.to_vec());
-        }
-        self.out.extend(held_back.map(|held| held.to_vec()));
+        self.link.send(&record.emit());
     }
 
     /// The next datagram on the link.
     pub fn datagram(&mut self) -> Option<Vec<u8>> {
-        self.out.pop_front()
+        self.link.receive()
     }
 
     /// What was done to the records so far: `received` stays zero.
     #[must_use]
     pub const fn injected(&self) -> &LinkStatistics {
-        &self.injected
+        self.link.injected()
     }
 }
 

@@ -1,6 +1,8 @@
 //! What the name of a column says.
 
-use super::unit::{ForceUnit, SignalUnit, TorqueUnit, seconds};
+use fingertip_wrench::units::{ForceUnit, TorqueUnit};
+
+use super::unit::{SignalUnit, seconds};
 
 /// A column, as far as its name tells.
 #[derive(Clone, Debug, PartialEq)]

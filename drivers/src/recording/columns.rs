@@ -19,6 +19,13 @@ pub struct SignalColumns {
     pub(super) dummy: Option<usize>,
 }
 
+/// A column of plain numbers, such as a temperature or a part of an orientation. Found by
+/// [`RecordingReader::watch`](super::RecordingReader::watch), used on its rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NumberColumn {
+    pub(super) slot: usize,
+}
+
 impl WrenchColumns {
     /// Name of the sensor, lower case; empty if the header gives none.
     #[must_use]

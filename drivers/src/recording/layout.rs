@@ -1,9 +1,11 @@
 //! Which columns belong to which sensor.
 
+use fingertip_wrench::units::{ForceUnit, TorqueUnit};
+
 use super::column_name::{ColumnName, Meaning};
 use super::columns::{SignalColumns, WrenchColumns, of_sensor};
 use super::error::HeaderProblem;
-use super::unit::{ForceUnit, SignalUnit, TorqueUnit};
+use super::unit::SignalUnit;
 
 /// Columns that look like a sensor's but cannot be used, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]

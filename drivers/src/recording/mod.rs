@@ -5,7 +5,7 @@
 //! | column | meaning | units understood |
 //! |---|---|---|
 //! | `t_s` | time | `s`, `ms`, `us`, `ns`, `min` |
-//! | `fx_N` … `fz_N` | force | `N`, `mN`, `kN`, `lbf`, `ozf`, `gf`, `kgf` |
+//! | `fx_N` … `fz_N` | force | `N`, `mN`, `kN`, `lbf`, `klbf`, `ozf`, `gf`, `kgf` |
 //! | `tx_Nm` … `tz_Nm` (or `mx` …) | torque | `Nm`, `Nmm`, `mNm`, `Ncm`, `kNm`, `lbf-in`, `lbf-ft`, `kgf-m`, `kgf-cm`, `gf-cm` |
 //! | `v1_V` … `vN_V` (or `v0`, `s1`, `ch1`, `gauge1`) | signals | `V`, `mV`, `uV`, `counts` (`raw`, `lsb`, `adc`); none: taken as they are |
 //! | `dummy_V` | the unloaded seventh gauge | as signals |
@@ -50,12 +50,13 @@ mod time_watch;
 mod unit;
 mod writer;
 
-pub use columns::{SignalColumns, WrenchColumns};
+pub use columns::{NumberColumn, SignalColumns, WrenchColumns};
 pub use error::{HeaderProblem, RecordingError};
+pub use fingertip_wrench::units::{ForceUnit, TorqueUnit};
 pub use layout::{AssumedUnits, Layout, LeftOut};
 pub use playback::{SignalPlayback, WrenchPlayback};
 pub use quality::{FaultCount, Quality};
 pub use reader::{ReaderOptions, RecordingReader};
 pub use row::{Row, RowMarks};
-pub use unit::{ForceUnit, SignalUnit, TorqueUnit};
+pub use unit::SignalUnit;
 pub use writer::{RecordingWriter, Schema};

@@ -9,6 +9,7 @@ use csv::ByteRecord;
 
 use super::bounded::Bounded;
 use super::cell::Cell;
+use super::columns::NumberColumn;
 use super::error::{HeaderProblem, RecordingError};
 use super::layout::{AssumedUnits, Layout, UsedColumn, shortened};
 use super::quality::Quality;
@@ -145,6 +146,28 @@ impl<R: Read> RecordingReader<R> {
     #[must_use]
     pub const fn layout(&self) -> &Layout {
         &self.layout
+    }
+
+    /// Reads the column called so too, whatever its case, from the next row on; `None` if there is no
+    /// such column. For what belongs to no sensor, such as `temperature_C` or `qx`: numbers are given as
+    /// they stand in the file.
+    ///
+    /// ```
+    /// use fingertip_drivers::recording::RecordingReader;
+    ///
+    /// let file = "t_s,v1_V,temperature_C\n0,0.5,21.5\n1,0.5,\n";
+    /// let mut reader = RecordingReader::new("example.csv", file.as_bytes())?;
+    /// let celsius = reader.watch("temperature_c").ok_or("no such column")?;
+    /// assert_eq!(reader.next_row()?.and_then(|row| row.number(&celsius)), Some(21.5));
+    /// assert_eq!(reader.next_row()?.and_then(|row| row.number(&celsius)), None);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn watch(&mut self, name: &str) -> Option<NumberColumn> {
+        let column = self.layout.columns().iter().position(|column| column.eq_ignore_ascii_case(name))?;
+        self.layout.used.push(UsedColumn { column, scale: 1.0 });
+        self.values.push(f64::NAN);
+        self.last_values.push(f64::NAN);
+        Some(NumberColumn { slot: self.values.len() - 1 })
     }
 
     /// What was wrong so far.

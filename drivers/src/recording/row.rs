@@ -3,7 +3,7 @@
 use fingertip_wrench::Wrench;
 use nalgebra::{SVector, Vector3};
 
-use super::columns::{SignalColumns, WrenchColumns};
+use super::columns::{NumberColumn, SignalColumns, WrenchColumns};
 
 /// What is remarkable about a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -107,6 +107,15 @@ impl Row<'_> {
     #[must_use]
     pub fn dummy(&self, sensor: &SignalColumns) -> Option<f64> {
         let value = self.value(sensor.dummy?);
+        (self.is_usable() && value.is_finite()).then_some(value)
+    }
+
+    /// The number in a column that is watched, as in the file; `None` if the row is unusable, or the
+    /// number is missing or not finite.
+    #[inline]
+    #[must_use]
+    pub fn number(&self, column: &NumberColumn) -> Option<f64> {
+        let value = self.value(column.slot);
         (self.is_usable() && value.is_finite()).then_some(value)
     }
 

@@ -40,10 +40,14 @@ impl SourceError for ResenseFault {
 #[derive(Clone, Copy, Debug)]
 pub struct ResenseDecoder {
     limits: Limits,
+    /// Greatest change of force and torque from one reading to the next.
+    steps: [f32; 2],
+    last: Option<Reading>,
+    /// Within limits, but not near the last one.
+    refused: Option<Reading>,
     bytes: [u8; Reading::LENGTH],
     length: usize,
     out_of_step: bool,
-    temperature: Option<f32>,
     statistics: LineStatistics,
 }
 
@@ -54,28 +58,62 @@ impl ResenseDecoder {
         let statistics = LineStatistics { frames: 0, failed: 0, skipped: 0 };
         Self {
             limits,
+            steps: [f32::INFINITY; 2],
+            last: None,
+            refused: None,
             bytes: [0; Reading::LENGTH],
             length: 0,
             out_of_step: false,
-            temperature: None,
             statistics,
         }
+    }
+
+    /// Takes a reading for impossible, too, if a component changes by more than this \[N, N·m\] from the last
+    /// one. Then what damage goes unnoticed is off by no more than that, but for the very first reading. A blow
+    /// that is harder costs a reading and a restart: two in a row that agree are believed.
+    #[must_use]
+    pub const fn stepping_at_most(mut self, force: f32, torque: f32) -> Self {
+        self.steps = [force, torque];
+        self
     }
 
     /// Temperature of the last reading \[°C\].
     #[must_use]
     pub const fn temperature(&self) -> Option<f32> {
-        self.temperature
+        match self.last {
+            Some(Reading { temperature, .. }) => Some(temperature),
+            None => None,
+        }
     }
 
-    fn is_possible(&self, reading: &Reading) -> bool {
-        let Limits { force, torque, temperature: [coldest, hottest], temperature_step } = self.limits;
+    fn is_within_limits(&self, reading: &Reading) -> bool {
+        let Limits { force, torque, temperature: [coldest, hottest], .. } = self.limits;
         let within = |numbers: &[f32], limit: f32| numbers.iter().all(|number| number.abs() <= limit);
-        let step = self.temperature.map_or(0.0, |last| (reading.temperature - last).abs());
         within(&reading.force, force)
             && within(&reading.torque_millinewton_metres, torque * 1e3)
             && (coldest..=hottest).contains(&reading.temperature)
-            && step <= temperature_step
+    }
+
+    fn is_near(&self, reading: &Reading, other: &Reading) -> bool {
+        let [force, torque] = self.steps;
+        let near = |new: &[f32; 3], old: &[f32; 3], limit: f32| {
+            new.iter().zip(old).all(|(new, old)| (new - old).abs() <= limit)
+        };
+        near(&reading.force, &other.force, force)
+            && near(&reading.torque_millinewton_metres, &other.torque_millinewton_metres, torque * 1e3)
+    }
+
+    /// Whether a reading follows on the last one; or on the one that was refused for not doing so: then the two
+    /// bear each other out, and the load has changed in a pause. The temperature must follow on the last good one
+    /// in any case: readings that are out of step bear each other out, too, and it is what gives them away.
+    fn is_possible(&mut self, reading: &Reading) -> bool {
+        let step = self.last.map_or(0.0, |last| (reading.temperature - last.temperature).abs());
+        if !self.is_within_limits(reading) || !(step <= self.limits.temperature_step) {
+            return false;
+        }
+        let refused = self.refused.replace(*reading);
+        let mut others = self.last.iter().chain(&refused);
+        self.last.is_none() || others.any(|other| self.is_near(reading, other))
     }
 }
 
@@ -94,13 +132,13 @@ impl<T: Real> LineDecoder<T> for ResenseDecoder {
         }
         self.length = 0;
         let reading = Reading::parse(&self.bytes);
-        self.out_of_step |= !self.is_possible(&reading);
+        self.out_of_step = self.out_of_step || !self.is_possible(&reading);
         let [fx, fy, fz] = reading.force.map(f64::from);
         let [tx, ty, tz] = reading.torque_millinewton_metres.map(|torque| f64::from(torque) * 1e-3);
         let wrench = finite_wrench([fx, fy, fz, tx, ty, tz]).filter(|_| !self.out_of_step);
         Some(match wrench {
             Some(value) => {
-                self.temperature = Some(reading.temperature);
+                (self.last, self.refused) = (Some(reading), None);
                 self.statistics.frames += 1;
                 Ok(Sample { time: None, value })
             }

@@ -53,7 +53,7 @@ impl FtsReceiver {
         newest.wrapping_add_signed(i32::from(ahead))
     }
 
-    fn wrench<T: Real>(sample: &FtsSample) -> Result<Wrench<T>, FtsFault> {
+    pub(super) fn wrench<T: Real>(sample: &FtsSample) -> Result<Wrench<T>, FtsFault> {
         let fault = FtsFault { status: sample.status };
         if sample.status != FtsSample::READY {
             return Err(fault);

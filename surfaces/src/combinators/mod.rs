@@ -7,7 +7,8 @@ mod trimmed;
 
 pub use compound::Compound;
 #[cfg(feature = "alloc")]
-pub(crate) use compound::{closest_of, is_inside_along};
+pub(crate) use compound::closest_of;
+pub(crate) use compound::is_inside_along;
 pub use offset::Offset;
 pub use posed::Posed;
 pub use trimmed::{HalfSpace, Region, Trimmed};

@@ -4,8 +4,8 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix3, Matrix3x6, Matrix6};
 
 use super::Contact;
-use crate::Sphere;
 use crate::numeric::vectors::{hypotenuse, length};
+use crate::{ConvexBound, Sphere};
 
 /// What is known about the errors behind a contact: the greatest they can be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,6 +101,16 @@ impl<T: Real> Sphere<T> {
             distance,
             grazing: tube * sine > T::literal(0.1) * radius * cosine * cosine,
         })
+    }
+}
+
+/// For every convex shape: `grazing` is then set if it cannot be excluded that the true contact lies
+/// past the silhouette, where the measured force would pull. (The sphere's own
+/// [`contact_bound`](Sphere::contact_bound) is tighter.)
+impl<T: Real> From<ConvexBound<T>> for ContactBound<T> {
+    #[inline]
+    fn from(bound: ConvexBound<T>) -> Self {
+        Self { distance: bound.distance, grazing: bound.past_silhouette }
     }
 }
 

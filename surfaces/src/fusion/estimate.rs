@@ -1,11 +1,11 @@
 //! The most probable contacts, given a wrench and a tactile array.
 
 use fingertip_wrench::{Real, Wrench};
-use nalgebra::{Matrix3, Matrix5, Matrix6, Matrix6x5, Vector2, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix4, Matrix5, Matrix6, Matrix6x5, Vector2, Vector3, Vector4, Vector5, Vector6};
 
 use super::ArrayContact;
+use super::cone::{Held, Wall, cone_multipliers, project};
 use super::prior::{Prior, State};
-use crate::numeric::vectors::length;
 use crate::{ActiveSurface, BadShape};
 
 /// Estimates one to four contacts from one wrench and what a tactile array says of each.
@@ -15,19 +15,23 @@ use crate::{ActiveSurface, BadShape};
 /// is the maximum of the posterior (theory 11.3)
 ///
 /// ```text
-/// min ‖w − Σ W(c_i) F_i‖²_Σ⁻¹ + Σ ‖c_i − ĉ_i‖²_R_i⁻¹ + Σ (N_i − N̂_i)²/σ_i² + Σ |F_t,i|²/(μ N̂_i)²
-/// subject to c_i on the surface
+/// min ‖w − Σ W(c_i) F_i‖²_Σ⁻¹ + Σ ‖c_i − ĉ_i‖²_R_i⁻¹ + Σ (N_i − N̂_i)²/σ_i² + Σ |F_t,i|²/(μ N̂_i/2)²
+/// subject to c_i on the surface and F_i in its friction cone, |F_t,i| ≤ μ N_i
 /// ```
 ///
-/// where the last sum stands for what friction says before any measurement. Since each contact's
-/// prior is its own, and only the wrench couples them, each step of the Gauss-Newton iteration
-/// solves a system of six equations, however many contacts there are. It knows no inequality: an
-/// estimate may lie outside its friction cone, by noise or because a contact slides.
-/// [`FusedContact::held`] is the nearest force that friction can hold.
+/// where the last sum stands for what friction says of a tangential force before any measurement:
+/// that it is somewhere in the disc of radius `μ N̂`, which has this variance along each axis.
+///
+/// Each step of the Gauss-Newton iteration solves a system of six equations, however many contacts
+/// there are, since each contact's prior is its own and only the wrench couples them. The friction
+/// cones come in as at most one linear inequality for each contact, tangent to its cone, which takes
+/// part in a quadratic program with one multiplier per contact, solved exactly; the curvature of the
+/// cone enters the step, so it converges as Newton's method does. A contact that would have to pull
+/// ends at the tip of its cone: no force. The number of steps is bounded, and nothing is allocated.
 ///
 /// **What cannot be told**: forces that cancel within the grip of one fingertip ([`Fused::internal_forces`]
 /// of them). The wrench says nothing of these; what is reported there comes from the array and from
-/// the friction prior alone, and [`FusedContact::share_from_wrench`] says how much of a force is.
+/// friction alone, and [`FusedContact::share_from_wrench`] says how much of a force is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fusion<T: Real> {
     wrench_covariance: Matrix6<T>,
@@ -45,14 +49,25 @@ pub struct FusedContact<T: Real> {
     pub force: Vector3<T>,
     /// Covariance of the point \[m²\], of rank 2, to first order.
     pub point_covariance: Matrix3<T>,
-    /// Covariance of the force \[N²\].
+    /// Covariance of the force \[N²\] before the cone cuts anything off: where
+    /// [`grip`](Self::grip) is not [`Grip::Sticks`] the force is known better than that.
     pub force_covariance: Matrix3<T>,
     /// How much of the variance of the force the wrench removed: 1, nearly all is known from the
     /// wrench; 0, nothing.
     pub share_from_wrench: T,
-    /// The force that friction can hold which is nearest to it: the same, unless it lies outside the
-    /// friction cone \[N\]. Forces changed so no longer add up to the wrench.
-    pub held: Vector3<T>,
+    /// Where in its friction cone the force lies.
+    pub grip: Grip,
+}
+
+/// Where in its friction cone a force lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grip {
+    /// Inside: the constraint does not matter.
+    Sticks,
+    /// On the cone: the measurements ask for as much tangential force as friction can hold, or more.
+    Slides,
+    /// At the tip: the measurements ask for no force, or for one that pulls.
+    Lifted,
 }
 
 /// The estimate.
@@ -60,8 +75,9 @@ pub struct FusedContact<T: Real> {
 pub struct Fused<T: Real, const K: usize> {
     /// In the order of the readings.
     pub contacts: [FusedContact<T>; K],
-    /// `yᵀS⁻¹y` for the difference between the wrench and what the array alone predicts: follows χ²
-    /// with six degrees of freedom if the readings are right. Much more, and a contact is missing.
+    /// `yᵀS⁻¹y` for the difference between the wrench and what the array alone predicts, linearised
+    /// at the estimate: follows χ² with six degrees of freedom if the readings are right. Much more,
+    /// and a contact is missing.
     pub disagreement: T,
     /// Dimension of the forces that the wrench cannot see: 0, 1, 3, 6 for one to four contacts, one
     /// more for three or four of them in a line.
@@ -113,17 +129,18 @@ impl<T: Real> Fusion<T> {
         if priors_known != K {
             return Err(lost);
         }
-        let mut search = Search { fusion: self, wrench: wrench.components(), priors, states };
-        let (mut settled, disagreement) = search.step(surface).ok_or(lost)?;
+        let grips = [Held::free(); K];
+        let mut search = Search { fusion: self, wrench: wrench.components(), priors, states, grips };
+        let (mut settled, mut disagreement) = search.step(surface).ok_or(lost)?;
         for _ in 0..60 {
             if settled {
                 break;
             }
             // Data that contradict each other by far may drive the estimate off the surface.
-            let Some((rested, _)) = search.step(surface) else { break };
-            settled = rested;
+            let Some((rested, left)) = search.step(surface) else { break };
+            (settled, disagreement) = (rested, left);
         }
-        let (gain, covariances) = search.factors().ok_or(lost)?;
+        let (gain, covariances) = search.factors(Prior::covariance).ok_or(lost)?;
         let mut contacts = [FusedContact {
             point: Vector3::zeros(),
             normal: Vector3::zeros(),
@@ -131,7 +148,7 @@ impl<T: Real> Fusion<T> {
             point_covariance: Matrix3::zeros(),
             force_covariance: Matrix3::zeros(),
             share_from_wrench: T::zero(),
-            held: Vector3::zeros(),
+            grip: Grip::Sticks,
         }; K];
         for (i, contact) in contacts.iter_mut().enumerate() {
             let (Some(prior), Some(state)) = (search.priors[i], search.states[i]) else { continue };
@@ -153,27 +170,11 @@ impl<T: Real> Fusion<T> {
                 share_from_wrench: (T::one() - force_covariance.trace() / before)
                     .max(T::zero())
                     .min(T::one()),
-                held: self.project(&state),
+                grip: search.grips[i].kind,
             };
         }
         let internal_forces = internal_forces(&contacts);
         Ok(Fused { contacts, disagreement, internal_forces, settled })
-    }
-
-    /// The point of the friction cone at a contact that is nearest to its force (theory 5).
-    fn project(&self, state: &State<T>) -> Vector3<T> {
-        let mu = self.friction;
-        let pressing = -state.force.dot(&state.normal);
-        let tangential = state.force + state.normal * pressing;
-        let magnitude = length(&tangential);
-        if magnitude <= mu * pressing {
-            return state.force;
-        }
-        if mu * magnitude <= -pressing {
-            return Vector3::zeros();
-        }
-        let normal = (mu * magnitude + pressing) / (T::one() + mu * mu);
-        tangential * (mu * normal / magnitude) - state.normal * normal
     }
 }
 
@@ -182,6 +183,7 @@ struct Search<'a, T: Real, const K: usize> {
     wrench: Vector6<T>,
     priors: [Option<Prior<T>>; K],
     states: [Option<State<T>>; K],
+    grips: [Held<T>; K],
 }
 
 /// Covariance of a contact before the wrench, and the derivatives of its wrench.
@@ -190,64 +192,121 @@ type Linear<T> = (Matrix5<T>, Matrix6x5<T>);
 impl<T: Real, const K: usize> Search<'_, T, K> {
     /// The inverse covariance of the innovation at the present states, with each contact's
     /// covariance and Jacobian.
-    fn factors(&self) -> Option<(Matrix6<T>, [Linear<T>; K])> {
+    fn factors(&self, covariance: impl Fn(&Prior<T>) -> Matrix5<T>) -> Option<(Matrix6<T>, [Linear<T>; K])> {
         let mut linear = [(Matrix5::zeros(), Matrix6x5::zeros()); K];
-        let mut total = self.fusion.wrench_covariance;
         for (i, slot) in linear.iter_mut().enumerate() {
             let (prior, state) = (self.priors[i].as_ref()?, self.states[i].as_ref()?);
-            let covariance = prior.covariance();
-            let jacobian = prior.jacobian(state);
-            total += jacobian * covariance * jacobian.transpose();
-            *slot = (covariance, jacobian);
+            *slot = (covariance(prior), prior.jacobian(state));
         }
-        Some((total.cholesky()?.inverse(), linear))
+        Some((self.gain(&linear)?, linear))
+    }
+
+    fn gain(&self, linear: &[Linear<T>; K]) -> Option<Matrix6<T>> {
+        let mut total = self.fusion.wrench_covariance;
+        for (covariance, jacobian) in linear {
+            total += jacobian * covariance * jacobian.transpose();
+        }
+        Some(total.cholesky()?.inverse())
     }
 
     /// One step of Gauss and Newton; `true` if it changed nothing that matters. Also the square
     /// of the innovation.
     fn step<S: ActiveSurface<T>>(&mut self, surface: &S) -> Option<(bool, T)> {
-        let (gain, linear) = self.factors()?;
+        let mu = self.fusion.friction;
+        let mut linear = [(Matrix5::zeros(), Matrix6x5::zeros()); K];
+        let mut means = [Vector5::zeros(); K];
+        let mut walls = [Wall::none(); K];
         let mut innovation = self.wrench;
-        let mut means = [Vector3::zeros(); K];
         for i in 0..K {
-            let (prior, state) = (self.priors[i].as_ref()?, self.states[i].as_ref()?);
+            let (prior, state, held) = (self.priors[i].as_ref()?, self.states[i].as_ref()?, &self.grips[i]);
             let mean = prior.force;
+            let (mut covariance, mut mean) =
+                (prior.covariance(), Vector5::new(T::zero(), T::zero(), mean.x, mean.y, mean.z));
+            if held.kind == Grip::Lifted {
+                // No force, and no play in it.
+                covariance.fixed_view_mut::<3, 3>(2, 2).fill(T::zero());
+                mean.fixed_rows_mut::<3>(2).fill(T::zero());
+            } else {
+                walls[i] = Wall::new(prior, surface, state, mu);
+                // The cone bends away from its tangent plane across the force.
+                let lateral = walls[i].lateral * held.bend.root();
+                let through = covariance * lateral;
+                let gain = through / (T::one() + lateral.dot(&through));
+                mean -= gain * lateral.dot(&mean);
+                covariance -= gain * through.transpose();
+            }
+            let jacobian = prior.jacobian(state);
+            let (f, m) = (state.force, state.point.cross(&state.force));
+            innovation -= Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z) + jacobian * (mean - state.vector());
+            linear[i] = (covariance, jacobian);
             means[i] = mean;
-            let torque = state.point.cross(&state.force);
-            let (f, m) = (state.force, torque);
-            innovation -= Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z);
-            // Back to the prior's mean along the linear model.
-            let back = mean - state.force;
-            let offset = nalgebra::Vector5::new(-state.shift.x, -state.shift.y, back.x, back.y, back.z);
-            innovation -= linear[i].1 * offset;
         }
+        let gain = self.gain(&linear)?;
         let weighted = gain * innovation;
+        // Without the cones; then what they add.
+        let mut next = [Vector5::zeros(); K];
+        let mut through = [(Vector5::zeros(), Vector6::zeros()); K];
+        let (mut matrix, mut beyond) = (Matrix4::identity(), Vector4::zeros());
+        for i in 0..K {
+            let (covariance, jacobian) = &linear[i];
+            next[i] = means[i] + covariance * (jacobian.transpose() * weighted);
+            let along = covariance * walls[i].row;
+            through[i] = (along, jacobian * along);
+            beyond[i] = walls[i].row.dot(&next[i]) - walls[i].level;
+            for j in 0..=i {
+                let apart = -through[i].1.dot(&(gain * through[j].1));
+                let own = if i == j { along.dot(&walls[i].row) } else { T::zero() };
+                matrix[(i, j)] = own + apart;
+                matrix[(j, i)] = own + apart;
+            }
+        }
+        let exists: [bool; K] = walls.map(|wall| wall.exists);
+        let multipliers = cone_multipliers(&matrix, &beyond, &exists);
+        let mut pull = Vector6::zeros();
+        for i in 0..K {
+            pull += through[i].1 * multipliers[i];
+        }
+        let answer = gain * pull;
         let mut calm = true;
         for i in 0..K {
             let (prior, state) = (self.priors[i].as_ref()?, self.states[i].as_ref()?);
             let (covariance, jacobian) = &linear[i];
-            let update = covariance * (jacobian.transpose() * weighted);
-            let force = means[i] + Vector3::new(update[2], update[3], update[4]);
+            let update =
+                next[i] - through[i].0 * multipliers[i] + covariance * (jacobian.transpose() * answer);
+            let force = Vector3::new(update[2], update[3], update[4]);
             let mut shift = Vector2::new(update[0], update[1]);
             if !(force.sum() + shift.sum()).is_number() {
                 return None;
             }
             // Not beyond the edge of the shape as seen from the prior.
-            let mut next = prior.state(surface, shift, force);
+            let mut found = prior.state(surface, shift, force);
             for _ in 0..12 {
-                if next.is_some() {
+                if found.is_some() {
                     break;
                 }
                 shift = (shift + state.shift) * T::literal(0.5);
-                next = prior.state(surface, shift, force);
+                found = prior.state(surface, shift, force);
             }
-            let next = next?;
+            let mut found = found?;
+            // What the rest of the world asks of this contact: the slope of the cost by its force.
+            let asked = jacobian.transpose() * (weighted + answer);
+            let asked = Vector3::new(asked[2], asked[3], asked[4]);
+            let held = Held::after(&self.grips[i], &asked, prior, &found, multipliers[i], mu);
+            found.force = match (self.grips[i].kind, held.kind) {
+                // Off the tip along the side that gains most, so that the next step knows where to.
+                (Grip::Lifted, Grip::Slides) => prior.lightest_on(&found, &asked, mu),
+                (_, Grip::Sticks) => force,
+                (_, kind) => project(&found, mu, kind),
+            };
             let small = T::EPSILON.root() * T::literal(1e-3);
-            let deviation = |k: usize| covariance[(k, k)].root();
-            calm &= (next.shift - state.shift).amax() <= small * deviation(0).max(deviation(1))
-                && (next.force - state.force).amax()
-                    <= small * deviation(2).max(deviation(3)).max(deviation(4));
-            self.states[i] = Some(next);
+            let whole = prior.covariance();
+            let deviation = |k: usize| whole[(k, k)].root();
+            calm &= (found.shift - state.shift).amax() <= small * deviation(0).max(deviation(1))
+                && (found.force - state.force).amax()
+                    <= small * deviation(2).max(deviation(3)).max(deviation(4))
+                && held.kind == self.grips[i].kind;
+            self.grips[i] = held;
+            self.states[i] = Some(found);
         }
         Some((calm, innovation.dot(&weighted)))
     }

@@ -1,8 +1,9 @@
 //! What a tactile array says of one contact.
 
 use fingertip_wrench::{Line, Real};
-use nalgebra::{Matrix2, Matrix3, Matrix5, Matrix6x5, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix3, Matrix5, Matrix6x5, Vector2, Vector3, Vector5};
 
+use crate::numeric::vectors::unit_or;
 use crate::soft_finger::newton::tangents;
 use crate::{ActiveSurface, BadShape};
 
@@ -52,6 +53,13 @@ pub(super) struct State<T: Real> {
     pub(super) normal: Vector3<T>,
 }
 
+impl<T: Real> State<T> {
+    /// Shift and force.
+    pub(super) fn vector(&self) -> Vector5<T> {
+        Vector5::new(self.shift.x, self.shift.y, self.force.x, self.force.y, self.force.z)
+    }
+}
+
 impl<T: Real> Prior<T> {
     pub(super) fn new<S: ActiveSurface<T>>(
         surface: &S,
@@ -67,8 +75,10 @@ impl<T: Real> Prior<T> {
         let (first, second) = tangents(&normal);
         let spread = |a: &Vector3<T>, b: &Vector3<T>| a.dot(&(reading.centroid_covariance * b));
         let mixed = (spread(&first, &second) + spread(&second, &first)) * T::literal(0.5);
-        // Nothing is known of the tangential force but that friction holds it: μ N as its deviation.
-        let weight = reading.normal_force.abs().max(reading.normal_deviation) * friction;
+        // Nothing is known of the tangential force but that friction holds it: of a disc of radius μ N
+        // the variance along each axis is (μ N/2)².
+        let radius = reading.normal_force.abs().max(reading.normal_deviation) * friction;
+        let weight = radius * T::literal(0.5);
         Ok(Self {
             origin: point,
             normal,
@@ -90,6 +100,33 @@ impl<T: Real> Prior<T> {
         let above = self.origin + self.tangents[0] * shift.x + self.tangents[1] * shift.y;
         let (point, normal) = nearest(surface, &above, &self.normal)?;
         (normal.dot(&self.normal) > T::zero()).then_some(State { shift, force, point, normal })
+    }
+
+    /// How the normal at a state turns with each of the two shifts.
+    pub(super) fn turning<S: ActiveSurface<T>>(&self, surface: &S, state: &State<T>) -> [Vector3<T>; 2] {
+        // Far less than where the contact may be, far more than rounding.
+        let spread = self.shift_covariance.diagonal().amax().root();
+        let size = spread.max(state.point.amax() * T::EPSILON.root());
+        let step = size * T::EPSILON.cbrt() * T::literal(16.0);
+        self.moved_tangents(state).map(|moved| {
+            let (ahead, behind) = (state.point + moved * step, state.point - moved * step);
+            let change = (surface.normal(&ahead) - surface.normal(&behind)) / (step + step);
+            if change.sum().is_number() { change } else { Vector3::zeros() }
+        })
+    }
+
+    /// What its own reading asks of the force, if it is to be none: minus the slope of the prior.
+    pub(super) fn asks_at_rest(&self) -> Vector3<T> {
+        let along = self.normal * self.force.dot(&self.normal);
+        along / self.normal_variance + (self.force - along) / self.tangential_variance
+    }
+
+    /// A light force on the side of a state's friction cone on which a slope gains most.
+    pub(super) fn lightest_on(&self, state: &State<T>, asked: &Vector3<T>, friction: T) -> Vector3<T> {
+        let slope = asked + self.asks_at_rest();
+        let across = slope - state.normal * slope.dot(&state.normal);
+        let direction = unit_or(&across, || self.tangents[0]);
+        (direction * friction - state.normal) * (self.normal_variance.root() * T::literal(0.1))
     }
 
     /// Covariance of shift and force.

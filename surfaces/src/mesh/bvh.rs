@@ -1,249 +1,185 @@
 //! A tree of boxes over the triangles.
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 use super::crossing::Shear;
+use super::node::{LEAF, Node, Probe, WIDTH};
+use super::packet::{LANES, Packet};
+use super::split::{Group, Item};
 
-/// Fewer triangles than this are not split.
-const LEAF: usize = 3;
-const BINS: usize = 12;
-/// Beyond this depth the triangles are halved instead, so that the depth is bounded by
-/// `32 + log₂ 2³²`.
-const CAREFUL_DEPTH: u32 = 32;
-/// More than the depth of any tree.
-pub(super) const STACK: usize = 72;
-
-/// A box with either two children, next to each other, or some triangles.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Node<T: Real> {
-    pub(super) centre: Vector3<T>,
-    pub(super) half: Vector3<T>,
-    /// First triangle of a leaf, or first child.
-    pub(super) first: u32,
-    /// Triangles of a leaf; zero for an inner node.
-    pub(super) count: u32,
-}
+/// Levels of nodes in any tree: enough for 2³² triangles by halves.
+const MOST_LEVELS: usize = 18;
+/// Nodes that a line is tested against together.
+const AT_ONCE: usize = 4;
+/// Open nodes of a line, at most. They are sorted by level, and the deepest are taken first: so when
+/// nodes of a level are added, none of that level is left. These are `AT_ONCE·WIDTH` at most, of which
+/// `AT_ONCE` are gone before any of the next level is added.
+const MOST_OPEN: usize = 256;
+const _: () = assert!(MOST_OPEN >= (AT_ONCE * WIDTH - AT_ONCE) * MOST_LEVELS + AT_ONCE * WIDTH + AT_ONCE);
+/// Packets that are collected before they are looked at.
+const MOST_LEAVES: usize = 32;
+/// Index of a node without children, and of the root.
+const NOTHING: u32 = 0;
+const ROOT: u32 = 1;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Bvh<T: Real> {
-    nodes: Vec<Node<T>>,
+    /// The first is nothing, the second the root.
+    nodes: Vec<Node>,
+    packets: Vec<Packet<T>>,
 }
 
-#[derive(Clone, Copy)]
-struct Bounds<T: Real> {
-    low: Vector3<T>,
-    high: Vector3<T>,
+fn index(k: usize) -> u32 {
+    u32::try_from(k).unwrap_or(u32::MAX)
 }
 
-impl<T: Real> Bounds<T> {
-    fn empty() -> Self {
-        Self { low: Vector3::repeat(T::GREATEST), high: Vector3::repeat(-T::GREATEST) }
+/// Levels of nodes over so many triangles if each has equally many on each side.
+fn levels_by_halves(mut count: usize) -> usize {
+    let mut levels = 1;
+    while count > WIDTH * LANES {
+        count = count.div_ceil(WIDTH);
+        levels += 1;
     }
-
-    fn with(self, other: &Self) -> Self {
-        Self { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
-    }
-
-    fn area(&self) -> T {
-        let e = self.high - self.low;
-        if e.x < T::zero() { T::zero() } else { e.x * e.y + e.y * e.z + e.z * e.x }
-    }
-
-    fn node(&self, first: u32, count: u32) -> Node<T> {
-        let half = T::literal(0.5);
-        // The mesh has size 1 to 2, and lines start within that: this covers all rounding of the
-        // tests on the box.
-        let slack = Vector3::repeat(T::EPSILON * T::literal(32.0));
-        Node {
-            centre: (self.low + self.high) * half,
-            half: (self.high - self.low) * half + slack,
-            first,
-            count,
-        }
-    }
+    levels
 }
 
-struct Item<T: Real> {
-    bounds: Bounds<T>,
-    middle: Vector3<T>,
-    triangle: u32,
-}
-
-/// Where to split: how many items go left once sorted into bins by the surface area heuristic, or by
-/// halves where that finds nothing.
-fn split<T: Real>(items: &mut [Item<T>], careful: bool) -> usize {
-    let mut middles = Bounds::empty();
-    for item in items.iter() {
-        middles = middles.with(&Bounds { low: item.middle, high: item.middle });
+/// Up to four groups of one: the costliest is split as long as there is room.
+fn children<T: Real>(group: Group<T>, items: &mut [Item<T>], careful: bool) -> Vec<Group<T>> {
+    let mut groups = alloc::vec![group];
+    while groups.len() < WIDTH {
+        let weight = |group: &Group<T>| if careful { group.cost() } else { T::literal(group.count as f64) };
+        let widest = groups
+            .iter()
+            .enumerate()
+            .filter(|(_, group)| !group.is_leaf())
+            .max_by(|(_, a), (_, b)| weight(a).partial_cmp(&weight(b)).unwrap_or(core::cmp::Ordering::Equal))
+            .map(|(k, _)| k);
+        let Some(k) = widest else { break };
+        let Some(halves) = groups.get(k).and_then(|group| group.split(items, careful)) else { break };
+        groups.splice(k..=k, halves);
     }
-    let extent = middles.high - middles.low;
-    let axis = extent.imax();
-    let (low, width) = (middles.low[axis], extent[axis]);
-    let half = items.len() / 2;
-    if careful && width > T::zero() {
-        let bins = T::literal(BINS as f64);
-        let bin_of = |item: &Item<T>| {
-            let place = ((item.middle[axis] - low) / width * bins).to_f64();
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-            let place = place as usize;
-            place.min(BINS - 1)
-        };
-        let mut bounds = [Bounds::empty(); BINS];
-        let mut counts = [0_usize; BINS];
-        for item in items.iter() {
-            let bin = bin_of(item);
-            if let (Some(b), Some(n)) = (bounds.get_mut(bin), counts.get_mut(bin)) {
-                *b = b.with(&item.bounds);
-                *n += 1;
-            }
-        }
-        let cost = |range: core::ops::Range<usize>| {
-            let all = bounds.get(range.clone()).unwrap_or(&[]);
-            let total = all.iter().fold(Bounds::empty(), |sum, b| sum.with(b));
-            let count: usize = counts.get(range).unwrap_or(&[]).iter().sum();
-            (total.area() * T::literal(count as f64), count)
-        };
-        let mut best: Option<(T, usize)> = None;
-        for cut in 1..BINS {
-            let ((left, n), (right, m)) = (cost(0..cut), cost(cut..BINS));
-            if n > 0 && m > 0 && best.is_none_or(|(least, _)| left + right < least) {
-                best = Some((left + right, cut));
-            }
-        }
-        if let Some((_, cut)) = best {
-            items.sort_unstable_by_key(|item| bin_of(item) >= cut);
-            return items.iter().filter(|item| bin_of(item) < cut).count();
-        }
-    }
-    items.select_nth_unstable_by(half, |a, b| {
-        a.middle[axis].partial_cmp(&b.middle[axis]).unwrap_or(core::cmp::Ordering::Equal)
-    });
-    half
+    groups
 }
 
 impl<T: Real> Bvh<T> {
     /// The tree, and the order in which it wants the triangles.
     pub(super) fn build(vertices: &[Vector3<T>], triangles: &[[u32; 3]]) -> (Self, Vec<u32>) {
-        let at = |k: &u32| vertices.get(*k as usize).copied().unwrap_or_else(Vector3::zeros);
-        let mut items: Vec<Item<T>> = (0_u32..)
-            .zip(triangles)
-            .map(|(triangle, corners)| {
-                let [a, b, c] = [at(&corners[0]), at(&corners[1]), at(&corners[2])];
-                let bounds = Bounds { low: a.inf(&b).inf(&c), high: a.sup(&b).sup(&c) };
-                Item { bounds, middle: (bounds.low + bounds.high) * T::literal(0.5), triangle }
-            })
-            .collect();
-        let bounds_of =
-            |items: &[Item<T>]| items.iter().fold(Bounds::empty(), |sum, item| sum.with(&item.bounds));
-        let index = |k: usize| u32::try_from(k).unwrap_or(u32::MAX);
-        let mut nodes = vec![bounds_of(&items).node(0, index(items.len()))];
-        let mut open = vec![(0_usize, 0_u32)];
-        while let Some((k, depth)) = open.pop() {
-            let Some(node) = nodes.get(k).copied() else { continue };
-            let (first, count) = (node.first as usize, node.count as usize);
-            let Some(range) = items.get_mut(first..first + count) else { continue };
-            if count <= LEAF {
-                continue;
+        let at = |k: u32| vertices.get(k as usize).copied().unwrap_or_else(Vector3::zeros);
+        let corners = |triangle: &[u32; 3]| triangle.map(at);
+        let mut items: Vec<Item<T>> =
+            (0_u32..).zip(triangles).map(|(k, triangle)| Item::new(corners(triangle), k)).collect();
+        let mut tree = Self { nodes: alloc::vec![Node::EMPTY, Node::EMPTY], packets: Vec::new() };
+        // Depth first, so that what is near in space is near in memory.
+        let mut open = alloc::vec![(ROOT as usize, Group::of(&items, 0), 0_usize)];
+        while let Some((k, group, level)) = open.pop() {
+            let groups = children(group, &mut items, level + levels_by_halves(group.count) < MOST_LEVELS);
+            let first_open = open.len();
+            for (lane, group) in groups.iter().enumerate() {
+                let child = if group.is_leaf() {
+                    let in_group = items.get(group.first..group.first + group.count).unwrap_or(&[]);
+                    let all = in_group.iter().filter_map(|item| triangles.get(item.triangle as usize));
+                    tree.packets.push(Packet::new(all.map(corners), index(group.first)));
+                    LEAF | index(tree.packets.len() - 1)
+                } else {
+                    tree.nodes.push(Node::EMPTY);
+                    open.push((tree.nodes.len() - 1, *group, level + 1));
+                    index(tree.nodes.len() - 1)
+                };
+                if let Some(node) = tree.nodes.get_mut(k) {
+                    node.put(lane, &group.bounds, child);
+                }
             }
-            let left = split(range, depth < CAREFUL_DEPTH).clamp(1, count - 1);
-            let (a, b) = range.split_at(left);
-            let children = [
-                bounds_of(a).node(index(first), index(left)),
-                bounds_of(b).node(index(first + left), index(count - left)),
-            ];
-            let child = nodes.len();
-            nodes.extend(children);
-            if let Some(node) = nodes.get_mut(k) {
-                (node.first, node.count) = (index(child), 0);
+            if let Some(new) = open.get_mut(first_open..) {
+                new.reverse();
             }
-            open.push((child, depth + 1));
-            open.push((child + 1, depth + 1));
         }
-        (Self { nodes }, items.iter().map(|item| item.triangle).collect())
+        (tree, items.iter().map(|item| item.triangle).collect())
     }
 
+    /// Calls `visit` for every triangle that the line crosses, with the position along the line and the
+    /// triangle's normal.
     #[inline]
-    pub(super) fn node(&self, k: usize) -> Option<&Node<T>> {
-        self.nodes.get(k)
-    }
-
-    /// Calls `visit` for every triangle in a box that the line crosses.
-    #[inline]
-    pub(super) fn visit_line(&self, shear: &Shear<T>, mut visit: impl FnMut(usize)) {
-        let mut stack = [0_u32; STACK];
-        let mut depth = 0_usize;
-        let mut k = 0_usize;
-        loop {
-            let Some(node) = self.nodes.get(k) else { return };
-            if node.count > 0 {
-                for triangle in node.first..node.first + node.count {
-                    visit(triangle as usize);
+    pub(super) fn visit_line(
+        &self,
+        start: &Vector3<T>,
+        direction: &Vector3<T>,
+        mut visit: impl FnMut(T, &Vector3<T>),
+    ) {
+        let Some(shear) = Shear::new(start, direction) else { return };
+        let probe = Probe::new(start, direction);
+        // What is crossed cannot be foretold, so nothing branches on it: each child is written to the
+        // end of its list, which then grows by one or not at all. Several nodes are tested together,
+        // for the next ones are not known before. Below the root wait nodes that are nothing.
+        let mut open = [NOTHING; MOST_OPEN];
+        let mut leaves = [0_u32; MOST_LEAVES];
+        let (mut depth, mut leaf_count) = (AT_ONCE, 0_usize);
+        open[AT_ONCE - 1] = ROOT;
+        while depth >= AT_ONCE {
+            depth -= AT_ONCE;
+            let nodes: [&Node; AT_ONCE] = core::array::from_fn(|k| {
+                self.nodes.get(open[(depth + k) % MOST_OPEN] as usize).unwrap_or(&Node::EMPTY)
+            });
+            let crossed = nodes.map(|node| probe.may_cross(node));
+            depth = depth.max(AT_ONCE - 1);
+            for (node, crossed) in nodes.into_iter().zip(crossed) {
+                let (inner, leaf) = (crossed & !node.leaves, crossed & node.leaves);
+                for (lane, child) in node.child.into_iter().enumerate() {
+                    open[depth % MOST_OPEN] = child;
+                    leaves[leaf_count % MOST_LEAVES] = child;
+                    depth += (inner >> lane & 1) as usize;
+                    leaf_count += (leaf >> lane & 1) as usize;
                 }
-            } else {
-                let child = node.first as usize;
-                let (Some(a), Some(b)) = (self.nodes.get(child), self.nodes.get(child + 1)) else { return };
-                let (left, right) =
-                    (shear.may_cross(&a.centre, &a.half), shear.may_cross(&b.centre, &b.half));
-                if left {
-                    if right && let Some(slot) = stack.get_mut(depth) {
-                        *slot = node.first + 1;
-                        depth += 1;
+            }
+            if leaf_count > MOST_LEAVES - AT_ONCE * WIDTH || depth < AT_ONCE {
+                for k in leaves.iter().take(leaf_count) {
+                    if let Some(packet) = self.packets.get(*k as usize) {
+                        packet.visit_line(&shear, &mut visit);
                     }
-                    k = child;
-                    continue;
                 }
-                if right {
-                    k = child + 1;
-                    continue;
-                }
+                leaf_count = 0;
             }
-            if depth == 0 {
-                return;
-            }
-            depth -= 1;
-            k = stack.get(depth).copied().unwrap_or(0) as usize;
         }
     }
 
     /// Calls `visit` for the triangles that may be nearer than the least distance that it has
-    /// returned so far; `bound` is the distance from a ball around a box's centre.
+    /// returned so far; `distance` is that of a point from what is asked about.
     pub(super) fn visit_nearest(
         &self,
         distance: impl Fn(&Vector3<T>) -> T,
         mut visit: impl FnMut(usize) -> T,
     ) {
-        let bound = |node: &Node<T>| distance(&node.centre) - node.half.norm_squared().root();
         let mut least = T::GREATEST;
-        let mut stack = [(0_u32, -T::GREATEST); STACK];
+        let mut stack = [(ROOT, -T::GREATEST); WIDTH * MOST_LEVELS];
         let mut depth = 1_usize;
         while depth > 0 {
             depth -= 1;
-            let Some(&(k, at_least)) = stack.get(depth) else { return };
+            let Some(&(child, at_least)) = stack.get(depth) else { return };
             if at_least > least {
                 continue;
             }
-            let Some(node) = self.nodes.get(k as usize) else { continue };
-            if node.count > 0 {
-                for triangle in node.first..node.first + node.count {
-                    least = least.min(visit(triangle as usize));
+            if child & LEAF != 0 {
+                for triangle in self.packets.get((child ^ LEAF) as usize).map_or(0..0, Packet::triangles) {
+                    least = least.min(visit(triangle));
                 }
                 continue;
             }
-            let children =
-                [node.first, node.first + 1].map(|k| (k, self.node(k as usize).map_or(T::GREATEST, bound)));
-            let [a, b] = children;
-            // The nearer one on top.
-            for child in if a.1 < b.1 { [b, a] } else { [a, b] } {
-                if child.1 <= least
+            let Some(node) = self.nodes.get(child as usize) else { continue };
+            let first = depth;
+            for (child, centre, radius) in node.balls() {
+                let bound = distance(&centre) - radius;
+                if bound <= least
                     && let Some(slot) = stack.get_mut(depth)
                 {
-                    *slot = child;
+                    *slot = (child, bound);
                     depth += 1;
                 }
+            }
+            // The nearest on top.
+            if let Some(new) = stack.get_mut(first..depth) {
+                new.sort_unstable_by(|a, b| b.1.partial_cmp(&a.1).unwrap_or(core::cmp::Ordering::Equal));
             }
         }
     }

@@ -3,6 +3,9 @@
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
+use super::lanes::Lanes;
+use super::packet::LANES;
+
 /// The frame in which the line is the third axis: a shear of space (Woop, Benthin & Wald,
 /// "Watertight Ray/Triangle Intersection", 2013).
 ///
@@ -13,32 +16,49 @@ use nalgebra::Vector3;
 /// if it were moved aside by an infinitesimal amount, the same for all triangles: it crosses
 /// exactly one of those that meet there and face the same way.
 pub(super) struct Shear<T: Real> {
-    axes: [usize; 3],
+    /// The axis that the line is nearest to; the two others follow in turn.
+    main: Axis,
     x: T,
     y: T,
     inverse: T,
     start: [T; 3],
 }
 
-#[inline]
-fn component<T: Real>(v: &Vector3<T>, axis: usize) -> T {
-    match axis {
-        0 => v.x,
-        1 => v.y,
-        _ => v.z,
+#[derive(Clone, Copy)]
+enum Axis {
+    X,
+    Y,
+    Z,
+}
+
+impl Axis {
+    /// The coordinates in turn, the one along this axis last.
+    #[inline]
+    fn last<C>(self, [x, y, z]: [C; 3]) -> [C; 3] {
+        match self {
+            Self::X => [y, z, x],
+            Self::Y => [z, x, y],
+            Self::Z => [x, y, z],
+        }
     }
 }
 
-/// `true` if the origin lies to the left of the directed edge from `a` to `b`, `None` if the edge
-/// is a point.
+/// Twice the area between the origin and the directed edge from `a` to `b`: positive if the origin
+/// lies to its left.
+#[inline]
+fn edge<T: Real>(a: [T; 2], b: [T; 2]) -> T {
+    let ([ax, ay], [bx, by]) = (a, b);
+    ax * by - ay * bx
+}
+
+/// As [`edge`], and `true` if the origin lies to the left, exactly; `None` if the edge is a point.
 #[inline]
 fn is_left<T: Real>(a: [T; 2], b: [T; 2]) -> (T, Option<bool>) {
-    let [ax, ay] = a;
-    let [bx, by] = b;
-    let rounded = ax * by - ay * bx;
+    let rounded = edge(a, b);
     if rounded != T::zero() {
         return (rounded, Some(rounded > T::zero()));
     }
+    let ([ax, ay], [bx, by]) = (a, b);
     let ((p, p_error), (q, q_error)) = (ax.two_product(by), ay.two_product(bx));
     let exact = (p - q) + (p_error - q_error);
     let side = if exact != T::zero() {
@@ -75,65 +95,58 @@ impl<T: Real> Shear<T> {
     /// `None` unless the direction is one.
     #[inline]
     pub(super) fn new(start: &Vector3<T>, direction: &Vector3<T>) -> Option<Self> {
-        let main = direction.iamax();
-        let steep = component(direction, main);
+        let main = match direction.iamax() {
+            0 => Axis::X,
+            1 => Axis::Y,
+            _ => Axis::Z,
+        };
+        let [x, y, steep] = main.last((*direction).into());
         let inverse = T::one() / steep;
-        if !inverse.is_number() {
-            return None;
-        }
-        let (first, second) = ((main + 1) % 3, (main + 2) % 3);
-        let (first, second) = if steep < T::zero() { (second, first) } else { (first, second) };
-        Some(Self {
-            axes: [first, second, main],
-            x: component(direction, first) * inverse,
-            y: component(direction, second) * inverse,
+        inverse.is_number().then(|| Self {
+            main,
+            x: x * inverse,
+            y: y * inverse,
             inverse,
-            start: [component(start, first), component(start, second), component(start, main)],
+            start: main.last((*start).into()),
         })
     }
 
     #[inline]
-    fn sheared(&self, v: &Vector3<T>) -> ([T; 2], T) {
-        let [first, second, main] = self.axes;
+    fn sheared(&self, [x, y, z]: [T; 3]) -> ([T; 2], T) {
         let [sx, sy, sz] = self.start;
-        let z = component(v, main) - sz;
-        ([component(v, first) - sx - self.x * z, component(v, second) - sy - self.y * z], z)
+        let z = z - sz;
+        ([x - sx - self.x * z, y - sy - self.y * z], z)
+    }
+
+    /// Which of some triangles, given by their corners, the line may cross: `false` is certain.
+    #[inline]
+    pub(super) fn may_cross(&self, corners: [&[[T; LANES]; 3]; 3]) -> [bool; LANES] {
+        let [sx, sy, sz] = self.start;
+        let [(ax, ay), (bx, by), (cx, cy)] = corners.map(|[x, y, z]| {
+            let [x, y, z] = self.main.last([x, y, z]).map(|axis| Lanes(*axis));
+            let z = z - sz;
+            (x - sx - z * self.x, y - sy - z * self.y)
+        });
+        let (u, v, w) = (bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx);
+        let (least, most) = (u.smaller(v).smaller(w), u.greater(v).greater(w));
+        core::array::from_fn(|k| (least.0[k] >= T::zero()) | (most.0[k] <= T::zero()))
     }
 
     /// Position along the line where it crosses the triangle.
     #[inline]
-    pub(super) fn crosses(&self, [a, b, c]: [&Vector3<T>; 3]) -> Option<T> {
-        let ((a, az), (b, bz), (c, cz)) = (self.sheared(a), self.sheared(b), self.sheared(c));
+    pub(super) fn crosses(&self, corners: [[T; 3]; 3]) -> Option<T> {
+        let [(a, az), (b, bz), (c, cz)] = corners.map(|corner| self.sheared(self.main.last(corner)));
         let (u, left_u) = is_left(b, c);
         let (v, left_v) = is_left(c, a);
-        if left_u? != left_v? {
-            return None;
-        }
         let (w, left_w) = is_left(a, b);
-        if left_v? != left_w? {
+        if left_u? != left_v? || left_v? != left_w? {
             return None;
         }
         let (u, v, w) = sharpened([a, b, c], [u, v, w]);
-        let total = u + v + w;
-        let z = (u * az + v * bz + w * cz) / total;
+        let z = (u * az + v * bz + w * cz) / (u + v + w);
         // A sliver seen edge-on may divide zero by zero: its middle, then.
         let z = if z.is_number() { z } else { (az + bz + cz) / T::literal(3.0) };
         let (low, high) = (az.min(bz).min(cz), az.max(bz).max(cz));
         Some(z.max(low).min(high) * self.inverse)
-    }
-
-    /// `false` only if the line misses the box, given by its centre and half its extents; these
-    /// include what rounding may do here.
-    #[inline]
-    pub(super) fn may_cross(&self, centre: &Vector3<T>, half: &Vector3<T>) -> bool {
-        let ([x, y], z) = self.sheared(centre);
-        let [first, second, main] = self.axes;
-        let (hx, hy, hz) = (component(half, first), component(half, second), component(half, main));
-        let (sx, sy) = (self.x.abs(), self.y.abs());
-        // The third axis that can separate line and box; `z` cancels in it.
-        let _ = z;
-        (x.abs() <= hx + sx * hz)
-            & (y.abs() <= hy + sy * hz)
-            & ((x * self.y - y * self.x).abs() <= hx * sy + hy * sx + hz * T::EPSILON)
     }
 }

@@ -3,7 +3,12 @@
 mod bvh;
 mod closest;
 mod crossing;
+mod fans;
+mod lanes;
+mod node;
 mod obj;
+mod packet;
+mod split;
 mod stl;
 mod topology;
 
@@ -13,7 +18,8 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use self::bvh::Bvh;
-use crate::numeric::vectors::{any_perpendicular, foot, is_finite, unit_or};
+use self::fans::Fans;
+use crate::numeric::vectors::{foot, is_finite};
 use crate::{ActiveSurface, ClosestApproach, Crossing};
 
 pub use self::topology::MeshError;
@@ -32,7 +38,7 @@ pub struct Mesh<T: Real> {
     vertices: Vec<Vector3<T>>,
     /// In the order of the tree's leaves.
     triangles: Vec<[u32; 3]>,
-    normals: Vec<Vector3<T>>,
+    fans: Fans,
     bvh: Bvh<T>,
 }
 
@@ -51,15 +57,14 @@ impl<T: Real> Mesh<T> {
         let triangles: Vec<[u32; 3]> =
             order.iter().filter_map(|k| parts.triangles.get(*k as usize).copied()).collect();
         let (vertices, triangles) = in_order_of_use(&parts.vertices, &triangles);
-        let normals = triangles.iter().map(|triangle| normal_of(&vertices, triangle)).collect();
         let radius = vertices.iter().fold(T::zero(), |r, v| r.max(v.norm_squared())).root();
         Ok(Self {
+            fans: Fans::new(vertices.len(), &triangles),
             centre: parts.centre,
             scale: parts.scale,
             radius: radius * T::literal(1.0001),
             vertices,
             triangles,
-            normals,
             bvh,
         })
     }
@@ -131,9 +136,26 @@ impl<T: Real> Mesh<T> {
         ])
     }
 
+    /// The origin of the stored vertices \[m\], and the factor that they are scaled by.
     #[inline]
-    fn normal_of(&self, triangle: usize) -> Vector3<T> {
-        self.normals.get(triangle).copied().unwrap_or_else(Vector3::z)
+    pub(crate) const fn frame(&self) -> (Vector3<T>, T) {
+        (self.centre, self.scale)
+    }
+
+    /// A vertex as stored.
+    #[inline]
+    pub(crate) fn stored(&self, vertex: u32) -> Option<&Vector3<T>> {
+        self.vertices.get(vertex as usize)
+    }
+
+    /// Every vertex with those at the other ends of its edges.
+    pub(crate) fn fans(&self) -> impl Iterator<Item = (u32, &[u32])> + '_ {
+        self.fans.iter()
+    }
+
+    #[inline]
+    pub(crate) fn normal_of(&self, triangle: usize) -> Vector3<T> {
+        self.corners(triangle).map_or_else(Vector3::z, |corners| packet::normal_of(&corners.map(|v| *v)))
     }
 }
 
@@ -160,23 +182,6 @@ fn in_order_of_use<T: Real>(
     (used, triangles)
 }
 
-/// Unit normal of a triangle; across its longest edge if it has no area.
-fn normal_of<T: Real>(vertices: &[Vector3<T>], [a, b, c]: &[u32; 3]) -> Vector3<T> {
-    let at = |k: &u32| vertices.get(*k as usize).copied().unwrap_or_else(Vector3::zeros);
-    let (a, b, c) = (at(a), at(b), at(c));
-    // The two shorter edges give the best product.
-    let edges = [b - a, c - b, a - c];
-    let longest = edges.map(|e| e.norm_squared());
-    let product = if longest[0] >= longest[1] && longest[0] >= longest[2] {
-        edges[1].cross(&edges[2])
-    } else if longest[1] >= longest[2] {
-        edges[2].cross(&edges[0])
-    } else {
-        edges[0].cross(&edges[1])
-    };
-    unit_or(&product, || any_perpendicular(&unit_or(&(b - a), Vector3::x)))
-}
-
 impl<T: Real> ActiveSurface<T> for Mesh<T> {
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let (start, along) = foot(line, &self.centre);
@@ -184,19 +189,14 @@ impl<T: Real> ActiveSurface<T> for Mesh<T> {
         if !(start.norm_squared() <= self.radius * self.radius) {
             return;
         }
-        let Some(shear) = crossing::Shear::new(&start, &line.direction) else { return };
         let back = T::one() / self.scale;
-        self.bvh.visit_line(&shear, |triangle| {
-            let Some(corners) = self.corners(triangle) else { return };
-            if let Some(t) = shear.crosses(corners) {
-                let point = (start + line.direction * t) * back + self.centre;
-                visit(Crossing {
-                    along: along + t * back,
-                    point,
-                    normal: self.normal_of(triangle),
-                    active: true,
-                });
-            }
+        self.bvh.visit_line(&start, &line.direction, |t, normal| {
+            visit(Crossing {
+                along: along + t * back,
+                point: (start + line.direction * t) * back + self.centre,
+                normal: *normal,
+                active: true,
+            });
         });
     }
 

@@ -40,6 +40,10 @@ const TRIALS: u8 = 64;
 
 /// As [`to_convex`], for solids that are not convex: the line is sampled within reach, and the
 /// nearest sample refined where the slope of the distance changes sign.
+///
+/// The distance changes by no more than the line goes on, and no place is farther from a sample than
+/// `reach/64`: so the gap is too large by less than that, if a nearer approach hides between two
+/// samples. Otherwise, as for a line with a single nearest place, it is exact but for rounding.
 pub(crate) fn by_search<T: Real>(
     line: &Line<T>,
     centre: &Vector3<T>,

@@ -3,6 +3,33 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
+/// The largest magnitude of a component. Unlike `amax` it passes over a NaN, which costs nothing:
+/// what is scaled by it stays NaN.
+#[inline]
+pub(crate) fn largest<T: Real>(v: &Vector3<T>) -> T {
+    larger(larger(v.x.abs(), v.y.abs()), v.z.abs())
+}
+
+/// The larger of two numbers; the second if one is NaN.
+#[inline]
+pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
+    if a > b { a } else { b }
+}
+
+/// `true` if products of up to eight such numbers stay within the range of the type, with all their
+/// digits.
+#[inline]
+pub(crate) fn is_tame<T: Real>(x: T) -> bool {
+    x > T::LEAST_NORMAL.root().root().root() && x < T::GREATEST.root().root().root()
+}
+
+/// A power of two that brings a number near 1, or just 1 if it is tame: to be used where products
+/// must stay in range, and no more.
+#[inline]
+pub(crate) fn taming_factor<T: Real>(x: T) -> T {
+    if is_tame(x) { T::one() } else { x.normalising_factor() }
+}
+
 /// Euclidean length, for components over the whole range of the type.
 #[inline]
 pub(crate) fn length<T: Real>(v: &Vector3<T>) -> T {
@@ -65,6 +92,13 @@ pub(crate) fn to_degrees<T: Real>(radians: T) -> T {
 #[cfg(feature = "serde")]
 pub(crate) fn from_degrees<T: Real>(degrees: T) -> T {
     degrees / T::literal(180.0) * T::pi()
+}
+
+/// The vector, or one that is nearer by so much that its length does not leave the range.
+#[inline]
+pub(crate) fn within_range<T: Real>(v: &Vector3<T>) -> Vector3<T> {
+    let far = T::GREATEST * T::literal(0.0625);
+    v.map(|x| x.max(-far).min(far))
 }
 
 /// `true` if no component is NaN or infinite.

@@ -4,7 +4,9 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use crate::serde_parts::serde_parts;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Frustum, SignedDistance};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, Frustum, SignedDistance,
+};
 
 /// A circular cylinder with flat ends, all of it active: a [`Frustum`] with equal radii.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +32,12 @@ impl<T: Real> CappedCylinder<T> {
         let solid = Frustum::new(base, axis, half_length + half_length, radius, radius)
             .map_err(|bad| BadShape { shape, ..bad })?;
         Ok(Self { solid, centre, half_length })
+    }
+
+    /// As the frustum that it is.
+    #[inline]
+    pub(crate) const fn solid(&self) -> &Frustum<T> {
+        &self.solid
     }
 
     /// The middle \[m\].
@@ -67,12 +75,21 @@ impl<T: Real> ActiveSurface<T> for CappedCylinder<T> {
         self.solid.crossings(line, visit);
     }
 
+    #[inline(always)]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        self.solid.sole_entry(push)
+    }
+
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         self.solid.closest_approach(line)
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         self.solid.normal(point)
+    }
+
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        self.solid.outside_by(point)
     }
 
     fn contains(&self, point: &Vector3<T>) -> bool {

@@ -1,13 +1,15 @@
 //! The cylinder with round ends.
 
+use core::hint::select_unpredictable;
+
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use super::axis::Axis;
+use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
-use crate::numeric::vectors::{foot, length, unit_or};
+use crate::numeric::vectors::{length, unit_or};
 use crate::serde_parts::serde_parts;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, SignedDistance};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
 /// All points at one distance from a straight segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,10 +31,10 @@ impl<T: Real> Capsule<T> {
     pub fn new(centre: Vector3<T>, axis: Vector3<T>, half_length: T, radius: T) -> Result<Self, BadShape> {
         let radius = BadShape::check_length("capsule", "radius", radius)?;
         Ok(Self {
-            axis: Axis {
-                origin: BadShape::check_point("capsule", "centre", centre)?,
-                direction: BadShape::check_direction("capsule", "axis", axis)?,
-            },
+            axis: Axis::new(
+                BadShape::check_point("capsule", "centre", centre)?,
+                BadShape::check_direction("capsule", "axis", axis)?,
+            ),
             half_length: BadShape::check_length("capsule", "half length", half_length)?,
             radius,
             curvature: T::one() / radius,
@@ -74,62 +76,51 @@ impl<T: Real> Capsule<T> {
         from_centre - self.axis.direction * height.max(-self.half_length).min(self.half_length)
     }
 
-    /// Where the line enters (`side` −1) or leaves (+1) the solid: on the side between the ends,
-    /// or else on the ball at the end beyond which it does so.
-    #[inline]
-    fn end(&self, line: &Line<T>, start: &Vector3<T>, side: T) -> Option<(T, Vector3<T>)> {
-        let (height, across) = self.axis.split(start);
-        let (rise, drift) = self.axis.split_direction(line);
-        let (across, squared) = (across * self.curvature, drift.norm_squared());
-        let mut end = -rise * side;
-        if squared > T::EPSILON * T::EPSILON * T::literal(16.0) {
-            let foot = -across.dot(&drift) / squared;
-            let radial = across + drift * foot;
-            let remainder = T::one() - radial.norm_squared();
-            if !(remainder >= T::zero()) {
-                return None;
-            }
-            let half_chord = (remainder / squared).root() * side;
-            let along = (foot + half_chord) * self.radius;
-            let beyond = height + along * rise;
-            if beyond.abs() <= self.half_length {
-                return Some((along, radial + drift * half_chord));
-            }
-            end = beyond;
-        } else {
-            // Parallel to the axis: in at one end, out at the other.
-            end = -end;
-        }
-        let tip = self.axis.direction * self.half_length.copysign(end);
-        let from_tip = start - tip;
-        let along = -from_tip.dot(&line.direction);
-        let radial = (from_tip + line.direction * along) * self.curvature;
+    /// Where a line enters, seen from the middle, all lengths in radii: where it enters the side's
+    /// continuation tells which of the balls along the segment it enters first. (An error of that
+    /// place moves the entry by its square only, and nothing has to branch on it.)
+    #[inline(always)]
+    fn entry(&self, line: &Local<T>) -> Option<LocalEntry<T>> {
+        let (p, u) = (line.start * self.curvature, &line.direction);
+        let half_length = self.half_length * self.curvature;
+        // Parallel to the axis, it comes from far away.
+        let squared = (u.x * u.x + u.y * u.y).max(T::LEAST_NORMAL);
+        let aside = p.x * u.y - p.y * u.x;
+        let root = (squared - aside * aside).root();
+        let to_side = -(p.x * u.x + p.y * u.y + root) / squared;
+        let z = p.z + to_side * u.z;
+        let height = z.min(half_length).max(-half_length);
+        let from_centre = Vector3::new(p.x, p.y, p.z - height);
+        let foot = -from_centre.dot(u);
+        let radial = from_centre + u * foot;
         let remainder = T::one() - radial.norm_squared();
         // Where side and ball meet, rounding may find a line outside both: a hair's breadth.
-        if !(remainder >= -T::EPSILON * T::literal(16.0)) {
+        if !(remainder >= -T::EPSILON * T::literal(16.0) && root >= T::zero()) {
             return None;
         }
-        let half_chord = remainder.max(T::zero()).root() * side;
-        Some((along + half_chord * self.radius, radial + line.direction * half_chord))
+        let half_chord = remainder.max(T::zero()).root();
+        let mut normal = radial - u * half_chord;
+        let mut point = normal * self.radius;
+        point.z += height * self.radius;
+        // The normal would keep the error of the place.
+        normal.z = select_unpredictable(z.abs() <= half_length, T::zero(), normal.z);
+        Some(LocalEntry { along: (foot - half_chord) * self.radius, point, normal })
     }
 }
 
 impl<T: Real> ActiveSurface<T> for Capsule<T> {
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
-        let (start, along) = foot(line, &self.axis.origin);
-        let (Some(entry), Some(exit)) = (self.end(line, &start, -T::one()), self.end(line, &start, T::one()))
-        else {
-            return;
-        };
-        for (t, normal) in [entry, exit] {
-            visit(Crossing {
-                along: along + t,
-                point: self.axis.origin + start + line.direction * t,
-                normal,
-                active: true,
-            });
-        }
+        let local = self.axis.localise(line, T::zero());
+        self.axis.both_ends(&local, T::zero(), |line| self.entry(line), |_, crossing| visit(crossing));
+    }
+
+    #[inline(always)]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let line = push.line();
+        let local = self.axis.localise(&line, T::zero());
+        let crossing = |entry: LocalEntry<T>| self.axis.crossing(&local, T::zero(), &entry, true);
+        self.entry(&local).map(|entry| Entry::at(&crossing(entry), &line.direction))
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
@@ -141,6 +132,15 @@ impl<T: Real> ActiveSurface<T> for Capsule<T> {
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         let outward = self.off_segment(&(point - self.axis.origin));
         unit_or(&outward, || self.axis.outward(&Vector3::zeros()))
+    }
+
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        let height = (point - self.axis.origin).dot(&self.axis.direction);
+        if height.abs() <= self.half_length {
+            return self.axis.outside_by(point, self.radius);
+        }
+        let end = self.half_length.copysign(height);
+        self.axis.outside_ball_by(point, end, self.radius)
     }
 
     #[inline]

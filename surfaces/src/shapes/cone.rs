@@ -1,16 +1,16 @@
 //! The cone, open at its wide end.
 
 use fingertip_wrench::{Line, Real};
-use nalgebra::Vector3;
+use nalgebra::{ComplexField, Vector3};
 
-use super::axis::Axis;
+use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
-use crate::numeric::quadratic::roots;
-use crate::numeric::vectors::{foot, is_finite, length};
+use crate::numeric::twofold::Twofold;
+use crate::numeric::vectors::{foot, is_finite, length, unit_or};
 #[cfg(feature = "serde")]
 use crate::numeric::vectors::{from_degrees, to_degrees};
 use crate::serde_parts::serde_parts;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine};
 
 /// The side of a circular cone, unbounded or active down to a depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +20,8 @@ pub struct Cone<T: Real> {
     half_angle: T,
     sine: T,
     cosine: T,
+    /// What rounding took from `sine/cosine`, for a type narrower than `f64`.
+    tangent_rest: T,
     depth: Option<T>,
 }
 
@@ -39,11 +41,13 @@ impl<T: Real> Cone<T> {
             "between 0 and a right angle",
             half_angle > T::zero() && half_angle < T::frac_pi_2() && sine >= least && cosine >= least,
         )?;
+        let tangent = ComplexField::tan(half_angle.to_f64());
         Ok(Self {
-            axis: Axis {
-                origin: BadShape::check_point("cone", "apex", apex)?,
-                direction: BadShape::check_direction("cone", "axis", axis)?,
-            },
+            tangent_rest: T::literal(tangent - (sine / cosine).to_f64()),
+            axis: Axis::new(
+                BadShape::check_point("cone", "apex", apex)?,
+                BadShape::check_direction("cone", "axis", axis)?,
+            ),
             half_angle,
             sine,
             cosine,
@@ -103,35 +107,41 @@ impl<T: Real> Cone<T> {
         let distance = length(&from_apex);
         Distance { distance, normal: if distance > T::zero() { from_apex / distance } else { normal } }
     }
+
+    /// Where a line enters, seen from the apex.
+    #[inline(always)]
+    fn entry(&self, line: &Local<T>) -> Option<LocalEntry<T>> {
+        let along = line.enters_cone(self.cosine, line.start.z * self.sine, -line.direction.z * self.sine);
+        let point = line.at(along);
+        // Of the two cones that meet at the apex, the right one.
+        if !(point.z >= T::zero() && along.abs() < T::GREATEST) {
+            return None;
+        }
+        let outward = unit_or(&Vector3::new(point.x, point.y, T::zero()), Vector3::x);
+        Some(LocalEntry { along, point, normal: outward * self.cosine - Vector3::z() * self.sine })
+    }
 }
 
 impl<T: Real> ActiveSurface<T> for Cone<T> {
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
-        let (from_apex, along) = foot(line, &self.axis.origin);
-        let (height, across) = self.axis.split(&from_apex);
-        let (rise, drift) = self.axis.split_direction(line);
-        // |radius|·cos − |height|·sin and + of the line's point and of its direction: products of
-        // these instead of differences of squares keep the digits near the side.
-        let (r, d) = (across.norm_squared().root(), drift.norm_squared().root());
-        let (s, k) = (self.sine, self.cosine);
-        let a = (d * k - rise.abs() * s) * (d * k + rise.abs() * s);
-        let b = across.dot(&drift) * k * k - height * rise * s * s;
-        let c = (r * k - height.abs() * s) * (r * k + height.abs() * s);
-        let Some(ends) = roots(a, b, c) else { return };
-        for t in ends {
-            let depth = height + t * rise;
-            let radial = across + drift * t;
-            if !(depth >= T::zero()) || !(t.abs() < T::GREATEST) {
-                continue;
-            }
-            visit(Crossing {
-                along: along + t,
-                point: self.axis.origin + from_apex + line.direction * t,
-                normal: self.side_normal(&radial),
-                active: self.is_active(depth),
-            });
-        }
+        let local = self.axis.localise(line, T::zero());
+        self.axis.both_ends(
+            &local,
+            T::zero(),
+            |line| self.entry(line),
+            |entry, crossing| visit(Crossing { active: self.is_active(entry.point.z), ..crossing }),
+        );
+    }
+
+    #[inline(always)]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let line = push.line();
+        let local = self.axis.localise(&line, T::zero());
+        self.entry(&local).map(|entry| {
+            let active = self.is_active(entry.point.z);
+            Entry::at(&self.axis.crossing(&local, T::zero(), &entry, active), &line.direction)
+        })
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
@@ -146,6 +156,11 @@ impl<T: Real> ActiveSurface<T> for Cone<T> {
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         self.side_normal(&self.axis.split_point(point).1)
+    }
+
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        let taper = Twofold::difference(-self.sine / self.cosine, self.tangent_rest);
+        self.axis.outside_cone_by(point, T::zero(), taper, self.cosine)
     }
 
     #[inline]

@@ -77,7 +77,7 @@ impl<T: Real> Cylinder<T> {
 
     #[inline]
     fn around(&self) -> Axis<T> {
-        Axis { origin: self.centre, direction: self.axis }
+        Axis::new(self.centre, self.axis)
     }
 
     #[inline]

@@ -53,6 +53,12 @@ impl<T: Real> Ellipsoid<T> {
         self.semi_axes
     }
 
+    /// Their reciprocals \[1/m\].
+    #[inline]
+    pub(crate) const fn curvatures(&self) -> Vector3<T> {
+        self.curvatures
+    }
+
     #[inline]
     fn chord(&self, line: &Line<T>) -> Option<Chord<T>> {
         let point = line.point.component_mul(&self.curvatures);

@@ -6,7 +6,8 @@ use nalgebra::Vector3;
 use crate::numeric::closest::{from_distance, to_convex};
 use crate::numeric::ellipse::closest_point;
 use crate::numeric::interval::{End, Inside};
-use crate::numeric::vectors::{foot, hypotenuse, is_finite, unit_or};
+use crate::numeric::twofold::Twofold;
+use crate::numeric::vectors::{foot, hypotenuse, is_finite, unit_or, within_range};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance};
 
@@ -121,6 +122,7 @@ impl<T: Real> EllipticCylinder<T> {
     }
 
     fn distance(&self, point: &Vector3<T>) -> Distance<T> {
+        let point = &within_range(point);
         let side = self.side_distance(point);
         let CylinderEnds::Capped(half) = self.ends else { return side };
         let beyond = point.z.abs() - half;
@@ -189,6 +191,19 @@ impl<T: Real> ActiveSurface<T> for EllipticCylinder<T> {
             CylinderEnds::Capped(_) => self.distance(point).normal,
             _ => self.side_normal(point.x * self.curvatures[0], point.y * self.curvatures[1]),
         }
+    }
+
+    /// Of the side, `(x²/a² + y²/b² − 1)` over the length of its gradient.
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        if let CylinderEnds::Capped(half) = self.ends
+            && point.z.abs() >= half
+        {
+            return point.z.abs() - half;
+        }
+        let ([a, b], [ca, cb]) = (self.semi_axes, self.curvatures);
+        let (x, y) = (Twofold::new(point.x).over(a), Twofold::new(point.y).over(b));
+        let excess = x.squared().plus(y.squared()).minus(Twofold::new(T::one())).value();
+        excess / (hypotenuse(x.value() * ca, y.value() * cb) * T::literal(2.0))
     }
 
     #[inline]

@@ -1,15 +1,16 @@
 //! The cone or truncated cone, closed at its ends.
 
+use core::hint::select_unpredictable;
+
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use super::axis::Axis;
+use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
-use crate::numeric::interval::{End, Inside};
-use crate::numeric::quadratic::roots;
-use crate::numeric::vectors::{foot, hypotenuse};
+use crate::numeric::twofold::{Twofold, difference, dot_with};
+use crate::numeric::vectors::{hypotenuse, unit_or};
 use crate::serde_parts::serde_parts;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, SignedDistance};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
 /// A truncated circular cone with flat ends, all of it active; with one radius zero, a closed
 /// cone; with equal radii, a closed cylinder.
@@ -51,10 +52,10 @@ impl<T: Real> Frustum<T> {
         let taper = (base_radius - top_radius) / height;
         BadShape::check(shape, "height", "not negligible against the radii", taper.is_number())?;
         Ok(Self {
-            axis: Axis {
-                origin: BadShape::check_point(shape, "base centre", base_centre)?,
-                direction: BadShape::check_direction(shape, "axis", axis)?,
-            },
+            axis: Axis::new(
+                BadShape::check_point(shape, "base centre", base_centre)?,
+                BadShape::check_direction(shape, "axis", axis)?,
+            ),
             height,
             base_radius,
             top_radius,
@@ -98,71 +99,87 @@ impl<T: Real> Frustum<T> {
         self.top_radius
     }
 
+    /// By how much the radius shrinks per height.
+    #[inline]
+    pub(crate) const fn taper(&self) -> T {
+        self.taper
+    }
+
+    /// Cosine of the angle between the side and the axis.
+    #[inline]
+    pub(crate) const fn side_cosine(&self) -> T {
+        self.side_cosine
+    }
+
     #[inline]
     fn side_normal(&self, across: &Vector3<T>) -> Vector3<T> {
         (self.axis.outward(across) + self.axis.direction * self.taper) * self.side_cosine
     }
 
-    /// The part of a line inside the infinite cone, `start` being its point with position zero.
-    #[inline]
-    fn inside_cone(&self, line: &Line<T>, start: &Vector3<T>) -> Option<Inside<T>> {
-        let (height, across) = self.axis.split_point(start);
-        let (rise, drift) = self.axis.split_direction(line);
-        let radius = self.base_radius - self.taper * height;
-        let shrink = self.taper * rise;
-        // |across + t·drift|² − (radius − t·shrink)², negative inside. Adding zero makes −0 to 0.
-        let (drift_length, across_length) = (drift.norm_squared().root(), across.norm_squared().root());
-        let a = (drift_length - shrink.abs()) * (drift_length + shrink.abs()) + T::zero();
-        let b = across.dot(&drift) + radius * shrink;
-        let c = (across_length - radius.abs()) * (across_length + radius.abs());
-        let far = T::GREATEST;
-        let [first, second] = match roots(a, b, c) {
-            // Along the axis of a cylinder.
-            _ if a == T::zero() && b == T::zero() => {
-                if !(c <= T::zero()) {
-                    return None;
-                }
-                [-far, far]
-            }
-            Some(ends) => ends,
-            // Steeper than the side, a line always meets the cone: at the apex, here.
-            None if a < T::zero() => [-b / a, -b / a],
-            None => return None,
-        };
-        let (entry, exit) = if a >= T::zero() {
-            (first, second)
-        } else if shrink < T::zero() {
-            (second, far)
+    /// Where a line enters, seen from the middle: through the end that it comes from, or else through
+    /// the side. Which of them cannot be foretold, so both are computed and nothing branches on it.
+    #[inline(always)]
+    fn entry(&self, line: &Local<T>) -> Option<LocalEntry<T>> {
+        let (p, u) = (&line.start, &line.direction);
+        let half = self.height * T::literal(0.5);
+        let middle_radius = (self.base_radius + self.top_radius) * T::literal(0.5);
+        let end = half.copysign(-u.z);
+        let radius = middle_radius - self.taper * end;
+        // Parallel to the ends, this is infinite or NaN, and the test fails.
+        let to_end = (end - p.z) / u.z;
+        let (x, y) = (p.x + to_end * u.x, p.y + to_end * u.y);
+        let through_end = x * x + y * y <= radius * radius;
+        let is_cylinder = self.taper == T::zero();
+        let to_side = if is_cylinder {
+            line.enters_cylinder(middle_radius)
         } else {
-            (-far, first)
+            line.enters_cone(T::one(), middle_radius - self.taper * p.z, self.taper * u.z)
         };
-        let (entry, exit) = (entry.max(-far), exit.min(far));
-        // Of the two cones that meet at the apex, the right one.
-        let witness = if entry > -far { entry } else { exit };
-        if !(radius - witness * shrink >= -self.base_radius.max(self.top_radius) * T::EPSILON.root()) {
+        let along = select_unpredictable(through_end, to_end, to_side);
+        let z = select_unpredictable(through_end, end, p.z + to_side * u.z);
+        // Where side and end meet, rounding may find a line outside both: a hair's breadth.
+        let hair = (half + middle_radius) * (T::EPSILON * T::literal(16.0));
+        if !(z.abs() <= half + hair) {
             return None;
         }
-        let end = |along: T| End { along, normal: self.side_normal(&(across + drift * along)), active: true };
-        Some(Inside { entry: end(entry), exit: end(exit) })
+        let (x, y) = (p.x + along * u.x, p.y + along * u.y);
+        let squared = x * x + y * y;
+        let steep = select_unpredictable(through_end, T::zero(), self.side_cosine);
+        let normal = if is_cylinder {
+            let scale = steep / middle_radius;
+            Vector3::new(x * scale, y * scale, T::zero())
+        } else if squared > T::LEAST_NORMAL / T::EPSILON {
+            let scale = steep / squared.root();
+            Vector3::new(x * scale, y * scale, self.taper * steep)
+        } else {
+            // At the apex.
+            let outward = unit_or(&Vector3::new(x, y, T::zero()), Vector3::x);
+            (outward + Vector3::z() * self.taper) * steep
+        };
+        let flat = select_unpredictable(through_end, T::one().copysign(end), T::zero());
+        Some(LocalEntry {
+            along,
+            point: Vector3::new(x, y, z),
+            normal: Vector3::new(normal.x, normal.y, normal.z + flat),
+        })
     }
 }
 
 impl<T: Real> ActiveSurface<T> for Frustum<T> {
     #[inline]
-    fn crossings(&self, line: &Line<T>, visit: impl FnMut(Crossing<T>)) {
-        let middle = self.axis.origin + self.axis.direction * (self.height * T::literal(0.5));
-        let (from_middle, along) = foot(line, &middle);
-        let start = middle + from_middle;
-        let axis = self.axis.direction;
-        let slope = line.direction.dot(&axis);
-        let height = (start - self.axis.origin).dot(&axis);
-        let inside = self
-            .inside_cone(line, &start)
-            .and_then(|inside| inside.below(self.height, height, slope, axis, true))
-            .and_then(|inside| inside.below(T::zero(), -height, -slope, -axis, true));
-        if let Some(inside) = inside {
-            inside.report(line, &start, along, visit);
-        }
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        let middle = self.height * T::literal(0.5);
+        let local = self.axis.localise(line, middle);
+        self.axis.both_ends(&local, middle, |line| self.entry(line), |_, crossing| visit(crossing));
+    }
+
+    #[inline(always)]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let middle = self.height * T::literal(0.5);
+        let line = push.line();
+        let local = self.axis.localise(&line, middle);
+        let crossing = |entry: LocalEntry<T>| self.axis.crossing(&local, middle, &entry, true);
+        self.entry(&local).map(|entry| Entry::at(&crossing(entry), &line.direction))
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
@@ -172,6 +189,17 @@ impl<T: Real> ActiveSurface<T> for Frustum<T> {
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         self.signed_distance(point).normal
+    }
+
+    /// Outside the side or the nearer end, whichever it is on.
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        let taper = Twofold::difference(self.base_radius, self.top_radius).over(self.height);
+        let side = self.axis.outside_cone_by(point, self.base_radius, taper, self.side_cosine);
+        let from_base = difference(point, &self.axis.origin);
+        let height = dot_with(from_base, &self.axis.direction);
+        let over_top = height.minus(Twofold::new(self.height)).value();
+        let end = over_top.max(-height.value());
+        if end.abs() < side.abs() { end } else { side }
     }
 
     #[inline]

@@ -5,9 +5,10 @@ use nalgebra::Vector3;
 
 use crate::numeric::closest::to_convex;
 use crate::numeric::roots::first_of_convex;
+use crate::numeric::twofold::{Twofold, dot};
 use crate::numeric::vectors::{foot, length, unit_or};
 use crate::serde_parts::serde_parts;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, SignedDistance};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
 /// A box about the origin, its edges along x, y and z and rounded; [`Posed`](crate::Posed) puts it
 /// elsewhere.
@@ -52,24 +53,53 @@ impl<T: Real> RoundedBox<T> {
     pub const fn rounding(&self) -> T {
         self.rounding
     }
+
+    /// Where a line comes in: through a flat face, which one division tells, or else over an edge or
+    /// a corner. There the distance is convex along the line and smooth: Newton's method from
+    /// outside takes a few steps and cannot miss.
+    #[inline]
+    fn entry(&self, start: &Vector3<T>, direction: &Vector3<T>) -> Option<T> {
+        let (mut along, mut face) = (-T::GREATEST, 0);
+        for k in 0..3 {
+            let t = (-self.half_extents[k].copysign(direction[k]) - start[k]) / direction[k];
+            if t > along {
+                (along, face) = (t, k);
+            }
+        }
+        let point = start + direction * along;
+        if (0..3).all(|k| k == face || point[k].abs() <= self.core[k]) {
+            return Some(along);
+        }
+        first_of_convex(-self.bounds().1 * T::literal(1.001), T::one(), |t| {
+            let found = self.signed_distance(&(start + direction * t));
+            (found.distance, found.normal.dot(direction))
+        })
+    }
+
+    #[inline]
+    fn crossing(&self, start: &Vector3<T>, direction: &Vector3<T>, t: T, along: T) -> Crossing<T> {
+        let point = start + direction * t;
+        Crossing { along, point, normal: self.normal(&point), active: true }
+    }
 }
 
 impl<T: Real> ActiveSurface<T> for RoundedBox<T> {
-    /// The distance is convex along the line, and made of straight pieces and square roots: Newton's
-    /// method from outside takes a few steps and cannot miss.
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let (start, along) = foot(line, &Vector3::zeros());
-        let reach = self.bounds().1 * T::literal(1.001);
-        let distance = |t: T| {
-            let found = self.signed_distance(&(start + line.direction * t));
-            (found.distance, found.normal.dot(&line.direction))
-        };
-        let Some(entry) = first_of_convex(-reach, T::one(), distance) else { return };
-        let Some(exit) = first_of_convex(reach, -T::one(), distance) else { return };
-        for t in [entry, exit] {
-            let point = start + line.direction * t;
-            visit(Crossing { along: along + t, point, normal: self.normal(&point), active: true });
+        let (forth, back) = (line.direction, -line.direction);
+        if let Some(t) = self.entry(&start, &forth) {
+            visit(self.crossing(&start, &forth, t, along + t));
         }
+        if let Some(t) = self.entry(&start, &back) {
+            visit(self.crossing(&start, &back, t, along - t));
+        }
+    }
+
+    #[inline]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let line = push.line();
+        let t = self.entry(&line.point, &line.direction)?;
+        Some(Entry::at(&self.crossing(&line.point, &line.direction, t, t), &line.direction))
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
@@ -79,6 +109,30 @@ impl<T: Real> ActiveSurface<T> for RoundedBox<T> {
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         self.signed_distance(point).normal
+    }
+
+    /// From the nearest point of the sharp box within: a plane's, a cylinder's or a ball's distance.
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        let scale = self.half_extents.max().normalising_factor();
+        let rounding = Twofold::new(self.rounding * scale);
+        // What a coordinate exceeds the inner box by, and whether it is beyond at all.
+        let beyond = |k: usize| {
+            let half = self.half_extents[k] * scale;
+            let excess = Twofold::difference(point[k].abs() * scale, half).plus(rounding);
+            (excess, excess.value() > T::zero())
+        };
+        match [beyond(0), beyond(1), beyond(2)] {
+            [(x, true), (_, false), (_, false)]
+            | [(_, false), (x, true), (_, false)]
+            | [(_, false), (_, false), (x, true)] => x.minus(rounding).value() / scale,
+            three => {
+                let part = |(x, out): (Twofold<T>, bool)| if out { x } else { Twofold::new(T::zero()) };
+                let [x, y, z] = three.map(part);
+                let excess = dot([x, y, z], [x, y, z]).minus(rounding.squared()).value();
+                let outside = excess / (rounding.value() + rounding.value()) / scale;
+                if outside.is_number() { outside } else { T::zero() }
+            }
+        }
     }
 
     fn contains(&self, point: &Vector3<T>) -> bool {

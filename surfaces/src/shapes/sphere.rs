@@ -49,6 +49,12 @@ impl<T: Real> Sphere<T> {
         self.radius
     }
 
+    /// Its reciprocal \[1/m\].
+    #[inline]
+    pub(crate) const fn curvature(&self) -> T {
+        self.curvature
+    }
+
     /// From the centre to the point of the line closest to it, in radii, and that point's position
     /// along the line \[m\].
     #[inline]

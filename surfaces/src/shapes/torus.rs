@@ -111,6 +111,8 @@ impl<T: Real> ActiveSurface<T> for Torus<T> {
         }
     }
 
+    /// By a search: the gap may be too large by 1/64 of the solid's reach where two places of the line
+    /// are nearly equally near.
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let (centre, reach) = self.bounds();
         by_search(line, &centre, reach, |point| self.signed_distance(point))

@@ -1,13 +1,13 @@
 //! Shapes whose level function is a distance.
 
 use fingertip_wrench::Real;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::ActiveSurface;
 use crate::numeric::vectors::{hypotenuse, length, unit_or};
 use crate::{
-    Capsule, Cone, Cylinder, Extent, Level, Plane, RoundedBox, SmoothSurface, Sphere, SphericalCap, Topology,
-    Torus,
+    CappedCylinder, Capsule, Cone, Cylinder, Extent, Frustum, Level, Plane, RoundedBox, SignedDistance,
+    SmoothSurface, Sphere, SphericalCap, Topology, Torus,
 };
 
 impl<T: Real> SmoothSurface<T> for Sphere<T> {
@@ -34,6 +34,11 @@ impl<T: Real> SmoothSurface<T> for Sphere<T> {
     fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
         let normal = self.normal(point);
         (Matrix3::identity() - normal * normal.transpose()) / self.radius()
+    }
+
+    #[inline]
+    fn bend(&self, _point: &Vector3<T>, _normal: &Vector3<T>, _tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        Matrix2::from_diagonal_element(self.curvature())
     }
 }
 
@@ -116,6 +121,50 @@ impl<T: Real> SmoothSurface<T> for Cone<T> {
 
     fn extent(&self) -> Extent<T> {
         Extent { centre: self.apex(), radius: T::one() }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
+    }
+}
+
+/// The side; the flat ends are not part of the level function.
+impl<T: Real> SmoothSurface<T> for Frustum<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let axis = self.axis();
+        let (taper, cosine) = (self.taper(), self.side_cosine());
+        let from_base = point - self.base_centre();
+        let height = from_base.dot(&axis);
+        let across = from_base - axis * height;
+        let radius = length(&across);
+        let outward = unit_or(&across, || crate::numeric::vectors::any_perpendicular(&axis));
+        let flat = Matrix3::identity() - outward * outward.transpose() - axis * axis.transpose();
+        let bend = cosine / radius;
+        Level {
+            value: (radius - self.base_radius() + taper * height) * cosine,
+            gradient: (outward + axis * taper) * cosine,
+            hessian: if bend.is_number() { flat * bend } else { Matrix3::zeros() },
+        }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let (centre, radius) = self.bounds();
+        Extent { centre, radius }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
+    }
+}
+
+/// The side; the flat ends are not part of the level function.
+impl<T: Real> SmoothSurface<T> for CappedCylinder<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        self.solid().level(point)
+    }
+
+    fn extent(&self) -> Extent<T> {
+        self.solid().extent()
     }
 
     fn topology(&self) -> Topology {

@@ -2,7 +2,7 @@
 //! from the centre) or a polynomial.
 
 use fingertip_wrench::Real;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::numeric::vectors::length;
 use crate::{
@@ -23,7 +23,18 @@ fn elliptic_gauge<T: Real>(point: &Vector3<T>, curvatures: &Vector3<T>) -> Level
 impl<T: Real> SmoothSurface<T> for Ellipsoid<T> {
     #[inline]
     fn level(&self, point: &Vector3<T>) -> Level<T> {
-        elliptic_gauge(point, &self.semi_axes().map(|a| T::one() / a))
+        elliptic_gauge(point, &self.curvatures())
+    }
+
+    /// `eᵀA⁻²e/|A⁻²c|`.
+    #[inline]
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        let curvatures = self.curvatures();
+        // |g| = g·n, without squares.
+        let inverse = T::one() / point.component_mul(&curvatures).dot(&normal.component_mul(&curvatures));
+        let [e1, e2] = tangents.map(|e| e.component_mul(&curvatures));
+        let mixed = e1.dot(&e2) * inverse;
+        Matrix2::new(e1.norm_squared() * inverse, mixed, mixed, e2.norm_squared() * inverse)
     }
 
     fn extent(&self) -> Extent<T> {
@@ -95,22 +106,27 @@ impl<T: Real> Norm<T> {
             return Self { value: T::zero(), first: [T::zero(); 2], second: [T::zero(); 3] };
         }
         let (x, y) = (x / greatest, y / greatest);
-        let relative = (x.powf(p) + y.powf(p)).powf(T::one() / p);
+        let (xp, yp) = (x.powf(p), y.powf(p));
+        let sum = xp + yp;
+        let relative = sum.powf(T::one() / p);
         let value = relative * greatest;
+        // (x/N)^p and (y/N)^p add up to 1; lower powers follow by dividing.
         let (x, y) = (x / relative, y / relative);
-        let (dx, dy) = (x.powf(p - T::one()), y.powf(p - T::one()));
+        let (xp, yp) = (xp / sum, yp / sum);
+        let over = |power: T, own: T| if own > T::zero() { power / own } else { T::zero() };
+        let flat = p - T::one();
+        let (dx, dy) = if flat > T::zero() { (over(xp, x), over(yp, y)) } else { (T::one(), T::one()) };
         let least = T::EPSILON;
-        let two = T::one() + T::one();
-        let steep = |own: T, other: T| {
+        let steep = |own: T, power: T, other: T| {
             // (p − 1)/N · (x/N)^(p−2) · (y/N)^p
-            own.max(least).powf(p - two) * other.powf(p)
+            if own > least { power / (own * own) * other } else { least.powf(flat - T::one()) * other }
         };
-        let factor = (p - T::one()) / value;
+        let factor = flat / value;
         let (sa, sb) = (T::one().copysign(a), T::one().copysign(b));
         Self {
             value,
             first: [dx * sa, dy * sb],
-            second: [factor * steep(x, y), -factor * dx * dy * sa * sb, factor * steep(y, x)],
+            second: [factor * steep(x, xp, yp), -factor * dx * dy * sa * sb, factor * steep(y, yp, xp)],
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Surfaces that know their curvature.
 
 use fingertip_wrench::Real;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::ActiveSurface;
 
@@ -92,6 +92,18 @@ pub trait SmoothSurface<T: Real>: ActiveSurface<T> {
     fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
         self.level(point).shape_operator()
     }
+
+    /// The shape operator in the tangent plane at a point of the surface: its matrix \[1/m\] in two
+    /// unit vectors that span the plane across the normal there. All that a covariance needs.
+    #[inline]
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        let level = self.level(point);
+        let inverse = T::one() / level.gradient.dot(normal);
+        let [e1, e2] = tangents;
+        let (w1, w2) = (level.hessian * e1, level.hessian * e2);
+        let mixed = e1.dot(&w2) * inverse;
+        Matrix2::new(e1.dot(&w1) * inverse, mixed, mixed, e2.dot(&w2) * inverse)
+    }
 }
 
 impl<T: Real, S: SmoothSurface<T>> SmoothSurface<T> for &S {
@@ -113,6 +125,11 @@ impl<T: Real, S: SmoothSurface<T>> SmoothSurface<T> for &S {
     #[inline]
     fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
         (**self).shape_operator(point)
+    }
+
+    #[inline]
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        (**self).bend(point, normal, tangents)
     }
 }
 

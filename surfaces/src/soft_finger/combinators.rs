@@ -1,10 +1,12 @@
 //! Shapes made of shapes.
 
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::{Matrix3, Vector3};
 
+use crate::combinators::is_inside_along;
 use crate::{
-    Extent, Level, Posed, Region, Search, SmoothSurface, SoftContact, SoftFingerSurface, Topology, Trimmed,
+    ActiveSurface, Compound, Extent, Level, Offset, Posed, Region, Search, SignedDistance, SmoothSurface,
+    SoftContact, SoftFingerSurface, Topology, Trimmed, newton_soft_contacts,
 };
 
 impl<T: Real, S: SmoothSurface<T>> SmoothSurface<T> for Posed<T, S> {
@@ -47,10 +49,7 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
     ) -> Search<T> {
         let pose = self.sensor_from_shape();
         let (rotation, origin) = (pose.rotation(), pose.origin());
-        let inside = Wrench::on_fingertip(
-            rotation.tr_mul(&wrench.force()),
-            rotation.tr_mul(&wrench.torque_about(&origin)),
-        );
+        let inside = inward(self, wrench);
         let last = last.map(|last| rotation.tr_mul(&(last - origin)));
         let search = self.inner().soft_contacts(&inside, last.as_ref(), |contact| {
             visit(SoftContact {
@@ -64,6 +63,28 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
             other => other,
         }
     }
+
+    #[inline]
+    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+        let contact = self.inner().sole_soft_contact(&inward(self, wrench))?;
+        let (rotation, origin) = (self.sensor_from_shape().rotation(), self.sensor_from_shape().origin());
+        Some(SoftContact {
+            point: rotation * contact.point + origin,
+            normal: rotation * contact.normal,
+            ..contact
+        })
+    }
+}
+
+/// A wrench as the shape inside the pose sees it.
+#[inline]
+fn inward<T: Real, S>(posed: &Posed<T, S>, wrench: &Wrench<T>) -> Wrench<T> {
+    let pose = posed.sensor_from_shape();
+    let rotation = pose.rotation();
+    Wrench::on_fingertip(
+        rotation.tr_mul(&wrench.force()),
+        rotation.tr_mul(&wrench.torque_about(&pose.origin())),
+    )
 }
 
 impl<T: Real, S: SmoothSurface<T>, R: Region<T>> SmoothSurface<T> for Trimmed<S, R> {
@@ -99,5 +120,82 @@ impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Tr
                 ..contact
             });
         })
+    }
+}
+
+/// `true` if a contact of one part lies inside another part, or on the seam and is not its own.
+pub(crate) fn is_covered<T: Real>(part: &impl ActiveSurface<T>, contact: &SoftContact<T>, tie: bool) -> bool {
+    let line = Line { point: contact.point, direction: contact.normal };
+    is_inside_along(part, &line, T::zero(), &contact.point, tie)
+}
+
+/// What is known of a union from what is known of two parts; `seen` if there was a contact.
+pub(crate) fn of_both<T: Real>(first: Search<T>, second: Search<T>, seen: bool) -> Search<T> {
+    match (first, second) {
+        (Search::Incomplete, _) | (_, Search::Incomplete) => Search::Incomplete,
+        (Search::Grazing(pair), _) | (_, Search::Grazing(pair)) if !seen => Search::Grazing(pair),
+        _ => Search::Complete,
+    }
+}
+
+/// The contacts of both parts that do not lie inside the other. On the seam, which is a groove,
+/// nothing flat can touch.
+impl<T: Real, A: SoftFingerSurface<T>, B: SoftFingerSurface<T>> SoftFingerSurface<T> for Compound<A, B> {
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        last: Option<&Vector3<T>>,
+        mut visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        let (first, second) = self.parts();
+        let mut seen = false;
+        let of_first = first.soft_contacts(wrench, last, |contact| {
+            if !is_covered(second, &contact, true) {
+                seen = true;
+                visit(contact);
+            }
+        });
+        let of_second = second.soft_contacts(wrench, last, |contact| {
+            if !is_covered(first, &contact, false) {
+                seen = true;
+                visit(contact);
+            }
+        });
+        of_both(of_first, of_second, seen)
+    }
+}
+
+/// The distance, with the curvature of the parallel surface, `W/(1 + δW)` at the distance `δ` over
+/// a point of the inner surface with the shape operator `W`.
+impl<T: Real, S: SmoothSurface<T> + SignedDistance<T>> SmoothSurface<T> for Offset<T, S> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let found = self.inner().signed_distance(point);
+        let bend = self.inner().shape_operator(&(point - found.normal * found.distance));
+        let spread = (Matrix3::identity() + bend * found.distance).try_inverse();
+        Level {
+            value: found.distance - self.distance(),
+            gradient: found.normal,
+            hessian: spread.map_or_else(Matrix3::zeros, |spread| bend * spread),
+        }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let (centre, radius) = self.bounds();
+        Extent { centre, radius }
+    }
+
+    fn topology(&self) -> Topology {
+        if S::CONVEX { Topology::Convex } else { self.inner().topology() }
+    }
+}
+
+impl<T: Real, S: SmoothSurface<T> + SignedDistance<T>> SoftFingerSurface<T> for Offset<T, S> {
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        last: Option<&Vector3<T>>,
+        visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        newton_soft_contacts(self, wrench, last, visit)
     }
 }

@@ -30,6 +30,24 @@ impl<T: Real, S: SmoothSurface<T>> Problem<'_, T, S> {
         self.follow(start, spin)
     }
 
+    /// The contact, if Newton finds it from where it would be if the surface were the ball around it.
+    pub(super) fn starting_on_ball(&self) -> Option<State<T>> {
+        let direction = direction_on_ball(&self.force, &self.torque);
+        // Onto the surface along the ray from the centre, roughly.
+        let mut place = self.place(direction * self.reach)?;
+        for _ in 0..2 {
+            let drop = place.height / place.normal.dot(&direction);
+            if !(drop.abs() > T::literal(0.05)) {
+                break;
+            }
+            place = self.place(place.point - direction * drop)?;
+        }
+        let state = self.newton(place, self.spin_at(&place)?, &self.torque, 12)?;
+        // What a level function does beyond its extent is not known.
+        let near = state.place.point.norm_squared() <= self.reach * self.reach * T::literal(1.01);
+        (state.converged && near && self.presses(&state)).then_some(state)
+    }
+
     fn follow(&self, start: Place<T>, spin: T) -> Option<State<T>> {
         let half = T::literal(0.5);
         let torque_at_start = start.point.cross(&self.force) + start.normal * spin;

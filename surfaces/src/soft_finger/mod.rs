@@ -1,16 +1,24 @@
 //! Contact with a spin torque about the normal: the soft finger.
 
-mod combinators;
+pub(crate) mod combinators;
 mod cone;
 mod convex;
 mod cylinder;
 mod ellipsoid;
+mod frustum;
+#[cfg(feature = "alloc")]
+mod heightfield;
+#[cfg(feature = "alloc")]
+mod mesh;
 mod model;
 pub(crate) mod newton;
 mod plane;
+mod revolution;
+mod rim;
 mod search;
 mod shapes;
 mod solution;
+mod torus;
 mod unit_sphere;
 
 pub use model::SoftFinger;

@@ -3,6 +3,7 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
+use crate::numeric::vectors::{is_tame, larger, largest, length};
 use crate::{BadShape, Contact, ContactModel, NoContact, Resolution, Search, SoftContact, SoftFingerSurface};
 
 /// A contact that transmits a force and a torque about the normal: `m = c × f + τ n`, `c` on the
@@ -15,6 +16,10 @@ use crate::{BadShape, Contact, ContactModel, NoContact, Resolution, Search, Soft
 /// On a convex surface there is at most one such point; a shape that is not convex may have
 /// several, and [`Contact::alternatives`] counts the others. Then the one nearest to the last
 /// contact is taken if one is given, otherwise the one where the force presses most squarely.
+///
+/// Where a body has a round edge of no thickness, a corner or a tip, a contact there has a normal
+/// between those of the faces that meet, such that something flat could touch. Meshes and heightfields
+/// are taken for the bodies of facets that they are.
 ///
 /// Against [`PointContact`](crate::PointContact): it is right where there is a spin torque, and
 /// noisier where there is none, since it takes every torque along the force for spin (theory 3.4;
@@ -50,13 +55,6 @@ impl<T: Real> SoftFinger<T> {
     }
 }
 
-/// Magnitude without over- or underflow, and the factor that brings the vector near 1.
-#[inline]
-pub(crate) fn magnitude<T: Real>(v: &Vector3<T>) -> (T, T) {
-    let scale = v.amax().normalising_factor();
-    ((v * scale).norm_squared().root() / scale, scale)
-}
-
 /// What has been seen of the solutions so far.
 struct Seen<T: Real> {
     best: Option<(SoftContact<T>, T)>,
@@ -68,26 +66,73 @@ struct Seen<T: Real> {
 impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
     #[inline]
     fn resolve_near(&self, wrench: &Wrench<T>, surface: &S, last: Option<&Vector3<T>>) -> Resolution<T> {
-        let (force, scale) = magnitude(&wrench.force());
-        // One test instead of six: a NaN or an infinity survives the sum.
-        let witness = force + wrench.torque().sum();
-        if !witness.is_number() && !wrench.is_finite() {
+        let most_torque = largest(&wrench.torque());
+        if is_tame(largest(&wrench.force())) && (is_tame(most_torque) || most_torque.is_zero()) {
+            let squared = wrench.force().norm_squared();
+            // A NaN may have hidden behind a number.
+            let torque = wrench.torque();
+            if (squared + torque.x + torque.y + torque.z).is_number() {
+                if !(squared >= self.least_force * self.least_force) {
+                    return Resolution::NoContact(NoContact::BelowThreshold { force: squared.root() });
+                }
+                if let Some(contact) = surface.sole_soft_contact(wrench)
+                    && contact.active
+                    && is_in_range(&contact)
+                {
+                    return Resolution::Contact(contact_at(wrench, &contact, contact.spin_torque));
+                }
+                let scaled = Scaled { wrench: *wrench, unit: None };
+                return self.search(wrench, &scaled, surface, last);
+            }
+        }
+        self.resolve_extreme(wrench, surface, last)
+    }
+}
+
+/// A wrench whose squares stay within the range of the type, times a factor if that was needed.
+struct Scaled<T: Real> {
+    wrench: Wrench<T>,
+    unit: Option<T>,
+}
+
+impl<T: Real> SoftFinger<T> {
+    /// Tiny, huge, zero, NaN.
+    #[cold]
+    #[inline(never)]
+    fn resolve_extreme<S: SoftFingerSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        last: Option<&Vector3<T>>,
+    ) -> Resolution<T> {
+        if !wrench.is_finite() {
             return Resolution::NoContact(NoContact::NotFinite);
         }
+        let (force, torque) = (length(&wrench.force()), length(&wrench.torque()));
         if !(force >= self.least_force) || !(force > T::zero()) {
-            let (torque, _) = magnitude(&wrench.torque());
             return Resolution::NoContact(if force > T::zero() || torque.is_zero() {
                 NoContact::BelowThreshold { force }
             } else {
                 NoContact::PureCouple { torque }
             });
         }
-        let direction = wrench.force() * scale;
-        // Bring the larger of force and torque near 1, so that lever arms cannot overflow.
-        let unit = wrench.force().amax().max(wrench.torque().amax()).normalising_factor();
+        let unit = larger(largest(&wrench.force()), largest(&wrench.torque())).normalising_factor();
+        let scaled = *wrench * unit;
+        let scaled = Scaled { wrench: scaled, unit: Some(unit) };
+        self.search(wrench, &scaled, surface, last)
+    }
+
+    fn search<S: SoftFingerSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        scaled: &Scaled<T>,
+        surface: &S,
+        last: Option<&Vector3<T>>,
+    ) -> Resolution<T> {
+        let direction = scaled.wrench.force();
         let mut seen = Seen { best: None, candidates: 0, outside: None, beyond_range: false };
-        let search = surface.soft_contacts(&(*wrench * unit), last, |contact| {
-            if !(contact.point.sum() + contact.normal.sum() + contact.spin_torque).is_number() {
+        let search = surface.soft_contacts(&scaled.wrench, last, |contact| {
+            if !is_in_range(&contact) {
                 seen.beyond_range = true;
                 return;
             }
@@ -109,14 +154,11 @@ impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
             }
         });
         if let Some((contact, _)) = seen.best {
-            return Resolution::Contact(Contact {
-                point: contact.point,
-                normal: contact.normal,
-                force: wrench.force(),
-                spin_torque: (contact.spin_torque / unit).max(-T::GREATEST).min(T::GREATEST),
-                gap: T::zero(),
-                alternatives: seen.candidates - 1,
+            let spin_torque = scaled.unit.map_or(contact.spin_torque, |unit| {
+                (contact.spin_torque / unit).max(-T::GREATEST).min(T::GREATEST)
             });
+            let found = contact_at(wrench, &contact, spin_torque);
+            return Resolution::Contact(Contact { alternatives: seen.candidates - 1, ..found });
         }
         if seen.beyond_range {
             return Resolution::NoContact(NoContact::NotFinite);
@@ -127,6 +169,24 @@ impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
             (Search::Incomplete, _) => NoContact::Unresolved,
             (Search::Complete, _) => why_none(wrench, surface),
         })
+    }
+}
+
+#[inline]
+fn is_in_range<T: Real>(contact: &SoftContact<T>) -> bool {
+    let c = contact.point;
+    (c.x + c.y + c.z + contact.spin_torque).is_number()
+}
+
+#[inline]
+fn contact_at<T: Real>(wrench: &Wrench<T>, found: &SoftContact<T>, spin_torque: T) -> Contact<T> {
+    Contact {
+        point: found.point,
+        normal: found.normal,
+        force: wrench.force(),
+        spin_torque,
+        gap: T::zero(),
+        alternatives: 0,
     }
 }
 

@@ -11,6 +11,8 @@ pub(super) struct Problem<'a, T: Real, S> {
     surface: &'a S,
     centre: Vector3<T>,
     length: T,
+    /// Radius of the extent, in its own units: from 1 to 2.
+    pub(super) reach: T,
     wrench_unit: T,
     pub(super) force: Vector3<T>,
     pub(super) torque: Vector3<T>,
@@ -24,7 +26,7 @@ pub(super) struct Place<T: Real> {
     pub(super) point: Vector3<T>,
     pub(super) normal: Vector3<T>,
     /// Distance from the surface, to first order.
-    height: T,
+    pub(super) height: T,
     /// Two unit vectors that span the tangent plane, `first × second = normal`.
     first: Vector3<T>,
     second: Vector3<T>,
@@ -74,7 +76,16 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
         let wrench_unit = force.amax().max(lever.amax()).normalising_factor();
         let (force, torque) = (force * wrench_unit, lever * wrench_unit);
         let power = force.dot(&torque);
-        Self { surface, centre: extent.centre, length: T::one() / unit, wrench_unit, force, torque, power }
+        Self {
+            surface,
+            centre: extent.centre,
+            length: T::one() / unit,
+            reach: extent.radius * unit,
+            wrench_unit,
+            force,
+            torque,
+            power,
+        }
     }
 
     /// From the sensor frame.
@@ -159,7 +170,7 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
     }
 
     /// Damped Newton from a start, for the torque `torque` instead of the problem's own; at most
-    /// `bound` steps. Each step is halved until the residual falls.
+    /// `bound` steps. Each step is halved until the residual falls, or the next step would.
     pub(super) fn newton(
         &self,
         start: Place<T>,
@@ -181,7 +192,10 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
                 size = half;
             }
             let small = size <= fine;
-            let last = size <= fine * T::literal(0.01) || (small && size + size >= before);
+            // Near its end the step shrinks to `C·size²`; the last two tell `C`. So one step more
+            // than needed is saved where Newton's method converges as it should.
+            let quadratic = size <= before * before * T::literal(4.0) && before < T::one();
+            let last = small && (quadratic || size <= fine * T::literal(0.01) || size + size >= before);
             before = size;
             let mut tries = 6;
             state = loop {
@@ -189,7 +203,11 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
                     .place(state.place.point + shift)
                     .map(|place| self.state(place, state.spin + twist, torque));
                 match next {
-                    Some(next) if small || next.merit < state.merit => break next,
+                    Some(next)
+                        if small || next.merit < state.merit || self.brings_nearer(&state, &next, &shift) =>
+                    {
+                        break next;
+                    }
                     _ if tries == 0 => return None,
                     _ => {
                         tries -= 1;
@@ -204,6 +222,25 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
             }
         }
         Some(state)
+    }
+
+    /// The natural test of a step (Deuflhard 1974): the step that would follow with the same Jacobian
+    /// is no more than half as long. Where the surface is sharply bent one way and straight the other,
+    /// as near the tip of a cone under a large spin torque, the residual says nothing of how far off the
+    /// contact is along the straight way, and may rise on the way to it.
+    #[cold]
+    fn brings_nearer(&self, state: &State<T>, next: &State<T>, shift: &Vector3<T>) -> bool {
+        let place = Place { height: next.place.height, ..state.place };
+        let mixed = State { place, residual: next.residual, ..*state };
+        self.step(&mixed).is_some_and(|(left, _)| left.amax() * (T::one() + T::one()) < shift.amax())
+    }
+
+    /// A contact that is right but for rounding, after one step of Newton's method or two.
+    pub(super) fn polished(&self, contact: &SoftContact<T>) -> Option<SoftContact<T>> {
+        let place = self.place(self.inward(&contact.point))?;
+        let spin = contact.spin_torque * self.wrench_unit / self.length;
+        let state = self.newton(place, spin, &self.torque, 3)?;
+        (state.converged && self.presses(&state)).then(|| self.contact(&state))
     }
 
     /// The spin torque that the force's component along the wrench asks for at a place,

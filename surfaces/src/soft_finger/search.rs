@@ -14,8 +14,9 @@ const MOST: usize = 16;
 /// without a closed form calls from
 /// [`soft_contacts`](crate::SoftFingerSurface::soft_contacts).
 ///
-/// * On a [convex](Topology::Convex) surface the one contact is found by damped Newton from a
-///   good start, or by following a path that provably leads to it.
+/// * On a [convex](Topology::Convex) surface the one contact is found by damped Newton from where it
+///   would be on a ball, or from where the line of action enters, or by following a path that provably
+///   leads to it. Whichever ends in a contact that presses has found the only one.
 /// * On any other surface Newton starts from a grid of points all over the surface, and solutions
 ///   that coincide are merged. On a [closed](Topology::Closed) surface the signs of
 ///   `τ²κ + (f·n)²` over all contacts that press add up to half the Euler characteristic χ if
@@ -88,6 +89,14 @@ fn starts_on_convex<T: Real, S: SmoothSurface<T>>(
         && let Some(state) = problem.newton(place, spin, &problem.torque, 12)
         && state.converged
         && problem.presses(&state)
+    {
+        return Found::Contact(state);
+    }
+    // Nothing but Newton, from where the contact would be on the ball around the surface: it needs no
+    // point of the surface, and where it ends well, the answer is certain, since a convex surface has
+    // only one contact. Not without a spin torque, when there may be none.
+    if problem.power.abs() > T::EPSILON.root() * problem.force.norm_squared()
+        && let Some(state) = problem.starting_on_ball()
     {
         return Found::Contact(state);
     }

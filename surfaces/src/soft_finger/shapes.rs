@@ -1,19 +1,20 @@
 //! The shapes with closed forms.
 
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
 use super::cone::on_cone;
 use super::cylinder::on_cylinder;
 use super::ellipsoid::{on_ellipsoid, on_sphere};
-use super::newton::tangents;
+use super::frustum::{on_frustum, on_round_side};
 use super::plane::on_plane;
+use super::rim::on_rim;
+use super::torus::on_torus;
 use crate::{
-    ActiveSurface, Capsule, Cone, Cylinder, CylinderEnds, Disk, Ellipsoid, EllipticCylinder, Implicit,
-    Paraboloid, Plane, Rectangle, RoundedBox, Search, SmoothImplicit, SoftContact, SoftFingerSurface, Sphere,
-    SphericalCap, Superquadric, Torus, newton_soft_contacts,
+    ActiveSurface, CappedCylinder, Capsule, Cone, Cylinder, CylinderEnds, Disk, Ellipsoid, EllipticCylinder,
+    Frustum, Implicit, Paraboloid, Plane, Rectangle, RoundedBox, Search, SmoothImplicit, SoftContact,
+    SoftFingerSurface, Sphere, SphericalCap, Superquadric, Torus, newton_soft_contacts,
 };
-use fingertip_wrench::Line;
 
 /// Whether a point of the surface belongs to its active part: as the crossing of the normal there
 /// says.
@@ -31,97 +32,139 @@ pub(super) fn is_active<T: Real, S: ActiveSurface<T>>(surface: &S, contact: &Sof
     active
 }
 
-impl<T: Real> SoftFingerSurface<T> for Sphere<T> {
-    #[inline]
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        mut visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        let centre = self.centre();
-        let torque = wrench.torque_about(&centre);
-        let search =
-            on_sphere(self.radius(), T::one() / self.radius(), &wrench.force(), &torque, |contact| {
-                visit(SoftContact { point: contact.point + centre, ..contact });
-            });
-        match search {
-            Search::Grazing(pair) => Search::Grazing(pair.map(|point| point + centre)),
-            other => other,
+/// Gives a shape its soft fingers: from the shape, the wrench and the last contact, to a search that
+/// visits what it finds.
+macro_rules! soft_finger {
+    ($(#[$doc:meta])* $shape:ident, |$this:ident, $wrench:ident, $last:pat_param, $visit:ident| $search:expr
+        $(, sole |$only:ident, $load:ident| $sole:expr)?) => {
+        $(#[$doc])*
+        impl<T: Real> SoftFingerSurface<T> for $shape<T> {
+            #[inline]
+            #[allow(unused_mut)]
+            fn soft_contacts(
+                &self,
+                $wrench: &Wrench<T>,
+                $last: Option<&Vector3<T>>,
+                mut $visit: impl FnMut(SoftContact<T>),
+            ) -> Search<T> {
+                let $this = self;
+                $search
+            }
+
+            $(#[inline]
+            fn sole_soft_contact(&self, $load: &Wrench<T>) -> Option<SoftContact<T>> {
+                let $only = self;
+                $sole
+            })?
         }
-    }
+    };
 }
 
-impl<T: Real> SoftFingerSurface<T> for Plane<T> {
-    #[inline]
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        mut visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        let origin = self.point();
-        let normal = self.normal(&origin);
-        if let Some(contact) = on_plane(&normal, &wrench.force(), &wrench.torque_about(&origin)) {
-            visit(SoftContact { point: contact.point + origin, ..contact });
+/// What a closed form found, as a search.
+#[inline]
+fn report<T: Real>(
+    found: Result<SoftContact<T>, [Vector3<T>; 2]>,
+    mut visit: impl FnMut(SoftContact<T>),
+) -> Search<T> {
+    match found {
+        Ok(contact) => {
+            visit(contact);
+            Search::Complete
         }
-        Search::Complete
+        Err(pair) => Search::Grazing(pair),
     }
 }
 
-impl<T: Real> SoftFingerSurface<T> for Cylinder<T> {
-    #[inline]
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        mut visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        let (centre, axis, radius) = (self.centre(), self.axis(), self.radius());
-        let (first, second) = tangents(&axis);
-        let inward = |v: &Vector3<T>| Vector3::new(v.dot(&first), v.dot(&second), v.dot(&axis));
-        let outward = |v: &Vector3<T>| first * v.x + second * v.y + axis * v.z;
-        let force = inward(&wrench.force());
-        let torque = inward(&wrench.torque_about(&centre));
-        let curvature = T::one() / radius;
-        on_cylinder([radius; 2], [curvature; 2], &force, &torque, |contact| {
-            visit(SoftContact {
-                point: outward(&contact.point) + centre,
-                normal: outward(&contact.normal),
-                active: self.half_length().is_none_or(|half| contact.point.z.abs() <= half),
-                ..contact
-            });
-        })
-    }
+/// The same for a closed form that finds a contact or none.
+#[inline]
+fn report_any<T: Real>(found: Option<SoftContact<T>>, visit: impl FnMut(SoftContact<T>)) -> Search<T> {
+    found.into_iter().for_each(visit);
+    Search::Complete
 }
 
-impl<T: Real> SoftFingerSurface<T> for Ellipsoid<T> {
-    #[inline]
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        let semi_axes = self.semi_axes();
-        let reciprocals = semi_axes.map(|a| T::one() / a);
-        on_ellipsoid(&semi_axes, &reciprocals, &wrench.force(), &wrench.torque(), visit)
-    }
+/// About the sensor's origin.
+#[inline(always)]
+fn sphere_contact<T: Real>(
+    sphere: &Sphere<T>,
+    wrench: &Wrench<T>,
+) -> Result<SoftContact<T>, [Vector3<T>; 2]> {
+    let centre = sphere.centre();
+    let torque = wrench.torque_about(&centre);
+    on_sphere(sphere.radius(), sphere.curvature(), &wrench.force(), &torque)
+        .map(|contact| SoftContact { point: contact.point + centre, ..contact })
+        .map_err(|pair| pair.map(|point| point + centre))
 }
 
-/// The side by the closed form; flat ends as planes, within their outline. On the edge between
-/// them there is no normal and so no soft finger.
-impl<T: Real> SoftFingerSurface<T> for EllipticCylinder<T> {
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        mut visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        let axes = self.semi_axes();
+soft_finger!(
+    Sphere,
+    |shape, wrench, _, visit| report(sphere_contact(shape, wrench), visit),
+    sole | shape,
+    wrench | sphere_contact(shape, wrench).ok()
+);
+
+#[inline(always)]
+fn ellipsoid_contact<T: Real>(
+    shape: &Ellipsoid<T>,
+    wrench: &Wrench<T>,
+) -> Result<SoftContact<T>, [Vector3<T>; 2]> {
+    on_ellipsoid(&shape.semi_axes(), &shape.curvatures(), &wrench.force(), &wrench.torque())
+}
+
+soft_finger!(
+    Ellipsoid,
+    |shape, wrench, _, visit| report(ellipsoid_contact(shape, wrench), visit),
+    sole | shape,
+    wrench | ellipsoid_contact(shape, wrench).ok()
+);
+
+#[inline]
+fn plane_contact<T: Real>(plane: &Plane<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+    let origin = plane.point();
+    on_plane(&plane.outward(), &wrench.force(), &wrench.torque_about(&origin))
+        .map(|contact| SoftContact { point: contact.point + origin, ..contact })
+}
+
+soft_finger!(
+    Plane,
+    |shape, wrench, _, visit| report_any(plane_contact(shape, wrench), visit),
+    sole | shape,
+    wrench | plane_contact(shape, wrench)
+);
+
+#[inline]
+fn cylinder_contact<T: Real>(shape: &Cylinder<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+    let (centre, axis) = (shape.centre(), shape.axis());
+    let contact = on_round_side(&centre, &axis, shape.radius(), wrench)?;
+    let height = (contact.point - centre).dot(&axis);
+    Some(SoftContact { active: shape.half_length().is_none_or(|half| height.abs() <= half), ..contact })
+}
+
+soft_finger!(
+    Cylinder,
+    |shape, wrench, _, visit| report_any(cylinder_contact(shape, wrench), visit),
+    sole | shape,
+    wrench | cylinder_contact(shape, wrench)
+);
+
+soft_finger!(Frustum, |shape, wrench, _, visit| {
+    on_frustum(shape, wrench, visit);
+    Search::Complete
+});
+
+soft_finger!(CappedCylinder, |shape, wrench, _, visit| {
+    on_frustum(shape.solid(), wrench, visit);
+    Search::Complete
+});
+
+soft_finger!(
+    /// The side by the closed form; flat ends as planes, within their outline. On the edge between
+    /// them there is no normal and so no soft finger.
+    EllipticCylinder,
+    |shape, wrench, _, visit| {
+        let axes = shape.semi_axes();
         let reciprocals = axes.map(|a| T::one() / a);
         let (force, torque) = (wrench.force(), wrench.torque());
-        on_cylinder(axes, reciprocals, &force, &torque, |contact| match self.ends() {
+        on_cylinder(axes, reciprocals, &force, &torque, |contact| match shape.ends() {
             CylinderEnds::Unbounded => visit(contact),
             CylinderEnds::Open(half) => {
                 visit(SoftContact { active: contact.point.z.abs() <= half, ..contact });
@@ -129,7 +172,7 @@ impl<T: Real> SoftFingerSurface<T> for EllipticCylinder<T> {
             CylinderEnds::Capped(half) if contact.point.z.abs() <= half => visit(contact),
             CylinderEnds::Capped(_) => {}
         });
-        if let CylinderEnds::Capped(half) = self.ends() {
+        if let CylinderEnds::Capped(half) = shape.ends() {
             for normal in [Vector3::z(), -Vector3::z()] {
                 let origin = normal * half;
                 if let Some(contact) = on_plane(&normal, &force, &wrench.torque_about(&origin)) {
@@ -142,81 +185,71 @@ impl<T: Real> SoftFingerSurface<T> for EllipticCylinder<T> {
         }
         Search::Complete
     }
-}
+);
 
-impl<T: Real> SoftFingerSurface<T> for Cone<T> {
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        mut visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        if let Some(contact) = on_cone(self, wrench) {
-            visit(SoftContact { active: is_active(self, &contact), ..contact });
+soft_finger!(
+    /// The side, or the tip, on which any normal will do that is steeper than the side's.
+    Cone,
+    |shape, wrench, _, visit| {
+        if let Some(contact) = on_cone(shape, wrench) {
+            visit(SoftContact { active: is_active(shape, &contact), ..contact });
+            return Search::Complete;
         }
+        let (apex, tip) = (shape.apex(), -shape.axis());
+        let least = shape.half_angle().sin();
+        on_rim(
+            T::zero(),
+            &tip,
+            &wrench.force(),
+            &wrench.torque_about(&apex),
+            |normal, _| normal.dot(&tip) >= least,
+            |contact| visit(SoftContact { point: apex, ..contact }),
+        );
         Search::Complete
     }
-}
+);
 
-/// The closed forms of the side and of the two round ends, each where it applies.
-impl<T: Real> SoftFingerSurface<T> for Capsule<T> {
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        _last: Option<&Vector3<T>>,
-        mut visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        let (centre, axis, half) = (self.centre(), self.axis(), self.half_length());
-        let mut found = false;
-        if let Ok(side) = Cylinder::new(centre, axis, self.radius()) {
-            side.soft_contacts(wrench, None, |contact| {
-                if (contact.point - centre).dot(&axis).abs() <= half {
-                    found = true;
-                    visit(contact);
-                }
-            });
+soft_finger!(
+    /// The closed forms of the side and of the two round ends, each where it applies.
+    Capsule,
+    |shape, wrench, _, visit| {
+        let (centre, axis, half) = (shape.centre(), shape.axis(), shape.half_length());
+        if let Some(contact) = on_round_side(&centre, &axis, shape.radius(), wrench)
+            && (contact.point - centre).dot(&axis).abs() <= half
+        {
+            visit(contact);
+            return Search::Complete;
         }
         let mut search = Search::Complete;
         for end in [axis, -axis] {
             // A convex surface has one contact at most; a point of the seam belongs to the side.
-            if found {
-                break;
-            }
-            if let Ok(ball) = Sphere::new(centre + end * half, self.radius()) {
-                let round = ball.soft_contacts(wrench, None, |contact| {
-                    if contact.normal.dot(&end) >= T::zero() {
-                        found = true;
-                        visit(contact);
-                    }
-                });
-                if let Search::Grazing([first, second]) = round {
+            let Ok(ball) = Sphere::new(centre + end * half, shape.radius()) else { continue };
+            match sphere_contact(&ball, wrench) {
+                Ok(contact) if contact.normal.dot(&end) >= T::zero() => {
+                    visit(contact);
+                    return Search::Complete;
+                }
+                Ok(_) => {}
+                Err(pair) => {
                     let outside = |point: &Vector3<T>| (point - ball.centre()).dot(&end) >= T::zero();
-                    if outside(&first) && outside(&second) {
-                        search = round;
+                    if pair.iter().all(outside) {
+                        search = Search::Grazing(pair);
                     }
                 }
             }
         }
         search
     }
-}
+);
 
 /// Shapes that are a part of another shape.
 macro_rules! part_of {
     ($shape:ident, $whole:ident) => {
-        impl<T: Real> SoftFingerSurface<T> for $shape<T> {
-            #[inline]
-            fn soft_contacts(
-                &self,
-                wrench: &Wrench<T>,
-                last: Option<&Vector3<T>>,
-                mut visit: impl FnMut(SoftContact<T>),
-            ) -> Search<T> {
-                self.$whole().soft_contacts(wrench, last, |contact| {
-                    visit(SoftContact { active: is_active(self, &contact), ..contact });
-                })
-            }
-        }
+        soft_finger!($shape, |shape, wrench, last, visit| {
+            shape.$whole().soft_contacts(wrench, last, |contact| {
+                visit(SoftContact { active: is_active(shape, &contact), ..contact });
+            })
+        });
     };
 }
 
@@ -224,29 +257,16 @@ part_of!(SphericalCap, sphere);
 part_of!(Disk, plane);
 part_of!(Rectangle, plane);
 
-/// Shapes without a closed form.
-macro_rules! by_newton {
-    ($shape:ident) => {
-        impl<T: Real> SoftFingerSurface<T> for $shape<T> {
-            #[inline]
-            fn soft_contacts(
-                &self,
-                wrench: &Wrench<T>,
-                last: Option<&Vector3<T>>,
-                mut visit: impl FnMut(SoftContact<T>),
-            ) -> Search<T> {
-                newton_soft_contacts(self, wrench, last, |contact| {
-                    visit(SoftContact { active: is_active(self, &contact), ..contact });
-                })
-            }
-        }
-    };
-}
+soft_finger!(Torus, |shape, wrench, _, visit| on_torus(shape, wrench, visit));
 
-by_newton!(Torus);
-by_newton!(Superquadric);
-by_newton!(RoundedBox);
-by_newton!(Paraboloid);
+// Shapes without a closed form; the first two are active all over.
+soft_finger!(Superquadric, |shape, wrench, last, visit| newton_soft_contacts(shape, wrench, last, visit));
+soft_finger!(RoundedBox, |shape, wrench, last, visit| newton_soft_contacts(shape, wrench, last, visit));
+soft_finger!(Paraboloid, |shape, wrench, last, visit| {
+    newton_soft_contacts(shape, wrench, last, |contact| {
+        visit(SoftContact { active: is_active(shape, &contact), ..contact });
+    })
+});
 
 impl<T: Real, S: SmoothImplicit<T>> SoftFingerSurface<T> for Implicit<S> {
     #[inline]

@@ -43,7 +43,8 @@ pub enum Search<T: Real> {
 /// [`newton_soft_contacts`](crate::newton_soft_contacts).
 ///
 /// `visit` shall be called once for every solution that presses, those outside the active region
-/// too. The wrench is finite and its force is not zero. Solutions shall be accurate for spin
+/// too. The wrench is finite, its force is not zero, and its largest component lies between the roots
+/// of the least and of the greatest number of the type. Solutions shall be accurate for spin
 /// torques down to zero.
 pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
     /// Calls `visit` for every solution that presses. `last`, the contact point of the sample
@@ -54,6 +55,17 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
         last: Option<&Vector3<T>>,
         visit: impl FnMut(SoftContact<T>),
     ) -> Search<T>;
+
+    /// The contact, for shapes that have but one and know it in closed form: a shortcut past
+    /// [`soft_contacts`](Self::soft_contacts) that [`SoftFinger`](crate::SoftFinger) takes first.
+    ///
+    /// `None`, as the default answers, says nothing; an answer shall be the only contact that
+    /// `soft_contacts` would visit.
+    #[inline]
+    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+        let _ = wrench;
+        None
+    }
 }
 
 impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
@@ -65,5 +77,10 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
         visit: impl FnMut(SoftContact<T>),
     ) -> Search<T> {
         (**self).soft_contacts(wrench, last, visit)
+    }
+
+    #[inline]
+    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+        (**self).sole_soft_contact(wrench)
     }
 }

@@ -19,6 +19,12 @@ impl<T: Real> GeometrySensitivity<T> {
         Self { displacement: T::one(), tilt: Vector3::zeros() }
     }
 
+    /// A parameter that changes nothing here.
+    #[must_use]
+    pub fn none() -> Self {
+        Self { displacement: T::zero(), tilt: Vector3::zeros() }
+    }
+
     /// The whole surface moves along the unit vector `direction`.
     #[must_use]
     pub fn translation(direction: &Vector3<T>, normal: &Vector3<T>, shape_operator: &Matrix3<T>) -> Self {

@@ -4,8 +4,9 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix2, Matrix3, Matrix3x6, Matrix6, Vector2, Vector3, Vector6};
 
 use super::GeometrySensitivity;
-use crate::Contact;
+use crate::numeric::vectors::larger;
 use crate::soft_finger::newton::tangents;
+use crate::{Contact, SmoothSurface};
 
 /// The first derivatives of a contact with respect to the wrench `(f, m)` \[N, N·m\] about the
 /// origin of the sensor frame, and to the geometry of the surface.
@@ -29,18 +30,26 @@ use crate::soft_finger::newton::tangents;
 /// from differences of its normal
 /// ([`shape_operator_by_differences`](crate::shape_operator_by_differences)). The position of a
 /// point contact does not depend on it.
+///
+/// Only what the derivatives are made of is kept: two directions `h` such that the contact moves by
+/// `h·(dm − c × df − p df)` along its tangents. So a covariance of the position costs two products of
+/// a matrix and a vector, and no 6 × 6 matrix is made unless [`local`](Self::local) is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactJacobian<T: Real> {
-    pub(super) rows: Matrix6<T>,
     pub(super) tangents: [Vector3<T>; 2],
     pub(super) normal: Vector3<T>,
     point: Vector3<T>,
     force: Vector3<T>,
     spin: T,
+    /// What a point contact takes for its pitch; zero for a soft finger.
+    pitch: T,
+    is_soft: bool,
     /// Shape operator in the tangent plane.
     pub(super) bend: Matrix2<T>,
     /// From the two equations in the plane to the position in it.
     solve: Matrix2<T>,
+    /// The directions of torque to which the two positions answer.
+    guides: [Vector3<T>; 2],
 }
 
 impl<T: Real> ContactJacobian<T> {
@@ -48,24 +57,47 @@ impl<T: Real> ContactJacobian<T> {
     /// not exist: the force grazes and no curvature holds the contact, or two contacts merge.
     #[must_use]
     pub fn of_soft_finger(contact: &Contact<T>, shape_operator: &Matrix3<T>) -> Option<Self> {
-        let mut this = Self::prepare(contact, shape_operator);
+        Self::soft_finger_bent(contact, |e1, e2| bend_of(shape_operator, e1, e2))
+    }
+
+    /// The same, on a surface that knows its curvature: the faster way, as only the tangent plane's
+    /// part of the shape operator is computed.
+    #[inline]
+    #[must_use]
+    pub fn of_soft_finger_on<S: SmoothSurface<T>>(contact: &Contact<T>, surface: &S) -> Option<Self> {
+        Self::soft_finger_bent(contact, |e1, e2| surface.bend(&contact.point, &contact.normal, [e1, e2]))
+    }
+
+    #[inline]
+    fn soft_finger_bent(
+        contact: &Contact<T>,
+        bend: impl FnOnce(&Vector3<T>, &Vector3<T>) -> Matrix2<T>,
+    ) -> Option<Self> {
+        let (e1, e2) = tangents(&contact.normal);
+        let bend = bend(&e1, &e2);
         let tau = contact.spin_torque;
         let pressing = contact.force.dot(&contact.normal);
         // Scaled, so that the determinant stays in range.
-        let scale = pressing.abs().max(tau.abs() * this.bend.amax()).normalising_factor();
+        let largest_bend = larger(larger(bend.m11.abs(), bend.m12.abs()), bend.m22.abs());
+        let scale = larger(pressing.abs(), tau.abs() * largest_bend).normalising_factor();
         let (fn_, t) = (pressing * scale, tau * scale);
-        let (w11, w12, w22) = (t * this.bend.m11, t * this.bend.m12, t * this.bend.m22);
+        let (w11, w12, w22) = (t * bend.m11, t * bend.m12, t * bend.m22);
         let determinant = w11 * w22 - w12 * w12 + fn_ * fn_;
         let inverse = scale / determinant;
-        this.solve = Matrix2::new(w22, -(w12 + fn_), fn_ - w12, w11) * inverse;
-        this.spin = tau;
-        let [e1, e2] = this.tangents;
-        let (b1, b2, bn) = (this.row(&e1), this.row(&e2), this.row(&contact.normal));
-        let a1 = b1 * this.solve.m11 + b2 * this.solve.m12;
-        let a2 = b1 * this.solve.m21 + b2 * this.solve.m22;
-        let across = contact.force.cross(&contact.normal);
-        let twist = bn - a1 * e1.dot(&across) - a2 * e2.dot(&across);
-        this.fill(&a1, &a2, &twist)
+        let solve = Matrix2::new(w22 * inverse, -(w12 + fn_) * inverse, (fn_ - w12) * inverse, w11 * inverse);
+        let guides = [e1 * solve.m11 + e2 * solve.m12, e1 * solve.m21 + e2 * solve.m22];
+        (guides[0].sum() + guides[1].sum() + bend.m11 + bend.m22).is_number().then_some(Self {
+            tangents: [e1, e2],
+            normal: contact.normal,
+            point: contact.point,
+            force: contact.force,
+            spin: tau,
+            pitch: T::zero(),
+            is_soft: true,
+            bend,
+            solve,
+            guides,
+        })
     }
 
     /// Of a contact that [`PointContact`](crate::PointContact) found in this wrench. `None` where
@@ -76,70 +108,43 @@ impl<T: Real> ContactJacobian<T> {
         wrench: &Wrench<T>,
         shape_operator: &Matrix3<T>,
     ) -> Option<Self> {
-        let mut this = Self::prepare(contact, shape_operator);
+        let (e1, e2) = tangents(&contact.normal);
+        let bend = bend_of(shape_operator, &e1, &e2);
         let f = &contact.force;
         let inverse = T::one() / f.dot(&contact.normal);
-        this.solve = Matrix2::new(T::zero(), -inverse, inverse, T::zero());
+        let solve = Matrix2::new(T::zero(), -inverse, inverse, T::zero());
         let scale = f.amax().normalising_factor();
         let scaled = f * scale;
         let squared = scaled.norm_squared();
         let pitch = scaled.dot(&(wrench.torque() * scale)) / squared;
-        let [e1, e2] = this.tangents;
-        let with_pitch = |e: &Vector3<T>| this.with_force_part(e, e * pitch);
-        // dp = f·(dm − c × df − p df)/|f|²
-        let along = this.with_force_part(&scaled, scaled * pitch) * (T::one() / squared);
-        let b1 = with_pitch(&e1) - along * scaled.dot(&e1);
-        let b2 = with_pitch(&e2) - along * scaled.dot(&e2);
-        let (a1, a2) = (b2 * this.solve.m12, b1 * this.solve.m21);
-        this.fill(&a1, &a2, &Vector6::zeros())
-    }
-
-    fn prepare(contact: &Contact<T>, shape_operator: &Matrix3<T>) -> Self {
-        let (e1, e2) = tangents(&contact.normal);
-        let (w1, w2) = (shape_operator * e1, shape_operator * e2);
-        let mixed = (e1.dot(&w2) + e2.dot(&w1)) * T::literal(0.5);
-        Self {
-            rows: Matrix6::zeros(),
+        // dp = f·(dm − c × df − p df)/|f|² takes what is along the force.
+        let across = [e1, e2].map(|e| e - scaled * (scaled.dot(&e) / squared));
+        let guides = [across[1] * solve.m12, across[0] * solve.m21];
+        (guides[0].sum() + guides[1].sum() + bend.sum() + pitch).is_number().then_some(Self {
             tangents: [e1, e2],
             normal: contact.normal,
             point: contact.point,
             force: contact.force,
             spin: T::zero(),
-            bend: Matrix2::new(e1.dot(&w1), mixed, mixed, e2.dot(&w2)),
-            solve: Matrix2::zeros(),
-        }
+            pitch,
+            is_soft: false,
+            bend,
+            solve,
+            guides,
+        })
     }
 
-    /// The row of `e·(dm − c × df)`.
+    /// The row of `e·(dm − c × df − p df)`.
     #[inline]
     fn row(&self, e: &Vector3<T>) -> Vector6<T> {
-        let arm = self.point.cross(e);
+        let arm = self.point.cross(e) - e * self.pitch;
         Vector6::new(arm.x, arm.y, arm.z, e.x, e.y, e.z)
     }
 
-    /// The row of `e·(dm − c × df) − less·df`.
+    /// The rows of the two positions.
     #[inline]
-    fn with_force_part(&self, e: &Vector3<T>, less: Vector3<T>) -> Vector6<T> {
-        let arm = self.point.cross(e) - less;
-        Vector6::new(arm.x, arm.y, arm.z, e.x, e.y, e.z)
-    }
-
-    /// Completes the rows from those of the position and the spin torque.
-    fn fill(mut self, a1: &Vector6<T>, a2: &Vector6<T>, twist: &Vector6<T>) -> Option<Self> {
-        let [e1, e2] = self.tangents;
-        let n = self.normal;
-        let from_force = |e: &Vector3<T>| Vector6::new(e.x, e.y, e.z, T::zero(), T::zero(), T::zero());
-        // dn along the tangents.
-        let tilt1 = a1 * self.bend.m11 + a2 * self.bend.m12;
-        let tilt2 = a1 * self.bend.m21 + a2 * self.bend.m22;
-        let (f1, f2, pressing) = (self.force.dot(&e1), self.force.dot(&e2), -self.force.dot(&n));
-        self.rows.set_row(0, &a1.transpose());
-        self.rows.set_row(1, &a2.transpose());
-        self.rows.set_row(2, &(-from_force(&n) - tilt1 * f1 - tilt2 * f2).transpose());
-        self.rows.set_row(3, &(from_force(&e1) + tilt1 * pressing).transpose());
-        self.rows.set_row(4, &(from_force(&e2) + tilt2 * pressing).transpose());
-        self.rows.set_row(5, &twist.transpose());
-        self.rows.sum().is_number().then_some(self)
+    pub(super) fn position_rows(&self) -> [Vector6<T>; 2] {
+        [self.row(&self.guides[0]), self.row(&self.guides[1])]
     }
 
     /// The two tangents that positions and tangential forces refer to: unit vectors, right-handed
@@ -159,22 +164,44 @@ impl<T: Real> ContactJacobian<T> {
 
     /// Derivatives of (two positions \[m\], normal force, two tangential forces \[N\], spin torque
     /// \[N·m\]), as rows, with respect to `Fx … Tz`, as columns.
-    #[inline]
     #[must_use]
-    pub const fn local(&self) -> &Matrix6<T> {
-        &self.rows
+    pub fn local(&self) -> Matrix6<T> {
+        let [a1, a2] = self.position_rows();
+        let [e1, e2] = self.tangents;
+        let n = self.normal;
+        let from_force = |e: &Vector3<T>| Vector6::new(e.x, e.y, e.z, T::zero(), T::zero(), T::zero());
+        // dn along the tangents.
+        let tilt1 = a1 * self.bend.m11 + a2 * self.bend.m12;
+        let tilt2 = a1 * self.bend.m21 + a2 * self.bend.m22;
+        let (f1, f2, pressing) = (self.force.dot(&e1), self.force.dot(&e2), -self.force.dot(&n));
+        let twist = if self.is_soft {
+            let across = self.force.cross(&n);
+            self.row(&n) - a1 * e1.dot(&across) - a2 * e2.dot(&across)
+        } else {
+            Vector6::zeros()
+        };
+        Matrix6::from_columns(&[
+            a1,
+            a2,
+            -from_force(&n) - tilt1 * f1 - tilt2 * f2,
+            from_force(&e1) + tilt1 * pressing,
+            from_force(&e2) + tilt2 * pressing,
+            twist,
+        ])
+        .transpose()
     }
 
     /// `∂c/∂(f, m)` in the sensor frame; its columns lie in the tangent plane.
     #[must_use]
     pub fn point(&self) -> Matrix3x6<T> {
-        self.tangents[0] * self.rows.row(0) + self.tangents[1] * self.rows.row(1)
+        let [a1, a2] = self.position_rows();
+        self.tangents[0] * a1.transpose() + self.tangents[1] * a2.transpose()
     }
 
     /// `∂n/∂(f, m)`: how the normal at the contact turns.
     #[must_use]
     pub fn normal_change(&self) -> Matrix3x6<T> {
-        let (a1, a2) = (self.rows.row(0), self.rows.row(1));
+        let [a1, a2] = self.position_rows().map(|row| row.transpose());
         self.tangents[0] * (a1 * self.bend.m11 + a2 * self.bend.m12)
             + self.tangents[1] * (a1 * self.bend.m21 + a2 * self.bend.m22)
     }
@@ -192,10 +219,10 @@ impl<T: Real> ContactJacobian<T> {
         let tilt = self.bend * in_plane + Vector2::new(e1.dot(&change.tilt), e2.dot(&change.tilt));
         let across = f.cross(&n);
         let pressing = -f.dot(&n);
-        let twist = if self.spin.is_zero() {
-            T::zero()
-        } else {
+        let twist = if self.is_soft {
             -(in_plane.x * e1.dot(&across) + in_plane.y * e2.dot(&across))
+        } else {
+            T::zero()
         };
         Vector6::new(
             in_plane.x,
@@ -213,4 +240,12 @@ impl<T: Real> ContactJacobian<T> {
         let local = self.answer_to(change);
         self.tangents[0] * local.x + self.tangents[1] * local.y + self.normal * change.displacement
     }
+}
+
+/// The shape operator in the tangent plane, made symmetric.
+#[inline]
+fn bend_of<T: Real>(shape_operator: &Matrix3<T>, e1: &Vector3<T>, e2: &Vector3<T>) -> Matrix2<T> {
+    let (w1, w2) = (shape_operator * e1, shape_operator * e2);
+    let mixed = (e1.dot(&w2) + e2.dot(&w1)) * T::literal(0.5);
+    Matrix2::new(e1.dot(&w1), mixed, mixed, e2.dot(&w2))
 }

@@ -27,7 +27,8 @@ impl<T: Real> ContactJacobian<T> {
     pub fn worst_case(&self, errors: &Vector6<T>) -> WorstCase<T> {
         let absolute = |row: Vector6<T>| row.abs().dot(&errors.abs());
         let point = self.point();
-        let row = |i: usize| self.local().row(i).transpose();
+        let local = self.local();
+        let row = |i: usize| local.row(i).transpose();
         let (a1, a2) = (row(0).component_mul(errors), row(1).component_mul(errors));
         let mut greatest = T::zero();
         for corner in 0..32_u8 {

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod big;
+mod pieces;
 mod quadrics;
 mod superquadric;
 mod torus;

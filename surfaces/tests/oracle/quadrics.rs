@@ -9,21 +9,25 @@ use rand_pcg::Pcg64Mcg;
 
 use crate::big::{Big, Big3, at, big3, dot, line_of_action};
 
-/// `Σ dᵢ·xᵢ² + 2·e·z + s = 0`, with the inside negative.
-struct Quadric {
-    d: [Big; 3],
-    e: Big,
-    s: Big,
+/// `Σ dᵢ·xᵢ² + 2·xy·x·y + 2·e·x + s = 0`, with the inside negative.
+pub(crate) struct Quadric {
+    pub(crate) d: Big3,
+    pub(crate) xy: Big,
+    pub(crate) e: Big3,
+    pub(crate) s: Big,
 }
 
 impl Quadric {
     /// Where the line enters: of both roots the one with a falling value.
     fn entry(&self, point: &Big3, direction: &Big3) -> Option<Big3> {
-        let weigh = |v: &Big3| [0, 1, 2].map(|k| &self.d[k] * &v[k]);
+        let weigh = |v: &Big3| {
+            let [x, y, z] = [0, 1, 2].map(|k| &self.d[k] * &v[k]);
+            [&x + &(&self.xy * &v[1]), &y + &(&self.xy * &v[0]), z]
+        };
         let a = dot(&weigh(direction), direction);
-        let b = &dot(&weigh(direction), point) + &(&self.e * &direction[2]);
+        let b = &dot(&weigh(direction), point) + &dot(&self.e, direction);
         let two = Big::new(2.0);
-        let c = &(&dot(&weigh(point), point) + &(&two * &(&self.e * &point[2]))) + &self.s;
+        let c = &(&dot(&weigh(point), point) + &(&two * &dot(&self.e, point))) + &self.s;
         let discriminant = &(&b * &b) - &(&a * &c);
         // The slope of the value at the entry is −√discriminant.
         discriminant.is_positive().then(|| {
@@ -35,17 +39,17 @@ impl Quadric {
     }
 }
 
-struct Case<S> {
-    surface: S,
-    quadric: Quadric,
+pub(crate) struct Case<S> {
+    pub(crate) surface: S,
+    pub(crate) quadric: Quadric,
     /// Point of the surface with outward normal, for random numbers.
-    point: Vector3<f64>,
-    normal: Vector3<f64>,
+    pub(crate) point: Vector3<f64>,
+    pub(crate) normal: Vector3<f64>,
     /// Greatest extent.
-    size: f64,
+    pub(crate) size: f64,
 }
 
-fn direction(random: &mut Pcg64Mcg) -> Vector3<f64> {
+pub(crate) fn direction(random: &mut Pcg64Mcg) -> Vector3<f64> {
     loop {
         let v = Vector3::from_fn(|_, _| random.random_range(-1.0..1.0));
         if v.norm() <= 1.0 && v.norm() > 0.1 {
@@ -58,8 +62,8 @@ fn as_f64<T: Real>(v: Vector3<T>) -> [f64; 3] {
     v.map(Real::to_f64).into()
 }
 
-/// Greatest error of the contact point over the size, in units of 1e-16.
-fn worst<T: Real, S: ActiveSurface<T>>(
+/// Greatest error of the contact point over the size.
+pub(crate) fn worst<T: Real, S: ActiveSurface<T>>(
     trials: usize,
     seed: u64,
     mut make: impl FnMut(&mut Pcg64Mcg, f64) -> Case<S>,
@@ -82,8 +86,10 @@ fn worst<T: Real, S: ActiveSurface<T>>(
         let wrench = Wrench::<T>::on_fingertip(force.map(T::literal), torque.map(T::literal));
         let (p, u) = line_of_action(as_f64(wrench.force()), as_f64(wrench.torque()));
         let Some(expected) = case.quadric.entry(&p, &u) else { continue };
-        let found = model.resolve(&wrench, &case.surface);
-        // On the sharp rim of a pancake, rounding alone can push a line past the surface.
+        // A line may enter a shape that is not convex somewhere else too.
+        let found = model.resolve_near(&wrench, &case.surface, Some(&case.point.map(T::literal)));
+        // On the sharp rim of a pancake, rounding alone can push a line past the surface, or the
+        // contact to where the line leaves.
         let point = match found {
             Resolution::Contact(contact) if contact.incidence().to_f64() < 0.05 => continue,
             Resolution::Contact(contact) => contact.point,
@@ -99,8 +105,13 @@ fn worst<T: Real, S: ActiveSurface<T>>(
     worst
 }
 
+/// No linear terms.
+fn nothing() -> Big3 {
+    [Big::new(0.0), Big::new(0.0), Big::new(0.0)]
+}
+
 /// `x`, as the scalar type has it.
-fn rounded<T: Real>(x: f64) -> f64 {
+pub(crate) fn rounded<T: Real>(x: f64) -> f64 {
     T::literal(x).to_f64()
 }
 
@@ -111,7 +122,7 @@ fn ellipsoid<T: Real>(axes: [f64; 3]) -> impl FnMut(&mut Pcg64Mcg, f64) -> Case<
         let d = a.map(|a| &Big::new(1.0) / &(&Big::new(a) * &Big::new(a)));
         Case {
             surface: Ellipsoid::new(Vector3::from(a).map(T::literal)).unwrap(),
-            quadric: Quadric { d, e: Big::new(0.0), s: Big::new(-1.0) },
+            quadric: Quadric { d, e: nothing(), xy: Big::new(0.0), s: Big::new(-1.0) },
             point: Vector3::from_fn(|k, _| n[k] * a[k]),
             normal: Vector3::from_fn(|k, _| n[k] / a[k]).normalize(),
             size: 2.0 * a[0].max(a[1]).max(a[2]),
@@ -128,7 +139,8 @@ fn sphere<T: Real>() -> impl FnMut(&mut Pcg64Mcg, f64) -> Case<Sphere<T>> {
             surface: Sphere::centred(T::literal(r)).unwrap(),
             quadric: Quadric {
                 d: [one(), one(), one()],
-                e: Big::new(0.0),
+                e: nothing(),
+                xy: Big::new(0.0),
                 s: -(&Big::new(r) * &Big::new(r)),
             },
             point: n * r,
@@ -148,7 +160,8 @@ fn cylinder<T: Real>() -> impl FnMut(&mut Pcg64Mcg, f64) -> Case<Cylinder<T>> {
             surface: Cylinder::new(Vector3::zeros(), Vector3::z(), T::literal(r)).unwrap(),
             quadric: Quadric {
                 d: [Big::new(1.0), Big::new(1.0), Big::new(0.0)],
-                e: Big::new(0.0),
+                e: nothing(),
+                xy: Big::new(0.0),
                 s: -(&Big::new(r) * &Big::new(r)),
             },
             point: n * r + Vector3::z() * height,
@@ -167,7 +180,8 @@ fn paraboloid<T: Real>() -> impl FnMut(&mut Pcg64Mcg, f64) -> Case<Paraboloid<T>
             surface: Paraboloid::new([T::literal(a), T::literal(b)]).unwrap(),
             quadric: Quadric {
                 d: [&Big::new(1.0) / &Big::new(a), &Big::new(1.0) / &Big::new(b), Big::new(0.0)],
-                e: Big::new(1.0),
+                e: [Big::new(0.0), Big::new(0.0), Big::new(1.0)],
+                xy: Big::new(0.0),
                 s: Big::new(0.0),
             },
             point: Vector3::new(x, y, -x * x / a / 2.0 - y * y / b / 2.0),
@@ -186,7 +200,8 @@ fn plane<T: Real>() -> impl FnMut(&mut Pcg64Mcg, f64) -> Case<Plane<T>> {
                 .unwrap(),
             quadric: Quadric {
                 d: [Big::new(0.0), Big::new(0.0), Big::new(0.0)],
-                e: Big::new(1.0),
+                e: [Big::new(0.0), Big::new(0.0), Big::new(1.0)],
+                xy: Big::new(0.0),
                 s: Big::new(-2.0 * height),
             },
             point: Vector3::new(x, y, height),
@@ -198,20 +213,25 @@ fn plane<T: Real>() -> impl FnMut(&mut Pcg64Mcg, f64) -> Case<Plane<T>> {
 
 macro_rules! accurate {
     ($name:ident, $shape:expr, $shape32:expr) => {
+        $crate::quadrics::accurate!($name, $shape, $shape32, 1e-6);
+    };
+    ($name:ident, $shape:expr, $shape32:expr, $single:expr) => {
         mod $name {
             use super::*;
 
             fn run(trials: usize) {
-                let (double, single) = (worst(trials, 1, $shape), worst(trials, 2, $shape32));
-                println!("{}: f64 {double:.2e}, f32 {single:.2e}", stringify!($name));
+                let (double, single) = (
+                    $crate::quadrics::worst(trials, 1, $shape),
+                    $crate::quadrics::worst(trials, 2, $shape32),
+                );
+                println!("{}: f64 {double:.1e}, f32 {single:.1e}", stringify!($name));
                 assert!(double <= 1e-14, "f64: {double:e}");
-                let allowed = 1e-6;
-                assert!(single <= allowed, "f32: {single:e}");
+                assert!(single <= $single, "f32: {single:e}");
             }
 
             #[test]
             fn within_the_bound() {
-                run(2000);
+                run(1000);
             }
 
             #[test]
@@ -222,6 +242,7 @@ macro_rules! accurate {
         }
     };
 }
+pub(crate) use accurate;
 
 accurate!(spheres, sphere::<f64>(), sphere::<f32>());
 accurate!(ellipsoids, ellipsoid::<f64>([1.0, 0.7, 0.4]), ellipsoid::<f32>([1.0, 0.7, 0.4]));

@@ -1,6 +1,6 @@
 //! Wrench and array together.
 
-use fingertip_surfaces::{ArrayContact, Ellipsoid, Fused, Fusion};
+use fingertip_surfaces::{ArrayContact, Ellipsoid, Fused, Fusion, Grip};
 use fingertip_wrench::Wrench;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
@@ -20,8 +20,8 @@ fn noise() -> Matrix6<f64> {
     Matrix6::from_diagonal(&Vector6::new(1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8))
 }
 
-/// Contacts whose forces follow the prior of the estimate: normal forces of which the array has
-/// noise, tangential forces of deviation `spread · μ N`.
+/// Contacts as the estimate supposes them: normal forces that the array measures with noise,
+/// tangential forces anywhere in the disc of radius `spread · μ N`.
 fn scene<const K: usize>(random: &mut Random, surface: &Ellipsoid<f64>, spread: f64) -> Scene<K> {
     let places: [_; K] = core::array::from_fn(|_| random.place(surface, 0.017));
     let (points, normals) = (places.map(|p| p.0), places.map(|p| p.1));
@@ -31,12 +31,12 @@ fn scene<const K: usize>(random: &mut Random, surface: &Ellipsoid<f64>, spread: 
     let mut wrench: Wrench<f64> = Wrench::zero();
     for i in 0..K {
         let n = normals[i];
-        let across = Vector3::from_fn(|_, _| random.normal());
-        let tangential: Vector3<f64> = (across - n * across.dot(&n)) * (MU * pressures[i] * spread);
+        let across = n.cross(&random.direction()).normalize();
+        let other = n.cross(&across);
+        let angle = random.uniform(0.0, core::f64::consts::TAU);
         let pressing = pressures[i] + deviation * random.normal();
-        // What friction holds, and no more.
-        let held = (MU * pressing / tangential.norm()).min(1.0);
-        forces[i] = tangential * held - n * pressing;
+        let size = MU * pressing * spread * random.uniform(0.0, 1.0).sqrt();
+        forces[i] = (across * angle.cos() + other * angle.sin()) * size - n * pressing;
         wrench = wrench + Wrench::from_force_at(&points[i], forces[i]);
         let blur = Vector3::from_fn(|_, _| random.normal()) * 2e-4;
         readings.push(ArrayContact {
@@ -81,19 +81,27 @@ fn cost<const K: usize>(
         let pressing = -forces[i].dot(&normal);
         let tangential = forces[i] + normal * pressing;
         sum += ((pressing - reading.normal_force) / reading.normal_deviation).powi(2);
-        sum += tangential.norm_squared() / (MU * reading.normal_force).powi(2);
+        sum += tangential.norm_squared() / (0.5 * MU * reading.normal_force).powi(2);
     }
     let r = rest.components();
     sum + r.dot(&(noise().try_inverse().unwrap() * r))
 }
 
-fn check<const K: usize>(spread: f64, internal: u8) {
+/// The surface's normal and the excess of the force over its friction cone.
+fn excess(surface: &Ellipsoid<f64>, point: &Vector3<f64>, force: &Vector3<f64>) -> f64 {
+    use fingertip_surfaces::ActiveSurface;
+    let n = surface.normal(point);
+    let pressing = -force.dot(&n);
+    (force + n * pressing).norm() - MU * pressing
+}
+
+fn check<const K: usize>(spread: f64, internal: u8, expected: core::ops::Range<f64>) {
     let surface = common::ellipsoid::<f64>();
     let fusion = Fusion::new(noise(), MU).unwrap();
     let mut random = Random::new(80 + K as u64);
     let (mut squared, mut disagreement, mut array_error, mut error) = (0.0, 0.0, 0.0, 0.0);
-    let (mut free, mut sliding, mut unsettled) = (0, 0, 0);
-    let count = 400;
+    let (mut moved_squared, mut sliding, mut unsettled) = (0.0, 0, 0);
+    let count = 1500;
     for _ in 0..count {
         let scene: Scene<K> = scene(&mut random, &surface, spread);
         let Fused { contacts, disagreement: d, internal_forces, settled } =
@@ -103,27 +111,23 @@ fn check<const K: usize>(spread: f64, internal: u8) {
         disagreement += d;
         let found = (contacts.map(|c| c.point), contacts.map(|c| c.force));
         for (i, contact) in contacts.iter().enumerate() {
-            let pressing = -contact.held.dot(&contact.normal);
-            let tangential = (contact.held + contact.normal * pressing).norm();
-            assert!(tangential <= MU * pressing * (1.0 + 1e-6) + 1e-9, "inside its cone");
+            let beyond = excess(&surface, &contact.point, &contact.force);
+            assert!(beyond <= 1e-12, "{beyond:e} inside its cone {contact:?}");
+            assert!(contact.grip == Grip::Sticks || beyond.abs() < 1e-9, "{beyond:e} {contact:?}");
             assert!((0.0..=1.0).contains(&contact.share_from_wrench));
             array_error +=
                 (scene.forces[i] + scene.normals[i] * scene.readings[i].normal_force).norm_squared();
             error += (scene.forces[i] - contact.force).norm_squared();
-        }
-        if contacts.iter().any(|c| c.held != c.force) {
-            sliding += 1;
-        }
-        free += 1;
-        for (i, contact) in contacts.iter().enumerate() {
             let off = scene.forces[i] - contact.force;
-            squared += off.dot(&contact.force_covariance.try_inverse().unwrap().transpose().tr_mul(&off));
+            squared += off.dot(&contact.force_covariance.try_inverse().unwrap().tr_mul(&off));
             let moved = scene.points[i] - contact.point;
+            moved_squared += moved.norm_squared() / contact.point_covariance.trace();
             assert!(moved.norm() < 8.0 * 2e-4);
         }
-        // No small change is better.
+        sliding += usize::from(contacts.iter().any(|c| c.grip != Grip::Sticks));
+        // No small change that stays in the cones is better.
         let least = cost(&scene, &surface, &found.0, &found.1);
-        for _ in 0..4 {
+        for _ in 0..8 {
             for size in [1e-3, 1e-2] {
                 let forces = found.1.map(|f| f + random.direction() * size * 0.1);
                 let points = found.0.map(|p| {
@@ -134,42 +138,107 @@ fn check<const K: usize>(spread: f64, internal: u8) {
                     let near = p + step - n * step.dot(&n);
                     near / near.component_div(&surface.semi_axes()).norm()
                 });
-                assert!(cost(&scene, &surface, &points, &forces) > least - 1e-6 * (1.0 + least));
+                if (0..K).any(|i| excess(&surface, &points[i], &forces[i]) > 0.0) {
+                    continue;
+                }
+                let other = cost(&scene, &surface, &points, &forces);
+                assert!(!settled || other > least - 1e-6 * (1.0 + least), "{other} < {least}");
             }
         }
     }
-    let consistency = squared / (3.0 * K as f64 * f64::from(free.max(1)));
+    let every = f64::from(count) * K as f64;
+    let consistency = squared / (3.0 * every);
     println!(
-        "fusion of {K}: force error {:.3} N (array alone {:.3} N), consistency {consistency:.3} (1 is right), \
-         disagreement {:.2} (6 is right), {sliding} of {count} outside a cone",
-        (error / f64::from(count) / K as f64).sqrt(),
-        (array_error / f64::from(count) / K as f64).sqrt(),
+        "fusion of {K}, forces to {spread} of the cone: force error {:.3} N (array alone {:.3} N), squared \
+         error over covariance {consistency:.3} (points {:.3}), disagreement {:.2}, \
+         {sliding} of {count} slide, {unsettled} unsettled",
+        (error / every).sqrt(),
+        (array_error / every).sqrt(),
+        moved_squared / every,
         disagreement / f64::from(count),
     );
-    println!("    unsettled: {unsettled} of {count}");
     assert!(error < array_error);
-    // Where truths lie far outside their cones, bonds may come and go without end: said, not hidden.
-    assert!(unsettled * 100 <= if spread > 0.5 { 400 } else { 0 });
-    if spread > 0.5 {
-        return;
+    assert_eq!(unsettled, 0);
+    assert!(expected.contains(&consistency), "{consistency}");
+    assert!((0.9..1.1).contains(&(moved_squared / every)));
+    if spread == 1.0 {
+        assert!((disagreement / f64::from(count) - 6.0).abs() < 0.5, "{disagreement}");
     }
-    assert!((disagreement / f64::from(count) - 6.0).abs() < 0.8 || spread < 0.9);
 }
 
+/// The covariance is right where the forces are spread as the estimate supposes: over the whole
+/// cone. (The cones themselves make the error a little less than it.)
+#[test]
+fn forces_all_over_their_cones() {
+    check::<1>(1.0, 0, 0.93..1.07);
+    check::<2>(1.0, 1, 0.85..1.07);
+    check::<3>(1.0, 3, 0.85..1.07);
+    check::<4>(1.0, 6, 0.85..1.07);
+}
+
+/// Where they are not, it is too large: it says what the readings allow, not what happened.
 #[test]
 fn forces_well_inside_the_cones() {
-    check::<1>(0.25, 0);
-    check::<2>(0.25, 1);
-    check::<3>(0.25, 3);
-    check::<4>(0.25, 6);
+    check::<1>(0.3, 0, 0.8..1.07);
+    check::<2>(0.3, 1, 0.3..1.0);
+    check::<3>(0.3, 3, 0.2..1.0);
+    check::<4>(0.3, 6, 0.1..1.0);
 }
 
+/// Contacts that have just been lost, of which the array still reports a little: some are lifted,
+/// none pulls, and the iteration settles.
 #[test]
-fn forces_at_the_edge_of_their_cones() {
-    check::<1>(1.0, 0);
-    check::<2>(1.0, 1);
-    check::<3>(1.0, 3);
-    check::<4>(1.0, 6);
+fn a_lost_contact_is_lifted_or_light() {
+    let surface = common::ellipsoid::<f64>();
+    let fusion = Fusion::new(noise(), MU).unwrap();
+    let mut random = Random::new(98);
+    let (mut lifted, mut sliding, mut unsettled) = (0, 0, 0);
+    for _ in 0..2000 {
+        let mut scene: Scene<2> = scene(&mut random, &surface, 0.5);
+        let lost = Wrench::from_force_at(&scene.points[0], scene.forces[0]);
+        scene.wrench = scene.wrench - lost;
+        scene.readings[0].normal_force = 0.1 * random.normal();
+        let found = fusion.estimate(&surface, &scene.wrench, &scene.readings).unwrap();
+        unsettled += usize::from(!found.settled);
+        let first = &found.contacts[0];
+        assert!(
+            first.force.norm() < 0.6 && excess(&surface, &first.point, &first.force) < 1e-12,
+            "{first:?}"
+        );
+        assert!(found.contacts[1].force.dot(&found.contacts[1].normal) < 0.0);
+        lifted += usize::from(first.grip == Grip::Lifted);
+        sliding += usize::from(first.grip == Grip::Slides);
+    }
+    println!("lost contacts: {lifted} lifted, {sliding} slide, {unsettled} unsettled of 2000");
+    // Near the tip of a cone the step may go back and forth; that is said, and what is returned obeys
+    // the cones all the same.
+    assert!(lifted > 300 && unsettled < 160, "{lifted} {unsettled}");
+}
+
+/// An array that sees a pressure where the wrench says the object pulls: no force, or one that slides;
+/// never one that pulls.
+#[test]
+fn no_contact_pulls() {
+    let surface = common::ellipsoid::<f64>();
+    let fusion = Fusion::new(noise(), MU).unwrap();
+    let mut random = Random::new(97);
+    let (mut lifted, mut unsettled) = (0, 0);
+    for _ in 0..2000 {
+        let mut scene: Scene<3> = scene(&mut random, &surface, 1.0);
+        scene.wrench = Wrench::on_fingertip(random.direction() * 4.0, random.direction() * 0.05);
+        for reading in &mut scene.readings {
+            reading.normal_force *= random.uniform(0.0, 0.3);
+        }
+        let found = fusion.estimate(&surface, &scene.wrench, &scene.readings).unwrap();
+        unsettled += usize::from(!found.settled);
+        for contact in &found.contacts {
+            assert!(excess(&surface, &contact.point, &contact.force) < 1e-9, "{contact:?}");
+            lifted += usize::from(contact.grip == Grip::Lifted);
+            assert!(contact.grip != Grip::Lifted || contact.force == Vector3::zeros());
+        }
+    }
+    println!("impossible wrenches: {lifted} of 6000 contacts lifted, {unsettled} of 2000 unsettled");
+    assert!(lifted > 100);
 }
 
 /// A squeeze between two contacts leaves the wrench as it is: the estimate keeps to the array.

@@ -6,6 +6,9 @@ use fingertip_surfaces::{
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
+use crate::common::Case;
+use crate::shapes::conditioning;
+
 /// Semi-axes, force, torque, contact and `K`, where the spin torque is `K |∇S|/2` for
 /// `S = Σ (x_i/a_i)² − 1`.
 struct Golden {
@@ -239,11 +242,14 @@ fn rounded<T: Real>(v: &[f64; 3]) -> Vector3<f64> {
     Vector3::from(v.map(|x| T::literal(x).to_f64()))
 }
 
-/// The greatest error over the cases, relative to the size of the surface (and for a case that
-/// grazes, to its conditioning), and of the spin torque
-/// relative to the largest that the wrench could hold.
+/// The greatest error of the point over the cases, relative to the size of the surface, and of the
+/// spin torque, relative to the largest that the wrench could hold; both over what is allowed: `least`,
+/// or what a wrench that is wrong by a quarter of `ε` would bring about, if that is more. (One of
+/// the ellipsoids, six times longer than thick and touched 1° from grazing, has a conditioning of
+/// 55: rounding its wrench to `f32` alone moves the contact by 6e-7.)
 fn greatest_error<T: Real, S: SoftFingerSurface<T> + SmoothSurface<T>>(
     cases: &[Golden],
+    least: f64,
     shape: impl Fn(Vector3<T>) -> S,
 ) -> (f64, f64) {
     let vector = |v: &[f64; 3]| Vector3::from(v.map(T::literal));
@@ -256,15 +262,15 @@ fn greatest_error<T: Real, S: SoftFingerSurface<T> + SmoothSurface<T>>(
         let contact = *model.resolve(&wrench, &surface).contact().expect("every case is a contact");
         let expected = Vector3::from(case.contact);
         let found = contact.point.map(Real::to_f64);
-        // Seen in the affine frame where the ellipsoid is a sphere, one of the cases grazes: rounding
-        // by ε moves it by ε/cos φ.
-        let stretched = Vector3::from(case.force).component_div(&axes);
-        let incidence = -expected.component_div(&axes).dot(&stretched) / stretched.norm();
-        let own = (incidence / 0.05).min(1.0);
-        worst.0 = worst.0.max((found - expected).amax() / axes.amax() * own);
+        let (force, torque) = (Vector3::from(case.force), Vector3::from(case.torque));
+        let normal = expected.component_div(&axes.component_mul(&axes)).normalize();
+        let spin = (torque - expected.cross(&force)).dot(&normal);
+        let own = conditioning(&ellipsoid(axes), &Case::new(expected, normal, force, spin), axes.amax());
+        let allowed = least.max(own * T::EPSILON.to_f64() / 4.0);
+        worst.0 = worst.0.max((found - expected).amax() / axes.amax() / allowed);
         let spin = case.k * expected.component_div(&axes.component_mul(&axes)).norm();
         let scale = Vector3::from(case.force).norm() * axes.amax() + Vector3::from(case.torque).norm();
-        worst.1 = worst.1.max((contact.spin_torque.to_f64() - spin).abs() / scale * own);
+        worst.1 = worst.1.max((contact.spin_torque.to_f64() - spin).abs() / scale / allowed);
     }
     worst
 }
@@ -280,17 +286,17 @@ fn ellipsoid<T: Real>(axes: Vector3<T>) -> Ellipsoid<T> {
 #[test]
 fn soft_fingers_in_double_precision() {
     let errors = [
-        greatest_error::<f64, _>(&SPHERES, sphere),
-        greatest_error::<f64, _>(&SPHERES, ellipsoid),
-        greatest_error::<f64, _>(&ELLIPSOIDS, ellipsoid),
+        greatest_error::<f64, _>(&SPHERES, 1e-14, sphere),
+        greatest_error::<f64, _>(&SPHERES, 1e-14, ellipsoid),
+        greatest_error::<f64, _>(&ELLIPSOIDS, 1e-14, ellipsoid),
     ];
-    println!("f64: {errors:?}");
-    assert!(errors.iter().all(|(point, spin)| *point <= 1e-14 && *spin <= 1e-14), "{errors:?}");
+    println!("f64, in units of what is allowed: {errors:?}");
+    assert!(errors.iter().all(|(point, spin)| *point <= 1.0 && *spin <= 1.0), "{errors:?}");
 }
 
-/// The printed solutions belong to inputs of 17 digits; rounding those to f32 alone moves a contact
-/// by up to 6e-7. So the reference here is the solution in f64 (good to 1e-14, as above) of the
-/// rounded inputs.
+/// The printed solutions belong to inputs of 17 digits. So that the rounding of those to `f32` does not
+/// count, the reference is the solution in `f64` (good to 1e-14, as above) of the rounded inputs; the
+/// printed ones are compared with too.
 #[test]
 fn soft_fingers_in_single_precision() {
     fn case(golden: &Golden) -> Golden {
@@ -308,16 +314,16 @@ fn soft_fingers_in_single_precision() {
             k: contact.spin_torque / steepness,
         }
     }
-    let direct = greatest_error::<f32, _>(&ELLIPSOIDS, ellipsoid);
+    let direct = greatest_error::<f32, _>(&ELLIPSOIDS, 4e-7, ellipsoid);
     let (spheres, ellipsoids) = (SPHERES.each_ref().map(case), ELLIPSOIDS.each_ref().map(case));
     let errors = [
-        greatest_error::<f32, _>(&spheres, sphere),
-        greatest_error::<f32, _>(&spheres, ellipsoid),
-        greatest_error::<f32, _>(&ellipsoids, ellipsoid),
+        greatest_error::<f32, _>(&spheres, 4e-7, sphere),
+        greatest_error::<f32, _>(&spheres, 4e-7, ellipsoid),
+        greatest_error::<f32, _>(&ellipsoids, 4e-7, ellipsoid),
     ];
-    println!("f32: {errors:?}, with the rounding of the inputs {direct:?}");
-    assert!(errors.iter().all(|(point, spin)| *point <= 4e-7 && *spin <= 4e-7), "{errors:?}");
-    assert!(direct.0 <= 8e-7);
+    println!("f32, in units of what is allowed: {errors:?}, with the rounding of the inputs {direct:?}");
+    assert!(errors.iter().all(|(point, spin)| *point <= 1.0 && *spin <= 1.0), "{errors:?}");
+    assert!(direct.0 <= 1.0 && direct.1 <= 1.0);
 }
 
 fn hertz_error<T: Real>() -> f64 {

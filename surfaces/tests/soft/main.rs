@@ -3,6 +3,7 @@
 // Helpers of tests are tests too.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod bodies;
 mod common;
 mod compliant;
 mod fusion;
@@ -11,3 +12,4 @@ mod jacobians;
 mod shapes;
 mod torus;
 mod uncertainty;
+mod uniqueness;

@@ -2,9 +2,10 @@
 
 use fingertip_surfaces::{Search, SmoothSurface, SoftContact, SoftFingerSurface, Torus};
 use fingertip_wrench::Wrench;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use crate::common::{Case, Random};
+use crate::uniqueness::newton;
 
 fn all(torus: &Torus<f64>, wrench: &Wrench<f64>) -> (Vec<SoftContact<f64>>, Search<f64>) {
     let mut found = Vec::new();
@@ -23,19 +24,28 @@ fn index(torus: &Torus<f64>, force: &Vector3<f64>, contact: &SoftContact<f64>) -
 
 /// The true contact is among the solutions; all of them solve the equations; as many have a
 /// positive as have a negative index, so their number is even.
+///
+/// A multi-start search of 300 such problems has been reported to find 1, 2, 3 or 4 contacts in 11, 256,
+/// 3 and 30 of them. The contacts are the zeros of a continuous function on the circle of the ring, so
+/// an odd number can only be a fold, of measure zero, or a search that missed one: with those that an
+/// odd number lacks, these are 2 in 267 of 300 (89 %) and 4 in 33 (11 %). That is what is found here.
+/// Only contacts that press are counted, all of the ring being active; those that pull are the
+/// contacts of the opposite wrench.
 #[test]
 fn counts() {
     let torus = Torus::new(1.0, 0.35).unwrap();
     let mut random = Random::new(3);
     let mut counts = [0; 9];
-    for _ in 0..1500 {
+    let count = 6000;
+    for _ in 0..count {
         let spin = random.log_uniform(1e-3, 3.0);
         let case = Case::random(&mut random, &torus, 1.4, [spin / 1.4, spin / 1.4 * 1.0001], 1.0);
         let (found, search) = all(&torus, &case.wrench);
         assert!(matches!(search, Search::Complete), "{case:?} {found:?}");
         counts[found.len().min(8)] += 1;
         let force = case.wrench.force();
-        assert!(found.iter().any(|c| (c.point - case.point).norm() < 1e-7), "{case:?} {found:?}");
+        let nearest = found.iter().map(|c| (c.point - case.point).norm()).fold(f64::INFINITY, f64::min);
+        assert!(nearest < 1e-6, "{nearest:e} {case:?} {found:?}");
         let mut sum = 0.0;
         for contact in &found {
             let residual =
@@ -45,35 +55,45 @@ fn counts() {
             assert!(force.dot(&contact.normal) < 0.0);
             sum += index(&torus, &force, contact).signum();
         }
-        assert!(sum.abs() < 0.5 && found.len() % 2 == 0);
+        assert!(sum.abs() < 0.5 && found.len() % 2 == 0, "{case:?} {found:?}");
     }
-    println!("torus R = 1, r = 0.35: solutions 0..8 in {counts:?} of 1500");
-    assert!(counts[2] > counts[4] && counts[4] > 0 && counts[6] + counts[8] < counts[4]);
+    println!("torus R = 1, r = 0.35: 0..8 contacts in {counts:?} of {count}");
+    let share = |k: usize| f64::from(counts[k]) / f64::from(count);
+    assert!((share(2) - 267.0 / 300.0).abs() < 0.03 && (share(4) - 33.0 / 300.0).abs() < 0.03);
+    assert!(counts[0] + counts[1] + counts[3] + counts[5] == 0);
 }
 
-/// `det [[K/2 H − [f], g/2], [gᵀ, 0]] = −½ [(K²/4)|g|⁴ κ + (f·g)²]` (theory 3.4), here with the
-/// signed distance as level function: `|g| = 1`, `K = 2τ`.
+/// Newton's method from points all over the ring finds no contact that is missing. From few starts it
+/// misses some, and then counts odd numbers.
 #[test]
-fn determinant_of_the_jacobian() {
+fn nothing_is_missed() {
     let torus = Torus::new(1.0, 0.35).unwrap();
-    let mut random = Random::new(4);
-    for _ in 0..2000 {
-        let (point, normal) = random.place(&torus, 1.4);
-        let force = random.direction();
-        let tau = random.uniform(-2.0, 2.0);
-        let level = torus.level(&point);
-        let block: Matrix3<f64> = level.hessian * tau - force.cross_matrix();
-        let mut jacobian = nalgebra::Matrix4::zeros();
-        jacobian.fixed_view_mut::<3, 3>(0, 0).copy_from(&block);
-        jacobian.fixed_view_mut::<3, 1>(0, 3).copy_from(&(normal * 0.5));
-        jacobian.fixed_view_mut::<1, 3>(3, 0).copy_from(&normal.transpose());
-        let contact = SoftContact { point, normal, spin_torque: tau, active: true };
-        let expected = -0.5 * index(&torus, &force, &contact);
-        let scale = 1.0 + tau * tau * 10.0;
-        assert!(
-            (jacobian.determinant() - expected).abs() < 1e-13 * scale,
-            "{} {expected}",
-            jacobian.determinant()
-        );
+    let mut random = Random::new(5);
+    let (mut by_few, mut by_many) = ([0; 9], [0; 9]);
+    for _ in 0..300 {
+        // Spin torques from almost none, where the wrench's axis rules, to such as bend it round.
+        let spin = random.log_uniform(1e-6, 10.0);
+        let case = Case::random(&mut random, &torus, 1.4, [spin / 1.4, spin / 1.4 * 1.0001], 1.0);
+        let (ours, _) = all(&torus, &case.wrench);
+        let mut distinct: Vec<Vector3<f64>> = Vec::new();
+        for start in 0..300 {
+            if start == 8 {
+                by_few[distinct.len().min(8)] += 1;
+            }
+            let found = newton(&torus, &case.wrench, random.place(&torus, 1.4).0, &mut random);
+            let Some((point, pressing)) = found else { continue };
+            if !pressing {
+                continue;
+            }
+            let apart = |other: &Vector3<f64>| (other - point).norm();
+            assert!(ours.iter().any(|c| apart(&c.point) < 1e-6), "{point} {case:?} {ours:?}");
+            if distinct.iter().all(|other| apart(other) > 1e-6) {
+                distinct.push(point);
+            }
+        }
+        by_many[distinct.len().min(8)] += 1;
+        assert!(distinct.len() <= ours.len());
     }
+    println!("multi-start Newton, 0..8 contacts: {by_few:?} from 8 starts, {by_many:?} from 300, of 300");
+    assert!(by_few[1] + by_few[3] > by_many[1] + by_many[3]);
 }

@@ -1,0 +1,193 @@
+//! The shape of a cylindrical fingertip from touches on its side.
+
+use fingertip_surfaces::Cylinder;
+use nalgebra::{DMatrix, Vector3};
+
+use super::touches::{Fitted, GeometryError, Touch, directions, drop_rounding, named};
+use crate::fit::least_squares;
+use crate::linear::{Singular, Unobserved};
+
+/// The axis of a cylinder shows if the spread of the normals in their weaker direction is at least
+/// this of that in their stronger one: a sector of about 10°.
+const LEAST_SPREAD: f64 = 0.05;
+
+/// Cylinder from touches on its side at known directions, nothing else being known: the axis is the
+/// direction that the normals lie across (the right singular vector of their smallest singular value),
+/// then radius and offset are those of [`fit_cylinder_along`] that axis.
+///
+/// Deviations: radius, the two of the offset across the axis \[m\], then the two tilts of the axis
+/// \[rad\], about the directions of the second and the first singular vector. Not observable at all is
+/// the position along the axis; `unobserved` says so.
+///
+/// # Errors
+/// [`GeometryError`]; the axis is not observable where all normals are parallel, the radius not without
+/// friction.
+pub fn fit_cylinder(touches: &[Touch]) -> Result<Fitted<Cylinder<f64>>, GeometryError> {
+    let normals = directions(touches)?;
+    let spread = DMatrix::from_fn(normals.len(), 3, |i, j| normals[i][j]);
+    let singular = Singular::new(&spread).filter(|singular| singular.values.len() == 3);
+    let Some(singular) = singular else {
+        let samples = normals.len();
+        return Err(crate::fit::FitError::TooFewSamples { samples, coefficients: 5 }.into());
+    };
+    if !(singular.values[1] > LEAST_SPREAD * singular.values[0]) {
+        let directions = DMatrix::from_fn(3, 2, |i, j| singular.right[(i, 1 + j)]);
+        let names = ["axis x", "axis y", "axis z"].map(str::to_owned).to_vec();
+        let unobserved = Unobserved { regressors: 3, directions, names };
+        return Err(crate::fit::FitError::Unobserved(unobserved).into());
+    }
+    let axis = Vector3::from_fn(|i, _| singular.right[(i, 2)]);
+    let mut fitted = fit_cylinder_along(touches, &axis)?;
+    // What the normals leave along the axis is their error.
+    let freedom = normals.len().saturating_sub(2).max(1) as f64;
+    let error = singular.values[2] / freedom.sqrt();
+    fitted.deviations.extend([error / singular.values[1], error / singular.values[0]]);
+    Ok(fitted)
+}
+
+/// Cylinder with a known direction of its axis, from touches on its side at known directions: the
+/// position of each touch along the axis is not needed. Deviations: radius, then the point of the axis
+/// nearest to the origin along two directions across the axis.
+///
+/// Of `m = (ρ n + a + s d) × f` the part across `d × f`, which does not know of `s`, is linear in ρ
+/// and `a`. The position along the axis is not observable; `unobserved` says so.
+///
+/// # Errors
+/// [`GeometryError`]; the radius is not observable without friction.
+pub fn fit_cylinder_along(
+    touches: &[Touch],
+    axis: &Vector3<f64>,
+) -> Result<Fitted<Cylinder<f64>>, GeometryError> {
+    let length = axis.norm();
+    if !(length > 0.0 && length.is_finite()) {
+        return Err(GeometryError::BadTouch { touch: 0, what: "the axis has no direction" });
+    }
+    let axis = axis / length;
+    let across = match axis.iamin() {
+        0 => Vector3::x(),
+        1 => Vector3::y(),
+        _ => Vector3::z(),
+    };
+    let first = axis.cross(&across).normalize();
+    let second = axis.cross(&first);
+    let normals = directions(touches)?;
+    let mut design = DMatrix::zeros(touches.len(), 3);
+    let mut torque = DMatrix::zeros(touches.len(), 1);
+    for (i, (touch, normal)) in touches.iter().zip(&normals).enumerate() {
+        let force = touch.wrench.force();
+        // Across both the force and d × f: what moving along the axis does not change.
+        let blind = axis.cross(&force);
+        let test = blind.cross(&force);
+        let size = test.norm();
+        if !(size > 0.0) {
+            continue;
+        }
+        // Weighted so that every equation has the dimension of a torque.
+        let test = test / size;
+        let radial = normal - axis * normal.dot(&axis);
+        for (j, column) in [radial, first, second].into_iter().enumerate() {
+            design[(i, j)] = test.dot(&column.cross(&force));
+        }
+        torque[(i, 0)] = test.dot(&touch.wrench.torque());
+    }
+    let size = touches.iter().map(|touch| touch.wrench.force().norm_squared()).sum::<f64>().sqrt();
+    (0..3).for_each(|column| drop_rounding(&mut design, column, size));
+    let fit = least_squares(&design, &torque, None)
+        .map_err(|error| named(error, &["radius", "axis offset 1", "axis offset 2"]))?;
+    let p = &fit.coefficients;
+    let left = &torque - &design * p;
+    let variance = fit.residual_covariance[(0, 0)];
+    let point = first * p[1] + second * p[2];
+    Ok(Fitted {
+        shape: Cylinder::new(point, axis, p[0])?,
+        deviations: fit.inverse_gram.diagonal().iter().map(|g| (g * variance).max(0.0).sqrt()).collect(),
+        rms: (left.norm_squared() / left.len().max(1) as f64).sqrt(),
+        unobserved: vec!["position along the axis".to_owned()],
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{fit_cylinder, fit_cylinder_along};
+    use crate::fit::testing::gaussian;
+    use crate::geometry::{GeometryError, Touch};
+    use fingertip_wrench::Wrench;
+    use nalgebra::Vector3;
+    use rand::SeedableRng as _;
+    use rand_pcg::Pcg64Mcg;
+
+    fn vector(random: &mut Pcg64Mcg) -> Vector3<f64> {
+        Vector3::from_fn(|_, _| gaussian(random))
+    }
+
+    /// Touches with friction on the side of a cylinder of 8 mm, and the point of its axis nearest to the
+    /// origin.
+    fn touches(random: &mut Pcg64Mcg, axis: Vector3<f64>, count: usize) -> (Vec<Touch>, Vector3<f64>) {
+        let centre = vector(random) * 0.01;
+        let base = centre - axis * centre.dot(&axis);
+        let touches = (0..count)
+            .map(|_| {
+                let n = vector(random);
+                let radial = (n - axis * n.dot(&axis)).normalize();
+                let along = axis * (0.02 * gaussian(random));
+                let slide = vector(random).cross(&radial).normalize();
+                let force = (slide * 0.3 - radial) * (1.0 + gaussian(random).abs());
+                Touch {
+                    wrench: Wrench::from_force_at(&(base + radial * 0.008 + along), force),
+                    normal: radial * 3.0,
+                }
+            })
+            .collect();
+        (touches, base)
+    }
+
+    #[test]
+    fn shape_comes_back_with_and_without_its_axis() {
+        let random = &mut Pcg64Mcg::seed_from_u64(11);
+        for _ in 0..100 {
+            let axis = vector(random).normalize();
+            let (touches, base) = touches(random, axis, 15);
+            for fitted in
+                [fit_cylinder(&touches).unwrap(), fit_cylinder_along(&touches, &(axis * 2.0)).unwrap()]
+            {
+                assert!((fitted.shape.radius() - 0.008).abs() < 1e-10);
+                assert!((fitted.shape.centre() - base).amax() < 1e-10);
+                assert!(fitted.shape.axis().cross(&axis).norm() < 1e-10);
+                assert_eq!(fitted.unobserved, ["position along the axis"]);
+            }
+        }
+    }
+
+    #[test]
+    fn an_axis_that_does_not_show_is_named() {
+        let random = &mut Pcg64Mcg::seed_from_u64(12);
+        let (mut touches, _) = touches(random, Vector3::z(), 15);
+        for touch in &mut touches {
+            touch.normal = Vector3::x();
+        }
+        let error = fit_cylinder(&touches).unwrap_err();
+        assert!(error.to_string().contains("axis"), "{error}");
+        assert!(fit_cylinder(&touches[..2]).is_err() && fit_cylinder(&[]).is_err());
+        touches[4].normal.x = f64::NAN;
+        assert!(matches!(fit_cylinder(&touches), Err(GeometryError::BadTouch { touch: 4, .. })));
+    }
+
+    /// Normals that are known to 10 mrad: the tilt is as large as is said, within 5 %.
+    #[test]
+    fn tilt_is_as_uncertain_as_is_said() {
+        let random = &mut Pcg64Mcg::seed_from_u64(13);
+        let (clean, _) = touches(random, Vector3::z(), 20);
+        let trials = 8000;
+        let (mut found, mut stated) = (0.0, 0.0);
+        for _ in 0..trials {
+            let noisy: Vec<Touch> = clean
+                .iter()
+                .map(|touch| Touch { normal: touch.normal.normalize() + vector(random) * 0.01, ..*touch })
+                .collect();
+            let fitted = fit_cylinder(&noisy).unwrap();
+            found += fitted.shape.axis().cross(&Vector3::z()).norm_squared() / f64::from(trials);
+            stated += (fitted.deviations[3].powi(2) + fitted.deviations[4].powi(2)) / f64::from(trials);
+        }
+        assert!((found / stated - 1.0).abs() < 0.05, "{found:e} {stated:e}");
+    }
+}

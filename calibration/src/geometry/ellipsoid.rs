@@ -1,0 +1,348 @@
+//! The shape of an ellipsoidal fingertip from touches at known directions.
+
+use fingertip_surfaces::{BadShape, Ellipsoid, Posed};
+use fingertip_wrench::{RigidTransform, Wrench};
+use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
+
+use super::touches::{Fitted, GeometryError, Touch, directions, fit_sphere, torque_fit};
+
+const MOST_ITERATIONS: usize = 200;
+
+/// The semi-axes and centre of an ellipsoid whose axes are those of the sensor frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EllipsoidParameters {
+    /// Semi-axes along x, y, z \[m\].
+    pub semi_axes: Vector3<f64>,
+    /// Centre \[m\].
+    pub centre: Vector3<f64>,
+}
+
+/// Ellipsoid with axes along the sensor's, from touches at known directions: the point with outward
+/// normal n is `t + A² n / √(nᵀA²n)`, A = diag(semi-axes). Gauss-Newton from the fitted sphere.
+/// Deviations: semi-axes x, y, z, centre x, y, z.
+///
+/// # Errors
+/// [`GeometryError`].
+pub fn fit_aligned_ellipsoid(touches: &[Touch]) -> Result<Fitted<EllipsoidParameters>, GeometryError> {
+    let normals = directions(touches)?;
+    let start = fit_sphere(touches)?.shape;
+    let mut semi_axes = Vector3::from_element(start.radius());
+    let mut centre = start.centre();
+    let names = ["semi-axis x", "semi-axis y", "semi-axis z", "centre x", "centre y", "centre z"];
+    for _ in 0..MOST_ITERATIONS {
+        let squares = semi_axes.component_mul(&semi_axes);
+        let mut columns: Vec<Vec<Vector3<f64>>> = vec![Vec::new(); 6];
+        let mut points = Vec::with_capacity(touches.len());
+        for n in &normals {
+            let scaled = squares.component_mul(n);
+            let width = n.dot(&scaled).sqrt();
+            points.push(centre + scaled / width);
+            for j in 0..3 {
+                // d(A²n/w)/da_j = 2 a_j n_j e_j / w − A²n · a_j n_j² / w³.
+                let slope = Vector3::ith(j, 2.0 * semi_axes[j] * n[j] / width)
+                    - scaled * (semi_axes[j] * n[j] * n[j] / width.powi(3));
+                columns[j].push(slope);
+                columns[3 + j].push(Vector3::ith(j, 1.0));
+            }
+        }
+        let (step, deviations, rms, _) = torque_fit(&left_over(touches, &points), &columns, &names)?;
+        // A semi-axis may shrink to a tenth of itself in one step, but not turn negative.
+        for j in 0..3 {
+            semi_axes[j] = (semi_axes[j] + step[j]).max(0.1 * semi_axes[j]);
+            centre[j] += step[3 + j];
+        }
+        if !(semi_axes.amax() + centre.amax()).is_finite() {
+            break;
+        }
+        if step.amax() <= 1e-12 * semi_axes.amax() {
+            let shape = EllipsoidParameters { semi_axes, centre };
+            return Ok(Fitted { shape, deviations, rms, unobserved: Vec::new() });
+        }
+    }
+    Err(GeometryError::NoConvergence { iterations: MOST_ITERATIONS })
+}
+
+/// The touches with the torque that the given points leave.
+fn left_over(touches: &[Touch], points: &[Vector3<f64>]) -> Vec<Touch> {
+    let left = |touch: &Touch, point: &Vector3<f64>| {
+        let force = touch.wrench.force();
+        let wrench = Wrench::on_fingertip(force, touch.wrench.torque() - point.cross(&force));
+        Touch { wrench, ..*touch }
+    };
+    touches.iter().zip(points).map(|(touch, point)| left(touch, point)).collect()
+}
+
+/// An ellipsoid anywhere in the sensor frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PosedEllipsoid {
+    /// Semi-axes from the longest to the shortest \[m\]: x, y, z of the ellipsoid's own frame.
+    pub semi_axes: Vector3<f64>,
+    /// The pose of the ellipsoid's own frame.
+    pub sensor_from_ellipsoid: RigidTransform<f64>,
+}
+
+impl PosedEllipsoid {
+    /// As a surface.
+    ///
+    /// # Errors
+    /// [`BadShape`] only if the semi-axes were changed to ones that cannot be.
+    pub fn surface(&self) -> Result<Posed<f64, Ellipsoid<f64>>, BadShape> {
+        Ok(Posed::new(Ellipsoid::new(self.semi_axes)?, self.sensor_from_ellipsoid))
+    }
+}
+
+/// Row and column of the six numbers of a symmetric matrix.
+const ENTRIES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+
+fn symmetric(k: usize) -> Matrix3<f64> {
+    let (i, j) = ENTRIES[k];
+    let mut basis = Matrix3::zeros();
+    basis[(i, j)] = 1.0;
+    basis[(j, i)] = 1.0;
+    basis
+}
+
+/// Ellipsoid of any orientation, from touches at known directions: the point with outward normal n is
+/// `t + M n / √(nᵀMn)` with M = Q diag(semi-axes)² Qᵀ, nine unknowns. Gauss-Newton from the fitted
+/// sphere, with steps that keep M positive definite; M is then taken apart into semi-axes and
+/// orientation.
+///
+/// Deviations: semi-axes from the longest, centre x, y, z \[m\], turns about the three principal axes
+/// \[rad\]. Where two semi-axes differ by less than three deviations of their difference, the turn about
+/// the third principal axis is not observable: its deviation is infinite, and `unobserved` names it.
+///
+/// # Errors
+/// [`GeometryError`]; without friction, sizes cannot be observed. Five generic touches are the least.
+pub fn fit_ellipsoid(touches: &[Touch]) -> Result<Fitted<PosedEllipsoid>, GeometryError> {
+    let normals = directions(touches)?;
+    let start = fit_sphere(touches)?.shape;
+    // In units of the sphere's radius, so that all nine numbers are of one size.
+    let unit = start.radius();
+    let mut shape = Matrix3::identity();
+    let mut centre = start.centre() / unit;
+    let names =
+        ["xx", "yy", "zz", "xy", "xz", "yz", "centre x", "centre y", "centre z"].map(|name| {
+            match name.len() {
+                2 => format!("shape {name}"),
+                _ => name.to_owned(),
+            }
+        });
+    let names = names.each_ref().map(String::as_str);
+    for _ in 0..MOST_ITERATIONS {
+        let mut columns: Vec<Vec<Vector3<f64>>> = vec![Vec::new(); 9];
+        let mut points = Vec::with_capacity(touches.len());
+        for n in &normals {
+            let scaled = shape * n;
+            let width = n.dot(&scaled).sqrt();
+            points.push((centre + scaled / width) * unit);
+            for (k, column) in columns.iter_mut().take(6).enumerate() {
+                let change = symmetric(k) * n;
+                let slope = change / width - scaled * (n.dot(&change) / (2.0 * width.powi(3)));
+                column.push(slope * unit);
+            }
+            (0..3).for_each(|j| columns[6 + j].push(Vector3::ith(j, unit)));
+        }
+        let (step, deviations, rms, fit) = torque_fit(&left_over(touches, &points), &columns, &names)?;
+        let change = (0..6).fold(Matrix3::zeros(), |sum, k| sum + symmetric(k) * step[k]);
+        // Shortened until no semi-axis shrinks to less than a third.
+        let mut share = 1.0;
+        while share > 1e-6 && least_eigenvalue(&(shape + change * share)) < 0.1 * least_eigenvalue(&shape) {
+            share *= 0.5;
+        }
+        shape += change * share;
+        centre += Vector3::new(step[6], step[7], step[8]) * share;
+        if !(shape.amax() + centre.amax()).is_finite() {
+            break;
+        }
+        if share == 1.0 && step.amax() <= 1e-12 * shape.amax() {
+            let variance = fit.residual_covariance[(0, 0)];
+            let covariance = fit.inverse_gram * variance;
+            return Ok(taken_apart(&shape, &centre, unit, &covariance, &deviations, rms));
+        }
+    }
+    Err(GeometryError::NoConvergence { iterations: MOST_ITERATIONS })
+}
+
+fn least_eigenvalue(matrix: &Matrix3<f64>) -> f64 {
+    matrix.symmetric_eigenvalues().min()
+}
+
+/// Semi-axes, orientation and their deviations from M, t and their covariance, lengths in `unit`.
+fn taken_apart(
+    shape: &Matrix3<f64>,
+    centre: &Vector3<f64>,
+    unit: f64,
+    covariance: &DMatrix<f64>,
+    deviations: &[f64],
+    rms: f64,
+) -> Fitted<PosedEllipsoid> {
+    let eigen = shape.symmetric_eigen();
+    let mut order = [0, 1, 2];
+    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let squares = order.map(|k| eigen.eigenvalues[k]);
+    let (x, y) =
+        (eigen.eigenvectors.column(order[0]).into_owned(), eigen.eigenvectors.column(order[1]).into_owned());
+    let axes = [x, y, x.cross(&y)];
+    let rotation = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&axes));
+    // Standard deviation of uᵀ dM v, plus that of another such form with a factor.
+    let form = |u: &Vector3<f64>, v: &Vector3<f64>| {
+        nalgebra::DVector::from_fn(9, |k, _| if k < 6 { u.dot(&(symmetric(k) * v)) } else { 0.0 })
+    };
+    let spread = |g: &nalgebra::DVector<f64>| (g.transpose() * covariance * g)[(0, 0)].max(0.0).sqrt();
+    let semi_axes = squares.map(f64::sqrt);
+    let mut result: Vec<f64> =
+        (0..3).map(|k| unit * spread(&form(&axes[k], &axes[k])) / (2.0 * semi_axes[k])).collect();
+    // The centre was fitted in units too.
+    result.extend(deviations.iter().skip(6).take(3).map(|deviation| deviation * unit));
+    let mut unobserved = Vec::new();
+    for k in 0..3 {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        let gap = (squares[i] - squares[j]).abs();
+        let difference = form(&axes[i], &axes[i]) - form(&axes[j], &axes[j]);
+        // First order: vᵢ turns towards vⱼ by vⱼᵀ dM vᵢ / (λᵢ − λⱼ).
+        if gap > 3.0 * spread(&difference) && gap > 64.0 * f64::EPSILON * squares[0] {
+            result.push(spread(&form(&axes[i], &axes[j])) / gap);
+        } else {
+            result.push(f64::INFINITY);
+            let name = ["longest", "middle", "shortest"][k];
+            unobserved.push(format!("turn about the {name} principal axis (the others are alike)"));
+        }
+    }
+    let semi_axes = Vector3::from(semi_axes) * unit;
+    let sensor_from_ellipsoid = RigidTransform::from_parts(rotation, centre * unit);
+    Fitted { shape: PosedEllipsoid { semi_axes, sensor_from_ellipsoid }, deviations: result, rms, unobserved }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{fit_aligned_ellipsoid, fit_ellipsoid};
+    use crate::fit::testing::gaussian;
+    use crate::geometry::{GeometryError, Touch};
+    use fingertip_surfaces::ActiveSurface as _;
+    use fingertip_wrench::Wrench;
+    use nalgebra::{Matrix3, Rotation3, Vector3};
+    use rand::SeedableRng as _;
+    use rand_pcg::Pcg64Mcg;
+
+    fn vector(random: &mut Pcg64Mcg) -> Vector3<f64> {
+        Vector3::from_fn(|_, _| gaussian(random))
+    }
+
+    /// Touches with friction of an ellipsoid.
+    fn touches(
+        random: &mut Pcg64Mcg,
+        semi_axes: Vector3<f64>,
+        turn: &Rotation3<f64>,
+        centre: Vector3<f64>,
+        count: usize,
+    ) -> Vec<Touch> {
+        let squares = Matrix3::from_diagonal(&semi_axes.component_mul(&semi_axes));
+        let shape = turn * squares * turn.inverse();
+        (0..count)
+            .map(|_| {
+                let n = vector(random).normalize();
+                let point = centre + shape * n / n.dot(&(shape * n)).sqrt();
+                let slide = vector(random).cross(&n).normalize();
+                let force = (slide * 0.4 - n) * (1.0 + gaussian(random).abs());
+                Touch { wrench: Wrench::from_force_at(&point, force), normal: n * 3.0 }
+            })
+            .collect()
+    }
+
+    #[test]
+    fn ellipsoids_of_any_orientation_come_back() {
+        let random = &mut Pcg64Mcg::seed_from_u64(21);
+        let axes = Vector3::new(0.02, 0.015, 0.012);
+        for _ in 0..100 {
+            let (turn, centre) = (Rotation3::from_scaled_axis(vector(random)), vector(random) * 0.01);
+            let touches = touches(random, axes, &turn, centre, 15);
+            let fitted = fit_ellipsoid(&touches).unwrap();
+            assert!((fitted.shape.semi_axes - axes).amax() < 1e-10, "{fitted:?}");
+            assert!((fitted.shape.sensor_from_ellipsoid.origin() - centre).amax() < 1e-10);
+            // Principal axes have no sign.
+            let found = fitted.shape.sensor_from_ellipsoid.rotation().tr_mul(turn.matrix());
+            assert!((found.abs() - Matrix3::identity()).amax() < 1e-8, "{found}");
+            assert!(fitted.unobserved.is_empty() && fitted.deviations.len() == 9);
+            // Touched points lie on the surface.
+            let surface = fitted.shape.surface().unwrap();
+            assert!(surface.contains(&(centre + turn * Vector3::x() * 0.0199)));
+            assert!(!surface.contains(&(centre + turn * Vector3::x() * 0.0201)));
+        }
+    }
+
+    #[test]
+    fn aligned_ellipsoids_come_back() {
+        let random = &mut Pcg64Mcg::seed_from_u64(22);
+        let axes = Vector3::new(0.012, 0.015, 0.02);
+        for _ in 0..100 {
+            let centre = vector(random) * 0.01;
+            let touches = touches(random, axes, &Rotation3::identity(), centre, 15);
+            let fitted = fit_aligned_ellipsoid(&touches).unwrap();
+            assert!((fitted.shape.semi_axes - axes).amax() < 1e-10);
+            assert!((fitted.shape.centre - centre).amax() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn what_a_spheroid_hides_is_said() {
+        let random = &mut Pcg64Mcg::seed_from_u64(23);
+        let turn = Rotation3::from_scaled_axis(vector(random));
+        let touches = touches(random, Vector3::new(0.02, 0.01, 0.01), &turn, Vector3::zeros(), 30);
+        let noisy: Vec<Touch> = touches
+            .iter()
+            .map(|touch| Touch {
+                wrench: Wrench::on_fingertip(
+                    touch.wrench.force(),
+                    touch.wrench.torque() + vector(random) * 1e-5,
+                ),
+                ..*touch
+            })
+            .collect();
+        let fitted = fit_ellipsoid(&noisy).unwrap();
+        assert_eq!(fitted.unobserved.len(), 1, "{fitted:?}");
+        assert!(fitted.unobserved[0].contains("longest") && fitted.deviations[6].is_infinite());
+        assert!(fitted.deviations[7] < 0.01 && fitted.deviations[8] < 0.01);
+        assert!((fitted.shape.semi_axes.x - 0.02).abs() < 5.0 * fitted.deviations[0]);
+        assert!(matches!(fit_ellipsoid(&touches[..2]), Err(GeometryError::Fit(_))));
+    }
+
+    /// Deviations of semi-axes, centre and turns against the spread of many fits, to 5 %.
+    #[test]
+    fn deviations_are_those_of_many_trials() {
+        let random = &mut Pcg64Mcg::seed_from_u64(24);
+        let axes = Vector3::new(0.02, 0.015, 0.011);
+        let turn = Rotation3::from_scaled_axis(Vector3::new(0.3, -0.5, 0.2));
+        let clean = touches(random, axes, &turn, Vector3::new(0.001, 0.002, 0.003), 20);
+        let trials = 4000;
+        let (mut found, mut stated) = ([0.0; 9], [0.0; 9]);
+        for _ in 0..trials {
+            let noisy: Vec<Touch> = clean
+                .iter()
+                .map(|t| Touch {
+                    wrench: Wrench::on_fingertip(t.wrench.force(), t.wrench.torque() + vector(random) * 1e-5),
+                    ..*t
+                })
+                .collect();
+            let fitted = fit_ellipsoid(&noisy).unwrap();
+            let mut errors = [0.0; 9];
+            let origin = fitted.shape.sensor_from_ellipsoid.origin();
+            let left = turn.matrix().tr_mul(&fitted.shape.sensor_from_ellipsoid.rotation());
+            for k in 0..3 {
+                errors[k] = fitted.shape.semi_axes[k] - axes[k];
+                errors[3 + k] = origin[k] - [0.001, 0.002, 0.003][k];
+                // Off-diagonal entries are the turns, whatever the signs of the axes.
+                errors[6 + k] = left[((k + 1) % 3, (k + 2) % 3)];
+            }
+            for k in 0..9 {
+                found[k] += errors[k] * errors[k] / f64::from(trials);
+                stated[k] += fitted.deviations[k].powi(2) / f64::from(trials);
+            }
+        }
+        // The mean over each kind, for which 4000 trials tell 5 % apart.
+        for kind in 0..3 {
+            let ratio = (0..3).map(|k| found[3 * kind + k] / stated[3 * kind + k]).sum::<f64>() / 3.0;
+            println!("kind {kind}: {:+.2} %", 100.0 * (ratio - 1.0));
+            assert!((ratio - 1.0).abs() < 0.05, "{kind}: {ratio}");
+        }
+    }
+}

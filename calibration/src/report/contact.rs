@@ -1,0 +1,141 @@
+//! What the uncertainty of a calibration does to contact points.
+
+use fingertip_wrench::Wrench;
+use nalgebra::{DMatrix, DVector, Matrix6};
+use serde::Serialize;
+
+use crate::Axis;
+use crate::design::Touch;
+use crate::file::Covariance;
+use crate::linear::pseudo_inverse;
+
+/// Touches of a surface, on which a report says what the calibration is worth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TouchSet {
+    /// What the surface is, in words: "a sphere of 10 mm about the origin".
+    pub surface: String,
+    /// The touches, such as [`Touch::on_sphere`] or [`Touch::on_surface`] gives.
+    pub touches: Vec<Touch>,
+}
+
+/// How far contact points are off because of the sensor: root mean squares over the touches of a
+/// surface, of the distance along the surface between the true contact point and the one that is
+/// resolved \[mm\].
+///
+/// First order: the covariance of the wrench, `C⁺ Σ_V C⁺ᵀ (1 + xᵀG⁻¹x)`, carried to the contact point by
+/// the derivative of the crossing of the line of action with the surface. Too small, therefore, near
+/// grazing. The zero is taken to be tared, and the surface to be known exactly.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ContactReport {
+    /// What the surface is.
+    pub surface: String,
+    /// How many touches of it were taken.
+    pub touches: usize,
+    /// Force of the touches \[N\] (mean).
+    pub force: f64,
+    /// By the error of the matrix: the same at every reading of a load, however often it is read.
+    pub calibration_mm: f64,
+    /// By the noise of one reading, which averaging makes smaller.
+    pub reading_mm: f64,
+    /// Both together.
+    pub together_mm: f64,
+    /// Both together, for the worst of the touches.
+    pub worst_mm: f64,
+}
+
+/// `None` unless all six axes are there, the matrix can be inverted and there are touches.
+pub(crate) fn contact_report(
+    axes: &[Axis],
+    matrix: &DMatrix<f64>,
+    nominal: &[f64],
+    covariance: &Covariance,
+    set: &TouchSet,
+) -> Option<ContactReport> {
+    if axes != Axis::ALL || set.touches.is_empty() {
+        return None;
+    }
+    let mut inverse = pseudo_inverse(matrix)?;
+    for (mut row, nominal) in inverse.row_iter_mut().zip(nominal) {
+        row *= *nominal;
+    }
+    let noise = &inverse * &covariance.signals * inverse.transpose();
+    let noise = Matrix6::from_fn(|i, j| noise[(i, j)]);
+    let (mut by_reading, mut by_matrix, mut worst, mut force) = (0.0, 0.0, 0.0_f64, 0.0);
+    for touch in &set.touches {
+        let jacobian = touch.jacobian();
+        let load = Wrench::<f64>::from_force_at(&touch.point, touch.force).components();
+        let load = DVector::from_fn(6, |i, _| load[i] / nominal[i]);
+        let spread = load.dot(&(&covariance.loads * &load));
+        let squared = (jacobian * noise * jacobian.transpose()).trace().max(0.0);
+        by_reading += squared;
+        by_matrix += squared * spread;
+        worst = worst.max(squared * (1.0 + spread));
+        force += touch.force.norm();
+    }
+    let count = set.touches.len() as f64;
+    let millimetres = |squares: f64| 1e3 * squares.max(0.0).sqrt();
+    let report = ContactReport {
+        surface: set.surface.clone(),
+        touches: set.touches.len(),
+        force: force / count,
+        calibration_mm: millimetres(by_matrix / count),
+        reading_mm: millimetres(by_reading / count),
+        together_mm: millimetres((by_matrix + by_reading) / count),
+        worst_mm: millimetres(worst),
+    };
+    (report.worst_mm.is_finite() && report.calibration_mm.is_finite()).then_some(report)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{TouchSet, contact_report};
+    use crate::Axis;
+    use crate::design::Touch;
+    use crate::file::Covariance;
+    use crate::fit::least_squares;
+    use crate::fit::testing::{gaussian_matrix, sensor};
+    use fingertip_surfaces::{ContactModel as _, PointContact, Sphere};
+    use fingertip_wrench::Wrench;
+    use nalgebra::{DVector, Vector6};
+    use rand::SeedableRng as _;
+
+    /// The same sensor calibrated many times and used: the contact points of the resolver are off by as
+    /// much as is said.
+    #[test]
+    fn contact_points_are_off_by_as_much_as_is_said() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(31);
+        let truth = sensor(&mut random, 6, 7);
+        let loads = gaussian_matrix(&mut random, 12, 6) * 0.5;
+        let nominal = [5.0, 5.0, 5.0, 0.05, 0.05, 0.05];
+        let touches = Touch::on_sphere(0.01, 1.2, 0.3, 5.0).unwrap();
+        let touches: Vec<Touch> = touches.into_iter().step_by(80).collect();
+        let set = TouchSet { surface: "a sphere".to_owned(), touches: touches.clone() };
+        let model = PointContact::new(0.1).unwrap();
+        let sphere = Sphere::centred(0.01).unwrap();
+        let (mut found, mut by_matrix, mut stated, trials) = (0.0, 0.0, 0.0, 1500);
+        for _ in 0..trials {
+            let signals = &loads * &truth + gaussian_matrix(&mut random, 12, 7) * 1e-3;
+            let fit = least_squares(&loads, &signals, None).unwrap();
+            let matrix = fit.coefficients.transpose();
+            let covariance =
+                Covariance { signals: fit.residual_covariance.clone(), loads: fit.inverse_gram.clone() };
+            let report = contact_report(&Axis::ALL, &matrix, &nominal, &covariance, &set).unwrap();
+            stated += report.together_mm.powi(2) / f64::from(trials);
+            by_matrix += report.calibration_mm.powi(2) / f64::from(trials);
+            let inverse = crate::linear::pseudo_inverse(&matrix).unwrap();
+            for touch in &touches {
+                let load = Wrench::<f64>::from_force_at(&touch.point, touch.force).components();
+                let load = DVector::from_fn(6, |i, _| load[i] / nominal[i]);
+                let reading = truth.tr_mul(&load) + gaussian_matrix(&mut random, 7, 1).column(0) * 1e-3;
+                let read = &inverse * reading;
+                let wrench = Wrench::from_components(&Vector6::from_fn(|i, _| read[i] * nominal[i]));
+                let contact = model.resolve(&wrench, &sphere);
+                let point = contact.contact().unwrap().point;
+                found += 1e6 * (point - touch.point).norm_squared() / (trials as f64 * touches.len() as f64);
+            }
+        }
+        assert!((found / stated - 1.0).abs() < 0.05, "{found} {stated}");
+        // Twelve loads make the matrix worth so much.
+        assert!(by_matrix > 0.05 * stated && by_matrix < 0.5 * stated, "{by_matrix} {stated}");
+    }
+}

@@ -1,0 +1,11 @@
+//! The tests of the crate from outside, as one program: each program more is linked again.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, which may fail so")]
+
+mod covariance;
+mod design_end_to_end;
+mod design_optimum;
+mod equivariance;
+mod random;
+mod recordings;
+mod report;
+mod rust_constants;

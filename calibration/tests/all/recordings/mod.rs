@@ -1,0 +1,8 @@
+//! The recordings of others, where they are present: see `common` for where they are looked for.
+
+mod ati_files;
+mod axia_gravity;
+mod certificates;
+mod common;
+mod fareke;
+mod optical_sensor;

@@ -1,0 +1,104 @@
+//! The files of the commands that calibrate.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use fingertip_calibration::file::{AtiCalibration, CalibrationFile, PayloadFile};
+use fingertip_calibration::loads::{Columns, LoadTable};
+use fingertip_calibration::report::Report;
+
+use crate::error::CliError;
+
+/// What is wrong with a table, in an error that names its file.
+pub(crate) fn bad(path: &Path, message: &impl ToString) -> CliError {
+    CliError::Calibrate { path: path.to_owned(), message: message.to_string() }
+}
+
+/// A table of known loads; columns that are not used go to `notes`.
+pub(crate) fn read_loads(path: &Path, notes: &mut Vec<String>) -> Result<LoadTable, CliError> {
+    let (table, ignored) =
+        LoadTable::from_csv(open("table of loads", path)?).map_err(|error| bad(path, &error))?;
+    if !ignored.is_empty() {
+        notes.push(format!("{}: columns not used: {}", path.display(), ignored.join(", ")));
+    }
+    Ok(table)
+}
+
+/// A table whose columns are taken by name.
+pub(crate) fn read_columns(what: &'static str, path: &Path) -> Result<Columns, CliError> {
+    Columns::from_csv(open(what, path)?).map_err(|error| bad(path, &error))
+}
+
+pub(crate) fn open(what: &'static str, path: &Path) -> Result<io::BufReader<fs::File>, CliError> {
+    let file = fs::File::open(path).map_err(|source| CliError::read(what, path, source))?;
+    Ok(io::BufReader::new(file))
+}
+
+/// Our TOML, or ATI's `.cal` by its extension.
+pub(crate) fn read_calibration(path: &Path) -> Result<CalibrationFile, CliError> {
+    let fault = |message: String| CliError::Calibration { path: path.to_owned(), message };
+    let text = fs::read_to_string(path).map_err(|source| CliError::read("calibration", path, source))?;
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("cal")) {
+        let ati = AtiCalibration::from_xml(&text).map_err(|error| fault(error.to_string()))?;
+        return ati.to_calibration().map_err(|error| fault(error.to_string()));
+    }
+    CalibrationFile::from_toml(&text).map_err(|error| fault(error.to_string()))
+}
+
+/// What hangs on the sensor.
+pub(crate) fn read_payload(path: &Path) -> Result<PayloadFile, CliError> {
+    let text = fs::read_to_string(path).map_err(|source| CliError::read("payload", path, source))?;
+    PayloadFile::from_toml(&text).map_err(|error| bad(path, &error))
+}
+
+/// Refuses to write over what is read.
+pub(crate) fn guard<'a>(
+    inputs: &[PathBuf],
+    outputs: impl IntoIterator<Item = &'a PathBuf>,
+) -> Result<(), CliError> {
+    for output in outputs {
+        let Ok(place) = fs::canonicalize(output) else { continue };
+        if inputs.iter().any(|input| fs::canonicalize(input).is_ok_and(|input| input == place)) {
+            return Err(CliError::WouldOverwrite { what: "output", path: output.clone() });
+        }
+    }
+    Ok(())
+}
+
+pub(crate) fn write(what: &'static str, path: &Path, text: &str) -> Result<(), CliError> {
+    fs::write(path, text).map_err(|source| CliError::write(what, path, source))
+}
+
+pub(super) fn write_reports(
+    report: &Report,
+    title: &str,
+    html: Option<&PathBuf>,
+    json: Option<&PathBuf>,
+    written: &mut Vec<PathBuf>,
+) -> Result<(), CliError> {
+    if let Some(path) = html {
+        write("report", path, &report.to_html(title))?;
+        written.push(path.clone());
+    }
+    if let Some(path) = json {
+        let text = report.to_json().map_err(|error| CliError::write("report", path, error.into()))?;
+        write("report", path, &text)?;
+        written.push(path.clone());
+    }
+    Ok(())
+}
+
+/// Prints a text, what to mind, and what was written.
+pub(crate) fn say(text: &str, notes: &[String], written: &[PathBuf]) -> Result<(), CliError> {
+    let mut text = text.to_owned();
+    for note in notes {
+        text.push_str(&format!("note: {note}\n"));
+    }
+    if !written.is_empty() {
+        let list: Vec<String> = written.iter().map(|path| path.display().to_string()).collect();
+        text.push_str(&format!("\nWritten: {}\n", list.join(", ")));
+    }
+    let mut stdout = io::stdout();
+    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
+}

@@ -1,0 +1,80 @@
+//! The surface on which a report says what a calibration is worth.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use fingertip::surfaces::ActiveSurface;
+use fingertip_calibration::Axis;
+use fingertip_calibration::design::{DesignError, Touch};
+use fingertip_calibration::report::TouchSet;
+use nalgebra::Vector3;
+
+use crate::error::CliError;
+use crate::scene::Scene;
+use crate::shape::Shape;
+
+/// A little more than what most fingers need to hold: the touches press with friction up to this.
+const FRICTION: f64 = 0.3;
+/// Touches are thinned to about so many.
+const TOUCHES: usize = 1600;
+/// How far around its origin a surface of unknown extent is touched \[m\].
+const REACH: f64 = 0.02;
+
+#[derive(Debug, Args)]
+pub(crate) struct TouchArguments {
+    /// Say what the calibration does to contact points on a sphere of this radius about the origin
+    #[arg(long, value_name = "METRES", default_value_t = 0.01)]
+    pub(crate) tip_radius: f64,
+    /// … or on the surface of this scene
+    #[arg(long, value_name = "SCENE.toml", conflicts_with = "tip_radius")]
+    pub(crate) scene: Option<PathBuf>,
+    /// … under this force; half of the least full scale of a force without it
+    #[arg(long, value_name = "NEWTONS")]
+    pub(crate) touch_force: Option<f64>,
+}
+
+impl TouchArguments {
+    /// Touches of the surface; none for a sensor that does not measure all six components.
+    pub(super) fn set(&self, axes: &[Axis], full_scale: &[f64]) -> Result<Option<TouchSet>, CliError> {
+        if axes != Axis::ALL {
+            return Ok(None);
+        }
+        let least = full_scale.iter().take(3).copied().fold(f64::INFINITY, f64::min);
+        let force = self.touch_force.unwrap_or(0.5 * least);
+        let fault = |error: DesignError| CliError::Design { message: error.to_string() };
+        let (surface, touches) = match &self.scene {
+            None => {
+                let touches = Touch::on_sphere(self.tip_radius, core::f64::consts::PI, FRICTION, force);
+                let name = format!("a sphere of {} mm about the origin", 1e3 * self.tip_radius);
+                (name, touches.map_err(fault)?)
+            }
+            Some(path) => {
+                let scene = Scene::load(path)?;
+                (format!("the surface of {}", path.display()), on(&scene.shape, force).map_err(fault)?)
+            }
+        };
+        let step = touches.len() / TOUCHES + 1;
+        let touches: Vec<Touch> = touches.into_iter().step_by(step).collect();
+        Ok(Some(TouchSet { surface, touches }))
+    }
+}
+
+fn on(shape: &Shape, force: f64) -> Result<Vec<Touch>, DesignError> {
+    fn all<S: ActiveSurface<f64>>(
+        surface: &S,
+        centre: Vector3<f64>,
+        reach: f64,
+        force: f64,
+    ) -> Result<Vec<Touch>, DesignError> {
+        Touch::on_surface(surface, centre, reach, FRICTION, force)
+    }
+    match shape {
+        Shape::Plane(plane) => all(plane, plane.point(), REACH, force),
+        Shape::Sphere(capped) => all(capped, capped.inner().centre(), capped.inner().radius(), force),
+        Shape::Cylinder(cylinder) => {
+            let reach = cylinder.radius().hypot(cylinder.half_length().unwrap_or(REACH));
+            all(cylinder, cylinder.centre(), reach, force)
+        }
+        Shape::Other(other) => all(other.as_ref(), other.sensor_from_shape().origin(), REACH, force),
+    }
+}

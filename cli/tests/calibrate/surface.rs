@@ -1,0 +1,106 @@
+//! `fingertip geometry`: surfaces from touches.
+
+use nalgebra::{Rotation3, Vector3};
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64Mcg;
+
+use crate::common::Folder;
+
+fn direction(random: &mut Pcg64Mcg) -> Vector3<f64> {
+    Vector3::from_fn(|_, _| random.random_range(-1.0..1.0)).normalize()
+}
+
+/// Load of a push with friction at a point, then the cells given.
+fn row(random: &mut Pcg64Mcg, point: &Vector3<f64>, normal: &Vector3<f64>, cells: &str) -> String {
+    let force = direction(random).cross(normal).normalize() * 0.5 - normal * 2.0;
+    let torque = point.cross(&force);
+    let (f, m) = (force, torque);
+    format!("{},{},{},{},{},{}{cells}\n", f.x, f.y, f.z, m.x, m.y, m.z)
+}
+
+fn touches(shape: &str) -> String {
+    let random = &mut Pcg64Mcg::seed_from_u64(5);
+    let wrench = "fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm";
+    let centre = Vector3::new(0.001, -0.002, 0.004);
+    let turn = Rotation3::from_scaled_axis(Vector3::new(0.2, 0.5, -0.1));
+    let mut text = match shape {
+        "plane" => format!("{wrench},pivot\n"),
+        "pivot" => format!("{wrench}\n"),
+        "pose" => format!("{wrench},px_m,py_m,pz_m\n"),
+        _ => format!("{wrench},nx,ny,nz\n"),
+    };
+    for i in 0..20 {
+        let n = direction(random);
+        let (point, normal, cells) = match shape {
+            "sphere" => (centre + n * 0.0125, n, format!(",{},{},{}", n.x, n.y, n.z)),
+            "ellipsoid" => {
+                let squares = nalgebra::Matrix3::from_diagonal(&Vector3::new(4e-4, 2e-4, 1e-4));
+                let shape = turn * squares * turn.inverse();
+                let point = centre + shape * n / n.dot(&(shape * n)).sqrt();
+                (point, n, format!(",{},{},{}", n.x, n.y, n.z))
+            }
+            "cylinder" => {
+                let axis = turn * Vector3::z();
+                let radial = (n - axis * n.dot(&axis)).normalize();
+                let point = centre + radial * 0.008 + axis * (0.001 * f64::from(i));
+                (point, radial, format!(",{},{},{}", radial.x, radial.y, radial.z))
+            }
+            "plane" => {
+                let corner = f64::from(i % 4);
+                let point = Vector3::new(0.004 * corner.cos(), 0.004 * corner.sin(), 0.011);
+                (point, Vector3::z(), format!(",corner {}", i % 4))
+            }
+            "pivot" => (centre, n, String::new()),
+            _ => {
+                let y = direction(random) * 0.01;
+                (turn * y + centre, n, format!(",{},{},{}", y.x, y.y, y.z))
+            }
+        };
+        text += &row(random, &point, &normal, &cells);
+    }
+    text
+}
+
+#[test]
+fn surfaces_are_found_and_their_scenes_can_be_used() {
+    let folder = Folder::new();
+    for (shape, expected) in [
+        ("sphere", "12.5000"),
+        ("ellipsoid", "+20.0000 +14.1421 +10.0000"),
+        ("cylinder", "8.0000"),
+        ("plane", "11.0000"),
+        ("pivot", "+1.0000 -2.0000 +4.0000"),
+        ("pose", "+11.4592 +28.6479 -5.7296"),
+    ] {
+        folder.write("touches.csv", &touches(shape));
+        let said = folder.succeed(&["geometry", shape, "touches.csv", "-o", "scene.toml"]);
+        assert!(said.contains(expected) && said.contains("20 touches"), "{shape}: {said}");
+        if shape == "cylinder" {
+            assert!(said.contains("not observed: position along the axis"), "{said}");
+        }
+        if !matches!(shape, "pivot" | "pose") {
+            let head = "[input]\nsample_rate_Hz = 100.0\n";
+            let scene = folder.read("scene.toml").replace("[input]\n", head);
+            folder.write("scene.toml", &scene);
+            let analyze = ["analyze", "touches.csv", "--scene", "scene.toml", "--no-report"];
+            let said = folder.succeed(&analyze);
+            assert!(said.contains("20 contacts"), "{shape}: {said}");
+        }
+    }
+}
+
+#[test]
+fn mistakes_are_named() {
+    let folder = Folder::new();
+    folder.write("touches.csv", &touches("sphere"));
+    let error = folder.fail(1, &["geometry", "plane", "touches.csv"]);
+    assert!(error.contains("touches.csv") && error.contains("`pivot`"), "{error}");
+    let error = folder.fail(1, &["geometry", "sphere", "touches.csv", "-o", "touches.csv"]);
+    assert!(error.contains("overwritten"), "{error}");
+    let error = folder.fail(1, &["geometry", "cylinder", "touches.csv", "--axis", "0,1"]);
+    assert!(error.contains("three numbers"), "{error}");
+    folder.write("broken.csv", &touches("sphere").replace("tz_Nm", "tz_parsec"));
+    let error = folder.fail(1, &["geometry", "sphere", "broken.csv"]);
+    assert!(error.contains("tz_parsec"), "{error}");
+    folder.fail(2, &["geometry", "cube", "touches.csv"]);
+}

@@ -1,0 +1,44 @@
+//! Bytes from converters.
+#![no_main]
+
+use fingertip_drivers::ads1256;
+use fingertip_drivers::ads131m::{Answer, Request};
+use fingertip_drivers::hx711::Shift;
+use fingertip_drivers::mcp3564::{Data, Request as ScanRequest};
+use fingertip_drivers::nau7802;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    if let Ok(answer) = Answer::<8>::parse(bytes) {
+        let mut again = [0; Answer::<8>::LENGTH];
+        answer.emit(&mut again);
+        assert_eq!(Answer::parse(&again), Ok(answer));
+    }
+    let _ = Answer::<4>::parse(bytes);
+    for checked in [false, true] {
+        if let Ok(Some(request)) = Request::parse(bytes, checked) {
+            let mut frame = [0; 30];
+            request.emit(&mut frame);
+            assert_eq!(Request::parse(&frame, true), Ok(Some(request)));
+        }
+    }
+    if let Some(word) = bytes.first_chunk::<4>() {
+        if let Ok(data) = Data::parse(*word) {
+            assert_eq!(data.emit(), *word);
+        }
+    }
+    if let Some(word) = bytes.first_chunk::<3>() {
+        assert_eq!(ads1256::Reading::parse(*word).emit(), *word);
+        assert_eq!(nau7802::Reading::parse(*word).emit(), *word);
+    }
+    let mut shift = Shift::<8>::new();
+    for byte in bytes {
+        if let (device, Some(request)) = ScanRequest::parse(*byte) {
+            assert_eq!(request.emit(device), *byte);
+        }
+        shift.push(core::array::from_fn(|bit| byte >> bit & 1 == 1));
+    }
+    if let Ok(conversion) = shift.finish([true; 8]) {
+        assert!(conversion.counts.iter().all(|count| (-8_388_608..8_388_608).contains(count)));
+    }
+});

@@ -1,0 +1,107 @@
+//! What can be wrong with a converter.
+
+use core::fmt::Debug;
+
+use thiserror::Error;
+
+use crate::{SourceError, SourceErrorKind};
+
+/// What can be wrong with what a converter answers, without regard to how it is wired.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ConverterFault {
+    /// The checksum of an answer does not fit.
+    #[error("an answer has the checksum {found:#06x} where its bytes give {expected:#06x}")]
+    Checksum {
+        /// Of the bytes.
+        expected: u16,
+        /// In the answer.
+        found: u16,
+    },
+    /// An answer is not of the form that it must have.
+    #[error(
+        "the converter answers {found:#010x} where {expected:#010x} is due; is it this chip, wired and powered?"
+    )]
+    Answer {
+        /// What must come.
+        expected: u32,
+        /// What came.
+        found: u32,
+    },
+    /// A register does not hold what was written to it.
+    #[error("register {address:#04x} holds {found:#x} where {expected:#x} was written")]
+    Register {
+        /// The register.
+        address: u8,
+        /// What was written.
+        expected: u32,
+        /// What it holds.
+        found: u32,
+    },
+    /// The device says that what it was sent was damaged; it did not obey.
+    #[error("the converter says that what it was sent was damaged on the way")]
+    Rejected,
+    /// The device has reset itself, or its registers have changed: it must be configured anew.
+    #[error("the converter has lost its configuration; configure it anew")]
+    Reset,
+    /// It was not configured.
+    #[error("the converter was not configured")]
+    NotConfigured,
+    /// It did not become ready in time.
+    #[error("the converter did not become ready in time; is its clock running, and the pin wired?")]
+    Timeout,
+    /// A line does not move when it must.
+    #[error("the data line of channel {channel} is stuck")]
+    Stuck {
+        /// The channel.
+        channel: usize,
+    },
+    /// A channel is at an end of the range.
+    #[error("channel {channel} is at an end of the converter's range")]
+    Saturated {
+        /// The channel.
+        channel: usize,
+    },
+    /// Calibration failed, by what the device says.
+    #[error("the converter could not calibrate itself; is the input within its range?")]
+    Calibration,
+}
+
+impl SourceError for ConverterFault {
+    fn kind(&self) -> SourceErrorKind {
+        match self {
+            Self::Checksum { .. } | Self::Answer { .. } | Self::Register { .. } | Self::Rejected => {
+                SourceErrorKind::Corrupt
+            }
+            Self::Reset | Self::Calibration => SourceErrorKind::DeviceFault,
+            Self::NotConfigured => SourceErrorKind::Unsupported,
+            Self::Timeout => SourceErrorKind::Timeout,
+            Self::Stuck { .. } => SourceErrorKind::Transport,
+            Self::Saturated { .. } => SourceErrorKind::Overload,
+        }
+    }
+}
+
+/// Why a converter has no sample to give. `B` is the error of the bus, `P` that of the pin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ConverterError<B, P> {
+    /// The bus failed.
+    #[error("bus: {0:?}")]
+    Bus(B),
+    /// A pin failed.
+    #[error("pin: {0:?}")]
+    Pin(P),
+    /// The converter failed.
+    #[error(transparent)]
+    Fault(#[from] ConverterFault),
+}
+
+impl<B: Debug, P: Debug> SourceError for ConverterError<B, P> {
+    fn kind(&self) -> SourceErrorKind {
+        match self {
+            Self::Bus(_) | Self::Pin(_) => SourceErrorKind::Transport,
+            Self::Fault(fault) => fault.kind(),
+        }
+    }
+}

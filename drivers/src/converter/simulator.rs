@@ -1,0 +1,379 @@
+//! A bench with a simulated converter on it: bus, pin and time, with faults.
+
+use alloc::sync::Arc;
+use core::convert::Infallible;
+use core::future::Future;
+use core::pin::Pin;
+use core::task::{Context, Poll};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use embedded_hal::digital::{self, InputPin};
+use embedded_hal::spi::{self, Operation, SpiDevice};
+use embedded_hal_async::digital::Wait;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// A line that is held at a level, whatever drives it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// At ground.
+    Low,
+    /// At the supply.
+    High,
+}
+
+/// What the wiring does: probabilities between 0 and 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WireFaults {
+    /// One bit of what the device sends in a transaction is flipped.
+    pub answer_flip: f64,
+    /// One bit of what is sent to the device in a transaction is flipped.
+    pub request_flip: f64,
+    /// The "ready" of a conversion does not come: the pin stays high until the next one.
+    pub lost_ready: f64,
+    /// The device's data line is stuck.
+    pub stuck_data: Option<Level>,
+    /// The "ready" line is stuck.
+    pub stuck_ready: Option<Level>,
+    /// Seed of the chance.
+    pub seed: u64,
+}
+
+/// A device that can be put on a [`SimulatedBench`].
+pub trait SimulatedDevice {
+    /// Time goes on by so much \[ns\].
+    fn advance(&mut self, nanoseconds: u64);
+}
+
+/// A device on SPI with a "ready" line.
+pub trait SimulatedConverter: SimulatedDevice {
+    /// A transaction begins.
+    fn select(&mut self);
+    /// A byte comes, and one goes at the same time.
+    fn shift(&mut self, byte: u8) -> u8;
+    /// The transaction ends.
+    fn deselect(&mut self);
+    /// Whether the device drives its "ready" line low.
+    fn is_ready(&self) -> bool;
+    /// How many conversions are done.
+    fn conversions(&self) -> u64;
+}
+
+#[derive(Debug)]
+pub(crate) struct Inner<D> {
+    pub(crate) device: D,
+    pub(crate) faults: WireFaults,
+    random: Pcg64Mcg,
+    /// Time so far \[ns\].
+    now: u64,
+    /// The conversion for which it was drawn whether its "ready" comes.
+    drawn: u64,
+    silenced: bool,
+    flips: u64,
+}
+
+impl<D: SimulatedDevice> Inner<D> {
+    pub(crate) fn advance(&mut self, nanoseconds: u64) {
+        self.now += nanoseconds;
+        self.device.advance(nanoseconds);
+    }
+
+    /// Which bit of a transaction of so many bytes is flipped, if any.
+    pub(crate) fn draw(&mut self, probability: f64, bytes: usize) -> Option<usize> {
+        let hit = probability > 0.0 && bytes > 0 && self.random.random::<f64>() < probability;
+        self.flips += u64::from(hit);
+        hit.then(|| self.random.random_range(0..bytes * 8))
+    }
+}
+
+impl<D: SimulatedConverter> Inner<D> {
+    fn is_low(&mut self) -> bool {
+        if let Some(level) = self.faults.stuck_ready {
+            return level == Level::Low;
+        }
+        let conversion = self.device.conversions();
+        if conversion != self.drawn {
+            self.drawn = conversion;
+            self.silenced =
+                self.faults.lost_ready > 0.0 && self.random.random::<f64>() < self.faults.lost_ready;
+        }
+        self.device.is_ready() && !self.silenced
+    }
+
+    fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) {
+        let bytes = operations.iter().map(|operation| match operation {
+            Operation::Read(read) => read.len(),
+            Operation::Write(write) => write.len(),
+            Operation::Transfer(read, write) => read.len().max(write.len()),
+            Operation::TransferInPlace(both) => both.len(),
+            Operation::DelayNs(_) => 0,
+        });
+        let bytes = bytes.sum();
+        let (request_flip, answer_flip) =
+            (self.draw(self.faults.request_flip, bytes), self.draw(self.faults.answer_flip, bytes));
+        let mut at = 0;
+        self.device.select();
+        for operation in operations {
+            match operation {
+                Operation::Read(read) => {
+                    for place in read.iter_mut() {
+                        *place = self.byte(0, &mut at, request_flip, answer_flip);
+                    }
+                }
+                Operation::Write(write) => {
+                    for byte in *write {
+                        self.byte(*byte, &mut at, request_flip, answer_flip);
+                    }
+                }
+                Operation::Transfer(read, write) => {
+                    for index in 0..read.len().max(write.len()) {
+                        let sent = write.get(index).copied().unwrap_or(0);
+                        let got = self.byte(sent, &mut at, request_flip, answer_flip);
+                        if let Some(place) = read.get_mut(index) {
+                            *place = got;
+                        }
+                    }
+                }
+                Operation::TransferInPlace(both) => {
+                    for place in both.iter_mut() {
+                        *place = self.byte(*place, &mut at, request_flip, answer_flip);
+                    }
+                }
+                Operation::DelayNs(pause) => self.advance(u64::from(*pause)),
+            }
+        }
+        self.device.deselect();
+    }
+
+    fn byte(
+        &mut self,
+        sent: u8,
+        at: &mut usize,
+        request_flip: Option<usize>,
+        answer_flip: Option<usize>,
+    ) -> u8 {
+        let flip = |flip: Option<usize>| flip.filter(|bit| bit / 8 == *at).map_or(0, |bit| 1 << (bit % 8));
+        let got = self.device.shift(sent ^ flip(request_flip)) ^ flip(answer_flip);
+        *at += 1;
+        // A clock of 10 MHz.
+        self.advance(800);
+        match self.faults.stuck_data {
+            None => got,
+            Some(Level::Low) => 0,
+            Some(Level::High) => 0xFF,
+        }
+    }
+}
+
+/// A converter with its bus, its pin and its time. Its parts are handles on the same bench: give them to
+/// a driver and keep one to set the input and to look.
+#[derive(Debug)]
+pub struct SimulatedBench<D> {
+    inner: Arc<Mutex<Inner<D>>>,
+}
+
+impl<D> Clone for SimulatedBench<D> {
+    fn clone(&self) -> Self {
+        Self { inner: Arc::clone(&self.inner) }
+    }
+}
+
+impl<D: SimulatedDevice> SimulatedBench<D> {
+    /// Puts a device on a bench.
+    #[must_use]
+    pub fn new(device: D, faults: WireFaults) -> Self {
+        let random = Pcg64Mcg::seed_from_u64(faults.seed);
+        let inner = Inner { device, faults, random, now: 0, drawn: 0, silenced: false, flips: 0 };
+        Self { inner: Arc::new(Mutex::new(inner)) }
+    }
+
+    pub(crate) fn lock(&self) -> MutexGuard<'_, Inner<D>> {
+        // A panic of the caller's with the device in hand leaves it as it was then.
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A delay: waiting makes the bench's time go on.
+    #[must_use]
+    pub fn delay(&self) -> SimulatedDelay<D> {
+        SimulatedDelay(self.clone())
+    }
+
+    /// Changes what the wiring does.
+    pub fn set_faults(&self, faults: WireFaults) {
+        self.lock().faults = faults;
+    }
+
+    /// Lets time go on \[ns\].
+    pub fn advance(&self, nanoseconds: u64) {
+        self.lock().advance(nanoseconds);
+    }
+
+    /// The bench's time \[ns\].
+    #[must_use]
+    pub fn now(&self) -> u64 {
+        self.lock().now
+    }
+
+    /// How many bits were flipped.
+    #[must_use]
+    pub fn flips(&self) -> u64 {
+        self.lock().flips
+    }
+
+    /// Looks at the device or changes it.
+    pub fn with<R>(&self, look: impl FnOnce(&mut D) -> R) -> R {
+        look(&mut self.lock().device)
+    }
+}
+
+impl<D: SimulatedConverter> SimulatedBench<D> {
+    /// The SPI device.
+    #[must_use]
+    pub fn spi(&self) -> SimulatedSpi<D> {
+        SimulatedSpi(self.clone())
+    }
+
+    /// The "ready" pin.
+    #[must_use]
+    pub fn ready(&self) -> SimulatedLine<D> {
+        SimulatedLine::new(self.clone(), |bench, _| !bench.is_low(), 0)
+    }
+}
+
+/// The SPI of a [`SimulatedBench`], blocking and for tasks.
+#[derive(Clone, Debug)]
+pub struct SimulatedSpi<D>(SimulatedBench<D>);
+
+impl<D> spi::ErrorType for SimulatedSpi<D> {
+    type Error = Infallible;
+}
+
+impl<D: SimulatedConverter> SpiDevice for SimulatedSpi<D> {
+    fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), Infallible> {
+        self.0.lock().transaction(operations);
+        Ok(())
+    }
+}
+
+impl<D: SimulatedConverter> embedded_hal_async::spi::SpiDevice for SimulatedSpi<D> {
+    async fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), Infallible> {
+        self.0.lock().transaction(operations);
+        Ok(())
+    }
+}
+
+/// A line that a device on a [`SimulatedBench`] drives, to be looked at or waited for.
+#[derive(Clone, Debug)]
+pub struct SimulatedLine<D> {
+    bench: SimulatedBench<D>,
+    is_high: fn(&mut Inner<D>, usize) -> bool,
+    index: usize,
+}
+
+impl<D: SimulatedDevice> SimulatedLine<D> {
+    /// The line of that index, whose level is read from the bench.
+    pub(crate) const fn new(
+        bench: SimulatedBench<D>,
+        is_high: fn(&mut Inner<D>, usize) -> bool,
+        index: usize,
+    ) -> Self {
+        Self { bench, is_high, index }
+    }
+
+    fn level(&self) -> bool {
+        (self.is_high)(&mut self.bench.lock(), self.index)
+    }
+
+    /// Each time that a task looks in vain, a microsecond goes by.
+    async fn until(&self, high: bool) {
+        core::future::poll_fn(|context| {
+            if self.level() == high {
+                return Poll::Ready(());
+            }
+            self.bench.advance(1000);
+            context.waker().wake_by_ref();
+            Poll::Pending
+        })
+        .await;
+    }
+}
+
+impl<D> digital::ErrorType for SimulatedLine<D> {
+    type Error = Infallible;
+}
+
+impl<D: SimulatedDevice> InputPin for SimulatedLine<D> {
+    fn is_high(&mut self) -> Result<bool, Infallible> {
+        Ok(self.level())
+    }
+
+    fn is_low(&mut self) -> Result<bool, Infallible> {
+        Ok(!self.level())
+    }
+}
+
+impl<D: SimulatedDevice> Wait for SimulatedLine<D> {
+    async fn wait_for_high(&mut self) -> Result<(), Infallible> {
+        self.until(true).await;
+        Ok(())
+    }
+
+    async fn wait_for_low(&mut self) -> Result<(), Infallible> {
+        self.until(false).await;
+        Ok(())
+    }
+
+    async fn wait_for_rising_edge(&mut self) -> Result<(), Infallible> {
+        self.until(false).await;
+        self.until(true).await;
+        Ok(())
+    }
+
+    async fn wait_for_falling_edge(&mut self) -> Result<(), Infallible> {
+        self.until(true).await;
+        self.until(false).await;
+        Ok(())
+    }
+
+    async fn wait_for_any_edge(&mut self) -> Result<(), Infallible> {
+        let now = self.level();
+        self.until(!now).await;
+        Ok(())
+    }
+}
+
+/// The delay of a [`SimulatedBench`].
+#[derive(Clone, Debug)]
+pub struct SimulatedDelay<D>(SimulatedBench<D>);
+
+impl<D: SimulatedDevice> embedded_hal::delay::DelayNs for SimulatedDelay<D> {
+    fn delay_ns(&mut self, nanoseconds: u32) {
+        self.0.advance(u64::from(nanoseconds));
+    }
+}
+
+/// Time goes on by a microsecond each time that it is asked for, so that other futures are asked, too.
+struct Pause<'a, D> {
+    bench: &'a SimulatedBench<D>,
+    until: u64,
+}
+
+impl<D: SimulatedDevice> Future for Pause<'_, D> {
+    type Output = ();
+
+    fn poll(self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<()> {
+        let now = self.bench.now();
+        if now >= self.until {
+            return Poll::Ready(());
+        }
+        self.bench.advance((self.until - now).min(1000));
+        context.waker().wake_by_ref();
+        Poll::Pending
+    }
+}
+
+impl<D: SimulatedDevice> embedded_hal_async::delay::DelayNs for SimulatedDelay<D> {
+    async fn delay_ns(&mut self, nanoseconds: u32) {
+        Pause { bench: &self.0, until: self.0.now() + u64::from(nanoseconds) }.await;
+    }
+}

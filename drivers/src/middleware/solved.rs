@@ -1,0 +1,94 @@
+//! A source of signals that becomes a source of wrenches.
+
+use fingertip_wrench::{Compensation, Real, Wrench, WrenchSolver};
+use nalgebra::SVector;
+
+use crate::{
+    AsyncSignalSource, AsyncWrenchSource, ErrorType, NbSignalSource, NbWrenchSource, Sample, SignalSource,
+    WrenchSource,
+};
+
+/// Wrenches from the signals of `N` gauges: tare (or another compensation) and solver around any source of
+/// signals, so that a converter with a calibration is a force/torque sensor like any other.
+#[derive(Clone, Copy, Debug)]
+pub struct Solved<S, Z, W, const N: usize> {
+    source: S,
+    zero: Z,
+    solver: W,
+}
+
+impl<S, Z, W, const N: usize> Solved<S, Z, W, N> {
+    /// Around a source. Signals must be in the unit that the solver's sensor matrix was made for.
+    #[must_use]
+    pub const fn new(source: S, zero: Z, solver: W) -> Self {
+        Self { source, zero, solver }
+    }
+
+    /// The source inside.
+    #[must_use]
+    pub const fn source(&self) -> &S {
+        &self.source
+    }
+
+    /// The source inside, to configure or to restart it.
+    #[must_use]
+    pub const fn source_mut(&mut self) -> &mut S {
+        &mut self.source
+    }
+
+    /// Sets a new zero.
+    pub fn set_zero(&mut self, zero: Z) {
+        self.zero = zero;
+    }
+
+    fn solved<T: Real>(&self, sample: Option<Sample<T, SVector<T, N>>>) -> Option<Sample<T, Wrench<T>>>
+    where
+        Z: Compensation<T, N, Raw = SVector<T, N>>,
+        W: WrenchSolver<T, N>,
+    {
+        sample.map(|Sample { time, value }| Sample {
+            time,
+            value: self.solver.solve(&self.zero.compensate(&value)),
+        })
+    }
+}
+
+impl<S: ErrorType, Z, W, const N: usize> ErrorType for Solved<S, Z, W, N> {
+    type Error = S::Error;
+}
+
+impl<T: Real, S, Z, W, const N: usize> WrenchSource<T> for Solved<S, Z, W, N>
+where
+    S: SignalSource<T, N>,
+    Z: Compensation<T, N, Raw = SVector<T, N>>,
+    W: WrenchSolver<T, N>,
+{
+    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, S::Error> {
+        let sample = self.source.next_signals()?;
+        Ok(self.solved(sample))
+    }
+}
+
+impl<T: Real, S, Z, W, const N: usize> NbWrenchSource<T> for Solved<S, Z, W, N>
+where
+    S: NbSignalSource<T, N>,
+    Z: Compensation<T, N, Raw = SVector<T, N>>,
+    W: WrenchSolver<T, N>,
+{
+    fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, S::Error> {
+        let sample = self.source.poll_signals()?;
+        Ok(self.solved(sample))
+    }
+}
+
+impl<T: Real, S, Z, W, const N: usize> AsyncWrenchSource<T> for Solved<S, Z, W, N>
+where
+    S: AsyncSignalSource<T, N>,
+    Z: Compensation<T, N, Raw = SVector<T, N>>,
+    W: WrenchSolver<T, N>,
+{
+    async fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, S::Error> {
+        let sample = self.source.next_signals().await?;
+        Ok(self.solved(sample))
+    }
+}
