@@ -143,7 +143,9 @@ impl<T: Real> Visitor<T> for Contacts<'_> {
             let bound = units * epsilon * (size + length(&place) + length(&line.0));
             let (aside, above) = (off_line(&place, &line), level.distance(&place, size));
             let note = || {
-                format!("{aside:.1e} off the line, {above:.1e} off the surface, bound {bound:.1e}: {wrench:?}: {found:?}")
+                format!(
+                    "{aside:.1e} off the line, {above:.1e} off the surface, bound {bound:.1e}: {wrench:?}: {found:?}"
+                )
             };
             row.error(aside, bound, note);
             row.error(above, bound, note);
@@ -231,10 +233,8 @@ fn meshes<T: Real>(trials: usize, rows: &mut Vec<Row>) {
                     _ => corners[0],
                 };
                 let force = pressing(&target.normalize(), random.random_range(0.5..1.0), &mut random);
-                let wrench = Wrench::<T>::on_fingertip(
-                    force.map(T::literal),
-                    target.cross(&force).map(T::literal),
-                );
+                let wrench =
+                    Wrench::<T>::on_fingertip(force.map(T::literal), target.cross(&force).map(T::literal));
                 let line = line_of_action(wide(&wrench.force()), wide(&wrench.torque()));
                 let found = model.resolve(&wrench, &mesh);
                 let Some(contact) = found.contact() else {
@@ -245,7 +245,9 @@ fn meshes<T: Real>(trials: usize, rows: &mut Vec<Row>) {
                 let bound = UNITS * T::EPSILON.to_f64() * 3.0;
                 let (aside, above) = (off_line(&place, &line), off_mesh(&place, &exact, &triangles));
                 let note = || {
-                    format!("{aside:.1e} off the line, {above:.1e} off the mesh, bound {bound:.1e}: {wrench:?}: {found:?}")
+                    format!(
+                        "{aside:.1e} off the line, {above:.1e} off the mesh, bound {bound:.1e}: {wrench:?}: {found:?}"
+                    )
                 };
                 row.error(aside, bound, note);
                 row.error(above, bound, note);
@@ -265,10 +267,8 @@ fn along_axis<T: Real, S: ActiveSurface<T>>(surface: &S, model: &PointContact<T>
         let wrench = Wrench::from_force_at(&(Vector3::x() * T::literal(x)), force);
         let found = model.resolve(&wrench, surface);
         row.expect(sound(&found), || format!("{wrench:?}: {found:?}"));
-        let tilted = Wrench::on_fingertip(
-            force + Vector3::y() * (T::LEAST_NORMAL * T::literal(4.0)),
-            wrench.torque(),
-        );
+        let tilted =
+            Wrench::on_fingertip(force + Vector3::y() * (T::LEAST_NORMAL * T::literal(4.0)), wrench.torque());
         let found = model.resolve(&tilted, surface);
         row.expect(sound(&found), || format!("{tilted:?}: {found:?}"));
     }

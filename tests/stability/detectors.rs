@@ -157,11 +157,11 @@ pub(crate) fn rows<T: Real>(trials: usize, rows: &mut Vec<Row>) {
         }
         match friction.estimate() {
             // Six deviations of what it claims.
-            Some(estimate) => row.error(
-                estimate.coefficient.to_f64() - 0.6,
-                6.0 * estimate.deviation.to_f64(),
-                || format!("{estimate:?}"),
-            ),
+            Some(estimate) => {
+                row.error(estimate.coefficient.to_f64() - 0.6, 6.0 * estimate.deviation.to_f64(), || {
+                    format!("{estimate:?}")
+                })
+            }
             None => row.expect(false, || "no estimate".to_owned()),
         }
     }

@@ -71,7 +71,8 @@ fn run(name: &str, case: &Case, trials: usize, rows: &mut Vec<Row>, fit: Routine
         let x = loads(case, &mut random);
         let weights: Vec<f64> =
             (0..SAMPLES).map(|_| case.weights.powf(random.random_range(-1.0..1.0))).collect();
-        let truth: [f64; LOADS] = core::array::from_fn(|j| (1.0 + 0.2 * normal(&mut random)) / case.columns[j]);
+        let truth: [f64; LOADS] =
+            core::array::from_fn(|j| (1.0 + 0.2 * normal(&mut random)) / case.columns[j]);
         let y = DMatrix::from_fn(SAMPLES, 1, |i, _| {
             let clean: f64 = (0..LOADS).map(|j| x[(i, j)] * truth[j]).sum();
             clean + case.noise * normal(&mut random)
@@ -158,8 +159,9 @@ pub(crate) fn rows(trials: usize, rows: &mut Vec<Row>) {
     let mut twice = good.clone();
     twice.set_column(1, &good.column(0).into_owned());
     row.expect(least_squares(&twice, &y, None).is_err(), || "two equal loads".to_owned());
-    row.expect(least_squares(&good.rows(0, 3).into_owned(), &y.rows(0, 3).into_owned(), None).is_err(), || {
-        "fewer samples than loads".to_owned()
-    });
+    row.expect(
+        least_squares(&good.rows(0, 3).into_owned(), &y.rows(0, 3).into_owned(), None).is_err(),
+        || "fewer samples than loads".to_owned(),
+    );
     rows.push(row);
 }

@@ -67,8 +67,7 @@ fn limit<T: Real, M: FrictionModel<T>>(
     let mut row = Row::new::<T>(name, "no force, NaN, infinities");
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for place in 0..3 {
-            let mut force =
-                ContactForce { normal: T::one(), tangential: Vector3::zeros(), spin: T::zero() };
+            let mut force = ContactForce { normal: T::one(), tangential: Vector3::zeros(), spin: T::zero() };
             match place {
                 0 => force.normal = T::literal(bad),
                 1 => force.tangential.x = T::literal(bad),
@@ -81,7 +80,9 @@ fn limit<T: Real, M: FrictionModel<T>>(
         }
     }
     let margin = model.slip_margin(&ContactForce::zero());
-    row.expect(margin.newtons.to_f64() == 0.0 && !margin.utilisation.to_f64().is_nan(), || format!("{margin:?}"));
+    row.expect(margin.newtons.to_f64() == 0.0 && !margin.utilisation.to_f64().is_nan(), || {
+        format!("{margin:?}")
+    });
     rows.push(row);
 }
 
@@ -145,9 +146,8 @@ fn body<T: Real, L: BristleLaw<T> + Copy>(
     for _ in 0..20 {
         let force = l(2.0 * law.greatest().to_f64() * random.random_range(-1.0..1.0));
         let drive = Drive { mass: Vector1::new(l(mass)), force: Vector1::new(force), stiffness: T::zero() };
-        let energy = |v: &Vector1<T>, b: &Bristle<T, L, 1>| {
-            0.5 * mass * v[0].to_f64().powi(2) + b.energy().to_f64()
-        };
+        let energy =
+            |v: &Vector1<T>, b: &Bristle<T, L, 1>| 0.5 * mass * v[0].to_f64().powi(2) + b.energy().to_f64();
         let before = energy(&v, &bristle);
         let end = bristle.step_body(&v, &drive, l(step)).velocity;
         let after = energy(&end, &bristle);

@@ -11,14 +11,31 @@ use super::big::{Big, Big3, big3, dot};
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Level {
     Plane,
-    Sphere { radius: f64 },
-    Ellipsoid { semi_axes: [f64; 3] },
-    Cylinder { radius: f64 },
-    Capsule { half_length: f64, radius: f64 },
+    Sphere {
+        radius: f64,
+    },
+    Ellipsoid {
+        semi_axes: [f64; 3],
+    },
+    Cylinder {
+        radius: f64,
+    },
+    Capsule {
+        half_length: f64,
+        radius: f64,
+    },
     /// Apex at the origin, opening along −z.
-    Cone { half_angle: f64 },
-    Torus { ring: f64, tube: f64 },
-    Superquadric { semi_axes: [f64; 3], exponents: [f64; 2] },
+    Cone {
+        half_angle: f64,
+    },
+    Torus {
+        ring: f64,
+        tube: f64,
+    },
+    Superquadric {
+        semi_axes: [f64; 3],
+        exponents: [f64; 2],
+    },
 }
 
 fn square(x: &Big) -> Big {
@@ -92,9 +109,7 @@ impl Level {
                 let (sine, cosine) = sine_cosine(half_angle);
                 &(&hypotenuse(x, y) * &cosine) + &(z * &sine)
             }
-            Self::Torus { ring, tube } => {
-                &hypotenuse(&(&hypotenuse(x, y) - &new(ring)), z) - &new(tube)
-            }
+            Self::Torus { ring, tube } => &hypotenuse(&(&hypotenuse(x, y) - &new(ring)), z) - &new(tube),
             Self::Superquadric { semi_axes, exponents: [e1, e2] } => {
                 let two = new(2.0);
                 let (e1, e2) = (new(e1), new(e2));

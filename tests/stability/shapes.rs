@@ -57,9 +57,11 @@ pub(crate) fn each<T: Real>(scale: f64, visitor: &mut impl Visitor<T>) {
             visitor.shape(name, surface, Level::Torus { ring: rounded(1.0), tube: rounded(tube) }, scale);
         }
     }
-    for (name, exponents) in
-        [("superquadric", [0.5, 0.7]), ("superquadric, boxy", [0.1, 0.1]), ("superquadric, pointed", [1.9, 1.9])]
-    {
+    for (name, exponents) in [
+        ("superquadric", [0.5, 0.7]),
+        ("superquadric, boxy", [0.1, 0.1]),
+        ("superquadric, pointed", [1.9, 1.9]),
+    ] {
         let exponents = exponents.map(|e| l(e).to_f64());
         let semi_axes = [1.0, 0.8, 1.3].map(rounded);
         if let Ok(surface) = Superquadric::new(Vector3::from(semi_axes.map(l)), exponents.map(l)) {

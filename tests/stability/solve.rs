@@ -6,8 +6,9 @@ use super::big::Big;
 pub(crate) fn solve(mut rows: Vec<Vec<Big>>) -> Option<Vec<Big>> {
     let n = rows.len();
     for k in 0..n {
-        let pivot = (k..n)
-            .max_by(|a, b| rows[*a][k].abs().partial_cmp(&rows[*b][k].abs()).unwrap_or(core::cmp::Ordering::Equal))?;
+        let pivot = (k..n).max_by(|a, b| {
+            rows[*a][k].abs().partial_cmp(&rows[*b][k].abs()).unwrap_or(core::cmp::Ordering::Equal)
+        })?;
         rows.swap(k, pivot);
         if !rows[k][k].abs().is_positive() {
             return None;

@@ -117,7 +117,9 @@ fn run<T: Real, const N: usize, S: WrenchSolver<T, N>>(
         }
         let error = differences(&case.sensor, &wrench, &exact).component_mul(&case.columns).amax();
         let size = (0..6).map(|i| exact[i].to_f64().abs() * case.columns[i]).fold(0.0, f64::max);
-        row.error(error, factor * T::EPSILON.to_f64() * size, || format!("relative error {:.1e}", error / size));
+        row.error(error, factor * T::EPSILON.to_f64() * size, || {
+            format!("relative error {:.1e}", error / size)
+        });
     }
 }
 
@@ -193,9 +195,9 @@ pub(crate) fn rows<T: Real>(trials: usize, rows: &mut Vec<Row>) {
             };
         }
         solver!("GaussianElimination", GaussianElimination::new(&case.sensor), backward, |_: &_| None);
-        solver!("Refined (steps)", Refined::new(&case.sensor), 4.0, |s: &Refined<T>| Some(
-            usize::from(s.steps())
-        ));
+        solver!("Refined (steps)", Refined::new(&case.sensor), 4.0, |s: &Refined<T>| Some(usize::from(
+            s.steps()
+        )));
         solver!("Inverse", Inverse::new(&case.sensor), backward, |_: &_| None);
         solver!("LeastSquares, 6 gauges", LeastSquares::new(&case.sensor), backward, |_: &_| None);
     }

@@ -48,7 +48,9 @@ fn options() -> Result<Options, Failure> {
         match argument.to_str() {
             Some("--quick") => options.effort.quick = true,
             Some("--out") => options.folder = arguments.next().ok_or("--out wants a folder")?.into(),
-            _ => return Err(format!("unknown option {argument:?}; there are --quick and --out FOLDER").into()),
+            _ => {
+                return Err(format!("unknown option {argument:?}; there are --quick and --out FOLDER").into());
+            }
         }
     }
     Ok(options)

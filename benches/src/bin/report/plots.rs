@@ -4,8 +4,8 @@ use core::ops::Range;
 
 use plotters::coord::Shift;
 use plotters::prelude::{
-    BLACK, ChartBuilder, Circle, Color, Cross, DashedLineSeries, DrawingArea, IntoDrawingArea, IntoLogRange,
-    LineSeries, PathElement, RGBColor, Rectangle, SVGBackend, Text, TriangleMarker, WHITE,
+    BLACK, ChartBuilder, Color, DashedLineSeries, DrawingArea, EmptyElement, IntoDrawingArea, IntoLogRange,
+    LineSeries, PathElement, Polygon, RGBColor, Rectangle, SVGBackend, Text, WHITE,
 };
 
 use crate::Failure;
@@ -78,6 +78,33 @@ fn labels(range: &Range<f64>) -> usize {
     decades.min(10) + 1
 }
 
+/// Corners of the markers, in pixels: circle-like, triangle, square, diamond.
+const MARKERS: [&[(i32, i32)]; 4] = [
+    &[(5, 0), (4, 4), (0, 5), (-4, 4), (-5, 0), (-4, -4), (0, -5), (4, -4)],
+    &[(0, -6), (5, 4), (-5, 4)],
+    &[(-4, -4), (4, -4), (4, 4), (-4, 4)],
+    &[(0, -6), (6, 0), (0, 6), (-6, 0)],
+];
+
+/// How a series is drawn.
+#[derive(Clone, Copy)]
+struct Look {
+    colour: RGBColor,
+    marker: &'static [(i32, i32)],
+    hollow: bool,
+}
+
+impl Look {
+    /// The outline of the marker, closed, about a place.
+    fn outline(self, (x, y): (i32, i32)) -> Vec<(i32, i32)> {
+        self.marker.iter().chain(self.marker.first()).map(|(dx, dy)| (x + dx, y + dy)).collect()
+    }
+
+    fn inside(self) -> RGBColor {
+        if self.hollow { WHITE } else { self.colour }
+    }
+}
+
 impl Diagram {
     /// The picture.
     pub(crate) fn svg(&self) -> Result<String, Failure> {
@@ -93,22 +120,23 @@ impl Diagram {
         Ok(svg)
     }
 
-    fn colour(index: usize) -> RGBColor {
-        COLOURS[index % COLOURS.len()]
-    }
-
-    /// Two precisions of one method share a colour.
-    fn colours(&self) -> Vec<RGBColor> {
-        let mut names: Vec<&str> = Vec::new();
+    /// The look of each series: both precisions of a method share it, and it is the same in every
+    /// diagram of the same methods.
+    fn looks(&self) -> Vec<Look> {
+        let method =
+            |series: &Series| series.name.trim_end_matches(" f32").trim_end_matches(" f64").to_owned();
+        let mut methods: Vec<String> = self.series.iter().map(method).collect();
+        methods.sort();
+        methods.dedup();
         self.series
             .iter()
             .map(|series| {
-                let name = series.name.trim_end_matches(" f32").trim_end_matches(" f64");
-                let index = names.iter().position(|known| *known == name).unwrap_or(names.len());
-                if index == names.len() {
-                    names.push(name);
+                let index = methods.iter().position(|name| *name == method(series)).unwrap_or(0);
+                Look {
+                    colour: COLOURS[index % COLOURS.len()],
+                    marker: MARKERS[index % MARKERS.len()],
+                    hollow: series.single,
                 }
-                Self::colour(index)
             })
             .collect()
     }
@@ -152,7 +180,8 @@ impl Diagram {
             }
             chart.draw_series(DashedLineSeries::new(stairs, 5, 4, BLACK.mix(0.55).stroke_width(1)))?;
         }
-        for ((index, series), colour) in self.series.iter().enumerate().zip(self.colours()) {
+        for (series, look) in self.series.iter().zip(self.looks()) {
+            let colour = look.colour;
             let points = || series.points.iter().filter(inside).copied();
             if series.joined {
                 chart.draw_series(LineSeries::new(points(), colour.stroke_width(2)))?;
@@ -161,12 +190,11 @@ impl Diagram {
                 let ends = [(spread.0, point.1), (spread.1, point.1)];
                 chart.draw_series([PathElement::new(ends, colour.mix(0.6).stroke_width(1))])?;
             }
-            let style = if series.single { colour.stroke_width(2) } else { colour.filled() };
-            match index % 3 {
-                0 => chart.draw_series(points().map(|p| Circle::new(p, 4, style)))?,
-                1 => chart.draw_series(points().map(|p| TriangleMarker::new(p, 5, style)))?,
-                _ => chart.draw_series(points().map(|p| Cross::new(p, 4, colour.stroke_width(2))))?,
-            };
+            chart.draw_series(points().map(|p| {
+                EmptyElement::at(p)
+                    + Polygon::new(look.outline((0, 0)), look.inside().filled())
+                    + PathElement::new(look.outline((0, 0)), colour.stroke_width(2))
+            }))?;
         }
         Ok(())
     }
@@ -174,17 +202,14 @@ impl Diagram {
     fn legend(&self, area: &Area<'_>) -> Result<(), Failure> {
         let font = ("sans-serif", 13);
         let mut line = 24;
-        for ((index, series), colour) in self.series.iter().enumerate().zip(self.colours()) {
+        for (series, look) in self.series.iter().zip(self.looks()) {
+            let colour = look.colour;
             let centre = (20, line + 7);
             if series.joined {
                 area.draw(&PathElement::new([(8, line + 7), (32, line + 7)], colour.stroke_width(2)))?;
             }
-            let style = if series.single { colour.stroke_width(2) } else { colour.filled() };
-            match index % 3 {
-                0 => area.draw(&Circle::new(centre, 4, style))?,
-                1 => area.draw(&TriangleMarker::new(centre, 5, style))?,
-                _ => area.draw(&Cross::new(centre, 4, colour.stroke_width(2)))?,
-            }
+            area.draw(&Polygon::new(look.outline(centre), look.inside().filled()))?;
+            area.draw(&PathElement::new(look.outline(centre), colour.stroke_width(2)))?;
             area.draw(&Text::new(series.name.clone(), (40, line), font))?;
             line += 20;
         }

@@ -76,7 +76,13 @@ pub(crate) fn shown(x: f64) -> String {
     if x.is_nan() {
         "-".to_owned()
     } else if x == 0.0 || (0.1..1e4).contains(&x.abs()) {
-        let digits = if x.abs() >= 100.0 { 0 } else if x.abs() >= 10.0 { 1 } else { 2 };
+        let digits = if x.abs() >= 100.0 {
+            0
+        } else if x.abs() >= 10.0 {
+            1
+        } else {
+            2
+        };
         format!("{x:.digits$}")
     } else if x.is_infinite() {
         "diverges".to_owned()

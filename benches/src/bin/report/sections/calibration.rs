@@ -113,7 +113,9 @@ const fn routines(world: World) -> &'static [(&'static str, Routine)] {
         World::Even => &[("least squares", plain), ("Huber", robust), ("total least squares", total)],
         World::Uneven => &[("least squares", plain), ("weighted", weighted), ("Gauss-Helmert", helmert)],
         World::Outliers => &[("least squares", plain), ("Huber", robust), ("RANSAC", consensus)],
-        World::LoadErrors => &[("least squares", plain), ("total least squares", total), ("Gauss-Helmert", helmert)],
+        World::LoadErrors => {
+            &[("least squares", plain), ("total least squares", total), ("Gauss-Helmert", helmert)]
+        }
     }
 }
 
@@ -168,7 +170,8 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
             }
         }
     }
-    let mut short = Table::new(&["data", "fit", "error at 100 samples", "at the most samples", "ms at the most"]);
+    let mut short =
+        Table::new(&["data", "fit", "error at 100 samples", "at the most samples", "ms at the most"]);
     for (index, world) in World::ALL.into_iter().enumerate() {
         let mut series = Vec::new();
         for (fit, _) in routines(world) {
@@ -203,7 +206,8 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
         )?;
     }
     page.table(&short);
-    let mut table = Table::new(&["data", "fit", "samples", "median relative error", "failed", "of", "median µs"]);
+    let mut table =
+        Table::new(&["data", "fit", "samples", "median relative error", "failed", "of", "median µs"]);
     for f in &figures {
         table.row([
             f.world.name().to_owned(),

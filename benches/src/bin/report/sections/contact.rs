@@ -134,23 +134,27 @@ impl Study<'_> {
             let read: Vec<Wrench<T>> =
                 touches.iter().map(|touch| touch.wrench(spin, noise, size, &mut random)).collect();
             // The sample before was half a hundredth of the size away.
-            let last: Vec<Vector3<T>> =
-                touches.iter().map(|t| (t.point + t.normal.cross(&t.force).normalize() * 0.005 * size).map(T::literal)).collect();
+            let last: Vec<Vector3<T>> = touches
+                .iter()
+                .map(|t| (t.point + t.normal.cross(&t.force).normalize() * 0.005 * size).map(T::literal))
+                .collect();
             let resolve = |index: usize| {
                 let last = warm.then(|| &last[index]);
                 model.resolve_near(black_box(&read[index]), surface, last)
             };
             let neglects = method.starts_with("point") && spin;
             let few = if matches!(level, Level::Superquadric { .. }) { 12 } else { touches.len() };
-            let errors = Errors::of(touches.iter().zip(&read).enumerate().take(few).filter_map(|(index, (touch, wrench))| {
-                let Resolution::Contact(contact) = resolve(index) else { return Some(None) };
-                let found = if noise > 0.0 || neglects {
-                    (contact.point.map(Real::to_f64) - touch.point).norm()
-                } else {
-                    distance(&contact.point, &exact(touch, wrench)?)
-                };
-                Some(Some(found / size))
-            }));
+            let errors = Errors::of(touches.iter().zip(&read).enumerate().take(few).filter_map(
+                |(index, (touch, wrench))| {
+                    let Resolution::Contact(contact) = resolve(index) else { return Some(None) };
+                    let found = if noise > 0.0 || neglects {
+                        (contact.point.map(Real::to_f64) - touch.point).norm()
+                    } else {
+                        distance(&contact.point, &exact(touch, wrench)?)
+                    };
+                    Some(Some(found / size))
+                },
+            ));
             let timed = (noise == 0.0).then(|| {
                 time(self.effort, touches.len(), || {
                     for index in 0..read.len() {
@@ -171,8 +175,11 @@ impl<T: Real> Visitor<T> for Study<'_> {
         level: Level,
         scale: f64,
     ) {
-        const SHAPES: [&str; 7] = ["sphere", "ellipsoid", "cylinder", "capsule", "cone", "torus", "superquadric"];
-        let (Ok(point), Ok(soft)) = (PointContact::new(T::zero()), SoftFinger::new(T::zero())) else { return };
+        const SHAPES: [&str; 7] =
+            ["sphere", "ellipsoid", "cylinder", "capsule", "cone", "torus", "superquadric"];
+        let (Ok(point), Ok(soft)) = (PointContact::new(T::zero()), SoftFinger::new(T::zero())) else {
+            return;
+        };
         if !SHAPES.contains(&name) {
             return;
         }
@@ -186,8 +193,18 @@ impl<T: Real> Visitor<T> for Study<'_> {
             })
             .collect();
         let place = (level, size);
+        // Where several contacts explain a wrench, the one near the last is wanted.
+        let several = name == "torus";
         let on_line = |touch: &Touch, wrench: &Wrench<T>| point_contact(level, wrench, &touch.point);
-        self.model((name, "point contact (wrench axis)"), &surface, &point, &touches, place, on_line, false);
+        self.model(
+            (name, "point contact (wrench axis)"),
+            &surface,
+            &point,
+            &touches,
+            place,
+            on_line,
+            several,
+        );
         // The exact answer to a force alone is that of the line; to a spin, that of all equations.
         let on_surface = |touch: &Touch, wrench: &Wrench<T>| {
             let spin = wrench.torque_about(&touch.point.map(T::literal)).dot(&touch.normal.map(T::literal));
@@ -195,7 +212,7 @@ impl<T: Real> Visitor<T> for Study<'_> {
         };
         let closed = matches!(name, "sphere" | "ellipsoid" | "cylinder" | "cone");
         let method = if closed { "soft finger, closed form" } else { "soft finger" };
-        self.model((name, method), &surface, &soft, &touches, place, on_surface, false);
+        self.model((name, method), &surface, &soft, &touches, place, on_surface, several);
         let newton = Newton { surface: &surface, evaluations: Cell::new(0) };
         if !matches!(name, "cylinder" | "cone") {
             let name = (name, "soft finger, Newton from the last contact");
@@ -288,7 +305,7 @@ fn beside_parry(study: &mut Study<'_>) -> Result<(), Failure> {
             study.push($name, "parry3d, ray cast", "half-line", other, Some(timed));
         }};
     }
-    use fingertip_surfaces::{Capsule, CappedCylinder, Frustum};
+    use fingertip_surfaces::{CappedCylinder, Capsule, Frustum};
     fn capsule<T: Real>() -> Result<Capsule<T>, Failure> {
         Ok(Capsule::new(Vector3::zeros(), Vector3::y(), T::literal(0.5), T::literal(0.75))?)
     }
@@ -329,7 +346,11 @@ fn over_noise(effort: Effort) -> Result<Vec<Series>, Failure> {
                     let spin = if soft { SPIN * size * random.random_range(-1.0..1.0) } else { 0.0 };
                     let touch = Touch { point: at, force, normal, spin };
                     let wrench: Wrench<T> = touch.wrench(true, noise, size, &mut random);
-                    let found = if soft { finger.resolve(&wrench, &surface) } else { point.resolve(&wrench, &surface) };
+                    let found = if soft {
+                        finger.resolve(&wrench, &surface)
+                    } else {
+                        point.resolve(&wrench, &surface)
+                    };
                     let contact = found.contact()?;
                     Some((contact.point.map(Real::to_f64) - at).norm() / size)
                 })
@@ -360,17 +381,34 @@ fn diagram(title: String, figures: &[&Figure]) -> Diagram {
             })
         })
         .collect();
-    Diagram { title, x: "time per contact, ns", y: "median error of the point over the size", series, front: true }
+    Diagram {
+        title,
+        x: "time per contact, ns",
+        y: "median error of the point over the size",
+        series,
+        front: true,
+    }
 }
 
 fn data(figures: &[Figure]) -> Table {
     let head = [
-        "shape", "method", "scalar", "inputs", "median error over size", "greatest error over size", "lost",
-        "of", "median ns", "lower quartile ns", "upper quartile ns",
+        "shape",
+        "method",
+        "scalar",
+        "inputs",
+        "median error over size",
+        "greatest error over size",
+        "lost",
+        "of",
+        "median ns",
+        "lower quartile ns",
+        "upper quartile ns",
     ];
     let mut table = Table::new(&head);
     for f in figures {
-        let ns = |pick: fn(&Timed) -> f64| f.timed.as_ref().map_or_else(|| "-".to_owned(), |t| format!("{:.1}", pick(t)));
+        let ns = |pick: fn(&Timed) -> f64| {
+            f.timed.as_ref().map_or_else(|| "-".to_owned(), |t| format!("{:.1}", pick(t)))
+        };
         table.row([
             f.shape.to_owned(),
             f.method.clone(),
@@ -406,7 +444,9 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
     for shape in ["sphere", "ellipsoid", "cylinder", "capsule", "cone", "torus", "superquadric"] {
         let these: Vec<&Figure> = figures
             .iter()
-            .filter(|f| f.shape == shape && f.inputs == if f.method.starts_with("point") { "force" } else { "spin" })
+            .filter(|f| {
+                f.shape == shape && f.inputs == if f.method.starts_with("point") { "force" } else { "spin" }
+            })
             .collect();
         let title = format!("Contact on a {shape}, without noise: error over run time");
         page.diagram(&format!("contact_{shape}"), &diagram(title, &these))?;
@@ -450,8 +490,15 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
     page.data("contact", &data(&figures));
 
     let mut short = Table::new(&[
-        "shape", "point f32 ns", "f64 ns", "error f32", "error f64", "soft finger f64 ns", "error f64",
-        "error of the wrench axis with spin", "of the soft finger with noise of 1 %",
+        "shape",
+        "point f32 ns",
+        "f64 ns",
+        "error f32",
+        "error f64",
+        "soft finger f64 ns",
+        "error f64",
+        "error of the wrench axis with spin",
+        "of the soft finger with noise of 1 %",
     ]);
     for shape in ["sphere", "ellipsoid", "cylinder", "capsule", "cone", "torus", "superquadric"] {
         let find = |method: &str, scalar: &str, inputs: &str| {
@@ -459,7 +506,8 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
                 f.shape == shape && f.method.starts_with(method) && f.scalar == scalar && f.inputs == inputs
             })
         };
-        let ns = |f: Option<&Figure>| f.and_then(|f| f.timed).map_or_else(|| "-".to_owned(), |t| shown(t.median));
+        let ns =
+            |f: Option<&Figure>| f.and_then(|f| f.timed).map_or_else(|| "-".to_owned(), |t| shown(t.median));
         let worst = |f: Option<&Figure>| f.map_or_else(|| "-".to_owned(), |f| shown(f.worst));
         let middle = |f: Option<&Figure>| f.map_or_else(|| "-".to_owned(), |f| shown(f.median));
         let (single, double) = (find("point", "f32", "force"), find("point", "f64", "force"));
@@ -478,6 +526,9 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
     }
     page.subheading("In short");
     page.table(&short);
-    let said = format!("Greatest errors of the point over the size of the shape; the last two columns are medians.\n\n{}", short.markdown());
+    let said = format!(
+        "Greatest errors of the point over the size of the shape; the last two columns are medians.\n\n{}",
+        short.markdown()
+    );
     Ok(("Wrench to contact".to_owned(), said))
 }

@@ -1,6 +1,8 @@
 //! Slip detectors: delay against false alarms.
 
-use fingertip_friction::{Cusum, DropDetector, ForceNoise, LikelihoodRatioDetector, SlipDetector, SlipVerdict};
+use fingertip_friction::{
+    Cusum, DropDetector, ForceNoise, LikelihoodRatioDetector, SlipDetector, SlipVerdict,
+};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -157,7 +159,13 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
         )?;
     }
     let mut table = Table::new(&[
-        "detector", "noise", "threshold or wanted rate", "delay median ms", "delay 95 % ms", "missed", "false alarms/min",
+        "detector",
+        "noise",
+        "threshold or wanted rate",
+        "delay median ms",
+        "delay 95 % ms",
+        "missed",
+        "false alarms/min",
     ]);
     for s in &scores {
         table.row([
@@ -193,7 +201,9 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
             }
         }
     }
-    let said =
-        format!("The quickest setting of each detector with at most one false alarm a minute, 1 kHz.\n\n{}", short.markdown());
+    let said = format!(
+        "The quickest setting of each detector with at most one false alarm a minute, 1 kHz.\n\n{}",
+        short.markdown()
+    );
     Ok(("Slip detectors".to_owned(), said))
 }

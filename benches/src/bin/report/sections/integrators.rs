@@ -67,7 +67,8 @@ fn bristle<M: Integrator>(
 ) -> Result<Course, Failure> {
     let law = LuGre::reference()?;
     let mut points = Vec::new();
-    let velocities: Vec<Vector1<f64>> = (0..256).map(|k| Vector1::new(velocity(1e-4 * f64::from(k)))).collect();
+    let velocities: Vec<Vector1<f64>> =
+        (0..256).map(|k| Vector1::new(velocity(1e-4 * f64::from(k)))).collect();
     for steps in counts {
         let mut state = Bristle::<f64, _, 1, M>::with_method(law);
         let error = follow(reference, *steps, |time, h| {
@@ -255,13 +256,17 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
             point.map_or_else(|| "-".to_owned(), |p| shown(if p.1 < DIVERGED { p.1 } else { f64::INFINITY }))
         };
         let mut costs: Vec<f64> = course.points.iter().map(|p| p.2).collect();
-        let motion = if course.points.len() == body[0].points.len() && body.iter().any(|b| core::ptr::eq(b, course)) {
-            "stick-slip, m"
-        } else {
-            "prescribed"
-        };
+        let motion =
+            if course.points.len() == body[0].points.len() && body.iter().any(|b| core::ptr::eq(b, course)) {
+                "stick-slip, m"
+            } else {
+                "prescribed"
+            };
         let name = format!("{} ({motion})", course.name);
         short.row([name, shown(crate::timing::median(&mut costs)), at(1e-2), at(1e-3), at(1e-4)]);
     }
-    Ok(("Dynamic friction".to_owned(), format!("Error of the force over break-away, or of the position.\n\n{}", short.markdown())))
+    Ok((
+        "Dynamic friction".to_owned(),
+        format!("Error of the force over break-away, or of the position.\n\n{}", short.markdown()),
+    ))
 }

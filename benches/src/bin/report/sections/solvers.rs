@@ -15,7 +15,9 @@ use crate::Failure;
 use crate::page::Page;
 use crate::plots::{Diagram, Series};
 use crate::stability::big::Big;
-use crate::stability::solvers::support::{cast, generator, normal, of_condition, random_vector, sensor, wide};
+use crate::stability::solvers::support::{
+    cast, generator, normal, of_condition, random_vector, sensor, wide,
+};
 use crate::stability::solvers::{differences, exact, paper};
 use crate::table::{Table, shown};
 use crate::timing::{Effort, Timed, median, time};
@@ -151,7 +153,12 @@ macro_rules! faer {
     }};
 }
 
-fn both(matrix: &Matrix6<f64>, condition: f64, effort: Effort, figures: &mut Vec<Figure>) -> Result<(), Failure> {
+fn both(
+    matrix: &Matrix6<f64>,
+    condition: f64,
+    effort: Effort,
+    figures: &mut Vec<Figure>,
+) -> Result<(), Failure> {
     let mut random = generator(condition.to_bits().into());
     let single = inputs::<f32>(sensor(matrix), condition, &mut random)?;
     common(&single, effort, "f32", figures);
@@ -163,7 +170,11 @@ fn both(matrix: &Matrix6<f64>, condition: f64, effort: Effort, figures: &mut Vec
 }
 
 /// The paper's sensor, which the decoupled solver is for.
-fn decoupled<T: Real>(scalar: &'static str, effort: Effort, figures: &mut Vec<Figure>) -> Result<(), Failure> {
+fn decoupled<T: Real>(
+    scalar: &'static str,
+    effort: Effort,
+    figures: &mut Vec<Figure>,
+) -> Result<(), Failure> {
     for (name, machining) in [
         ("Decoupled, as drawn", 0.0),
         ("Decoupled, machined to 0.1 %", 1e-3),
@@ -218,8 +229,16 @@ fn against_condition(figures: &[Figure]) -> Diagram {
 
 fn data(figures: &[Figure]) -> Table {
     let head = [
-        "solver", "scalar", "condition", "median relative error", "greatest relative error", "median ns",
-        "lower quartile ns", "upper quartile ns", "least ns", "amplification of relative noise",
+        "solver",
+        "scalar",
+        "condition",
+        "median relative error",
+        "greatest relative error",
+        "median ns",
+        "lower quartile ns",
+        "upper quartile ns",
+        "least ns",
+        "amplification of relative noise",
     ];
     let mut table = Table::new(&head);
     for f in figures {
@@ -247,16 +266,27 @@ fn pick(figures: &[&Figure], noise: f64) -> String {
         .filter(|f| !f.solver.starts_with("Decoupled") && !f.solver.ends_with("LU"))
         .filter(|f| f.worst < 0.1 * noise * f.amplification)
         .min_by(|a, b| a.timed.median.total_cmp(&b.timed.median))
-        .map_or_else(|| "none: the signals are better than the arithmetic".to_owned(), |f| {
-            format!("{} {}", f.solver, f.scalar)
-        })
+        .map_or_else(
+            || "none: the signals are better than the arithmetic".to_owned(),
+            |f| {
+                let caused = noise * f.amplification;
+                if caused > 0.3 {
+                    return format!("none helps: the noise alone is {:.0} % of the load", 100.0 * caused);
+                }
+                format!("{} {} ({} % from noise)", f.solver, f.scalar, shown(100.0 * caused))
+            },
+        )
 }
 
 /// Where numerical error stops to matter, and what to pick.
 fn decisions(conditions: &[f64], figures: &[Figure]) -> Table {
     let head = [
-        "condition", "Gauss f32 is enough above a noise of", "Gauss f64 is enough above", "12 bits of signal (2.4e-4)",
-        "16 bits (1.5e-5)", "24 bits (6e-8)",
+        "condition",
+        "Gauss f32 is enough above a noise of",
+        "Gauss f64 is enough above",
+        "12 bits of signal (2.4e-4)",
+        "16 bits (1.5e-5)",
+        "24 bits (6e-8)",
     ];
     let mut table = Table::new(&head);
     for condition in conditions {
@@ -309,7 +339,7 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
     page.say(
         "Noise of the signals is stated relative to the largest signal. Numerical error stops mattering where \
          it is below a tenth of the error that the noise causes; the cheapest solver of which that is true \
-         is named. A solver that is refused says at construction that the matrix is singular to the type.",
+         is named, with the error that the noise causes. A solver that is refused says at construction that the matrix is singular to the type.",
     );
     let table = decisions(&conditions, &figures);
     page.table(&table);

@@ -23,7 +23,15 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
     );
     let rows = all(effort.choose(2, 60));
     let mut table = Table::new(&[
-        "routine", "case", "scalar", "trials", "worst over bound", "failures", "NaN", "most iterations", "note",
+        "routine",
+        "case",
+        "scalar",
+        "trials",
+        "worst over bound",
+        "failures",
+        "NaN",
+        "most iterations",
+        "note",
     ]);
     let mut bad = Table::new(&["routine", "case", "scalar", "worst over bound", "failures", "of", "NaN"]);
     let mut rooms: Vec<(&str, [usize; 4], f64)> = Vec::new();
@@ -62,8 +70,14 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
             ]);
         }
     }
-    let mut short =
-        Table::new(&["routine", "rows", "trials", "rows beyond their bound", "NaN", "worst over bound of the others"]);
+    let mut short = Table::new(&[
+        "routine",
+        "rows",
+        "trials",
+        "rows beyond their bound",
+        "NaN",
+        "worst over bound of the others",
+    ]);
     for (room, counts, worst) in rooms {
         let [rows, trials, broken, nan] = counts.map(|n| n.to_string());
         short.row([room.to_owned(), rows, trials, broken, nan, shown(worst)]);
@@ -85,7 +99,8 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
 
 /// What fits on the page; the file has the rest.
 fn without_notes(rows: &[Row]) -> Table {
-    let mut table = Table::new(&["routine", "case", "scalar", "worst over bound", "failures", "NaN", "iterations"]);
+    let mut table =
+        Table::new(&["routine", "case", "scalar", "worst over bound", "failures", "NaN", "iterations"]);
     for row in rows {
         table.row([
             row.routine.clone(),
