@@ -120,7 +120,7 @@ impl Diagram {
         Ok(svg)
     }
 
-    /// The look of each series: both precisions of a method share it, and it is the same in every
+    /// The look of each series: both precisions of a method (or both makers of a shape) share it, and it is the same in every
     /// diagram of the same methods.
     fn looks(&self) -> Vec<Look> {
         let method =
