@@ -188,8 +188,8 @@ fn dynamics<T: Real>(trials: usize, rows: &mut Vec<Row>) {
             };
         }
         let known = Ok::<_, fingertip_friction::BadFriction>(lugre);
-        run!("LuGre, exponential", known.clone(), Exponential);
-        run!("LuGre, implicit", known.clone(), Implicit);
+        run!("LuGre, exponential", known, Exponential);
+        run!("LuGre, implicit", known, Implicit);
         run!("LuGre, return map", known, ReturnMap);
         run!("elasto-plastic, exponential", ElastoPlastic::new(lugre, l(0.6)), Exponential);
         run!("Dahl, exponential", Dahl::new(l(stiffness), l(1.0)), Exponential);

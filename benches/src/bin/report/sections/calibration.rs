@@ -183,7 +183,7 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
                 ..Series::default()
             });
             let hundred = these().find(|f| f.samples == 100).map_or(f64::NAN, |f| f.error);
-            if let Some(last) = these().last() {
+            if let Some(last) = these().next_back() {
                 let samples = last.samples;
                 short.row([
                     world.name().to_owned(),

@@ -14,9 +14,12 @@ use crate::timing::Effort;
 /// A title, and what the page for people in a hurry says under it, as Markdown.
 pub(crate) type Part = (String, String);
 
+/// What writes one part.
+type Section = fn(&mut Page, Effort) -> Result<Part, Failure>;
+
 /// Fills the page, and returns the short parts.
 pub(crate) fn all(page: &mut Page, effort: Effort) -> Result<Vec<Part>, Failure> {
-    let sections: [fn(&mut Page, Effort) -> Result<Part, Failure>; 6] = [
+    let sections: [Section; 6] = [
         solvers::report,
         contact::report,
         integrators::report,

@@ -115,6 +115,7 @@ impl Study<'_> {
 
     /// One model on one set of inputs: errors against the exact contact of what was read, or where
     /// there is noise or a model that neglects something, against the true contact.
+    #[allow(clippy::too_many_arguments, reason = "what a study of one model consists of")]
     fn model<T: Real, S, M: ContactModel<T, S>>(
         &mut self,
         (shape, method): (&'static str, &str),
