@@ -274,7 +274,7 @@ fn pick(figures: &[&Figure], noise: f64) -> String {
         |f| {
             let caused = noise * f.amplification;
             if caused > 0.3 {
-                return format!("none helps: the noise alone is {:.0} % of the load", 100.0 * caused);
+                return "none helps: the noise alone is above 30 % of the load".to_owned();
             }
             format!("{} {} ({} % from noise)", f.solver, f.scalar, shown(100.0 * caused))
         },
