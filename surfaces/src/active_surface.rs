@@ -34,16 +34,15 @@ pub struct Entry<T: Real> {
 }
 
 impl<T: Real> Entry<T> {
-    /// The crossing at which a line of this unit direction enters.
-    #[inline]
+    /// The crossing at which a line of this unit direction enters; none if it lies beyond the range of
+    /// the type.
+    #[inline(always)]
     pub fn at(crossing: &Crossing<T>, direction: &Vector3<T>) -> Self {
-        let incidence = -crossing.normal.dot(direction);
-        Self {
-            point: crossing.point,
-            normal: crossing.normal,
-            incidence_squared: incidence * incidence.abs(),
-            active: crossing.active,
-        }
+        let Crossing { point, normal, active, .. } = *crossing;
+        let incidence = -normal.dot(direction);
+        let finite = (point.x + point.y + point.z).is_number();
+        let incidence_squared = if finite { incidence * incidence.abs() } else { T::zero() };
+        Self { point, normal, incidence_squared, active }
     }
 }
 

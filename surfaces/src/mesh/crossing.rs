@@ -74,6 +74,23 @@ fn is_left<T: Real>(a: [T; 2], b: [T; 2]) -> (T, Option<bool>) {
     (exact, side)
 }
 
+/// The areas opposite the corners, without the rounding that is as large as they on a sliver: it
+/// would slide the crossing along the sliver's length.
+#[inline]
+fn sharpened<T: Real>([a, b, c]: [[T; 2]; 3], rounded: [T; 3]) -> (T, T, T) {
+    let [u, v, w] = rounded;
+    let reach = |[x, y]: [T; 2]| x.abs().max(y.abs());
+    let size = reach(a).max(reach(b)).max(reach(c));
+    if (u + v + w).abs() >= size * size * T::literal(1.0 / 64.0) {
+        return (u, v, w);
+    }
+    let exact = |[ax, ay]: [T; 2], [bx, by]: [T; 2]| {
+        let ((p, p_error), (q, q_error)) = (ax.two_product(by), ay.two_product(bx));
+        (p - q) + (p_error - q_error)
+    };
+    (exact(b, c), exact(c, a), exact(a, b))
+}
+
 impl<T: Real> Shear<T> {
     /// `None` unless the direction is one.
     #[inline]
@@ -125,6 +142,7 @@ impl<T: Real> Shear<T> {
         if left_u? != left_v? || left_v? != left_w? {
             return None;
         }
+        let (u, v, w) = sharpened([a, b, c], [u, v, w]);
         let z = (u * az + v * bz + w * cz) / (u + v + w);
         // A sliver seen edge-on may divide zero by zero: its middle, then.
         let z = if z.is_number() { z } else { (az + bz + cz) / T::literal(3.0) };

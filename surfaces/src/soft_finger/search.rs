@@ -10,6 +10,9 @@ use crate::{Search, SmoothSurface, SoftContact, Topology};
 /// More solutions than that are not told apart.
 const MOST: usize = 16;
 
+/// A grid that meets a surface in fewer points than that has not seen all of it.
+const FEWEST_STARTS: usize = 24;
+
 /// The soft-finger contacts of a wrench on a smooth surface, by Newton's method: what a shape
 /// without a closed form calls from
 /// [`soft_contacts`](crate::SoftFingerSurface::soft_contacts).
@@ -21,7 +24,7 @@ const MOST: usize = 16;
 ///   that coincide are merged. On a [closed](Topology::Closed) surface the signs of
 ///   `τ²κ + (f·n)²` over all contacts that press add up to half the Euler characteristic χ if
 ///   `f·m ≠ 0`; if they do not, the search is repeated on a finer grid, and if they still do not,
-///   the answer is [`Search::Incomplete`]. (Proof: the map `(c, τ) ↦ c × f + τ n` from the
+///   the answer is [`Search::Incomplete`], as it is for a surface that slips through the grid. (Proof: the map `(c, τ) ↦ c × f + τ n` from the
 ///   surface times the real line has, up to the factor `−1/2`, the Jacobian determinant of
 ///   theory 3.4. It is proper, so its degree can be counted at large torques, where the
 ///   preimages have `n = ±m/|m|`: χ in all, half of them pressing. Contacts cannot pass between
@@ -52,11 +55,16 @@ pub fn newton_soft_contacts<T: Real, S: SmoothSurface<T>>(
             for place in line_entries(&problem, surface, wrench).into_iter().flatten() {
                 solutions.start_at(&problem, place);
             }
-            let mut complete = true;
+            let (mut complete, mut starts) = (true, 0_usize);
             for lines in [6_u8, 11] {
-                scatter(&problem, surface, lines, |point| solutions.start(&problem, point));
+                scatter(&problem, surface, lines, |point| {
+                    starts += 1;
+                    solutions.start(&problem, point);
+                });
+                // A surface thinner than the grid has slipped through it.
+                complete = starts >= FEWEST_STARTS;
                 let Topology::Closed { euler_characteristic } = topology else { break };
-                complete = !solutions.contradict(&problem, euler_characteristic);
+                complete &= !solutions.contradict(&problem, euler_characteristic);
                 if complete {
                     break;
                 }

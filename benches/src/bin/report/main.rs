@@ -1,0 +1,79 @@
+//! Error against run time, and the stability of every routine.
+//!
+//! `cargo run --release -p fingertip-benches --bin report [-- --quick] [--out FOLDER]`
+//!
+//! Writes `report.html` (diagrams, tables), `report.md` (one page for people in a hurry), and the
+//! diagrams and data as SVG and CSV, by default into `target/report`. `--quick` takes seconds and
+//! only shows that everything works; its times are rough.
+//!
+//! Times are by calibrated repetition (`timing`); errors are against arithmetic of 220 bits
+//! (`reference`), the truth from which an input was made, or a stiff solver.
+
+extern crate alloc;
+
+mod machine;
+mod page;
+mod pareto;
+mod plots;
+mod reference;
+mod sections;
+mod table;
+mod timing;
+
+#[path = "../slip_report/ramps.rs"]
+#[allow(dead_code, reason = "the slip report asks for more of it")]
+mod ramps;
+/// The table of stress cases, which the test of the root crate runs too.
+#[path = "../../../../tests/stability/mod.rs"]
+mod stability;
+
+use core::error::Error;
+use std::path::PathBuf;
+
+use page::Page;
+use table::escaped;
+use timing::Effort;
+
+type Failure = Box<dyn Error>;
+
+struct Options {
+    effort: Effort,
+    folder: PathBuf,
+}
+
+fn options() -> Result<Options, Failure> {
+    let mut options = Options { effort: Effort { quick: false }, folder: PathBuf::from("target/report") };
+    let mut arguments = std::env::args_os().skip(1);
+    while let Some(argument) = arguments.next() {
+        match argument.to_str() {
+            Some("--quick") => options.effort.quick = true,
+            Some("--out") => options.folder = arguments.next().ok_or("--out wants a folder")?.into(),
+            _ => {
+                return Err(format!("unknown option {argument:?}; there are --quick and --out FOLDER").into());
+            }
+        }
+    }
+    Ok(options)
+}
+
+fn main() -> Result<(), Failure> {
+    let Options { effort, folder } = options()?;
+    std::fs::create_dir_all(&folder)?;
+    let machine = machine::name();
+    let mut page = Page::default();
+    let parts = sections::all(&mut page, effort)?;
+    let pace = if effort.quick { " A quick run: the times are rough." } else { "" };
+    let introduction = format!(
+        "Measured on: {machine}. Times are medians of short batches, with quartiles as bars.{pace} \
+         Hollow marks are f32, full ones f64."
+    );
+    let mut text = format!("# Error against run time\n\n{introduction}\n");
+    for (title, said) in parts {
+        text += &format!("\n## {title}\n\n{said}");
+    }
+    page.write(&folder, &format!("<p>{}</p>", escaped(&introduction)))?;
+    std::fs::write(folder.join("report.md"), &text)?;
+    println!("{text}");
+    println!("Wrote {}", folder.join("report.html").display());
+    Ok(())
+}
