@@ -8,6 +8,7 @@ use core::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fingertip::surfaces::batch::{BatchSurface, Contacts, Wrenches};
+use fingertip::surfaces::testing::ball_of_triangles;
 use fingertip::surfaces::*;
 use fingertip::wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
@@ -202,33 +203,8 @@ fn batch<T: Real>(c: &mut Criterion, scalar: &str) {
     group.finish();
 }
 
-/// A ball of triangles, as in the tests.
-fn ball(rings: u32, sectors: u32) -> (Vec<Vector3<f32>>, Vec<[u32; 3]>) {
-    let mut vertices = vec![Vector3::z()];
-    for i in 1..rings {
-        let (sin, cos) = (core::f32::consts::PI * i as f32 / rings as f32).sin_cos();
-        for j in 0..sectors {
-            let (s, c) = (core::f32::consts::TAU * j as f32 / sectors as f32).sin_cos();
-            vertices.push(Vector3::new(sin * c, sin * s, cos));
-        }
-    }
-    vertices.push(-Vector3::z());
-    let last = vertices.len() as u32 - 1;
-    let at = |i: u32, j: u32| 1 + (i - 1) * sectors + j % sectors;
-    let mut triangles = Vec::new();
-    for j in 0..sectors {
-        triangles.push([0, at(1, j), at(1, j + 1)]);
-        triangles.push([last, at(rings - 1, j + 1), at(rings - 1, j)]);
-        for i in 1..rings - 1 {
-            triangles.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
-            triangles.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
-        }
-    }
-    (vertices, triangles)
-}
-
 fn mesh<T: Real>(rings: u32, sectors: u32) -> Mesh<T> {
-    let (vertices, triangles) = ball(rings, sectors);
+    let (vertices, triangles) = ball_of_triangles::<f32>(rings, sectors, None);
     let vertices: Vec<_> = vertices.iter().map(|v| v.map(|x| T::literal(f64::from(x)))).collect();
     Mesh::new(&vertices, &triangles).unwrap()
 }
@@ -370,7 +346,7 @@ fn against_parry(c: &mut Criterion) {
             .unwrap()
     }
     pair!("cone", cone::<f32>(), cone::<f64>(), shape::Cone::new(0.5, 0.75));
-    let (vertices, triangles) = ball(50, 51);
+    let (vertices, triangles) = ball_of_triangles::<f32>(50, 51, None);
     let points: Vec<Vector> = vertices.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect();
     let hull = shape::ConvexPolyhedron::from_convex_mesh(points.clone(), &triangles).unwrap();
     pair!("convex", mesh::<f32>(50, 51), mesh::<f64>(50, 51), hull);

@@ -52,6 +52,8 @@ pub mod robotous;
 pub mod schunk_fts;
 #[cfg(any(feature = "ati-rdt", feature = "schunk-fts"))]
 mod sequence_watch;
+#[cfg(all(feature = "simulation", any(feature = "ati-rdt", feature = "schunk-fts")))]
+mod served;
 #[cfg(feature = "simulation")]
 pub mod simulation;
 mod source;
@@ -63,4 +65,6 @@ pub use datagram_link::FaultPlan;
 pub use faces::{AsyncSignalSource, AsyncWrenchSource, NbSignalSource, NbWrenchSource};
 #[cfg(any(feature = "ati-rdt", feature = "schunk-fts"))]
 pub use sequence_watch::{Arrival, LinkStatistics, SequenceWatch};
+#[cfg(all(feature = "simulation", any(feature = "ati-rdt", feature = "schunk-fts")))]
+pub use served::Served;
 pub use source::{ErrorType, Sample, SignalSource, SourceError, SourceErrorKind, WrenchSource};

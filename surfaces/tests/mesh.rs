@@ -1,37 +1,12 @@
 //! Meshes: watertight, refused when open, read from files.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use fingertip_surfaces::testing::SurfaceLaws;
+use fingertip_surfaces::testing::{SurfaceLaws, ball_of_triangles};
 use fingertip_surfaces::*;
 use fingertip_wrench::{Line, Real};
 use nalgebra::{Rotation3, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-
-/// A ball of triangles: rings of latitude between two poles.
-fn ball(rings: u32, sectors: u32) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
-    let mut vertices = vec![Vector3::z()];
-    for i in 1..rings {
-        let (sin, cos) = (core::f64::consts::PI * f64::from(i) / f64::from(rings)).sin_cos();
-        for j in 0..sectors {
-            let (s, c) = (core::f64::consts::TAU * f64::from(j) / f64::from(sectors)).sin_cos();
-            vertices.push(Vector3::new(sin * c, sin * s, cos));
-        }
-    }
-    vertices.push(-Vector3::z());
-    let last = vertices.len() as u32 - 1;
-    let at = |i: u32, j: u32| 1 + (i - 1) * sectors + j % sectors;
-    let mut triangles = Vec::new();
-    for j in 0..sectors {
-        triangles.push([0, at(1, j), at(1, j + 1)]);
-        triangles.push([last, at(rings - 1, j + 1), at(rings - 1, j)]);
-        for i in 1..rings - 1 {
-            triangles.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
-            triangles.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
-        }
-    }
-    (vertices, triangles)
-}
 
 fn mesh<T: Real>(vertices: &[Vector3<f64>], triangles: &[[u32; 3]]) -> Mesh<T> {
     let vertices: Vec<_> = vertices.iter().map(|v| v.map(T::literal)).collect();
@@ -41,7 +16,7 @@ fn mesh<T: Real>(vertices: &[Vector3<f64>], triangles: &[[u32; 3]]) -> Mesh<T> {
 /// Lines aimed at edges and vertices cross the ball once in and once out, never more, never less.
 fn no_leak<T: Real>(lines: usize) {
     let mut random = Pcg64Mcg::seed_from_u64(5);
-    let (vertices, triangles) = ball(20, 30);
+    let (vertices, triangles) = ball_of_triangles(20, 30, None);
     // An odd rotation, so that nothing is aligned; for half the lines, everything is.
     let turn = Rotation3::from_euler_angles(0.3, 0.5, 0.7);
     let turned: Vec<_> = vertices.iter().map(|v| turn * v).collect();
@@ -87,7 +62,7 @@ fn no_leak_in_double_precision() {
 }
 
 fn laws<T: Real>() {
-    let (vertices, triangles) = ball(12, 16);
+    let (vertices, triangles) = ball_of_triangles(12, 16, None);
     let laws = SurfaceLaws::around(Vector3::zeros(), T::one()).with_edges().roundings(T::literal(128.0));
     laws.check(&mesh::<T>(&vertices, &triangles)).unwrap();
     laws.check_scaling(|scale| {
@@ -110,7 +85,7 @@ fn laws_in_double_precision() {
 /// A fine ball is nearly a sphere.
 #[test]
 fn fine_mesh_agrees_with_the_sphere() {
-    let (vertices, triangles) = ball(100, 200);
+    let (vertices, triangles) = ball_of_triangles(100, 200, None);
     let surface = mesh::<f64>(&vertices, &triangles);
     let sphere = Sphere::centred(1.0).unwrap();
     let mut random = Pcg64Mcg::seed_from_u64(6);
@@ -132,7 +107,7 @@ fn fine_mesh_agrees_with_the_sphere() {
 #[test]
 fn tree_finds_what_trying_every_triangle_finds() {
     let mut random = Pcg64Mcg::seed_from_u64(8);
-    let (mut vertices, triangles) = ball(60, 90);
+    let (mut vertices, triangles) = ball_of_triangles(60, 90, None);
     for vertex in &mut vertices {
         *vertex *= 10_f64.powf(random.random_range(-1.0..0.0));
     }
@@ -190,7 +165,7 @@ fn a_mesh_that_faces_inward_is_turned() {
 /// Every triangle with vertices of its own, and slivers between them.
 #[test]
 fn duplicate_vertices_and_slivers_are_tolerated() {
-    let (vertices, triangles) = ball(12, 16);
+    let (vertices, triangles) = ball_of_triangles(12, 16, None);
     let mut loose: Vec<Vector3<f64>> = Vec::new();
     let mut split = Vec::new();
     for [a, b, c] in &triangles {

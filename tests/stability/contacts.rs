@@ -2,6 +2,7 @@
 //! of action and from the exact surface. An error of the contact point that exceeds these is the
 //! conditioning of the case, 1/cos φ.
 
+use fingertip_surfaces::testing::ball_of_triangles;
 use fingertip_surfaces::{
     ActiveSurface, ContactModel, Mesh, NoContact, PointContact, Resolution, SmoothSurface, SoftFingerSurface,
 };
@@ -160,33 +161,6 @@ impl<T: Real> Visitor<T> for Contacts<'_> {
     }
 }
 
-/// A ball of triangles, one strip of which is `sliver` wide, in units of its radius.
-fn ball(rings: u32, sectors: u32, sliver: f64) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
-    let mut vertices = vec![Vector3::z()];
-    for i in 1..rings {
-        let (sine, cosine) = (core::f64::consts::PI * f64::from(i) / f64::from(rings)).sin_cos();
-        for j in 0..sectors {
-            let step = core::f64::consts::TAU / f64::from(sectors - 1);
-            let angle = if j == 0 { -sliver } else { step * f64::from(j - 1) };
-            let (s, c) = angle.sin_cos();
-            vertices.push(Vector3::new(sine * c, sine * s, cosine));
-        }
-    }
-    vertices.push(-Vector3::z());
-    let last = 1 + (rings - 1) * sectors;
-    let at = |i: u32, j: u32| 1 + (i - 1) * sectors + j % sectors;
-    let mut triangles = Vec::new();
-    for j in 0..sectors {
-        triangles.push([0, at(1, j), at(1, j + 1)]);
-        triangles.push([last, at(rings - 1, j + 1), at(rings - 1, j)]);
-        for i in 1..rings - 1 {
-            triangles.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
-            triangles.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
-        }
-    }
-    (vertices, triangles)
-}
-
 /// Distance from the nearest plane of a triangle that the point projects into, but for a hair.
 fn off_mesh(point: &Big3, vertices: &[Vector3<f64>], triangles: &[[u32; 3]]) -> f64 {
     let rough = Vector3::from_fn(|k, _| point[k].to_f64());
@@ -212,7 +186,7 @@ fn meshes<T: Real>(trials: usize, rows: &mut Vec<Row>) {
     let mut random = Pcg64Mcg::seed_from_u64(34);
     let Ok(model) = PointContact::new(T::zero()) else { return };
     for (kind, sliver) in [("mesh", 0.5), ("mesh with slivers of 1e-6", 1e-6)] {
-        let (vertices, triangles) = ball(9, 12, sliver);
+        let (vertices, triangles) = ball_of_triangles(9, 12, Some(sliver));
         let vertices: Vec<Vector3<T>> = vertices.iter().map(|v| v.map(T::literal)).collect();
         let exact: Vec<Vector3<f64>> = vertices.iter().map(|v| v.map(Real::to_f64)).collect();
         let name = format!("point contact, {kind}");

@@ -1,17 +1,15 @@
 //! A sensor that is not there: it answers as a Net F/T does, and a link that loses, repeats,
 //! swaps and cuts.
 
-use alloc::sync::Arc;
-use core::net::SocketAddr;
-use core::sync::atomic::{AtomicBool, Ordering};
+use core::sync::atomic::Ordering;
 use core::time::Duration;
 use std::io;
 use std::net::{ToSocketAddrs, UdpSocket};
-use std::thread::JoinHandle;
 use std::time::Instant;
 
 use super::wire::{Command, Record, Request};
 use crate::LinkStatistics;
+use crate::Served;
 use crate::datagram_link::{DatagramLink, FaultPlan};
 
 /// The device and its link without a socket: requests in, datagrams out.
@@ -118,14 +116,9 @@ impl SimulatedNetFt {
 }
 
 /// A [`SimulatedNetFt`] that serves on a UDP port in a thread of its own, until it is dropped.
-#[derive(Debug)]
-pub struct RdtServer {
-    address: SocketAddr,
-    stop: Arc<AtomicBool>,
-    thread: Option<JoinHandle<SimulatedNetFt>>,
-}
+pub type RdtServer = Served<SimulatedNetFt>;
 
-impl RdtServer {
+impl Served<SimulatedNetFt> {
     /// Serves on an address (port 0 for any free one; the loopback interface unless you know what
     /// you do). `load` gives the counts of each sample by its number, which begins anew with each client; one is sent every `period`.
     ///
@@ -140,9 +133,7 @@ impl RdtServer {
         let socket = UdpSocket::bind(address)?;
         socket.set_nonblocking(true)?;
         let address = socket.local_addr()?;
-        let stop = Arc::new(AtomicBool::new(false));
-        let stopped = Arc::clone(&stop);
-        let thread = std::thread::Builder::new().name("simulated Net F/T".to_owned()).spawn(move || {
+        Self::by(address, "simulated Net F/T", move |stopped| {
             let mut client = None;
             let mut next = Instant::now();
             let mut number = 0;
@@ -176,30 +167,6 @@ impl RdtServer {
                 sensor.request(bytes.get(..length).unwrap_or_default());
             }
             sensor
-        })?;
-        Ok(Self { address, stop, thread: Some(thread) })
-    }
-
-    /// Where it serves.
-    #[must_use]
-    pub const fn address(&self) -> SocketAddr {
-        self.address
-    }
-
-    /// Stops serving and gives the sensor back; `None` if its thread died.
-    #[must_use]
-    pub fn stop(mut self) -> Option<SimulatedNetFt> {
-        self.stop.store(true, Ordering::Relaxed);
-        self.thread.take()?.join().ok()
-    }
-}
-
-impl Drop for RdtServer {
-    fn drop(&mut self) {
-        self.stop.store(true, Ordering::Relaxed);
-        if let Some(thread) = self.thread.take() {
-            // A panic of the caller's load function has been reported by then.
-            let _ = thread.join();
-        }
+        })
     }
 }

@@ -1,16 +1,15 @@
 //! A sensor that is not there: it answers commands and sends datagrams, over a link with faults.
 
-use alloc::sync::Arc;
 use core::net::SocketAddr;
-use core::sync::atomic::{AtomicBool, Ordering};
+use core::sync::atomic::Ordering;
 use core::time::Duration;
 use std::io::{self, Read, Write};
 use std::net::{TcpListener, TcpStream, ToSocketAddrs, UdpSocket};
-use std::thread::JoinHandle;
 use std::time::Instant;
 
 use super::wire::{Command, CommandAnswer, FtsSample, emit_packet};
 use crate::LinkStatistics;
+use crate::Served;
 use crate::datagram_link::{DatagramLink, FaultPlan};
 
 /// The device and its link without sockets: commands and loads in, answers and datagrams out. One sample goes
@@ -102,14 +101,9 @@ impl SimulatedFts {
 }
 
 /// A [`SimulatedFts`] that serves one client at a time, in a thread of its own, until it is dropped.
-#[derive(Debug)]
-pub struct FtsServer {
-    address: SocketAddr,
-    stop: Arc<AtomicBool>,
-    thread: Option<JoinHandle<SimulatedFts>>,
-}
+pub type FtsServer = Served<SimulatedFts>;
 
-impl FtsServer {
+impl Served<SimulatedFts> {
     /// Takes commands at an address (port 0 for any free one; the loopback interface unless you know what you
     /// do) and sends datagrams to the client's address and the port `client_port`. `load` gives the
     /// components of each sample by its number; one is taken every `period`.
@@ -127,9 +121,7 @@ impl FtsServer {
         listener.set_nonblocking(true)?;
         let address = listener.local_addr()?;
         let socket = UdpSocket::bind((address.ip(), 0))?;
-        let stop = Arc::new(AtomicBool::new(false));
-        let stopped = Arc::clone(&stop);
-        let thread = std::thread::Builder::new().name("simulated FTS".to_owned()).spawn(move || {
+        Self::by(address, "simulated FTS", move |stopped| {
             let mut client: Option<(TcpStream, SocketAddr)> = None;
             let mut next = Instant::now();
             let mut number = 0;
@@ -168,30 +160,6 @@ impl FtsServer {
                 }
             }
             sensor
-        })?;
-        Ok(Self { address, stop, thread: Some(thread) })
-    }
-
-    /// Where it takes commands.
-    #[must_use]
-    pub const fn address(&self) -> SocketAddr {
-        self.address
-    }
-
-    /// Stops serving and gives the sensor back; `None` if its thread died.
-    #[must_use]
-    pub fn stop(mut self) -> Option<SimulatedFts> {
-        self.stop.store(true, Ordering::Relaxed);
-        self.thread.take()?.join().ok()
-    }
-}
-
-impl Drop for FtsServer {
-    fn drop(&mut self) {
-        self.stop.store(true, Ordering::Relaxed);
-        if let Some(thread) = self.thread.take() {
-            // A panic of the caller's load function has been reported by then.
-            let _ = thread.join();
-        }
+        })
     }
 }

@@ -12,8 +12,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#[cfg(feature = "alloc")]
+mod ball;
 mod collect;
 mod laws;
 mod random;
 
+#[cfg(feature = "alloc")]
+pub use ball::ball_of_triangles;
 pub use laws::{Law, SurfaceLaws, Violation};

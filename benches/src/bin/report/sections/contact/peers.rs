@@ -2,6 +2,7 @@
 
 use core::hint::black_box;
 
+use fingertip_surfaces::testing::ball_of_triangles;
 use fingertip_surfaces::{ActiveSurface, Mesh, Sphere};
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
@@ -14,31 +15,6 @@ use super::study::{Errors, Study};
 use crate::Failure;
 use crate::stability::levels::direction;
 use crate::timing::time;
-
-/// A ball of triangles.
-fn ball(rings: u32, sectors: u32) -> (Vec<Vector3<f32>>, Vec<[u32; 3]>) {
-    let mut vertices = vec![Vector3::z()];
-    for i in 1..rings {
-        let (sine, cosine) = (core::f32::consts::PI * i as f32 / rings as f32).sin_cos();
-        for j in 0..sectors {
-            let (s, c) = (core::f32::consts::TAU * j as f32 / sectors as f32).sin_cos();
-            vertices.push(Vector3::new(sine * c, sine * s, cosine));
-        }
-    }
-    vertices.push(-Vector3::z());
-    let last = 1 + (rings - 1) * sectors;
-    let at = |i: u32, j: u32| 1 + (i - 1) * sectors + j % sectors;
-    let mut triangles = Vec::new();
-    for j in 0..sectors {
-        triangles.push([0, at(1, j), at(1, j + 1)]);
-        triangles.push([last, at(rings - 1, j + 1), at(rings - 1, j)]);
-        for i in 1..rings - 1 {
-            triangles.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
-            triangles.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
-        }
-    }
-    (vertices, triangles)
-}
 
 fn first<T: Real>(surface: &impl ActiveSurface<T>, line: &Line<T>) -> Option<T> {
     let mut first = None;
@@ -114,7 +90,7 @@ pub(super) fn beside_parry(study: &mut Study<'_>) -> Result<(), Failure> {
     pair!("capsule", capsule::<f32>()?, capsule::<f64>()?, shape::Capsule::new_y(0.5, 0.75));
     pair!("cylinder", cylinder::<f32>()?, cylinder::<f64>()?, shape::Cylinder::new(0.5, 0.75));
     pair!("cone", cone::<f32>()?, cone::<f64>()?, shape::Cone::new(0.5, 0.75));
-    let (vertices, triangles) = ball(50, 51);
+    let (vertices, triangles) = ball_of_triangles::<f32>(50, 51, None);
     let wide: Vec<Vector3<f64>> = vertices.iter().map(|v| v.cast()).collect();
     let points: Vec<Vector> = vertices.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect();
     let soup = shape::TriMesh::new(points, triangles.clone()).map_err(|error| format!("{error:?}"))?;
