@@ -7,8 +7,8 @@ use nalgebra::Vector3;
 /// closed form needs of a wrench, without the division and the root that a unit direction and a
 /// foot point cost.
 ///
-/// The magnitude of the force lies between [`LEAST_SQUARED`](Self::LEAST_SQUARED) and
-/// [`GREATEST_SQUARED`](Self::GREATEST_SQUARED), so that its square is as good as exact; the torque
+/// The magnitude of the force lies between [`least_squared`](Self::least_squared) and
+/// [`greatest_squared`](Self::greatest_squared), so that its square is as good as exact; the torque
 /// may be anything, NaN included, and may have a part along the force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceLine<T: Real> {
