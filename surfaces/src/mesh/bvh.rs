@@ -177,9 +177,15 @@ impl<T: Real> Bvh<T> {
                     depth += 1;
                 }
             }
-            // The nearest on top.
-            if let Some(new) = stack.get_mut(first..depth) {
-                new.sort_unstable_by(|a, b| b.1.partial_cmp(&a.1).unwrap_or(core::cmp::Ordering::Equal));
+            // The nearest on top. At most four: each sinks to its place, and nothing is asked of the order.
+            for end in first + 1..depth {
+                for place in (first + 1..=end).rev() {
+                    if let Some([below, above]) = stack.get_mut(place - 1..=place)
+                        && above.1 > below.1
+                    {
+                        core::mem::swap(below, above);
+                    }
+                }
             }
         }
     }
