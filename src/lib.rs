@@ -1,6 +1,8 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![doc = include_str!("../README.md")]
 
+#[cfg(feature = "friction")]
+mod batch;
 mod builder;
 mod pipeline;
 mod stage;
@@ -10,6 +12,8 @@ pub use fingertip_friction as friction;
 pub use fingertip_surfaces as surfaces;
 pub use fingertip_wrench as wrench;
 
+#[cfg(feature = "friction")]
+pub use batch::Touches;
 pub use builder::FingertipBuilder;
 pub use pipeline::{Fingertip, Touch};
 pub use stage::{Absent, GripStage, Present, SlipStage};

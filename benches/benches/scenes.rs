@@ -8,6 +8,8 @@ use core::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use fingertip::Touches;
+use fingertip::friction::SlipVerdict;
 use fingertip_benches::hand_written::{HandA, HandB};
 use fingertip_scenes::{Felt, Scene, SceneA, SceneB, SceneC, SceneD, Volts};
 
@@ -47,6 +49,31 @@ where
     run(group, &format!("{}, pipeline", S::NAME), &volts::<S, N>(), |volts| scene.sense(volts));
 }
 
+/// The same stages for all samples at once, as columns.
+fn batch_of_scene_a(group: &mut BenchmarkGroup<'_, WallTime>) {
+    let Some(scene) = SceneA::new() else { return };
+    let volts = volts::<SceneA, 6>();
+    let raw: [Vec<f32>; 6] = core::array::from_fn(|gauge| volts.iter().map(|v| v[gauge]).collect());
+    let mut columns: [Vec<f32>; 9] = core::array::from_fn(|_| vec![0.0; COUNT]);
+    let mut slip = vec![SlipVerdict::NotPressing; COUNT];
+    group.bench_function("a, batch", |b| {
+        b.iter(|| {
+            let [x, y, z, normal_force, tx, ty, tz, margin, utilisation] =
+                columns.each_mut().map(|column| &mut column[..]);
+            let touches = Touches {
+                point: [x, y, z],
+                normal_force,
+                tangential_force: [tx, ty, tz],
+                margin,
+                utilisation,
+                slip: &mut slip,
+            };
+            scene.fingertip.sense_all(black_box(raw.each_ref().map(|column| &column[..])), touches);
+            black_box((&mut columns, &mut slip));
+        });
+    });
+}
+
 fn scenes(c: &mut Criterion) {
     let mut group = c.benchmark_group("scenes");
     group.throughput(Throughput::Elements(COUNT as u64));
@@ -55,6 +82,7 @@ fn scenes(c: &mut Criterion) {
         let volts: Vec<[f32; 6]> = volts::<SceneA, 6>().into_iter().map(Into::into).collect();
         run(&mut group, "a, by hand", &volts, |volts| -> Felt { hand.sense(volts) });
     }
+    batch_of_scene_a(&mut group);
     scene::<SceneB, 6>(&mut group);
     if let Some(hand) = HandB::new() {
         let volts: Vec<[f32; 6]> = volts::<SceneB, 6>().into_iter().map(Into::into).collect();

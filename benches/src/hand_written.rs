@@ -6,7 +6,7 @@
 //! library takes at flat incidence.
 
 use fingertip_scenes::{Felt, Scene, SceneA, SceneB};
-use fingertip_wrench::{BicchiDario, Combination, Decoupled, Inverse, WrenchSolver};
+use fingertip_wrench::{BicchiDario, Combination, Decoupled, WrenchSolver};
 use nalgebra::{Matrix6, Vector6};
 
 type V = [f32; 3];
@@ -165,8 +165,14 @@ impl HandA {
 pub struct HandB {
     /// Readings at rest \[V\].
     pub zero: [f32; 6],
-    /// Newtons or newton metres per signal: an explicit inverse, the fastest way.
-    pub inverse: [[f32; 6]; 6],
+    /// Which gauge each row of the factors belongs to.
+    pub order: [usize; 6],
+    /// The factor below the diagonal, whose diagonal is 1.
+    pub lower: [[f32; 6]; 6],
+    /// The factor above it \[V/N, V/(N·m)\].
+    pub upper: [[f32; 6]; 6],
+    /// Reciprocals of its diagonal.
+    pub pivots: [f32; 6],
     /// Semi-axes \[m\].
     pub semi_axes: V,
     /// Their reciprocals \[1/m\].
@@ -182,9 +188,18 @@ impl HandB {
     #[must_use]
     pub fn new() -> Option<Self> {
         let semi_axes = [14e-3, 11e-3, 9e-3];
+        let sensor = SceneB::sensor()?;
+        let per_load = Matrix6::from_diagonal(&sensor.nominal().map(|x| 1.0 / x));
+        let (permutation, lower, upper) = (sensor.normalised() * per_load).lu().unpack();
+        let mut rows = Vector6::from_fn(|gauge, _| gauge);
+        permutation.permute_rows(&mut rows);
+        let order: [usize; 6] = rows.into();
         Some(Self {
             zero: (*SceneB::tare()?.zero()).into(),
-            inverse: columns(&Inverse::new(&SceneB::sensor()?).ok()?).data.0,
+            order,
+            lower: lower.transpose().data.0,
+            upper: upper.transpose().data.0,
+            pivots: upper.diagonal().map(|x| 1.0 / x).into(),
             semi_axes,
             reciprocals: semi_axes.map(|a| 1.0 / a),
             least_squared: 0.01,
@@ -196,12 +211,17 @@ impl HandB {
     #[inline(always)]
     #[must_use]
     pub fn sense(&self, volts: &[f32; 6]) -> Felt {
-        // By columns, so that the six sums go side by side.
-        let mut w = [0.0; 6];
-        for (column, (volt, zero)) in self.inverse.iter().zip(volts.iter().zip(&self.zero)) {
-            for (load, per_volt) in w.iter_mut().zip(column) {
-                *load += per_volt * (volt - zero);
+        let mut w: [f32; 6] = self.order.map(|gauge| volts[gauge] - self.zero[gauge]);
+        for i in 1..6 {
+            for j in 0..i {
+                w[i] -= self.lower[i][j] * w[j];
             }
+        }
+        for i in (0..6).rev() {
+            for j in i + 1..6 {
+                w[i] -= self.upper[i][j] * w[j];
+            }
+            w[i] *= self.pivots[i];
         }
         let (force, torque) = ([w[0], w[1], w[2]], [w[3], w[4], w[5]]);
         let force_squared = dot(force, force);

@@ -51,6 +51,30 @@ impl<T: Real> Coulomb<T> {
         let angle = self.cone.coefficient.atan() - force.tangential_magnitude().atan2(force.normal);
         if angle.is_number() { angle } else { -T::frac_pi_2() }
     }
+
+    /// [`slip_margin`](FrictionModel::slip_margin) of many contacts at once, as columns and without a
+    /// branch, which the compiler vectorises: from normal forces \[N\] and the magnitudes of tangential
+    /// forces \[N\], the margins \[N\] and utilisations. Of columns of different lengths, the shortest
+    /// counts.
+    ///
+    /// The answers are the same, but that a normal force below zero, which no contact has, gets what a
+    /// force that is not finite gets.
+    #[inline(always)]
+    pub fn slip_margins(&self, normal: &[T], tangential: &[T], newtons: &mut [T], utilisation: &mut [T]) {
+        let Cone { coefficient, cosine } = self.cone;
+        let answers = newtons.iter_mut().zip(utilisation);
+        for ((&normal, &load), (newtons, utilisation)) in normal.iter().zip(tangential).zip(answers) {
+            let holding = coefficient * normal;
+            let margin = (holding - load) * cosine;
+            let known = (normal >= T::zero()) & (load >= T::zero()) & (margin.abs() <= T::GREATEST);
+            let used = load / holding;
+            let idle = known & (load <= T::zero());
+            let held = known & (used < T::GREATEST);
+            *newtons = if known { margin } else { -T::GREATEST };
+            let used = if held { used } else { T::GREATEST };
+            *utilisation = if idle { T::zero() } else { used };
+        }
+    }
 }
 
 impl<T: Real> FrictionModel<T> for Coulomb<T> {
@@ -91,4 +115,52 @@ stored! {
     Coulomb<T>, [T: Real],
     |model| { coefficient: T = model.coefficient() },
     Self::new(coefficient)
+}
+
+#[cfg(test)]
+mod tests {
+    use fingertip_wrench::{ContactForce, Real};
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+
+    use super::Coulomb;
+    use crate::FrictionModel;
+
+    fn columns_say_what_samples_say<T: Real>(coefficient: f64, forces: &[(T, T)]) {
+        let Ok(model) = Coulomb::new(T::literal(coefficient)) else { return };
+        let (normal, tangential): (Vec<T>, Vec<T>) = forces.iter().copied().unzip();
+        let (mut newtons, mut used) = (vec![T::one(); forces.len()], vec![T::one(); forces.len()]);
+        model.slip_margins(&normal, &tangential, &mut newtons, &mut used);
+        for (k, &(normal, tangential)) in forces.iter().enumerate() {
+            let force = ContactForce {
+                normal: if normal >= T::zero() { normal } else { T::GREATEST + T::GREATEST },
+                tangential: Vector3::new(tangential, T::zero(), T::zero()),
+                spin: T::zero(),
+            };
+            let one = model.slip_margin(&force);
+            // The length of a vector along an axis is exact in the normal range; so is all the rest.
+            assert!(
+                (newtons[k] - one.newtons).abs() <= T::LEAST_NORMAL && used[k] == one.utilisation,
+                "{normal} {tangential}: {} {} instead of {one:?}",
+                newtons[k],
+                used[k]
+            );
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn columns_are_as_single_samples(
+            coefficient in 1e-3..10.0,
+            forces in prop::collection::vec((any::<f64>(), any::<f64>()), 1..40),
+        ) {
+            let ends = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (f64::NAN, 1.0), (1.0, f64::NAN),
+                (f64::INFINITY, 1.0), (1.0, f64::INFINITY), (-1.0, 1.0), (f64::MAX, f64::MAX), (1e-310, 1.0)];
+            let forces: Vec<_> = forces.into_iter().chain(ends).map(|(n, t)| (n, t.abs())).collect();
+            columns_say_what_samples_say::<f64>(coefficient, &forces);
+            #[allow(clippy::cast_possible_truncation)]
+            let single: Vec<_> = forces.iter().map(|&(n, t)| (n as f32, t as f32)).collect();
+            columns_say_what_samples_say::<f32>(coefficient, &single);
+        }
+    }
 }

@@ -43,6 +43,23 @@ impl<T: Real> RatioThreshold<T> {
     }
 }
 
+impl<T: Real> RatioThreshold<T> {
+    /// [`update`](SlipDetector::update) of many contacts at once, which is possible since this detector
+    /// remembers nothing: from normal forces \[N\] and the magnitudes of tangential forces \[N\], as
+    /// columns and without a branch, which the compiler vectorises. Of columns of different lengths, the
+    /// shortest counts.
+    #[inline(always)]
+    pub fn verdicts(&self, normal: &[T], tangential: &[T], verdicts: &mut [SlipVerdict]) {
+        for ((&normal, &load), verdict) in normal.iter().zip(tangential).zip(verdicts) {
+            let ratio = load / normal;
+            let pressing = (normal > self.gate.least()) & (ratio >= T::zero()) & (ratio <= T::GREATEST);
+            let near = if ratio >= self.warning { SlipVerdict::Warning } else { SlipVerdict::Holding };
+            let said = if ratio >= self.limit { SlipVerdict::Slipping } else { near };
+            *verdict = if pressing { said } else { SlipVerdict::NotPressing };
+        }
+    }
+}
+
 impl<T: Real> SlipDetector<T> for RatioThreshold<T> {
     #[inline]
     fn update(&mut self, force: &ContactForce<T>, _time_step: T) -> SlipVerdict {
@@ -66,4 +83,34 @@ stored! {
         warning_share: T = detector.share,
     },
     Self::new(gate, static_coefficient, warning_share)
+}
+
+#[cfg(test)]
+mod tests {
+    use fingertip_wrench::ContactForce;
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+
+    use super::RatioThreshold;
+    use crate::{ForceNoise, NormalForceGate, SlipDetector, SlipVerdict};
+
+    proptest! {
+        #[test]
+        fn columns_are_as_single_samples(
+            forces in prop::collection::vec((0.0..1.0, 0.0..1.0), 1..40),
+            bits in prop::collection::vec((any::<f64>(), any::<f64>()), 1..20),
+        ) {
+            let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.02).unwrap());
+            let mut detector = RatioThreshold::new(gate, 0.6, 0.75).unwrap();
+            let forces: Vec<_> = forces.into_iter().chain(bits.into_iter().map(|(n, t)| (n, t.abs())))
+                .chain([(0.2, 0.0), (0.5, 0.3), (0.5, f64::NAN), (f64::NAN, 0.1), (f64::INFINITY, 1.0)]).collect();
+            let (normal, tangential): (Vec<_>, Vec<_>) = forces.iter().copied().unzip();
+            let mut verdicts = vec![SlipVerdict::NotPressing; forces.len()];
+            detector.verdicts(&normal, &tangential, &mut verdicts);
+            for ((normal, tangential), verdict) in forces.into_iter().zip(verdicts) {
+                let force = ContactForce { normal, tangential: Vector3::new(0.0, tangential, 0.0), spin: 0.0 };
+                prop_assert_eq!(verdict, detector.update(&force, 1e-3), "{} {}", normal, tangential);
+            }
+        }
+    }
 }

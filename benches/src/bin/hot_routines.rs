@@ -9,7 +9,7 @@ use fingertip_friction::{
     Coulomb, DropDetector, ForceNoise, FrictionModel, LikelihoodRatioDetector, NormalForceGate, PowerLimit,
     RatioThreshold, SlipDetector, SoftFingerLimit,
 };
-use fingertip_scenes::{Scene, SceneA, SceneB, SceneC, SceneD, Volts};
+use fingertip_scenes::{Felt, Scene, SceneA, SceneB, SceneC, SceneD, Volts};
 use fingertip_surfaces::{
     Capsule, Cone, ContactModel, Cylinder, Ellipsoid, Plane, PointContact, SoftFinger, Sphere, Torus,
 };
@@ -136,8 +136,32 @@ fn pressing<S: Scene<N>, const N: usize>() -> Vec<Volts<N>> {
     session.iter().skip(60).take(session.len() - 90).map(|sums| S::volts(sums)).collect()
 }
 
+/// A yardstick that does something else is none: both shall feel the same, but for the rounding of a few
+/// dozen operations at the condition number 5 of the sensors and the flattest angle of the sessions.
+fn same(pipeline: &Felt, hand: &Felt) -> Result<(), Failure> {
+    let tolerance = 1024.0 * f32::EPSILON;
+    let close =
+        |a: &[f32], b: &[f32], size: f32| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= size * tolerance);
+    let force = pipeline.normal_force + pipeline.margin.abs();
+    let all = (pipeline.contact, pipeline.slip) == (hand.contact, hand.slip)
+        && close(&pipeline.point, &hand.point, 14e-3)
+        && close(&pipeline.tangential_force, &hand.tangential_force, force)
+        && close(&[pipeline.normal_force, pipeline.margin], &[hand.normal_force, hand.margin], force)
+        && close(&[pipeline.spin_torque], &[hand.spin_torque], force * 14e-3)
+        && close(&[pipeline.utilisation], &[hand.utilisation], 1.0);
+    if all { Ok(()) } else { Err(format!("{hand:?} by hand, but {pipeline:?}").into()) }
+}
+
 fn scenes() -> Result<(), Failure> {
     let none = "a scene cannot be built";
+    let (mut scene_a, hand_a) = (SceneA::new().ok_or(none)?, HandA::new().ok_or(none)?);
+    for volts in pressing::<SceneA, 6>() {
+        same(&scene_a.sense(&volts), &hand_a.sense(volts.as_ref()))?;
+    }
+    let (mut scene_b, hand_b) = (SceneB::new().ok_or(none)?, HandB::new().ok_or(none)?);
+    for volts in pressing::<SceneB, 6>() {
+        same(&scene_b.sense(&volts), &hand_b.sense(volts.as_ref()))?;
+    }
     count!(scene_a, SceneA::new().ok_or(none)?, SceneA, pressing::<SceneA, 6>(), |s, v: Volts<6>| s.sense(v));
     count!(scene_b, SceneB::new().ok_or(none)?, SceneB, pressing::<SceneB, 6>(), |s, v: Volts<6>| s.sense(v));
     count!(scene_c, SceneC::new().ok_or(none)?, SceneC, pressing::<SceneC, 8>(), |s, v: Volts<8>| s.sense(v));

@@ -10,7 +10,8 @@ use crate::{FRICTION, Felt, LEAST_FORCE, STEP, Scene, noise, sensor, session};
 
 /// The least: the paper's six gauges and sphere.
 pub struct SceneA {
-    fingertip: Fingertip<
+    /// All its stages.
+    pub fingertip: Fingertip<
         Decoupled<f32, BicchiDario, 6>,
         Sphere<f32>,
         PointContact<f32>,
