@@ -26,6 +26,22 @@ const COLOURS: [RGBColor; 9] = [
     RGBColor(110, 60, 160),
 ];
 
+/// Methods that are compared in several diagrams, not all of them in each.
+const FAMILIES: [&[&str]; 2] = [
+    &[
+        "Gauss",
+        "Gauss refined",
+        "Inverse",
+        "LeastSquares",
+        "nalgebra LU",
+        "faer LU",
+        "Decoupled, as drawn",
+        "Decoupled, machined to 0.1 %",
+        "Decoupled, machined to 1 %",
+    ],
+    &["point contact (wrench axis)", "soft finger, closed form", "soft finger, Newton from the last contact"],
+];
+
 const SIZE: (u32, u32) = (980, 460);
 const LEGEND: u32 = 300;
 
@@ -120,18 +136,21 @@ impl Diagram {
         Ok(svg)
     }
 
-    /// The look of each series: both precisions of a method (or both makers of a shape) share it, and it is the same in every
-    /// diagram of the same methods.
+    /// The look of each series: both precisions of a method (or both makers of a shape) share it. A
+    /// method of the [`FAMILIES`] looks the same in every diagram.
     fn looks(&self) -> Vec<Look> {
         let method =
             |series: &Series| series.name.trim_end_matches(" f32").trim_end_matches(" f64").to_owned();
         let mut methods: Vec<String> = self.series.iter().map(method).collect();
         methods.sort();
         methods.dedup();
+        let fixed = |name: &str| FAMILIES.iter().find_map(|family| family.iter().position(|m| *m == name));
         self.series
             .iter()
             .map(|series| {
-                let index = methods.iter().position(|name| *name == method(series)).unwrap_or(0);
+                let name = method(series);
+                let here = || methods.iter().position(|m| *m == name);
+                let index = fixed(&name).or_else(here).unwrap_or(0);
                 Look {
                     colour: COLOURS[index % COLOURS.len()],
                     marker: MARKERS[index % MARKERS.len()],

@@ -97,7 +97,7 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
                 f.shape == shape && f.inputs == if f.method.starts_with("point") { "force" } else { "spin" }
             })
             .collect();
-        let title = format!("Contact on a {shape}, without noise: error over run time");
+        let title = format!("Contact, {shape}: error over run time, without noise");
         page.diagram(&format!("contact_{shape}"), &diagram(title, &these))?;
     }
     let mut peers: Vec<Series> = Vec::new();
