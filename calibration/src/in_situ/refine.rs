@@ -10,6 +10,9 @@ use crate::linear::Singular;
 pub struct Refined {
     /// From signals to loads in nominal loads, 6 × gauges.
     pub loads_per_signal: DMatrix<f64>,
+    /// Standard deviations of these, by the deviations that were given, to first order; directions that
+    /// are not observed add nothing, since they stay as they were.
+    pub deviations: DMatrix<f64>,
     /// RMS of the pitch `f·m / (|f||m|)` of the touches, before and after: 0 for point contacts.
     pub pitch: (f64, f64),
     /// How many directions of the 6 × gauges numbers neither touches nor known loads show: they stay as
@@ -137,7 +140,20 @@ pub fn refine(
             break;
         }
     }
-    Ok(Refined { pitch: (pitch(start), pitch(&map)), loads_per_signal: map, unobserved, iterations })
+    let singular = Singular::new(&jacobian).ok_or(FitError::BadInput { what: "the touches" })?;
+    let threshold = 1e-9 * singular.values.max();
+    let mut variances = DVector::zeros(6 * gauges);
+    for (k, value) in singular.values.iter().enumerate().filter(|(_, value)| **value > threshold) {
+        variances += singular.right.column(k).map(|x| (x / value).powi(2));
+    }
+    let deviations = DMatrix::from_row_slice(6, gauges, variances.map(f64::sqrt).as_slice());
+    Ok(Refined {
+        deviations,
+        pitch: (pitch(start), pitch(&map)),
+        loads_per_signal: map,
+        unobserved,
+        iterations,
+    })
 }
 
 #[cfg(test)]
