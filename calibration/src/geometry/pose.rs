@@ -70,6 +70,7 @@ fn descend(touches: &[(Wrench<f64>, Vector3<f64>)], start: Matrix3<f64>) -> Resu
     let mut rotation = start;
     let mut origin = Vector3::zeros();
     let scale = touches.iter().map(|(_, y)| y.norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let mut last = f64::INFINITY;
     for iteration in 0..MOST_ITERATIONS {
         let mut design = DMatrix::zeros(3 * touches.len(), 6);
         let mut left = DMatrix::zeros(3 * touches.len(), 1);
@@ -97,9 +98,11 @@ fn descend(touches: &[(Wrench<f64>, Vector3<f64>)], start: Matrix3<f64>) -> Resu
         let damp = (1.0 / turn.norm().max(f64::MIN_POSITIVE)).min(1.0);
         rotation = Rotation3::from_scaled_axis(turn * damp).into_inner() * rotation;
         origin += shift * damp;
-        if iteration > 0 && turn.norm() < 1e-13 && shift.norm() < 1e-13 * scale
-            || iteration > 50 && turn.norm() < 1e-10
-        {
+        let size = turn.norm().max(shift.norm() / scale);
+        // Steps that are small and no longer shrink are rounding.
+        let stalled = size < 1e-9 && size > 0.1 * last;
+        last = size;
+        if iteration > 0 && (size < 1e-13 || stalled) {
             let variance = fit.residual_covariance[(0, 0)];
             let rms = (left.norm_squared() / left.len().max(1) as f64).sqrt();
             let deviations =

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::fit::FitError;
-use crate::linear::Singular;
+use crate::linear::{Singular, Triangular};
 
 /// What mending a calibration gave.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,7 +113,7 @@ pub fn refine(
     while iterations < MOST_ITERATIONS {
         iterations += 1;
         // The step of least norm, so that what is not observed does not move.
-        let singular = Singular::new(&jacobian).ok_or(FitError::BadInput { what: "the touches" })?;
+        let (singular, target) = reduced(&jacobian, &residual)?;
         let threshold = 1e-9 * singular.values.max();
         unobserved = 6 * gauges - singular.values.iter().filter(|value| **value > threshold).count();
         let mut damping = 0.0;
@@ -122,7 +122,7 @@ pub fn refine(
             let mut step = DVector::zeros(6 * gauges);
             for (k, value) in singular.values.iter().enumerate() {
                 if *value > threshold {
-                    let along = singular.left.column(k).dot(&residual);
+                    let along = singular.left.column(k).dot(&target);
                     step -= singular.right.column(k) * (along * value / (value * value + damping));
                 }
             }
@@ -140,7 +140,7 @@ pub fn refine(
             break;
         }
     }
-    let singular = Singular::new(&jacobian).ok_or(FitError::BadInput { what: "the touches" })?;
+    let (singular, _) = reduced(&jacobian, &residual)?;
     let threshold = 1e-9 * singular.values.max();
     let mut variances = DVector::zeros(6 * gauges);
     for (k, value) in singular.values.iter().enumerate().filter(|(_, value)| **value > threshold) {
@@ -154,6 +154,20 @@ pub fn refine(
         unobserved,
         iterations,
     })
+}
+
+/// The singular values of a tall matrix and the right side that belongs to them, by way of its triangle: the
+/// same, for the cost of a few columns however many rows there are.
+fn reduced(jacobian: &DMatrix<f64>, residual: &DVector<f64>) -> Result<(Singular, DVector<f64>), FitError> {
+    let mut triangular = Triangular::new(jacobian.ncols(), 1);
+    let mut line = vec![0.0; jacobian.ncols()];
+    for (row, value) in jacobian.row_iter().zip(residual.iter()) {
+        line.iter_mut().zip(row.iter()).for_each(|(slot, value)| *slot = *value);
+        triangular.push(&line, &[*value]);
+    }
+    let factors = triangular.factors();
+    let singular = Singular::new(&factors.regressors).ok_or(FitError::BadInput { what: "the touches" })?;
+    Ok((singular, factors.projected.column(0).into_owned()))
 }
 
 #[cfg(test)]
