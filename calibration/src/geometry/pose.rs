@@ -24,13 +24,17 @@ pub fn fit_pose(
         }
     }
     let mut best: Option<Solution> = None;
+    let mut known: Vec<Matrix3<f64>> = Vec::new();
     let mut last = None;
     for start in axis_rotations() {
-        match descend(touches, start) {
-            Ok(solution) if best.as_ref().is_none_or(|other| solution.rms < other.rms) => {
-                best = Some(solution)
+        match descend(touches, start, &known) {
+            Ok(Some(solution)) => {
+                known.push(solution.rotation);
+                if best.as_ref().is_none_or(|other| solution.rms < other.rms) {
+                    best = Some(solution);
+                }
             }
-            Ok(_) => {}
+            Ok(None) => {}
             Err(error) => last = Some(error),
         }
     }
@@ -66,7 +70,15 @@ fn axis_rotations() -> impl Iterator<Item = Matrix3<f64>> {
     )
 }
 
-fn descend(touches: &[(Wrench<f64>, Vector3<f64>)], start: Matrix3<f64>) -> Result<Solution, GeometryError> {
+/// So near to a solution \[rad\], the search ends there.
+const SAME: f64 = 1e-4;
+
+/// `None` if it comes to one of the known rotations.
+fn descend(
+    touches: &[(Wrench<f64>, Vector3<f64>)],
+    start: Matrix3<f64>,
+    known: &[Matrix3<f64>],
+) -> Result<Option<Solution>, GeometryError> {
     let mut rotation = start;
     let mut origin = Vector3::zeros();
     let scale = touches.iter().map(|(_, y)| y.norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
@@ -107,7 +119,10 @@ fn descend(touches: &[(Wrench<f64>, Vector3<f64>)], start: Matrix3<f64>) -> Resu
             let rms = (left.norm_squared() / left.len().max(1) as f64).sqrt();
             let deviations =
                 fit.inverse_gram.diagonal().iter().map(|g| (g * variance).max(0.0).sqrt()).collect();
-            return Ok(Solution { rotation, origin, deviations, rms });
+            return Ok(Some(Solution { rotation, origin, deviations, rms }));
+        }
+        if known.iter().any(|other| (other - rotation).amax() < SAME) {
+            return Ok(None);
         }
     }
     Err(GeometryError::NoConvergence { iterations: MOST_ITERATIONS })

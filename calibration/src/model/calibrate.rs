@@ -387,7 +387,7 @@ fn leave_out_distrusted(
         let worst = (0..residuals.ncols()).max_by(|a, b| deviations(*a).total_cmp(&deviations(*b)));
         let Some(worst) = worst else { continue };
         let reason = format!(
-            "{}: does not agree with the samples that do: {} is off by {:.1} of their standard deviations",
+            "{}: {} is off by {:.1} standard deviations of the samples that agree",
             options.method.name(),
             labels[worst],
             deviations(worst)

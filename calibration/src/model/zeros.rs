@@ -15,7 +15,7 @@ use crate::loads::{LoadTable, Zeros};
 pub(super) fn account_for_zeros(table: &LoadTable, design: &DMatrix<f64>, fit: &mut Fit) {
     let (samples, k) = design.shape();
     let weight = |i: usize| table.weights.as_ref().map_or(1.0, |weights| weights[i]);
-    let counted: Vec<usize> = (0..samples).filter(|i| weight(*i) > 0.0).collect();
+    let counted: Vec<usize> = (0..samples).filter(|i| weight(*i) > 0.0 && fit.trust[(*i, 0)] > 0.0).collect();
     let before = counted.len() as f64 - k as f64;
     let mut groups: Vec<usize> = counted.iter().map(|i| table.groups[*i]).collect();
     groups.sort_unstable();

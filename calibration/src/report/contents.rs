@@ -12,6 +12,9 @@ use crate::linear::{Singular, pseudo_inverse};
 use crate::loads::LoadTable;
 use crate::model::{CalibrationError, Limits, Options, SensorModel};
 
+/// Loads that reach less of full scale than this are said to.
+const COVERED: f64 = 0.75;
+
 /// What can be said of a calibration: written to a terminal by `Display`, as HTML with plots by
 /// [`to_html`](Self::to_html), as JSON by [`to_json`](Self::to_json).
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -294,8 +297,21 @@ impl Report {
                 self.needed_cases.join(", ")
             ));
         }
-        if !self.excluded.is_empty() {
-            self.notes.push(format!("{} samples were left out", self.excluded.len()));
+        match self.excluded.len() {
+            0 => {}
+            1 => self.notes.push("1 sample was left out".to_owned()),
+            number => self.notes.push(format!("{number} samples were left out")),
+        }
+        for (j, axis) in self.axes.iter().enumerate() {
+            let greatest =
+                self.details.iter().fold(0.0_f64, |most, sample| most.max(sample.applied[j].abs()));
+            if greatest < COVERED * axis.full_scale {
+                self.notes.push(format!(
+                    "{}: the loads reach {:.0} % of full scale, beyond which nothing is checked",
+                    axis.axis,
+                    100.0 * greatest / axis.full_scale
+                ));
+            }
         }
         for suspicion in &self.suspicions {
             self.reasons.push(suspicion.to_string());
@@ -318,7 +334,7 @@ impl Report {
                 self.notes.push(text);
             } else {
                 doubts.push(format!(
-                    "{text}; it is read wrong by {error:.1} % of full scale, {} % is allowed",
+                    "{text}; it is read wrong by {error:.2} % of full scale, {} % is allowed",
                     limits.left_out_percent
                 ));
             }
