@@ -264,14 +264,14 @@ fn a_rest_that_was_none_is_warned_of_or_refused() {
 fn mcap_is_read_as_csv_is() {
     let rows: String = (0..200).map(|i| push(f64::from(i) * 0.001, f64::from(i) * 0.007)).collect();
     let folder = folder(&rows);
-    folder.succeed(&with(&["-o", "of_csv.csv", "--no-report"]));
+    folder.succeed(&with(&["--output", "of_csv.csv", "--no-report"]));
     folder.succeed(&["convert", "touch.csv", "touch.mcap"]);
     let said = folder.succeed(&[
         "analyze",
         "touch.mcap",
         "--scene",
         "scene.toml",
-        "-o",
+        "--output",
         "of_mcap.csv",
         "--no-report",
     ]);
