@@ -76,7 +76,7 @@ pub(crate) struct DemoArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct AnalyzeArguments {
-    /// The recording: CSV with units in the column names (fx_N, tz_Nmm, v1_V, t_s)
+    /// The recording: CSV with units in the column names (fx_N, tz_Nmm, v1_V, t_s), or MCAP (.mcap)
     #[arg(value_name = "FILE")]
     pub(crate) recording: PathBuf,
     /// The scene: surface, pose, thresholds, friction (examples/scenes/README.md)

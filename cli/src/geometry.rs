@@ -204,11 +204,15 @@ fn find(arguments: &GeometryArguments, columns: &Columns) -> Result<Found, Strin
             let fit = fit_plane(&pivots, &direction("--outward", &arguments.outward)?)
                 .map_err(|error| say(&error))?;
             let (normal, offset) = (fit.shape.normal, fit.shape.offset);
+            let tilt = match fit.deviations.get(1..3) {
+                Some([a, b]) => format!(" (± {:.3} {:.3}°)", a.to_degrees(), b.to_degrees()),
+                _ => String::new(),
+            };
             let mut found = Found::of(
                 &fit,
                 vec![
                     length("offset", offset, fit.deviations.first()),
-                    format!("normal          {:+.5} {:+.5} {:+.5}", normal.x, normal.y, normal.z),
+                    format!("normal          {:+.5} {:+.5} {:+.5}{tilt}", normal.x, normal.y, normal.z),
                     format!("pivots lie within {:.4} mm of it (RMS)", 1e3 * fit.rms),
                 ],
                 format!(

@@ -44,6 +44,7 @@ struct Found {
     sensitivities: DMatrix<f64>,
     nominal: Vec<f64>,
     zero: DVector<f64>,
+    noise: f64,
 }
 
 pub(crate) fn run(arguments: &MotionArguments) -> Result<(), CliError> {
@@ -116,10 +117,10 @@ fn three_components(
             ));
         }
     }
-    let zero: Vec<String> = fit.zero.iter().map(|x| format!("{x:.5}")).collect();
-    text.push_str(&format!("zero {}\n", zero.join(" ")));
+    text.push_str(&format!("size of forces ± {:.4} % because of the fit\n", 100.0 * fit.size_deviation));
+    text.push_str(&zero(&fit.zero, &fit.zero_deviation, fit.noise));
     let nominal = vec![arguments.force; 3];
-    Ok(Found { text, sensitivities: fit.signals_from_force, nominal, zero: fit.zero })
+    Ok(Found { text, sensitivities: fit.signals_from_force, nominal, zero: fit.zero, noise: fit.noise })
 }
 
 /// Readings and directions of the forces.
@@ -178,7 +179,17 @@ fn six_components(
     let longest = rows.iter().map(|(arm, _)| arm.norm()).fold(0.0, f64::max);
     let (force, torque) = (arguments.force, arguments.force * longest);
     let nominal = vec![force, force, force, torque, torque, torque];
-    Ok(Found { text, sensitivities: fit.sensitivities, nominal, zero: fit.zero })
+    let errors = fit.deviations.column_iter().zip(fit.sensitivities.column_iter());
+    let errors: Vec<String> =
+        errors.map(|(s, c)| format!("{:.3}", 100.0 * s.norm() / c.norm().max(f64::MIN_POSITIVE))).collect();
+    text.push_str(&format!("sensitivities to Fx … Tz ± {} %\n", errors.join(" ")));
+    text.push_str(&zero(&fit.zero, &fit.zero_deviation, fit.noise));
+    Ok(Found { text, sensitivities: fit.sensitivities, nominal, zero: fit.zero, noise: fit.noise })
+}
+
+fn zero(zero: &DVector<f64>, deviations: &DVector<f64>, noise: f64) -> String {
+    let list = |list: &DVector<f64>| list.iter().map(|x| format!("{x:.5}")).collect::<Vec<_>>().join(" ");
+    format!("zero {} (± {})\nnoise of one reading {noise:.2e}\n", list(zero), list(deviations))
 }
 
 fn to_file(found: &Found, unit: SignalUnit, source: &Path, samples: usize) -> Result<String, String> {
@@ -189,6 +200,7 @@ fn to_file(found: &Found, unit: SignalUnit, source: &Path, samples: usize) -> Re
     let zero = found.zero.as_slice().to_vec();
     let mut file =
         CalibrationFile::new(matrix, found.nominal.clone(), zero, unit).map_err(|error| error.to_string())?;
+    file.noise = found.noise.is_finite().then(|| vec![found.noise; file.gauges()]);
     file.provenance.method = "shape from motion".to_owned();
     file.provenance.source = source.display().to_string();
     file.quality = Quality {

@@ -66,9 +66,10 @@ pub(crate) fn run(arguments: &RefineArguments) -> Result<(), CliError> {
     let mut text = format!("{taken} touches\n");
     match form.solve() {
         Ok(seen) => text.push_str(&format!(
-            "the form that vanishes on them is {:.3}° off that of the calibration (ambiguity {:.1e}; signature {}, \
-             {}, where 3, 3 is that of a sensor)\n",
+            "the form that vanishes on them is {:.3}° off that of the calibration (± {:.3}°; ambiguity {:.1e}; \
+             signature {}, {}, where 3, 3 is that of a sensor)\n",
             angle_between(&seen.matrix, &form_of(&start)).to_degrees(),
+            seen.deviation.to_degrees(),
             seen.ambiguity,
             seen.signature.0,
             seen.signature.1
@@ -99,6 +100,11 @@ pub(crate) fn run(arguments: &RefineArguments) -> Result<(), CliError> {
         mended.pitch.1,
         mended.unobserved,
         start.len()
+    ));
+    let size = mended.loads_per_signal.norm();
+    text.push_str(&format!(
+        "what is observed of it is known to {:.3} % (standard deviation of the whole matrix, relative)\n",
+        100.0 * mended.deviations.norm() / size
     ));
     let mut written = Vec::new();
     if let Some(output) = &arguments.output {

@@ -259,3 +259,25 @@ fn a_rest_that_was_none_is_warned_of_or_refused() {
     assert_eq!((code, errors.as_str()), (Some(0), ""));
     assert!(summary.contains("no tare"), "{summary}");
 }
+
+#[test]
+fn mcap_is_read_as_csv_is() {
+    let rows: String = (0..200).map(|i| push(f64::from(i) * 0.001, f64::from(i) * 0.007)).collect();
+    let folder = folder(&rows);
+    folder.succeed(&with(&["--output", "of_csv.csv", "--no-report"]));
+    folder.succeed(&["convert", "touch.csv", "touch.mcap"]);
+    let said = folder.succeed(&[
+        "analyze",
+        "touch.mcap",
+        "--scene",
+        "scene.toml",
+        "--output",
+        "of_mcap.csv",
+        "--no-report",
+    ]);
+    assert!(said.contains("touch.mcap"), "{said}");
+    assert_eq!(folder.read("of_csv.csv"), folder.read("of_mcap.csv"));
+    folder.write("broken.mcap", "no such thing");
+    let error = folder.fail(1, &["analyze", "broken.mcap", "--scene", "scene.toml"]);
+    assert!(error.contains("broken.mcap"), "{error}");
+}

@@ -53,7 +53,8 @@ impl<T: Real, const N: usize> LeastSquares<T, N> {
     /// Every gauge equally trusted.
     ///
     /// # Errors
-    /// [`LeastSquaresError`].
+    /// [`LeastSquaresError`]; a matrix is singular to working precision as for
+    /// [`GaussianElimination`](crate::GaussianElimination).
     pub fn new(sensor: &SensorMatrix<T, N>) -> Result<Self, LeastSquaresError> {
         Self::weighted(sensor, &SVector::repeat(T::one()))
     }
@@ -79,6 +80,9 @@ impl<T: Real, const N: usize> LeastSquares<T, N> {
         }
         let factors = Orthogonal::new(&whitened)
             .map_err(|DependentColumn(axis)| LeastSquaresError::DependentAxis { axis })?;
+        if let Some(axis) = indistinct_axis(&whitened, &factors.pseudo_inverse) {
+            return Err(LeastSquaresError::DependentAxis { axis });
+        }
         let gain = SMatrix::from_fn(|axis, gauge| {
             factors.pseudo_inverse[(axis, gauge)] * weights[gauge] * sensor.nominal()[axis]
         });
@@ -158,6 +162,21 @@ impl<T: Real, const N: usize> LeastSquares<T, N> {
     pub fn solve_without(&self, signals: &SVector<T, N>, gauge: usize) -> Option<Wrench<T>> {
         Some(self.solve(&self.repaired(signals, gauge)?))
     }
+}
+
+/// The axis of which no digit would mean anything, if there is one: where Skeel's condition number of the
+/// matrix with its columns equilibrated exceeds `1/(8ε)`. What is left of a column by the factorisation only bounds
+/// this from one side.
+fn indistinct_axis<T: Real, const N: usize>(
+    matrix: &SMatrix<T, N, 6>,
+    inverse: &SMatrix<T, 6, N>,
+) -> Option<usize> {
+    let scale = SVector::<T, 6>::from_fn(|axis, _| matrix.column(axis).amax().normalising_factor());
+    let scaled = SMatrix::<T, N, 6>::from_fn(|gauge, axis| matrix[(gauge, axis)].abs() * scale[axis]);
+    let rows = SMatrix::<T, 6, N>::from_fn(|axis, gauge| inverse[(axis, gauge)].abs() / scale[axis]);
+    let sums = (rows * scaled).column_sum();
+    let worst = (1..6).fold(0, |worst, axis| if sums[axis] > sums[worst] { axis } else { worst });
+    if sums[worst] * T::EPSILON * T::literal(8.0) < T::one() { None } else { Some(worst) }
 }
 
 impl<T: Real, const N: usize> WrenchSolver<T, N> for LeastSquares<T, N> {

@@ -57,6 +57,35 @@ fn six_gauges_are_solved_as_by_elimination() {
     }
 }
 
+/// What elimination refuses least squares refuses too: one criterion, of two inverses, which near it are known
+/// to a quarter of their size or so.
+fn refused_alike<T: Real>() {
+    let mut random = generator(57);
+    let limit = 1.0 / (8.0 * T::EPSILON.to_f64());
+    let (mut accepted, mut refused) = (0, 0);
+    for _ in 0..3_000 {
+        let condition = limit * 10.0_f64.powf(2.0 * symmetric(&mut random));
+        let sensor = sensor::<T, 6>(&of_condition::<6>(&mut random, condition));
+        let gauss = GaussianElimination::new(&sensor).is_ok();
+        let least_squares = LeastSquares::new(&sensor).is_ok();
+        // Skeel's number is at most √6 times 6 times N_c, and seldom less than a tenth of it.
+        if condition > 30.0 * limit {
+            assert!(!gauss && !least_squares, "{condition:e}");
+            refused += 1;
+        } else if condition < limit / 30.0 {
+            assert!(gauss && least_squares, "{condition:e}");
+            accepted += 1;
+        }
+    }
+    assert!(accepted > 300 && refused > 300);
+}
+
+#[test]
+fn singular_means_the_same_to_both_solvers() {
+    refused_alike::<f64>();
+    refused_alike::<f32>();
+}
+
 /// Normal equations would lose all digits here.
 #[test]
 fn a_bad_condition_costs_its_digits_once() {

@@ -135,11 +135,27 @@ pub struct Provenance {
 pub enum Verdict {
     /// Checked, and within what was asked for.
     Good,
+    /// Checked, and within what was asked for but for readings that do not fit the others: either they
+    /// are wrong or the sensor is, and nobody has looked. The reasons stand beside it.
+    Suspect,
     /// Checked, and not: the reasons stand beside it.
     Bad,
     /// Nobody has checked it.
     #[default]
     Unchecked,
+}
+
+impl Verdict {
+    /// As files and reports have it: `"good"`, `"suspect"`, `"bad"`, `"unchecked"`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Good => "good",
+            Self::Suspect => "suspect",
+            Self::Bad => "bad",
+            Self::Unchecked => "unchecked",
+        }
+    }
 }
 
 /// Summary of a calibration's report.
@@ -148,7 +164,7 @@ pub enum Verdict {
 pub struct Quality {
     /// Whether it can be trusted.
     pub verdict: Verdict,
-    /// Why it is bad, or what to mind.
+    /// Why it is bad or suspect, or what to mind.
     #[serde(default)]
     pub reasons: Vec<String>,
     /// How many loads it was fitted to.

@@ -53,6 +53,7 @@ impl CalibrationFile {
         }
         let verdict = match self.quality.verdict {
             Verdict::Good => "good",
+            Verdict::Suspect => "SUSPECT",
             Verdict::Bad => "BAD",
             Verdict::Unchecked => "unchecked",
         };

@@ -53,7 +53,10 @@ pub enum FitError {
         change: f64,
     },
     /// Too few samples agree with each other.
-    #[error("only {agreeing} of {samples} samples agree; {needed} are needed")]
+    #[error(
+        "only {agreeing} of {samples} samples agree with each other, and {needed} are needed: more of them are bad \
+         than was said, or the sensor is not as the model has it"
+    )]
     NoConsensus {
         /// Samples that agree with the best model.
         agreeing: usize,

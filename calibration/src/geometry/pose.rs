@@ -24,13 +24,17 @@ pub fn fit_pose(
         }
     }
     let mut best: Option<Solution> = None;
+    let mut known: Vec<Matrix3<f64>> = Vec::new();
     let mut last = None;
     for start in axis_rotations() {
-        match descend(touches, start) {
-            Ok(solution) if best.as_ref().is_none_or(|other| solution.rms < other.rms) => {
-                best = Some(solution)
+        match descend(touches, start, &known) {
+            Ok(Some(solution)) => {
+                known.push(solution.rotation);
+                if best.as_ref().is_none_or(|other| solution.rms < other.rms) {
+                    best = Some(solution);
+                }
             }
-            Ok(_) => {}
+            Ok(None) => {}
             Err(error) => last = Some(error),
         }
     }
@@ -66,10 +70,19 @@ fn axis_rotations() -> impl Iterator<Item = Matrix3<f64>> {
     )
 }
 
-fn descend(touches: &[(Wrench<f64>, Vector3<f64>)], start: Matrix3<f64>) -> Result<Solution, GeometryError> {
+/// So near to a solution \[rad\], the search ends there.
+const SAME: f64 = 1e-4;
+
+/// `None` if it comes to one of the known rotations.
+fn descend(
+    touches: &[(Wrench<f64>, Vector3<f64>)],
+    start: Matrix3<f64>,
+    known: &[Matrix3<f64>],
+) -> Result<Option<Solution>, GeometryError> {
     let mut rotation = start;
     let mut origin = Vector3::zeros();
     let scale = touches.iter().map(|(_, y)| y.norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let mut last = f64::INFINITY;
     for iteration in 0..MOST_ITERATIONS {
         let mut design = DMatrix::zeros(3 * touches.len(), 6);
         let mut left = DMatrix::zeros(3 * touches.len(), 1);
@@ -97,14 +110,19 @@ fn descend(touches: &[(Wrench<f64>, Vector3<f64>)], start: Matrix3<f64>) -> Resu
         let damp = (1.0 / turn.norm().max(f64::MIN_POSITIVE)).min(1.0);
         rotation = Rotation3::from_scaled_axis(turn * damp).into_inner() * rotation;
         origin += shift * damp;
-        if iteration > 0 && turn.norm() < 1e-13 && shift.norm() < 1e-13 * scale
-            || iteration > 50 && turn.norm() < 1e-10
-        {
+        let size = turn.norm().max(shift.norm() / scale);
+        // Steps that are small and no longer shrink are rounding.
+        let stalled = size < 1e-9 && size > 0.1 * last;
+        last = size;
+        if iteration > 0 && (size < 1e-13 || stalled) {
             let variance = fit.residual_covariance[(0, 0)];
             let rms = (left.norm_squared() / left.len().max(1) as f64).sqrt();
             let deviations =
                 fit.inverse_gram.diagonal().iter().map(|g| (g * variance).max(0.0).sqrt()).collect();
-            return Ok(Solution { rotation, origin, deviations, rms });
+            return Ok(Some(Solution { rotation, origin, deviations, rms }));
+        }
+        if known.iter().any(|other| (other - rotation).amax() < SAME) {
+            return Ok(None);
         }
     }
     Err(GeometryError::NoConvergence { iterations: MOST_ITERATIONS })

@@ -3,9 +3,11 @@
 use fingertip_surfaces::{BadShape, Sphere};
 use fingertip_wrench::Wrench;
 use nalgebra::{DMatrix, DVector, Vector3};
+use statrs::distribution::{ContinuousCDF as _, FisherSnedecor};
 use thiserror::Error;
 
 use crate::fit::{Fit, FitError, least_squares};
+use crate::linear::Triangular;
 
 /// A touch: what the sensor said, and the outward normal of the fingertip where it was touched, in
 /// the sensor frame (known from how the fingertip was pressed on a plane, say).
@@ -140,12 +142,18 @@ pub fn fit_sphere(touches: &[Touch]) -> Result<Fitted<Sphere<f64>>, GeometryErro
 /// # Errors
 /// [`GeometryError`]: at least two forces that are not parallel are needed, with four equations to spare.
 pub fn fit_meeting_point(wrenches: &[Wrench<f64>]) -> Result<Fitted<Vector3<f64>>, GeometryError> {
+    meeting_point(wrenches).map(|(fitted, _)| fitted)
+}
+
+/// The point, and the regression behind it.
+fn meeting_point(wrenches: &[Wrench<f64>]) -> Result<(Fitted<Vector3<f64>>, Fit), GeometryError> {
     let touches: Vec<Touch> =
         wrenches.iter().map(|wrench| Touch { wrench: *wrench, normal: Vector3::z() }).collect();
     directions(&touches)?;
     let columns: Vec<_> = (0..3).map(|axis| vec![Vector3::ith(axis, 1.0); touches.len()]).collect();
-    let (p, deviations, rms, _) = torque_fit(&touches, &columns, &["point x", "point y", "point z"])?;
-    Ok(Fitted { shape: Vector3::new(p[0], p[1], p[2]), deviations, rms, unobserved: Vec::new() })
+    let (p, deviations, rms, fit) = torque_fit(&touches, &columns, &["point x", "point y", "point z"])?;
+    let shape = Vector3::new(p[0], p[1], p[2]);
+    Ok((Fitted { shape, deviations, rms, unobserved: Vec::new() }, fit))
 }
 
 /// A plane `normal · x = offset`.
@@ -159,7 +167,13 @@ pub struct PlaneParameters {
 
 /// The plane of a flat fingertip from pivots: at each of three or more points of it, the force was turned
 /// while the contact held still. A single wrench tells nothing of the offset, since its line of action
-/// crosses every plane. The deviation is that of the offset; `outward` tells the side.
+/// crosses every plane. `outward` tells the side.
+///
+/// Deviations: offset \[m\], then the tilts of the normal \[rad\] along the two principal directions of the
+/// points in the plane, the longer first. They carry over what is uncertain of the pivots, so that three
+/// points, which leave nothing, have an error too. The noise of the torques is taken to be the same at all
+/// pivots; where the points lie off the plane by more than it allows (one chance in a thousand), the
+/// deviations grow by as much.
 ///
 /// # Errors
 /// [`GeometryError`]; the points must not lie on a line.
@@ -167,10 +181,8 @@ pub fn fit_plane(
     pivots: &[Vec<Wrench<f64>>],
     outward: &Vector3<f64>,
 ) -> Result<Fitted<PlaneParameters>, GeometryError> {
-    let points: Vec<Vector3<f64>> = pivots
-        .iter()
-        .map(|wrenches| fit_meeting_point(wrenches).map(|fitted| fitted.shape))
-        .collect::<Result<_, _>>()?;
+    let found = pivots.iter().map(|wrenches| meeting_point(wrenches)).collect::<Result<Vec<_>, _>>()?;
+    let points: Vec<Vector3<f64>> = found.iter().map(|(fitted, _)| fitted.shape).collect();
     if points.len() < 3 {
         return Err(FitError::TooFewSamples { samples: points.len(), coefficients: 3 }.into());
     }
@@ -181,15 +193,46 @@ pub fn fit_plane(
     if !(singular.values[1] > 1e-3 * singular.values[0]) {
         return Err(GeometryError::BadTouch { touch: 0, what: "the pivots lie on a line" });
     }
-    let normal = Vector3::new(singular.right[(0, 2)], singular.right[(1, 2)], singular.right[(2, 2)]);
+    let axis = |k: usize| Vector3::from_fn(|i, _| singular.right[(i, k)]);
+    let (first, second) = (axis(0), axis(1));
+    let normal = first.cross(&second);
+    // The heights over this plane, weighted by how well each is known, make it a better one.
+    let mut plane = Triangular::new(3, 1);
+    for (point, (_, fit)) in points.iter().zip(&found) {
+        let from = point - mean;
+        let across = DMatrix::from_column_slice(3, 1, normal.as_slice());
+        let variance = (across.transpose() * &fit.inverse_gram * &across)[(0, 0)];
+        plane.push_weighted(
+            &[1.0, first.dot(&from), second.dot(&from)],
+            &[normal.dot(&from)],
+            1.0 / variance.max(f64::MIN_POSITIVE),
+        );
+    }
+    let factors = plane.factors();
+    let better = factors.coefficients().map_err(FitError::from)?;
+    let gram = factors.inverse_gram().map_err(FitError::from)?;
+    let point = mean + normal * better[0];
+    let normal = (normal - first * better[1] - second * better[2]).normalize();
     let normal = if normal.dot(outward) < 0.0 { -normal } else { normal };
-    let rms = singular.values[2] / count.sqrt();
-    let freedom = (count - 3.0).max(1.0);
-    let deviation = (singular.values[2] * singular.values[2] / freedom / count).sqrt();
+    let freedom = count - 3.0;
+    let rest: f64 = pivots.iter().map(|wrenches| 3.0 * wrenches.len() as f64 - 3.0).sum();
+    let squares = |(wrenches, (_, fit)): (&Vec<Wrench<f64>>, &(_, Fit))| {
+        (3.0 * wrenches.len() as f64 - 3.0) * fit.residual_covariance[(0, 0)]
+    };
+    let noise = pivots.iter().zip(&found).map(squares).sum::<f64>() / rest;
+    let ratio = factors.residual[(0, 0)].powi(2) / (freedom * noise);
+    let inconsistent = freedom > 0.0
+        && ratio.is_finite()
+        && FisherSnedecor::new(freedom, rest).is_ok_and(|expected| expected.sf(ratio) < 1e-3);
+    let variance = if inconsistent { noise * ratio } else { noise };
+    // A tilt turns the plane about the mean of the points, which moves its foot by where that lies.
+    let foot = DMatrix::from_column_slice(3, 1, &[1.0, -first.dot(&mean), -second.dot(&mean)]);
+    let offset_variance = (foot.transpose() * &gram * &foot)[(0, 0)];
+    let variances = [offset_variance, gram[(1, 1)], gram[(2, 2)]];
     Ok(Fitted {
-        shape: PlaneParameters { normal, offset: normal.dot(&mean) },
-        deviations: vec![deviation],
-        rms,
+        shape: PlaneParameters { normal, offset: normal.dot(&point) },
+        deviations: variances.iter().map(|v| (v * variance).max(0.0).sqrt()).collect(),
+        rms: (points.iter().map(|p| normal.dot(&(p - point)).powi(2)).sum::<f64>() / count).sqrt(),
         unobserved: Vec::new(),
     })
 }

@@ -47,8 +47,13 @@ pub struct PayloadFit {
     pub rms_in_base: [f64; 6],
     /// Standard deviation of the weight \[N\] (its length) and of the mass relative to it.
     pub weight_deviation: f64,
-    /// Standard deviations of the centre of mass \[m\]; zero along directions that were given.
+    /// Standard deviations of the centre of mass \[m\], of the errors of torques and of the weight alike;
+    /// zero along directions that were given.
     pub centre_deviation: Vector3<f64>,
+    /// Standard deviations of the force at rest \[N\].
+    pub force_bias_deviation: Vector3<f64>,
+    /// Standard deviations of the torque at rest \[N·m\].
+    pub torque_bias_deviation: Vector3<f64>,
     /// Condition number of the poses for the forces: near 1 is good, above 30 say, poses are too alike.
     pub condition_number: f64,
     /// RMS of the force residual \[N\] if the readings are taken as given in the base frame instead: if
@@ -88,7 +93,9 @@ pub enum PayloadError {
 }
 
 /// Fits weight, centre of mass and zero to readings in several poses: `f = Rᵀ g + b_f`,
-/// `m = c × Rᵀ g + b_m`, two linear least-squares problems (theory 8).
+/// `m = c × Rᵀ g + b_m`, two linear least-squares problems (theory 8). The second has the weight of the
+/// first among its regressors: what is uncertain of it is carried over to the centre of mass and the torque
+/// at rest, to first order.
 ///
 /// With gravity's direction given, two poses could do; four generic poses are the least in general, and
 /// eight or more are advised.
@@ -151,10 +158,27 @@ pub fn fit_payload(poses: &[Pose], options: &PayloadOptions) -> Result<PayloadFi
         least_squares(&arms, &torques, None).map_err(|error| name(error, &["centre of mass"], lengths))?;
     let centre_of_mass = vector(&(&span * torque_fit.coefficients.rows(0, lengths)));
     let torque_bias = Vector3::from_fn(|i, _| torque_fit.coefficients[(lengths + i, 0)]);
-    let spread: DMatrix<f64> =
-        &span * torque_fit.inverse_gram.view((0, 0), (lengths, lengths)) * span.transpose();
-    let centre_deviation =
-        Vector3::from_fn(|i, _| (spread[(i, i)] * torque_fit.residual_covariance[(0, 0)]).max(0.0).sqrt());
+    // By how much the torques would change with the weight, and what the fit makes of that.
+    let mut change = DMatrix::zeros(rows, unknowns);
+    for (i, pose) in poses.iter().enumerate() {
+        let turned = pose.base_from_sensor.transpose() * &basis;
+        change.view_mut((3 * i, 0), (3, unknowns)).copy_from(&(centre_of_mass.cross_matrix() * turned));
+    }
+    let carried = least_squares(&arms, &change, None)?;
+    let weight_spread = fit.inverse_gram.view((0, 0), (unknowns, unknowns)) * fit.residual_covariance[(0, 0)];
+    // Part of what the torques leave is of the weight, too.
+    let of_weight = (&carried.residual_covariance * &weight_spread).trace();
+    let torque_variance = (torque_fit.residual_covariance[(0, 0)] - of_weight).max(0.0);
+    let torque_spread = &torque_fit.inverse_gram * torque_variance
+        + &carried.coefficients * weight_spread * carried.coefficients.transpose();
+    let spread: DMatrix<f64> = &span * torque_spread.view((0, 0), (lengths, lengths)) * span.transpose();
+    let centre_deviation = Vector3::from_fn(|i, _| spread[(i, i)].max(0.0).sqrt());
+    let force_bias_deviation = Vector3::from_fn(|i, _| {
+        let i = unknowns + i;
+        (fit.inverse_gram[(i, i)] * fit.residual_covariance[(0, 0)]).max(0.0).sqrt()
+    });
+    let torque_bias_deviation =
+        Vector3::from_fn(|i, _| torque_spread[(lengths + i, lengths + i)].max(0.0).sqrt());
     let mut result = PayloadFit {
         weight,
         mass: length / options.gravity,
@@ -166,6 +190,8 @@ pub fn fit_payload(poses: &[Pose], options: &PayloadOptions) -> Result<PayloadFi
         rms_in_base: [0.0; 6],
         weight_deviation,
         centre_deviation,
+        force_bias_deviation,
+        torque_bias_deviation,
         condition_number,
         rms_if_in_base: f64::INFINITY,
         warnings: Vec::new(),
@@ -249,6 +275,12 @@ pub struct Orientation {
     pub weight: f64,
     /// Force that the sensor reads without load \[N\].
     pub force_bias: Vector3<f64>,
+    /// Standard deviations of the orientation, as turns about the axes of the sensor \[rad\].
+    pub turn_deviation: Vector3<f64>,
+    /// Standard deviation of the weight \[N\].
+    pub weight_deviation: f64,
+    /// Standard deviations of the force without load \[N\].
+    pub bias_deviation: Vector3<f64>,
     /// RMS of what the forces leave \[N\].
     pub rms: f64,
     /// By how much the free linear map differs from weight times a rotation, relative to it: large if
@@ -299,7 +331,56 @@ pub fn fit_orientation(poses: &[Pose], down: &Vector3<f64>) -> Result<Orientatio
     let squares: f64 =
         poses.iter().map(|pose| (pose.wrench.fixed_rows::<3>(0) - pull(pose) - bias).norm_squared()).sum();
     let rms = (squares / (3 * poses.len()).max(1) as f64).sqrt();
-    Ok(Orientation { sensor_from_flange, weight, force_bias: bias, rms, distortion })
+    let mut mean = Vector3::zeros();
+    poses.iter().for_each(|pose| mean += pose.base_from_sensor.transpose() * down / poses.len() as f64);
+    let spread = orientation_spread(&fit, &sensor_from_flange, weight, &mean, poses.len() as f64);
+    let deviation = |i: usize| spread[(i, i)].max(0.0).sqrt();
+    Ok(Orientation {
+        sensor_from_flange,
+        weight,
+        force_bias: bias,
+        turn_deviation: Vector3::from_fn(|i, _| deviation(i)),
+        weight_deviation: deviation(3),
+        bias_deviation: Vector3::from_fn(|i, _| deviation(4 + i)),
+        rms,
+        distortion,
+    })
+}
+
+/// Covariance of the turn (3), the weight and the force without load (3). An error E of the linear map
+/// turns the nearest rotation S by the skew part of `E Sᵀ / weight` and changes the weight by a third of its
+/// trace, to first order; the error of the mean of the forces is independent of both.
+fn orientation_spread(
+    fit: &Fit,
+    turn: &Matrix3<f64>,
+    weight: f64,
+    mean: &Vector3<f64>,
+    poses: f64,
+) -> DMatrix<f64> {
+    let mut slope = DMatrix::zeros(7, 9);
+    for i in 0..3 {
+        for j in 0..3 {
+            let mut error = Matrix3::zeros();
+            error[(i, j)] = 1.0;
+            let relative = error * turn.transpose();
+            let skew = (relative - relative.transpose()) / (2.0 * weight);
+            let angle = Vector3::new(skew[(2, 1)], skew[(0, 2)], skew[(1, 0)]);
+            let heavier = relative.trace() / 3.0;
+            let bias = -(turn * heavier + angle.cross_matrix() * turn * weight) * mean;
+            let column = [angle.x, angle.y, angle.z, heavier, bias.x, bias.y, bias.z];
+            slope.column_mut(3 * i + j).copy_from_slice(&column);
+        }
+    }
+    let map = DMatrix::from_fn(9, 9, |a, b| {
+        fit.residual_covariance[(a / 3, b / 3)] * fit.inverse_gram[(a % 3, b % 3)]
+    });
+    let mut spread = &slope * map * slope.transpose();
+    for i in 0..3 {
+        for j in 0..3 {
+            spread[(4 + i, 4 + j)] += fit.residual_covariance[(i, j)] / poses;
+        }
+    }
+    spread
 }
 
 #[cfg(test)]

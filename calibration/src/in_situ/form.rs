@@ -26,6 +26,9 @@ pub struct Form {
     pub matrix: DMatrix<f64>,
     /// How many contacts stand behind it.
     pub contacts: u64,
+    /// Standard deviation of the form as an angle \[rad\] (see [`angle_between`]), to first order, from what
+    /// the touches leave, which is taken to be alike in all of them.
+    pub deviation: f64,
     /// Smallest over second smallest singular value: near zero if the contacts determine the form and
     /// are point contacts; near 1 if they do not.
     pub ambiguity: f64,
@@ -92,7 +95,10 @@ impl PointContactForm {
             Some(next) if *next > 0.0 => singular.values[last] / next,
             _ => 1.0,
         };
-        Ok(Form { matrix, contacts, ambiguity, signature })
+        let (least, others) = (singular.values[last], singular.values.rows(0, last));
+        let sum: f64 = others.iter().map(|value| (least / value).powi(2)).sum();
+        let deviation = (sum / (contacts as f64 - last as f64)).sqrt();
+        Ok(Form { matrix, contacts, deviation, ambiguity, signature })
     }
 }
 

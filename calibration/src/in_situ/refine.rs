@@ -3,13 +3,16 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::fit::FitError;
-use crate::linear::Singular;
+use crate::linear::{Singular, Triangular};
 
 /// What mending a calibration gave.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refined {
     /// From signals to loads in nominal loads, 6 × gauges.
     pub loads_per_signal: DMatrix<f64>,
+    /// Standard deviations of these, by the deviations that were given, to first order; directions that
+    /// are not observed add nothing, since they stay as they were.
+    pub deviations: DMatrix<f64>,
     /// RMS of the pitch `f·m / (|f||m|)` of the touches, before and after: 0 for point contacts.
     pub pitch: (f64, f64),
     /// How many directions of the 6 × gauges numbers neither touches nor known loads show: they stay as
@@ -110,7 +113,7 @@ pub fn refine(
     while iterations < MOST_ITERATIONS {
         iterations += 1;
         // The step of least norm, so that what is not observed does not move.
-        let singular = Singular::new(&jacobian).ok_or(FitError::BadInput { what: "the touches" })?;
+        let (singular, target) = reduced(&jacobian, &residual)?;
         let threshold = 1e-9 * singular.values.max();
         unobserved = 6 * gauges - singular.values.iter().filter(|value| **value > threshold).count();
         let mut damping = 0.0;
@@ -119,7 +122,7 @@ pub fn refine(
             let mut step = DVector::zeros(6 * gauges);
             for (k, value) in singular.values.iter().enumerate() {
                 if *value > threshold {
-                    let along = singular.left.column(k).dot(&residual);
+                    let along = singular.left.column(k).dot(&target);
                     step -= singular.right.column(k) * (along * value / (value * value + damping));
                 }
             }
@@ -137,7 +140,34 @@ pub fn refine(
             break;
         }
     }
-    Ok(Refined { pitch: (pitch(start), pitch(&map)), loads_per_signal: map, unobserved, iterations })
+    let (singular, _) = reduced(&jacobian, &residual)?;
+    let threshold = 1e-9 * singular.values.max();
+    let mut variances = DVector::zeros(6 * gauges);
+    for (k, value) in singular.values.iter().enumerate().filter(|(_, value)| **value > threshold) {
+        variances += singular.right.column(k).map(|x| (x / value).powi(2));
+    }
+    let deviations = DMatrix::from_row_slice(6, gauges, variances.map(f64::sqrt).as_slice());
+    Ok(Refined {
+        deviations,
+        pitch: (pitch(start), pitch(&map)),
+        loads_per_signal: map,
+        unobserved,
+        iterations,
+    })
+}
+
+/// The singular values of a tall matrix and the right side that belongs to them, by way of its triangle: the
+/// same, for the cost of a few columns however many rows there are.
+fn reduced(jacobian: &DMatrix<f64>, residual: &DVector<f64>) -> Result<(Singular, DVector<f64>), FitError> {
+    let mut triangular = Triangular::new(jacobian.ncols(), 1);
+    let mut line = vec![0.0; jacobian.ncols()];
+    for (row, value) in jacobian.row_iter().zip(residual.iter()) {
+        line.iter_mut().zip(row.iter()).for_each(|(slot, value)| *slot = *value);
+        triangular.push(&line, &[*value]);
+    }
+    let factors = triangular.factors();
+    let singular = Singular::new(&factors.regressors).ok_or(FitError::BadInput { what: "the touches" })?;
+    Ok((singular, factors.projected.column(0).into_owned()))
 }
 
 #[cfg(test)]

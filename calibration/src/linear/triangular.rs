@@ -194,6 +194,13 @@ pub struct Factors {
     pub samples: u64,
 }
 
+/// R11 with columns of unit norm, its inverse, and the norms.
+struct Equilibrated {
+    scaled: DMatrix<f64>,
+    inverse: DMatrix<f64>,
+    norms: Vec<f64>,
+}
+
 /// The regressors do not determine the coefficients.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("the loads leave {} of {regressors} directions unobserved: {}", directions.ncols(), describe(directions, names))]
@@ -228,7 +235,7 @@ impl Factors {
     /// # Errors
     /// [`Unobserved`] if the regressors are linearly dependent to working precision.
     pub fn coefficients(&self) -> Result<DMatrix<f64>, Unobserved> {
-        let (scaled, norms) = self.equilibrated()?;
+        let Equilibrated { scaled, norms, .. } = self.equilibrated()?;
         let mut coefficients = self.projected.clone();
         if !scaled.solve_upper_triangular_mut(&mut coefficients) {
             return Err(self.unobserved(usize::MAX));
@@ -253,11 +260,7 @@ impl Factors {
     /// # Errors
     /// [`Unobserved`].
     pub fn inverse_root(&self) -> Result<DMatrix<f64>, Unobserved> {
-        let (scaled, norms) = self.equilibrated()?;
-        let mut inverse = DMatrix::identity(scaled.nrows(), scaled.nrows());
-        if !scaled.solve_upper_triangular_mut(&mut inverse) {
-            return Err(self.unobserved(usize::MAX));
-        }
+        let Equilibrated { mut inverse, norms, .. } = self.equilibrated()?;
         for (mut row, norm) in inverse.row_iter_mut().zip(&norms) {
             row /= *norm;
         }
@@ -278,14 +281,23 @@ impl Factors {
         self.singular().map_or(f64::INFINITY, |singular| singular.condition_number())
     }
 
-    /// R11 with columns of unit norm, and the norms.
-    fn equilibrated(&self) -> Result<(DMatrix<f64>, Vec<f64>), Unobserved> {
-        let singular = self.singular();
-        let rank = singular.as_ref().map_or(0, Singular::rank);
-        if rank < self.regressors.ncols() {
+    /// R11 with columns of unit norm, if they are independent.
+    fn equilibrated(&self) -> Result<Equilibrated, Unobserved> {
+        let (scaled, norms) = self.scaled();
+        let size = scaled.nrows();
+        let mut inverse = DMatrix::identity(size, size);
+        let solved = scaled.solve_upper_triangular_mut(&mut inverse);
+        // Frobenius norms bound the condition number from above, so that the singular values, which cost many
+        // times as much, are only asked where the rank is in doubt.
+        let condition = scaled.norm() * inverse.norm();
+        if solved && condition * (size as f64) * f64::EPSILON < 1.0 {
+            return Ok(Equilibrated { scaled, inverse, norms });
+        }
+        let rank = Singular::new(&scaled).map_or(0, |singular| singular.rank());
+        if rank < size || !solved {
             return Err(self.unobserved(rank));
         }
-        Ok(self.scaled())
+        Ok(Equilibrated { scaled, inverse, norms })
     }
 
     fn scaled(&self) -> (DMatrix<f64>, Vec<f64>) {

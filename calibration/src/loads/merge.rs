@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::{LoadError, LoadTable};
+use super::{LoadError, LoadTable, Zeros};
 
 impl LoadTable {
     /// Joins sessions with the same axes, gauges and unit: groups and cases stay apart, lists that only some have
@@ -13,7 +13,8 @@ impl LoadTable {
     /// [`centred_by_group`](Self::centred_by_group) if not.
     ///
     /// # Errors
-    /// [`LoadError::Empty`] without a session, [`LoadError::WrongLength`] if they do not match.
+    /// [`LoadError::Empty`] without a session, [`LoadError::WrongLength`] if they do not match,
+    /// [`LoadError::MixedZeros`].
     pub fn merged(sessions: &[Self]) -> Result<Self, LoadError> {
         let Some(first) = sessions.first() else { return Err(LoadError::Empty { what: "sessions" }) };
         let mut result = first.clone();
@@ -31,6 +32,9 @@ impl LoadTable {
                     found: session.gauges(),
                     expected: first.gauges(),
                 });
+            }
+            if session.zeros != first.zeros {
+                return Err(LoadError::MixedZeros);
             }
             let next = |list: &[usize]| list.iter().max().map_or(0, |most| most + 1);
             let (cases, groups) = (next(&result.cases), next(&result.groups));
@@ -79,7 +83,7 @@ impl LoadTable {
     /// differences.
     #[must_use]
     pub fn centred_by_group(&self) -> Self {
-        let mut centred = self.clone();
+        let mut centred = Self { zeros: Zeros::OfMean, ..self.clone() };
         let mut groups = self.groups.clone();
         groups.sort_unstable();
         groups.dedup();

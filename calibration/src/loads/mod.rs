@@ -7,5 +7,5 @@ mod table;
 mod text;
 
 pub use columns::Columns;
-pub use table::{LoadError, LoadTable};
+pub use table::{LoadError, LoadTable, Zeros};
 pub use text::{LoadReader, LoadRow, Rest, signals_from_csv};

@@ -26,6 +26,8 @@ pub struct LoadTable {
     pub cases: Vec<usize>,
     /// Which session or mounting each sample belongs to: each group has its own zero.
     pub groups: Vec<usize>,
+    /// What became of the zeros of the groups.
+    pub zeros: Zeros,
     /// Time of each sample \[s\].
     pub times: Option<Vec<f64>>,
     /// Temperature of each sample \[°C\].
@@ -34,6 +36,19 @@ pub struct LoadTable {
     pub orientations: Option<Vec<[f64; 4]>>,
     /// Weight of each sample: variance of a sample of weight 1 over its own.
     pub weights: Option<Vec<f64>>,
+}
+
+/// What became of the zeros of a table's groups. A zero that was taken from the readings themselves has their
+/// noise, which the errors of a fit must know.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Zeros {
+    /// The readings are as they were.
+    #[default]
+    Kept,
+    /// Readings are less the mean of their group's readings at rest: [`LoadTable::tared_by_group`].
+    OfRest,
+    /// Loads and readings are less their mean over the group: [`LoadTable::centred_by_group`].
+    OfMean,
 }
 
 /// Why there is no table of loads.
@@ -70,6 +85,9 @@ pub enum LoadError {
         /// Which group.
         group: usize,
     },
+    /// Some sessions have had their zeros taken off, others have not.
+    #[error("some sessions have had their zeros taken off, others have not: join them first")]
+    MixedZeros,
     /// The text is not a table of loads.
     #[error("line {line}, column `{column}`: {message}")]
     BadText {
@@ -107,6 +125,7 @@ impl LoadTable {
             temperatures: None,
             orientations: None,
             weights: None,
+            zeros: Zeros::Kept,
         };
         table.validate()?;
         Ok(table)
@@ -211,6 +230,7 @@ impl LoadTable {
             times: pick(&self.times),
             temperatures: pick(&self.temperatures),
             orientations: self.orientations.as_ref().map(|list| kept.iter().map(|i| list[*i]).collect()),
+            zeros: self.zeros,
             weights: pick(&self.weights),
         }
     }
@@ -232,7 +252,7 @@ impl LoadTable {
     /// # Errors
     /// [`LoadError::NoZero`] if a group has no sample without load.
     pub fn tared_by_group(&self) -> Result<Self, LoadError> {
-        let mut tared = self.clone();
+        let mut tared = Self { zeros: Zeros::OfRest, ..self.clone() };
         let mut groups = self.groups.clone();
         groups.sort_unstable();
         groups.dedup();

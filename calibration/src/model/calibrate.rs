@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, RowDVector};
 use thiserror::Error;
 
 use super::sensor_model::{design, normalised, responses};
+use super::zeros::account_for_zeros;
 use super::{Direction, Method, Options, SensorModel};
 use crate::file::{CalibrationFile, FileError, Quality, Temperature};
 use crate::fit::{
@@ -112,7 +113,9 @@ pub fn calibrate(table: &LoadTable, options: &Options) -> Result<Calibration, Ca
         None => None,
     };
     let mut model = fit_model(&table, options, &nominal)?;
-    let mut found = find_outliers(&table, options, &nominal)?;
+    leave_out_distrusted(&mut table, &mut model, options, &mut excluded);
+    let mut found = find_outliers(&table, options, &nominal);
+    let mut influence = None;
     if options.reject_outliers && !found.is_empty() {
         for outlier in &found {
             excluded.push(Exclusion { sample: outlier.sample.clone(), reason: outlier.to_string() });
@@ -120,12 +123,14 @@ pub fn calibrate(table: &LoadTable, options: &Options) -> Result<Calibration, Ca
         table = table.select(|i| found.iter().all(|outlier| outlier.index != i));
         model = fit_model(&table, options, &nominal)?;
         found = Vec::new();
+    } else if !found.is_empty() {
+        influence = influence_of(&found, &table, &model, options);
     }
     let left_out = left_out_loads(&table, &model, options)?;
     if options.quadratic {
         refuse_over_fitting(&table, options, &model, &left_out)?;
     }
-    let mut report = Report::of_fit(&table, &model, options, &left_out, excluded, found)?;
+    let mut report = Report::of_fit(&table, &model, options, &left_out, excluded, (found, influence))?;
     if table.temperatures.is_some() && temperature.is_none() {
         report.notes.push("temperatures are known but no drift was fitted".to_owned());
     }
@@ -197,7 +202,11 @@ fn fit_model(table: &LoadTable, options: &Options, nominal: &[f64]) -> Result<Se
             message: "only loads from signals can have quadratic terms".to_owned(),
         });
     }
-    let fit = fit(table, options, nominal).map_err(|error| named(error, table, options))?;
+    let mut fit = fit(table, options, nominal).map_err(|error| named(error, table, options))?;
+    let squares = matches!(options.method, Method::LeastSquares | Method::Ransac { .. });
+    if squares && options.direction == Direction::SignalsFromLoads {
+        account_for_zeros(table, &design(table, options, nominal), &mut fit);
+    }
     Ok(SensorModel {
         axes: table.axes.clone(),
         nominal: nominal.to_vec(),
@@ -240,21 +249,7 @@ fn fit(table: &LoadTable, options: &Options, nominal: &[f64]) -> Result<Fit, Fit
     match &options.method {
         Method::LeastSquares => least_squares(&x, &y, weights),
         Method::Huber => huber(&x, &y, weights),
-        Method::Ransac { outliers, seed } => {
-            let rough = huber(&x, &y, weights)?;
-            let residuals = &y - &x * &rough.coefficients;
-            let thresholds = residuals
-                .column_iter()
-                .zip(y.column_iter())
-                .map(|(residual, response)| {
-                    let scale = super::deviation(residual.iter().copied(), x.ncols());
-                    // Rounding must not make good samples disagree where the fit is exact.
-                    (3.5 * scale).max(1e3 * f64::EPSILON * response.amax()).max(f64::MIN_POSITIVE)
-                })
-                .collect();
-            let settings = Ransac { outliers: *outliers, seed: *seed, ..Ransac::new(thresholds) };
-            ransac(&x, &y, weights, &settings)
-        }
+        Method::Ransac { outliers, seed } => fit_agreeing(&x, &y, weights, *outliers, *seed),
         Method::Total { .. } | Method::GaussHelmert { .. } | Method::Prior { .. } if !forward => {
             Err(backward)
         }
@@ -281,6 +276,49 @@ fn fit(table: &LoadTable, options: &Options, nominal: &[f64]) -> Result<Fit, Fit
             fit_with_prior(&x, &y, weights, prior, *relative, nominal, options.bias)
         }
     }
+}
+
+/// Residuals of agreeing samples are less than so many standard deviations.
+const AGREEING: f64 = 3.5;
+
+/// RANSAC whose thresholds come from the data: first the least multiple of the bulk's deviation at which as
+/// many samples agree as are said to be good, then those that agree within the deviation of these (Rousseeuw &
+/// Leroy 1987). The deviation of the bulk alone is too small where few samples have most of the errors, as with
+/// loads along one axis after another.
+fn fit_agreeing(
+    x: &DMatrix<f64>,
+    y: &DMatrix<f64>,
+    weights: Option<&[f64]>,
+    outliers: f64,
+    seed: u64,
+) -> Result<Fit, FitError> {
+    const WIDEST: f64 = 8.0;
+    // Rounding must not make good samples disagree where the fit is exact.
+    let floors: Vec<f64> = y
+        .column_iter()
+        .map(|response| (1e3 * f64::EPSILON * response.amax()).max(f64::MIN_POSITIVE))
+        .collect();
+    let agreeing = |deviations: &[f64]| {
+        let thresholds = deviations.iter().zip(&floors).map(|(s, floor)| (AGREEING * s).max(*floor));
+        ransac(x, y, weights, &Ransac { outliers, seed, ..Ransac::new(thresholds.collect()) })
+    };
+    let residuals = y - x * &huber(x, y, weights)?.coefficients;
+    let mut bulk: Vec<f64> = residuals
+        .column_iter()
+        .map(|residual| super::deviation(residual.iter().copied(), x.ncols()))
+        .collect();
+    let mut widened = 1.0;
+    let fit = loop {
+        match agreeing(&bulk) {
+            Err(FitError::NoConsensus { .. }) if widened < WIDEST => {
+                widened *= core::f64::consts::SQRT_2;
+                bulk.iter_mut().for_each(|deviation| *deviation *= core::f64::consts::SQRT_2);
+            }
+            answer => break answer?,
+        }
+    };
+    let own: Vec<f64> = fit.residual_covariance.diagonal().iter().map(|variance| variance.sqrt()).collect();
+    Ok(agreeing(&own).unwrap_or(fit))
 }
 
 /// The noise that scales the prior is taken from the residuals of the fit itself.
@@ -324,20 +362,71 @@ fn fit_with_prior(
     fit.ok_or(FitError::BadInput { what: "the earlier calibration" })
 }
 
-/// Outliers are looked for in the linear least-squares fit whatever the method, so that a robust
-/// method does not hide them.
-fn find_outliers(
-    table: &LoadTable,
+/// Takes the samples that RANSAC did not fit out of the table, by name: they are no part of the
+/// calibration, so its errors are not those of it either.
+fn leave_out_distrusted(
+    table: &mut LoadTable,
+    model: &mut SensorModel,
     options: &Options,
-    nominal: &[f64],
-) -> Result<Vec<Outlier>, CalibrationError> {
-    let x = design(table, options, nominal);
-    let y = responses(table, options, nominal);
-    let labels: Vec<String> = match options.direction {
+    excluded: &mut Vec<Exclusion>,
+) {
+    let trust = &model.fit.trust;
+    let trusted: Vec<usize> =
+        (0..trust.nrows()).filter(|i| trust.row(*i).iter().any(|trust| *trust > 0.0)).collect();
+    if trusted.len() == trust.nrows() {
+        return;
+    }
+    let residuals = responses(table, options, &model.nominal)
+        - design(table, options, &model.nominal) * &model.fit.coefficients;
+    let labels = response_names(table, options);
+    for i in (0..trust.nrows()).filter(|i| trusted.binary_search(i).is_err()) {
+        let deviations = |j: usize| {
+            let deviation = model.fit.residual_covariance[(j, j)].sqrt().max(f64::MIN_POSITIVE);
+            residuals[(i, j)].abs() / deviation
+        };
+        let worst = (0..residuals.ncols()).max_by(|a, b| deviations(*a).total_cmp(&deviations(*b)));
+        let Some(worst) = worst else { continue };
+        let reason = format!(
+            "{}: {} is off by {:.1} standard deviations of the samples that agree",
+            options.method.name(),
+            labels[worst],
+            deviations(worst)
+        );
+        excluded.push(Exclusion { sample: table.names[i].clone(), reason });
+    }
+    *table = table.select(|i| trusted.binary_search(&i).is_ok());
+    model.fit.trust = model.fit.trust.select_rows(&trusted);
+}
+
+/// Gauges, or axes where loads are fitted to signals.
+fn response_names(table: &LoadTable, options: &Options) -> Vec<String> {
+    match options.direction {
         Direction::SignalsFromLoads => (1..=table.gauges()).map(|i| format!("gauge {i}")).collect(),
         Direction::LoadsFromSignals => table.axes.iter().map(ToString::to_string).collect(),
-    };
-    Ok(outliers(&x, &y, table.weights.as_deref(), &table.names, &labels))
+    }
+}
+
+/// Outliers are looked for in the linear least-squares fit whatever the method, so that a robust
+/// method does not hide them.
+fn find_outliers(table: &LoadTable, options: &Options, nominal: &[f64]) -> Vec<Outlier> {
+    let x = design(table, options, nominal);
+    let y = responses(table, options, nominal);
+    outliers(&x, &y, table.weights.as_deref(), &table.names, &response_names(table, options))
+}
+
+/// By how much the other samples would be read otherwise without the outliers, at most, % of full scale.
+/// `None` if the others do not determine the sensor.
+fn influence_of(
+    outliers: &[Outlier],
+    table: &LoadTable,
+    model: &SensorModel,
+    options: &Options,
+) -> Option<f64> {
+    let rest = table.select(|i| outliers.iter().all(|outlier| outlier.index != i));
+    let without = fit_model(&rest, options, &model.nominal).ok()?.loads(&rest.signals)?;
+    let change = (model.loads(&rest.signals)? - without).abs();
+    let sizes = change.column_iter().zip(&model.nominal).map(|(column, full)| column.max() / full);
+    Some(100.0 * sizes.fold(0.0, f64::max))
 }
 
 /// For each sample the load that a fit without its case tells of; `None` where the other cases do

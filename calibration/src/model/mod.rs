@@ -5,6 +5,7 @@ mod options;
 mod pairs;
 mod sensor_model;
 mod streamed;
+mod zeros;
 
 pub(crate) use crate::fit::deviation;
 pub use calibrate::{Calibration, CalibrationError, calibrate};

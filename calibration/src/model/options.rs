@@ -22,7 +22,7 @@ pub enum Method {
     LeastSquares,
     /// Huber's M-estimate.
     Huber,
-    /// RANSAC: thresholds are set from the residuals of a Huber fit.
+    /// RANSAC: thresholds come from the data; samples that do not agree are left out, by name.
     Ransac {
         /// Share of samples that may be bad.
         outliers: f64,

@@ -3,8 +3,9 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use thiserror::Error;
 
+use super::likelihood::{Hung, MostLikely, most_likely};
 use crate::fit::{FitError, least_squares};
-use crate::linear::{Singular, Unobserved};
+use crate::linear::{Singular, Unobserved, pseudo_inverse};
 
 /// What a force of constant size in unknown directions tells of a sensor: its forces up to one
 /// rotation (or reflection) of all of them, and its zero.
@@ -16,6 +17,14 @@ pub struct ConstantForce {
     pub signals_from_force: DMatrix<f64>,
     /// The readings without load.
     pub zero: DVector<f64>,
+    /// Standard deviations of the zero.
+    pub zero_deviation: DVector<f64>,
+    /// Standard deviation of the size of a force that it tells of, relative, because of the fit alone (root
+    /// mean square over the directions of the fit).
+    pub size_deviation: f64,
+    /// Standard deviation of one reading of one gauge; infinite, as the other deviations, if there are not
+    /// more readings than unknowns.
+    pub noise: f64,
     /// RMS deviation of the fitted forces' size from the given one, relative.
     pub misfit: f64,
     /// Fourth over third singular value of the readings: noise and nonlinearity over signal. Near
@@ -53,11 +62,38 @@ pub enum MotionError {
 /// known size (`force` \[N\]) is turned into nine or more unknown directions.
 ///
 /// The centred readings (samples × gauges) have rank three; in the coordinates of their singular
-/// vectors they lie on an ellipsoid, whose centre is the zero and whose shape is the sensor.
+/// vectors they lie on an ellipsoid, whose centre is the zero and whose shape is the sensor. From there, sensor,
+/// zero and all directions are brought to their most likely values, for noise that is alike in all
+/// gauges; deviations are those of this estimate, to first order.
 ///
 /// # Errors
 /// [`MotionError::NotAnEllipsoid`], or [`MotionError::Fit`] for too few or too similar directions.
 pub fn constant_force(signals: &DMatrix<f64>, force: f64) -> Result<ConstantForce, MotionError> {
+    let start = on_ellipsoid(signals, force)?;
+    let (samples, gauges) = signals.shape();
+    let hung = [Hung { load: DMatrix::identity(3, 3), signals }];
+    let Some(found) = most_likely(&hung, &(&start.signals_from_force * force), &start.zero, true) else {
+        return Ok(start);
+    };
+    let signals_from_force = &found.map / force;
+    let inverse = pseudo_inverse(&signals_from_force).ok_or(MotionError::NotAnEllipsoid)?;
+    let squares: f64 = (0..samples)
+        .map(|i| ((&inverse * (signals.row(i).transpose() - &found.zero)).norm() / force - 1.0).powi(2))
+        .sum();
+    Ok(ConstantForce {
+        size_deviation: size_deviation(&found, &(&inverse / force)),
+        force_from_signals: inverse,
+        signals_from_force,
+        zero_deviation: found.covariance.diagonal().rows(3 * gauges, gauges).map(|v| v.max(0.0).sqrt()),
+        zero: found.zero,
+        noise: found.noise,
+        misfit: (squares / samples as f64).sqrt(),
+        leakage: start.leakage,
+    })
+}
+
+/// The ellipsoid of the readings, by linear least squares: near the most likely sensor, not at it.
+pub(super) fn on_ellipsoid(signals: &DMatrix<f64>, force: f64) -> Result<ConstantForce, MotionError> {
     let (samples, gauges) = signals.shape();
     if !(force > 0.0 && force.is_finite()) || signals.iter().any(|x| !x.is_finite()) {
         return Err(FitError::BadInput { what: "the force or the readings" }.into());
@@ -119,10 +155,27 @@ pub fn constant_force(signals: &DMatrix<f64>, force: f64) -> Result<ConstantForc
     Ok(ConstantForce {
         force_from_signals,
         signals_from_force,
+        zero_deviation: DVector::from_element(gauges, f64::INFINITY),
         zero,
+        size_deviation: f64::INFINITY,
+        noise: f64::INFINITY,
         misfit: (squares / samples as f64).sqrt(),
         leakage: if gauges > 3 { singular.values[3] / singular.values[2] } else { 0.0 },
     })
+}
+
+/// Errors of map and zero move the size of the force along d by `−dᵀB (δmap d + δzero)`, B the inverse.
+fn size_deviation(found: &MostLikely, inverse: &DMatrix<f64>) -> f64 {
+    let gauges = found.zero.len();
+    let variance = |direction: &Vector3<f64>| {
+        let along = inverse.transpose() * direction;
+        let slope = DVector::from_fn(4 * gauges, |k, _| {
+            if k < 3 * gauges { along[k / 3] * direction[k % 3] } else { along[k - 3 * gauges] }
+        });
+        slope.dot(&(&found.covariance * &slope))
+    };
+    let sum: f64 = found.directions.iter().map(variance).sum();
+    (sum / found.directions.len() as f64).max(0.0).sqrt()
 }
 
 impl ConstantForce {

@@ -4,7 +4,9 @@ use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, UnitQuaternion, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64Mcg;
 
-use super::{ConstantForce, MotionError, constant_force};
+use super::constant_force::on_ellipsoid;
+use super::likelihood::{Hung, most_likely};
+use super::{ConstantForce, MotionError};
 use crate::fit::FitError;
 use crate::linear::pseudo_inverse;
 
@@ -23,8 +25,15 @@ pub struct LeverArmFit {
     /// signals − zero = this · \[force; torque\], gauges × 6, \[signal/N, signal/(N·m)\]. **Its sign is
     /// not observable** from weights in unknown directions; see [`LeverArmFit::with_sign`].
     pub sensitivities: DMatrix<f64>,
-    /// Readings without load: mean over the lever arms.
+    /// Standard deviations of the sensitivities.
+    pub deviations: DMatrix<f64>,
+    /// Readings without load.
     pub zero: DVector<f64>,
+    /// Standard deviations of these.
+    pub zero_deviation: DVector<f64>,
+    /// Standard deviation of one reading of one gauge; infinite, as the other deviations, if there are not
+    /// more readings than unknowns.
+    pub noise: f64,
     /// What is left of the blocks, relative.
     pub residual: f64,
     /// How many of the starts reached this solution.
@@ -41,7 +50,8 @@ pub struct LeverArmFit {
 /// Each arm alone gives `B_k = C G_k O_k`, `G_k = [I; [r_k]×]`, with an unknown orthogonal `O_k`
 /// ([`constant_force`]). The rotations are found by Levenberg-Marquardt on
 /// `min ‖[B_k O_kᵀ] (I − G⁺G)‖` from `starts` random starts, since the problem has many local minima; then
-/// `C = [B_k O_kᵀ] G⁺`.
+/// `C = [B_k O_kᵀ] G⁺`. From there, sensor, zero and all directions are brought to their most likely values,
+/// for noise that is alike in all gauges; deviations are those of this estimate, to first order.
 ///
 /// # Errors
 /// [`MotionError`]; `NoSolution` if the best residual exceeds `tolerance` (1e-6 for clean data, a few times
@@ -61,7 +71,7 @@ pub fn lever_arms(
         .into());
     }
     let blocks: Vec<ConstantForce> =
-        arms.iter().map(|arm| constant_force(&arm.signals, force)).collect::<Result<_, _>>()?;
+        arms.iter().map(|arm| on_ellipsoid(&arm.signals, force)).collect::<Result<_, _>>()?;
     // Lengths in units of the arms', so that forces and torques weigh alike.
     let length = arms.iter().map(|arm| arm.arm.norm()).fold(0.0, f64::max);
     if !(length > 0.0 && length.is_finite()) {
@@ -101,14 +111,34 @@ pub fn lever_arms(
         return Err(MotionError::NoSolution { starts, residual });
     };
     let mut sensitivities = map * inverse;
-    sensitivities.columns_mut(3, 3).scale_mut(1.0 / length);
     let mut zero = DVector::zeros(gauges);
     for block in &blocks {
         zero += &block.zero / count as f64;
     }
+    let hung: Vec<Hung<'_>> = arms
+        .iter()
+        .enumerate()
+        .map(|(k, arm)| Hung { load: g.columns(3 * k, 3).into_owned(), signals: &arm.signals })
+        .collect();
+    let mut deviations = DMatrix::from_element(gauges, 6, f64::INFINITY);
+    let mut zero_deviation = DVector::from_element(gauges, f64::INFINITY);
+    let mut noise = f64::INFINITY;
+    if let Some(found) = most_likely(&hung, &(&sensitivities * force), &zero, false) {
+        sensitivities = found.map / force;
+        let spread = found.covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
+        deviations = DMatrix::from_row_slice(gauges, 6, &spread.as_slice()[..6 * gauges]) / force;
+        zero = found.zero;
+        zero_deviation = spread.rows(6 * gauges, gauges).into_owned();
+        noise = found.noise;
+    }
+    sensitivities.columns_mut(3, 3).scale_mut(1.0 / length);
+    deviations.columns_mut(3, 3).scale_mut(1.0 / length);
     Ok(LeverArmFit {
         sensitivities,
+        deviations,
         zero,
+        zero_deviation,
+        noise,
         residual,
         hits: residuals.iter().filter(|r| **r <= (2.0 * residual).max(tolerance)).count(),
         starts,

@@ -5,12 +5,15 @@ use serde::Serialize;
 
 use super::contact::{ContactReport, TouchSet, contact_report};
 use super::metrics::{AxisReport, LineReport, axis_reports, cross_talk, lines};
-use super::outliers::Outlier;
+use super::outliers::{Outlier, outliers};
 use super::suspicion::{Suspicion, suspicions};
 use crate::file::{CalibrationFile, Verdict};
 use crate::linear::{Singular, pseudo_inverse};
 use crate::loads::LoadTable;
 use crate::model::{CalibrationError, Limits, Options, SensorModel};
+
+/// Loads that reach less of full scale than this are said to.
+const COVERED: f64 = 0.75;
 
 /// What can be said of a calibration: written to a terminal by `Display`, as HTML with plots by
 /// [`to_html`](Self::to_html), as JSON by [`to_json`](Self::to_json).
@@ -48,6 +51,10 @@ pub struct Report {
     pub excluded: Vec<Exclusion>,
     /// Samples that do not fit the others but were kept.
     pub outliers: Vec<Outlier>,
+    /// By how much the loads that this calibration tells of would change at most if the outliers were
+    /// left out, % of full scale, over the other samples; `None` if there are no outliers, if it is no
+    /// fit, or if the loads without them do not determine the sensor.
+    pub outlier_influence_percent: Option<f64>,
     /// Cases without which the fit would not be determined, so that nothing can be said of their error.
     pub needed_cases: Vec<String>,
     /// Mistakes that would explain the errors.
@@ -86,7 +93,7 @@ impl Report {
         options: &Options,
         left_out: &[Option<Vec<f64>>],
         excluded: Vec<Exclusion>,
-        outliers: Vec<Outlier>,
+        (outliers, influence): (Vec<Outlier>, Option<f64>),
     ) -> Result<Self, CalibrationError> {
         let predicted = model.loads(&table.signals).ok_or(CalibrationError::Singular)?;
         let mut report = Self::of_loads(table, &model.nominal, &predicted, Some(left_out));
@@ -95,6 +102,7 @@ impl Report {
         report.condition_number = Some(model.condition_number()).filter(|number| number.is_finite());
         report.excluded = excluded;
         report.outliers = outliers;
+        report.outlier_influence_percent = influence;
         report.lines = lines(table, &model.nominal, &predicted, |i| {
             model.load_covariance(&DVector::from_iterator(
                 table.axes.len(),
@@ -185,11 +193,23 @@ impl Report {
             report.notes.push("temperatures are known, but the calibration has no terms for them".to_owned());
         }
         report.suspicions = suspicions(file, table, &predicted);
+        // A sample that stands out of the errors of the others, whatever these have in common.
+        let labels: Vec<String> = table.axes.iter().map(ToString::to_string).collect();
+        let constant = DMatrix::from_element(table.samples(), 1, 1.0);
+        report.outliers = outliers(
+            &constant,
+            &(&predicted - &table.loads),
+            table.weights.as_deref(),
+            &table.names,
+            &labels,
+        );
         report.judge(limits);
-        if file.quality.verdict == Verdict::Bad {
-            report
-                .notes
-                .push(format!("the file itself is stamped as bad: {}", file.quality.reasons.join("; ")));
+        if matches!(file.quality.verdict, Verdict::Bad | Verdict::Suspect) {
+            report.notes.push(format!(
+                "the file itself is stamped as {}: {}",
+                file.quality.verdict.name(),
+                file.quality.reasons.join("; ")
+            ));
         }
         Ok(report)
     }
@@ -225,6 +245,7 @@ impl Report {
             contacts: None,
             excluded: Vec::new(),
             outliers: Vec::new(),
+            outlier_influence_percent: None,
             needed_cases: left_out.map_or_else(Vec::new, missing),
             suspicions: Vec::new(),
             details: (0..table.samples())
@@ -238,7 +259,7 @@ impl Report {
         }
     }
 
-    /// Good or bad, and why.
+    /// Good, suspect or bad, and why.
     fn judge(&mut self, limits: &Limits) {
         for axis in &self.axes {
             let (error, kind) = match axis.left_out_percent {
@@ -276,16 +297,60 @@ impl Report {
                 self.needed_cases.join(", ")
             ));
         }
-        for outlier in &self.outliers {
-            self.notes.push(format!("{}: {outlier}", outlier.sample));
+        match self.excluded.len() {
+            0 => {}
+            1 => self.notes.push("1 sample was left out".to_owned()),
+            number => self.notes.push(format!("{number} samples were left out")),
         }
-        if !self.excluded.is_empty() {
-            self.notes.push(format!("{} samples were left out", self.excluded.len()));
+        for (j, axis) in self.axes.iter().enumerate() {
+            let greatest =
+                self.details.iter().fold(0.0_f64, |most, sample| most.max(sample.applied[j].abs()));
+            if greatest < COVERED * axis.full_scale {
+                self.notes.push(format!(
+                    "{}: the loads reach {:.0} % of full scale, beyond which nothing is checked",
+                    axis.axis,
+                    100.0 * greatest / axis.full_scale
+                ));
+            }
         }
         for suspicion in &self.suspicions {
             self.reasons.push(suspicion.to_string());
         }
         self.verdict = if self.reasons.is_empty() { Verdict::Good } else { Verdict::Bad };
+        self.doubt(limits);
+    }
+
+    /// What the outliers that were kept make of a good calibration: a gross one may be a bad reading or a
+    /// bad sensor, and the RMS over many samples shows neither.
+    fn doubt(&mut self, limits: &Limits) {
+        let mut doubts = Vec::new();
+        for outlier in &self.outliers {
+            let text = format!("{}: {outlier}", outlier.sample);
+            let error = self.details.get(outlier.index).map_or(0.0, |sample| {
+                let errors = sample.measured.iter().zip(&sample.applied).zip(&self.axes);
+                errors.fold(0.0_f64, |most, ((m, a), axis)| most.max(100.0 * (m - a).abs() / axis.full_scale))
+            });
+            if error <= limits.left_out_percent {
+                self.notes.push(text);
+            } else {
+                doubts.push(format!(
+                    "{text}; it is read wrong by {error:.2} % of full scale, {} % is allowed",
+                    limits.left_out_percent
+                ));
+            }
+        }
+        // An outlier of high leverage draws the fit to itself, so that its own error is small.
+        if let Some(influence) = self.outlier_influence_percent {
+            let text = format!(
+                "without the {} the sensor would read otherwise by up to {influence:.2} % of full scale",
+                if self.outliers.len() == 1 { "outlier" } else { "outliers" }
+            );
+            if influence <= limits.left_out_percent { self.notes.push(text) } else { doubts.push(text) }
+        }
+        if !doubts.is_empty() && self.verdict == Verdict::Good {
+            self.verdict = Verdict::Suspect;
+        }
+        self.reasons.extend(doubts);
     }
 
     /// As JSON.

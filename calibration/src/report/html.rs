@@ -4,14 +4,13 @@ use core::fmt::Write as _;
 
 use super::plot::{FITTED, LEFT_OUT};
 use super::{AxisReport, Report};
-use crate::file::Verdict;
 
 const STYLE: &str = "body{font-family:sans-serif;max-width:66em;margin:2em auto;padding:0 1em;color:#1f2328}\
     table{border-collapse:collapse;margin:.8em 0}td,th{padding:.25em .7em;text-align:right;\
     border-bottom:1px solid #d0d7de}td:first-child,th:first-child{text-align:left}\
     .text td,.text th{text-align:left}thead th{border-bottom:2px solid #8c959f}tr.first td{font-weight:bold}\
     .wide{overflow-x:auto}.verdict{font-weight:bold}.good{color:#1a7f37}.bad{color:#cf222e}\
-    .unchecked{color:#9a6700}figure{display:inline-block;margin:.5em}figcaption{text-align:center}\
+    .unchecked,.suspect{color:#9a6700}figure{display:inline-block;margin:.5em}figcaption{text-align:center}\
     .legend span{display:inline-block;width:.7em;height:.7em;border-radius:50%;margin:0 .4em 0 1em}\
     p.small{color:#57606a;font-size:90%}svg{max-width:100%;height:auto}";
 
@@ -36,11 +35,7 @@ impl Report {
     #[must_use]
     pub fn to_html(&self, title: &str) -> String {
         let title = escape(title);
-        let word = match self.verdict {
-            Verdict::Good => "good",
-            Verdict::Bad => "bad",
-            Verdict::Unchecked => "unchecked",
-        };
+        let word = self.verdict.name();
         let mut page = format!(
             "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" \
              content=\"width=device-width,initial-scale=1\">\n<title>{title}</title>\n<style>{STYLE}</style></head>\

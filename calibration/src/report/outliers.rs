@@ -19,7 +19,8 @@ pub struct Outlier {
     pub response: String,
     /// Its residual over the standard deviation of the others (externally studentised).
     pub deviations: f64,
-    /// How many samples and responses of pure Gaussian noise would show one as large: 0.01 or less.
+    /// How many samples and responses of pure Gaussian noise would show one as large: 0.01 or less, or more
+    /// for one that stands out only once those after it in the list are out of the way.
     pub chance: f64,
 }
 
@@ -27,9 +28,10 @@ impl fmt::Display for Outlier {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             formatter,
-            "outlier: {} is off by {:.1} standard deviations of the others (chance {:.0e})",
-            self.response, self.deviations, self.chance
-        )
+            "outlier: {} is off by {:.1} standard deviations of the others",
+            self.response, self.deviations
+        )?;
+        if self.chance < LEVEL { write!(formatter, " (chance {:.0e})", self.chance) } else { Ok(()) }
     }
 }
 

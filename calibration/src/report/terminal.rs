@@ -9,6 +9,7 @@ impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let verdict = match self.verdict {
             Verdict::Good => "GOOD",
+            Verdict::Suspect => "SUSPECT",
             Verdict::Bad => "BAD",
             Verdict::Unchecked => "unchecked",
         };

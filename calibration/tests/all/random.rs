@@ -1,6 +1,6 @@
 //! Random sensors, loads and noise.
 
-use fingertip_calibration::nalgebra::{DMatrix, Vector3};
+use fingertip_calibration::nalgebra::{DMatrix, Matrix3, Quaternion, UnitQuaternion, Vector3};
 use rand_distr::{Distribution as _, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
@@ -21,4 +21,10 @@ pub(crate) fn sensor(random: &mut Pcg64Mcg, regressors: usize, responses: usize)
     DMatrix::from_fn(regressors, responses, |i, j| {
         (if i == j { 2.0 } else { 0.0 }) + 0.2 * gaussian(random).clamp(-2.0, 2.0)
     })
+}
+
+/// Any turn as likely as any other.
+pub(crate) fn turn(random: &mut Pcg64Mcg) -> Matrix3<f64> {
+    let q = Quaternion::new(gaussian(random), gaussian(random), gaussian(random), gaussian(random));
+    UnitQuaternion::from_quaternion(q).to_rotation_matrix().into_inner()
 }

@@ -1,10 +1,13 @@
 //! The files of a run, and what is said at its end.
 
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Cursor, Read, Write};
 use std::path::Path;
 
+use fingertip_drivers::recording::RecordingReader;
+
 use crate::args::AnalyzeArguments;
+use crate::convert::from_mcap::to_csv;
 use crate::error::CliError;
 use crate::summary::Findings;
 
@@ -31,14 +34,27 @@ pub(super) fn guard(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Opens a recording, and tells its length if it has one (a pipe has none).
-pub(super) fn open(path: &Path) -> io::Result<(File, Option<u64>)> {
-    let file = File::open(path)?;
-    let meta = file.metadata()?;
-    if meta.is_dir() {
-        return Err(io::ErrorKind::IsADirectory.into());
+/// The rows of a recording, whichever way it was recorded.
+pub(super) type Rows = RecordingReader<Box<dyn Read>>;
+
+/// Opens a recording, and tells its length if it has one (a pipe has none). One of MCAP is read as what
+/// `convert` makes of it; what to know of that goes to `notes`.
+pub(super) fn open(path: &Path, notes: &mut Vec<String>) -> Result<(Rows, Option<u64>), CliError> {
+    let name = path.display().to_string();
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("mcap")) {
+        let (rows, account) = to_csv(path, path, || Ok(Vec::new()))?;
+        notes.extend(account.notes);
+        let length = rows.len() as u64;
+        return Ok((Rows::new(name, Box::new(Cursor::new(rows)))?, Some(length)));
     }
-    Ok((file, meta.is_file().then_some(meta.len())))
+    let fault = |source| CliError::read("recording", path, source);
+    let file = File::open(path).map_err(fault)?;
+    let meta = file.metadata().map_err(fault)?;
+    if meta.is_dir() {
+        return Err(fault(io::ErrorKind::IsADirectory.into()));
+    }
+    let length = meta.is_file().then_some(meta.len());
+    Ok((Rows::new(name, Box::new(file))?, length))
 }
 
 /// Prints what was found and what was written.

@@ -10,12 +10,11 @@ mod source;
 mod volts;
 mod wrenches;
 
-use std::fs::File;
 use std::path::Path;
 
 use fingertip::Fingertip;
 use fingertip::surfaces::ActiveSurface;
-use fingertip_drivers::recording::{Quality, RecordingReader};
+use fingertip_drivers::recording::Quality;
 
 use crate::args::AnalyzeArguments;
 use crate::error::CliError;
@@ -32,10 +31,9 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let scene = Scene::load(&arguments.scene)?;
     let recording = arguments.recording.as_path();
     files::guard(arguments)?;
-    let (file, length) =
-        files::open(recording).map_err(|source| CliError::read("recording", recording, source))?;
-    let mut reader = RecordingReader::new(recording.display().to_string(), file)?;
-    let mut source = Source::new(&mut reader, &scene, arguments)?;
+    let mut notes = Vec::new();
+    let (mut reader, length) = files::open(recording, &mut notes)?;
+    let mut source = Source::new(&mut reader, &scene, arguments, notes)?;
     let mut contacts = ContactWriter::create(&arguments.output)?;
     let mut progress = Progress::new(length);
 
@@ -79,7 +77,7 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
 /// Everything that one pass over the recording needs.
 struct Pass<'a> {
     scene: &'a Scene,
-    reader: &'a mut RecordingReader<File>,
+    reader: &'a mut files::Rows,
     source: &'a mut Source,
     contacts: &'a mut ContactWriter,
     progress: &'a mut Progress,

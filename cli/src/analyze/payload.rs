@@ -1,12 +1,13 @@
 //! The weight of what hangs on the sensor, taken off as the hand turns.
 
-use std::fs::File;
 use std::path::Path;
 
 use fingertip::wrench::{Payload, Wrench};
 use fingertip_calibration::file::PayloadFile;
-use fingertip_drivers::recording::{NumberColumn, RecordingReader, Row};
+use fingertip_drivers::recording::{NumberColumn, Row};
 use nalgebra::Vector3;
+
+use super::files::Rows;
 
 use crate::calibrate::files::{bad, read_payload};
 use crate::error::CliError;
@@ -25,11 +26,7 @@ pub(super) struct Carried {
 impl Carried {
     /// Reads the payload; the recording must have the orientation of the sensor, in columns `qx` … `qw`, or
     /// with the sensor's name before.
-    pub(super) fn open(
-        path: &Path,
-        reader: &mut RecordingReader<File>,
-        sensor: &str,
-    ) -> Result<Self, CliError> {
+    pub(super) fn open(path: &Path, reader: &mut Rows, sensor: &str) -> Result<Self, CliError> {
         let file = read_payload(path)?;
         let body = file.payload().map_err(|error| bad(path, &error))?;
         let mut column = |part: &str| {

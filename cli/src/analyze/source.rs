@@ -1,11 +1,11 @@
 //! From the rows of a recording to wrenches on the fingertip.
 
-use std::fs::File;
 use std::path::PathBuf;
 
 use fingertip::wrench::Wrench;
-use fingertip_drivers::recording::{HeaderProblem, RecordingReader, Row};
+use fingertip_drivers::recording::{HeaderProblem, Row};
 
+use super::files::Rows;
 use super::payload::Carried;
 use super::recorded::Recorded;
 use super::volts::{self, KnownTemperature};
@@ -46,9 +46,10 @@ pub(super) struct Source {
 
 impl Source {
     pub(super) fn new(
-        reader: &mut RecordingReader<File>,
+        reader: &mut Rows,
         scene: &Scene,
         arguments: &AnalyzeArguments,
+        mut notes: Vec<String>,
     ) -> Result<Self, CliError> {
         let temperature = match arguments.celsius {
             Some(celsius) => Some(KnownTemperature::Constant(celsius)),
@@ -64,7 +65,6 @@ impl Source {
         }
         let header = |problem: HeaderProblem| CliError::Recording(reader.header_error(problem));
         let sensor = arguments.sensor.as_deref().or(scene.sensor.as_deref());
-        let mut notes = Vec::new();
         let recorded: Box<dyn Recorded> = if let Some(calibration) = &arguments.calibration {
             let has_rest = scene.rest.is_some();
             volts::open(layout, sensor, calibration, has_rest, temperature, &mut notes, header)?

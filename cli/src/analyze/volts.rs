@@ -84,8 +84,13 @@ pub(super) fn open(
             columns.unit()
         )));
     }
-    if file.quality.verdict == Verdict::Bad {
-        notes.push(format!("the calibration calls itself bad: {}", file.quality.reasons.join("; ")));
+    if matches!(file.quality.verdict, Verdict::Bad | Verdict::Suspect) {
+        let quality = &file.quality;
+        notes.push(format!(
+            "the calibration calls itself {}: {}",
+            quality.verdict.name(),
+            quality.reasons.join("; ")
+        ));
     }
     let temperature = match (&file.temperature, temperature) {
         (Some(drift), None) => {

@@ -10,6 +10,8 @@ use super::args::{CalibrateArguments, SensorAxis};
 use super::files::{bad, guard, open, say, write};
 use crate::error::CliError;
 
+const DEGREES: f64 = 180.0 / core::f64::consts::PI;
+
 pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), CliError> {
     let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from("payload.toml"));
     guard(&[path.to_owned()], [&output])?;
@@ -29,8 +31,9 @@ pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), Cli
         poses = poses.iter().map(|pose| pose.on_mount(&fit.sensor_from_flange)).collect();
         let turn = nalgebra::Rotation3::from_matrix_unchecked(fit.sensor_from_flange);
         text.push_str(&format!(
-            "mounting        turned by {} degrees (rotation vector), distortion {:.2} %\n",
-            triple(&turn.scaled_axis(), 180.0 / core::f64::consts::PI),
+            "mounting        turned by {} degrees (rotation vector; ± {}), distortion {:.2} %\n",
+            triple(&turn.scaled_axis(), DEGREES),
+            spread(&fit.turn_deviation, DEGREES),
             100.0 * fit.distortion
         ));
         mounting = Some(fit.sensor_from_flange);
@@ -69,10 +72,18 @@ pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), Cli
     text.push_str(&format!(
         "centre of mass  {} mm (± {})\n",
         triple(&fit.centre_of_mass, 1e3),
-        triple(&fit.centre_deviation, 1e3)
+        spread(&fit.centre_deviation, 1e3)
     ));
-    text.push_str(&format!("force at rest   {} N\n", triple(&fit.force_bias, 1.0)));
-    text.push_str(&format!("torque at rest  {} N·m\n", triple(&fit.torque_bias, 1.0)));
+    text.push_str(&format!(
+        "force at rest   {} N (± {})\n",
+        triple(&fit.force_bias, 1.0),
+        spread(&fit.force_bias_deviation, 1.0)
+    ));
+    text.push_str(&format!(
+        "torque at rest  {} N·m (± {})\n",
+        triple(&fit.torque_bias, 1.0),
+        spread(&fit.torque_bias_deviation, 1.0)
+    ));
     let rms: Vec<String> = fit.rms.iter().map(|rms| format!("{rms:.5}")).collect();
     text.push_str(&format!("RMS left        {} (N, N·m)\n", rms.join(" ")));
     say(&text, &fit.warnings, &[output])
@@ -80,4 +91,9 @@ pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), Cli
 
 fn triple(v: &Vector3<f64>, scale: f64) -> String {
     format!("{:+.5} {:+.5} {:+.5}", scale * v.x, scale * v.y, scale * v.z)
+}
+
+/// Deviations have no sign.
+fn spread(v: &Vector3<f64>, scale: f64) -> String {
+    format!("{:.5} {:.5} {:.5}", scale * v.x, scale * v.y, scale * v.z)
 }

@@ -10,7 +10,7 @@ mod touches;
 
 use std::path::{Path, PathBuf};
 
-use fingertip_calibration::file::{AtiCalibration, CalibrationFile, Scalar};
+use fingertip_calibration::file::{AtiCalibration, CalibrationFile, Scalar, Verdict};
 use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{Direction, Limits, Method, Options, calibrate as fit};
 
@@ -52,6 +52,13 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
         arguments.json.as_ref(),
         &mut written,
     )?;
+    if calibration.report.verdict == Verdict::Suspect {
+        notes.push(
+            "suspect until somebody has looked: repeat the readings named above, or leave them out by \
+             --reject-outliers"
+                .to_owned(),
+        );
+    }
     say(&calibration.report.to_string(), &notes, &written)
 }
 

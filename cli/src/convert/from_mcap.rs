@@ -1,7 +1,8 @@
 //! From MCAP to CSV.
 
 use std::fs;
-use std::io;
+use std::io::{self, Write};
+use std::path::Path;
 
 use fingertip_drivers::recording::mcap::{McapReader, Recorded};
 use fingertip_drivers::recording::{ContactCells, RecordingWriter, Schema, SignalUnit};
@@ -42,14 +43,26 @@ impl What {
 }
 
 pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError> {
-    let ConvertArguments { input, output, .. } = arguments;
+    let ConvertArguments { input, output, force, .. } = arguments;
+    let (file, account) = to_csv(input, output, || create(output, *force))?;
+    let flushed = file.into_inner().map_err(io::IntoInnerError::into_error);
+    flushed.map_err(|source| CliError::write("recording", output, source))?;
+    Ok(account)
+}
+
+/// Writes a recording as CSV to what `open` opens once it is known that there is something to write; `output`
+/// is for messages.
+pub(crate) fn to_csv<W: Write>(
+    input: &Path,
+    output: &Path,
+    open: impl FnOnce() -> Result<W, CliError>,
+) -> Result<(W, Account), CliError> {
     let file = fs::read(input).map_err(|source| CliError::read("recording", input, source))?;
     let mut account = Account::default();
-    let (schema, mut columns) = survey(arguments, &file, &mut account)?;
+    let (schema, mut columns) = survey(input, &file, &mut account)?;
 
     let width = schema.names().len();
-    let mut writer = RecordingWriter::new(create(output, arguments.force)?, &schema)
-        .map_err(|error| csv(output, error))?;
+    let mut writer = RecordingWriter::new(open()?, &schema).map_err(|error| csv(output, error))?;
     let mut reader = McapReader::new(&file).map_err(|error| mcap(input, &error))?;
     let mut row = vec![f64::NAN; width];
     let mut at: Option<f64> = None;
@@ -97,8 +110,6 @@ pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError>
         rows += 1;
     }
     let file = writer.finish().map_err(|error| csv(output, error))?;
-    let flushed = file.into_inner().map_err(io::IntoInnerError::into_error);
-    flushed.map_err(|source| CliError::write("recording", output, source))?;
 
     let [wrenches, signals, contacts] = written;
     account.written("wrenches", wrenches);
@@ -116,16 +127,11 @@ pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError>
     frames.sort_unstable();
     frames.dedup();
     account.lost(frames.len() as u64, format!("names of frames: {}", frames.join(", ")));
-    Ok(account)
+    Ok((file, account))
 }
 
 /// Reads the file through once: what it holds, and the columns for it.
-fn survey(
-    arguments: &ConvertArguments,
-    file: &[u8],
-    account: &mut Account,
-) -> Result<(Schema, Vec<Columns>), CliError> {
-    let input = &arguments.input;
+fn survey(input: &Path, file: &[u8], account: &mut Account) -> Result<(Schema, Vec<Columns>), CliError> {
     let mut found: Vec<Columns> = Vec::new();
     let mut others: Vec<(String, u64)> = Vec::new();
     let mut reader = McapReader::new(file).map_err(|error| mcap(input, &error))?;

@@ -1,7 +1,7 @@
 //! `fingertip convert`: recordings from CSV to MCAP and back.
 
 mod from_csv;
-mod from_mcap;
+pub(crate) mod from_mcap;
 
 use core::fmt::Display;
 use std::fs;
@@ -40,10 +40,11 @@ pub(crate) struct ConvertArguments {
 
 /// What was converted, and what was not.
 #[derive(Clone, Debug, Default)]
-struct Account {
+pub(crate) struct Account {
     written: Vec<(&'static str, u64)>,
     lost: Vec<String>,
-    notes: Vec<String>,
+    /// What the columns came from.
+    pub(crate) notes: Vec<String>,
 }
 
 impl Account {

@@ -1,0 +1,129 @@
+//! What ordinary touches tell: errors as stated, and the same in any units, order and frame.
+
+use fingertip_calibration::in_situ::{PointContactForm, angle_between, form_of, refine};
+use fingertip_calibration::nalgebra::DMatrix;
+use rand::SeedableRng as _;
+use rand_pcg::Pcg64Mcg;
+
+use super::random::{gaussian, gaussians, sensor, turn, vector};
+use super::spread::Spread;
+
+/// Loads of touches of a surface of unit size, their pitch wrong by so much.
+fn touches(random: &mut Pcg64Mcg, count: usize, pitch: f64) -> DMatrix<f64> {
+    let mut loads = DMatrix::zeros(count, 6);
+    for i in 0..count {
+        let (force, point) = (vector(random), vector(random));
+        let torque = point.cross(&force);
+        let torque = torque + force.normalize() * (torque.norm() * pitch * gaussian(random));
+        loads.view_mut((i, 0), (1, 3)).copy_from(&force.transpose());
+        loads.view_mut((i, 3), (1, 3)).copy_from(&torque.transpose());
+    }
+    loads
+}
+
+fn signals(loads: &DMatrix<f64>, loads_per_signal: &DMatrix<f64>) -> DMatrix<f64> {
+    loads * loads_per_signal.clone().try_inverse().unwrap().transpose()
+}
+
+fn gathered(signals: &DMatrix<f64>) -> PointContactForm {
+    let mut form = PointContactForm::new(6);
+    for row in signals.row_iter() {
+        assert!(form.push(row.transpose().as_slice()));
+    }
+    form
+}
+
+/// Gauges of equal gain, so that the noise shows alike in all touches, as the statement has it.
+#[test]
+fn error_of_the_form_is_as_stated() {
+    let random = &mut Pcg64Mcg::seed_from_u64(51);
+    let mut truth = DMatrix::identity(6, 6);
+    for k in [0, 3] {
+        truth.view_mut((k, k), (3, 3)).copy_from(&turn(random));
+    }
+    let (form, clean) = (form_of(&truth), signals(&touches(random, 300, 0.0), &truth));
+    let spread = Spread::over(600, || {
+        let mut noisy = clean.clone();
+        for mut row in noisy.row_iter_mut() {
+            let noise = 1e-3 * row.norm();
+            row += gaussians(random, 1, 6) * noise;
+        }
+        let found = gathered(&noisy).solve().unwrap();
+        (vec![angle_between(&found.matrix, &form)], vec![found.deviation.powi(2)])
+    });
+    spread.agrees("form of point contacts");
+}
+
+#[test]
+fn errors_of_a_mended_sensor_are_as_stated() {
+    let random = &mut Pcg64Mcg::seed_from_u64(52);
+    let truth = sensor(random, 6, 6);
+    let known = gaussians(random, 6, 6);
+    let loads = &known * truth.transpose();
+    let (pitch, noise) = (1e-3, 1e-3);
+    let mut places = Pcg64Mcg::seed_from_u64(53);
+    let spread = Spread::over(780, || {
+        places.clone_from(&Pcg64Mcg::seed_from_u64(53));
+        // The same touches each time, but for their pitch.
+        let mut touches = touches(&mut places, 40, 0.0);
+        for mut row in touches.row_iter_mut() {
+            let (force, torque) = (row.columns(0, 3).normalize(), row.columns(3, 3).norm());
+            let mut part = row.columns_mut(3, 3);
+            part += force * (torque * pitch * gaussian(random));
+        }
+        let measured = &loads + gaussians(random, 6, 6) * noise;
+        let fit = refine(&truth, &signals(&touches, &truth), pitch, &known, &measured, noise).unwrap();
+        assert_eq!(fit.unobserved, 0);
+        let errors = &fit.loads_per_signal - &truth;
+        (errors.as_slice().to_vec(), fit.deviations.iter().map(|s| s * s).collect())
+    });
+    spread.agrees_in_the_mean("mended sensor");
+}
+
+/// Gauges in other units and mixed among each other, touches in another order, the sensor frame turned.
+#[test]
+fn touches_do_not_mind_units_order_and_frames() {
+    let random = &mut Pcg64Mcg::seed_from_u64(54);
+    for _ in 0..10 {
+        let truth = sensor(random, 6, 6);
+        let order: Vec<usize> = (0..60).map(|i| (7 * i + 3) % 60).collect();
+        let signals = signals(&touches(random, 60, 1e-3), &truth);
+        let mut mix = DMatrix::identity(6, 6);
+        for k in 0..4 {
+            let mut part = DMatrix::identity(6, 6);
+            part.view_mut((k, k), (3, 3)).copy_from(&turn(random));
+            mix *= part;
+        }
+        let form = gathered(&signals).solve().unwrap();
+        let mixed = &signals.select_rows(&order) * &mix * 1e-4;
+        let other = gathered(&mixed).solve().unwrap();
+        let angle = angle_between(&(&mix * &other.matrix * mix.transpose()), &form.matrix);
+        // Rounding over the gap of the singular values.
+        assert!(angle < 1e3 * f64::EPSILON / form.deviation, "{angle:e}");
+        assert!((other.deviation / form.deviation - 1.0).abs() < 1e-6 && other.signature == form.signature);
+
+        // A calibration of it that has drifted, with five known loads.
+        let drifted = &truth + gaussians(random, 6, 6) * 0.01;
+        let known = gaussians(random, 5, 6);
+        let loads = &known * truth.transpose() + gaussians(random, 5, 6) * 1e-3;
+        let mut frame = DMatrix::zeros(6, 6);
+        let rotation = turn(random);
+        for k in [0, 3] {
+            frame.view_mut((k, k), (3, 3)).copy_from(&rotation);
+        }
+        let one = refine(&drifted, &signals, 1e-3, &known, &loads, 1e-3).unwrap();
+        let start = &frame * &drifted * &mix * 1e4;
+        let turned = &loads * frame.transpose();
+        let two = refine(&start, &mixed, 1e-3, &(&known * &mix * 1e-4), &turned, 1e-3).unwrap();
+        let back = frame.transpose() * &two.loads_per_signal * mix.transpose() * 1e-4;
+        // It ends where the sum of squares does not fall by 1e-12 of itself any more.
+        let change = (back - &one.loads_per_signal).component_div(&one.deviations).amax();
+        assert!(change < 1e-3, "{change:e}");
+        assert!((two.pitch.1 / one.pitch.1 - 1.0).abs() < 1e-5);
+        assert_eq!((one.unobserved, two.unobserved), (0, 0));
+        let (a, b) = (one.deviations.norm(), two.deviations.norm() * 1e-4);
+        // Entries mix with the gauges; the sum of their variances does not.
+        assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
+    }
+    assert!(gathered(&DMatrix::zeros(0, 6)).solve().is_err());
+}

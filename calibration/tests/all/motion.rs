@@ -1,0 +1,165 @@
+//! Shape from motion: errors as stated, and the same sensor in any units, order and frame.
+
+use fingertip_calibration::motion::{LeverArm, constant_force, lever_arms};
+use fingertip_calibration::nalgebra::{DMatrix, DVector, Vector3};
+use rand::SeedableRng as _;
+use rand_pcg::Pcg64Mcg;
+
+use super::random::{gaussians, sensor, turn};
+use super::spread::Spread;
+
+/// Noise of a reading; forces of 5 N give readings of 10.
+const NOISE: f64 = 0.02;
+
+/// Readings under a force of 5 N in so many directions.
+fn directions(random: &mut Pcg64Mcg, count: usize) -> DMatrix<f64> {
+    let mut forces = gaussians(random, count, 3);
+    for mut row in forces.row_iter_mut() {
+        let norm = row.norm();
+        row *= 5.0 / norm;
+    }
+    forces
+}
+
+fn with_zero(mut signals: DMatrix<f64>, zero: &DVector<f64>) -> DMatrix<f64> {
+    signals.row_iter_mut().for_each(|mut row| row += zero.transpose());
+    signals
+}
+
+#[test]
+fn errors_of_three_components_are_as_stated() {
+    let random = &mut Pcg64Mcg::seed_from_u64(41);
+    for (gauges, trials) in [(3, 1_400), (5, 1_100)] {
+        let truth = sensor(random, 3, gauges);
+        let zero = DVector::from_fn(gauges, |i, _| 10.0 - i as f64);
+        let forces = directions(random, 25);
+        let clean = with_zero(&forces * &truth, &zero);
+        let spread = Spread::over(trials, || {
+            let fit = constant_force(&(&clean + gaussians(random, 25, gauges) * NOISE), 5.0).unwrap();
+            let mut errors: Vec<f64> = (&fit.zero - &zero).iter().copied().collect();
+            let mut variances: Vec<f64> = fit.zero_deviation.iter().map(|s| s * s).collect();
+            // The size of forces without noise, told by a fit with it.
+            let squares = (0..25).map(|i| {
+                let force = fit.force(&clean.row(i).transpose()).unwrap();
+                (force.norm() / 5.0 - 1.0).powi(2) / 25.0
+            });
+            errors.push(squares.sum::<f64>().sqrt());
+            variances.push(fit.size_deviation.powi(2));
+            errors.push(fit.noise);
+            variances.push(NOISE * NOISE);
+            (errors, variances)
+        });
+        spread.agrees_in_the_mean(&format!("three components, {gauges} gauges"));
+    }
+}
+
+fn arms(random: &mut Pcg64Mcg, truth: &DMatrix<f64>, zero: &DVector<f64>) -> Vec<LeverArm> {
+    [[0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1], [-0.05, -0.06, 0.02]]
+        .into_iter()
+        .map(|arm| {
+            let arm = Vector3::from(arm);
+            let forces = directions(random, 14);
+            let loads = DMatrix::from_fn(14, 6, |i, j| {
+                let force = Vector3::from_fn(|k, _| forces[(i, k)]);
+                if j < 3 { force[j] } else { arm.cross(&force)[j - 3] }
+            });
+            LeverArm { arm, signals: with_zero(loads * truth.transpose(), zero) }
+        })
+        .collect()
+}
+
+fn six(random: &mut Pcg64Mcg) -> (DMatrix<f64>, DVector<f64>) {
+    let mut truth = sensor(random, 6, 6).transpose();
+    truth.columns_mut(3, 3).scale_mut(10.0);
+    (truth, DVector::from_fn(6, |i, _| i as f64))
+}
+
+fn noisy(random: &mut Pcg64Mcg, arms: &[LeverArm], noise: f64) -> Vec<LeverArm> {
+    arms.iter()
+        .map(|arm| LeverArm { signals: &arm.signals + gaussians(random, 14, 6) * noise, ..arm.clone() })
+        .collect()
+}
+
+/// A seed whose only start finds the solution: the noise is too small to change its way.
+fn lucky_seed(arms: &[LeverArm]) -> u64 {
+    (0..200).find(|seed| lever_arms(arms, 5.0, 1e-6, 1, *seed).is_ok()).unwrap()
+}
+
+#[test]
+fn errors_of_six_components_are_as_stated() {
+    let random = &mut Pcg64Mcg::seed_from_u64(42);
+    let (truth, zero) = six(random);
+    let clean = arms(random, &truth, &zero);
+    let seed = lucky_seed(&clean);
+    let spread = Spread::over(330, || {
+        let fit = lever_arms(&noisy(random, &clean, 1e-3), 5.0, 1e-2, 1, seed).unwrap();
+        // The sign is not observable.
+        let fit = fit.with_sign(&(truth.column(0) + &zero), &Vector3::x()).unwrap();
+        let mut errors: Vec<f64> = (&fit.sensitivities - &truth).iter().copied().collect();
+        errors.extend((&fit.zero - &zero).iter());
+        let deviations = fit.deviations.iter().chain(fit.zero_deviation.iter());
+        (errors, deviations.map(|s| s * s).collect())
+    });
+    spread.agrees_in_the_mean("six components");
+}
+
+/// Forces in other units, readings of gauges in others and mixed among each other, another order; the
+/// frame of the sensor turned.
+#[test]
+fn shape_from_motion_does_not_mind_units_order_and_frames() {
+    let random = &mut Pcg64Mcg::seed_from_u64(43);
+    let (newton, metre, volt) = (1e3, 1e-2, 1e-4);
+    // The search ends where the sum of squares does not fall any more: at the root of its rounding, of
+    // the noise.
+    let allowed = 100.0 * f64::EPSILON.sqrt();
+    for _ in 0..10 {
+        let truth = sensor(random, 3, 4);
+        let signals = &directions(random, 25) * &truth + gaussians(random, 25, 4) * NOISE;
+        let mix = {
+            let (a, b) = (turn(random), turn(random));
+            let mut mix = DMatrix::identity(4, 4);
+            mix.view_mut((0, 0), (3, 3)).copy_from(&a);
+            let mut other = DMatrix::identity(4, 4);
+            other.view_mut((1, 1), (3, 3)).copy_from(&b);
+            mix * other
+        };
+        let order: Vec<usize> = (0..25).map(|i| (7 * i + 3) % 25).collect();
+        let one = constant_force(&signals, 5.0).unwrap();
+        let two = constant_force(&(signals.select_rows(&order) * &mix * volt), 5.0 * newton).unwrap();
+        // What does not know of the rotation of all forces.
+        let gram = |map: &DMatrix<f64>| map * map.transpose();
+        let back = mix.transpose() * gram(&one.signals_from_force) * &mix * (volt / newton).powi(2);
+        let change = (gram(&two.signals_from_force) - &back).amax() / back.amax();
+        assert!(change < allowed * one.size_deviation.max(1e-3), "{change:e}");
+        let zero = &two.zero / volt - mix.transpose() * &one.zero;
+        assert!(zero.amax() < allowed * one.zero_deviation.max(), "{zero}");
+        assert!((two.noise / volt / one.noise - 1.0).abs() < 1e-9);
+        assert!((two.size_deviation / one.size_deviation - 1.0).abs() < 1e-6);
+    }
+    for _ in 0..2 {
+        let (truth, zero) = six(random);
+        let clean = arms(random, &truth, &zero);
+        let arms = noisy(random, &clean, 1e-3);
+        let frame = turn(random);
+        let turned: Vec<LeverArm> = arms
+            .iter()
+            .rev()
+            .map(|arm| LeverArm { arm: frame * arm.arm * metre, signals: &arm.signals * volt })
+            .collect();
+        let settle = |arms: &[LeverArm], force| lever_arms(arms, force, 1e-2, 60, 5).unwrap();
+        let (one, two) = (settle(&arms, 5.0), settle(&turned, 5.0 * newton));
+        let mut blocks = DMatrix::zeros(6, 6);
+        for k in [0, 3] {
+            blocks.view_mut((k, k), (3, 3)).copy_from(&frame);
+        }
+        let mut back = &two.sensitivities * blocks * (newton / volt);
+        back.columns_mut(3, 3).scale_mut(metre);
+        if back.dot(&one.sensitivities) < 0.0 {
+            back.neg_mut();
+        }
+        let change = (&back - &one.sensitivities).component_div(&one.deviations).amax();
+        assert!(change < allowed, "{change:e}");
+        assert!(((&two.zero / volt - &one.zero).component_div(&one.zero_deviation)).amax() < allowed);
+        assert!((two.noise / volt / one.noise - 1.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,134 @@
+//! Gravity poses: errors as stated, and the same payload in any units, order and frame.
+
+use fingertip_calibration::gravity::{PayloadOptions, Pose, fit_orientation, fit_payload};
+use fingertip_calibration::nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64Mcg;
+
+use super::random::{turn, vector};
+use super::spread::Spread;
+
+const CENTRE: Vector3<f64> = Vector3::new(0.02, -0.03, 0.05);
+const FORCE: Vector3<f64> = Vector3::new(0.4, -0.3, 0.2);
+const TORQUE: Vector3<f64> = Vector3::new(0.01, 0.02, -0.03);
+/// Noise of forces \[N\] and of torques \[N·m\]: the errors of the centre of mass come of both alike.
+const NOISE: (f64, f64) = (0.02, 1e-3);
+
+fn wrench(force: Vector3<f64>, torque: Vector3<f64>) -> Vector6<f64> {
+    Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z)
+}
+
+/// What the sensor reads of a weight of 3 N in the base frame.
+fn reading(base_from_sensor: &Matrix3<f64>, weight: &Vector3<f64>, noise: &mut Pcg64Mcg) -> Pose {
+    let pull = base_from_sensor.tr_mul(weight);
+    let force = pull + FORCE + vector(noise) * NOISE.0;
+    let torque = CENTRE.cross(&pull) + TORQUE + vector(noise) * NOISE.1;
+    Pose { base_from_sensor: *base_from_sensor, wrench: wrench(force, torque) }
+}
+
+#[test]
+fn errors_of_the_payload_are_as_stated() {
+    let random = &mut Pcg64Mcg::seed_from_u64(31);
+    let turns: Vec<_> = (0..8).map(|_| turn(random)).collect();
+    for down in [None, Some(-Vector3::z())] {
+        let weight = if down.is_some() { Vector3::new(0.0, 0.0, -3.0) } else { Vector3::new(0.6, 0.9, -2.8) };
+        let options = PayloadOptions { down, ..PayloadOptions::default() };
+        let spread = Spread::over(10_000, || {
+            let poses: Vec<Pose> = turns.iter().map(|turn| reading(turn, &weight, random)).collect();
+            let fit = fit_payload(&poses, &options).unwrap();
+            let mut errors = vec![fit.weight.norm() - weight.norm()];
+            let mut variances = vec![fit.weight_deviation.powi(2)];
+            for (error, deviation) in [
+                (fit.centre_of_mass - CENTRE, fit.centre_deviation),
+                (fit.force_bias - FORCE, fit.force_bias_deviation),
+                (fit.torque_bias - TORQUE, fit.torque_bias_deviation),
+            ] {
+                errors.extend(error.iter());
+                variances.extend(deviation.iter().map(|deviation| deviation * deviation));
+            }
+            (errors, variances)
+        });
+        spread.agrees("payload");
+    }
+}
+
+#[test]
+fn errors_of_the_mounting_are_as_stated() {
+    let random = &mut Pcg64Mcg::seed_from_u64(32);
+    let (mount, turns) = (turn(random), (0..10).map(|_| turn(random)).collect::<Vec<_>>());
+    let spread = Spread::over(8_000, || {
+        let poses: Vec<Pose> = turns
+            .iter()
+            .map(|turn| {
+                let force =
+                    mount * turn.tr_mul(&Vector3::new(0.0, 0.0, -4.0)) + FORCE + vector(random) * 0.02;
+                Pose { base_from_sensor: *turn, wrench: wrench(force, Vector3::zeros()) }
+            })
+            .collect();
+        let fit = fit_orientation(&poses, &-Vector3::z()).unwrap();
+        let turned = Rotation3::from_matrix_unchecked(fit.sensor_from_flange * mount.transpose());
+        let mut errors: Vec<f64> = turned.scaled_axis().iter().copied().collect();
+        errors.push(fit.weight - 4.0);
+        errors.extend((fit.force_bias - FORCE).iter());
+        let mut deviations: Vec<f64> = fit.turn_deviation.iter().copied().collect();
+        deviations.push(fit.weight_deviation);
+        deviations.extend(fit.bias_deviation.iter());
+        (errors, deviations.iter().map(|deviation| deviation * deviation).collect())
+    });
+    spread.agrees("mounting");
+}
+
+/// Base and sensor frame turned, forces and lengths in other units, poses in another order.
+#[test]
+fn payload_and_mounting_do_not_mind_units_order_and_frames() {
+    let random = &mut Pcg64Mcg::seed_from_u64(33);
+    for _ in 0..100 {
+        let weight = Vector3::new(0.6, 0.9, -2.8);
+        let poses: Vec<Pose> = (0..8).map(|_| reading(&turn(random), &weight, random)).collect();
+        // The base may stand crooked, but not upside down.
+        let base = core::iter::repeat_with(|| turn(random)).find(|base| (base * weight).z < 0.0).unwrap();
+        let sensor = turn(random);
+        let (newton, metre) =
+            (10_f64.powi(random.random_range(-6..6)), 10_f64.powi(random.random_range(-3..4)));
+        let other: Vec<Pose> = (0..8)
+            .map(|i| {
+                let pose = &poses[(3 * i + 5) % 8];
+                let force = sensor * pose.wrench.fixed_rows::<3>(0) * newton;
+                let torque = sensor * pose.wrench.fixed_rows::<3>(3) * (newton * metre);
+                let base_from_sensor = base * pose.base_from_sensor * sensor.transpose();
+                Pose { base_from_sensor, wrench: wrench(force, torque) }
+            })
+            .collect();
+        let options = PayloadOptions { down: None, ..PayloadOptions::default() };
+        let Ok(fit) = fit_payload(&poses, &options) else { continue };
+        let same = fit_payload(&other, &PayloadOptions { down: None, ..options }).unwrap();
+        // Rounding, as often as the poses are conditioned and the weight stands over the biases.
+        let close = |a: Vector3<f64>, b: Vector3<f64>, size: f64| {
+            let allowed = 1e3 * f64::EPSILON * fit.condition_number.powi(2) * size;
+            assert!((a - b).amax() < allowed, "{a} {b}");
+        };
+        close(same.weight / newton, base * fit.weight, 3.0);
+        close(same.centre_of_mass / metre, sensor * fit.centre_of_mass, 0.1);
+        close(same.force_bias / newton, sensor * fit.force_bias, 3.0);
+        close(same.torque_bias / (newton * metre), sensor * fit.torque_bias, 0.3);
+        let deviation = same.weight_deviation / newton / fit.weight_deviation - 1.0;
+        assert!(deviation.abs() < 1e-9 * fit.condition_number, "{deviation}");
+        // The mounting turns with the sensor, whose flange is the former frame.
+        let down = weight.normalize();
+        let one = fit_orientation(&poses, &down).unwrap();
+        let turned: Vec<Pose> = poses
+            .iter()
+            .rev()
+            .map(|pose| {
+                let force = sensor * pose.wrench.fixed_rows::<3>(0) * newton;
+                let base_from_sensor = base * pose.base_from_sensor;
+                Pose { base_from_sensor, wrench: wrench(force, Vector3::zeros()) }
+            })
+            .collect();
+        let two = fit_orientation(&turned, &(base * down)).unwrap();
+        let allowed = 1e3 * f64::EPSILON * fit.condition_number.powi(2);
+        assert!((two.sensor_from_flange - sensor * one.sensor_from_flange).amax() < allowed);
+        assert!((two.weight / newton - one.weight).abs() < 4.0 * allowed);
+        close(two.force_bias / newton, sensor * one.force_bias, 3.0);
+    }
+}

@@ -1,0 +1,286 @@
+//! Shapes and poses from touches: errors as stated, and the same in any units, order and frame.
+
+use fingertip_calibration::geometry::{
+    Touch, fit_aligned_ellipsoid, fit_cylinder, fit_cylinder_along, fit_ellipsoid, fit_meeting_point,
+    fit_plane, fit_pose, fit_sphere,
+};
+use fingertip_calibration::nalgebra::{Matrix3, Rotation3, Vector3};
+use fingertip_wrench::Wrench;
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64Mcg;
+
+use super::random::{gaussian, turn, vector};
+use super::spread::Spread;
+
+const CENTRE: Vector3<f64> = Vector3::new(0.003, -0.002, 0.004);
+
+/// Pressing with friction at a point.
+fn pressed(random: &mut Pcg64Mcg, point: Vector3<f64>, normal: Vector3<f64>) -> Touch {
+    let slide = vector(random).cross(&normal).normalize();
+    let force = (slide * 0.4 - normal) * (1.0 + gaussian(random).abs());
+    Touch { wrench: Wrench::from_force_at(&point, force), normal }
+}
+
+/// Touches of a body whose point with normal n is this.
+fn touches(
+    random: &mut Pcg64Mcg,
+    count: usize,
+    across: Option<Vector3<f64>>,
+    point: impl Fn(&Vector3<f64>) -> Vector3<f64>,
+) -> Vec<Touch> {
+    (0..count)
+        .map(|_| {
+            let n = vector(random);
+            let n = across.map_or(n, |axis| n - axis * n.dot(&axis)).normalize();
+            pressed(random, point(&n), n)
+        })
+        .collect()
+}
+
+/// Torques wrong by 10 µN·m.
+fn noisy(random: &mut Pcg64Mcg, wrench: &Wrench<f64>) -> Wrench<f64> {
+    Wrench::on_fingertip(wrench.force(), wrench.torque() + vector(random) * 1e-5)
+}
+
+fn all_noisy(random: &mut Pcg64Mcg, touches: &[Touch]) -> Vec<Touch> {
+    touches.iter().map(|touch| Touch { wrench: noisy(random, &touch.wrench), ..*touch }).collect()
+}
+
+fn squares(deviations: &[f64]) -> Vec<f64> {
+    deviations.iter().map(|deviation| deviation * deviation).collect()
+}
+
+#[test]
+fn errors_of_sphere_ellipsoid_and_cylinder_are_as_stated() {
+    let random = &mut Pcg64Mcg::seed_from_u64(61);
+    let clean = touches(random, 12, None, |n| CENTRE + n * 0.013);
+    let spread = Spread::over(10_000, || {
+        let fit = fit_sphere(&all_noisy(random, &clean)).unwrap();
+        let centre = fit.shape.centre() - CENTRE;
+        (vec![fit.shape.radius() - 0.013, centre.x, centre.y, centre.z], squares(&fit.deviations))
+    });
+    spread.agrees("sphere");
+
+    let axes = Vector3::new(0.012, 0.015, 0.02);
+    let squared = Matrix3::from_diagonal(&axes.component_mul(&axes));
+    let clean = touches(random, 15, None, |n| CENTRE + squared * n / n.dot(&(squared * n)).sqrt());
+    let spread = Spread::over(8_000, || {
+        let fit = fit_aligned_ellipsoid(&all_noisy(random, &clean)).unwrap();
+        let (axes, centre) = (fit.shape.semi_axes - axes, fit.shape.centre - CENTRE);
+        (axes.iter().chain(centre.iter()).copied().collect(), squares(&fit.deviations))
+    });
+    spread.agrees("aligned ellipsoid");
+
+    let clean = touches(random, 15, Some(Vector3::z()), |n| CENTRE + n * 0.008);
+    let spread = Spread::over(10_000, || {
+        let fit = fit_cylinder_along(&all_noisy(random, &clean), &Vector3::z()).unwrap();
+        let error = fit.shape.centre() - CENTRE;
+        // Its two offsets are along −y and x for an axis along z.
+        (vec![fit.shape.radius() - 0.008, error.y, error.x], squares(&fit.deviations))
+    });
+    spread.agrees("cylinder");
+}
+
+#[test]
+fn errors_of_pivot_and_pose_are_as_stated() {
+    let random = &mut Pcg64Mcg::seed_from_u64(62);
+    let forces: Vec<_> = (0..6).map(|_| Wrench::from_force_at(&CENTRE, vector(random))).collect();
+    let spread = Spread::over(10_000, || {
+        let wrenches: Vec<_> = forces.iter().map(|wrench| noisy(random, wrench)).collect();
+        let fit = fit_meeting_point(&wrenches).unwrap();
+        ((fit.shape - CENTRE).iter().copied().collect(), squares(&fit.deviations))
+    });
+    spread.agrees("pivot");
+
+    let rotation = Rotation3::from_scaled_axis(Vector3::new(0.7, -1.1, 0.4));
+    let clean: Vec<_> = (0..8)
+        .map(|_| {
+            let point = vector(random) * 0.02;
+            (Wrench::from_force_at(&(rotation * point + CENTRE), vector(random) * 2.0), point)
+        })
+        .collect();
+    let spread = Spread::over(1_900, || {
+        let touches: Vec<_> = clean.iter().map(|(wrench, point)| (noisy(random, wrench), *point)).collect();
+        let fit = fit_pose(&touches).unwrap();
+        let turned = Rotation3::from_matrix_unchecked(fit.shape.rotation() * rotation.matrix().transpose());
+        let errors =
+            turned.scaled_axis().iter().chain((fit.shape.origin() - CENTRE).iter()).copied().collect();
+        (errors, squares(&fit.deviations))
+    });
+    spread.agrees_in_the_mean("pose");
+}
+
+/// Pivots on a plane at 10 mm that is not centred over the origin: three, which leave nothing, and five.
+#[test]
+fn errors_of_a_plane_are_as_stated() {
+    let random = &mut Pcg64Mcg::seed_from_u64(63);
+    for count in [3, 5] {
+        let points: Vec<_> = (0..count)
+            .map(|i| {
+                let angle = core::f64::consts::TAU * f64::from(i) / f64::from(count);
+                Vector3::new(0.004 + 0.006 * angle.cos(), 0.004 * angle.sin() - 0.002, 0.01)
+            })
+            .collect();
+        let clean: Vec<Vec<_>> = points
+            .iter()
+            .map(|point| (0..5).map(|_| pressed(random, *point, Vector3::z()).wrench).collect())
+            .collect();
+        let spread = Spread::over(8_000, || {
+            let pivots: Vec<Vec<_>> =
+                clean.iter().map(|list| list.iter().map(|wrench| noisy(random, wrench)).collect()).collect();
+            let fit = fit_plane(&pivots, &Vector3::z()).unwrap();
+            // The longer direction of the points is x, the shorter y.
+            let normal = fit.shape.normal;
+            (vec![fit.shape.offset - 0.01, normal.x, normal.y], squares(&fit.deviations))
+        });
+        spread.agrees(&format!("plane through {count} pivots"));
+    }
+}
+
+/// The same load in other units, its frame turned and moved.
+#[derive(Clone, Copy)]
+struct Change {
+    turn: Matrix3<f64>,
+    origin: Vector3<f64>,
+    newton: f64,
+    metre: f64,
+}
+
+impl Change {
+    fn new(random: &mut Pcg64Mcg) -> Self {
+        let mut power = |most: i32| 10_f64.powi(random.random_range(-most..=most));
+        let (newton, metre) = (power(5), power(3));
+        Self { turn: turn(random), origin: vector(random) * 0.02, newton, metre }
+    }
+
+    fn point(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        (self.turn * point + self.origin) * self.metre
+    }
+
+    fn wrench(&self, wrench: &Wrench<f64>) -> Wrench<f64> {
+        let force = self.turn * wrench.force();
+        let torque = self.turn * wrench.torque() + self.origin.cross(&force);
+        Wrench::on_fingertip(force * self.newton, torque * (self.newton * self.metre))
+    }
+
+    /// In another order too.
+    fn touches(&self, touches: &[Touch]) -> Vec<Touch> {
+        let change =
+            |touch: &Touch| Touch { wrench: self.wrench(&touch.wrench), normal: self.turn * touch.normal };
+        touches.iter().rev().map(change).collect()
+    }
+
+    /// Lengths agree to so much \[m\]: rounding of positions of 30 mm, times what conditions them, or for
+    /// searches where they end.
+    fn close(&self, changed: &Vector3<f64>, point: &Vector3<f64>, allowed: f64) {
+        let off = (changed / self.metre - (self.turn * point + self.origin)).amax();
+        assert!(off < allowed, "{off:e}");
+    }
+}
+
+#[test]
+fn shapes_do_not_mind_units_order_and_frames() {
+    let random = &mut Pcg64Mcg::seed_from_u64(64);
+    // 1e4 roundings of 30 mm for what is linear.
+    let allowed = 0.03 * 1e4 * f64::EPSILON;
+    for _ in 0..40 {
+        let change = Change::new(random);
+        let same = |changed: f64, value: f64, allowed: f64| {
+            assert!((changed / change.metre - value).abs() < allowed, "{changed:e} {value:e}");
+        };
+        let made = touches(random, 20, None, |n| CENTRE + n * 0.013);
+        let made = all_noisy(random, &made);
+        let (one, two) = (fit_sphere(&made).unwrap(), fit_sphere(&change.touches(&made)).unwrap());
+        same(two.shape.radius(), one.shape.radius(), allowed);
+        change.close(&two.shape.centre(), &one.shape.centre(), allowed);
+        same(two.deviations[0], one.deviations[0], allowed);
+
+        let axis = vector(random).normalize();
+        let made = touches(random, 20, Some(axis), |n| CENTRE + n * 0.008);
+        let made = all_noisy(random, &made);
+        let (one, two) = (fit_cylinder(&made).unwrap(), fit_cylinder(&change.touches(&made)).unwrap());
+        same(two.shape.radius(), one.shape.radius(), allowed);
+        assert!(two.shape.axis().cross(&(change.turn * one.shape.axis())).norm() < 1e4 * f64::EPSILON);
+        // Its centre is the point of the axis nearest to the origin, which has moved.
+        let from = two.shape.centre() / change.metre - (change.turn * one.shape.centre() + change.origin);
+        assert!(from.cross(&(change.turn * one.shape.axis())).norm() < allowed);
+
+        let squared = Matrix3::from_diagonal(&Vector3::new(4e-4, 2.25e-4, 1.4e-4));
+        let turned = turn(random);
+        let squared = turned * squared * turned.transpose();
+        let made = touches(random, 25, None, |n| CENTRE + squared * n / n.dot(&(squared * n)).sqrt());
+        let made = all_noisy(random, &made);
+        // Gauss-Newton ends at steps of 1e-12 of the size.
+        let settled = 0.03 * 1e-10;
+        let (one, two) = (fit_ellipsoid(&made).unwrap(), fit_ellipsoid(&change.touches(&made)).unwrap());
+        for k in 0..3 {
+            same(two.shape.semi_axes[k], one.shape.semi_axes[k], settled);
+        }
+        let pose = |fit: &fingertip_calibration::geometry::PosedEllipsoid| fit.sensor_from_ellipsoid;
+        change.close(&pose(&two.shape).origin(), &pose(&one.shape).origin(), settled);
+        let found = pose(&two.shape).rotation().tr_mul(&(change.turn * pose(&one.shape).rotation()));
+        assert!((found.abs() - Matrix3::identity()).amax() < 1e-8, "{found}");
+        // Its axes stay along those of the frame, so only units, order and place may change.
+        let moved = Change { turn: Matrix3::identity(), ..change };
+        let (one, two) =
+            (fit_aligned_ellipsoid(&made).unwrap(), fit_aligned_ellipsoid(&moved.touches(&made)).unwrap());
+        for k in 0..3 {
+            same(two.shape.semi_axes[k], one.shape.semi_axes[k], settled);
+        }
+        moved.close(&two.shape.centre, &one.shape.centre, settled);
+    }
+}
+
+#[test]
+fn pivots_planes_and_poses_do_not_mind_units_order_and_frames() {
+    let random = &mut Pcg64Mcg::seed_from_u64(65);
+    let allowed = 0.03 * 1e4 * f64::EPSILON;
+    for _ in 0..20 {
+        let change = Change::new(random);
+        let normal = vector(random).normalize();
+        let pivots: Vec<Vec<_>> = (0..5)
+            .map(|_| {
+                let point = normal * 0.01 + vector(random).cross(&normal) * 0.005;
+                (0..5)
+                    .map(|_| {
+                        let wrench = pressed(random, point, normal).wrench;
+                        noisy(random, &wrench)
+                    })
+                    .collect()
+            })
+            .collect();
+        let changed: Vec<Vec<_>> = pivots
+            .iter()
+            .rev()
+            .map(|list| list.iter().rev().map(|wrench| change.wrench(wrench)).collect())
+            .collect();
+        let (one, two) = (fit_meeting_point(&pivots[0]).unwrap(), fit_meeting_point(&changed[4]).unwrap());
+        change.close(&two.shape, &one.shape, 10.0 * allowed);
+        let Ok(one) = fit_plane(&pivots, &normal) else { continue };
+        let two = fit_plane(&changed, &(change.turn * normal)).unwrap();
+        assert!((two.shape.normal - change.turn * one.shape.normal).amax() < 1e-9);
+        // The foot of the plane moves with the origin.
+        let offset = one.shape.offset + two.shape.normal.dot(&change.origin);
+        assert!((two.shape.offset / change.metre - offset).abs() < 1e-10, "{offset}");
+        assert!((two.deviations[1] / one.deviations[1] - 1.0).abs() < 1e-6);
+
+        let rotation = turn(random);
+        let touches: Vec<_> = (0..8)
+            .map(|_| {
+                let point = vector(random) * 0.02;
+                let wrench = Wrench::from_force_at(&(rotation * point + CENTRE), vector(random));
+                (noisy(random, &wrench), point)
+            })
+            .collect();
+        let changed: Vec<_> = touches
+            .iter()
+            .rev()
+            .map(|(wrench, point)| (change.wrench(wrench), point * change.metre))
+            .collect();
+        let (one, two) = (fit_pose(&touches).unwrap(), fit_pose(&changed).unwrap());
+        // The search ends at turns of 1e-13, or of 1e-10 if rounding lets it come no nearer.
+        assert!((two.shape.rotation() - change.turn * one.shape.rotation()).amax() < 1e-9);
+        change.close(&two.shape.origin(), &one.shape.origin(), 1e-10);
+        assert!((change.point(&one.shape.origin()) - two.shape.origin()).amax() < 1e-10 * change.metre);
+    }
+}

@@ -1,0 +1,222 @@
+//! Whole tables: quadratic sensors, partial sessions, samples that do not agree. Exact without noise, errors
+//! as stated, and the same in any units, order and frame.
+
+use fingertip_calibration::Axis;
+use fingertip_calibration::file::SignalUnit;
+use fingertip_calibration::loads::LoadTable;
+use fingertip_calibration::model::{Direction, Method, Options, StreamedFit, calibrate};
+use fingertip_calibration::nalgebra::{DMatrix, DVector};
+use rand::SeedableRng as _;
+use rand_pcg::Pcg64Mcg;
+
+use super::random::{gaussians, sensor, turn};
+use super::spread::Spread;
+
+/// Quadratic loads of three gauges: bent, with cross-terms and a constant.
+fn bent(signals: &DMatrix<f64>, linear: &DMatrix<f64>, second: &DMatrix<f64>) -> DMatrix<f64> {
+    let products = DMatrix::from_fn(signals.nrows(), 6, |i, k| {
+        let (a, b) = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)][k];
+        signals[(i, a)] * signals[(i, b)]
+    });
+    (signals * linear + products * second).add_scalar(0.2)
+}
+
+fn quadratic() -> Options {
+    Options {
+        direction: Direction::LoadsFromSignals,
+        quadratic: true,
+        nominal: Some(vec![1.0; 3]),
+        ..Options::default()
+    }
+}
+
+fn forces(loads: &DMatrix<f64>, signals: &DMatrix<f64>) -> LoadTable {
+    LoadTable::new(&Axis::FORCES, loads.clone(), signals.clone(), SignalUnit::Volt).unwrap()
+}
+
+/// Coefficients as the model has them: linear, products, constant.
+fn all(linear: &DMatrix<f64>, second: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut all = linear.clone().resize(10, 3, 0.2);
+    all.view_mut((3, 0), (6, 3)).copy_from(second);
+    all
+}
+
+#[test]
+fn quadratic_sensors_come_back_with_errors_as_stated() {
+    let random = &mut Pcg64Mcg::seed_from_u64(71);
+    let (linear, second) = (sensor(random, 3, 3), gaussians(random, 6, 3) * 0.2);
+    let signals = gaussians(random, 30, 3);
+    let clean = bent(&signals, &linear, &second);
+    let truth = all(&linear, &second);
+    let fit = calibrate(&forces(&clean, &signals), &quadratic()).unwrap().model.fit;
+    assert!((fit.coefficients - &truth).amax() < 1e-12);
+    let spread = Spread::over(600, || {
+        let loads = &clean + gaussians(random, 30, 3) * 0.01;
+        let fit = calibrate(&forces(&loads, &signals), &quadratic()).unwrap().model.fit;
+        let variances = fit.inverse_gram.diagonal() * fit.residual_covariance.diagonal().transpose();
+        ((fit.coefficients - &truth).as_slice().to_vec(), variances.as_slice().to_vec())
+    });
+    spread.agrees_in_the_mean("quadratic");
+}
+
+/// Forces turned and in other units, signals in other units, samples in another order: the same loads.
+#[test]
+fn quadratic_sensors_do_not_mind_units_order_and_frames() {
+    let random = &mut Pcg64Mcg::seed_from_u64(72);
+    for _ in 0..10 {
+        let (linear, second) = (sensor(random, 3, 3), gaussians(random, 6, 3) * 0.2);
+        let signals = gaussians(random, 30, 3);
+        let loads = bent(&signals, &linear, &second) + gaussians(random, 30, 3) * 0.01;
+        let order: Vec<usize> = (0..30).map(|i| (7 * i + 3) % 30).collect();
+        let frame = turn(random);
+        let frame = DMatrix::from_column_slice(3, 3, frame.as_slice());
+        let turned = loads.select_rows(&order) * &frame * 1e3;
+        let one = calibrate(&forces(&loads, &signals), &quadratic()).unwrap();
+        let table = forces(&turned, &(signals.select_rows(&order) * 1e-4));
+        let options = Options { nominal: Some(vec![1e3; 3]), ..quadratic() };
+        let two = calibrate(&table, &options).unwrap();
+        let unseen = gaussians(random, 5, 3);
+        let (a, b) = (one.model.loads(&unseen).unwrap(), two.model.loads(&(&unseen * 1e-4)).unwrap());
+        // Rounding of the constant column beside squares of signals.
+        assert!((b * frame.transpose() / 1e3 - a).amax() < 1e-10);
+        let trace = |calibration: &fingertip_calibration::model::Calibration| {
+            calibration.model.fit.residual_covariance.trace()
+        };
+        assert!((trace(&two) / trace(&one) - 1.0).abs() < 1e-9);
+    }
+}
+
+/// Two sessions, forces in one and torques in the other, each with a zero of its own.
+fn sessions(random: &mut Pcg64Mcg, truth: &DMatrix<f64>) -> Vec<LoadTable> {
+    [0, 3]
+        .into_iter()
+        .map(|blind| {
+            let mut loads = gaussians(random, 15, 6);
+            loads.columns_mut(blind, 3).fill(0.0);
+            let signals = (&loads * truth).add_scalar(blind as f64 + 1.0);
+            LoadTable::new(&Axis::ALL, loads, signals, SignalUnit::Volt).unwrap()
+        })
+        .collect()
+}
+
+fn merged(sessions: &[LoadTable], nominal: f64) -> fingertip_calibration::fit::Fit {
+    let options = Options { bias: false, nominal: Some(vec![nominal; 6]), ..Options::default() };
+    calibrate(&LoadTable::merged(sessions).unwrap().centred_by_group(), &options).unwrap().model.fit
+}
+
+#[test]
+fn merged_sessions_have_errors_as_stated() {
+    let random = &mut Pcg64Mcg::seed_from_u64(73);
+    let truth = sensor(random, 6, 6);
+    let clean = sessions(random, &truth);
+    assert!((merged(&clean, 1.0).coefficients - &truth).amax() < 1e-12);
+    let spread = Spread::over(400, || {
+        let mut noisy = clean.clone();
+        noisy.iter_mut().for_each(|session| session.signals += gaussians(random, 15, 6) * 0.01);
+        let fit = merged(&noisy, 1.0);
+        let variances = fit.inverse_gram.diagonal() * fit.residual_covariance.diagonal().transpose();
+        ((fit.coefficients - &truth).as_slice().to_vec(), variances.as_slice().to_vec())
+    });
+    spread.agrees_in_the_mean("merged sessions");
+}
+
+/// Each group has a zero of one reading or two, and loads to one side only, which that spoils most.
+#[test]
+fn tared_groups_have_errors_as_stated() {
+    let random = &mut Pcg64Mcg::seed_from_u64(77);
+    let truth = sensor(random, 3, 3);
+    let mut loads = gaussians(random, 30, 3).abs();
+    [0, 1, 10, 20].into_iter().for_each(|i| loads.row_mut(i).fill(0.0));
+    let mut clean = forces(&loads, &(&loads * &truth).add_scalar(2.0));
+    clean.groups = (0..30).map(|i| i / 10).collect();
+    let nominal = Some(vec![1.0; 3]);
+    let options = Options { bias: false, tare_groups: true, nominal, ..Options::default() };
+    let fitted = |table: &LoadTable| calibrate(table, &options).unwrap().model.fit;
+    assert!((fitted(&clean).coefficients - &truth).amax() < 1e-12);
+    let spread = Spread::over(800, || {
+        let mut noisy = clean.clone();
+        noisy.signals += gaussians(random, 30, 3) * 0.01;
+        let fit = fitted(&noisy);
+        let variances = fit.inverse_gram.diagonal() * fit.residual_covariance.diagonal().transpose();
+        let mut errors = (fit.coefficients - &truth).as_slice().to_vec();
+        let mut stated = variances.as_slice().to_vec();
+        errors.extend(fit.residual_covariance.diagonal().map(f64::sqrt).iter());
+        stated.extend([1e-4; 3]);
+        (errors, stated)
+    });
+    spread.agrees_in_the_mean("tared groups");
+}
+
+#[test]
+fn merged_sessions_do_not_mind_units_order_and_frames() {
+    let random = &mut Pcg64Mcg::seed_from_u64(74);
+    let truth = sensor(random, 6, 6);
+    let mut some = sessions(random, &truth);
+    some.iter_mut().for_each(|session| session.signals += gaussians(random, 15, 6) * 0.01);
+    let mut frame = DMatrix::zeros(6, 6);
+    let rotation = turn(random);
+    for k in [0, 3] {
+        frame.view_mut((k, k), (3, 3)).copy_from(&rotation);
+    }
+    let other: Vec<LoadTable> = some
+        .iter()
+        .rev()
+        .map(|session| {
+            let order: Vec<usize> = (0..15).rev().collect();
+            let loads = session.loads.select_rows(&order) * &frame * 1e3;
+            let signals = session.signals.select_rows(&order) * 1e-4;
+            LoadTable::new(&Axis::ALL, loads, signals, SignalUnit::Volt).unwrap()
+        })
+        .collect();
+    let (one, two) = (merged(&some, 1.0), merged(&other, 1e3));
+    assert!((frame * two.coefficients * 1e4 - one.coefficients).amax() < 1e-11);
+}
+
+/// Bad samples leave the others exact, whatever they are and how few there are to tell the noise from.
+#[test]
+fn samples_that_agree_are_fitted_exactly() {
+    let random = &mut Pcg64Mcg::seed_from_u64(75);
+    for _ in 0..20 {
+        let truth = sensor(random, 6, 6);
+        let loads = gaussians(random, 30, 6);
+        let mut signals = &loads * &truth;
+        for i in [4, 11, 23] {
+            signals[(i, i % 6)] += 3.0;
+        }
+        let table = LoadTable::new(&Axis::ALL, loads, signals, SignalUnit::Volt).unwrap();
+        let method = Method::Ransac { outliers: 0.2, seed: 1 };
+        let nominal = Some(vec![1.0; 6]);
+        let found =
+            calibrate(&table, &Options { method, bias: false, nominal, ..Options::default() }).unwrap();
+        assert!((found.model.fit.coefficients - &truth).amax() < 1e-12);
+        let named: Vec<&str> = found.report.excluded.iter().map(|sample| sample.sample.as_str()).collect();
+        assert_eq!(named, ["sample 5", "sample 12", "sample 24"]);
+    }
+}
+
+/// Streaming gives what all at once gives, in any units and order.
+#[test]
+fn streamed_fits_do_not_mind_units_order_and_frames() {
+    let random = &mut Pcg64Mcg::seed_from_u64(76);
+    let truth = sensor(random, 6, 6);
+    let loads = gaussians(random, 500, 6);
+    let signals = &loads * &truth + gaussians(random, 500, 6) * 0.01;
+    let rotation = turn(random);
+    let mut frame = DMatrix::zeros(6, 6);
+    for k in [0, 3] {
+        frame.view_mut((k, k), (3, 3)).copy_from(&rotation);
+    }
+    let fitted = |loads: &DMatrix<f64>, signals: &DMatrix<f64>, nominal: f64, backwards: bool| {
+        let mut fit = StreamedFit::new(&Axis::ALL, 6, SignalUnit::Volt, true);
+        for i in 0..500 {
+            let i = if backwards { 499 - i } else { i };
+            let row = |m: &DMatrix<f64>| m.row(i).iter().copied().collect::<Vec<_>>();
+            assert!(fit.push(&row(loads), &row(signals), 1.0));
+        }
+        fit.finish(Some(&[nominal; 6])).unwrap().matrix_and_zero().unwrap()
+    };
+    let (matrix, zero): (DMatrix<f64>, DVector<f64>) = fitted(&loads, &signals, 1.0, false);
+    let (other, offset) = fitted(&(&loads * &frame * 1e3), &(&signals * 1e-4), 1e3, true);
+    assert!((other * frame.transpose() * 1e4 - matrix).amax() < 1e-12);
+    assert!((offset * 1e4 - zero).amax() < 1e-13);
+}
