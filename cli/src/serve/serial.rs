@@ -5,12 +5,13 @@ use std::io::{self, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::thread;
 
+use fingertip_drivers::Pace;
 use fingertip_drivers::line::{LineFaults, SimulatedLine};
 
 use super::args::{Carrier, SimulateArguments};
 use super::frames::SerialDevice;
 use super::load::Load;
-use super::{End, Pace, announce, fault, tally};
+use super::{End, announce, cannot_bind, fault, tally};
 use crate::error::CliError;
 
 /// The sensor's end of the line.
@@ -33,11 +34,7 @@ pub(super) fn serve(
     let (mut outlet, address): (Box<dyn Outlet>, String) = match arguments.over {
         Carrier::Tcp => {
             let port = arguments.port.unwrap_or(0);
-            let listener = TcpListener::bind((arguments.listen, port)).map_err(|error| {
-                fault(format!(
-                    "cannot serve on TCP port {port}: {error}; choose another --port, 0 for any free one"
-                ))
-            })?;
+            let listener = TcpListener::bind((arguments.listen, port)).map_err(cannot_bind("TCP", port))?;
             listener.set_nonblocking(true).map_err(fault)?;
             let address = format!("{name}+tcp://{}{options}", listener.local_addr().map_err(fault)?);
             (Box::new(Tcp { listener, client: None }), address)
