@@ -1,7 +1,8 @@
 //! From MCAP to CSV.
 
-use std::fs;
-use std::io;
+use std::fs::File;
+use std::io::{self, BufReader};
+use std::path::Path;
 
 use fingertip_drivers::recording::mcap::{McapReader, Recorded};
 use fingertip_drivers::recording::{ContactCells, RecordingWriter, Schema, SignalUnit};
@@ -43,14 +44,13 @@ impl What {
 
 pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError> {
     let ConvertArguments { input, output, .. } = arguments;
-    let file = fs::read(input).map_err(|source| CliError::read("recording", input, source))?;
     let mut account = Account::default();
-    let (schema, mut columns) = survey(arguments, &file, &mut account)?;
+    let (schema, mut columns) = survey(arguments, &mut account)?;
 
     let width = schema.names().len();
     let mut writer = RecordingWriter::new(create(output, arguments.force)?, &schema)
         .map_err(|error| csv(output, error))?;
-    let mut reader = McapReader::new(&file).map_err(|error| mcap(input, &error))?;
+    let mut reader = open(input)?;
     let mut row = vec![f64::NAN; width];
     let mut at: Option<f64> = None;
     let (mut rows, mut not_finite, mut backward, mut names) = (0_u64, 0, 0, 0);
@@ -119,16 +119,17 @@ pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError>
     Ok(account)
 }
 
+fn open(input: &Path) -> Result<McapReader<BufReader<File>>, CliError> {
+    let file = File::open(input).map_err(|source| CliError::read("recording", input, source))?;
+    McapReader::new(BufReader::new(file)).map_err(|error| mcap(input, &error))
+}
+
 /// Reads the file through once: what it holds, and the columns for it.
-fn survey(
-    arguments: &ConvertArguments,
-    file: &[u8],
-    account: &mut Account,
-) -> Result<(Schema, Vec<Columns>), CliError> {
+fn survey(arguments: &ConvertArguments, account: &mut Account) -> Result<(Schema, Vec<Columns>), CliError> {
     let input = &arguments.input;
     let mut found: Vec<Columns> = Vec::new();
     let mut others: Vec<(String, u64)> = Vec::new();
-    let mut reader = McapReader::new(file).map_err(|error| mcap(input, &error))?;
+    let mut reader = open(input)?;
     while let Some(entry) = reader.next_entry().map_err(|error| mcap(input, &error))? {
         let (kind, width) = What::of(&entry.recorded);
         let second_contact = kind == What::Contact

@@ -2,6 +2,7 @@
 
 mod address;
 mod connect;
+mod gauges;
 mod line;
 mod losses;
 mod replay;
@@ -14,6 +15,7 @@ use nalgebra::SVector;
 
 pub(crate) use address::{Address, EXAMPLES};
 pub(crate) use connect::open;
+pub(crate) use gauges::{Calibrating, GaugesOf, calibrated};
 pub(crate) use losses::Losses;
 pub(crate) use replay::open as replay;
 pub(crate) use stream::{Event, Stream, StreamOptions};
