@@ -1,6 +1,8 @@
 //! Where live samples come from: sensors on a wire, the simulated fingertip, a recording that plays.
 
 mod address;
+#[cfg(target_os = "linux")]
+mod can;
 mod connect;
 mod gauges;
 mod line;
