@@ -105,7 +105,7 @@ impl<'a> Calibration<'a> {
             notes
                 .push("the dummy gauge is not used: the temperature terms of the calibration are".to_owned());
         } else if has_dummy && !has_rest {
-            notes.push("the dummy gauge is not used: that needs rest_s in the scene".to_owned());
+            notes.push("the dummy gauge is not used: that needs a rest, rest_s in the scene".to_owned());
         }
         let uses_dummy = has_dummy && has_rest && !is_warm;
         // Six gauges give the wrench exactly, more by least squares. The number is part of the type, so

@@ -22,7 +22,8 @@ Addresses of sensors: PROTOCOL://PLACE?KEY=VALUE&…
                               needed, ?rate_Hz=1000 sets its rate
   resense:///dev/ttyUSB0      Resense HEX; ?greatest_N=&greatest_Nm= are needed:
                               its range with reserve; ?request=3A0A asks for
-                              each reading with these bytes
+                              each reading with these bytes: without it lost
+                              readings cannot be noticed, and are not counted
   sim                         the simulated fingertip; ?seed=1&rate_Hz=1000
 
 Serial protocols take ?baud=, and speak over TCP with +tcp, such as
