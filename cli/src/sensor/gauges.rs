@@ -1,17 +1,15 @@
 //! Readings of gauges, from a recording or the simulated fingertip, through a calibration.
 
-use std::fs::File;
-use std::io::BufReader;
 use std::path::Path;
 
 use fingertip::wrench::Wrench;
 use fingertip_drivers::middleware::Paced;
-use fingertip_drivers::recording::mcap::{McapReader, Recorded};
 use fingertip_drivers::recording::{HeaderProblem, RecordingReader, SignalUnit};
-use fingertip_drivers::{ErrorType, Sample, SignalSource, SourceError, SourceErrorKind, WrenchSource};
+use fingertip_drivers::{ErrorType, Sample, SourceError, SourceErrorKind, WrenchSource};
 use thiserror::Error;
 
 use super::address::Address;
+use super::gauge_sources::{CsvGauges, McapGauges, SimulatedGauges};
 use super::losses::Losses;
 use super::simulated::{self, Rounds};
 use super::{Feed, SourceFeed};
@@ -19,7 +17,7 @@ use crate::calibrated::{Calibrated, Calibration, GaugeReading, Readings};
 use crate::error::CliError;
 use crate::gauge_rows::{GaugeRows, KnownTemperature};
 use crate::observe::Status;
-use crate::record::output::{Kind, mcap};
+use crate::record::output::Kind;
 
 /// Where the readings come from.
 #[derive(Clone, Copy, Debug)]
@@ -83,11 +81,11 @@ pub(crate) fn calibrated(
 }
 
 /// A reading on its own.
-struct Owned {
-    time: Option<f64>,
-    gauges: Vec<f64>,
-    dummy: Option<f64>,
-    celsius: Option<f64>,
+pub(super) struct Owned {
+    pub(super) time: Option<f64>,
+    pub(super) gauges: Vec<f64>,
+    pub(super) dummy: Option<f64>,
+    pub(super) celsius: Option<f64>,
 }
 
 impl Owned {
@@ -97,13 +95,13 @@ impl Owned {
 }
 
 /// Gives readings, as far as they can be used, one after another.
-trait GaugeSource: Send {
+pub(super) trait GaugeSource: Send {
     fn next(&mut self) -> Result<Option<Owned>, GaugeFault>;
 }
 
 /// Why there is no wrench.
 #[derive(Debug, Error)]
-enum GaugeFault {
+pub(super) enum GaugeFault {
     #[error("{}", .0.meaning())]
     Reading(Status),
     #[error("{0}")]
@@ -165,125 +163,6 @@ impl WrenchSource<f64> for CalibratedWrenches {
             Some(rest) => Err(GaugeFault::Unusable(format!("it ends within the {rest} s of rest"))),
             None => Ok(None),
         }
-    }
-}
-
-struct CsvGauges {
-    reader: RecordingReader<File>,
-    rows: GaugeRows,
-}
-
-impl GaugeSource for CsvGauges {
-    fn next(&mut self) -> Result<Option<Owned>, GaugeFault> {
-        let damaged =
-            |error: fingertip_drivers::recording::RecordingError| GaugeFault::Unusable(error.to_string());
-        while let Some(row) = self.reader.next_row().map_err(damaged)? {
-            let time = row.time();
-            let owned = self.rows.reading(&row, |reading| Owned {
-                time,
-                gauges: reading.gauges.to_vec(),
-                dummy: reading.dummy,
-                celsius: reading.celsius,
-            });
-            // Rows that repeat another one, or whose time does not advance, are passed over.
-            if owned.is_some() {
-                return Ok(owned);
-            }
-        }
-        Ok(None)
-    }
-}
-
-struct McapGauges {
-    reader: McapReader<BufReader<File>>,
-    topic: String,
-    dummy: Option<String>,
-    /// A reading whose dummy gauge is still to come.
-    waiting: Option<Owned>,
-    celsius: Option<f64>,
-}
-
-impl McapGauges {
-    /// Reads the file through once, to see what there is.
-    fn open(path: &Path, sensor: Option<&str>, celsius: Option<f64>) -> Result<(Self, Readings), CliError> {
-        let open = || {
-            let file = File::open(path).map_err(|source| CliError::read("recording", path, source))?;
-            McapReader::new(BufReader::new(file)).map_err(|error| mcap(path, &error))
-        };
-        let mut known: Vec<(String, String)> = Vec::new();
-        let mut reader = open()?;
-        while let Some(entry) = reader.next_entry().map_err(|error| mcap(path, &error))? {
-            if let Recorded::Signals(signals) = entry.recorded
-                && !known.iter().any(|(topic, _)| *topic == entry.topic)
-            {
-                known.push((entry.topic, signals.unit));
-            }
-        }
-        let gauges: Vec<_> = known.iter().filter(|(topic, _)| !topic.ends_with("/dummy")).collect();
-        let chosen = match (sensor, gauges.as_slice()) {
-            (Some(sensor), gauges) => gauges.iter().find(|(topic, _)| topic == sensor),
-            (None, [only]) => Some(only),
-            (None, _) => None,
-        };
-        let Some((topic, unit)) = chosen else {
-            let topics: Vec<&str> = gauges.iter().map(|(topic, _)| topic.as_str()).collect();
-            return Err(CliError::Mcap {
-                path: path.to_owned(),
-                message: format!("choose a topic of signals with --sensor; there are: {}", topics.join(", ")),
-            });
-        };
-        let beside = topic.rsplit_once('/').map(|(folder, _)| format!("{folder}/dummy"));
-        let dummy = beside.filter(|dummy| known.iter().any(|(topic, _)| topic == dummy));
-        let readings = Readings {
-            unit: match unit.as_str() {
-                "V" => SignalUnit::Volts,
-                "counts" => SignalUnit::Counts,
-                _ => SignalUnit::Unstated,
-            },
-            has_dummy: dummy.is_some(),
-            has_rest: false,
-            has_temperature: celsius.is_some(),
-        };
-        Ok((Self { reader: open()?, topic: topic.clone(), dummy, waiting: None, celsius }, readings))
-    }
-}
-
-impl GaugeSource for McapGauges {
-    fn next(&mut self) -> Result<Option<Owned>, GaugeFault> {
-        loop {
-            let entry = self.reader.next_entry().map_err(|error| GaugeFault::Damaged(error.to_string()))?;
-            let Some(entry) = entry else { return Ok(self.waiting.take()) };
-            let Recorded::Signals(signals) = entry.recorded else { continue };
-            if entry.topic == self.topic {
-                let (time, celsius) = (Some(entry.time), self.celsius);
-                let reading = Owned { time, gauges: signals.values, dummy: None, celsius };
-                if self.dummy.is_none() {
-                    return Ok(Some(reading));
-                }
-                if let Some(alone) = self.waiting.replace(reading) {
-                    return Ok(Some(alone));
-                }
-            } else if Some(&entry.topic) == self.dummy.as_ref()
-                && let Some(reading) = self.waiting.take_if(|reading| reading.time == Some(entry.time))
-            {
-                return Ok(Some(Owned { dummy: signals.values.first().copied(), ..reading }));
-            }
-        }
-    }
-}
-
-struct SimulatedGauges {
-    rounds: Rounds,
-    celsius: Option<f64>,
-}
-
-impl GaugeSource for SimulatedGauges {
-    fn next(&mut self) -> Result<Option<Owned>, GaugeFault> {
-        let Ok(sample) = self.rounds.next_signals();
-        Ok(sample.and_then(|Sample { time, value }| {
-            let (dummy, gauges) = value.as_slice().split_last()?;
-            Some(Owned { time, gauges: gauges.to_vec(), dummy: Some(*dummy), celsius: self.celsius })
-        }))
     }
 }
 

@@ -4,6 +4,7 @@ mod address;
 #[cfg(target_os = "linux")]
 mod can;
 mod connect;
+mod gauge_sources;
 mod gauges;
 mod line;
 mod losses;

@@ -135,7 +135,8 @@ where
     }
 }
 
-#[cfg(all(test, feature = "simulation"))]
+#[cfg(feature = "simulation")]
+#[cfg(test)]
 mod tests {
     use super::super::SimulatedCan;
     use super::*;
