@@ -48,6 +48,12 @@ fn interrupt(child: &Child) {
     assert!(killed.success());
 }
 
+/// The number before a word of what was said.
+fn number_before(said: &str, word: &str) -> f64 {
+    let (before, _) = said.split_once(&format!(" {word}")).unwrap();
+    before.rsplit([' ', ',']).next().unwrap().parse().unwrap()
+}
+
 /// Serves a device, records some samples, and looks at them: all there, at rest first, then under the load to
 /// within what the device can say.
 fn recorded(device: &str, more: &[&str], tolerance: f64) -> String {
@@ -98,6 +104,7 @@ fn what_is_served_over_serial_protocols_is_recorded() {
         "{}",
         said[1]
     );
+    assert!(said[0].contains("Link: 0 lost, 0 late, 0 repeated, 0 damaged"), "{}", said[0]);
     assert!(said[3].contains("Link: 0 lost, 0 late, 0 repeated, 0 damaged"), "{}", said[3]);
 }
 
@@ -117,10 +124,7 @@ fn losses_are_counted_exactly() {
         let faults = ["--loss", "0.1", "--duplicate", "0.05", "--reorder", "0.05", "--truncate", "0.02"];
         let server = Server::start(&folder, &[device, &faults].concat());
         let said = folder.succeed(&["record", &server.address, "-o", "out.csv", "--samples", "1000"]);
-        let number = |word: &str| -> f64 {
-            let (before, _) = said.split_once(&format!(" {word}")).unwrap();
-            before.rsplit([' ', ',']).next().unwrap().parse().unwrap()
-        };
+        let number = |word: &str| number_before(&said, word);
         let lost = number("lost");
         // 1000 samples are given of some 1200 sent. 12 % are lost or cut, 5 % come twice, 5 % of those whose next
         // one comes whole are late, 2 % are cut: four standard deviations about 144, 60, 51 and 24.
@@ -132,6 +136,14 @@ fn losses_are_counted_exactly() {
         let passed_over = (lost + number("late")) / 1000.0;
         assert!((times[999] - 0.999 - passed_over).abs() < 1e-9, "{} s: {said}", times[999]);
     }
+    // Where the sensor sends no number, its times tell.
+    let folder = Folder::new();
+    let server = Server::start(&folder, &["--serve", "bota", "--over", "tcp", "--loss", "0.1"]);
+    let said = folder.succeed(&["record", &server.address, "-o", "out.csv", "--samples", "1000"]);
+    let lost = number_before(&said, "lost");
+    let last = Contacts::parse(&folder.read("out.csv")).numbers("t_s")[999];
+    // Four standard deviations about 111.
+    assert!((66.0..156.0).contains(&lost) && (last - 0.999 - lost / 1000.0).abs() < 1e-6, "{last}: {said}");
 }
 
 #[test]

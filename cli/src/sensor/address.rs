@@ -12,7 +12,8 @@ Addresses of sensors: PROTOCOL://PLACE?KEY=VALUE&…
                               ?counts_per_N=1e6&counts_per_Nm=1e6&rate_Hz=7000
   onrobot://192.168.1.1       OnRobot (OptoForce) EtherDAQ; ?rate_Hz=
   schunk://192.168.0.100      SCHUNK FTS; ?rate_Hz=8000&udp=54843 (local port)
-  bota:///dev/ttyUSB0         Bota Systems serial
+  bota:///dev/ttyUSB0         Bota Systems serial; ?rate_Hz=800 (as it is set)
+                              lets lost samples be counted by their times
   robotous:///dev/ttyUSB0     Robotous RFT; ?counts_per_N=50&counts_per_Nm=2000
   robotous+can://can0         the same on CAN (Linux); ?first=&second=&request=
                               are needed: its identifiers, hexadecimal
@@ -62,7 +63,7 @@ impl Protocol {
         ("ati", Self::Ati, &["counts_per_N", "counts_per_Nm", "rate_Hz", "http"]),
         ("onrobot", Self::OnRobot, &["rate_Hz"]),
         ("schunk", Self::Schunk, &["rate_Hz", "udp"]),
-        ("bota", Self::Bota, &["baud"]),
+        ("bota", Self::Bota, &["baud", "rate_Hz"]),
         ("robotous", Self::Robotous, &["baud", "counts_per_N", "counts_per_Nm"]),
         ("robotous+can", Self::RobotousCan, &["first", "second", "request", "counts_per_N", "counts_per_Nm"]),
         ("dynpick", Self::DynPick, &["baud", "counts_per_N", "counts_per_Nm"]),

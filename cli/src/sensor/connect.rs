@@ -14,6 +14,7 @@ use super::address::{Address, Protocol};
 use super::can;
 use super::line::{self, Line, WAIT};
 use super::losses::Losses;
+use super::timed::Timed;
 use super::{Feed, SourceFeed, simulated};
 
 /// Opens the sensor and lets it stream. No zero is set in any sensor.
@@ -24,7 +25,14 @@ pub(crate) fn open(address: &Address) -> Result<Box<dyn Feed>, String> {
             rdt(address, CountsPerUnit::onrobot().map_err(text)?, address.positive("rate_Hz")?)
         }
         Protocol::Schunk => schunk(address),
-        Protocol::Bota => line::streaming(line::open(address, 460_800)?, BotaDecoder::new(), &[], |_| None),
+        Protocol::Bota => {
+            let rate = address.positive("rate_Hz")?;
+            let feed = line::streaming(line::open(address, 460_800)?, BotaDecoder::new(), &[], |_| None)?;
+            Ok(match rate {
+                Some(rate) => Box::new(Timed::new(feed, rate)),
+                None => feed,
+            })
+        }
         Protocol::Robotous => {
             let decoder = RobotousDecoder::new(robotous_counts(address)?);
             let line = line::open(address, 115_200)?;

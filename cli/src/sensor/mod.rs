@@ -11,6 +11,7 @@ mod losses;
 mod replay;
 mod simulated;
 mod stream;
+mod timed;
 
 use fingertip::wrench::Wrench;
 use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};

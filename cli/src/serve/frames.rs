@@ -62,8 +62,9 @@ impl SerialDevice {
     }
 
     /// What the address of this sensor must say, behind its question mark.
-    pub(super) fn options(device: Device) -> String {
+    pub(super) fn options(device: Device, rate: f64) -> String {
         match device {
+            Device::Bota => format!("?rate_Hz={rate}"),
             Device::Optoforce => {
                 let [force, torque] = OPTOFORCE;
                 format!("?counts_per_N={force}&counts_per_Nm={torque}")

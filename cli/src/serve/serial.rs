@@ -30,7 +30,7 @@ pub(super) fn serve(
 ) -> Result<String, CliError> {
     let device = arguments.serve;
     let name = format!("{device:?}").to_lowercase();
-    let options = SerialDevice::options(device);
+    let options = SerialDevice::options(device, arguments.rate);
     let (mut outlet, address): (Box<dyn Outlet>, String) = match arguments.over {
         Carrier::Tcp => {
             let port = arguments.port.unwrap_or(0);
