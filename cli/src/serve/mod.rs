@@ -2,7 +2,6 @@
 
 pub(crate) mod args;
 mod ati;
-mod frames;
 mod load;
 mod schunk;
 mod serial;

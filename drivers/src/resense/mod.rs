@@ -21,7 +21,11 @@
 //! from a public source; it is left to the user.
 
 mod decoder;
+#[cfg(feature = "simulation")]
+mod simulator;
 mod wire;
 
 pub use decoder::{Limits, ResenseDecoder, ResenseFault};
+#[cfg(feature = "simulation")]
+pub use simulator::SimulatedResense;
 pub use wire::Reading;

@@ -18,6 +18,8 @@ mod can;
 mod can_sensor;
 mod decoder;
 #[cfg(feature = "simulation")]
+mod simulated_can;
+#[cfg(feature = "simulation")]
 mod simulator;
 mod wire;
 
@@ -25,5 +27,7 @@ pub use can::{CanAssembler, CanStatistics};
 pub use can_sensor::{CanSensor, CanSensorError};
 pub use decoder::{RobotousDecoder, RobotousFault};
 #[cfg(feature = "simulation")]
-pub use simulator::{Silent, SimulatedCan, SimulatedFrame};
+pub use simulated_can::{Silent, SimulatedCan, SimulatedFrame};
+#[cfg(feature = "simulation")]
+pub use simulator::SimulatedRft;
 pub use wire::{Format, Reading, Request};
