@@ -30,18 +30,21 @@ fn long(folder: &Folder, rows: u32) {
     file.into_inner().unwrap();
 }
 
+/// Runs the program in an address space of 40 MB, which it shares with its libraries.
+#[cfg(target_os = "linux")]
+fn in_small_memory(folder: &Folder, arguments: &str) -> std::process::Output {
+    let run = format!("ulimit -v 40000 && exec {} {arguments}", env!("CARGO_BIN_EXE_fingertip"));
+    Command::new("sh").args(["-c", &run]).current_dir(folder.path("")).output().unwrap()
+}
+
 #[test]
 #[cfg(target_os = "linux")]
 fn memory_does_not_grow_with_the_recording() {
     let folder = Folder::new();
-    // 65 MB, in an address space of 40 MB that the program and its libraries share.
+    // 65 MB.
     long(&folder, 1_000_000);
     assert!(std::fs::metadata(folder.path("long.csv")).unwrap().len() > 60_000_000);
-    let run = format!(
-        "ulimit -v 40000 && exec {} analyze long.csv --scene scene.toml --output /dev/null",
-        env!("CARGO_BIN_EXE_fingertip")
-    );
-    let output = Command::new("sh").args(["-c", &run]).current_dir(folder.path("")).output().unwrap();
+    let output = in_small_memory(&folder, "analyze long.csv --scene scene.toml --output /dev/null");
     let error = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{error}");
     // No bar where the standard error is no terminal.
@@ -50,6 +53,20 @@ fn memory_does_not_grow_with_the_recording() {
     assert!(summary.contains("1\u{202f}000\u{202f}000 contacts"), "{summary}");
     let report = folder.read("report.html");
     assert!(report.len() < 400_000, "{} bytes", report.len());
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn memory_does_not_grow_with_an_mcap_file_either() {
+    let folder = Folder::new();
+    long(&folder, 400_000);
+    for arguments in ["convert long.csv long.mcap", "convert long.mcap back.csv"] {
+        let output = in_small_memory(&folder, arguments);
+        let error = String::from_utf8_lossy(&output.stderr);
+        let said = String::from_utf8_lossy(&output.stdout);
+        assert!(output.status.success() && said.contains("400\u{202f}000 wrenches"), "{said}{error}");
+    }
+    assert!(std::fs::metadata(folder.path("long.mcap")).unwrap().len() > 50_000_000);
 }
 
 #[test]

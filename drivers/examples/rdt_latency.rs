@@ -3,7 +3,8 @@
 //!
 //! One thread sends and notes when; the other receives through the client, resolves the contact on a
 //! sphere with a friction margin, and notes when that is done. On a machine with one free core the two
-//! take turns and the figures mean little.
+//! take turns and the figures mean little: there, `--one-thread` sends each record and receives it at once,
+//! so that nobody waits for a turn. `--poll` receives without blocking.
 
 extern crate alloc;
 
@@ -18,7 +19,7 @@ use fingertip::Fingertip;
 use fingertip::friction::Coulomb;
 use fingertip::surfaces::{PointContact, Sphere};
 use fingertip_drivers::ati_rdt::{ClientError, CountsPerUnit, RdtClient, Record};
-use fingertip_drivers::{NbWrenchSource, WrenchSource};
+use fingertip_drivers::{LinkStatistics, NbWrenchSource, WrenchSource};
 
 const RECORDS: u32 = 500_000;
 const RATE: f64 = 100_000.0;
@@ -33,6 +34,28 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut request = [0; 8];
     let (_, address) = sensor.recv_from(&mut request)?;
     sensor.connect(address)?;
+    let mut fingertip = Fingertip::builder()
+        .contact(Sphere::centred(13e-3)?, PointContact::new(0.1)?)
+        .friction(Coulomb::new(0.6)?)
+        .build();
+    if std::env::args().any(|argument| argument == "--one-thread") {
+        let mut latencies = Vec::new();
+        let start = Instant::now();
+        for number in 0..RECORDS {
+            while start.elapsed().as_secs_f64() < f64::from(number) / RATE {
+                core::hint::spin_loop();
+            }
+            let before = now();
+            sensor.send(&record(number).emit())?;
+            let wrench = client.next_wrench()?.ok_or("the sensor is gone")?.value;
+            let touch = fingertip.feel(wrench, 1.0 / RATE, None);
+            touch.resolution.into_result().map_err(|reason| format!("no contact: {reason:?}"))?;
+            latencies.push(now().saturating_sub(before));
+        }
+        let rate = f64::from(RECORDS) / start.elapsed().as_secs_f64();
+        say("one thread", rate, &mut latencies, client.statistics());
+        return Ok(());
+    }
     let sent: Arc<Vec<AtomicU64>> = Arc::new((0..RECORDS).map(|_| AtomicU64::new(0)).collect());
     let note = Arc::clone(&sent);
     let sender = std::thread::spawn(move || -> std::io::Result<f64> {
@@ -42,19 +65,12 @@ fn main() -> Result<(), Box<dyn Error>> {
             while start.elapsed().as_secs_f64() < due {
                 core::hint::spin_loop();
             }
-            // 0.5 N along x and 2 N against z, moving about.
-            let x = 500_000 + i32::try_from(number % 1000).unwrap_or(0);
-            let counts = [x, 0, -2_000_000, 0, 6_500, 0];
-            let record = Record { rdt_sequence: number + 1, ft_sequence: number, status: 0, counts };
+            let record = record(number).emit();
             place.store(now(), Ordering::Release);
-            sensor.send(&record.emit())?;
+            sensor.send(&record)?;
         }
         Ok(f64::from(RECORDS) / start.elapsed().as_secs_f64())
     });
-    let mut fingertip = Fingertip::builder()
-        .contact(Sphere::centred(13e-3)?, PointContact::new(0.1)?)
-        .friction(Coulomb::new(0.6)?)
-        .build();
     let mut latencies = Vec::with_capacity(sent.len());
     let mut contacts = 0_u32;
     while client.statistics().received < u64::from(RECORDS) {
@@ -81,7 +97,20 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     let rate = sender.join().map_err(|_| "the sender died")??;
-    let statistics = *client.statistics();
+    say(if polled { "polled" } else { "blocking" }, rate, &mut latencies, client.statistics());
+    println!("{contacts} contacts");
+    Ok(())
+}
+
+/// 0.5 N along x and 2 N against z, moving about.
+fn record(number: u32) -> Record {
+    let x = 500_000 + i32::try_from(number % 1000).unwrap_or(0);
+    let counts = [x, 0, -2_000_000, 0, 6_500, 0];
+    Record { rdt_sequence: number + 1, ft_sequence: number, status: 0, counts }
+}
+
+/// Prints the rate and the quantiles of latencies \[ns\].
+fn say(how: &str, rate: f64, latencies: &mut [u64], statistics: &LinkStatistics) {
     latencies.sort_unstable();
     let quantile = |share: f64| {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
@@ -89,8 +118,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         latencies.get(index).map_or(f64::NAN, |nanoseconds| *nanoseconds as f64 * 1e-3)
     };
     println!(
-        "{}: {rate:.0} records/s sent; {} received, {} lost, {contacts} contacts; datagram to contact: median {:.1} µs, 99 % {:.1} µs, 99.9 % {:.1} µs, worst {:.1} µs",
-        if polled { "polled" } else { "blocking" },
+        "{how}: {rate:.0} records/s sent; {} received, {} lost; datagram to contact: median {:.1} µs, 99 % {:.1} µs, \
+         99.9 % {:.1} µs, worst {:.1} µs",
         statistics.received,
         u64::from(RECORDS) - statistics.received,
         quantile(0.5),
@@ -98,5 +127,4 @@ fn main() -> Result<(), Box<dyn Error>> {
         quantile(0.999),
         quantile(1.0),
     );
-    Ok(())
 }

@@ -53,6 +53,23 @@ impl AxisCounts {
         let [fx, fy, fz, tx, ty, tz] = si;
         Wrench::on_fingertip(Vector3::new(fx, fy, fz), Vector3::new(tx, ty, tz))
     }
+
+    /// The nearest counts of a load \[N, N·m\], within the range of a converter of 16 bits.
+    #[cfg(feature = "simulation")]
+    #[expect(clippy::cast_possible_truncation, reason = "saturates, as a converter does")]
+    pub(crate) fn of(&self, load: &[f64; 6]) -> [i16; 6] {
+        let mut counts = [0; 6];
+        for ((count, component), per_count) in counts.iter_mut().zip(load).zip(self.per_count) {
+            *count = (component / per_count).round() as i16;
+        }
+        counts
+    }
+
+    /// Counts per newton and per newton metre.
+    #[cfg(all(feature = "simulation", feature = "dynpick"))]
+    pub(crate) fn per_unit(&self) -> [f64; 6] {
+        self.per_count.map(f64::recip)
+    }
 }
 
 #[cfg(test)]

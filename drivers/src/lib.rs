@@ -42,6 +42,8 @@ pub mod middleware;
 pub mod nau7802;
 #[cfg(feature = "optoforce")]
 pub mod optoforce;
+#[cfg(feature = "simulation")]
+mod pace;
 #[cfg(feature = "std")]
 pub mod recording;
 #[cfg(feature = "resense")]
@@ -54,6 +56,8 @@ pub mod schunk_fts;
 mod sequence_watch;
 #[cfg(all(feature = "simulation", any(feature = "ati-rdt", feature = "schunk-fts")))]
 mod served;
+#[cfg(all(feature = "simulation", any(feature = "ati-rdt", feature = "schunk-fts")))]
+mod simulated_sensor;
 #[cfg(feature = "simulation")]
 pub mod simulation;
 mod source;
@@ -63,8 +67,12 @@ pub use axis_counts::{AxisCounts, BadAxisCounts};
 #[cfg(all(feature = "simulation", any(feature = "ati-rdt", feature = "schunk-fts")))]
 pub use datagram_link::FaultPlan;
 pub use faces::{AsyncSignalSource, AsyncWrenchSource, NbSignalSource, NbWrenchSource};
+#[cfg(feature = "simulation")]
+pub use pace::Pace;
 #[cfg(any(feature = "ati-rdt", feature = "schunk-fts"))]
 pub use sequence_watch::{Arrival, LinkStatistics, SequenceWatch};
 #[cfg(all(feature = "simulation", any(feature = "ati-rdt", feature = "schunk-fts")))]
 pub use served::Served;
+#[cfg(all(feature = "simulation", any(feature = "ati-rdt", feature = "schunk-fts")))]
+pub use simulated_sensor::SimulatedSensor;
 pub use source::{ErrorType, Sample, SignalSource, SourceError, SourceErrorKind, WrenchSource};

@@ -15,7 +15,8 @@ use core::task::{Context, Poll, Waker};
 
 use fingertip_drivers::dynpick::{self, DynPickDecoder, DynPickFault};
 use fingertip_drivers::line::{
-    AsyncLine, EmbeddedLine, LineDecoder, LineError, LineFaults, LineSensor, LineStatistics, SimulatedLine,
+    AsyncLine, EmbeddedLine, LineDecoder, LineError, LineFaults, LineSensor, LineStatistics, SerialDevice,
+    SimulatedLine, SimulatedSerial,
 };
 use fingertip_drivers::optoforce::{self, OptoForceDecoder, OptoForceFault};
 use fingertip_drivers::resense::{self, Limits, ResenseDecoder, ResenseFault};
@@ -179,6 +180,77 @@ fn what_the_sensors_say_of_themselves_is_an_error() {
 }
 
 /// Runs a future that never waits.
+/// A simulated device where its port would be, through 30 samples: the wrenches that come, each asked for by
+/// `request` before its sample.
+fn through<D: LineDecoder<f64>>(
+    device: impl SerialDevice,
+    faults: LineFaults,
+    decoder: D,
+    request: impl Fn(u32) -> Vec<u8>,
+) -> Vec<Wrench<f64>>
+where
+    D::Fault: core::fmt::Display,
+{
+    let mut sensor = LineSensor::new(SimulatedSerial::new(device, faults), decoder);
+    let mut wrenches = Vec::new();
+    for number in 0..30 {
+        std::io::Write::write_all(sensor.line_mut(), &request(number)).unwrap();
+        sensor.line_mut().sample([f64::from(number), -2.0, 0.0, 0.5, 0.0, 1.0]);
+        // The line is empty for the moment, if nothing came.
+        if let Ok(Some(sample)) = sensor.next_wrench() {
+            wrenches.push(sample.value);
+        }
+    }
+    wrenches
+}
+
+#[test]
+fn each_device_is_simulated_at_the_other_end_of_its_line() {
+    let counts = AxisCounts::uniform(100.0, 1000.0).unwrap();
+    let sound = LineFaults::default();
+    let limits = Limits { force: 50.0, torque: 5.0, temperature: [0.0, 50.0], temperature_step: 1.0 };
+    let expected = |number: u32| -> Wrench<f64> {
+        Wrench::from_components(&[f64::from(number), -2.0, 0.0, 0.5, 0.0, 1.0].into())
+    };
+    let is_all = |wrenches: Vec<Wrench<f64>>, first: u32| {
+        let numbers = first..30;
+        assert_eq!(wrenches.len(), numbers.len());
+        for (wrench, number) in wrenches.iter().zip(numbers) {
+            assert!((wrench.components() - expected(number).components()).amax() < 1e-9, "{wrench:?}");
+        }
+    };
+    let once = |bytes: Vec<u8>, at| move |number| if number == at { bytes.clone() } else { Vec::new() };
+    let stream = robotous::Request::Stream.emit_serial().to_vec();
+    is_all(
+        through(robotous::SimulatedRft::new(counts), sound, RobotousDecoder::new(counts), once(stream, 3)),
+        3,
+    );
+    let asked = |_| vec![dynpick::REQUEST];
+    is_all(through(dynpick::SimulatedDynPick::new(counts), sound, DynPickDecoder::new(counts), asked), 0);
+    let optoforce = optoforce::SimulatedOptoForce::new(counts);
+    is_all(through(optoforce, sound, OptoForceDecoder::new(counts), |_| Vec::new()), 0);
+    // It stops, and begins again with the load of then as zero.
+    let (filter, stop) = (optoforce::Filter::None, optoforce::Rate::Stop);
+    let configure = |number| match number {
+        10 => optoforce::Configuration { rate: stop, filter, zero: false }.emit().to_vec(),
+        20 => optoforce::Configuration { rate: optoforce::Rate::Hz1000, filter, zero: true }.emit().to_vec(),
+        _ => Vec::new(),
+    };
+    let wrenches = through(optoforce, sound, OptoForceDecoder::new(counts), configure);
+    let forces: Vec<f64> = wrenches.iter().map(|wrench| wrench.force().x.round()).collect();
+    let zeroed = (1..11).map(f64::from);
+    assert_eq!(forces, (0..10).map(f64::from).chain(zeroed).collect::<Vec<_>>());
+    let resense = || ResenseDecoder::new(limits);
+    is_all(through(resense::SimulatedResense::streaming(), sound, resense(), |_| Vec::new()), 0);
+    let device = resense::SimulatedResense::asked_by(b"Rd".to_vec());
+    is_all(through(device.clone(), sound, resense(), |_| b"Rd".to_vec()), 0);
+    // Where each reading is asked for, those that are lost are those that do not come.
+    let lossy = LineFaults { lost_frame: 0.3, seed: 3, ..sound };
+    let came = through(device, lossy, resense(), |_| b"Rd".to_vec());
+    assert!((10..28).contains(&came.len()), "{}", came.len());
+    assert!(came.iter().all(|wrench| wrench.force().y == -2.0));
+}
+
 fn ready<F: Future>(future: F) -> F::Output {
     match pin!(future).poll(&mut Context::from_waker(Waker::noop())) {
         Poll::Ready(output) => output,

@@ -2,12 +2,12 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 #![cfg(all(feature = "mcap", feature = "simulation"))]
 
-use std::io::Cursor;
+use std::io::{Cursor, Read};
 
-use fingertip_drivers::WrenchSource;
 use fingertip_drivers::recording::mcap::{
     McapError, McapPlayback, McapReader, McapWriter, Recorded, RecordedContact, RecordedSignals,
 };
+use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
 use fingertip_wrench::Wrench;
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
@@ -46,7 +46,7 @@ fn file(samples: u32) -> Vec<u8> {
 #[test]
 fn all_that_is_written_is_read() {
     let file = file(2000);
-    let mut reader = McapReader::new(&file).unwrap();
+    let mut reader = McapReader::new(file.as_slice()).unwrap();
     let (mut wrenches, mut signals, mut contacts) = (0, 0, 0);
     while let Some(entry) = reader.next_entry().unwrap() {
         assert_eq!(entry.frame, "tip");
@@ -75,15 +75,15 @@ fn all_that_is_written_is_read() {
         }
     }
     assert_eq!((wrenches, signals, contacts), (2000, 2000, 200));
-    let mut playback = McapPlayback::new(&file, "").unwrap();
+    let mut playback = McapPlayback::new(Cursor::new(&file), "").unwrap();
     let mut played = 0;
     while let Some(sample) = playback.next_wrench().unwrap() {
         assert_eq!(sample.value, wrench(played));
         played += 1;
     }
     assert_eq!((played, playback.not_finite()), (2000, 1));
-    assert!(McapPlayback::new(&file, "/tip/wrench").is_ok());
-    let error = McapPlayback::new(&file, "/other").unwrap_err();
+    assert!(McapPlayback::new(Cursor::new(&file), "/tip/wrench").is_ok());
+    let error = McapPlayback::new(Cursor::new(&file), "/other").unwrap_err();
     assert!(error.to_string().contains("/tip/wrench"), "{error}");
 }
 
@@ -100,7 +100,7 @@ fn a_damaged_file_is_an_error_and_never_gives_wrong_wrenches() {
             let at = random.random_range(0..sound.len());
             damaged[at] ^= 1 << random.random_range(0..8);
         }
-        let Ok(mut reader) = McapReader::new(&damaged) else {
+        let Ok(mut reader) = McapReader::new(damaged.as_slice()) else {
             errors += 1;
             continue;
         };
@@ -127,10 +127,65 @@ fn a_damaged_file_is_an_error_and_never_gives_wrong_wrenches() {
         bytes.extend(
             (0..random.random_range(0..200)).map(|_| random.random::<u8>() >> random.random_range(0..8)),
         );
-        if let Ok(mut reader) = McapReader::new(&bytes) {
+        if let Ok(mut reader) = McapReader::new(bytes.as_slice()) {
             while let Ok(Some(_)) = reader.next_entry() {}
         }
     }
+}
+
+/// Gives a byte or some at a time, as a pipe may, and counts them.
+struct Trickle<'a>(&'a [u8], usize);
+
+impl Read for Trickle<'_> {
+    fn read(&mut self, to: &mut [u8]) -> std::io::Result<usize> {
+        self.1 += 1;
+        let length = to.len().min(1 + self.1 % 7);
+        self.0.read(&mut to[..length])
+    }
+}
+
+#[test]
+fn a_file_is_read_from_whatever_gives_its_bytes() {
+    let file = file(300);
+    let mut whole = McapReader::new(file.as_slice()).unwrap();
+    let mut pieces = McapReader::new(Trickle(&file, 0)).unwrap();
+    let mut entries = 0;
+    loop {
+        let (expected, found) = (whole.next_entry().unwrap(), pieces.next_entry().unwrap());
+        // A wrench that is not finite equals nothing.
+        assert_eq!(format!("{found:?}"), format!("{expected:?}"));
+        if found.is_none() {
+            break;
+        }
+        entries += 1;
+    }
+    assert_eq!(entries, 300 + 300 + 30 + 1);
+}
+
+#[test]
+fn a_length_that_cannot_be_takes_no_memory() {
+    for opcode in [0x03_u8, 0x04, 0x05, 0x06, 0x09, 0x0F] {
+        for length in [1_u64 << 20, 1 << 40, u64::MAX] {
+            let file = [&b"\x89MCAP0\r\n"[..], &[opcode], &length.to_le_bytes(), &[0; 100]].concat();
+            let error = McapReader::new(file.as_slice()).unwrap().next_entry().unwrap_err();
+            assert_eq!(error.kind(), SourceErrorKind::Corrupt, "{error}");
+        }
+    }
+}
+
+#[test]
+fn what_is_whole_of_a_file_that_was_cut_is_played() {
+    let file = file(20_000);
+    let mut playback = McapPlayback::new(Cursor::new(&file[..file.len() / 2]), "").unwrap();
+    let mut played = 0;
+    let error = loop {
+        match playback.next_wrench() {
+            Ok(sample) => assert_eq!(sample.unwrap().value, wrench(played)),
+            Err(error) => break error,
+        }
+        played += 1;
+    };
+    assert!(matches!(error, McapError::File(_)) && played > 1000, "{played}: {error}");
 }
 
 #[test]
@@ -145,7 +200,7 @@ fn an_attachment_whose_length_is_wrong_is_passed_over() {
         attachment[16] = length;
         attachment[24] = length;
         let file = [&file[..], &attachment].concat();
-        let mut reader = McapReader::new(&file).unwrap();
+        let mut reader = McapReader::new(file.as_slice()).unwrap();
         assert!(reader.next_entry().is_err(), "the file has no end");
     }
 }

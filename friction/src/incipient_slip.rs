@@ -51,19 +51,27 @@ struct Place<T: Real> {
 }
 
 impl<T: Real> Place<T> {
-    /// Square of the distance from another place in steps of which `scale` make a metre: it
+    /// Square of the distance to a displacement in steps of which `scale` make a metre: it
     /// underflows only far below a step, and where it overflows it is far.
     #[inline]
-    fn square_from(&self, other: &Self, scale: T) -> T {
-        ((self.displacement - other.displacement) * scale).norm_squared()
+    fn square_to(&self, displacement: &Vector3<T>, scale: T) -> T {
+        ((displacement - self.displacement) * scale).norm_squared()
     }
 
-    /// Stiffness \[N/m\] from another place: the force on the fingertip opposes its displacement.
-    /// Not a number where they are one, or too far apart for the square.
+    /// Stiffness \[N/m\] from here to another place: the force on the fingertip opposes its
+    /// displacement. Not a number where they are one, or too far apart for the square.
     #[inline]
-    fn stiffness_from(&self, other: &Self, scale: T) -> T {
-        let way = (self.displacement - other.displacement) * scale;
-        -(self.force - other.force).dot(&way) * scale / way.norm_squared()
+    fn stiffness_to(&self, other: &Self, scale: T) -> T {
+        let way = (other.displacement - self.displacement) * scale;
+        -(other.force - self.force).dot(&way) * scale / way.norm_squared()
+    }
+
+    /// Takes a sample's place. It is written component by component: a copy of a whole place that has just been
+    /// put together stalls until all its parts have arrived.
+    #[inline]
+    fn set(&mut self, force: &Vector3<T>, displacement: &Vector3<T>) {
+        self.displacement.copy_from(displacement);
+        self.force.copy_from(force);
     }
 }
 
@@ -102,36 +110,31 @@ impl<T: Real> IncipientSlip<T> {
             self.state = None;
             return SlipVerdict::NotPressing;
         }
-        let here = Place { displacement: *displacement, force: force.tangential };
-        let scale = self.scale;
+        let (scale, tangential) = (self.scale, &force.tangential);
         let Some(state) = &mut self.state else {
-            self.state = Some(State::at(here));
+            self.state = Some(State::at(Place { displacement: *displacement, force: *tangential }));
             return SlipVerdict::Holding;
         };
-        let square = here.square_from(&state.turn, scale);
+        let square = state.turn.square_to(displacement, scale);
         if square > state.farthest_square {
-            state.farthest = here;
+            state.farthest.set(tangential, displacement);
             state.farthest_square = square;
         } else {
-            let back = here.square_from(&state.farthest, scale);
+            let back = state.farthest.square_to(displacement, scale);
             if back > T::one() {
-                // It turned: the farthest place is the new start.
-                let start = state.farthest;
-                *state = State::at(start);
-                state.farthest = here;
-                state.farthest_square = back;
+                state.turn_around(tangential, displacement, back);
             }
         }
         if square < T::one() && state.known == 1 {
             // At rest before the motion: the force may relax.
-            state.turn.force = here.force;
+            state.turn.force = *tangential;
             state.places[0] = state.turn;
             return state.verdict;
         }
-        if here.square_from(&state.places[state.newest], scale) < T::one() {
+        if state.places[state.newest].square_to(displacement, scale) < T::one() {
             return state.verdict;
         }
-        state.arrive(here, scale, self.warning_share)
+        state.arrive(tangential, displacement, scale, self.warning_share)
     }
 
     /// The mean tangential stiffness \[N/m\] since the motion last turned; `None` before enough
@@ -148,12 +151,26 @@ impl<T: Real> IncipientSlip<T> {
 }
 
 impl<T: Real> State<T> {
+    /// The motion turned: the farthest place is the new start.
+    #[inline(never)]
+    fn turn_around(&mut self, force: &Vector3<T>, displacement: &Vector3<T>, back: T) {
+        *self = Self::at(self.farthest);
+        self.farthest.set(force, displacement);
+        self.farthest_square = back;
+    }
+
     /// Takes a new place, and judges the stiffness up to it.
     #[inline(never)]
-    fn arrive(&mut self, here: Place<T>, scale: T, warning_share: T) -> SlipVerdict {
+    fn arrive(
+        &mut self,
+        force: &Vector3<T>,
+        displacement: &Vector3<T>,
+        scale: T,
+        warning_share: T,
+    ) -> SlipVerdict {
         let after = |index: usize| if index >= PLACES { 0 } else { index + 1 };
         self.newest = after(self.newest);
-        self.places[self.newest] = here;
+        self.places[self.newest].set(force, displacement);
         if self.known <= PLACES {
             self.known += 1;
         }
@@ -162,12 +179,12 @@ impl<T: Real> State<T> {
         }
         // The first stretches settle: fewer than four windows tell no mean stiffness.
         let settled = T::literal((4 * PLACES * 4 * PLACES) as f64);
-        let oldest = &self.places[after(self.newest)];
-        if oldest.square_from(&self.turn, scale) < settled {
+        let (here, oldest) = (&self.places[self.newest], &self.places[after(self.newest)]);
+        if self.turn.square_to(&oldest.displacement, scale) < settled {
             return self.verdict;
         }
-        let mean = oldest.stiffness_from(&self.turn, scale);
-        let local = here.stiffness_from(oldest, scale);
+        let mean = self.turn.stiffness_to(oldest, scale);
+        let local = oldest.stiffness_to(here, scale);
         if mean > T::zero() && mean.is_number() {
             self.stiffness = Some(mean);
             if self.verdict == SlipVerdict::Holding && local < mean * warning_share {

@@ -58,14 +58,8 @@ impl<T: Real> SlipDetector<T> for StickSlipDetector<T> {
         {
             *since += time_step;
         }
-        if verdict == SlipVerdict::Slipping {
-            if let Some(since) = self.since {
-                self.periods = [self.periods[1], self.periods[2], since];
-                self.known = (self.known + 1).min(3);
-            }
-            self.since = Some(T::zero());
-        } else if verdict == SlipVerdict::NotPressing && force.is_finite() && time_step.is_number() {
-            self.forget();
+        if verdict != SlipVerdict::Holding {
+            self.take(verdict, force.is_finite() && time_step.is_number());
         }
         verdict
     }
@@ -77,6 +71,20 @@ impl<T: Real> SlipDetector<T> for StickSlipDetector<T> {
 }
 
 impl<T: Real> StickSlipDetector<T> {
+    /// A drop, or a sample without contact if it is `sound`.
+    #[cold]
+    fn take(&mut self, verdict: SlipVerdict, sound: bool) {
+        if verdict == SlipVerdict::Slipping {
+            if let Some(since) = self.since {
+                self.periods = [self.periods[1], self.periods[2], since];
+                self.known = (self.known + 1).min(3);
+            }
+            self.since = Some(T::zero());
+        } else if verdict == SlipVerdict::NotPressing && sound {
+            self.forget();
+        }
+    }
+
     fn forget(&mut self) {
         self.since = None;
         self.known = 0;

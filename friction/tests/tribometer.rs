@@ -57,7 +57,8 @@ const SAMPLE: f64 = 5e-3;
 /// - stroke 5's label marks where the apparent slip *falls* through 5 µm (the pad is at its
 ///   stiffest, 52 N/mm, there). It passes 5 µm for good 120 ms later, and there the onset is found.
 /// - strokes 56 and 86: 54 ms late, less than one sample above 50 ms, while a stiffness lower by its
-///   own standard deviation puts their labels 20 ms later.
+///   own standard deviation puts their labels 20 ms later. The time at which the share of the stiffness crosses the
+///   warning share, interpolated between the samples, is 53 and 54 ms late.
 #[test]
 fn onsets_match_the_labels() {
     let Some(recording) = Recording::open() else { return };

@@ -5,7 +5,6 @@ mod files;
 mod payload;
 mod progress;
 mod recorded;
-mod rest;
 mod source;
 mod volts;
 mod wrenches;

@@ -3,8 +3,8 @@
 use fingertip::wrench::{TareError, Wrench};
 use fingertip_drivers::recording::Row;
 
-use super::rest::Doubt;
 use crate::observe::Status;
+use crate::rest_watch::Doubt;
 
 /// What a row of a recording holds of one sensor.
 pub(super) trait Recorded {

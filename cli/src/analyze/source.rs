@@ -8,10 +8,11 @@ use fingertip_drivers::recording::{HeaderProblem, Row};
 use super::files::Rows;
 use super::payload::Carried;
 use super::recorded::Recorded;
-use super::volts::{self, KnownTemperature};
+use super::volts;
 use super::wrenches::Wrenches;
 use crate::args::AnalyzeArguments;
 use crate::error::CliError;
+use crate::gauge_rows::KnownTemperature;
 use crate::observe::Status;
 use crate::scene::{Convention, Scene};
 

@@ -5,8 +5,8 @@ use fingertip_drivers::recording::{HeaderProblem, Layout, Row, WrenchColumns};
 use nalgebra::Vector6;
 
 use super::recorded::Recorded;
-use super::rest::{Doubt, RestWatch};
 use crate::observe::Status;
+use crate::rest_watch::{Doubt, RestWatch};
 
 /// The wrench of one sensor, tared.
 pub(super) struct Wrenches {

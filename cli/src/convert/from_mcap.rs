@@ -1,7 +1,7 @@
 //! From MCAP to CSV.
 
-use std::fs;
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, BufReader, Write};
 use std::path::Path;
 
 use fingertip_drivers::recording::mcap::{McapReader, Recorded};
@@ -50,20 +50,19 @@ pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError>
     Ok(account)
 }
 
-/// Writes a recording as CSV to what `open` opens once it is known that there is something to write; `output`
-/// is for messages.
+/// Writes a recording as CSV to what `destination` opens once it is known that there is something to write;
+/// `output` is for messages.
 pub(crate) fn to_csv<W: Write>(
     input: &Path,
     output: &Path,
-    open: impl FnOnce() -> Result<W, CliError>,
+    destination: impl FnOnce() -> Result<W, CliError>,
 ) -> Result<(W, Account), CliError> {
-    let file = fs::read(input).map_err(|source| CliError::read("recording", input, source))?;
     let mut account = Account::default();
-    let (schema, mut columns) = survey(input, &file, &mut account)?;
+    let (schema, mut columns) = survey(input, &mut account)?;
 
     let width = schema.names().len();
-    let mut writer = RecordingWriter::new(open()?, &schema).map_err(|error| csv(output, error))?;
-    let mut reader = McapReader::new(&file).map_err(|error| mcap(input, &error))?;
+    let mut writer = RecordingWriter::new(destination()?, &schema).map_err(|error| csv(output, error))?;
+    let mut reader = open(input)?;
     let mut row = vec![f64::NAN; width];
     let mut at: Option<f64> = None;
     let (mut rows, mut not_finite, mut backward, mut names) = (0_u64, 0, 0, 0);
@@ -130,11 +129,16 @@ pub(crate) fn to_csv<W: Write>(
     Ok((file, account))
 }
 
+fn open(input: &Path) -> Result<McapReader<BufReader<File>>, CliError> {
+    let file = File::open(input).map_err(|source| CliError::read("recording", input, source))?;
+    McapReader::new(BufReader::new(file)).map_err(|error| mcap(input, &error))
+}
+
 /// Reads the file through once: what it holds, and the columns for it.
-fn survey(input: &Path, file: &[u8], account: &mut Account) -> Result<(Schema, Vec<Columns>), CliError> {
+fn survey(input: &Path, account: &mut Account) -> Result<(Schema, Vec<Columns>), CliError> {
     let mut found: Vec<Columns> = Vec::new();
     let mut others: Vec<(String, u64)> = Vec::new();
-    let mut reader = McapReader::new(file).map_err(|error| mcap(input, &error))?;
+    let mut reader = open(input)?;
     while let Some(entry) = reader.next_entry().map_err(|error| mcap(input, &error))? {
         let (kind, width) = What::of(&entry.recorded);
         let second_contact = kind == What::Contact

@@ -24,7 +24,7 @@ use state::{Health, State};
 use crate::error::CliError;
 use crate::felt::{Rest, SceneFeel};
 use crate::scene::Scene;
-use crate::sensor::{self, Event, Stream, StreamOptions};
+use crate::sensor::{self, Calibrating, Event, GaugesOf, Stream, StreamOptions};
 use crate::stop::Stop;
 
 /// How long a zero takes that is asked for by a key \[s\].
@@ -69,10 +69,13 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
         state.coefficient = scene.friction.coefficient();
         state.watches_slip = scene.slip.is_on();
     }
-    let rest = Rest::new(arguments.tare.or_else(|| scene.as_ref().and_then(|scene| scene.rest)));
+    let named = scene.as_ref().and_then(|scene| scene.sensor.clone());
+    let seconds = arguments.tare.or_else(|| scene.as_ref().and_then(|scene| scene.rest));
+    // The rest of gauges is taken of their readings.
+    let rest = Rest::new(seconds.filter(|_| arguments.calibration.is_none()));
     let feel = scene.map(|scene| SceneFeel::new(scene, true));
     // Before the terminal is taken, so that what is wrong is said in plain lines.
-    let stream = open(arguments)?;
+    let stream = open(arguments, seconds.filter(|rest| *rest > 0.0), named.as_deref())?;
     let shared =
         Arc::new(Shared { state: Mutex::new(state), stop: Stop::listen(), tare: AtomicBool::new(false) });
     let reading = Arc::clone(&shared);
@@ -95,24 +98,43 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
     read.map_err(fault)
 }
 
-fn open(arguments: &LiveArguments) -> Result<Stream, CliError> {
-    let fault = |address: String| move |message| CliError::Sensor { address, message };
-    let silence = Duration::from_secs(2);
-    match &arguments.replay {
-        Some(path) => {
-            let mut first =
-                Some(sensor::replay(path, arguments.sensor.as_deref().unwrap_or(""), arguments.speed)?);
-            let again = move || first.take().ok_or_else(|| "the recording is over".to_owned());
-            let options = StreamOptions { silence, reconnect: false };
-            Stream::new(Box::new(again), options).map_err(fault(path.display().to_string()))
+/// Opens the source. `rest` is how long nothing touches at the start, for gauges, and `named` their sensor by the
+/// scene.
+fn open(arguments: &LiveArguments, rest: Option<f64>, named: Option<&str>) -> Result<Stream, CliError> {
+    let LiveArguments { address, replay, speed, sensor, .. } = arguments;
+    let place = replay.as_ref().map_or_else(|| address.to_string(), |path| path.display().to_string());
+    let fault = |message| CliError::Sensor { address: place.clone(), message };
+    let mut options = StreamOptions { silence: Duration::from_secs(2), reconnect: false };
+    let once = match (&arguments.calibration, replay) {
+        (None, None) => {
+            options.reconnect = !arguments.no_reconnect;
+            let address = address.clone();
+            return Stream::new(Box::new(move || sensor::open(&address)), options).map_err(fault);
         }
-        None => {
-            let address = arguments.address.clone();
-            let options = StreamOptions { silence, reconnect: !arguments.no_reconnect };
-            Stream::new(Box::new(move || sensor::open(&address)), options)
-                .map_err(fault(arguments.address.to_string()))
+        (None, Some(path)) => sensor::replay(path, sensor.as_deref().unwrap_or(""), *speed)?,
+        (Some(calibration), replay) => {
+            let gauges = match replay {
+                Some(path) => {
+                    GaugesOf::Recording { path, sensor: sensor.as_deref().or(named), speed: *speed }
+                }
+                None if address.is_simulated() => GaugesOf::Simulated(address),
+                None => {
+                    return Err(fault(
+                        "this sensor gives wrenches; --calibration is for readings of gauges, those of --replay or sim"
+                            .to_owned(),
+                    ));
+                }
+            };
+            let mut notes = Vec::new();
+            let how = Calibrating { calibration, rest, celsius: arguments.celsius };
+            let feed = sensor::calibrated(gauges, &how, &mut notes)?;
+            notes.iter().for_each(|note| eprintln!("note: {note}"));
+            feed
         }
-    }
+    };
+    let mut first = Some(once);
+    let again = move || first.take().ok_or_else(|| "the recording is over".to_owned());
+    Stream::new(Box::new(again), options).map_err(fault)
 }
 
 /// Takes samples until it is asked to end.

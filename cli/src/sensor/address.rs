@@ -12,15 +12,19 @@ Addresses of sensors: PROTOCOL://PLACE?KEY=VALUE&…
                               ?counts_per_N=1e6&counts_per_Nm=1e6&rate_Hz=7000
   onrobot://192.168.1.1       OnRobot (OptoForce) EtherDAQ; ?rate_Hz=
   schunk://192.168.0.100      SCHUNK FTS; ?rate_Hz=8000&udp=54843 (local port)
-  bota:///dev/ttyUSB0         Bota Systems serial
+  bota:///dev/ttyUSB0         Bota Systems serial; ?rate_Hz=800 (as it is set)
+                              lets lost samples be counted by their times
   robotous:///dev/ttyUSB0     Robotous RFT; ?counts_per_N=50&counts_per_Nm=2000
+  robotous+can://can0         the same on CAN (Linux); ?first=&second=&request=
+                              are needed: its identifiers, hexadecimal
   dynpick:///dev/ttyUSB0      WACOH DynPick; asks for its sensitivities, or
                               ?counts_per_N=24.9&counts_per_Nm=1664
   optoforce:///dev/ttyACM0    OptoForce USB; ?counts_per_N=&counts_per_Nm= are
                               needed, ?rate_Hz=1000 sets its rate
   resense:///dev/ttyUSB0      Resense HEX; ?greatest_N=&greatest_Nm= are needed:
                               its range with reserve; ?request=3A0A asks for
-                              each reading with these bytes
+                              each reading with these bytes: without it lost
+                              readings cannot be noticed, and are not counted
   sim                         the simulated fingertip; ?seed=1&rate_Hz=1000
 
 Serial protocols take ?baud=, and speak over TCP with +tcp, such as
@@ -47,6 +51,7 @@ pub(crate) enum Protocol {
     Schunk,
     Bota,
     Robotous,
+    RobotousCan,
     DynPick,
     OptoForce,
     Resense,
@@ -54,12 +59,13 @@ pub(crate) enum Protocol {
 }
 
 impl Protocol {
-    const ALL: [(&'static str, Self, &'static [&'static str]); 9] = [
+    const ALL: [(&'static str, Self, &'static [&'static str]); 10] = [
         ("ati", Self::Ati, &["counts_per_N", "counts_per_Nm", "rate_Hz", "http"]),
         ("onrobot", Self::OnRobot, &["rate_Hz"]),
         ("schunk", Self::Schunk, &["rate_Hz", "udp"]),
-        ("bota", Self::Bota, &["baud"]),
+        ("bota", Self::Bota, &["baud", "rate_Hz"]),
         ("robotous", Self::Robotous, &["baud", "counts_per_N", "counts_per_Nm"]),
+        ("robotous+can", Self::RobotousCan, &["first", "second", "request", "counts_per_N", "counts_per_Nm"]),
         ("dynpick", Self::DynPick, &["baud", "counts_per_N", "counts_per_Nm"]),
         ("optoforce", Self::OptoForce, &["baud", "counts_per_N", "counts_per_Nm", "rate_Hz"]),
         ("resense", Self::Resense, &["baud", "greatest_N", "greatest_Nm", "request"]),
@@ -104,8 +110,13 @@ impl FromStr for Address {
             } else {
                 place
             };
-        if place.is_empty() && protocol.is_serial() {
-            let example = if over_tcp { "+tcp://127.0.0.1:4000" } else { ":///dev/ttyUSB0" };
+        let example = match protocol {
+            Protocol::RobotousCan => Some("://can0"),
+            _ if over_tcp => Some("+tcp://127.0.0.1:4000"),
+            _ if protocol.is_serial() => Some(":///dev/ttyUSB0"),
+            _ => None,
+        };
+        if let Some(example) = example.filter(|_| place.is_empty()) {
             return Err(format!("where is the sensor? For example {name}{example}"));
         }
         Ok(Self { text: text.to_owned(), protocol, over_tcp, place: place.to_owned(), options })
@@ -198,6 +209,8 @@ mod tests {
         for (text, expected) in [
             ("atti://x", "no protocol"),
             ("bota", "where is the sensor"),
+            ("robotous+can", "where is the sensor? For example robotous+can://can0"),
+            ("robotous+can+tcp://x", "leave out +tcp"),
             ("ati+tcp://x", "leave out +tcp"),
             ("ati://x?counts=3", "knows no “counts”"),
             ("ati://x?rate_Hz", "KEY=VALUE"),

@@ -10,8 +10,11 @@ use fingertip_drivers::robotous::{Request, RobotousDecoder};
 use fingertip_drivers::schunk_fts::{self, FtsClient};
 
 use super::address::{Address, Protocol};
+#[cfg(target_os = "linux")]
+use super::can;
 use super::line::{self, Line, WAIT};
 use super::losses::Losses;
+use super::timed::Timed;
 use super::{Feed, SourceFeed, simulated};
 
 /// Opens the sensor and lets it stream. No zero is set in any sensor.
@@ -22,18 +25,33 @@ pub(crate) fn open(address: &Address) -> Result<Box<dyn Feed>, String> {
             rdt(address, CountsPerUnit::onrobot().map_err(text)?, address.positive("rate_Hz")?)
         }
         Protocol::Schunk => schunk(address),
-        Protocol::Bota => line::streaming(line::open(address, 460_800)?, BotaDecoder::new(), &[], |_| None),
-        Protocol::Robotous => {
-            let counts =
-                counts(address)?.map_or_else(|| AxisCounts::uniform(50.0, 2000.0).map_err(text), Ok)?;
-            let line = line::open(address, 115_200)?;
-            line::streaming(line, RobotousDecoder::new(counts), &Request::Stream.emit_serial(), |_| None)
+        Protocol::Bota => {
+            let rate = address.positive("rate_Hz")?;
+            let feed = line::streaming(line::open(address, 460_800)?, BotaDecoder::new(), &[], |_| None)?;
+            Ok(match rate {
+                Some(rate) => Box::new(Timed::new(feed, rate)),
+                None => feed,
+            })
         }
+        Protocol::Robotous => {
+            let decoder = RobotousDecoder::new(robotous_counts(address)?);
+            let line = line::open(address, 115_200)?;
+            line::streaming(line, decoder, &Request::Stream.emit_serial(), |_| None)
+        }
+        #[cfg(target_os = "linux")]
+        Protocol::RobotousCan => can::robotous(address, robotous_counts(address)?),
+        #[cfg(not(target_os = "linux"))]
+        Protocol::RobotousCan => Err("CAN can be spoken on Linux only (SocketCAN)".to_owned()),
         Protocol::DynPick => dynpick(address),
         Protocol::OptoForce => optoforce(address),
         Protocol::Resense => resense(address),
         Protocol::Simulated => simulated::open(address),
     }
+}
+
+/// Counts of the RFT60 unless others are stated.
+fn robotous_counts(address: &Address) -> Result<AxisCounts, String> {
+    counts(address)?.map_or_else(|| AxisCounts::uniform(50.0, 2000.0).map_err(text), Ok)
 }
 
 fn text(error: impl core::fmt::Display) -> String {

@@ -60,16 +60,14 @@ impl Losses {
 impl fmt::Display for Losses {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.lost {
-            Some(lost) => write!(out, "{} lost", count(lost))?,
+            Some(lost) => {
+                let [lost, late, duplicates] = [lost, self.late, self.duplicates].map(count);
+                write!(out, "{lost} lost, {late} late, {duplicates} repeated")?;
+            }
+            // Whoever cannot tell what is lost cannot tell what comes late or twice, either.
             None => write!(out, "lost: not told")?,
         }
-        write!(
-            out,
-            ", {} late, {} repeated, {} damaged",
-            count(self.late),
-            count(self.duplicates),
-            count(self.corrupt)
-        )?;
+        write!(out, ", {} damaged", count(self.corrupt))?;
         if self.skipped_bytes > 0 {
             write!(out, ", {} bytes skipped", count(self.skipped_bytes))?;
         }

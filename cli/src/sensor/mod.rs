@@ -1,12 +1,17 @@
 //! Where live samples come from: sensors on a wire, the simulated fingertip, a recording that plays.
 
 mod address;
+#[cfg(target_os = "linux")]
+mod can;
 mod connect;
+mod gauge_sources;
+mod gauges;
 mod line;
 mod losses;
 mod replay;
 mod simulated;
 mod stream;
+mod timed;
 
 use fingertip::wrench::Wrench;
 use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
@@ -14,6 +19,7 @@ use nalgebra::SVector;
 
 pub(crate) use address::{Address, EXAMPLES};
 pub(crate) use connect::open;
+pub(crate) use gauges::{Calibrating, GaugesOf, calibrated};
 pub(crate) use losses::Losses;
 pub(crate) use replay::open as replay;
 pub(crate) use stream::{Event, Stream, StreamOptions};

@@ -15,11 +15,17 @@ use super::losses::Losses;
 use super::{Feed, Next, Reading, Volts};
 
 /// A session that is played again and again, its time going on.
-struct Rounds {
+pub(super) struct Rounds {
     fingertip: SimulatedFingertip,
     fresh: SimulatedFingertip,
     /// Length of the rounds before \[s\].
     before: f64,
+}
+
+impl Rounds {
+    pub(super) fn new(fresh: SimulatedFingertip) -> Self {
+        Self { fingertip: fresh.clone(), fresh, before: 0.0 }
+    }
 }
 
 impl ErrorType for Rounds {
@@ -43,14 +49,18 @@ struct Simulated {
     zero: DummyGauge<f64, 6>,
 }
 
-pub(super) fn open(address: &Address) -> Result<Box<dyn Feed>, String> {
+/// The fingertip of an address.
+pub(super) fn fresh(address: &Address) -> Result<SimulatedFingertip, String> {
     let options = Options {
         seed: address.whole("seed")?.unwrap_or(1),
         sample_rate: address.positive("rate_Hz")?.unwrap_or(1000.0),
         ..Options::default()
     };
-    let fresh = SimulatedFingertip::new(&standard_session(), options)
-        .map_err(|error| format!("simulation: {error}"))?;
+    SimulatedFingertip::new(&standard_session(), options).map_err(|error| format!("simulation: {error}"))
+}
+
+pub(super) fn open(address: &Address) -> Result<Box<dyn Feed>, String> {
+    let fresh = fresh(address)?;
     let solver = GaussianElimination::new(fresh.calibrated_matrix()).map_err(|error| error.to_string())?;
     // The session begins with a rest: it gives the zero, as on a bench before the work begins.
     let mut rest = DummyGaugeAccumulator::default();
@@ -58,7 +68,7 @@ pub(super) fn open(address: &Address) -> Result<Box<dyn Feed>, String> {
         rest.add(&sample.reading());
     }
     let zero = rest.finish().map_err(|error| error.to_string())?;
-    let source = Paced::new(Rounds { fingertip: fresh.clone(), fresh, before: 0.0 }, 1.0);
+    let source = Paced::new(Rounds::new(fresh), 1.0);
     Ok(Box::new(Simulated { source, solver, zero }))
 }
 

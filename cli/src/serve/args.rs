@@ -4,6 +4,7 @@ use core::net::IpAddr;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use fingertip_drivers::FaultPlan;
 
 /// The device that is simulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -103,13 +104,13 @@ pub(crate) struct FaultArguments {
     /// A datagram or frame is lost
     #[arg(long, value_name = "P", default_value_t = 0.0)]
     pub(crate) loss: f64,
-    /// A datagram comes twice (ati)
+    /// A datagram comes twice (ati, schunk)
     #[arg(long, value_name = "P", default_value_t = 0.0)]
     pub(crate) duplicate: f64,
-    /// A datagram comes behind the next one (ati)
+    /// A datagram comes behind the next one (ati, schunk)
     #[arg(long, value_name = "P", default_value_t = 0.0)]
     pub(crate) reorder: f64,
-    /// A datagram is cut short (ati)
+    /// A datagram is cut short (ati, schunk)
     #[arg(long, value_name = "P", default_value_t = 0.0)]
     pub(crate) truncate: f64,
     /// A bit of a frame is flipped (serial)
@@ -124,6 +125,12 @@ pub(crate) struct FaultArguments {
 }
 
 impl FaultArguments {
+    /// What happens to datagrams.
+    pub(super) const fn of_datagrams(&self, seed: u64) -> FaultPlan {
+        let Self { loss, duplicate: duplication, reorder, truncate: truncation, .. } = *self;
+        FaultPlan { loss, duplication, reorder, truncation, seed }
+    }
+
     /// Refuses what is no probability, and faults that the device's link does not have.
     pub(super) fn check(&self, device: Device) -> Result<(), String> {
         let datagrams =
@@ -131,8 +138,7 @@ impl FaultArguments {
         let serial =
             [("--bit-flip", self.bit_flip), ("--lost-byte", self.lost_byte), ("--garbage", self.garbage)];
         let foreign: &[(&str, f64)] = match device {
-            Device::Ati => &serial,
-            Device::Schunk => &[datagrams, serial].concat(),
+            Device::Ati | Device::Schunk => &serial,
             _ => &datagrams,
         };
         for (name, chance) in [("--loss", self.loss)].iter().chain(&datagrams).chain(&serial) {

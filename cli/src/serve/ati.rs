@@ -1,17 +1,15 @@
 //! ATI Net F/T: records over UDP, the page of the configuration over HTTP.
 
-use alloc::sync::Arc;
-use core::sync::atomic::{AtomicU64, Ordering};
 use core::time::Duration;
 use std::io::{self, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::thread;
 
-use fingertip_drivers::ati_rdt::{Configuration, FaultPlan, RdtClient, RdtServer, SimulatedNetFt};
+use fingertip_drivers::ati_rdt::{Configuration, RdtClient, RdtServer, SimulatedNetFt};
 
 use super::args::SimulateArguments;
 use super::load::Load;
-use super::{End, announce, fault, tally};
+use super::{End, NAP, Played, announce, cannot_bind, died, fault, tally_datagrams};
 use crate::error::CliError;
 
 /// Counts per newton and per newton metre, as most sensors are delivered.
@@ -36,56 +34,26 @@ pub(super) fn serve(
     })?;
     pages.set_nonblocking(true).map_err(fault)?;
     let http = pages.local_addr().map_err(fault)?.port();
-    let faults = &arguments.faults;
-    let plan = FaultPlan {
-        loss: faults.loss,
-        duplication: faults.duplicate,
-        reorder: faults.reorder,
-        truncation: faults.truncate,
-        seed: arguments.seed,
-    };
     let port = arguments.port.unwrap_or(RdtClient::<f64>::PORT);
-    let samples = Arc::new(AtomicU64::new(0));
-    let counted = Arc::clone(&samples);
-    let mut playing = load.clone();
-    let server =
-        RdtServer::start((arguments.listen, port), SimulatedNetFt::new(plan), period, move |number| {
-            if number == 0 {
-                playing.restart();
-            }
-            counted.store(playing.samples(), Ordering::Relaxed);
-            let mut counts = [0; 6];
-            for (count, component) in counts.iter_mut().zip(playing.next().components().iter()) {
-                *count = rounded(component * COUNTS);
-            }
-            counts
-        })
-        .map_err(|error| {
-            fault(format!(
-                "cannot serve on UDP port {port}: {error}; choose another --port, 0 for any free one"
-            ))
-        })?;
+    let (mut played, samples) = Played::new(load.clone());
+    let server = RdtServer::start(
+        (arguments.listen, port),
+        SimulatedNetFt::new(arguments.faults.of_datagrams(arguments.seed)),
+        period,
+        move |number| played.next(number).map(|component| rounded(component * COUNTS)),
+    )
+    .map_err(cannot_bind("UDP", port))?;
     let address = server.address();
     announce(arguments, &load, &format!("ati://{address}?http={http}"))?;
     while !end.has_come() {
         match pages.accept() {
             // A client that does not take its page is no trouble of the sensor's.
             Ok((stream, _)) => drop(answer(stream, &configuration)),
-            Err(_) => thread::sleep(Duration::from_millis(5)),
+            Err(_) => thread::sleep(NAP),
         }
     }
-    let sensor =
-        server.stop().ok_or_else(|| fault("the server died; this is a fault of ours, please report it"))?;
-    let injected = sensor.injected();
-    let samples = samples.load(Ordering::Relaxed);
-    Ok(tally(
-        samples,
-        u64::from(sensor.rdt_sequence()),
-        &format!(
-            "{} lost on purpose, {} repeated, {} late, {} cut",
-            injected.lost, injected.duplicates, injected.late, injected.corrupt
-        ),
-    ))
+    let sensor = server.stop().ok_or_else(died)?;
+    Ok(tally_datagrams(&samples, &sensor))
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "saturates, as a converter does")]

@@ -2,18 +2,19 @@
 
 pub(crate) mod args;
 mod ati;
-mod frames;
 mod load;
 mod schunk;
 mod serial;
 
+use alloc::sync::Arc;
+use core::sync::atomic::{AtomicU64, Ordering};
 use core::time::Duration;
 use std::io::{self, Write};
-use std::thread;
 use std::time::Instant;
 
 use args::{Device, SimulateArguments};
 use clap::ValueEnum;
+use fingertip_drivers::SimulatedSensor;
 use load::Load;
 
 use crate::error::CliError;
@@ -32,37 +33,29 @@ impl End {
     }
 }
 
-/// Steps of a period that are due, as the clock goes on.
-pub(super) struct Pace {
-    period: Duration,
-    next: Instant,
+/// How often a server that answers in a thread of its own looks whether it is to end.
+const NAP: Duration = Duration::from_millis(5);
+
+/// The load as a server in a thread of its own takes it; how many samples it took can be asked from outside.
+struct Played {
+    load: Load,
+    samples: Arc<AtomicU64>,
 }
 
-/// A server that was stopped for so long goes on from now, and sends no burst.
-const LONGEST_BURST: Duration = Duration::from_millis(100);
-
-impl Pace {
-    pub(super) fn new(period: Duration) -> Self {
-        Self { period, next: Instant::now() }
+impl Played {
+    fn new(load: Load) -> (Self, Arc<AtomicU64>) {
+        let samples = Arc::default();
+        (Self { load, samples: Arc::clone(&samples) }, samples)
     }
 
-    /// Begins anew.
-    pub(super) fn restart(&mut self) {
-        self.next = Instant::now();
-    }
-
-    /// Whether a step is due; if not, waits a little.
-    pub(super) fn is_due(&mut self) -> bool {
-        let now = Instant::now();
-        if now < self.next {
-            thread::sleep((self.next - now).min(Duration::from_millis(1)));
-            return false;
+    /// The components of a sample by its number; 0 begins the scenario anew.
+    fn next(&mut self, number: u64) -> [f64; 6] {
+        if number == 0 {
+            self.load.restart();
         }
-        self.next += self.period;
-        if now > self.next + LONGEST_BURST {
-            self.next = now;
-        }
-        true
+        let wrench = self.load.next();
+        self.samples.store(self.load.samples(), Ordering::Relaxed);
+        wrench.components().into()
     }
 }
 
@@ -91,6 +84,18 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<(), CliError> {
     say(&format!("\n{said}\n"))
 }
 
+fn cannot_bind(transport: &str, port: u16) -> impl Fn(io::Error) -> CliError {
+    move |error| {
+        fault(format!(
+            "cannot serve on {transport} port {port}: {error}; choose another --port, 0 for any free one"
+        ))
+    }
+}
+
+fn died() -> CliError {
+    fault("the server died; this is a fault of ours, please report it")
+}
+
 /// Says where the sensor can be found, as soon as it can be.
 fn announce(arguments: &SimulateArguments, load: &Load, address: &str) -> Result<(), CliError> {
     let what = match &arguments.script {
@@ -115,4 +120,16 @@ fn say(text: &str) -> Result<(), CliError> {
 /// What was done to frames or datagrams.
 fn tally(samples: u64, sent: u64, faults: &str) -> String {
     format!("{} samples, {} sent; {faults}", count(samples), count(sent))
+}
+
+fn tally_datagrams<Device>(samples: &AtomicU64, sensor: &SimulatedSensor<Device>) -> String {
+    let injected = sensor.injected();
+    tally(
+        samples.load(Ordering::Relaxed),
+        sensor.sent(),
+        &format!(
+            "{} lost on purpose, {} repeated, {} late, {} cut",
+            injected.lost, injected.duplicates, injected.late, injected.corrupt
+        ),
+    )
 }

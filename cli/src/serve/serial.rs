@@ -5,12 +5,17 @@ use std::io::{self, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::thread;
 
-use fingertip_drivers::line::{LineFaults, SimulatedLine};
+use fingertip_drivers::bota_serial::SimulatedBota;
+use fingertip_drivers::dynpick::SimulatedDynPick;
+use fingertip_drivers::line::{LineFaults, SerialDevice, SimulatedSerial};
+use fingertip_drivers::optoforce::SimulatedOptoForce;
+use fingertip_drivers::resense::SimulatedResense;
+use fingertip_drivers::robotous::SimulatedRft;
+use fingertip_drivers::{AxisCounts, Pace};
 
-use super::args::{Carrier, SimulateArguments};
-use super::frames::SerialDevice;
+use super::args::{Carrier, Device, SimulateArguments};
 use super::load::Load;
-use super::{End, Pace, announce, fault, tally};
+use super::{End, announce, cannot_bind, fault, tally};
 use crate::error::CliError;
 
 /// The sensor's end of the line.
@@ -21,6 +26,35 @@ trait Outlet {
     fn send(&mut self, bytes: &[u8]);
 }
 
+/// Counts per newton and newton metre of the devices that send counts: those of the Robotous RFT60, a
+/// DynPick WEF-6A200, and an OptoForce HEX.
+const ROBOTOUS: [f64; 2] = [50.0, 2000.0];
+const DYNPICK: [f64; 2] = [40.0, 1640.0];
+const OPTOFORCE: [f64; 2] = [100.0, 10_000.0];
+/// Range of the Resense sensor \[N, N·m\].
+const RESENSE: [f64; 2] = [200.0, 10.0];
+
+/// A device, and what its address must say behind its question mark.
+fn simulated(device: Device, rate: f64) -> Result<(Box<dyn SerialDevice>, String), CliError> {
+    let counts = |[force, torque]: [f64; 2]| AxisCounts::uniform(force, torque).map_err(fault);
+    Ok(match device {
+        Device::Bota => (Box::new(SimulatedBota::new(rate)), format!("?rate_Hz={rate}")),
+        Device::Robotous => (Box::new(SimulatedRft::new(counts(ROBOTOUS)?)), String::new()),
+        Device::Dynpick => (Box::new(SimulatedDynPick::new(counts(DYNPICK)?)), String::new()),
+        Device::Optoforce => {
+            let [force, torque] = OPTOFORCE;
+            let options = format!("?counts_per_N={force}&counts_per_Nm={torque}");
+            (Box::new(SimulatedOptoForce::new(counts(OPTOFORCE)?)), options)
+        }
+        Device::Resense => {
+            let [force, torque] = RESENSE;
+            let options = format!("?greatest_N={force}&greatest_Nm={torque}");
+            (Box::new(SimulatedResense::streaming()), options)
+        }
+        Device::Ati | Device::Schunk => return Err(fault("this device has no serial line")),
+    })
+}
+
 pub(super) fn serve(
     arguments: &SimulateArguments,
     period: Duration,
@@ -29,15 +63,11 @@ pub(super) fn serve(
 ) -> Result<String, CliError> {
     let device = arguments.serve;
     let name = format!("{device:?}").to_lowercase();
-    let options = SerialDevice::options(device);
+    let (simulated, options) = simulated(device, arguments.rate)?;
     let (mut outlet, address): (Box<dyn Outlet>, String) = match arguments.over {
         Carrier::Tcp => {
             let port = arguments.port.unwrap_or(0);
-            let listener = TcpListener::bind((arguments.listen, port)).map_err(|error| {
-                fault(format!(
-                    "cannot serve on TCP port {port}: {error}; choose another --port, 0 for any free one"
-                ))
-            })?;
+            let listener = TcpListener::bind((arguments.listen, port)).map_err(cannot_bind("TCP", port))?;
             listener.set_nonblocking(true).map_err(fault)?;
             let address = format!("{name}+tcp://{}{options}", listener.local_addr().map_err(fault)?);
             (Box::new(Tcp { listener, client: None }), address)
@@ -49,38 +79,41 @@ pub(super) fn serve(
     };
     announce(arguments, &load, &address)?;
     let faults = &arguments.faults;
-    let mut line = SimulatedLine::new(LineFaults {
+    let faults = LineFaults {
         bit_flip: faults.bit_flip,
         lost_byte: faults.lost_byte,
         lost_frame: faults.loss,
         noise: faults.garbage,
         seed: arguments.seed,
-    });
-    let mut sensor: Option<SerialDevice> = None;
+    };
+    let mut sensor = SimulatedSerial::new(simulated, faults);
     let mut pace = Pace::new(period);
-    let (mut heard, mut frame) = ([0; 256], Vec::new());
+    let mut has_client = false;
+    let (mut heard, mut said) = ([0; 256], Vec::new());
     while !end.has_come() {
         let Some(length) = outlet.hear(&mut heard) else {
-            sensor = None;
+            has_client = false;
             thread::sleep(Duration::from_millis(2));
             continue;
         };
-        let sensor = sensor.get_or_insert_with(|| {
+        if !has_client {
+            has_client = true;
             load.restart();
             pace.restart();
-            SerialDevice::new(device, arguments.rate)
-        });
-        sensor.hear(heard.get(..length).unwrap_or_default());
+            sensor.switch_off_and_on();
+        }
+        sensor.write_all(heard.get(..length).unwrap_or_default()).map_err(fault)?;
         if !pace.is_due() {
             continue;
         }
-        for bytes in sensor.sample(&load.next()) {
-            line.send(&bytes);
-            frame.clear();
-            line.read_to_end(&mut frame).map_err(fault)?;
-            outlet.send(&frame);
+        sensor.sample(load.next().components().into());
+        said.clear();
+        sensor.read_to_end(&mut said).map_err(fault)?;
+        if !said.is_empty() {
+            outlet.send(&said);
         }
     }
+    let line = sensor.line();
     Ok(tally(load.samples(), line.sent(), &format!("{} damaged or lost on purpose", line.damaged())))
 }
 

@@ -5,12 +5,12 @@ use embedded_hal::spi::{ErrorType as BusErrorType, Operation};
 use fingertip_wrench::Real;
 use nalgebra::SVector;
 
-use super::wire::{Calibration, Command, Configuration, Input, Reading, Register};
+use super::wire::{Calibration, Command, Configuration, Input, Register};
 use crate::converter::{
-    Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, ready_in_time,
-    ready_in_time_async,
+    Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, Reading, ready_in_time,
+    ready_in_time_async, sources,
 };
-use crate::{AsyncSignalSource, ErrorType, NbSignalSource, Sample, SignalSource};
+use crate::{ErrorType, NbSignalSource, Sample};
 
 type Failure<S, P> = ConverterError<<S as BusErrorType>::Error, <P as PinErrorType>::Error>;
 
@@ -331,17 +331,7 @@ face! {
     embedded_hal_async::delay::DelayNs, ready_in_time_async, [async], [.await]
 }
 
-impl<T: Real, S, P, D, const N: usize> SignalSource<T, N> for Ads1256<S, P, D, N>
-where
-    S: embedded_hal::spi::SpiDevice,
-    P: InputPin,
-    D: embedded_hal::delay::DelayNs,
-{
-    fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
-        let value = self.read()?.signals()?;
-        Ok(Some(Sample { time: None, value }))
-    }
-}
+sources!(Ads1256, AsyncAds1256);
 
 impl<T: Real, S, P, D, const N: usize> NbSignalSource<T, N> for Ads1256<S, P, D, N>
 where
@@ -356,18 +346,6 @@ where
         }
         let conversion = self.step()?.flatten().ok_or(nb::Error::WouldBlock)?;
         let value = conversion.signals().map_err(ConverterError::from)?;
-        Ok(Some(Sample { time: None, value }))
-    }
-}
-
-impl<T: Real, S, P, D, const N: usize> AsyncSignalSource<T, N> for AsyncAds1256<S, P, D, N>
-where
-    S: embedded_hal_async::spi::SpiDevice,
-    P: embedded_hal_async::digital::Wait,
-    D: embedded_hal_async::delay::DelayNs,
-{
-    async fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
-        let value = self.read().await?.signals()?;
         Ok(Some(Sample { time: None, value }))
     }
 }

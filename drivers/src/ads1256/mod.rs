@@ -62,8 +62,9 @@ mod wire;
 #[cfg(feature = "simulation")]
 mod simulator;
 
+pub use crate::converter::Reading;
 pub use driver::{Ads1256, AsyncAds1256};
-pub use wire::{Calibration, Command, Configuration, Gain, Input, Pin, Rate, Reading, Register};
+pub use wire::{Calibration, Command, Configuration, Gain, Input, Pin, Rate, Register};
 
 #[cfg(feature = "simulation")]
 pub use simulator::SimulatedAds1256;

@@ -4,8 +4,8 @@ use alloc::boxed::Box;
 use alloc::collections::VecDeque;
 use core::fmt;
 
-use super::wire::{Command, Rate, Reading, Register};
-use crate::converter::{SimulatedConverter, SimulatedDevice};
+use super::wire::{Command, Rate, Register};
+use crate::converter::{Reading, SimulatedConverter, SimulatedDevice};
 
 /// What the next bytes of a command are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,5 @@
 //! Commands, registers and readings.
 
-use crate::converter::sign_extended;
-
 /// Addresses of registers.
 #[derive(Clone, Copy, Debug)]
 pub struct Register;
@@ -272,28 +270,6 @@ impl<const N: usize> Configuration<N> {
     }
 }
 
-/// A conversion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Reading {
-    /// Counts of 24 bits.
-    pub counts: i32,
-}
-
-impl Reading {
-    /// Reads three bytes: any are a conversion.
-    #[must_use]
-    pub const fn parse([high, middle, low]: [u8; 3]) -> Self {
-        Self { counts: sign_extended(u32::from_be_bytes([0, high, middle, low]), 24) }
-    }
-
-    /// The three bytes; counts beyond 24 bits are cut off.
-    #[must_use]
-    pub const fn emit(self) -> [u8; 3] {
-        let [_, high, middle, low] = self.counts.to_be_bytes();
-        [high, middle, low]
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -301,8 +277,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn any_bytes_are_read_and_written_as_they_were(bytes in any::<[u8; 3]>(), command in any::<u8>()) {
-            prop_assert_eq!(Reading::parse(bytes).emit(), bytes);
+        fn any_byte_is_a_command_or_none_and_is_written_as_it_was_read(command in any::<u8>()) {
             if let Some(known) = Command::parse(command).filter(|_| command != 0xFF) {
                 prop_assert_eq!(known.emit(), command);
             }

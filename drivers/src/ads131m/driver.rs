@@ -10,9 +10,9 @@ use super::state::Core;
 use super::wire::{Answer, LONGEST, Request};
 use crate::converter::{
     Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, ready_in_time,
-    ready_in_time_async,
+    ready_in_time_async, sources,
 };
-use crate::{AsyncSignalSource, ErrorType, NbSignalSource, Sample, SignalSource};
+use crate::{ErrorType, NbSignalSource, Sample};
 
 type Failure<S, P> = ConverterError<<S as BusErrorType>::Error, <P as PinErrorType>::Error>;
 
@@ -237,17 +237,7 @@ where
     }
 }
 
-impl<T: Real, S, P, D, const N: usize> SignalSource<T, N> for Ads131m<S, P, D, N>
-where
-    S: embedded_hal::spi::SpiDevice,
-    P: InputPin,
-    D: embedded_hal::delay::DelayNs,
-{
-    fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
-        let value = self.read()?.signals()?;
-        Ok(Some(Sample { time: None, value }))
-    }
-}
+sources!(Ads131m, AsyncAds131m);
 
 impl<T: Real, S, P, D, const N: usize> NbSignalSource<T, N> for Ads131m<S, P, D, N>
 where
@@ -257,18 +247,6 @@ where
 {
     fn poll_signals(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
         let value = self.poll()?.signals().map_err(ConverterError::from)?;
-        Ok(Some(Sample { time: None, value }))
-    }
-}
-
-impl<T: Real, S, P, D, const N: usize> AsyncSignalSource<T, N> for AsyncAds131m<S, P, D, N>
-where
-    S: embedded_hal_async::spi::SpiDevice,
-    P: embedded_hal_async::digital::Wait,
-    D: embedded_hal_async::delay::DelayNs,
-{
-    async fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
-        let value = self.read().await?.signals()?;
         Ok(Some(Sample { time: None, value }))
     }
 }

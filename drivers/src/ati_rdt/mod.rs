@@ -31,4 +31,4 @@ pub use client::{ClientError, RdtClient};
 #[cfg(feature = "std")]
 pub use configuration::{Configuration, ConfigurationError};
 #[cfg(feature = "simulation")]
-pub use simulator::{RdtServer, SimulatedNetFt};
+pub use simulator::{NetFt, RdtServer, SimulatedNetFt};

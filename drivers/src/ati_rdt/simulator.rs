@@ -5,52 +5,36 @@ use core::sync::atomic::Ordering;
 use core::time::Duration;
 use std::io;
 use std::net::{ToSocketAddrs, UdpSocket};
-use std::time::Instant;
 
 use super::wire::{Command, Record, Request};
-use crate::LinkStatistics;
-use crate::Served;
-use crate::datagram_link::{DatagramLink, FaultPlan};
+use crate::datagram_link::FaultPlan;
+use crate::{Pace, Served, SimulatedSensor};
 
 /// The device and its link without a socket: requests in, datagrams out.
-#[derive(Clone, Debug)]
-pub struct SimulatedNetFt {
-    link: DatagramLink,
-    streaming: bool,
+pub type SimulatedNetFt = SimulatedSensor<NetFt>;
+
+/// What is a Net F/T's own.
+#[derive(Clone, Debug, Default)]
+pub struct NetFt {
     left: Option<u32>,
     rdt_sequence: u32,
     ft_sequence: u32,
-    status: u32,
     bias: [i32; 6],
     counts: [i32; 6],
 }
 
-impl SimulatedNetFt {
+impl SimulatedSensor<NetFt> {
     /// A sensor at rest behind a link with faults.
     #[must_use]
     pub fn new(faults: FaultPlan) -> Self {
-        Self {
-            link: DatagramLink::new(faults),
-            streaming: false,
-            left: None,
-            rdt_sequence: 0,
-            ft_sequence: 0,
-            status: 0,
-            bias: [0; 6],
-            counts: [0; 6],
-        }
+        Self::resting(faults, 0, NetFt::default())
     }
 
     /// Lets the record count begin at a number, to come near its wrap-around.
     #[must_use]
     pub const fn counting_from(mut self, rdt_sequence: u32) -> Self {
-        self.rdt_sequence = rdt_sequence;
+        self.device.rdt_sequence = rdt_sequence;
         self
-    }
-
-    /// Sets the status word of all records from now on.
-    pub const fn set_status(&mut self, status: u32) {
-        self.status = status;
     }
 
     /// Takes a request; bytes that are none are ignored, as the device does.
@@ -60,58 +44,42 @@ impl SimulatedNetFt {
             Command::Stop => self.streaming = false,
             Command::Stream | Command::StreamBuffered => {
                 self.streaming = true;
-                self.left = (count > 0).then_some(count);
+                self.device.left = (count > 0).then_some(count);
             }
-            Command::Bias => self.bias = self.counts,
+            Command::Bias => self.device.bias = self.device.counts,
         }
-    }
-
-    /// Whether records are being sent.
-    #[must_use]
-    pub const fn is_streaming(&self) -> bool {
-        self.streaming
     }
 
     /// The sensor samples a load, in counts. While it streams, this sends a record.
     pub fn sample(&mut self, counts: [i32; 6]) {
-        self.counts = counts;
-        self.ft_sequence = self.ft_sequence.wrapping_add(1);
+        let device = &mut self.device;
+        device.counts = counts;
+        device.ft_sequence = device.ft_sequence.wrapping_add(1);
         if !self.streaming {
             return;
         }
-        if let Some(left) = &mut self.left {
+        if let Some(left) = &mut device.left {
             *left = left.saturating_sub(1);
             self.streaming = *left > 0;
         }
-        self.rdt_sequence = self.rdt_sequence.wrapping_add(1);
+        device.rdt_sequence = device.rdt_sequence.wrapping_add(1);
         let mut biased = counts;
-        for (count, bias) in biased.iter_mut().zip(self.bias) {
+        for (count, bias) in biased.iter_mut().zip(device.bias) {
             *count = count.saturating_sub(bias);
         }
         let record = Record {
-            rdt_sequence: self.rdt_sequence,
-            ft_sequence: self.ft_sequence,
+            rdt_sequence: device.rdt_sequence,
+            ft_sequence: device.ft_sequence,
             status: self.status,
             counts: biased,
         };
-        self.link.send(&record.emit());
+        self.send(&record.emit());
     }
 
     /// Number of the newest record. It counts those that the link then lost, too.
     #[must_use]
     pub const fn rdt_sequence(&self) -> u32 {
-        self.rdt_sequence
-    }
-
-    /// The next datagram on the link.
-    pub fn datagram(&mut self) -> Option<Vec<u8>> {
-        self.link.receive()
-    }
-
-    /// What was done to the records so far: `received` stays zero.
-    #[must_use]
-    pub const fn injected(&self) -> &LinkStatistics {
-        self.link.injected()
+        self.device.rdt_sequence
     }
 }
 
@@ -120,7 +88,8 @@ pub type RdtServer = Served<SimulatedNetFt>;
 
 impl Served<SimulatedNetFt> {
     /// Serves on an address (port 0 for any free one; the loopback interface unless you know what
-    /// you do). `load` gives the counts of each sample by its number, which begins anew with each client; one is sent every `period`.
+    /// you do). `load` gives the counts of each sample by its number, which begins anew with each client;
+    /// one is sent every `period`.
     ///
     /// # Errors
     /// If the address cannot be had.
@@ -135,7 +104,7 @@ impl Served<SimulatedNetFt> {
         let address = socket.local_addr()?;
         Self::by(address, "simulated Net F/T", move |stopped| {
             let mut client = None;
-            let mut next = Instant::now();
+            let mut pace = Pace::new(period);
             let mut number = 0;
             while !stopped.load(Ordering::Relaxed) {
                 let mut bytes = [0; 64];
@@ -146,12 +115,9 @@ impl Served<SimulatedNetFt> {
                         number = 0;
                     }
                 }
-                let now = Instant::now();
-                if now < next {
-                    std::thread::sleep((next - now).min(Duration::from_millis(1)));
+                if !pace.is_due() {
                     continue;
                 }
-                next += period;
                 sensor.sample(load(number));
                 number += 1;
                 while let (Some(datagram), Some(client)) = (sensor.datagram(), client) {

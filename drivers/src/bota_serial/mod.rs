@@ -10,7 +10,11 @@
 //! is not touched, and its zero is never set.
 
 mod decoder;
+#[cfg(feature = "simulation")]
+mod simulator;
 mod wire;
 
 pub use decoder::{BotaDecoder, BotaFault};
+#[cfg(feature = "simulation")]
+pub use simulator::SimulatedBota;
 pub use wire::{Format, Frame, FrameError};

@@ -25,12 +25,15 @@
 
 mod conversion;
 mod error;
+mod reading;
 mod ready;
 #[cfg(feature = "simulation")]
 mod simulator;
+mod sources;
 
 pub use conversion::{Conversion, ConverterStatistics};
 pub use error::{ConverterError, ConverterFault};
+pub use reading::Reading;
 pub use ready::{Patience, Unwired};
 
 #[cfg(feature = "simulation")]
@@ -46,4 +49,5 @@ pub(crate) use simulator::Inner;
 pub(crate) use {
     conversion::sign_extended,
     ready::{ready_in_time, ready_in_time_async},
+    sources::sources,
 };

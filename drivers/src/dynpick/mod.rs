@@ -15,8 +15,12 @@
 
 mod decoder;
 mod sensitivities;
+#[cfg(feature = "simulation")]
+mod simulator;
 mod wire;
 
 pub use decoder::{DynPickDecoder, DynPickFault};
 pub use sensitivities::{Sensitivities, SensitivitiesError};
+#[cfg(feature = "simulation")]
+pub use simulator::SimulatedDynPick;
 pub use wire::{Format, REQUEST, REQUEST_SENSITIVITIES, REQUEST_ZERO, Reading};

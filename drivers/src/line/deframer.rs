@@ -14,7 +14,8 @@ pub trait FrameFormat<const LENGTH: usize> {
     fn frame(&self, bytes: &[u8; LENGTH]) -> Option<Self::Frame>;
 }
 
-/// How a line has behaved so far.
+/// How a line has behaved so far. What was lost on the way is not among it: only formats that number their
+/// frames let one count that, and their decoders say how many are missing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct LineStatistics {

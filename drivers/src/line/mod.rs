@@ -5,6 +5,9 @@
 //! are three faces: `LineSensor` blocks on any `std::io::Read` (feature `std`), `EmbeddedLine` blocks
 //! or polls any `embedded_io::Read`, and `AsyncLine` awaits any `embedded_io_async::Read` (feature
 //! `embedded-io`).
+//!
+//! With `simulation` each device has a simulator, a `SerialDevice`: put into a `SimulatedSerial` it stands where a
+//! serial port does, hears requests, and sends frames over a `SimulatedLine` with faults.
 
 mod decoder;
 mod deframer;
@@ -17,6 +20,8 @@ mod embedded;
 #[cfg(feature = "std")]
 mod sensor;
 #[cfg(feature = "simulation")]
+mod simulated_sensor;
+#[cfg(feature = "simulation")]
 mod simulator;
 
 pub use decoder::LineDecoder;
@@ -27,6 +32,8 @@ pub use error::LineError;
 pub use embedded::{AsyncLine, EmbeddedLine};
 #[cfg(feature = "std")]
 pub use sensor::LineSensor;
+#[cfg(feature = "simulation")]
+pub use simulated_sensor::{SerialDevice, SerialRequest, SerialSample, SimulatedSerial};
 #[cfg(feature = "simulation")]
 pub use simulator::{LineFaults, SimulatedLine};
 

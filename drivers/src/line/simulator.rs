@@ -73,6 +73,11 @@ impl SimulatedLine {
         !damaged
     }
 
+    /// Loses what is on the line.
+    pub(super) fn clear(&mut self) {
+        self.line.clear();
+    }
+
     /// Frames sent, the damaged and lost ones included.
     #[must_use]
     pub const fn sent(&self) -> u64 {

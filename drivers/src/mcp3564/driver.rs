@@ -9,9 +9,9 @@ use super::scan::Scan;
 use super::wire::{Configuration, Data, FastCommand, Register, Request, Status, parse_answer};
 use crate::converter::{
     Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, ready_in_time,
-    ready_in_time_async,
+    ready_in_time_async, sources,
 };
-use crate::{AsyncSignalSource, ErrorType, NbSignalSource, Sample, SignalSource};
+use crate::{ErrorType, NbSignalSource, Sample};
 
 type Failure<S, P> = ConverterError<<S as BusErrorType>::Error, <P as PinErrorType>::Error>;
 
@@ -239,17 +239,7 @@ face! {
     embedded_hal_async::delay::DelayNs, ready_in_time_async, [async], [.await]
 }
 
-impl<T: Real, S, P, D, const N: usize> SignalSource<T, N> for Mcp3564<S, P, D, N>
-where
-    S: embedded_hal::spi::SpiDevice,
-    P: InputPin,
-    D: embedded_hal::delay::DelayNs,
-{
-    fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
-        let value = self.read()?.signals()?;
-        Ok(Some(Sample { time: None, value }))
-    }
-}
+sources!(Mcp3564, AsyncMcp3564);
 
 impl<T: Real, S, P, D, const N: usize> NbSignalSource<T, N> for Mcp3564<S, P, D, N>
 where
@@ -265,18 +255,6 @@ where
         let (status, bytes) = self.read_register(Register::ADCDATA)?;
         let (_, conversion) = self.state.accept(status, bytes).map_err(ConverterError::from)?;
         let value = conversion.ok_or(nb::Error::WouldBlock)?.signals().map_err(ConverterError::from)?;
-        Ok(Some(Sample { time: None, value }))
-    }
-}
-
-impl<T: Real, S, P, D, const N: usize> AsyncSignalSource<T, N> for AsyncMcp3564<S, P, D, N>
-where
-    S: embedded_hal_async::spi::SpiDevice,
-    P: embedded_hal_async::digital::Wait,
-    D: embedded_hal_async::delay::DelayNs,
-{
-    async fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
-        let value = self.read().await?.signals()?;
         Ok(Some(Sample { time: None, value }))
     }
 }

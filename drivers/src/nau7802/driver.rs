@@ -6,10 +6,10 @@ use fingertip_wrench::Real;
 use nalgebra::SVector;
 
 use super::wire::{
-    ADDRESS, CALIBRATE, CALIBRATION_ERROR, Calibration, Configuration, Control, Input, Reading, Register,
+    ADDRESS, CALIBRATE, CALIBRATION_ERROR, Calibration, Configuration, Control, Input, Register,
 };
 use crate::converter::{
-    Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, ready_in_time,
+    Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, Reading, ready_in_time,
     ready_in_time_async,
 };
 use crate::{AsyncSignalSource, ErrorType, NbSignalSource, Sample, SignalSource};

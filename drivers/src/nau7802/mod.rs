@@ -47,10 +47,9 @@ mod wire;
 #[cfg(feature = "simulation")]
 mod simulator;
 
+pub use crate::converter::Reading;
 pub use driver::{AsyncNau7802, Nau7802};
-pub use wire::{
-    ADDRESS, Calibration, Configuration, Control, Gain, Input, Rate, Reading, Register, Regulator,
-};
+pub use wire::{ADDRESS, Calibration, Configuration, Control, Gain, Input, Rate, Register, Regulator};
 
 #[cfg(feature = "simulation")]
 pub use simulator::{SimulatedI2c, SimulatedNau7802};

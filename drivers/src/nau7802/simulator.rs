@@ -5,8 +5,8 @@ use core::fmt;
 
 use embedded_hal::i2c::{self, ErrorKind, I2c, NoAcknowledgeSource, Operation};
 
-use super::wire::{ADDRESS, CALIBRATE, CALIBRATION_ERROR, Control, Reading, Register};
-use crate::converter::{Inner, Level, SimulatedBench, SimulatedDevice, SimulatedLine};
+use super::wire::{ADDRESS, CALIBRATE, CALIBRATION_ERROR, Control, Register};
+use crate::converter::{Inner, Level, Reading, SimulatedBench, SimulatedDevice, SimulatedLine};
 
 /// An NAU7802, to be put on a [`SimulatedBench`]. It powers up, converts at the rate of its registers, calibrates
 /// its offset (which it has, 1000 counts) and says when it cannot. Not simulated: the filter, gain calibration.

@@ -1,7 +1,5 @@
 //! Registers and readings.
 
-use crate::converter::{Conversion, sign_extended};
-
 /// Address on the bus, of seven bits.
 pub const ADDRESS: u8 = 0x2A;
 
@@ -187,45 +185,9 @@ impl Configuration {
     }
 }
 
-/// A conversion as it stands in the registers `ADCO`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Reading {
-    /// Counts of 24 bits.
-    pub counts: i32,
-}
-
-impl Reading {
-    /// Reads three bytes: any are a reading.
-    #[must_use]
-    pub const fn parse([high, middle, low]: [u8; 3]) -> Self {
-        Self { counts: sign_extended(u32::from_be_bytes([0, high, middle, low]), 24) }
-    }
-
-    /// The three bytes; counts beyond 24 bits are cut off.
-    #[must_use]
-    pub const fn emit(self) -> [u8; 3] {
-        let [_, high, middle, low] = self.counts.to_be_bytes();
-        [high, middle, low]
-    }
-
-    /// As a conversion.
-    #[must_use]
-    pub fn conversion(self) -> Conversion<1> {
-        Conversion::clipped([self.counts], -(1 << 23), (1 << 23) - 1)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use proptest::prelude::*;
-
-    proptest! {
-        #[test]
-        fn any_bytes_are_a_reading_and_are_written_as_they_were_read(bytes in any::<[u8; 3]>()) {
-            prop_assert_eq!(Reading::parse(bytes).emit(), bytes);
-        }
-    }
 
     #[test]
     fn fields_stand_in_their_places() {

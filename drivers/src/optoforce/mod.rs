@@ -10,7 +10,11 @@
 //! report.
 
 mod decoder;
+#[cfg(feature = "simulation")]
+mod simulator;
 mod wire;
 
 pub use decoder::{OptoForceDecoder, OptoForceFault};
+#[cfg(feature = "simulation")]
+pub use simulator::SimulatedOptoForce;
 pub use wire::{Configuration, Filter, Format, Rate, Reading};

@@ -36,7 +36,8 @@ impl SourceError for ResenseFault {
     }
 }
 
-/// Decodes what the sensor sends. Samples have no time.
+/// Decodes what the sensor sends. Samples have no time, and whole readings that are lost, repeated or swapped on
+/// the way leave no trace: see the [module](super).
 #[derive(Clone, Copy, Debug)]
 pub struct ResenseDecoder {
     limits: Limits,

@@ -10,15 +10,22 @@
 //! (not finite, beyond the limits that you state, a temperature that jumps) it gives errors until it is
 //! restarted. Restart it when the line has been silent, or before you ask for a reading. Bytes damaged
 //! such that the numbers stay possible cannot be noticed; state how much they can change from one reading to
-//! the next, and what goes unnoticed is off by no more. Readings that are lost, repeated or swapped
-//! cannot be noticed at all, since they have neither number nor time: ask for each, and count the
-//! answers that do not come.
+//! the next, and what goes unnoticed is off by no more.
+//!
+//! **Losses of whole readings cannot be noticed** while the sensor streams, nor can repetitions and swaps, since
+//! readings have neither number nor time. [`LineStatistics`](crate::line::LineStatistics) counts what was refused
+//! and never claims that nothing was lost. To know, ask for each reading, and count the answers that do not come;
+//! on the command line that is `?request=` in the sensor's address.
 //!
 //! How a reading is asked for differs between versions of the electronics and could not be confirmed
 //! from a public source; it is left to the user.
 
 mod decoder;
+#[cfg(feature = "simulation")]
+mod simulator;
 mod wire;
 
 pub use decoder::{Limits, ResenseDecoder, ResenseFault};
+#[cfg(feature = "simulation")]
+pub use simulator::SimulatedResense;
 pub use wire::Reading;

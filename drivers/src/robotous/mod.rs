@@ -3,7 +3,8 @@
 //! Layers, each usable alone and without I/O: the wire format ([`Reading`] with the frames of both
 //! transports, [`Request`]), the [`RobotousDecoder`] for a serial line (put it on a sensor of the
 //! module [`line`](crate::line), 115 200 baud as delivered), and the [`CanAssembler`], which joins the
-//! two CAN frames of a reading from any driver of `embedded-can`.
+//! two CAN frames of a reading. A [`CanSensor`] puts it on any driver of `embedded-can`; with the feature
+//! `simulation` a `SimulatedCan` is such a driver, with a sensor behind it.
 //!
 //! A sensor streams after [`Request::Stream`]; its zero is set only by [`Request::Bias`].
 //!
@@ -14,9 +15,19 @@
 //! byte; which bit belongs to which axis is not relied on.
 
 mod can;
+mod can_sensor;
 mod decoder;
+#[cfg(feature = "simulation")]
+mod simulated_can;
+#[cfg(feature = "simulation")]
+mod simulator;
 mod wire;
 
 pub use can::{CanAssembler, CanStatistics};
+pub use can_sensor::{CanSensor, CanSensorError};
 pub use decoder::{RobotousDecoder, RobotousFault};
+#[cfg(feature = "simulation")]
+pub use simulated_can::{Silent, SimulatedCan, SimulatedFrame};
+#[cfg(feature = "simulation")]
+pub use simulator::SimulatedRft;
 pub use wire::{Format, Reading, Request};

@@ -23,4 +23,4 @@ pub use wire::{Command, CommandAnswer, FtsSample, FtsWireError, Packet, TCP_PORT
 #[cfg(feature = "std")]
 pub use client::{FtsClient, FtsClientError};
 #[cfg(feature = "simulation")]
-pub use simulator::{FtsServer, SimulatedFts};
+pub use simulator::{Fts, FtsServer, SimulatedFts};

@@ -8,7 +8,8 @@
 //! | contact | `tactile_msgs/msg/TactileContact`: header, name, position, normal, wrench |
 //!
 //! Times are seconds, as everywhere; in the file they are whole nanoseconds from 0 to 2³¹ s. Files are
-//! written in chunks with checksums and an index, without compression; compressed ones are not read.
+//! written in chunks with checksums and an index, without compression; compressed ones are not read. Reading
+//! takes as much memory as the longest chunk, however long the file.
 //!
 //! ```
 //! use std::io::Cursor;
@@ -22,7 +23,7 @@
 //! writer.write_wrench(topic, 0.25, &wrench)?;
 //! let file = writer.finish()?.into_inner();
 //!
-//! let mut reader = McapReader::new(&file)?;
+//! let mut reader = McapReader::new(file.as_slice())?;
 //! let entry = reader.next_entry()?.ok_or("nothing")?;
 //! assert_eq!((entry.topic.as_str(), entry.time), ("/fingertip/wrench", 0.25));
 //! assert_eq!(entry.recorded, Recorded::Wrench(wrench));

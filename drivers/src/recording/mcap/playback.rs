@@ -1,32 +1,42 @@
 //! An MCAP file as a source of wrenches.
 
+use std::io::{Read, Seek, SeekFrom};
+
 use fingertip_wrench::Wrench;
 
 use super::error::McapError;
 use super::messages::Recorded;
-use super::reader::McapReader;
+use super::reader::{Entry, McapReader};
 use crate::{ErrorType, Sample, WrenchSource};
 
 /// The wrenches of one topic. Those that are not finite are passed over and counted.
 #[derive(Debug)]
-pub struct McapPlayback<'a> {
-    reader: McapReader<'a>,
+pub struct McapPlayback<R> {
+    reader: McapReader<R>,
     topic: String,
     not_finite: u64,
 }
 
-impl<'a> McapPlayback<'a> {
+impl<R: Read + Seek> McapPlayback<R> {
     /// Plays a topic by its name; an empty name means the only one with wrenches. The file is read
-    /// through once to see which there are.
+    /// through once to see which there are, as far as it is whole.
     ///
     /// # Errors
-    /// [`McapError::ChooseTopic`], or what is wrong with the file.
-    pub fn new(file: &'a [u8], topic: &str) -> Result<Self, McapError> {
+    /// [`McapError::ChooseTopic`], or what is wrong with the file if that hides all wrenches.
+    pub fn new(mut file: R, topic: &str) -> Result<Self, McapError> {
         let mut known: Vec<String> = Vec::new();
-        let mut reader = McapReader::new(file)?;
-        while let Some(entry) = reader.next_entry()? {
-            if matches!(entry.recorded, Recorded::Wrench(_)) && !known.contains(&entry.topic) {
-                known.push(entry.topic);
+        let start = file.stream_position().map_err(::mcap::McapError::from)?;
+        let mut reader = McapReader::new(&mut file)?;
+        loop {
+            match reader.next_entry() {
+                Ok(Some(Entry { topic, recorded: Recorded::Wrench(_), .. })) if !known.contains(&topic) => {
+                    known.push(topic);
+                }
+                // A message that cannot be read is met again when it is played; so is the end of a file that was
+                // cut.
+                Ok(Some(_)) | Err(McapError::Message { .. }) => {}
+                Err(error) if known.is_empty() => return Err(error),
+                Ok(None) | Err(_) => break,
             }
         }
         let chosen = match known.as_slice() {
@@ -36,9 +46,12 @@ impl<'a> McapPlayback<'a> {
         let Some(topic) = chosen.cloned() else {
             return Err(McapError::ChooseTopic { known: known.join(", ") });
         };
+        file.seek(SeekFrom::Start(start)).map_err(::mcap::McapError::from)?;
         Ok(Self { reader: McapReader::new(file)?, topic, not_finite: 0 })
     }
+}
 
+impl<R> McapPlayback<R> {
     /// Wrenches that were passed over since they are not finite.
     #[must_use]
     pub const fn not_finite(&self) -> u64 {
@@ -46,11 +59,11 @@ impl<'a> McapPlayback<'a> {
     }
 }
 
-impl ErrorType for McapPlayback<'_> {
+impl<R> ErrorType for McapPlayback<R> {
     type Error = McapError;
 }
 
-impl WrenchSource<f64> for McapPlayback<'_> {
+impl<R: Read> WrenchSource<f64> for McapPlayback<R> {
     fn next_wrench(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, McapError> {
         while let Some(entry) = self.reader.next_entry()? {
             if let (Recorded::Wrench(value), true) = (entry.recorded, entry.topic == self.topic) {

@@ -11,11 +11,11 @@ const FALSE_ALARM_RATE: f64 = 1e-4;
 
 /// What made a rest doubtful, and how large it was.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Doubt {
+pub(crate) struct Doubt {
     /// What was seen.
-    pub(super) seen: String,
+    pub(crate) seen: String,
     /// Length of the box in which the forces at rest lie \[N\]: so far the tare may be off.
-    pub(super) force_range: f64,
+    pub(crate) force_range: f64,
 }
 
 impl fmt::Display for Doubt {
@@ -31,7 +31,7 @@ impl fmt::Display for Doubt {
 
 /// Watches the readings at rest of `N` channels.
 #[derive(Clone, Debug)]
-pub(super) struct RestWatch<const N: usize> {
+pub(crate) struct RestWatch<const N: usize> {
     /// Nothing only if the rate above were none.
     test: Option<RestTest<f64, N>>,
     /// The smallest change of each channel, which is the step of its converter if that shows in
@@ -57,7 +57,7 @@ impl<const N: usize> Default for RestWatch<N> {
 impl<const N: usize> RestWatch<N> {
     /// Takes a reading as recorded, the same with known drift taken off, and the wrench that it
     /// stands for, up to a constant.
-    pub(super) fn add(&mut self, raw: &SVector<f64, N>, reading: &SVector<f64, N>, wrench: &Wrench<f64>) {
+    pub(crate) fn add(&mut self, raw: &SVector<f64, N>, reading: &SVector<f64, N>, wrench: &Wrench<f64>) {
         if let Some(test) = &mut self.test {
             test.add(reading);
         }
@@ -76,7 +76,7 @@ impl<const N: usize> RestWatch<N> {
     }
 
     /// Why it may not have been a rest; `name` names a channel.
-    pub(super) fn doubt(&self, name: impl Fn(usize) -> String) -> Option<Doubt> {
+    pub(crate) fn doubt(&self, name: impl Fn(usize) -> String) -> Option<Doubt> {
         let test = self.test?.with_resolution(self.step).ok()?;
         let seen = match test.finish().err()? {
             NotAtRest::TooFewSamples { samples, needed } => {

@@ -1,0 +1,97 @@
+//! Sensors on a CAN interface of Linux.
+
+use fingertip_drivers::robotous::{CanAssembler, CanSensor, CanSensorError, Request};
+use fingertip_drivers::{AxisCounts, NbWrenchSource};
+use socketcan::embedded_can::{ExtendedId, Id, StandardId};
+use socketcan::{CanFilter, CanSocket, Socket, SocketOptions};
+
+use super::address::Address;
+use super::line::WAIT;
+use super::losses::Losses;
+use super::{Feed, Next, Reading};
+
+/// Opens a Robotous sensor and lets it stream.
+pub(super) fn robotous(address: &Address, counts: AxisCounts) -> Result<Box<dyn Feed>, String> {
+    let [first, second, requests] = ["first", "second", "request"].map(|key| identifier(address, key));
+    let (first, second, requests) = (first?, second?, requests?);
+    let name = &address.place;
+    let open = || {
+        let socket = CanSocket::open(name)?;
+        // Others that talk on the bus must not keep the user from being heard.
+        socket.set_filters(&[first, second].map(exactly))?;
+        socket.set_read_timeout(WAIT)?;
+        socket.set_write_timeout(WAIT)?;
+        Ok(socket)
+    };
+    let socket = open().map_err(|error: std::io::Error| {
+        format!("cannot open {name}: {error}; is the interface there and up (ip link set {name} up)?")
+    })?;
+    let mut sensor = CanSensor::new(socket, CanAssembler::new(counts, first, second), requests);
+    sensor.request(Request::Stream).map_err(|error| format!("cannot tell the sensor to start: {error}"))?;
+    Ok(Box::new(CanFeed(sensor)))
+}
+
+/// An identifier of the address, hexadecimal: of 11 bits with up to three digits, of 29 with more.
+fn identifier(address: &Address, key: &str) -> Result<Id, String> {
+    let digits = address
+        .option(key)
+        .ok_or_else(|| format!("{key} is needed: the identifier as the sensor is set, such as ?{key}=64"))?;
+    let number = u32::from_str_radix(digits, 16).ok();
+    let id = number.and_then(|number| match u16::try_from(number).ok().filter(|_| digits.len() <= 3) {
+        Some(number) => StandardId::new(number).map(Id::Standard),
+        None => ExtendedId::new(number).map(Id::Extended),
+    });
+    id.ok_or_else(|| format!("{key}={digits} is no CAN identifier in hexadecimal digits"))
+}
+
+/// A filter that lets one identifier pass, in its own format.
+fn exactly(id: Id) -> CanFilter {
+    /// Marks a frame with an identifier of 29 bits, and all its bits.
+    const EXTENDED: u32 = 1 << 31;
+    let number = match id {
+        Id::Standard(id) => u32::from(id.as_raw()),
+        Id::Extended(id) => id.as_raw() | EXTENDED,
+    };
+    CanFilter::new(number, EXTENDED | ExtendedId::MAX.as_raw())
+}
+
+struct CanFeed(CanSensor<CanSocket, f64>);
+
+impl Feed for CanFeed {
+    fn next(&mut self) -> Result<Next, String> {
+        match self.0.poll_wrench() {
+            Ok(Some(sample)) => {
+                Ok(Next::Reading(Reading { time: sample.time, wrench: sample.value, volts: None }))
+            }
+            Ok(None) => Ok(Next::End),
+            Err(nb::Error::WouldBlock) => Ok(Next::Silence),
+            Err(nb::Error::Other(CanSensorError::Sensor(fault))) => Ok(Next::Fault(fault.to_string())),
+            Err(nb::Error::Other(error)) => Err(error.to_string()),
+        }
+    }
+
+    /// The sensor does not number its readings: what is known is only which came in part.
+    fn losses(&self) -> Losses {
+        let statistics = self.0.statistics();
+        Losses { corrupt: statistics.halves + statistics.others, ..Losses::default() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::address::Address;
+    use super::super::open;
+
+    #[test]
+    fn what_is_wrong_is_named() {
+        for (address, expected) in [
+            ("robotous+can://can0?first=1&second=2", "request is needed"),
+            ("robotous+can://can0?first=1&second=800&request=64", "second=800 is no CAN identifier"),
+            ("robotous+can://can0?first=20000000&second=2&request=64", "no CAN identifier"),
+            ("robotous+can://no-such-bus?first=1&second=2&request=64", "cannot open no-such-bus"),
+        ] {
+            let error = open(&address.parse::<Address>().unwrap()).map(|_| ()).unwrap_err();
+            assert!(error.contains(expected), "{error}");
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! Where readings of gauges come from: CSV, MCAP, the simulated fingertip.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use fingertip_drivers::recording::mcap::{McapReader, Recorded};
+use fingertip_drivers::recording::{RecordingError, RecordingReader, SignalUnit};
+use fingertip_drivers::{Sample, SignalSource};
+
+use super::gauges::{GaugeFault, GaugeSource, Owned};
+use super::simulated::Rounds;
+use crate::calibrated::Readings;
+use crate::error::CliError;
+use crate::gauge_rows::GaugeRows;
+use crate::record::output::mcap;
+
+/// The rows of a recording.
+pub(super) struct CsvGauges {
+    pub(super) reader: RecordingReader<File>,
+    pub(super) rows: GaugeRows,
+}
+
+impl GaugeSource for CsvGauges {
+    fn next(&mut self) -> Result<Option<Owned>, GaugeFault> {
+        let damaged = |error: RecordingError| GaugeFault::Unusable(error.to_string());
+        while let Some(row) = self.reader.next_row().map_err(damaged)? {
+            let time = row.time();
+            let owned = self.rows.reading(&row, |reading| Owned {
+                time,
+                gauges: reading.gauges.to_vec(),
+                dummy: reading.dummy,
+                celsius: reading.celsius,
+            });
+            // Rows that repeat another one, or whose time does not advance, are passed over.
+            if owned.is_some() {
+                return Ok(owned);
+            }
+        }
+        Ok(None)
+    }
+}
+
+/// A topic of signals, with that of the dummy gauge beside it.
+pub(super) struct McapGauges {
+    reader: McapReader<BufReader<File>>,
+    topic: String,
+    dummy: Option<String>,
+    /// A reading whose dummy gauge is still to come.
+    waiting: Option<Owned>,
+    celsius: Option<f64>,
+}
+
+impl McapGauges {
+    /// Reads the file through once, to see what there is.
+    pub(super) fn open(
+        path: &Path,
+        sensor: Option<&str>,
+        celsius: Option<f64>,
+    ) -> Result<(Self, Readings), CliError> {
+        let open = || {
+            let file = File::open(path).map_err(|source| CliError::read("recording", path, source))?;
+            McapReader::new(BufReader::new(file)).map_err(|error| mcap(path, &error))
+        };
+        let mut known: Vec<(String, String)> = Vec::new();
+        let mut reader = open()?;
+        while let Some(entry) = reader.next_entry().map_err(|error| mcap(path, &error))? {
+            if let Recorded::Signals(signals) = entry.recorded
+                && !known.iter().any(|(topic, _)| *topic == entry.topic)
+            {
+                known.push((entry.topic, signals.unit));
+            }
+        }
+        let gauges: Vec<_> = known.iter().filter(|(topic, _)| !topic.ends_with("/dummy")).collect();
+        let chosen = match (sensor, gauges.as_slice()) {
+            (Some(sensor), gauges) => gauges.iter().find(|(topic, _)| topic == sensor),
+            (None, [only]) => Some(only),
+            (None, _) => None,
+        };
+        let Some((topic, unit)) = chosen else {
+            let topics: Vec<&str> = gauges.iter().map(|(topic, _)| topic.as_str()).collect();
+            return Err(CliError::Mcap {
+                path: path.to_owned(),
+                message: format!("choose a topic of signals with --sensor; there are: {}", topics.join(", ")),
+            });
+        };
+        let beside = topic.rsplit_once('/').map(|(folder, _)| format!("{folder}/dummy"));
+        let dummy = beside.filter(|dummy| known.iter().any(|(topic, _)| topic == dummy));
+        let readings = Readings {
+            unit: match unit.as_str() {
+                "V" => SignalUnit::Volts,
+                "counts" => SignalUnit::Counts,
+                _ => SignalUnit::Unstated,
+            },
+            has_dummy: dummy.is_some(),
+            has_rest: false,
+            has_temperature: celsius.is_some(),
+        };
+        Ok((Self { reader: open()?, topic: topic.clone(), dummy, waiting: None, celsius }, readings))
+    }
+}
+
+impl GaugeSource for McapGauges {
+    fn next(&mut self) -> Result<Option<Owned>, GaugeFault> {
+        loop {
+            let entry = self.reader.next_entry().map_err(|error| GaugeFault::Damaged(error.to_string()))?;
+            let Some(entry) = entry else { return Ok(self.waiting.take()) };
+            let Recorded::Signals(signals) = entry.recorded else { continue };
+            if entry.topic == self.topic {
+                let (time, celsius) = (Some(entry.time), self.celsius);
+                let reading = Owned { time, gauges: signals.values, dummy: None, celsius };
+                if self.dummy.is_none() {
+                    return Ok(Some(reading));
+                }
+                if let Some(alone) = self.waiting.replace(reading) {
+                    return Ok(Some(alone));
+                }
+            } else if Some(&entry.topic) == self.dummy.as_ref()
+                && let Some(reading) = self.waiting.take_if(|reading| reading.time == Some(entry.time))
+            {
+                return Ok(Some(Owned { dummy: signals.values.first().copied(), ..reading }));
+            }
+        }
+    }
+}
+
+/// The simulated fingertip.
+pub(super) struct SimulatedGauges {
+    pub(super) rounds: Rounds,
+    pub(super) celsius: Option<f64>,
+}
+
+impl GaugeSource for SimulatedGauges {
+    fn next(&mut self) -> Result<Option<Owned>, GaugeFault> {
+        let Ok(sample) = self.rounds.next_signals();
+        Ok(sample.and_then(|Sample { time, value }| {
+            let (dummy, gauges) = value.as_slice().split_last()?;
+            Some(Owned { time, gauges: gauges.to_vec(), dummy: Some(*dummy), celsius: self.celsius })
+        }))
+    }
+}
