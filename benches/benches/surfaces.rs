@@ -265,10 +265,8 @@ fn against_parry(c: &mut Criterion) {
         surface: &impl ActiveSurface<T>,
         (push, line): &(ForceLine<T>, Line<T>),
     ) -> Option<(Vector3<T>, Vector3<T>)> {
-        if let Some(entry) = surface.sole_entry(push)
-            && entry.incidence_squared > T::zero()
-        {
-            return Some((entry.point, entry.normal));
+        if let Some(entry) = surface.sole_entry(push) {
+            return (entry.incidence_squared > T::zero()).then_some((entry.point, entry.normal));
         }
         let mut first: Option<Crossing<T>> = None;
         surface.crossings(line, |c| {
