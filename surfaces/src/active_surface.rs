@@ -38,7 +38,12 @@ impl<T: Real> Entry<T> {
     #[inline(always)]
     #[must_use]
     pub fn none() -> Self {
-        Self { point: Vector3::zeros(), normal: Vector3::zeros(), incidence_squared: T::zero(), active: false }
+        Self {
+            point: Vector3::zeros(),
+            normal: Vector3::zeros(),
+            incidence_squared: T::zero(),
+            active: false,
+        }
     }
 
     /// The crossing at which a line of this unit direction enters; none if it lies beyond the range of

@@ -1,7 +1,8 @@
 //! The kernels: no branch, no call but to the square root.
 //!
-//! Each comes in two versions that give the same bits: for lines that all meet the surface, and for any.
-//! What a line that misses costs, a division and a dozen choices, is paid only where there is one.
+//! Where a line that misses costs a division and a dozen choices more than one that meets, the kernel
+//! comes in two versions that give the same bits: a block of lines is taken to meet, and done over for
+//! any lines if one of them does not.
 
 use fingertip_wrench::Real;
 
@@ -55,6 +56,13 @@ enum Lines {
     /// Those that meet; of others, only that they do not.
     Meeting,
     Any,
+}
+
+/// Whether it gains from not expecting all.
+#[derive(Clone, Copy, PartialEq)]
+enum Versions {
+    One,
+    Two,
 }
 
 #[inline(always)]
@@ -138,6 +146,7 @@ const BLOCK: usize = 64;
 fn run<T: Real>(
     wrenches: Wrenches<'_, T>,
     contacts: Contacts<'_, T>,
+    versions: Versions,
     kernel: impl Fn(Push<T>, Lines) -> Answer<T>,
 ) {
     let Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap } = contacts;
@@ -148,20 +157,25 @@ fn run<T: Real>(
     #[cfg(feature = "simd")]
     pulp::Arch::new().dispatch(
         #[inline(always)]
-        || in_blocks(given, found, kernel),
+        || in_blocks(given, found, versions, kernel),
     );
     #[cfg(not(feature = "simd"))]
-    in_blocks(given, found, kernel);
+    in_blocks(given, found, versions, kernel);
 }
 
 #[inline(always)]
 fn in_blocks<T: Real>(
     given: [&[T]; 6],
     found: [&mut [T]; 7],
+    versions: Versions,
     kernel: impl Fn(Push<T>, Lines) -> Answer<T>,
 ) {
     let shortest = given.iter().map(|column| column.len()).fold(usize::MAX, usize::min);
     let count = found.iter().map(|column| column.len()).fold(shortest, usize::min);
+    if versions == Versions::One {
+        let [px, py, pz, nx, ny, nz, gap] = found.map(|column| &mut column[..count]);
+        return sweep(given, px, py, pz, nx, ny, nz, gap, &kernel);
+    }
     let given = given.map(|column| column[..count].as_chunks::<BLOCK>());
     let found = found.map(|column| column[..count].as_chunks_mut::<BLOCK>());
     let ([fx, fy, fz, tx, ty, tz], left) = (given.map(|(blocks, _)| blocks), given.map(|(_, rest)| rest));
@@ -256,6 +270,7 @@ impl<T: Real> BatchSurface<T> for Sphere<T> {
         run(
             wrenches,
             contacts,
+            Versions::Two,
             #[inline(always)]
             |push, lines| {
                 let foot = push.foot(centre, curvature);
@@ -279,6 +294,7 @@ impl<T: Real> BatchSurface<T> for Plane<T> {
         run(
             wrenches,
             contacts,
+            Versions::One,
             #[inline(always)]
             |push, _| {
                 let slope = dot(push.force, normal);
@@ -300,6 +316,7 @@ impl<T: Real> BatchSurface<T> for Cylinder<T> {
         run(
             wrenches,
             contacts,
+            Versions::Two,
             #[inline(always)]
             |push, lines| {
                 let start = push.foot(centre, T::one());
@@ -330,6 +347,7 @@ impl<T: Real> BatchSurface<T> for Ellipsoid<T> {
         run(
             wrenches,
             contacts,
+            Versions::Two,
             #[inline(always)]
             |push, lines| {
                 let start = times(scale(cross(push.force, push.torque), push.inverse), curvatures);
@@ -356,6 +374,7 @@ impl<T: Real> BatchSurface<T> for Capsule<T> {
         run(
             wrenches,
             contacts,
+            Versions::One,
             #[inline(always)]
             |push, _| {
                 let u = scale(push.force, push.inverse.root());

@@ -6,7 +6,7 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use crate::Crossing;
-use crate::numeric::twofold::{Twofold, difference, dot};
+use crate::numeric::twofold::{Twofold, difference, dot, outside_ball};
 use crate::numeric::vectors::{any_perpendicular, foot, unit_or, within_range};
 
 /// An oriented axis with an origin.
@@ -199,8 +199,7 @@ impl<T: Real> Axis<T> {
         let [x, y, z] = difference(&(point * scale), &(self.origin * scale));
         let [ax, ay, az] = [self.direction.x, self.direction.y, self.direction.z].map(Twofold::new);
         let from_centre = [x.minus(ax.times(height)), y.minus(ay.times(height)), z.minus(az.times(height))];
-        let excess = dot(from_centre, from_centre).minus(Twofold::new(radius).squared());
-        excess.value() / (radius + radius) / scale
+        outside_ball(from_centre, radius) / scale
     }
 
     /// How far a point is outside the circular cylinder around the axis, with twice the digits.

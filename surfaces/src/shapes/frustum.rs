@@ -168,8 +168,7 @@ impl<T: Real> ActiveSurface<T> for Frustum<T> {
         let local = self.axis.localise(&line, &middle);
         let crossing = |entry: LocalEntry<T>| self.axis.crossing(&local, &middle, &entry, true);
         Some(
-            self.entry(&local)
-                .map_or_else(Entry::none, |entry| Entry::at(&crossing(entry), &line.direction)),
+            self.entry(&local).map_or_else(Entry::none, |entry| Entry::at(&crossing(entry), &line.direction)),
         )
     }
 
