@@ -161,9 +161,14 @@ impl<T: Real> Axis<T> {
     #[inline]
     pub(super) fn split(&self, v: &Vector3<T>) -> (T, Vector3<T>) {
         let height = v.dot(&self.direction);
-        let across = v - self.direction * height;
         // Once more, so that what is left is across even where most has cancelled.
-        (height, across - self.direction * across.dot(&self.direction))
+        (height, self.part_across(&(v - self.direction * height)))
+    }
+
+    /// The part of a vector across the axis.
+    #[inline]
+    pub(super) fn part_across(&self, v: &Vector3<T>) -> Vector3<T> {
+        v - self.direction * v.dot(&self.direction)
     }
 
     /// As [`split`](Self::split), for a point of the sensor frame. One so far away that its distance
@@ -173,7 +178,8 @@ impl<T: Real> Axis<T> {
         self.split(&within_range(&(point - self.origin)))
     }
 
-    /// The normal of a side at a point beside the axis, from its parts away from the axis and along it.
+    /// The normal of a side at a point beside the axis, from its parts away from the axis and along it;
+    /// a unit vector if `across` is across the axis, or the part along it zero.
     #[inline(always)]
     pub(super) fn slanted(&self, across: &Vector3<T>, away: T, along: T) -> Vector3<T> {
         let squared = across.norm_squared();

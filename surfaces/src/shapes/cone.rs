@@ -121,7 +121,8 @@ impl<T: Real> Cone<T> {
         if !(height >= T::zero() && along.abs() < T::GREATEST) {
             return None;
         }
-        let normal = self.axis.slanted(&line.across_at(along), self.cosine, -self.sine);
+        let across = self.axis.part_across(&line.across_at(along));
+        let normal = self.axis.slanted(&across, self.cosine, -self.sine);
         Some(LocalEntry { along, height, normal })
     }
 }

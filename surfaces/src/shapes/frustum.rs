@@ -144,7 +144,10 @@ impl<T: Real> Frustum<T> {
         }
         let steep = select_unpredictable(through_end, T::zero(), self.side_cosine);
         let flat = select_unpredictable(through_end, T::one().copysign(end), self.taper * steep);
-        Some(LocalEntry { along, height, normal: self.axis.slanted(&line.across_at(along), steep, flat) })
+        let across = line.across_at(along);
+        // Near the apex, rounding would leave it with a part along the axis.
+        let across = if self.taper == T::zero() { across } else { self.axis.part_across(&across) };
+        Some(LocalEntry { along, height, normal: self.axis.slanted(&across, steep, flat) })
     }
 
     #[inline]

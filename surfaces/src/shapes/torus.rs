@@ -280,3 +280,50 @@ serde_parts!(Torus {
     ring_radius_m: T = |torus: &Torus<T>| torus.ring_radius,
     tube_radius_m: T = |torus: &Torus<T>| torus.tube_radius,
 } => |parts| Torus::new(parts.ring_radius_m, parts.tube_radius_m));
+
+#[cfg(test)]
+mod tests {
+    use super::Torus;
+    use crate::{ActiveSurface, SignedDistance};
+    use fingertip_wrench::Line;
+    use nalgebra::Vector3;
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+
+    /// By dense samples: none is nearer than the closest approach, and one nearly as near.
+    fn nothing_is_nearer(line: &Line<f64>) {
+        let torus = Torus::new(1.0, 0.01).unwrap();
+        let found = torus.closest_approach(line);
+        let at_foot = -line.point.dot(&line.direction);
+        let least = (-2000..=2000)
+            .map(|k| torus.signed_distance(&line.at(at_foot + f64::from(k) * 1e-3)).distance)
+            .fold(f64::INFINITY, f64::min);
+        // The nearest sample is half a step aside at most.
+        assert!(
+            found.gap <= least.max(0.0) + 1e-12 && found.gap >= least - 5e-4,
+            "{line:?} {found:?} {least}"
+        );
+    }
+
+    #[test]
+    fn closest_approaches_are_the_least() {
+        let mut random = Pcg64Mcg::seed_from_u64(5);
+        for k in 0..400 {
+            let mut any = |reach: f64| Vector3::from_fn(|_, _| random.random_range(-reach..reach));
+            let (mut point, mut direction) = (any(1.3), any(1.0));
+            // In the plane of the ring, along the axis, through it, through the centre.
+            match k % 8 {
+                0 => (point.z, direction.z) = (0.1, 0.0),
+                1 => (direction.x, direction.y) = (0.0, 0.0),
+                2 => (point.x, point.y) = (0.0, 0.0),
+                3 => point = Vector3::zeros(),
+                4 => (point.x, direction.x) = (0.0, 0.0),
+                _ => {}
+            }
+            nothing_is_nearer(&Line { point, direction: direction.normalize() });
+        }
+        for axis in [Vector3::x(), Vector3::z()] {
+            nothing_is_nearer(&Line { point: Vector3::zeros(), direction: axis });
+        }
+    }
+}
