@@ -132,7 +132,7 @@ impl<T: Real> Axis<T> {
     ) -> Crossing<T> {
         Crossing {
             along: line.along + entry.along,
-            point: from + (line.across_at(entry.along) + self.direction * entry.height),
+            point: from + (line.start + line.direction * entry.along),
             normal: entry.normal,
             active,
         }

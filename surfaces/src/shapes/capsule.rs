@@ -90,7 +90,8 @@ impl<T: Real> Capsule<T> {
         let to_side = -(line.across.dot(&line.drift) * self.curvature + root) / squared;
         let z = line.height * self.curvature + to_side * line.rise;
         let height = z.min(half_length).max(-half_length);
-        let from_centre = line.start * self.curvature - axis * height;
+        let over = line.height * self.curvature - height;
+        let from_centre = line.across * self.curvature + axis * over;
         let foot = -from_centre.dot(&u);
         let radial = from_centre + u * foot;
         let remainder = T::one() - radial.norm_squared();
@@ -100,7 +101,7 @@ impl<T: Real> Capsule<T> {
         }
         let half_chord = remainder.max(T::zero()).root();
         let normal = radial - u * half_chord;
-        let lift = normal.dot(&axis);
+        let lift = over + (foot - half_chord) * line.rise;
         // The normal would keep the error of the place.
         let lean = select_unpredictable(z.abs() <= half_length, lift, T::zero());
         Some(LocalEntry {
