@@ -34,6 +34,18 @@ pub struct Entry<T: Real> {
 }
 
 impl<T: Real> Entry<T> {
+    /// The line misses.
+    #[inline(always)]
+    #[must_use]
+    pub fn none() -> Self {
+        Self {
+            point: Vector3::zeros(),
+            normal: Vector3::zeros(),
+            incidence_squared: T::zero(),
+            active: false,
+        }
+    }
+
     /// The crossing at which a line of this unit direction enters; none if it lies beyond the range of
     /// the type.
     #[inline(always)]
@@ -93,7 +105,7 @@ pub trait ActiveSurface<T: Real> {
     ///
     /// `None`, as the default answers, says nothing. An answer with a positive square of the
     /// incidence shall be finite and agree, but for rounding, with the one crossing that has a normal
-    /// against the force.
+    /// against the force; one without says that there is none, but for rounding.
     #[inline]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         let _ = push;

@@ -1,4 +1,8 @@
 //! The kernels: no branch, no call but to the square root.
+//!
+//! Where a line that misses costs a division and a dozen choices more than one that meets, the kernel
+//! comes in two versions that give the same bits: a block of lines is taken to meet, and done over for
+//! any lines if one of them does not.
 
 use fingertip_wrench::Real;
 
@@ -27,6 +31,38 @@ struct Answer<T> {
     point: [T; 3],
     normal: [T; 3],
     gap: T,
+    /// The line meets the surface and nothing has left the range on the way.
+    certain: bool,
+}
+
+impl<T: Real> Answer<T> {
+    /// Of a kernel that does not know whether all is finite.
+    #[inline(always)]
+    fn new(point: [T; 3], normal: [T; 3], gap: T) -> Self {
+        let answer = Self { point, normal, gap, certain: gap == T::zero() };
+        Self { certain: answer.certain & answer.is_finite(), ..answer }
+    }
+
+    /// Anything not finite on the way ends up here.
+    #[inline(always)]
+    fn is_finite(&self) -> bool {
+        (self.gap + dot(self.point, self.normal)).abs() <= T::GREATEST
+    }
+}
+
+/// Which lines a kernel has to expect.
+#[derive(Clone, Copy, PartialEq)]
+enum Lines {
+    /// Those that meet; of others, only that they do not.
+    Meeting,
+    Any,
+}
+
+/// Whether it gains from not expecting all.
+#[derive(Clone, Copy, PartialEq)]
+enum Versions {
+    One,
+    Two,
 }
 
 #[inline(always)]
@@ -73,41 +109,128 @@ struct Meeting<T> {
     back: T,
     /// How far the foot is outside.
     outside: T,
+    meets: bool,
 }
 
 impl<T: Real> Meeting<T> {
     /// One root serves the line that meets and the line that misses.
     #[inline(always)]
-    fn new(foot_squared: T, inverse_direction_squared: T) -> Self {
+    fn new(foot_squared: T, inverse_direction_squared: T, lines: Lines) -> Self {
         let remainder = T::one() - foot_squared;
         let meets = remainder >= T::zero();
-        let root = pick(meets, remainder * inverse_direction_squared, foot_squared).root();
+        let half_chord = remainder * inverse_direction_squared;
+        if lines == Lines::Meeting {
+            return Self { shrink: T::one(), back: half_chord.root(), outside: T::zero(), meets };
+        }
+        let root = pick(meets, half_chord, foot_squared).root();
         Self {
             shrink: T::one() / pick(meets, T::one(), root),
             back: pick(meets, root, T::zero()),
             outside: pick(meets, T::zero(), root - T::one()),
+            meets,
         }
+    }
+
+    #[inline(always)]
+    fn answer(&self, point: [T; 3], normal: [T; 3], gap: T) -> Answer<T> {
+        let answer = Answer { point, normal, gap, certain: self.meets };
+        Answer { certain: self.meets & answer.is_finite(), ..answer }
     }
 }
 
+/// How many wrenches are taken together.
+const BLOCK: usize = 64;
+
 /// Runs a kernel over all wrenches.
 #[inline(always)]
-fn run<T: Real>(wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>, kernel: impl Fn(Push<T>) -> Answer<T>) {
-    let ([fx, fy, fz], [tx, ty, tz]) = (wrenches.force, wrenches.torque);
+fn run<T: Real>(
+    wrenches: Wrenches<'_, T>,
+    contacts: Contacts<'_, T>,
+    versions: Versions,
+    kernel: impl Fn(Push<T>, Lines) -> Answer<T>,
+) {
     let Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap } = contacts;
-    let given = [fx, fy, fz, tx, ty, tz];
+    let [fx, fy, fz] = wrenches.force;
+    let [tx, ty, tz] = wrenches.torque;
+    let (given, found) = ([fx, fy, fz, tx, ty, tz], [px, py, pz, nx, ny, nz, gap]);
     // Wider vectors do the same operations on more wrenches at once: nothing is fused or reordered.
     #[cfg(feature = "simd")]
     pulp::Arch::new().dispatch(
         #[inline(always)]
-        || sweep(given, px, py, pz, nx, ny, nz, gap, kernel),
+        || in_blocks(given, found, versions, kernel),
     );
     #[cfg(not(feature = "simd"))]
-    sweep(given, px, py, pz, nx, ny, nz, gap, kernel);
+    in_blocks(given, found, versions, kernel);
 }
 
-/// The loop. Slices that are arguments of their own are known not to overlap, which the compiler
-/// would have to test otherwise, and would rather not vectorise.
+#[inline(always)]
+fn in_blocks<T: Real>(
+    given: [&[T]; 6],
+    found: [&mut [T]; 7],
+    versions: Versions,
+    kernel: impl Fn(Push<T>, Lines) -> Answer<T>,
+) {
+    let shortest = given.iter().map(|column| column.len()).fold(usize::MAX, usize::min);
+    let count = found.iter().map(|column| column.len()).fold(shortest, usize::min);
+    if versions == Versions::One {
+        let [px, py, pz, nx, ny, nz, gap] = found.map(|column| &mut column[..count]);
+        return sweep(given, px, py, pz, nx, ny, nz, gap, &kernel);
+    }
+    let given = given.map(|column| column[..count].as_chunks::<BLOCK>());
+    let found = found.map(|column| column[..count].as_chunks_mut::<BLOCK>());
+    let ([fx, fy, fz, tx, ty, tz], left) = (given.map(|(blocks, _)| blocks), given.map(|(_, rest)| rest));
+    let [px, py, pz, nx, ny, nz, gap] = found;
+    for k in 0..count / BLOCK {
+        let given = [&fx[k], &fy[k], &fz[k], &tx[k], &ty[k], &tz[k]];
+        let (px, py, pz) = (&mut px.0[k], &mut py.0[k], &mut pz.0[k]);
+        let (nx, ny, nz, gap) = (&mut nx.0[k], &mut ny.0[k], &mut nz.0[k], &mut gap.0[k]);
+        if !all_meet(given, px, py, pz, nx, ny, nz, gap, &kernel) {
+            sweep(given.map(|block| &block[..]), px, py, pz, nx, ny, nz, gap, &kernel);
+        }
+    }
+    sweep(left, px.1, py.1, pz.1, nx.1, ny.1, nz.1, gap.1, &kernel);
+}
+
+impl<T: Real> Push<T> {
+    /// And whether its square is in range.
+    #[inline(always)]
+    fn new(force: [T; 3], torque: [T; 3]) -> (Self, bool) {
+        let squared = dot(force, force);
+        let in_range = (squared >= ForceLine::least_squared()) & (squared <= ForceLine::greatest_squared());
+        (Self { force, torque, inverse: T::one() / squared }, in_range)
+    }
+}
+
+/// A block of lines that meet: `false` if one of them does not, and then what is written means nothing.
+///
+/// Arrays that are arguments of their own are known not to overlap, which the compiler would have to
+/// test otherwise, and would rather not vectorise.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+fn all_meet<T: Real>(
+    [fx, fy, fz, tx, ty, tz]: [&[T; BLOCK]; 6],
+    px: &mut [T; BLOCK],
+    py: &mut [T; BLOCK],
+    pz: &mut [T; BLOCK],
+    nx: &mut [T; BLOCK],
+    ny: &mut [T; BLOCK],
+    nz: &mut [T; BLOCK],
+    gap: &mut [T; BLOCK],
+    kernel: &impl Fn(Push<T>, Lines) -> Answer<T>,
+) -> bool {
+    let mut all = true;
+    for k in 0..BLOCK {
+        let (push, in_range) = Push::new([fx[k], fy[k], fz[k]], [tx[k], ty[k], tz[k]]);
+        let answer = kernel(push, Lines::Meeting);
+        all &= in_range & answer.certain;
+        [px[k], py[k], pz[k]] = answer.point;
+        [nx[k], ny[k], nz[k]] = answer.normal;
+        gap[k] = T::zero();
+    }
+    all
+}
+
+/// Any lines, as many as the slices hold, which are equally long.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 fn sweep<T: Real>(
@@ -119,24 +242,17 @@ fn sweep<T: Real>(
     ny: &mut [T],
     nz: &mut [T],
     gap: &mut [T],
-    kernel: impl Fn(Push<T>) -> Answer<T>,
+    kernel: &impl Fn(Push<T>, Lines) -> Answer<T>,
 ) {
-    let shortest = given.iter().map(|column| column.len()).fold(gap.len(), usize::min);
-    let wanted = [px.len(), py.len(), pz.len(), nx.len(), ny.len(), nz.len()];
-    let count = wanted.into_iter().fold(shortest, usize::min);
+    let count = gap.len();
     // Slices of one known length let the compiler drop every bounds check from the loop.
     let [fx, fy, fz, tx, ty, tz] = given.map(|column| &column[..count]);
     let (px, py, pz) = (&mut px[..count], &mut py[..count], &mut pz[..count]);
-    let (nx, ny, nz, gap) = (&mut nx[..count], &mut ny[..count], &mut nz[..count], &mut gap[..count]);
-    let (least, greatest) = (ForceLine::least_squared(), ForceLine::greatest_squared());
+    let (nx, ny, nz) = (&mut nx[..count], &mut ny[..count], &mut nz[..count]);
     for k in 0..count {
-        let force = [fx[k], fy[k], fz[k]];
-        let squared = dot(force, force);
-        let push = Push { force, torque: [tx[k], ty[k], tz[k]], inverse: T::one() / squared };
-        let answer = kernel(push);
-        // Anything not finite on the way ends up here.
-        let witness = answer.gap + dot(answer.point, answer.normal);
-        let good = (squared >= least) & (squared <= greatest) & (witness.abs() <= T::GREATEST);
+        let (push, in_range) = Push::new([fx[k], fy[k], fz[k]], [tx[k], ty[k], tz[k]]);
+        let answer = kernel(push, Lines::Any);
+        let good = in_range & answer.is_finite();
         let keep = |x: T| pick(good, x, T::zero());
         [px[k], py[k], pz[k]] = answer.point.map(keep);
         [nx[k], ny[k], nz[k]] = answer.normal.map(keep);
@@ -149,15 +265,23 @@ impl<T: Real> BatchSurface<T> for Sphere<T> {
     fn contacts(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
         let (centre, radius) = (self.centre().into(), self.radius());
         let curvature = T::one() / radius;
+        // Then nothing can leave the range where a line meets.
+        let has_room = self.centre().amax() + radius < T::GREATEST * T::literal(0.125);
         run(
             wrenches,
             contacts,
+            Versions::Two,
             #[inline(always)]
-            |push| {
+            |push, lines| {
                 let foot = push.foot(centre, curvature);
-                let meeting = Meeting::new(dot(foot, foot), push.inverse);
+                let meeting = Meeting::new(dot(foot, foot), push.inverse, lines);
                 let normal = add(scale(foot, meeting.shrink), push.force, -meeting.back);
-                Answer { point: add(centre, normal, radius), normal, gap: meeting.outside * radius }
+                Answer {
+                    point: add(centre, normal, radius),
+                    normal,
+                    gap: meeting.outside * radius,
+                    certain: meeting.meets & has_room,
+                }
             },
         );
     }
@@ -170,13 +294,14 @@ impl<T: Real> BatchSurface<T> for Plane<T> {
         run(
             wrenches,
             contacts,
+            Versions::One,
             #[inline(always)]
-            |push| {
+            |push, _| {
                 let slope = dot(push.force, normal);
                 let foot = push.foot(origin, T::one());
                 let across = add(foot, push.force, -dot(foot, normal) / slope);
                 let gap = pick(slope < T::zero(), T::zero(), T::one() / T::zero());
-                Answer { point: zip(origin, across, |o, a| o + a), normal, gap }
+                Answer::new(zip(origin, across, |o, a| o + a), normal, gap)
             },
         );
     }
@@ -191,8 +316,9 @@ impl<T: Real> BatchSurface<T> for Cylinder<T> {
         run(
             wrenches,
             contacts,
+            Versions::Two,
             #[inline(always)]
-            |push| {
+            |push, lines| {
                 let start = push.foot(centre, T::one());
                 let (height, rise) = (dot(start, core), dot(push.force, core));
                 let across = add(start, core, -height);
@@ -200,14 +326,11 @@ impl<T: Real> BatchSurface<T> for Cylinder<T> {
                 let inverse = T::one() / dot(drift, drift);
                 let along = -dot(across, drift) * inverse;
                 let foot = scale(add(across, drift, along), curvature);
-                let meeting = Meeting::new(dot(foot, foot), inverse);
+                let meeting = Meeting::new(dot(foot, foot), inverse, lines);
                 let normal = add(scale(foot, meeting.shrink), drift, -meeting.back);
                 let height = height + (along - meeting.back * radius) * rise;
-                Answer {
-                    point: add(add(centre, core, height), normal, radius),
-                    normal,
-                    gap: meeting.outside * radius,
-                }
+                let point = add(add(centre, core, height), normal, radius);
+                meeting.answer(point, normal, meeting.outside * radius)
             },
         );
     }
@@ -224,21 +347,19 @@ impl<T: Real> BatchSurface<T> for Ellipsoid<T> {
         run(
             wrenches,
             contacts,
+            Versions::Two,
             #[inline(always)]
-            |push| {
+            |push, lines| {
                 let start = times(scale(cross(push.force, push.torque), push.inverse), curvatures);
                 let direction = times(push.force, curvatures);
                 let inverse = T::one() / dot(direction, direction);
                 let foot = add(start, direction, -dot(start, direction) * inverse);
-                let meeting = Meeting::new(dot(foot, foot), inverse);
+                let meeting = Meeting::new(dot(foot, foot), inverse, lines);
                 let scaled = add(scale(foot, meeting.shrink), direction, -meeting.back);
                 let gradient = times(scaled, curvatures);
                 let flatness = T::one() / dot(gradient, gradient).root();
-                Answer {
-                    point: times(scaled, semi_axes),
-                    normal: scale(gradient, flatness),
-                    gap: meeting.outside * flatness,
-                }
+                let (point, normal) = (times(scaled, semi_axes), scale(gradient, flatness));
+                meeting.answer(point, normal, meeting.outside * flatness)
             },
         );
     }
@@ -253,8 +374,9 @@ impl<T: Real> BatchSurface<T> for Capsule<T> {
         run(
             wrenches,
             contacts,
+            Versions::One,
             #[inline(always)]
-            |push| {
+            |push, _| {
                 let u = scale(push.force, push.inverse.root());
                 let start = push.foot(centre, T::one());
                 let (height, rise) = (dot(start, core), dot(u, core));
@@ -283,11 +405,8 @@ impl<T: Real> BatchSurface<T> for Capsule<T> {
                 let distance = dot(outward, outward).root();
                 let normal = scale(outward, T::one() / distance);
                 let hit = pick(inside, left, ball_left) >= T::zero();
-                Answer {
-                    point: add(add(centre, core, reached), normal, radius),
-                    normal,
-                    gap: pick(hit, T::zero(), (distance - radius).max(T::zero())),
-                }
+                let gap = pick(hit, T::zero(), (distance - radius).max(T::zero()));
+                Answer::new(add(add(centre, core, reached), normal, radius), normal, gap)
             },
         );
     }

@@ -2,15 +2,15 @@
 
 use fingertip_wrench::Real;
 
-use super::roots::bracketed;
+use super::roots::first_of_convex;
 
 /// The point of the ellipsoid with these semi-axes closest to `point`, both in its principal
 /// frame, in two or three dimensions (Eberly, "Distance from a point to an ellipse, an ellipsoid,
 /// or a hyperellipsoid").
 ///
 /// The closest point is `xᵢ = rᵢ·yᵢ/(s + rᵢ)` with `rᵢ = (aᵢ/a_min)²` and `s` the largest root of
-/// `Σ(rᵢ·zᵢ/(s + rᵢ))² = 1`, `zᵢ = yᵢ/aᵢ`: a falling convex function, so that the root is found
-/// within a bracket. Total for finite points and positive semi-axes.
+/// `Σ(rᵢ·zᵢ/(s + rᵢ))² = 1`, `zᵢ = yᵢ/aᵢ`: a falling convex function, so that Newton's method cannot
+/// overstep the root. Total for finite points and positive semi-axes.
 pub(crate) fn closest_point<T: Real, const N: usize>(semi_axes: &[T; N], point: &[T; N]) -> [T; N] {
     let least = semi_axes.iter().fold(T::GREATEST, |least, a| least.min(*a));
     let mut squared = [T::one(); N];
@@ -33,14 +33,14 @@ pub(crate) fn closest_point<T: Real, const N: usize>(semi_axes: &[T; N], point: 
     };
     let on_shortest = squared.iter().zip(&scaled).any(|(r, z)| *r <= T::one() && *z > T::zero());
     let low = -T::one();
-    let reach = squared.iter().zip(&scaled).fold(T::zero(), |sum, (r, z)| sum + *r * *z);
     let s = if !on_shortest && f(low).0 <= T::zero() {
         // Near the middle, in the plane across the shortest axis: the closest point lies off it.
         low
     } else {
         // No term of the sum exceeds 1 at the root, so that none overflows from there on.
         let tightest = squared.iter().zip(&scaled).fold(low, |low, (r, z)| low.max(*r * (*z - T::one())));
-        bracketed(tightest, reach, f)
+        // There the sum is not yet below 1: Newton's method on a falling convex function rises to the root.
+        first_of_convex(tightest, T::one(), f).unwrap_or(tightest)
     };
     let mut closest = [T::zero(); N];
     let mut left = T::one();

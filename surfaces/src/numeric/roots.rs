@@ -5,11 +5,9 @@ use fingertip_wrench::Real;
 /// More halvings than any interval of an `f64` allows.
 const MOST_HALVINGS: usize = 120;
 
-/// A root of `f` in `[low, high]`, at whose ends `f` has different signs (or is zero): Newton's
-/// method, kept inside the bracket, bisecting whenever it does not halve its step. `f` returns the
-/// value and the derivative.
+/// A root of `f` in `[low, high]`, at whose ends `f` has different signs (or is zero), as
+/// [`bracketed_from`] the middle finds it. `f` returns the value and the derivative.
 pub(crate) fn bracketed<T: Real>(low: T, high: T, f: impl Fn(T) -> (T, T)) -> T {
-    let half = T::literal(0.5);
     let (at_low, _) = f(low);
     let (at_high, _) = f(high);
     if at_low == T::zero() {
@@ -18,12 +16,25 @@ pub(crate) fn bracketed<T: Real>(low: T, high: T, f: impl Fn(T) -> (T, T)) -> T 
     if at_high == T::zero() {
         return high;
     }
-    // Orient so that f(below) < 0 < f(above).
-    let (mut below, mut above) = if at_low < T::zero() { (low, high) } else { (high, low) };
-    let mut t = (low + high) * half;
-    let mut step_before = (high - low).abs();
-    let (mut value, mut slope) = f(t);
+    let (below, above) = if at_low < T::zero() { (low, high) } else { (high, low) };
+    bracketed_from((low + high) * T::literal(0.5), below, above, T::zero(), f)
+}
+
+/// A root of `f` between `below`, where it is negative, and `above`, where it is positive: Newton's
+/// method from `start` between them, kept inside the bracket, bisecting whenever it does not halve its
+/// step. Values up to `noise` cannot be told from zero.
+#[inline]
+pub(crate) fn bracketed_from<T: Real>(
+    start: T,
+    mut below: T,
+    mut above: T,
+    noise: T,
+    f: impl Fn(T) -> (T, T),
+) -> T {
+    let mut t = start;
+    let mut step_before = (above - below).abs();
     for _ in 0..2 * MOST_HALVINGS {
+        let (value, slope) = f(t);
         if value < T::zero() {
             below = t;
         } else {
@@ -35,15 +46,16 @@ pub(crate) fn bracketed<T: Real>(low: T, high: T, f: impl Fn(T) -> (T, T)) -> T 
         let next = if inside && newton.abs() * (T::one() + T::one()) < step_before {
             step_before = newton.abs();
             candidate
-        } else {
-            step_before = (above - below).abs() * half;
-            below + (above - below) * half
-        };
-        if next == t || value == T::zero() {
+        } else if value.abs() <= noise {
             return t;
+        } else {
+            step_before = (above - below).abs() * T::literal(0.5);
+            below + (above - below) * T::literal(0.5)
+        };
+        if value.abs() <= noise || next == t {
+            return next;
         }
         t = next;
-        (value, slope) = f(t);
     }
     t
 }

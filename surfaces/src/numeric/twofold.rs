@@ -50,6 +50,13 @@ impl<T: Real> Twofold<T> {
         Self { high, low }
     }
 
+    /// The quotient by a twofold number.
+    pub(crate) fn divided_by(self, divisor: Self) -> Self {
+        let quotient = self.over(divisor.high);
+        // 1/(h + l) = 1/h − l/h², but for the square of what rounding took.
+        quotient.minus(quotient.times(Self::new(divisor.low / divisor.high)))
+    }
+
     #[inline]
     pub(crate) fn minus(self, other: Self) -> Self {
         self.plus(Self { high: -other.high, low: -other.low })
@@ -85,6 +92,12 @@ pub(crate) fn dot_with<T: Real>(a: [Twofold<T>; 3], b: &Vector3<T>) -> Twofold<T
     dot(a, [Twofold::new(b.x), Twofold::new(b.y), Twofold::new(b.z)])
 }
 
+/// How far the end of a vector is outside the ball of this radius about its start, to first order:
+/// `(|v|² − r²)/2r`.
+pub(crate) fn outside_ball<T: Real>(v: [Twofold<T>; 3], radius: T) -> T {
+    dot(v, v).minus(Twofold::new(radius).squared()).value() / (radius + radius)
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Twofold, difference, dot};
@@ -106,6 +119,8 @@ mod tests {
             prop_assert!((wide(product) - (a64 - b64) * (c64 - d64)).abs() <= allowed);
             let quotient = Twofold::difference(a, b).over(c);
             prop_assert!((wide(quotient) - (a64 - b64) / c64).abs() <= allowed);
+            let quotient = Twofold::new(a).divided_by(Twofold::difference(c, -9.0));
+            prop_assert!((wide(quotient) - a64 / (c64 + 9.0)).abs() <= allowed);
             let v = difference(&Vector3::new(a, b, c), &Vector3::new(d, a, b));
             let exact = (a64 - d64).powi(2) + (b64 - a64).powi(2) + (c64 - b64).powi(2);
             prop_assert!((wide(dot(v, v)) - exact).abs() <= allowed * 8.0);

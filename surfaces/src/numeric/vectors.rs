@@ -73,8 +73,8 @@ pub(crate) fn any_perpendicular<T: Real>(direction: &Vector3<T>) -> Vector3<T> {
 
 /// The line's point closest to `centre`, relative to `centre`, and its position along the line.
 ///
-/// The second pass removes what cancellation left of the first, which matters where the line's own
-/// point is far away.
+/// Off by a rounding error of the distance between `centre` and the line's own point: lines of action
+/// have theirs nearby.
 #[inline]
 pub(crate) fn foot<T: Real>(line: &Line<T>, centre: &Vector3<T>) -> (Vector3<T>, T) {
     let from_centre = line.point - centre;

@@ -6,34 +6,39 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use crate::Crossing;
-use crate::numeric::twofold::{Twofold, difference, dot};
+use crate::numeric::twofold::{Twofold, difference, dot, outside_ball};
 use crate::numeric::vectors::{any_perpendicular, foot, unit_or, within_range};
 
-/// An oriented axis with an origin, and a frame around it.
+/// An oriented axis with an origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Axis<T: Real> {
     pub(super) origin: Vector3<T>,
     pub(super) direction: Vector3<T>,
-    /// Across it.
-    x: Vector3<T>,
-    y: Vector3<T>,
 }
 
-/// A line seen from an axis, of which z is the direction.
+/// A line seen from a point of an axis, its parts along and across the axis told apart.
 #[derive(Clone, Copy)]
 pub(super) struct Local<T: Real> {
-    /// The point from which positions count.
+    /// The point of the line closest to that of the axis, from which positions count.
     pub(super) start: Vector3<T>,
     pub(super) direction: Vector3<T>,
     /// Where that is on the line that was given.
     pub(super) along: T,
+    /// The start's height, and the direction's.
+    pub(super) height: T,
+    pub(super) rise: T,
+    /// What is left of both across the axis.
+    pub(super) across: Vector3<T>,
+    pub(super) drift: Vector3<T>,
+    /// `(start × direction)·axis`: the distance from the axis that the line keeps, times `|drift|`.
+    pub(super) aside: T,
 }
 
-/// Where a line enters a solid around an axis, seen from there.
+/// Where a line enters a solid around an axis, and the outward normal there.
 #[derive(Clone, Copy)]
 pub(super) struct LocalEntry<T: Real> {
     pub(super) along: T,
-    pub(super) point: Vector3<T>,
+    pub(super) height: T,
     pub(super) normal: Vector3<T>,
 }
 
@@ -41,97 +46,94 @@ impl<T: Real> Local<T> {
     /// The same line, run through backwards.
     #[inline]
     pub(super) fn reversed(self) -> Self {
-        Self { direction: -self.direction, along: -self.along, ..self }
+        Self {
+            direction: -self.direction,
+            along: -self.along,
+            rise: -self.rise,
+            drift: -self.drift,
+            aside: -self.aside,
+            ..self
+        }
     }
 
-    /// Where it enters the cone on whose side the distance from the axis is `steepness` times
-    /// `radius`, which shrinks by `shrink` per unit length of the line; NaN if nowhere. Of both
-    /// nappes, whichever: the caller shall look.
+    /// Where it enters the cone whose radius, `radius` at the start, shrinks by `shrink` per unit length
+    /// of the line; a quotient not yet divided, NaN if nowhere. Of both nappes, whichever: the caller
+    /// shall look.
     ///
-    /// `F(t) = steepness²·|across + t·drift|² − (radius − t·shrink)²` is a quadratic, whose root with a
-    /// falling value is wanted. With the part of `across` along `drift` and the one aside, its
-    /// discriminant needs no difference of large numbers, not even where the line is parallel to
-    /// the axis.
+    /// `F(t) = |across + t·drift|² − (radius − t·shrink)² = a·t² + 2·b·t + c` is a quadratic, whose root
+    /// with a falling value is wanted. Its discriminant times `|drift|²` is
+    /// `(radius·|drift|² + shrink·across·drift)² − a·aside²`, which needs no difference of large numbers,
+    /// not even where the line is parallel to the axis.
     #[inline(always)]
-    pub(super) fn enters_cone(&self, steepness: T, radius: T, shrink: T) -> T {
-        let (p, u) = (&self.start, &self.direction);
-        let drift = (u.x * u.x + u.y * u.y).root();
-        let (x, y, drift) = if drift > T::EPSILON * T::literal(4.0) {
-            (u.x / drift, u.y / drift, drift * steepness)
-        } else {
-            (T::one(), T::zero(), T::zero())
-        };
-        let with = p.x * x + p.y * y;
-        let (aside_x, aside_y) = ((p.x - x * with) * steepness, (p.y - y * with) * steepness);
-        let (with, aside) = (with * steepness, aside_x * aside_x + aside_y * aside_y);
-        // Positions count in units that make the greater of both one: exactly so for a cylinder.
-        let unit = drift.max(shrink.abs());
-        let (drift, shrink) = (drift / unit, shrink / unit);
-        let a = (drift - shrink.abs()) * (drift + shrink.abs());
-        let b = with * drift + radius * shrink;
-        let lean = radius * drift + shrink * with;
-        let root = (lean * lean - aside * a).root();
+    pub(super) fn enters_cone(&self, radius: T, shrink: T) -> [T; 2] {
+        let (squared, meets) = (self.drift.norm_squared(), self.across.dot(&self.drift));
+        let distance_squared = self.across.norm_squared();
+        let a = squared - shrink * shrink;
+        let b = meets + radius * shrink;
+        let c = distance_squared - radius * radius;
+        let lean = radius * squared + shrink * meets;
+        // A direction is a unit vector up to rounding: what a parallel one has across is noise.
+        let is_parallel = squared <= T::EPSILON * T::EPSILON * T::literal(16.0);
+        let apart = lean * lean - a * (self.aside * self.aside);
+        let parallel = shrink * shrink * distance_squared;
+        let root = select_unpredictable(is_parallel, parallel, apart / squared).root();
         // Without cancellation.
         let sum = b.abs() + root;
-        let outside = with * with + aside - radius * radius;
         let falls = b > T::zero();
-        select_unpredictable(falls, -sum, outside) / (select_unpredictable(falls, a, sum) * unit)
+        [select_unpredictable(falls, -sum, c), select_unpredictable(falls, a, sum)]
     }
 
-    /// The same for a cylinder, from the point of the line closest to the axis.
+    /// The same for a cylinder.
     #[inline(always)]
-    pub(super) fn enters_cylinder(&self, radius: T) -> T {
-        let (p, u) = (&self.start, &self.direction);
-        let inverse = T::one() / (u.x * u.x + u.y * u.y);
-        let foot = -(p.x * u.x + p.y * u.y) * inverse;
-        let (x, y) = (p.x + u.x * foot, p.y + u.y * foot);
-        foot - ((radius * radius - (x * x + y * y)) * inverse).root()
+    pub(super) fn enters_cylinder(&self, radius: T) -> [T; 2] {
+        let (squared, meets) = (self.drift.norm_squared(), self.across.dot(&self.drift));
+        [-meets - (radius * radius * squared - self.aside * self.aside).root(), squared]
     }
 
-    #[inline]
-    pub(super) fn at(&self, t: T) -> Vector3<T> {
-        self.start + self.direction * t
+    /// Its point at a position, across the axis.
+    #[inline(always)]
+    pub(super) fn across_at(&self, t: T) -> Vector3<T> {
+        self.across + self.drift * t
     }
 }
 
 impl<T: Real> Axis<T> {
     /// With a unit vector as direction.
     pub(super) fn new(origin: Vector3<T>, direction: Vector3<T>) -> Self {
-        let x = any_perpendicular(&direction);
-        Self { origin, direction, x, y: direction.cross(&x) }
+        Self { origin, direction }
     }
 
-    /// A line seen from the point at a height over the origin, positions counting from the point
-    /// closest to the origin.
+    /// A line seen from a point of the axis.
     #[inline(always)]
-    pub(super) fn localise(&self, line: &Line<T>, height: T) -> Local<T> {
-        let local = |v: &Vector3<T>| Vector3::new(v.dot(&self.x), v.dot(&self.y), v.dot(&self.direction));
-        let (from_origin, along) = foot(line, &self.origin);
-        let mut start = local(&from_origin);
-        start.z -= height;
-        Local { start, direction: local(&line.direction), along }
+    pub(super) fn localise(&self, line: &Line<T>, from: &Vector3<T>) -> Local<T> {
+        let (start, along) = foot(line, from);
+        let direction = line.direction;
+        let (height, rise) = (start.dot(&self.direction), direction.dot(&self.direction));
+        Local {
+            start,
+            direction,
+            along,
+            height,
+            rise,
+            across: start - self.direction * height,
+            drift: direction - self.direction * rise,
+            aside: start.cross(&direction).dot(&self.direction),
+        }
     }
 
-    #[inline(always)]
-    fn turned_back(&self, v: &Vector3<T>) -> Vector3<T> {
-        self.x * v.x + self.y * v.y + self.direction * v.z
-    }
-
-    /// The crossing in the sensor frame; `height` and `line` as in [`localise`](Self::localise).
+    /// The crossing in the sensor frame; `from` and `line` as in [`localise`](Self::localise).
     #[inline(always)]
     pub(super) fn crossing(
         &self,
         line: &Local<T>,
-        height: T,
+        from: &Vector3<T>,
         entry: &LocalEntry<T>,
         active: bool,
     ) -> Crossing<T> {
-        let mut point = entry.point;
-        point.z += height;
         Crossing {
             along: line.along + entry.along,
-            point: self.origin + self.turned_back(&point),
-            normal: self.turned_back(&entry.normal),
+            point: from + (line.start + line.direction * entry.along),
+            normal: entry.normal,
             active,
         }
     }
@@ -141,16 +143,16 @@ impl<T: Real> Axis<T> {
     pub(super) fn both_ends(
         &self,
         line: &Local<T>,
-        height: T,
+        from: &Vector3<T>,
         entry: impl Fn(&Local<T>) -> Option<LocalEntry<T>>,
         mut visit: impl FnMut(LocalEntry<T>, Crossing<T>),
     ) {
         let reversed = line.reversed();
         if let Some(end) = entry(line) {
-            visit(end, self.crossing(line, height, &end, true));
+            visit(end, self.crossing(line, from, &end, true));
         }
         if let Some(end) = entry(&reversed) {
-            let crossing = self.crossing(&reversed, height, &end, true);
+            let crossing = self.crossing(&reversed, from, &end, true);
             visit(end, Crossing { along: -crossing.along, ..crossing });
         }
     }
@@ -159,9 +161,14 @@ impl<T: Real> Axis<T> {
     #[inline]
     pub(super) fn split(&self, v: &Vector3<T>) -> (T, Vector3<T>) {
         let height = v.dot(&self.direction);
-        let across = v - self.direction * height;
         // Once more, so that what is left is across even where most has cancelled.
-        (height, across - self.direction * across.dot(&self.direction))
+        (height, self.part_across(&(v - self.direction * height)))
+    }
+
+    /// The part of a vector across the axis.
+    #[inline]
+    pub(super) fn part_across(&self, v: &Vector3<T>) -> Vector3<T> {
+        v - self.direction * v.dot(&self.direction)
     }
 
     /// As [`split`](Self::split), for a point of the sensor frame. One so far away that its distance
@@ -169,6 +176,19 @@ impl<T: Real> Axis<T> {
     #[inline]
     pub(super) fn split_point(&self, point: &Vector3<T>) -> (T, Vector3<T>) {
         self.split(&within_range(&(point - self.origin)))
+    }
+
+    /// The normal of a side at a point beside the axis, from its parts away from the axis and along it;
+    /// a unit vector if `across` is across the axis, or the part along it zero.
+    #[inline(always)]
+    pub(super) fn slanted(&self, across: &Vector3<T>, away: T, along: T) -> Vector3<T> {
+        let squared = across.norm_squared();
+        let outward = if squared > T::LEAST_NORMAL / T::EPSILON {
+            across * (away / squared.root())
+        } else {
+            self.outward(across) * away
+        };
+        outward + self.direction * along
     }
 
     /// The unit vector away from the axis; any across it for a point on the axis.
@@ -185,8 +205,7 @@ impl<T: Real> Axis<T> {
         let [x, y, z] = difference(&(point * scale), &(self.origin * scale));
         let [ax, ay, az] = [self.direction.x, self.direction.y, self.direction.z].map(Twofold::new);
         let from_centre = [x.minus(ax.times(height)), y.minus(ay.times(height)), z.minus(az.times(height))];
-        let excess = dot(from_centre, from_centre).minus(Twofold::new(radius).squared());
-        excess.value() / (radius + radius) / scale
+        outside_ball(from_centre, radius) / scale
     }
 
     /// How far a point is outside the circular cylinder around the axis, with twice the digits.

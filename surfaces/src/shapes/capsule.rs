@@ -81,17 +81,18 @@ impl<T: Real> Capsule<T> {
     /// place moves the entry by its square only, and nothing has to branch on it.)
     #[inline(always)]
     fn entry(&self, line: &Local<T>) -> Option<LocalEntry<T>> {
-        let (p, u) = (line.start * self.curvature, &line.direction);
+        let (axis, u) = (self.axis.direction, line.direction);
         let half_length = self.half_length * self.curvature;
         // Parallel to the axis, it comes from far away.
-        let squared = (u.x * u.x + u.y * u.y).max(T::LEAST_NORMAL);
-        let aside = p.x * u.y - p.y * u.x;
+        let squared = line.drift.norm_squared().max(T::LEAST_NORMAL);
+        let aside = line.aside * self.curvature;
         let root = (squared - aside * aside).root();
-        let to_side = -(p.x * u.x + p.y * u.y + root) / squared;
-        let z = p.z + to_side * u.z;
+        let to_side = -(line.across.dot(&line.drift) * self.curvature + root) / squared;
+        let z = line.height * self.curvature + to_side * line.rise;
         let height = z.min(half_length).max(-half_length);
-        let from_centre = Vector3::new(p.x, p.y, p.z - height);
-        let foot = -from_centre.dot(u);
+        let over = line.height * self.curvature - height;
+        let from_centre = line.across * self.curvature + axis * over;
+        let foot = -from_centre.dot(&u);
         let radial = from_centre + u * foot;
         let remainder = T::one() - radial.norm_squared();
         // Where side and ball meet, rounding may find a line outside both: a hair's breadth.
@@ -99,27 +100,32 @@ impl<T: Real> Capsule<T> {
             return None;
         }
         let half_chord = remainder.max(T::zero()).root();
-        let mut normal = radial - u * half_chord;
-        let mut point = normal * self.radius;
-        point.z += height * self.radius;
+        let normal = radial - u * half_chord;
+        let lift = over + (foot - half_chord) * line.rise;
         // The normal would keep the error of the place.
-        normal.z = select_unpredictable(z.abs() <= half_length, T::zero(), normal.z);
-        Some(LocalEntry { along: (foot - half_chord) * self.radius, point, normal })
+        let lean = select_unpredictable(z.abs() <= half_length, lift, T::zero());
+        Some(LocalEntry {
+            along: (foot - half_chord) * self.radius,
+            height: (height + lift) * self.radius,
+            normal: normal - axis * lean,
+        })
     }
 }
 
 impl<T: Real> ActiveSurface<T> for Capsule<T> {
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
-        let local = self.axis.localise(line, T::zero());
-        self.axis.both_ends(&local, T::zero(), |line| self.entry(line), |_, crossing| visit(crossing));
+        let centre = self.axis.origin;
+        let local = self.axis.localise(line, &centre);
+        self.axis.both_ends(&local, &centre, |line| self.entry(line), |_, crossing| visit(crossing));
     }
 
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         let line = push.line();
-        let local = self.axis.localise(&line, T::zero());
-        let crossing = |entry: LocalEntry<T>| self.axis.crossing(&local, T::zero(), &entry, true);
+        let centre = self.axis.origin;
+        let local = self.axis.localise(&line, &centre);
+        let crossing = |entry: LocalEntry<T>| self.axis.crossing(&local, &centre, &entry, true);
         self.entry(&local).map(|entry| Entry::at(&crossing(entry), &line.direction))
     }
 

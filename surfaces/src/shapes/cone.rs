@@ -6,7 +6,7 @@ use nalgebra::{ComplexField, Vector3};
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
 use crate::numeric::twofold::Twofold;
-use crate::numeric::vectors::{foot, is_finite, length, unit_or};
+use crate::numeric::vectors::{foot, is_finite, length};
 #[cfg(feature = "serde")]
 use crate::numeric::vectors::{from_degrees, to_degrees};
 use crate::serde_parts::serde_parts;
@@ -20,7 +20,8 @@ pub struct Cone<T: Real> {
     half_angle: T,
     sine: T,
     cosine: T,
-    /// What rounding took from `sine/cosine`, for a type narrower than `f64`.
+    tangent: T,
+    /// What rounding took from the tangent, for a type narrower than `f64`.
     tangent_rest: T,
     depth: Option<T>,
 }
@@ -41,9 +42,10 @@ impl<T: Real> Cone<T> {
             "between 0 and a right angle",
             half_angle > T::zero() && half_angle < T::frac_pi_2() && sine >= least && cosine >= least,
         )?;
-        let tangent = ComplexField::tan(half_angle.to_f64());
+        let tangent = sine / cosine;
+        let exact = ComplexField::tan(half_angle.to_f64());
         Ok(Self {
-            tangent_rest: T::literal(tangent - (sine / cosine).to_f64()),
+            tangent_rest: T::literal(exact - tangent.to_f64()),
             axis: Axis::new(
                 BadShape::check_point("cone", "apex", apex)?,
                 BadShape::check_direction("cone", "axis", axis)?,
@@ -51,6 +53,7 @@ impl<T: Real> Cone<T> {
             half_angle,
             sine,
             cosine,
+            tangent,
             depth: None,
         })
     }
@@ -111,36 +114,40 @@ impl<T: Real> Cone<T> {
     /// Where a line enters, seen from the apex.
     #[inline(always)]
     fn entry(&self, line: &Local<T>) -> Option<LocalEntry<T>> {
-        let along = line.enters_cone(self.cosine, line.start.z * self.sine, -line.direction.z * self.sine);
-        let point = line.at(along);
+        let [to_side, over] = line.enters_cone(line.height * self.tangent, -line.rise * self.tangent);
+        let along = to_side / over;
+        let height = line.height + along * line.rise;
         // Of the two cones that meet at the apex, the right one.
-        if !(point.z >= T::zero() && along.abs() < T::GREATEST) {
+        if !(height >= T::zero() && along.abs() < T::GREATEST) {
             return None;
         }
-        let outward = unit_or(&Vector3::new(point.x, point.y, T::zero()), Vector3::x);
-        Some(LocalEntry { along, point, normal: outward * self.cosine - Vector3::z() * self.sine })
+        let across = self.axis.part_across(&line.across_at(along));
+        let normal = self.axis.slanted(&across, self.cosine, -self.sine);
+        Some(LocalEntry { along, height, normal })
     }
 }
 
 impl<T: Real> ActiveSurface<T> for Cone<T> {
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
-        let local = self.axis.localise(line, T::zero());
+        let apex = self.axis.origin;
+        let local = self.axis.localise(line, &apex);
         self.axis.both_ends(
             &local,
-            T::zero(),
+            &apex,
             |line| self.entry(line),
-            |entry, crossing| visit(Crossing { active: self.is_active(entry.point.z), ..crossing }),
+            |entry, crossing| visit(Crossing { active: self.is_active(entry.height), ..crossing }),
         );
     }
 
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         let line = push.line();
-        let local = self.axis.localise(&line, T::zero());
+        let apex = self.axis.origin;
+        let local = self.axis.localise(&line, &apex);
         self.entry(&local).map(|entry| {
-            let active = self.is_active(entry.point.z);
-            Entry::at(&self.axis.crossing(&local, T::zero(), &entry, active), &line.direction)
+            let active = self.is_active(entry.height);
+            Entry::at(&self.axis.crossing(&local, &apex, &entry, active), &line.direction)
         })
     }
 
@@ -159,7 +166,7 @@ impl<T: Real> ActiveSurface<T> for Cone<T> {
     }
 
     fn outside_by(&self, point: &Vector3<T>) -> T {
-        let taper = Twofold::difference(-self.sine / self.cosine, self.tangent_rest);
+        let taper = Twofold::difference(-self.tangent, self.tangent_rest);
         self.axis.outside_cone_by(point, T::zero(), taper, self.cosine)
     }
 

@@ -150,11 +150,16 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
         let [u, v] = axes;
         let lengths = [length(&stretched(&u)) * scale, length(&stretched(&v)) * scale];
         let [x, y] = closest_point(&lengths, &[p.dot(&u), p.dot(&v)]);
-        // The normal of the shadow at that point is the surface's; its support point is the answer.
+        // The normal of the shadow at that point is the surface's.
         let [a, b] = lengths;
         let normal = unit_or(&(u * (x / a * (scale / a)) + v * (y / b * (scale / b))), || u);
-        let support = stretched(&normal);
-        let point = stretched(&(support / length(&support))) * scale;
+        // The point itself lies over that of the shadow, where a line parallel to the given one comes
+        // deepest into the ellipsoid scaled to a sphere. (To take it from the normal would multiply its
+        // rounding error with the aspect.)
+        let over = u * x + v * y;
+        let inward = line.direction.component_mul(&(self.curvatures * scale));
+        let along = -over.component_mul(&(self.curvatures * scale)).dot(&inward) / inward.norm_squared();
+        let point = over + line.direction * along;
         let gap = hypotenuse(p.dot(&u) - x, p.dot(&v) - y).min(T::GREATEST);
         ClosestApproach { gap, point, normal, active: true }
     }
@@ -197,3 +202,41 @@ impl<T: Real> SignedDistance<T> for Ellipsoid<T> {
 serde_parts!(Ellipsoid {
     semi_axes_m: Vector3<T> = |ellipsoid: &Ellipsoid<T>| ellipsoid.semi_axes,
 } => |parts| Ellipsoid::new(parts.semi_axes_m));
+
+#[cfg(test)]
+mod tests {
+    use super::Ellipsoid;
+    use crate::ActiveSurface;
+    use fingertip_wrench::Line;
+    use nalgebra::Vector3;
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+
+    /// Against double precision. A line that runs along a needle is touched anywhere: as it tilts, the
+    /// point slides by `a/u`, `u` being the cosine between the line and the plane across the axis.
+    #[test]
+    fn closest_points_of_needles_and_pancakes_in_single_precision() {
+        let mut random = Pcg64Mcg::seed_from_u64(9);
+        for axes in [[1.0, 1e-3, 1e-3], [1.0, 1.0, 1e-3], [1.0, 0.7, 0.4]] {
+            let axes = Vector3::from(axes).cast::<f32>();
+            let (narrow, wide) = (Ellipsoid::new(axes).unwrap(), Ellipsoid::new(axes.cast::<f64>()).unwrap());
+            for _ in 0..2000 {
+                let mut any = |reach: f32| Vector3::from_fn(|_, _| random.random_range(-reach..reach));
+                let line = Line { point: any(1.2), direction: any(1.0).normalize() };
+                let exact =
+                    Line { point: line.point.cast(), direction: line.direction.cast::<f64>().normalize() };
+                let mut meets = false;
+                wide.crossings(&exact, |_| meets = true);
+                if meets {
+                    continue;
+                }
+                let (found, expected) = (narrow.closest_approach(&line), wide.closest_approach(&exact));
+                let sliding = 1.0 / (line.direction.component_div(&axes).norm() * axes.z);
+                let allowed = 16.0 * f32::EPSILON;
+                let error = (found.point.cast::<f64>() - expected.point).norm();
+                assert!(error <= f64::from(allowed * sliding), "{line:?} {found:?} {expected:?}");
+                assert!((f64::from(found.gap) - expected.gap).abs() <= f64::from(allowed), "{line:?}");
+            }
+        }
+    }
+}

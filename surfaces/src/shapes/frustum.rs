@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
 use crate::numeric::twofold::{Twofold, difference, dot_with};
-use crate::numeric::vectors::{hypotenuse, unit_or};
+use crate::numeric::vectors::hypotenuse;
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
@@ -117,69 +117,62 @@ impl<T: Real> Frustum<T> {
     }
 
     /// Where a line enters, seen from the middle: through the end that it comes from, or else through
-    /// the side. Which of them cannot be foretold, so both are computed and nothing branches on it.
+    /// the side. Which of them cannot be foretold, so both are prepared and one division serves both.
     #[inline(always)]
     fn entry(&self, line: &Local<T>) -> Option<LocalEntry<T>> {
-        let (p, u) = (&line.start, &line.direction);
         let half = self.height * T::literal(0.5);
         let middle_radius = (self.base_radius + self.top_radius) * T::literal(0.5);
-        let end = half.copysign(-u.z);
-        let radius = middle_radius - self.taper * end;
-        // Parallel to the ends, this is infinite or NaN, and the test fails.
-        let to_end = (end - p.z) / u.z;
-        let (x, y) = (p.x + to_end * u.x, p.y + to_end * u.y);
-        let through_end = x * x + y * y <= radius * radius;
-        let is_cylinder = self.taper == T::zero();
-        let to_side = if is_cylinder {
+        let end = half.copysign(-line.rise);
+        let end_radius = select_unpredictable(line.rise > T::zero(), self.base_radius, self.top_radius);
+        // Where the line reaches that end, times its rise; never where it is parallel to the ends.
+        let to_end = end - line.height;
+        let there = line.across * line.rise + line.drift * to_end;
+        let limit = end_radius * line.rise;
+        let through_end = there.norm_squared() < limit * limit;
+        let [to_side, over] = if self.taper == T::zero() {
             line.enters_cylinder(middle_radius)
         } else {
-            line.enters_cone(T::one(), middle_radius - self.taper * p.z, self.taper * u.z)
+            line.enters_cone(middle_radius - self.taper * line.height, self.taper * line.rise)
         };
-        let along = select_unpredictable(through_end, to_end, to_side);
-        let z = select_unpredictable(through_end, end, p.z + to_side * u.z);
+        let along = select_unpredictable(through_end, to_end, to_side)
+            / select_unpredictable(through_end, line.rise, over);
+        let height = select_unpredictable(through_end, end, line.height + along * line.rise);
         // Where side and end meet, rounding may find a line outside both: a hair's breadth.
         let hair = (half + middle_radius) * (T::EPSILON * T::literal(16.0));
-        if !(z.abs() <= half + hair) {
+        if !(height.abs() <= half + hair) {
             return None;
         }
-        let (x, y) = (p.x + along * u.x, p.y + along * u.y);
-        let squared = x * x + y * y;
         let steep = select_unpredictable(through_end, T::zero(), self.side_cosine);
-        let normal = if is_cylinder {
-            let scale = steep / middle_radius;
-            Vector3::new(x * scale, y * scale, T::zero())
-        } else if squared > T::LEAST_NORMAL / T::EPSILON {
-            let scale = steep / squared.root();
-            Vector3::new(x * scale, y * scale, self.taper * steep)
-        } else {
-            // At the apex.
-            let outward = unit_or(&Vector3::new(x, y, T::zero()), Vector3::x);
-            (outward + Vector3::z() * self.taper) * steep
-        };
-        let flat = select_unpredictable(through_end, T::one().copysign(end), T::zero());
-        Some(LocalEntry {
-            along,
-            point: Vector3::new(x, y, z),
-            normal: Vector3::new(normal.x, normal.y, normal.z + flat),
-        })
+        let flat = select_unpredictable(through_end, T::one().copysign(end), self.taper * steep);
+        let across = line.across_at(along);
+        // Near the apex, rounding would leave it with a part along the axis.
+        let across = if self.taper == T::zero() { across } else { self.axis.part_across(&across) };
+        Some(LocalEntry { along, height, normal: self.axis.slanted(&across, steep, flat) })
+    }
+
+    #[inline]
+    fn middle(&self) -> Vector3<T> {
+        self.axis.origin + self.axis.direction * (self.height * T::literal(0.5))
     }
 }
 
 impl<T: Real> ActiveSurface<T> for Frustum<T> {
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
-        let middle = self.height * T::literal(0.5);
-        let local = self.axis.localise(line, middle);
-        self.axis.both_ends(&local, middle, |line| self.entry(line), |_, crossing| visit(crossing));
+        let middle = self.middle();
+        let local = self.axis.localise(line, &middle);
+        self.axis.both_ends(&local, &middle, |line| self.entry(line), |_, crossing| visit(crossing));
     }
 
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        let middle = self.height * T::literal(0.5);
+        let middle = self.middle();
         let line = push.line();
-        let local = self.axis.localise(&line, middle);
-        let crossing = |entry: LocalEntry<T>| self.axis.crossing(&local, middle, &entry, true);
-        self.entry(&local).map(|entry| Entry::at(&crossing(entry), &line.direction))
+        let local = self.axis.localise(&line, &middle);
+        let crossing = |entry: LocalEntry<T>| self.axis.crossing(&local, &middle, &entry, true);
+        Some(
+            self.entry(&local).map_or_else(Entry::none, |entry| Entry::at(&crossing(entry), &line.direction)),
+        )
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {

@@ -10,7 +10,8 @@ use nalgebra::Vector3;
 use crate::numeric::closest::by_search;
 use crate::numeric::quadratic::roots;
 use crate::numeric::roots::bisected;
-use crate::numeric::vectors::{foot, hypotenuse, unit_or};
+use crate::numeric::twofold::Twofold;
+use crate::numeric::vectors::{foot, hypotenuse, length, unit_or};
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance};
 
 /// One point of a profile, and how the curve goes on from there to the next.
@@ -21,11 +22,21 @@ pub struct Knot<T: Real> {
     /// `d(ρ²)/dz` here, and half-way to the next knot.
     slope: T,
     middle_slope: T,
+    /// What rounding took from both, for a type narrower than `f64`.
+    rests: [T; 2],
 }
 
 impl<T: Real> Knot<T> {
     fn at([z, radius]: [T; 2]) -> Self {
-        Self { z, radius, slope: T::zero(), middle_slope: T::zero() }
+        Self { z, radius, slope: T::zero(), middle_slope: T::zero(), rests: [T::zero(); 2] }
+    }
+
+    /// Takes what rounding took from the slopes from those of the same knot in double precision.
+    fn complete(&mut self, exact: &Knot<f64>) {
+        self.rests = [
+            T::literal(exact.slope - self.slope.to_f64()),
+            T::literal(exact.middle_slope - self.middle_slope.to_f64()),
+        ];
     }
 
     /// Height and radius \[m\].
@@ -102,6 +113,10 @@ impl<T: Real, const N: usize> Revolution<T, [Knot<T>; N]> {
     pub fn from_profile(points: [[T; 2]; N]) -> Result<Self, BadShape> {
         let mut knots = points.map(Knot::at);
         fit(&mut knots)?;
+        let mut exact = points.map(|point| Knot::at(point.map(Real::to_f64)));
+        if fit(&mut exact).is_ok() {
+            knots.iter_mut().zip(&exact).for_each(|(knot, exact)| knot.complete(exact));
+        }
         Ok(Self { knots, scalar: PhantomData })
     }
 }
@@ -115,6 +130,10 @@ impl<T: Real> Revolution<T, Vec<Knot<T>>> {
     pub fn from_points(points: &[[T; 2]]) -> Result<Self, BadShape> {
         let mut knots: Vec<_> = points.iter().map(|point| Knot::at(*point)).collect();
         fit(&mut knots)?;
+        let mut exact: Vec<_> = points.iter().map(|point| Knot::at(point.map(Real::to_f64))).collect();
+        if fit(&mut exact).is_ok() {
+            knots.iter_mut().zip(&exact).for_each(|(knot, exact)| knot.complete(exact));
+        }
         Ok(Self { knots, scalar: PhantomData })
     }
 }
@@ -284,6 +303,30 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
         unit_or(&found, Vector3::z)
     }
 
+    /// Squared radius at a height and its slope, with twice the digits and the slopes that the points
+    /// have exactly; as if the first and the last piece went on beyond the ends.
+    fn exact_profile(&self, z: T) -> Option<[Twofold<T>; 2]> {
+        let knots = self.knots();
+        let (this, next) = knots
+            .iter()
+            .zip(knots.iter().skip(1))
+            .find(|(_, next)| z <= next.z)
+            .or_else(|| knots.iter().zip(knots.iter().skip(1)).next_back())?;
+        let slope = |rounded: T, rest: T| Twofold::difference(rounded, -rest);
+        let middle = slope(this.middle_slope, this.rests[1]);
+        let width = Twofold::difference(next.z, this.z);
+        // In terms of the nearer knot, so that the value there is exact.
+        let ahead = Twofold::difference(z, this.z);
+        let from_this = (ahead.value() + ahead.value()) <= width.value();
+        let (knot, way) = if from_this { (this, ahead) } else { (next, Twofold::difference(z, next.z)) };
+        let at_knot = slope(knot.slope, knot.rests[0]);
+        // Half the width from knot to middle, in the direction of the way.
+        let turn = if from_this { middle.minus(at_knot) } else { at_knot.minus(middle) };
+        let bend = turn.times(way).divided_by(width);
+        let squared = Twofold::new(knot.radius).squared().plus(way.times(at_knot.plus(bend)));
+        Some([squared, at_knot.plus(bend).plus(bend)])
+    }
+
     fn inside(&self, radius: T, z: T) -> bool {
         pieces(self.knots())
             .any(|piece| z > piece.low && z <= piece.high && radius * radius < piece.squared_at(z))
@@ -426,6 +469,16 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         let (found, active) = self.distance(point);
         if active { self.side_normal(point.x, point.y, point.z) } else { found.normal }
+    }
+
+    /// Outside the side, on which the active part lies.
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        let Some([squared, slope]) = self.exact_profile(point.z) else { return T::zero() };
+        let [x, y] = [point.x, point.y].map(Twofold::new);
+        let excess = x.squared().plus(y.squared()).minus(squared).value();
+        let outside = excess / length(&Vector3::new(point.x + point.x, point.y + point.y, slope.value()));
+        // At a tip there is no telling.
+        if outside.is_number() { outside } else { T::zero() }
     }
 
     fn contains(&self, point: &Vector3<T>) -> bool {

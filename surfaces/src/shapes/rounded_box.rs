@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use crate::numeric::closest::to_convex;
 use crate::numeric::roots::first_of_convex;
-use crate::numeric::twofold::{Twofold, dot};
+use crate::numeric::twofold::{Twofold, outside_ball};
 use crate::numeric::vectors::{foot, length, unit_or};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
@@ -127,9 +127,7 @@ impl<T: Real> ActiveSurface<T> for RoundedBox<T> {
             | [(_, false), (_, false), (x, true)] => x.minus(rounding).value() / scale,
             three => {
                 let part = |(x, out): (Twofold<T>, bool)| if out { x } else { Twofold::new(T::zero()) };
-                let [x, y, z] = three.map(part);
-                let excess = dot([x, y, z], [x, y, z]).minus(rounding.squared()).value();
-                let outside = excess / (rounding.value() + rounding.value()) / scale;
+                let outside = outside_ball(three.map(part), rounding.value()) / scale;
                 if outside.is_number() { outside } else { T::zero() }
             }
         }

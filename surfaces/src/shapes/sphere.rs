@@ -3,7 +3,7 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use crate::numeric::twofold::{Twofold, difference, dot};
+use crate::numeric::twofold::{difference, outside_ball};
 use crate::numeric::vectors::{any_perpendicular, length, unit_or};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
@@ -120,10 +120,8 @@ impl<T: Real> ActiveSurface<T> for Sphere<T> {
 
     fn outside_by(&self, point: &Vector3<T>) -> T {
         let scale = self.radius.normalising_factor();
-        let radius = self.radius * scale;
         let from_centre = difference(&(point * scale), &(self.centre * scale));
-        let excess = dot(from_centre, from_centre).minus(Twofold::new(radius).squared());
-        excess.value() / (radius + radius) / scale
+        outside_ball(from_centre, self.radius * scale) / scale
     }
 
     #[inline]

@@ -296,6 +296,5 @@ accurate!(
     flat(|centre, r| Rectangle::<f64>::new(centre, Vector3::x() * r, Vector3::y() * r).unwrap()),
     flat(|centre, r| Rectangle::<f32>::new(centre, Vector3::x() * r, Vector3::y() * r).unwrap())
 );
-// The coefficients of the spline are rounded themselves, before any line is met.
-accurate!(revolutions, revolution::<f64>(), revolution::<f32>(), 2e-6);
+accurate!(revolutions, revolution::<f64>(), revolution::<f32>());
 accurate!(heightfields, heightfield::<f64>(), heightfield::<f32>());
