@@ -10,3 +10,4 @@ pub use bound::{ContactBound, WorstErrors};
 pub use contact_model::ContactModel;
 pub use outcome::{Contact, NoContact, Resolution};
 pub use point_contact::PointContact;
+pub(crate) use point_contact::flat;

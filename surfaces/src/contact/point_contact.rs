@@ -32,7 +32,8 @@ pub struct PointContact<T: Real> {
 
 /// Below this cosine of incidence, where rounding errors grow more than threefold, the long way is
 /// taken.
-fn flat<T: Real>() -> T {
+#[inline]
+pub(crate) fn flat<T: Real>() -> T {
     T::literal(0.3)
 }
 

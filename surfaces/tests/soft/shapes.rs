@@ -1,7 +1,7 @@
 //! Every shape finds the contact that a wrench was made from.
 
 use fingertip_surfaces::{
-    Contact, ContactModel, NoContact, Resolution, SmoothSurface, SoftFinger, SoftFingerSurface,
+    Contact, ContactModel, NoContact, Resolution, SmoothSurface, SoftFinger, SoftFingerSurface, Sphere,
 };
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
@@ -210,6 +210,33 @@ fn degenerate_wrenches_have_types() {
         Resolution::NoContact(NoContact::BelowThreshold { force }) if force == 1.0
     ));
     assert!(SoftFinger::new(-1.0).is_err() && SoftFinger::new(f64::NAN).is_err());
+}
+
+/// A pure force whose line misses is ambiguous, and stays so when rounding its torque, or the pose of
+/// the shape, leaves `f·m` not quite zero.
+#[test]
+fn a_pure_force_that_misses_grazes_two_points() {
+    fn check<T: Real, S: SoftFingerSurface<T>>(name: &str, surface: &S, reach: f64) {
+        let mut random = Random::new(23);
+        for _ in 0..2000 {
+            let force = random.direction();
+            let aside = random.direction().cross(&force).normalize() * reach * random.uniform(1.5, 40.0);
+            let number = |v: Vector3<f64>| v.map(T::literal);
+            let wrench = Wrench::from_force_at(&number(aside), number(force));
+            match SoftFinger::new(T::zero()).unwrap().resolve(&wrench, surface) {
+                Resolution::NoContact(NoContact::Ambiguous { first, second }) => {
+                    assert!((first - second).norm_squared().is_number(), "{name} {first} {second}");
+                }
+                other => panic!("{name} {wrench:?} {other:?}"),
+            }
+        }
+    }
+    check::<f64, _>("sphere", &Sphere::centred(0.013).unwrap(), 0.013);
+    check::<f32, _>("sphere", &Sphere::centred(0.013).unwrap(), 0.013);
+    check::<f64, _>("sphere aside", &common::sphere(), 0.017);
+    check::<f32, _>("sphere aside", &common::sphere(), 0.017);
+    check::<f64, _>("ellipsoid", &common::ellipsoid(), 0.017);
+    check::<f32, _>("ellipsoid", &common::ellipsoid(), 0.017);
 }
 
 #[test]
