@@ -154,6 +154,10 @@ impl<T: Real> ActiveSurface<T> for DynSurface<T> {
         each!(self, shape => shape.normal(point))
     }
 
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        each!(self, shape => shape.outside_by(point))
+    }
+
     fn contains(&self, point: &Vector3<T>) -> bool {
         each!(self, shape => shape.contains(point))
     }

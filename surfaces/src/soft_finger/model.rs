@@ -3,7 +3,8 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::numeric::vectors::{is_tame, larger, largest, length};
+use super::mended::mended;
+use crate::numeric::vectors::{by_components, is_tame, larger, largest, length};
 use crate::serde_parts::serde_parts;
 use crate::{
     BadShape, Contact, ContactModel, ForceLine, NoContact, Resolution, Search, SoftContact, SoftFingerSurface,
@@ -80,7 +81,16 @@ impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
         {
             return Resolution::Contact(contact_at(wrench, &contact, contact.spin_torque));
         }
-        self.resolve_any(wrench, surface, last)
+        let copy = Wrench::on_fingertip(by_components(&wrench.force()), by_components(&wrench.torque()));
+        match self.resolve_any(&copy, surface, last) {
+            Resolution::Contact(contact) => Resolution::Contact(Contact {
+                point: by_components(&contact.point),
+                normal: by_components(&contact.normal),
+                force: by_components(&contact.force),
+                ..contact
+            }),
+            none => none,
+        }
     }
 }
 
@@ -173,6 +183,7 @@ impl<T: Real> SoftFinger<T> {
             }
         });
         if let Some((contact, _)) = seen.best {
+            let contact = mended(&scaled.wrench, surface, &contact);
             let spin_torque = scaled.unit.map_or(contact.spin_torque, |unit| {
                 (contact.spin_torque / unit).max(-T::GREATEST).min(T::GREATEST)
             });
