@@ -8,7 +8,7 @@ use super::cylinder::on_cylinder;
 use super::ellipsoid::{on_ellipsoid, on_sphere, steeply_on_ellipsoid, steeply_on_sphere};
 use super::frustum::{on_frustum, on_round_side};
 use super::plane::on_plane;
-use super::rim::on_rim;
+use super::rim::{on_elliptic_rim, on_rim};
 use super::torus::on_torus;
 use crate::contact::flat;
 use crate::{
@@ -159,35 +159,66 @@ soft_finger!(CappedCylinder, |shape, wrench, _, visit| {
 });
 
 soft_finger!(
-    /// The side by the closed form; flat ends as planes, within their outline. On the edge between
-    /// them there is no normal and so no soft finger.
+    /// The side by the closed form; flat ends as planes, within their outline; and the edges between
+    /// them, with a normal between those of the faces that meet. A closed one is convex and has one
+    /// contact, on one of these.
     EllipticCylinder,
     |shape, wrench, _, visit| {
         let axes = shape.semi_axes();
         let reciprocals = axes.map(|a| T::one() / a);
         let (force, torque) = (wrench.force(), wrench.torque());
+        let mut found = None;
         on_cylinder(axes, reciprocals, &force, &torque, |contact| match shape.ends() {
             CylinderEnds::Unbounded => visit(contact),
             CylinderEnds::Open(half) => {
                 visit(SoftContact { active: contact.point.z.abs() <= half, ..contact });
             }
-            CylinderEnds::Capped(half) if contact.point.z.abs() <= half => visit(contact),
+            CylinderEnds::Capped(half) if contact.point.z.abs() <= half => found = Some(contact),
             CylinderEnds::Capped(_) => {}
         });
         if let CylinderEnds::Capped(half) = shape.ends() {
             for normal in [Vector3::z(), -Vector3::z()] {
-                let origin = normal * half;
-                if let Some(contact) = on_plane(&normal, &force, &wrench.torque_about(&origin)) {
-                    let (x, y) = (contact.point.x * reciprocals[0], contact.point.y * reciprocals[1]);
-                    if x * x + y * y <= T::one() {
-                        visit(SoftContact { point: contact.point + origin, ..contact });
-                    }
+                if found.is_some() {
+                    break;
                 }
+                found = on_elliptic_end(axes, reciprocals, &normal, half, wrench);
             }
         }
+        found.into_iter().for_each(visit);
         Search::Complete
     }
 );
+
+/// On a flat end with an elliptic outline, or on the edge around it.
+fn on_elliptic_end<T: Real>(
+    axes: [T; 2],
+    reciprocals: [T; 2],
+    normal: &Vector3<T>,
+    half: T,
+    wrench: &Wrench<T>,
+) -> Option<SoftContact<T>> {
+    let origin = normal * half;
+    let (force, torque) = (wrench.force(), wrench.torque_about(&origin));
+    let mut found = on_plane(normal, &force, &torque).filter(|contact| {
+        let (x, y) = (contact.point.x * reciprocals[0], contact.point.y * reciprocals[1]);
+        x * x + y * y <= T::one()
+    });
+    if found.is_none() {
+        // The side's normal at `A ρ` is along `A⁻¹ ρ`.
+        let outward = |n: &Vector3<T>, ring: &Vector3<T>| {
+            n.x * ring.x * reciprocals[0] + n.y * ring.y * reciprocals[1] >= T::zero()
+        };
+        on_elliptic_rim(
+            axes,
+            normal,
+            &force,
+            &torque,
+            |n, ring| n.dot(normal) >= T::zero() && outward(n, ring),
+            |contact| found = Some(contact),
+        );
+    }
+    found.map(|contact| SoftContact { point: contact.point + origin, ..contact })
+}
 
 soft_finger!(
     /// The side, or the tip, on which any normal will do that is steeper than the side's.

@@ -6,7 +6,8 @@ use fingertip_surfaces::{
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::common::{self, Case, Random};
+use crate::common;
+use crate::wrenches::{Case, Random};
 
 fn resolve<T: Real, S: SoftFingerSurface<T>>(
     surface: &S,
