@@ -1,5 +1,11 @@
 //! Soft fingers, their covariance, and error against run time of the methods.
 
+#[path = "../../surfaces/tests/soft/pillow.rs"]
+mod pillow;
+#[path = "../../surfaces/tests/soft/wrenches.rs"]
+#[allow(dead_code, reason = "shared with the tests, which use all of it")]
+mod wrenches;
+
 use core::hint::black_box;
 use core::time::Duration;
 use std::time::Instant;
@@ -8,48 +14,17 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fingertip_surfaces::{
     ActiveSurface, Auto, CappedCylinder, Capsule, CompliantSoftFinger, Cone, ContactCovariance,
     ContactJacobian, ContactModel, ConvexBound, Cylinder, Ellipsoid, Heightfield, Hertz, Implicit,
-    ImplicitBounds, ImplicitSurface, Plane, PointContact, Search, SmoothImplicit, SmoothSurface, SoftContact,
-    SoftFinger, SoftFingerSurface, Sphere, Superquadric, Topology, Torus, WorstErrors, newton_soft_contacts,
+    IndependentNoise, IsotropicNoise, Plane, PointContact, Search, SmoothSurface, SoftContact, SoftFinger,
+    SoftFingerSurface, Sphere, Superquadric, Torus, WorstErrors, newton_soft_contacts,
 };
-use fingertip_wrench::{Line, Real, Wrench};
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64Mcg;
+use fingertip_wrench::{Line, Wrench};
+use nalgebra::{Matrix6, Vector3, Vector6};
+use pillow::Pillow;
+use wrenches::{Case, Random};
 
 /// How many wrenches each benchmark cycles through.
 const COUNT: usize = 1024;
 const SIZE: f64 = 0.017;
-
-/// `x⁴ + y⁴ + z⁴ + (x² + y² + z²)/2 = 1` in units of 10 mm: a general implicit surface, declared
-/// convex.
-struct Pillow;
-
-impl<T: Real> ImplicitSurface<T> for Pillow {
-    fn value(&self, p: &Vector3<T>) -> T {
-        let q = p.component_mul(p) * T::literal(1e4);
-        (q.norm_squared() + q.sum() * T::literal(0.5) - T::one()) * T::literal(0.5)
-    }
-
-    fn gradient(&self, p: &Vector3<T>) -> Vector3<T> {
-        let q = p * T::literal(100.0);
-        (q.map(|x| x * x * x) * T::literal(2.0) + q * T::literal(0.5)) * T::literal(100.0)
-    }
-
-    fn bounds(&self) -> ImplicitBounds<T> {
-        ImplicitBounds { centre: Vector3::zeros(), radius: T::literal(0.0121), steepest: T::literal(420.0) }
-    }
-}
-
-impl<T: Real> SmoothImplicit<T> for Pillow {
-    fn hessian(&self, p: &Vector3<T>) -> Matrix3<T> {
-        let q = p * T::literal(100.0);
-        Matrix3::from_diagonal(&q.map(|x| (x * x * T::literal(6.0) + T::literal(0.5)) * T::literal(1e4)))
-    }
-
-    fn topology(&self) -> Topology {
-        Topology::Convex
-    }
-}
 
 /// The same surface, with its closed form hidden.
 struct ByNewton<S>(S);
@@ -79,46 +54,29 @@ impl<S: SmoothSurface<f64>> SoftFingerSurface<f64> for ByNewton<S> {
     }
 }
 
-#[derive(Clone, Copy)]
-struct Case {
+/// A wrench, the contact that it comes from, and where the contact was a sample before.
+struct Sample {
     wrench: Wrench<f64>,
     point: Vector3<f64>,
-    /// The contact of the sample before, half a millimetre away.
+    /// Half a millimetre away.
     before: Vector3<f64>,
-}
-
-fn direction(random: &mut Pcg64Mcg) -> Vector3<f64> {
-    loop {
-        let v = Vector3::from_fn(|_, _| random.random::<f64>() * 2.0 - 1.0);
-        if v.norm_squared() <= 1.0 && v.norm_squared() > 0.01 {
-            return v.normalize();
-        }
-    }
 }
 
 /// Contacts all over the surface, with forces within 60° of the normal and the given spin torque in
 /// units of force times size.
-fn cases<S: ActiveSurface<f64>>(surface: &S, spin: f64) -> Vec<Case> {
-    let mut random = Pcg64Mcg::seed_from_u64(9);
-    let mut cases = Vec::with_capacity(COUNT);
-    while cases.len() < COUNT {
-        let line = Line { point: direction(&mut random) * 0.006, direction: direction(&mut random) };
-        let mut found = None;
-        surface.crossings(&line, |c| found = Some((c.point, c.normal)));
-        let Some((point, normal)) = found else { continue };
-        let force = direction(&mut random) * 2.0;
-        if point.norm() > 0.05 || -force.dot(&normal) < 1.0 {
-            continue;
-        }
-        let torque =
-            point.cross(&force) + normal * (spin * SIZE * 2.0 * (random.random::<f64>() * 2.0 - 1.0));
-        let before = point + direction(&mut random).cross(&normal) * 5e-4;
-        cases.push(Case { wrench: Wrench::on_fingertip(force, torque), point, before });
-    }
-    cases
+fn samples<S: ActiveSurface<f64>>(surface: &S, spin: f64) -> Vec<Sample> {
+    let mut random = Random::new(9);
+    let sample = |_| {
+        let (point, normal) = random.place(surface, SIZE);
+        let force = random.force(&normal, 0.5, 2.0);
+        let spin_torque = spin * SIZE * 2.0 * random.uniform(-1.0, 1.0);
+        let before = point + random.direction().cross(&normal) * 5e-4;
+        Sample { wrench: Case::new(point, normal, force, spin_torque).wrench, point, before }
+    };
+    (0..COUNT).map(sample).collect()
 }
 
-fn throughput(c: &mut Criterion, name: &str, cases: &[Case], mut resolve: impl FnMut(&Case) -> f64) {
+fn throughput(c: &mut Criterion, name: &str, cases: &[Sample], mut resolve: impl FnMut(&Sample) -> f64) {
     let mut group = c.benchmark_group("soft_finger");
     group.throughput(Throughput::Elements(COUNT as u64));
     group.bench_function(name, |b| {
@@ -132,7 +90,7 @@ fn throughput(c: &mut Criterion, name: &str, cases: &[Case], mut resolve: impl F
 }
 
 fn shape<S: SoftFingerSurface<f64>>(c: &mut Criterion, name: &str, surface: &S) {
-    let cases = cases(surface, 0.3);
+    let cases = samples(surface, 0.3);
     let Ok(model) = SoftFinger::new(0.0) else { return };
     throughput(c, name, &cases, |case| {
         model.resolve(&case.wrench, surface).contact().map_or(0.0, |contact| contact.point.x)
@@ -174,7 +132,7 @@ fn resolution(c: &mut Criterion) {
     shape(c, "ellipsoid by Newton", &ByNewton(ellipsoid));
     shape(c, "torus, all solutions", &torus);
 
-    let cases = cases(&ellipsoid, 0.3);
+    let cases = samples(&ellipsoid, 0.3);
     let (Ok(soft), Ok(point), Ok(hertz)) =
         (SoftFinger::new(0.0), PointContact::new(0.0), Hertz::sphere(0.012, 2e6))
     else {
@@ -210,7 +168,7 @@ fn resolution(c: &mut Criterion) {
 }
 
 /// Median and greatest error of a method, relative to the size, and its time, on the same wrenches.
-fn row(name: &str, cases: &[Case], mut resolve: impl FnMut(&Case) -> Option<Vector3<f64>>) {
+fn row(name: &str, cases: &[Sample], mut resolve: impl FnMut(&Sample) -> Option<Vector3<f64>>) {
     let mut errors: Vec<f64> = cases
         .iter()
         .map(|case| resolve(case).map_or(f64::INFINITY, |point| (point - case.point).norm() / SIZE))
@@ -246,9 +204,9 @@ fn fastest(_: &mut Criterion) {
     };
     let noise = Matrix6::from_diagonal(&Vector6::new(1e-6, 1e-6, 1e-6, 1e-10, 1e-10, 1e-10));
     println!("soft finger, the fastest of 200 passes over {COUNT} wrenches:");
-    let on_sphere = cases(&sphere, 0.3);
+    let on_sphere = samples(&sphere, 0.3);
     row("sphere", &on_sphere, |case| soft.resolve(&case.wrench, &sphere).contact().map(|c| c.point));
-    let on_ellipsoid = cases(&ellipsoid, 0.3);
+    let on_ellipsoid = samples(&ellipsoid, 0.3);
     row("ellipsoid", &on_ellipsoid, |case| soft.resolve(&case.wrench, &ellipsoid).contact().map(|c| c.point));
     row("ellipsoid, covariance too", &on_ellipsoid, |case| {
         let contact = *soft.resolve(&case.wrench, &ellipsoid).contact()?;
@@ -256,14 +214,28 @@ fn fastest(_: &mut Criterion) {
         black_box(ContactCovariance::position_only(&jacobian, &noise));
         Some(contact.point)
     });
-    let on_pillow = cases(&pillow, 0.3);
+    let independent = IndependentNoise(noise.diagonal());
+    row("ellipsoid, independent noise", &on_ellipsoid, |case| {
+        let contact = *soft.resolve(&case.wrench, &ellipsoid).contact()?;
+        let jacobian = ContactJacobian::of_soft_finger_on(&contact, &ellipsoid)?;
+        black_box(ContactCovariance::position_only(&jacobian, &independent));
+        Some(contact.point)
+    });
+    let isotropic = IsotropicNoise { force: noise.m11, torque: noise.m44 };
+    row("ellipsoid, isotropic noise", &on_ellipsoid, |case| {
+        let contact = *soft.resolve(&case.wrench, &ellipsoid).contact()?;
+        let jacobian = ContactJacobian::of_soft_finger_on(&contact, &ellipsoid)?;
+        black_box(ContactCovariance::position_only(&jacobian, &isotropic));
+        Some(contact.point)
+    });
+    let on_pillow = samples(&pillow, 0.3);
     row("implicit surface", &on_pillow, |case| {
         soft.resolve(&case.wrench, &pillow).contact().map(|c| c.point)
     });
     row("implicit surface, near last", &on_pillow, |case| {
         soft.resolve_near(&case.wrench, &pillow, Some(&case.before)).contact().map(|c| c.point)
     });
-    row("torus, nearest of all", &cases(&torus, 0.3), |case| {
+    row("torus, nearest of all", &samples(&torus, 0.3), |case| {
         soft.resolve_near(&case.wrench, &torus, Some(&case.before)).contact().map(|c| c.point)
     });
 }
@@ -274,7 +246,7 @@ fn error_against_time(_: &mut Criterion) {
     let (Ok(soft), Ok(point)) = (SoftFinger::new(0.0), PointContact::new(0.0)) else { return };
     let hidden = ByNewton(surface);
     for spin in [0.0, 1e-8, 1e-3, 0.1, 1.0, 10.0] {
-        let cases = cases(&surface, spin);
+        let cases = samples(&surface, spin);
         println!("ellipsoid 8 × 11 × 17 mm, spin torque up to {spin} |f| size:");
         row("closed form", &cases, |case| soft.resolve(&case.wrench, &surface).contact().map(|c| c.point));
         row("Newton", &cases, |case| soft.resolve(&case.wrench, &hidden).contact().map(|c| c.point));

@@ -10,9 +10,9 @@ use crate::combinators::{closest_of, is_inside_along};
 use crate::soft_finger::combinators::{is_covered, of_both};
 use crate::{
     ActiveSurface, CappedCylinder, Capsule, ClosestApproach, Cone, Crossing, Cylinder, Disk, Ellipsoid,
-    EllipticCylinder, Frustum, HalfSpace, Heightfield, Knot, Mesh, Paraboloid, Plane, Posed, Rectangle,
-    Revolution, RoundedBox, Search, SoftContact, SoftFingerSurface, Sphere, SphericalCap, Superquadric,
-    Torus, Trimmed,
+    EllipticCylinder, ForceLine, Frustum, HalfSpace, Heightfield, Knot, Mesh, Paraboloid, Plane, Posed,
+    Rectangle, Revolution, RoundedBox, Search, SoftContact, SoftFingerSurface, Sphere, SphericalCap,
+    Superquadric, Torus, Trimmed,
 };
 
 /// Any of the shapes: for files and programs that learn the shape at run time. On a hot path use
@@ -154,6 +154,10 @@ impl<T: Real> ActiveSurface<T> for DynSurface<T> {
         each!(self, shape => shape.normal(point))
     }
 
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        each!(self, shape => shape.outside_by(point))
+    }
+
     fn contains(&self, point: &Vector3<T>) -> bool {
         each!(self, shape => shape.contains(point))
     }
@@ -212,8 +216,8 @@ impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
     }
 
     #[inline]
-    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
-        each!(self, shape => shape.sole_soft_contact(wrench))
+    fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+        each!(self, shape => shape.sole_soft_contact(push))
     }
 }
 

@@ -54,5 +54,6 @@ pub use smooth::{
 pub use soft_finger::{Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};
 pub use uncertainty::{
     ConfidenceEllipse, ContactCovariance, ContactJacobian, ConvexBound, GeometrySensitivity,
-    GeometryUncertainty, PaperBounds, SensorUncertainty, ShapeParameters, WorstCase, WrenchNoise,
+    GeometryUncertainty, IndependentNoise, IsotropicNoise, PaperBounds, SensorUncertainty, ShapeParameters,
+    WorstCase, WrenchNoise, WrenchSpread,
 };

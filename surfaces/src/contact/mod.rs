@@ -8,5 +8,7 @@ mod point_contact;
 
 pub use bound::{ContactBound, WorstErrors};
 pub use contact_model::ContactModel;
+pub(crate) use onto_line::torque_left;
 pub use outcome::{Contact, NoContact, Resolution};
 pub use point_contact::PointContact;
+pub(crate) use point_contact::flat;

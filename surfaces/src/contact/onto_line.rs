@@ -44,7 +44,7 @@ pub(super) fn onto_line<T: Real, S: ActiveSurface<T>>(
 
 /// A component of the torque that is left about a point, `m − (y·fz − z·fy)`.
 #[inline(never)]
-fn torque_left<T: Real>(m: T, y: T, fz: T, z: T, fy: T) -> Twofold<T> {
+pub(crate) fn torque_left<T: Real>(m: T, y: T, fz: T, z: T, fy: T) -> Twofold<T> {
     let product = |a: T, b: T| Twofold::new(a).times(Twofold::new(b));
     Twofold::new(m).minus(product(y, fz)).plus(product(z, fy))
 }

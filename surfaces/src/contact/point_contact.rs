@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::onto_line::onto_line;
 use super::{Contact, ContactModel, NoContact, Resolution};
-use crate::numeric::vectors::hypotenuse;
+use crate::numeric::vectors::{by_components, hypotenuse};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, Crossing, ForceLine};
 
@@ -32,7 +32,8 @@ pub struct PointContact<T: Real> {
 
 /// Below this cosine of incidence, where rounding errors grow more than threefold, the long way is
 /// taken.
-fn flat<T: Real>() -> T {
+#[inline]
+pub(crate) fn flat<T: Real>() -> T {
     T::literal(0.3)
 }
 
@@ -141,13 +142,6 @@ impl<T: Real> PointContact<T> {
 #[inline]
 fn in_range<T: Real>(point: &Vector3<T>) -> bool {
     (point.x + point.y + point.z).is_number()
-}
-
-/// The same vector. A compiler that sees one block of memory copied hands that memory on, and the short
-/// way would have to go through it as well.
-#[inline(always)]
-fn by_components<T: Real>(v: &Vector3<T>) -> Vector3<T> {
-    Vector3::new(v.x, v.y, v.z)
 }
 
 #[inline]

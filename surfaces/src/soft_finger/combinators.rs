@@ -5,8 +5,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::combinators::is_inside_along;
 use crate::{
-    ActiveSurface, Compound, Extent, Level, Offset, Posed, Region, Search, SignedDistance, SmoothSurface,
-    SoftContact, SoftFingerSurface, Topology, Trimmed, newton_soft_contacts,
+    ActiveSurface, Compound, Extent, ForceLine, Level, Offset, Posed, Region, Search, SignedDistance,
+    SmoothSurface, SoftContact, SoftFingerSurface, Topology, Trimmed, newton_soft_contacts,
 };
 
 impl<T: Real, S: SmoothSurface<T>> SmoothSurface<T> for Posed<T, S> {
@@ -49,7 +49,10 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
     ) -> Search<T> {
         let pose = self.sensor_from_shape();
         let (rotation, origin) = (pose.rotation(), pose.origin());
-        let inside = inward(self, wrench);
+        let inside = Wrench::on_fingertip(
+            rotation.tr_mul(&wrench.force()),
+            rotation.tr_mul(&wrench.torque_about(&origin)),
+        );
         let last = last.map(|last| rotation.tr_mul(&(last - origin)));
         let search = self.inner().soft_contacts(&inside, last.as_ref(), |contact| {
             visit(SoftContact {
@@ -65,26 +68,14 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
     }
 
     #[inline]
-    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
-        let contact = self.inner().sole_soft_contact(&inward(self, wrench))?;
-        let (rotation, origin) = (self.sensor_from_shape().rotation(), self.sensor_from_shape().origin());
-        Some(SoftContact {
-            point: rotation * contact.point + origin,
-            normal: rotation * contact.normal,
+    fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+        let pose = self.sensor_from_shape();
+        self.inner().sole_soft_contact(&push.seen_from(pose)).map(|contact| SoftContact {
+            point: pose.transform_point(&contact.point),
+            normal: pose.rotate(&contact.normal),
             ..contact
         })
     }
-}
-
-/// A wrench as the shape inside the pose sees it.
-#[inline]
-fn inward<T: Real, S>(posed: &Posed<T, S>, wrench: &Wrench<T>) -> Wrench<T> {
-    let pose = posed.sensor_from_shape();
-    let rotation = pose.rotation();
-    Wrench::on_fingertip(
-        rotation.tr_mul(&wrench.force()),
-        rotation.tr_mul(&wrench.torque_about(&pose.origin())),
-    )
 }
 
 impl<T: Real, S: SmoothSurface<T>, R: Region<T>> SmoothSurface<T> for Trimmed<S, R> {
@@ -119,6 +110,14 @@ impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Tr
                 active: contact.active && self.region().includes(&contact.point),
                 ..contact
             });
+        })
+    }
+
+    #[inline]
+    fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+        self.inner().sole_soft_contact(push).map(|contact| SoftContact {
+            active: contact.active && self.region().includes(&contact.point),
+            ..contact
         })
     }
 }

@@ -4,6 +4,7 @@ use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 use super::newton::{Place, Problem, State};
+use super::unit_sphere::OnUnitSphere;
 use crate::SmoothSurface;
 
 impl<T: Real, S: SmoothSurface<T>> Problem<'_, T, S> {
@@ -82,9 +83,6 @@ impl<T: Real, S: SmoothSurface<T>> Problem<'_, T, S> {
 /// The place where the unit sphere's closed form would put the contact, seen from the centre: a
 /// start that is good where the spin torque rules, and exact on a sphere.
 pub(super) fn direction_on_ball<T: Real>(force: &Vector3<T>, torque: &Vector3<T>) -> Vector3<T> {
-    use super::unit_sphere::{OnUnitSphere, on_unit_sphere};
-    match on_unit_sphere(force, torque) {
-        OnUnitSphere::Contact { point, .. } => point,
-        OnUnitSphere::Grazing([point, _]) => point,
-    }
+    let solved = OnUnitSphere::new(force, torque, force.norm_squared(), force.dot(torque));
+    solved.grazing(force, torque).map_or_else(|| solved.point(), |[point, _]| point)
 }

@@ -75,7 +75,7 @@ fn on_side<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContac
         Some(contact) => contact?,
         None => {
             let radius = (solid.base_radius() + solid.top_radius()) * T::literal(0.5);
-            on_round_side(&base, &axis, radius, wrench)?
+            on_round_side(&base, &axis, radius, &wrench.force(), &wrench.torque_about(&base))?
         }
     };
     if taper.is_zero() {
@@ -84,18 +84,18 @@ fn on_side<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContac
     Problem::new(solid, &wrench.force(), &wrench.torque()).polished(&rough)
 }
 
-/// On the side of an unbounded circular cylinder.
+/// On the side of an unbounded circular cylinder, for the torque about its centre.
 pub(super) fn on_round_side<T: Real>(
     centre: &Vector3<T>,
     axis: &Vector3<T>,
     radius: T,
-    wrench: &Wrench<T>,
+    force: &Vector3<T>,
+    torque: &Vector3<T>,
 ) -> Option<SoftContact<T>> {
     let (first, second) = tangents(axis);
     let inward = |v: &Vector3<T>| Vector3::new(v.dot(&first), v.dot(&second), v.dot(axis));
     let outward = |v: &Vector3<T>| first * v.x + second * v.y + axis * v.z;
-    let force = inward(&wrench.force());
-    let torque = inward(&wrench.torque_about(centre));
+    let (force, torque) = (inward(force), inward(torque));
     let mut found = None;
     on_cylinder([radius; 2], [T::one() / radius; 2], &force, &torque, |contact| {
         found = Some(SoftContact {

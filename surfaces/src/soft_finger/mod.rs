@@ -8,6 +8,7 @@ mod ellipsoid;
 mod frustum;
 #[cfg(feature = "alloc")]
 mod heightfield;
+mod mended;
 #[cfg(feature = "alloc")]
 mod mesh;
 mod model;

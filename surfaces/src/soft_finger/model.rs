@@ -3,8 +3,12 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::numeric::vectors::{is_tame, larger, largest, length};
-use crate::{BadShape, Contact, ContactModel, NoContact, Resolution, Search, SoftContact, SoftFingerSurface};
+use super::mended::mended;
+use crate::numeric::vectors::{by_components, is_tame, larger, largest, length};
+use crate::serde_parts::serde_parts;
+use crate::{
+    BadShape, Contact, ContactModel, ForceLine, NoContact, Resolution, Search, SoftContact, SoftFingerSurface,
+};
 
 /// A contact that transmits a force and a torque about the normal: `m = c × f + τ n`, `c` on the
 /// surface, `f·n < 0` (Bicchi, Salisbury & Brock 1990, 1993).
@@ -30,9 +34,10 @@ use crate::{BadShape, Contact, ContactModel, NoContact, Resolution, Search, Soft
 /// force, [`NoContact::Ambiguous`] where a pure force could only graze the surface at two points,
 /// [`NoContact::Unresolved`] where the search of a shape without closed form ended at its bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SoftFinger<T: Real> {
     least_force: T,
+    /// The least square of a force that takes the short way.
+    least_squared: T,
 }
 
 impl<T: Real> SoftFinger<T> {
@@ -43,8 +48,10 @@ impl<T: Real> SoftFinger<T> {
     /// [`BadShape`] unless the threshold is finite and not negative.
     pub fn new(least_force: T) -> Result<Self, BadShape> {
         let good = least_force >= T::zero() && least_force.is_number();
-        BadShape::check("soft finger", "least force", "finite and not negative", good)
-            .map(|()| Self { least_force })
+        BadShape::check("soft finger", "least force", "finite and not negative", good).map(|()| Self {
+            least_force,
+            least_squared: larger(least_force * least_force, ForceLine::least_squared()),
+        })
     }
 
     /// The least force that counts as a contact \[N\].
@@ -64,28 +71,26 @@ struct Seen<T: Real> {
 }
 
 impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
-    #[inline]
+    /// Always in line, with the long way kept out of the registers.
+    #[inline(always)]
     fn resolve_near(&self, wrench: &Wrench<T>, surface: &S, last: Option<&Vector3<T>>) -> Resolution<T> {
-        let most_torque = largest(&wrench.torque());
-        if is_tame(largest(&wrench.force())) && (is_tame(most_torque) || most_torque.is_zero()) {
-            let squared = wrench.force().norm_squared();
-            // A NaN may have hidden behind a number.
-            let torque = wrench.torque();
-            if (squared + torque.x + torque.y + torque.z).is_number() {
-                if !(squared >= self.least_force * self.least_force) {
-                    return Resolution::NoContact(NoContact::BelowThreshold { force: squared.root() });
-                }
-                if let Some(contact) = surface.sole_soft_contact(wrench)
-                    && contact.active
-                    && is_in_range(&contact)
-                {
-                    return Resolution::Contact(contact_at(wrench, &contact, contact.spin_torque));
-                }
-                let scaled = Scaled { wrench: *wrench, unit: None };
-                return self.search(wrench, &scaled, surface, last);
-            }
+        if let Some(push) = ForceLine::new(wrench, self.least_squared)
+            && let Some(contact) = surface.sole_soft_contact(&push)
+            && contact.active
+            && is_in_range(&contact)
+        {
+            return Resolution::Contact(contact_at(wrench, &contact, contact.spin_torque));
         }
-        self.resolve_extreme(wrench, surface, last)
+        let copy = Wrench::on_fingertip(by_components(&wrench.force()), by_components(&wrench.torque()));
+        match self.resolve_any(&copy, surface, last) {
+            Resolution::Contact(contact) => Resolution::Contact(Contact {
+                point: by_components(&contact.point),
+                normal: by_components(&contact.normal),
+                force: by_components(&contact.force),
+                ..contact
+            }),
+            none => none,
+        }
     }
 }
 
@@ -96,6 +101,30 @@ struct Scaled<T: Real> {
 }
 
 impl<T: Real> SoftFinger<T> {
+    /// The long way.
+    #[inline(never)]
+    fn resolve_any<S: SoftFingerSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        last: Option<&Vector3<T>>,
+    ) -> Resolution<T> {
+        let most_torque = largest(&wrench.torque());
+        if is_tame(largest(&wrench.force())) && (is_tame(most_torque) || most_torque.is_zero()) {
+            let squared = wrench.force().norm_squared();
+            // A NaN may have hidden behind a number.
+            let torque = wrench.torque();
+            if (squared + torque.x + torque.y + torque.z).is_number() {
+                if !(squared >= self.least_force * self.least_force) {
+                    return Resolution::NoContact(NoContact::BelowThreshold { force: squared.root() });
+                }
+                let scaled = Scaled { wrench: *wrench, unit: None };
+                return self.search(wrench, &scaled, surface, last);
+            }
+        }
+        self.resolve_extreme(wrench, surface, last)
+    }
+
     /// Tiny, huge, zero, NaN.
     #[cold]
     #[inline(never)]
@@ -154,6 +183,7 @@ impl<T: Real> SoftFinger<T> {
             }
         });
         if let Some((contact, _)) = seen.best {
+            let contact = mended(&scaled.wrench, surface, &contact);
             let spin_torque = scaled.unit.map_or(contact.spin_torque, |unit| {
                 (contact.spin_torque / unit).max(-T::GREATEST).min(T::GREATEST)
             });
@@ -206,3 +236,8 @@ fn why_none<T: Real, S: SoftFingerSurface<T>>(wrench: &Wrench<T>, surface: &S) -
     let approach = surface.closest_approach(&axis.line);
     NoContact::Misses { gap: approach.gap, closest: approach.point, normal: approach.normal }
 }
+
+serde_parts!(SoftFinger {
+    #[serde(rename = "least_force_N", default = "T::zero")]
+    least_force: T = |model: &SoftFinger<T>| model.least_force,
+} => |parts| SoftFinger::new(parts.least_force));

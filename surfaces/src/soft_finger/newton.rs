@@ -208,7 +208,7 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
                     {
                         break next;
                     }
-                    _ if tries == 0 => return None,
+                    _ if tries == 0 => return self.settled(state),
                     _ => {
                         tries -= 1;
                         shift *= half;
@@ -221,7 +221,18 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
                 return Some(state);
             }
         }
-        Some(state)
+        self.settled(state).or(Some(state))
+    }
+
+    /// A state whose residual is rounding: no step makes it smaller, however far steps lead. So it is
+    /// where a large spin torque meets a surface that is straight one way, as a slender cone, and the
+    /// contact answers to the rounding of the torque `τ n` with more than the step that counts as small.
+    #[cold]
+    fn settled(&self, state: State<T>) -> Option<State<T>> {
+        // Torque, arm times force, and spin torque times normal: each of up to two rounding errors.
+        let size = self.torque.amax() + self.force.amax() * self.reach + state.spin.abs();
+        let rounding = T::literal(2.0) * T::EPSILON * size;
+        (state.merit <= rounding * rounding).then_some(State { converged: true, ..state })
     }
 
     /// The natural test of a step (Deuflhard 1974): the step that would follow with the same Jacobian

@@ -23,17 +23,8 @@ pub(super) fn on_rim<T: Real>(
 ) {
     let power = force.dot(torque);
     let mut try_at = |outward: Vector3<T>| {
-        let point = outward * radius;
-        let rest = torque - point.cross(force);
-        let scale = rest.amax().normalising_factor();
-        let scaled = rest * scale;
-        let length = scaled.norm_squared().root();
-        let sign = if power > T::zero() { -T::one() } else { T::one() };
-        let normal = scaled * (sign / length);
-        let spin_torque = sign * (length / scale);
-        if normal.sum().is_number() && on_edge(&normal, &outward) {
-            visit(SoftContact { point, normal, spin_torque, active: true });
-        }
+        let contact = touching(outward * radius, force, torque, power);
+        visit_on(contact, &outward, &on_edge, &mut visit);
     };
     if power.is_zero() {
         return;
@@ -42,18 +33,71 @@ pub(super) fn on_rim<T: Real>(
         return try_at(Vector3::zeros());
     }
     let across = torque - axis * torque.dot(axis);
+    for outward in around(axis, &across, radius * force.dot(axis)).into_iter().flatten() {
+        try_at(outward);
+    }
+}
+
+/// The same on an ellipse with these semi-axes along the first two axes; `axis` is the third, either way.
+///
+/// With `c = A ρ(θ)`, `A = diag(a, b)`, the tangent is `A t`, and `c × A t = ab a`: so `M·A t = (A m)·t +
+/// ab f·a`, which is the condition on a circle under another wrench.
+pub(super) fn on_elliptic_rim<T: Real>(
+    semi_axes: [T; 2],
+    axis: &Vector3<T>,
+    force: &Vector3<T>,
+    torque: &Vector3<T>,
+    on_edge: impl Fn(&Vector3<T>, &Vector3<T>) -> bool,
+    mut visit: impl FnMut(SoftContact<T>),
+) {
+    let power = force.dot(torque);
+    if power.is_zero() {
+        return;
+    }
+    let [a, b] = semi_axes;
+    // In units of the longer one, so that products of lengths stay in range.
+    let unit = a.max(b).normalising_factor();
+    let across = Vector3::new(a * unit * torque.x, b * unit * torque.y, T::zero());
+    for outward in around(axis, &across, (a * unit) * b * force.dot(axis)).into_iter().flatten() {
+        let point = Vector3::new(outward.x * a, outward.y * b, T::zero());
+        visit_on(touching(point, force, torque, power), &outward, &on_edge, &mut visit);
+    }
+}
+
+/// The two unit vectors `ρ` across the axis for which `m·(a × ρ) + lift = 0`.
+fn around<T: Real>(axis: &Vector3<T>, across: &Vector3<T>, lift: T) -> [Option<Vector3<T>>; 2] {
     let scale = across.amax().normalising_factor();
     let scaled = across * scale;
     let length = scaled.norm_squared().root();
     let along = scaled / length;
-    let cosine = -(radius * force.dot(axis)) * scale / length;
+    let cosine = -lift * scale / length;
     let sine = ((T::one() - cosine) * (T::one() + cosine)).root();
-    if !(sine >= T::zero()) {
-        return;
-    }
     let aside = axis.cross(&along);
-    for sine in [sine, -sine] {
-        let tangent = along * cosine + aside * sine;
-        try_at(tangent.cross(axis));
+    [sine, -sine].map(|sine| sine.is_number().then(|| (along * cosine + aside * sine).cross(axis)))
+}
+
+/// The contact at a point whose normal nothing but the torque tells.
+fn touching<T: Real>(point: Vector3<T>, force: &Vector3<T>, torque: &Vector3<T>, power: T) -> SoftContact<T> {
+    let rest = torque - point.cross(force);
+    let scale = rest.amax().normalising_factor();
+    let scaled = rest * scale;
+    let length = scaled.norm_squared().root();
+    let sign = if power > T::zero() { -T::one() } else { T::one() };
+    SoftContact {
+        point,
+        normal: scaled * (sign / length),
+        spin_torque: sign * (length / scale),
+        active: true,
+    }
+}
+
+fn visit_on<T: Real>(
+    contact: SoftContact<T>,
+    outward: &Vector3<T>,
+    on_edge: &impl Fn(&Vector3<T>, &Vector3<T>) -> bool,
+    visit: &mut impl FnMut(SoftContact<T>),
+) {
+    if contact.normal.sum().is_number() && on_edge(&contact.normal, outward) {
+        visit(contact);
     }
 }

@@ -5,15 +5,16 @@ use nalgebra::Vector3;
 
 use super::cone::on_cone;
 use super::cylinder::on_cylinder;
-use super::ellipsoid::{on_ellipsoid, on_sphere};
+use super::ellipsoid::{on_ellipsoid, on_sphere, steeply_on_ellipsoid, steeply_on_sphere};
 use super::frustum::{on_frustum, on_round_side};
 use super::plane::on_plane;
-use super::rim::on_rim;
+use super::rim::{on_elliptic_rim, on_rim};
 use super::torus::on_torus;
+use crate::contact::flat;
 use crate::{
     ActiveSurface, CappedCylinder, Capsule, Cone, Cylinder, CylinderEnds, Disk, Ellipsoid, EllipticCylinder,
-    Frustum, Implicit, Paraboloid, Plane, Rectangle, RoundedBox, Search, SmoothImplicit, SoftContact,
-    SoftFingerSurface, Sphere, SphericalCap, Superquadric, Torus, newton_soft_contacts,
+    ForceLine, Frustum, Implicit, Paraboloid, Plane, Rectangle, RoundedBox, Search, SmoothImplicit,
+    SoftContact, SoftFingerSurface, Sphere, SphericalCap, Superquadric, Torus, newton_soft_contacts,
 };
 
 /// Whether a point of the surface belongs to its active part: as the crossing of the normal there
@@ -52,12 +53,18 @@ macro_rules! soft_finger {
             }
 
             $(#[inline]
-            fn sole_soft_contact(&self, $load: &Wrench<T>) -> Option<SoftContact<T>> {
+            fn sole_soft_contact(&self, $load: &ForceLine<T>) -> Option<SoftContact<T>> {
                 let $only = self;
                 $sole
             })?
         }
     };
+}
+
+/// `true` if the force presses at no flat angle on what a shortcut found.
+#[inline(always)]
+fn is_steep<T: Real>(push: &ForceLine<T>, contact: &SoftContact<T>) -> bool {
+    -push.force().dot(&contact.normal) >= flat::<T>() * push.squared().root()
 }
 
 /// What a closed form found, as a search.
@@ -82,68 +89,63 @@ fn report_any<T: Real>(found: Option<SoftContact<T>>, visit: impl FnMut(SoftCont
     Search::Complete
 }
 
-/// About the sensor's origin.
-#[inline(always)]
-fn sphere_contact<T: Real>(
-    sphere: &Sphere<T>,
-    wrench: &Wrench<T>,
-) -> Result<SoftContact<T>, [Vector3<T>; 2]> {
-    let centre = sphere.centre();
-    let torque = wrench.torque_about(&centre);
-    on_sphere(sphere.radius(), sphere.curvature(), &wrench.force(), &torque)
-        .map(|contact| SoftContact { point: contact.point + centre, ..contact })
-        .map_err(|pair| pair.map(|point| point + centre))
-}
-
 soft_finger!(
     Sphere,
-    |shape, wrench, _, visit| report(sphere_contact(shape, wrench), visit),
+    |shape, wrench, _, visit| report(on_sphere(shape, wrench), visit),
     sole | shape,
-    wrench | sphere_contact(shape, wrench).ok()
+    push | steeply_on_sphere(shape, push)
 );
-
-#[inline(always)]
-fn ellipsoid_contact<T: Real>(
-    shape: &Ellipsoid<T>,
-    wrench: &Wrench<T>,
-) -> Result<SoftContact<T>, [Vector3<T>; 2]> {
-    on_ellipsoid(&shape.semi_axes(), &shape.curvatures(), &wrench.force(), &wrench.torque())
-}
 
 soft_finger!(
     Ellipsoid,
-    |shape, wrench, _, visit| report(ellipsoid_contact(shape, wrench), visit),
+    |shape, wrench, _, visit| report(on_ellipsoid(shape, wrench), visit),
     sole | shape,
-    wrench | ellipsoid_contact(shape, wrench).ok()
+    push | steeply_on_ellipsoid(shape, push)
 );
 
-#[inline]
-fn plane_contact<T: Real>(plane: &Plane<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+#[inline(always)]
+fn plane_contact<T: Real>(
+    plane: &Plane<T>,
+    force: &Vector3<T>,
+    torque_about: impl FnOnce(&Vector3<T>) -> Vector3<T>,
+) -> Option<SoftContact<T>> {
     let origin = plane.point();
-    on_plane(&plane.outward(), &wrench.force(), &wrench.torque_about(&origin))
+    on_plane(&plane.outward(), force, &torque_about(&origin))
         .map(|contact| SoftContact { point: contact.point + origin, ..contact })
 }
 
 soft_finger!(
     Plane,
-    |shape, wrench, _, visit| report_any(plane_contact(shape, wrench), visit),
+    |shape, wrench, _, visit| report_any(
+        plane_contact(shape, &wrench.force(), |point| wrench.torque_about(point)),
+        visit
+    ),
     sole | shape,
-    wrench | plane_contact(shape, wrench)
+    push | plane_contact(shape, &push.force(), |point| push.torque_about(point))
+        .filter(|contact| is_steep(push, contact))
 );
 
-#[inline]
-fn cylinder_contact<T: Real>(shape: &Cylinder<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+#[inline(always)]
+fn cylinder_contact<T: Real>(
+    shape: &Cylinder<T>,
+    force: &Vector3<T>,
+    torque_about: impl FnOnce(&Vector3<T>) -> Vector3<T>,
+) -> Option<SoftContact<T>> {
     let (centre, axis) = (shape.centre(), shape.axis());
-    let contact = on_round_side(&centre, &axis, shape.radius(), wrench)?;
+    let contact = on_round_side(&centre, &axis, shape.radius(), force, &torque_about(&centre))?;
     let height = (contact.point - centre).dot(&axis);
     Some(SoftContact { active: shape.half_length().is_none_or(|half| height.abs() <= half), ..contact })
 }
 
 soft_finger!(
     Cylinder,
-    |shape, wrench, _, visit| report_any(cylinder_contact(shape, wrench), visit),
+    |shape, wrench, _, visit| report_any(
+        cylinder_contact(shape, &wrench.force(), |point| wrench.torque_about(point)),
+        visit
+    ),
     sole | shape,
-    wrench | cylinder_contact(shape, wrench)
+    push | cylinder_contact(shape, &push.force(), |point| push.torque_about(point))
+        .filter(|contact| is_steep(push, contact))
 );
 
 soft_finger!(Frustum, |shape, wrench, _, visit| {
@@ -157,35 +159,66 @@ soft_finger!(CappedCylinder, |shape, wrench, _, visit| {
 });
 
 soft_finger!(
-    /// The side by the closed form; flat ends as planes, within their outline. On the edge between
-    /// them there is no normal and so no soft finger.
+    /// The side by the closed form; flat ends as planes, within their outline; and the edges between
+    /// them, with a normal between those of the faces that meet. A closed one is convex and has one
+    /// contact, on one of these.
     EllipticCylinder,
     |shape, wrench, _, visit| {
         let axes = shape.semi_axes();
         let reciprocals = axes.map(|a| T::one() / a);
         let (force, torque) = (wrench.force(), wrench.torque());
+        let mut found = None;
         on_cylinder(axes, reciprocals, &force, &torque, |contact| match shape.ends() {
             CylinderEnds::Unbounded => visit(contact),
             CylinderEnds::Open(half) => {
                 visit(SoftContact { active: contact.point.z.abs() <= half, ..contact });
             }
-            CylinderEnds::Capped(half) if contact.point.z.abs() <= half => visit(contact),
+            CylinderEnds::Capped(half) if contact.point.z.abs() <= half => found = Some(contact),
             CylinderEnds::Capped(_) => {}
         });
         if let CylinderEnds::Capped(half) = shape.ends() {
             for normal in [Vector3::z(), -Vector3::z()] {
-                let origin = normal * half;
-                if let Some(contact) = on_plane(&normal, &force, &wrench.torque_about(&origin)) {
-                    let (x, y) = (contact.point.x * reciprocals[0], contact.point.y * reciprocals[1]);
-                    if x * x + y * y <= T::one() {
-                        visit(SoftContact { point: contact.point + origin, ..contact });
-                    }
+                if found.is_some() {
+                    break;
                 }
+                found = on_elliptic_end(axes, reciprocals, &normal, half, wrench);
             }
         }
+        found.into_iter().for_each(visit);
         Search::Complete
     }
 );
+
+/// On a flat end with an elliptic outline, or on the edge around it.
+fn on_elliptic_end<T: Real>(
+    axes: [T; 2],
+    reciprocals: [T; 2],
+    normal: &Vector3<T>,
+    half: T,
+    wrench: &Wrench<T>,
+) -> Option<SoftContact<T>> {
+    let origin = normal * half;
+    let (force, torque) = (wrench.force(), wrench.torque_about(&origin));
+    let mut found = on_plane(normal, &force, &torque).filter(|contact| {
+        let (x, y) = (contact.point.x * reciprocals[0], contact.point.y * reciprocals[1]);
+        x * x + y * y <= T::one()
+    });
+    if found.is_none() {
+        // The side's normal at `A ρ` is along `A⁻¹ ρ`.
+        let outward = |n: &Vector3<T>, ring: &Vector3<T>| {
+            n.x * ring.x * reciprocals[0] + n.y * ring.y * reciprocals[1] >= T::zero()
+        };
+        on_elliptic_rim(
+            axes,
+            normal,
+            &force,
+            &torque,
+            |n, ring| n.dot(normal) >= T::zero() && outward(n, ring),
+            |contact| found = Some(contact),
+        );
+    }
+    found.map(|contact| SoftContact { point: contact.point + origin, ..contact })
+}
 
 soft_finger!(
     /// The side, or the tip, on which any normal will do that is steeper than the side's.
@@ -214,7 +247,8 @@ soft_finger!(
     Capsule,
     |shape, wrench, _, visit| {
         let (centre, axis, half) = (shape.centre(), shape.axis(), shape.half_length());
-        if let Some(contact) = on_round_side(&centre, &axis, shape.radius(), wrench)
+        let torque = wrench.torque_about(&centre);
+        if let Some(contact) = on_round_side(&centre, &axis, shape.radius(), &wrench.force(), &torque)
             && (contact.point - centre).dot(&axis).abs() <= half
         {
             visit(contact);
@@ -224,7 +258,7 @@ soft_finger!(
         for end in [axis, -axis] {
             // A convex surface has one contact at most; a point of the seam belongs to the side.
             let Ok(ball) = Sphere::new(centre + end * half, shape.radius()) else { continue };
-            match sphere_contact(&ball, wrench) {
+            match on_sphere(&ball, wrench) {
                 Ok(contact) if contact.normal.dot(&end) >= T::zero() => {
                     visit(contact);
                     return Search::Complete;

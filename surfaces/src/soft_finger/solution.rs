@@ -3,7 +3,7 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::ActiveSurface;
+use crate::{ActiveSurface, ForceLine};
 
 /// One solution of the soft-finger equations `m = c × f + τ n(c)` with `f·n ≤ 0` and `c` on the
 /// surface.
@@ -60,10 +60,11 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
     /// [`soft_contacts`](Self::soft_contacts) that [`SoftFinger`](crate::SoftFinger) takes first.
     ///
     /// `None`, as the default answers, says nothing; an answer shall be the only contact that
-    /// `soft_contacts` would visit.
+    /// `soft_contacts` would visit. Where the force presses at so flat an angle that rounding errors
+    /// grow, leave it at `None`: what [`soft_contacts`](Self::soft_contacts) visits is then mended.
     #[inline]
-    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
-        let _ = wrench;
+    fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+        let _ = push;
         None
     }
 }
@@ -80,7 +81,7 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
     }
 
     #[inline]
-    fn sole_soft_contact(&self, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
-        (**self).sole_soft_contact(wrench)
+    fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+        (**self).sole_soft_contact(push)
     }
 }

@@ -4,7 +4,7 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use super::newton::Problem;
-use super::unit_sphere::{OnUnitSphere, on_unit_sphere_with_power};
+use super::unit_sphere::OnUnitSphere;
 use crate::numeric::roots::{bisected, bracketed};
 use crate::numeric::vectors::{larger, largest};
 use crate::{ActiveSurface, Search, SoftContact, Torus};
@@ -102,11 +102,8 @@ impl<T: Real> Around<T> {
     fn at(&self, angle: T) -> At<T> {
         let (outward, tangent) = Self::frame(angle);
         let (force, torque) = (self.force * self.tube, self.torque - outward.cross(&self.force));
-        let (normal, spin) = match on_unit_sphere_with_power(&force, &torque, self.power) {
-            OnUnitSphere::Contact { point, spin } => (point, spin),
-            // Only without power.
-            OnUnitSphere::Grazing([point, _]) => (point, T::zero()),
-        };
+        let solved = OnUnitSphere::new(&force, &torque, force.norm_squared(), self.power);
+        let (normal, spin) = (solved.point(), solved.spin);
         // τ n′ + (r f·n) n′ × n = (dM/dθ − its part along n), dM/dθ = −t × f.
         let turning = -tangent.cross(&self.force);
         let turning = turning - normal * normal.dot(&turning);

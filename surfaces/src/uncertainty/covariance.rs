@@ -3,7 +3,7 @@
 use fingertip_wrench::Real;
 use nalgebra::{Matrix2, Matrix3, Matrix6, Vector3, Vector6};
 
-use super::{ContactJacobian, GeometrySensitivity, GeometryUncertainty};
+use super::{ContactJacobian, GeometrySensitivity, GeometryUncertainty, WrenchSpread};
 use crate::Contact;
 
 /// How noise of the wrench and of the geometry spreads a contact, to first order: the covariance
@@ -40,14 +40,12 @@ impl<T: Real> ContactCovariance<T> {
     }
 
     /// Only the covariance of the position, along the tangents: what a tracker needs at every
-    /// sample, at a fraction of the cost.
+    /// sample, at a fraction of the cost. Noise that is the same in all directions, or independent in
+    /// each, costs less again than a full covariance.
     #[inline]
     #[must_use]
-    pub fn position_only(jacobian: &ContactJacobian<T>, wrench: &Matrix6<T>) -> Matrix2<T> {
-        let [first, second] = jacobian.position_rows();
-        let (with_first, with_second) = (product(wrench, &first), product(wrench, &second));
-        let mixed = first.dot(&with_second);
-        Matrix2::new(first.dot(&with_first), mixed, mixed, second.dot(&with_second))
+    pub fn position_only(jacobian: &ContactJacobian<T>, wrench: &impl WrenchSpread<T>) -> Matrix2<T> {
+        jacobian.position_covariance(wrench)
     }
 
     /// Adds an uncertain geometry, independent of the wrench.
@@ -208,11 +206,4 @@ impl<T: Real> ContactCovariance<T> {
             directions: [e1 * cos + e2 * sin, e2 * cos - e1 * sin],
         })
     }
-}
-
-/// A symmetric matrix times a vector, column by column.
-#[inline]
-fn product<T: Real>(matrix: &Matrix6<T>, v: &Vector6<T>) -> Vector6<T> {
-    let [c0, c1, c2, c3, c4, c5] = matrix.data.0.map(Vector6::from);
-    c0 * v[0] + c1 * v[1] + c2 * v[2] + c3 * v[3] + c4 * v[4] + c5 * v[5]
 }

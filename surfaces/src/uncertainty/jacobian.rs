@@ -3,10 +3,10 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix2, Matrix3, Matrix3x6, Matrix6, Vector2, Vector3, Vector6};
 
-use super::GeometrySensitivity;
+use super::{GeometrySensitivity, WrenchSpread};
 use crate::numeric::vectors::larger;
 use crate::soft_finger::newton::tangents;
-use crate::{Contact, SmoothSurface};
+use crate::{Contact, ForceLine, SmoothSurface};
 
 /// The first derivatives of a contact with respect to the wrench `(f, m)` \[N, N·m\] about the
 /// origin of the sensor frame, and to the geometry of the surface.
@@ -31,9 +31,10 @@ use crate::{Contact, SmoothSurface};
 /// ([`shape_operator_by_differences`](crate::shape_operator_by_differences)). The position of a
 /// point contact does not depend on it.
 ///
-/// Only what the derivatives are made of is kept: two directions `h` such that the contact moves by
-/// `h·(dm − c × df − p df)` along its tangents. So a covariance of the position costs two products of
-/// a matrix and a vector, and no 6 × 6 matrix is made unless [`local`](Self::local) is asked for.
+/// Only what the derivatives are made of is kept: the two equations in the tangent plane, about
+/// `e·(dm − c × df − p df)`, and the 2 × 2 matrix that solves them. So a covariance of the position
+/// costs two products of a matrix and a vector, and no 6 × 6 matrix is made unless
+/// [`local`](Self::local) is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactJacobian<T: Real> {
     pub(super) tangents: [Vector3<T>; 2],
@@ -46,10 +47,12 @@ pub struct ContactJacobian<T: Real> {
     is_soft: bool,
     /// Shape operator in the tangent plane.
     pub(super) bend: Matrix2<T>,
-    /// From the two equations in the plane to the position in it.
-    solve: Matrix2<T>,
-    /// The directions of torque to which the two positions answer.
-    guides: [Vector3<T>; 2],
+    /// The inverse of the matrix of the two equations in the plane, as its adjugate and the reciprocal
+    /// of its determinant.
+    adjugate: Matrix2<T>,
+    inverse: T,
+    /// The directions of torque that the two equations in the plane are about.
+    across: [Vector3<T>; 2],
 }
 
 impl<T: Real> ContactJacobian<T> {
@@ -68,35 +71,28 @@ impl<T: Real> ContactJacobian<T> {
         Self::soft_finger_bent(contact, |e1, e2| surface.bend(&contact.point, &contact.normal, [e1, e2]))
     }
 
-    #[inline]
+    #[inline(always)]
     fn soft_finger_bent(
         contact: &Contact<T>,
         bend: impl FnOnce(&Vector3<T>, &Vector3<T>) -> Matrix2<T>,
     ) -> Option<Self> {
         let (e1, e2) = tangents(&contact.normal);
         let bend = bend(&e1, &e2);
-        let tau = contact.spin_torque;
         let pressing = contact.force.dot(&contact.normal);
-        // Scaled, so that the determinant stays in range.
-        let largest_bend = larger(larger(bend.m11.abs(), bend.m12.abs()), bend.m22.abs());
-        let scale = larger(pressing.abs(), tau.abs() * largest_bend).normalising_factor();
-        let (fn_, t) = (pressing * scale, tau * scale);
-        let (w11, w12, w22) = (t * bend.m11, t * bend.m12, t * bend.m22);
-        let determinant = w11 * w22 - w12 * w12 + fn_ * fn_;
-        let inverse = scale / determinant;
-        let solve = Matrix2::new(w22 * inverse, -(w12 + fn_) * inverse, (fn_ - w12) * inverse, w11 * inverse);
-        let guides = [e1 * solve.m11 + e2 * solve.m12, e1 * solve.m21 + e2 * solve.m22];
-        (guides[0].sum() + guides[1].sum() + bend.m11 + bend.m22).is_number().then_some(Self {
+        let (adjugate, inverse) = solution(bend, contact.spin_torque, pressing, T::one())
+            .or_else(|| scaled_solution(bend, contact.spin_torque, pressing))?;
+        Some(Self {
             tangents: [e1, e2],
             normal: contact.normal,
             point: contact.point,
             force: contact.force,
-            spin: tau,
+            spin: contact.spin_torque,
             pitch: T::zero(),
             is_soft: true,
             bend,
-            solve,
-            guides,
+            adjugate,
+            inverse,
+            across: [e1, e2],
         })
     }
 
@@ -112,15 +108,14 @@ impl<T: Real> ContactJacobian<T> {
         let bend = bend_of(shape_operator, &e1, &e2);
         let f = &contact.force;
         let inverse = T::one() / f.dot(&contact.normal);
-        let solve = Matrix2::new(T::zero(), -inverse, inverse, T::zero());
+        let adjugate = Matrix2::new(T::zero(), -inverse, inverse, T::zero());
         let scale = f.amax().normalising_factor();
         let scaled = f * scale;
         let squared = scaled.norm_squared();
         let pitch = scaled.dot(&(wrench.torque() * scale)) / squared;
         // dp = f·(dm − c × df − p df)/|f|² takes what is along the force.
         let across = [e1, e2].map(|e| e - scaled * (scaled.dot(&e) / squared));
-        let guides = [across[1] * solve.m12, across[0] * solve.m21];
-        (guides[0].sum() + guides[1].sum() + bend.sum() + pitch).is_number().then_some(Self {
+        (across[0].sum() + across[1].sum() + inverse + bend.sum() + pitch).is_number().then_some(Self {
             tangents: [e1, e2],
             normal: contact.normal,
             point: contact.point,
@@ -129,22 +124,58 @@ impl<T: Real> ContactJacobian<T> {
             pitch,
             is_soft: false,
             bend,
-            solve,
-            guides,
+            adjugate,
+            inverse: T::one(),
+            across,
         })
     }
 
     /// The row of `e·(dm − c × df − p df)`.
-    #[inline]
+    #[inline(always)]
     fn row(&self, e: &Vector3<T>) -> Vector6<T> {
         let arm = self.point.cross(e) - e * self.pitch;
         Vector6::new(arm.x, arm.y, arm.z, e.x, e.y, e.z)
     }
 
+    /// The covariance of the position along the tangents.
+    ///
+    /// First that of the right-hand sides of the two equations in the plane, which waits for neither
+    /// curvature nor load; then of their solution, by a congruence.
+    #[inline(always)]
+    pub(super) fn position_covariance(&self, wrench: &impl WrenchSpread<T>) -> Matrix2<T> {
+        let [e1, e2] = &self.across;
+        let [c11, c12, c22] = if self.is_soft {
+            let [xx, xy, xz, yy, yz, zz] = wrench.torque_about(&self.point);
+            let with = |e: &Vector3<T>| {
+                Vector3::new(
+                    xx * e.x + xy * e.y + xz * e.z,
+                    xy * e.x + yy * e.y + yz * e.z,
+                    xz * e.x + yz * e.y + zz * e.z,
+                )
+            };
+            let (with_first, with_second) = (with(e1), with(e2));
+            [e1.dot(&with_first), e1.dot(&with_second), e2.dot(&with_second)]
+        } else {
+            wrench.combined(&self.row(e1), &self.row(e2))
+        };
+        let (s, inverse) = (&self.adjugate, self.inverse * self.inverse);
+        let (a11, a12) = (s.m11 * c11 + s.m12 * c12, s.m11 * c12 + s.m12 * c22);
+        let (a21, a22) = (s.m21 * c11 + s.m22 * c12, s.m21 * c12 + s.m22 * c22);
+        let mixed = a11 * s.m21 + a12 * s.m22;
+        Matrix2::new(a11 * s.m11 + a12 * s.m12, mixed, mixed, a21 * s.m21 + a22 * s.m22) * inverse
+    }
+
+    /// From the two equations in the plane to the position in it.
+    #[inline]
+    fn solve(&self) -> Matrix2<T> {
+        self.adjugate * self.inverse
+    }
+
     /// The rows of the two positions.
     #[inline]
-    pub(super) fn position_rows(&self) -> [Vector6<T>; 2] {
-        [self.row(&self.guides[0]), self.row(&self.guides[1])]
+    fn position_rows(&self) -> [Vector6<T>; 2] {
+        let ([first, second], s) = (self.across.map(|e| self.row(&e)), self.solve());
+        [first * s.m11 + second * s.m12, first * s.m21 + second * s.m22]
     }
 
     /// The two tangents that positions and tangential forces refer to: unit vectors, right-handed
@@ -215,7 +246,7 @@ impl<T: Real> ContactJacobian<T> {
         let n = self.normal;
         let (f, rise) = (&self.force, change.displacement);
         let pushed = n.cross(f) * rise + change.tilt * self.spin;
-        let in_plane = self.solve * Vector2::new(-e1.dot(&pushed), -e2.dot(&pushed));
+        let in_plane = self.solve() * Vector2::new(-e1.dot(&pushed), -e2.dot(&pushed));
         let tilt = self.bend * in_plane + Vector2::new(e1.dot(&change.tilt), e2.dot(&change.tilt));
         let across = f.cross(&n);
         let pressing = -f.dot(&n);
@@ -240,6 +271,29 @@ impl<T: Real> ContactJacobian<T> {
         let local = self.answer_to(change);
         self.tangents[0] * local.x + self.tangents[1] * local.y + self.normal * change.displacement
     }
+}
+
+/// The inverse of `τ EᵀWE + (f·n) J₂`, both loads given times `scale`, as adjugate and reciprocal of the
+/// determinant; `None` where that is zero, or out of the range in which squares of it have all digits.
+#[inline(always)]
+fn solution<T: Real>(bend: Matrix2<T>, spin: T, pressing: T, scale: T) -> Option<(Matrix2<T>, T)> {
+    let (pressing, spin) = (pressing * scale, spin * scale);
+    let (w11, w12, w22) = (spin * bend.m11, spin * bend.m12, spin * bend.m22);
+    let determinant = w11 * w22 - w12 * w12 + pressing * pressing;
+    let squared = determinant * determinant;
+    let inverse = scale / determinant;
+    ((squared >= ForceLine::least_squared()) & (squared <= T::GREATEST))
+        .then(|| (Matrix2::new(w22, -(w12 + pressing), pressing - w12, w11), inverse))
+}
+
+/// The same for tiny and huge loads.
+#[cold]
+fn scaled_solution<T: Real>(bend: Matrix2<T>, spin: T, pressing: T) -> Option<(Matrix2<T>, T)> {
+    let largest_bend = larger(larger(bend.m11.abs(), bend.m12.abs()), bend.m22.abs());
+    let scale = larger(pressing.abs(), spin.abs() * largest_bend).normalising_factor();
+    let (adjugate, inverse) = solution(bend, spin, pressing, scale)?;
+    // The square of this reciprocal need not be in range: that of one is.
+    Some((adjugate * inverse, T::one()))
 }
 
 /// The shape operator in the tangent plane, made symmetric.

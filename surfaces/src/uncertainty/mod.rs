@@ -17,6 +17,7 @@ mod geometry;
 mod jacobian;
 mod paper;
 mod sensor;
+mod spread;
 mod worst_case;
 
 pub use convex_bound::ConvexBound;
@@ -25,4 +26,5 @@ pub use geometry::{GeometrySensitivity, GeometryUncertainty, ShapeParameters};
 pub use jacobian::ContactJacobian;
 pub use paper::PaperBounds;
 pub use sensor::{SensorUncertainty, WrenchNoise};
+pub use spread::{IndependentNoise, IsotropicNoise, WrenchSpread};
 pub use worst_case::WorstCase;

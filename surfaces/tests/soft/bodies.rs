@@ -1,13 +1,15 @@
 //! Bodies with edges, bodies of facets, and shapes made of shapes.
 
 use fingertip_surfaces::{
-    ActiveSurface, CappedCylinder, Compound, ContactModel, DynSurface, Frustum, Heightfield, Mesh, Offset,
-    Paraboloid, Parts, Revolution, Search, SoftContact, SoftFinger, SoftFingerSurface, Sphere,
+    ActiveSurface, CappedCylinder, Compound, ContactModel, CylinderEnds, DynSurface, EllipticCylinder,
+    Frustum, Heightfield, Mesh, Offset, Paraboloid, Parts, Revolution, Search, SoftContact, SoftFinger,
+    SoftFingerSurface, Sphere,
 };
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::common::{self, Case, Random};
+use crate::common;
+use crate::wrenches::{Case, Random};
 
 fn all<T: Real, S: SoftFingerSurface<T>>(surface: &S, wrench: &Wrench<T>) -> Vec<SoftContact<T>> {
     let mut found = Vec::new();
@@ -79,6 +81,28 @@ fn closed_cylinders_and_frusta() {
         exactly_one(&format!("frustum {base} {top}"), &body, 0.014, 20_000);
         comes_back("frustum", &body, 0.012, 3.0, 1e-10);
     }
+}
+
+#[test]
+fn closed_elliptic_cylinders() {
+    let closed = |a, b, half| EllipticCylinder::new([a, b], CylinderEnds::Capped(half)).unwrap();
+    for (a, b, half) in [(0.007, 0.012, 0.009), (0.012, 0.002, 0.004), (0.005, 0.006, 0.020)] {
+        exactly_one(&format!("elliptic {a} {b}"), &closed(a, b, half), 0.013, 20_000);
+        comes_back("elliptic cylinder", &closed(a, b, half), 0.013, 3.0, 1e-10);
+    }
+    // With equal axes it is the closed circular cylinder, edges and all.
+    let (elliptic, round) = (
+        closed(0.010, 0.010, 0.004),
+        CappedCylinder::new(Vector3::zeros(), Vector3::z(), 0.010, 0.004).unwrap(),
+    );
+    let (mut random, mut on_rims) = (Random::new(64), 0);
+    for _ in 0..3000 {
+        let wrench = any_wrench(&mut random, 0.01);
+        let (a, b) = (all(&elliptic, &wrench)[0], all(&round, &wrench)[0]);
+        assert!((a.point - b.point).norm() < 1e-10 && (a.normal - b.normal).norm() < 1e-8, "{a:?} {b:?}");
+        on_rims += usize::from(a.normal.z.abs() > 1e-9 && a.normal.z.abs() < 1.0 - 1e-9);
+    }
+    assert!(on_rims > 100, "{on_rims}");
 }
 
 /// The limit of a rounded edge: a capsule-like torus of a thin tube has its contact near the rim's.

@@ -8,7 +8,8 @@ use fingertip_surfaces::{
 use fingertip_wrench::Wrench;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use crate::common::{self, Random};
+use crate::common;
+use crate::wrenches::Random;
 
 /// A wrench from a contact on the parallel surface: known depth, place and spin torque.
 fn through_skin<S, L>(name: &str, surface: &S, law: &L, spin: f64, count: usize)

@@ -4,7 +4,8 @@ use fingertip_surfaces::{ArrayContact, Ellipsoid, Fused, Fusion, Grip};
 use fingertip_wrench::Wrench;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-use crate::common::{self, Random};
+use crate::common;
+use crate::wrenches::Random;
 
 struct Scene<const K: usize> {
     points: [Vector3<f64>; K],

@@ -6,8 +6,8 @@ use fingertip_surfaces::{
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::common::Case;
 use crate::shapes::conditioning;
+use crate::wrenches::Case;
 
 /// Semi-axes, force, torque, contact and `K`, where the spin torque is `K |∇S|/2` for
 /// `S = Σ (x_i/a_i)² − 1`.

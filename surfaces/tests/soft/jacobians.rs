@@ -10,7 +10,8 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix6, Vector3, Vector6};
 use num_dual::Dual64;
 
-use crate::common::{self, Case, Random};
+use crate::common;
+use crate::wrenches::{Case, Random};
 
 type Dual = Dual64;
 

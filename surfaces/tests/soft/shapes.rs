@@ -1,12 +1,13 @@
 //! Every shape finds the contact that a wrench was made from.
 
 use fingertip_surfaces::{
-    Contact, ContactModel, NoContact, Resolution, SmoothSurface, SoftFinger, SoftFingerSurface,
+    Contact, ContactModel, NoContact, Resolution, SmoothSurface, SoftFinger, SoftFingerSurface, Sphere,
 };
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::common::{self, Case, Random};
+use crate::common;
+use crate::wrenches::{Case, Random};
 
 fn resolve<T: Real, S: SoftFingerSurface<T>>(
     surface: &S,
@@ -103,6 +104,7 @@ fn run_single<S: SoftFingerSurface<f32>, D: SoftFingerSurface<f64> + SmoothSurfa
     double: &D,
     size: f64,
     count: usize,
+    tolerance: f64,
 ) {
     let mut random = Random::new(18);
     let (mut failures, mut hopeless, mut worst, mut conditioned) = (0, 0, 0.0_f64, 0.0_f64);
@@ -136,40 +138,51 @@ fn run_single<S: SoftFingerSurface<f32>, D: SoftFingerSurface<f64> + SmoothSurfa
         "{name:18} f32 n={count} failures {failures} (and {hopeless} hopeless) error/size {worst:.1e}, in units of its conditioning {conditioned:.1e}"
     );
     assert_eq!(failures, 0, "{name}");
-    assert!(conditioned <= 24.0 * f64::from(f32::EPSILON), "{name}: {conditioned:e}");
+    assert!(conditioned <= 8.0 * f64::from(f32::EPSILON), "{name}: {conditioned:e}");
+    assert!(worst <= tolerance, "{name}: {worst:e}");
 }
 
 macro_rules! shape_test {
-    ($name:ident, $size:literal, $count:literal, $tolerance:literal) => {
+    ($name:ident, $size:literal, $count:literal, $tolerances:expr) => {
         #[test]
         fn $name() {
-            run(stringify!($name), &common::$name::<f64>(), $size, $count, $tolerance);
+            let [double, single] = $tolerances;
+            run(stringify!($name), &common::$name::<f64>(), $size, $count, double);
             run_single(
                 stringify!($name),
                 &common::$name::<f32>(),
                 &common::$name::<f64>(),
                 $size,
                 $count / 5,
+                single,
             );
         }
     };
 }
 
-shape_test!(sphere, 0.017, 100_000, 1e-13);
-shape_test!(ellipsoid, 0.017, 100_000, 1e-13);
-// Where a surface is flat one way or both, a spin torque of 1e4 f R costs up to eight digits: the
-// conditioning, not the method.
-shape_test!(plane, 0.017, 100_000, 1e-10);
-shape_test!(cylinder, 0.017, 100_000, 1e-3);
-shape_test!(elliptic_cylinder, 0.017, 100_000, 1e-3);
-shape_test!(cone, 0.017, 100_000, 1e-3);
-shape_test!(capsule, 0.017, 100_000, 1e-3);
-shape_test!(paraboloid, 0.02, 100_000, 1e-13);
-shape_test!(superquadric, 0.017, 100_000, 1e-13);
-shape_test!(rounded_box, 0.017, 100_000, 1e-3);
+/// What a surface that is round both ways is held to, relative to its size: the error in `f64`, and in
+/// `f32`. There a large spin torque steadies the contact, and a flat angle costs up to 1/0.05.
+const ROUND: [f64; 2] = [1e-13, 1e-6];
+/// The same where no twofold level takes the rounding of the surface away: half a rounding error of a
+/// level of a few terms, times 20.
+const ROUND_WITHOUT_LEVEL: [f64; 2] = [1e-13, 4e-6];
+/// Where a surface is flat one way or both, or like a saddle, a spin torque of 1e4 f R costs up to eight
+/// digits: the conditioning, not the method, and that is what the error is measured in.
+const FLAT: [f64; 2] = [1e-3, f64::INFINITY];
+
+shape_test!(sphere, 0.017, 100_000, ROUND);
+shape_test!(ellipsoid, 0.017, 100_000, ROUND);
+shape_test!(plane, 0.017, 100_000, [1e-10, f64::INFINITY]);
+shape_test!(cylinder, 0.017, 100_000, FLAT);
+shape_test!(elliptic_cylinder, 0.017, 100_000, FLAT);
+shape_test!(cone, 0.017, 100_000, FLAT);
+shape_test!(capsule, 0.017, 100_000, FLAT);
+shape_test!(paraboloid, 0.02, 100_000, ROUND);
+shape_test!(superquadric, 0.017, 100_000, ROUND_WITHOUT_LEVEL);
+shape_test!(rounded_box, 0.017, 100_000, FLAT);
 // Near a fold, where two contacts merge, there is no bound but the root of the rounding.
-shape_test!(torus, 0.0135, 100_000, 1e-3);
-shape_test!(pillow, 0.012, 100_000, 1e-13);
+shape_test!(torus, 0.0135, 100_000, FLAT);
+shape_test!(pillow, 0.012, 100_000, ROUND_WITHOUT_LEVEL);
 
 #[test]
 fn degenerate_wrenches_have_types() {
@@ -210,6 +223,33 @@ fn degenerate_wrenches_have_types() {
         Resolution::NoContact(NoContact::BelowThreshold { force }) if force == 1.0
     ));
     assert!(SoftFinger::new(-1.0).is_err() && SoftFinger::new(f64::NAN).is_err());
+}
+
+/// A pure force whose line misses is ambiguous, and stays so when rounding its torque, or the pose of
+/// the shape, leaves `f·m` not quite zero.
+#[test]
+fn a_pure_force_that_misses_grazes_two_points() {
+    fn check<T: Real, S: SoftFingerSurface<T>>(name: &str, surface: &S, reach: f64) {
+        let mut random = Random::new(23);
+        for _ in 0..2000 {
+            let force = random.direction();
+            let aside = random.direction().cross(&force).normalize() * reach * random.uniform(1.5, 40.0);
+            let number = |v: Vector3<f64>| v.map(T::literal);
+            let wrench = Wrench::from_force_at(&number(aside), number(force));
+            match SoftFinger::new(T::zero()).unwrap().resolve(&wrench, surface) {
+                Resolution::NoContact(NoContact::Ambiguous { first, second }) => {
+                    assert!((first - second).norm_squared().is_number(), "{name} {first} {second}");
+                }
+                other => panic!("{name} {wrench:?} {other:?}"),
+            }
+        }
+    }
+    check::<f64, _>("sphere", &Sphere::centred(0.013).unwrap(), 0.013);
+    check::<f32, _>("sphere", &Sphere::centred(0.013).unwrap(), 0.013);
+    check::<f64, _>("sphere aside", &common::sphere(), 0.017);
+    check::<f32, _>("sphere aside", &common::sphere(), 0.017);
+    check::<f64, _>("ellipsoid", &common::ellipsoid(), 0.017);
+    check::<f32, _>("ellipsoid", &common::ellipsoid(), 0.017);
 }
 
 #[test]

@@ -4,8 +4,8 @@ use fingertip_surfaces::{Search, SmoothSurface, SoftContact, SoftFingerSurface, 
 use fingertip_wrench::Wrench;
 use nalgebra::Vector3;
 
-use crate::common::{Case, Random};
 use crate::uniqueness::newton;
+use crate::wrenches::{Case, Random};
 
 fn all(torus: &Torus<f64>, wrench: &Wrench<f64>) -> (Vec<SoftContact<f64>>, Search<f64>) {
     let mut found = Vec::new();

@@ -8,7 +8,8 @@ use fingertip_surfaces::{
 use fingertip_wrench::{GaussianElimination, SensorMatrix, Wrench, WrenchSolver};
 use nalgebra::{Matrix2, Matrix3, Matrix6, Vector3, Vector6};
 
-use crate::common::{self, Case, Random};
+use crate::common;
+use crate::wrenches::{Case, Random};
 
 fn noisy(random: &mut Random, wrench: &Wrench<f64>, factor: &Matrix6<f64>) -> Wrench<f64> {
     let noise = Vector6::from_fn(|_, _| random.normal());

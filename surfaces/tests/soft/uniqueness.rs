@@ -5,7 +5,8 @@ use fingertip_surfaces::{ActiveSurface, SmoothSurface, SoftFingerSurface};
 use fingertip_wrench::Wrench;
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 
-use crate::common::{self, Case, Random};
+use crate::common;
+use crate::wrenches::{Case, Random};
 
 /// `G = (K/2 g + c × f − m, S)`.
 fn equations<S: SmoothSurface<f64>>(

@@ -1,0 +1,141 @@
+//! Covariances of a wrench, as full as they need to be.
+
+use fingertip_wrench::Real;
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+/// How noise spreads a wrench about the origin of the sensor frame, as far as the covariance of a
+/// contact's position asks: a full `Matrix6` (symmetric, as [`SensorUncertainty`] and a solver's
+/// covariance are), or the cheaper [`IndependentNoise`] and [`IsotropicNoise`].
+///
+/// [`SensorUncertainty`]: crate::SensorUncertainty
+pub trait WrenchSpread<T: Real> {
+    /// The covariance `xx, xy, xz, yy, yz, zz` \[(N·m)²\] of the torque about another point,
+    /// `m − c × f`: `Σ_mm − [c]Σ_fm − ([c]Σ_fm)ᵀ + [c]Σ_ff[c]ᵀ`.
+    fn torque_about(&self, point: &Vector3<T>) -> [T; 6];
+
+    /// The covariances of two linear combinations of `Fx … Tz`: first with first, first with second,
+    /// second with second.
+    fn combined(&self, first: &Vector6<T>, second: &Vector6<T>) -> [T; 3];
+}
+
+impl<T: Real> WrenchSpread<T> for Matrix6<T> {
+    #[inline(always)]
+    fn torque_about(&self, c: &Vector3<T>) -> [T; 6] {
+        // By whole rows, which the symmetric matrix has as columns: row i of [c]Σ_fm and [c]Σ_ff.
+        let [x, y, z, mx, my, mz] = self.data.0;
+        let times_c = |x: Vector3<T>, y: Vector3<T>, z: Vector3<T>| {
+            [z * c.y - y * c.z, x * c.z - z * c.x, y * c.x - x * c.y]
+        };
+        let upper = |v: [T; 6]| Vector3::new(v[0], v[1], v[2]);
+        let lower = |v: [T; 6]| Vector3::new(v[3], v[4], v[5]);
+        let mixed = times_c(lower(x), lower(y), lower(z));
+        let around = times_c(upper(x), upper(y), upper(z)).map(|row| c.cross(&row));
+        let torque = [mx, my, mz];
+        let entry = |i: usize, j: usize| (torque[i][j + 3] + around[i][j]) - (mixed[i][j] + mixed[j][i]);
+        [entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)]
+    }
+
+    #[inline(always)]
+    fn combined(&self, first: &Vector6<T>, second: &Vector6<T>) -> [T; 3] {
+        // Column by column, in sums that do not wait for one another.
+        let [c0, c1, c2, c3, c4, c5] = self.data.0.map(Vector6::from);
+        let times =
+            |v: &Vector6<T>| ((c0 * v[0] + c1 * v[1]) + (c2 * v[2] + c3 * v[3])) + (c4 * v[4] + c5 * v[5]);
+        let (with_first, with_second) = (times(first), times(second));
+        [first.dot(&with_first), first.dot(&with_second), second.dot(&with_second)]
+    }
+}
+
+/// The six components are noisy independently of one another: their variances \[N², (N·m)²\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IndependentNoise<T: Real>(pub Vector6<T>);
+
+impl<T: Real> WrenchSpread<T> for IndependentNoise<T> {
+    #[inline(always)]
+    fn torque_about(&self, c: &Vector3<T>) -> [T; 6] {
+        let v = &self.0;
+        let (x, y, z) = (c * v[0], c * v[1], c * v[2]);
+        [
+            v[3] + (z.y * c.y + y.z * c.z),
+            -(z.x * c.y),
+            -(y.x * c.z),
+            v[4] + (z.x * c.x + x.z * c.z),
+            -(x.y * c.z),
+            v[5] + (y.x * c.x + x.y * c.y),
+        ]
+    }
+
+    #[inline(always)]
+    fn combined(&self, first: &Vector6<T>, second: &Vector6<T>) -> [T; 3] {
+        let (with_first, with_second) = (first.component_mul(&self.0), second.component_mul(&self.0));
+        [first.dot(&with_first), first.dot(&with_second), second.dot(&with_second)]
+    }
+}
+
+/// All forces are equally noisy, and so are all torques, independently of one another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IsotropicNoise<T: Real> {
+    /// Variance of each component of the force \[N²\].
+    pub force: T,
+    /// Variance of each component of the torque \[(N·m)²\].
+    pub torque: T,
+}
+
+impl<T: Real> WrenchSpread<T> for IsotropicNoise<T> {
+    #[inline(always)]
+    fn torque_about(&self, c: &Vector3<T>) -> [T; 6] {
+        let arm = c * self.force;
+        let (x, y, z) = (arm.x * c.x, arm.y * c.y, arm.z * c.z);
+        [
+            self.torque + (y + z),
+            -(arm.x * c.y),
+            -(arm.x * c.z),
+            self.torque + (x + z),
+            -(arm.y * c.z),
+            self.torque + (x + y),
+        ]
+    }
+
+    #[inline(always)]
+    fn combined(&self, first: &Vector6<T>, second: &Vector6<T>) -> [T; 3] {
+        let (f, t) = (self.force, self.torque);
+        IndependentNoise(Vector6::new(f, f, f, t, t, t)).combined(first, second)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix6, Vector3, Vector6};
+
+    use super::{IndependentNoise, IsotropicNoise, WrenchSpread};
+
+    fn agree(some: &impl WrenchSpread<f64>, full: &Matrix6<f64>) {
+        let c = Vector3::new(0.3, -0.7, 1.1);
+        // The torque about the point is `m − c × f`: three combinations.
+        let row = |k: usize| {
+            let e = Vector3::ith(k, 1.0);
+            let arm = c.cross(&e);
+            Vector6::new(arm.x, arm.y, arm.z, e.x, e.y, e.z)
+        };
+        let torque = some.torque_about(&c);
+        for (k, (i, j)) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].into_iter().enumerate() {
+            let exact = row(i).dot(&(full * row(j)));
+            assert!((torque[k] - exact).abs() < 1e-13 * full.amax(), "{i} {j}: {} {exact}", torque[k]);
+        }
+        let both = some.combined(&row(0), &row(1));
+        for (found, exact) in both.iter().zip([torque[0], torque[1], torque[3]]) {
+            assert!((found - exact).abs() < 1e-13 * full.amax());
+        }
+    }
+
+    #[test]
+    fn every_kind_agrees_with_the_full_matrix() {
+        let root = Matrix6::from_fn(|i, j| ((7 * i + 3 * j) % 5) as f64 - 1.7 + 0.1 * i as f64);
+        let full = root * root.transpose();
+        agree(&full, &full);
+        let variances = Vector6::new(1.0, 2.0, 3.0, 0.4, 0.5, 0.6);
+        agree(&IndependentNoise(variances), &Matrix6::from_diagonal(&variances));
+        let isotropic = Vector6::new(2.0, 2.0, 2.0, 0.7, 0.7, 0.7);
+        agree(&IsotropicNoise { force: 2.0, torque: 0.7 }, &Matrix6::from_diagonal(&isotropic));
+    }
+}
