@@ -36,6 +36,16 @@ pub fn newton_soft_contacts<T: Real, S: SmoothSurface<T>>(
     last: Option<&Vector3<T>>,
     mut visit: impl FnMut(SoftContact<T>),
 ) -> Search<T> {
+    search(surface, wrench, last, &mut visit)
+}
+
+/// Compiled once for every surface, whoever visits.
+fn search<T: Real, S: SmoothSurface<T>>(
+    surface: &S,
+    wrench: &Wrench<T>,
+    last: Option<&Vector3<T>>,
+    visit: &mut dyn FnMut(SoftContact<T>),
+) -> Search<T> {
     let problem = Problem::new(surface, &wrench.force(), &wrench.torque());
     match surface.topology() {
         Topology::Convex => {
