@@ -214,7 +214,9 @@ impl<T: Real> Accepted<T> {
         let (sx, sy, sz) = (&mut sx[..count], &mut sy[..count], &mut sz[..count]);
         let (gap, pressing) = (&gap[..count], &mut pressing[..count]);
         for k in 0..count {
-            let (f, n) = ([fx[k], fy[k], fz[k]], [nx[k], ny[k], nz[k]]);
+            // Without what is no number, of which nothing times zero makes one.
+            let f = [fx[k], fy[k], fz[k]].map(|x| if x.abs() <= T::GREATEST { x } else { T::zero() });
+            let n = [nx[k], ny[k], nz[k]];
             let (squared, along) = (dot(f, f), dot(f, n));
             let touches = (squared >= self.least_squared)
                 & (gap[k] <= self.greatest_gap)

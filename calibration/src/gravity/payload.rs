@@ -41,6 +41,9 @@ pub struct PayloadFit {
     pub torque_bias: Vector3<f64>,
     /// Angle between the fitted weight and the −z axis of the base \[rad\]; zero where the direction was given.
     pub tilt: f64,
+    /// Standard deviation of the direction of the weight \[rad\], per turn (root mean square of the two); zero
+    /// where it was given.
+    pub direction_deviation: f64,
     /// RMS of what is left, per component, in the sensor frame \[N, N·m\].
     pub rms: [f64; 6],
     /// The same in the base frame.
@@ -132,6 +135,9 @@ pub fn fit_payload(poses: &[Pose], options: &PayloadOptions) -> Result<PayloadFi
     let variance = fit.residual_covariance[(0, 0)]
         * (parameter.transpose() * fit.inverse_gram.view((0, 0), (unknowns, unknowns)) * &parameter)[(0, 0)];
     let weight_deviation = variance.max(0.0).sqrt();
+    let all = &basis * fit.inverse_gram.view((0, 0), (unknowns, unknowns)) * basis.transpose();
+    let across = (all.trace() * fit.residual_covariance[(0, 0)] - variance).max(0.0);
+    let direction_deviation = if down.is_some() { 0.0 } else { (0.5 * across).sqrt() / length };
     // Down is −z unless told otherwise.
     let upward = weight.dot(&down.unwrap_or_else(|| -Vector3::z())) < 0.0;
     if !(length > 3.0 * weight_deviation) {
@@ -185,6 +191,7 @@ pub fn fit_payload(poses: &[Pose], options: &PayloadOptions) -> Result<PayloadFi
         centre_of_mass,
         force_bias,
         torque_bias,
+        direction_deviation,
         tilt: if down.is_some() { 0.0 } else { weight.angle(&-Vector3::z()) },
         rms: [0.0; 6],
         rms_in_base: [0.0; 6],

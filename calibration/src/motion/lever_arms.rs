@@ -48,7 +48,7 @@ pub struct LeverArmFit {
 /// not lie in a plane, in unknown directions (theory 8).
 ///
 /// Each arm alone gives `B_k = C G_k O_k`, `G_k = [I; [r_k]×]`, with an unknown orthogonal `O_k`
-/// ([`constant_force`]). The rotations are found by Levenberg-Marquardt on
+/// ([`constant_force`](super::constant_force())). The rotations are found by Levenberg-Marquardt on
 /// `min ‖[B_k O_kᵀ] (I − G⁺G)‖` from `starts` random starts, since the problem has many local minima; then
 /// `C = [B_k O_kᵀ] G⁺`. From there, sensor, zero and all directions are brought to their most likely values,
 /// for noise that is alike in all gauges; deviations are those of this estimate, to first order.

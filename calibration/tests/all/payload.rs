@@ -38,6 +38,11 @@ fn errors_of_the_payload_are_as_stated() {
             let fit = fit_payload(&poses, &options).unwrap();
             let mut errors = vec![fit.weight.norm() - weight.norm()];
             let mut variances = vec![fit.weight_deviation.powi(2)];
+            if down.is_none() {
+                // Two turns together, each as large.
+                errors.push(fit.weight.angle(&weight) / core::f64::consts::SQRT_2);
+                variances.push(fit.direction_deviation.powi(2));
+            }
             for (error, deviation) in [
                 (fit.centre_of_mass - CENTRE, fit.centre_deviation),
                 (fit.force_bias - FORCE, fit.force_bias_deviation),

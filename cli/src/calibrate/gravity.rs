@@ -64,9 +64,10 @@ pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), Cli
     ));
     if arguments.fit_down {
         text.push_str(&format!(
-            "gravity         {} N in the base, {:.3}° off its −z\n",
+            "gravity         {} N in the base, {:.3}° off its −z (± {:.3}°)\n",
             triple(&fit.weight, 1.0),
-            fit.tilt.to_degrees()
+            fit.tilt.to_degrees(),
+            fit.direction_deviation.to_degrees()
         ));
     }
     text.push_str(&format!(
