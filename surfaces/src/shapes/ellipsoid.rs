@@ -19,11 +19,15 @@ pub struct Ellipsoid<T: Real> {
 
 /// The part of a line within the ellipsoid, scaled to the unit sphere.
 struct Chord<T: Real> {
+    /// A power of two near the size of the ellipsoid \[m\].
+    unit: T,
+    /// Reciprocals of the semi-axes in that unit.
+    curvatures: Vector3<T>,
     /// Its middle.
     foot: Vector3<T>,
     /// Scaled direction, not of unit length.
     direction: Vector3<T>,
-    /// Where the middle is along the line, and half the length \[m\].
+    /// Where the middle is along the line, and half the length, in that unit.
     along: T,
     half: T,
 }
@@ -59,10 +63,13 @@ impl<T: Real> Ellipsoid<T> {
         self.curvatures
     }
 
+    /// Lengths along the line count in a unit near the size of the ellipsoid, whatever the size.
     #[inline]
     fn chord(&self, line: &Line<T>) -> Option<Chord<T>> {
+        let unit = T::one() / self.semi_axes.max().normalising_factor();
+        let curvatures = self.curvatures * unit;
         let point = line.point.component_mul(&self.curvatures);
-        let direction = line.direction.component_mul(&self.curvatures);
+        let direction = line.direction.component_mul(&curvatures);
         let inverse = T::one() / direction.norm_squared();
         let first = -point.dot(&direction) * inverse;
         let foot = point + direction * first;
@@ -70,16 +77,17 @@ impl<T: Real> Ellipsoid<T> {
         let rest = -foot.dot(&direction) * inverse;
         let (foot, along) = (foot + direction * rest, first + rest);
         let squared = T::one() - foot.norm_squared();
-        (squared >= T::zero()).then(|| Chord { foot, direction, along, half: (squared * inverse).root() })
+        let half = (squared * inverse).root();
+        (squared >= T::zero()).then_some(Chord { unit, curvatures, foot, direction, along, half })
     }
 
     #[inline]
     fn end(&self, chord: &Chord<T>, offset: T) -> Crossing<T> {
         let scaled = chord.foot + chord.direction * offset;
-        let gradient = scaled.component_mul(&self.curvatures);
+        let gradient = scaled.component_mul(&chord.curvatures);
         let steepness = gradient.norm_squared().root();
         Crossing {
-            along: chord.along + offset,
+            along: (chord.along + offset) * chord.unit,
             point: scaled.component_mul(&self.semi_axes),
             normal: gradient / steepness,
             active: true,
@@ -122,7 +130,11 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
         let remainder = T::one() - foot.norm_squared();
         let scaled = foot - direction * (remainder * inverse).root();
         let gradient = scaled.component_mul(&self.curvatures);
-        let flatness = T::one() / gradient.norm_squared().root();
+        let steepness = gradient.norm_squared();
+        if !(steepness >= least && steepness <= greatest) {
+            return None;
+        }
+        let flatness = T::one() / steepness.root();
         Some(Entry {
             point: scaled.component_mul(&self.semi_axes),
             normal: gradient * flatness,
@@ -157,9 +169,13 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
         // deepest into the ellipsoid scaled to a sphere. (To take it from the normal would multiply its
         // rounding error with the aspect.)
         let over = u * x + v * y;
-        let inward = line.direction.component_mul(&(self.curvatures * scale));
-        let along = -over.component_mul(&(self.curvatures * scale)).dot(&inward) / inward.norm_squared();
-        let point = over + line.direction * along;
+        let curvatures = self.curvatures * self.semi_axes.min();
+        let inward = line.direction.component_mul(&curvatures);
+        let near_one = inward.amax().normalising_factor();
+        let inward = inward * near_one;
+        let along = -over.component_mul(&curvatures).dot(&inward) * near_one / inward.norm_squared();
+        let deepest = over + line.direction * along;
+        let point = if is_finite(&deepest) { deepest } else { over };
         let gap = hypotenuse(p.dot(&u) - x, p.dot(&v) - y).min(T::GREATEST);
         ClosestApproach { gap, point, normal, active: true }
     }
@@ -206,8 +222,8 @@ serde_parts!(Ellipsoid {
 #[cfg(test)]
 mod tests {
     use super::Ellipsoid;
-    use crate::ActiveSurface;
-    use fingertip_wrench::Line;
+    use crate::{ActiveSurface, ContactModel, PointContact};
+    use fingertip_wrench::{Line, Wrench};
     use nalgebra::Vector3;
     use rand::{RngExt, SeedableRng};
     use rand_pcg::Pcg64Mcg;
@@ -236,6 +252,21 @@ mod tests {
                 let error = (found.point.cast::<f64>() - expected.point).norm();
                 assert!(error <= f64::from(allowed * sliding), "{line:?} {found:?} {expected:?}");
                 assert!((f64::from(found.gap) - expected.gap).abs() <= f64::from(allowed), "{line:?}");
+            }
+        }
+    }
+
+    /// Neither the square of a length nor of a curvature is a number here.
+    #[test]
+    fn sizes_beyond_the_range_of_squares() {
+        let model = PointContact::new(0.0).unwrap();
+        for size in [1e-170, 1e170] {
+            let ellipsoid = Ellipsoid::new(Vector3::new(2.0, 3.0, 1.0) * size).unwrap();
+            for force in [1e-100, 1.0, 1e93] {
+                let push = Wrench::on_fingertip(Vector3::z() * -force, Vector3::zeros());
+                let contact = *model.resolve(&push, &ellipsoid).contact().unwrap();
+                assert!((contact.point / size - Vector3::z()).norm() < 1e-15);
+                assert!((contact.normal - Vector3::z()).norm() < 1e-15);
             }
         }
     }
