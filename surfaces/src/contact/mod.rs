@@ -2,12 +2,14 @@
 
 mod bound;
 mod contact_model;
+mod long_way;
 mod onto_line;
 mod outcome;
 mod point_contact;
 
 pub use bound::{ContactBound, WorstErrors};
 pub use contact_model::ContactModel;
+pub(crate) use long_way::long_way;
 pub(crate) use onto_line::torque_left;
 pub use outcome::{Contact, NoContact, Resolution};
 pub use point_contact::PointContact;

@@ -3,9 +3,10 @@
 use fingertip_wrench::{LineOfAction, NoLineOfAction, Real, Wrench};
 use nalgebra::Vector3;
 
+use super::long_way::long_way;
 use super::onto_line::onto_line;
 use super::{Contact, ContactModel, NoContact, Resolution};
-use crate::numeric::vectors::{by_components, hypotenuse};
+use crate::numeric::vectors::hypotenuse;
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, Crossing, ForceLine};
 
@@ -230,16 +231,7 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
         {
             return Resolution::Contact(contact_at(wrench, entry.point, entry.normal));
         }
-        let copy = Wrench::on_fingertip(by_components(&wrench.force()), by_components(&wrench.torque()));
-        match self.choose(&copy, surface, last) {
-            Resolution::Contact(contact) => Resolution::Contact(Contact {
-                point: by_components(&contact.point),
-                normal: by_components(&contact.normal),
-                force: by_components(&contact.force),
-                ..contact
-            }),
-            none => none,
-        }
+        long_way(wrench, |copy| self.choose(copy, surface, last))
     }
 }
 

@@ -82,13 +82,6 @@ pub(crate) fn foot<T: Real>(line: &Line<T>, centre: &Vector3<T>) -> (Vector3<T>,
     (from_centre + line.direction * along, along)
 }
 
-/// The same vector. A compiler that sees one block of memory copied hands that memory on, and the short
-/// way would have to go through it as well.
-#[inline(always)]
-pub(crate) fn by_components<T: Real>(v: &Vector3<T>) -> Vector3<T> {
-    Vector3::new(v.x, v.y, v.z)
-}
-
 /// An angle as files have it.
 #[cfg(feature = "serde")]
 pub(crate) fn to_degrees<T: Real>(radians: T) -> T {

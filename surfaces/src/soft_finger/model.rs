@@ -4,7 +4,8 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use super::mended::mended;
-use crate::numeric::vectors::{by_components, is_tame, larger, largest, length};
+use crate::contact::long_way;
+use crate::numeric::vectors::{is_tame, larger, largest, length};
 use crate::serde_parts::serde_parts;
 use crate::{
     BadShape, Contact, ContactModel, ForceLine, NoContact, Resolution, Search, SoftContact, SoftFingerSurface,
@@ -81,16 +82,7 @@ impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
         {
             return Resolution::Contact(contact_at(wrench, &contact, contact.spin_torque));
         }
-        let copy = Wrench::on_fingertip(by_components(&wrench.force()), by_components(&wrench.torque()));
-        match self.resolve_any(&copy, surface, last) {
-            Resolution::Contact(contact) => Resolution::Contact(Contact {
-                point: by_components(&contact.point),
-                normal: by_components(&contact.normal),
-                force: by_components(&contact.force),
-                ..contact
-            }),
-            none => none,
-        }
+        long_way(wrench, |copy| self.resolve_any(copy, surface, last))
     }
 }
 
