@@ -69,7 +69,7 @@ impl<T: Real> Coulomb<T> {
             let known = (normal >= T::zero()) & (load >= T::zero()) & (margin.abs() <= T::GREATEST);
             let used = load / holding;
             let idle = known & (load <= T::zero());
-            let held = known & (used < T::GREATEST);
+            let held = known & (holding > T::zero()) & (used < T::GREATEST);
             *newtons = if known { margin } else { -T::GREATEST };
             let used = if held { used } else { T::GREATEST };
             *utilisation = if idle { T::zero() } else { used };
@@ -155,7 +155,8 @@ mod tests {
             forces in prop::collection::vec((any::<f64>(), any::<f64>()), 1..40),
         ) {
             let ends = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (f64::NAN, 1.0), (1.0, f64::NAN),
-                (f64::INFINITY, 1.0), (1.0, f64::INFINITY), (-1.0, 1.0), (f64::MAX, f64::MAX), (1e-310, 1.0)];
+                (f64::INFINITY, 1.0), (1.0, f64::INFINITY), (-1.0, 1.0), (-0.0, 1.0), (-0.0, 0.0),
+                (f64::MAX, f64::MAX), (1e-310, 1.0)];
             let forces: Vec<_> = forces.into_iter().chain(ends).map(|(n, t)| (n, t.abs())).collect();
             columns_say_what_samples_say::<f64>(coefficient, &forces);
             #[allow(clippy::cast_possible_truncation)]
