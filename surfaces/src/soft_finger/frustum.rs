@@ -13,17 +13,13 @@ use crate::{Cone, Frustum, SoftContact};
 /// The soft-finger contact on a frustum: of the side, by the closed form of its cone or cylinder; of
 /// the flat ends, by that of the plane; of the edges between them and of a tip, with a normal between
 /// those of the faces that meet. A convex solid has one contact, and it has it on one of these.
-pub(super) fn on_frustum<T: Real>(
-    solid: &Frustum<T>,
-    wrench: &Wrench<T>,
-    mut visit: impl FnMut(SoftContact<T>),
-) {
+pub(super) fn on_frustum<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
     let (base, axis, height) = (solid.base_centre(), solid.axis(), solid.height());
     let force = wrench.force();
     if let Some(contact) = on_side(solid, wrench) {
         let above = (contact.point - base).dot(&axis);
         if above >= T::zero() && above <= height {
-            return visit(contact);
+            return Some(contact);
         }
     }
     let (sine, cosine) = (solid.taper() * solid.side_cosine(), solid.side_cosine());
@@ -34,7 +30,7 @@ pub(super) fn on_frustum<T: Real>(
         if let Some(contact) = on_plane(&outward, &force, &torque)
             && contact.point.norm_squared() <= radius * radius
         {
-            return visit(SoftContact { point: contact.point + origin, ..contact });
+            return Some(SoftContact { point: contact.point + origin, ..contact });
         }
         // The side's normal has this much along the end's.
         let lean = if outward == axis { sine } else { -sine };
@@ -55,10 +51,11 @@ pub(super) fn on_frustum<T: Real>(
             },
             |contact| found = Some(SoftContact { point: contact.point + origin, ..contact }),
         );
-        if let Some(contact) = found {
-            return visit(contact);
+        if found.is_some() {
+            return found;
         }
     }
+    None
 }
 
 /// On the side, unbounded: by a closed form, and a step of Newton's method, which makes good what the
@@ -72,7 +69,7 @@ fn on_side<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContac
     };
     let rough = if taper.is_zero() { None } else { cone().map(|cone| on_cone(&cone, wrench)) };
     let rough = match rough {
-        Some(contact) => contact?,
+        Some(contact) => contact.ok()?,
         None => {
             let radius = (solid.base_radius() + solid.top_radius()) * T::literal(0.5);
             on_round_side(&base, &axis, radius, &wrench.force(), &wrench.torque_about(&base))?

@@ -3,6 +3,7 @@
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
+use crate::numeric::vectors::larger;
 use crate::{Extent, SmoothSurface, SoftContact};
 
 /// The soft-finger problem in the units of the surface: lengths from the centre of its extent, in
@@ -35,6 +36,13 @@ pub(super) struct Place<T: Real> {
     bend_second: Vector3<T>,
 }
 
+impl<T: Real> Place<T> {
+    /// The largest curvature, but for a factor of two.
+    fn bend(&self) -> T {
+        larger(self.bend_first.amax(), self.bend_second.amax())
+    }
+}
+
 /// An approximate solution.
 #[derive(Clone, Copy)]
 pub(super) struct State<T: Real> {
@@ -42,6 +50,7 @@ pub(super) struct State<T: Real> {
     pub(super) spin: T,
     residual: Vector3<T>,
     merit: T,
+    /// The residual is rounding, and so is the distance from the surface.
     pub(super) converged: bool,
 }
 
@@ -86,6 +95,11 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
             torque,
             power,
         }
+    }
+
+    /// How far the sensor's origin is from that of the problem.
+    pub(super) fn arm(&self) -> T {
+        self.centre.amax() / self.length
     }
 
     /// From the sensor frame.
@@ -170,7 +184,8 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
     }
 
     /// Damped Newton from a start, for the torque `torque` instead of the problem's own; at most
-    /// `bound` steps. Each step is halved until the residual falls, or the next step would.
+    /// `bound` steps. Each step is halved until the residual falls, or the next step would. However
+    /// short the last one was, it ends only where the equations hold.
     pub(super) fn newton(
         &self,
         start: Place<T>,
@@ -197,6 +212,7 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
             let quadratic = size <= before * before * T::literal(4.0) && before < T::one();
             let last = small && (quadratic || size <= fine * T::literal(0.01) || size + size >= before);
             before = size;
+            let height = state.place.height.abs();
             let mut tries = 6;
             state = loop {
                 let next = self
@@ -216,7 +232,12 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
                     }
                 }
             };
-            if last {
+            // How well a level function rounds is its own affair: a height that falls no more, and that
+            // the bend of the surface along the step does not explain, is rounding.
+            let (torque_left, height_left) = self.rounding(&state);
+            let left = state.place.height.abs();
+            let noise = left + left >= height && left > state.place.bend() * size * size;
+            if last && state.residual.amax() <= torque_left && (left <= height_left || noise) {
                 state.converged = true;
                 return Some(state);
             }
@@ -224,15 +245,36 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
         self.settled(state).or(Some(state))
     }
 
+    /// What rounding leaves of a torque and of a height at a solution.
+    ///
+    /// `τ n`, `c × f` and `m` are of the size of the first two, and each is the result of up to four
+    /// roundings in what the equations are made of and four in how they are evaluated, in every one of
+    /// two places, here and in the wrench. A point that is known to `ε|c|` knows its normal to `ε|c||W|`,
+    /// which the torque sees times `τ`: most of it on a needle under a large spin torque.
+    fn rounding(&self, state: &State<T>) -> (T, T) {
+        let place = &state.place;
+        let arm = place.point.amax() + self.arm();
+        let turn = T::one() + place.bend() * arm;
+        let hair = T::literal(16.0) * T::EPSILON;
+        (hair * (arm * self.force.amax() + state.spin.abs() * turn), hair * arm)
+    }
+
+    /// `true` if a contact solves the equations up to rounding.
+    pub(super) fn explains(&self, contact: &SoftContact<T>) -> bool {
+        self.place(self.inward(&contact.point)).is_some_and(|place| {
+            let spin = contact.spin_torque * self.wrench_unit / self.length;
+            self.settled(self.state(place, spin, &self.torque)).is_some()
+        })
+    }
+
     /// A state whose residual is rounding: no step makes it smaller, however far steps lead. So it is
     /// where a large spin torque meets a surface that is straight one way, as a slender cone, and the
     /// contact answers to the rounding of the torque `τ n` with more than the step that counts as small.
     #[cold]
     fn settled(&self, state: State<T>) -> Option<State<T>> {
-        // Torque, arm times force, and spin torque times normal: each of up to two rounding errors.
-        let size = self.torque.amax() + self.force.amax() * self.reach + state.spin.abs();
-        let rounding = T::literal(2.0) * T::EPSILON * size;
-        (state.merit <= rounding * rounding).then_some(State { converged: true, ..state })
+        let (torque, height) = self.rounding(&state);
+        let settled = state.residual.amax() <= torque && state.place.height.abs() <= height;
+        settled.then_some(State { converged: true, ..state })
     }
 
     /// The natural test of a step (Deuflhard 1974): the step that would follow with the same Jacobian
@@ -246,11 +288,11 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
         self.step(&mixed).is_some_and(|(left, _)| left.amax() * (T::one() + T::one()) < shift.amax())
     }
 
-    /// A contact that is right but for rounding, after one step of Newton's method or two.
+    /// A contact that is right but for rounding, after a few steps of Newton's method.
     pub(super) fn polished(&self, contact: &SoftContact<T>) -> Option<SoftContact<T>> {
         let place = self.place(self.inward(&contact.point))?;
         let spin = contact.spin_torque * self.wrench_unit / self.length;
-        let state = self.newton(place, spin, &self.torque, 3)?;
+        let state = self.newton(place, spin, &self.torque, 6)?;
         (state.converged && self.presses(&state)).then(|| self.contact(&state))
     }
 

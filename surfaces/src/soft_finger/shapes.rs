@@ -11,6 +11,7 @@ use super::plane::on_plane;
 use super::rim::{on_elliptic_rim, on_rim};
 use super::torus::on_torus;
 use crate::contact::flat;
+use crate::numeric::vectors::largest;
 use crate::{
     ActiveSurface, CappedCylinder, Capsule, Cone, Cylinder, CylinderEnds, Disk, Ellipsoid, EllipticCylinder,
     ForceLine, Frustum, Implicit, Paraboloid, Plane, Rectangle, RoundedBox, Search, SmoothImplicit,
@@ -89,6 +90,22 @@ fn report_any<T: Real>(found: Option<SoftContact<T>>, visit: impl FnMut(SoftCont
     Search::Complete
 }
 
+/// The same on a closed convex body, which has one contact wherever there is a spin torque: if none was
+/// found, rounding hides it, unless the wrench is a pure force for all that its numbers say.
+#[inline]
+fn report_one<T: Real>(
+    found: Option<SoftContact<T>>,
+    wrench: &Wrench<T>,
+    visit: impl FnMut(SoftContact<T>),
+) -> Search<T> {
+    let none = found.is_none();
+    let search = report_any(found, visit);
+    let power = wrench.force().dot(&wrench.torque()).abs();
+    let largest_product = largest(&wrench.force()) * largest(&wrench.torque());
+    // Half a unit in the last place of every number, and as much in three products and two sums.
+    if none && power > largest_product * T::EPSILON * T::literal(8.0) { Search::Incomplete } else { search }
+}
+
 soft_finger!(
     Sphere,
     |shape, wrench, _, visit| report(on_sphere(shape, wrench), visit),
@@ -148,15 +165,13 @@ soft_finger!(
         .filter(|contact| is_steep(push, contact))
 );
 
-soft_finger!(Frustum, |shape, wrench, _, visit| {
-    on_frustum(shape, wrench, visit);
-    Search::Complete
-});
+soft_finger!(Frustum, |shape, wrench, _, visit| report_one(on_frustum(shape, wrench), wrench, visit));
 
-soft_finger!(CappedCylinder, |shape, wrench, _, visit| {
-    on_frustum(shape.solid(), wrench, visit);
-    Search::Complete
-});
+soft_finger!(CappedCylinder, |shape, wrench, _, visit| report_one(
+    on_frustum(shape.solid(), wrench),
+    wrench,
+    visit
+));
 
 soft_finger!(
     /// The side by the closed form; flat ends as planes, within their outline; and the edges between
@@ -183,8 +198,8 @@ soft_finger!(
                 }
                 found = on_elliptic_end(axes, reciprocals, &normal, half, wrench);
             }
+            return report_one(found, wrench, visit);
         }
-        found.into_iter().for_each(visit);
         Search::Complete
     }
 );
@@ -224,10 +239,13 @@ soft_finger!(
     /// The side, or the tip, on which any normal will do that is steeper than the side's.
     Cone,
     |shape, wrench, _, visit| {
-        if let Some(contact) = on_cone(shape, wrench) {
-            visit(SoftContact { active: is_active(shape, &contact), ..contact });
-            return Search::Complete;
-        }
+        let mut search = match on_cone(shape, wrench) {
+            Ok(contact) => {
+                visit(SoftContact { active: is_active(shape, &contact), ..contact });
+                return Search::Complete;
+            }
+            Err(search) => search,
+        };
         let (apex, tip) = (shape.apex(), -shape.axis());
         let least = shape.half_angle().sin();
         on_rim(
@@ -236,9 +254,12 @@ soft_finger!(
             &wrench.force(),
             &wrench.torque_about(&apex),
             |normal, _| normal.dot(&tip) >= least,
-            |contact| visit(SoftContact { point: apex, ..contact }),
+            |contact| {
+                search = Search::Complete;
+                visit(SoftContact { point: apex, ..contact });
+            },
         );
-        Search::Complete
+        search
     }
 );
 
@@ -272,7 +293,10 @@ soft_finger!(
                 }
             }
         }
-        search
+        match search {
+            Search::Complete => report_one(None, wrench, visit),
+            other => other,
+        }
     }
 );
 

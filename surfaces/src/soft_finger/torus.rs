@@ -57,6 +57,7 @@ pub(super) fn on_torus<T: Real>(
     }
     let around = Around { force, torque, tube, power };
     let problem = Problem::new(torus, &wrench.force(), &wrench.torque());
+    let mut search = Search::Complete;
     around.roots(|angle| {
         let at = around.at(angle);
         let found = SoftContact {
@@ -67,9 +68,13 @@ pub(super) fn on_torus<T: Real>(
         };
         // A last step on all equations at once takes the rounding of the angle away, and carries the
         // derivative of a dual number.
-        visit(problem.polished(&found).unwrap_or(found));
+        match problem.polished(&found) {
+            Some(contact) => visit(contact),
+            None if problem.explains(&found) => visit(found),
+            None => search = Search::Incomplete,
+        }
     });
-    Search::Complete
+    search
 }
 
 /// The wrench, in units of the ring's radius.

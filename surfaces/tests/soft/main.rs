@@ -8,6 +8,7 @@ mod common;
 mod compliant;
 mod fusion;
 mod golden;
+mod honesty;
 mod jacobians;
 mod pillow;
 mod shapes;
