@@ -13,7 +13,8 @@ use crate::{ActiveSurface, Cone, Extent, Search, SoftContact};
 ///
 /// The denominator vanishes where the force is parallel to a side (then one of two crossings is at
 /// infinity), and takes digits with it before it does. So a Newton step or two follow, which bring
-/// them back; and where nothing is left, Newton starts from where the line of action enters.
+/// them back; where they do not, they start on the side that the torque tells, and where nothing is
+/// left, from where the line of action enters.
 ///
 /// # Errors
 /// How the search ended: [`Search::Complete`] if no rounding of the wrench gives the side a contact.
@@ -69,7 +70,7 @@ pub(super) fn on_cone<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<Sof
         if let Some(contact) = finish(closed) {
             return Ok(contact);
         }
-        // Under a large spin torque on a needle the torque tells better on which side the contact is.
+        // Under a large spin torque the torque tells better on which side the contact is.
         let rest = (m - closed.cross(&f)) * -problem.power;
         let across = unit_or(&Vector3::new(rest.x, rest.y, T::zero()), Vector3::x) * (sine / cosine);
         if let Some(contact) = finish((across + Vector3::z()) * closed.z) {

@@ -33,7 +33,8 @@ use crate::{
 ///
 /// What is no contact is said by type: [`NoContact::PureCouple`] where there is a torque but no
 /// force, [`NoContact::Ambiguous`] where a pure force could only graze the surface at two points,
-/// [`NoContact::Unresolved`] where the search of a shape without closed form ended at its bound.
+/// [`NoContact::Unresolved`] where a search ended at its bound, or rounding of the wrench hides whether
+/// there is a contact, as of a needle under a large spin torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoftFinger<T: Real> {
     least_force: T,

@@ -232,12 +232,7 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
                     }
                 }
             };
-            // How well a level function rounds is its own affair: a height that falls no more, and that
-            // the bend of the surface along the step does not explain, is rounding.
-            let (torque_left, height_left) = self.rounding(&state);
-            let left = state.place.height.abs();
-            let noise = left + left >= height && left > state.place.bend() * size * size;
-            if last && state.residual.amax() <= torque_left && (left <= height_left || noise) {
+            if last && self.has_ended(&state, size, height) {
                 state.converged = true;
                 return Some(state);
             }
@@ -257,6 +252,16 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
         let turn = T::one() + place.bend() * arm;
         let hair = T::literal(16.0) * T::EPSILON;
         (hair * (arm * self.force.amax() + state.spin.abs() * turn), hair * arm)
+    }
+
+    /// `true` if a last step of this size, from this height, has left nothing but rounding. How well a
+    /// level function rounds is its own affair: a height that falls no more, and that the bend of the
+    /// surface along the step does not explain, is rounding too.
+    fn has_ended(&self, state: &State<T>, size: T, before: T) -> bool {
+        let (torque, height) = self.rounding(state);
+        let left = state.place.height.abs();
+        let noise = left + left >= before && left > state.place.bend() * size * size;
+        state.residual.amax() <= torque && (left <= height || noise)
     }
 
     /// `true` if a contact solves the equations up to rounding.

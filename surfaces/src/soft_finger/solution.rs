@@ -28,7 +28,7 @@ pub enum Search<T: Real> {
     /// The wrench is a pure force whose line misses the surface. The equations hold at these two
     /// points, where the force grazes and the two spin torques are opposite: nothing tells which.
     Grazing([Vector3<T>; 2]),
-    /// The iteration ended at its bound: contacts may be missing.
+    /// The iteration ended at its bound, or rounding decides: contacts may be missing.
     Incomplete,
 }
 
