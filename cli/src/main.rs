@@ -15,6 +15,7 @@ mod felt;
 mod gauge_rows;
 mod geometry;
 mod live;
+mod mcap_file;
 mod motion;
 mod observe;
 mod plan;

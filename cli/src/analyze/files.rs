@@ -9,6 +9,7 @@ use fingertip_drivers::recording::RecordingReader;
 use crate::args::AnalyzeArguments;
 use crate::convert::from_mcap::to_csv;
 use crate::error::CliError;
+use crate::record::output::Kind;
 use crate::summary::Findings;
 
 /// Refuses to write over what is read.
@@ -41,7 +42,7 @@ pub(super) type Rows = RecordingReader<Box<dyn Read>>;
 /// `convert` makes of it; what to know of that goes to `notes`.
 pub(super) fn open(path: &Path, notes: &mut Vec<String>) -> Result<(Rows, Option<u64>), CliError> {
     let name = path.display().to_string();
-    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("mcap")) {
+    if matches!(Kind::of(path), Ok(Kind::Mcap)) {
         let (rows, account) = to_csv(path, path, || Ok(Vec::new()))?;
         notes.extend(account.notes);
         let length = rows.len() as u64;

@@ -1,14 +1,14 @@
 //! From MCAP to CSV.
 
-use std::fs::File;
-use std::io::{self, BufReader, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
-use fingertip_drivers::recording::mcap::{McapReader, Recorded};
-use fingertip_drivers::recording::{ContactCells, RecordingWriter, Schema, SignalUnit};
+use fingertip_drivers::recording::mcap::Recorded;
+use fingertip_drivers::recording::{ContactCells, RecordingWriter, Schema};
 
 use super::{Account, ConvertArguments, fault};
 use crate::error::CliError;
+use crate::mcap_file::{open, unit as unit_of};
 use crate::record::output::{create, csv, mcap};
 
 /// A topic, and the columns that its messages fill.
@@ -129,11 +129,6 @@ pub(crate) fn to_csv<W: Write>(
     Ok((file, account))
 }
 
-fn open(input: &Path) -> Result<McapReader<BufReader<File>>, CliError> {
-    let file = File::open(input).map_err(|source| CliError::read("recording", input, source))?;
-    McapReader::new(BufReader::new(file)).map_err(|error| mcap(input, &error))
-}
-
 /// Reads the file through once: what it holds, and the columns for it.
 fn survey(input: &Path, account: &mut Account) -> Result<(Schema, Vec<Columns>), CliError> {
     let mut found: Vec<Columns> = Vec::new();
@@ -181,11 +176,7 @@ fn survey(input: &Path, account: &mut Account) -> Result<(Schema, Vec<Columns>),
         schema = match &columns.kind {
             What::Wrench => schema.wrench(&name),
             What::Signals(unit) => {
-                let unit = match unit.as_str() {
-                    "V" => SignalUnit::Volts,
-                    "counts" => SignalUnit::Counts,
-                    _ => SignalUnit::Unstated,
-                };
+                let unit = unit_of(unit);
                 if columns.topic.ends_with("/dummy") && columns.width == 1 {
                     schema.dummy(&name, unit)
                 } else {

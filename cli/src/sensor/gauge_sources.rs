@@ -5,7 +5,7 @@ use std::io::BufReader;
 use std::path::Path;
 
 use fingertip_drivers::recording::mcap::{McapReader, Recorded};
-use fingertip_drivers::recording::{RecordingError, RecordingReader, SignalUnit};
+use fingertip_drivers::recording::{RecordingError, RecordingReader};
 use fingertip_drivers::{Sample, SignalSource};
 
 use super::gauges::{GaugeFault, GaugeSource, Owned};
@@ -13,6 +13,7 @@ use super::simulated::Rounds;
 use crate::calibrated::Readings;
 use crate::error::CliError;
 use crate::gauge_rows::GaugeRows;
+use crate::mcap_file;
 use crate::record::output::mcap;
 
 /// The rows of a recording.
@@ -58,12 +59,8 @@ impl McapGauges {
         sensor: Option<&str>,
         celsius: Option<f64>,
     ) -> Result<(Self, Readings), CliError> {
-        let open = || {
-            let file = File::open(path).map_err(|source| CliError::read("recording", path, source))?;
-            McapReader::new(BufReader::new(file)).map_err(|error| mcap(path, &error))
-        };
         let mut known: Vec<(String, String)> = Vec::new();
-        let mut reader = open()?;
+        let mut reader = mcap_file::open(path)?;
         while let Some(entry) = reader.next_entry().map_err(|error| mcap(path, &error))? {
             if let Recorded::Signals(signals) = entry.recorded
                 && !known.iter().any(|(topic, _)| *topic == entry.topic)
@@ -87,16 +84,15 @@ impl McapGauges {
         let beside = topic.rsplit_once('/').map(|(folder, _)| format!("{folder}/dummy"));
         let dummy = beside.filter(|dummy| known.iter().any(|(topic, _)| topic == dummy));
         let readings = Readings {
-            unit: match unit.as_str() {
-                "V" => SignalUnit::Volts,
-                "counts" => SignalUnit::Counts,
-                _ => SignalUnit::Unstated,
-            },
+            unit: mcap_file::unit(unit),
             has_dummy: dummy.is_some(),
             has_rest: false,
             has_temperature: celsius.is_some(),
         };
-        Ok((Self { reader: open()?, topic: topic.clone(), dummy, waiting: None, celsius }, readings))
+        Ok((
+            Self { reader: mcap_file::open(path)?, topic: topic.clone(), dummy, waiting: None, celsius },
+            readings,
+        ))
     }
 }
 
