@@ -14,7 +14,8 @@ const PLACES: usize = 4;
 ///
 /// From force alone nothing can be told before the first gross slip; with the displacement of the
 /// fingertip over the object (from the hand's joints, or a stage) it can. The stiffness over the
-/// last stretch of motion is compared with the mean stiffness since the motion last turned: below
+/// last stretch of motion is compared with that of the patch while it stuck, which is the greatest
+/// mean stiffness since the motion last turned (the mean itself falls as the patch lets go): below
 /// the warning share it warns, below a fifth it calls slip. Only motion is judged, so that rest
 /// gives no alarm whatever the force does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,14 +41,34 @@ struct State<T: Real> {
     newest: usize,
     known: usize,
     verdict: SlipVerdict,
-    /// Stiffness since the turn, once known \[N/m\].
-    stiffness: Option<T>,
+    /// Greatest mean stiffness since the turn \[N/m\], zero while unknown.
+    stiffness: T,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Place<T: Real> {
     displacement: Vector3<T>,
     force: Vector3<T>,
+}
+
+/// A stiffness as the quotient `resisted / way`, for comparisons without a division. Where the places
+/// are one, both are zero, and it is neither more nor less than any other.
+#[derive(Clone, Copy)]
+struct Stiffness<T: Real> {
+    resisted: T,
+    way: T,
+}
+
+impl<T: Real> Stiffness<T> {
+    #[inline]
+    fn is_below(&self, limit: T) -> bool {
+        self.resisted < limit * self.way
+    }
+
+    #[inline]
+    fn is_above(&self, limit: T) -> bool {
+        self.resisted > limit * self.way
+    }
 }
 
 impl<T: Real> Place<T> {
@@ -59,11 +80,11 @@ impl<T: Real> Place<T> {
     }
 
     /// Stiffness \[N/m\] from here to another place: the force on the fingertip opposes its
-    /// displacement. Not a number where they are one, or too far apart for the square.
+    /// displacement.
     #[inline]
-    fn stiffness_to(&self, other: &Self, scale: T) -> T {
+    fn stiffness_to(&self, other: &Self, scale: T) -> Stiffness<T> {
         let way = (other.displacement - self.displacement) * scale;
-        -(other.force - self.force).dot(&way) * scale / way.norm_squared()
+        Stiffness { resisted: -(other.force - self.force).dot(&way) * scale, way: way.norm_squared() }
     }
 
     /// Takes a sample's place. It is written component by component: a copy of a whole place that has just been
@@ -137,11 +158,11 @@ impl<T: Real> IncipientSlip<T> {
         state.arrive(tangential, displacement, scale, self.warning_share)
     }
 
-    /// The mean tangential stiffness \[N/m\] since the motion last turned; `None` before enough
-    /// motion.
+    /// The tangential stiffness of the patch that sticks \[N/m\]: the greatest mean since the motion
+    /// last turned; `None` before enough motion.
     #[must_use]
     pub fn stiffness(&self) -> Option<T> {
-        self.state.as_ref().and_then(|state| state.stiffness)
+        self.state.as_ref().map(|state| state.stiffness).filter(|stiffness| *stiffness > T::zero())
     }
 
     /// Forgets the motion.
@@ -184,13 +205,18 @@ impl<T: Real> State<T> {
             return self.verdict;
         }
         let mean = self.turn.stiffness_to(oldest, scale);
-        let local = oldest.stiffness_to(here, scale);
-        if mean > T::zero() && mean.is_number() {
-            self.stiffness = Some(mean);
-            if self.verdict == SlipVerdict::Holding && local < mean * warning_share {
+        if mean.is_above(self.stiffness) {
+            let greatest = mean.resisted / mean.way;
+            if greatest.is_number() {
+                self.stiffness = greatest;
+            }
+        }
+        if self.stiffness > T::zero() {
+            let local = oldest.stiffness_to(here, scale);
+            if self.verdict == SlipVerdict::Holding && local.is_below(self.stiffness * warning_share) {
                 self.verdict = SlipVerdict::Warning;
             }
-            if self.verdict == SlipVerdict::Warning && local < mean * T::literal(0.2) {
+            if self.verdict == SlipVerdict::Warning && local.is_below(self.stiffness * T::literal(0.2)) {
                 self.verdict = SlipVerdict::Slipping;
             }
         }
@@ -206,7 +232,7 @@ impl<T: Real> State<T> {
             newest: 0,
             known: 1,
             verdict: SlipVerdict::Holding,
-            stiffness: None,
+            stiffness: T::zero(),
         }
     }
 }

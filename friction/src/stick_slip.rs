@@ -20,30 +20,31 @@ pub struct StickSlip<T> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StickSlipDetector<T> {
     drops: DropDetector<T>,
-    /// Time since the last drop \[s\]; none before the first.
-    since: Option<T>,
+    /// Time since the last drop, or since the contact closed \[s\].
+    since: T,
     periods: [T; 3],
-    known: u8,
+    /// Drops in a row, at most four: one more than the periods known.
+    drops_seen: u8,
 }
 
 impl<T: Real> StickSlipDetector<T> {
     /// From a detector of single drops.
     #[must_use]
     pub fn new(drops: DropDetector<T>) -> Self {
-        Self { drops, since: None, periods: [T::zero(); 3], known: 0 }
+        Self { drops, since: T::zero(), periods: [T::zero(); 3], drops_seen: 0 }
     }
 
     /// The stick-slip motion now going on, if any: it ends when no drop has come for one and a
     /// half periods.
     #[must_use]
     pub fn motion(&self) -> Option<StickSlip<T>> {
-        if self.known < 3 {
+        if self.drops_seen < 4 {
             return None;
         }
         let [a, b, c] = self.periods;
         let period = (a + b + c) / T::literal(3.0);
         let spread = (a.max(b).max(c) - a.min(b).min(c)) / period;
-        let going_on = self.since.is_some_and(|since| since < period * T::literal(1.5));
+        let going_on = self.since < period * T::literal(1.5);
         (going_on && spread < T::literal(0.2)).then_some(StickSlip { period, spread })
     }
 }
@@ -52,11 +53,8 @@ impl<T: Real> SlipDetector<T> for StickSlipDetector<T> {
     #[inline]
     fn update(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict {
         let verdict = self.drops.update(force, time_step);
-        if let Some(since) = &mut self.since
-            && time_step > T::zero()
-            && time_step.is_number()
-        {
-            *since += time_step;
+        if time_step > T::zero() && time_step.is_number() {
+            self.since += time_step;
         }
         if verdict != SlipVerdict::Holding {
             self.take(verdict, force.is_finite() && time_step.is_number());
@@ -75,19 +73,17 @@ impl<T: Real> StickSlipDetector<T> {
     #[cold]
     fn take(&mut self, verdict: SlipVerdict, sound: bool) {
         if verdict == SlipVerdict::Slipping {
-            if let Some(since) = self.since {
-                self.periods = [self.periods[1], self.periods[2], since];
-                self.known = (self.known + 1).min(3);
-            }
-            self.since = Some(T::zero());
+            self.periods = [self.periods[1], self.periods[2], self.since];
+            self.drops_seen = (self.drops_seen + 1).min(4);
+            self.since = T::zero();
         } else if verdict == SlipVerdict::NotPressing && sound {
             self.forget();
         }
     }
 
     fn forget(&mut self) {
-        self.since = None;
-        self.known = 0;
+        self.since = T::zero();
+        self.drops_seen = 0;
     }
 }
 

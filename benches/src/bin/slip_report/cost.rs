@@ -83,7 +83,7 @@ fn column<T: Real>() -> Result<Vec<(&'static str, f64)>, Failure> {
         ),
     ];
     let mut incipient = IncipientSlip::new(gate, T::literal(4e-6), T::literal(0.65))?;
-    // To and fro by 0.2 mm at 0.2 mm/s, sampled at 1 kHz: a place every fifth sample.
+    // To and fro by 0.2 mm at 0.2 mm/s, sampled at 1 kHz: a place every third sample.
     let places: Vec<_> = (0..BATCH)
         .map(|index| {
             let phase = index as f64 / BATCH as f64;
