@@ -74,7 +74,8 @@ impl<T: Real> Cusum<T> {
         // False for a NaN alone.
         if sample.abs() >= T::zero() {
             // Choices between values, not branches: the sum is above zero in no foreseeable way.
-            let sum = self.sum + sample - self.allowance;
+            // In this order, the sum of before is waited for last.
+            let sum = self.sum + (sample - self.allowance);
             let sum = if sum > T::zero() { sum } else { T::zero() };
             // Twice the threshold bounds it, so that it comes down again from an infinite sample.
             let greatest = self.threshold + self.threshold;

@@ -52,10 +52,10 @@ impl<T: Real> StickSlipDetector<T> {
 impl<T: Real> SlipDetector<T> for StickSlipDetector<T> {
     #[inline]
     fn update(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict {
-        let verdict = self.drops.update(force, time_step);
         if time_step > T::zero() && time_step.is_number() {
             self.since += time_step;
         }
+        let verdict = self.drops.update(force, time_step);
         if verdict != SlipVerdict::Holding {
             self.take(verdict, force.is_finite() && time_step.is_number());
         }
