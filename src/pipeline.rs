@@ -1,7 +1,7 @@
 //! The stages wired together.
 
 use fingertip_surfaces::{ContactModel, Resolution};
-use fingertip_wrench::{Compensation, ContactForce, Real, Uncompensated, Wrench, WrenchSolver};
+use fingertip_wrench::{Compensation, Real, Uncompensated, Wrench, WrenchSolver};
 use nalgebra::Vector3;
 
 use crate::{Absent, FingertipBuilder, GripStage, SlipStage};
@@ -80,9 +80,13 @@ impl<Solver, Surface, Model, Friction, Detector, Zero>
         Detector: SlipStage<T>,
     {
         let resolution = self.model.resolve_near(&wrench, &self.surface, last);
-        let force = resolution.contact().map(|contact| contact.contact_force());
-        let grip = force.as_ref().map(|force| self.friction.judge(force));
-        let slip = self.detector.follow(&force.unwrap_or_else(ContactForce::zero), time_step);
+        let (grip, slip) = match resolution.contact() {
+            Some(contact) => {
+                let force = contact.contact_force();
+                (Some(self.friction.judge(&force)), self.detector.follow(Some(&force), time_step))
+            }
+            None => (None, self.detector.follow(None, time_step)),
+        };
         Touch { wrench, resolution, grip, slip }
     }
 

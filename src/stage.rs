@@ -27,8 +27,8 @@ pub trait SlipStage<T: Real> {
     /// What it says after a sample.
     type Verdict;
 
-    /// Takes the next sample and the time since the one before \[s\].
-    fn follow(&mut self, force: &ContactForce<T>, time_step: T) -> Self::Verdict;
+    /// Takes the next sample, if there is a contact, and the time since the one before \[s\].
+    fn follow(&mut self, force: Option<&ContactForce<T>>, time_step: T) -> Self::Verdict;
 }
 
 impl<T: Real> GripStage<T> for Absent {
@@ -42,7 +42,7 @@ impl<T: Real> SlipStage<T> for Absent {
     type Verdict = ();
 
     #[inline]
-    fn follow(&mut self, _force: &ContactForce<T>, _time_step: T) {}
+    fn follow(&mut self, _force: Option<&ContactForce<T>>, _time_step: T) {}
 }
 
 #[cfg(feature = "friction")]
@@ -60,7 +60,10 @@ impl<T: Real, D: SlipDetector<T>> SlipStage<T> for Present<D> {
     type Verdict = SlipVerdict;
 
     #[inline]
-    fn follow(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict {
-        self.0.update(force, time_step)
+    fn follow(&mut self, force: Option<&ContactForce<T>>, time_step: T) -> SlipVerdict {
+        match force {
+            Some(force) => self.0.update(force, time_step),
+            None => self.0.update_open(time_step),
+        }
     }
 }

@@ -4,7 +4,7 @@
 //! `√(ρ(δ)² + δN²)` is the plane distance below: a step that changes the load by `ρ(δ)` changes
 //! its norm by no more than that, and a step along the load itself by just that.
 
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Real, scaled_length};
 
 use crate::{BadFriction, SlipMargin};
 
@@ -118,16 +118,8 @@ pub(crate) fn hypot<T: Real>(a: T, b: T) -> T {
     if squared >= T::LEAST_NORMAL / (T::EPSILON * T::EPSILON) && squared <= T::GREATEST {
         squared.root()
     } else {
-        scaled_hypot(a, b)
+        scaled_length(a, b, T::zero())
     }
-}
-
-#[cold]
-#[inline(never)]
-fn scaled_hypot<T: Real>(a: T, b: T) -> T {
-    let scale = a.abs().max(b.abs()).normalising_factor();
-    let (a, b) = (a * scale, b * scale);
-    (a * a + b * b).root() / scale
 }
 
 /// The force with its tangential load times `factor` and another normal force.

@@ -26,6 +26,13 @@ pub trait SlipDetector<T: Real> {
     /// Takes the contact force of one sample and the time since the one before \[s\].
     fn update(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict;
 
+    /// Takes a sample without contact, and the time since the one before \[s\]: an update with no
+    /// force, which the default makes of it.
+    #[inline]
+    fn update_open(&mut self, time_step: T) -> SlipVerdict {
+        self.update(&ContactForce::zero(), time_step)
+    }
+
     /// Forgets all samples, as after a change of grasp.
     fn reset(&mut self);
 }
@@ -34,6 +41,11 @@ impl<T: Real, D: SlipDetector<T> + ?Sized> SlipDetector<T> for &mut D {
     #[inline]
     fn update(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict {
         (**self).update(force, time_step)
+    }
+
+    #[inline]
+    fn update_open(&mut self, time_step: T) -> SlipVerdict {
+        (**self).update_open(time_step)
     }
 
     #[inline]

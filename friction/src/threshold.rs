@@ -51,10 +51,10 @@ impl<T: Real> RatioThreshold<T> {
     #[inline(always)]
     pub fn verdicts(&self, normal: &[T], tangential: &[T], verdicts: &mut [SlipVerdict]) {
         for ((&normal, &load), verdict) in normal.iter().zip(tangential).zip(verdicts) {
-            let ratio = load / normal;
-            let pressing = (normal > self.gate.least()) & (ratio >= T::zero()) & (ratio <= T::GREATEST);
-            let near = if ratio >= self.warning { SlipVerdict::Warning } else { SlipVerdict::Holding };
-            let said = if ratio >= self.limit { SlipVerdict::Slipping } else { near };
+            let pressing = (normal > self.gate.least()) & (load >= T::zero()) & (load <= T::GREATEST);
+            let near =
+                if load >= self.warning * normal { SlipVerdict::Warning } else { SlipVerdict::Holding };
+            let said = if load >= self.limit * normal { SlipVerdict::Slipping } else { near };
             *verdict = if pressing { said } else { SlipVerdict::NotPressing };
         }
     }
@@ -63,12 +63,20 @@ impl<T: Real> RatioThreshold<T> {
 impl<T: Real> SlipDetector<T> for RatioThreshold<T> {
     #[inline]
     fn update(&mut self, force: &ContactForce<T>, _time_step: T) -> SlipVerdict {
-        match self.gate.ratio(force) {
-            None => SlipVerdict::NotPressing,
-            Some(ratio) if ratio >= self.limit => SlipVerdict::Slipping,
-            Some(ratio) if ratio >= self.warning => SlipVerdict::Warning,
-            Some(_) => SlipVerdict::Holding,
+        let (normal, load) = (force.normal, force.tangential_magnitude());
+        // Products instead of a quotient: sooner known, and without a quotient's overflow.
+        let (warns, slips) = (load >= self.warning * normal, load >= self.limit * normal);
+        if !(normal > self.gate.least()) | !load.is_number() {
+            return SlipVerdict::NotPressing;
         }
+        // A choice between values, since a force near the limit makes a branch a gamble.
+        let near = if warns { SlipVerdict::Warning } else { SlipVerdict::Holding };
+        if slips { SlipVerdict::Slipping } else { near }
+    }
+
+    #[inline]
+    fn update_open(&mut self, _time_step: T) -> SlipVerdict {
+        SlipVerdict::NotPressing
     }
 
     #[inline]

@@ -44,9 +44,11 @@ impl<T: Real> ContactForce<T> {
     #[must_use]
     pub fn tangential_magnitude(&self) -> T {
         let squared = self.tangential.norm_squared();
+        // Before the branch, so that those who ask twice, as friction and a detector do, share it.
+        let root = squared.root();
         // Above ν/ε², ν being the least normal number, no square that counts has underflowed.
         if squared >= T::LEAST_NORMAL / (T::EPSILON * T::EPSILON) && squared <= T::GREATEST {
-            squared.root()
+            root
         } else {
             // By value: a force whose address is taken has to be written to memory.
             let [x, y, z] = self.tangential.into();
@@ -75,10 +77,13 @@ impl<T: Real> ContactForce<T> {
     }
 }
 
-/// The length of a vector that is very short, very long, zero, or no vector of numbers.
+/// The Euclidean length of a vector that may be very short, very long, zero, or no vector of numbers:
+/// without over- or underflow between, which the root of the sum of squares has.
+///
+/// Kept out of line, for the few vectors that need it.
 #[cold]
 #[inline(never)]
-fn scaled_length<T: Real>(x: T, y: T, z: T) -> T {
+pub fn scaled_length<T: Real>(x: T, y: T, z: T) -> T {
     let v = Vector3::new(x, y, z);
     let scale = v.amax().normalising_factor();
     (v * scale).norm_squared().root() / scale

@@ -51,7 +51,7 @@ pub use combination::{BicchiDario, Combination, FourRosettes, ThreeRosettes, dia
 pub use compensation::{Compensation, Uncompensated};
 pub use conditioning::{BeyondBound, Conditioning};
 pub use consistency::{BadCheck, ConsistencyCheck, DriftMonitor, Fault, Verdict};
-pub use contact_force::ContactForce;
+pub use contact_force::{ContactForce, scaled_length};
 pub use contact_frame::{BadNormal, ContactFrame, ContactLoad};
 pub use covariance::{BadCovariance, WrenchCovariance};
 pub use decoupled::{Decoupled, NotDecoupled};
