@@ -53,7 +53,7 @@ impl<T: Real> Cone<T> {
     fn margin_without_hold(&self, load: T, normal: T) -> SlipMargin<T> {
         let newtons = if self.coefficient * load <= -normal {
             // The apex is nearest.
-            -hypot(load, normal)
+            -scaled_length(load, normal, T::zero())
         } else {
             (self.coefficient * normal - load) * self.cosine
         };

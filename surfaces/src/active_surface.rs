@@ -91,6 +91,12 @@ pub struct ClosestApproach<T: Real> {
 /// A shape with an equation `f(x) = 0` gets all three from [`Implicit`](crate::Implicit). The
 /// module [`testing`](crate::testing) checks an implementation.
 pub trait ActiveSurface<T: Real> {
+    /// `true` promises that the surface bounds a convex body and may touch everywhere: a line that
+    /// passes through it enters once, at an active point, and leaves once, and
+    /// [`crossings`](Self::crossings) reports where it enters first. Point contact then compiles without
+    /// what other shapes need, such as a choice between entries. The default promises nothing.
+    const CLOSED_CONVEX: bool = false;
+
     /// Calls `visit` for every point where the line passes through the surface.
     fn crossings(&self, line: &Line<T>, visit: impl FnMut(Crossing<T>));
 
@@ -140,6 +146,8 @@ pub trait ActiveSurface<T: Real> {
 }
 
 impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for &S {
+    const CLOSED_CONVEX: bool = S::CLOSED_CONVEX;
+
     #[inline]
     fn crossings(&self, line: &Line<T>, visit: impl FnMut(Crossing<T>)) {
         (**self).crossings(line, visit);

@@ -47,7 +47,7 @@ impl<T: Real> ContactForce<T> {
         // Before the branch, so that those who ask twice, as friction and a detector do, share it.
         let root = squared.root();
         // Above ν/ε², ν being the least normal number, no square that counts has underflowed.
-        if squared >= T::LEAST_NORMAL / (T::EPSILON * T::EPSILON) && squared <= T::GREATEST {
+        if (squared >= T::LEAST_NORMAL / (T::EPSILON * T::EPSILON)) & (squared <= T::GREATEST) {
             root
         } else {
             // By value: a force whose address is taken has to be written to memory.
@@ -84,7 +84,7 @@ impl<T: Real> ContactForce<T> {
 #[cold]
 #[inline(never)]
 pub fn scaled_length<T: Real>(x: T, y: T, z: T) -> T {
-    let v = Vector3::new(x, y, z);
-    let scale = v.amax().normalising_factor();
-    (v * scale).norm_squared().root() / scale
+    let larger = |a: T, b: T| if a > b { a } else { b };
+    let scale = larger(larger(x.abs(), y.abs()), z.abs()).normalising_factor();
+    (Vector3::new(x, y, z) * scale).norm_squared().root() / scale
 }

@@ -105,7 +105,7 @@ impl<T: Real, F: Frame> Wrench<T, F> {
     fn why_no_line(&self) -> NoLineOfAction {
         if !self.is_finite() {
             NoLineOfAction::NotFinite
-        } else if self.force().amax() <= T::zero() {
+        } else if self.force() == Vector3::zeros() {
             NoLineOfAction::NoForce
         } else {
             NoLineOfAction::TooFar

@@ -124,7 +124,9 @@ impl<T: Real, F: Frame> Wrench<T, F> {
     #[inline]
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        self.force.iter().chain(self.torque.iter()).all(|x| x.is_number())
+        // Zero times what is no number is none; a sum of the components themselves might overflow.
+        let (f, m) = (self.force * T::zero(), self.torque * T::zero());
+        (f.x + f.y + f.z + m.x + m.y + m.z).is_number()
     }
 }
 

@@ -66,6 +66,8 @@ impl<T: Real, S> Posed<T, S> {
 }
 
 impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
+    const CLOSED_CONVEX: bool = S::CLOSED_CONVEX;
+
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let pose = &self.sensor_from_shape;

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use crate::ActiveSurface;
 use crate::numeric::twofold::Twofold;
+use crate::numeric::vectors::largest;
 
 /// The point where the line of action meets the surface, from one that is off by rounding errors of
 /// line and surface.
@@ -24,10 +25,11 @@ pub(super) fn onto_line<T: Real, S: ActiveSurface<T>>(
     normal: &Vector3<T>,
     incidence: T,
 ) -> Vector3<T> {
-    if incidence < T::literal(32.0) * T::EPSILON.root() {
+    // Below 32√ε.
+    if incidence * incidence < T::literal(1024.0) * T::EPSILON {
         return point;
     }
-    let scale = wrench.force().amax().normalising_factor();
+    let scale = largest(&wrench.force()).normalising_factor();
     let (f, m) = (wrench.force() * scale, wrench.torque() * scale);
     let tx = torque_left(m.x, point.y, f.z, point.z, f.y);
     let ty = torque_left(m.y, point.z, f.x, point.x, f.z);
@@ -37,9 +39,11 @@ pub(super) fn onto_line<T: Real, S: ActiveSurface<T>>(
         Vector3::new(across(f.y, tz, f.z, ty), across(f.z, tx, f.x, tz), across(f.x, ty, f.y, tx)) / squared;
     let outside = surface.outside_by(&point);
     let step = off - f * ((outside + normal.dot(&off)) / normal.dot(&f));
-    let size = point.amax() + (m.amax() / squared.root());
+    // The line is no farther away than that: the force is 1 or more in its own unit.
+    let size = largest(&point) + largest(&m);
     let allowed = T::literal(64.0) * T::EPSILON * size / incidence;
-    if step.amax() <= allowed { point + step } else { point }
+    // False for a NaN, too.
+    if step.iter().all(|x| x.abs() <= allowed) { point + step } else { point }
 }
 
 /// A component of the torque that is left about a point, `m − (y·fz − z·fy)`.

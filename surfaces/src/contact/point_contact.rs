@@ -1,12 +1,12 @@
 //! Contact in a point, without local torque.
 
-use fingertip_wrench::{LineOfAction, NoLineOfAction, Real, Wrench};
+use fingertip_wrench::{Line, LineOfAction, NoLineOfAction, Real, Wrench};
 use nalgebra::Vector3;
 
 use super::long_way::long_way;
 use super::onto_line::onto_line;
 use super::{Contact, ContactModel, NoContact, Resolution};
-use crate::numeric::vectors::hypotenuse;
+use crate::numeric::vectors::{hypotenuse, larger, smaller};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, Crossing, ForceLine};
 
@@ -164,6 +164,12 @@ fn entered<T: Real, S: ActiveSurface<T>>(
     contact_at(wrench, point, normal)
 }
 
+/// Friction can't hold a force at this cosine of incidence.
+fn too_flat<T: Real>(point: Vector3<T>, incidence: T) -> NoContact<T> {
+    let sine = larger((T::one() - incidence) * (T::one() + incidence), T::zero()).root();
+    NoContact::BeyondFriction { point, friction_ratio: smaller(sine / incidence, T::GREATEST) }
+}
+
 fn check<T: Real>(parameter: &'static str, value: T) -> Result<T, BadShape> {
     BadShape::check(
         "point contact",
@@ -207,9 +213,7 @@ impl<T: Real> Seen<T> {
     #[cold]
     fn reason(&self) -> Option<NoContact<T>> {
         if let Some((point, incidence)) = self.too_flat {
-            let sine = ((T::one() - incidence) * (T::one() + incidence)).max(T::zero()).root();
-            let friction_ratio = (sine / incidence).min(T::GREATEST);
-            return Some(NoContact::BeyondFriction { point, friction_ratio });
+            return Some(too_flat(point, incidence));
         }
         if let Some(point) = self.pulling {
             return Some(NoContact::OnlyPulling { point });
@@ -236,7 +240,7 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
 }
 
 impl<T: Real> PointContact<T> {
-    /// Of all crossings, the contact, or the reason why there is none.
+    /// The contact, or the reason why there is none.
     #[inline(never)]
     fn choose<S: ActiveSurface<T>>(
         &self,
@@ -248,11 +252,54 @@ impl<T: Real> PointContact<T> {
             Ok(axis) => axis,
             Err(reason) => return Resolution::NoContact(reason),
         };
-        let direction = axis.line.direction;
+        let found = if S::CLOSED_CONVEX {
+            self.only_entry(wrench, surface, &axis.line)
+        } else {
+            self.best_entry(wrench, surface, &axis.line, last)
+        };
+        found.unwrap_or_else(|| self.near_miss(wrench, surface, &axis.line))
+    }
+
+    /// Where the line enters a surface that no line enters twice; `None` if it misses.
+    #[inline(always)]
+    fn only_entry<S: ActiveSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        line: &Line<T>,
+    ) -> Option<Resolution<T>> {
+        let mut entry = None;
+        surface.crossings(line, |crossing| {
+            if entry.is_none() {
+                entry = Some(crossing);
+            }
+        });
+        let crossing: Crossing<T> = entry?;
+        if !in_range(&crossing.point) {
+            return Some(Resolution::NoContact(NoContact::NotFinite));
+        }
+        // A line that is tangent within rounding neither presses nor pulls, but touches.
+        let incidence = larger(-line.direction.dot(&crossing.normal), T::zero());
+        Some(if incidence >= self.least_incidence {
+            Resolution::Contact(entered(wrench, surface, &crossing, incidence))
+        } else {
+            Resolution::NoContact(too_flat(crossing.point, incidence))
+        })
+    }
+
+    /// Of all entries the best, or the reason why none is a contact; `None` if there are none.
+    #[inline(always)]
+    fn best_entry<S: ActiveSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        line: &Line<T>,
+        last: Option<&Vector3<T>>,
+    ) -> Option<Resolution<T>> {
         let mut seen =
             Seen { best: None, candidates: 0, too_flat: None, tangent: None, pulling: None, outside: None };
-        surface.crossings(&axis.line, |crossing| {
-            let incidence = -direction.dot(&crossing.normal);
+        surface.crossings(line, |crossing| {
+            let incidence = -line.direction.dot(&crossing.normal);
             let pressing = incidence > T::zero() && incidence >= self.least_incidence;
             if !(crossing.active && pressing && in_range(&crossing.point)) {
                 seen.refuse(&crossing, incidence);
@@ -272,20 +319,30 @@ impl<T: Real> PointContact<T> {
         });
         if let Some((crossing, incidence)) = seen.best {
             let contact = entered(wrench, surface, &crossing, incidence);
-            return Resolution::Contact(Contact { alternatives: seen.candidates - 1, ..contact });
+            return Some(Resolution::Contact(Contact { alternatives: seen.candidates - 1, ..contact }));
         }
         // A line that is tangent within rounding neither presses nor pulls, but touches.
         if let (Some(crossing), true) = (seen.tangent, self.least_incidence <= T::zero()) {
-            return Resolution::Contact(contact_at(wrench, crossing.point, crossing.normal));
+            return Some(Resolution::Contact(contact_at(wrench, crossing.point, crossing.normal)));
         }
-        if let Some(reason) = seen.reason() {
-            return Resolution::NoContact(reason);
-        }
-        let approach = surface.closest_approach(&axis.line);
-        if !(in_range(&approach.point) && approach.gap.is_number()) {
+        seen.reason().map(Resolution::NoContact)
+    }
+
+    /// What to make of a line that misses.
+    #[inline(always)]
+    fn near_miss<S: ActiveSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        line: &Line<T>,
+    ) -> Resolution<T> {
+        let approach = surface.closest_approach(line);
+        // Zero times what is no number is none.
+        let witness = approach.point.x + approach.point.y + approach.point.z + approach.gap * T::zero();
+        if !witness.is_number() {
             return Resolution::NoContact(NoContact::NotFinite);
         }
-        let incidence = (-direction.dot(&approach.normal)).max(T::zero());
+        let incidence = larger(-line.direction.dot(&approach.normal), T::zero());
         if approach.gap <= self.greatest_gap && approach.active && incidence >= self.least_incidence {
             let contact = contact_at(wrench, approach.point, approach.normal);
             return Resolution::Contact(Contact { gap: approach.gap, ..contact });

@@ -94,8 +94,9 @@ pub(crate) fn dot_with<T: Real>(a: [Twofold<T>; 3], b: &Vector3<T>) -> Twofold<T
 
 /// How far the end of a vector is outside the ball of this radius about its start, to first order:
 /// `(|v|² − r²)/2r`.
-pub(crate) fn outside_ball<T: Real>(v: [Twofold<T>; 3], radius: T) -> T {
-    dot(v, v).minus(Twofold::new(radius).squared()).value() / (radius + radius)
+pub(crate) fn outside_ball<T: Real>([x, y, z]: [Twofold<T>; 3], radius: T) -> T {
+    let squared = x.squared().plus(y.squared()).plus(z.squared());
+    squared.minus(Twofold::new(radius).squared()).value() / (radius + radius)
 }
 
 #[cfg(test)]

@@ -16,6 +16,12 @@ pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
     if a > b { a } else { b }
 }
 
+/// The smaller of two numbers; the second if one is NaN.
+#[inline]
+pub(crate) fn smaller<T: Real>(a: T, b: T) -> T {
+    if a < b { a } else { b }
+}
+
 /// `true` if products of up to eight such numbers stay within the range of the type, with all their
 /// digits.
 #[inline]
@@ -59,16 +65,12 @@ pub(crate) fn unit_or<T: Real>(v: &Vector3<T>, fallback: impl FnOnce() -> Vector
     }
 }
 
-/// A unit vector across a unit vector.
+/// A unit vector across a unit vector, without a root or a branch (Duff et al. 2017, after Frisvad 2012).
+#[inline]
 pub(crate) fn any_perpendicular<T: Real>(direction: &Vector3<T>) -> Vector3<T> {
-    let axis = match direction.iamin() {
-        0 => Vector3::x(),
-        1 => Vector3::y(),
-        _ => Vector3::z(),
-    };
-    let across = direction.cross(&axis);
-    let length = across.norm_squared().root();
-    if length > T::zero() { across / length } else { axis }
+    let sign = T::one().copysign(direction.z);
+    let shared = -direction.x / (sign + direction.z);
+    Vector3::new(T::one() + sign * direction.x * shared, sign * direction.y * shared, -sign * direction.x)
 }
 
 /// The line's point closest to `centre`, relative to `centre`, and its position along the line.
@@ -109,7 +111,7 @@ pub(crate) fn is_finite<T: Real>(v: &Vector3<T>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{hypotenuse, length, unit_or};
+    use super::{any_perpendicular, hypotenuse, length, unit_or};
     use nalgebra::Vector3;
     use proptest::prelude::*;
 
@@ -120,6 +122,17 @@ mod tests {
             let unit = unit_or(&v, Vector3::x);
             let norm = unit.map(f64::from).norm();
             prop_assert!((norm - 1.0).abs() < 4.0 * f64::from(f32::EPSILON), "{v:?} -> {unit:?}");
+        }
+
+        #[test]
+        fn perpendiculars_are_unit_and_across(x in -1.0..1.0, y in -1.0..1.0, z in -1.0..1.0) {
+            let ends = [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, -0.0], [1e-9, 0.0, -1.0]];
+            for v in ends.into_iter().chain([[x, y, z]]) {
+                let direction = unit_or(&Vector3::<f64>::from(v), Vector3::x);
+                let across = any_perpendicular(&direction);
+                prop_assert!((across.norm() - 1.0).abs() < 8.0 * f64::EPSILON);
+                prop_assert!(across.dot(&direction).abs() < 8.0 * f64::EPSILON);
+            }
         }
 
         #[test]

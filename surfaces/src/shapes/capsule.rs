@@ -113,6 +113,8 @@ impl<T: Real> Capsule<T> {
 }
 
 impl<T: Real> ActiveSurface<T> for Capsule<T> {
+    const CLOSED_CONVEX: bool = true;
+
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let centre = self.axis.origin;

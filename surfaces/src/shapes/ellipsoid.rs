@@ -102,6 +102,8 @@ impl<T: Real> Ellipsoid<T> {
 }
 
 impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
+    const CLOSED_CONVEX: bool = true;
+
     /// Scaled to the unit sphere, the line is a line still, and `along` is kept (Bicchi, Salisbury
     /// & Brock 1993 for the case without local torque; theory 3.2).
     #[inline]

@@ -84,6 +84,8 @@ impl<T: Real> RoundedBox<T> {
 }
 
 impl<T: Real> ActiveSurface<T> for RoundedBox<T> {
+    const CLOSED_CONVEX: bool = true;
+
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let (start, along) = foot(line, &Vector3::zeros());
         let (forth, back) = (line.direction, -line.direction);

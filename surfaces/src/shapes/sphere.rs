@@ -4,7 +4,7 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use crate::numeric::twofold::{difference, outside_ball};
-use crate::numeric::vectors::{any_perpendicular, length, unit_or};
+use crate::numeric::vectors::{larger, largest, length, smaller, unit_or};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
@@ -14,6 +14,8 @@ pub struct Sphere<T: Real> {
     centre: Vector3<T>,
     radius: T,
     curvature: T,
+    /// A power of two that brings the radius near 1.
+    scale: T,
 }
 
 impl<T: Real> Sphere<T> {
@@ -24,7 +26,7 @@ impl<T: Real> Sphere<T> {
     pub fn new(centre: Vector3<T>, radius: T) -> Result<Self, BadShape> {
         let centre = BadShape::check_point("sphere", "centre", centre)?;
         let radius = BadShape::check_length("sphere", "radius", radius)?;
-        Ok(Self { centre, radius, curvature: T::one() / radius })
+        Ok(Self { centre, radius, curvature: T::one() / radius, scale: radius.normalising_factor() })
     }
 
     /// Centred at the origin of the sensor frame.
@@ -66,6 +68,8 @@ impl<T: Real> Sphere<T> {
 }
 
 impl<T: Real> ActiveSurface<T> for Sphere<T> {
+    const CLOSED_CONVEX: bool = true;
+
     /// Equation (2) of Bicchi & Dario 1987 with its signs mended (theory 1, E1), in radii, so that
     /// nothing over- or underflows.
     #[inline]
@@ -106,10 +110,15 @@ impl<T: Real> ActiveSurface<T> for Sphere<T> {
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let (foot, _) = self.foot(line);
-        // A line through the centre is asked about only by mistake: any point of the circle
-        // across it is then as good.
-        let normal = unit_or(&foot, || any_perpendicular(&line.direction));
-        let gap = ((length(&foot) - T::one()) * self.radius).max(T::zero()).min(T::GREATEST);
+        // Of a line that misses, the foot is a radius away or more: only overflow must be minded.
+        let scale = largest(&foot).normalising_factor();
+        let scaled = foot * scale;
+        let distance = scaled.norm_squared().root();
+        // A line through the centre is asked about only by mistake: it meets the surface here. One at
+        // the end of the range is a guess.
+        let unit = scaled / distance;
+        let normal = if (unit.x + unit.y + unit.z).is_number() { unit } else { line.direction };
+        let gap = smaller(larger((distance / scale - T::one()) * self.radius, T::zero()), T::GREATEST);
         ClosestApproach { gap, point: self.centre + normal * self.radius, normal, active: true }
     }
 
@@ -119,9 +128,8 @@ impl<T: Real> ActiveSurface<T> for Sphere<T> {
     }
 
     fn outside_by(&self, point: &Vector3<T>) -> T {
-        let scale = self.radius.normalising_factor();
-        let from_centre = difference(&(point * scale), &(self.centre * scale));
-        outside_ball(from_centre, self.radius * scale) / scale
+        let from_centre = difference(&(point * self.scale), &(self.centre * self.scale));
+        outside_ball(from_centre, self.radius * self.scale) / self.scale
     }
 
     #[inline]

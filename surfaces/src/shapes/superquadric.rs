@@ -111,6 +111,8 @@ impl<T: Real> Superquadric<T> {
 }
 
 impl<T: Real> ActiveSurface<T> for Superquadric<T> {
+    const CLOSED_CONVEX: bool = true;
+
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let point = line.point.component_mul(&self.curvatures);
         let direction = line.direction.component_mul(&self.curvatures);

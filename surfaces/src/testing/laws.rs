@@ -19,6 +19,9 @@ pub enum Law {
     CrossingOnSurface,
     /// `sole_entry`, if it answers, is the crossing at which the line enters, but for rounding.
     SoleEntry,
+    /// A surface that is [`CLOSED_CONVEX`](ActiveSurface::CLOSED_CONVEX) is entered once and left once,
+    /// both at active points, and reports where it is entered first.
+    EnteredOnce,
     /// Normals have length 1.
     UnitNormal,
     /// `normal` agrees with the normals of crossings.
@@ -168,6 +171,9 @@ impl<T: Real> SurfaceLaws<T> {
             if crossings.least_incidence(&line) < T::literal(0.05) {
                 continue;
             }
+            if S::CLOSED_CONVEX {
+                self.check_entered_once(surface, &line, &crossings)?;
+            }
             self.check_sameness(surface, &line, &crossings, &mut random)?;
             self.check_rigid_motion(surface, &line, &crossings, &mut random)?;
             if self.closed {
@@ -224,6 +230,28 @@ impl<T: Real> SurfaceLaws<T> {
             }
         }
         Ok(())
+    }
+
+    fn check_entered_once<S: ActiveSurface<T>>(
+        &self,
+        surface: &S,
+        line: &Line<T>,
+        crossings: &Crossings<T>,
+    ) -> Result<(), Violation<T>> {
+        let mut first = None;
+        surface.crossings(line, |crossing| first = first.or(Some(crossing)));
+        let kept = match (first, crossings.as_slice()) {
+            (None, []) => true,
+            (Some(first), [entry, exit]) => {
+                first == *entry
+                    && entry.active
+                    && exit.active
+                    && entry.normal.dot(&line.direction) < T::zero()
+                    && exit.normal.dot(&line.direction) > T::zero()
+            }
+            _ => false,
+        };
+        self.expect(Law::EnteredOnce, line, if kept { T::zero() } else { T::one() }, T::zero())
     }
 
     fn expect(&self, law: Law, line: &Line<T>, found: T, allowed: T) -> Result<(), Violation<T>> {
