@@ -35,12 +35,14 @@ impl<T> Touches<'_, T> {
 
 /// So many samples go through one stage before the next takes them: what they need in between stays in
 /// the nearest cache.
-const BLOCK: usize = 128;
+const BLOCK: usize = 256;
 
 /// A little longer, lest columns lie a power of two apart and fight for the same lines of the cache.
 const COLUMN: usize = BLOCK + 16;
 
-/// What is known between the stages, of a block of samples.
+/// What is known between the stages, of a block of samples. It begins with a line of the cache, lest
+/// every vector lies across two.
+#[repr(align(64))]
 struct Between<T> {
     wrench: [[T; COLUMN]; 6],
     normal: [[T; COLUMN]; 3],
@@ -157,17 +159,71 @@ where
         let [px, py, pz] = point.map(|column| &mut column[..count]);
         let [nx, ny, nz] = between.normal.each_mut().map(|column| &mut column[..count]);
         let gap = &mut between.gap[..count];
-        self.surface.contacts(
+        self.surface.contacts_in_line(
             Wrenches { force, torque: [tx, ty, tz] },
             Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap },
         );
-        let accepted = Accepted::by(&self.model);
-        let tangential = &mut between.tangential[..count];
         let [sx, sy, sz] = tangential_force;
         let normal: [&[T]; 3] = [nx, ny, nz];
-        accepted.split(force, normal, gap, px, py, pz, sx, sy, sz, normal_force, tangential);
-        self.friction.0.slip_margins(normal_force, tangential, margin, utilisation);
-        self.detector.0.verdicts(normal_force, tangential, slip);
+        let all = self.all_press(force, normal, gap, sx, sy, sz, normal_force, margin, utilisation, slip);
+        if !all {
+            let tangential = &mut between.tangential[..count];
+            Accepted::by(&self.model).split(
+                force,
+                normal,
+                gap,
+                px,
+                py,
+                pz,
+                sx,
+                sy,
+                sz,
+                normal_force,
+                tangential,
+            );
+            self.friction.0.slip_margins(normal_force, tangential, margin, utilisation);
+            self.detector.0.verdicts(normal_force, tangential, slip);
+        }
+    }
+
+    /// The last stages of samples that all are contacts: `false` if one is not, and then what is written
+    /// means nothing. The same operations as in the general loops, without the choices.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
+    fn all_press(
+        &self,
+        force: [&[T]; 3],
+        normal: [&[T]; 3],
+        gap: &[T],
+        sx: &mut [T],
+        sy: &mut [T],
+        sz: &mut [T],
+        pressing: &mut [T],
+        margin: &mut [T],
+        utilisation: &mut [T],
+        slip: &mut [SlipVerdict],
+    ) -> bool {
+        let count = pressing.len();
+        let ([fx, fy, fz], [nx, ny, nz]) =
+            (force.map(|column| &column[..count]), normal.map(|column| &column[..count]));
+        let (sx, sy, sz) = (&mut sx[..count], &mut sy[..count], &mut sz[..count]);
+        let (gap, slip) = (&gap[..count], &mut slip[..count]);
+        let (margin, utilisation) = (&mut margin[..count], &mut utilisation[..count]);
+        let accepted = Accepted::by(&self.model);
+        let mut all = true;
+        for k in 0..count {
+            let (f, n) = ([fx[k], fy[k], fz[k]], [nx[k], ny[k], nz[k]]);
+            let (squared, along) = (dot(f, f), dot(f, n));
+            all &= accepted.touches(squared, along, gap[k]) & (squared <= T::GREATEST);
+            let [x, y, z] = [f[0] - n[0] * along, f[1] - n[1] * along, f[2] - n[2] * along];
+            let load = dot([x, y, z], [x, y, z]).root();
+            (sx[k], sy[k], sz[k], pressing[k]) = (x, y, z, -along);
+            let (newtons, used, ordinary) = self.friction.0.margin_in_contact(-along, load);
+            (margin[k], utilisation[k]) = (newtons, used);
+            all &= ordinary;
+            slip[k] = self.detector.0.verdict_of(-along, load);
+        }
+        all
     }
 }
 
@@ -188,6 +244,15 @@ impl<T: Real> Accepted<T> {
             greatest_gap: model.greatest_gap(),
             least_steepness: model.greatest_friction().map_or(T::zero(), steepness),
         }
+    }
+
+    /// Whether it is a contact: square of the force, its part along the normal, and the gap.
+    #[inline(always)]
+    fn touches(&self, squared: T, along: T, gap: T) -> bool {
+        (squared >= self.least_squared)
+            & (gap <= self.greatest_gap)
+            & (along < T::zero())
+            & (along * along >= self.least_steepness * squared)
     }
 
     /// Splits the forces at the tangent planes; takes back the points that are no contact.
@@ -218,12 +283,8 @@ impl<T: Real> Accepted<T> {
             let f = [fx[k], fy[k], fz[k]].map(|x| if x.abs() <= T::GREATEST { x } else { T::zero() });
             let n = [nx[k], ny[k], nz[k]];
             let (squared, along) = (dot(f, f), dot(f, n));
-            let touches = (squared >= self.least_squared)
-                & (gap[k] <= self.greatest_gap)
-                & (along < T::zero())
-                & (along * along >= self.least_steepness * squared);
             // A factor, since the compiler makes branches of eight choices by one condition.
-            let keep = if touches { T::one() } else { T::zero() };
+            let keep = if self.touches(squared, along, gap[k]) { T::one() } else { T::zero() };
             let [x, y, z] =
                 [(f[0] - n[0] * along) * keep, (f[1] - n[1] * along) * keep, (f[2] - n[2] * along) * keep];
             (px[k], py[k], pz[k]) = (px[k] * keep, py[k] * keep, pz[k] * keep);

@@ -193,21 +193,32 @@ where
         .slip_detector(RatioThreshold::new(gate, T::literal(0.6), T::literal(0.75)).unwrap())
         .build();
     let samples: Vec<_> = signals_of_all_kinds(&sensor, 5).into_iter().map(|s| s + zero).collect();
-    let raw: [Vec<T>; 6] = core::array::from_fn(|gauge| samples.iter().map(|s| s[gauge]).collect());
-    let mut columns: [Vec<T>; 9] = core::array::from_fn(|_| vec![T::one(); samples.len()]);
-    let mut slip = vec![SlipVerdict::Warning; samples.len()];
-    let [px, py, pz, normal, tx, ty, tz, margin, utilisation] = columns.each_mut().map(|c| &mut c[..]);
-    fingertip.sense_all(
-        raw.each_ref().map(|column| &column[..]),
-        Touches {
-            point: [px, py, pz],
-            normal_force: normal,
-            tangential_force: [tx, ty, tz],
-            margin,
-            utilisation,
-            slip: &mut slip,
-        },
-    );
+    let sense_all = |samples: &[Vector6<T>]| {
+        let raw: [Vec<T>; 6] = core::array::from_fn(|gauge| samples.iter().map(|s| s[gauge]).collect());
+        let mut columns: [Vec<T>; 9] = core::array::from_fn(|_| vec![T::one(); samples.len()]);
+        let mut slip = vec![SlipVerdict::Warning; samples.len()];
+        let [px, py, pz, normal, tx, ty, tz, margin, utilisation] = columns.each_mut().map(|c| &mut c[..]);
+        fingertip.sense_all(
+            raw.each_ref().map(|column| &column[..]),
+            Touches {
+                point: [px, py, pz],
+                normal_force: normal,
+                tangential_force: [tx, ty, tz],
+                margin,
+                utilisation,
+                slip: &mut slip,
+            },
+        );
+        (columns, slip)
+    };
+    let (columns, slip) = sense_all(&samples);
+    // Blocks in which all samples press go another way, with the same operations.
+    let pressing: Vec<_> = (0..samples.len()).filter(|&k| columns[3][k] > T::zero()).collect();
+    let alone = sense_all(&pressing.iter().map(|&k| samples[k]).collect::<Vec<_>>());
+    for (index, &k) in pressing.iter().enumerate() {
+        assert!((0..9).all(|column| alone.0[column][index] == columns[column][k]));
+        assert_eq!(alone.1[index], slip[k]);
+    }
     let (mut contacts, mut others) = (0, 0);
     for (k, sample) in samples.iter().enumerate() {
         let one = fingertip.sense(sample, T::literal(1e-3));

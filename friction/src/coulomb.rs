@@ -52,28 +52,46 @@ impl<T: Real> Coulomb<T> {
         if angle.is_number() { angle } else { -T::frac_pi_2() }
     }
 
-    /// [`slip_margin`](FrictionModel::slip_margin) of many contacts at once, as columns and without a
-    /// branch, which the compiler vectorises: from normal forces \[N\] and the magnitudes of tangential
-    /// forces \[N\], the margins \[N\] and utilisations. Of columns of different lengths, the shortest
-    /// counts.
+    /// [`slip_margin`](FrictionModel::slip_margin) of many contacts at once, as columns, which the
+    /// compiler vectorises: from normal forces \[N\] and the magnitudes of tangential forces \[N\], the
+    /// margins \[N\] and utilisations. Of columns of different lengths, the shortest counts.
+    ///
+    /// The answers are those of [`margin_of`](Self::margin_of).
+    #[inline(always)]
+    pub fn slip_margins(&self, normal: &[T], tangential: &[T], newtons: &mut [T], utilisation: &mut [T]) {
+        let answers = newtons.iter_mut().zip(utilisation);
+        for ((&normal, &load), (newtons, utilisation)) in normal.iter().zip(tangential).zip(answers) {
+            (*newtons, *utilisation) = self.margin_of(normal, load);
+        }
+    }
+
+    /// [`slip_margin`](FrictionModel::slip_margin) without a branch, for loops over many contacts: from
+    /// normal force \[N\] and magnitude of the tangential force \[N\], margin \[N\] and utilisation.
     ///
     /// The answers are the same, but that a normal force below zero, which no contact has, gets what a
     /// force that is not finite gets.
     #[inline(always)]
-    pub fn slip_margins(&self, normal: &[T], tangential: &[T], newtons: &mut [T], utilisation: &mut [T]) {
+    #[must_use]
+    pub fn margin_of(&self, normal: T, load: T) -> (T, T) {
+        let (margin, used, _) = self.margin_in_contact(normal, load);
+        let known = (normal >= T::zero()) & (load >= T::zero()) & (margin.abs() <= T::GREATEST);
+        let idle = known & (load <= T::zero());
+        let held = known & (self.coefficient() * normal > T::zero()) & (used < T::GREATEST);
+        let used = if held { used } else { T::GREATEST };
+        (if known { margin } else { -T::GREATEST }, if idle { T::zero() } else { used })
+    }
+
+    /// Margin \[N\] and utilisation of an ordinary contact, and whether it is one: `false` where friction
+    /// holds nothing or a number is out of range, which [`margin_of`](Self::margin_of) knows to answer.
+    #[inline(always)]
+    #[must_use]
+    pub fn margin_in_contact(&self, normal: T, load: T) -> (T, T, bool) {
         let Cone { coefficient, cosine } = self.cone;
-        let answers = newtons.iter_mut().zip(utilisation);
-        for ((&normal, &load), (newtons, utilisation)) in normal.iter().zip(tangential).zip(answers) {
-            let holding = coefficient * normal;
-            let margin = (holding - load) * cosine;
-            let known = (normal >= T::zero()) & (load >= T::zero()) & (margin.abs() <= T::GREATEST);
-            let used = load / holding;
-            let idle = known & (load <= T::zero());
-            let held = known & (holding > T::zero()) & (used < T::GREATEST);
-            *newtons = if known { margin } else { -T::GREATEST };
-            let used = if held { used } else { T::GREATEST };
-            *utilisation = if idle { T::zero() } else { used };
-        }
+        let holding = coefficient * normal;
+        let used = load / holding;
+        // Only then is the quotient a number.
+        let ordinary = (holding > T::zero()) & (holding <= T::GREATEST) & (used < T::GREATEST);
+        ((holding - load) * cosine, used, ordinary)
     }
 }
 

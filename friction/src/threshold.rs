@@ -46,17 +46,23 @@ impl<T: Real> RatioThreshold<T> {
 impl<T: Real> RatioThreshold<T> {
     /// [`update`](SlipDetector::update) of many contacts at once, which is possible since this detector
     /// remembers nothing: from normal forces \[N\] and the magnitudes of tangential forces \[N\], as
-    /// columns and without a branch, which the compiler vectorises. Of columns of different lengths, the
-    /// shortest counts.
+    /// columns, which the compiler vectorises. Of columns of different lengths, the shortest counts.
     #[inline(always)]
     pub fn verdicts(&self, normal: &[T], tangential: &[T], verdicts: &mut [SlipVerdict]) {
         for ((&normal, &load), verdict) in normal.iter().zip(tangential).zip(verdicts) {
-            let pressing = (normal > self.gate.least()) & (load >= T::zero()) & (load <= T::GREATEST);
-            let near =
-                if load >= self.warning * normal { SlipVerdict::Warning } else { SlipVerdict::Holding };
-            let said = if load >= self.limit * normal { SlipVerdict::Slipping } else { near };
-            *verdict = if pressing { said } else { SlipVerdict::NotPressing };
+            *verdict = self.verdict_of(normal, load);
         }
+    }
+
+    /// [`update`](SlipDetector::update) without a branch, for loops over many contacts: from normal
+    /// force \[N\] and magnitude of the tangential force \[N\].
+    #[inline(always)]
+    #[must_use]
+    pub fn verdict_of(&self, normal: T, load: T) -> SlipVerdict {
+        let pressing = (normal > self.gate.least()) & (load >= T::zero()) & (load <= T::GREATEST);
+        let near = if load >= self.warning * normal { SlipVerdict::Warning } else { SlipVerdict::Holding };
+        let said = if load >= self.limit * normal { SlipVerdict::Slipping } else { near };
+        if pressing { said } else { SlipVerdict::NotPressing }
     }
 }
 

@@ -152,15 +152,7 @@ fn run<T: Real>(
     let Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap } = contacts;
     let [fx, fy, fz] = wrenches.force;
     let [tx, ty, tz] = wrenches.torque;
-    let (given, found) = ([fx, fy, fz, tx, ty, tz], [px, py, pz, nx, ny, nz, gap]);
-    // Wider vectors do the same operations on more wrenches at once: nothing is fused or reordered.
-    #[cfg(feature = "simd")]
-    pulp::Arch::new().dispatch(
-        #[inline(always)]
-        || in_blocks(given, found, versions, kernel),
-    );
-    #[cfg(not(feature = "simd"))]
-    in_blocks(given, found, versions, kernel);
+    in_blocks([fx, fy, fz, tx, ty, tz], [px, py, pz, nx, ny, nz, gap], versions, kernel);
 }
 
 #[inline(always)]
@@ -176,19 +168,19 @@ fn in_blocks<T: Real>(
         let [px, py, pz, nx, ny, nz, gap] = found.map(|column| &mut column[..count]);
         return sweep(given, px, py, pz, nx, ny, nz, gap, &kernel);
     }
-    let given = given.map(|column| column[..count].as_chunks::<BLOCK>());
-    let found = found.map(|column| column[..count].as_chunks_mut::<BLOCK>());
-    let ([fx, fy, fz, tx, ty, tz], left) = (given.map(|(blocks, _)| blocks), given.map(|(_, rest)| rest));
     let [px, py, pz, nx, ny, nz, gap] = found;
-    for k in 0..count / BLOCK {
-        let given = [&fx[k], &fy[k], &fz[k], &tx[k], &ty[k], &tz[k]];
-        let (px, py, pz) = (&mut px.0[k], &mut py.0[k], &mut pz.0[k]);
-        let (nx, ny, nz, gap) = (&mut nx.0[k], &mut ny.0[k], &mut nz.0[k], &mut gap.0[k]);
+    let mut start = 0;
+    while start < count {
+        let block = start..count.min(start + BLOCK);
+        start = block.end;
+        let given = given.map(|column| &column[block.clone()]);
+        let (px, py, pz) = (&mut px[block.clone()], &mut py[block.clone()], &mut pz[block.clone()]);
+        let (nx, ny, nz) = (&mut nx[block.clone()], &mut ny[block.clone()], &mut nz[block.clone()]);
+        let gap = &mut gap[block];
         if !all_meet(given, px, py, pz, nx, ny, nz, gap, &kernel) {
-            sweep(given.map(|block| &block[..]), px, py, pz, nx, ny, nz, gap, &kernel);
+            sweep(given, px, py, pz, nx, ny, nz, gap, &kernel);
         }
     }
-    sweep(left, px.1, py.1, pz.1, nx.1, ny.1, nz.1, gap.1, &kernel);
 }
 
 impl<T: Real> Push<T> {
@@ -203,23 +195,27 @@ impl<T: Real> Push<T> {
 
 /// A block of lines that meet: `false` if one of them does not, and then what is written means nothing.
 ///
-/// Arrays that are arguments of their own are known not to overlap, which the compiler would have to
+/// Columns that are arguments of their own are known not to overlap, which the compiler would have to
 /// test otherwise, and would rather not vectorise.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 fn all_meet<T: Real>(
-    [fx, fy, fz, tx, ty, tz]: [&[T; BLOCK]; 6],
-    px: &mut [T; BLOCK],
-    py: &mut [T; BLOCK],
-    pz: &mut [T; BLOCK],
-    nx: &mut [T; BLOCK],
-    ny: &mut [T; BLOCK],
-    nz: &mut [T; BLOCK],
-    gap: &mut [T; BLOCK],
+    given: [&[T]; 6],
+    px: &mut [T],
+    py: &mut [T],
+    pz: &mut [T],
+    nx: &mut [T],
+    ny: &mut [T],
+    nz: &mut [T],
+    gap: &mut [T],
     kernel: &impl Fn(Push<T>, Lines) -> Answer<T>,
 ) -> bool {
+    let count = gap.len();
+    let [fx, fy, fz, tx, ty, tz] = given.map(|column| &column[..count]);
+    let (px, py, pz) = (&mut px[..count], &mut py[..count], &mut pz[..count]);
+    let (nx, ny, nz) = (&mut nx[..count], &mut ny[..count], &mut nz[..count]);
     let mut all = true;
-    for k in 0..BLOCK {
+    for k in 0..count {
         let (push, in_range) = Push::new([fx[k], fy[k], fz[k]], [tx[k], ty[k], tz[k]]);
         let answer = kernel(push, Lines::Meeting);
         all &= in_range & answer.certain;
@@ -261,8 +257,8 @@ fn sweep<T: Real>(
 }
 
 impl<T: Real> BatchSurface<T> for Sphere<T> {
-    #[inline]
-    fn contacts(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
+    #[inline(always)]
+    fn contacts_in_line(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
         let (centre, radius) = (self.centre().into(), self.radius());
         let curvature = T::one() / radius;
         // Then nothing can leave the range where a line meets.
@@ -288,8 +284,8 @@ impl<T: Real> BatchSurface<T> for Sphere<T> {
 }
 
 impl<T: Real> BatchSurface<T> for Plane<T> {
-    #[inline]
-    fn contacts(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
+    #[inline(always)]
+    fn contacts_in_line(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
         let (origin, normal): ([T; 3], [T; 3]) = (self.point().into(), self.outward().into());
         run(
             wrenches,
@@ -309,8 +305,8 @@ impl<T: Real> BatchSurface<T> for Plane<T> {
 
 impl<T: Real> BatchSurface<T> for Cylinder<T> {
     /// The ends are not looked at: the side is unbounded here.
-    #[inline]
-    fn contacts(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
+    #[inline(always)]
+    fn contacts_in_line(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
         let (centre, core, radius) = (self.centre().into(), self.axis().into(), self.radius());
         let curvature = T::one() / radius;
         run(
@@ -340,8 +336,8 @@ impl<T: Real> BatchSurface<T> for Ellipsoid<T> {
     /// Of a line that misses, the point is the one on which a scaled copy of the ellipsoid would be
     /// touched: close to the closest for small gaps, but not the same; the gap is the distance
     /// between the line and that point's tangent plane.
-    #[inline]
-    fn contacts(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
+    #[inline(always)]
+    fn contacts_in_line(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
         let semi_axes: [T; 3] = self.semi_axes().into();
         let curvatures = semi_axes.map(|a| T::one() / a);
         run(
@@ -366,8 +362,8 @@ impl<T: Real> BatchSurface<T> for Ellipsoid<T> {
 }
 
 impl<T: Real> BatchSurface<T> for Capsule<T> {
-    #[inline]
-    fn contacts(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
+    #[inline(always)]
+    fn contacts_in_line(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
         let (centre, core): ([T; 3], [T; 3]) = (self.centre().into(), self.axis().into());
         let (half, radius) = (self.half_length(), self.radius());
         let curvature = T::one() / radius;

@@ -55,6 +55,20 @@ pub struct Contacts<'a, T> {
 /// place of a memory page: thirteen columns of a multiple of 4 KiB, one after another, compete for the
 /// same lines of the cache and take up to three times as long. A few numbers of padding help.
 pub trait BatchSurface<T: Real> {
-    /// Resolves all wrenches.
-    fn contacts(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>);
+    /// Resolves all wrenches, with the widest vectors of the processor at hand if the feature `simd` is
+    /// on. Wider vectors do the same operations on more wrenches at once: nothing is fused or reordered.
+    #[inline]
+    fn contacts(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
+        #[cfg(feature = "simd")]
+        pulp::Arch::new().dispatch(
+            #[inline(always)]
+            || self.contacts_in_line(wrenches, contacts),
+        );
+        #[cfg(not(feature = "simd"))]
+        self.contacts_in_line(wrenches, contacts);
+    }
+
+    /// [`contacts`](Self::contacts) compiled into the caller, with the vectors that the caller has: for
+    /// those who have chosen theirs already. To be always in line.
+    fn contacts_in_line(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>);
 }
