@@ -50,13 +50,16 @@ where
 }
 
 /// The same stages for all samples at once, as columns.
-fn batch_of_scene_a(group: &mut BenchmarkGroup<'_, WallTime>) {
-    let Some(scene) = SceneA::new() else { return };
+fn batch_of_scene_a(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    name: &str,
+    mut sense_all: impl FnMut([&[f32]; 6], Touches<'_, f32>),
+) {
     let volts = volts::<SceneA, 6>();
     let raw: [Vec<f32>; 6] = core::array::from_fn(|gauge| volts.iter().map(|v| v[gauge]).collect());
     let mut columns: [Vec<f32>; 9] = core::array::from_fn(|_| vec![0.0; COUNT]);
     let mut slip = vec![SlipVerdict::NotPressing; COUNT];
-    group.bench_function("a, batch", |b| {
+    group.bench_function(name, |b| {
         b.iter(|| {
             let [x, y, z, normal_force, tx, ty, tz, margin, utilisation] =
                 columns.each_mut().map(|column| &mut column[..]);
@@ -68,7 +71,7 @@ fn batch_of_scene_a(group: &mut BenchmarkGroup<'_, WallTime>) {
                 utilisation,
                 slip: &mut slip,
             };
-            scene.fingertip.sense_all(black_box(raw.each_ref().map(|column| &column[..])), touches);
+            sense_all(black_box(raw.each_ref().map(|column| &column[..])), touches);
             black_box((&mut columns, &mut slip));
         });
     });
@@ -81,8 +84,11 @@ fn scenes(c: &mut Criterion) {
     if let Some(hand) = HandA::new() {
         let volts: Vec<[f32; 6]> = volts::<SceneA, 6>().into_iter().map(Into::into).collect();
         run(&mut group, "a, by hand", &volts, |volts| -> Felt { hand.sense(volts) });
+        batch_of_scene_a(&mut group, "a, batch by hand", |raw, touches| hand.sense_all(raw, touches));
     }
-    batch_of_scene_a(&mut group);
+    if let Some(scene) = SceneA::new() {
+        batch_of_scene_a(&mut group, "a, batch", |raw, touches| scene.fingertip.sense_all(raw, touches));
+    }
     scene::<SceneB, 6>(&mut group);
     if let Some(hand) = HandB::new() {
         let volts: Vec<[f32; 6]> = volts::<SceneB, 6>().into_iter().map(Into::into).collect();

@@ -12,17 +12,17 @@ use nalgebra::{Matrix6, Vector6};
 type V = [f32; 3];
 
 #[inline(always)]
-fn dot(a: V, b: V) -> f32 {
+pub(crate) fn dot(a: V, b: V) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline(always)]
-fn cross(a: V, b: V) -> V {
+pub(crate) fn cross(a: V, b: V) -> V {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[inline(always)]
-fn add(a: V, b: V, k: f32) -> V {
+pub(crate) fn add(a: V, b: V, k: f32) -> V {
     [a[0] + b[0] * k, a[1] + b[1] * k, a[2] + b[2] * k]
 }
 
@@ -130,7 +130,7 @@ impl HandA {
 
     /// The wrench.
     #[inline(always)]
-    fn wrench(&self, volts: &[f32; 6]) -> (V, V) {
+    pub(crate) fn wrench(&self, volts: &[f32; 6]) -> (V, V) {
         let v: [f32; 6] = core::array::from_fn(|i| volts[i] - self.zero[i]);
         let (odd, even) = (v[0] + v[2], v[1] + v[3]);
         let c = [odd + even, v[4] - v[0], v[1] - v[5], even - odd, v[1] - v[3], v[0] - v[2]];

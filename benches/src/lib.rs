@@ -1,6 +1,7 @@
 //! Benchmarks of the fingertip workspace; see the `benches` folder. This library holds the inputs
 //! that they share.
 
+mod hand_batch;
 pub mod hand_written;
 
 use fingertip_wrench::gauge_layout::{GaugeLayout, LayoutError, ThinWalledBeam};

@@ -1,16 +1,13 @@
 //! Solvers of six gauges against an oracle of 32 digits, over conditions, precisions and ranges.
-#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
-mod support;
-
+use crate::support::double_double::{difference, residual, solve};
+use crate::support::{cast, generator, of_condition, random_vector, sensor, wide};
 use fingertip_wrench::{
     GaussianElimination, Inverse, LeastSquares, Real, Refined, SensorMatrix, SensorMatrixError,
     SingularMatrix, WrenchSolver,
 };
 use nalgebra::{Matrix6, Vector6};
 use rand::RngExt;
-use support::double_double::{difference, residual, solve};
-use support::{cast, generator, of_condition, random_vector, sensor, wide};
 
 /// Worst figures over a decade, in units of ε.
 #[derive(Default, Debug)]

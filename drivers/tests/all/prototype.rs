@@ -1,5 +1,4 @@
 //! The simulated prototype through the whole pipeline reproduces the paper's figures.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 #![cfg(feature = "simulation")]
 
 use fingertip::Fingertip;

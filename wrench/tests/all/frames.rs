@@ -1,15 +1,12 @@
 //! Frames: rigid motions, wrenches carried by them, loads taken apart at a contact, weights.
-#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
-mod support;
-
+use crate::support::{generator, normal};
 use fingertip_wrench::{
     BadNormal, BadPayload, ContactForce, ContactFrame, Frame, Payload, Real, RigidTransform, Sensor,
     TransformError, Wrench,
 };
 use nalgebra::{Matrix3, Vector3, Vector6};
 use rand_pcg::Pcg64Mcg;
-use support::{generator, normal};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Palm;

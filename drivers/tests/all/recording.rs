@@ -1,5 +1,4 @@
 //! The reader against files that are made to be known.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 #![cfg(feature = "std")]
 
 use fingertip_drivers::recording::{

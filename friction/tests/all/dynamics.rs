@@ -1,7 +1,5 @@
 //! Bounded, passive, exact where they can be, and against an independent stiff solver.
 
-#![allow(clippy::unwrap_used, reason = "tests")]
-
 use fingertip_friction::testing::Draws;
 use fingertip_friction::{
     Bristle, BristleLaw, Dahl, Drive, DynamicFriction, ElastoPlastic, Exponential, Implicit, Integrator,
@@ -10,7 +8,7 @@ use fingertip_friction::{
 use fingertip_wrench::Real;
 use nalgebra::{SVector, Vector1};
 
-#[path = "support/stick_slip.rs"]
+#[path = "../support/stick_slip.rs"]
 mod reference;
 
 /// From `low` to `high`, evenly in the logarithm.

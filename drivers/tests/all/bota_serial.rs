@@ -1,5 +1,4 @@
 //! Bota's sensor driver against the simulated sensor.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 #![cfg(all(feature = "bota-serial", feature = "simulation"))]
 
 use fingertip_drivers::bota_serial::{BotaDecoder, BotaFault, Frame};

@@ -1,14 +1,11 @@
 //! Taring only at rest, and channels that lie, over simulated readings and recordings.
-#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
-mod support;
-
+use crate::support::{generator, normal, recording};
 use fingertip_wrench::{
     BadLimits, ChannelFault, ChannelLimits, ChannelMonitor, Compensation, NotAtRest, Real, RestTest, Tare,
     TareAccumulator, TareError,
 };
 use nalgebra::{SVector, Vector6};
-use support::{generator, normal, recording};
 
 const RATE: f64 = 0.02;
 

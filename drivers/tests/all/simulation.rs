@@ -1,5 +1,4 @@
 //! The simulated fingertip keeps to its script, and says the truth about it.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 #![cfg(feature = "simulation")]
 
 use fingertip_drivers::SignalSource;

@@ -1,16 +1,13 @@
 //! Factory certificates of four six-axis sensors: from the derived volts back to the measured
 //! wrench.
-#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
-mod support;
-
+use crate::support::recording;
 use fingertip_wrench::{
     Conditioning, ErrorBound, GaussianElimination, Inverse, LeastSquares, Refined, SensorMatrix, Uncertainty,
     WrenchSolver,
 };
 use nalgebra::{Matrix6, Vector6};
 use serde_json::Value;
-use support::recording;
 
 fn numbers(value: &Value) -> Vector6<f64> {
     Vector6::from_iterator(

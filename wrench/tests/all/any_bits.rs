@@ -1,5 +1,4 @@
 //! Whatever the bits: constructors answer, and what they build stays within numbers.
-#![allow(clippy::expect_used)]
 
 use fingertip_wrench::{
     BicchiDario, Compensation, Conditioning, ConsistencyCheck, Decoupled, ErrorBound, GaussianElimination,

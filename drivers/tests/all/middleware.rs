@@ -1,5 +1,4 @@
 //! Middleware over sources: faults are injected as counted, and found as injected.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 #![cfg(feature = "simulation")]
 
 use core::convert::Infallible;

@@ -1,5 +1,4 @@
 //! The RDT receiver and client against the simulated sensor.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 #![cfg(all(feature = "ati-rdt", feature = "simulation"))]
 
 use core::time::Duration;

@@ -1,10 +1,8 @@
 //! A recording of a reciprocating tribometer: 100 strokes with displacement.
 
-#![allow(clippy::unwrap_used, reason = "tests")]
-
 use fingertip_friction::{ForceNoise, KineticFriction};
 
-#[path = "support/tribometer.rs"]
+#[path = "../support/tribometer.rs"]
 mod recording;
 
 use recording::{Recording, force};

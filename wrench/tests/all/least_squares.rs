@@ -1,15 +1,12 @@
 //! Extended sensors: least squares, what redundancy tells, and what it does not.
-#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
-mod support;
-
+use crate::support::{cast, generator, normal, of_condition, random_vector, sensor, symmetric, wide};
 use fingertip_wrench::{
     BadCheck, ConsistencyCheck, DriftMonitor, Fault, GaussianElimination, LeastSquares, LeastSquaresError,
     Real, SensorMatrix, Verdict, WrenchSolver, singular_values,
 };
 use nalgebra::{SMatrix, SVector, Vector6};
 use rand::RngExt;
-use support::{cast, generator, normal, of_condition, random_vector, sensor, symmetric, wide};
 
 /// The residual of a least-squares solution is orthogonal to every column, in the weighted sense.
 fn optimal<T: Real>(condition: f64, decades: f64) {

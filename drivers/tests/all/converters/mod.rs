@@ -1,5 +1,4 @@
 //! Converters against simulators of their chips and against scripted transactions.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 #![cfg(all(
     feature = "ads131m",
     feature = "ads1256",

@@ -1,5 +1,4 @@
 //! The decoders of serial sensors over lines with faults: a million frames each.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 #![cfg(all(
     feature = "robotous",
     feature = "dynpick",

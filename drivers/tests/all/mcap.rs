@@ -1,5 +1,4 @@
 //! MCAP files: written, read, damaged.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 #![cfg(all(feature = "mcap", feature = "simulation"))]
 
 use std::io::{Cursor, Read};

@@ -1,8 +1,7 @@
 //! No bound is ever violated, and none is idle talk.
-#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
-mod support;
-
+use crate::support::double_double::{difference, solve};
+use crate::support::{cast, generator, median, normal, of_condition, random_vector, sensor, symmetric, wide};
 use fingertip_wrench::{
     BicchiDario, Combination, Conditioning, Decoupled, ErrorBound, FourRosettes, GaussianElimination,
     Inverse, LeastSquares, LinearSolver, Real, Refined, SensorMatrix, ThreeRosettes, Uncertainty, Wrench,
@@ -10,8 +9,6 @@ use fingertip_wrench::{
 };
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 use rand::RngExt;
-use support::double_double::{difference, solve};
-use support::{cast, generator, median, normal, of_condition, random_vector, sensor, symmetric, wide};
 
 const SENSORS: usize = 1_000;
 const LOADS: usize = 1_000;
@@ -199,8 +196,8 @@ fn equation_14_holds() {
     let mut ratios = Vec::with_capacity(SENSORS * LOADS);
     for _ in 0..SENSORS {
         let condition = 10.0_f64.powf(random.random_range(0.0..2.0));
-        let left = support::orthonormal::<6>(&mut random);
-        let right = support::orthonormal::<6>(&mut random);
+        let left = crate::support::orthonormal::<6>(&mut random);
+        let right = crate::support::orthonormal::<6>(&mut random);
         let mut values = Vector6::from_fn(|_, _| condition.powf(-random.random_range(0.0..1.0)));
         (values[0], values[5]) = (1.0, 1.0 / condition);
         let sensor = sensor::<f64, 6>(&(left * Matrix6::from_diagonal(&values) * right.transpose()));

@@ -1,13 +1,10 @@
 //! The wrench axis: its definition, invariance under motion and scale, and the ends of the range.
-#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
-mod support;
-
+use crate::support::{generator, normal};
 use fingertip_wrench::{LineOfAction, NoLineOfAction, Real, RigidTransform, Sensor, Wrench};
 use nalgebra::Vector3;
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
-use support::{generator, normal};
 
 fn vector<T: Real>(random: &mut Pcg64Mcg, size: f64) -> Vector3<T> {
     Vector3::from_fn(|_, _| T::literal(normal(random) * size))

@@ -1,7 +1,5 @@
 //! Detectors on made signals whose truth is known.
 
-#![allow(clippy::unwrap_used, reason = "tests")]
-
 use fingertip_friction::{
     Cusum, DropDetector, ForceNoise, IncipientSlip, LikelihoodRatio, LikelihoodRatioDetector,
     NormalForceGate, RatioThreshold, SlipDetector, SlipVerdict, StickSlipDetector,

@@ -2,7 +2,6 @@
 //!
 //! The recordings are not part of this project: their folder is `FINGERTIP_DATA`, or
 //! `../shared/data` beside the workspace.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 #![cfg(feature = "std")]
 
 use std::path::PathBuf;

@@ -1,6 +1,5 @@
 //! What is plain data survives a file, and a file cannot smuggle in what a constructor refuses.
 #![cfg(feature = "serde")]
-#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
 use core::fmt::Debug;
 

@@ -1,8 +1,6 @@
 //! Everything that may stand in a file comes back as it was, and what no constructor takes is
 //! refused.
 
-#![allow(clippy::unwrap_used, reason = "tests")]
-
 use core::fmt::Debug;
 
 use fingertip_friction::{

@@ -1,14 +1,11 @@
 //! Singular values and condition numbers against 77-digit arithmetic.
-#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
-mod support;
-
+use crate::support::{cast, generator, of_condition, orthonormal, wide};
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use fingertip_wrench::{BeyondBound, Conditioning, Real, SensorMatrix, singular_values};
 use nalgebra::{Matrix6, SMatrix, Vector6};
 use rand::RngExt;
-use support::{cast, generator, of_condition, orthonormal, wide};
 
 type Big = FBig<HalfEven, 2>;
 const BITS: usize = 256;

@@ -1,8 +1,6 @@
 //! Gauge layouts against what the paper and mechanics say of them, and the decoupled solver on them.
-#![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop)]
 
-mod support;
-
+use crate::support::{cast, generator, random_vector, symmetric, wide};
 use fingertip_wrench::gauge_layout::{GaugeLayout, LayoutError, ThinWalledBeam, isotropic_angle};
 use fingertip_wrench::{
     BicchiDario, Combination, Conditioning, Decoupled, ErrorBound, FourRosettes, GaussianElimination,
@@ -11,7 +9,6 @@ use fingertip_wrench::{
 };
 use nalgebra::{Matrix6, SMatrix, Vector6};
 use rand::RngExt;
-use support::{cast, generator, random_vector, symmetric, wide};
 
 fn beam<T: Real>(radius_mm: f64, mu: f64) -> ThinWalledBeam<T> {
     ThinWalledBeam {
@@ -198,7 +195,7 @@ fn decoupled_stays_within_its_bound_on_a_machined_sensor() {
             ratios.push(allowed.component_div(&nominal()).norm() / off.component_div(&nominal()).norm());
         }
     }
-    let median = support::median(&mut ratios);
+    let median = crate::support::median(&mut ratios);
     println!("decoupled on a machined sensor: median bound / error {median:.2}");
     assert!(median < 20.0);
 }
@@ -206,8 +203,8 @@ fn decoupled_stays_within_its_bound_on_a_machined_sensor() {
 #[test]
 fn what_cannot_be_decoupled_is_refused() {
     let mut random = generator(43);
-    let any =
-        SensorMatrix::new(support::orthonormal::<6>(&mut random), Vector6::repeat(1.0)).expect("proper");
+    let any = SensorMatrix::new(crate::support::orthonormal::<6>(&mut random), Vector6::repeat(1.0))
+        .expect("proper");
     assert!(Decoupled::<f64, BicchiDario, 6>::new(&any).is_err());
     // d = 0: gauges 5 and 6 repeat 1 and 2, so that two combinations see nothing.
     let layout = GaugeLayout::new(&beam::<f64>(5.0, 0.33), GaugeLayout::bicchi_dario_gauges(0.2, 0.0))

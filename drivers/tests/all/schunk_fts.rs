@@ -1,5 +1,4 @@
 //! The receiver of SCHUNK's datagrams over a bad link.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 #![cfg(all(feature = "schunk-fts", feature = "simulation"))]
 
 use core::time::Duration;

@@ -1,0 +1,14 @@
+//! The tests of the crate from outside, as one program: each program more is linked again.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
+
+mod ati_rdt;
+mod bota_serial;
+mod converters;
+mod line_sensors;
+mod mcap;
+mod middleware;
+mod prototype;
+mod real_recordings;
+mod recording;
+mod schunk_fts;
+mod simulation;
