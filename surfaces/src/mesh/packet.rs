@@ -11,10 +11,9 @@ pub(super) const LANES: usize = 4;
 
 /// Triangles of one leaf of the tree: their corners, axis by axis, lane by lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-
 pub(super) struct Packet<T: Real> {
     /// Index of the first triangle; the others follow.
-    pub(super) first: u32,
+    first: u32,
     count: u32,
     corners: [[[T; LANES]; 3]; 3],
     normals: [Vector3<T>; LANES],
