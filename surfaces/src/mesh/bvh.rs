@@ -29,6 +29,8 @@ pub(super) struct Bvh<T: Real> {
     nodes: Vec<Node>,
     grid: Grid,
     packets: Vec<Packet<T>>,
+    /// Index of each packet's first triangle; the others follow. One more for the end of the last.
+    firsts: Vec<u32>,
 }
 
 fn index(k: usize) -> u32 {
@@ -72,7 +74,9 @@ impl<T: Real> Bvh<T> {
             (0_u32..).zip(triangles).map(|(k, triangle)| Item::new(corners(triangle), k)).collect();
         let all = Group::of(&items, 0);
         let grid = Grid::around(&all.bounds);
-        let mut tree = Self { nodes: alloc::vec![Node::EMPTY], packets: Vec::new(), grid };
+        let mut tree =
+            Self { nodes: alloc::vec![Node::EMPTY], grid, packets: Vec::new(), firsts: Vec::new() };
+        let mut order = Vec::with_capacity(items.len());
         // Depth first, so that what is near in space is near in memory.
         let mut open = alloc::vec![(ROOT as usize, all, 0_usize)];
         while let Some((k, group, level)) = open.pop() {
@@ -89,7 +93,9 @@ impl<T: Real> Bvh<T> {
             for group in groups.iter().skip(inner) {
                 let in_group = items.get(group.first..group.first + group.count).unwrap_or(&[]);
                 let all = in_group.iter().filter_map(|item| triangles.get(item.triangle as usize));
-                tree.packets.push(Packet::new(all.map(corners), index(group.first)));
+                tree.packets.push(Packet::new(all.map(corners)));
+                tree.firsts.push(index(order.len()));
+                order.extend(in_group.iter().map(|item| item.triangle));
             }
             let first = tree.nodes.len();
             tree.nodes.resize(first + inner, Node::EMPTY);
@@ -99,7 +105,8 @@ impl<T: Real> Bvh<T> {
                 *slot = node;
             }
         }
-        (tree, items.iter().map(|item| item.triangle).collect())
+        tree.firsts.push(index(order.len()));
+        (tree, order)
     }
 
     /// Calls `visit` for every triangle that the line crosses, with the position along the line and the
@@ -132,10 +139,20 @@ impl<T: Real> Bvh<T> {
             leaves.add(node.packet, crossed & !node.nodes);
             if leaves.count > MOST_LEAVES - WIDTH || next >= open.count {
                 for packet in (0..leaves.count).filter_map(|k| self.packets.get(leaves.get(k)?)) {
+                    packet.fetch();
+                }
+                for packet in (0..leaves.count).filter_map(|k| self.packets.get(leaves.get(k)?)) {
                     packet.visit_line(&shear, &mut visit);
                 }
                 leaves.count = 0;
             }
+        }
+    }
+
+    fn triangles_of(&self, packet: usize) -> core::ops::Range<usize> {
+        match self.firsts.get(packet..packet + 2) {
+            Some([first, next]) => *first as usize..*next as usize,
+            _ => 0..0,
         }
     }
 
@@ -156,7 +173,7 @@ impl<T: Real> Bvh<T> {
                 continue;
             }
             if child & LEAF != 0 {
-                for triangle in self.packets.get((child ^ LEAF) as usize).map_or(0..0, Packet::triangles) {
+                for triangle in self.triangles_of((child ^ LEAF) as usize) {
                     least = least.min(visit(triangle));
                 }
                 continue;
