@@ -122,29 +122,31 @@ impl<T: Real> Bvh<T> {
         let probe = Probe::new(self.grid, start, direction);
         let mut open = List::<MOST_OPEN>::EMPTY;
         let mut leaves = List::<MOST_LEAVES>::EMPTY;
-        open.add(ROOT, 1);
+        let (mut open_count, mut leaf_count) = (open.add(0, ROOT, 1), 0);
         // In the order in which they were found, a node is known long before its turn: so the next are
         // fetched while one is tested.
         let mut next = 0;
-        while next < open.count {
-            let k = if open.count > MANY_OPEN { open.count - 1 } else { next };
-            if k == next {
-                next += 1;
-            } else {
-                open.count = k;
-            }
-            let node = open.get(k).and_then(|k| self.nodes.get(k)).unwrap_or(&Node::EMPTY);
+        while next < open_count {
+            let node = open.get(next).and_then(|k| self.nodes.get(k)).unwrap_or(&Node::EMPTY);
+            next += 1;
             let crossed = probe.may_cross(node);
-            open.add(node.node, crossed & node.nodes);
-            leaves.add(node.packet, crossed & !node.nodes);
-            if leaves.count > MOST_LEAVES - WIDTH || next >= open.count {
-                for packet in (0..leaves.count).filter_map(|k| self.packets.get(leaves.get(k)?)) {
+            open_count = open.add(open_count, node.node, crossed & node.nodes);
+            leaf_count = leaves.add(leaf_count, node.packet, crossed & !node.nodes);
+            if open_count > MANY_OPEN {
+                // The last is next, in the place of this.
+                next -= 1;
+                open_count -= 1;
+                open.repeat(open_count, next);
+            }
+            if leaf_count > MOST_LEAVES - WIDTH || next >= open_count {
+                // What is not in the cache is waited for once, not packet by packet.
+                for packet in (0..leaf_count).filter_map(|k| self.packets.get(leaves.get(k)?)) {
                     packet.fetch();
                 }
-                for packet in (0..leaves.count).filter_map(|k| self.packets.get(leaves.get(k)?)) {
+                for packet in (0..leaf_count).filter_map(|k| self.packets.get(leaves.get(k)?)) {
                     packet.visit_line(&shear, &mut visit);
                 }
-                leaves.count = 0;
+                leaf_count = 0;
             }
         }
     }

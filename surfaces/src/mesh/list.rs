@@ -39,27 +39,39 @@ pub(super) struct List<const MOST: usize> {
     /// An index is the sum of two: so it costs two instructions to write eight of them.
     first: [u32; MOST],
     lane: [u8; MOST],
-    pub(super) count: usize,
 }
 
 impl<const MOST: usize> List<MOST> {
-    pub(super) const EMPTY: Self = Self { first: [0; MOST], lane: [0; MOST], count: 0 };
+    pub(super) const EMPTY: Self = Self { first: [0; MOST], lane: [0; MOST] };
 
     #[inline(always)]
     pub(super) fn get(&self, k: usize) -> Option<usize> {
         Some(self.first.get(k)?.wrapping_add(u32::from(*self.lane.get(k)?)) as usize)
     }
 
-    /// Adds `first + lane` for every lane of a set. There must be room for all lanes; otherwise nothing is
-    /// added.
+    /// Writes an item to another place too.
+    #[cold]
+    pub(super) fn repeat(&mut self, from: usize, to: usize) {
+        let (Some(first), Some(lane)) = (self.first.get(from).copied(), self.lane.get(from).copied()) else {
+            return;
+        };
+        if let (Some(first_there), Some(lane_there)) = (self.first.get_mut(to), self.lane.get_mut(to)) {
+            (*first_there, *lane_there) = (first, lane);
+        }
+    }
+
+    /// Writes `first + lane` for every lane of a set to the end of so many items, and returns how many there
+    /// are then. There must be room for all lanes; otherwise nothing is added.
     #[inline(always)]
-    pub(super) fn add(&mut self, first: u32, set: u8) {
-        let room = self.count..self.count + WIDTH;
+    pub(super) fn add(&mut self, count: usize, first: u32, set: u8) -> usize {
+        let room = count..count + WIDTH;
         let set = usize::from(set);
         if let (Some(firsts), Some(lanes)) = (self.first.get_mut(room.clone()), self.lane.get_mut(room)) {
             firsts.fill(first);
             lanes.copy_from_slice(&LANES_IN[set]);
-            self.count += usize::from(COUNT_IN[set]);
+            count + usize::from(COUNT_IN[set])
+        } else {
+            count
         }
     }
 }
