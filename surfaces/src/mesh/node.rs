@@ -10,32 +10,43 @@ pub(super) const WIDTH: usize = 8;
 /// Marks a child that is a packet, in the highest bit of its index.
 pub(super) const LEAF: u32 = 1 << 31;
 
-/// The whole numbers in which boxes and lines are expressed: steps from the origin of the mesh.
+/// The whole numbers in which boxes and lines are expressed: steps from the origin of the mesh. Along the
+/// axes of a mesh that is narrow they differ: lines stay lines and boxes stay boxes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Grid {
     /// Steps in a unit of the stored vertices.
-    pub(super) steps_per_unit: f64,
+    steps_per_unit: Vector3<f64>,
+    /// Whether these are the same along all axes.
+    pub(super) is_even: bool,
+    /// What boxes are wider than what is in them, in steps, on each side.
+    margin: Vector3<f64>,
 }
 
 impl Grid {
     /// Steps to the farthest side of the box around the mesh: so many that the moment of a line, in steps
     /// times [`Probe::UNIT`](super::probe::Probe::UNIT), keeps within 32 bits.
-    pub(super) const EXTENT: f64 = 20_000.0;
-    /// What boxes are wider than what is in them, in steps, on each side.
-    ///
-    /// A line whose direction is rounded to a [`UNIT`](super::probe::Probe::UNIT)th leaves its place,
-    /// anywhere in the mesh, by less than half that times the mesh's greatest radius,
-    /// √3·20000/2/32767 = 0.53; all rounding in the test on a triangle comes to less than 64 epsilons
-    /// of single precision of the mesh's extent, 0.16.
-    const MARGIN: f64 = 0.7;
+    const EXTENT: f64 = 20_000.0;
+    /// A line whose direction is rounded to a [`UNIT`](super::probe::Probe::UNIT)th leaves its place by
+    /// less than half that times the distance from where it is known, and none within the mesh is
+    /// greater than twice the mesh's radius: 2·√3·20000/2/32767.
+    const LEAVE: f64 = 1.06;
+    /// Epsilons of the mesh's size that all rounding in the test on a triangle is below.
+    const ROUNDINGS: f64 = 64.0;
 
     /// That of a mesh which lies in a box.
     pub(super) fn around<T: Real>(bounds: &Bounds<T>) -> Self {
-        Self { steps_per_unit: Self::EXTENT / bounds.low.amax().max(bounds.high.amax()).to_f64() }
+        let extents = bounds.low.abs().sup(&bounds.high.abs()).map(Real::to_f64);
+        let greatest = extents.max();
+        let is_even = extents.min() >= 0.5 * greatest;
+        let steps_per_unit = extents.map(|extent| Self::EXTENT / if is_even { greatest } else { extent });
+        let rounding = Self::ROUNDINGS * T::EPSILON.to_f64() * greatest;
+        Self { steps_per_unit, is_even, margin: (steps_per_unit * rounding).add_scalar(Self::LEAVE) }
     }
 
-    pub(super) fn place<T: Real>(&self, point: &Vector3<T>) -> Vector3<f64> {
-        point.map(|x| x.to_f64() * self.steps_per_unit)
+    /// In steps.
+    #[inline]
+    pub(super) fn steps<T: Real>(&self, of: &Vector3<T>) -> Vector3<f64> {
+        of.map(Real::to_f64).component_mul(&self.steps_per_unit)
     }
 }
 
@@ -85,13 +96,13 @@ impl Node {
     /// Without children yet, for such as lie in a box.
     pub(super) fn around<T: Real>(bounds: &Bounds<T>, grid: Grid) -> Self {
         let mut node = Self::EMPTY;
-        let (low, high) = (grid.place(&bounds.low), grid.place(&bounds.high));
+        let (low, high) = (grid.steps(&bounds.low), grid.steps(&bounds.high));
         let centre = ((low + high) * 0.5).map(round);
         #[allow(clippy::cast_possible_truncation)]
         {
             node.centre = centre.map(|x| x as i16).into();
         }
-        let reach = (high - centre).sup(&(centre - low)).max() + Grid::MARGIN;
+        let reach = ((high - centre).sup(&(centre - low)) + grid.margin).max();
         while node.step() * Self::REACH < reach && node.shift < 31 {
             node.shift += 1;
         }
@@ -107,10 +118,10 @@ impl Node {
     pub(super) fn put<T: Real>(&mut self, lane: usize, bounds: &Bounds<T>, grid: Grid) {
         let step = self.step();
         let centre = Vector3::from(self.centre.map(f64::from));
-        let (low, high) = (grid.place(&bounds.low) - centre, grid.place(&bounds.high) - centre);
+        let (low, high) = (grid.steps(&bounds.low) - centre, grid.steps(&bounds.high) - centre);
         for (axis, [centres, halves]) in self.boxes.iter_mut().enumerate() {
             let middle = round((low[axis] + high[axis]) * 0.5 / step);
-            let half = (high[axis] - middle * step).max(middle * step - low[axis]) + Grid::MARGIN;
+            let half = (high[axis] - middle * step).max(middle * step - low[axis]) + grid.margin[axis];
             if let (Some(c), Some(h)) = (centres.get_mut(lane), halves.get_mut(lane)) {
                 #[allow(clippy::cast_possible_truncation)]
                 {
@@ -122,20 +133,20 @@ impl Node {
 
     /// Each child, with centre and radius of the ball around its box.
     pub(super) fn balls<T: Real>(&self, grid: Grid) -> impl Iterator<Item = (u32, Vector3<T>, T)> + '_ {
-        let unit = 1.0 / grid.steps_per_unit;
-        let centre = Vector3::from(self.centre.map(f64::from)) * unit;
-        let step = self.step() * unit;
+        let unit = grid.steps_per_unit.map(|steps| 1.0 / steps);
+        let centre = Vector3::from(self.centre.map(f64::from)).component_mul(&unit);
+        let step = unit * self.step();
         (0..WIDTH).zip(0..).filter_map(move |(k, lane)| {
             let [x, y, z] =
                 self.boxes.each_ref().map(|axis| axis.map(|row| row.get(k).map_or(0.0, |x| f64::from(*x))));
-            let half = Vector3::new(x[1], y[1], z[1]) * step;
+            let half = Vector3::new(x[1], y[1], z[1]).component_mul(&step);
             let child = if self.nodes >> lane & 1 == 1 {
                 self.node.wrapping_add(lane)
             } else {
                 self.packet.wrapping_add(lane) | LEAF
             };
             (half.x >= 0.0).then(|| {
-                let middle = centre + Vector3::new(x[0], y[0], z[0]) * step;
+                let middle = centre + Vector3::new(x[0], y[0], z[0]).component_mul(&step);
                 (child, middle.map(T::literal), T::literal(half.norm_squared()).root())
             })
         })
