@@ -209,39 +209,36 @@ fn mesh<T: Real>(rings: u32, sectors: u32) -> Mesh<T> {
     Mesh::new(&vertices, &triangles).unwrap()
 }
 
+/// What is found is used, all of it: otherwise none would wait for the normals.
 #[inline(never)]
 fn all_crossings<T: Real>(mesh: &Mesh<T>, lines: &[Line<T>]) -> T {
     let mut sum = T::zero();
     for line in lines {
-        mesh.crossings(line, |c| sum += c.along);
+        mesh.crossings(line, |c| sum += c.along + c.point.x + c.normal.x);
     }
     sum
 }
 
-fn meshes(c: &mut Criterion) {
-    let mut group = c.benchmark_group("mesh");
-    for (rings, sectors) in [(10, 25), (50, 51), (160, 157), (707, 708)] {
-        let (single, double) = (mesh::<f32>(rings, sectors), mesh::<f64>(rings, sectors));
-        let count = double.triangle_count();
-        let lines = lines(1.0);
-        let narrow: Vec<_> = lines
-            .iter()
-            .map(|line| Line { point: line.point.cast::<f32>(), direction: line.direction.cast() })
-            .collect();
-        group.throughput(Throughput::Elements(COUNT as u64));
-        group.bench_function(format!("f64 {count} triangles"), |b| {
-            b.iter(|| all_crossings(&double, black_box(&lines)));
-        });
-        group.bench_function(format!("f32 {count} triangles"), |b| {
-            b.iter(|| all_crossings(&single, black_box(&narrow)));
-        });
-        // So few that all they need of the tree stays in the cache: what is computed, without what is
-        // waited for.
-        let few = narrow.get(..20).unwrap();
-        group.throughput(Throughput::Elements(few.len() as u64));
-        group.bench_function(format!("f32 {count} triangles, in cache"), |b| {
-            b.iter(|| all_crossings(&single, black_box(few)));
-        });
+/// Balls of more and more triangles, crossed by the same lines: they may take no longer than the logarithm
+/// of the number grows.
+fn meshes<T: Real>(c: &mut Criterion, scalar: &str) {
+    let mut group = c.benchmark_group(format!("mesh {scalar}"));
+    let narrow = |v: Vector3<f64>| v.map(T::literal);
+    let lines: Vec<Line<T>> = lines(1.0)
+        .into_iter()
+        .map(|line| Line { point: narrow(line.point), direction: narrow(line.direction) })
+        .collect();
+    for (rings, sectors) in [(50, 51), (100, 101), (224, 224), (707, 708)] {
+        let mesh = mesh::<T>(rings, sectors);
+        let count = mesh.triangle_count();
+        // All over the mesh, so that the cache cannot hold what they need of a large one; and so few that
+        // it can: what is computed, without what is waited for.
+        for (name, lines) in [("", &lines[..]), (", in cache", &lines[..20])] {
+            group.throughput(Throughput::Elements(lines.len() as u64));
+            group.bench_function(format!("{count} triangles{name}"), |b| {
+                b.iter(|| all_crossings(&mesh, black_box(lines)));
+            });
+        }
     }
     group.finish();
 }
@@ -363,7 +360,8 @@ fn all(c: &mut Criterion) {
     batch::<f32>(c, "f32");
     batch::<f64>(c, "f64");
     against_parry(c);
-    meshes(c);
+    meshes::<f64>(c, "f64");
+    meshes::<f32>(c, "f32");
 }
 
 criterion_group! {

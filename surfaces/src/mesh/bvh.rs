@@ -6,30 +6,31 @@ use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 use super::crossing::Shear;
-use super::node::{LEAF, Node, Probe, WIDTH};
+use super::list::List;
+use super::node::{Grid, LEAF, Node, WIDTH};
 use super::packet::{LANES, Packet};
+use super::probe::Probe;
 use super::split::{Group, Item};
 
 /// Levels of nodes in any tree: enough for 2³² triangles by halves.
-const MOST_LEVELS: usize = 18;
-/// Nodes that a line is tested against together.
-const AT_ONCE: usize = 4;
-/// Open nodes of a line, at most. They are sorted by level, and the deepest are taken first: so when
-/// nodes of a level are added, none of that level is left. These are `AT_ONCE·WIDTH` at most, of which
-/// `AT_ONCE` are gone before any of the next level is added.
-const MOST_OPEN: usize = 256;
-const _: () = assert!(MOST_OPEN >= (AT_ONCE * WIDTH - AT_ONCE) * MOST_LEVELS + AT_ONCE * WIDTH + AT_ONCE);
+const MOST_LEVELS: usize = 14;
+/// Nodes on a line's list of those to be looked at: as long as there are no more, they are looked at in the
+/// order in which they were found, level by level.
+const MANY_OPEN: usize = 128;
+/// Then the last comes first, so that one node of a level is exchanged for its children at a time.
+const MOST_OPEN: usize = MANY_OPEN + WIDTH + (WIDTH - 1) * MOST_LEVELS + WIDTH;
 /// Packets that are collected before they are looked at.
-const MOST_LEAVES: usize = 32;
-/// Index of a node without children, and of the root.
-const NOTHING: u32 = 0;
-const ROOT: u32 = 1;
+const MOST_LEAVES: usize = 64;
+const ROOT: u32 = 0;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Bvh<T: Real> {
-    /// The first is nothing, the second the root.
+    /// The first is the root. Children of a node follow one another.
     nodes: Vec<Node>,
+    grid: Grid,
     packets: Vec<Packet<T>>,
+    /// Index of each packet's first triangle; the others follow. One more for the end of the last.
+    firsts: Vec<u32>,
 }
 
 fn index(k: usize) -> u32 {
@@ -46,7 +47,7 @@ fn levels_by_halves(mut count: usize) -> usize {
     levels
 }
 
-/// Up to four groups of one: the costliest is split as long as there is room.
+/// Up to eight groups of one: the costliest is split as long as there is room.
 fn children<T: Real>(group: Group<T>, items: &mut [Item<T>], careful: bool) -> Vec<Group<T>> {
     let mut groups = alloc::vec![group];
     while groups.len() < WIDTH {
@@ -71,32 +72,41 @@ impl<T: Real> Bvh<T> {
         let corners = |triangle: &[u32; 3]| triangle.map(at);
         let mut items: Vec<Item<T>> =
             (0_u32..).zip(triangles).map(|(k, triangle)| Item::new(corners(triangle), k)).collect();
-        let mut tree = Self { nodes: alloc::vec![Node::EMPTY, Node::EMPTY], packets: Vec::new() };
+        let all = Group::of(&items, 0);
+        let grid = Grid::around(&all.bounds);
+        let mut tree =
+            Self { nodes: alloc::vec![Node::EMPTY], grid, packets: Vec::new(), firsts: Vec::new() };
+        let mut order = Vec::with_capacity(items.len());
         // Depth first, so that what is near in space is near in memory.
-        let mut open = alloc::vec![(ROOT as usize, Group::of(&items, 0), 0_usize)];
+        let mut open = alloc::vec![(ROOT as usize, all, 0_usize)];
         while let Some((k, group, level)) = open.pop() {
-            let groups = children(group, &mut items, level + levels_by_halves(group.count) < MOST_LEVELS);
-            let first_open = open.len();
+            let mut groups = children(group, &mut items, level + levels_by_halves(group.count) < MOST_LEVELS);
+            groups.sort_by_key(Group::is_leaf);
+            let inner = groups.iter().filter(|group| !group.is_leaf()).count();
+            let mut node = Node::around(&group.bounds, grid);
+            node.node = index(tree.nodes.len());
+            node.packet = index(tree.packets.len()).wrapping_sub(index(inner));
+            node.nodes = u8::MAX.checked_shr(index(WIDTH - inner.min(WIDTH))).unwrap_or(0);
             for (lane, group) in groups.iter().enumerate() {
-                let child = if group.is_leaf() {
-                    let in_group = items.get(group.first..group.first + group.count).unwrap_or(&[]);
-                    let all = in_group.iter().filter_map(|item| triangles.get(item.triangle as usize));
-                    tree.packets.push(Packet::new(all.map(corners), index(group.first)));
-                    LEAF | index(tree.packets.len() - 1)
-                } else {
-                    tree.nodes.push(Node::EMPTY);
-                    open.push((tree.nodes.len() - 1, *group, level + 1));
-                    index(tree.nodes.len() - 1)
-                };
-                if let Some(node) = tree.nodes.get_mut(k) {
-                    node.put(lane, &group.bounds, child);
-                }
+                node.put(lane, &group.bounds, grid);
             }
-            if let Some(new) = open.get_mut(first_open..) {
-                new.reverse();
+            for group in groups.iter().skip(inner) {
+                let in_group = items.get(group.first..group.first + group.count).unwrap_or(&[]);
+                let all = in_group.iter().filter_map(|item| triangles.get(item.triangle as usize));
+                tree.packets.push(Packet::new(all.map(corners)));
+                tree.firsts.push(index(order.len()));
+                order.extend(in_group.iter().map(|item| item.triangle));
+            }
+            let first = tree.nodes.len();
+            tree.nodes.resize(first + inner, Node::EMPTY);
+            let inner = groups.iter().enumerate().take(inner);
+            open.extend(inner.rev().map(|(lane, group)| (first + lane, *group, level + 1)));
+            if let Some(slot) = tree.nodes.get_mut(k) {
+                *slot = node;
             }
         }
-        (tree, items.iter().map(|item| item.triangle).collect())
+        tree.firsts.push(index(order.len()));
+        (tree, order)
     }
 
     /// Calls `visit` for every triangle that the line crosses, with the position along the line and the
@@ -109,38 +119,42 @@ impl<T: Real> Bvh<T> {
         mut visit: impl FnMut(T, &Vector3<T>),
     ) {
         let Some(shear) = Shear::new(start, direction) else { return };
-        let probe = Probe::new(start, direction);
-        // What is crossed cannot be foretold, so nothing branches on it: each child is written to the
-        // end of its list, which then grows by one or not at all. Several nodes are tested together,
-        // for the next ones are not known before. Below the root wait nodes that are nothing.
-        let mut open = [NOTHING; MOST_OPEN];
-        let mut leaves = [0_u32; MOST_LEAVES];
-        let (mut depth, mut leaf_count) = (AT_ONCE, 0_usize);
-        open[AT_ONCE - 1] = ROOT;
-        while depth >= AT_ONCE {
-            depth -= AT_ONCE;
-            let nodes: [&Node; AT_ONCE] = core::array::from_fn(|k| {
-                self.nodes.get(open[(depth + k) % MOST_OPEN] as usize).unwrap_or(&Node::EMPTY)
-            });
-            let crossed = nodes.map(|node| probe.may_cross(node));
-            depth = depth.max(AT_ONCE - 1);
-            for (node, crossed) in nodes.into_iter().zip(crossed) {
-                let (inner, leaf) = (crossed & !node.leaves, crossed & node.leaves);
-                for (lane, child) in node.child.into_iter().enumerate() {
-                    open[depth % MOST_OPEN] = child;
-                    leaves[leaf_count % MOST_LEAVES] = child;
-                    depth += (inner >> lane & 1) as usize;
-                    leaf_count += (leaf >> lane & 1) as usize;
-                }
+        let probe = Probe::new(self.grid, start, direction);
+        let mut open = List::<MOST_OPEN>::EMPTY;
+        let mut leaves = List::<MOST_LEAVES>::EMPTY;
+        let (mut open_count, mut leaf_count) = (open.add(0, ROOT, 1), 0);
+        // In the order in which they were found, a node is known long before its turn: so the next are
+        // fetched while one is tested.
+        let mut next = 0;
+        while next < open_count {
+            let node = open.get(next).and_then(|k| self.nodes.get(k)).unwrap_or(&Node::EMPTY);
+            next += 1;
+            let crossed = probe.may_cross(node);
+            open_count = open.add(open_count, node.node, crossed & node.nodes);
+            leaf_count = leaves.add(leaf_count, node.packet, crossed & !node.nodes);
+            if open_count > MANY_OPEN {
+                // The last is next, in the place of this.
+                next -= 1;
+                open_count -= 1;
+                open.repeat(open_count, next);
             }
-            if leaf_count > MOST_LEAVES - AT_ONCE * WIDTH || depth < AT_ONCE {
-                for k in leaves.iter().take(leaf_count) {
-                    if let Some(packet) = self.packets.get(*k as usize) {
-                        packet.visit_line(&shear, &mut visit);
-                    }
+            if leaf_count > MOST_LEAVES - WIDTH || next >= open_count {
+                // What is not in the cache is waited for once, not packet by packet.
+                for packet in (0..leaf_count).filter_map(|k| self.packets.get(leaves.get(k)?)) {
+                    packet.fetch();
+                }
+                for packet in (0..leaf_count).filter_map(|k| self.packets.get(leaves.get(k)?)) {
+                    packet.visit_line(&shear, &mut visit);
                 }
                 leaf_count = 0;
             }
+        }
+    }
+
+    fn triangles_of(&self, packet: usize) -> core::ops::Range<usize> {
+        match self.firsts.get(packet..packet + 2) {
+            Some([first, next]) => *first as usize..*next as usize,
+            _ => 0..0,
         }
     }
 
@@ -161,14 +175,14 @@ impl<T: Real> Bvh<T> {
                 continue;
             }
             if child & LEAF != 0 {
-                for triangle in self.packets.get((child ^ LEAF) as usize).map_or(0..0, Packet::triangles) {
+                for triangle in self.triangles_of((child ^ LEAF) as usize) {
                     least = least.min(visit(triangle));
                 }
                 continue;
             }
             let Some(node) = self.nodes.get(child as usize) else { continue };
             let first = depth;
-            for (child, centre, radius) in node.balls() {
+            for (child, centre, radius) in node.balls(self.grid) {
                 let bound = distance(&centre) - radius;
                 if bound <= least
                     && let Some(slot) = stack.get_mut(depth)

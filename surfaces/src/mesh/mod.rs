@@ -5,9 +5,11 @@ mod closest;
 mod crossing;
 mod fans;
 mod lanes;
+mod list;
 mod node;
 mod obj;
 mod packet;
+mod probe;
 mod split;
 mod stl;
 mod topology;
@@ -246,5 +248,44 @@ mod files {
             let parts = Parts::<T>::deserialize(deserializer)?;
             Self::new(&parts.vertices_m, &parts.triangles).map_err(Error::custom)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+
+    use super::*;
+    use crate::testing::ball_of_triangles;
+
+    fn survives_any_line<T: Real>(mut any: impl FnMut() -> T) -> Result<(), MeshError> {
+        let (vertices, triangles) = ball_of_triangles::<T>(20, 21, None);
+        let mesh = Mesh::new(&vertices, &triangles)?;
+        for k in 0..20_000 {
+            let mut any = || Vector3::from_fn(|_, _| any());
+            let (mut point, mut direction) = (any(), any());
+            if k % 2 == 0 {
+                // One that reaches the mesh: of any length, or not a number.
+                point = point.map(|x| if x.abs() <= T::one() { x } else { T::zero() });
+            }
+            if k % 3 == 0 {
+                direction /= direction.norm();
+            }
+            mesh.crossings(&Line { point, direction }, |crossing| {
+                let numbers = crossing.point.iter().chain(&crossing.normal).all(|x| !(*x != *x));
+                assert!(numbers, "{point:?} {direction:?} {crossing:?}");
+            });
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn no_line_breaks_a_mesh() {
+        let mut random = Pcg64Mcg::seed_from_u64(11);
+        let narrow = survives_any_line(|| f32::from_bits(random.random()));
+        let mut random = Pcg64Mcg::seed_from_u64(12);
+        let wide = survives_any_line(|| f64::from_bits(random.random()));
+        assert_eq!((narrow, wide), (Ok(()), Ok(())));
     }
 }
