@@ -146,7 +146,7 @@ impl<T: Real> Axis<T> {
             drift,
             aside,
             squared,
-            meets: across.dot(&drift),
+            meets: start.dot(&direction) - height * rise,
         }
     }
 
@@ -223,14 +223,16 @@ impl<T: Real> Axis<T> {
         self.split(&within_range(&(point - self.origin)))
     }
 
-    /// The normal of a side at a point beside the axis, from its parts away from the axis and along it;
-    /// on the axis, away from it is `beside`.
+    /// Shorter than any rounding error of a length, but not so short that its square underflows: to be
+    /// added to what is across the axis, lest that be zero.
+    pub(super) fn least_across(&self) -> Vector3<T> {
+        any_perpendicular(&self.direction) * (T::LEAST_NORMAL / T::EPSILON).root()
+    }
+
+    /// The normal of a side at a point beside the axis, from its parts away from the axis and along it.
     #[inline(always)]
-    pub(super) fn slanted(&self, across: &Vector3<T>, beside: &Vector3<T>, away: T, along: T) -> Vector3<T> {
-        let squared = across.norm_squared();
-        let is_beside = squared > T::LEAST_NORMAL / T::EPSILON;
-        let scale = select_unpredictable(is_beside, away / squared.root(), away);
-        let across = across.zip_map(beside, |x, beside| select_unpredictable(is_beside, x, beside));
+    pub(super) fn slanted(&self, across: &Vector3<T>, away: T, along: T) -> Vector3<T> {
+        let scale = away / across.norm_squared().root();
         // Near the axis, rounding leaves a part along it, which would make the normal longer.
         let rest = across.dot(&self.direction) * scale;
         across * scale + self.direction * (along - rest)

@@ -6,7 +6,7 @@ use nalgebra::{ComplexField, Vector3};
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
 use crate::numeric::twofold::Twofold;
-use crate::numeric::vectors::{any_perpendicular, foot, is_finite, length};
+use crate::numeric::vectors::{foot, is_finite, length};
 #[cfg(feature = "serde")]
 use crate::numeric::vectors::{from_degrees, to_degrees};
 use crate::serde_parts::serde_parts;
@@ -24,8 +24,8 @@ pub struct Cone<T: Real> {
     /// What rounding took from the tangent, for a type narrower than `f64`.
     tangent_rest: T,
     depth: Option<T>,
-    /// A unit vector across the axis.
-    beside: Vector3<T>,
+    /// A hair across the axis.
+    least_across: Vector3<T>,
 }
 
 impl<T: Real> Cone<T> {
@@ -52,7 +52,7 @@ impl<T: Real> Cone<T> {
         );
         Ok(Self {
             axis,
-            beside: any_perpendicular(&axis.direction),
+            least_across: axis.least_across(),
             tangent_rest: T::literal(exact - tangent.to_f64()),
             half_angle,
             sine,
@@ -121,13 +121,13 @@ impl<T: Real> Cone<T> {
         let [to_side, over] = line.enters_cone(line.height * self.tangent, -line.rise * self.tangent);
         let along = to_side / over;
         let height = line.height + along * line.rise;
-        let across = line.across_at(along);
+        let across = line.across_at(along) + self.least_across;
         LocalEntry {
             // Of the two cones that meet at the apex, the right one.
             enters: height >= T::zero() && along.abs() < T::GREATEST,
             along,
             height,
-            normal: self.axis.slanted(&across, &self.beside, self.cosine, -self.sine),
+            normal: self.axis.slanted(&across, self.cosine, -self.sine),
         }
     }
 }

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
 use crate::numeric::twofold::{Twofold, difference, dot_with};
-use crate::numeric::vectors::{any_perpendicular, hypotenuse};
+use crate::numeric::vectors::hypotenuse;
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
@@ -27,8 +27,8 @@ pub struct Frustum<T: Real> {
     side_cosine: T,
     /// Sine of that angle: the part of the side's normal along the axis.
     side_sine: T,
-    /// A unit vector across the axis.
-    beside: Vector3<T>,
+    /// A hair across the axis.
+    least_across: Vector3<T>,
     /// Halfway up the axis, and the radius there.
     middle: Vector3<T>,
     middle_radius: T,
@@ -77,7 +77,7 @@ impl<T: Real> Frustum<T> {
             half_height,
             reach: half_height + hair,
             side_sine: taper * side_cosine,
-            beside: any_perpendicular(&axis.direction),
+            least_across: axis.least_across(),
             height,
             base_radius,
             top_radius,
@@ -164,12 +164,12 @@ impl<T: Real> Frustum<T> {
         let height = select_unpredictable(through_end, end, line.height + along * line.rise);
         let away = select_unpredictable(through_end, T::zero(), self.side_cosine);
         let flat = select_unpredictable(through_end, T::one().copysign(end), self.side_sine);
-        let across = line.across_at(along);
+        let across = line.across_at(along) + self.least_across;
         LocalEntry {
             enters: height.abs() <= self.reach,
             along,
             height,
-            normal: self.axis.slanted(&across, &self.beside, away, flat),
+            normal: self.axis.slanted(&across, away, flat),
         }
     }
 }
