@@ -70,17 +70,18 @@ fn ellipsoid_by_hand<T: Real>(
     semi_axes: &Vector3<T>,
     curvatures: &Vector3<T>,
 ) -> Option<(Vector3<T>, Vector3<T>)> {
-    let point = (f.cross(&m) / f.norm_squared()).component_mul(curvatures);
     let direction = f.component_mul(curvatures);
-    let inverse = T::one() / direction.norm_squared();
-    let foot = point - direction * (point.dot(&direction) * inverse);
-    let squared = T::one() - foot.norm_squared();
-    if squared < T::zero() {
+    let squared = direction.norm_squared();
+    let inverse = T::one() / (squared * f.norm_squared());
+    let point = f.cross(&m).component_mul(curvatures);
+    let foot = (point * squared - direction * point.dot(&direction)) * inverse;
+    let remainder = T::one() - foot.norm_squared();
+    if remainder < T::zero() {
         return None;
     }
-    let scaled = foot - direction * (squared * inverse).root();
+    let scaled = foot - direction * (remainder / squared).root();
     let gradient = scaled.component_mul(curvatures);
-    Some((scaled.component_mul(semi_axes), gradient / gradient.norm_squared().root()))
+    Some((scaled.component_mul(semi_axes), gradient * (T::one() / gradient.norm_squared().root())))
 }
 
 #[inline(never)]
@@ -104,8 +105,9 @@ fn resolve_all<T: Real, S: ActiveSurface<T>>(
     found: &mut Found<T>,
 ) {
     for (wrench, found) in wrenches.iter().zip(found) {
-        if let Resolution::Contact(contact) = model.resolve(wrench, surface) {
-            *found = (contact.point, contact.normal);
+        if let Resolution::Contact(Contact { point, normal, .. }) = model.resolve(wrench, surface) {
+            // By components: as one block of memory they would be written, read and written again.
+            *found = (Vector3::new(point.x, point.y, point.z), Vector3::new(normal.x, normal.y, normal.z));
         }
     }
 }
