@@ -79,6 +79,8 @@ impl<T: Real, S: SignedDistance<T>> ActiveSurface<T> for Offset<T, S> {
         }
     }
 
+    /// Exact but for rounding outside a convex shape. Otherwise by a bounded search along the line, in
+    /// which a place that is nearer by at most 1/256 of the bounds' radius may be missed.
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let (centre, reach) = self.bounds();
         if S::CONVEX {

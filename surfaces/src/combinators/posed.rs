@@ -3,6 +3,7 @@
 use fingertip_wrench::{Line, Real, RigidTransform};
 use nalgebra::Vector3;
 
+use crate::numeric::vectors::is_finite;
 use crate::{ActiveSurface, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
 /// A shape somewhere else in the sensor frame, turned.
@@ -79,11 +80,13 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
     #[inline]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         let pose = &self.sensor_from_shape;
-        self.surface.sole_entry(&push.seen_from(pose)).map(|e| Entry {
+        let found = self.surface.sole_entry(&push.seen_from(pose)).map(|e| Entry {
             point: pose.transform_point(&e.point),
             normal: pose.rotate(&e.normal),
             ..e
-        })
+        });
+        // The frame of a shape may lie so far away that the shape leaves the range of the type.
+        found.filter(|entry| is_finite(&entry.point))
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {

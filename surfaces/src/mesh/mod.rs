@@ -273,7 +273,8 @@ mod tests {
                 direction /= direction.norm();
             }
             mesh.crossings(&Line { point, direction }, |crossing| {
-                let numbers = crossing.point.iter().chain(&crossing.normal).all(|x| !(*x != *x));
+                let numbers =
+                    crossing.point.iter().chain(&crossing.normal).all(|x| x.partial_cmp(x).is_some());
                 assert!(numbers, "{point:?} {direction:?} {crossing:?}");
             });
         }

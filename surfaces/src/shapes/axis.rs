@@ -5,9 +5,9 @@ use core::hint::select_unpredictable;
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use crate::Crossing;
 use crate::numeric::twofold::{Twofold, difference, dot, outside_ball};
 use crate::numeric::vectors::{any_perpendicular, foot, unit_or, within_range};
+use crate::{Crossing, Entry, ForceLine};
 
 /// An oriented axis with an origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,11 +32,20 @@ pub(super) struct Local<T: Real> {
     pub(super) drift: Vector3<T>,
     /// `(start × direction)·axis`: the distance from the axis that the line keeps, times `|drift|`.
     pub(super) aside: T,
+    /// `|drift|²`.
+    pub(super) squared: T,
+    /// `across·drift`.
+    pub(super) meets: T,
 }
 
 /// Where a line enters a solid around an axis, and the outward normal there.
+///
+/// Not an `Option`: what finds it shall have no branch, such that the compiler can take several lines
+/// at a time.
 #[derive(Clone, Copy)]
 pub(super) struct LocalEntry<T: Real> {
+    /// Unless it does, the rest means nothing.
+    pub(super) enters: bool,
     pub(super) along: T,
     pub(super) height: T,
     pub(super) normal: Vector3<T>,
@@ -52,6 +61,7 @@ impl<T: Real> Local<T> {
             rise: -self.rise,
             drift: -self.drift,
             aside: -self.aside,
+            meets: -self.meets,
             ..self
         }
     }
@@ -66,7 +76,7 @@ impl<T: Real> Local<T> {
     /// not even where the line is parallel to the axis.
     #[inline(always)]
     pub(super) fn enters_cone(&self, radius: T, shrink: T) -> [T; 2] {
-        let (squared, meets) = (self.drift.norm_squared(), self.across.dot(&self.drift));
+        let (squared, meets) = (self.squared, self.meets);
         let distance_squared = self.across.norm_squared();
         let a = squared - shrink * shrink;
         let b = meets + radius * shrink;
@@ -83,11 +93,11 @@ impl<T: Real> Local<T> {
         [select_unpredictable(falls, -sum, c), select_unpredictable(falls, a, sum)]
     }
 
-    /// The same for a cylinder.
+    /// The same for a cylinder, which no line enters that is parallel to it.
     #[inline(always)]
     pub(super) fn enters_cylinder(&self, radius: T) -> [T; 2] {
-        let (squared, meets) = (self.drift.norm_squared(), self.across.dot(&self.drift));
-        [-meets - (radius * radius * squared - self.aside * self.aside).root(), squared]
+        let root = (radius * radius * self.squared - self.aside * self.aside).root();
+        [-self.meets - root, self.squared]
     }
 
     /// Its point at a position, across the axis.
@@ -104,20 +114,39 @@ impl<T: Real> Axis<T> {
     }
 
     /// A line seen from a point of the axis.
-    #[inline(always)]
+    #[inline]
     pub(super) fn localise(&self, line: &Line<T>, from: &Vector3<T>) -> Local<T> {
         let (start, along) = foot(line, from);
-        let direction = line.direction;
+        self.tell_apart(start, line.direction, along)
+    }
+
+    /// The line of a force, whose own point is the one closest to that of the axis.
+    #[inline(always)]
+    pub(super) fn localise_push(&self, push: &ForceLine<T>, from: &Vector3<T>) -> Local<T> {
+        let (force, inverse) = (push.force(), T::one() / push.squared());
+        let start = force.cross(&push.torque_about(from)) * inverse;
+        self.tell_apart(start, force * (inverse * push.squared().root()), T::zero())
+    }
+
+    /// `start` is square to `direction`, a unit vector.
+    #[inline(always)]
+    fn tell_apart(&self, start: Vector3<T>, direction: Vector3<T>, along: T) -> Local<T> {
         let (height, rise) = (start.dot(&self.direction), direction.dot(&self.direction));
+        // Known sooner than what is left across the axis, and as long.
+        let turned = direction.cross(&self.direction);
+        let (across, drift) = (start - self.direction * height, direction - self.direction * rise);
+        let (aside, squared) = (start.dot(&turned), turned.norm_squared());
         Local {
             start,
             direction,
             along,
             height,
             rise,
-            across: start - self.direction * height,
-            drift: direction - self.direction * rise,
-            aside: start.cross(&direction).dot(&self.direction),
+            across,
+            drift,
+            aside,
+            squared,
+            meets: start.dot(&direction) - height * rise,
         }
     }
 
@@ -138,20 +167,36 @@ impl<T: Real> Axis<T> {
         }
     }
 
+    /// What a force along the line does there; none if the line does not enter.
+    #[inline(always)]
+    pub(super) fn entered(
+        &self,
+        line: &Local<T>,
+        from: &Vector3<T>,
+        entry: &LocalEntry<T>,
+        active: bool,
+    ) -> Entry<T> {
+        let found = Entry::at(&self.crossing(line, from, entry, active), &line.direction);
+        let incidence_squared = select_unpredictable(entry.enters, found.incidence_squared, T::zero());
+        Entry { incidence_squared, ..found }
+    }
+
     /// Both ends of what is inside a convex solid, from what tells where a line enters it.
     #[inline]
     pub(super) fn both_ends(
         &self,
         line: &Local<T>,
         from: &Vector3<T>,
-        entry: impl Fn(&Local<T>) -> Option<LocalEntry<T>>,
+        entry: impl Fn(&Local<T>) -> LocalEntry<T>,
         mut visit: impl FnMut(LocalEntry<T>, Crossing<T>),
     ) {
         let reversed = line.reversed();
-        if let Some(end) = entry(line) {
+        let end = entry(line);
+        if end.enters {
             visit(end, self.crossing(line, from, &end, true));
         }
-        if let Some(end) = entry(&reversed) {
+        let end = entry(&reversed);
+        if end.enters {
             let crossing = self.crossing(&reversed, from, &end, true);
             visit(end, Crossing { along: -crossing.along, ..crossing });
         }
@@ -178,17 +223,19 @@ impl<T: Real> Axis<T> {
         self.split(&within_range(&(point - self.origin)))
     }
 
-    /// The normal of a side at a point beside the axis, from its parts away from the axis and along it;
-    /// a unit vector if `across` is across the axis, or the part along it zero.
+    /// Shorter than any rounding error of a length, but not so short that its square underflows: to be
+    /// added to what is across the axis, lest that be zero.
+    pub(super) fn least_across(&self) -> Vector3<T> {
+        any_perpendicular(&self.direction) * (T::LEAST_NORMAL / T::EPSILON).root()
+    }
+
+    /// The normal of a side at a point beside the axis, from its parts away from the axis and along it.
     #[inline(always)]
     pub(super) fn slanted(&self, across: &Vector3<T>, away: T, along: T) -> Vector3<T> {
-        let squared = across.norm_squared();
-        let outward = if squared > T::LEAST_NORMAL / T::EPSILON {
-            across * (away / squared.root())
-        } else {
-            self.outward(across) * away
-        };
-        outward + self.direction * along
+        let scale = away / across.norm_squared().root();
+        // Near the axis, rounding leaves a part along it, which would make the normal longer.
+        let rest = across.dot(&self.direction) * scale;
+        across * scale + self.direction * (along - rest)
     }
 
     /// The unit vector away from the axis; any across it for a point on the axis.

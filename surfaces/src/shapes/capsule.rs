@@ -80,14 +80,14 @@ impl<T: Real> Capsule<T> {
     /// continuation tells which of the balls along the segment it enters first. (An error of that
     /// place moves the entry by its square only, and nothing has to branch on it.)
     #[inline(always)]
-    fn entry(&self, line: &Local<T>) -> Option<LocalEntry<T>> {
+    fn entry(&self, line: &Local<T>) -> LocalEntry<T> {
         let (axis, u) = (self.axis.direction, line.direction);
         let half_length = self.half_length * self.curvature;
         // Parallel to the axis, it comes from far away.
-        let squared = line.drift.norm_squared().max(T::LEAST_NORMAL);
+        let squared = line.squared.max(T::LEAST_NORMAL);
         let aside = line.aside * self.curvature;
         let root = (squared - aside * aside).root();
-        let to_side = -(line.across.dot(&line.drift) * self.curvature + root) / squared;
+        let to_side = -(line.meets * self.curvature + root) / squared;
         let z = line.height * self.curvature + to_side * line.rise;
         let height = z.min(half_length).max(-half_length);
         let over = line.height * self.curvature - height;
@@ -96,19 +96,18 @@ impl<T: Real> Capsule<T> {
         let radial = from_centre + u * foot;
         let remainder = T::one() - radial.norm_squared();
         // Where side and ball meet, rounding may find a line outside both: a hair's breadth.
-        if !(remainder >= -T::EPSILON * T::literal(16.0) && root >= T::zero()) {
-            return None;
-        }
+        let enters = (remainder >= -T::EPSILON * T::literal(16.0)) & (root >= T::zero());
         let half_chord = remainder.max(T::zero()).root();
         let normal = radial - u * half_chord;
         let lift = over + (foot - half_chord) * line.rise;
         // The normal would keep the error of the place.
         let lean = select_unpredictable(z.abs() <= half_length, lift, T::zero());
-        Some(LocalEntry {
+        LocalEntry {
+            enters,
             along: (foot - half_chord) * self.radius,
             height: (height + lift) * self.radius,
             normal: normal - axis * lean,
-        })
+        }
     }
 }
 
@@ -124,11 +123,9 @@ impl<T: Real> ActiveSurface<T> for Capsule<T> {
 
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        let line = push.line();
         let centre = self.axis.origin;
-        let local = self.axis.localise(&line, &centre);
-        let crossing = |entry: LocalEntry<T>| self.axis.crossing(&local, &centre, &entry, true);
-        self.entry(&local).map(|entry| Entry::at(&crossing(entry), &line.direction))
+        let local = self.axis.localise_push(push, &centre);
+        Some(self.axis.entered(&local, &centre, &self.entry(&local), true))
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {

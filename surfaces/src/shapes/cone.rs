@@ -24,6 +24,8 @@ pub struct Cone<T: Real> {
     /// What rounding took from the tangent, for a type narrower than `f64`.
     tangent_rest: T,
     depth: Option<T>,
+    /// A hair across the axis.
+    least_across: Vector3<T>,
 }
 
 impl<T: Real> Cone<T> {
@@ -44,12 +46,14 @@ impl<T: Real> Cone<T> {
         )?;
         let tangent = sine / cosine;
         let exact = ComplexField::tan(half_angle.to_f64());
+        let axis = Axis::new(
+            BadShape::check_point("cone", "apex", apex)?,
+            BadShape::check_direction("cone", "axis", axis)?,
+        );
         Ok(Self {
+            axis,
+            least_across: axis.least_across(),
             tangent_rest: T::literal(exact - tangent.to_f64()),
-            axis: Axis::new(
-                BadShape::check_point("cone", "apex", apex)?,
-                BadShape::check_direction("cone", "axis", axis)?,
-            ),
             half_angle,
             sine,
             cosine,
@@ -113,17 +117,18 @@ impl<T: Real> Cone<T> {
 
     /// Where a line enters, seen from the apex.
     #[inline(always)]
-    fn entry(&self, line: &Local<T>) -> Option<LocalEntry<T>> {
+    fn entry(&self, line: &Local<T>) -> LocalEntry<T> {
         let [to_side, over] = line.enters_cone(line.height * self.tangent, -line.rise * self.tangent);
         let along = to_side / over;
         let height = line.height + along * line.rise;
-        // Of the two cones that meet at the apex, the right one.
-        if !(height >= T::zero() && along.abs() < T::GREATEST) {
-            return None;
+        let across = line.across_at(along) + self.least_across;
+        LocalEntry {
+            // Of the two cones that meet at the apex, the right one.
+            enters: height >= T::zero() && along.abs() < T::GREATEST,
+            along,
+            height,
+            normal: self.axis.slanted(&across, self.cosine, -self.sine),
         }
-        let across = self.axis.part_across(&line.across_at(along));
-        let normal = self.axis.slanted(&across, self.cosine, -self.sine);
-        Some(LocalEntry { along, height, normal })
     }
 }
 
@@ -142,13 +147,10 @@ impl<T: Real> ActiveSurface<T> for Cone<T> {
 
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        let line = push.line();
         let apex = self.axis.origin;
-        let local = self.axis.localise(&line, &apex);
-        self.entry(&local).map(|entry| {
-            let active = self.is_active(entry.height);
-            Entry::at(&self.axis.crossing(&local, &apex, &entry, active), &line.direction)
-        })
+        let local = self.axis.localise_push(push, &apex);
+        let entry = self.entry(&local);
+        Some(self.axis.entered(&local, &apex, &entry, self.is_active(entry.height)))
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {

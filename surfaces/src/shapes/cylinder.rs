@@ -132,11 +132,15 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
         let line = push.line();
         let (along, foot, across, squared) = self.foot(&line)?;
         let remainder = T::one() - foot.norm_squared();
-        (remainder >= T::zero()).then(|| {
-            let half_chord = (remainder / squared).root();
-            let entry = self.crossing(&line, along - half_chord * self.radius, foot - across * half_chord);
-            let incidence_squared = remainder * squared;
-            Entry { point: entry.point, normal: entry.normal, incidence_squared, active: entry.active }
+        let half_chord = (remainder / squared).root();
+        let entry = self.crossing(&line, along - half_chord * self.radius, foot - across * half_chord);
+        let incidence_squared = remainder * squared;
+        let Crossing { point, normal, active, .. } = entry;
+        (remainder >= T::zero() && is_finite(&point)).then_some(Entry {
+            point,
+            normal,
+            incidence_squared,
+            active,
         })
     }
 

@@ -15,6 +15,9 @@ use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry,
 pub struct Ellipsoid<T: Real> {
     semi_axes: Vector3<T>,
     curvatures: Vector3<T>,
+    /// Up to where the shortcut is for the product of the squares of a force and of its scaled image;
+    /// less than nothing for an ellipsoid of which the squares of the curvatures leave its range.
+    greatest_both: T,
 }
 
 /// The part of a line within the ellipsoid, scaled to the unit sphere.
@@ -47,7 +50,11 @@ impl<T: Real> Ellipsoid<T> {
             "of comparable size",
             semi_axes.min() / semi_axes.max() >= T::EPSILON.root(),
         )?;
-        Ok(Self { semi_axes, curvatures: semi_axes.map(|a| T::one() / a) })
+        let curvatures = semi_axes.map(|a| T::one() / a);
+        let (least, greatest) = (curvatures.min().powi(2), curvatures.max().powi(2));
+        let is_tame = least >= ForceLine::least_squared() && greatest <= ForceLine::greatest_squared();
+        let greatest_both = if is_tame { T::one() / T::LEAST_NORMAL } else { -T::one() };
+        Ok(Self { semi_axes, curvatures, greatest_both })
     }
 
     /// The semi-axes \[m\].
@@ -114,34 +121,31 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
         }
     }
 
-    /// The same, with one division for both the foot and its scaled image.
+    /// The same, with one division for both the foot and its scaled image, which nothing before waits
+    /// for.
     #[inline]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         let force = push.force();
         let direction = force.component_mul(&self.curvatures);
         let squared = direction.norm_squared();
         let both = squared * push.squared();
-        let (least, greatest) = (ForceLine::least_squared(), T::GREATEST);
-        if !(squared >= least && both >= least && both <= greatest) {
+        let least = ForceLine::least_squared();
+        if !(squared >= least && both >= least && both <= self.greatest_both) {
             return None;
         }
         let inverse_both = T::one() / both;
-        let (inverse, inverse_force) = (inverse_both * push.squared(), inverse_both * squared);
+        let inverse = inverse_both * push.squared();
         let point = force.cross(&push.torque()).component_mul(&self.curvatures);
-        let foot = (point - direction * (point.dot(&direction) * inverse)) * inverse_force;
+        let foot = (point * squared - direction * point.dot(&direction)) * inverse_both;
         let remainder = T::one() - foot.norm_squared();
         let scaled = foot - direction * (remainder * inverse).root();
         let gradient = scaled.component_mul(&self.curvatures);
-        let steepness = gradient.norm_squared();
-        if !(steepness >= least && steepness <= greatest) {
-            return None;
-        }
-        let flatness = T::one() / steepness.root();
+        let flatness = T::one() / gradient.norm_squared().root();
         Some(Entry {
             point: scaled.component_mul(&self.semi_axes),
             normal: gradient * flatness,
             // f·n = direction·scaled·flatness, and the foot is square to the direction.
-            incidence_squared: remainder * squared * (flatness * flatness) * inverse_force,
+            incidence_squared: remainder * (flatness * flatness) * (squared * inverse_both * squared),
             active: true,
         })
     }

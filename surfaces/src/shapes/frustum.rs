@@ -25,6 +25,16 @@ pub struct Frustum<T: Real> {
     taper: T,
     /// Cosine of the angle between the side and the axis.
     side_cosine: T,
+    /// Sine of that angle: the part of the side's normal along the axis.
+    side_sine: T,
+    /// A hair across the axis.
+    least_across: Vector3<T>,
+    /// Halfway up the axis, and the radius there.
+    middle: Vector3<T>,
+    middle_radius: T,
+    half_height: T,
+    /// As far from the middle as an entry may be found, along the axis.
+    reach: T,
 }
 
 impl<T: Real> Frustum<T> {
@@ -51,16 +61,28 @@ impl<T: Real> Frustum<T> {
         let height = BadShape::check_length(shape, "height", height)?;
         let taper = (base_radius - top_radius) / height;
         BadShape::check(shape, "height", "not negligible against the radii", taper.is_number())?;
+        let axis = Axis::new(
+            BadShape::check_point(shape, "base centre", base_centre)?,
+            BadShape::check_direction(shape, "axis", axis)?,
+        );
+        let side_cosine = T::one() / hypotenuse(T::one(), taper);
+        let (half_height, middle_radius) =
+            (height * T::literal(0.5), (base_radius + top_radius) * T::literal(0.5));
+        // Where side and end meet, rounding may find a line outside both: a hair's breadth.
+        let hair = (half_height + middle_radius) * (T::EPSILON * T::literal(16.0));
         Ok(Self {
-            axis: Axis::new(
-                BadShape::check_point(shape, "base centre", base_centre)?,
-                BadShape::check_direction(shape, "axis", axis)?,
-            ),
+            axis,
+            middle: axis.origin + axis.direction * half_height,
+            middle_radius,
+            half_height,
+            reach: half_height + hair,
+            side_sine: taper * side_cosine,
+            least_across: axis.least_across(),
             height,
             base_radius,
             top_radius,
             taper,
-            side_cosine: T::one() / hypotenuse(T::one(), taper),
+            side_cosine,
         })
     }
 
@@ -118,11 +140,14 @@ impl<T: Real> Frustum<T> {
 
     /// Where a line enters, seen from the middle: through the end that it comes from, or else through
     /// the side. Which of them cannot be foretold, so both are prepared and one division serves both.
+    ///
+    /// That it enters nowhere is certain, but for rounding: a line that gets into the convex solid does
+    /// so through the plane of the end that it comes from, within that end's circle, or out of the
+    /// layer between both ends through the cone of the side, where `F` falls; it has one such place,
+    /// and a place in the layer is on the right nappe.
     #[inline(always)]
-    fn entry(&self, line: &Local<T>) -> Option<LocalEntry<T>> {
-        let half = self.height * T::literal(0.5);
-        let middle_radius = (self.base_radius + self.top_radius) * T::literal(0.5);
-        let end = half.copysign(-line.rise);
+    fn entry(&self, line: &Local<T>) -> LocalEntry<T> {
+        let end = self.half_height.copysign(-line.rise);
         let end_radius = select_unpredictable(line.rise > T::zero(), self.base_radius, self.top_radius);
         // Where the line reaches that end, times its rise; never where it is parallel to the ends.
         let to_end = end - line.height;
@@ -130,49 +155,36 @@ impl<T: Real> Frustum<T> {
         let limit = end_radius * line.rise;
         let through_end = there.norm_squared() < limit * limit;
         let [to_side, over] = if self.taper == T::zero() {
-            line.enters_cylinder(middle_radius)
+            line.enters_cylinder(self.middle_radius)
         } else {
-            line.enters_cone(middle_radius - self.taper * line.height, self.taper * line.rise)
+            line.enters_cone(self.middle_radius - self.taper * line.height, self.taper * line.rise)
         };
         let along = select_unpredictable(through_end, to_end, to_side)
             / select_unpredictable(through_end, line.rise, over);
         let height = select_unpredictable(through_end, end, line.height + along * line.rise);
-        // Where side and end meet, rounding may find a line outside both: a hair's breadth.
-        let hair = (half + middle_radius) * (T::EPSILON * T::literal(16.0));
-        if !(height.abs() <= half + hair) {
-            return None;
+        let away = select_unpredictable(through_end, T::zero(), self.side_cosine);
+        let flat = select_unpredictable(through_end, T::one().copysign(end), self.side_sine);
+        let across = line.across_at(along) + self.least_across;
+        LocalEntry {
+            enters: height.abs() <= self.reach,
+            along,
+            height,
+            normal: self.axis.slanted(&across, away, flat),
         }
-        let steep = select_unpredictable(through_end, T::zero(), self.side_cosine);
-        let flat = select_unpredictable(through_end, T::one().copysign(end), self.taper * steep);
-        let across = line.across_at(along);
-        // Near the apex, rounding would leave it with a part along the axis.
-        let across = if self.taper == T::zero() { across } else { self.axis.part_across(&across) };
-        Some(LocalEntry { along, height, normal: self.axis.slanted(&across, steep, flat) })
-    }
-
-    #[inline]
-    fn middle(&self) -> Vector3<T> {
-        self.axis.origin + self.axis.direction * (self.height * T::literal(0.5))
     }
 }
 
 impl<T: Real> ActiveSurface<T> for Frustum<T> {
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
-        let middle = self.middle();
-        let local = self.axis.localise(line, &middle);
-        self.axis.both_ends(&local, &middle, |line| self.entry(line), |_, crossing| visit(crossing));
+        let local = self.axis.localise(line, &self.middle);
+        self.axis.both_ends(&local, &self.middle, |line| self.entry(line), |_, crossing| visit(crossing));
     }
 
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        let middle = self.middle();
-        let line = push.line();
-        let local = self.axis.localise(&line, &middle);
-        let crossing = |entry: LocalEntry<T>| self.axis.crossing(&local, &middle, &entry, true);
-        Some(
-            self.entry(&local).map_or_else(Entry::none, |entry| Entry::at(&crossing(entry), &line.direction)),
-        )
+        let local = self.axis.localise_push(push, &self.middle);
+        Some(self.axis.entered(&local, &self.middle, &self.entry(&local), true))
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
@@ -255,9 +267,7 @@ impl<T: Real> SignedDistance<T> for Frustum<T> {
     }
 
     fn bounds(&self) -> (Vector3<T>, T) {
-        let half = self.height * T::literal(0.5);
-        let centre = self.axis.origin + self.axis.direction * half;
-        (centre, hypotenuse(half, self.base_radius.max(self.top_radius)))
+        (self.middle, hypotenuse(self.half_height, self.base_radius.max(self.top_radius)))
     }
 }
 

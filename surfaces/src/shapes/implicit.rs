@@ -150,8 +150,9 @@ impl<T: Real, S: ImplicitSurface<T>> ActiveSurface<T> for Implicit<S> {
         });
     }
 
-    /// Of the points of the line within the bounds, the one nearest to the surface. On a surface
-    /// with more than one hollow this may be a local minimum.
+    /// By a bounded search: of the points of the line within the bounds, the one nearest to the surface.
+    /// The point of the surface under a point of the line is one straight under it, not certainly the
+    /// nearest: on a surface with hollows, and only there, the gap may be one to a farther part.
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let bounds = self.0.bounds();
         by_search(line, &bounds.centre, bounds.radius, |point| self.distance(point))

@@ -456,9 +456,11 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
         }
     }
 
-    /// Takes some microseconds: the distance from the profile is searched for along the line.
-    /// By a search: the gap may be too large by 1/64 of the solid's reach where two places of the line
-    /// are nearly equally near.
+    /// By a bounded search along the line, which takes microseconds. The gap is exact but for rounding
+    /// where one place of the line is nearest by more than 1/256 of the radius of
+    /// a ball around the solid; otherwise another place, at most that much nearer, may be missed. The
+    /// distance of a place from the profile is the least of one candidate per half of every piece: of a
+    /// piece that bends inward more than a circle about the place, the nearest point may be missed.
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let (centre, reach) = self.bounds();
         let found = by_search(line, &centre, reach, |point| self.distance(point).0);

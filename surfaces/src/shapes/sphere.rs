@@ -22,10 +22,13 @@ impl<T: Real> Sphere<T> {
     /// Centre in the sensor frame and radius \[m\].
     ///
     /// # Errors
-    /// [`BadShape`] unless the centre is finite and the radius a positive finite length.
+    /// [`BadShape`] unless the centre is finite, the radius a positive finite length, and all of the
+    /// sphere within the range of the type.
     pub fn new(centre: Vector3<T>, radius: T) -> Result<Self, BadShape> {
         let centre = BadShape::check_point("sphere", "centre", centre)?;
         let radius = BadShape::check_length("sphere", "radius", radius)?;
+        let farthest = centre.amax() + radius;
+        BadShape::check("sphere", "centre", "within the range of the type", farthest.is_number())?;
         Ok(Self { centre, radius, curvature: T::one() / radius, scale: radius.normalising_factor() })
     }
 

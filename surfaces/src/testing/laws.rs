@@ -146,13 +146,7 @@ impl<T: Real> SurfaceLaws<T> {
             if let Some(entry) = surface.sole_entry(&ForceLine::along(&line))
                 && entry.incidence_squared > T::zero()
             {
-                let incidence = entry.incidence_squared.root();
-                let exact = self.roundings * T::EPSILON * self.size() * T::literal(4.0);
-                let allowed = if incidence > T::literal(0.05) {
-                    exact / incidence
-                } else {
-                    exact / T::literal(0.05) + (T::EPSILON * self.roundings).root() * self.radius
-                };
+                let allowed = self.allowed_at(&entry.point, entry.incidence_squared.root(), T::literal(4.0));
                 let error = crossings
                     .as_slice()
                     .iter()
@@ -254,6 +248,23 @@ impl<T: Real> SurfaceLaws<T> {
         self.expect(Law::EnteredOnce, line, if kept { T::zero() } else { T::one() }, T::zero())
     }
 
+    /// How far from the truth a line may be found to meet the surface near `point`.
+    ///
+    /// What is rounded off a direction turns the line, which passes a point by as much as that point is
+    /// far: by `ε` times the size of a bounded shape, and by more where a line that is almost parallel
+    /// to a side of an unbounded one meets it far away. Along the line that becomes longer by
+    /// `1/incidence`; but a tangent line may be reported a root of the rounding away.
+    fn allowed_at(&self, point: &Vector3<T>, incidence: T, times: T) -> T {
+        let flat = T::literal(0.05);
+        let exact = self.roundings * T::EPSILON * self.size().max(length(point)) * times;
+        if incidence > flat {
+            exact / incidence
+        } else {
+            let reach = self.radius.max(length(&(point - self.centre)));
+            exact / flat + (T::EPSILON * self.roundings).root() * reach
+        }
+    }
+
     fn expect(&self, law: Law, line: &Line<T>, found: T, allowed: T) -> Result<(), Violation<T>> {
         if found <= allowed { Ok(()) } else { Err(Violation { law, line: *line, found, allowed }) }
     }
@@ -266,13 +277,7 @@ impl<T: Real> SurfaceLaws<T> {
     ) -> Result<(), Violation<T>> {
         let incidence = crossing.normal.dot(&line.direction).abs();
         let off = length(&(crossing.point - line.at(crossing.along)));
-        // A tangent line may be reported a root of the rounding away.
-        let exact = self.roundings * T::EPSILON * self.size();
-        let allowed = if incidence > T::literal(0.05) {
-            exact / incidence
-        } else {
-            exact / T::literal(0.05) + (T::EPSILON * self.roundings).root() * self.radius
-        };
+        let allowed = self.allowed_at(&crossing.point, incidence, T::one());
         self.expect(Law::CrossingOnLine, line, off, allowed)?;
         let norm_error = (length(&crossing.normal) - T::one()).abs();
         self.expect(Law::UnitNormal, line, norm_error, self.roundings * T::EPSILON)?;
