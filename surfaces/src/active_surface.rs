@@ -4,6 +4,7 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use crate::ForceLine;
+use crate::numeric::vectors::in_range;
 
 /// Where a line passes through a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,8 +53,7 @@ impl<T: Real> Entry<T> {
     pub fn at(crossing: &Crossing<T>, direction: &Vector3<T>) -> Self {
         let Crossing { point, normal, active, .. } = *crossing;
         let incidence = -normal.dot(direction);
-        let finite = (point.x + point.y + point.z).is_number();
-        let incidence_squared = if finite { incidence * incidence.abs() } else { T::zero() };
+        let incidence_squared = if in_range(&point) { incidence * incidence.abs() } else { T::zero() };
         Self { point, normal, incidence_squared, active }
     }
 }

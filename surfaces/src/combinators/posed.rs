@@ -3,7 +3,7 @@
 use fingertip_wrench::{Line, Real, RigidTransform};
 use nalgebra::Vector3;
 
-use crate::numeric::vectors::is_finite;
+use crate::numeric::vectors::in_range;
 use crate::{ActiveSurface, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
 /// A shape somewhere else in the sensor frame, turned.
@@ -86,7 +86,7 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
             ..e
         });
         // The frame of a shape may lie so far away that the shape leaves the range of the type.
-        found.filter(|entry| is_finite(&entry.point))
+        found.filter(|entry| in_range(&entry.point))
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {

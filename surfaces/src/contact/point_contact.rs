@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use super::long_way::long_way;
 use super::onto_line::onto_line;
 use super::{Contact, ContactModel, NoContact, Resolution};
-use crate::numeric::vectors::{hypotenuse, larger, smaller};
+use crate::numeric::vectors::{hypotenuse, in_range, larger, smaller};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, Crossing, ForceLine};
 
@@ -136,13 +136,6 @@ impl<T: Real> PointContact<T> {
         }
         self.resolve(wrench, surface).into_result().map(&mut visit)
     }
-}
-
-/// `false` for a point beyond the range of the type, as where a line is parallel to a surface but for
-/// a rounding error. No shape of this crate shall report one; a user's might.
-#[inline]
-fn in_range<T: Real>(point: &Vector3<T>) -> bool {
-    (point.x + point.y + point.z).is_number()
 }
 
 #[inline]

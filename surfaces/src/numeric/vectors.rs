@@ -103,6 +103,13 @@ pub(crate) fn within_range<T: Real>(v: &Vector3<T>) -> Vector3<T> {
     v.map(|x| x.max(-far).min(far))
 }
 
+/// `false` for a point beyond the range of the type, as where a line is parallel to a surface but for
+/// a rounding error; cheaper than [`is_finite`]. No shape of this crate shall report one; a user's might.
+#[inline]
+pub(crate) fn in_range<T: Real>(point: &Vector3<T>) -> bool {
+    (point.x + point.y + point.z).is_number()
+}
+
 /// `true` if no component is NaN or infinite.
 #[inline]
 pub(crate) fn is_finite<T: Real>(v: &Vector3<T>) -> bool {

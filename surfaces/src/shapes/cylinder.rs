@@ -4,7 +4,7 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use super::axis::Axis;
-use crate::numeric::vectors::{is_finite, length};
+use crate::numeric::vectors::{in_range, is_finite, length};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, ForceLine};
 
@@ -132,16 +132,13 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
         let line = push.line();
         let (along, foot, across, squared) = self.foot(&line)?;
         let remainder = T::one() - foot.norm_squared();
-        let half_chord = (remainder / squared).root();
-        let entry = self.crossing(&line, along - half_chord * self.radius, foot - across * half_chord);
-        let incidence_squared = remainder * squared;
-        let Crossing { point, normal, active, .. } = entry;
-        (remainder >= T::zero() && is_finite(&point)).then_some(Entry {
-            point,
-            normal,
-            incidence_squared,
-            active,
-        })
+        let entry = (remainder >= T::zero()).then(|| {
+            let half_chord = (remainder / squared).root();
+            let entry = self.crossing(&line, along - half_chord * self.radius, foot - across * half_chord);
+            let incidence_squared = remainder * squared;
+            Entry { point: entry.point, normal: entry.normal, incidence_squared, active: entry.active }
+        });
+        entry.filter(|entry| in_range(&entry.point))
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
