@@ -53,7 +53,7 @@ macro_rules! soft_finger {
                 $search
             }
 
-            $(#[inline]
+            $(#[inline(always)]
             fn sole_soft_contact(&self, $load: &ForceLine<T>) -> Option<SoftContact<T>> {
                 let $only = self;
                 $sole
