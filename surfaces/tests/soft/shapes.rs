@@ -7,6 +7,7 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::common;
+use crate::exact::{self, Exact};
 use crate::wrenches::{Case, Random};
 
 fn resolve<T: Real, S: SoftFingerSurface<T>>(
@@ -166,23 +167,125 @@ const ROUND: [f64; 2] = [1e-13, 1e-6];
 /// The same where no twofold level takes the rounding of the surface away: half a rounding error of a
 /// level of a few terms, times 20.
 const ROUND_WITHOUT_LEVEL: [f64; 2] = [1e-13, 4e-6];
-/// Where a surface is flat one way or both, or like a saddle, a spin torque of 1e4 f R costs up to eight
-/// digits: the conditioning, not the method, and that is what the error is measured in.
-const FLAT: [f64; 2] = [1e-3, f64::INFINITY];
 
 shape_test!(sphere, 0.017, 100_000, ROUND);
 shape_test!(ellipsoid, 0.017, 100_000, ROUND);
-shape_test!(plane, 0.017, 100_000, [1e-10, f64::INFINITY]);
-shape_test!(cylinder, 0.017, 100_000, FLAT);
-shape_test!(elliptic_cylinder, 0.017, 100_000, FLAT);
-shape_test!(cone, 0.017, 100_000, FLAT);
-shape_test!(capsule, 0.017, 100_000, FLAT);
 shape_test!(paraboloid, 0.02, 100_000, ROUND);
 shape_test!(superquadric, 0.017, 100_000, ROUND_WITHOUT_LEVEL);
-shape_test!(rounded_box, 0.017, 100_000, FLAT);
-// Near a fold, where two contacts merge, there is no bound but the root of the rounding.
-shape_test!(torus, 0.0135, 100_000, FLAT);
 shape_test!(pillow, 0.012, 100_000, ROUND_WITHOUT_LEVEL);
+
+/// What came of many wrenches on a surface that is straight one way, or like a saddle.
+#[derive(Default)]
+struct Straight {
+    /// No contact where there is one: denied, or unresolved.
+    failures: usize,
+    /// Compared with 220 bits; contacts at a tip, where the surface has no normal, and on a seam; and
+    /// those of which 220 bits found none.
+    compared: usize,
+    at_tip: usize,
+    on_seam: usize,
+    lost: usize,
+    /// Greatest error relative to the size, or to the distance of a contact that is further away.
+    worst: f64,
+}
+
+/// On a surface that is straight one way a spin torque of 1e4 f R moves a contact by 1e8 times the
+/// rounding of the wrench. But a wrench is what its numbers say: measured against the contact of that very
+/// wrench on that very surface, the error is the method's.
+fn straight<T: Real, S: SoftFingerSurface<T> + Exact>(
+    surface: &S,
+    smooth: &(impl SoftFingerSurface<f64> + SmoothSurface<f64>),
+    size: f64,
+    count: usize,
+    most: usize,
+    goal: f64,
+) -> Straight {
+    let (mut random, mut seen) = (Random::new(19), Straight::default());
+    let model = SoftFinger::new(T::zero()).unwrap();
+    for _ in 0..count {
+        let magnitude = random.log_uniform(1e-6, 1e6);
+        let case = Case::random(&mut random, smooth, size, [1e-16, 1e4], magnitude);
+        let [force, torque] = [case.wrench.force(), case.wrench.torque()].map(|v| v.map(T::literal));
+        let wrench = Wrench::<T>::on_fingertip(force, torque);
+        let exact = |near: &Vector3<f64>| exact::contact(surface, smooth, &wrench, near, size);
+        let contact = match model.resolve_near(&wrench, surface, Some(&case.point.map(T::literal))) {
+            Resolution::Contact(contact) => contact,
+            // The rounding of the wrench may have moved the contact off the surface.
+            Resolution::NoContact(reason) => {
+                if exact(&case.point).is_some() {
+                    println!("{reason:?} {case:?}");
+                    seen.failures += 1;
+                }
+                continue;
+            }
+        };
+        let found = contact.point.map(Real::to_f64);
+        // Most are right whatever the rounding of the wrench has done.
+        if (found - case.point).amax() <= goal / 2.0 * size || seen.compared == most {
+            continue;
+        }
+        seen.compared += 1;
+        let slant = (surface.normal(&contact.point) - contact.normal).amax().to_f64();
+        if slant > 0.01 {
+            seen.at_tip += 1;
+        } else if let Some(truth) = exact(&case.point).or_else(|| exact(&found)) {
+            let far = truth.iter().map(|x| x.to_f64().abs()).fold(size, f64::max);
+            // Between two patches, by less than a coordinate can say, steps may lead to and fro.
+            if surface.to_seam(&truth) <= T::EPSILON.to_f64() * far {
+                seen.on_seam += 1;
+                continue;
+            }
+            seen.worst = seen.worst.max(exact::distance(&contact.point, &truth) / far);
+        } else {
+            seen.lost += 1;
+        }
+    }
+    seen
+}
+
+macro_rules! straight_test {
+    ($name:ident, $size:literal) => {
+        mod $name {
+            use super::*;
+
+            fn run(count: usize, most: usize) {
+                let (single, double) = (common::$name::<f32>(), common::$name::<f64>());
+                let name = stringify!($name);
+                for (scalar, goal, seen) in [
+                    ("f64", 1e-13, straight::<f64, _>(&double, &double, $size, count, most, 1e-13)),
+                    ("f32", 1e-6, straight::<f32, _>(&single, &double, $size, count / 5, most / 5, 1e-6)),
+                ] {
+                    let Straight { failures, compared, at_tip, on_seam, lost, worst } = seen;
+                    println!(
+                        "{name:18} {scalar} failures {failures}, against 220 bits {compared} ({at_tip} at a tip, \
+                         {on_seam} on a seam, {lost} without an answer): error/size {worst:.1e}"
+                    );
+                    assert!(failures == 0 && worst <= goal, "{name} {scalar}: {failures} {worst:e}");
+                    assert!((lost + on_seam) * 100 <= compared && at_tip * 4 <= compared, "{name}: {lost} {at_tip}");
+                }
+            }
+
+            #[test]
+            fn within_the_bound() {
+                run(100_000, 2000);
+            }
+
+            #[test]
+            #[ignore = "half a minute long"]
+            fn within_the_bound_to_the_last() {
+                run(500_000, usize::MAX);
+            }
+        }
+    };
+}
+
+straight_test!(plane, 0.017);
+straight_test!(cylinder, 0.017);
+straight_test!(elliptic_cylinder, 0.017);
+straight_test!(cone, 0.017);
+straight_test!(capsule, 0.017);
+straight_test!(rounded_box, 0.017);
+straight_test!(torus, 0.0135);
 
 #[test]
 fn degenerate_wrenches_have_types() {
