@@ -75,5 +75,7 @@ pub(super) fn mended<T: Real, S: ActiveSurface<T>>(
         return *contact;
     }
     let twist = n.dot(&(rest - step.cross(&f)));
-    SoftContact { point: c + step, spin_torque: contact.spin_torque + twist / scale, ..*contact }
+    let point = c + step;
+    let spin_torque = contact.spin_torque + twist / scale;
+    SoftContact { point, normal: surface.normal(&point), spin_torque, ..*contact }
 }

@@ -1,10 +1,11 @@
 //! What a surface is near a point, to the last digit.
 
 use fingertip_wrench::Real;
-use nalgebra::Vector3;
+use nalgebra::{ComplexField, RealField, Vector3};
 
 use super::newton::tangents;
 use crate::numeric::twofold::Wide;
+use crate::{SmoothSurface, Superquadric};
 
 /// The shape that a surface is a part of, near one of its points, by the very numbers that it stores: a
 /// single-precision shape too is one of these, exactly.
@@ -59,6 +60,8 @@ pub enum Patch {
         /// That distance \[m\].
         rounding: f64,
     },
+    /// A superquadric, for a type narrower than `f64`.
+    Superquadric(Superquadric<f64>),
 }
 
 pub(super) type Three<W> = [W; 3];
@@ -187,6 +190,24 @@ impl Patch {
                     _ => (any(normal), [0.0; 2]),
                 };
                 Seen { height: length.minus(distance), normal, around, curvatures }
+            }
+            Self::Superquadric(shape) => {
+                let level = shape.level(&rounded(point));
+                let (normal, steepness) = level.normal().unwrap_or((Vector3::z(), 1.0));
+                let (e1, e2) = tangents(&normal);
+                let bend = shape.bend(&rounded(point), &normal, [&e1, &e2]);
+                // Turned into the lines of curvature.
+                let angle = RealField::atan2(bend.m12 + bend.m21, bend.m11 - bend.m22) * 0.5;
+                let (sine, cosine) = ComplexField::sin_cos(angle);
+                let around = e1 * cosine + e2 * sine;
+                let [c, s] = [cosine * cosine, sine * sine];
+                let mixed = (bend.m12 + bend.m21) * cosine * sine;
+                Seen {
+                    height: W::exactly(level.value / steepness),
+                    normal: exactly(&normal),
+                    around,
+                    curvatures: [c * bend.m11 + s * bend.m22 + mixed, s * bend.m11 + c * bend.m22 - mixed],
+                }
             }
         }
     }

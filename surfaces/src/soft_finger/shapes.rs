@@ -395,7 +395,18 @@ soft_finger!(
 );
 
 // Shapes without a closed form; the first two are active all over.
-soft_finger!(Superquadric, |shape, wrench, last, visit| newton_soft_contacts(shape, wrench, last, visit));
+soft_finger!(
+    Superquadric,
+    |shape, wrench, last, visit| newton_soft_contacts(shape, wrench, last, visit),
+    patch | shape,
+    _ | {
+        // Of a shape in double precision there is no more to be had.
+        let narrow = T::EPSILON.to_f64() > f64::EPSILON;
+        let double =
+            narrow.then(|| Superquadric::new(wide(&shape.semi_axes()), shape.exponents().map(Real::to_f64)));
+        double.and_then(Result::ok).map(Patch::Superquadric)
+    }
+);
 /// By Newton's method; in double precision if the type is narrower and the spin torque rules: then rounding
 /// decides between faces, edges and corners.
 fn on_rounded_box<T: Real>(
