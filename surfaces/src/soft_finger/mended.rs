@@ -75,7 +75,12 @@ pub(super) fn mended<T: Real, S: ActiveSurface<T>>(
         return *contact;
     }
     let twist = n.dot(&(rest - step.cross(&f)));
-    let point = c + step;
-    let spin_torque = contact.spin_torque + twist / scale;
-    SoftContact { point, normal: surface.normal(&point), spin_torque, ..*contact }
+    // Turned as the step is: the equations have been solved for this normal, whatever its rounding.
+    let turned = n + first * a1 + second * a2;
+    SoftContact {
+        point: c + step,
+        normal: turned / turned.norm_squared().root(),
+        spin_torque: contact.spin_torque + twist / scale,
+        ..*contact
+    }
 }
