@@ -175,7 +175,7 @@ impl Patch {
                 let outside = [0, 1, 2].map(|k| {
                     let side = W::exactly(1.0_f64.copysign(p[k]));
                     let beyond = point[k].times(side).minus(W::exactly(half_extents[k])).plus(distance);
-                    (beyond.rounded() > 0.0).then(|| (beyond, side))
+                    (beyond.rounded() > 0.0).then_some((beyond, side))
                 });
                 let (length, normal) =
                     unit(outside.map(|x| x.map_or(zero, |(beyond, side)| beyond.times(side))));
