@@ -153,8 +153,7 @@ fn resolution(c: &mut Criterion) {
     });
     throughput(c, "ellipsoid, with position covariance", &cases, |case| {
         let Some(contact) = soft.resolve(&case.wrench, &ellipsoid).contact().copied() else { return 0.0 };
-        ContactJacobian::of_soft_finger_on(&contact, &ellipsoid)
-            .map_or(0.0, |jacobian| ContactCovariance::position_only(&jacobian, &noise).m11)
+        ContactCovariance::soft_finger_position(&contact, &ellipsoid, &noise).map_or(0.0, |c| c.m11)
     });
     throughput(c, "ellipsoid, with the whole covariance", &cases, |case| {
         let Some(contact) = soft.resolve(&case.wrench, &ellipsoid).contact().copied() else { return 0.0 };
@@ -210,22 +209,19 @@ fn fastest(_: &mut Criterion) {
     row("ellipsoid", &on_ellipsoid, |case| soft.resolve(&case.wrench, &ellipsoid).contact().map(|c| c.point));
     row("ellipsoid, covariance too", &on_ellipsoid, |case| {
         let contact = *soft.resolve(&case.wrench, &ellipsoid).contact()?;
-        let jacobian = ContactJacobian::of_soft_finger_on(&contact, &ellipsoid)?;
-        black_box(ContactCovariance::position_only(&jacobian, &noise));
+        black_box(ContactCovariance::soft_finger_position(&contact, &ellipsoid, &noise)?);
         Some(contact.point)
     });
     let independent = IndependentNoise(noise.diagonal());
     row("ellipsoid, independent noise", &on_ellipsoid, |case| {
         let contact = *soft.resolve(&case.wrench, &ellipsoid).contact()?;
-        let jacobian = ContactJacobian::of_soft_finger_on(&contact, &ellipsoid)?;
-        black_box(ContactCovariance::position_only(&jacobian, &independent));
+        black_box(ContactCovariance::soft_finger_position(&contact, &ellipsoid, &independent)?);
         Some(contact.point)
     });
     let isotropic = IsotropicNoise { force: noise.m11, torque: noise.m44 };
     row("ellipsoid, isotropic noise", &on_ellipsoid, |case| {
         let contact = *soft.resolve(&case.wrench, &ellipsoid).contact()?;
-        let jacobian = ContactJacobian::of_soft_finger_on(&contact, &ellipsoid)?;
-        black_box(ContactCovariance::position_only(&jacobian, &isotropic));
+        black_box(ContactCovariance::soft_finger_position(&contact, &ellipsoid, &isotropic)?);
         Some(contact.point)
     });
     let on_pillow = samples(&pillow, 0.3);

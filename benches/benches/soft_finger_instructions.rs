@@ -5,7 +5,7 @@
 use core::hint::black_box;
 
 use fingertip_surfaces::{
-    ContactCovariance, ContactJacobian, ContactModel, Ellipsoid, PointContact, Resolution, SoftFinger, Sphere,
+    ContactCovariance, ContactModel, Ellipsoid, PointContact, Resolution, SoftFinger, Sphere,
 };
 use fingertip_wrench::Wrench;
 use gungraun::{library_benchmark, library_benchmark_group, main};
@@ -58,8 +58,7 @@ fn hard_on_ellipsoid((model, surface, wrench): With<PointContact<f64>, Ellipsoid
 fn covariance_on_ellipsoid((model, surface, wrench): With<SoftFinger<f64>, Ellipsoid<f64>>) -> f64 {
     let noise = Matrix6::from_diagonal(&Vector6::new(1e-6, 1e-6, 1e-6, 1e-10, 1e-10, 1e-10));
     let contact = *model.resolve(black_box(&wrench), surface).contact().unwrap();
-    ContactJacobian::of_soft_finger_on(&contact, surface)
-        .map_or(0.0, |jacobian| ContactCovariance::position_only(&jacobian, black_box(&noise)).m11)
+    ContactCovariance::soft_finger_position(&contact, surface, black_box(&noise)).map_or(0.0, |c| c.m11)
 }
 
 library_benchmark_group!(

@@ -10,8 +10,8 @@ use crate::combinators::{closest_of, is_inside_along};
 use crate::soft_finger::combinators::{is_covered, of_both};
 use crate::{
     ActiveSurface, CappedCylinder, Capsule, ClosestApproach, Cone, Crossing, Cylinder, Disk, Ellipsoid,
-    EllipticCylinder, ForceLine, Frustum, HalfSpace, Heightfield, Knot, Mesh, Paraboloid, Plane, Posed,
-    Rectangle, Revolution, RoundedBox, Search, SoftContact, SoftFingerSurface, Sphere, SphericalCap,
+    EllipticCylinder, ForceLine, Frustum, HalfSpace, Heightfield, Knot, Mesh, Paraboloid, Patch, Plane,
+    Posed, Rectangle, Revolution, RoundedBox, Search, SoftContact, SoftFingerSurface, Sphere, SphericalCap,
     Superquadric, Torus, Trimmed,
 };
 
@@ -213,6 +213,10 @@ impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
     ) -> Search<T> {
         let visit: &mut dyn FnMut(SoftContact<T>) = &mut visit;
         each!(self, shape => shape.soft_contacts(wrench, last, visit))
+    }
+
+    fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
+        each!(self, shape => shape.patch(point))
     }
 
     #[inline]

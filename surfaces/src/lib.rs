@@ -51,7 +51,7 @@ pub use smooth::{
     Extent, Level, SmoothImplicit, SmoothSurface, Topology, hessian_by_differences,
     shape_operator_by_differences,
 };
-pub use soft_finger::{Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};
+pub use soft_finger::{Patch, Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};
 pub use uncertainty::{
     ConfidenceEllipse, ContactCovariance, ContactJacobian, ConvexBound, GeometrySensitivity,
     GeometryUncertainty, IndependentNoise, IsotropicNoise, PaperBounds, SensorUncertainty, ShapeParameters,

@@ -57,6 +57,16 @@ impl<T: Real> Twofold<T> {
         quotient.minus(quotient.times(Self::new(divisor.low / divisor.high)))
     }
 
+    /// The square root; zero of what is not positive.
+    pub(crate) fn root(self) -> Self {
+        let root = self.value().root();
+        if !(root > T::zero()) {
+            return Self::new(T::zero());
+        }
+        let rest = self.minus(Self::new(root).squared()).value() / (root + root);
+        Self::difference(root, -rest)
+    }
+
     #[inline]
     pub(crate) fn minus(self, other: Self) -> Self {
         self.plus(Self { high: -other.high, low: -other.low })
@@ -71,6 +81,85 @@ impl<T: Real> Twofold<T> {
     #[inline]
     pub(crate) fn value(self) -> T {
         self.high + self.low
+    }
+}
+
+/// Arithmetic with more digits than a result needs: double precision for what is single, twice that for
+/// what is double.
+pub(crate) trait Wide: Copy {
+    fn exactly(x: f64) -> Self;
+    fn plus(self, other: Self) -> Self;
+    fn minus(self, other: Self) -> Self;
+    fn times(self, other: Self) -> Self;
+    fn over(self, other: Self) -> Self;
+    fn root(self) -> Self;
+    fn rounded(self) -> f64;
+}
+
+impl Wide for f64 {
+    #[inline]
+    fn exactly(x: f64) -> Self {
+        x
+    }
+
+    #[inline]
+    fn plus(self, other: Self) -> Self {
+        self + other
+    }
+
+    #[inline]
+    fn minus(self, other: Self) -> Self {
+        self - other
+    }
+
+    #[inline]
+    fn times(self, other: Self) -> Self {
+        self * other
+    }
+
+    #[inline]
+    fn over(self, other: Self) -> Self {
+        self / other
+    }
+
+    #[inline]
+    fn root(self) -> Self {
+        Real::root(self)
+    }
+
+    #[inline]
+    fn rounded(self) -> f64 {
+        self
+    }
+}
+
+impl Wide for Twofold<f64> {
+    fn exactly(x: f64) -> Self {
+        Self::new(x)
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self::plus(self, other)
+    }
+
+    fn minus(self, other: Self) -> Self {
+        Self::minus(self, other)
+    }
+
+    fn times(self, other: Self) -> Self {
+        Self::times(self, other)
+    }
+
+    fn over(self, other: Self) -> Self {
+        self.divided_by(other)
+    }
+
+    fn root(self) -> Self {
+        Self::root(self)
+    }
+
+    fn rounded(self) -> f64 {
+        self.value()
     }
 }
 

@@ -54,6 +54,14 @@ pub trait ImplicitSurface<T: Real> {
 
     /// Where the surface lies, and how steep the value is there.
     fn bounds(&self) -> ImplicitBounds<T>;
+
+    /// The value near the surface, right to its own last digits rather than to those of its terms, as a
+    /// wider type has it: asked for where a force meets the surface at a flat angle, and rounding of the
+    /// value grows. Zero, as the default answers, takes [`value`](Self::value) at its word.
+    fn value_left(&self, point: &Vector3<T>) -> T {
+        let _ = point;
+        T::zero()
+    }
 }
 
 /// An [`ImplicitSurface`] as an [`ActiveSurface`].
@@ -160,6 +168,11 @@ impl<T: Real, S: ImplicitSurface<T>> ActiveSurface<T> for Implicit<S> {
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         self.unit_gradient(point)
+    }
+
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        let left = self.0.value_left(point);
+        if left.is_zero() { left } else { left / length(&self.0.gradient(point)) }
     }
 
     fn contains(&self, point: &Vector3<T>) -> bool {

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use crate::numeric::roots::{bisected, first_of_convex};
 use crate::numeric::support;
-use crate::numeric::vectors::unit_or;
+use crate::numeric::vectors::{length, unit_or};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
 
@@ -162,6 +162,19 @@ impl<T: Real> ActiveSurface<T> for Superquadric<T> {
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         let (_, gradient) = self.gauge(&point.component_mul(&self.curvatures));
         unit_or(&gradient.component_mul(&self.curvatures), Vector3::z)
+    }
+
+    /// In double precision, for a type that is narrower; of `f64` there is no more to be had.
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        if T::EPSILON.to_f64() <= f64::EPSILON {
+            return T::zero();
+        }
+        let wide = |v: &Vector3<T>| v.map(Real::to_f64);
+        let scaled = wide(point).component_div(&wide(&self.semi_axes));
+        let norms = self.exponents.map(|e| 2.0 / e.to_f64());
+        let (gauge, gradient) = Superquadric::nested(&scaled, norms);
+        let steepness = length(&gradient.component_div(&wide(&self.semi_axes)));
+        T::literal((gauge - 1.0) / steepness)
     }
 
     fn contains(&self, point: &Vector3<T>) -> bool {

@@ -26,12 +26,10 @@ impl<T: Real> SmoothSurface<T> for Ellipsoid<T> {
         elliptic_gauge(point, &self.curvatures())
     }
 
-    /// `eᵀA⁻²e/|A⁻²c|`.
+    /// `eᵀA⁻²e/|A⁻²c|`, where `1/|A⁻²c| = c·n`: all terms of that sum are positive.
     #[inline]
     fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
-        let curvatures = self.curvatures();
-        // |g| = g·n, without squares.
-        let inverse = T::one() / point.component_mul(&curvatures).dot(&normal.component_mul(&curvatures));
+        let (curvatures, inverse) = (self.curvatures(), point.dot(normal));
         let [e1, e2] = tangents.map(|e| e.component_mul(&curvatures));
         let mixed = e1.dot(&e2) * inverse;
         Matrix2::new(e1.norm_squared() * inverse, mixed, mixed, e2.norm_squared() * inverse)

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::combinators::is_inside_along;
 use crate::{
-    ActiveSurface, Compound, Extent, ForceLine, Level, Offset, Posed, Region, Search, SignedDistance,
+    ActiveSurface, Compound, Extent, ForceLine, Level, Offset, Patch, Posed, Region, Search, SignedDistance,
     SmoothSurface, SoftContact, SoftFingerSurface, Topology, Trimmed, newton_soft_contacts,
 };
 
@@ -111,6 +111,10 @@ impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Tr
                 ..contact
             });
         })
+    }
+
+    fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
+        self.inner().patch(point)
     }
 
     #[inline]

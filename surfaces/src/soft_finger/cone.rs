@@ -3,7 +3,9 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
+use super::double::finely;
 use super::newton::{Problem, tangents};
+use super::patch::wide;
 use crate::numeric::vectors::{length, unit_or};
 use crate::{ActiveSurface, Cone, Extent, Search, SoftContact};
 
@@ -98,5 +100,24 @@ pub(super) fn on_cone<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<Sof
         let loose_under = twice * loose_power + size * size * (loose_along + eight * along) * T::literal(3.0);
         let decided = along > loose_along && over.abs() > loose_over && under.abs() > loose_under;
         ended(decided && (over > T::zero()) == (under > T::zero()))
+    })
+}
+
+/// The same, in double precision if the type is narrower and the spin torque rules.
+///
+/// # Errors
+/// As [`on_cone`].
+pub(super) fn on_cone_finely<T: Real>(
+    cone: &Cone<T>,
+    wrench: &Wrench<T>,
+) -> Result<SoftContact<T>, Search<T>> {
+    let force = length(&wrench.force());
+    let is_steady = |contact: &SoftContact<T>| {
+        let radius = length(&(contact.point - cone.apex())) * cone.half_angle().sin();
+        contact.spin_torque.abs() <= force * radius
+    };
+    finely(on_cone(cone, wrench), is_steady, wrench, |wrench| {
+        let double = Cone::new(wide(&cone.apex()), wide(&cone.axis()), cone.half_angle().to_f64());
+        double.ok().map(|double| on_cone(&double, wrench))
     })
 }

@@ -75,5 +75,12 @@ pub(super) fn mended<T: Real, S: ActiveSurface<T>>(
         return *contact;
     }
     let twist = n.dot(&(rest - step.cross(&f)));
-    SoftContact { point: c + step, spin_torque: contact.spin_torque + twist / scale, ..*contact }
+    // Turned as the step is: the equations have been solved for this normal, whatever its rounding.
+    let turned = n + first * a1 + second * a2;
+    SoftContact {
+        point: c + step,
+        normal: turned / turned.norm_squared().root(),
+        spin_torque: contact.spin_torque + twist / scale,
+        ..*contact
+    }
 }

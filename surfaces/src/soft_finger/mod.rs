@@ -1,9 +1,11 @@
 //! Contact with a spin torque about the normal: the soft finger.
 
+mod capsule;
 pub(crate) mod combinators;
 mod cone;
 mod convex;
 mod cylinder;
+mod double;
 mod ellipsoid;
 mod frustum;
 #[cfg(feature = "alloc")]
@@ -13,7 +15,9 @@ mod mended;
 mod mesh;
 mod model;
 pub(crate) mod newton;
+mod patch;
 mod plane;
+mod refined;
 mod revolution;
 mod rim;
 mod search;
@@ -23,5 +27,6 @@ mod torus;
 mod unit_sphere;
 
 pub use model::SoftFinger;
+pub use patch::Patch;
 pub use search::newton_soft_contacts;
 pub use solution::{Search, SoftContact, SoftFingerSurface};

@@ -3,7 +3,7 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use super::mended::mended;
+use super::refined::refined;
 use crate::contact::long_way;
 use crate::numeric::vectors::{is_tame, larger, largest, length};
 use crate::serde_parts::serde_parts;
@@ -176,7 +176,7 @@ impl<T: Real> SoftFinger<T> {
             }
         });
         if let Some((contact, _)) = seen.best {
-            let contact = mended(&scaled.wrench, surface, &contact);
+            let contact = refined(&scaled.wrench, surface, &contact);
             let spin_torque = scaled.unit.map_or(contact.spin_torque, |unit| {
                 (contact.spin_torque / unit).max(-T::GREATEST).min(T::GREATEST)
             });

@@ -1,20 +1,23 @@
 //! The shapes with closed forms.
 
 use fingertip_wrench::{Line, Real, Wrench};
-use nalgebra::Vector3;
+use nalgebra::{ComplexField, Vector3};
 
-use super::cone::on_cone;
+use super::capsule::on_capsule_finely;
+use super::cone::on_cone_finely;
 use super::cylinder::on_cylinder;
+use super::double::finely;
 use super::ellipsoid::{on_ellipsoid, on_sphere, steeply_on_ellipsoid, steeply_on_sphere};
 use super::frustum::{on_frustum, on_round_side};
+use super::patch::wide;
 use super::plane::on_plane;
 use super::rim::{on_elliptic_rim, on_rim};
 use super::torus::on_torus;
 use crate::contact::flat;
-use crate::numeric::vectors::largest;
+use crate::numeric::vectors::{largest, length};
 use crate::{
     ActiveSurface, CappedCylinder, Capsule, Cone, Cylinder, CylinderEnds, Disk, Ellipsoid, EllipticCylinder,
-    ForceLine, Frustum, Implicit, Paraboloid, Plane, Rectangle, RoundedBox, Search, SmoothImplicit,
+    ForceLine, Frustum, Implicit, Paraboloid, Patch, Plane, Rectangle, RoundedBox, Search, SmoothImplicit,
     SoftContact, SoftFingerSurface, Sphere, SphericalCap, Superquadric, Torus, newton_soft_contacts,
 };
 
@@ -38,7 +41,8 @@ pub(super) fn is_active<T: Real, S: ActiveSurface<T>>(surface: &S, contact: &Sof
 /// visits what it finds.
 macro_rules! soft_finger {
     ($(#[$doc:meta])* $shape:ident, |$this:ident, $wrench:ident, $last:pat_param, $visit:ident| $search:expr
-        $(, sole |$only:ident, $load:ident| $sole:expr)?) => {
+        $(, sole |$only:ident, $load:ident| $sole:expr)?
+        $(, patch |$part:pat_param, $point:pat_param| $patch:expr)?) => {
         $(#[$doc])*
         impl<T: Real> SoftFingerSurface<T> for $shape<T> {
             #[inline]
@@ -53,19 +57,27 @@ macro_rules! soft_finger {
                 $search
             }
 
-            $(#[inline]
+            $(#[inline(always)]
             fn sole_soft_contact(&self, $load: &ForceLine<T>) -> Option<SoftContact<T>> {
                 let $only = self;
                 $sole
+            })?
+
+            $(fn patch(&self, $point: &Vector3<T>) -> Option<Patch> {
+                let $part = self;
+                $patch
             })?
         }
     };
 }
 
-/// `true` if the force presses at no flat angle on what a shortcut found.
+/// `true` if the force presses at no flat angle on what a shortcut found, and the spin torque is not more
+/// than the force has at a lever of this length: otherwise rounding errors grow.
 #[inline(always)]
-fn is_steep<T: Real>(push: &ForceLine<T>, contact: &SoftContact<T>) -> bool {
-    -push.force().dot(&contact.normal) >= flat::<T>() * push.squared().root()
+fn is_steady<T: Real>(push: &ForceLine<T>, contact: &SoftContact<T>, lever: T) -> bool {
+    let strength = push.squared().root();
+    let steep = -push.force().dot(&contact.normal) >= flat::<T>() * strength;
+    steep & (contact.spin_torque.abs() <= strength * lever)
 }
 
 /// What a closed form found, as a search.
@@ -138,8 +150,13 @@ soft_finger!(
         visit
     ),
     sole | shape,
-    push | plane_contact(shape, &push.force(), |point| push.torque_about(point))
-        .filter(|contact| is_steep(push, contact))
+    push | plane_contact(shape, &push.force(), |point| push.torque_about(point)).filter(|contact| is_steady(
+        push,
+        contact,
+        largest(&contact.point)
+    )),
+    patch | shape,
+    _ | Some(Patch::Plane { point: wide(&shape.point()), normal: wide(&shape.outward()) })
 );
 
 #[inline(always)]
@@ -154,24 +171,70 @@ fn cylinder_contact<T: Real>(
     Some(SoftContact { active: shape.half_length().is_none_or(|half| height.abs() <= half), ..contact })
 }
 
+/// In double precision if the type is narrower and the spin torque rules.
+fn on_cylinder_finely<T: Real>(shape: &Cylinder<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
+    let found = cylinder_contact(shape, &wrench.force(), |point| wrench.torque_about(point));
+    let lever = length(&wrench.force()) * shape.radius();
+    let is_steady = |contact: &SoftContact<T>| contact.spin_torque.abs() <= lever;
+    finely(found.ok_or(Search::Complete), is_steady, wrench, |wrench| {
+        let double =
+            Cylinder::new(wide(&shape.centre()), wide(&shape.axis()), shape.radius().to_f64()).ok()?;
+        let found = cylinder_contact(&double, &wrench.force(), |point| wrench.torque_about(point));
+        let half = shape.half_length().map(Real::to_f64);
+        Some(found.ok_or(Search::Complete)).map(|found| {
+            found.map(|contact| {
+                let height = (contact.point - double.centre()).dot(&double.axis());
+                SoftContact { active: half.is_none_or(|half| height.abs() <= half), ..contact }
+            })
+        })
+    })
+}
+
 soft_finger!(
     Cylinder,
-    |shape, wrench, _, visit| report_any(
-        cylinder_contact(shape, &wrench.force(), |point| wrench.torque_about(point)),
-        visit
-    ),
+    |shape, wrench, _, visit| report_any(on_cylinder_finely(shape, wrench).ok(), visit),
     sole | shape,
     push | cylinder_contact(shape, &push.force(), |point| push.torque_about(point))
-        .filter(|contact| is_steep(push, contact))
+        .filter(|contact| is_steady(push, contact, shape.radius() * T::literal(0.5))),
+    patch | shape,
+    _ | Some(Patch::Cone {
+        origin: wide(&shape.centre()),
+        axis: wide(&shape.axis()),
+        radius: shape.radius().to_f64(),
+        taper: [0.0, 1.0],
+    })
 );
 
-soft_finger!(Frustum, |shape, wrench, _, visit| report_one(on_frustum(shape, wrench), wrench, visit));
+/// The side, or the plane of an end.
+fn frustum_patch<T: Real>(solid: &Frustum<T>, point: &Vector3<T>) -> Patch {
+    let (base, axis) = (wide(&solid.base_centre()), wide(&solid.axis()));
+    let lean = solid.normal(point).dot(&solid.axis());
+    let least = solid.taper() * solid.side_cosine();
+    // Halfway between the side's normal and an end's.
+    let half = T::literal(0.5);
+    if lean > (T::one() + least) * half {
+        Patch::Plane { point: base + axis * (solid.height().to_f64() / axis.norm()), normal: axis }
+    } else if lean < (least - T::one()) * half {
+        Patch::Plane { point: base, normal: -axis }
+    } else {
+        let [below, above] = [solid.base_radius(), solid.top_radius()].map(Real::to_f64);
+        Patch::Cone { origin: base, axis, radius: below, taper: [below - above, solid.height().to_f64()] }
+    }
+}
 
-soft_finger!(CappedCylinder, |shape, wrench, _, visit| report_one(
-    on_frustum(shape.solid(), wrench),
-    wrench,
-    visit
-));
+soft_finger!(
+    Frustum,
+    |shape, wrench, _, visit| report_one(on_frustum(shape, wrench), wrench, visit),
+    patch | shape,
+    point | Some(frustum_patch(shape, point))
+);
+
+soft_finger!(
+    CappedCylinder,
+    |shape, wrench, _, visit| report_one(on_frustum(shape.solid(), wrench), wrench, visit),
+    patch | shape,
+    point | Some(frustum_patch(shape.solid(), point))
+);
 
 soft_finger!(
     /// The side by the closed form; flat ends as planes, within their outline; and the edges between
@@ -201,7 +264,15 @@ soft_finger!(
             return report_one(found, wrench, visit);
         }
         Search::Complete
-    }
+    },
+    patch | shape,
+    point | Some(match shape.ends() {
+        CylinderEnds::Capped(half) if !shape.normal(point).z.is_zero() => {
+            let end = Vector3::z() * 1.0_f64.copysign(point.z.to_f64());
+            Patch::Plane { point: end * half.to_f64(), normal: end }
+        }
+        _ => Patch::EllipticCylinder { semi_axes: shape.semi_axes().map(Real::to_f64) },
+    })
 );
 
 /// On a flat end with an elliptic outline, or on the edge around it.
@@ -239,7 +310,7 @@ soft_finger!(
     /// The side, or the tip, on which any normal will do that is steeper than the side's.
     Cone,
     |shape, wrench, _, visit| {
-        let mut search = match on_cone(shape, wrench) {
+        let mut search = match on_cone_finely(shape, wrench) {
             Ok(contact) => {
                 visit(SoftContact { active: is_active(shape, &contact), ..contact });
                 return Search::Complete;
@@ -260,54 +331,55 @@ soft_finger!(
             },
         );
         search
-    }
+    },
+    patch | shape,
+    _ | Some(Patch::Cone {
+        origin: wide(&shape.apex()),
+        axis: wide(&shape.axis()),
+        radius: 0.0,
+        taper: [-ComplexField::tan(shape.half_angle().to_f64()), 1.0],
+    })
 );
 
 soft_finger!(
     /// The closed forms of the side and of the two round ends, each where it applies.
     Capsule,
     |shape, wrench, _, visit| {
-        let (centre, axis, half) = (shape.centre(), shape.axis(), shape.half_length());
-        let torque = wrench.torque_about(&centre);
-        if let Some(contact) = on_round_side(&centre, &axis, shape.radius(), &wrench.force(), &torque)
-            && (contact.point - centre).dot(&axis).abs() <= half
-        {
-            visit(contact);
-            return Search::Complete;
-        }
-        let mut search = Search::Complete;
-        for end in [axis, -axis] {
-            // A convex surface has one contact at most; a point of the seam belongs to the side.
-            let Ok(ball) = Sphere::new(centre + end * half, shape.radius()) else { continue };
-            match on_sphere(&ball, wrench) {
-                Ok(contact) if contact.normal.dot(&end) >= T::zero() => {
-                    visit(contact);
-                    return Search::Complete;
-                }
-                Ok(_) => {}
-                Err(pair) => {
-                    let outside = |point: &Vector3<T>| (point - ball.centre()).dot(&end) >= T::zero();
-                    if pair.iter().all(outside) {
-                        search = Search::Grazing(pair);
-                    }
-                }
+        match on_capsule_finely(shape, wrench) {
+            Ok(contact) => {
+                visit(contact);
+                Search::Complete
             }
+            Err(Search::Complete) => report_one(None, wrench, visit),
+            Err(other) => other,
         }
-        match search {
-            Search::Complete => report_one(None, wrench, visit),
-            other => other,
-        }
+    },
+    patch | shape,
+    point | {
+        let (origin, axis) = (wide(&shape.centre()), wide(&shape.axis()));
+        let (height, half) = ((point - shape.centre()).dot(&shape.axis()), shape.half_length());
+        let radius = shape.radius().to_f64();
+        Some(if height.abs() <= half {
+            Patch::Cone { origin, axis, radius, taper: [0.0, 1.0] }
+        } else {
+            Patch::Ball { origin, axis, height: half.copysign(height).to_f64(), radius }
+        })
     }
 );
 
 /// Shapes that are a part of another shape.
 macro_rules! part_of {
     ($shape:ident, $whole:ident) => {
-        soft_finger!($shape, |shape, wrench, last, visit| {
-            shape.$whole().soft_contacts(wrench, last, |contact| {
-                visit(SoftContact { active: is_active(shape, &contact), ..contact });
-            })
-        });
+        soft_finger!(
+            $shape,
+            |shape, wrench, last, visit| {
+                shape.$whole().soft_contacts(wrench, last, |contact| {
+                    visit(SoftContact { active: is_active(shape, &contact), ..contact });
+                })
+            },
+            patch | shape,
+            point | shape.$whole().patch(point)
+        );
     };
 }
 
@@ -315,11 +387,60 @@ part_of!(SphericalCap, sphere);
 part_of!(Disk, plane);
 part_of!(Rectangle, plane);
 
-soft_finger!(Torus, |shape, wrench, _, visit| on_torus(shape, wrench, visit));
+soft_finger!(
+    Torus,
+    |shape, wrench, _, visit| on_torus(shape, wrench, visit),
+    patch | shape,
+    _ | Some(Patch::Torus { ring: shape.ring_radius().to_f64(), tube: shape.tube_radius().to_f64() })
+);
 
 // Shapes without a closed form; the first two are active all over.
-soft_finger!(Superquadric, |shape, wrench, last, visit| newton_soft_contacts(shape, wrench, last, visit));
-soft_finger!(RoundedBox, |shape, wrench, last, visit| newton_soft_contacts(shape, wrench, last, visit));
+soft_finger!(
+    Superquadric,
+    |shape, wrench, last, visit| newton_soft_contacts(shape, wrench, last, visit),
+    patch | shape,
+    _ | {
+        // Of a shape in double precision there is no more to be had.
+        let narrow = T::EPSILON.to_f64() > f64::EPSILON;
+        let double =
+            narrow.then(|| Superquadric::new(wide(&shape.semi_axes()), shape.exponents().map(Real::to_f64)));
+        double.and_then(Result::ok).map(Patch::Superquadric)
+    }
+);
+/// By Newton's method; in double precision if the type is narrower and the spin torque rules: then rounding
+/// decides between faces, edges and corners.
+fn on_rounded_box<T: Real>(
+    shape: &RoundedBox<T>,
+    wrench: &Wrench<T>,
+    last: Option<&Vector3<T>>,
+) -> Result<SoftContact<T>, Search<T>> {
+    let mut found = None;
+    let search = newton_soft_contacts(shape, wrench, last, |contact| found = Some(contact));
+    let lever = length(&wrench.force()) * shape.rounding();
+    let is_steady = |contact: &SoftContact<T>| contact.spin_torque.abs() <= lever;
+    finely(found.ok_or(search), is_steady, wrench, |wrench| {
+        let double = RoundedBox::new(wide(&shape.half_extents()), shape.rounding().to_f64()).ok()?;
+        let (last, mut found) = (last.map(wide), None);
+        let search = newton_soft_contacts(&double, wrench, last.as_ref(), |contact| found = Some(contact));
+        Some(found.ok_or(search))
+    })
+}
+
+soft_finger!(
+    RoundedBox,
+    |shape, wrench, last, visit| match on_rounded_box(shape, wrench, last) {
+        Ok(contact) => {
+            visit(contact);
+            Search::Complete
+        }
+        Err(search) => search,
+    },
+    patch | shape,
+    _ | Some(Patch::RoundedBox {
+        half_extents: wide(&shape.half_extents()),
+        rounding: shape.rounding().to_f64(),
+    })
+);
 soft_finger!(Paraboloid, |shape, wrench, last, visit| {
     newton_soft_contacts(shape, wrench, last, |contact| {
         visit(SoftContact { active: is_active(shape, &contact), ..contact });

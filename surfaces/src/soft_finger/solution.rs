@@ -3,7 +3,7 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::{ActiveSurface, ForceLine};
+use crate::{ActiveSurface, ForceLine, Patch};
 
 /// One solution of the soft-finger equations `m = c × f + τ n(c)` with `f·n ≤ 0` and `c` on the
 /// surface.
@@ -56,6 +56,17 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
         visit: impl FnMut(SoftContact<T>),
     ) -> Search<T>;
 
+    /// What the surface is near one of its points, to the last digit.
+    ///
+    /// Where a surface is straight one way, a contact under a large spin torque answers to the last digit
+    /// of its normal; shapes that tell it so have contacts to the last digit. `None`, as the default
+    /// answers, takes normals at their word.
+    #[inline]
+    fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
+        let _ = point;
+        None
+    }
+
     /// The contact, for shapes that have but one and know it in closed form: a shortcut past
     /// [`soft_contacts`](Self::soft_contacts) that [`SoftFinger`](crate::SoftFinger) takes first.
     ///
@@ -78,6 +89,11 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
         visit: impl FnMut(SoftContact<T>),
     ) -> Search<T> {
         (**self).soft_contacts(wrench, last, visit)
+    }
+
+    #[inline]
+    fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
+        (**self).patch(point)
     }
 
     #[inline]

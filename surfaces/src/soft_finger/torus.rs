@@ -32,7 +32,8 @@ const DEPTH: usize = 10;
 /// Zeros are bracketed between samples of `F` and its derivative; the cells are refined where a
 /// cubic through their ends does not tell their middle. `F` has kinks, in the limit of no spin
 /// torque, where the line of action touches the sphere, `|m − R ρ × f| = r|f|`; these angles and
-/// those at which the line passes the ring most closely are made ends of cells.
+/// those at which the line passes the ring most closely are made ends of cells. Where `F` turns so near
+/// zero that the rounding of the wrench reaches it, two contacts merge in a fold: that is one contact.
 pub(super) fn on_torus<T: Real>(
     torus: &Torus<T>,
     wrench: &Wrench<T>,
@@ -136,6 +137,14 @@ impl<T: Real> Around<T> {
         [torque.norm_squared() - touch, slope + slope, bend + bend]
     }
 
+    /// What rounding of the wrench, and of what follows, does to `F`: a torque turns `n` by itself over
+    /// `√(τ² + (r f·n)²)`.
+    fn noise(&self, at: &At<T>) -> T {
+        let pressing = self.force.dot(&at.normal) * self.tube;
+        let torque = self.torque.amax() + self.force.amax();
+        T::literal(4.0) * T::EPSILON * torque / (at.spin * at.spin + pressing * pressing).root()
+    }
+
     /// Every zero of `F`.
     fn roots(&self, mut found: impl FnMut(T)) {
         let cell = T::two_pi() / T::literal(f64::from(CELLS));
@@ -217,9 +226,13 @@ impl<T: Real> Around<T> {
             } else if (low.slope < T::zero()) != negative && (high.slope < T::zero()) == negative {
                 // It turns on its way to zero; perhaps on the other side.
                 let turn = bisected(low.angle, high.angle, |t| (self.at(t).slope < T::zero()) != negative);
-                if (self.at(turn).value < T::zero()) != negative {
+                let at = self.at(turn);
+                if (at.value < T::zero()) != negative {
                     found(bracketed(low.angle, turn, sample));
                     found(bracketed(turn, high.angle, sample));
+                } else if at.value.abs() <= self.noise(&at) {
+                    // Two contacts in a fold, for all that the wrench says.
+                    found(turn);
                 }
             }
         }

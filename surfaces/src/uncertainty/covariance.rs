@@ -4,7 +4,7 @@ use fingertip_wrench::Real;
 use nalgebra::{Matrix2, Matrix3, Matrix6, Vector3, Vector6};
 
 use super::{ContactJacobian, GeometrySensitivity, GeometryUncertainty, WrenchSpread};
-use crate::Contact;
+use crate::{Contact, SmoothSurface};
 
 /// How noise of the wrench and of the geometry spreads a contact, to first order: the covariance
 /// of its position along the two tangents \[m\], normal force, tangential force along the two
@@ -46,6 +46,19 @@ impl<T: Real> ContactCovariance<T> {
     #[must_use]
     pub fn position_only(jacobian: &ContactJacobian<T>, wrench: &impl WrenchSpread<T>) -> Matrix2<T> {
         jacobian.position_covariance(wrench)
+    }
+
+    /// The same, straight from a contact that [`SoftFinger`](crate::SoftFinger) found on a surface: the
+    /// fastest way. `None` where the derivative does not exist, as
+    /// [`ContactJacobian::of_soft_finger_on`] says.
+    #[inline]
+    #[must_use]
+    pub fn soft_finger_position<S: SmoothSurface<T>>(
+        contact: &Contact<T>,
+        surface: &S,
+        wrench: &impl WrenchSpread<T>,
+    ) -> Option<Matrix2<T>> {
+        ContactJacobian::soft_position_covariance(contact, surface, wrench)
     }
 
     /// Adds an uncertain geometry, independent of the wrench.

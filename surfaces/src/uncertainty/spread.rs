@@ -21,18 +21,23 @@ pub trait WrenchSpread<T: Real> {
 impl<T: Real> WrenchSpread<T> for Matrix6<T> {
     #[inline(always)]
     fn torque_about(&self, c: &Vector3<T>) -> [T; 6] {
-        // By whole rows, which the symmetric matrix has as columns: row i of [c]Σ_fm and [c]Σ_ff.
-        let [x, y, z, mx, my, mz] = self.data.0;
-        let times_c = |x: Vector3<T>, y: Vector3<T>, z: Vector3<T>| {
-            [z * c.y - y * c.z, x * c.z - z * c.x, y * c.x - x * c.y]
+        // Both halves of [c]Σ_ff[c]ᵀ go to the two mixed terms: Σ_mm − [c]H − ([c]H)ᵀ with
+        // H = Σ_fm − Σ_ff[c]ᵀ/2, row i of which is that of Σ_fm, and half of c × that of Σ_ff less.
+        let half = c * T::literal(0.5);
+        let [x, y, z, mx, my, mz] = &self.data.0;
+        let row = |v: &[T; 6]| {
+            Vector3::new(
+                v[3] + (half.z * v[1] - half.y * v[2]),
+                v[4] + (half.x * v[2] - half.z * v[0]),
+                v[5] + (half.y * v[0] - half.x * v[1]),
+            )
         };
-        let upper = |v: [T; 6]| Vector3::new(v[0], v[1], v[2]);
-        let lower = |v: [T; 6]| Vector3::new(v[3], v[4], v[5]);
-        let mixed = times_c(lower(x), lower(y), lower(z));
-        let around = times_c(upper(x), upper(y), upper(z)).map(|row| c.cross(&row));
-        let torque = [mx, my, mz];
-        let entry = |i: usize, j: usize| (torque[i][j + 3] + around[i][j]) - (mixed[i][j] + mixed[j][i]);
-        [entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)]
+        let (x, y, z) = (row(x), row(y), row(z));
+        let (xx, yy, zz) = (z.x * c.y - y.x * c.z, x.y * c.z - z.y * c.x, y.z * c.x - x.z * c.y);
+        let xy = (z.y * c.y - y.y * c.z) + (x.x * c.z - z.x * c.x);
+        let xz = (z.z * c.y - y.z * c.z) + (y.x * c.x - x.x * c.y);
+        let yz = (x.z * c.z - z.z * c.x) + (y.y * c.x - x.y * c.y);
+        [mx[3] - (xx + xx), my[3] - xy, mz[3] - xz, my[4] - (yy + yy), mz[4] - yz, mz[5] - (zz + zz)]
     }
 
     #[inline(always)]

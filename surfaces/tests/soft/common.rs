@@ -84,3 +84,48 @@ pub(crate) fn paraboloid<T: Real>() -> Paraboloid<T> {
 pub(crate) fn pillow<T: Real>() -> Implicit<Pillow> {
     Implicit::new::<T>(Pillow).unwrap()
 }
+
+/// A shape of the very numbers that one in single precision has.
+pub(crate) trait Widen {
+    type Double;
+    fn widened(&self) -> Self::Double;
+}
+
+fn wide(v: Vector3<f32>) -> Vector3<f64> {
+    v.map(f64::from)
+}
+
+impl Widen for Sphere<f32> {
+    type Double = Sphere<f64>;
+    fn widened(&self) -> Sphere<f64> {
+        Sphere::new(wide(self.centre()), self.radius().into()).unwrap()
+    }
+}
+
+impl Widen for Ellipsoid<f32> {
+    type Double = Ellipsoid<f64>;
+    fn widened(&self) -> Ellipsoid<f64> {
+        Ellipsoid::new(wide(self.semi_axes())).unwrap()
+    }
+}
+
+impl Widen for Paraboloid<f32> {
+    type Double = Paraboloid<f64>;
+    fn widened(&self) -> Paraboloid<f64> {
+        Paraboloid::new(self.radii().map(f64::from)).unwrap()
+    }
+}
+
+impl Widen for Superquadric<f32> {
+    type Double = Superquadric<f64>;
+    fn widened(&self) -> Superquadric<f64> {
+        Superquadric::new(wide(self.semi_axes()), self.exponents().map(f64::from)).unwrap()
+    }
+}
+
+impl Widen for Implicit<Pillow> {
+    type Double = Self;
+    fn widened(&self) -> Self {
+        *self
+    }
+}

@@ -3,9 +3,13 @@
 // Helpers of tests are tests too.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[path = "../oracle/big.rs"]
+#[allow(dead_code, reason = "another test uses the rest")]
+mod big;
 mod bodies;
 mod common;
 mod compliant;
+mod exact;
 mod fusion;
 mod golden;
 mod honesty;

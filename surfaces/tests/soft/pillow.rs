@@ -19,6 +19,14 @@ impl<T: Real> ImplicitSurface<T> for Pillow {
         (q.map(|x| x * x * x) * T::literal(2.0) + q * T::literal(0.5)) * T::literal(100.0)
     }
 
+    /// In double precision, for a narrower type.
+    fn value_left(&self, p: &Vector3<T>) -> T {
+        if T::EPSILON.to_f64() <= f64::EPSILON {
+            return T::zero();
+        }
+        T::literal(ImplicitSurface::<f64>::value(self, &p.map(Real::to_f64)))
+    }
+
     fn bounds(&self) -> ImplicitBounds<T> {
         ImplicitBounds { centre: Vector3::zeros(), radius: T::literal(0.0121), steepest: T::literal(420.0) }
     }

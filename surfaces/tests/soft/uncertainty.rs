@@ -106,7 +106,45 @@ fn monte_carlo<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
     assert!(rank_two.norm() <= 1e-15 * predicted.point().norm());
     let position = ContactCovariance::position_only(&jacobian, &covariance);
     assert!((position - predicted.position()).amax() <= 1e-14 * position.amax());
+    if soft {
+        let straight = ContactCovariance::soft_finger_position(&truth, surface, &covariance).unwrap();
+        assert!((position - straight).amax() <= 1e-13 * position.amax());
+    }
     (worst.max(difference.amax()), inside as f64 / f64::from(count))
+}
+
+/// Straight from the contact, with noise in proportion to the load, the covariance is the same at any
+/// load; and there is none where a pure force grazes, nor of numbers that are none.
+#[test]
+fn position_covariance_of_any_load() {
+    let surface = common::ellipsoid::<f64>();
+    let mut random = Random::new(77);
+    let covariance = wrench_covariance(&mut random);
+    for _ in 0..200 {
+        let case = Case::random(&mut random, &surface, 0.017, [1e-3, 10.0], 2.0);
+        let contact = *SoftFinger::new(0.0).unwrap().resolve(&case.wrench, &surface).contact().unwrap();
+        let of = |contact: &Contact<f64>, scale: f64| {
+            ContactCovariance::soft_finger_position(contact, &surface, &(covariance * scale.powi(2)))
+        };
+        let scaled = |scale: f64| Contact {
+            force: contact.force * scale,
+            spin_torque: contact.spin_torque * scale,
+            ..contact
+        };
+        let usual = of(&contact, 1.0).unwrap();
+        for exponent in [-400, -250, -3, 9, 250, 400] {
+            let scale = 2.0_f64.powi(exponent);
+            let extreme = of(&scaled(scale), scale).unwrap();
+            assert!((extreme - usual).amax() <= 1e-13 * usual.amax(), "2^{exponent}: {extreme} {usual}");
+        }
+        let across = contact.normal.cross(&random.direction());
+        let grazing = Contact { force: across - contact.normal * contact.normal.dot(&across), ..contact };
+        let grazing = Contact { spin_torque: 0.0, ..grazing };
+        // What rounding leaves of a pressing force is not noise of this size, but next to none.
+        assert!(of(&grazing, 1.0).is_none_or(|c| c.amax() > 1e20 * usual.amax()));
+        assert!(of(&scaled(0.0), 1.0).is_none());
+        assert!(of(&scaled(f64::NAN), 1.0).is_none());
+    }
 }
 
 #[test]

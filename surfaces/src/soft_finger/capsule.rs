@@ -1,0 +1,59 @@
+//! The capsule.
+
+use fingertip_wrench::{Real, Wrench};
+
+use super::double::finely;
+use super::ellipsoid::on_sphere;
+use super::frustum::on_round_side;
+use super::patch::wide;
+use super::refined::refined;
+use crate::numeric::vectors::length;
+use crate::{Capsule, Cylinder, Search, SoftContact, Sphere};
+
+/// The soft-finger contact on a capsule: of the side, or of the round ends, each by its closed form where
+/// it applies.
+///
+/// # Errors
+/// That there is none: [`Search::Complete`], or the pair of points of an end that a pure force grazes.
+fn on_capsule<T: Real>(shape: &Capsule<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
+    let (centre, axis, half) = (shape.centre(), shape.axis(), shape.half_length());
+    let torque = wrench.torque_about(&centre);
+    // Rounding under a large spin torque moves a contact along the side, and past its ends.
+    if let Ok(side) = Cylinder::new(centre, axis, shape.radius())
+        && let Some(contact) = on_round_side(&centre, &axis, shape.radius(), &wrench.force(), &torque)
+        && let contact = refined(wrench, &side, &contact)
+        && (contact.point - centre).dot(&axis).abs() <= half
+    {
+        return Ok(contact);
+    }
+    let mut search = Search::Complete;
+    for end in [axis, -axis] {
+        // A convex surface has one contact at most; a point of the seam belongs to the side.
+        let Ok(ball) = Sphere::new(centre + end * half, shape.radius()) else { continue };
+        match on_sphere(&ball, wrench) {
+            Ok(contact) if contact.normal.dot(&end) >= T::zero() => return Ok(contact),
+            Ok(_) => {}
+            Err(pair) => {
+                if pair.iter().all(|point| (point - ball.centre()).dot(&end) >= T::zero()) {
+                    search = Search::Grazing(pair);
+                }
+            }
+        }
+    }
+    Err(search)
+}
+
+/// The same, in double precision if the type is narrower and the spin torque rules: then rounding decides
+/// between the side and an end.
+pub(super) fn on_capsule_finely<T: Real>(
+    shape: &Capsule<T>,
+    wrench: &Wrench<T>,
+) -> Result<SoftContact<T>, Search<T>> {
+    let lever = length(&wrench.force()) * shape.radius();
+    let is_steady = |contact: &SoftContact<T>| contact.spin_torque.abs() <= lever;
+    finely(on_capsule(shape, wrench), is_steady, wrench, |wrench| {
+        let [half, radius] = [shape.half_length(), shape.radius()].map(Real::to_f64);
+        let double = Capsule::new(wide(&shape.centre()), wide(&shape.axis()), half, radius);
+        double.ok().map(|double| on_capsule(&double, wrench))
+    })
+}

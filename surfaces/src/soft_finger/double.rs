@@ -1,0 +1,35 @@
+//! The second opinion of double precision.
+
+use fingertip_wrench::{Real, Wrench};
+
+use super::patch::wide;
+use crate::{Search, SoftContact};
+
+/// What a search says, asked again in double precision if the type is narrower and the answer hangs by
+/// its last digits.
+pub(super) fn finely<T: Real>(
+    found: Result<SoftContact<T>, Search<T>>,
+    is_steady: impl FnOnce(&SoftContact<T>) -> bool,
+    wrench: &Wrench<T>,
+    again: impl FnOnce(&Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>>,
+) -> Result<SoftContact<T>, Search<T>> {
+    if T::EPSILON.to_f64() <= f64::EPSILON || found.as_ref().is_ok_and(is_steady) {
+        return found;
+    }
+    match again(&Wrench::on_fingertip(wide(&wrench.force()), wide(&wrench.torque()))) {
+        Some(Ok(contact)) => Ok(narrow(&contact)),
+        Some(Err(Search::Grazing(pair))) => Err(Search::Grazing(pair.map(|point| point.map(T::literal)))),
+        // There is none; what the rounding of the wrench could make of it is for the narrower type to say.
+        Some(Err(Search::Complete)) => found.and(Err(Search::Incomplete)),
+        Some(Err(Search::Incomplete)) | None => found,
+    }
+}
+
+fn narrow<T: Real>(contact: &SoftContact<f64>) -> SoftContact<T> {
+    SoftContact {
+        point: contact.point.map(T::literal),
+        normal: contact.normal.map(T::literal),
+        spin_torque: T::literal(contact.spin_torque),
+        active: contact.active,
+    }
+}

@@ -1,0 +1,133 @@
+//! A soft contact to the last digit.
+
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+
+use super::mended::mended;
+use super::patch::{Seen, Three, cross, exactly, plus_times, rounded, wide};
+use crate::contact::flat;
+use crate::numeric::twofold::{Twofold, Wide};
+use crate::numeric::vectors::larger;
+use crate::{SoftContact, SoftFingerSurface};
+
+/// Steps at most. From where rounding leaves a contact, two or three are enough.
+const STEPS: usize = 12;
+
+/// The solution of the soft-finger equations next to a contact that is off by rounding errors.
+///
+/// Rounding of the closed forms, and of Newton's last step, leaves a torque `r = m − c × f − τ n` and a
+/// height above the surface. The contact answers to them with up to the reciprocal cosine of incidence
+/// where the force meets the surface at a flat angle, and with the square of `τ/(R f·n)` where the surface
+/// is straight one way and the spin torque large: at a spin torque of 1e4 `f R` that is more than single
+/// precision has digits. The wrench itself is exact for all that its numbers say. So both are found with
+/// twice the digits, from what the surface is to the last one ([`SoftFingerSurface::patch`]), and steps of
+/// Newton's method take them away from a contact that is carried with twice the digits too: iterative
+/// refinement. What is left is the rounding of the result. On a surface that does not tell what it is,
+/// only what a flat angle does is undone ([`mended`]).
+///
+/// A contact at an edge or a tip keeps its place, since its normal is not the surface's there. One that
+/// would move further than rounding explains is left as it is. The derivative of a dual number is that of
+/// the contact before.
+#[cold]
+#[inline(never)]
+pub(super) fn refined<T: Real, S: SoftFingerSurface<T>>(
+    wrench: &Wrench<T>,
+    surface: &S,
+    contact: &SoftContact<T>,
+) -> SoftContact<T> {
+    let Some(patch) = surface.patch(&contact.point) else { return mended(wrench, surface, contact) };
+    let epsilon = T::EPSILON.to_f64();
+    let scale = wide(&wrench.force()).amax().normalising_factor();
+    let (f, m) = (wide(&wrench.force()) * scale, wide(&wrench.torque()) * scale);
+    let (point, normal) = (wide(&contact.point), wide(&contact.normal));
+    let torque = contact.spin_torque.to_f64() * scale;
+    let (strength, reach) = (f.norm(), point.amax());
+    let incidence = -f.dot(&normal) / strength;
+    let Seen { normal: start, curvatures, .. } = patch.seen::<f64>(point.into());
+    let steepest = larger(curvatures[0].abs(), curvatures[1].abs());
+    let spin = torque.abs();
+    let [w1, w2] = curvatures.map(|k| spin * k);
+    let pressing = strength * incidence;
+    let determinant = w1 * w2 + pressing * pressing;
+    // How far a torque moves the contact at most. Neither a flat angle nor spin torque nor a fold
+    // multiplies rounding by more than eight.
+    let answer = larger(spin * steepest, strength) / determinant.abs();
+    let steady = incidence >= flat() && spin <= strength * reach && answer * strength <= 8.0;
+    // The normal of a place that is known to some units in the last place.
+    let known = 64.0 * epsilon * (1.0 + steepest * reach);
+    if steady
+        || !(incidence >= 32.0 * Real::root(epsilon))
+        || !((Vector3::from(start) - normal).amax() <= known)
+    {
+        return *contact;
+    }
+    // How far rounding of a few terms of the size of the torque does.
+    let allowed = 64.0 * epsilon * (reach + (m.amax() + reach * strength) * answer);
+    let load = (f, m);
+    let start = (point, torque);
+    // Of a type that is narrow enough for it double precision has digits to spare.
+    let spare = f64::EPSILON * (m.amax() + reach * strength) * answer <= 0.02 * epsilon * reach;
+    let found = if spare {
+        solve::<f64, T, S>(load, surface, start)
+    } else {
+        solve::<Twofold<f64>, T, S>(load, surface, start)
+    };
+    match found {
+        Some((end, torque, normal)) if (end - point).amax() <= allowed && f.dot(&normal) < 0.0 => {
+            SoftContact {
+                point: contact.point.zip_map(&end, renewed),
+                normal: contact.normal.zip_map(&normal, renewed),
+                spin_torque: renewed(contact.spin_torque, torque / scale),
+                ..*contact
+            }
+        }
+        _ => *contact,
+    }
+}
+
+/// Another value, with the derivative that the one before has if it is a dual number.
+fn renewed<T: Real>(before: T, now: f64) -> T {
+    T::literal(now) + (before - T::literal(before.to_f64()))
+}
+
+/// From a point and a spin torque, those of the solution, and the normal there.
+fn solve<W: Wide, T: Real, S: SoftFingerSurface<T>>(
+    (f, m): (Vector3<f64>, Vector3<f64>),
+    surface: &S,
+    (start, torque): (Vector3<f64>, f64),
+) -> Option<(Vector3<f64>, f64, Vector3<f64>)> {
+    let (mut point, mut spin): (Three<W>, W) = (exactly(&start), W::exactly(torque));
+    let mut before = f64::MAX;
+    for taken in 0..STEPS {
+        let seen = surface.patch(&rounded(point).map(T::literal))?.seen(point);
+        let arm = cross(point, exactly(&f));
+        let left = plus_times(exactly(&m), arm, W::exactly(-1.0));
+        let left = rounded(plus_times(left, seen.normal, W::exactly(0.0).minus(spin)));
+        let (n, e1, outside) = (rounded(seen.normal), seen.around, seen.height.rounded());
+        // Along the lines of curvature the matrix `τ EᵀWE + (f·n) J₂` is as the curvatures say, and the
+        // straight way stays apart from the other.
+        let e2 = n.cross(&e1);
+        let turned = left + n.cross(&f) * outside;
+        let (r1, r2, pressing) = (e1.dot(&turned), e2.dot(&turned), f.dot(&n));
+        let [w1, w2] = seen.curvatures.map(|k| spin.rounded() * k);
+        let determinant = w1 * w2 + pressing * pressing;
+        let a1 = (w2 * r1 - pressing * r2) / determinant;
+        let a2 = (w1 * r2 + pressing * r1) / determinant;
+        let way = e1 * a1 + e2 * a2 - n * outside;
+        let twist = n.dot(&(left - way.cross(&f)));
+        point = plus_times(point, exactly(&way), W::exactly(1.0));
+        spin = spin.plus(W::exactly(twist));
+        let size = way.amax();
+        if !size.is_finite() {
+            return None;
+        }
+        let fine = T::EPSILON.to_f64() * 0.03 * rounded(point).amax();
+        // As far as digits of the result go; a step that grows no shorter is what rounding leaves.
+        if size <= fine || (taken >= 4 && size <= 16.0 * fine && size + size >= before) {
+            let normal = surface.patch(&rounded(point).map(T::literal))?.seen(point).normal;
+            return Some((rounded(point), spin.rounded(), rounded(normal)));
+        }
+        before = size;
+    }
+    None
+}
