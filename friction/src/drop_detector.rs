@@ -77,6 +77,11 @@ impl<T: Real> SlipDetector<T> for DropDetector<T> {
         self.tracker.update(&mut self.sum, force, time_step)
     }
 
+    #[inline]
+    fn update_open(&mut self, time_step: T) -> SlipVerdict {
+        self.tracker.update_open(time_step)
+    }
+
     fn reset(&mut self) {
         self.tracker.reset();
         self.sum.reset();

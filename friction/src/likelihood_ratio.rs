@@ -157,6 +157,11 @@ impl<T: Real, const W: usize> SlipDetector<T> for LikelihoodRatioDetector<T, W> 
         self.tracker.update(&mut self.ratio, force, time_step)
     }
 
+    #[inline]
+    fn update_open(&mut self, time_step: T) -> SlipVerdict {
+        self.tracker.update_open(time_step)
+    }
+
     fn reset(&mut self) {
         self.tracker.reset();
         self.ratio.reset();

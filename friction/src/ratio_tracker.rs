@@ -332,6 +332,16 @@ impl<T: Real> RatioTracker<T> {
         }
     }
 
+    /// A sample without contact: what a force of zero says.
+    #[inline]
+    pub(crate) fn update_open(&mut self, time_step: T) -> SlipVerdict {
+        // One at no known time leaves the state as it was.
+        if time_step.is_number() {
+            self.state = None;
+        }
+        SlipVerdict::NotPressing
+    }
+
     /// Normal and tangential force of a sample from which something may be learnt.
     #[inline(always)]
     fn pressing(&mut self, force: &ContactForce<T>, time_step: T) -> Option<(T, T)> {

@@ -62,6 +62,16 @@ impl<T: Real> SlipDetector<T> for StickSlipDetector<T> {
         verdict
     }
 
+    #[inline]
+    fn update_open(&mut self, time_step: T) -> SlipVerdict {
+        if time_step > T::zero() && time_step.is_number() {
+            self.since += time_step;
+        }
+        let verdict = self.drops.update_open(time_step);
+        self.take(verdict, time_step.is_number());
+        verdict
+    }
+
     fn reset(&mut self) {
         self.drops.reset();
         self.forget();

@@ -203,3 +203,30 @@ fn incipient_slip_is_seen_before_gross_slip_at_any_rate() {
     assert!(IncipientSlip::<f64>::new(gate, f64::NAN, 0.65).is_err());
     assert!(IncipientSlip::<f64>::new(gate, 1e-6, 0.1).is_err());
 }
+
+/// A sample without contact is an update with no force, for every detector and at any time.
+#[test]
+fn an_open_contact_is_a_force_of_zero() {
+    fn same<D: SlipDetector<f64> + Clone + PartialEq + core::fmt::Debug>(detector: &D) {
+        let (mut one, mut other) = (detector.clone(), detector.clone());
+        let steps = [1e-3, 1e-3, 1e-3, 0.0, 0.1, f64::NAN, -1e-3, f64::INFINITY];
+        for k in 0..4000_u32 {
+            let step = steps[if k % 97 == 0 { k as usize % steps.len() } else { 0 }];
+            // Stretches of contact with drops, and others without.
+            let verdicts = if k % 613 > 570 {
+                (one.update_open(step), other.update(&ContactForce::zero(), step))
+            } else {
+                let load = force(4.0, 1.0 + 0.2 * f64::from(k % 80) / 80.0);
+                (one.update(&load, step), other.update(&load, step))
+            };
+            assert_eq!(verdicts.0, verdicts.1, "sample {k}");
+            assert_eq!(one, other, "sample {k}");
+        }
+    }
+    let noise = ForceNoise::isotropic(0.02).unwrap();
+    let drops = DropDetector::new(noise).unwrap();
+    same(&drops);
+    same(&StickSlipDetector::new(drops));
+    same(&LikelihoodRatioDetector::<f64, 16>::new(noise, 1.0, 1000.0).unwrap());
+    same(&RatioThreshold::new(NormalForceGate::from_noise(&noise), 0.6, 0.75).unwrap());
+}
