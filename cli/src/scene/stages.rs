@@ -150,11 +150,15 @@ impl SlipStage<f64> for SlipWatch {
     type Verdict = Option<SlipVerdict>;
 
     #[inline]
-    fn follow(&mut self, force: &ContactForce<f64>, time_step: f64) -> Self::Verdict {
-        match self {
-            Self::Off => None,
-            Self::Drop(detector) => Some(detector.update(force, time_step)),
-            Self::Threshold(detector) => Some(detector.update(force, time_step)),
-        }
+    fn follow(&mut self, force: Option<&ContactForce<f64>>, time_step: f64) -> Self::Verdict {
+        let detector: &mut dyn SlipDetector<f64> = match self {
+            Self::Off => return None,
+            Self::Drop(detector) => detector,
+            Self::Threshold(detector) => detector,
+        };
+        Some(match force {
+            Some(force) => detector.update(force, time_step),
+            None => detector.update_open(time_step),
+        })
     }
 }

@@ -3,10 +3,20 @@
 use fingertip_wrench::Real;
 use nalgebra::{Matrix4, Vector3, Vector4, Vector5};
 
-use super::estimate::Grip;
 use super::prior::{Prior, State};
 use crate::ActiveSurface;
 use crate::numeric::vectors::length;
+
+/// Where in its friction cone a force lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grip {
+    /// Inside: the constraint does not matter.
+    Sticks,
+    /// On the cone: the measurements ask for as much tangential force as friction can hold, or more.
+    Slides,
+    /// At the tip: the measurements ask for no force, or for one that pulls.
+    Lifted,
+}
 
 /// How a contact is held while the estimate is sought.
 #[derive(Clone, Copy)]

@@ -4,7 +4,7 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix3, Matrix4, Matrix5, Matrix6, Matrix6x5, Vector2, Vector3, Vector4, Vector5, Vector6};
 
 use super::ArrayContact;
-use super::cone::{Held, Wall, cone_multipliers, project};
+use super::cone::{Grip, Held, Wall, cone_multipliers, project};
 use super::prior::{Prior, State};
 use crate::{ActiveSurface, BadShape};
 
@@ -57,17 +57,6 @@ pub struct FusedContact<T: Real> {
     pub share_from_wrench: T,
     /// Where in its friction cone the force lies.
     pub grip: Grip,
-}
-
-/// Where in its friction cone a force lies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Grip {
-    /// Inside: the constraint does not matter.
-    Sticks,
-    /// On the cone: the measurements ask for as much tangential force as friction can hold, or more.
-    Slides,
-    /// At the tip: the measurements ask for no force, or for one that pulls.
-    Lifted,
 }
 
 /// The estimate.

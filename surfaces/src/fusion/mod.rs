@@ -4,5 +4,6 @@ mod cone;
 mod estimate;
 mod prior;
 
-pub use estimate::{Fused, FusedContact, Fusion, Grip};
+pub use cone::Grip;
+pub use estimate::{Fused, FusedContact, Fusion};
 pub use prior::ArrayContact;

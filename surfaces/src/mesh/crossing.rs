@@ -4,7 +4,6 @@ use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 use super::lanes::Lanes;
-use super::packet::LANES;
 
 /// The frame in which the line is the third axis: a shear of space (Woop, Benthin & Wald,
 /// "Watertight Ray/Triangle Intersection", 2013).
@@ -120,7 +119,7 @@ impl<T: Real> Shear<T> {
 
     /// Which of some triangles, given by their corners, the line may cross: `false` is certain.
     #[inline]
-    pub(super) fn may_cross(&self, corners: [&[[T; LANES]; 3]; 3]) -> [bool; LANES] {
+    pub(super) fn may_cross<const N: usize>(&self, corners: [&[[T; N]; 3]; 3]) -> [bool; N] {
         let [sx, sy, sz] = self.start;
         let [(ax, ay), (bx, by), (cx, cy)] = corners.map(|[x, y, z]| {
             let [x, y, z] = self.main.last([x, y, z]).map(|axis| Lanes(*axis));
