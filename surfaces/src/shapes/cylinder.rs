@@ -127,18 +127,20 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         let line = push.line();
         let (along, foot, across, squared) = self.foot(&line)?;
         let remainder = T::one() - foot.norm_squared();
-        let entry = (remainder >= T::zero()).then(|| {
+        (remainder >= T::zero()).then(|| {
             let half_chord = (remainder / squared).root();
             let entry = self.crossing(&line, along - half_chord * self.radius, foot - across * half_chord);
-            let incidence_squared = remainder * squared;
-            Entry { point: entry.point, normal: entry.normal, incidence_squared, active: entry.active }
-        });
-        entry.filter(|entry| in_range(&entry.point))
+            let Crossing { point, normal, active, .. } = entry;
+            // One beyond the range is none, and said within the answer: to take the answer back costs more
+            // than to find it.
+            let incidence_squared = if in_range(&point) { remainder * squared } else { T::zero() };
+            Entry { point, normal, incidence_squared, active }
+        })
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {

@@ -7,6 +7,7 @@ use super::ellipsoid::on_sphere;
 use super::frustum::on_round_side;
 use super::patch::wide;
 use super::refined::refined;
+use crate::contact::flat;
 use crate::numeric::vectors::length;
 use crate::{Capsule, Cylinder, Search, SoftContact, Sphere};
 
@@ -18,10 +19,16 @@ use crate::{Capsule, Cylinder, Search, SoftContact, Sphere};
 fn on_capsule<T: Real>(shape: &Capsule<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
     let (centre, axis, half) = (shape.centre(), shape.axis(), shape.half_length());
     let torque = wrench.torque_about(&centre);
-    // Rounding under a large spin torque moves a contact along the side, and past its ends.
+    // Rounding under a large spin torque, or at a flat angle, moves a contact along the side, and past its
+    // ends.
+    let is_steady = |contact: &SoftContact<T>| {
+        let strength = length(&wrench.force());
+        contact.spin_torque.abs() <= strength * shape.radius()
+            && -contact.normal.dot(&wrench.force()) >= strength * flat()
+    };
     if let Ok(side) = Cylinder::new(centre, axis, shape.radius())
         && let Some(contact) = on_round_side(&centre, &axis, shape.radius(), &wrench.force(), &torque)
-        && let contact = refined(wrench, &side, &contact)
+        && let contact = if is_steady(&contact) { contact } else { refined(wrench, &side, &contact) }
         && (contact.point - centre).dot(&axis).abs() <= half
     {
         return Ok(contact);
