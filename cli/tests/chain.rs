@@ -199,7 +199,7 @@ fn an_interrupted_recording_is_whole() {
         while !std::fs::metadata(&path).is_ok_and(|_| true) {
             std::thread::sleep(core::time::Duration::from_millis(10));
         }
-        std::thread::sleep(core::time::Duration::from_millis(300));
+        std::thread::sleep(core::time::Duration::from_millis(800));
         interrupt(&child);
         assert!(child.wait().unwrap().success());
     }

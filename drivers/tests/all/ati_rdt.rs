@@ -153,9 +153,9 @@ fn a_sensor_that_falls_silent_is_asked_again_or_given_up_by_choice() {
     let address = server.address();
     let connect = |attempt: u32| {
         std::thread::sleep(Duration::from_millis(5) * attempt.min(1));
-        RdtClient::<f64>::connect(address, counts(), Duration::from_millis(300))
+        RdtClient::<f64>::connect(address, counts(), Duration::from_secs(1))
     };
-    let mut again = Supervised::new(connect, OnLoss::Reconnect { attempts: 200 }).unwrap();
+    let mut again = Supervised::new(connect, OnLoss::Reconnect { attempts: 10_000 }).unwrap();
     let mut stops = Supervised::new(connect, OnLoss::FailStop).unwrap();
     // The sensor serves whoever asked last.
     assert_eq!(stops.next_wrench().unwrap().unwrap().value.force().x, 7e-6);
@@ -166,8 +166,11 @@ fn a_sensor_that_falls_silent_is_asked_again_or_given_up_by_choice() {
         std::thread::sleep(Duration::from_millis(150));
         serve(address)
     });
-    assert_eq!(again.next_wrench().unwrap().unwrap().value.force().x, 7e-6);
-    assert!(again.losses() >= 1 && again.reconnections() == again.losses());
+    // What reached its socket before the other one asked is given first.
+    while again.losses() == 0 {
+        assert_eq!(again.next_wrench().unwrap().unwrap().value.force().x, 7e-6);
+    }
+    assert_eq!(again.reconnections(), again.losses());
     // It stays stopped until it is told to go on, though the sensor is back.
     assert!(matches!(stops.next_wrench(), Err(SupervisedError::Stopped)));
     stops.resume().unwrap();
