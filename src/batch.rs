@@ -165,22 +165,12 @@ where
         );
         let [sx, sy, sz] = tangential_force;
         let normal: [&[T]; 3] = [nx, ny, nz];
-        let all = self.all_press(force, normal, gap, sx, sy, sz, normal_force, margin, utilisation, slip);
+        let accepted = Accepted::by(&self.model);
+        let all =
+            self.all_press(accepted, force, normal, gap, sx, sy, sz, normal_force, margin, utilisation, slip);
         if !all {
             let tangential = &mut between.tangential[..count];
-            Accepted::by(&self.model).split(
-                force,
-                normal,
-                gap,
-                px,
-                py,
-                pz,
-                sx,
-                sy,
-                sz,
-                normal_force,
-                tangential,
-            );
+            accepted.split(force, normal, gap, px, py, pz, sx, sy, sz, normal_force, tangential);
             self.friction.0.slip_margins(normal_force, tangential, margin, utilisation);
             self.detector.0.verdicts(normal_force, tangential, slip);
         }
@@ -192,6 +182,7 @@ where
     #[allow(clippy::too_many_arguments)]
     fn all_press(
         &self,
+        accepted: Accepted<T>,
         force: [&[T]; 3],
         normal: [&[T]; 3],
         gap: &[T],
@@ -209,7 +200,6 @@ where
         let (sx, sy, sz) = (&mut sx[..count], &mut sy[..count], &mut sz[..count]);
         let (gap, slip) = (&gap[..count], &mut slip[..count]);
         let (margin, utilisation) = (&mut margin[..count], &mut utilisation[..count]);
-        let accepted = Accepted::by(&self.model);
         let mut all = true;
         for k in 0..count {
             let (f, n) = ([fx[k], fy[k], fz[k]], [nx[k], ny[k], nz[k]]);

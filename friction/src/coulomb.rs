@@ -73,11 +73,10 @@ impl<T: Real> Coulomb<T> {
     #[inline(always)]
     #[must_use]
     pub fn margin_of(&self, normal: T, load: T) -> (T, T) {
-        let (margin, used, _) = self.margin_in_contact(normal, load);
+        let (margin, used, ordinary) = self.margin_in_contact(normal, load);
         let known = (normal >= T::zero()) & (load >= T::zero()) & (margin.abs() <= T::GREATEST);
         let idle = known & (load <= T::zero());
-        let held = known & (self.coefficient() * normal > T::zero()) & (used < T::GREATEST);
-        let used = if held { used } else { T::GREATEST };
+        let used = if known & ordinary { used } else { T::GREATEST };
         (if known { margin } else { -T::GREATEST }, if idle { T::zero() } else { used })
     }
 

@@ -52,9 +52,7 @@ impl<T: Real> StickSlipDetector<T> {
 impl<T: Real> SlipDetector<T> for StickSlipDetector<T> {
     #[inline]
     fn update(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict {
-        if time_step > T::zero() && time_step.is_number() {
-            self.since += time_step;
-        }
+        self.pass(time_step);
         let verdict = self.drops.update(force, time_step);
         if verdict != SlipVerdict::Holding {
             self.take(verdict, force.is_finite() && time_step.is_number());
@@ -64,9 +62,7 @@ impl<T: Real> SlipDetector<T> for StickSlipDetector<T> {
 
     #[inline]
     fn update_open(&mut self, time_step: T) -> SlipVerdict {
-        if time_step > T::zero() && time_step.is_number() {
-            self.since += time_step;
-        }
+        self.pass(time_step);
         let verdict = self.drops.update_open(time_step);
         self.take(verdict, time_step.is_number());
         verdict
@@ -79,6 +75,14 @@ impl<T: Real> SlipDetector<T> for StickSlipDetector<T> {
 }
 
 impl<T: Real> StickSlipDetector<T> {
+    /// Time goes on; not by a step that is none.
+    #[inline]
+    fn pass(&mut self, time_step: T) {
+        if time_step > T::zero() && time_step.is_number() {
+            self.since += time_step;
+        }
+    }
+
     /// A drop, or a sample without contact if it is `sound`.
     #[cold]
     fn take(&mut self, verdict: SlipVerdict, sound: bool) {

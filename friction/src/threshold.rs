@@ -60,9 +60,17 @@ impl<T: Real> RatioThreshold<T> {
     #[must_use]
     pub fn verdict_of(&self, normal: T, load: T) -> SlipVerdict {
         let pressing = (normal > self.gate.least()) & (load >= T::zero()) & (load <= T::GREATEST);
-        let near = if load >= self.warning * normal { SlipVerdict::Warning } else { SlipVerdict::Holding };
-        let said = if load >= self.limit * normal { SlipVerdict::Slipping } else { near };
+        let said = self.said(normal, load);
         if pressing { said } else { SlipVerdict::NotPressing }
+    }
+
+    /// What the ratio says of a contact that presses. Products instead of a quotient: sooner known, and
+    /// without a quotient's overflow. Choices between values, since a force near the limit makes a branch
+    /// a gamble.
+    #[inline(always)]
+    fn said(&self, normal: T, load: T) -> SlipVerdict {
+        let near = if load >= self.warning * normal { SlipVerdict::Warning } else { SlipVerdict::Holding };
+        if load >= self.limit * normal { SlipVerdict::Slipping } else { near }
     }
 }
 
@@ -70,14 +78,11 @@ impl<T: Real> SlipDetector<T> for RatioThreshold<T> {
     #[inline]
     fn update(&mut self, force: &ContactForce<T>, _time_step: T) -> SlipVerdict {
         let (normal, load) = (force.normal, force.tangential_magnitude());
-        // Products instead of a quotient: sooner known, and without a quotient's overflow.
-        let (warns, slips) = (load >= self.warning * normal, load >= self.limit * normal);
+        // As `verdict_of`, but with the branch that one sample foretells.
         if !(normal > self.gate.least()) | !load.is_number() {
             return SlipVerdict::NotPressing;
         }
-        // A choice between values, since a force near the limit makes a branch a gamble.
-        let near = if warns { SlipVerdict::Warning } else { SlipVerdict::Holding };
-        if slips { SlipVerdict::Slipping } else { near }
+        self.said(normal, load)
     }
 
     #[inline]

@@ -53,8 +53,15 @@ impl<T: Real> Entry<T> {
     pub fn at(crossing: &Crossing<T>, direction: &Vector3<T>) -> Self {
         let Crossing { point, normal, active, .. } = *crossing;
         let incidence = -normal.dot(direction);
-        let incidence_squared = if in_range(&point) { incidence * incidence.abs() } else { T::zero() };
-        Self { point, normal, incidence_squared, active }
+        Self { point, normal, incidence_squared: incidence * incidence.abs(), active }.within_range()
+    }
+
+    /// The same; none if it lies beyond the range of the type. That is said within the answer, since to
+    /// take an answer back costs more than to find it.
+    #[inline(always)]
+    pub(crate) fn within_range(self) -> Self {
+        let incidence_squared = if in_range(&self.point) { self.incidence_squared } else { T::zero() };
+        Self { incidence_squared, ..self }
     }
 }
 

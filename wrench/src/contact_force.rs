@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::Real;
+use crate::largest::largest;
 
 /// The force of one contact, split at its tangent plane: the bridge from contact to friction.
 ///
@@ -84,7 +85,7 @@ impl<T: Real> ContactForce<T> {
 #[cold]
 #[inline(never)]
 pub fn scaled_length<T: Real>(x: T, y: T, z: T) -> T {
-    let larger = |a: T, b: T| if a > b { a } else { b };
-    let scale = larger(larger(x.abs(), y.abs()), z.abs()).normalising_factor();
-    (Vector3::new(x, y, z) * scale).norm_squared().root() / scale
+    let v = Vector3::new(x, y, z);
+    let scale = largest(&v).normalising_factor();
+    (v * scale).norm_squared().root() / scale
 }

@@ -27,6 +27,7 @@ pub mod gauge_layout;
 mod gaussian;
 mod hardware_sqrt;
 mod inverse;
+mod largest;
 mod least_squares;
 mod line_of_action;
 mod nonnegative;

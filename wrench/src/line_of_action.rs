@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use thiserror::Error;
 
+use crate::largest::largest;
 use crate::{Frame, Real, Wrench};
 
 /// An oriented straight line: points `point + along · direction`.
@@ -76,9 +77,7 @@ impl<T: Real, F: Frame> Wrench<T, F> {
     #[inline]
     pub fn line_of_action(&self) -> Result<LineOfAction<T>, NoLineOfAction> {
         let (force, torque) = (self.force(), self.torque());
-        let larger = |a: T, b: T| if a > b { a } else { b };
-        let largest = larger(larger(force.x.abs(), force.y.abs()), force.z.abs());
-        let scale = largest.normalising_factor();
+        let scale = largest(&force).normalising_factor();
         let f = force * scale;
         let m = torque * scale;
         let squared = f.norm_squared();

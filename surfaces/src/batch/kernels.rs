@@ -152,16 +152,7 @@ fn run<T: Real>(
     let Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap } = contacts;
     let [fx, fy, fz] = wrenches.force;
     let [tx, ty, tz] = wrenches.torque;
-    in_blocks([fx, fy, fz, tx, ty, tz], [px, py, pz, nx, ny, nz, gap], versions, kernel);
-}
-
-#[inline(always)]
-fn in_blocks<T: Real>(
-    given: [&[T]; 6],
-    found: [&mut [T]; 7],
-    versions: Versions,
-    kernel: impl Fn(Push<T>, Lines) -> Answer<T>,
-) {
+    let (given, found) = ([fx, fy, fz, tx, ty, tz], [px, py, pz, nx, ny, nz, gap]);
     let shortest = given.iter().map(|column| column.len()).fold(usize::MAX, usize::min);
     let count = found.iter().map(|column| column.len()).fold(shortest, usize::min);
     if versions == Versions::One {

@@ -3,7 +3,6 @@
 use fingertip_wrench::{Line, Real, RigidTransform};
 use nalgebra::Vector3;
 
-use crate::numeric::vectors::in_range;
 use crate::{ActiveSurface, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
 /// A shape somewhere else in the sensor frame, turned.
@@ -80,13 +79,11 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
     #[inline]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         let pose = &self.sensor_from_shape;
-        let found = self.surface.sole_entry(&push.seen_from(pose)).map(|e| Entry {
-            point: pose.transform_point(&e.point),
-            normal: pose.rotate(&e.normal),
-            ..e
-        });
         // The frame of a shape may lie so far away that the shape leaves the range of the type.
-        found.filter(|entry| in_range(&entry.point))
+        self.surface.sole_entry(&push.seen_from(pose)).map(|e| {
+            Entry { point: pose.transform_point(&e.point), normal: pose.rotate(&e.normal), ..e }
+                .within_range()
+        })
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::hertz::Hertz;
 use super::{Indentation, SkinLaw, StiffnessLaw};
-use crate::soft_finger::newton::tangents;
+use crate::numeric::vectors::tangents;
 use crate::{BadShape, Contact, SmoothSurface};
 
 /// [`Hertz`] for a fingertip whose curvature changes from place to place, on flat objects or on

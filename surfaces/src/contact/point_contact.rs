@@ -330,9 +330,7 @@ impl<T: Real> PointContact<T> {
         line: &Line<T>,
     ) -> Resolution<T> {
         let approach = surface.closest_approach(line);
-        // Zero times what is no number is none.
-        let witness = approach.point.x + approach.point.y + approach.point.z + approach.gap * T::zero();
-        if !witness.is_number() {
+        if !(in_range(&approach.point) && approach.gap.is_number()) {
             return Resolution::NoContact(NoContact::NotFinite);
         }
         let incidence = larger(-line.direction.dot(&approach.normal), T::zero());

@@ -3,8 +3,8 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::{Matrix2, Matrix3, Matrix5, Matrix6x5, Vector2, Vector3, Vector5};
 
+use crate::numeric::vectors::tangents;
 use crate::numeric::vectors::unit_or;
-use crate::soft_finger::newton::tangents;
 use crate::{ActiveSurface, BadShape};
 
 /// One contact as a tactile array in the skin reports it (extrinsic tactile sensing).

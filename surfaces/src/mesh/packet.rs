@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use super::crossing::Shear;
 use crate::numeric::vectors::{any_perpendicular, unit_or};
 
-/// How many triangles a packet holds, and children a node.
+/// How many triangles a packet holds.
 pub(super) const LANES: usize = 4;
 
 /// Triangles of one leaf of the tree: their corners, axis by axis, lane by lane. In single precision it

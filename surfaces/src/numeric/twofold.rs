@@ -184,6 +184,7 @@ pub(crate) fn dot_with<T: Real>(a: [Twofold<T>; 3], b: &Vector3<T>) -> Twofold<T
 /// How far the end of a vector is outside the ball of this radius about its start, to first order:
 /// `(|v|² − r²)/2r`.
 pub(crate) fn outside_ball<T: Real>([x, y, z]: [Twofold<T>; 3], radius: T) -> T {
+    // Not by `dot`, which a microcontroller with a sphere would hold for this alone.
     let squared = x.squared().plus(y.squared()).plus(z.squared());
     squared.minus(Twofold::new(radius).squared()).value() / (radius + radius)
 }

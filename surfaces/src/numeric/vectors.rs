@@ -65,12 +65,23 @@ pub(crate) fn unit_or<T: Real>(v: &Vector3<T>, fallback: impl FnOnce() -> Vector
     }
 }
 
-/// A unit vector across a unit vector, without a root or a branch (Duff et al. 2017, after Frisvad 2012).
+/// Two unit vectors that span the plane across `normal`, right-handed with it without a root or a branch
+/// (Duff et al. 2017, after Frisvad 2012).
+#[inline]
+pub(crate) fn tangents<T: Real>(normal: &Vector3<T>) -> (Vector3<T>, Vector3<T>) {
+    let sign = if normal.z >= T::zero() { T::one() } else { -T::one() };
+    let a = -T::one() / (sign + normal.z);
+    let b = normal.x * normal.y * a;
+    (
+        Vector3::new(T::one() + sign * normal.x * normal.x * a, sign * b, -sign * normal.x),
+        Vector3::new(b, sign + normal.y * normal.y * a, -normal.y),
+    )
+}
+
+/// A unit vector across a unit vector.
 #[inline]
 pub(crate) fn any_perpendicular<T: Real>(direction: &Vector3<T>) -> Vector3<T> {
-    let sign = T::one().copysign(direction.z);
-    let shared = -direction.x / (sign + direction.z);
-    Vector3::new(T::one() + sign * direction.x * shared, sign * direction.y * shared, -sign * direction.x)
+    tangents(direction).0
 }
 
 /// The line's point closest to `centre`, relative to `centre`, and its position along the line.
@@ -82,6 +93,12 @@ pub(crate) fn foot<T: Real>(line: &Line<T>, centre: &Vector3<T>) -> (Vector3<T>,
     let from_centre = line.point - centre;
     let along = -from_centre.dot(&line.direction);
     (from_centre + line.direction * along, along)
+}
+
+/// In double precision.
+#[inline]
+pub(crate) fn wide<T: Real>(v: &Vector3<T>) -> Vector3<f64> {
+    v.map(Real::to_f64)
 }
 
 /// An angle as files have it.
@@ -118,7 +135,7 @@ pub(crate) fn is_finite<T: Real>(v: &Vector3<T>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{any_perpendicular, hypotenuse, length, unit_or};
+    use super::{hypotenuse, length, tangents, unit_or};
     use nalgebra::Vector3;
     use proptest::prelude::*;
 
@@ -132,13 +149,16 @@ mod tests {
         }
 
         #[test]
-        fn perpendiculars_are_unit_and_across(x in -1.0..1.0, y in -1.0..1.0, z in -1.0..1.0) {
+        fn tangents_are_a_frame(x in -1.0..1.0, y in -1.0..1.0, z in -1.0..1.0) {
             let ends = [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, -0.0], [1e-9, 0.0, -1.0]];
             for v in ends.into_iter().chain([[x, y, z]]) {
                 let direction = unit_or(&Vector3::<f64>::from(v), Vector3::x);
-                let across = any_perpendicular(&direction);
-                prop_assert!((across.norm() - 1.0).abs() < 8.0 * f64::EPSILON);
-                prop_assert!(across.dot(&direction).abs() < 8.0 * f64::EPSILON);
+                let (first, second) = tangents(&direction);
+                for across in [first, second] {
+                    prop_assert!((across.norm() - 1.0).abs() < 8.0 * f64::EPSILON);
+                    prop_assert!(across.dot(&direction).abs() < 8.0 * f64::EPSILON);
+                }
+                prop_assert!((first.cross(&second) - direction).norm() < 16.0 * f64::EPSILON);
             }
         }
 

@@ -4,7 +4,7 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use super::axis::Axis;
-use crate::numeric::vectors::{in_range, is_finite, length};
+use crate::numeric::vectors::{is_finite, length};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, ForceLine};
 
@@ -136,10 +136,7 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
             let half_chord = (remainder / squared).root();
             let entry = self.crossing(&line, along - half_chord * self.radius, foot - across * half_chord);
             let Crossing { point, normal, active, .. } = entry;
-            // One beyond the range is none, and said within the answer: to take the answer back costs more
-            // than to find it.
-            let incidence_squared = if in_range(&point) { remainder * squared } else { T::zero() };
-            Entry { point, normal, incidence_squared, active }
+            Entry { point, normal, incidence_squared: remainder * squared, active }.within_range()
         })
     }
 

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use crate::numeric::roots::{bisected, first_of_convex};
 use crate::numeric::support;
-use crate::numeric::vectors::{length, unit_or};
+use crate::numeric::vectors::{length, unit_or, wide};
 use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
 
@@ -169,7 +169,6 @@ impl<T: Real> ActiveSurface<T> for Superquadric<T> {
         if T::EPSILON.to_f64() <= f64::EPSILON {
             return T::zero();
         }
-        let wide = |v: &Vector3<T>| v.map(Real::to_f64);
         let scaled = wide(point).component_div(&wide(&self.semi_axes));
         let norms = self.exponents.map(|e| 2.0 / e.to_f64());
         let (gauge, gradient) = Superquadric::nested(&scaled, norms);

@@ -2,13 +2,13 @@
 
 use fingertip_wrench::{Real, Wrench};
 
-use super::double::finely;
+use super::double::{finely, spins_little};
 use super::ellipsoid::on_sphere;
 use super::frustum::on_round_side;
-use super::patch::wide;
 use super::refined::refined;
 use crate::contact::flat;
 use crate::numeric::vectors::length;
+use crate::numeric::vectors::wide;
 use crate::{Capsule, Cylinder, Search, SoftContact, Sphere};
 
 /// The soft-finger contact on a capsule: of the side, or of the round ends, each by its closed form where
@@ -21,10 +21,9 @@ fn on_capsule<T: Real>(shape: &Capsule<T>, wrench: &Wrench<T>) -> Result<SoftCon
     let torque = wrench.torque_about(&centre);
     // Rounding under a large spin torque, or at a flat angle, moves a contact along the side, and past its
     // ends.
+    let spins_little = spins_little(wrench, shape.radius());
     let is_steady = |contact: &SoftContact<T>| {
-        let strength = length(&wrench.force());
-        contact.spin_torque.abs() <= strength * shape.radius()
-            && -contact.normal.dot(&wrench.force()) >= strength * flat()
+        spins_little(contact) && -contact.normal.dot(&wrench.force()) >= length(&wrench.force()) * flat()
     };
     if let Ok(side) = Cylinder::new(centre, axis, shape.radius())
         && let Some(contact) = on_round_side(&centre, &axis, shape.radius(), &wrench.force(), &torque)
@@ -56,9 +55,7 @@ pub(super) fn on_capsule_finely<T: Real>(
     shape: &Capsule<T>,
     wrench: &Wrench<T>,
 ) -> Result<SoftContact<T>, Search<T>> {
-    let lever = length(&wrench.force()) * shape.radius();
-    let is_steady = |contact: &SoftContact<T>| contact.spin_torque.abs() <= lever;
-    finely(on_capsule(shape, wrench), is_steady, wrench, |wrench| {
+    finely(on_capsule(shape, wrench), spins_little(wrench, shape.radius()), wrench, |wrench| {
         let [half, radius] = [shape.half_length(), shape.radius()].map(Real::to_f64);
         let double = Capsule::new(wide(&shape.centre()), wide(&shape.axis()), half, radius);
         double.ok().map(|double| on_capsule(&double, wrench))

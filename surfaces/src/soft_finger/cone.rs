@@ -4,8 +4,9 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use super::double::finely;
-use super::newton::{Problem, tangents};
-use super::patch::wide;
+use super::newton::Problem;
+use crate::numeric::vectors::tangents;
+use crate::numeric::vectors::wide;
 use crate::numeric::vectors::{length, unit_or};
 use crate::{ActiveSurface, Cone, Extent, Search, SoftContact};
 

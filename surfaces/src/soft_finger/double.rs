@@ -2,7 +2,7 @@
 
 use fingertip_wrench::{Real, Wrench};
 
-use super::patch::wide;
+use crate::numeric::vectors::{length, wide};
 use crate::{Search, SoftContact};
 
 /// What a search says, asked again in double precision if the type is narrower and the answer hangs by
@@ -23,6 +23,13 @@ pub(super) fn finely<T: Real>(
         Some(Err(Search::Complete)) => found.and(Err(Search::Incomplete)),
         Some(Err(Search::Incomplete)) | None => found,
     }
+}
+
+/// Whether the spin torque of a contact is not more than the force has at a lever of this length: beyond it
+/// the torque rules, and rounding decides.
+pub(super) fn spins_little<T: Real>(wrench: &Wrench<T>, lever: T) -> impl Fn(&SoftContact<T>) -> bool {
+    let torque = length(&wrench.force()) * lever;
+    move |contact| contact.spin_torque.abs() <= torque
 }
 
 fn narrow<T: Real>(contact: &SoftContact<f64>) -> SoftContact<T> {

@@ -5,9 +5,10 @@ use nalgebra::Vector3;
 
 use super::cone::on_cone;
 use super::cylinder::on_cylinder;
-use super::newton::{Problem, tangents};
+use super::newton::Problem;
 use super::plane::on_plane;
 use super::rim::on_rim;
+use crate::numeric::vectors::tangents;
 use crate::{Cone, Frustum, SoftContact};
 
 /// The soft-finger contact on a frustum: of the side, by the closed form of its cone or cylinder; of

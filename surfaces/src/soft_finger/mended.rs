@@ -3,10 +3,10 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use super::newton::tangents;
 use crate::contact::{flat, torque_left};
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::larger;
+use crate::numeric::vectors::tangents;
 use crate::{ActiveSurface, SoftContact};
 
 /// The solution of the soft-finger equations next to a contact that is off by rounding errors.

@@ -3,7 +3,7 @@
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
-use crate::numeric::vectors::larger;
+use crate::numeric::vectors::{larger, tangents};
 use crate::{Extent, SmoothSurface, SoftContact};
 
 /// The soft-finger problem in the units of the surface: lengths from the centre of its extent, in
@@ -52,18 +52,6 @@ pub(super) struct State<T: Real> {
     merit: T,
     /// The residual is rounding, and so is the distance from the surface.
     pub(super) converged: bool,
-}
-
-/// Two unit vectors that span the plane across `normal`, right-handed with it (Duff et al. 2017).
-#[inline]
-pub(crate) fn tangents<T: Real>(normal: &Vector3<T>) -> (Vector3<T>, Vector3<T>) {
-    let sign = if normal.z >= T::zero() { T::one() } else { -T::one() };
-    let a = -T::one() / (sign + normal.z);
-    let b = normal.x * normal.y * a;
-    (
-        Vector3::new(T::one() + sign * normal.x * normal.x * a, sign * b, -sign * normal.x),
-        Vector3::new(b, sign + normal.y * normal.y * a, -normal.y),
-    )
 }
 
 impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {

@@ -1,10 +1,9 @@
 //! What a surface is near a point, to the last digit.
 
-use fingertip_wrench::Real;
 use nalgebra::{ComplexField, RealField, Vector3};
 
-use super::newton::tangents;
 use crate::numeric::twofold::Wide;
+use crate::numeric::vectors::tangents;
 use crate::{SmoothSurface, Superquadric};
 
 /// The shape that a surface is a part of, near one of its points, by the very numbers that it stores: a
@@ -211,9 +210,4 @@ impl Patch {
             }
         }
     }
-}
-
-/// A vector in double precision.
-pub(super) fn wide<T: Real>(v: &Vector3<T>) -> Vector3<f64> {
-    v.map(Real::to_f64)
 }

@@ -4,10 +4,10 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use super::mended::mended;
-use super::patch::{Seen, Three, cross, exactly, plus_times, rounded, wide};
+use super::patch::{Seen, Three, cross, exactly, plus_times, rounded};
 use crate::contact::flat;
 use crate::numeric::twofold::{Twofold, Wide};
-use crate::numeric::vectors::larger;
+use crate::numeric::vectors::{larger, wide};
 use crate::{SoftContact, SoftFingerSurface};
 
 /// Steps at most. From where rounding leaves a contact, two or three are enough.

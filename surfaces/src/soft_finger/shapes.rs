@@ -6,15 +6,15 @@ use nalgebra::{ComplexField, Vector3};
 use super::capsule::on_capsule_finely;
 use super::cone::on_cone_finely;
 use super::cylinder::on_cylinder;
-use super::double::finely;
+use super::double::{finely, spins_little};
 use super::ellipsoid::{on_ellipsoid, on_sphere, steeply_on_ellipsoid, steeply_on_sphere};
 use super::frustum::{on_frustum, on_round_side};
-use super::patch::wide;
 use super::plane::on_plane;
 use super::rim::{on_elliptic_rim, on_rim};
 use super::torus::on_torus;
 use crate::contact::flat;
-use crate::numeric::vectors::{largest, length};
+use crate::numeric::vectors::largest;
+use crate::numeric::vectors::wide;
 use crate::{
     ActiveSurface, CappedCylinder, Capsule, Cone, Cylinder, CylinderEnds, Disk, Ellipsoid, EllipticCylinder,
     ForceLine, Frustum, Implicit, Paraboloid, Patch, Plane, Rectangle, RoundedBox, Search, SmoothImplicit,
@@ -174,19 +174,14 @@ fn cylinder_contact<T: Real>(
 /// In double precision if the type is narrower and the spin torque rules.
 fn on_cylinder_finely<T: Real>(shape: &Cylinder<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
     let found = cylinder_contact(shape, &wrench.force(), |point| wrench.torque_about(point));
-    let lever = length(&wrench.force()) * shape.radius();
-    let is_steady = |contact: &SoftContact<T>| contact.spin_torque.abs() <= lever;
-    finely(found.ok_or(Search::Complete), is_steady, wrench, |wrench| {
-        let double =
-            Cylinder::new(wide(&shape.centre()), wide(&shape.axis()), shape.radius().to_f64()).ok()?;
-        let found = cylinder_contact(&double, &wrench.force(), |point| wrench.torque_about(point));
-        let half = shape.half_length().map(Real::to_f64);
-        Some(found.ok_or(Search::Complete)).map(|found| {
-            found.map(|contact| {
-                let height = (contact.point - double.centre()).dot(&double.axis());
-                SoftContact { active: half.is_none_or(|half| height.abs() <= half), ..contact }
-            })
-        })
+    finely(found.ok_or(Search::Complete), spins_little(wrench, shape.radius()), wrench, |wrench| {
+        let double = Cylinder::new(wide(&shape.centre()), wide(&shape.axis()), shape.radius().to_f64());
+        let double = match shape.half_length() {
+            Some(half) => double.and_then(|double| double.with_half_length(half.to_f64())),
+            None => double,
+        };
+        let found = cylinder_contact(&double.ok()?, &wrench.force(), |point| wrench.torque_about(point));
+        Some(found.ok_or(Search::Complete))
     })
 }
 
@@ -407,6 +402,7 @@ soft_finger!(
         double.and_then(Result::ok).map(Patch::Superquadric)
     }
 );
+
 /// By Newton's method; in double precision if the type is narrower and the spin torque rules: then rounding
 /// decides between faces, edges and corners.
 fn on_rounded_box<T: Real>(
@@ -416,9 +412,7 @@ fn on_rounded_box<T: Real>(
 ) -> Result<SoftContact<T>, Search<T>> {
     let mut found = None;
     let search = newton_soft_contacts(shape, wrench, last, |contact| found = Some(contact));
-    let lever = length(&wrench.force()) * shape.rounding();
-    let is_steady = |contact: &SoftContact<T>| contact.spin_torque.abs() <= lever;
-    finely(found.ok_or(search), is_steady, wrench, |wrench| {
+    finely(found.ok_or(search), spins_little(wrench, shape.rounding()), wrench, |wrench| {
         let double = RoundedBox::new(wide(&shape.half_extents()), shape.rounding().to_f64()).ok()?;
         let (last, mut found) = (last.map(wide), None);
         let search = newton_soft_contacts(&double, wrench, last.as_ref(), |contact| found = Some(contact));

@@ -4,7 +4,7 @@ use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::numeric::vectors::hypotenuse;
-use crate::soft_finger::newton::tangents;
+use crate::numeric::vectors::tangents;
 use crate::{ActiveSurface, WorstErrors};
 
 /// A region that certainly holds the true contact: a piece of the round tube about the measured

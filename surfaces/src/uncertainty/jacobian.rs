@@ -5,7 +5,7 @@ use nalgebra::{Matrix2, Matrix3, Matrix3x6, Matrix6, Vector2, Vector3, Vector6};
 
 use super::{GeometrySensitivity, WrenchSpread};
 use crate::numeric::vectors::larger;
-use crate::soft_finger::newton::tangents;
+use crate::numeric::vectors::tangents;
 use crate::{Contact, ForceLine, SmoothSurface};
 
 /// The first derivatives of a contact with respect to the wrench `(f, m)` \[N, N·m\] about the
