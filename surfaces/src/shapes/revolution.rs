@@ -12,7 +12,7 @@ use crate::numeric::quadratic::roots;
 use crate::numeric::roots::bisected;
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, hypotenuse, length, unit_or};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Patch};
 
 /// One point of a profile, and how the curve goes on from there to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -325,6 +325,34 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
         let bend = turn.times(way).divided_by(width);
         let squared = Twofold::new(knot.radius).squared().plus(way.times(at_knot.plus(bend)));
         Some([squared, at_knot.plus(bend).plus(bend)])
+    }
+
+    /// The part of the side at a height, by the numbers of the nearer knot. Those at the ends go on.
+    pub(crate) fn turned(&self, z: T) -> Option<Patch> {
+        let knots = self.knots();
+        let last = knots.len().checked_sub(2)?;
+        let below = knots.iter().skip(1).position(|next| z <= next.z).unwrap_or(last).min(last);
+        let (this, next) = (knots.get(below)?, knots.get(below + 1)?);
+        let [low, high, at] = [this.z, next.z, z].map(Real::to_f64);
+        let exact = |rounded: T, rest: T| rounded.to_f64() + rest.to_f64();
+        let middle = exact(this.middle_slope, this.rests[1]);
+        let half = low + (high - low) * 0.5;
+        let from_this = at <= half;
+        let knot = if from_this { this } else { next };
+        let slope = exact(knot.slope, knot.rests[0]);
+        Some(Patch::Turned {
+            origin: knot.z.to_f64(),
+            radius: knot.radius.to_f64(),
+            slope,
+            turn: if from_this { [slope, middle] } else { [middle, slope] },
+            width: [low, high],
+            between: match (from_this, below) {
+                (true, 0) => [f64::NEG_INFINITY, half],
+                (true, _) => [low, half],
+                (false, below) if below == last => [half, f64::INFINITY],
+                (false, _) => [half, high],
+            },
+        })
     }
 
     fn inside(&self, radius: T, z: T) -> bool {

@@ -1,14 +1,17 @@
 //! The cone.
 
 use fingertip_wrench::{Real, Wrench};
-use nalgebra::Vector3;
+use nalgebra::{ComplexField, Vector3};
 
+use super::closed_form::{is_active, soft_finger, told};
 use super::double::finely;
 use super::newton::Problem;
+use super::refined::settled;
+use super::rim::on_rim;
 use crate::numeric::vectors::tangents;
 use crate::numeric::vectors::wide;
 use crate::numeric::vectors::{length, unit_or};
-use crate::{ActiveSurface, Cone, Extent, Search, SoftContact};
+use crate::{ActiveSurface, Cone, Extent, Patch, Search, SoftContact};
 
 /// The soft-finger contact on the unbounded cone: the closed form of theory 3.2 for `D = diag(1,
 /// 1, −tan² α)`, `s = 0`, in which the quadratic for `K²` is linear,
@@ -60,14 +63,16 @@ pub(super) fn on_cone<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<Sof
     let df = Vector3::new(d1 * f.x, d1 * f.y, d3 * f.z);
     let denominator = k * k * d1 * d1 * d3 + f.dot(&df);
     let closed = (adjugate * k + df.cross(&m) + f * h) / denominator;
+    let to_sensor = |contact: &SoftContact<T>| SoftContact {
+        point: outward(&contact.point) + apex,
+        normal: outward(&contact.normal),
+        ..*contact
+    };
     let finish = |point: Vector3<T>| {
         let place = problem.place(point)?;
         let state = problem.newton(place, problem.spin_at(&place)?, &problem.torque, 24)?;
         let found = state.converged && problem.presses(&state) && state.place.point.z > T::zero();
-        found.then(|| {
-            let contact = problem.contact(&state);
-            SoftContact { point: outward(&contact.point) + apex, normal: outward(&contact.normal), ..contact }
-        })
+        found.then(|| to_sensor(&problem.contact(&state)))
     };
     if closed.z > T::zero() {
         if let Some(contact) = finish(closed) {
@@ -76,8 +81,19 @@ pub(super) fn on_cone<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<Sof
         // Under a large spin torque the torque tells better on which side the contact is.
         let rest = (m - closed.cross(&f)) * -problem.power;
         let across = unit_or(&Vector3::new(rest.x, rest.y, T::zero()), Vector3::x) * (sine / cosine);
-        if let Some(contact) = finish((across + Vector3::z()) * closed.z) {
+        let turned = (across + Vector3::z()) * closed.z;
+        if let Some(contact) = finish(turned) {
             return Ok(contact);
+        }
+        // Next to the tip only more digits tell where the way ends.
+        for rough in [closed, turned] {
+            let near = problem.place(rough).and_then(|place| {
+                let spin = problem.spin_at(&place)?;
+                Some(to_sensor(&problem.contact(&problem.state(place, spin, &problem.torque))))
+            });
+            if let Some(contact) = near.and_then(|near| settled(wrench, cone, &near)) {
+                return Ok(contact);
+            }
         }
     }
     let mut found = None;
@@ -104,21 +120,56 @@ pub(super) fn on_cone<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<Sof
     })
 }
 
-/// The same, in double precision if the type is narrower and the spin torque rules.
+/// The same, or the contact at the tip, on which any normal will do that is steeper than the side's.
+fn on_side_or_tip<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
+    let mut found = on_cone(cone, wrench);
+    if found.is_err() {
+        let (apex, tip) = (cone.apex(), -cone.axis());
+        let least = cone.half_angle().sin();
+        on_rim(
+            T::zero(),
+            &tip,
+            &wrench.force(),
+            &wrench.torque_about(&apex),
+            |normal, _| normal.dot(&tip) >= least,
+            |contact| found = Ok(SoftContact { point: apex, ..contact }),
+        );
+    }
+    found
+}
+
+/// The same, in double precision if the type is narrower and the spin torque rules: then rounding decides
+/// between the side and the tip.
 ///
 /// # Errors
 /// As [`on_cone`].
-pub(super) fn on_cone_finely<T: Real>(
-    cone: &Cone<T>,
-    wrench: &Wrench<T>,
-) -> Result<SoftContact<T>, Search<T>> {
+fn on_cone_finely<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
     let force = length(&wrench.force());
     let is_steady = |contact: &SoftContact<T>| {
         let radius = length(&(contact.point - cone.apex())) * cone.half_angle().sin();
         contact.spin_torque.abs() <= force * radius
     };
-    finely(on_cone(cone, wrench), is_steady, wrench, |wrench| {
+    finely(on_side_or_tip(cone, wrench), is_steady, wrench, |wrench| {
         let double = Cone::new(wide(&cone.apex()), wide(&cone.axis()), cone.half_angle().to_f64());
-        double.ok().map(|double| on_cone(&double, wrench))
+        double.ok().map(|double| on_side_or_tip(&double, wrench))
     })
 }
+
+soft_finger!(
+    /// The side, or the tip, on which any normal will do that is steeper than the side's.
+    Cone,
+    |shape, wrench, _, visit| told(
+        on_cone_finely(shape, wrench).map(|contact| {
+            let active = contact.point == shape.apex() || is_active(shape, &contact);
+            SoftContact { active, ..contact }
+        }),
+        visit
+    ),
+    patch | shape,
+    _ | Some(Patch::Cone {
+        origin: wide(&shape.apex()),
+        axis: wide(&shape.axis()),
+        radius: 0.0,
+        taper: [-ComplexField::tan(shape.half_angle().to_f64()), 1.0],
+    })
+);

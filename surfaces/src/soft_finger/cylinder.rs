@@ -1,9 +1,12 @@
-//! The elliptic cylinder: the ellipsoid's closed form with the third axis at infinity.
+//! Cylinders without flat ends: the ellipsoid's closed form with the third axis at infinity.
 
-use fingertip_wrench::Real;
+use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::{Search, SoftContact};
+use super::closed_form::{is_steady, soft_finger, told};
+use super::double::{finely, spins_little};
+use crate::numeric::vectors::{tangents, wide};
+use crate::{Cylinder, Patch, Search, SoftContact};
 
 /// The soft-finger contact on the unbounded cylinder around the third axis with semi-axes `a` (and
 /// their reciprocals) along the first two, for a wrench in the same frame.
@@ -61,3 +64,67 @@ pub(super) fn on_cylinder<T: Real>(
     }
     Search::Complete
 }
+
+/// On the side of an unbounded circular cylinder, for the torque about its centre.
+pub(super) fn on_round_side<T: Real>(
+    centre: &Vector3<T>,
+    axis: &Vector3<T>,
+    radius: T,
+    force: &Vector3<T>,
+    torque: &Vector3<T>,
+) -> Option<SoftContact<T>> {
+    let (first, second) = tangents(axis);
+    let inward = |v: &Vector3<T>| Vector3::new(v.dot(&first), v.dot(&second), v.dot(axis));
+    let outward = |v: &Vector3<T>| first * v.x + second * v.y + axis * v.z;
+    let (force, torque) = (inward(force), inward(torque));
+    let mut found = None;
+    on_cylinder([radius; 2], [T::one() / radius; 2], &force, &torque, |contact| {
+        found = Some(SoftContact {
+            point: outward(&contact.point) + centre,
+            normal: outward(&contact.normal),
+            ..contact
+        });
+    });
+    found
+}
+
+#[inline(always)]
+fn cylinder_contact<T: Real>(
+    shape: &Cylinder<T>,
+    force: &Vector3<T>,
+    torque_about: impl FnOnce(&Vector3<T>) -> Vector3<T>,
+) -> Option<SoftContact<T>> {
+    let (centre, axis) = (shape.centre(), shape.axis());
+    let contact = on_round_side(&centre, &axis, shape.radius(), force, &torque_about(&centre))?;
+    let height = (contact.point - centre).dot(&axis);
+    Some(SoftContact { active: shape.half_length().is_none_or(|half| height.abs() <= half), ..contact })
+}
+
+/// In double precision if the type is narrower and the spin torque rules.
+fn on_cylinder_finely<T: Real>(shape: &Cylinder<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
+    let found = cylinder_contact(shape, &wrench.force(), |point| wrench.torque_about(point));
+    finely(found.ok_or(Search::Complete), spins_little(wrench, shape.radius()), wrench, |wrench| {
+        let double = Cylinder::new(wide(&shape.centre()), wide(&shape.axis()), shape.radius().to_f64());
+        let double = match shape.half_length() {
+            Some(half) => double.and_then(|double| double.with_half_length(half.to_f64())),
+            None => double,
+        };
+        let found = cylinder_contact(&double.ok()?, &wrench.force(), |point| wrench.torque_about(point));
+        Some(found.ok_or(Search::Complete))
+    })
+}
+
+soft_finger!(
+    Cylinder,
+    |shape, wrench, _, visit| told(on_cylinder_finely(shape, wrench), visit),
+    sole | shape,
+    push | cylinder_contact(shape, &push.force(), |point| push.torque_about(point))
+        .filter(|contact| is_steady(push, contact, shape.radius() * T::literal(0.5))),
+    patch | shape,
+    _ | Some(Patch::Cone {
+        origin: wide(&shape.centre()),
+        axis: wide(&shape.axis()),
+        radius: shape.radius().to_f64(),
+        taper: [0.0, 1.0],
+    })
+);

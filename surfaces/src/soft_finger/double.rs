@@ -2,6 +2,7 @@
 
 use fingertip_wrench::{Real, Wrench};
 
+use crate::contact::flat;
 use crate::numeric::vectors::{length, wide};
 use crate::{Search, SoftContact};
 
@@ -18,7 +19,7 @@ pub(super) fn finely<T: Real>(
     }
     match again(&Wrench::on_fingertip(wide(&wrench.force()), wide(&wrench.torque()))) {
         Some(Ok(contact)) => Ok(narrow(&contact)),
-        Some(Err(Search::Grazing(pair))) => Err(Search::Grazing(pair.map(|point| point.map(T::literal)))),
+        Some(Err(pair @ Search::Grazing(_))) => Err(in_type(pair)),
         // There is none; what the rounding of the wrench could make of it is for the narrower type to say.
         Some(Err(Search::Complete)) => found.and(Err(Search::Incomplete)),
         Some(Err(Search::Incomplete)) | None => found,
@@ -32,7 +33,24 @@ pub(super) fn spins_little<T: Real>(wrench: &Wrench<T>, lever: T) -> impl Fn(&So
     move |contact| contact.spin_torque.abs() <= torque
 }
 
-fn narrow<T: Real>(contact: &SoftContact<f64>) -> SoftContact<T> {
+/// Whether besides that the force presses at no flat angle, which multiplies rounding too.
+pub(super) fn is_steady<T: Real>(wrench: &Wrench<T>, lever: T) -> impl Fn(&SoftContact<T>) -> bool {
+    let (spins_little, force) = (spins_little(wrench, lever), wrench.force());
+    let least = length(&force) * flat();
+    move |contact| spins_little(contact) && -contact.normal.dot(&force) >= least
+}
+
+/// How a search ended, in the narrower type.
+pub(super) fn in_type<T: Real>(search: Search<f64>) -> Search<T> {
+    match search {
+        Search::Grazing(pair) => Search::Grazing(pair.map(|point| point.map(T::literal))),
+        Search::Complete => Search::Complete,
+        Search::Incomplete => Search::Incomplete,
+    }
+}
+
+/// A contact in the narrower type.
+pub(super) fn narrow<T: Real>(contact: &SoftContact<f64>) -> SoftContact<T> {
     SoftContact {
         point: contact.point.map(T::literal),
         normal: contact.normal.map(T::literal),

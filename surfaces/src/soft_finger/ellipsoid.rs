@@ -3,9 +3,10 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
+use super::closed_form::{part_of, soft_finger, told};
 use super::unit_sphere::OnUnitSphere;
 use crate::numeric::vectors::{larger, largest, taming_factor};
-use crate::{Ellipsoid, ForceLine, SoftContact, Sphere};
+use crate::{Ellipsoid, ForceLine, Search, SoftContact, Sphere, SphericalCap};
 
 /// The soft-finger contact on a sphere.
 ///
@@ -122,3 +123,19 @@ pub(super) fn steeply_on_ellipsoid<T: Real>(
 fn across<T: Real>(b: &Vector3<T>) -> Vector3<T> {
     Vector3::new(b.y * b.z, b.z * b.x, b.x * b.y)
 }
+
+soft_finger!(
+    Sphere,
+    |shape, wrench, _, visit| told(on_sphere(shape, wrench).map_err(Search::Grazing), visit),
+    sole | shape,
+    push | steeply_on_sphere(shape, push)
+);
+
+soft_finger!(
+    Ellipsoid,
+    |shape, wrench, _, visit| told(on_ellipsoid(shape, wrench).map_err(Search::Grazing), visit),
+    sole | shape,
+    push | steeply_on_ellipsoid(shape, push)
+);
+
+part_of!(SphericalCap, sphere);

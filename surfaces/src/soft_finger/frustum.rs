@@ -3,13 +3,16 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
+use super::closed_form::{soft_finger, sole, told};
 use super::cone::on_cone;
-use super::cylinder::on_cylinder;
+use super::cylinder::on_round_side;
+use super::double::{finely, is_steady};
 use super::newton::Problem;
 use super::plane::on_plane;
+use super::refined::settled;
 use super::rim::on_rim;
-use crate::numeric::vectors::tangents;
-use crate::{Cone, Frustum, SoftContact};
+use crate::numeric::vectors::wide;
+use crate::{ActiveSurface, CappedCylinder, Cone, Frustum, Patch, Search, SoftContact};
 
 /// The soft-finger contact on a frustum: of the side, by the closed form of its cone or cylinder; of
 /// the flat ends, by that of the plane; of the edges between them and of a tip, with a normal between
@@ -79,28 +82,75 @@ fn on_side<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContac
     if taper.is_zero() {
         return Some(rough);
     }
-    Problem::new(solid, &wrench.force(), &wrench.torque()).polished(&rough)
+    let polished = Problem::new(solid, &wrench.force(), &wrench.torque()).polished(&rough);
+    polished.or_else(|| settled(wrench, solid, &rough))
 }
 
-/// On the side of an unbounded circular cylinder, for the torque about its centre.
-pub(super) fn on_round_side<T: Real>(
-    centre: &Vector3<T>,
-    axis: &Vector3<T>,
-    radius: T,
-    force: &Vector3<T>,
-    torque: &Vector3<T>,
-) -> Option<SoftContact<T>> {
-    let (first, second) = tangents(axis);
-    let inward = |v: &Vector3<T>| Vector3::new(v.dot(&first), v.dot(&second), v.dot(axis));
-    let outward = |v: &Vector3<T>| first * v.x + second * v.y + axis * v.z;
-    let (force, torque) = (inward(force), inward(torque));
-    let mut found = None;
-    on_cylinder([radius; 2], [T::one() / radius; 2], &force, &torque, |contact| {
-        found = Some(SoftContact {
-            point: outward(&contact.point) + centre,
-            normal: outward(&contact.normal),
-            ..contact
-        });
-    });
-    found
+/// In double precision if the type is narrower and rounding decides between the side, an end and an edge.
+/// `double` is the same solid.
+fn on_frustum_finely<T: Real>(
+    solid: &Frustum<T>,
+    wrench: &Wrench<T>,
+    double: impl FnOnce() -> Option<Frustum<f64>>,
+) -> Result<SoftContact<T>, Search<T>> {
+    let lever = (solid.base_radius() + solid.top_radius()) * T::literal(0.5);
+    finely(sole(on_frustum(solid, wrench), wrench), is_steady(wrench, lever), wrench, |wrench| {
+        double().map(|double| sole(on_frustum(&double, wrench), wrench))
+    })
 }
+
+/// The side, or the plane of an end: which of them the normal of the surface is nearer to.
+///
+/// `middle` is a point of the axis, `below` and `above` the heights of the ends over it.
+fn solid_patch<T: Real>(
+    solid: &Frustum<T>,
+    point: &Vector3<T>,
+    middle: &Vector3<T>,
+    ends: [f64; 2],
+) -> Patch {
+    let (origin, axis) = (wide(middle), wide(&solid.axis()));
+    let end = |height: f64| origin + axis * (height / axis.norm());
+    let lean = solid.normal(point).dot(&solid.axis());
+    let least = solid.taper() * solid.side_cosine();
+    // Halfway between the side's normal and an end's.
+    let half = T::literal(0.5);
+    if lean > (T::one() + least) * half {
+        Patch::Plane { point: end(ends[1]), normal: axis }
+    } else if lean < (least - T::one()) * half {
+        Patch::Plane { point: end(ends[0]), normal: -axis }
+    } else {
+        let [below, above] = [solid.base_radius(), solid.top_radius()].map(Real::to_f64);
+        Patch::Cone { origin, axis, radius: below, taper: [below - above, solid.height().to_f64()] }
+    }
+}
+
+soft_finger!(
+    Frustum,
+    |shape, wrench, _, visit| told(
+        on_frustum_finely(shape, wrench, || {
+            let [height, base, top] =
+                [shape.height(), shape.base_radius(), shape.top_radius()].map(Real::to_f64);
+            Frustum::new(wide(&shape.base_centre()), wide(&shape.axis()), height, base, top).ok()
+        }),
+        visit
+    ),
+    patch | shape,
+    point | Some(solid_patch(shape, point, &shape.base_centre(), [0.0, shape.height().to_f64()]))
+);
+
+soft_finger!(
+    CappedCylinder,
+    |shape, wrench, _, visit| told(
+        on_frustum_finely(shape.solid(), wrench, || {
+            let [radius, half] = [shape.radius(), shape.half_length()].map(Real::to_f64);
+            let double = CappedCylinder::new(wide(&shape.centre()), wide(&shape.axis()), radius, half);
+            double.ok().map(|double| *double.solid())
+        }),
+        visit
+    ),
+    patch | shape,
+    point | {
+        let half = shape.half_length().to_f64();
+        Some(solid_patch(shape.solid(), point, &shape.centre(), [-half, half]))
+    }
+);

@@ -1,12 +1,14 @@
 //! Contact with a spin torque about the normal: the soft finger.
 
 mod capsule;
+mod closed_form;
 pub(crate) mod combinators;
 mod cone;
 mod convex;
 mod cylinder;
 mod double;
 mod ellipsoid;
+mod elliptic_cylinder;
 mod frustum;
 #[cfg(feature = "alloc")]
 mod heightfield;
@@ -20,8 +22,9 @@ mod plane;
 mod refined;
 mod revolution;
 mod rim;
+mod rounded_box;
 mod search;
-mod shapes;
+mod smooth_shapes;
 mod solution;
 mod torus;
 mod unit_sphere;

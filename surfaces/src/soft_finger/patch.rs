@@ -1,5 +1,6 @@
 //! What a surface is near a point, to the last digit.
 
+use fingertip_wrench::Real;
 use nalgebra::{ComplexField, RealField, Vector3};
 
 use crate::numeric::twofold::Wide;
@@ -40,6 +41,22 @@ pub enum Patch {
         /// By how much the radius shrinks over how much height.
         taper: [f64; 2],
     },
+    /// A part of a surface of revolution around the third axis: `ρ² = r² + d (s + (t₁ − t₀) d/(w₁ − w₀))` at
+    /// the height `d` over `r`.
+    Turned {
+        /// The height at which the numbers are taken \[m\].
+        origin: f64,
+        /// `r` \[m\].
+        radius: f64,
+        /// `s` \[m\].
+        slope: f64,
+        /// `t₀`, `t₁` \[m\].
+        turn: [f64; 2],
+        /// `w₀`, `w₁` \[m\].
+        width: [f64; 2],
+        /// The heights between which it is so \[m\].
+        between: [f64; 2],
+    },
     /// The elliptic cylinder around the third axis.
     EllipticCylinder {
         /// Along the first two axes \[m\].
@@ -52,12 +69,15 @@ pub enum Patch {
         /// Radius of the tube \[m\].
         tube: f64,
     },
-    /// All points at one distance from a box about the origin.
+    /// A part of all points at one distance from a box about the origin: the face, the edge or the corner
+    /// at which the same coordinates reach beyond the box.
     RoundedBox {
         /// Half extents, roundings included \[m\].
         half_extents: Vector3<f64>,
         /// That distance \[m\].
         rounding: f64,
+        /// Which coordinates reach beyond the box.
+        beyond: [bool; 3],
     },
     /// A superquadric, for a type narrower than `f64`.
     Superquadric(Superquadric<f64>),
@@ -140,6 +160,30 @@ impl Patch {
                     curvatures: [cosine / distance.rounded(), 0.0],
                 }
             }
+            Self::Turned { origin, radius, slope, turn: [before, after], width: [low, high], .. } => {
+                let exactly = W::exactly;
+                let [x, y, z] = point;
+                let (way, radius) = (z.minus(exactly(*origin)), exactly(*radius));
+                let turns = exactly(*after).minus(exactly(*before)).over(exactly(*high).minus(exactly(*low)));
+                let (slope, bend) = (exactly(*slope), turns.times(way));
+                let squared = radius.times(radius).plus(way.times(slope.plus(bend)));
+                // The gradient of half of x² + y² − ρ².
+                let rise = slope.plus(bend).plus(bend).times(exactly(0.5));
+                let (steepness, normal) = unit([x, y, zero.minus(rise)]);
+                let excess = x.times(x).plus(y.times(y)).minus(squared);
+                let (x, y, steep) = (x.rounded(), y.rounded(), steepness.rounded());
+                let distance = Real::root(x * x + y * y);
+                let rise = rise.rounded();
+                // κ = (ρ′² − (ρ²)″/2)/(ρ (1 + ρ′²)^{3/2}), ρ′ = (ρ²)′/2ρ, of which ρ (1 + ρ′²)^{1/2} is the steepness.
+                let leaning = rise / distance;
+                let straight = leaning * leaning - turns.rounded();
+                Seen {
+                    height: excess.over(steepness.plus(steepness)),
+                    normal,
+                    around: Vector3::new(-y, x, 0.0) / distance,
+                    curvatures: [1.0 / steep, straight / (steep * (1.0 + leaning * leaning))],
+                }
+            }
             Self::EllipticCylinder { semi_axes: [a, b] } => {
                 let (a, b) = (W::exactly(*a), W::exactly(*b));
                 let (x, y) = (point[0].over(a), point[1].over(b));
@@ -167,21 +211,18 @@ impl Patch {
                     curvatures: [out.dot(&rounded(normal)) / radial.rounded(), 1.0 / tube],
                 }
             }
-            Self::RoundedBox { half_extents, rounding } => {
+            Self::RoundedBox { half_extents, rounding, beyond } => {
                 let distance = W::exactly(*rounding);
-                let p = rounded(point);
-                // Beyond the inner box on its own side of it, or not.
                 let outside = [0, 1, 2].map(|k| {
-                    let side = W::exactly(1.0_f64.copysign(p[k]));
-                    let beyond = point[k].times(side).minus(W::exactly(half_extents[k])).plus(distance);
-                    (beyond.rounded() > 0.0).then_some((beyond, side))
+                    let (half, side) = (W::exactly(half_extents[k]), side_of(point[k]));
+                    let over = point[k].times(side).minus(half).plus(distance);
+                    if beyond[k] { over.times(side) } else { zero }
                 });
-                let (length, normal) =
-                    unit(outside.map(|x| x.map_or(zero, |(beyond, side)| beyond.times(side))));
+                let (length, normal) = unit(outside);
                 let curvature = 1.0 / rounding;
                 let n = rounded(normal);
                 let along = |k: usize| Vector3::ith(k, 1.0).cross(&n);
-                let (around, curvatures) = match outside.map(|x| x.is_some()) {
+                let (around, curvatures) = match beyond {
                     [true, true, true] => (any(normal), [curvature; 2]),
                     [false, true, true] => (along(0), [curvature, 0.0]),
                     [true, false, true] => (along(1), [curvature, 0.0]),
@@ -210,4 +251,66 @@ impl Patch {
             }
         }
     }
+
+    /// Where a way from a point leaves this part of a surface whose curvature jumps between parts: the share of
+    /// the way up to there, and what is behind.
+    pub(super) fn left_by<W: Wide>(&self, point: Three<W>, way: &Vector3<f64>) -> Way {
+        match *self {
+            Self::RoundedBox { half_extents, rounding, beyond } => {
+                let mut first: Option<(f64, usize)> = None;
+                for (k, reaches) in beyond.into_iter().enumerate() {
+                    // Towards the end of the box that the point is beyond, or that the way leads to.
+                    let side = if reaches { side_of(point[k]) } else { W::exactly(1.0_f64.copysign(way[k])) };
+                    let half = W::exactly(half_extents[k]);
+                    let over = point[k].times(side).minus(half).plus(W::exactly(rounding));
+                    let (over, gain) = (over.rounded(), way[k] * side.rounded());
+                    let leaves = if reaches { over + gain < 0.0 } else { over + gain > 0.0 };
+                    if leaves {
+                        let share = (-over / gain).clamp(0.0, 1.0);
+                        if first.is_none_or(|(before, _)| share < before) {
+                            first = Some((share, k));
+                        }
+                    }
+                }
+                first.map_or(Way::Stays, |(share, crossed)| {
+                    let beyond = core::array::from_fn(|k| beyond[k] != (k == crossed));
+                    Way::Leaves(share, Behind::Patch(Self::RoundedBox { half_extents, rounding, beyond }))
+                })
+            }
+            Self::Turned { between: [low, high], width, .. } => {
+                let end = if way.z > 0.0 { high } else { low };
+                let left = W::exactly(end).minus(point[2]).rounded();
+                if !end.is_finite() || (way.z - left) * way.z <= 0.0 {
+                    return Way::Stays;
+                }
+                let share = (left / way.z).clamp(0.0, 1.0);
+                let hair = (width[1] - width[0]) * 1e-3;
+                Way::Leaves(share, Behind::Height(end + hair.copysign(way.z)))
+            }
+            _ => Way::Open,
+        }
+    }
+}
+
+/// Where a way from a point of a part of a surface leads.
+pub(super) enum Way {
+    /// No more is known than that the curvature does not jump there, or seldom.
+    Open,
+    /// To another point of the part.
+    Stays,
+    /// After a share of it, to what is behind a seam.
+    Leaves(f64, Behind),
+}
+
+/// What is behind a seam.
+pub(super) enum Behind {
+    /// This part.
+    Patch(Patch),
+    /// The part that the surface has at this height.
+    Height(f64),
+}
+
+/// The sign of a coordinate.
+fn side_of<W: Wide>(x: W) -> W {
+    W::exactly(1.0_f64.copysign(x.rounded()))
 }

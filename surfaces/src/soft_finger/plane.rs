@@ -3,7 +3,9 @@
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
-use crate::SoftContact;
+use super::closed_form::{is_steady, part_of, soft_finger, told};
+use crate::numeric::vectors::{largest, wide};
+use crate::{Disk, Patch, Plane, Rectangle, Search, SoftContact};
 
 /// The soft-finger contact on the plane through the origin, for a wrench about the origin:
 /// `τ = f·m/f·n`, `c = n × m/f·n` (theory 3.2). It is the centre of pressure whatever the friction
@@ -30,3 +32,33 @@ pub(super) fn on_plane<T: Real>(
         active: true,
     })
 }
+
+#[inline(always)]
+fn plane_contact<T: Real>(
+    plane: &Plane<T>,
+    force: &Vector3<T>,
+    torque_about: impl FnOnce(&Vector3<T>) -> Vector3<T>,
+) -> Option<SoftContact<T>> {
+    let origin = plane.point();
+    on_plane(&plane.outward(), force, &torque_about(&origin))
+        .map(|contact| SoftContact { point: contact.point + origin, ..contact })
+}
+
+soft_finger!(
+    Plane,
+    |shape, wrench, _, visit| told(
+        plane_contact(shape, &wrench.force(), |point| wrench.torque_about(point)).ok_or(Search::Complete),
+        visit
+    ),
+    sole | shape,
+    push | plane_contact(shape, &push.force(), |point| push.torque_about(point)).filter(|contact| is_steady(
+        push,
+        contact,
+        largest(&contact.point)
+    )),
+    patch | shape,
+    _ | Some(Patch::Plane { point: wide(&shape.point()), normal: wide(&shape.outward()) })
+);
+
+part_of!(Disk, plane);
+part_of!(Rectangle, plane);

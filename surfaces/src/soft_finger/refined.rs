@@ -4,14 +4,14 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use super::mended::mended;
-use super::patch::{Seen, Three, cross, exactly, plus_times, rounded};
+use super::patch::{Behind, Seen, Three, Way, cross, exactly, plus_times, rounded};
 use crate::contact::flat;
 use crate::numeric::twofold::{Twofold, Wide};
 use crate::numeric::vectors::{larger, wide};
 use crate::{SoftContact, SoftFingerSurface};
 
-/// Steps at most. From where rounding leaves a contact, two or three are enough.
-const STEPS: usize = 12;
+/// Steps at most. From where rounding leaves a contact, two or three are enough, and one for each seam.
+const STEPS: usize = 16;
 
 /// The solution of the soft-finger equations next to a contact that is off by rounding errors.
 ///
@@ -37,8 +37,8 @@ pub(super) fn refined<T: Real, S: SoftFingerSurface<T>>(
 ) -> SoftContact<T> {
     let Some(patch) = surface.patch(&contact.point) else { return mended(wrench, surface, contact) };
     let epsilon = T::EPSILON.to_f64();
-    let scale = wide(&wrench.force()).amax().normalising_factor();
-    let (f, m) = (wide(&wrench.force()) * scale, wide(&wrench.torque()) * scale);
+    let (scale, load) = scaled(wrench);
+    let [f, m] = load;
     let (point, normal) = (wide(&contact.point), wide(&contact.normal));
     let torque = contact.spin_torque.to_f64() * scale;
     let (strength, reach) = (f.norm(), point.amax());
@@ -49,10 +49,12 @@ pub(super) fn refined<T: Real, S: SoftFingerSurface<T>>(
     let [w1, w2] = curvatures.map(|k| spin * k);
     let pressing = strength * incidence;
     let determinant = w1 * w2 + pressing * pressing;
-    // How far a torque moves the contact at most. Neither a flat angle nor spin torque nor a fold
-    // multiplies rounding by more than eight.
+    // How far a torque moves the contact at most, and what the torques of the equations are per length of
+    // which a place is known: that of the force, and that of the normal's turn. Neither a flat angle nor
+    // spin torque nor a fold multiplies rounding by more than eight.
     let answer = larger(spin * steepest, strength) / determinant.abs();
-    let steady = incidence >= flat() && spin <= strength * reach && answer * strength <= 8.0;
+    let stiffness = strength + spin * steepest;
+    let steady = incidence >= flat() && spin <= strength * reach && answer * stiffness <= 8.0;
     // The normal of a place that is known to some units in the last place.
     let known = 64.0 * epsilon * (1.0 + steepest * reach);
     if steady
@@ -62,26 +64,59 @@ pub(super) fn refined<T: Real, S: SoftFingerSurface<T>>(
         return *contact;
     }
     // How far rounding of a few terms of the size of the torque does.
-    let allowed = 64.0 * epsilon * (reach + (m.amax() + reach * strength) * answer);
-    let load = (f, m);
+    let allowed = 64.0 * epsilon * (reach + (m.amax() + reach * stiffness) * answer);
     let start = (point, torque);
     // Of a type that is narrow enough for it double precision has digits to spare.
-    let spare = f64::EPSILON * (m.amax() + reach * strength) * answer <= 0.02 * epsilon * reach;
+    let spare = f64::EPSILON * (m.amax() + reach * stiffness) * answer <= 0.02 * epsilon * reach;
     let found = if spare {
         solve::<f64, T, S>(load, surface, start)
     } else {
         solve::<Twofold<f64>, T, S>(load, surface, start)
     };
     match found {
-        Some((end, torque, normal)) if (end - point).amax() <= allowed && f.dot(&normal) < 0.0 => {
-            SoftContact {
-                point: contact.point.zip_map(&end, renewed),
-                normal: contact.normal.zip_map(&normal, renewed),
-                spin_torque: renewed(contact.spin_torque, torque / scale),
-                ..*contact
-            }
+        Some(end) if (end.point - point).amax() <= allowed && f.dot(&end.normal) < 0.0 => {
+            end.renews(contact, scale)
         }
         _ => *contact,
+    }
+}
+
+/// The same from a contact that is only near: for where rounding keeps Newton's method from settling, as next
+/// to a tip. `None` unless the equations hold, and the force presses.
+#[cold]
+#[inline(never)]
+pub(super) fn settled<T: Real, S: SoftFingerSurface<T>>(
+    wrench: &Wrench<T>,
+    surface: &S,
+    contact: &SoftContact<T>,
+) -> Option<SoftContact<T>> {
+    let (scale, load) = scaled(wrench);
+    let start = (wide(&contact.point), contact.spin_torque.to_f64() * scale);
+    let end = solve::<Twofold<f64>, T, S>(load, surface, start)?;
+    (load[0].dot(&end.normal) < 0.0).then(|| end.renews(contact, scale))
+}
+
+/// A factor, and force and torque times that.
+fn scaled<T: Real>(wrench: &Wrench<T>) -> (f64, [Vector3<f64>; 2]) {
+    let scale = wide(&wrench.force()).amax().normalising_factor();
+    (scale, [wide(&wrench.force()) * scale, wide(&wrench.torque()) * scale])
+}
+
+/// What the steps lead to.
+struct End {
+    point: Vector3<f64>,
+    normal: Vector3<f64>,
+    spin: f64,
+}
+
+impl End {
+    fn renews<T: Real>(&self, contact: &SoftContact<T>, scale: f64) -> SoftContact<T> {
+        SoftContact {
+            point: contact.point.zip_map(&self.point, renewed),
+            normal: contact.normal.zip_map(&self.normal, renewed),
+            spin_torque: renewed(contact.spin_torque, self.spin / scale),
+            ..*contact
+        }
     }
 }
 
@@ -90,16 +125,23 @@ fn renewed<T: Real>(before: T, now: f64) -> T {
     T::literal(now) + (before - T::literal(before.to_f64()))
 }
 
-/// From a point and a spin torque, those of the solution, and the normal there.
+/// From a point and a spin torque, those of the solution.
+///
+/// Where the curvature jumps, whole steps may lead to and fro. So one that leaves a part of the surface ends
+/// on the seam, and the next goes on from there with the curvature of the neighbour: since the determinant
+/// has the same sign on both, it leads into it, and no part is met twice on the way to a contact that the
+/// equations say linearly (Katzenelson 1965).
 fn solve<W: Wide, T: Real, S: SoftFingerSurface<T>>(
-    (f, m): (Vector3<f64>, Vector3<f64>),
+    [f, m]: [Vector3<f64>; 2],
     surface: &S,
     (start, torque): (Vector3<f64>, f64),
-) -> Option<(Vector3<f64>, f64, Vector3<f64>)> {
+) -> Option<End> {
     let (mut point, mut spin): (Three<W>, W) = (exactly(&start), W::exactly(torque));
+    let patch_at = |point: Vector3<f64>| surface.patch(&point.map(T::literal));
+    let mut patch = patch_at(start)?;
     let mut before = f64::MAX;
     for taken in 0..STEPS {
-        let seen = surface.patch(&rounded(point).map(T::literal))?.seen(point);
+        let seen = patch.seen(point);
         let arm = cross(point, exactly(&f));
         let left = plus_times(exactly(&m), arm, W::exactly(-1.0));
         let left = rounded(plus_times(left, seen.normal, W::exactly(0.0).minus(spin)));
@@ -115,19 +157,27 @@ fn solve<W: Wide, T: Real, S: SoftFingerSurface<T>>(
         let a2 = (w1 * r2 + pressing * r1) / determinant;
         let way = e1 * a1 + e2 * a2 - n * outside;
         let twist = n.dot(&(left - way.cross(&f)));
-        point = plus_times(point, exactly(&way), W::exactly(1.0));
-        spin = spin.plus(W::exactly(twist));
         let size = way.amax();
         if !size.is_finite() {
             return None;
         }
+        let leads = patch.left_by(point, &way);
+        let share = W::exactly(if let Way::Leaves(share, _) = leads { share } else { 1.0 });
+        point = plus_times(point, exactly(&way), share);
+        spin = spin.plus(W::exactly(twist).times(share));
         let fine = T::EPSILON.to_f64() * 0.03 * rounded(point).amax();
         // As far as digits of the result go; a step that grows no shorter is what rounding leaves.
         if size <= fine || (taken >= 4 && size <= 16.0 * fine && size + size >= before) {
-            let normal = surface.patch(&rounded(point).map(T::literal))?.seen(point).normal;
-            return Some((rounded(point), spin.rounded(), rounded(normal)));
+            let normal = patch.seen(point).normal;
+            return Some(End { point: rounded(point), normal: rounded(normal), spin: spin.rounded() });
         }
         before = size;
+        patch = match leads {
+            Way::Stays => patch,
+            Way::Open => patch_at(rounded(point))?,
+            Way::Leaves(_, Behind::Patch(neighbour)) => neighbour,
+            Way::Leaves(_, Behind::Height(z)) => patch_at(Vector3::new(0.0, 0.0, z))?,
+        };
     }
     None
 }

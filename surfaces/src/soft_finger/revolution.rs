@@ -3,10 +3,15 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix3, Vector3};
 
+use super::double::spins_little;
+use super::refined::settled;
 use crate::{
-    Extent, Knot, Level, Revolution, Search, SmoothSurface, SoftContact, SoftFingerSurface, Topology,
+    Extent, Knot, Level, Patch, Revolution, Search, SmoothSurface, SoftContact, SoftFingerSurface, Topology,
     newton_soft_contacts,
 };
+
+/// More contacts than that are not told apart.
+const MOST: usize = 16;
 
 /// `x² + y² − ρ²(z)`, piece by piece; beyond the ends of the profile `ρ²` goes on straight, which
 /// keeps a convex profile convex. The curvature jumps where pieces meet; the flat ends are not part
@@ -44,9 +49,29 @@ impl<T: Real, K: AsRef<[Knot<T>]>> SoftFingerSurface<T> for Revolution<T, K> {
             [low, .., high] => (low.point()[0], high.point()[0]),
             _ => return Search::Complete,
         };
-        newton_soft_contacts(self, wrench, last, |contact| {
+        let spins_little = spins_little(wrench, self.extent().radius);
+        let mut spun: [Option<Vector3<T>>; MOST] = [None; MOST];
+        newton_soft_contacts(self, wrench, last, |rough| {
+            let mut contact = rough;
+            // Where the profile is straight rounding under a large spin torque moves contacts past its ends, and
+            // one may have been found as several.
+            if !spins_little(&rough) {
+                contact = settled(wrench, self, &rough).unwrap_or(rough);
+                let close = T::EPSILON * T::literal(64.0) * self.extent().radius;
+                let is_known = |known: &Vector3<T>| (known - contact.point).amax() <= close;
+                if spun.iter().flatten().any(is_known) {
+                    return;
+                }
+                if let Some(free) = spun.iter_mut().find(|slot| slot.is_none()) {
+                    *free = Some(contact.point);
+                }
+            }
             let active = contact.point.z >= low && contact.point.z <= high;
             visit(SoftContact { active, ..contact });
         })
+    }
+
+    fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
+        self.turned(point.z)
     }
 }

@@ -3,11 +3,13 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
+use super::closed_form::soft_finger;
+use super::double::{in_type, narrow};
 use super::newton::Problem;
 use super::unit_sphere::OnUnitSphere;
 use crate::numeric::roots::{bisected, bracketed};
-use crate::numeric::vectors::{larger, largest};
-use crate::{ActiveSurface, Search, SoftContact, Torus};
+use crate::numeric::vectors::{larger, largest, wide};
+use crate::{ActiveSurface, Patch, Search, SoftContact, Torus};
 
 /// Cells that the circle is cut into to begin with.
 const CELLS: u8 = 24;
@@ -34,11 +36,7 @@ const DEPTH: usize = 10;
 /// torque, where the line of action touches the sphere, `|m − R ρ × f| = r|f|`; these angles and
 /// those at which the line passes the ring most closely are made ends of cells. Where `F` turns so near
 /// zero that the rounding of the wrench reaches it, two contacts merge in a fold: that is one contact.
-pub(super) fn on_torus<T: Real>(
-    torus: &Torus<T>,
-    wrench: &Wrench<T>,
-    mut visit: impl FnMut(SoftContact<T>),
-) -> Search<T> {
+fn search<T: Real>(torus: &Torus<T>, wrench: &Wrench<T>, mut visit: impl FnMut(SoftContact<T>)) -> Search<T> {
     let ring = torus.ring_radius();
     let lever = wrench.torque() / ring;
     let scale = larger(largest(&wrench.force()), largest(&lever)).normalising_factor();
@@ -76,6 +74,47 @@ pub(super) fn on_torus<T: Real>(
         }
     });
     search
+}
+
+/// More contacts than that are asked for in double precision.
+const MOST: usize = 8;
+
+/// The same, in double precision if the type is narrower and two contacts are about to merge in a fold: how far
+/// they are apart answers to the root of what rounding does to the wrench.
+fn on_torus<T: Real>(
+    torus: &Torus<T>,
+    wrench: &Wrench<T>,
+    mut visit: impl FnMut(SoftContact<T>),
+) -> Search<T> {
+    if T::EPSILON.to_f64() <= f64::EPSILON {
+        return search(torus, wrench, visit);
+    }
+    let mut found = [None; MOST];
+    let (mut count, mut steady) = (0, true);
+    let ended = search(torus, wrench, |contact| {
+        let slot = found.get_mut(count);
+        steady &= slot.is_some() && !is_folding(torus, &wrench.force(), &contact);
+        if let Some(slot) = slot {
+            *slot = Some(contact);
+            count += 1;
+        }
+    });
+    if !steady && let Ok(double) = Torus::new(torus.ring_radius().to_f64(), torus.tube_radius().to_f64()) {
+        let wrench = Wrench::on_fingertip(wide(&wrench.force()), wide(&wrench.torque()));
+        return in_type(search(&double, &wrench, |contact| visit(narrow(&contact))));
+    }
+    found.into_iter().flatten().for_each(visit);
+    ended
+}
+
+/// Whether `τ²κ + (f·n)²` is nearly nothing for the size of its parts.
+fn is_folding<T: Real>(torus: &Torus<T>, force: &Vector3<T>, contact: &SoftContact<T>) -> bool {
+    let (c, n) = (contact.point, contact.normal);
+    let outward = (c.x * n.x + c.y * n.y) / (c.x * c.x + c.y * c.y);
+    let scale = largest(force).normalising_factor();
+    let (pressing, spin) = ((force * scale).dot(&n), contact.spin_torque * scale);
+    let index = spin * (spin * outward) / torus.tube_radius() + pressing * pressing;
+    !(index.abs() >= T::literal(64.0) * T::EPSILON.root() * pressing * pressing)
 }
 
 /// The wrench, in units of the ring's radius.
@@ -238,3 +277,10 @@ impl<T: Real> Around<T> {
         }
     }
 }
+
+soft_finger!(
+    Torus,
+    |shape, wrench, _, visit| on_torus(shape, wrench, visit),
+    patch | shape,
+    _ | Some(Patch::Torus { ring: shape.ring_radius().to_f64(), tube: shape.tube_radius().to_f64() })
+);

@@ -1,8 +1,8 @@
 //! The shapes that everything is tried on.
 
 use fingertip_surfaces::{
-    Capsule, Cone, Cylinder, CylinderEnds, Ellipsoid, EllipticCylinder, Implicit, Paraboloid, Plane,
-    RoundedBox, Sphere, Superquadric, Torus,
+    CappedCylinder, Capsule, Cone, Cylinder, CylinderEnds, Ellipsoid, EllipticCylinder, Frustum, Implicit,
+    Knot, Paraboloid, Plane, Revolution, RoundedBox, Sphere, Superquadric, Torus,
 };
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
@@ -39,6 +39,39 @@ pub(crate) fn cylinder<T: Real>() -> Cylinder<T> {
 
 pub(crate) fn elliptic_cylinder<T: Real>() -> EllipticCylinder<T> {
     EllipticCylinder::new([T::literal(0.007), T::literal(0.012)], CylinderEnds::Unbounded).unwrap()
+}
+
+pub(crate) fn closed_elliptic_cylinder<T: Real>() -> EllipticCylinder<T> {
+    EllipticCylinder::new([T::literal(0.007), T::literal(0.012)], CylinderEnds::Capped(T::literal(0.009)))
+        .unwrap()
+}
+
+pub(crate) fn capped_cylinder<T: Real>() -> CappedCylinder<T> {
+    let number = T::literal;
+    let centre = Vector3::new(number(0.001), number(0.0), number(-0.002));
+    let axis = Vector3::new(number(0.2), number(0.1), number(1.0));
+    CappedCylinder::new(centre, axis, number(0.007), number(0.011)).unwrap()
+}
+
+fn tapered<T: Real>(top: f64) -> Frustum<T> {
+    let number = T::literal;
+    let base = Vector3::new(number(0.001), number(0.0), number(-0.008));
+    let axis = Vector3::new(number(0.1), number(0.1), number(1.0));
+    Frustum::new(base, axis, number(0.016), number(0.009), number(top)).unwrap()
+}
+
+pub(crate) fn frustum<T: Real>() -> Frustum<T> {
+    tapered(0.005)
+}
+
+/// A closed cone.
+pub(crate) fn spike<T: Real>() -> Frustum<T> {
+    tapered(0.0)
+}
+
+/// A surface of revolution that is straight.
+pub(crate) fn tube<T: Real>() -> Revolution<T, [Knot<T>; 3]> {
+    Revolution::from_profile([0.0, 0.006, 0.012].map(|z| [T::literal(z), T::literal(0.008)])).unwrap()
 }
 
 pub(crate) fn cone<T: Real>() -> Cone<T> {
@@ -127,5 +160,84 @@ impl Widen for Implicit<Pillow> {
     type Double = Self;
     fn widened(&self) -> Self {
         *self
+    }
+}
+
+impl Widen for Plane<f32> {
+    type Double = Plane<f64>;
+    fn widened(&self) -> Plane<f64> {
+        Plane::new(wide(self.point()), wide(self.outward())).unwrap()
+    }
+}
+
+impl Widen for Cylinder<f32> {
+    type Double = Cylinder<f64>;
+    fn widened(&self) -> Cylinder<f64> {
+        Cylinder::new(wide(self.centre()), wide(self.axis()), self.radius().into()).unwrap()
+    }
+}
+
+impl Widen for EllipticCylinder<f32> {
+    type Double = EllipticCylinder<f64>;
+    fn widened(&self) -> EllipticCylinder<f64> {
+        let ends = match self.ends() {
+            CylinderEnds::Unbounded => CylinderEnds::Unbounded,
+            CylinderEnds::Open(half) => CylinderEnds::Open(half.into()),
+            CylinderEnds::Capped(half) => CylinderEnds::Capped(half.into()),
+        };
+        EllipticCylinder::new(self.semi_axes().map(f64::from), ends).unwrap()
+    }
+}
+
+impl Widen for Cone<f32> {
+    type Double = Cone<f64>;
+    fn widened(&self) -> Cone<f64> {
+        Cone::new(wide(self.apex()), wide(self.axis()), self.half_angle().into()).unwrap()
+    }
+}
+
+impl Widen for Capsule<f32> {
+    type Double = Capsule<f64>;
+    fn widened(&self) -> Capsule<f64> {
+        let [half, radius] = [self.half_length(), self.radius()].map(f64::from);
+        Capsule::new(wide(self.centre()), wide(self.axis()), half, radius).unwrap()
+    }
+}
+
+impl Widen for RoundedBox<f32> {
+    type Double = RoundedBox<f64>;
+    fn widened(&self) -> RoundedBox<f64> {
+        RoundedBox::new(wide(self.half_extents()), self.rounding().into()).unwrap()
+    }
+}
+
+impl Widen for Torus<f32> {
+    type Double = Torus<f64>;
+    fn widened(&self) -> Torus<f64> {
+        Torus::new(self.ring_radius().into(), self.tube_radius().into()).unwrap()
+    }
+}
+
+impl Widen for CappedCylinder<f32> {
+    type Double = CappedCylinder<f64>;
+    fn widened(&self) -> CappedCylinder<f64> {
+        let [radius, half] = [self.radius(), self.half_length()].map(f64::from);
+        CappedCylinder::new(wide(self.centre()), wide(self.axis()), radius, half).unwrap()
+    }
+}
+
+impl Widen for Frustum<f32> {
+    type Double = Frustum<f64>;
+    fn widened(&self) -> Frustum<f64> {
+        let [height, base, top] = [self.height(), self.base_radius(), self.top_radius()].map(f64::from);
+        Frustum::new(wide(self.base_centre()), wide(self.axis()), height, base, top).unwrap()
+    }
+}
+
+impl Widen for Revolution<f32, [Knot<f32>; 3]> {
+    type Double = Revolution<f64, [Knot<f64>; 3]>;
+    fn widened(&self) -> Revolution<f64, [Knot<f64>; 3]> {
+        let knots = [0, 1, 2].map(|k| self.knots()[k].point().map(f64::from));
+        Revolution::from_profile(knots).unwrap()
     }
 }

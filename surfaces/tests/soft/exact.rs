@@ -1,40 +1,38 @@
 //! The contact that a wrench has to the last digit, in arithmetic of 220 bits: where a surface is
 //! straight one way and the spin torque large, double precision is not enough.
 
-use fingertip_surfaces::{
-    Capsule, Cone, Cylinder, EllipticCylinder, Plane, RoundedBox, SmoothSurface, Torus,
-};
+use fingertip_surfaces::{Capsule, Cone, Cylinder, Plane, RoundedBox, SmoothSurface, Torus};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix4, Vector3, Vector4};
 
 use crate::big::{Big, Big3, big3, cross, dot};
 
-fn wide<T: Real>(v: &Vector3<T>) -> Big3 {
+pub(crate) fn wide<T: Real>(v: &Vector3<T>) -> Big3 {
     big3(v.map(Real::to_f64).into())
 }
 
-fn minus(a: &Big3, b: &Big3) -> Big3 {
+pub(crate) fn minus(a: &Big3, b: &Big3) -> Big3 {
     [0, 1, 2].map(|k| &a[k] - &b[k])
 }
 
-fn times(a: &Big3, t: &Big) -> Big3 {
+pub(crate) fn times(a: &Big3, t: &Big) -> Big3 {
     [0, 1, 2].map(|k| &a[k] * t)
 }
 
-fn plus(a: &Big3, b: &Big3) -> Big3 {
+pub(crate) fn plus(a: &Big3, b: &Big3) -> Big3 {
     [0, 1, 2].map(|k| &a[k] + &b[k])
 }
 
-fn length(a: &Big3) -> Big {
+pub(crate) fn length(a: &Big3) -> Big {
     dot(a, a).sqrt()
 }
 
-fn unit(a: &Big3) -> Big3 {
+pub(crate) fn unit(a: &Big3) -> Big3 {
     let length = length(a);
     if length.is_positive() { [0, 1, 2].map(|k| &a[k] / &length) } else { a.clone() }
 }
 
-fn number<T: Real>(x: T) -> Big {
+pub(crate) fn number<T: Real>(x: T) -> Big {
     Big::new(x.to_f64())
 }
 
@@ -43,10 +41,16 @@ pub(crate) trait Exact {
     /// The distance from the surface, positive outside, and the outward unit normal.
     fn height_and_normal(&self, point: &Big3) -> (Big, Big3);
 
-    /// How far a point is from where the curvature jumps.
-    fn to_seam(&self, point: &Big3) -> f64 {
+    /// Whether a point of that surface, which may be larger, belongs to the shape.
+    fn holds(&self, point: &Big3) -> bool {
         let _ = point;
-        f64::INFINITY
+        true
+    }
+
+    /// The contact on an end, an edge or a tip, if the wrench has one there.
+    fn elsewhere(&self, force: &Big3, torque: &Big3) -> Option<Big3> {
+        let _ = (force, torque);
+        None
     }
 }
 
@@ -58,7 +62,7 @@ impl<T: Real> Exact for Plane<T> {
 }
 
 /// Height along an axis, and what is across it.
-fn split<T: Real>(point: &Big3, origin: &Vector3<T>, axis: &Vector3<T>) -> (Big, Big3, Big3) {
+pub(crate) fn split<T: Real>(point: &Big3, origin: &Vector3<T>, axis: &Vector3<T>) -> (Big, Big3, Big3) {
     let (from_origin, axis) = (minus(point, &wide(origin)), unit(&wide(axis)));
     let height = dot(&from_origin, &axis);
     let across = minus(&from_origin, &times(&axis, &height));
@@ -72,16 +76,6 @@ impl<T: Real> Exact for Cylinder<T> {
     }
 }
 
-impl<T: Real> Exact for EllipticCylinder<T> {
-    fn height_and_normal(&self, point: &Big3) -> (Big, Big3) {
-        let [a, b] = self.semi_axes().map(number);
-        let (x, y) = (&point[0] / &a, &point[1] / &b);
-        let gauge = (&(&x * &x) + &(&y * &y)).sqrt();
-        let gradient = [&(&x / &a) / &gauge, &(&y / &b) / &gauge, Big::new(0.0)];
-        (&(&gauge - &Big::new(1.0)) / &length(&gradient), unit(&gradient))
-    }
-}
-
 impl<T: Real> Exact for Cone<T> {
     fn height_and_normal(&self, point: &Big3) -> (Big, Big3) {
         let (height, across, axis) = split(point, &self.apex(), &self.axis());
@@ -89,6 +83,16 @@ impl<T: Real> Exact for Cone<T> {
         let cosine = &Big::new(1.0) / &(&Big::new(1.0) + &(&slope * &slope)).sqrt();
         let slanted = minus(&unit(&across), &times(&axis, &slope));
         (&(&length(&across) - &(&height * &slope)) * &cosine, times(&slanted, &cosine))
+    }
+
+    /// At the tip, whose normals are those that lean away from the axis by less than the side's.
+    fn elsewhere(&self, force: &Big3, torque: &Big3) -> Option<Big3> {
+        let (apex, axis) = (wide(&self.apex()), unit(&wide(&self.axis())));
+        let rest = minus(torque, &cross(&apex, force));
+        let away = if dot(force, &rest).is_positive() { dot(&rest, &axis) } else { -dot(&rest, &axis) };
+        let across = minus(&rest, &times(&axis, &dot(&rest, &axis)));
+        let slope = Big::new(self.half_angle().to_f64().tan());
+        (&away - &(&length(&across) * &slope)).is_positive().then_some(apex)
     }
 }
 
@@ -116,11 +120,6 @@ impl<T: Real> Exact for RoundedBox<T> {
             if point[k].is_positive() { beyond } else { -beyond }
         });
         (&length(&outside) - &rounding, unit(&outside))
-    }
-
-    fn to_seam(&self, point: &Big3) -> f64 {
-        let core = self.half_extents().map(|half| half.to_f64() - self.rounding().to_f64());
-        (0..3).map(|k| (point[k].abs().to_f64() - core[k]).abs()).fold(f64::INFINITY, f64::min)
     }
 }
 

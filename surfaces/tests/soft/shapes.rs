@@ -6,6 +6,7 @@ use fingertip_surfaces::{
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
+use crate::big::{Big3, big3};
 use crate::common::{self, Widen};
 use crate::exact::{self, Exact};
 use crate::wrenches::{Case, Random};
@@ -108,7 +109,7 @@ fn run_single<S: SoftFingerSurface<f32>, D: SoftFingerSurface<f64> + SmoothSurfa
     tolerance: f64,
 ) {
     let mut random = Random::new(18);
-    let (mut failures, mut hopeless, mut worst, mut conditioned) = (0, 0, 0.0_f64, 0.0_f64);
+    let (mut failures, mut worst, mut conditioned) = (0, 0.0_f64, 0.0_f64);
     for _ in 0..count {
         let magnitude = random.log_uniform(1e-6, 1e6);
         let case = Case::random(&mut random, double, size, [1e-16, 1e4], magnitude);
@@ -121,12 +122,6 @@ fn run_single<S: SoftFingerSurface<f32>, D: SoftFingerSurface<f64> + SmoothSurfa
                 worst = worst.max(point);
                 conditioned = conditioned.max(point / conditioning(double, &case, size));
             }
-            // The rounding of the wrench alone moves such a contact by millimetres, or off the surface.
-            Resolution::NoContact(_)
-                if conditioning(double, &case, size) * f64::from(f32::EPSILON) > 0.002 =>
-            {
-                hopeless += 1;
-            }
             Resolution::NoContact(reason) => {
                 if failures < 3 {
                     println!("{name}: {reason:?} {case:?}");
@@ -136,7 +131,7 @@ fn run_single<S: SoftFingerSurface<f32>, D: SoftFingerSurface<f64> + SmoothSurfa
         }
     }
     println!(
-        "{name:18} f32 n={count} failures {failures} (and {hopeless} hopeless) error/size {worst:.1e}, in units of its conditioning {conditioned:.1e}"
+        "{name:18} f32 n={count} failures {failures} error/size {worst:.1e}, in units of its conditioning {conditioned:.1e}"
     );
     assert_eq!(failures, 0, "{name}");
     assert!(conditioned <= 8.0 * f64::from(f32::EPSILON), "{name}: {conditioned:e}");
@@ -175,11 +170,9 @@ shape_test!(pillow, 0.012, 100_000, ROUND);
 struct Straight {
     /// No contact where there is one: denied, or unresolved.
     failures: usize,
-    /// Compared with 220 bits; contacts at a tip, where the surface has no normal, on a seam or in a fold; and
-    /// those of which 220 bits found none.
+    /// Compared with 220 bits; at ends, edges and tips; and those of which 220 bits found none.
     compared: usize,
-    at_tip: usize,
-    on_seam: usize,
+    elsewhere: usize,
     lost: usize,
     /// Greatest error relative to the size, or to the distance of a contact that is further away.
     worst: f64,
@@ -197,18 +190,25 @@ fn straight<T: Real, S: SoftFingerSurface<T> + Exact>(
     goal: f64,
 ) -> Straight {
     let (mut random, mut seen) = (Random::new(19), Straight::default());
-    let (model, epsilon) = (SoftFinger::new(T::zero()).unwrap(), T::EPSILON.to_f64());
+    let model = SoftFinger::new(T::zero()).unwrap();
     for _ in 0..count {
         let magnitude = random.log_uniform(1e-6, 1e6);
         let case = Case::random(&mut random, smooth, size, [1e-16, 1e4], magnitude);
         let [force, torque] = [case.wrench.force(), case.wrench.torque()].map(|v| v.map(T::literal));
         let wrench = Wrench::<T>::on_fingertip(force, torque);
-        let exact = |near: &Vector3<f64>| exact::contact(surface, smooth, &wrench, near, size);
+        let [f, m] = [force, torque].map(|v| big3(v.map(Real::to_f64).into()));
+        // Where two contacts merge in a fold either will do.
+        let exact = |starts: &[Vector3<f64>]| -> Vec<Big3> {
+            let smooth = |near| exact::contact(surface, smooth, &wrench, near, size);
+            let on_smooth =
+                || starts.iter().filter_map(smooth).filter(|point| surface.holds(point)).collect();
+            surface.elsewhere(&f, &m).map_or_else(on_smooth, |point| vec![point])
+        };
         let contact = match model.resolve_near(&wrench, surface, Some(&case.point.map(T::literal))) {
             Resolution::Contact(contact) => contact,
             // The rounding of the wrench may have moved the contact off the surface.
             Resolution::NoContact(reason) => {
-                if exact(&case.point).is_some() {
+                if !exact(&[case.point]).is_empty() {
                     println!("{reason:?} {case:?}");
                     seen.failures += 1;
                 }
@@ -221,28 +221,19 @@ fn straight<T: Real, S: SoftFingerSurface<T> + Exact>(
             continue;
         }
         seen.compared += 1;
-        // Near a fold, where two contacts merge, the root of rounding decides which of them is found.
-        let bend = smooth.shape_operator(&case.point);
-        let minors = (bend.trace().powi(2) - bend.norm_squared()) / 2.0;
-        let pressing = case.wrench.force().dot(&case.normal).powi(2);
-        let share = (case.spin.powi(2) * minors + pressing).abs() / pressing;
-        if minors < -1e-6 * bend.norm_squared() && share < 64.0 * epsilon.sqrt() {
-            seen.on_seam += 1;
-            continue;
-        }
-        let slant = (surface.normal(&contact.point) - contact.normal).amax().to_f64();
-        if slant > 0.01 {
-            seen.at_tip += 1;
-        } else if let Some(truth) = exact(&case.point).or_else(|| exact(&found)) {
+        let truths = exact(&[case.point, found]);
+        let error = |truth: &Big3| {
             let far = truth.iter().map(|x| x.to_f64().abs()).fold(size, f64::max);
-            // Between two patches, by less than a coordinate can say, steps may lead to and fro.
-            if surface.to_seam(&truth) <= epsilon * far {
-                seen.on_seam += 1;
-                continue;
+            exact::distance(&contact.point, truth) / far
+        };
+        let off = truths.iter().map(error).fold(f64::INFINITY, f64::min);
+        seen.lost += usize::from(truths.is_empty());
+        seen.elsewhere += usize::from(surface.elsewhere(&f, &m).is_some());
+        if !truths.is_empty() {
+            if off > goal {
+                println!("{off:e} {case:?} {contact:?}");
             }
-            seen.worst = seen.worst.max(exact::distance(&contact.point, &truth) / far);
-        } else {
-            seen.lost += 1;
+            seen.worst = seen.worst.max(off);
         }
     }
     seen
@@ -255,18 +246,19 @@ macro_rules! straight_test {
 
             fn run(count: usize, most: usize) {
                 let (single, double) = (common::$name::<f32>(), common::$name::<f64>());
+                let widened = single.widened();
                 let name = stringify!($name);
                 for (scalar, goal, seen) in [
                     ("f64", 1e-13, straight::<f64, _>(&double, &double, $size, count, most, 1e-13)),
-                    ("f32", 1e-6, straight::<f32, _>(&single, &double, $size, count / 5, most / 5, 1e-6)),
+                    ("f32", 1e-6, straight::<f32, _>(&single, &widened, $size, count / 5, most / 5, 1e-6)),
                 ] {
-                    let Straight { failures, compared, at_tip, on_seam, lost, worst } = seen;
+                    let Straight { failures, compared, elsewhere, lost, worst } = seen;
                     println!(
-                        "{name:18} {scalar} failures {failures}, against 220 bits {compared} ({at_tip} at a tip, \
-                         {on_seam} on a seam or in a fold, {lost} without an answer): error/size {worst:.1e}"
+                        "{name:18} {scalar} failures {failures}, against 220 bits {compared} ({elsewhere} at ends, edges and tips, \
+                         {lost} without an answer): error/size {worst:.1e}"
                     );
                     assert!(failures == 0 && worst <= goal, "{name} {scalar}: {failures} {worst:e}");
-                    assert!(lost * 100 <= compared && on_seam * 10 <= compared.max(10) && at_tip * 4 <= compared, "{name}: {lost} {on_seam} {at_tip}");
+                    assert!(lost * 100 <= compared, "{name}: {lost}");
                 }
             }
 
@@ -287,7 +279,12 @@ macro_rules! straight_test {
 straight_test!(plane, 0.017);
 straight_test!(cylinder, 0.017);
 straight_test!(elliptic_cylinder, 0.017);
+straight_test!(closed_elliptic_cylinder, 0.013);
+straight_test!(capped_cylinder, 0.013);
 straight_test!(cone, 0.017);
+straight_test!(frustum, 0.013);
+straight_test!(spike, 0.013);
+straight_test!(tube, 0.013);
 straight_test!(capsule, 0.017);
 straight_test!(rounded_box, 0.017);
 straight_test!(torus, 0.0135);
