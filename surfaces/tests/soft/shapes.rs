@@ -268,7 +268,7 @@ macro_rules! straight_test {
             }
 
             #[test]
-            #[ignore = "half a minute long"]
+            #[ignore = "minutes long"]
             fn within_the_bound_to_the_last() {
                 run(500_000, usize::MAX);
             }

@@ -63,37 +63,36 @@ fn counts() {
     assert!(counts[0] + counts[1] + counts[3] + counts[5] == 0);
 }
 
-/// Newton's method from points all over the ring finds no contact that is missing. From few starts it
-/// misses some, and then counts odd numbers.
+/// Newton's method from points all over the ring finds no contact that is missing. From fewer starts it
+/// misses some, and then counts odd numbers: from forty about as many as have been reported.
 #[test]
 fn nothing_is_missed() {
+    const STARTS: [usize; 3] = [8, 40, 300];
     let torus = Torus::new(1.0, 0.35).unwrap();
     let mut random = Random::new(5);
-    let (mut by_few, mut by_many) = ([0; 9], [0; 9]);
+    let mut counts = [[0; 9]; 3];
     for _ in 0..300 {
         // Spin torques from almost none, where the wrench's axis rules, to such as bend it round.
         let spin = random.log_uniform(1e-6, 10.0);
         let case = Case::random(&mut random, &torus, 1.4, [spin / 1.4, spin / 1.4 * 1.0001], 1.0);
         let (ours, _) = all(&torus, &case.wrench);
         let mut distinct: Vec<Vector3<f64>> = Vec::new();
-        for start in 0..300 {
-            if start == 8 {
-                by_few[distinct.len().min(8)] += 1;
-            }
+        for start in 1..=300 {
             let found = newton(&torus, &case.wrench, random.place(&torus, 1.4).0, &mut random);
-            let Some((point, pressing)) = found else { continue };
-            if !pressing {
-                continue;
+            if let Some((point, true)) = found {
+                let apart = |other: &Vector3<f64>| (other - point).norm();
+                assert!(ours.iter().any(|c| apart(&c.point) < 1e-6), "{point} {case:?} {ours:?}");
+                if distinct.iter().all(|other| apart(other) > 1e-6) {
+                    distinct.push(point);
+                }
             }
-            let apart = |other: &Vector3<f64>| (other - point).norm();
-            assert!(ours.iter().any(|c| apart(&c.point) < 1e-6), "{point} {case:?} {ours:?}");
-            if distinct.iter().all(|other| apart(other) > 1e-6) {
-                distinct.push(point);
+            for (counts, starts) in counts.iter_mut().zip(STARTS) {
+                counts[distinct.len().min(8)] += usize::from(start == starts);
             }
         }
-        by_many[distinct.len().min(8)] += 1;
         assert!(distinct.len() <= ours.len());
     }
-    println!("multi-start Newton, 0..8 contacts: {by_few:?} from 8 starts, {by_many:?} from 300, of 300");
-    assert!(by_few[1] + by_few[3] > by_many[1] + by_many[3]);
+    println!("multi-start Newton, 0..8 contacts of 300 problems: {counts:?} from {STARTS:?} starts");
+    let odd = counts.map(|counts| counts[1] + counts[3]);
+    assert!(odd[0] > odd[1] && odd[1] > 0 && odd[2] == 0, "{odd:?}");
 }
