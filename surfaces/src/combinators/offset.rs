@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use crate::numeric::closest::{by_search, to_convex};
 use crate::numeric::roots::{all_of_lipschitz, first_of_convex};
+use crate::numeric::twofold::{Twofold, difference, dot_with};
 use crate::numeric::vectors::foot;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, SignedDistance};
 
@@ -92,6 +93,14 @@ impl<T: Real, S: SignedDistance<T>> ActiveSurface<T> for Offset<T, S> {
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         self.surface.signed_distance(point).normal
+    }
+
+    /// How far it is from the distance to a point of the inner surface, and that point from where it should be.
+    fn outside_by(&self, point: &Vector3<T>) -> T {
+        let normal = self.normal(point);
+        let foot = point - normal * self.distance;
+        let apart = dot_with(difference(point, &foot), &normal);
+        apart.minus(Twofold::new(self.distance)).value() + self.surface.outside_by(&foot)
     }
 
     fn contains(&self, point: &Vector3<T>) -> bool {

@@ -2,7 +2,7 @@
 
 use fingertip_surfaces::{
     CappedCylinder, Capsule, Cone, Cylinder, CylinderEnds, Ellipsoid, EllipticCylinder, Frustum, Implicit,
-    Knot, Paraboloid, Plane, Revolution, RoundedBox, Sphere, Superquadric, Torus,
+    Knot, Offset, Paraboloid, Plane, Revolution, RoundedBox, Sphere, Superquadric, Torus,
 };
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
@@ -72,6 +72,17 @@ pub(crate) fn spike<T: Real>() -> Frustum<T> {
 /// A surface of revolution that is straight.
 pub(crate) fn tube<T: Real>() -> Revolution<T, [Knot<T>; 3]> {
     Revolution::from_profile([0.0, 0.006, 0.012].map(|z| [T::literal(z), T::literal(0.008)])).unwrap()
+}
+
+/// A surface of revolution that is curved everywhere.
+pub(crate) fn gel_tip<T: Real>() -> Revolution<T, [Knot<T>; 5]> {
+    let profile = [[0.000, 0.0080], [0.004, 0.0080], [0.008, 0.0074], [0.012, 0.0052], [0.014, 0.0]];
+    Revolution::from_profile(profile.map(|point| point.map(T::literal))).unwrap()
+}
+
+/// A skin over an ellipsoid.
+pub(crate) fn skin<T: Real>() -> Offset<T, Ellipsoid<T>> {
+    Offset::new(ellipsoid(), T::literal(0.002)).unwrap()
 }
 
 pub(crate) fn cone<T: Real>() -> Cone<T> {
@@ -234,10 +245,17 @@ impl Widen for Frustum<f32> {
     }
 }
 
-impl Widen for Revolution<f32, [Knot<f32>; 3]> {
-    type Double = Revolution<f64, [Knot<f64>; 3]>;
-    fn widened(&self) -> Revolution<f64, [Knot<f64>; 3]> {
-        let knots = [0, 1, 2].map(|k| self.knots()[k].point().map(f64::from));
+impl<const N: usize> Widen for Revolution<f32, [Knot<f32>; N]> {
+    type Double = Revolution<f64, [Knot<f64>; N]>;
+    fn widened(&self) -> Revolution<f64, [Knot<f64>; N]> {
+        let knots = core::array::from_fn(|k| self.knots()[k].point().map(f64::from));
         Revolution::from_profile(knots).unwrap()
+    }
+}
+
+impl Widen for Offset<f32, Ellipsoid<f32>> {
+    type Double = Offset<f64, Ellipsoid<f64>>;
+    fn widened(&self) -> Offset<f64, Ellipsoid<f64>> {
+        Offset::new(self.inner().widened(), self.distance().into()).unwrap()
     }
 }
