@@ -4,6 +4,8 @@
 use fingertip_surfaces::*;
 use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 
 fn v(x: f64, y: f64, z: f64) -> Vector3<f64> {
     Vector3::new(x, y, z)
@@ -178,6 +180,51 @@ fn a_miss_by_one_ulp_is_not_nan() {
             let error = (point - Vector3::x()).amax();
             assert!(error <= (T::EPSILON * T::literal(8.0)).root(), "{ulps} ulps: {point:?}");
         }
+    }
+    check::<f32>();
+    check::<f64>();
+}
+
+/// By rounding, a line through the edge of a closed shape may leave it there without having entered: that is
+/// a miss by a hair, not a contact that pulls.
+#[test]
+fn an_edge_is_pressed_or_missed_by_a_hair() {
+    fn check<T: Real>() {
+        let z = Vector3::z();
+        let shaft = CappedCylinder::new(Vector3::zeros(), z, T::one(), T::literal(0.5)).unwrap();
+        let stump = Frustum::new(z * T::literal(-0.5), z, T::one(), T::literal(1.5), T::one()).unwrap();
+        let block = RoundedBox::new(v(0.8, 0.6, 0.5).map(T::literal), T::zero()).unwrap();
+        let model = PointContact::new(T::zero()).unwrap();
+        let mut random = Pcg64Mcg::seed_from_u64(31);
+        let (mut pressed, mut missed) = (0, 0);
+        for k in 0..20_000 {
+            let angle = random.random_range(0.0..core::f64::consts::TAU);
+            let round = v(angle.cos(), angle.sin(), 0.5);
+            let straight = v(0.8, random.random_range(-0.6..0.6), 0.5);
+            let edge = if k % 3 == 0 { straight } else { round }.map(T::literal);
+            let push = Vector3::from_fn(|_, _| T::literal(random.random_range(-1.0..1.0)));
+            let wrench = Wrench::from_force_at(&edge, push);
+            let found = match k % 3 {
+                0 => model.resolve(&wrench, &block),
+                1 => model.resolve(&wrench, &shaft),
+                _ => model.resolve(&wrench, &stump),
+            };
+            match found {
+                Resolution::Contact(contact) => {
+                    let pull = push.dot(&contact.normal) / push.norm();
+                    assert!(pull <= T::EPSILON * T::literal(64.0), "{wrench:?} {contact:?}");
+                    pressed += 1;
+                }
+                Resolution::NoContact(NoContact::Misses { gap, closest, .. }) => {
+                    // The torque rounds the line by a few of its last places at size 1.5.
+                    let hair = T::EPSILON * T::literal(32.0);
+                    assert!(gap <= hair && (closest - edge).norm() <= hair.root(), "{wrench:?} {found:?}");
+                    missed += 1;
+                }
+                other => panic!("{wrench:?} {other:?}"),
+            }
+        }
+        assert!(pressed > 10_000 && missed > 500, "{pressed} {missed}");
     }
     check::<f32>();
     check::<f64>();

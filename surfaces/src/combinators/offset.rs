@@ -50,6 +50,8 @@ impl<T: Real, S> Offset<T, S> {
 }
 
 impl<T: Real, S: SignedDistance<T>> ActiveSurface<T> for Offset<T, S> {
+    const CLOSED_CONVEX: bool = S::CONVEX;
+
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let (centre, radius) = self.bounds();
         let (offset, along) = foot(line, &centre);

@@ -6,6 +6,7 @@ use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 use super::crossing::Shear;
+use super::fetch::fetch;
 use super::list::List;
 use super::node::{Grid, LEAF, Node, WIDTH};
 use super::packet::{LANES, Packet};
@@ -123,8 +124,7 @@ impl<T: Real> Bvh<T> {
         let mut open = List::<MOST_OPEN>::EMPTY;
         let mut leaves = List::<MOST_LEAVES>::EMPTY;
         let (mut open_count, mut leaf_count) = (open.add(0, ROOT, 1), 0);
-        // In the order in which they were found, a node is known long before its turn: so the next are
-        // fetched while one is tested.
+        // In the order in which they were found, a node is known long before its turn.
         let mut next = 0;
         while next < open_count {
             let node = open.get(next).and_then(|k| self.nodes.get(k)).unwrap_or(&Node::EMPTY);
@@ -132,6 +132,13 @@ impl<T: Real> Bvh<T> {
             let crossed = probe.may_cross(node);
             open_count = open.add(open_count, node.node, crossed & node.nodes);
             leaf_count = leaves.add(leaf_count, node.packet, crossed & !node.nodes);
+            // Those found last are on their way before it is their turn: seldom more than two at once.
+            for back in 1..=2 {
+                if let Some(node) = open.get(open_count.saturating_sub(back)).and_then(|k| self.nodes.get(k))
+                {
+                    fetch(node);
+                }
+            }
             if open_count > MANY_OPEN {
                 // The last is next, in the place of this.
                 next -= 1;

@@ -4,6 +4,7 @@ mod bvh;
 mod closest;
 mod crossing;
 mod fans;
+mod fetch;
 mod lanes;
 mod list;
 mod node;

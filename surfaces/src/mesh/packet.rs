@@ -1,11 +1,10 @@
 //! Some triangles side by side, tested together.
 
-use core::hint::black_box;
-
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 use super::crossing::Shear;
+use super::fetch::fetch_all;
 use crate::numeric::vectors::{any_perpendicular, unit_or};
 
 /// How many triangles a packet holds.
@@ -39,11 +38,10 @@ impl<T: Real> Packet<T> {
         packet
     }
 
-    /// Has it fetched, all of it, without waiting: what is read here is not used.
+    /// Has the corners fetched, without waiting.
     #[inline(always)]
     pub(super) fn fetch(&self) {
-        let [[[first, ..], ..], [_, [.., middle], _], [_, _, [.., last]]] = self.corners;
-        black_box((first, middle, last));
+        fetch_all(self.corners.as_flattened().as_flattened());
     }
 
     /// Calls `visit` for every triangle that the line crosses, with the position along the line and

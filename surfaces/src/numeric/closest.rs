@@ -4,7 +4,7 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use super::roots::bisected;
-use super::vectors::{foot, is_finite, larger};
+use super::vectors::{foot, is_finite, larger, largest, unit_or};
 use crate::{ClosestApproach, Distance};
 
 /// By bisection of the slope of the distance along the line, which is convex. `distance` tells the
@@ -21,7 +21,18 @@ pub(crate) fn to_convex<T: Real>(
     let origin = if is_finite(&start) { start } else { Vector3::zeros() };
     let at = |along: T| distance(&(centre + origin + line.direction * along));
     let along = bisected(-reach, reach, |t| at(t).normal.dot(&line.direction) < T::zero());
-    from_distance(&(centre + origin + line.direction * along), at(along))
+    let mut found = at(along);
+    let offset = origin + line.direction * along;
+    let hair = (largest(&offset) + largest(centre)) * (T::EPSILON * T::literal(16.0));
+    if found.distance <= hair {
+        // It touches, at an edge perhaps, where each face has a normal: across the line is one between that of
+        // the face that it comes to and that of the face that it leaves.
+        let [before, after] = [along - hair, along + hair].map(|t| at(t).normal);
+        let rises = larger(after.dot(&line.direction), T::zero());
+        let falls = larger(-before.dot(&line.direction), T::zero());
+        found.normal = unit_or(&(before * rises + after * falls), || found.normal);
+    }
+    from_distance(&(centre + offset), found)
 }
 
 /// The foot of a point on the surface, told its distance.

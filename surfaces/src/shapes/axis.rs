@@ -181,9 +181,10 @@ impl<T: Real> Axis<T> {
         Entry { incidence_squared, ..found }
     }
 
-    /// Both ends of what is inside a convex solid, from what tells where a line enters it.
+    /// Both ends of what is inside a convex solid, from what tells where a line enters it. One that is `CLOSED`
+    /// is left only after it was entered: what rounding finds else, at an edge, is none.
     #[inline]
-    pub(super) fn both_ends(
+    pub(super) fn both_ends<const CLOSED: bool>(
         &self,
         line: &Local<T>,
         from: &Vector3<T>,
@@ -194,6 +195,8 @@ impl<T: Real> Axis<T> {
         let end = entry(line);
         if end.enters {
             visit(end, self.crossing(line, from, &end, true));
+        } else if CLOSED {
+            return;
         }
         let end = entry(&reversed);
         if end.enters {

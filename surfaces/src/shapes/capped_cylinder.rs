@@ -70,6 +70,8 @@ impl<T: Real> CappedCylinder<T> {
 }
 
 impl<T: Real> ActiveSurface<T> for CappedCylinder<T> {
+    const CLOSED_CONVEX: bool = true;
+
     #[inline]
     fn crossings(&self, line: &Line<T>, visit: impl FnMut(Crossing<T>)) {
         self.solid.crossings(line, visit);

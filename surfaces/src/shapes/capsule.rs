@@ -118,7 +118,7 @@ impl<T: Real> ActiveSurface<T> for Capsule<T> {
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let centre = self.axis.origin;
         let local = self.axis.localise(line, &centre);
-        self.axis.both_ends(&local, &centre, |line| self.entry(line), |_, crossing| visit(crossing));
+        self.axis.both_ends::<true>(&local, &centre, |line| self.entry(line), |_, crossing| visit(crossing));
     }
 
     #[inline(always)]

@@ -137,7 +137,7 @@ impl<T: Real> ActiveSurface<T> for Cone<T> {
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let apex = self.axis.origin;
         let local = self.axis.localise(line, &apex);
-        self.axis.both_ends(
+        self.axis.both_ends::<false>(
             &local,
             &apex,
             |line| self.entry(line),

@@ -175,10 +175,17 @@ impl<T: Real> Frustum<T> {
 }
 
 impl<T: Real> ActiveSurface<T> for Frustum<T> {
+    const CLOSED_CONVEX: bool = true;
+
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let local = self.axis.localise(line, &self.middle);
-        self.axis.both_ends(&local, &self.middle, |line| self.entry(line), |_, crossing| visit(crossing));
+        self.axis.both_ends::<true>(
+            &local,
+            &self.middle,
+            |line| self.entry(line),
+            |_, crossing| visit(crossing),
+        );
     }
 
     #[inline(always)]

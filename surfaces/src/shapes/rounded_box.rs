@@ -79,7 +79,13 @@ impl<T: Real> RoundedBox<T> {
     #[inline]
     fn crossing(&self, start: &Vector3<T>, direction: &Vector3<T>, t: T, along: T) -> Crossing<T> {
         let point = start + direction * t;
-        Crossing { along, point, normal: self.normal(&point), active: true }
+        let mut normal = self.normal(&point);
+        if normal.dot(direction) > T::zero() {
+            // At a sharp edge, that of the other face: so as it is a hair before.
+            let hair = self.bounds().1 * (T::EPSILON * T::literal(16.0));
+            normal = self.normal(&(start + direction * (t - hair)));
+        }
+        Crossing { along, point, normal, active: true }
     }
 }
 
@@ -89,9 +95,9 @@ impl<T: Real> ActiveSurface<T> for RoundedBox<T> {
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let (start, along) = foot(line, &Vector3::zeros());
         let (forth, back) = (line.direction, -line.direction);
-        if let Some(t) = self.entry(&start, &forth) {
-            visit(self.crossing(&start, &forth, t, along + t));
-        }
+        // Left only where it was entered: what rounding finds else, at a sharp edge, is none.
+        let Some(t) = self.entry(&start, &forth) else { return };
+        visit(self.crossing(&start, &forth, t, along + t));
         if let Some(t) = self.entry(&start, &back) {
             visit(self.crossing(&start, &back, t, along - t));
         }
