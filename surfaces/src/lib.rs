@@ -34,7 +34,8 @@ pub use bad_shape::BadShape;
 pub use combinators::{Compound, HalfSpace, Offset, Posed, Region, Trimmed};
 pub use compliant::{
     Compliant, CompliantContact, CompliantPointContact, CompliantSoftFinger, Hertz, Indentation,
-    LinearStiffness, LocalHertz, PowerLaw, SkinLaw, StiffnessLaw, Tabulated, contact_modulus,
+    IndentationSlope, LinearStiffness, LocalHertz, PowerLaw, SkinLaw, StiffnessLaw, Tabulated,
+    contact_modulus,
 };
 pub use contact::{Contact, ContactBound, ContactModel, NoContact, PointContact, Resolution, WorstErrors};
 #[cfg(feature = "alloc")]

@@ -116,6 +116,11 @@ impl<T: Real> StiffnessLaw<T> for Hertz<T> {
         let a = self.patch * root;
         Indentation { depth: self.depth * root * root, patch: [a, a * self.ratio] }
     }
+
+    /// Two thirds of `δ/F`; at no force without bound.
+    fn compliance(&self, normal_force: T) -> T {
+        self.depth * T::literal(2.0 / 3.0) / normal_force.max(T::zero()).cbrt()
+    }
 }
 
 /// The patch's ratio `b/a` for a ratio `R_y/R_x ≤ 1` of the radii: the equation above is close to

@@ -3,11 +3,12 @@
 use fingertip_wrench::Real;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
+use super::flat_ends::Face;
 use crate::ActiveSurface;
 use crate::numeric::vectors::{hypotenuse, length, unit_or};
 use crate::{
-    CappedCylinder, Capsule, Cone, Cylinder, Extent, Frustum, Level, Plane, RoundedBox, SignedDistance,
-    SmoothSurface, Sphere, SphericalCap, Topology, Torus,
+    CappedCylinder, Capsule, Cone, Cylinder, Disk, Extent, Frustum, Level, Plane, Rectangle, RoundedBox,
+    SignedDistance, SmoothSurface, Sphere, SphericalCap, Topology, Torus,
 };
 
 impl<T: Real> SmoothSurface<T> for Sphere<T> {
@@ -77,6 +78,35 @@ impl<T: Real> SmoothSurface<T> for Plane<T> {
     }
 }
 
+impl<T: Real> SmoothSurface<T> for Disk<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        self.plane().level(point)
+    }
+
+    fn extent(&self) -> Extent<T> {
+        Extent { centre: self.plane().point(), radius: self.radius() }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
+    }
+}
+
+impl<T: Real> SmoothSurface<T> for Rectangle<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        self.plane().level(point)
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let [first, second] = self.half_edges();
+        Extent { centre: self.plane().point(), radius: hypotenuse(length(&first), length(&second)) }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
+    }
+}
+
 impl<T: Real> SmoothSurface<T> for Cylinder<T> {
     fn level(&self, point: &Vector3<T>) -> Level<T> {
         let axis = self.axis();
@@ -128,7 +158,7 @@ impl<T: Real> SmoothSurface<T> for Cone<T> {
     }
 }
 
-/// The side; the flat ends are not part of the level function.
+/// The level function is that of the side; the flat ends are not part of it, but of the curvature.
 impl<T: Real> SmoothSurface<T> for Frustum<T> {
     fn level(&self, point: &Vector3<T>) -> Level<T> {
         let axis = self.axis();
@@ -155,9 +185,22 @@ impl<T: Real> SmoothSurface<T> for Frustum<T> {
     fn topology(&self) -> Topology {
         Topology::Convex
     }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        let level = self.level(point);
+        match Face::of(&self.axis(), &level, &self.normal(point)) {
+            Face::End => Matrix3::zeros(),
+            Face::Side | Face::Edge => level.shape_operator(),
+        }
+    }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        let level = self.level(point);
+        Face::of(&self.axis(), &level, normal).bend(&level, tangents)
+    }
 }
 
-/// The side; the flat ends are not part of the level function.
+/// The level function is that of the side; the flat ends are not part of it, but of the curvature.
 impl<T: Real> SmoothSurface<T> for CappedCylinder<T> {
     fn level(&self, point: &Vector3<T>) -> Level<T> {
         self.solid().level(point)
@@ -169,6 +212,14 @@ impl<T: Real> SmoothSurface<T> for CappedCylinder<T> {
 
     fn topology(&self) -> Topology {
         Topology::Convex
+    }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        self.solid().shape_operator(point)
+    }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        self.solid().bend(point, normal, tangents)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Curvature: what surfaces know beyond crossings and normals.
 
 mod distances;
+mod flat_ends;
 mod gauges;
 mod implicit;
 mod parameters;

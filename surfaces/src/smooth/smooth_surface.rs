@@ -95,15 +95,29 @@ pub trait SmoothSurface<T: Real>: ActiveSurface<T> {
 
     /// The shape operator in the tangent plane at a point of the surface: its matrix \[1/m\] in two
     /// unit vectors that span the plane across the normal there. All that a covariance needs.
+    ///
+    /// NaN on an edge or a tip, where the normal turns though the point stays: that is told by a normal
+    /// that is not the one of the level function.
     #[inline]
     fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
         let level = self.level(point);
-        let inverse = T::one() / level.gradient.dot(normal);
+        let steepness = level.gradient.dot(normal);
+        if !agree(&level.gradient, &(normal * steepness), steepness) {
+            return Matrix2::repeat(T::zero() / T::zero());
+        }
+        let inverse = T::one() / steepness;
         let [e1, e2] = tangents;
         let (w1, w2) = (level.hessian * e1, level.hessian * e2);
         let mixed = e1.dot(&w2) * inverse;
         Matrix2::new(e1.dot(&w1) * inverse, mixed, mixed, e2.dot(&w2) * inverse)
     }
+}
+
+/// `true` if two vectors of this length are the same but for what rounding may have done to a normal: it
+/// turns as rounding moves its point, on a slender cone by far more than a unit in the last place.
+#[inline]
+pub(crate) fn agree<T: Real>(one: &Vector3<T>, other: &Vector3<T>, length: T) -> bool {
+    (one - other).amax() <= T::EPSILON.root().root() * length
 }
 
 impl<T: Real, S: SmoothSurface<T>> SmoothSurface<T> for &S {

@@ -3,6 +3,7 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix2, Matrix3, Matrix3x6, Matrix6, Vector2, Vector3, Vector6};
 
+use super::skin::Sinking;
 use super::{GeometrySensitivity, WrenchSpread};
 use crate::numeric::vectors::larger;
 use crate::numeric::vectors::tangents;
@@ -26,10 +27,15 @@ use crate::{Contact, ForceLine, SmoothSurface};
 ///   `dc = n × (b − p df − f dp)/(f·n)`, which is `Π[f] dm/|f|² − Π[f]([c] + p) df/|f|²` with
 ///   `Π = I − f nᵀ/(f·n)`.
 ///
+/// * **through a skin**, either of these on the parallel surface on which the contact lies, which sinks as
+///   the normal force grows:
+///   [`CompliantSoftFinger::jacobian`](crate::CompliantSoftFinger::jacobian),
+///   [`CompliantPointContact::jacobian`](crate::CompliantPointContact::jacobian).
+///
 /// Every surface will do: `W` comes from [`SmoothSurface`](crate::SmoothSurface) or
 /// from differences of its normal
 /// ([`shape_operator_by_differences`](crate::shape_operator_by_differences)). The position of a
-/// point contact does not depend on it.
+/// point contact does not depend on it. On an edge or a tip there is no `W`.
 ///
 /// Only what the derivatives are made of is kept: the two equations in the tangent plane, about
 /// `e·(dm − c × df − p df)`, and the 2 × 2 matrix that solves them. So a covariance of the position
@@ -53,18 +59,21 @@ pub struct ContactJacobian<T: Real> {
     inverse: T,
     /// The directions of torque that the two equations in the plane are about.
     across: [Vector3<T>; 2],
+    /// What a skin adds.
+    pub(super) sinking: Option<Sinking<T>>,
 }
 
 impl<T: Real> ContactJacobian<T> {
     /// Of a contact that [`SoftFinger`](crate::SoftFinger) found. `None` where the derivative does
-    /// not exist: the force grazes and no curvature holds the contact, or two contacts merge.
+    /// not exist: the force grazes and no curvature holds the contact, two contacts merge, or the
+    /// curvature is not finite.
     #[must_use]
     pub fn of_soft_finger(contact: &Contact<T>, shape_operator: &Matrix3<T>) -> Option<Self> {
         Self::soft_finger_bent(contact, |e1, e2| bend_of(shape_operator, e1, e2))
     }
 
     /// The same, on a surface that knows its curvature: the faster way, as only the tangent plane's
-    /// part of the shape operator is computed.
+    /// part of the shape operator is computed. `None` on an edge or a tip, too.
     #[inline]
     #[must_use]
     pub fn of_soft_finger_on<S: SmoothSurface<T>>(contact: &Contact<T>, surface: &S) -> Option<Self> {
@@ -72,7 +81,7 @@ impl<T: Real> ContactJacobian<T> {
     }
 
     #[inline(always)]
-    fn soft_finger_bent(
+    pub(super) fn soft_finger_bent(
         contact: &Contact<T>,
         bend: impl FnOnce(&Vector3<T>, &Vector3<T>) -> Matrix2<T>,
     ) -> Option<Self> {
@@ -109,6 +118,7 @@ impl<T: Real> ContactJacobian<T> {
             adjugate,
             inverse,
             across: [e1, e2],
+            sinking: None,
         };
         (jacobian, in_range)
     }
@@ -175,6 +185,7 @@ impl<T: Real> ContactJacobian<T> {
             adjugate,
             inverse: T::one(),
             across,
+            sinking: None,
         })
     }
 
@@ -191,6 +202,11 @@ impl<T: Real> ContactJacobian<T> {
     /// curvature nor load; then of their solution, by a congruence.
     #[inline(always)]
     pub(super) fn position_covariance(&self, wrench: &impl WrenchSpread<T>) -> Matrix2<T> {
+        if self.sinking.is_some() {
+            let [first, second] = self.position_rows();
+            let [c11, c12, c22] = wrench.combined(&first, &second);
+            return Matrix2::new(c11, c12, c12, c22);
+        }
         let [e1, e2] = &self.across;
         let [c11, c12, c22] = if self.is_soft {
             let [xx, xy, xz, yy, yz, zz] = wrench.torque_about(&self.point);
@@ -219,11 +235,24 @@ impl<T: Real> ContactJacobian<T> {
         self.adjugate * self.inverse
     }
 
+    /// The rows of the two positions, on a surface that does not sink.
+    #[inline]
+    fn rigid_position_rows(&self) -> [Vector6<T>; 2] {
+        let ([first, second], s) = (self.across.map(|e| self.row(&e)), self.solve());
+        [first * s.m11 + second * s.m12, first * s.m21 + second * s.m22]
+    }
+
     /// The rows of the two positions.
     #[inline]
     fn position_rows(&self) -> [Vector6<T>; 2] {
-        let ([first, second], s) = (self.across.map(|e| self.row(&e)), self.solve());
-        [first * s.m11 + second * s.m12, first * s.m21 + second * s.m22]
+        let [first, second] = self.rigid_position_rows();
+        match &self.sinking {
+            None => [first, second],
+            Some(sinking) => {
+                let deeper = sinking.deeper(&self.rigid_local());
+                [first - deeper * sinking.answer[0], second - deeper * sinking.answer[1]]
+            }
+        }
     }
 
     /// The two tangents that positions and tangential forces refer to: unit vectors, right-handed
@@ -245,7 +274,14 @@ impl<T: Real> ContactJacobian<T> {
     /// \[N·m\]), as rows, with respect to `Fx … Tz`, as columns.
     #[must_use]
     pub fn local(&self) -> Matrix6<T> {
-        let [a1, a2] = self.position_rows();
+        let rigid = self.rigid_local();
+        self.sinking
+            .as_ref()
+            .map_or(rigid, |sinking| rigid - sinking.answer * sinking.deeper(&rigid).transpose())
+    }
+
+    fn rigid_local(&self) -> Matrix6<T> {
+        let [a1, a2] = self.rigid_position_rows();
         let [e1, e2] = self.tangents;
         let n = self.normal;
         let from_force = |e: &Vector3<T>| Vector6::new(e.x, e.y, e.z, T::zero(), T::zero(), T::zero());
@@ -270,11 +306,19 @@ impl<T: Real> ContactJacobian<T> {
         .transpose()
     }
 
-    /// `∂c/∂(f, m)` in the sensor frame; its columns lie in the tangent plane.
+    /// `∂c/∂(f, m)` in the sensor frame; its columns lie in the tangent plane, but for a skin's.
     #[must_use]
     pub fn point(&self) -> Matrix3x6<T> {
         let [a1, a2] = self.position_rows();
-        self.tangents[0] * a1.transpose() + self.tangents[1] * a2.transpose()
+        let along = self.tangents[0] * a1.transpose() + self.tangents[1] * a2.transpose();
+        if self.sinking.is_none() { along } else { along + self.normal * self.height().transpose() }
+    }
+
+    /// How the contact's height along the normal answers to the wrench: zero, as it stays on the surface,
+    /// except where a skin sinks under it.
+    #[must_use]
+    pub fn height(&self) -> Vector6<T> {
+        self.sinking.as_ref().map_or_else(Vector6::zeros, |sinking| -sinking.deeper(&self.rigid_local()))
     }
 
     /// `∂n/∂(f, m)`: how the normal at the contact turns.
@@ -287,9 +331,23 @@ impl<T: Real> ContactJacobian<T> {
 
     /// How the contact answers to a change of the surface, the wrench staying what it is: the same
     /// six numbers as the rows of [`local`](Self::local), per unit of the parameter. The point
-    /// moves along the normal too, by [`GeometrySensitivity::displacement`].
+    /// moves along the normal too, by [`GeometrySensitivity::displacement`] less what a skin sinks.
+    ///
+    /// Through a skin, of a change of the surface that it deformed to:
+    /// [`of_deformed`](Self::of_deformed).
     #[must_use]
     pub fn answer_to(&self, change: &GeometrySensitivity<T>) -> Vector6<T> {
+        let rigid = self.rigid_answer_to(change);
+        self.sinking.as_ref().map_or(rigid, |sinking| rigid - sinking.answer * sinking.feedback.dot(&rigid))
+    }
+
+    /// How far the contact rises along the normal as the surface changes.
+    pub(super) fn rise_with(&self, change: &GeometrySensitivity<T>) -> T {
+        let sinks = |sinking: &Sinking<T>| sinking.feedback.dot(&self.rigid_answer_to(change));
+        change.displacement - self.sinking.as_ref().map_or_else(T::zero, sinks)
+    }
+
+    pub(super) fn rigid_answer_to(&self, change: &GeometrySensitivity<T>) -> Vector6<T> {
         let [e1, e2] = self.tangents;
         let n = self.normal;
         let (f, rise) = (&self.force, change.displacement);
@@ -317,7 +375,7 @@ impl<T: Real> ContactJacobian<T> {
     #[must_use]
     pub fn point_answer_to(&self, change: &GeometrySensitivity<T>) -> Vector3<T> {
         let local = self.answer_to(change);
-        self.tangents[0] * local.x + self.tangents[1] * local.y + self.normal * change.displacement
+        self.tangents[0] * local.x + self.tangents[1] * local.y + self.normal * self.rise_with(change)
     }
 }
 

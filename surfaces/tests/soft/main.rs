@@ -16,6 +16,7 @@ mod honesty;
 mod jacobians;
 mod pillow;
 mod shapes;
+mod skin;
 mod torus;
 mod uncertainty;
 mod uniqueness;

@@ -11,13 +11,13 @@ use nalgebra::{Matrix2, Matrix3, Matrix6, Vector3, Vector6};
 use crate::common;
 use crate::wrenches::{Case, Random};
 
-fn noisy(random: &mut Random, wrench: &Wrench<f64>, factor: &Matrix6<f64>) -> Wrench<f64> {
+pub(crate) fn noisy(random: &mut Random, wrench: &Wrench<f64>, factor: &Matrix6<f64>) -> Wrench<f64> {
     let noise = Vector6::from_fn(|_, _| random.normal());
     Wrench::from_components(&(wrench.components() + factor * noise))
 }
 
 /// A covariance with correlations, of about 1 mN and 10 µN·m.
-fn wrench_covariance(random: &mut Random) -> Matrix6<f64> {
+pub(crate) fn wrench_covariance(random: &mut Random) -> Matrix6<f64> {
     let scale = Vector6::new(1e-3, 1e-3, 1e-3, 1e-5, 1e-5, 1e-5);
     let mix = Matrix6::from_fn(|_, _| random.uniform(-0.5, 0.5)) + Matrix6::identity();
     let factor = Matrix6::from_diagonal(&scale) * mix;
