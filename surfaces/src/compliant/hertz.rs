@@ -58,8 +58,11 @@ impl<T: Real> Hertz<T> {
     /// [`BadShape`] unless all are positive and finite, the radii within a factor `1/√ε` of each
     /// other.
     pub fn new(radii: [T; 2], modulus: T) -> Result<Self, BadShape> {
-        let long = BadShape::check_length("Hertz contact", "radii of curvature", radii[0].max(radii[1]))?;
-        let short = BadShape::check_length("Hertz contact", "radii of curvature", radii[0].min(radii[1]))?;
+        // One by one: the greater of a number and a NaN is the number.
+        for radius in radii {
+            BadShape::check_length("Hertz contact", "radii of curvature", radius)?;
+        }
+        let (long, short) = (radii[0].max(radii[1]), radii[0].min(radii[1]));
         BadShape::check(
             "Hertz contact",
             "radii of curvature",

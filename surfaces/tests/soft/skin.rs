@@ -186,19 +186,19 @@ where
     assert!(worst.iter().all(|worst| *worst <= tolerance), "{name} {worst:?}");
 }
 
-fn spring<T: Real>() -> LinearStiffness<T> {
+pub(crate) fn spring<T: Real>() -> LinearStiffness<T> {
     LinearStiffness::new(T::literal(8000.0), T::literal(0.013)).unwrap()
 }
 
-fn hertz<T: Real>() -> Hertz<T> {
+pub(crate) fn hertz<T: Real>() -> Hertz<T> {
     Hertz::new([T::literal(0.013), T::literal(0.009)], T::literal(2e6)).unwrap()
 }
 
-fn power<T: Real>() -> PowerLaw<T> {
+pub(crate) fn power<T: Real>() -> PowerLaw<T> {
     PowerLaw::new([0.003, 0.25].map(T::literal), [0.0005, 0.4].map(T::literal)).unwrap()
 }
 
-fn table<T: Real>() -> Tabulated<T, 3> {
+pub(crate) fn table<T: Real>() -> Tabulated<T, 3> {
     Tabulated::new(
         [[1.0, 0.0004, 0.002], [5.0, 0.0009, 0.004], [20.0, 0.0016, 0.005]]
             .map(|point| point.map(T::literal)),
