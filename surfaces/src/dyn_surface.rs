@@ -9,9 +9,9 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use crate::combinators::{closest_of, is_inside_along};
 use crate::soft_finger::combinators::{around_both, is_covered, of_both};
 use crate::{
-    ActiveSurface, CappedCylinder, Capsule, ClosestApproach, Cone, Crossing, Cylinder, Disk, Ellipsoid,
-    EllipticCylinder, Extent, ForceLine, Frustum, HalfSpace, Heightfield, Knot, Level, Mesh, Paraboloid,
-    Patch, Plane, Posed, Rectangle, Revolution, RoundedBox, Search, SmoothSurface, SoftContact,
+    ActiveSurface, CappedCylinder, Capsule, ClosestApproach, Cone, Corner, Crossing, Cylinder, Disk,
+    Ellipsoid, EllipticCylinder, Extent, ForceLine, Frustum, HalfSpace, Heightfield, Knot, Level, Mesh,
+    Paraboloid, Patch, Plane, Posed, Rectangle, Revolution, RoundedBox, Search, SmoothSurface, SoftContact,
     SoftFingerSurface, Sphere, SphericalCap, Superquadric, Topology, Torus, Trimmed,
 };
 
@@ -164,11 +164,13 @@ impl<T: Real> ActiveSurface<T> for DynSurface<T> {
 }
 
 impl<T: Real> Parts<T> {
-    /// The part whose surface is nearest to a point along its own normal; none if no normal meets any.
-    fn nearest(&self, point: &Vector3<T>) -> Option<&DynSurface<T>> {
+    /// The part whose surface is nearest to a point along a normal, or without one, along its own, which on
+    /// an edge of it may lead past it; none if no line meets any.
+    fn nearest(&self, point: &Vector3<T>, normal: Option<&Vector3<T>>) -> Option<&DynSurface<T>> {
         let mut best = (T::GREATEST, None);
         for part in &self.parts {
-            part.crossings(&Line { point: *point, direction: part.normal(point) }, |c| {
+            let direction = normal.copied().unwrap_or_else(|| part.normal(point));
+            part.crossings(&Line { point: *point, direction }, |c| {
                 if c.along.abs() < best.0 {
                     best = (c.along.abs(), Some(part));
                 }
@@ -202,7 +204,7 @@ impl<T: Real> ActiveSurface<T> for Parts<T> {
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
-        self.nearest(point).map_or_else(Vector3::z, |part| part.normal(point))
+        self.nearest(point, None).map_or_else(Vector3::z, |part| part.normal(point))
     }
 
     fn contains(&self, point: &Vector3<T>) -> bool {
@@ -230,13 +232,17 @@ impl<T: Real> SmoothSurface<T> for DynSurface<T> {
     fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
         each!(self, shape => shape.bend(point, normal, tangents))
     }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        each!(self, shape => shape.corner(point, normal))
+    }
 }
 
 /// That of the part whose surface is nearest; of no parts, a plane far away.
 impl<T: Real> SmoothSurface<T> for Parts<T> {
     fn level(&self, point: &Vector3<T>) -> Level<T> {
         let nothing = || Level { value: T::GREATEST, gradient: Vector3::z(), hessian: Matrix3::zeros() };
-        self.nearest(point).map_or_else(nothing, |part| part.level(point))
+        self.nearest(point, None).map_or_else(nothing, |part| part.level(point))
     }
 
     fn extent(&self) -> Extent<T> {
@@ -245,11 +251,16 @@ impl<T: Real> SmoothSurface<T> for Parts<T> {
     }
 
     fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
-        self.nearest(point).map_or_else(Matrix3::zeros, |part| part.shape_operator(point))
+        self.nearest(point, None).map_or_else(Matrix3::zeros, |part| part.shape_operator(point))
     }
 
     fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
-        self.nearest(point).map_or_else(Matrix2::zeros, |part| part.bend(point, normal, tangents))
+        self.nearest(point, Some(normal))
+            .map_or_else(Matrix2::zeros, |part| part.bend(point, normal, tangents))
+    }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        self.nearest(point, Some(normal))?.corner(point, normal)
     }
 }
 

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::numeric::quadratic::roots;
 use crate::numeric::vectors::{foot, hypotenuse, is_finite, length, unit_or};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, SmoothSurface};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Extent, Level, SmoothSurface};
 
 /// Heights over a rectangular grid of the x-y plane, the outside above, bilinear in between;
 /// [`Posed`](crate::Posed) puts it elsewhere. It ends where the grid ends.
@@ -290,6 +290,11 @@ impl<T: Real> SmoothSurface<T> for Heightfield<T> {
         let centre = Vector3::new(rim.x, rim.y, (self.low + self.high) * half);
         let corner = Vector3::new(high.x, high.y, self.high);
         Extent { centre, radius: length(&(corner - centre)) }
+    }
+
+    /// A node of the grid.
+    fn corner(&self, _point: &Vector3<T>, _normal: &Vector3<T>) -> Option<Corner<T>> {
+        Some(Corner::Tip)
     }
 }
 

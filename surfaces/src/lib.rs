@@ -49,7 +49,7 @@ pub use mesh::{Mesh, MeshError};
 pub use shapes::*;
 pub use signed_distance::{Distance, SignedDistance};
 pub use smooth::{
-    Extent, Level, SmoothImplicit, SmoothSurface, Topology, hessian_by_differences,
+    Corner, Extent, Level, SmoothImplicit, SmoothSurface, Topology, hessian_by_differences,
     shape_operator_by_differences,
 };
 pub use soft_finger::{Patch, Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};

@@ -22,7 +22,7 @@ use nalgebra::{Matrix3, Vector3};
 use self::bvh::Bvh;
 use self::fans::Fans;
 use crate::numeric::vectors::{foot, is_finite};
-use crate::{ActiveSurface, ClosestApproach, Crossing, Extent, Level, SmoothSurface};
+use crate::{ActiveSurface, ClosestApproach, Corner, Crossing, Extent, Level, SmoothSurface};
 
 pub use self::topology::MeshError;
 
@@ -235,6 +235,11 @@ impl<T: Real> SmoothSurface<T> for Mesh<T> {
 
     fn extent(&self) -> Extent<T> {
         Extent { centre: self.centre, radius: self.radius / self.scale }
+    }
+
+    /// A vertex: on a straight edge no spin torque holds a contact.
+    fn corner(&self, _point: &Vector3<T>, _normal: &Vector3<T>) -> Option<Corner<T>> {
+        Some(Corner::Tip)
     }
 }
 

@@ -7,8 +7,8 @@ use super::flat_ends::Face;
 use crate::ActiveSurface;
 use crate::numeric::vectors::{hypotenuse, length, unit_or};
 use crate::{
-    CappedCylinder, Capsule, Cone, Cylinder, Disk, Extent, Frustum, Level, Plane, Rectangle, RoundedBox,
-    SignedDistance, SmoothSurface, Sphere, SphericalCap, Topology, Torus,
+    CappedCylinder, Capsule, Cone, Corner, Cylinder, Disk, Extent, Frustum, Level, Plane, Rectangle,
+    RoundedBox, SignedDistance, SmoothSurface, Sphere, SphericalCap, Topology, Torus,
 };
 
 impl<T: Real> SmoothSurface<T> for Sphere<T> {
@@ -156,6 +156,10 @@ impl<T: Real> SmoothSurface<T> for Cone<T> {
     fn topology(&self) -> Topology {
         Topology::Convex
     }
+
+    fn corner(&self, _point: &Vector3<T>, _normal: &Vector3<T>) -> Option<Corner<T>> {
+        Some(Corner::Tip)
+    }
 }
 
 /// The level function is that of the side; the flat ends are not part of it, but of the curvature.
@@ -198,6 +202,21 @@ impl<T: Real> SmoothSurface<T> for Frustum<T> {
         let level = self.level(point);
         Face::of(&self.axis(), &level, normal).bend(&level, tangents)
     }
+
+    /// On the rim of the nearer end.
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        let axis = self.axis();
+        let from_base = point - self.base_centre();
+        let height = from_base.dot(&axis);
+        let upper = height > self.height() * T::literal(0.5);
+        let radius = if upper { self.top_radius() } else { self.base_radius() };
+        if radius.is_zero() {
+            return Some(Corner::Tip);
+        }
+        let outward =
+            unit_or(&(from_base - axis * height), || crate::numeric::vectors::any_perpendicular(&axis));
+        Some(Corner::Edge { direction: axis.cross(&outward), bend: normal.dot(&outward) / radius })
+    }
 }
 
 /// The level function is that of the side; the flat ends are not part of it, but of the curvature.
@@ -220,6 +239,10 @@ impl<T: Real> SmoothSurface<T> for CappedCylinder<T> {
 
     fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
         self.solid().bend(point, normal, tangents)
+    }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        self.solid().corner(point, normal)
     }
 }
 

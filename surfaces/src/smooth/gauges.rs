@@ -7,8 +7,8 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use super::flat_ends::Face;
 use crate::numeric::vectors::length;
 use crate::{
-    ActiveSurface, CylinderEnds, Ellipsoid, EllipticCylinder, Extent, Level, Paraboloid, SmoothSurface,
-    Superquadric, Topology,
+    ActiveSurface, Corner, CylinderEnds, Ellipsoid, EllipticCylinder, Extent, Level, Paraboloid,
+    SmoothSurface, Superquadric, Topology,
 };
 
 /// `|A⁻¹ r| − 1` with its derivatives: `g = A⁻² r/γ`, `H = (A⁻² − g gᵀ)/γ`.
@@ -76,6 +76,15 @@ impl<T: Real> SmoothSurface<T> for EllipticCylinder<T> {
     fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
         let level = self.level(point);
         Face::of(&Vector3::z(), &level, normal).bend(&level, tangents)
+    }
+
+    /// On the ellipse of an end: with `c = (a cos θ, b sin θ)`, `c″ = −c` and `c′ = (−y a/b, x b/a)`.
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        let [a, b] = self.semi_axes();
+        let along = Vector3::new(-point.y * a / b, point.x * b / a, T::zero());
+        let steepness = length(&along);
+        let bend = (normal.x * point.x + normal.y * point.y) / steepness / steepness;
+        Some(Corner::Edge { direction: along / steepness, bend })
     }
 }
 

@@ -9,5 +9,5 @@ mod smooth_surface;
 
 pub use implicit::SmoothImplicit;
 pub use smooth_surface::{
-    Extent, Level, SmoothSurface, Topology, hessian_by_differences, shape_operator_by_differences,
+    Corner, Extent, Level, SmoothSurface, Topology, hessian_by_differences, shape_operator_by_differences,
 };

@@ -6,9 +6,9 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use crate::combinators::is_inside_along;
 use crate::numeric::vectors::{length, tangents};
 use crate::{
-    ActiveSurface, Compound, Distance, Extent, ForceLine, Level, Offset, Patch, Posed, Region, Search,
-    SignedDistance, SmoothSurface, SoftContact, SoftFingerSurface, Topology, Trimmed, hessian_by_differences,
-    newton_soft_contacts,
+    ActiveSurface, Compound, Corner, Distance, Extent, ForceLine, Level, Offset, Patch, Posed, Region,
+    Search, SignedDistance, SmoothSurface, SoftContact, SoftFingerSurface, Topology, Trimmed,
+    hessian_by_differences, newton_soft_contacts,
 };
 
 impl<T: Real, S: SmoothSurface<T>> SmoothSurface<T> for Posed<T, S> {
@@ -44,6 +44,16 @@ impl<T: Real, S: SmoothSurface<T>> SmoothSurface<T> for Posed<T, S> {
         let pose = self.sensor_from_shape();
         let inside = |v: &Vector3<T>| pose.rotation().tr_mul(v);
         self.inner().bend(&inside(&(point - pose.origin())), &inside(normal), [&inside(e1), &inside(e2)])
+    }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        let pose = self.sensor_from_shape();
+        let rotation = pose.rotation();
+        let inside = rotation.tr_mul(&(point - pose.origin()));
+        self.inner().corner(&inside, &rotation.tr_mul(normal)).map(|corner| match corner {
+            Corner::Edge { direction, bend } => Corner::Edge { direction: rotation * direction, bend },
+            Corner::Tip => Corner::Tip,
+        })
     }
 }
 
@@ -107,13 +117,17 @@ impl<T: Real, S: SmoothSurface<T>, R: Region<T>> SmoothSurface<T> for Trimmed<S,
     fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
         self.inner().bend(point, normal, tangents)
     }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        self.inner().corner(point, normal)
+    }
 }
 
 /// That of the part whose surface is nearer; on the seam, that of either.
 impl<T: Real, A: SmoothSurface<T>, B: SmoothSurface<T>> SmoothSurface<T> for Compound<A, B> {
     fn level(&self, point: &Vector3<T>) -> Level<T> {
         let (first, second) = self.parts();
-        if self.is_of_first(point) { first.level(point) } else { second.level(point) }
+        if self.is_of_first(point, None) { first.level(point) } else { second.level(point) }
     }
 
     fn extent(&self) -> Extent<T> {
@@ -123,15 +137,24 @@ impl<T: Real, A: SmoothSurface<T>, B: SmoothSurface<T>> SmoothSurface<T> for Com
 
     fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
         let (first, second) = self.parts();
-        if self.is_of_first(point) { first.shape_operator(point) } else { second.shape_operator(point) }
+        if self.is_of_first(point, None) { first.shape_operator(point) } else { second.shape_operator(point) }
     }
 
     fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
         let (first, second) = self.parts();
-        if self.is_of_first(point) {
+        if self.is_of_first(point, Some(normal)) {
             first.bend(point, normal, tangents)
         } else {
             second.bend(point, normal, tangents)
+        }
+    }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        let (first, second) = self.parts();
+        if self.is_of_first(point, Some(normal)) {
+            first.corner(point, normal)
+        } else {
+            second.corner(point, normal)
         }
     }
 }

@@ -79,8 +79,8 @@ impl<T: Real> ConvexBound<T> {
     ///
     /// `None` if the errors are negative or not finite, or that of the force is not smaller than the
     /// force, the wrench is not finite, the line passes further from the surface than the errors explain,
-    /// no line near it meets the surface, or the line only leaves the body (a half space that is pulled),
-    /// so that nothing can be said.
+    /// no line near it meets the surface, the line only leaves the body (a half space that is pulled), or
+    /// no place is left: the truth is not what the theorem supposes.
     #[must_use]
     pub fn new<S: ActiveSurface<T>>(
         surface: &S,
@@ -93,10 +93,8 @@ impl<T: Real> ConvexBound<T> {
         if !(nearer < reach * T::literal(0.9)) {
             return Some(first);
         }
-        match Self::within(surface, wrench, errors, nearer) {
-            Some((second, _)) if second.distance < first.distance => Some(second),
-            _ => Some(first),
-        }
+        let (second, _) = Self::within(surface, wrench, errors, nearer)?;
+        Some(if second.distance < first.distance { second } else { first })
     }
 
     /// By the theorem, with the reported contact.
@@ -170,7 +168,7 @@ impl<T: Real> ConvexBound<T> {
         let across = epsilon + gap;
         let distance = hypotenuse(furthest, across);
         let bound = Self { across: epsilon, along, distance, past_silhouette };
-        distance.is_number().then_some((bound, reported))
+        (distance.is_number() && along[0] <= along[1]).then_some((bound, reported))
     }
 }
 

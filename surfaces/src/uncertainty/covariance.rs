@@ -63,35 +63,17 @@ impl<T: Real> ContactCovariance<T> {
 
     /// Adds an uncertain geometry, independent of the wrench.
     #[must_use]
-    pub fn with_geometry(
-        mut self,
-        jacobian: &ContactJacobian<T>,
-        contact: &Contact<T>,
-        geometry: &GeometryUncertainty<T>,
-    ) -> Self {
-        let [e1, e2] = self.tangents;
-        let bend = jacobian.bend;
-        let shape_operator = (e1 * bend.m11 + e2 * bend.m21) * e1.transpose()
-            + (e1 * bend.m12 + e2 * bend.m22) * e2.transpose();
+    pub fn with_geometry(mut self, jacobian: &ContactJacobian<T>, geometry: &GeometryUncertainty<T>) -> Self {
         self.add(jacobian, &GeometrySensitivity::offset(), geometry.offset);
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-        let moved = axes.map(|axis| GeometrySensitivity::translation(&axis, &self.normal, &shape_operator));
-        let turned = axes.map(|axis| {
-            GeometrySensitivity::rotation(
-                &axis,
-                &geometry.pivot,
-                &contact.point,
-                &self.normal,
-                &shape_operator,
-            )
-        });
-        for (changes, covariance) in [(moved, geometry.position), (turned, geometry.attitude)] {
-            let answers = changes.map(|change| jacobian.answer_to(&change));
-            let rises = changes.map(|change| jacobian.rise_with(&change));
+        let moved = axes.map(|axis| jacobian.answer_to_motion(&axis, &Vector3::zeros()));
+        let turned = axes.map(|axis| jacobian.answer_to_motion(&geometry.pivot.cross(&axis), &axis));
+        for (answers, covariance) in [(moved, geometry.position), (turned, geometry.attitude)] {
             for i in 0..3 {
                 for j in 0..3 {
-                    self.local += answers[i] * answers[j].transpose() * covariance[(i, j)];
-                    self.height += rises[i] * rises[j] * covariance[(i, j)];
+                    let ((one, rise), (other, other_rise)) = (&answers[i], &answers[j]);
+                    self.local += one * other.transpose() * covariance[(i, j)];
+                    self.height += *rise * *other_rise * covariance[(i, j)];
                 }
             }
         }
