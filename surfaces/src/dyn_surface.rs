@@ -4,15 +4,15 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 use fingertip_wrench::{Line, Real, Wrench};
-use nalgebra::Vector3;
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::combinators::{closest_of, is_inside_along};
-use crate::soft_finger::combinators::{is_covered, of_both};
+use crate::soft_finger::combinators::{around_both, is_covered, of_both};
 use crate::{
-    ActiveSurface, CappedCylinder, Capsule, ClosestApproach, Cone, Crossing, Cylinder, Disk, Ellipsoid,
-    EllipticCylinder, ForceLine, Frustum, HalfSpace, Heightfield, Knot, Mesh, Paraboloid, Patch, Plane,
-    Posed, Rectangle, Revolution, RoundedBox, Search, SoftContact, SoftFingerSurface, Sphere, SphericalCap,
-    Superquadric, Torus, Trimmed,
+    ActiveSurface, CappedCylinder, Capsule, ClosestApproach, Cone, Corner, Crossing, Cylinder, Disk,
+    Ellipsoid, EllipticCylinder, Extent, ForceLine, Frustum, HalfSpace, Heightfield, Knot, Level, Mesh,
+    Paraboloid, Patch, Plane, Posed, Rectangle, Revolution, RoundedBox, Search, SmoothSurface, SoftContact,
+    SoftFingerSurface, Sphere, SphericalCap, Superquadric, Topology, Torus, Trimmed,
 };
 
 /// Any of the shapes: for files and programs that learn the shape at run time. On a hot path use
@@ -163,6 +163,23 @@ impl<T: Real> ActiveSurface<T> for DynSurface<T> {
     }
 }
 
+impl<T: Real> Parts<T> {
+    /// The part whose surface is nearest to a point along a normal, or without one, along its own, which on
+    /// an edge of it may lead past it; none if no line meets any.
+    fn nearest(&self, point: &Vector3<T>, normal: Option<&Vector3<T>>) -> Option<&DynSurface<T>> {
+        let mut best = (T::GREATEST, None);
+        for part in &self.parts {
+            let direction = normal.copied().unwrap_or_else(|| part.normal(point));
+            part.crossings(&Line { point: *point, direction }, |c| {
+                if c.along.abs() < best.0 {
+                    best = (c.along.abs(), Some(part));
+                }
+            });
+        }
+        best.1
+    }
+}
+
 impl<T: Real> ActiveSurface<T> for Parts<T> {
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         for (k, part) in self.parts.iter().enumerate() {
@@ -187,20 +204,63 @@ impl<T: Real> ActiveSurface<T> for Parts<T> {
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
-        let mut best = (T::GREATEST, Vector3::z());
-        for part in &self.parts {
-            let direction = part.normal(point);
-            part.crossings(&Line { point: *point, direction }, |c| {
-                if c.along.abs() < best.0 {
-                    best = (c.along.abs(), direction);
-                }
-            });
-        }
-        best.1
+        self.nearest(point, None).map_or_else(Vector3::z, |part| part.normal(point))
     }
 
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.parts.iter().any(|part| part.contains(point))
+    }
+}
+
+impl<T: Real> SmoothSurface<T> for DynSurface<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        each!(self, shape => shape.level(point))
+    }
+
+    fn extent(&self) -> Extent<T> {
+        each!(self, shape => shape.extent())
+    }
+
+    fn topology(&self) -> Topology {
+        each!(self, shape => shape.topology())
+    }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        each!(self, shape => shape.shape_operator(point))
+    }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        each!(self, shape => shape.bend(point, normal, tangents))
+    }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        each!(self, shape => shape.corner(point, normal))
+    }
+}
+
+/// That of the part whose surface is nearest; of no parts, a plane far away.
+impl<T: Real> SmoothSurface<T> for Parts<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let nothing = || Level { value: T::GREATEST, gradient: Vector3::z(), hessian: Matrix3::zeros() };
+        self.nearest(point, None).map_or_else(nothing, |part| part.level(point))
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let whole = self.parts.iter().map(SmoothSurface::extent).reduce(|a, b| around_both(&a, &b));
+        whole.unwrap_or(Extent { centre: Vector3::zeros(), radius: T::zero() })
+    }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        self.nearest(point, None).map_or_else(Matrix3::zeros, |part| part.shape_operator(point))
+    }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        self.nearest(point, Some(normal))
+            .map_or_else(Matrix2::zeros, |part| part.bend(point, normal, tangents))
+    }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        self.nearest(point, Some(normal))?.corner(point, normal)
     }
 }
 

@@ -3,11 +3,11 @@
 use alloc::vec::Vec;
 
 use fingertip_wrench::{Line, Real};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::numeric::quadratic::roots;
 use crate::numeric::vectors::{foot, hypotenuse, is_finite, length, unit_or};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Extent, Level, SmoothSurface};
 
 /// Heights over a rectangular grid of the x-y plane, the outside above, bilinear in between;
 /// [`Posed`](crate::Posed) puts it elsewhere. It ends where the grid ends.
@@ -69,11 +69,11 @@ impl<T: Real> Heightfield<T> {
 
     /// The cell under a place in units of the grid, and the place within it.
     fn cell(&self, u: T, v: T) -> ([usize; 2], [T; 2]) {
+        // The cast stops at the borders, and takes a NaN to zero.
         let split = |u: T, count: usize| {
-            let last = T::literal((count - 2) as f64);
-            let cell = u.floor().max(T::zero()).min(last);
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-            (cell.to_f64() as usize, (u - cell).max(T::zero()).min(T::one()))
+            let cell = (u.to_f64() as usize).min(count - 2);
+            (cell, (u - T::literal(cell as f64)).max(T::zero()).min(T::one()))
         };
         let ((i, s), (j, t)) = (split(u, self.columns), split(v, self.rows));
         ([i, j], [s, t])
@@ -93,6 +93,14 @@ impl<T: Real> Heightfield<T> {
     fn upward(&self, x: T, y: T) -> Vector3<T> {
         let (_, by_x, by_y) = self.height(x, y);
         unit_or(&Vector3::new(-by_x, -by_y, T::one()), Vector3::z)
+    }
+
+    /// `∂²z/∂x∂y` \[1/m\] of the cell at a place: all the second derivatives that a bilinear surface has.
+    fn twist(&self, x: T, y: T) -> T {
+        let ([cx, cy], [dx, dy]) = (self.corner, self.spacing);
+        let ([i, j], _) = self.cell((x - cx) / dx, (y - cy) / dy);
+        let along = |row: usize| self.at(i + 1, row) - self.at(i, row);
+        (along(j + 1) - along(j)) / dx / dy
     }
 
     /// The stretch of the line over the grid.
@@ -258,6 +266,35 @@ impl<T: Real> ActiveSurface<T> for Heightfield<T> {
         let ([cx, cy], far) = (self.corner, self.node(self.columns - 1, self.rows - 1));
         let over = point.x >= cx && point.x <= far.x && point.y >= cy && point.y <= far.y;
         over && point.z < self.height(point.x, point.y).0 && hypotenuse(point.x, point.y).is_number()
+    }
+}
+
+/// `z − h(x, y)`, cell by cell. The normal jumps from cell to cell, and so the curvature is that *within* a
+/// cell: for the curvature of the pad that was scanned ask
+/// [`shape_operator_by_differences`](crate::shape_operator_by_differences) over some cells.
+impl<T: Real> SmoothSurface<T> for Heightfield<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let (height, by_x, by_y) = self.height(point.x, point.y);
+        let (zero, mixed) = (T::zero(), -self.twist(point.x, point.y));
+        Level {
+            value: point.z - height,
+            gradient: Vector3::new(-by_x, -by_y, T::one()),
+            hessian: Matrix3::new(zero, mixed, zero, mixed, zero, zero, zero, zero, zero),
+        }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let half = T::literal(0.5);
+        let [low, high] = [self.node(0, 0), self.node(self.columns - 1, self.rows - 1)];
+        let rim = (low + high) * half;
+        let centre = Vector3::new(rim.x, rim.y, (self.low + self.high) * half);
+        let corner = Vector3::new(high.x, high.y, self.high);
+        Extent { centre, radius: length(&(corner - centre)) }
+    }
+
+    /// A node of the grid.
+    fn corner(&self, _point: &Vector3<T>, _normal: &Vector3<T>) -> Option<Corner<T>> {
+        Some(Corner::Tip)
     }
 }
 

@@ -34,7 +34,8 @@ pub use bad_shape::BadShape;
 pub use combinators::{Compound, HalfSpace, Offset, Posed, Region, Trimmed};
 pub use compliant::{
     Compliant, CompliantContact, CompliantPointContact, CompliantSoftFinger, Hertz, Indentation,
-    LinearStiffness, LocalHertz, PowerLaw, SkinLaw, StiffnessLaw, Tabulated, contact_modulus,
+    IndentationSlope, LinearStiffness, LocalHertz, PowerLaw, SkinLaw, StiffnessLaw, Tabulated,
+    contact_modulus,
 };
 pub use contact::{Contact, ContactBound, ContactModel, NoContact, PointContact, Resolution, WorstErrors};
 #[cfg(feature = "alloc")]
@@ -48,7 +49,7 @@ pub use mesh::{Mesh, MeshError};
 pub use shapes::*;
 pub use signed_distance::{Distance, SignedDistance};
 pub use smooth::{
-    Extent, Level, SmoothImplicit, SmoothSurface, Topology, hessian_by_differences,
+    Corner, Extent, Level, SmoothImplicit, SmoothSurface, Topology, hessian_by_differences,
     shape_operator_by_differences,
 };
 pub use soft_finger::{Patch, Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};

@@ -76,6 +76,29 @@ pub(crate) fn closest_of<T: Real>(a: ClosestApproach<T>, b: ClosestApproach<T>) 
     if b.gap < a.gap { b } else { a }
 }
 
+impl<A, B> Compound<A, B> {
+    /// `true` if the surface of the first part is nearer to a point along a normal, `false` if that of the
+    /// second is. Without a normal each part is looked for along its own, which on an edge of it may lead
+    /// past it.
+    pub(crate) fn is_of_first<T: Real>(&self, point: &Vector3<T>, normal: Option<&Vector3<T>>) -> bool
+    where
+        A: ActiveSurface<T>,
+        B: ActiveSurface<T>,
+    {
+        let nearest = |distance: Option<T>, c: &Crossing<T>| {
+            Some(distance.map_or(c.along.abs(), |least: T| least.min(c.along.abs())))
+        };
+        let along = |own: Vector3<T>| Line { point: *point, direction: normal.copied().unwrap_or(own) };
+        let (mut to_first, mut to_second) = (None, None);
+        self.first.crossings(&along(self.first.normal(point)), |c| to_first = nearest(to_first, &c));
+        self.second.crossings(&along(self.second.normal(point)), |c| to_second = nearest(to_second, &c));
+        match (to_first, to_second) {
+            (Some(a), Some(b)) => !(b < a),
+            (first, second) => first.is_some() || second.is_none(),
+        }
+    }
+}
+
 impl<T: Real, A: ActiveSurface<T>, B: ActiveSurface<T>> ActiveSurface<T> for Compound<A, B> {
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
@@ -98,19 +121,7 @@ impl<T: Real, A: ActiveSurface<T>, B: ActiveSurface<T>> ActiveSurface<T> for Com
     /// Of the part on whose surface the point is, told by which of the two a step along its normal
     /// leaves.
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
-        let nearest = |distance: Option<T>, c: &Crossing<T>| {
-            Some(distance.map_or(c.along.abs(), |least: T| least.min(c.along.abs())))
-        };
-        let (first, second) = (self.first.normal(point), self.second.normal(point));
-        let (mut to_first, mut to_second) = (None, None);
-        self.first.crossings(&Line { point: *point, direction: first }, |c| to_first = nearest(to_first, &c));
-        self.second
-            .crossings(&Line { point: *point, direction: second }, |c| to_second = nearest(to_second, &c));
-        match (to_first, to_second) {
-            (Some(a), Some(b)) if b < a => second,
-            (None, Some(_)) => second,
-            _ => first,
-        }
+        if self.is_of_first(point, None) { self.first.normal(point) } else { self.second.normal(point) }
     }
 
     #[inline]

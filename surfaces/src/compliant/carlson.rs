@@ -6,6 +6,12 @@ use fingertip_wrench::Real;
 /// ratio that the types can hold.
 const BOUND: u32 = 64;
 
+/// A zero stays what it is: the root's slope there, which a number with a derivative would take, is
+/// infinite.
+fn root<T: Real>(x: T) -> T {
+    if x > T::zero() { x.root() } else { x }
+}
+
 /// `R_F(x, y, z) = ½ ∫₀^∞ dt/√((t+x)(t+y)(t+z))`; at most one argument zero, none negative
 /// (Carlson 1995; DLMF 19.36.1).
 pub(super) fn r_f<T: Real>(x: T, y: T, z: T) -> T {
@@ -25,7 +31,7 @@ pub(super) fn r_f<T: Real>(x: T, y: T, z: T) -> T {
             result = series / mean.root();
             break;
         }
-        let (a, b, c) = (x.root(), y.root(), z.root());
+        let (a, b, c) = (root(x), root(y), root(z));
         let lambda = a * b + a * c + b * c;
         x = (x + lambda) * quarter;
         y = (y + lambda) * quarter;
@@ -61,7 +67,7 @@ pub(super) fn r_d<T: Real>(x: T, y: T, z: T) -> T {
             result = sum * T::literal(3.0) + factor * series / (mean * mean.root());
             break;
         }
-        let (a, b, c) = (x.root(), y.root(), z.root());
+        let (a, b, c) = (root(x), root(y), root(z));
         let lambda = a * b + a * c + b * c;
         sum += factor / (c * (z + lambda));
         factor *= quarter;

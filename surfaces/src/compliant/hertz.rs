@@ -58,8 +58,11 @@ impl<T: Real> Hertz<T> {
     /// [`BadShape`] unless all are positive and finite, the radii within a factor `1/√ε` of each
     /// other.
     pub fn new(radii: [T; 2], modulus: T) -> Result<Self, BadShape> {
-        let long = BadShape::check_length("Hertz contact", "radii of curvature", radii[0].max(radii[1]))?;
-        let short = BadShape::check_length("Hertz contact", "radii of curvature", radii[0].min(radii[1]))?;
+        // One by one: the greater of a number and a NaN is the number.
+        for radius in radii {
+            BadShape::check_length("Hertz contact", "radii of curvature", radius)?;
+        }
+        let (long, short) = (radii[0].max(radii[1]), radii[0].min(radii[1]));
         BadShape::check(
             "Hertz contact",
             "radii of curvature",
@@ -115,6 +118,11 @@ impl<T: Real> StiffnessLaw<T> for Hertz<T> {
         let root = normal_force.max(T::zero()).cbrt();
         let a = self.patch * root;
         Indentation { depth: self.depth * root * root, patch: [a, a * self.ratio] }
+    }
+
+    /// Two thirds of `δ/F`; at no force without bound.
+    fn compliance(&self, normal_force: T) -> T {
+        self.depth * T::literal(2.0 / 3.0) / normal_force.max(T::zero()).cbrt()
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a skin does under a force.
 
 use fingertip_wrench::Real;
+use nalgebra::Vector3;
 
 use super::{Hertz, LinearStiffness, PowerLaw, Tabulated};
 use crate::Contact;
@@ -22,6 +23,28 @@ pub struct Indentation<T: Real> {
 pub trait StiffnessLaw<T: Real> {
     /// The indentation under a normal force \[N\].
     fn indentation(&self, normal_force: T) -> Indentation<T>;
+
+    /// How fast the depth grows with the normal force \[m/N\]; what the covariance of a contact needs. The
+    /// default takes differences, which leaves two thirds of the digits.
+    fn compliance(&self, normal_force: T) -> T {
+        slope(normal_force, |force| self.indentation(force).depth)
+    }
+}
+
+/// The derivative at a positive number, from central differences.
+fn slope<T: Real>(at: T, of: impl Fn(T) -> T) -> T {
+    let step = at * T::EPSILON.cbrt();
+    let (high, low) = (at + step, at - step);
+    (of(high) - of(low)) / (high - low)
+}
+
+/// How the depth of an indentation changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IndentationSlope<T: Real> {
+    /// With the normal force \[m/N\].
+    pub by_force: T,
+    /// From place to place, per metre along the undeformed surface: a vector in the tangent plane.
+    pub along: Vector3<T>,
 }
 
 /// Depth and patch where they also depend on the place: on the curvature, or on a skin that is
@@ -30,6 +53,13 @@ pub trait SkinLaw<T: Real, S> {
     /// The indentation under a contact on the undeformed surface that presses with a normal force
     /// \[N\].
     fn indentation_at(&self, surface: &S, contact: &Contact<T>, normal_force: T) -> Indentation<T>;
+
+    /// How the depth changes with force and place: what the covariance of a contact needs. The default
+    /// takes differences over the force and supposes that the place does not matter.
+    fn slope_at(&self, surface: &S, contact: &Contact<T>, normal_force: T) -> IndentationSlope<T> {
+        let by_force = slope(normal_force, |force| self.indentation_at(surface, contact, force).depth);
+        IndentationSlope { by_force, along: Vector3::zeros() }
+    }
 }
 
 /// The same law everywhere. (A blanket implementation would shut out laws that depend on the
@@ -40,6 +70,16 @@ macro_rules! same_everywhere {
             #[inline]
             fn indentation_at(&self, _surface: &S, _contact: &Contact<T>, normal_force: T) -> Indentation<T> {
                 self.indentation(normal_force)
+            }
+
+            #[inline]
+            fn slope_at(
+                &self,
+                _surface: &S,
+                _contact: &Contact<T>,
+                normal_force: T,
+            ) -> IndentationSlope<T> {
+                IndentationSlope { by_force: self.compliance(normal_force), along: Vector3::zeros() }
             }
         }
     };

@@ -4,7 +4,7 @@ use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 use super::hertz::Hertz;
-use super::{Indentation, SkinLaw, StiffnessLaw};
+use super::{Indentation, IndentationSlope, SkinLaw, StiffnessLaw};
 use crate::numeric::vectors::tangents;
 use crate::{BadShape, Contact, SmoothSurface};
 
@@ -41,18 +41,49 @@ impl<T: Real> LocalHertz<T> {
     }
 }
 
-impl<T: Real, S: SmoothSurface<T>> SkinLaw<T, S> for LocalHertz<T> {
-    fn indentation_at(&self, surface: &S, contact: &Contact<T>, normal_force: T) -> Indentation<T> {
-        let bend = surface.shape_operator(&contact.point);
-        let (e1, e2): (Vector3<T>, Vector3<T>) = tangents(&contact.normal);
+impl<T: Real> LocalHertz<T> {
+    /// The law at a point of the surface \[m\] with this normal.
+    fn law_at<S: SmoothSurface<T>>(
+        &self,
+        surface: &S,
+        point: &Vector3<T>,
+        normal: &Vector3<T>,
+    ) -> Option<Hertz<T>> {
+        let bend = surface.shape_operator(point);
+        let (e1, e2): (Vector3<T>, Vector3<T>) = tangents(normal);
         let (b1, b2) = (bend * e1, bend * e2);
         let half = T::literal(0.5);
         let (w11, w12, w22) = (e1.dot(&b1), e1.dot(&b2), e2.dot(&b2));
         let (mean, apart) = ((w11 + w22) * half, (w11 - w22) * half);
         let spread = (apart * apart + w12 * w12).root();
         self.law([mean + spread, mean - spread])
+    }
+}
+
+impl<T: Real, S: SmoothSurface<T>> SkinLaw<T, S> for LocalHertz<T> {
+    fn indentation_at(&self, surface: &S, contact: &Contact<T>, normal_force: T) -> Indentation<T> {
+        self.law_at(surface, &contact.point, &contact.normal)
             .map_or(Indentation { depth: T::zero(), patch: [T::zero(); 2] }, |law| {
                 law.indentation(normal_force)
             })
+    }
+
+    /// From place to place by differences of the curvature over `ε^(1/3)` of the surface's extent.
+    fn slope_at(&self, surface: &S, contact: &Contact<T>, normal_force: T) -> IndentationSlope<T> {
+        let step = surface.extent().radius * T::EPSILON.cbrt();
+        let (e1, e2) = tangents(&contact.normal);
+        let depth_at = |point: &Vector3<T>| {
+            let law = self.law_at(surface, point, &surface.normal(point));
+            law.map_or(T::zero(), |law| law.indentation(normal_force).depth)
+        };
+        let along = [e1, e2].map(|e| {
+            let (ahead, behind) = (contact.point + e * step, contact.point - e * step);
+            e * ((depth_at(&ahead) - depth_at(&behind)) / (step + step))
+        });
+        let law = self.law_at(surface, &contact.point, &contact.normal);
+        IndentationSlope {
+            by_force: law.map_or(T::zero(), |law| law.compliance(normal_force)),
+            along: along[0] + along[1],
+        }
     }
 }

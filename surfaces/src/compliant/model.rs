@@ -3,7 +3,7 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix3, Vector3};
 
-use super::{Indentation, SkinLaw};
+use super::{Indentation, IndentationSlope, SkinLaw};
 use crate::{
     ActiveSurface, BadShape, Contact, ContactModel, NoContact, PointContact, Resolution, SoftFinger,
 };
@@ -65,11 +65,23 @@ impl<T: Real, M, L> Compliant<T, M, L> {
         .map(|()| Self { share, ..self })
     }
 
+    /// How the depth of the fingertip's own part of the indentation changes at a contact that was found.
+    #[must_use]
+    pub fn slope<S>(&self, found: &CompliantContact<T>, surface: &S) -> IndentationSlope<T>
+    where
+        L: SkinLaw<T, S>,
+    {
+        let above = Contact { point: found.undeformed, ..found.contact };
+        let slope = self.law.slope_at(surface, &above, above.normal_force().max(T::zero()));
+        IndentationSlope { by_force: slope.by_force * self.share, along: slope.along * self.share }
+    }
+
     /// The contact together with the indentation and the patch.
     ///
     /// # Errors
     /// What the rigid model says where there is no contact; [`NoContact::Unresolved`] if the
-    /// iteration does not settle, as where the skin is softer than the surface is round.
+    /// iteration does not settle, as where the skin is softer than the surface is round, or an edge nearer
+    /// than the skin is deep.
     pub fn resolve_indented<S>(
         &self,
         wrench: &Wrench<T>,
@@ -120,7 +132,8 @@ impl<T: Real, M, L> Compliant<T, M, L> {
                 step *= half;
                 next = evaluate(&(shift + step));
             }
-            seen = next?;
+            // What the rigid model says of a torque on the way is not true of the wrench.
+            seen = next.map_err(|_| NoContact::Unresolved)?;
             shift += step;
             let new_residual = seen.2 - shift;
             let change = new_residual - residual;

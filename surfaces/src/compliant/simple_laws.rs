@@ -34,6 +34,10 @@ impl<T: Real> StiffnessLaw<T> for LinearStiffness<T> {
         let radius = (self.radius * (depth + depth)).root();
         Indentation { depth, patch: [radius; 2] }
     }
+
+    fn compliance(&self, _normal_force: T) -> T {
+        T::one() / self.stiffness
+    }
 }
 
 /// Powers of the force: `a = c_a N^γ_a`, `δ = c_δ N^γ_δ`.
@@ -81,5 +85,10 @@ impl<T: Real> StiffnessLaw<T> for PowerLaw<T> {
         let radius = self.patch * normal_force.powf(self.patch_exponent);
         let depth = self.depth * normal_force.powf(self.depth_exponent);
         Indentation { depth: depth.min(T::GREATEST), patch: [radius.min(T::GREATEST); 2] }
+    }
+
+    /// `γ_δ δ/N`; at no force without bound, but for an exponent of 1.
+    fn compliance(&self, normal_force: T) -> T {
+        self.depth * self.depth_exponent * normal_force.max(T::zero()).powf(self.depth_exponent - T::one())
     }
 }

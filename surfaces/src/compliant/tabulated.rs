@@ -38,18 +38,29 @@ impl<T: Real, const N: usize> Tabulated<T, N> {
     }
 }
 
+impl<T: Real, const N: usize> Tabulated<T, N> {
+    /// The two points between which a force lies, or the last two.
+    fn stretch(&self, normal_force: T) -> [[T; 3]; 2] {
+        let after = self.points.partition_point(|point| point[0] < normal_force).min(N.saturating_sub(1));
+        let point =
+            |index: Option<usize>| index.and_then(|i| self.points.get(i)).copied().unwrap_or([T::zero(); 3]);
+        [point(after.checked_sub(1)), point(Some(after))]
+    }
+}
+
 impl<T: Real, const N: usize> StiffnessLaw<T> for Tabulated<T, N> {
     fn indentation(&self, normal_force: T) -> Indentation<T> {
-        let after = self.points.partition_point(|point| point[0] < normal_force);
-        let origin = [T::zero(); 3];
-        let last = N.saturating_sub(1);
-        let upper = self.points.get(after.min(last)).copied().unwrap_or(origin);
-        let lower =
-            after.min(last).checked_sub(1).and_then(|i| self.points.get(i)).copied().unwrap_or(origin);
+        let [lower, upper] = self.stretch(normal_force);
         let share = (normal_force - lower[0]) / (upper[0] - lower[0]);
         let between =
             |column: usize| (lower[column] + (upper[column] - lower[column]) * share).min(T::GREATEST);
         Indentation { depth: between(1), patch: [between(2); 2] }
+    }
+
+    /// The slope of the straight line that the force is on; at a point of the table, of the one below.
+    fn compliance(&self, normal_force: T) -> T {
+        let [lower, upper] = self.stretch(normal_force);
+        (upper[1] - lower[1]) / (upper[0] - lower[0])
     }
 }
 

@@ -257,6 +257,9 @@ impl<T: Real, const K: usize> Search<'_, T, K> {
         }
         let answer = gain * pull;
         let mut calm = true;
+        // The forces that the rounding of the wrench and of the priors is in proportion to.
+        let loads = self.priors.iter().flatten().map(|prior| prior.force.amax());
+        let loads = loads.fold(self.wrench.fixed_rows::<3>(0).amax(), T::max);
         for i in 0..K {
             let (prior, state) = (self.priors[i].as_ref()?, self.states[i].as_ref()?);
             let (covariance, jacobian) = &linear[i];
@@ -287,12 +290,15 @@ impl<T: Real, const K: usize> Search<'_, T, K> {
                 (_, Grip::Sticks) => force,
                 (_, kind) => project(&found, mu, kind),
             };
+            // Far less than what is uncertain, but no less than what rounding leaves.
             let small = T::EPSILON.root() * T::literal(1e-3);
+            let rounding = T::EPSILON * T::literal(64.0);
             let whole = prior.covariance();
             let deviation = |k: usize| whole[(k, k)].root();
-            calm &= (found.shift - state.shift).amax() <= small * deviation(0).max(deviation(1))
-                && (found.force - state.force).amax()
-                    <= small * deviation(2).max(deviation(3)).max(deviation(4))
+            let shifts = deviation(0).max(deviation(1)) * small + found.point.amax() * rounding;
+            let forces = deviation(2).max(deviation(3)).max(deviation(4)) * small + loads * rounding;
+            calm &= (found.shift - state.shift).amax() <= shifts
+                && (found.force - state.force).amax() <= forces
                 && held.kind == self.grips[i].kind;
             self.grips[i] = held;
             self.states[i] = Some(found);

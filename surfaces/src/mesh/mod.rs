@@ -18,12 +18,12 @@ mod topology;
 use alloc::vec::Vec;
 
 use fingertip_wrench::{Line, Real};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use self::bvh::Bvh;
 use self::fans::Fans;
 use crate::numeric::vectors::{foot, is_finite};
-use crate::{ActiveSurface, ClosestApproach, Crossing};
+use crate::{ActiveSurface, ClosestApproach, Corner, Crossing, Extent, Level, SmoothSurface};
 
 pub use self::topology::MeshError;
 
@@ -139,6 +139,12 @@ impl<T: Real> Mesh<T> {
         ])
     }
 
+    /// The triangle nearest to a point.
+    fn facet_at(&self, point: &Vector3<T>) -> usize {
+        let point = (point - self.centre) * self.scale;
+        closest::to_point(self, &if is_finite(&point) { point } else { Vector3::zeros() })
+    }
+
     /// The origin of the stored vertices \[m\], and the factor that they are scaled by.
     #[inline]
     pub(crate) const fn frame(&self) -> (Vector3<T>, T) {
@@ -213,9 +219,28 @@ impl<T: Real> ActiveSurface<T> for Mesh<T> {
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
-        let point = (point - self.centre) * self.scale;
-        let point = if is_finite(&point) { point } else { Vector3::zeros() };
-        self.normal_of(closest::to_point(self, &point))
+        self.normal_of(self.facet_at(point))
+    }
+}
+
+/// The height over the nearest facet, which is flat: for the curvature of the shape that was meshed ask
+/// [`shape_operator_by_differences`](crate::shape_operator_by_differences) over some facets.
+impl<T: Real> SmoothSurface<T> for Mesh<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let facet = self.facet_at(point);
+        let normal = self.normal_of(facet);
+        let corner = self.corners(facet).map_or_else(Vector3::zeros, |[a, _, _]| *a);
+        let value = normal.dot(&(point - (corner / self.scale + self.centre)));
+        Level { value, gradient: normal, hessian: Matrix3::zeros() }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        Extent { centre: self.centre, radius: self.radius / self.scale }
+    }
+
+    /// A vertex: on a straight edge no spin torque holds a contact.
+    fn corner(&self, _point: &Vector3<T>, _normal: &Vector3<T>) -> Option<Corner<T>> {
+        Some(Corner::Tip)
     }
 }
 

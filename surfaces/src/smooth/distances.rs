@@ -3,11 +3,12 @@
 use fingertip_wrench::Real;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
+use super::flat_ends::Face;
 use crate::ActiveSurface;
 use crate::numeric::vectors::{hypotenuse, length, unit_or};
 use crate::{
-    CappedCylinder, Capsule, Cone, Cylinder, Extent, Frustum, Level, Plane, RoundedBox, SignedDistance,
-    SmoothSurface, Sphere, SphericalCap, Topology, Torus,
+    CappedCylinder, Capsule, Cone, Corner, Cylinder, Disk, Extent, Frustum, Level, Plane, Rectangle,
+    RoundedBox, SignedDistance, SmoothSurface, Sphere, SphericalCap, Topology, Torus,
 };
 
 impl<T: Real> SmoothSurface<T> for Sphere<T> {
@@ -77,6 +78,35 @@ impl<T: Real> SmoothSurface<T> for Plane<T> {
     }
 }
 
+impl<T: Real> SmoothSurface<T> for Disk<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        self.plane().level(point)
+    }
+
+    fn extent(&self) -> Extent<T> {
+        Extent { centre: self.plane().point(), radius: self.radius() }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
+    }
+}
+
+impl<T: Real> SmoothSurface<T> for Rectangle<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        self.plane().level(point)
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let [first, second] = self.half_edges();
+        Extent { centre: self.plane().point(), radius: hypotenuse(length(&first), length(&second)) }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
+    }
+}
+
 impl<T: Real> SmoothSurface<T> for Cylinder<T> {
     fn level(&self, point: &Vector3<T>) -> Level<T> {
         let axis = self.axis();
@@ -126,9 +156,13 @@ impl<T: Real> SmoothSurface<T> for Cone<T> {
     fn topology(&self) -> Topology {
         Topology::Convex
     }
+
+    fn corner(&self, _point: &Vector3<T>, _normal: &Vector3<T>) -> Option<Corner<T>> {
+        Some(Corner::Tip)
+    }
 }
 
-/// The side; the flat ends are not part of the level function.
+/// The level function is that of the side; the flat ends are not part of it, but of the curvature.
 impl<T: Real> SmoothSurface<T> for Frustum<T> {
     fn level(&self, point: &Vector3<T>) -> Level<T> {
         let axis = self.axis();
@@ -155,9 +189,37 @@ impl<T: Real> SmoothSurface<T> for Frustum<T> {
     fn topology(&self) -> Topology {
         Topology::Convex
     }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        let level = self.level(point);
+        match Face::of(&self.axis(), &level, &self.normal(point)) {
+            Face::End => Matrix3::zeros(),
+            Face::Side | Face::Edge => level.shape_operator(),
+        }
+    }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        let level = self.level(point);
+        Face::of(&self.axis(), &level, normal).bend(&level, tangents)
+    }
+
+    /// On the rim of the nearer end.
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        let axis = self.axis();
+        let from_base = point - self.base_centre();
+        let height = from_base.dot(&axis);
+        let upper = height > self.height() * T::literal(0.5);
+        let radius = if upper { self.top_radius() } else { self.base_radius() };
+        if radius.is_zero() {
+            return Some(Corner::Tip);
+        }
+        let outward =
+            unit_or(&(from_base - axis * height), || crate::numeric::vectors::any_perpendicular(&axis));
+        Some(Corner::Edge { direction: axis.cross(&outward), bend: normal.dot(&outward) / radius })
+    }
 }
 
-/// The side; the flat ends are not part of the level function.
+/// The level function is that of the side; the flat ends are not part of it, but of the curvature.
 impl<T: Real> SmoothSurface<T> for CappedCylinder<T> {
     fn level(&self, point: &Vector3<T>) -> Level<T> {
         self.solid().level(point)
@@ -169,6 +231,18 @@ impl<T: Real> SmoothSurface<T> for CappedCylinder<T> {
 
     fn topology(&self) -> Topology {
         Topology::Convex
+    }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        self.solid().shape_operator(point)
+    }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        self.solid().bend(point, normal, tangents)
+    }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        self.solid().corner(point, normal)
     }
 }
 

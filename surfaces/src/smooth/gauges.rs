@@ -4,10 +4,11 @@
 use fingertip_wrench::Real;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
+use super::flat_ends::Face;
 use crate::numeric::vectors::length;
 use crate::{
-    CylinderEnds, Ellipsoid, EllipticCylinder, Extent, Level, Paraboloid, SmoothSurface, Superquadric,
-    Topology,
+    ActiveSurface, Corner, CylinderEnds, Ellipsoid, EllipticCylinder, Extent, Level, Paraboloid,
+    SmoothSurface, Superquadric, Topology,
 };
 
 /// `|A⁻¹ r| − 1` with its derivatives: `g = A⁻² r/γ`, `H = (A⁻² − g gᵀ)/γ`.
@@ -44,7 +45,7 @@ impl<T: Real> SmoothSurface<T> for Ellipsoid<T> {
     }
 }
 
-/// The side; flat ends are not part of the level function.
+/// The level function is that of the side; flat ends are not part of it, but of the curvature.
 impl<T: Real> SmoothSurface<T> for EllipticCylinder<T> {
     fn level(&self, point: &Vector3<T>) -> Level<T> {
         let [a, b] = self.semi_axes();
@@ -62,6 +63,28 @@ impl<T: Real> SmoothSurface<T> for EllipticCylinder<T> {
 
     fn topology(&self) -> Topology {
         Topology::Convex
+    }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        let level = self.level(point);
+        match Face::of(&Vector3::z(), &level, &self.normal(point)) {
+            Face::End => Matrix3::zeros(),
+            Face::Side | Face::Edge => level.shape_operator(),
+        }
+    }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        let level = self.level(point);
+        Face::of(&Vector3::z(), &level, normal).bend(&level, tangents)
+    }
+
+    /// On the ellipse of an end: with `c = (a cos θ, b sin θ)`, `c″ = −c` and `c′ = (−y a/b, x b/a)`.
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        let [a, b] = self.semi_axes();
+        let along = Vector3::new(-point.y * a / b, point.x * b / a, T::zero());
+        let steepness = length(&along);
+        let bend = (normal.x * point.x + normal.y * point.y) / steepness / steepness;
+        Some(Corner::Edge { direction: along / steepness, bend })
     }
 }
 

@@ -1,6 +1,7 @@
 //! Curvature: what surfaces know beyond crossings and normals.
 
 mod distances;
+mod flat_ends;
 mod gauges;
 mod implicit;
 mod parameters;
@@ -8,5 +9,5 @@ mod smooth_surface;
 
 pub use implicit::SmoothImplicit;
 pub use smooth_surface::{
-    Extent, Level, SmoothSurface, Topology, hessian_by_differences, shape_operator_by_differences,
+    Corner, Extent, Level, SmoothSurface, Topology, hessian_by_differences, shape_operator_by_differences,
 };

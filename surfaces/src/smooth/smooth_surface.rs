@@ -66,6 +66,21 @@ pub struct Extent<T: Real> {
     pub radius: T,
 }
 
+/// A place where the normal turns though the point stays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Corner<T: Real> {
+    /// An edge.
+    Edge {
+        /// Unit vector along it.
+        direction: Vector3<T>,
+        /// How fast a normal turns towards that as the point moves along it \[1/m\]: `−n·c″` for the edge
+        /// `c` as a function of its length. Positive where the edge is convex, zero where it is straight.
+        bend: T,
+    },
+    /// A tip: all normals within a cone, at one point.
+    Tip,
+}
+
 /// A surface with a level function that is twice differentiable (almost) everywhere.
 ///
 /// # For users
@@ -95,15 +110,36 @@ pub trait SmoothSurface<T: Real>: ActiveSurface<T> {
 
     /// The shape operator in the tangent plane at a point of the surface: its matrix \[1/m\] in two
     /// unit vectors that span the plane across the normal there. All that a covariance needs.
+    ///
+    /// NaN on an edge or a tip, where the normal turns though the point stays: that is told by a normal
+    /// that is not the one of the level function. See [`corner`](Self::corner).
     #[inline]
     fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
         let level = self.level(point);
-        let inverse = T::one() / level.gradient.dot(normal);
+        let steepness = level.gradient.dot(normal);
+        if !agree(&level.gradient, &(normal * steepness), steepness) {
+            return Matrix2::repeat(T::zero() / T::zero());
+        }
+        let inverse = T::one() / steepness;
         let [e1, e2] = tangents;
         let (w1, w2) = (level.hessian * e1, level.hessian * e2);
         let mixed = e1.dot(&w2) * inverse;
         Matrix2::new(e1.dot(&w1) * inverse, mixed, mixed, e2.dot(&w2) * inverse)
     }
+
+    /// What edge or tip a contact with this normal is on; asked where [`bend`](Self::bend) is NaN. The
+    /// default knows of none.
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        let _ = (point, normal);
+        None
+    }
+}
+
+/// `true` if two vectors of this length are the same but for what rounding may have done to a normal: it
+/// turns as rounding moves its point, on a slender cone by far more than a unit in the last place.
+#[inline]
+pub(crate) fn agree<T: Real>(one: &Vector3<T>, other: &Vector3<T>, length: T) -> bool {
+    (one - other).amax() <= T::EPSILON.root().root() * length
 }
 
 impl<T: Real, S: SmoothSurface<T>> SmoothSurface<T> for &S {
@@ -130,6 +166,10 @@ impl<T: Real, S: SmoothSurface<T>> SmoothSurface<T> for &S {
     #[inline]
     fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
         (**self).bend(point, normal, tangents)
+    }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        (**self).corner(point, normal)
     }
 }
 

@@ -1,12 +1,14 @@
 //! Shapes made of shapes.
 
 use fingertip_wrench::{Line, Real, Wrench};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::combinators::is_inside_along;
+use crate::numeric::vectors::{length, tangents};
 use crate::{
-    ActiveSurface, Compound, Extent, ForceLine, Level, Offset, Patch, Posed, Region, Search, SignedDistance,
-    SmoothSurface, SoftContact, SoftFingerSurface, Topology, Trimmed, newton_soft_contacts,
+    ActiveSurface, Compound, Corner, Distance, Extent, ForceLine, Level, Offset, Patch, Posed, Region,
+    Search, SignedDistance, SmoothSurface, SoftContact, SoftFingerSurface, Topology, Trimmed,
+    hessian_by_differences, newton_soft_contacts,
 };
 
 impl<T: Real, S: SmoothSurface<T>> SmoothSurface<T> for Posed<T, S> {
@@ -36,6 +38,22 @@ impl<T: Real, S: SmoothSurface<T>> SmoothSurface<T> for Posed<T, S> {
         rotation
             * self.inner().shape_operator(&rotation.tr_mul(&(point - pose.origin())))
             * rotation.transpose()
+    }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, [e1, e2]: [&Vector3<T>; 2]) -> Matrix2<T> {
+        let pose = self.sensor_from_shape();
+        let inside = |v: &Vector3<T>| pose.rotation().tr_mul(v);
+        self.inner().bend(&inside(&(point - pose.origin())), &inside(normal), [&inside(e1), &inside(e2)])
+    }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        let pose = self.sensor_from_shape();
+        let rotation = pose.rotation();
+        let inside = rotation.tr_mul(&(point - pose.origin()));
+        self.inner().corner(&inside, &rotation.tr_mul(normal)).map(|corner| match corner {
+            Corner::Edge { direction, bend } => Corner::Edge { direction: rotation * direction, bend },
+            Corner::Tip => Corner::Tip,
+        })
     }
 }
 
@@ -95,6 +113,64 @@ impl<T: Real, S: SmoothSurface<T>, R: Region<T>> SmoothSurface<T> for Trimmed<S,
     fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
         self.inner().shape_operator(point)
     }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        self.inner().bend(point, normal, tangents)
+    }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        self.inner().corner(point, normal)
+    }
+}
+
+/// That of the part whose surface is nearer; on the seam, that of either.
+impl<T: Real, A: SmoothSurface<T>, B: SmoothSurface<T>> SmoothSurface<T> for Compound<A, B> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let (first, second) = self.parts();
+        if self.is_of_first(point, None) { first.level(point) } else { second.level(point) }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let (first, second) = self.parts();
+        around_both(&first.extent(), &second.extent())
+    }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        let (first, second) = self.parts();
+        if self.is_of_first(point, None) { first.shape_operator(point) } else { second.shape_operator(point) }
+    }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        let (first, second) = self.parts();
+        if self.is_of_first(point, Some(normal)) {
+            first.bend(point, normal, tangents)
+        } else {
+            second.bend(point, normal, tangents)
+        }
+    }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        let (first, second) = self.parts();
+        if self.is_of_first(point, Some(normal)) {
+            first.corner(point, normal)
+        } else {
+            second.corner(point, normal)
+        }
+    }
+}
+
+/// The least ball around two balls.
+pub(crate) fn around_both<T: Real>(one: &Extent<T>, other: &Extent<T>) -> Extent<T> {
+    let apart = other.centre - one.centre;
+    let distance = length(&apart);
+    if distance + other.radius <= one.radius {
+        return *one;
+    }
+    if distance + one.radius <= other.radius {
+        return *other;
+    }
+    let radius = (distance + one.radius + other.radius) * T::literal(0.5);
+    Extent { centre: one.centre + apart * ((radius - one.radius) / distance), radius }
 }
 
 impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Trimmed<S, R> {
@@ -169,17 +245,26 @@ impl<T: Real, A: SoftFingerSurface<T>, B: SoftFingerSurface<T>> SoftFingerSurfac
 }
 
 /// The distance, with the curvature of the parallel surface, `W/(1 + δW)` at the distance `δ` over
-/// a point of the inner surface with the shape operator `W`.
+/// a point of the inner surface with the shape operator `W`; over an edge or a tip, which the offset makes
+/// round, from differences of the normal.
 impl<T: Real, S: SmoothSurface<T> + SignedDistance<T>> SmoothSurface<T> for Offset<T, S> {
     fn level(&self, point: &Vector3<T>) -> Level<T> {
-        let found = self.inner().signed_distance(point);
-        let bend = self.inner().shape_operator(&(point - found.normal * found.distance));
-        let spread = (Matrix3::identity() + bend * found.distance).try_inverse();
-        Level {
-            value: found.distance - self.distance(),
-            gradient: found.normal,
-            hessian: spread.map_or_else(Matrix3::zeros, |spread| bend * spread),
-        }
+        let Distance { distance, normal } = self.inner().signed_distance(point);
+        let (e1, e2) = tangents(&normal);
+        let bend = self.inner().bend(&(point - normal * distance), &normal, [&e1, &e2]);
+        let hessian = match (Matrix2::identity() + bend * distance).try_inverse() {
+            Some(spread) if bend.sum().is_number() => {
+                let bend = bend * spread;
+                (e1 * bend.m11 + e2 * bend.m21) * e1.transpose()
+                    + (e1 * bend.m12 + e2 * bend.m22) * e2.transpose()
+            }
+            Some(_) if distance > T::zero() => {
+                let step = distance * T::EPSILON.cbrt();
+                hessian_by_differences(point, step, |p| self.inner().signed_distance(p).normal)
+            }
+            _ => Matrix3::zeros(),
+        };
+        Level { value: distance - self.distance(), gradient: normal, hessian }
     }
 
     fn extent(&self) -> Extent<T> {

@@ -3,8 +3,7 @@
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::numeric::vectors::hypotenuse;
-use crate::numeric::vectors::tangents;
+use crate::numeric::vectors::{hypotenuse, length, tangents};
 use crate::{ActiveSurface, WorstErrors};
 
 /// A region that certainly holds the true contact: a piece of the round tube about the measured
@@ -22,6 +21,7 @@ use crate::{ActiveSurface, WorstErrors};
 /// 2. If a parallel line with offset `o` enters `B` at `t = a` with normal `n_a` and leaves it at
 ///    `t = e` with normal `n_e`:
 ///    `a − (ε_s + ε |n_a × u| + n_a·o)/|n_a·u| ≤ t ≤ e + (ε_s + ε |n_e × u| + n_e·o)/|n_e·u|`.
+///    And `−r − X·u ≤ t ≤ r − X·u`, which also serves where a line never leaves, as in a half-space.
 /// 3. Let `T` be the upper limit of 2, and let `k` parallel lines through the corners of a regular
 ///    polygon around the axis, with in-radius `ρ`, all meet `B`, entering by `t = h` at the latest
 ///    (`h ≥ 0`) and leaving after `t = ê`. If `(ρ − ε_s − ε) √(1−σ²) > T σ` and
@@ -34,7 +34,7 @@ use crate::{ActiveSurface, WorstErrors};
 ///    `c − a = f' × ((c − a) × f')/|f'|² = f' × (c × δf − δm)/|f'|²`.
 /// 2. `B` lies behind its supporting plane at the entry, `B*` by at most `ε_s` before it:
 ///    `n_a·(y − o) + (t − a)(n_a·u) ≤ ε_s`, where `n_a·u < 0` and `n_a·y ≥ −ε |n_a × u|`. At the
-///    exit in the same way.
+///    exit in the same way. And `|c·u| ≤ |c| ≤ r`.
 /// 3. `B` is convex and holds the polygon's entries and exits and `X`; so it holds the prism
 ///    `{|y| ≤ ρ, h ≤ t ≤ ê}` and the cone from `X` to its front face, and `B*` holds both shrunk
 ///    by `ε_s`. Suppose first `0 < n*·u`. As `f'·n* ≤ δf·n* ≤ ε_f`, `n*·u ≤ σ`, so the part of `n*`
@@ -70,14 +70,17 @@ const CORNERS: usize = 8;
 
 impl<T: Real> ConvexBound<T> {
     /// For a measured wrench on a convex surface whose contacts all lie within `reach` \[m\] of the
-    /// origin of the sensor frame. Takes nine crossings of lines.
+    /// origin of the sensor frame. Takes nine crossings of lines, or eighteen: a contact that was found to
+    /// be nearer to the origin than `reach` has a shorter lever for the error of the force, and so the
+    /// theorem is applied once more.
     ///
     /// The reported contact is the entry of the line of action or, if it misses, the point of the
     /// surface closest to it. The errors of radius and centre add up to `ε_s`.
     ///
-    /// `None` if the errors are negative or not finite, or that of the force is not smaller than the force, the wrench is not finite,
-    /// the line passes further from the surface than the errors explain, no line near it meets the
-    /// surface, or the body has no end along it (a half space), so that nothing can be said.
+    /// `None` if the errors are negative or not finite, or that of the force is not smaller than the
+    /// force, the wrench is not finite, the line passes further from the surface than the errors explain,
+    /// no line near it meets the surface, the line only leaves the body (a half space that is pulled), or
+    /// no place is left: the truth is not what the theorem supposes.
     #[must_use]
     pub fn new<S: ActiveSurface<T>>(
         surface: &S,
@@ -85,6 +88,22 @@ impl<T: Real> ConvexBound<T> {
         errors: &WorstErrors<T>,
         reach: T,
     ) -> Option<Self> {
+        let (first, reported) = Self::within(surface, wrench, errors, reach)?;
+        let nearer = length(&reported) + first.distance;
+        if !(nearer < reach * T::literal(0.9)) {
+            return Some(first);
+        }
+        let (second, _) = Self::within(surface, wrench, errors, nearer)?;
+        Some(if second.distance < first.distance { second } else { first })
+    }
+
+    /// By the theorem, with the reported contact.
+    fn within<S: ActiveSurface<T>>(
+        surface: &S,
+        wrench: &Wrench<T>,
+        errors: &WorstErrors<T>,
+        reach: T,
+    ) -> Option<(Self, Vector3<T>)> {
         let axis = wrench.line_of_action().ok()?;
         let good = is_valid(errors) && errors.force < axis.force;
         if !good || !reach.is_number() || reach < T::zero() {
@@ -97,11 +116,9 @@ impl<T: Real> ConvexBound<T> {
         let epsilon = (errors.torque + reach * errors.force) / axis.force + rounding;
         let u = axis.line.direction;
 
-        let mut region =
-            Region { low: None, high: None, latest_entry: T::zero(), earliest_exit: None, epsilon, shape };
         let (origin, reported, gap) = match chord(surface, &axis.line) {
             Met::Through(chord) => (chord.entry, chord.entry, T::zero()),
-            Met::Half => return None,
+            Met::Outward => return None,
             Met::Not => {
                 let approach = surface.closest_approach(&axis.line);
                 if !(approach.gap <= epsilon + shape) {
@@ -111,11 +128,20 @@ impl<T: Real> ConvexBound<T> {
                 (foot, approach.point, approach.gap)
             }
         };
+        let height = origin.dot(&u);
+        let mut region = Region {
+            low: None,
+            high: reach - height,
+            latest_entry: T::zero(),
+            earliest_exit: T::GREATEST,
+            epsilon,
+            shape,
+        };
         let mut all_hit = region.see(surface, &origin, &Vector3::zeros(), &u);
         // Wide enough for the third statement, if the lines meet the surface.
         let sine = turn;
         let cosine = ((T::one() - sine) * (T::one() + sine)).root();
-        let depth = region.high.unwrap_or_else(T::zero).max(T::zero());
+        let depth = region.high.max(T::zero());
         let margin = epsilon + shape;
         let inner = (margin + depth * sine / cosine) * T::literal(1.0625) + rounding + gap;
         let (first, second) = tangents(&u);
@@ -126,12 +152,11 @@ impl<T: Real> ConvexBound<T> {
             let offset = (first * angle.cos() + second * angle.sin()) * outer;
             all_hit &= region.see(surface, &origin, &offset, &u);
         }
-        let (low, mut high) = (region.low?, region.high?);
-        let latest = region.latest_entry;
+        let (low, mut high) = (region.low?.max(-reach - height), region.high);
+        let (latest, exit) = (region.latest_entry, region.earliest_exit);
         let slope = latest / inner;
         let rise = slope * epsilon + shape * (T::one() + slope * slope).root();
-        let deep_enough =
-            region.earliest_exit.is_some_and(|exit| rise + shape <= exit && latest + shape + shape <= exit);
+        let deep_enough = rise + shape <= exit && latest + shape + shape <= exit;
         let excluded = (inner - margin) * cosine > high.max(T::zero()) * sine;
         let past_silhouette = !(all_hit && deep_enough && excluded && gap.is_zero());
         if !past_silhouette {
@@ -142,23 +167,24 @@ impl<T: Real> ConvexBound<T> {
         let furthest = along[0].abs().max(along[1].abs());
         let across = epsilon + gap;
         let distance = hypotenuse(furthest, across);
-        distance.is_number().then_some(Self { across: epsilon, along, distance, past_silhouette })
+        let bound = Self { across: epsilon, along, distance, past_silhouette };
+        (distance.is_number() && along[0] <= along[1]).then_some((bound, reported))
     }
 }
 
 /// How a line meets a convex surface.
 enum Met<T: Real> {
     Through(Chord<T>),
-    /// It enters and never leaves, or the other way round.
-    Half,
+    /// It leaves and never entered.
+    Outward,
     Not,
 }
 
 struct Chord<T: Real> {
     entry: Vector3<T>,
     entry_normal: Vector3<T>,
-    exit: Vector3<T>,
-    exit_normal: Vector3<T>,
+    /// With its normal; none if the line never leaves.
+    exit: Option<(Vector3<T>, Vector3<T>)>,
 }
 
 fn chord<T: Real, S: ActiveSurface<T>>(surface: &S, line: &Line<T>) -> Met<T> {
@@ -171,19 +197,17 @@ fn chord<T: Real, S: ActiveSurface<T>>(surface: &S, line: &Line<T>) -> Met<T> {
         }
     });
     match (entry, exit) {
-        (Some((entry, entry_normal)), Some((exit, exit_normal))) => {
-            Met::Through(Chord { entry, entry_normal, exit, exit_normal })
-        }
+        (Some((entry, entry_normal)), exit) => Met::Through(Chord { entry, entry_normal, exit }),
+        (None, Some(_)) => Met::Outward,
         (None, None) => Met::Not,
-        _ => Met::Half,
     }
 }
 
 struct Region<T: Real> {
     low: Option<T>,
-    high: Option<T>,
+    high: T,
     latest_entry: T,
-    earliest_exit: Option<T>,
+    earliest_exit: T,
     epsilon: T,
     shape: T,
 }
@@ -200,22 +224,25 @@ impl<T: Real> Region<T> {
         let Met::Through(chord) = chord(surface, &Line { point: origin + offset, direction: *u }) else {
             return false;
         };
-        let entry = (chord.entry - origin).dot(u);
-        let exit = (chord.exit - origin).dot(u);
         let slack = |normal: &Vector3<T>| {
             let reach =
                 self.shape + self.epsilon * normal.cross(u).norm_squared().root() + normal.dot(offset);
             reach / normal.dot(u).abs()
         };
-        let (low, high) = (entry - slack(&chord.entry_normal), exit + slack(&chord.exit_normal));
+        let entry = (chord.entry - origin).dot(u);
+        let low = entry - slack(&chord.entry_normal);
+        self.latest_entry = self.latest_entry.max(entry);
+        if let Some((exit, normal)) = chord.exit {
+            let exit = (exit - origin).dot(u);
+            let high = exit + slack(&normal);
+            self.earliest_exit = self.earliest_exit.min(exit);
+            if high.is_number() {
+                self.high = self.high.min(high);
+            }
+        }
         if low.is_number() {
             self.low = Some(self.low.map_or(low, |known| known.max(low)));
         }
-        if high.is_number() {
-            self.high = Some(self.high.map_or(high, |known| known.min(high)));
-        }
-        self.latest_entry = self.latest_entry.max(entry);
-        self.earliest_exit = Some(self.earliest_exit.map_or(exit, |known| known.min(exit)));
         true
     }
 }

@@ -30,12 +30,12 @@ impl<T: Real> ContactCovariance<T> {
     /// From the covariance of the wrench `[Fx … Tz]` \[N², N·N·m, (N·m)²\], symmetric.
     #[must_use]
     pub fn new(jacobian: &ContactJacobian<T>, wrench: &Matrix6<T>) -> Self {
-        let rows = jacobian.local();
+        let (rows, height) = (jacobian.local(), jacobian.height());
         Self {
             local: rows * wrench * rows.transpose(),
             tangents: jacobian.tangents(),
             normal: jacobian.normal(),
-            height: T::zero(),
+            height: height.dot(&(wrench * height)),
         }
     }
 
@@ -63,41 +63,25 @@ impl<T: Real> ContactCovariance<T> {
 
     /// Adds an uncertain geometry, independent of the wrench.
     #[must_use]
-    pub fn with_geometry(
-        mut self,
-        jacobian: &ContactJacobian<T>,
-        contact: &Contact<T>,
-        geometry: &GeometryUncertainty<T>,
-    ) -> Self {
-        let [e1, e2] = self.tangents;
-        let bend = jacobian.bend;
-        let shape_operator = (e1 * bend.m11 + e2 * bend.m21) * e1.transpose()
-            + (e1 * bend.m12 + e2 * bend.m22) * e2.transpose();
+    pub fn with_geometry(mut self, jacobian: &ContactJacobian<T>, geometry: &GeometryUncertainty<T>) -> Self {
         self.add(jacobian, &GeometrySensitivity::offset(), geometry.offset);
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-        let moved = axes.map(|axis| GeometrySensitivity::translation(&axis, &self.normal, &shape_operator));
-        let turned = axes.map(|axis| {
-            GeometrySensitivity::rotation(
-                &axis,
-                &geometry.pivot,
-                &contact.point,
-                &self.normal,
-                &shape_operator,
-            )
-        });
-        for (changes, covariance) in [(moved, geometry.position), (turned, geometry.attitude)] {
-            let answers = changes.map(|change| jacobian.answer_to(&change));
+        let moved = axes.map(|axis| jacobian.answer_to_motion(&axis, &Vector3::zeros()));
+        let turned = axes.map(|axis| jacobian.answer_to_motion(&geometry.pivot.cross(&axis), &axis));
+        for (answers, covariance) in [(moved, geometry.position), (turned, geometry.attitude)] {
             for i in 0..3 {
                 for j in 0..3 {
-                    self.local += answers[i] * answers[j].transpose() * covariance[(i, j)];
-                    self.height += changes[i].displacement * changes[j].displacement * covariance[(i, j)];
+                    let ((one, rise), (other, other_rise)) = (&answers[i], &answers[j]);
+                    self.local += one * other.transpose() * covariance[(i, j)];
+                    self.height += *rise * *other_rise * covariance[(i, j)];
                 }
             }
         }
         self
     }
 
-    /// Adds one parameter of the surface with its variance, independent of all else.
+    /// Adds one parameter of the surface with its variance, independent of all else. Through a skin the
+    /// change is that of the deformed surface, [`ContactJacobian::of_deformed`].
     #[must_use]
     pub fn with_parameter(
         mut self,
@@ -110,9 +94,9 @@ impl<T: Real> ContactCovariance<T> {
     }
 
     fn add(&mut self, jacobian: &ContactJacobian<T>, change: &GeometrySensitivity<T>, variance: T) {
-        let answer = jacobian.answer_to(change);
+        let (answer, rise) = (jacobian.answer_to(change), jacobian.rise_with(change));
         self.local += answer * answer.transpose() * variance;
-        self.height += change.displacement * change.displacement * variance;
+        self.height += rise * rise * variance;
     }
 
     /// The whole covariance, in the order of [`ContactJacobian::local`].
@@ -137,7 +121,7 @@ impl<T: Real> ContactCovariance<T> {
     }
 
     /// Covariance of the position in the sensor frame \[m²\]: of rank 2, in the tangent plane, as
-    /// the contact stays on the surface. (An uncertain surface also moves along its normal:
+    /// the contact stays on the surface. (An uncertain surface and a skin also move along the normal:
     /// [`height_variance`](Self::height_variance).)
     #[must_use]
     pub fn point(&self) -> Matrix3<T> {
@@ -147,8 +131,8 @@ impl<T: Real> ContactCovariance<T> {
         e1 * e1.transpose() * p.m11 + mixed * p.m12 + e2 * e2.transpose() * p.m22
     }
 
-    /// Variance of the surface's height along the normal at the contact \[m²\]; zero unless the
-    /// geometry is uncertain.
+    /// Variance of the contact's height along the normal \[m²\]; zero unless the geometry is uncertain or
+    /// a skin gives way.
     #[inline]
     #[must_use]
     pub const fn height_variance(&self) -> T {

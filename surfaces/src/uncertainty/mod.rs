@@ -17,6 +17,7 @@ mod geometry;
 mod jacobian;
 mod paper;
 mod sensor;
+mod skin;
 mod spread;
 mod worst_case;
 

@@ -30,19 +30,23 @@ impl<T: Real> ContactJacobian<T> {
         let local = self.local();
         let row = |i: usize| local.row(i).transpose();
         let (a1, a2) = (row(0).component_mul(errors), row(1).component_mul(errors));
+        // Only a skin moves the contact along the normal.
+        let a3 = self.height().component_mul(errors);
         let mut greatest = T::zero();
         for corner in 0..32_u8 {
-            let (mut x, mut y) = (a1[5], a2[5]);
+            let (mut x, mut y, mut z) = (a1[5], a2[5], a3[5]);
             for axis in 0..5 {
                 if corner >> axis & 1 == 1 {
                     x += a1[axis];
                     y += a2[axis];
+                    z += a3[axis];
                 } else {
                     x -= a1[axis];
                     y -= a2[axis];
+                    z -= a3[axis];
                 }
             }
-            greatest = greatest.max(x * x + y * y);
+            greatest = greatest.max(x * x + y * y + z * z);
         }
         WorstCase {
             components: Vector3::new(

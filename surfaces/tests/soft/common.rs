@@ -1,10 +1,17 @@
 //! The shapes that everything is tried on.
 
+use fingertip_surfaces::testing::ball_of_triangles;
 use fingertip_surfaces::{
+<<<<<<< HEAD
     CappedCylinder, Capsule, Cone, Cylinder, CylinderEnds, Ellipsoid, EllipticCylinder, Frustum, Implicit,
     Knot, Offset, Paraboloid, Plane, Revolution, RoundedBox, Sphere, Superquadric, Torus,
+=======
+    CappedCylinder, Capsule, Compound, Cone, Cylinder, CylinderEnds, Disk, DynSurface, Ellipsoid,
+    EllipticCylinder, Frustum, HalfSpace, Heightfield, Implicit, Knot, Mesh, Offset, Paraboloid, Parts,
+    Plane, Posed, Rectangle, Revolution, RoundedBox, Sphere, SphericalCap, Superquadric, Torus, Trimmed,
+>>>>>>> audit5
 };
-use fingertip_wrench::Real;
+use fingertip_wrench::{Real, RigidTransform};
 use nalgebra::Vector3;
 
 use crate::pillow::Pillow;
@@ -127,6 +134,99 @@ pub(crate) fn paraboloid<T: Real>() -> Paraboloid<T> {
 
 pub(crate) fn pillow<T: Real>() -> Implicit<Pillow> {
     Implicit::new::<T>(Pillow).unwrap()
+}
+
+fn vector<T: Real>(x: f64, y: f64, z: f64) -> Vector3<T> {
+    Vector3::new(T::literal(x), T::literal(y), T::literal(z))
+}
+
+pub(crate) fn disk<T: Real>() -> Disk<T> {
+    Disk::new(vector(0.001, 0.002, 0.005), vector(0.1, 0.3, 1.0), T::literal(0.012)).unwrap()
+}
+
+pub(crate) fn rectangle<T: Real>() -> Rectangle<T> {
+    Rectangle::new(vector(0.001, 0.002, 0.005), vector(0.012, 0.0, 0.0), vector(0.0, 0.006, 0.008)).unwrap()
+}
+
+pub(crate) fn spherical_cap<T: Real>() -> SphericalCap<T> {
+    SphericalCap::new(sphere(), vector(0.2, 0.1, 1.0), T::literal(-0.2)).unwrap()
+}
+
+pub(crate) fn capped_cylinder<T: Real>() -> CappedCylinder<T> {
+    CappedCylinder::new(
+        vector(0.001, 0.0, -0.001),
+        vector(0.2, -0.4, 1.0),
+        T::literal(0.009),
+        T::literal(0.010),
+    )
+    .unwrap()
+}
+
+pub(crate) fn closed_elliptic_cylinder<T: Real>() -> EllipticCylinder<T> {
+    let ends = CylinderEnds::Capped(T::literal(0.010));
+    EllipticCylinder::new([T::literal(0.007), T::literal(0.012)], ends).unwrap()
+}
+
+pub(crate) fn frustum<T: Real>() -> Frustum<T> {
+    let (base, axis) = (vector(0.001, 0.0, -0.008), vector(0.1, 0.2, 1.0));
+    Frustum::new(base, axis, T::literal(0.016), T::literal(0.010), T::literal(0.006)).unwrap()
+}
+
+pub(crate) fn revolution<T: Real>() -> Revolution<T, [Knot<T>; 5]> {
+    let profile = [[0.0, 0.0080], [0.004, 0.0080], [0.008, 0.0074], [0.012, 0.0052], [0.014, 0.0]];
+    Revolution::from_profile(profile.map(|knot| knot.map(T::literal))).unwrap()
+}
+
+pub(crate) fn heightfield<T: Real>() -> Heightfield<T> {
+    let at = |k: usize| 0.002 * k as f64 - 0.008;
+    let heights =
+        (0..81).map(|k| T::literal(-(at(k % 9).powi(2) / 0.020 + at(k / 9).powi(2) / 0.030))).collect();
+    Heightfield::new([T::literal(-0.008); 2], [T::literal(0.002); 2], 9, heights).unwrap()
+}
+
+/// A ball of few facets.
+pub(crate) fn mesh<T: Real>() -> Mesh<T> {
+    let (vertices, triangles) = ball_of_triangles::<T>(7, 9, None);
+    let vertices: Vec<_> = vertices.iter().map(|v| v * T::literal(0.012)).collect();
+    Mesh::new(&vertices, &triangles).unwrap()
+}
+
+fn pose<T: Real>() -> RigidTransform<T> {
+    RigidTransform::from_axis_angle(vector(1.0, 0.4, -0.3), vector(0.001, 0.002, -0.002)).unwrap()
+}
+
+pub(crate) fn posed<T: Real>() -> Posed<T, CappedCylinder<T>> {
+    Posed::new(capped_cylinder(), pose())
+}
+
+pub(crate) fn trimmed<T: Real>() -> Trimmed<Ellipsoid<T>, HalfSpace<T>> {
+    Trimmed::new(ellipsoid(), HalfSpace::new(vector(0.0, 0.0, 0.001), vector(0.0, 0.3, 1.0)).unwrap())
+}
+
+pub(crate) fn compound<T: Real>() -> Compound<CappedCylinder<T>, Sphere<T>> {
+    let tip = capped_cylinder::<T>();
+    Compound::new(
+        tip,
+        Sphere::new(tip.centre() + tip.axis() * T::literal(0.010), T::literal(0.0095)).unwrap(),
+    )
+}
+
+pub(crate) fn grown_ellipsoid<T: Real>() -> Offset<T, Ellipsoid<T>> {
+    Offset::new(ellipsoid(), T::literal(0.002)).unwrap()
+}
+
+/// A cylinder with round edges.
+pub(crate) fn grown_cylinder<T: Real>() -> Offset<T, CappedCylinder<T>> {
+    Offset::new(capped_cylinder(), T::literal(0.003)).unwrap()
+}
+
+/// A cylinder with a round end, held at an angle, as a file would have it.
+pub(crate) fn dyn_surface<T: Real>() -> DynSurface<T> {
+    let (tip, ball) = (capped_cylinder::<T>(), sphere::<T>());
+    let ball =
+        Sphere::new(tip.centre() + tip.axis() * T::literal(0.010), ball.radius() * T::literal(0.7)).unwrap();
+    let whole = DynSurface::Compound(Parts { parts: vec![tip.into(), ball.into()] });
+    DynSurface::Posed(Box::new(Posed::new(whole, pose())))
 }
 
 /// A shape of the very numbers that one in single precision has.

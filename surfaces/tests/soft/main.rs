@@ -16,6 +16,7 @@ mod honesty;
 mod jacobians;
 mod pillow;
 mod shapes;
+mod skin;
 mod solids;
 mod torus;
 mod uncertainty;

@@ -11,13 +11,13 @@ use nalgebra::{Matrix2, Matrix3, Matrix6, Vector3, Vector6};
 use crate::common;
 use crate::wrenches::{Case, Random};
 
-fn noisy(random: &mut Random, wrench: &Wrench<f64>, factor: &Matrix6<f64>) -> Wrench<f64> {
+pub(crate) fn noisy(random: &mut Random, wrench: &Wrench<f64>, factor: &Matrix6<f64>) -> Wrench<f64> {
     let noise = Vector6::from_fn(|_, _| random.normal());
     Wrench::from_components(&(wrench.components() + factor * noise))
 }
 
 /// A covariance with correlations, of about 1 mN and 10 µN·m.
-fn wrench_covariance(random: &mut Random) -> Matrix6<f64> {
+pub(crate) fn wrench_covariance(random: &mut Random) -> Matrix6<f64> {
     let scale = Vector6::new(1e-3, 1e-3, 1e-3, 1e-5, 1e-5, 1e-5);
     let mix = Matrix6::from_fn(|_, _| random.uniform(-0.5, 0.5)) + Matrix6::identity();
     let factor = Matrix6::from_diagonal(&scale) * mix;
@@ -188,8 +188,7 @@ fn uncertain_geometry_matches_monte_carlo() {
         position: Matrix3::new(4e-10, 1e-10, 0.0, 1e-10, 2e-10, 0.0, 0.0, 0.0, 1e-10),
         ..GeometryUncertainty::none()
     };
-    let predicted =
-        ContactCovariance::new(&jacobian, &Matrix6::zeros()).with_geometry(&jacobian, &truth, &geometry);
+    let predicted = ContactCovariance::new(&jacobian, &Matrix6::zeros()).with_geometry(&jacobian, &geometry);
     let factor = geometry.position.cholesky().unwrap().l();
     let [e1, e2] = predicted.tangents();
     let (mut sums, mut height) = (Matrix2::zeros(), 0.0);
@@ -248,6 +247,92 @@ fn gauges_to_wrench_match_monte_carlo() {
     assert!(SensorUncertainty::independent(&solver, &nan).is_err());
 }
 
+/// All the way: gauges with noise and a matrix with errors, the wrench solved from them, a soft finger
+/// under it, its normal and tangential force.
+#[test]
+fn gauges_to_normal_and_tangential_force_match_monte_carlo() {
+    let surface = common::ellipsoid::<f64>();
+    let mut random = Random::new(9);
+    let matrix = Matrix6::from_fn(|i, j| if i == j { 2.0 } else { 0.0 } + random.uniform(-0.4, 0.4));
+    let nominal = Vector6::new(10.0, 10.0, 10.0, 0.1, 0.1, 0.1);
+    let sensor = SensorMatrix::new(matrix, nominal).unwrap();
+    let solver = GaussianElimination::new(&sensor).unwrap();
+    // Noise of some 2 mN, and relative errors of 5e-4 in the sensitivities, correlated within each gauge.
+    let noise = Vector6::new(2e-4, 4e-4, 2e-4, 6e-4, 2e-4, 4e-4);
+    let rows = core::array::from_fn(|_| {
+        let scale = Matrix6::from_diagonal(&nominal.map(|n| 1e-3 / n));
+        let mix = Matrix6::from_fn(|_, _| random.uniform(-0.5, 0.5)) + Matrix6::identity();
+        scale * mix * mix.transpose() * scale
+    });
+    let factors = rows.map(|row: Matrix6<f64>| row.cholesky().unwrap().l());
+    let uncertainty =
+        SensorUncertainty::independent(&solver, &noise).unwrap().with_calibration(rows).unwrap();
+    for soft in [false, true] {
+        let case = loop {
+            let spins = if soft { [0.1, 0.5] } else { [1e-12, 1e-11] };
+            let case = Case::random(&mut random, &surface, 0.017, spins, 5.0);
+            if (0.7..0.9).contains(&case.incidence) {
+                break case;
+            }
+        };
+        let resolve = |wrench: &Wrench<f64>| -> Contact<f64> {
+            *if soft {
+                SoftFinger::new(0.0).unwrap().resolve(wrench, &surface)
+            } else {
+                PointContact::new(0.0).unwrap().resolve(wrench, &surface)
+            }
+            .contact()
+            .unwrap()
+        };
+        let truth = resolve(&case.wrench);
+        let jacobian = if soft {
+            ContactJacobian::of_soft_finger_on(&truth, &surface)
+        } else {
+            let bend = surface.shape_operator(&truth.point);
+            ContactJacobian::of_point_contact(&truth, &case.wrench, &bend)
+        }
+        .unwrap();
+        let of_wrench = uncertainty.wrench_covariance(&case.wrench);
+        let predicted = ContactCovariance::new(&jacobian, &of_wrench);
+        let ellipse = predicted.ellipse(0.95).unwrap();
+        let (mut forces, mut points, mut inside) = (Matrix2::zeros(), Matrix3::zeros(), 0);
+        let count = 40_000;
+        for _ in 0..count {
+            let mut signals = sensor.signals(&case.wrench);
+            for gauge in 0..6 {
+                let wrong = factors[gauge] * Vector6::from_fn(|_, _| random.normal());
+                signals[gauge] += noise[gauge] * random.normal() - wrong.dot(&case.wrench.components());
+            }
+            let contact = resolve(&solver.solve(&signals));
+            let pair = nalgebra::Vector2::new(
+                contact.normal_force() - truth.normal_force(),
+                contact.tangential_force().norm() - truth.tangential_force().norm(),
+            );
+            forces += pair * pair.transpose();
+            let moved = contact.point - truth.point;
+            points += moved * moved.transpose();
+            let [a, b] = [0, 1].map(|i| moved.dot(&ellipse.directions[i]) / ellipse.semi_axes[i]);
+            inside += usize::from(a * a + b * b <= 1.0);
+        }
+        let (forces, points) = (forces / f64::from(count), points / f64::from(count));
+        let expected = predicted.normal_and_tangential(&truth);
+        let deviations = expected.diagonal().map(f64::sqrt);
+        let of_forces = (forces - expected).component_div(&(deviations * deviations.transpose())).amax();
+        let of_points = (points - predicted.point()).norm() / predicted.point().norm();
+        let coverage = inside as f64 / f64::from(count);
+        println!(
+            "gauges to forces, soft {soft}: sd of normal {:.1} mN, tangential {:.1} mN; Monte Carlo deviates \
+             {:.2} %, of the point {:.2} %, 95 % ellipse holds {:.2} %",
+            deviations[0] * 1e3,
+            deviations[1] * 1e3,
+            100.0 * of_forces,
+            100.0 * of_points,
+            100.0 * coverage
+        );
+        assert!(of_forces < 0.03 && of_points < 0.03 && (0.94..=0.96).contains(&coverage));
+    }
+}
+
 #[test]
 fn curvature_from_differences_of_the_normal() {
     let surface = common::ellipsoid::<f64>();
@@ -295,10 +380,11 @@ fn convex_bound<S: ActiveSurface<f64>>(
 ) -> f64 {
     let mut random = Random::new(seed);
     let model = PointContact::new(0.0).unwrap().accepting_gap(1.0).unwrap();
-    let (mut ratios, mut silent, mut past) = (Vec::new(), 0, 0);
+    let (mut ratios, mut silent, mut past, mut none) = (Vec::new(), 0, 0, 0);
     let mut tightest = 0.0_f64;
     for _ in 0..count {
         let (point, normal) = random.place(surface, size);
+        assert!(point.norm() <= reach, "{name}");
         // All incidences, and often grazing.
         let force = if random.sign() > 0.0 {
             random.force(&normal, 0.0, 1.0)
@@ -316,11 +402,12 @@ fn convex_bound<S: ActiveSurface<f64>>(
             truth.torque() + random.direction() * torque_error,
         );
         let errors = WorstErrors::of_wrench(force_error, torque_error);
-        let Some(bound) = ConvexBound::new(surface, &measured, &errors, reach) else {
-            silent += 1;
+        // The errors may have made a pull of it, or a contact where the surface is not active.
+        let Some(contact) = model.resolve(&measured, surface).contact().copied() else {
+            none += 1;
             continue;
         };
-        let Some(contact) = model.resolve(&measured, surface).contact().copied() else {
+        let Some(bound) = ConvexBound::new(surface, &measured, &errors, reach) else {
             silent += 1;
             continue;
         };
@@ -335,30 +422,49 @@ fn convex_bound<S: ActiveSurface<f64>>(
     ratios.sort_by(f64::total_cmp);
     let median = ratios[ratios.len() / 2];
     println!(
-        "{name:14} rigorous bound n={count}: 0 violated, median bound/error {median:.2}, tightest {:.2}, grazing {past}, silent {silent}",
+        "{name:16} rigorous bound n={count}: 0 violated, median bound/error {median:.2}, tightest {:.2}, grazing {past}, silent {silent}, no contact {none}",
         1.0 / tightest
     );
+    assert!(silent * 1000 < count && none * 4 < count, "{name}: silent {silent}, no contact {none}");
     assert!(median <= 5.0, "{name} {median}");
-    assert!(silent * 1000 < count, "{name}: silent {silent}");
     median
 }
 
 fn all_convex_bounds(count: usize, of_slow_shapes: usize) {
+    // How far from the origin a contact can be: of a bounded shape its size, of an unbounded one what
+    // `Random::place` goes to.
     convex_bound("sphere", &common::sphere::<f64>(), [0.017, 0.017], count, 41);
     convex_bound("ellipsoid", &common::ellipsoid::<f64>(), [0.017, 0.017], count, 42);
     convex_bound("cylinder", &common::cylinder::<f64>(), [0.017, 0.031], count, 43);
     convex_bound("capsule", &common::capsule::<f64>(), [0.017, 0.0131], count, 44);
     convex_bound("rounded box", &common::rounded_box::<f64>(), [0.017, 0.0183], of_slow_shapes, 45);
     convex_bound("superquadric", &common::superquadric::<f64>(), [0.017, 0.0184], of_slow_shapes, 46);
+    convex_bound("plane", &common::plane::<f64>(), [0.017, 0.031], count, 141);
+    convex_bound("disk", &common::disk::<f64>(), [0.017, 0.031], count, 142);
+    convex_bound("rectangle", &common::rectangle::<f64>(), [0.017, 0.031], count, 143);
+    convex_bound("spherical cap", &common::spherical_cap::<f64>(), [0.017, 0.017], count, 144);
+    convex_bound("cone", &common::cone::<f64>(), [0.017, 0.031], count, 145);
+    convex_bound("frustum", &common::frustum::<f64>(), [0.014, 0.0146], count, 146);
+    convex_bound("capped cylinder", &common::capped_cylinder::<f64>(), [0.014, 0.015], count, 147);
+    convex_bound("elliptic cyl.", &common::elliptic_cylinder::<f64>(), [0.017, 0.031], count, 148);
+    convex_bound("closed ell. cyl.", &common::closed_elliptic_cylinder::<f64>(), [0.014, 0.0157], count, 149);
+    convex_bound("paraboloid", &common::paraboloid::<f64>(), [0.017, 0.031], count, 150);
+    convex_bound("gel tip", &common::revolution::<f64>(), [0.014, 0.0141], of_slow_shapes, 151);
+    convex_bound("grown ellipsoid", &common::grown_ellipsoid::<f64>(), [0.019, 0.019], of_slow_shapes, 152);
+    convex_bound("grown cylinder", &common::grown_cylinder::<f64>(), [0.017, 0.018], of_slow_shapes, 153);
+    convex_bound("mesh", &common::mesh::<f64>(), [0.012, 0.0121], of_slow_shapes, 154);
+    convex_bound("posed", &common::posed::<f64>(), [0.014, 0.018], count, 155);
+    convex_bound("trimmed", &common::trimmed::<f64>(), [0.017, 0.017], count, 156);
+    convex_bound("implicit", &common::pillow::<f64>(), [0.012, 0.0121], of_slow_shapes, 157);
 }
 
 #[test]
 fn convex_bound_is_never_violated() {
-    all_convex_bounds(20_000, 3000);
+    all_convex_bounds(3000, 500);
 }
 
 #[test]
-#[ignore = "a million trials for each of six shapes"]
+#[ignore = "a million trials for each of 23 shapes"]
 fn convex_bound_is_never_violated_in_a_million() {
     all_convex_bounds(1_000_000, 1_000_000);
 }
@@ -400,8 +506,13 @@ fn a_convex_bound_refuses_what_it_cannot_answer() {
     assert!(ConvexBound::new(&surface, &press, &errors(-0.1, 0.0), 0.02).is_none());
     let far = Wrench::from_force_at(&Vector3::new(0.1, 0.0, 0.0), Vector3::new(0.0, 0.0, -1.0));
     assert!(ConvexBound::new(&surface, &far, &errors(0.001, 1e-5), 0.02).is_none());
+    // Pulled, a plane is only left.
+    // No contact within a reach this short explains the wrench.
+    assert!(ConvexBound::new(&surface, &press, &errors(0.001, 1e-5), 0.008).is_none());
     let plane = common::plane::<f64>();
-    assert!(ConvexBound::new(&plane, &press, &errors(0.001, 1e-5), 0.02).is_none());
+    let pull = Wrench::from_force_at(&surface.centre(), Vector3::new(0.0, 0.0, 1.0));
+    assert!(ConvexBound::new(&plane, &pull, &errors(0.001, 1e-5), 0.02).is_none());
+    assert!(ConvexBound::new(&plane, &press, &errors(0.001, 1e-5), 0.02).is_some());
 }
 
 /// (3)-(9): the corrected bounds hold, the sharp ones are attained, the table is right.

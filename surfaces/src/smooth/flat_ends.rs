@@ -1,0 +1,41 @@
+//! The curvature of solids with flat ends.
+
+use fingertip_wrench::Real;
+use nalgebra::{Matrix2, Vector3};
+
+use super::smooth_surface::agree;
+use crate::Level;
+use crate::numeric::vectors::length;
+
+/// What part of a solid with flat ends has a normal.
+pub(super) enum Face {
+    Side,
+    End,
+    /// Between the two.
+    Edge,
+}
+
+impl Face {
+    /// The ends are across the unit vector `axis`; the level function is that of the side.
+    pub(super) fn of<T: Real>(axis: &Vector3<T>, level: &Level<T>, normal: &Vector3<T>) -> Self {
+        let side = level.gradient / length(&level.gradient);
+        let end = axis * T::one().copysign(axis.dot(normal));
+        let beside = (side - normal).norm_squared() <= (end - normal).norm_squared();
+        match (beside, agree(if beside { &side } else { &end }, normal, T::one())) {
+            (true, true) => Self::Side,
+            (false, true) => Self::End,
+            (_, false) => Self::Edge,
+        }
+    }
+
+    /// The shape operator in the tangent plane; NaN on an edge.
+    pub(super) fn bend<T: Real>(self, level: &Level<T>, [e1, e2]: [&Vector3<T>; 2]) -> Matrix2<T> {
+        let steepness = length(&level.gradient);
+        let (w1, w2) = (level.hessian * e1 / steepness, level.hessian * e2 / steepness);
+        match self {
+            Self::Side => Matrix2::new(e1.dot(&w1), e1.dot(&w2), e1.dot(&w2), e2.dot(&w2)),
+            Self::End => Matrix2::zeros(),
+            Self::Edge => Matrix2::repeat(T::zero() / T::zero()),
+        }
+    }
+}
