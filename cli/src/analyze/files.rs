@@ -1,15 +1,16 @@
 //! The files of a run, and what is said at its end.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, Cursor, Read, Write};
 use std::path::Path;
 
 use fingertip_drivers::recording::RecordingReader;
 
-use crate::args::AnalyzeArguments;
+use super::args::AnalyzeArguments;
 use crate::convert::from_mcap::to_csv;
 use crate::error::CliError;
-use crate::record::output::Kind;
+use crate::output;
+use crate::recording_file::Kind;
 use crate::summary::Findings;
 
 /// Refuses to write over what is read.
@@ -20,19 +21,9 @@ pub(super) fn guard(arguments: &AnalyzeArguments) -> Result<(), CliError> {
         arguments.calibration.as_ref(),
         arguments.payload.as_ref(),
     ];
-    let report = (!arguments.no_report).then_some(&arguments.report);
-    for (what, output) in [("contacts file", Some(&arguments.output)), ("report", report)] {
-        let Some(output) = output else { continue };
-        let Ok(place) = fs::canonicalize(output) else { continue };
-        // A device may well be read and written.
-        let file = fs::metadata(&place).is_ok_and(|meta| meta.is_file());
-        let read =
-            inputs.iter().flatten().any(|input| fs::canonicalize(input).is_ok_and(|input| input == place));
-        if file && read {
-            return Err(CliError::WouldOverwrite { what, path: output.clone() });
-        }
-    }
-    Ok(())
+    let inputs = || inputs.into_iter().flatten();
+    output::guard("contacts file", inputs(), [&arguments.output])?;
+    output::guard("report", inputs(), (!arguments.no_report).then_some(&arguments.report))
 }
 
 /// The rows of a recording, whichever way it was recorded.
@@ -59,18 +50,16 @@ pub(super) fn open(path: &Path, notes: &mut Vec<String>) -> Result<(Rows, Option
 }
 
 /// Prints what was found and what was written.
-pub(super) fn say(findings: &Findings, to_stderr: bool, written: &[Option<&Path>]) -> Result<(), CliError> {
-    let written = written.iter().flatten().filter(|path| **path != Path::new("-"));
-    let list: Vec<String> = written.map(|path| path.display().to_string()).collect();
+pub(super) fn say(findings: &Findings, to_stderr: bool, files: &[Option<&Path>]) -> Result<(), CliError> {
+    let files: Vec<_> = files.iter().flatten().filter(|path| **path != Path::new("-")).collect();
     let mut text = findings.to_string();
-    if !list.is_empty() {
-        text.push_str(&format!("\nWritten: {}\n", list.join(", ")));
+    if !files.is_empty() {
+        text.push_str(&format!("\n{}", output::written(files)));
     }
     if to_stderr {
         // If even the standard error is closed, there is nobody left to tell.
         let _ = io::stderr().write_all(text.as_bytes());
         return Ok(());
     }
-    let mut stdout = io::stdout();
-    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
+    output::print(&text)
 }

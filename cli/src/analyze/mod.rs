@@ -1,5 +1,6 @@
 //! `fingertip analyze`: a recording and a scene to contacts, a summary and a report.
 
+pub(crate) mod args;
 mod contacts;
 mod files;
 mod payload;
@@ -15,13 +16,14 @@ use fingertip::Fingertip;
 use fingertip::surfaces::ActiveSurface;
 use fingertip_drivers::recording::Quality;
 
-use crate::args::AnalyzeArguments;
 use crate::error::CliError;
 use crate::observe::{Observations, Status};
+use crate::output;
 use crate::report;
 use crate::scene::Scene;
 use crate::shape::Shape;
 use crate::summary::{self, Run};
+use args::AnalyzeArguments;
 use contacts::ContactWriter;
 use progress::Progress;
 use source::{Reading, Source};
@@ -67,7 +69,7 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     });
     let report = (!arguments.no_report).then_some(arguments.report.as_path());
     if let Some(path) = report {
-        report::write(path, &report::of_recording(&findings, &observations, &scene))?;
+        output::write("report", path, &report::of_recording(&findings, &observations, &scene))?;
     }
     let to_stderr = arguments.output == Path::new("-");
     files::say(&findings, to_stderr, &[Some(arguments.output.as_path()), report])

@@ -7,14 +7,15 @@ use fingertip_calibration::gravity::{PayloadOptions, fit_orientation, fit_payloa
 use nalgebra::Vector3;
 
 use super::args::{CalibrateArguments, SensorAxis};
-use super::files::{bad, guard, open, say, write};
+use super::files::{bad, open};
 use crate::error::CliError;
+use crate::output::{guard, say, write};
 
 const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
 pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), CliError> {
     let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from("payload.toml"));
-    guard(&[path.to_owned()], [&output])?;
+    guard("output", &[path.to_owned()], [&output])?;
     let fault = |error: &dyn core::fmt::Display| bad(path, &error);
     let mut poses = poses_from_csv(open("table of poses", path)?).map_err(|error| fault(&error))?;
     if arguments.reaction {

@@ -8,8 +8,7 @@ use fingertip_drivers::recording::{ContactCells, RecordingWriter, Schema};
 
 use super::{Account, ConvertArguments, fault};
 use crate::error::CliError;
-use crate::mcap_file::{open, unit as unit_of};
-use crate::record::output::{create, csv, mcap};
+use crate::recording_file::{create, csv, mcap, open, unit as unit_of};
 
 /// A topic, and the columns that its messages fill.
 struct Columns {
