@@ -33,10 +33,10 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let recording = arguments.recording.as_path();
     files::guard(arguments)?;
     let mut notes = Vec::new();
-    let (mut reader, length) = files::open(recording, &mut notes)?;
+    let files::Opened { rows: mut reader, length, read } = files::open(recording, &mut notes)?;
     let mut source = Source::new(&mut reader, &scene, arguments, notes)?;
     let mut contacts = ContactWriter::create(&arguments.output)?;
-    let mut progress = Progress::new(length);
+    let mut progress = Progress::new(length, read);
 
     let mut pass = Pass {
         scene: &scene,
@@ -112,7 +112,7 @@ impl Pass<'_> {
                 }
             }
             if observations.rows().is_multiple_of(8192) {
-                self.progress.at(self.reader.bytes_read());
+                self.progress.show();
             }
         }
         if let Some(rest) = self.source.unfinished_rest() {

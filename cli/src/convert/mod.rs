@@ -1,13 +1,16 @@
 //! `fingertip convert`: recordings from CSV to MCAP and back.
 
 mod from_csv;
-pub(crate) mod from_mcap;
+mod from_mcap;
+mod mcap_rows;
 
 use core::fmt::Display;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+
+pub(crate) use from_mcap::McapAsCsv;
 
 use crate::error::CliError;
 use crate::output::{guard, print};
@@ -40,11 +43,11 @@ pub(crate) struct ConvertArguments {
 
 /// What was converted, and what was not.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Account {
+struct Account {
     written: Vec<(&'static str, u64)>,
     lost: Vec<String>,
     /// What the columns came from.
-    pub(crate) notes: Vec<String>,
+    notes: Vec<String>,
 }
 
 impl Account {
