@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use fingertip_calibration::file::PayloadFile;
 use fingertip_calibration::gravity::{PayloadOptions, fit_orientation, fit_payload, poses_from_csv};
 use nalgebra::Vector3;
 
@@ -48,7 +47,7 @@ pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), Cli
         SensorAxis::Z => Vector3::z(),
     });
     let fit = fit_payload(&poses, &options).map_err(|error| fault(&error))?;
-    let mut file = PayloadFile::of_fit(&fit, poses.len()).map_err(|error| fault(&error))?;
+    let mut file = fit.to_file(poses.len()).map_err(|error| fault(&error))?;
     if let Some(turn) = mounting {
         file.sensor_from_flange = core::array::from_fn(|i| core::array::from_fn(|j| turn[(i, j)]));
     }

@@ -10,9 +10,10 @@ mod touches;
 
 use std::path::{Path, PathBuf};
 
+use fingertip_calibration::calibrate as fit;
 use fingertip_calibration::file::{AtiCalibration, CalibrationFile, Scalar, Verdict};
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{Direction, Limits, Method, Options, calibrate as fit};
+use fingertip_calibration::model::{Direction, Limits, Method, Options};
 
 use crate::error::CliError;
 use crate::output::{guard, say, write};
