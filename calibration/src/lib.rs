@@ -3,6 +3,7 @@
 extern crate alloc;
 
 mod axis;
+mod calibrate;
 pub mod design;
 pub mod experiment;
 pub mod file;
@@ -18,6 +19,7 @@ pub mod report;
 pub mod tare;
 
 pub use axis::Axis;
+pub use calibrate::{Calibration, calibrate};
 pub use fingertip_wrench::units;
 pub use nalgebra;
 

@@ -1,11 +1,11 @@
 //! The command line.
 
-use std::path::PathBuf;
+use clap::{Parser, Subcommand};
 
-use clap::{Args, Parser, Subcommand};
-
+use crate::analyze::args::AnalyzeArguments;
 use crate::calibrate::args::{CalibrateArguments, CheckArguments, TareArguments};
 use crate::convert::ConvertArguments;
+use crate::demo::args::DemoArguments;
 use crate::design::args::DesignArguments;
 use crate::geometry::GeometryArguments;
 use crate::live::args::LiveArguments;
@@ -56,54 +56,4 @@ pub(crate) enum Command {
     Motion(MotionArguments),
     /// Say what ordinary point contacts tell of a calibration, and mend it by them
     Refine(RefineArguments),
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct DemoArguments {
-    /// Where to write the report
-    #[arg(long, value_name = "FILE", default_value = "report.html")]
-    pub(crate) out: PathBuf,
-    /// Seed of the noise: the same seed gives the same report
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub(crate) seed: u64,
-    /// Also write the simulated volts, a recording to try `analyze` on
-    #[arg(long, value_name = "FILE")]
-    pub(crate) recording: Option<PathBuf>,
-    /// Also write the simulated sensor's calibration
-    #[arg(long, value_name = "FILE")]
-    pub(crate) calibration: Option<PathBuf>,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct AnalyzeArguments {
-    /// The recording: CSV with units in the column names (fx_N, tz_Nmm, v1_V, t_s), or MCAP (.mcap)
-    #[arg(value_name = "FILE")]
-    pub(crate) recording: PathBuf,
-    /// The scene: surface, pose, thresholds, friction (examples/scenes/README.md)
-    #[arg(long, value_name = "SCENE.toml")]
-    pub(crate) scene: PathBuf,
-    /// The calibration, for a recording of volts
-    #[arg(long, value_name = "CAL.toml")]
-    pub(crate) calibration: Option<PathBuf>,
-    /// What hangs on the sensor, as `calibrate --gravity` wrote it: its weight is taken off, by the columns
-    /// qx, qy, qz, qw of the recording
-    #[arg(long, value_name = "PAYLOAD.toml")]
-    pub(crate) payload: Option<PathBuf>,
-    /// Temperature of the whole recording, for a calibration that drifts with it and a recording without
-    /// column temperature_C
-    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true)]
-    pub(crate) celsius: Option<f64>,
-    /// Which sensor of the recording: the prefix of its columns (S1 for S1_Fx_N); overrides the scene
-    #[arg(long, value_name = "PREFIX")]
-    pub(crate) sensor: Option<String>,
-    /// Where to write one row per sample; `-` is the standard output, and the summary then goes to
-    /// the standard error
-    #[arg(long, value_name = "FILE", default_value = "contacts.csv")]
-    pub(crate) output: PathBuf,
-    /// Where to write the report
-    #[arg(long, value_name = "FILE", default_value = "report.html", conflicts_with = "no_report")]
-    pub(crate) report: PathBuf,
-    /// Write no report
-    #[arg(long)]
-    pub(crate) no_report: bool,
 }

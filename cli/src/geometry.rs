@@ -11,8 +11,9 @@ use fingertip_calibration::geometry::{
 use fingertip_calibration::loads::Columns;
 use nalgebra::{Rotation3, Vector3};
 
-use crate::calibrate::files::{bad, guard, read_columns, say, write};
+use crate::calibrate::files::{bad, read_columns};
 use crate::error::CliError;
+use crate::output::{guard, say, write};
 
 #[derive(Debug, Args)]
 #[command(after_help = "Columns of TOUCHES.csv: fx_N … tz_Nm, the load on the sensor; and\n  \
@@ -74,7 +75,7 @@ struct Found {
 }
 
 pub(crate) fn run(arguments: &GeometryArguments) -> Result<(), CliError> {
-    guard(core::slice::from_ref(&arguments.touches), &arguments.output)?;
+    guard("output", [&arguments.touches], &arguments.output)?;
     let path = &arguments.touches;
     let columns = read_columns("table of touches", path)?;
     let found = find(arguments, &columns).map_err(|message| bad(path, &message))?;

@@ -8,8 +8,9 @@ use fingertip_calibration::loads::{Columns, LoadTable, Rest, signals_from_csv};
 use fingertip_calibration::motion::{LeverArm, constant_force, lever_arms};
 use nalgebra::{DMatrix, DVector, Vector3};
 
-use crate::calibrate::files::{bad, guard, open, read_columns, read_loads, say, write};
+use crate::calibrate::files::{bad, open, read_columns, read_loads};
 use crate::error::CliError;
+use crate::output::{guard, say, write};
 
 #[derive(Debug, Args)]
 #[command(after_help = "Without arms, three components are found, up to one rotation of all of them; with \
@@ -49,9 +50,7 @@ struct Found {
 
 pub(crate) fn run(arguments: &MotionArguments) -> Result<(), CliError> {
     let path = &arguments.readings;
-    let inputs: Vec<PathBuf> =
-        [Some(path), arguments.align.as_ref()].into_iter().flatten().cloned().collect();
-    guard(&inputs, &arguments.output)?;
+    guard("output", [Some(path), arguments.align.as_ref()].into_iter().flatten(), &arguments.output)?;
     let Rest { signals, unit, .. } =
         signals_from_csv(open("table of readings", path)?).map_err(|error| bad(path, &error))?;
     let columns = read_columns("table of readings", path)?;

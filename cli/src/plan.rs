@@ -7,8 +7,9 @@ use fingertip_calibration::experiment::plan_after;
 use fingertip_calibration::fit::FitError;
 use nalgebra::DMatrix;
 
-use crate::calibrate::files::{bad, read_columns, say};
+use crate::calibrate::files::{bad, read_columns};
 use crate::error::CliError;
+use crate::output::say;
 use crate::table::{Table, number};
 
 #[derive(Debug, Args)]

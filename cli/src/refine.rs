@@ -10,8 +10,9 @@ use fingertip_calibration::linear::pseudo_inverse;
 use fingertip_calibration::loads::{Rest, signals_from_csv};
 use nalgebra::DMatrix;
 
-use crate::calibrate::files::{bad, guard, open, read_calibration, read_loads, say, write};
+use crate::calibrate::files::{bad, open, read_calibration, read_loads};
 use crate::error::CliError;
+use crate::output::{guard, say, write};
 
 #[derive(Debug, Args)]
 #[command(
@@ -42,9 +43,7 @@ pub(crate) struct RefineArguments {
 
 pub(crate) fn run(arguments: &RefineArguments) -> Result<(), CliError> {
     let path = &arguments.touches;
-    let mut inputs = vec![path.clone()];
-    inputs.extend(arguments.loads.clone());
-    guard(&inputs, &arguments.output)?;
+    guard("output", core::iter::once(path).chain(&arguments.loads), &arguments.output)?;
     let file = read_calibration(&arguments.calibration)?;
     let unusable = |message: &str| CliError::Calibration {
         path: arguments.calibration.clone(),

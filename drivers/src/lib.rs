@@ -29,6 +29,8 @@ pub mod bridge;
 pub mod converter;
 #[cfg(all(feature = "simulation", any(feature = "ati-rdt", feature = "schunk-fts")))]
 mod datagram_link;
+#[cfg(all(feature = "std", any(feature = "ati-rdt", feature = "schunk-fts")))]
+mod datagram_socket;
 #[cfg(feature = "dynpick")]
 pub mod dynpick;
 mod faces;

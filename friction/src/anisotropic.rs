@@ -1,10 +1,9 @@
 //! Friction that differs with direction, as on ridged skin or brushed metal.
 
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Real, stored};
 use nalgebra::Vector3;
 
 use crate::cone::{hypot, positive, saturated};
-use crate::stored::stored;
 use crate::{BadFriction, FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
 
 /// The elliptic cone `(f₁/μ₁)² + (f₂/μ₂)² ≤ f_n²` (theory 5), with coefficients along two

@@ -331,10 +331,13 @@ fn clamped<T: Real, const D: usize>(v: SVector<T, D>, limit: T) -> (SVector<T, D
 /// not.
 #[cfg(feature = "serde")]
 #[derive(serde::Serialize, serde::Deserialize)]
-#[serde(bound(
-    serialize = "T: serde::Serialize, Law: serde::Serialize",
-    deserialize = "T: serde::Deserialize<'de>, Law: serde::Deserialize<'de>"
-))]
+#[serde(
+    deny_unknown_fields,
+    bound(
+        serialize = "T: serde::Serialize, Law: serde::Serialize",
+        deserialize = "T: serde::Deserialize<'de>, Law: serde::Deserialize<'de>"
+    )
+)]
 struct Parts<T: Real, Law, const D: usize> {
     law: Law,
     #[serde(rename = "deflection_m")]

@@ -1,9 +1,8 @@
 //! The laws of dynamic friction with one deflection (bristle) as state.
 
-use fingertip_wrench::Real;
+use fingertip_wrench::{Real, stored};
 
 use crate::cone::{not_negative, positive};
-use crate::stored::stored;
 use crate::{BadFriction, Stribeck};
 
 /// A friction law `F = σ₀z + σ₁ż + σ₂v`, `ż = v − α(z, v) σ₀|v|z/g(|v|)` (theory 6.1).

@@ -1,10 +1,9 @@
 //! Dry friction of a point contact.
 
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Real, stored};
 use thiserror::Error;
 
 use crate::cone::{Cone, rescaled};
-use crate::stored::stored;
 use crate::{FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
 
 /// Coulomb's cone `|f_t| ≤ μ f_n` (theory 5). The spin torque is not limited: a point contact

@@ -1,10 +1,9 @@
 //! Page's cumulative sum.
 
-use fingertip_wrench::Real;
+use fingertip_wrench::{Real, stored};
 use thiserror::Error;
 
 use crate::ratio_tracker::ChangeTest;
-use crate::stored::stored;
 
 /// A one-sided cumulative sum `S ← max(0, S + x − k)` that passes at `S > h` (Page 1954). The
 /// Page-Hinkley test is the same statistic.

@@ -1,9 +1,8 @@
 //! The paper's second mode: slip seen in the sudden drop of the friction ratio.
 
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Real, stored};
 
 use crate::ratio_tracker::RatioTracker;
-use crate::stored::stored;
 use crate::{BadNoise, Cusum, ForceNoise, SlipDetector, SlipVerdict};
 
 /// Finds the fall of the friction ratio from its static peak to its kinetic level, without knowing

@@ -1,11 +1,10 @@
 //! When the friction ratio means anything.
 
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Real, stored};
 use thiserror::Error;
 
 #[cfg(feature = "serde")]
 use crate::cone::positive;
-use crate::stored::stored;
 /// Standard deviations of the noise of a contact force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceNoise<T> {

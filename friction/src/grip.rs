@@ -1,9 +1,8 @@
 //! The normal force to command next.
 
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Real, stored};
 
 use crate::cone::{not_negative, positive};
-use crate::stored::stored;
 use crate::{BadFriction, FrictionModel, SlipVerdict};
 
 /// Limits and habits of a gripping finger; [`GripController::new`] validates them.

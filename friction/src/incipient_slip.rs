@@ -1,9 +1,8 @@
 //! Slip before the slide: the loss of tangential stiffness where the motion is known.
 
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Real, stored};
 use nalgebra::Vector3;
 
-use crate::stored::stored;
 use crate::{BadDetector, NormalForceGate, SlipVerdict};
 
 /// How many places divide the window.

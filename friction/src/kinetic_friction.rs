@@ -1,8 +1,7 @@
 //! The kinetic friction coefficient, learnt while it slides.
 
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Real, stored};
 
-use crate::stored::stored;
 use crate::{BadNoise, Cusum, ForceNoise, FrictionEstimate, NormalForceGate};
 
 /// Fits `|f_t| = μ f_n` to the samples of a slide, with noise on both (Deming's regression through

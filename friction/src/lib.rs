@@ -24,7 +24,6 @@ mod slip_detector;
 mod soft_finger;
 mod static_friction;
 mod stick_slip;
-mod stored;
 mod stribeck;
 #[cfg(feature = "testing")]
 pub mod testing;

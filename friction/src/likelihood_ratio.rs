@@ -1,10 +1,9 @@
 //! The generalised likelihood ratio over a sliding window.
 
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Real, stored};
 
 use crate::ratio_tracker::{ChangeTest, RatioTracker};
 use crate::run_length::{likelihood_ratio_threshold, run_length_for};
-use crate::stored::stored;
 use crate::{BadDetector, BadNoise, ForceNoise, SlipDetector, SlipVerdict};
 
 /// `max_j S_j²/(2j) > threshold` over the sums `S_j > 0` of the last `j ≤ W` standardised samples:

@@ -1,10 +1,9 @@
 //! A soft finger whose contact patch grows with the load.
 
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Real, stored};
 
 use crate::cone::{Cone, hypot, not_negative, positive, rescaled, saturated};
 use crate::soft_finger::direction;
-use crate::stored::stored;
 use crate::{BadFriction, FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
 
 /// The elliptic soft-finger limit `|f_t|² + (τ/e(f_n))² ≤ (μ f_n)²` whose torque arm grows with

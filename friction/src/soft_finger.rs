@@ -1,9 +1,8 @@
 //! Friction of a soft finger: tangential force and spin torque share one limit.
 
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Real, stored};
 
 use crate::cone::{Cone, hypot, positive, rescaled};
-use crate::stored::stored;
 use crate::{BadFriction, FrictionLimit, FrictionModel, PressureDistribution, SlipDirection, SlipMargin};
 
 /// The elliptic soft-finger limit `|f_t|² + (τ/e)² ≤ (μ f_n)²` (Howe & Cutkosky 1996; theory 5).

@@ -1,8 +1,7 @@
 //! The static friction coefficient, learnt at each onset of slip.
 
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Real, stored};
 
-use crate::stored::stored;
 use crate::uncertain::normal_quantile;
 use crate::{BadDetector, BadNoise, ForceNoise, NormalForceGate};
 

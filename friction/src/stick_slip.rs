@@ -1,8 +1,7 @@
 //! Stick-slip: slip that comes back at even times.
 
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Real, stored};
 
-use crate::stored::stored;
 use crate::{DropDetector, SlipDetector, SlipVerdict};
 
 /// A periodic stick-slip motion.

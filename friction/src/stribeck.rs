@@ -1,10 +1,9 @@
 //! How sliding friction falls with speed.
 
-use fingertip_wrench::Real;
+use fingertip_wrench::{Real, stored};
 
 use crate::BadFriction;
 use crate::cone::positive;
-use crate::stored::stored;
 
 /// Stribeck's curve `g(v) = F_c + (F_s − F_c) e^{−(v/v_s)²}`: the friction force of steady sliding
 /// without its viscous part (theory 6.1).

@@ -1,8 +1,7 @@
 //! The paper's first mode: slip foretold from a known friction coefficient.
 
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Real, stored};
 
-use crate::stored::stored;
 use crate::{BadFriction, NormalForceGate, SlipDetector, SlipVerdict};
 
 /// Warns when the friction ratio passes a safe share of the static coefficient, and says slip at

@@ -1,9 +1,8 @@
 //! Friction that is known only with an uncertainty.
 
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Real, stored};
 
 use crate::cone::{not_negative, positive, saturated};
-use crate::stored::stored;
 use crate::{BadFriction, ForceNoise};
 
 /// Coulomb friction with a standard deviation on its coefficient and noise on the force: how

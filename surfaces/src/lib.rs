@@ -20,7 +20,6 @@ mod heightfield;
 #[cfg(feature = "alloc")]
 mod mesh;
 mod numeric;
-mod serde_parts;
 mod shapes;
 mod signed_distance;
 mod smooth;

@@ -4,6 +4,7 @@ use nalgebra::SVector;
 use thiserror::Error;
 
 use crate::Real;
+use crate::stored;
 
 /// What is wrong with a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,15 +27,6 @@ pub enum ChannelFault {
 
 /// The linear range of each channel, in the unit of the raw readings.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "Parts<T, N>",
-        into = "Parts<T, N>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct ChannelLimits<T: Real, const N: usize> {
     least: SVector<T, N>,
     greatest: SVector<T, N>,
@@ -201,26 +193,8 @@ impl<T: Real, const N: usize> ChannelMonitor<T, N> {
     }
 }
 
-/// How limits are written in a file; reading them validates them again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-#[serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))]
-struct Parts<T: Real, const N: usize> {
-    least: SVector<T, N>,
-    greatest: SVector<T, N>,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real, const N: usize> From<ChannelLimits<T, N>> for Parts<T, N> {
-    fn from(limits: ChannelLimits<T, N>) -> Self {
-        Self { least: limits.least, greatest: limits.greatest }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real, const N: usize> TryFrom<Parts<T, N>> for ChannelLimits<T, N> {
-    type Error = BadLimits;
-    fn try_from(parts: Parts<T, N>) -> Result<Self, BadLimits> {
-        Self::new(parts.least, parts.greatest)
-    }
+stored! {
+    ChannelLimits<T, N>, [T: Real, const N: usize],
+    |limits| { least: SVector<T, N> = limits.least, greatest: SVector<T, N> = limits.greatest },
+    Self::new(least, greatest)
 }

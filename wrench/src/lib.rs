@@ -41,6 +41,7 @@ mod sensor_matrix;
 mod singular;
 mod singular_values;
 mod solver;
+mod stored;
 mod tare;
 mod temperature;
 mod transform;

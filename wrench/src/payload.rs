@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use thiserror::Error;
 
+use crate::stored;
 use crate::{Frame, Real, RigidTransform, Wrench};
 
 /// A rigid body that hangs on the sensor all the time: the fingertip itself, a tool, a payload.
@@ -34,15 +35,6 @@ use crate::{Frame, Real, RigidTransform, Wrench};
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "Parts<T>",
-        into = "Parts<T>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct Payload<T: Real> {
     mass: T,
     centre_of_mass: Vector3<T>,
@@ -126,26 +118,8 @@ impl<T: Real> Payload<T> {
     }
 }
 
-/// How a payload is written in a file; reading one validates it again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-#[serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))]
-struct Parts<T: Real> {
-    mass: T,
-    centre_of_mass: Vector3<T>,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> From<Payload<T>> for Parts<T> {
-    fn from(payload: Payload<T>) -> Self {
-        Self { mass: payload.mass, centre_of_mass: payload.centre_of_mass }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Parts<T>> for Payload<T> {
-    type Error = BadPayload;
-    fn try_from(parts: Parts<T>) -> Result<Self, BadPayload> {
-        Self::new(parts.mass, parts.centre_of_mass)
-    }
+stored! {
+    Payload<T>, [T: Real],
+    |payload| { mass: T = payload.mass, centre_of_mass: Vector3<T> = payload.centre_of_mass },
+    Self::new(mass, centre_of_mass)
 }

@@ -3,6 +3,7 @@
 use nalgebra::{SMatrix, SVector, Vector6};
 use thiserror::Error;
 
+use crate::stored;
 use crate::{Real, Wrench};
 
 /// The sensor matrix **C**: `signals = C · (wrench / nominal loads)` (equations (10), (11) of
@@ -14,15 +15,6 @@ use crate::{Real, Wrench};
 ///
 /// The wrench is the load on the fingertip about the origin of the sensor frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "Parts<T, N>",
-        into = "Parts<T, N>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct SensorMatrix<T: Real, const N: usize> {
     normalised: SMatrix<T, N, 6>,
     nominal: Vector6<T>,
@@ -132,26 +124,8 @@ impl<T: Real, const N: usize> SensorMatrix<T, N> {
     }
 }
 
-/// How a sensor matrix is written in a file; reading one validates it again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-#[serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))]
-struct Parts<T: Real, const N: usize> {
-    normalised: SMatrix<T, N, 6>,
-    nominal: Vector6<T>,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real, const N: usize> From<SensorMatrix<T, N>> for Parts<T, N> {
-    fn from(matrix: SensorMatrix<T, N>) -> Self {
-        Self { normalised: matrix.normalised, nominal: matrix.nominal }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real, const N: usize> TryFrom<Parts<T, N>> for SensorMatrix<T, N> {
-    type Error = SensorMatrixError;
-    fn try_from(parts: Parts<T, N>) -> Result<Self, SensorMatrixError> {
-        Self::new(parts.normalised, parts.nominal)
-    }
+stored! {
+    SensorMatrix<T, N>, [T: Real, const N: usize],
+    |matrix| { normalised: SMatrix<T, N, 6> = matrix.normalised, nominal: Vector6<T> = matrix.nominal },
+    Self::new(normalised, nominal)
 }

@@ -5,6 +5,7 @@ use nalgebra::SMatrix;
 use nalgebra::SVector;
 use thiserror::Error;
 
+use crate::stored;
 use crate::{Compensation, Real};
 
 /// One raw reading of `N` gauges and of the temperature of the sensor.
@@ -39,15 +40,6 @@ pub struct GaugesAndTemperature<T: Real, const N: usize> {
 /// # Ok::<(), fingertip_wrench::BadTemperatureModel>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "Parts<T, N, TERMS>",
-        into = "Parts<T, N, TERMS>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct TemperatureCompensation<T: Real, const N: usize, const TERMS: usize> {
     reference: T,
     range: (T, T),
@@ -139,40 +131,18 @@ impl<T: Real, const N: usize, const TERMS: usize> Compensation<T, N>
     }
 }
 
-/// How the coefficients are written in a file, one column a power; reading them validates them
-/// again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-#[serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))]
-struct Parts<T: Real, const N: usize, const TERMS: usize> {
-    reference: T,
-    range: (T, T),
-    zero: SMatrix<T, N, TERMS>,
-    sensitivity: SMatrix<T, N, TERMS>,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real, const N: usize, const TERMS: usize> From<TemperatureCompensation<T, N, TERMS>>
-    for Parts<T, N, TERMS>
-{
-    fn from(model: TemperatureCompensation<T, N, TERMS>) -> Self {
-        Self {
-            reference: model.reference,
-            range: model.range,
-            zero: SMatrix::from_columns(&model.zero),
-            sensitivity: SMatrix::from_columns(&model.sensitivity),
-        }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real, const N: usize, const TERMS: usize> TryFrom<Parts<T, N, TERMS>>
-    for TemperatureCompensation<T, N, TERMS>
-{
-    type Error = BadTemperatureModel;
-    fn try_from(parts: Parts<T, N, TERMS>) -> Result<Self, BadTemperatureModel> {
+stored! {
+    TemperatureCompensation<T, N, TERMS>, [T: Real, const N: usize, const TERMS: usize],
+    |model| {
+        reference: T = model.reference,
+        range: (T, T) = model.range,
+        // One column a power.
+        zero: SMatrix<T, N, TERMS> = SMatrix::from_columns(&model.zero),
+        sensitivity: SMatrix<T, N, TERMS> = SMatrix::from_columns(&model.sensitivity),
+     },
+    {
         let columns = |matrix: SMatrix<T, N, TERMS>| core::array::from_fn(|k| matrix.column(k).into_owned());
-        Self::new(parts.reference, parts.range, columns(parts.zero), columns(parts.sensitivity))
+        Self::new(reference, range, columns(zero), columns(sensitivity))
     }
 }
 

@@ -6,6 +6,7 @@ use core::ops::Mul;
 use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 use thiserror::Error;
 
+use crate::stored;
 use crate::{Frame, Real, Sensor};
 
 /// Rotation and translation that take coordinates in frame `From` to coordinates in frame `To`.
@@ -30,15 +31,6 @@ use crate::{Frame, Real, Sensor};
 /// assert!((in_palm.torque().y - 0.2).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        try_from = "Parts<T>",
-        into = "Parts<T>",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
 pub struct RigidTransform<T: Real, To: Frame = Sensor, From: Frame = Sensor> {
     rotation: Matrix3<T>,
     origin: Vector3<T>,
@@ -196,25 +188,8 @@ impl<T: Real, A: Frame, B: Frame, C: Frame> Mul<RigidTransform<T, B, C>> for Rig
     }
 }
 
-/// How a transform is written in a file; reading one validates it again.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-struct Parts<T: Real> {
-    rotation: Matrix3<T>,
-    origin: Vector3<T>,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real, To: Frame, From: Frame> core::convert::From<RigidTransform<T, To, From>> for Parts<T> {
-    fn from(transform: RigidTransform<T, To, From>) -> Self {
-        Self { rotation: transform.rotation, origin: transform.origin }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real, To: Frame, From: Frame> TryFrom<Parts<T>> for RigidTransform<T, To, From> {
-    type Error = TransformError;
-    fn try_from(parts: Parts<T>) -> Result<Self, TransformError> {
-        Self::from_matrix(parts.rotation, parts.origin)
-    }
+stored! {
+    RigidTransform<T, To, From>, [T: Real; To: Frame; From: Frame],
+    |transform| { rotation: Matrix3<T> = transform.rotation, origin: Vector3<T> = transform.origin },
+    Self::from_matrix(rotation, origin)
 }

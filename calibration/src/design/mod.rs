@@ -50,6 +50,7 @@ mod strain_field;
 #[cfg(test)]
 mod test_spaces;
 mod tolerance;
+mod touch;
 mod trial;
 mod tube_layout;
 mod tube_space;
@@ -57,7 +58,7 @@ mod tube_strength;
 
 pub use assessment::Assessment;
 pub use bridge::{Bridge, Excitation};
-pub use contact_weight::{ContactWeight, Touch};
+pub use contact_weight::ContactWeight;
 pub use criterion::{Criterion, gram};
 pub use decoupling::Decoupling;
 pub use error::DesignError;
@@ -71,6 +72,7 @@ pub use space::{DesignSpace, Parameter, ParameterUnit};
 pub use stewart::{Stewart, StewartSpace, StewartStrength};
 pub use strain_field::{GaugeAngle, LinearStructure, StrainSite, choose_sites};
 pub use tolerance::{Placement, Spread, ToleranceReport, Touches, tolerance};
+pub use touch::{Touch, TouchSet};
 pub use trial::{Accuracy, MatrixUsed, Trial};
 pub use tube_layout::{TubeLayout, TubeTheory};
 pub use tube_space::{Coordinate, GaugeRule, TubeSpace, Wall};

@@ -294,7 +294,7 @@ impl CalibrationFile {
         let signals = DVector::from_fn(reading.len(), |i, _| reading[i] - self.zero[i]);
         let mut load = inverse * &signals;
         if let Some(quadratic) = &self.quadratic {
-            load += quadratic * crate::model::pairs(signals.as_slice());
+            load += quadratic * crate::linear::pairs(signals.as_slice());
         }
         for (value, nominal) in load.iter_mut().zip(&self.nominal) {
             *value *= nominal;

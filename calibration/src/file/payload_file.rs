@@ -10,7 +10,6 @@ use toml::Value;
 
 use super::document::{compare, malformed, open, write};
 use super::{FileError, Provenance};
-use crate::gravity::PayloadFit;
 
 /// Mass, centre of mass and zero of a sensor that carries a body, and how it sits on its flange: what
 /// takes the weight off a measured wrench wherever the hand turns.
@@ -91,26 +90,6 @@ impl PayloadFile {
             quality: PayloadQuality::default(),
             provenance: Provenance { tool: crate::TOOL.to_owned(), ..Provenance::default() },
         };
-        file.validate()?;
-        Ok(file)
-    }
-
-    /// What a fit to `poses` poses found.
-    ///
-    /// # Errors
-    /// As [`validate`](Self::validate).
-    pub fn of_fit(fit: &PayloadFit, poses: usize) -> Result<Self, FileError> {
-        let mut file = Self::new(fit.mass, fit.centre_of_mass, fit.weight / fit.mass)?;
-        file.force_bias = fit.force_bias.into();
-        file.torque_bias = fit.torque_bias.into();
-        file.quality = PayloadQuality {
-            poses: poses as u64,
-            mass_deviation: fit.mass * fit.weight_deviation / fit.weight.norm(),
-            centre_deviation: fit.centre_deviation.into(),
-            rms: fit.rms,
-            warnings: fit.warnings.clone(),
-        };
-        file.provenance.method = "gravity in several poses".to_owned();
         file.validate()?;
         Ok(file)
     }

@@ -1,7 +1,11 @@
 //! Calibration by gravity: a body of unknown weight in several poses.
 
+mod error;
+mod orientation;
 mod payload;
 mod poses;
 
-pub use payload::{Orientation, PayloadError, PayloadFit, PayloadOptions, fit_orientation, fit_payload};
+pub use error::PayloadError;
+pub use orientation::{Orientation, fit_orientation};
+pub use payload::{PayloadFit, PayloadOptions, fit_payload};
 pub use poses::{Pose, poses_from_csv};

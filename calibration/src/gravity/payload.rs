@@ -2,10 +2,11 @@
 
 use fingertip_wrench::units::STANDARD_GRAVITY;
 use nalgebra::{DMatrix, Matrix3, Vector3};
-use thiserror::Error;
 
+use super::error::{PayloadError, named};
 use super::poses::{Pose, turn, unit};
-use crate::fit::{Fit, FitError, least_squares};
+use crate::file::{FileError, PayloadFile, PayloadQuality};
+use crate::fit::{Fit, least_squares};
 use crate::linear::Singular;
 
 /// What is known of gravity and of the body.
@@ -66,35 +67,6 @@ pub struct PayloadFit {
     pub warnings: Vec<String>,
 }
 
-/// Why poses do not tell the payload.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum PayloadError {
-    /// The poses do not determine it, or a number is not finite.
-    #[error(transparent)]
-    Fit(#[from] FitError),
-    /// A direction of the options is zero.
-    #[error("the {0} has no direction")]
-    NoDirection(&'static str),
-    /// The fitted weight pulls upward: the readings have the opposite sign, or are in another frame.
-    #[error(
-        "the mass would be {mass:.4} kg: the readings are those of the reaction (opposite sign), or in another \
-         frame than said"
-    )]
-    NegativeMass {
-        /// The mass as fitted \[kg\].
-        mass: f64,
-    },
-    /// No weight stands out of the errors, so that no centre of mass can be told.
-    #[error("the weight of {weight:.3} N does not stand out of its error of {deviation:.3} N")]
-    NoWeight {
-        /// The weight as fitted \[N\].
-        weight: f64,
-        /// Its standard deviation \[N\].
-        deviation: f64,
-    },
-}
-
 /// Fits weight, centre of mass and zero to readings in several poses: `f = Rᵀ g + b_f`,
 /// `m = c × Rᵀ g + b_m`, two linear least-squares problems (theory 8). The second has the weight of the
 /// first among its regressors: what is uncertain of it is carried over to the centre of mass and the torque
@@ -127,7 +99,7 @@ pub fn fit_payload(poses: &[Pose], options: &PayloadOptions) -> Result<PayloadFi
         design.view_mut((3 * i, unknowns), (3, 3)).fill_with_identity();
         forces.view_mut((3 * i, 0), (3, 1)).copy_from(&pose.wrench.fixed_rows::<3>(0));
     }
-    let fit = least_squares(&design, &forces, None).map_err(|error| name(error, &["weight"], unknowns))?;
+    let fit = least_squares(&design, &forces, None).map_err(|error| named(error, &["weight"], unknowns))?;
     let weight = vector(&(&basis * fit.coefficients.rows(0, unknowns)));
     let length = weight.norm();
     let direction = unit(&weight).unwrap_or_else(Vector3::zeros);
@@ -161,7 +133,7 @@ pub fn fit_payload(poses: &[Pose], options: &PayloadOptions) -> Result<PayloadFi
         torques.view_mut((3 * i, 0), (3, 1)).copy_from(&pose.wrench.fixed_rows::<3>(3));
     }
     let torque_fit =
-        least_squares(&arms, &torques, None).map_err(|error| name(error, &["centre of mass"], lengths))?;
+        least_squares(&arms, &torques, None).map_err(|error| named(error, &["centre of mass"], lengths))?;
     let centre_of_mass = vector(&(&span * torque_fit.coefficients.rows(0, lengths)));
     let torque_bias = Vector3::from_fn(|i, _| torque_fit.coefficients[(lengths + i, 0)]);
     // By how much the torques would change with the weight, and what the fit makes of that.
@@ -217,6 +189,26 @@ impl PayloadFit {
         nalgebra::Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z)
     }
 
+    /// As a payload file, of a fit to so many poses.
+    ///
+    /// # Errors
+    /// [`FileError`] if a number is not finite or the mass is negative.
+    pub fn to_file(&self, poses: usize) -> Result<PayloadFile, FileError> {
+        let mut file = PayloadFile::new(self.mass, self.centre_of_mass, self.weight / self.mass)?;
+        file.force_bias = self.force_bias.into();
+        file.torque_bias = self.torque_bias.into();
+        file.quality = PayloadQuality {
+            poses: poses as u64,
+            mass_deviation: self.mass * self.weight_deviation / self.weight.norm(),
+            centre_deviation: self.centre_deviation.into(),
+            rms: self.rms,
+            warnings: self.warnings.clone(),
+        };
+        file.provenance.method = "gravity in several poses".to_owned();
+        file.validate()?;
+        Ok(file)
+    }
+
     fn rate(&mut self, poses: &[Pose], design: &DMatrix<f64>, fit: &Fit) {
         let count = poses.len().max(1) as f64;
         for pose in poses {
@@ -259,142 +251,11 @@ fn vector(matrix: &DMatrix<f64>) -> Vector3<f64> {
     Vector3::new(matrix[(0, 0)], matrix[(1, 0)], matrix[(2, 0)])
 }
 
-/// Names the unknowns in an error.
-fn name(error: FitError, stems: &[&str], unknowns: usize) -> PayloadError {
-    let FitError::Unobserved(mut unobserved) = error else { return error.into() };
-    for stem in stems {
-        if unknowns == 1 {
-            unobserved.names.push((*stem).to_owned());
-        } else {
-            unobserved.names.extend(["x", "y", "z"].map(|axis| format!("{stem} {axis}")));
-        }
-    }
-    unobserved.names.extend(["x", "y", "z"].map(|axis| format!("bias {axis}")));
-    FitError::Unobserved(unobserved).into()
-}
-
-/// A sensor's orientation on its flange, and the weight it carries.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Orientation {
-    /// Columns are the axes of the flange in the sensor frame.
-    pub sensor_from_flange: Matrix3<f64>,
-    /// Weight of what is carried \[N\].
-    pub weight: f64,
-    /// Force that the sensor reads without load \[N\].
-    pub force_bias: Vector3<f64>,
-    /// Standard deviations of the orientation, as turns about the axes of the sensor \[rad\].
-    pub turn_deviation: Vector3<f64>,
-    /// Standard deviation of the weight \[N\].
-    pub weight_deviation: f64,
-    /// Standard deviations of the force without load \[N\].
-    pub bias_deviation: Vector3<f64>,
-    /// RMS of what the forces leave \[N\].
-    pub rms: f64,
-    /// By how much the free linear map differs from weight times a rotation, relative to it: large if
-    /// the sensor's gains or axes are wrong.
-    pub distortion: f64,
-}
-
-/// How the sensor sits on a flange whose poses are known: `f = S Rᵀ g + b` with the unknown rotation
-/// `S` and weight, gravity along `down` of the base.
-///
-/// The linear map is fitted by least squares, then brought to the nearest multiple of a rotation
-/// (Arun, Huang & Blostein 1987; Umeyama 1991, who has the sign of the determinant right).
-///
-/// # Errors
-/// [`PayloadError`]; four generic poses are the least.
-pub fn fit_orientation(poses: &[Pose], down: &Vector3<f64>) -> Result<Orientation, PayloadError> {
-    let down = unit(down).ok_or(PayloadError::NoDirection("direction of gravity"))?;
-    let mut design = DMatrix::from_element(poses.len(), 4, 1.0);
-    let mut forces = DMatrix::zeros(poses.len(), 3);
-    for (i, pose) in poses.iter().enumerate() {
-        let along = pose.base_from_sensor.transpose() * down;
-        for j in 0..3 {
-            design[(i, j)] = along[j];
-            forces[(i, j)] = pose.wrench[j];
-        }
-    }
-    let fit = least_squares(&design, &forces, None).map_err(|error| name(error, &["gravity"], 3))?;
-    let map = Matrix3::from_fn(|i, j| fit.coefficients[(j, i)]);
-    let singular = Singular::new(&DMatrix::from_fn(3, 3, |i, j| map[(i, j)]))
-        .ok_or(FitError::BadInput { what: "the poses" })?;
-    let (u, v) =
-        (Matrix3::from_fn(|i, j| singular.left[(i, j)]), Matrix3::from_fn(|i, j| singular.right[(i, j)]));
-    let handed = (u * v.transpose()).determinant().signum();
-    let mut flip = Matrix3::identity();
-    flip[(2, 2)] = handed;
-    let sensor_from_flange = u * flip * v.transpose();
-    let weight = (singular.values[0] + singular.values[1] + handed * singular.values[2]) / 3.0;
-    if handed < 0.0 {
-        // A reflection is a rotation of the opposite sign: the readings are those of the reaction.
-        return Err(PayloadError::NegativeMass { mass: -weight / STANDARD_GRAVITY });
-    }
-    let distortion = (map - sensor_from_flange * weight).norm() / map.norm().max(f64::MIN_POSITIVE);
-    let mut bias = Vector3::zeros();
-    let pull = |pose: &Pose| sensor_from_flange * (pose.base_from_sensor.transpose() * down) * weight;
-    for pose in poses {
-        bias += (pose.wrench.fixed_rows::<3>(0) - pull(pose)) / poses.len() as f64;
-    }
-    let squares: f64 =
-        poses.iter().map(|pose| (pose.wrench.fixed_rows::<3>(0) - pull(pose) - bias).norm_squared()).sum();
-    let rms = (squares / (3 * poses.len()).max(1) as f64).sqrt();
-    let mut mean = Vector3::zeros();
-    poses.iter().for_each(|pose| mean += pose.base_from_sensor.transpose() * down / poses.len() as f64);
-    let spread = orientation_spread(&fit, &sensor_from_flange, weight, &mean, poses.len() as f64);
-    let deviation = |i: usize| spread[(i, i)].max(0.0).sqrt();
-    Ok(Orientation {
-        sensor_from_flange,
-        weight,
-        force_bias: bias,
-        turn_deviation: Vector3::from_fn(|i, _| deviation(i)),
-        weight_deviation: deviation(3),
-        bias_deviation: Vector3::from_fn(|i, _| deviation(4 + i)),
-        rms,
-        distortion,
-    })
-}
-
-/// Covariance of the turn (3), the weight and the force without load (3). An error E of the linear map
-/// turns the nearest rotation S by the skew part of `E Sᵀ / weight` and changes the weight by a third of its
-/// trace, to first order; the error of the mean of the forces is independent of both.
-fn orientation_spread(
-    fit: &Fit,
-    turn: &Matrix3<f64>,
-    weight: f64,
-    mean: &Vector3<f64>,
-    poses: f64,
-) -> DMatrix<f64> {
-    let mut slope = DMatrix::zeros(7, 9);
-    for i in 0..3 {
-        for j in 0..3 {
-            let mut error = Matrix3::zeros();
-            error[(i, j)] = 1.0;
-            let relative = error * turn.transpose();
-            let skew = (relative - relative.transpose()) / (2.0 * weight);
-            let angle = Vector3::new(skew[(2, 1)], skew[(0, 2)], skew[(1, 0)]);
-            let heavier = relative.trace() / 3.0;
-            let bias = -(turn * heavier + angle.cross_matrix() * turn * weight) * mean;
-            let column = [angle.x, angle.y, angle.z, heavier, bias.x, bias.y, bias.z];
-            slope.column_mut(3 * i + j).copy_from_slice(&column);
-        }
-    }
-    let map = DMatrix::from_fn(9, 9, |a, b| {
-        fit.residual_covariance[(a / 3, b / 3)] * fit.inverse_gram[(a % 3, b % 3)]
-    });
-    let mut spread = &slope * map * slope.transpose();
-    for i in 0..3 {
-        for j in 0..3 {
-            spread[(4 + i, 4 + j)] += fit.residual_covariance[(i, j)] / poses;
-        }
-    }
-    spread
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{PayloadError, PayloadOptions, fit_orientation, fit_payload};
+    use super::{PayloadError, PayloadOptions, fit_payload};
     use crate::fit::testing::gaussian;
-    use crate::gravity::Pose;
+    use crate::gravity::{Pose, fit_orientation};
     use nalgebra::{Rotation3, Vector3, Vector6};
     use proptest::prelude::*;
     use rand::SeedableRng as _;

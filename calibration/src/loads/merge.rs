@@ -110,9 +110,10 @@ impl LoadTable {
 mod tests {
     use super::LoadTable;
     use crate::Axis;
+    use crate::calibrate;
     use crate::file::SignalUnit;
     use crate::fit::testing::{gaussian_matrix, sensor};
-    use crate::model::{Options, calibrate};
+    use crate::model::Options;
     use rand::SeedableRng as _;
 
     /// Forces in one session, torques in another, a different zero in each: neither alone determines the

@@ -1,16 +1,15 @@
-//! From a table of known loads to a sensor that can be trusted.
+//! A sensor that is fitted to known loads: how to fit it, and what it is.
 
-mod calibrate;
+mod error;
+mod fitting;
 mod options;
-mod pairs;
 mod sensor_model;
 mod streamed;
 mod zeros;
 
-pub(crate) use crate::fit::deviation;
-pub use calibrate::{Calibration, CalibrationError, calibrate};
+pub use error::CalibrationError;
+pub(crate) use fitting::fit_model;
 pub use options::{Direction, Limits, Method, Options};
-pub use pairs::pairs;
 pub use sensor_model::SensorModel;
-pub(crate) use sensor_model::normalised;
+pub(crate) use sensor_model::{design, normalised, responses};
 pub use streamed::StreamedFit;

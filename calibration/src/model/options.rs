@@ -1,7 +1,7 @@
 //! How to calibrate.
 
+use crate::design::TouchSet;
 use crate::file::CalibrationFile;
-use crate::report::TouchSet;
 
 /// Which of load and signal is taken as the cause in the regression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,11 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Direction, Options, pairs};
+use super::{Direction, Options};
 use crate::Axis;
 use crate::file::{CalibrationFile, Covariance, FileError, Provenance, SignalUnit};
 use crate::fit::Fit;
-use crate::linear::{Singular, pseudo_inverse};
+use crate::linear::{Singular, pairs, pseudo_inverse};
 use crate::loads::LoadTable;
 
 /// A fitted sensor: what turns readings into loads.

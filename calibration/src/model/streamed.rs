@@ -9,7 +9,7 @@ use crate::fit::{Fit, FitError};
 use crate::linear::Triangular;
 
 /// Gathers samples one by one, in memory that does not grow with them, for a least-squares fit of
-/// signals on loads: the same as [`calibrate`](super::calibrate) finds by that method, without what needs
+/// signals on loads: the same as [`calibrate`](crate::calibrate) finds by that method, without what needs
 /// all samples at once (outliers, leaving out, plots).
 ///
 /// ```
@@ -133,10 +133,11 @@ impl StreamedFit {
 mod tests {
     use super::StreamedFit;
     use crate::Axis;
+    use crate::calibrate;
     use crate::file::SignalUnit;
     use crate::fit::testing::{gaussian_matrix, sensor};
     use crate::loads::LoadTable;
-    use crate::model::{CalibrationError, Options, calibrate};
+    use crate::model::{CalibrationError, Options};
     use rand::SeedableRng as _;
 
     #[test]

@@ -5,18 +5,9 @@ use nalgebra::{DMatrix, DVector, Matrix6};
 use serde::Serialize;
 
 use crate::Axis;
-use crate::design::Touch;
+use crate::design::TouchSet;
 use crate::file::Covariance;
 use crate::linear::pseudo_inverse;
-
-/// Touches of a surface, on which a report says what the calibration is worth.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TouchSet {
-    /// What the surface is, in words: "a sphere of 10 mm about the origin".
-    pub surface: String,
-    /// The touches, such as [`Touch::on_sphere`] or [`Touch::on_surface`] gives.
-    pub touches: Vec<Touch>,
-}
 
 /// How far contact points are off because of the sensor: root mean squares over the touches of a
 /// surface, of the distance along the surface between the true contact point and the one that is
@@ -88,9 +79,9 @@ pub(crate) fn contact_report(
 
 #[cfg(test)]
 mod tests {
-    use super::{TouchSet, contact_report};
+    use super::contact_report;
     use crate::Axis;
-    use crate::design::Touch;
+    use crate::design::{Touch, TouchSet};
     use crate::file::Covariance;
     use crate::fit::least_squares;
     use crate::fit::testing::{gaussian_matrix, sensor};

@@ -3,10 +3,11 @@
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
-use super::contact::{ContactReport, TouchSet, contact_report};
+use super::contact::{ContactReport, contact_report};
 use super::metrics::{AxisReport, LineReport, axis_reports, cross_talk, lines};
 use super::outliers::{Outlier, outliers};
 use super::suspicion::{Suspicion, suspicions};
+use crate::design::TouchSet;
 use crate::file::{CalibrationFile, Verdict};
 use crate::linear::{Singular, pseudo_inverse};
 use crate::loads::LoadTable;

@@ -9,7 +9,7 @@ mod plot;
 mod suspicion;
 mod terminal;
 
-pub use contact::{ContactReport, TouchSet};
+pub use contact::ContactReport;
 pub use contents::{Exclusion, Report, SampleReport};
 pub use metrics::{AxisReport, LineReport};
 pub use outliers::{Outlier, outliers};

@@ -1,9 +1,10 @@
 //! The report in its three forms, on a sensor made for the purpose.
 
 use fingertip_calibration::Axis;
+use fingertip_calibration::calibrate;
 use fingertip_calibration::file::{SignalUnit, Verdict};
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{CalibrationError, Direction, Method, Options, calibrate};
+use fingertip_calibration::model::{CalibrationError, Direction, Method, Options};
 use fingertip_calibration::nalgebra::DMatrix;
 use fingertip_calibration::report::{Mistake, Report};
 use rand::{RngExt as _, SeedableRng as _};

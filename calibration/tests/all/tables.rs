@@ -2,9 +2,10 @@
 //! as stated, and the same in any units, order and frame.
 
 use fingertip_calibration::Axis;
+use fingertip_calibration::calibrate;
 use fingertip_calibration::file::SignalUnit;
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{Direction, Method, Options, StreamedFit, calibrate};
+use fingertip_calibration::model::{Direction, Method, Options, StreamedFit};
 use fingertip_calibration::nalgebra::{DMatrix, DVector};
 use rand::SeedableRng as _;
 use rand_pcg::Pcg64Mcg;
@@ -79,7 +80,7 @@ fn quadratic_sensors_do_not_mind_units_order_and_frames() {
         let (a, b) = (one.model.loads(&unseen).unwrap(), two.model.loads(&(&unseen * 1e-4)).unwrap());
         // Rounding of the constant column beside squares of signals.
         assert!((b * frame.transpose() / 1e3 - a).amax() < 1e-10);
-        let trace = |calibration: &fingertip_calibration::model::Calibration| {
+        let trace = |calibration: &fingertip_calibration::Calibration| {
             calibration.model.fit.residual_covariance.trace()
         };
         assert!((trace(&two) / trace(&one) - 1.0).abs() < 1e-9);

@@ -1,15 +1,18 @@
 //! The files of a run, and what is said at its end.
 
-use std::fs::{self, File};
-use std::io::{self, Cursor, Read, Write};
+use alloc::rc::Rc;
+use core::cell::Cell;
+use std::fs::File;
+use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
 
 use fingertip_drivers::recording::RecordingReader;
 
-use crate::args::AnalyzeArguments;
-use crate::convert::from_mcap::to_csv;
+use super::args::AnalyzeArguments;
+use crate::convert::McapAsCsv;
 use crate::error::CliError;
-use crate::record::output::Kind;
+use crate::output;
+use crate::recording_file::Kind;
 use crate::summary::Findings;
 
 /// Refuses to write over what is read.
@@ -20,34 +23,25 @@ pub(super) fn guard(arguments: &AnalyzeArguments) -> Result<(), CliError> {
         arguments.calibration.as_ref(),
         arguments.payload.as_ref(),
     ];
-    let report = (!arguments.no_report).then_some(&arguments.report);
-    for (what, output) in [("contacts file", Some(&arguments.output)), ("report", report)] {
-        let Some(output) = output else { continue };
-        let Ok(place) = fs::canonicalize(output) else { continue };
-        // A device may well be read and written.
-        let file = fs::metadata(&place).is_ok_and(|meta| meta.is_file());
-        let read =
-            inputs.iter().flatten().any(|input| fs::canonicalize(input).is_ok_and(|input| input == place));
-        if file && read {
-            return Err(CliError::WouldOverwrite { what, path: output.clone() });
-        }
-    }
-    Ok(())
+    let inputs = || inputs.into_iter().flatten();
+    output::guard("contacts file", inputs(), [&arguments.output])?;
+    output::guard("report", inputs(), (!arguments.no_report).then_some(&arguments.report))
 }
 
 /// The rows of a recording, whichever way it was recorded.
 pub(super) type Rows = RecordingReader<Box<dyn Read>>;
 
-/// Opens a recording, and tells its length if it has one (a pipe has none). One of MCAP is read as what
-/// `convert` makes of it; what to know of that goes to `notes`.
-pub(super) fn open(path: &Path, notes: &mut Vec<String>) -> Result<(Rows, Option<u64>), CliError> {
-    let name = path.display().to_string();
-    if matches!(Kind::of(path), Ok(Kind::Mcap)) {
-        let (rows, account) = to_csv(path, path, || Ok(Vec::new()))?;
-        notes.extend(account.notes);
-        let length = rows.len() as u64;
-        return Ok((Rows::new(name, Box::new(Cursor::new(rows)))?, Some(length)));
-    }
+/// A recording that is read.
+pub(super) struct Opened {
+    pub(super) rows: Rows,
+    /// Of the file \[bytes\], if it has one (a pipe has none).
+    pub(super) length: Option<u64>,
+    /// How much of the file was read.
+    pub(super) read: Rc<Cell<u64>>,
+}
+
+/// Opens a recording. One of MCAP is read as what `convert` makes of it; what to know of that goes to `notes`.
+pub(super) fn open(path: &Path, notes: &mut Vec<String>) -> Result<Opened, CliError> {
     let fault = |source| CliError::read("recording", path, source);
     let file = File::open(path).map_err(fault)?;
     let meta = file.metadata().map_err(fault)?;
@@ -55,22 +49,40 @@ pub(super) fn open(path: &Path, notes: &mut Vec<String>) -> Result<(Rows, Option
         return Err(fault(io::ErrorKind::IsADirectory.into()));
     }
     let length = meta.is_file().then_some(meta.len());
-    Ok((Rows::new(name, Box::new(file))?, length))
+    let read = Rc::new(Cell::new(0));
+    let file = Counted { file, read: Rc::clone(&read) };
+    let text: Box<dyn Read> = match Kind::of(path) {
+        Ok(Kind::Mcap) => Box::new(McapAsCsv::new(BufReader::new(file), path, notes)?),
+        _ => Box::new(file),
+    };
+    Ok(Opened { rows: Rows::new(path.display().to_string(), text)?, length, read })
+}
+
+/// Counts what is read of a file.
+struct Counted {
+    file: File,
+    read: Rc<Cell<u64>>,
+}
+
+impl Read for Counted {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let read = self.file.read(buffer)?;
+        self.read.set(self.read.get() + read as u64);
+        Ok(read)
+    }
 }
 
 /// Prints what was found and what was written.
-pub(super) fn say(findings: &Findings, to_stderr: bool, written: &[Option<&Path>]) -> Result<(), CliError> {
-    let written = written.iter().flatten().filter(|path| **path != Path::new("-"));
-    let list: Vec<String> = written.map(|path| path.display().to_string()).collect();
+pub(super) fn say(findings: &Findings, to_stderr: bool, files: &[Option<&Path>]) -> Result<(), CliError> {
+    let files: Vec<_> = files.iter().flatten().filter(|path| **path != Path::new("-")).collect();
     let mut text = findings.to_string();
-    if !list.is_empty() {
-        text.push_str(&format!("\nWritten: {}\n", list.join(", ")));
+    if !files.is_empty() {
+        text.push_str(&format!("\n{}", output::written(files)));
     }
     if to_stderr {
         // If even the standard error is closed, there is nobody left to tell.
         let _ = io::stderr().write_all(text.as_bytes());
         return Ok(());
     }
-    let mut stdout = io::stdout();
-    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
+    output::print(&text)
 }

@@ -1,5 +1,6 @@
 //! `fingertip analyze`: a recording and a scene to contacts, a summary and a report.
 
+pub(crate) mod args;
 mod contacts;
 mod files;
 mod payload;
@@ -15,13 +16,14 @@ use fingertip::Fingertip;
 use fingertip::surfaces::ActiveSurface;
 use fingertip_drivers::recording::Quality;
 
-use crate::args::AnalyzeArguments;
 use crate::error::CliError;
 use crate::observe::{Observations, Status};
+use crate::output;
 use crate::report;
 use crate::scene::Scene;
 use crate::shape::Shape;
 use crate::summary::{self, Run};
+use args::AnalyzeArguments;
 use contacts::ContactWriter;
 use progress::Progress;
 use source::{Reading, Source};
@@ -31,10 +33,10 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let recording = arguments.recording.as_path();
     files::guard(arguments)?;
     let mut notes = Vec::new();
-    let (mut reader, length) = files::open(recording, &mut notes)?;
+    let files::Opened { rows: mut reader, length, read } = files::open(recording, &mut notes)?;
     let mut source = Source::new(&mut reader, &scene, arguments, notes)?;
     let mut contacts = ContactWriter::create(&arguments.output)?;
-    let mut progress = Progress::new(length);
+    let mut progress = Progress::new(length, read);
 
     let mut pass = Pass {
         scene: &scene,
@@ -67,7 +69,7 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     });
     let report = (!arguments.no_report).then_some(arguments.report.as_path());
     if let Some(path) = report {
-        report::write(path, &report::of_recording(&findings, &observations, &scene))?;
+        output::write("report", path, &report::of_recording(&findings, &observations, &scene))?;
     }
     let to_stderr = arguments.output == Path::new("-");
     files::say(&findings, to_stderr, &[Some(arguments.output.as_path()), report])
@@ -110,7 +112,7 @@ impl Pass<'_> {
                 }
             }
             if observations.rows().is_multiple_of(8192) {
-                self.progress.at(self.reader.bytes_read());
+                self.progress.show();
             }
         }
         if let Some(rest) = self.source.unfinished_rest() {

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use fingertip::wrench::Wrench;
 use fingertip_drivers::recording::{HeaderProblem, Row};
 
+use super::args::AnalyzeArguments;
 use super::files::Rows;
 use super::payload::Carried;
 use super::recorded::Recorded;
 use super::volts;
 use super::wrenches::Wrenches;
-use crate::args::AnalyzeArguments;
 use crate::error::CliError;
 use crate::gauge_rows::KnownTemperature;
 use crate::observe::Status;

@@ -4,14 +4,15 @@ use fingertip_calibration::file::Verdict;
 use fingertip_calibration::report::Report;
 
 use super::args::CheckArguments;
-use super::files::{bad, guard, read_calibration, read_loads, read_payload, say, write_reports};
+use super::files::{bad, read_calibration, read_loads, read_payload, write_reports};
 use super::limits;
 use crate::error::CliError;
+use crate::output::{guard, say};
 
 /// An error if the calibration does not hold.
 pub(crate) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
     let inputs = [arguments.calibration.clone(), arguments.loads.clone()];
-    guard(&inputs, [arguments.html.as_ref(), arguments.json.as_ref()].into_iter().flatten())?;
+    guard("output", &inputs, [arguments.html.as_ref(), arguments.json.as_ref()].into_iter().flatten())?;
     let mut file = read_calibration(&arguments.calibration)?;
     let mut notes = Vec::new();
     let mut table = read_loads(&arguments.loads, &mut notes)?;

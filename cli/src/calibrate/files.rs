@@ -1,7 +1,7 @@
 //! The files of the commands that calibrate.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use fingertip_calibration::file::{AtiCalibration, CalibrationFile, PayloadFile};
@@ -9,6 +9,7 @@ use fingertip_calibration::loads::{Columns, LoadTable};
 use fingertip_calibration::report::Report;
 
 use crate::error::CliError;
+use crate::output::write;
 
 /// What is wrong with a table, in an error that names its file.
 pub(crate) fn bad(path: &Path, message: &impl ToString) -> CliError {
@@ -52,24 +53,6 @@ pub(crate) fn read_payload(path: &Path) -> Result<PayloadFile, CliError> {
     PayloadFile::from_toml(&text).map_err(|error| bad(path, &error))
 }
 
-/// Refuses to write over what is read.
-pub(crate) fn guard<'a>(
-    inputs: &[PathBuf],
-    outputs: impl IntoIterator<Item = &'a PathBuf>,
-) -> Result<(), CliError> {
-    for output in outputs {
-        let Ok(place) = fs::canonicalize(output) else { continue };
-        if inputs.iter().any(|input| fs::canonicalize(input).is_ok_and(|input| input == place)) {
-            return Err(CliError::WouldOverwrite { what: "output", path: output.clone() });
-        }
-    }
-    Ok(())
-}
-
-pub(crate) fn write(what: &'static str, path: &Path, text: &str) -> Result<(), CliError> {
-    fs::write(path, text).map_err(|source| CliError::write(what, path, source))
-}
-
 pub(super) fn write_reports(
     report: &Report,
     title: &str,
@@ -87,18 +70,4 @@ pub(super) fn write_reports(
         written.push(path.clone());
     }
     Ok(())
-}
-
-/// Prints a text, what to mind, and what was written.
-pub(crate) fn say(text: &str, notes: &[String], written: &[PathBuf]) -> Result<(), CliError> {
-    let mut text = text.to_owned();
-    for note in notes {
-        text.push_str(&format!("note: {note}\n"));
-    }
-    if !written.is_empty() {
-        let list: Vec<String> = written.iter().map(|path| path.display().to_string()).collect();
-        text.push_str(&format!("\nWritten: {}\n", list.join(", ")));
-    }
-    let mut stdout = io::stdout();
-    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
 }

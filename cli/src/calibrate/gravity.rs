@@ -2,19 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use fingertip_calibration::file::PayloadFile;
 use fingertip_calibration::gravity::{PayloadOptions, fit_orientation, fit_payload, poses_from_csv};
 use nalgebra::Vector3;
 
 use super::args::{CalibrateArguments, SensorAxis};
-use super::files::{bad, guard, open, say, write};
+use super::files::{bad, open};
 use crate::error::CliError;
+use crate::output::{guard, say, write};
 
 const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
 pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), CliError> {
     let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from("payload.toml"));
-    guard(&[path.to_owned()], [&output])?;
+    guard("output", &[path.to_owned()], [&output])?;
     let fault = |error: &dyn core::fmt::Display| bad(path, &error);
     let mut poses = poses_from_csv(open("table of poses", path)?).map_err(|error| fault(&error))?;
     if arguments.reaction {
@@ -47,7 +47,7 @@ pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), Cli
         SensorAxis::Z => Vector3::z(),
     });
     let fit = fit_payload(&poses, &options).map_err(|error| fault(&error))?;
-    let mut file = PayloadFile::of_fit(&fit, poses.len()).map_err(|error| fault(&error))?;
+    let mut file = fit.to_file(poses.len()).map_err(|error| fault(&error))?;
     if let Some(turn) = mounting {
         file.sensor_from_flange = core::array::from_fn(|i| core::array::from_fn(|j| turn[(i, j)]));
     }

@@ -10,13 +10,15 @@ mod touches;
 
 use std::path::{Path, PathBuf};
 
+use fingertip_calibration::calibrate as fit;
 use fingertip_calibration::file::{AtiCalibration, CalibrationFile, Scalar, Verdict};
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{Direction, Limits, Method, Options, calibrate as fit};
+use fingertip_calibration::model::{Direction, Limits, Method, Options};
 
 use crate::error::CliError;
+use crate::output::{guard, say, write};
 use args::{CalibrateArguments, FitMethod};
-use files::{bad, guard, read_calibration, read_loads, read_payload, say, write, write_reports};
+use files::{bad, read_calibration, read_loads, read_payload, write_reports};
 
 /// `fingertip calibrate`.
 pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> {
@@ -26,7 +28,7 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
     let output = arguments.output.clone().unwrap_or_else(|| "calibration.toml".into());
     let outputs = [Some(&output), arguments.html.as_ref(), arguments.json.as_ref()];
     let extra = [arguments.cal.as_ref(), arguments.rust.as_ref()];
-    guard(&arguments.loads, outputs.into_iter().chain(extra).flatten())?;
+    guard("output", &arguments.loads, outputs.into_iter().chain(extra).flatten())?;
     if arguments.stream {
         return stream::run(arguments, &output);
     }

@@ -8,9 +8,10 @@ use fingertip_calibration::model::{SensorModel, StreamedFit};
 use nalgebra::DMatrix;
 
 use super::args::{CalibrateArguments, FitMethod};
-use super::files::{bad, open, say};
+use super::files::{bad, open};
 use super::{limits, range, write_calibration};
 use crate::error::CliError;
+use crate::output::say;
 use crate::table::count;
 
 /// Reads the files twice: to fit, and to see what the fit leaves.

@@ -1,12 +1,13 @@
 //! `fingertip tare`: a new zero for a calibration.
 
 use super::args::TareArguments;
-use super::files::{bad, guard, open, read_calibration, say, write};
+use super::files::{bad, open, read_calibration};
 use crate::error::CliError;
+use crate::output::{guard, say, write};
 
 pub(crate) fn run(arguments: &TareArguments) -> Result<(), CliError> {
     // Writing over the calibration itself is what taring often means.
-    guard(core::slice::from_ref(&arguments.rest), [&arguments.output])?;
+    guard("output", [&arguments.rest], [&arguments.output])?;
     let file = read_calibration(&arguments.calibration)?;
     let rest = open("recording", &arguments.rest)?;
     let tared = file.tared(rest, arguments.celsius).map_err(|error| bad(&arguments.rest, &error))?;

@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use fingertip::surfaces::ActiveSurface;
 use fingertip_calibration::Axis;
-use fingertip_calibration::design::{DesignError, Touch};
-use fingertip_calibration::report::TouchSet;
+use fingertip_calibration::design::{DesignError, Touch, TouchSet};
 use nalgebra::Vector3;
 
 use crate::error::CliError;

@@ -10,7 +10,7 @@ use fingertip_drivers::recording::{ContactCells, RecordingReader, SignalColumns,
 
 use super::{Account, ConvertArguments, fault, topic};
 use crate::error::CliError;
-use crate::record::output::{FRAME, create, mcap};
+use crate::recording_file::{FRAME, create, mcap};
 
 /// Times that a stamp holds less exactly than this were rounded \[s\].
 const ROUNDED: f64 = 1e-10;

@@ -1,17 +1,20 @@
 //! `fingertip convert`: recordings from CSV to MCAP and back.
 
 mod from_csv;
-pub(crate) mod from_mcap;
+mod from_mcap;
+mod mcap_rows;
 
 use core::fmt::Display;
 use std::fs;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+pub(crate) use from_mcap::McapAsCsv;
+
 use crate::error::CliError;
-use crate::record::output::Kind;
+use crate::output::{guard, print};
+use crate::recording_file::Kind;
 use crate::table::count;
 
 #[derive(Debug, Args)]
@@ -40,11 +43,11 @@ pub(crate) struct ConvertArguments {
 
 /// What was converted, and what was not.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Account {
+struct Account {
     written: Vec<(&'static str, u64)>,
     lost: Vec<String>,
     /// What the columns came from.
-    pub(crate) notes: Vec<String>,
+    notes: Vec<String>,
 }
 
 impl Account {
@@ -64,11 +67,7 @@ impl Account {
 
 pub(crate) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
     let ConvertArguments { input, output, .. } = arguments;
-    if let (Ok(from), Ok(to)) = (fs::canonicalize(input), fs::canonicalize(output))
-        && from == to
-    {
-        return Err(CliError::WouldOverwrite { what: "recording", path: output.clone() });
-    }
+    guard("recording", [input], [output])?;
     if let Some(rate) = arguments.rate
         && !(rate > 0.0 && rate.is_finite())
     {
@@ -96,8 +95,7 @@ pub(crate) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
         [] => text.push_str("Nothing was lost.\n"),
         lost => text.push_str(&format!("Lost: {}\n", lost.join("; "))),
     }
-    let mut stdout = io::stdout();
-    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
+    print(&text)
 }
 
 fn fault(path: &Path, message: impl Display) -> CliError {

@@ -1,28 +1,28 @@
 //! `fingertip demo`: the main job with nothing given. A simulated fingertip's volts go through the
 //! whole pipeline, and what comes out is compared with what really was.
 
+pub(crate) mod args;
 mod export;
 mod figures;
 mod findings;
 mod rest;
-
-use std::io::{self, Write};
 
 use fingertip::Fingertip;
 use fingertip::friction::{Coulomb, DropDetector, ForceNoise, SlipVerdict};
 use fingertip::surfaces::PointContact;
 use fingertip::wrench::GaussianElimination;
 use fingertip_drivers::simulation::{
-    Options, Segment, SessionReport, SessionScore, SimulatedFingertip, standard_session,
+    Options, SessionReport, SessionScore, SimulatedFingertip, standard_session,
 };
 use nalgebra::Vector3;
 
-use crate::args::DemoArguments;
 use crate::error::CliError;
 use crate::observe::{Observations, Reservoir, Status};
+use crate::output::{self, print, write};
 use crate::report;
-use crate::scene::{Friction, SlipWatch};
+use crate::scene::{Friction, SlipWatch, least_static_coefficient};
 use crate::shape::{Capped, Projection};
+use args::DemoArguments;
 use export::VoltsFile;
 use rest::Rest;
 
@@ -57,12 +57,9 @@ pub(crate) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
     let findings = findings::of(&outcome);
     let figures = figures::of(&outcome);
     let page = report::with_figures(&findings, figures, &outcome.observations, Some(outcome.coefficient));
-    report::write(&arguments.out, &page)?;
+    write("report", &arguments.out, &page)?;
     let written = [Some(&arguments.out), arguments.recording.as_ref(), arguments.calibration.as_ref()];
-    let written: Vec<String> = written.into_iter().flatten().map(|path| path.display().to_string()).collect();
-    let text = format!("{findings}\nWritten: {}\n", written.join(", "));
-    let mut stdout = io::stdout();
-    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
+    print(&format!("{findings}\n{}", output::written(written.into_iter().flatten())))
 }
 
 /// Whatever cannot be built here is a fault of ours, not of the user's.
@@ -127,13 +124,4 @@ fn play(arguments: &DemoArguments) -> Result<Outcome, CliError> {
     }
     volts.finish()?;
     Ok(Outcome { report: score.report(), observations, errors, rest, least_force, coefficient, seed })
-}
-
-/// The friction coefficient that is safe for every drag of the script.
-pub(crate) fn least_static_coefficient(simulated: &SimulatedFingertip) -> Option<f64> {
-    let drags = simulated.phases().iter().filter_map(|phase| match phase.segment {
-        Segment::Drag { static_coefficient, .. } => Some(static_coefficient),
-        _ => None,
-    });
-    drags.min_by(f64::total_cmp)
 }

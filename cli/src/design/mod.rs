@@ -5,10 +5,6 @@ mod figures;
 mod findings;
 mod task;
 
-use std::fs;
-use std::io::{self, Write};
-use std::path::Path;
-
 use fingertip::surfaces::Sphere;
 use fingertip_calibration::design::{
     Accuracy, Assessment, DesignError, Findings as Found, LayoutFile, LoadedTube, MatrixUsed, Placement,
@@ -17,6 +13,7 @@ use fingertip_calibration::design::{
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::error::CliError;
+use crate::output::{self, print, write};
 use crate::report;
 use args::DesignArguments;
 use task::Task;
@@ -52,21 +49,15 @@ pub(crate) fn run(arguments: &DesignArguments) -> Result<(), CliError> {
     let findings = findings::of(&outcome);
     let figures = figures::of(&outcome).map_err(fault)?;
     write("layout", &arguments.out, &outcome.file.to_toml().map_err(fault)?)?;
-    let mut written = vec![arguments.out.display().to_string()];
+    let mut written = vec![&arguments.out];
     if let Some(path) = &arguments.calibration {
         let file = outcome.file.predicted_calibration().map_err(fault)?;
         write("calibration", path, &file.to_toml().map_err(fault)?)?;
-        written.push(path.display().to_string());
+        written.push(path);
     }
-    report::write(&arguments.report, &report::of_design(&findings, &figures))?;
-    written.push(arguments.report.display().to_string());
-    let text = format!("{findings}\nWritten: {}\n", written.join(", "));
-    let mut stdout = io::stdout();
-    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
-}
-
-fn write(what: &'static str, path: &Path, text: &str) -> Result<(), CliError> {
-    fs::write(path, text).map_err(|source| CliError::write(what, path, source))
+    write("report", &arguments.report, &report::of_design(&findings, &figures))?;
+    written.push(&arguments.report);
+    print(&format!("{findings}\n{}", output::written(&written)))
 }
 
 fn design(arguments: &DesignArguments) -> Result<Outcome, DesignError> {

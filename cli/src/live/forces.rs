@@ -7,7 +7,6 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
 use super::state::State;
-use super::view::status;
 use crate::table::number;
 
 /// Six bars in a frame, and a line below.
@@ -37,7 +36,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         lines.push(Line::from(spans));
     }
     let total = state.wrench.map_or(0.0, |wrench| wrench.force().norm());
-    lines.push(Line::from(format!("|f|{:>8} N   {}", number(total), status(state))));
+    lines.push(Line::from(format!("|f|{:>8} N   {}", number(total), state.status())));
     if state.projection.is_none() {
         lines.push(Line::from("Contact and slip need a scene: --scene FILE").fg(Color::DarkGray));
     }

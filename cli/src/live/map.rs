@@ -12,7 +12,6 @@ use ratatui::widgets::Block;
 use ratatui::widgets::canvas::{Canvas, Circle, Context, Line as Stroke, Points, Rectangle};
 
 use super::state::State;
-use super::view::status;
 use crate::shape::{MapKind, Projection};
 use crate::table::number;
 
@@ -50,7 +49,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
 
 /// Where the contact is, or why there is none.
 fn said(state: &State, contact: Option<&Contact<f64>>) -> String {
-    let Some(contact) = contact else { return status(state).to_owned() };
+    let Some(contact) = contact else { return state.status().to_owned() };
     let [x, y, z] = (contact.point * 1e3).into();
     let within = state.ellipse.map_or_else(String::new, |ellipse| {
         let [longer, _] = ellipse.semi_axes;

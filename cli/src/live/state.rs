@@ -9,7 +9,7 @@ use fingertip::surfaces::ConfidenceEllipse;
 use fingertip::wrench::Wrench;
 
 use crate::felt::{NoiseWatch, ellipse};
-use crate::observe::SceneTouch;
+use crate::observe::{SceneTouch, Status};
 use crate::sensor::Losses;
 use crate::shape::Projection;
 
@@ -134,6 +134,15 @@ impl State {
                 }
                 self.trail.push_back(place);
             }
+        }
+    }
+
+    /// Whether there is a contact, or why not.
+    pub(super) fn status(&self) -> &'static str {
+        match (&self.touch, &self.wrench) {
+            (Some(touch), _) => Status::of(&touch.resolution).meaning(),
+            (None, Some(_)) => "no scene",
+            (None, None) => "nothing yet",
         }
     }
 

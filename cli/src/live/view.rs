@@ -8,7 +8,6 @@ use ratatui::widgets::Paragraph;
 
 use super::state::{Health, State};
 use super::{forces, map, slip};
-use crate::observe::Status;
 use crate::table::{count, short};
 
 /// Below this the picture is one line.
@@ -63,19 +62,10 @@ fn parts(frame: &mut Frame<'_>, body: Rect, state: &State) {
     }
 }
 
-/// Whether there is a contact, or why not.
-pub(super) fn status(state: &State) -> &'static str {
-    match (&state.touch, &state.wrench) {
-        (Some(touch), _) => Status::of(&touch.resolution).meaning(),
-        (None, Some(_)) => "no scene",
-        (None, None) => "nothing yet",
-    }
-}
-
 fn in_a_word(state: &State) -> String {
     match (&state.health, &state.wrench) {
         (Health::Running | Health::Ended, Some(wrench)) => {
-            format!("{} N {}", short(wrench.force().norm()), status(state))
+            format!("{} N {}", short(wrench.force().norm()), state.status())
         }
         (health, _) => words(health).0.to_owned(),
     }

@@ -1,19 +1,20 @@
 //! `fingertip record`: a sensor into a file.
 
 pub(crate) mod args;
-pub(crate) mod output;
+mod output;
 
 use core::time::Duration;
-use std::io::{self, Write};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use indicatif::ProgressBar;
 
 use args::RecordArguments;
-use output::{Kind, Output, Row};
+use output::{Output, Row};
 
 use crate::error::CliError;
 use crate::felt::{Rest, SceneFeel};
+use crate::output::{print, written};
+use crate::recording_file::Kind;
 use crate::scene::Scene;
 use crate::sensor::{self, Event, Reading, Stream, StreamOptions};
 use crate::stop::Stop;
@@ -68,7 +69,7 @@ pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
     match (ended, summary) {
         (ended, Some(summary)) => {
             if !arguments.quiet {
-                say(&summary)?;
+                print(&summary)?;
             }
             ended
         }
@@ -77,11 +78,6 @@ pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
         }
         (ended, None) => ended,
     }
-}
-
-fn say(text: &str) -> Result<(), CliError> {
-    let mut stdout = io::stdout();
-    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
 }
 
 struct Recording<'a> {
@@ -240,7 +236,7 @@ impl<'a> Recording<'a> {
             let zero: Vec<String> = self.rest.zero().iter().map(|component| number(*component)).collect();
             note(true, format!("Zero taken off [N, N·m]: {}", zero.join(", ")));
         }
-        text.push_str(&format!("Written: {}\n", self.arguments.output.display()));
+        text.push_str(&written([&self.arguments.output]));
         Ok(Some(text))
     }
 }

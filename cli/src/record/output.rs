@@ -1,51 +1,18 @@
-//! The file of a recording: CSV or MCAP, by its ending.
+//! The rows that a recording is written as, in CSV or MCAP.
 
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
 use fingertip::surfaces::Resolution;
 use fingertip::wrench::Wrench;
-use fingertip_drivers::recording::mcap::{McapError, McapWriter, RecordedContact, RecordedSignals, Topic};
-use fingertip_drivers::recording::{ContactCells, RecordingError, RecordingWriter, Schema, SignalUnit};
+use fingertip_drivers::recording::mcap::{McapWriter, RecordedContact, RecordedSignals, Topic};
+use fingertip_drivers::recording::{ContactCells, RecordingWriter, Schema, SignalUnit};
 
 use crate::error::CliError;
 use crate::observe::SceneTouch;
+use crate::recording_file::{FRAME, Kind, create, csv, mcap};
 use crate::sensor::Volts;
-
-/// Name of the frame in MCAP files.
-pub(crate) const FRAME: &str = "fingertip_sensor";
-
-/// What the ending of a name says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
-    Csv,
-    Mcap,
-}
-
-impl Kind {
-    pub(crate) fn of(path: &Path) -> Result<Self, CliError> {
-        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        match ending.as_deref() {
-            Some("csv" | "txt") => Ok(Self::Csv),
-            Some("mcap") => Ok(Self::Mcap),
-            _ => Err(CliError::UnknownEnding { path: path.to_owned() }),
-        }
-    }
-}
-
-/// Creates a file; one that exists is written over only if that is wanted.
-pub(crate) fn create(path: &Path, force: bool) -> Result<BufWriter<File>, CliError> {
-    let mut options = OpenOptions::new();
-    let options = if force { options.create(true).truncate(true) } else { options.create_new(true) };
-    options.write(true).open(path).map(BufWriter::new).map_err(|source| match source.kind() {
-        io::ErrorKind::AlreadyExists => {
-            let source = io::Error::new(source.kind(), "it exists already; give another name, or --force");
-            CliError::write("recording", path, source)
-        }
-        _ => CliError::write("recording", path, source),
-    })
-}
 
 /// One row.
 #[derive(Clone, Copy, Debug)]
@@ -175,17 +142,4 @@ impl Output {
             }
         }
     }
-}
-
-/// An error of a CSV file that is written, with its name.
-pub(crate) fn csv(path: &Path, error: RecordingError) -> CliError {
-    match error {
-        RecordingError::Write { source } => CliError::write("recording", path, source),
-        other => CliError::Recording(other),
-    }
-}
-
-/// An error of an MCAP file, with its name.
-pub(crate) fn mcap(path: &Path, error: &McapError) -> CliError {
-    CliError::Mcap { path: path.to_owned(), message: error.to_string() }
 }

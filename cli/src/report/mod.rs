@@ -10,13 +10,9 @@ mod page;
 mod svg;
 pub(crate) mod unrolled_tube;
 
-use std::fs;
-use std::path::Path;
-
 pub(crate) use axis::Axis;
 pub(crate) use chart::Chart;
 
-use crate::error::CliError;
 use crate::observe::Observations;
 use crate::scene::Scene;
 use crate::summary::Findings;
@@ -51,9 +47,4 @@ pub(crate) fn with_figures(
 /// The report of something else than a recording.
 pub(crate) fn of_design(findings: &Findings, figures: &[Figure]) -> String {
     page::render(findings, figures)
-}
-
-/// Writes a report.
-pub(crate) fn write(path: &Path, html: &str) -> Result<(), CliError> {
-    fs::write(path, html).map_err(|source| CliError::write("report", path, source))
 }

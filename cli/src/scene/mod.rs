@@ -15,6 +15,7 @@ use nalgebra::Vector3;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
+pub(crate) use simulated::least_static_coefficient;
 pub(crate) use stages::{Friction, SlipWatch};
 
 use crate::error::{CliError, Place};

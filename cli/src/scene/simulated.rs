@@ -2,11 +2,10 @@
 
 use fingertip::friction::{Coulomb, DropDetector, ForceNoise};
 use fingertip::surfaces::PointContact;
-use fingertip_drivers::simulation::{Options, SimulatedFingertip, standard_session};
+use fingertip_drivers::simulation::{Options, Segment, SimulatedFingertip, standard_session};
 use nalgebra::Vector3;
 
 use super::{Convention, Friction, Scene, SlipWatch};
-use crate::demo::least_static_coefficient;
 use crate::error::CliError;
 use crate::shape::{Capped, Projection, Shape};
 
@@ -39,6 +38,15 @@ fn build() -> Result<Scene, String> {
         friction: Friction::known(Coulomb::new(coefficient).map_err(text)?),
         slip: SlipWatch::falls(DropDetector::new(noise).map_err(text)?),
     })
+}
+
+/// The friction coefficient that is safe for every drag of the script.
+pub(crate) fn least_static_coefficient(simulated: &SimulatedFingertip) -> Option<f64> {
+    let drags = simulated.phases().iter().filter_map(|phase| match phase.segment {
+        Segment::Drag { static_coefficient, .. } => Some(static_coefficient),
+        _ => None,
+    });
+    drags.min_by(f64::total_cmp)
 }
 
 fn text(error: impl ToString) -> String {

@@ -6,15 +6,58 @@ use std::path::Path;
 
 use fingertip_drivers::recording::mcap::{McapReader, Recorded};
 use fingertip_drivers::recording::{RecordingError, RecordingReader};
-use fingertip_drivers::{Sample, SignalSource};
+use fingertip_drivers::{Sample, SignalSource, SourceError, SourceErrorKind};
+use thiserror::Error;
 
-use super::gauges::{GaugeFault, GaugeSource, Owned};
 use super::simulated::Rounds;
-use crate::calibrated::Readings;
+use crate::calibrated::{GaugeReading, Readings};
 use crate::error::CliError;
 use crate::gauge_rows::GaugeRows;
-use crate::mcap_file;
-use crate::record::output::mcap;
+use crate::observe::Status;
+use crate::recording_file::{self, mcap};
+
+/// A reading on its own.
+pub(super) struct Owned {
+    pub(super) time: Option<f64>,
+    pub(super) gauges: Vec<f64>,
+    pub(super) dummy: Option<f64>,
+    pub(super) celsius: Option<f64>,
+}
+
+impl Owned {
+    pub(super) fn borrowed(&self) -> GaugeReading<'_> {
+        GaugeReading { gauges: &self.gauges, dummy: self.dummy, celsius: self.celsius }
+    }
+}
+
+/// Gives readings, as far as they can be used, one after another.
+pub(super) trait GaugeSource: Send {
+    fn next(&mut self) -> Result<Option<Owned>, GaugeFault>;
+}
+
+/// Why there is no wrench.
+#[derive(Debug, Error)]
+pub(super) enum GaugeFault {
+    #[error("{}", .0.meaning())]
+    Reading(Status),
+    #[error("{0}")]
+    Damaged(String),
+    #[error("the sensor may not have been at rest while its zero was taken: {0}")]
+    Doubtful(String),
+    #[error("{0}")]
+    Unusable(String),
+}
+
+impl SourceError for GaugeFault {
+    fn kind(&self) -> SourceErrorKind {
+        match self {
+            Self::Reading(Status::Saturated) => SourceErrorKind::Overload,
+            Self::Reading(_) | Self::Damaged(_) => SourceErrorKind::Corrupt,
+            Self::Doubtful(_) => SourceErrorKind::DeviceFault,
+            Self::Unusable(_) => SourceErrorKind::Unsupported,
+        }
+    }
+}
 
 /// The rows of a recording.
 pub(super) struct CsvGauges {
@@ -60,7 +103,7 @@ impl McapGauges {
         celsius: Option<f64>,
     ) -> Result<(Self, Readings), CliError> {
         let mut known: Vec<(String, String)> = Vec::new();
-        let mut reader = mcap_file::open(path)?;
+        let mut reader = recording_file::open(path)?;
         while let Some(entry) = reader.next_entry().map_err(|error| mcap(path, &error))? {
             if let Recorded::Signals(signals) = entry.recorded
                 && !known.iter().any(|(topic, _)| *topic == entry.topic)
@@ -84,13 +127,13 @@ impl McapGauges {
         let beside = topic.rsplit_once('/').map(|(folder, _)| format!("{folder}/dummy"));
         let dummy = beside.filter(|dummy| known.iter().any(|(topic, _)| topic == dummy));
         let readings = Readings {
-            unit: mcap_file::unit(unit),
+            unit: recording_file::unit(unit),
             has_dummy: dummy.is_some(),
             has_rest: false,
             has_temperature: celsius.is_some(),
         };
         Ok((
-            Self { reader: mcap_file::open(path)?, topic: topic.clone(), dummy, waiting: None, celsius },
+            Self { reader: recording_file::open(path)?, topic: topic.clone(), dummy, waiting: None, celsius },
             readings,
         ))
     }

@@ -5,19 +5,17 @@ use std::path::Path;
 use fingertip::wrench::Wrench;
 use fingertip_drivers::middleware::Paced;
 use fingertip_drivers::recording::{HeaderProblem, RecordingReader, SignalUnit};
-use fingertip_drivers::{ErrorType, Sample, SourceError, SourceErrorKind, WrenchSource};
-use thiserror::Error;
+use fingertip_drivers::{ErrorType, Sample, WrenchSource};
 
 use super::address::Address;
-use super::gauge_sources::{CsvGauges, McapGauges, SimulatedGauges};
+use super::gauge_sources::{CsvGauges, GaugeFault, GaugeSource, McapGauges, SimulatedGauges};
 use super::losses::Losses;
 use super::simulated::{self, Rounds};
 use super::{Feed, SourceFeed};
-use crate::calibrated::{Calibrated, Calibration, GaugeReading, Readings};
+use crate::calibrated::{Calibrated, Calibration, Readings};
 use crate::error::CliError;
 use crate::gauge_rows::{GaugeRows, KnownTemperature};
-use crate::observe::Status;
-use crate::record::output::Kind;
+use crate::recording_file::Kind;
 
 /// Where the readings come from.
 #[derive(Clone, Copy, Debug)]
@@ -78,49 +76,6 @@ pub(crate) fn calibrated(
     let wrenches = CalibratedWrenches { source, calibrated, rest: how.rest, first: None };
     let losses = |_: &_| Losses { lost: Some(0), ..Losses::default() };
     Ok(Box::new(SourceFeed { source: Paced::new(wrenches, speed), losses }))
-}
-
-/// A reading on its own.
-pub(super) struct Owned {
-    pub(super) time: Option<f64>,
-    pub(super) gauges: Vec<f64>,
-    pub(super) dummy: Option<f64>,
-    pub(super) celsius: Option<f64>,
-}
-
-impl Owned {
-    fn borrowed(&self) -> GaugeReading<'_> {
-        GaugeReading { gauges: &self.gauges, dummy: self.dummy, celsius: self.celsius }
-    }
-}
-
-/// Gives readings, as far as they can be used, one after another.
-pub(super) trait GaugeSource: Send {
-    fn next(&mut self) -> Result<Option<Owned>, GaugeFault>;
-}
-
-/// Why there is no wrench.
-#[derive(Debug, Error)]
-pub(super) enum GaugeFault {
-    #[error("{}", .0.meaning())]
-    Reading(Status),
-    #[error("{0}")]
-    Damaged(String),
-    #[error("the sensor may not have been at rest while its zero was taken: {0}")]
-    Doubtful(String),
-    #[error("{0}")]
-    Unusable(String),
-}
-
-impl SourceError for GaugeFault {
-    fn kind(&self) -> SourceErrorKind {
-        match self {
-            Self::Reading(Status::Saturated) => SourceErrorKind::Overload,
-            Self::Reading(_) | Self::Damaged(_) => SourceErrorKind::Corrupt,
-            Self::Doubtful(_) => SourceErrorKind::DeviceFault,
-            Self::Unusable(_) => SourceErrorKind::Unsupported,
-        }
-    }
 }
 
 /// The wrenches of readings, behind the rest.

@@ -9,8 +9,7 @@ use fingertip_drivers::recording::{RecordingReader, WrenchPlayback};
 use super::losses::Losses;
 use super::{Feed, SourceFeed};
 use crate::error::CliError;
-use crate::mcap_file::bytes;
-use crate::record::output::{Kind, mcap};
+use crate::recording_file::{Kind, bytes, mcap};
 
 /// A file loses nothing.
 fn whole() -> Losses {

@@ -9,7 +9,7 @@ mod serial;
 use alloc::sync::Arc;
 use core::sync::atomic::{AtomicU64, Ordering};
 use core::time::Duration;
-use std::io::{self, Write};
+use std::io;
 use std::time::Instant;
 
 use args::{Device, SimulateArguments};
@@ -18,6 +18,7 @@ use fingertip_drivers::SimulatedSensor;
 use load::Load;
 
 use crate::error::CliError;
+use crate::output::print;
 use crate::stop::Stop;
 use crate::table::{count, short};
 
@@ -81,7 +82,7 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<(), CliError> {
         Device::Schunk => schunk::serve(arguments, period, load, &end),
         _ => serial::serve(arguments, period, load, &end),
     }?;
-    say(&format!("\n{said}\n"))
+    print(&format!("\n{said}\n"))
 }
 
 fn cannot_bind(transport: &str, port: u16) -> impl Fn(io::Error) -> CliError {
@@ -104,17 +105,12 @@ fn announce(arguments: &SimulateArguments, load: &Load, address: &str) -> Result
     };
     let name =
         arguments.serve.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());
-    say(&format!(
+    print(&format!(
         "Simulated sensor {name}: {} samples/s, {what} ({} s, begun anew by each client, then repeated)\nAddress: \
          {address}\nTry: fingertip live --scene sim '{address}'\nCtrl-C ends it.\n",
         short(arguments.rate),
         short(load.duration())
     ))
-}
-
-fn say(text: &str) -> Result<(), CliError> {
-    let mut stdout = io::stdout();
-    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
 }
 
 /// What was done to frames or datagrams.

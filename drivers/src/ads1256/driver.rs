@@ -7,10 +7,10 @@ use nalgebra::SVector;
 
 use super::wire::{Calibration, Command, Configuration, Input, Register};
 use crate::converter::{
-    Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, Reading, ready_in_time,
+    Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, Reading, parts, ready_in_time,
     ready_in_time_async, sources,
 };
-use crate::{ErrorType, NbSignalSource, Sample};
+use crate::{NbSignalSource, Sample};
 
 type Failure<S, P> = ConverterError<<S as BusErrorType>::Error, <P as PinErrorType>::Error>;
 
@@ -92,8 +92,7 @@ impl<const N: usize> State<N> {
             return Err(self.fault(fault));
         }
         let conversion = Conversion::clipped(self.counts, -(1 << 23), (1 << 23) - 1);
-        self.statistics.conversions += 1;
-        self.statistics.saturated += u64::from(conversion.first_saturated().is_some());
+        self.statistics.converted(&conversion);
         Ok(Some(conversion))
     }
 }
@@ -120,18 +119,6 @@ macro_rules! face {
                 let statistics = ConverterStatistics::default();
                 let state = State { patience, configuration: None, counts: [0; N], at: 0, damaged: None, taking: false, statistics };
                 Self { bus, ready, delay, state }
-            }
-
-            /// The parts.
-            #[must_use]
-            pub fn release(self) -> (S, P, D) {
-                (self.bus, self.ready, self.delay)
-            }
-
-            /// How it has behaved so far.
-            #[must_use]
-            pub const fn statistics(&self) -> &ConverterStatistics {
-                &self.state.statistics
             }
 
             /// Resets the device, writes its registers, reads them back, lets it calibrate itself and starts.
@@ -313,9 +300,7 @@ macro_rules! face {
             }
         }
 
-        impl<S: BusErrorType, P: PinErrorType, D, const N: usize> ErrorType for $name<S, P, D, N> {
-            type Error = Failure<S, P>;
-        }
+        parts!($name, $bus, $pin, $delay, BusErrorType, N);
     };
 }
 

@@ -9,10 +9,9 @@ use super::configuration::Configuration;
 use super::state::Core;
 use super::wire::{Answer, LONGEST, Request};
 use crate::converter::{
-    Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, ready_in_time,
-    ready_in_time_async, sources,
+    Conversion, ConverterError, ConverterFault, Patience, parts, ready_in_time, ready_in_time_async, sources,
 };
-use crate::{ErrorType, NbSignalSource, Sample};
+use crate::{NbSignalSource, Sample};
 
 type Failure<S, P> = ConverterError<<S as BusErrorType>::Error, <P as PinErrorType>::Error>;
 
@@ -27,7 +26,7 @@ macro_rules! face {
             bus: S,
             ready: P,
             delay: D,
-            core: Core<N>,
+            state: Core<N>,
         }
 
         impl<S: $bus, P: $pin, D: $delay, const N: usize> $name<S, P, D, N> {
@@ -35,25 +34,13 @@ macro_rules! face {
             /// is sent yet.
             #[must_use]
             pub fn new(bus: S, ready: P, delay: D, patience: Patience) -> Self {
-                Self { bus, ready, delay, core: Core::new(patience) }
-            }
-
-            /// The parts.
-            #[must_use]
-            pub fn release(self) -> (S, P, D) {
-                (self.bus, self.ready, self.delay)
-            }
-
-            /// How it has behaved so far.
-            #[must_use]
-            pub const fn statistics(&self) -> &ConverterStatistics {
-                &self.core.statistics
+                Self { bus, ready, delay, state: Core::new(patience) }
             }
 
             /// Throws away what the device holds before the next conversion is given: after a pause in
             /// reading, when it would be old.
             pub const fn restart(&mut self) {
-                self.core.restart();
+                self.state.restart();
             }
 
             /// Resets the device, writes all registers, reads them back and starts.
@@ -62,7 +49,7 @@ macro_rules! face {
             /// [`ConverterFault::Answer`] if this is no such chip, [`ConverterFault::Register`] if a register
             /// does not hold what was written, and whatever the bus gives.
             pub $($async)? fn configure(&mut self, configuration: &Configuration<N>) -> Result<(), Failure<S, P>> {
-                self.core.forget();
+                self.state.forget();
                 // Whatever state it is in; these answers say nothing.
                 for request in [Request::Unlock, Request::Reset] {
                     let mut buffer = [0; LONGEST];
@@ -73,7 +60,7 @@ macro_rules! face {
                 // t_REGACQ is 5 µs.
                 self.delay.delay_us(10) $($await)*;
                 let answer = self.exchange(Request::Null) $($await)* ?;
-                self.core.acknowledged(Request::Reset, answer.response)?;
+                self.state.acknowledged(Request::Reset, answer.response)?;
                 for (address, value) in configuration.registers() {
                     self.command(Request::Write { address, value }) $($await)* ?;
                 }
@@ -81,7 +68,7 @@ macro_rules! face {
                     let found = self.read_register(address) $($await)* ?;
                     if found != expected {
                         let (expected, found) = (u32::from(expected), u32::from(found));
-                        return Err(self.core.fault(ConverterFault::Register { address, expected, found }).into());
+                        return Err(self.state.fault(ConverterFault::Register { address, expected, found }).into());
                     }
                 }
                 if configuration.lock {
@@ -93,7 +80,7 @@ macro_rules! face {
                 }
                 // Takes down the flags that writing has raised.
                 self.exchange(Request::Null) $($await)* ?;
-                self.core.configured(configuration);
+                self.state.configured(configuration);
                 Ok(())
             }
 
@@ -115,7 +102,7 @@ macro_rules! face {
             pub $($async)? fn command(&mut self, request: Request) -> Result<(), Failure<S, P>> {
                 self.exchange(request) $($await)* ?;
                 let answer = self.exchange(Request::Null) $($await)* ?;
-                Ok(self.core.acknowledged(request, answer.response)?)
+                Ok(self.state.acknowledged(request, answer.response)?)
             }
 
             /// One frame there and back.
@@ -124,7 +111,7 @@ macro_rules! face {
                 let frame = buffer.get_mut(..Answer::<N>::LENGTH).unwrap_or_default();
                 request.emit(frame);
                 self.bus.transfer_in_place(frame) $($await)* .map_err(ConverterError::Bus)?;
-                Ok(Answer::parse(frame).map_err(|fault| self.core.fault(fault))?)
+                Ok(Answer::parse(frame).map_err(|fault| self.state.fault(fault))?)
             }
 
             /// The next conversion of all channels.
@@ -133,25 +120,25 @@ macro_rules! face {
             /// See [`ConverterFault`]. After an error the next call reads the next conversion, but after
             /// [`ConverterFault::Reset`] the device must be configured.
             pub $($async)? fn read(&mut self) -> Result<Conversion<N>, Failure<S, P>> {
-                self.core.ready_to_read()?;
-                let mut looks = self.core.patience.looks();
+                self.state.ready_to_read()?;
+                let mut looks = self.state.patience.looks();
                 loop {
-                    let patience = self.core.patience;
-                    if !self.core.drains()
+                    let patience = self.state.patience;
+                    if !self.state.drains()
                         && !$wait(&mut self.ready, &mut self.delay, patience) $($await)* .map_err(ConverterError::Pin)?
                     {
-                        return Err(self.core.fault(ConverterFault::Timeout).into());
+                        return Err(self.state.fault(ConverterFault::Timeout).into());
                     }
-                    let drained = self.core.drains();
+                    let drained = self.state.drains();
                     let answer = self.exchange(Request::Null) $($await)* ?;
-                    if let Some(conversion) = self.core.accept(&answer)? {
+                    if let Some(conversion) = self.state.accept(&answer)? {
                         return Ok(conversion);
                     }
                     if !drained {
                         // The pin says that there is something, and there is not.
                         looks -= 1;
                         if looks == 0 {
-                            return Err(self.core.fault(ConverterFault::Timeout).into());
+                            return Err(self.state.fault(ConverterFault::Timeout).into());
                         }
                         self.delay.delay_us(patience.pause.max(1)) $($await)*;
                     }
@@ -168,7 +155,7 @@ macro_rules! face {
                 pin.set_low()?;
                 self.delay.delay_ns(clocks(1024, clock)) $($await)*;
                 pin.set_high()?;
-                self.core.restart();
+                self.state.restart();
                 Ok(())
             }
 
@@ -177,7 +164,7 @@ macro_rules! face {
             /// # Errors
             /// Those of the pin.
             pub $($async)? fn reset<R: OutputPin>(&mut self, pin: &mut R, clock: u32) -> Result<(), R::Error> {
-                self.core.forget();
+                self.state.forget();
                 pin.set_low()?;
                 self.delay.delay_ns(clocks(4096, clock)) $($await)*;
                 pin.set_high()?;
@@ -186,9 +173,7 @@ macro_rules! face {
             }
         }
 
-        impl<S: BusErrorType, P: PinErrorType, D, const N: usize> ErrorType for $name<S, P, D, N> {
-            type Error = Failure<S, P>;
-        }
+        parts!($name, $bus, $pin, $delay, BusErrorType, N);
     };
 }
 
@@ -221,14 +206,14 @@ where
     /// # Errors
     /// `WouldBlock` if it is not; otherwise as `read`.
     pub fn poll(&mut self) -> nb::Result<Conversion<N>, Failure<S, P>> {
-        self.core.ready_to_read().map_err(ConverterError::from)?;
+        self.state.ready_to_read().map_err(ConverterError::from)?;
         loop {
-            let drains = self.core.drains();
+            let drains = self.state.drains();
             if !drains && !self.ready.is_low().map_err(ConverterError::Pin)? {
                 return Err(nb::Error::WouldBlock);
             }
             let answer = self.exchange(Request::Null)?;
-            match self.core.accept(&answer).map_err(ConverterError::from)? {
+            match self.state.accept(&answer).map_err(ConverterError::from)? {
                 Some(conversion) => return Ok(conversion),
                 None if drains => {}
                 None => return Err(nb::Error::WouldBlock),

@@ -88,8 +88,7 @@ impl<const N: usize> Core<N> {
         for (index, saturated) in conversion.saturated.iter_mut().enumerate() {
             *saturated &= enabled >> index & 1 == 1;
         }
-        self.statistics.conversions += 1;
-        self.statistics.saturated += u64::from(conversion.first_saturated().is_some());
+        self.statistics.converted(&conversion);
         Ok(Some(conversion))
     }
 }

@@ -5,12 +5,12 @@ use std::io::{self, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs, UdpSocket};
 
 use fingertip_wrench::{Real, Wrench};
-use socket2::SockRef;
 use thiserror::Error;
 
 use super::configuration::{Configuration, ConfigurationError};
 use super::receiver::{CountsPerUnit, RdtError, Receiver};
 use super::wire::{Command, Record, Request, WireError, records};
+use crate::datagram_socket::DatagramSocket;
 use crate::{ErrorType, LinkStatistics, NbWrenchSource, Sample, SourceError, SourceErrorKind, WrenchSource};
 
 /// Why a client has no wrench to give.
@@ -56,23 +56,18 @@ const LARGEST: usize = 2048;
 /// it to stop when dropped.
 #[derive(Debug)]
 pub struct RdtClient<T: Real> {
-    socket: UdpSocket,
-    timeout: Duration,
+    socket: DatagramSocket,
     period: Option<T>,
     receiver: Receiver<T>,
     datagram: Box<[u8; LARGEST]>,
     length: usize,
     /// Where the next record of the datagram begins.
     next: usize,
-    /// Whether the socket waits for a datagram.
-    waits: bool,
 }
 
 impl<T: Real> RdtClient<T> {
     /// The port of the protocol.
     pub const PORT: u16 = 49152;
-    /// Receive buffer that is asked for \[bytes\]. A record of 36 bytes takes some 770 of them.
-    const RECEIVE_BUFFER: usize = 4 << 20;
 
     /// Asks a sensor (its name or address with port 80) for its configuration over HTTP.
     ///
@@ -114,19 +109,13 @@ impl<T: Real> RdtClient<T> {
         };
         let socket = UdpSocket::bind((any, 0))?;
         socket.connect(sensor)?;
-        socket.set_read_timeout(Some(timeout))?;
-        // Room for the records of some milliseconds in which this thread does not run. What the system
-        // grants may be less; a smaller buffer works, and what it loses is counted.
-        let _ = SockRef::from(&socket).set_recv_buffer_size(Self::RECEIVE_BUFFER);
         let client = Self {
-            socket,
-            timeout,
+            socket: DatagramSocket::new(socket, timeout)?,
             period: None,
             receiver: Receiver::new(counts),
             datagram: Box::new([0; LARGEST]),
             length: 0,
             next: 0,
-            waits: true,
         };
         client.send(Command::Stream)?;
         Ok(client)
@@ -173,23 +162,10 @@ impl<T: Real> RdtClient<T> {
         Ok(Record::parse(&packet))
     }
 
-    /// Makes the socket wait or not; a call of the system only if that changes.
-    fn wait(&mut self, wait: bool) -> Result<(), ClientError> {
-        if self.waits != wait {
-            self.socket.set_nonblocking(!wait)?;
-            self.waits = wait;
-        }
-        Ok(())
-    }
-
     fn receive(&mut self) -> Result<(), ClientError> {
         (self.next, self.length) = (0, 0);
-        let length = match self.socket.recv(&mut self.datagram[..]) {
-            Ok(length) => length,
-            Err(error) if matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut) => {
-                return Err(ClientError::Timeout { timeout: self.timeout });
-            }
-            Err(error) => return Err(error.into()),
+        let Some((length, _)) = self.socket.receive(&mut self.datagram[..])? else {
+            return Err(ClientError::Timeout { timeout: self.socket.timeout() });
         };
         if let Err(error) = records(self.datagram.get(..length).unwrap_or_default()) {
             self.receiver.note_corrupt();
@@ -224,7 +200,7 @@ impl<T: Real> ErrorType for RdtClient<T> {
 
 impl<T: Real> WrenchSource<T> for RdtClient<T> {
     fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, ClientError> {
-        self.wait(true)?;
+        self.socket.wait(true)?;
         self.next_sample().map(Some)
     }
 }
@@ -233,7 +209,7 @@ impl<T: Real> WrenchSource<T> for RdtClient<T> {
 /// latest.
 impl<T: Real> NbWrenchSource<T> for RdtClient<T> {
     fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, ClientError> {
-        self.wait(false)?;
+        self.socket.wait(false).map_err(ClientError::from)?;
         match self.next_sample() {
             Ok(sample) => Ok(Some(sample)),
             Err(ClientError::Timeout { .. }) => Err(nb::Error::WouldBlock),

@@ -63,6 +63,12 @@ pub struct ConverterStatistics {
 }
 
 impl ConverterStatistics {
+    /// Counts a conversion.
+    pub(crate) fn converted<const N: usize>(&mut self, conversion: &Conversion<N>) {
+        self.conversions += 1;
+        self.saturated += u64::from(conversion.first_saturated().is_some());
+    }
+
     /// Counts a fault.
     pub(crate) const fn note(&mut self, fault: &ConverterFault) {
         match fault {

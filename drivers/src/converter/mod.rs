@@ -25,6 +25,7 @@
 
 mod conversion;
 mod error;
+mod parts;
 mod reading;
 mod ready;
 #[cfg(feature = "simulation")]
@@ -48,6 +49,7 @@ pub(crate) use simulator::Inner;
 #[allow(unused_imports, reason = "which of them depends on the converters that are on")]
 pub(crate) use {
     conversion::sign_extended,
+    parts::parts,
     ready::{ready_in_time, ready_in_time_async},
     sources::sources,
 };

@@ -2,6 +2,7 @@
 
 /// Makes both faces of a converter on SPI with a "ready" pin sources of counts, by their method `read`. The polled
 /// source is each chip's own.
+#[allow(unused_macros, reason = "without such a converter there is nobody to use it")]
 macro_rules! sources {
     ($blocking:ident, $awaited:ident) => {
         impl<T: fingertip_wrench::Real, S, P, D, const N: usize> $crate::SignalSource<T, N>

@@ -48,3 +48,40 @@ impl SerialDevice for SimulatedDynPick {
         Reading { tick: (sample.number % 10) as u8, raw }.emit().to_vec()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::io::{Read, Write};
+
+    use super::*;
+    use crate::dynpick::Sensitivities;
+    use crate::line::{LineFaults, SimulatedSerial};
+
+    #[test]
+    fn it_tells_the_counts_of_its_readings_and_gives_each_that_is_asked_for() {
+        let counts = AxisCounts::new([24.9, 24.6, 24.5, 1664.7, 1639.7, 1638.0]).unwrap();
+        let mut sensor = SimulatedSerial::new(SimulatedDynPick::new(counts), LineFaults::default());
+        let said = |sensor: &mut SimulatedSerial<_>, requests: &[u8], load: [f64; 6]| {
+            sensor.write_all(requests).unwrap();
+            sensor.sample(load);
+            let mut bytes = Vec::new();
+            sensor.read_to_end(&mut bytes).unwrap();
+            bytes
+        };
+        let load = [10.0, 0.0, -10.0, 0.0, 0.0, 1.0];
+        // Of itself it says nothing.
+        assert_eq!(said(&mut sensor, b"", load), []);
+        let answer = said(&mut sensor, &[REQUEST_SENSITIVITIES], load);
+        assert_eq!(answer, *b"024.90,024.60,024.50,1664.7,1639.7,1638.0\r\n");
+        assert_eq!(Sensitivities::parse(&answer).unwrap().counts(), counts);
+        // It answers at once; a reading comes with the sample.
+        let both = said(&mut sensor, &[REQUEST, REQUEST_SENSITIVITIES], load);
+        let (first, second) = both.split_at(answer.len());
+        assert_eq!(first, answer);
+        let reading = |bytes: &[u8]| Reading::parse(bytes.as_array().unwrap()).unwrap();
+        assert_eq!(reading(second), Reading { tick: 3, raw: [8441, 8192, 7947, 8192, 8192, 9830] });
+        // The zero is taken of the load that it felt last.
+        let zeroed = said(&mut sensor, &[REQUEST_ZERO, REQUEST], load);
+        assert_eq!(reading(&zeroed), Reading { tick: 4, raw: [8192; 6] });
+    }
+}

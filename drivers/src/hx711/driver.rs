@@ -45,8 +45,7 @@ impl State {
             self.unsettled -= 1;
             return Ok(None);
         }
-        self.statistics.conversions += 1;
-        self.statistics.saturated += u64::from(conversion.first_saturated().is_some());
+        self.statistics.converted(&conversion);
         Ok(Some(conversion))
     }
 

@@ -7,7 +7,7 @@ use fingertip_wrench::{Real, Wrench};
 
 use super::decoder::LineDecoder;
 use super::error::LineError;
-use super::pump::{Pump, Step};
+use super::pump::{Pump, Step, pumping};
 use crate::{AsyncWrenchSource, ErrorType, NbWrenchSource, Sample, WrenchSource};
 
 /// A sensor on any `embedded_io::Read`, blocking; polled, too, if the line can say whether bytes are
@@ -26,34 +26,8 @@ pub struct AsyncLine<L, T, D> {
     pump: Pump<T, D>,
 }
 
-macro_rules! line_methods {
+macro_rules! line_error {
     ($name:ident) => {
-        impl<L, T: Real, D: LineDecoder<T>> $name<L, T, D> {
-            /// On an open line.
-            #[must_use]
-            pub const fn new(line: L, decoder: D) -> Self {
-                Self { line, pump: Pump::new(decoder) }
-            }
-
-            /// What decodes the bytes; it knows how the line has behaved.
-            #[must_use]
-            pub const fn decoder(&self) -> &D {
-                self.pump.decoder()
-            }
-
-            /// Drops the bytes that were read and not yet used: a frame begins with the next one that is
-            /// read. For a line that has fallen silent, or before a request is sent.
-            pub fn restart(&mut self) {
-                self.pump.restart();
-            }
-
-            /// The line, to send the sensor a request.
-            #[must_use]
-            pub const fn line_mut(&mut self) -> &mut L {
-                &mut self.line
-            }
-        }
-
         impl<L: LineErrorType, T: Real, D: LineDecoder<T>> ErrorType for $name<L, T, D>
         where
             D::Fault: Display,
@@ -63,8 +37,10 @@ macro_rules! line_methods {
     };
 }
 
-line_methods!(EmbeddedLine);
-line_methods!(AsyncLine);
+line_error!(EmbeddedLine);
+line_error!(AsyncLine);
+pumping!(EmbeddedLine);
+pumping!(AsyncLine);
 
 /// The next sample of a pump; reading is the caller's, in its own way to wait.
 macro_rules! pumped {

@@ -77,3 +77,36 @@ impl<T: Real, D: LineDecoder<T>> Pump<T, D> {
         (self.next, self.length) = (0, length.min(self.buffer.len()));
     }
 }
+
+/// The methods of a sensor that has a line and a pump.
+macro_rules! pumping {
+    ($name:ident) => {
+        impl<L, T: Real, D: LineDecoder<T>> $name<L, T, D> {
+            /// On an open line.
+            #[must_use]
+            pub const fn new(line: L, decoder: D) -> Self {
+                Self { line, pump: Pump::new(decoder) }
+            }
+
+            /// What decodes the bytes; it knows how the line has behaved.
+            #[must_use]
+            pub const fn decoder(&self) -> &D {
+                self.pump.decoder()
+            }
+
+            /// Drops the bytes that were read and not yet used: a frame begins with the next one that is
+            /// read. For a line that has fallen silent, or before a request is sent.
+            pub fn restart(&mut self) {
+                self.pump.restart();
+            }
+
+            /// The line, to send the sensor a request.
+            #[must_use]
+            pub const fn line_mut(&mut self) -> &mut L {
+                &mut self.line
+            }
+        }
+    };
+}
+
+pub(super) use pumping;

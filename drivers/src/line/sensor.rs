@@ -6,7 +6,7 @@ use fingertip_wrench::{Real, Wrench};
 
 use super::decoder::LineDecoder;
 use super::error::LineError;
-use super::pump::{Pump, Step};
+use super::pump::{Pump, Step, pumping};
 use crate::{ErrorType, NbWrenchSource, Sample, WrenchSource};
 
 /// A sensor on anything that can be read, such as an open serial port. Set the read timeout of a
@@ -20,31 +20,7 @@ pub struct LineSensor<L, T, D> {
     pump: Pump<T, D>,
 }
 
-impl<L: Read, T: Real, D: LineDecoder<T>> LineSensor<L, T, D> {
-    /// On an open line.
-    #[must_use]
-    pub const fn new(line: L, decoder: D) -> Self {
-        Self { line, pump: Pump::new(decoder) }
-    }
-
-    /// What decodes the bytes; it knows how the line has behaved.
-    #[must_use]
-    pub const fn decoder(&self) -> &D {
-        self.pump.decoder()
-    }
-
-    /// Drops the bytes that were read and not yet used: a frame begins with the next one that is
-    /// read. For a line that has fallen silent, or before a request is sent.
-    pub fn restart(&mut self) {
-        self.pump.restart();
-    }
-
-    /// The line, to send the sensor a request.
-    #[must_use]
-    pub const fn line_mut(&mut self) -> &mut L {
-        &mut self.line
-    }
-}
+pumping!(LineSensor);
 
 impl<L, T: Real, D: LineDecoder<T>> ErrorType for LineSensor<L, T, D>
 where

@@ -8,10 +8,10 @@ use nalgebra::SVector;
 use super::scan::Scan;
 use super::wire::{Configuration, Data, FastCommand, Register, Request, Status, parse_answer};
 use crate::converter::{
-    Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, ready_in_time,
+    Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, parts, ready_in_time,
     ready_in_time_async, sources,
 };
-use crate::{ErrorType, NbSignalSource, Sample};
+use crate::{NbSignalSource, Sample};
 
 type Failure<S, P> = ConverterError<<S as BusErrorType>::Error, <P as PinErrorType>::Error>;
 
@@ -69,8 +69,7 @@ impl<const N: usize> State<N> {
         self.statistics.incomplete += lost as u64;
         let conversion = counts.map(|counts| Conversion::clipped(counts, -(1 << 23), (1 << 23) - 1));
         if let Some(conversion) = &conversion {
-            self.statistics.conversions += 1;
-            self.statistics.saturated += u64::from(conversion.first_saturated().is_some());
+            self.statistics.converted(conversion);
         }
         Ok((true, conversion))
     }
@@ -97,18 +96,6 @@ macro_rules! face {
             pub fn new(bus: S, ready: P, delay: D, patience: Patience) -> Self {
                 let statistics = ConverterStatistics::default();
                 Self { bus, ready, delay, state: State { patience, device: 1, scan: None, statistics } }
-            }
-
-            /// The parts.
-            #[must_use]
-            pub fn release(self) -> (S, P, D) {
-                (self.bus, self.ready, self.delay)
-            }
-
-            /// How it has behaved so far.
-            #[must_use]
-            pub const fn statistics(&self) -> &ConverterStatistics {
-                &self.state.statistics
             }
 
             /// Throws away the cycle that is under way: after a pause in reading.
@@ -222,9 +209,7 @@ macro_rules! face {
             }
         }
 
-        impl<S: BusErrorType, P: PinErrorType, D, const N: usize> ErrorType for $name<S, P, D, N> {
-            type Error = Failure<S, P>;
-        }
+        parts!($name, $bus, $pin, $delay, BusErrorType, N);
     };
 }
 

@@ -9,10 +9,10 @@ use super::wire::{
     ADDRESS, CALIBRATE, CALIBRATION_ERROR, Calibration, Configuration, Control, Input, Register,
 };
 use crate::converter::{
-    Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, Reading, ready_in_time,
+    Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, Reading, parts, ready_in_time,
     ready_in_time_async,
 };
-use crate::{AsyncSignalSource, ErrorType, NbSignalSource, Sample, SignalSource};
+use crate::{AsyncSignalSource, NbSignalSource, Sample, SignalSource};
 
 type Failure<B, P> = ConverterError<<B as BusErrorType>::Error, <P as PinErrorType>::Error>;
 
@@ -58,8 +58,7 @@ impl State {
             return None;
         }
         let conversion = Reading::parse(bytes).conversion();
-        self.statistics.conversions += 1;
-        self.statistics.saturated += u64::from(conversion.first_saturated().is_some());
+        self.statistics.converted(&conversion);
         Some(conversion)
     }
 }
@@ -85,18 +84,6 @@ macro_rules! face {
             pub fn new(bus: B, ready: P, delay: D, patience: Patience) -> Self {
                 let statistics = ConverterStatistics::default();
                 Self { bus, ready, delay, state: State { patience, configuration: None, unsettled: 0, statistics } }
-            }
-
-            /// The parts.
-            #[must_use]
-            pub fn release(self) -> (B, P, D) {
-                (self.bus, self.ready, self.delay)
-            }
-
-            /// How it has behaved so far.
-            #[must_use]
-            pub const fn statistics(&self) -> &ConverterStatistics {
-                &self.state.statistics
             }
 
             /// Resets the device, writes its registers, reads them back, starts it and lets it calibrate its
@@ -223,9 +210,7 @@ macro_rules! face {
             }
         }
 
-        impl<B: BusErrorType, P: PinErrorType, D> ErrorType for $name<B, P, D> {
-            type Error = Failure<B, P>;
-        }
+        parts!($name, $bus, $pin, $delay, BusErrorType);
     };
 }
 

@@ -134,6 +134,12 @@ impl<W: Write> RecordingWriter<W> {
         self.write(core::iter::once(time).chain(wrench.components().iter().copied()))
     }
 
+    /// What is written to.
+    #[must_use]
+    pub const fn get_mut(&mut self) -> &mut W {
+        &mut self.out
+    }
+
     /// Writes out what is buffered, and gives the output back.
     ///
     /// # Errors

@@ -10,6 +10,7 @@ use thiserror::Error;
 
 use super::receiver::{FtsFault, FtsReceiver};
 use super::wire::{Command, CommandAnswer, FtsSample, FtsWireError, Packet};
+use crate::datagram_socket::DatagramSocket;
 use crate::{ErrorType, LinkStatistics, NbWrenchSource, Sample, SourceError, SourceErrorKind, WrenchSource};
 
 /// Why a client has no wrench to give.
@@ -70,9 +71,8 @@ const LARGEST: usize = 7 + 16 * FtsSample::LENGTH;
 pub struct FtsClient {
     commands: TcpStream,
     counter: u16,
-    socket: UdpSocket,
+    socket: DatagramSocket,
     sensor: IpAddr,
-    timeout: Duration,
     receiver: FtsReceiver,
     datagram: [u8; LARGEST],
     length: usize,
@@ -80,7 +80,6 @@ pub struct FtsClient {
     given: usize,
     /// Whether the datagram at hand is news.
     news: bool,
-    waits: bool,
     /// Time between samples \[s\], where that was stated.
     period: Option<f64>,
 }
@@ -100,8 +99,7 @@ impl FtsClient {
         let address = sensor.to_socket_addrs()?.next();
         let address = address.ok_or_else(|| io::Error::from(io::ErrorKind::AddrNotAvailable))?;
         // Before the sensor sends, so that nothing is missed.
-        let socket = UdpSocket::bind(local)?;
-        socket.set_read_timeout(Some(timeout))?;
+        let socket = DatagramSocket::new(UdpSocket::bind(local)?, timeout)?;
         let commands = TcpStream::connect_timeout(&address, timeout)?;
         commands.set_read_timeout(Some(timeout))?;
         commands.set_write_timeout(Some(timeout))?;
@@ -111,13 +109,11 @@ impl FtsClient {
             counter: 0,
             socket,
             sensor: address.ip(),
-            timeout,
             receiver: FtsReceiver::default(),
             datagram: [0; LARGEST],
             length: 0,
             given: 0,
             news: false,
-            waits: true,
             period: None,
         };
         client.command(Command::StartUdp)?;
@@ -170,23 +166,10 @@ impl FtsClient {
         Ok(())
     }
 
-    /// Makes the socket wait or not; a call of the system only if that changes.
-    fn wait(&mut self, wait: bool) -> Result<(), FtsClientError> {
-        if self.waits != wait {
-            self.socket.set_nonblocking(!wait)?;
-            self.waits = wait;
-        }
-        Ok(())
-    }
-
     fn receive(&mut self) -> Result<(), FtsClientError> {
         (self.length, self.given, self.news) = (0, 0, false);
-        let (length, from) = match self.socket.recv_from(&mut self.datagram) {
-            Ok(received) => received,
-            Err(error) if matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut) => {
-                return Err(FtsClientError::Timeout { timeout: self.timeout });
-            }
-            Err(error) => return Err(error.into()),
+        let Some((length, from)) = self.socket.receive(&mut self.datagram)? else {
+            return Err(FtsClientError::Timeout { timeout: self.socket.timeout() });
         };
         if from.ip() != self.sensor {
             return Ok(());
@@ -237,7 +220,7 @@ impl ErrorType for FtsClient {
 /// The sensor sends no time: samples have one only if its rate is stated, by [`timed_by`](FtsClient::timed_by).
 impl<T: Real> WrenchSource<T> for FtsClient {
     fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, FtsClientError> {
-        self.wait(true)?;
+        self.socket.wait(true)?;
         self.next_sample().map(Some)
     }
 }
@@ -246,7 +229,7 @@ impl<T: Real> WrenchSource<T> for FtsClient {
 /// latest.
 impl<T: Real> NbWrenchSource<T> for FtsClient {
     fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, FtsClientError> {
-        self.wait(false)?;
+        self.socket.wait(false).map_err(FtsClientError::from)?;
         match self.next_sample() {
             Ok(sample) => Ok(Some(sample)),
             Err(FtsClientError::Timeout { .. }) => Err(nb::Error::WouldBlock),

@@ -1,7 +1,11 @@
 //! The RDT receiver and client against the simulated sensor.
 #![cfg(all(feature = "ati-rdt", feature = "simulation"))]
 
+use alloc::sync::Arc;
+use core::cell::RefCell;
+use core::sync::atomic::{AtomicU64, Ordering};
 use core::time::Duration;
+use std::sync::{Mutex, MutexGuard};
 
 use fingertip_drivers::ati_rdt::{
     ClientError, Command, CountsPerUnit, FaultPlan, RdtClient, RdtError, RdtServer, Receiver, Record,
@@ -9,6 +13,8 @@ use fingertip_drivers::ati_rdt::{
 };
 use fingertip_drivers::middleware::{OnLoss, Supervised, SupervisedError, Watched};
 use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
+
+use super::patience::{PATIENCE, SILENCE, patiently};
 
 fn counts() -> CountsPerUnit<f64> {
     CountsPerUnit::million().unwrap()
@@ -64,10 +70,14 @@ fn a_million_records_over_a_bad_link_give_nothing_wrong_and_every_loss_is_counte
 #[test]
 fn over_a_socket_nothing_is_lost_and_the_sensor_is_stopped_at_the_end() {
     let sensor = SimulatedNetFt::new(FaultPlan::default());
-    let server =
-        RdtServer::start("127.0.0.1:0", sensor, Duration::from_millis(5), |n| load(n as i32)).unwrap();
-    let mut client =
-        RdtClient::connect(server.address(), counts(), Duration::from_secs(5)).unwrap().timed_by(200.0);
+    let taken = Arc::new(AtomicU64::new(0));
+    let counter = Arc::clone(&taken);
+    let counted = move |number| {
+        counter.store(number, Ordering::Relaxed);
+        load(number as i32)
+    };
+    let server = RdtServer::start("127.0.0.1:0", sensor, Duration::from_millis(5), counted).unwrap();
+    let mut client = RdtClient::connect(server.address(), counts(), PATIENCE).unwrap().timed_by(200.0);
     let mut last: Option<(f64, f64)> = None;
     for _ in 0..60 {
         let sample = client.next_wrench().unwrap().unwrap();
@@ -79,12 +89,22 @@ fn over_a_socket_nothing_is_lost_and_the_sensor_is_stopped_at_the_end() {
         last = Some((time, number));
     }
     assert_eq!((client.statistics().received, client.statistics().lost), (60, 0));
-    // The newest one, after a pause in which some have come.
-    std::thread::sleep(Duration::from_millis(50));
+    // The newest one, when some more were sent: each of them is given or passed over.
+    let last = last.unwrap().1 as u64;
     let mut watched = Watched::new(client, Some(5e-3));
-    let latest = watched.latest(0.0).unwrap().unwrap();
-    assert!((latest.sample.value.force().x * 1e6).round() > last.unwrap().1);
-    assert_eq!((watched.counts().given, watched.counts().missing), (1, 0));
+    while taken.load(Ordering::Relaxed) < last + 5 {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let latest = loop {
+        match watched.latest(0.0) {
+            Ok(latest) => break latest.unwrap(),
+            Err(nb::Error::WouldBlock) => std::thread::yield_now(),
+            Err(nb::Error::Other(error)) => panic!("{error}"),
+        }
+    };
+    let (newest, counts) = ((latest.sample.value.force().x * 1e6).round() as u64, watched.counts());
+    assert!(newest > last);
+    assert_eq!((counts.given + counts.passed_over, counts.missing), (newest - last, 0));
     drop(watched);
     assert!(!server.stop().unwrap().is_streaming());
 }
@@ -94,14 +114,13 @@ fn faults_of_the_sensor_and_silence_are_errors_of_their_kinds() {
     let mut sensor = SimulatedNetFt::new(FaultPlan::default());
     sensor.set_status(0x8000_0001);
     let server = RdtServer::start("127.0.0.1:0", sensor, Duration::from_millis(1), |_| [0; 6]).unwrap();
-    let mut client = RdtClient::connect(server.address(), counts(), Duration::from_secs(5)).unwrap();
+    let mut client = RdtClient::connect(server.address(), counts(), PATIENCE).unwrap();
     let error = client.next_wrench().unwrap_err();
     assert!(matches!(error, ClientError::Rdt(RdtError::Status { status: 0x8000_0001, .. })), "{error}");
     assert_eq!(error.kind(), SourceErrorKind::DeviceFault);
     // A port where nobody serves: bound, so that nobody else can have it, but never answered.
     let silent = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
-    let wait = Duration::from_millis(30);
-    let mut client = RdtClient::connect(silent.local_addr().unwrap(), counts(), wait).unwrap();
+    let mut client = RdtClient::connect(silent.local_addr().unwrap(), counts(), SILENCE).unwrap();
     let error = client.next_wrench().unwrap_err();
     assert_eq!(error.kind(), SourceErrorKind::Timeout, "{error}");
     assert!(CountsPerUnit::new(0.0, 1.0).is_err() && CountsPerUnit::new(1.0, f64::NAN).is_err());
@@ -137,7 +156,7 @@ fn the_configuration_is_asked_for_over_http() {
             "<netft><scfgfu>N</scfgfu><scfgtu>Nmm</scfgtu><cfgcpf>1000</cfgcpf><cfgcpt>50</cfgcpt></netft>";
         write!(stream, "HTTP/1.0 200 OK\r\n\r\n{page}").unwrap();
     });
-    let configuration = RdtClient::<f64>::configuration(address, Duration::from_secs(5)).unwrap();
+    let configuration = RdtClient::<f64>::configuration(address, PATIENCE).unwrap();
     server.join().unwrap();
     assert_eq!((configuration.counts_per_newton, configuration.rate), (1000.0, None));
     assert!((configuration.counts_per_newton_metre - 50_000.0).abs() < 1e-9);
@@ -145,35 +164,37 @@ fn the_configuration_is_asked_for_over_http() {
 
 #[test]
 fn a_sensor_that_falls_silent_is_asked_again_or_given_up_by_choice() {
-    let serve = |address: core::net::SocketAddr| {
-        let sensor = SimulatedNetFt::new(FaultPlan::default());
-        RdtServer::start(address, sensor, Duration::from_millis(2), |_| load(7)).unwrap()
+    // It is silent while somebody holds this.
+    let speech = Arc::new(Mutex::new(()));
+    let held = Arc::clone(&speech);
+    let sensor = SimulatedNetFt::new(FaultPlan::default());
+    let server = RdtServer::start("127.0.0.1:0", sensor, Duration::from_millis(2), move |_| {
+        drop(held.lock());
+        load(7)
+    })
+    .unwrap();
+    let connect = |_| RdtClient::<f64>::connect(server.address(), counts(), SILENCE);
+    let silence = RefCell::new(None::<MutexGuard<'_, ()>>);
+    let ask_again = |attempt| {
+        if attempt == 3 {
+            silence.take();
+        }
+        connect(attempt)
     };
-    let server = serve("127.0.0.1:0".parse().unwrap());
-    let address = server.address();
-    let connect = |attempt: u32| {
-        std::thread::sleep(Duration::from_millis(5) * attempt.min(1));
-        RdtClient::<f64>::connect(address, counts(), Duration::from_secs(1))
-    };
-    let mut again = Supervised::new(connect, OnLoss::Reconnect { attempts: 10_000 }).unwrap();
+    let mut again = Supervised::new(ask_again, OnLoss::Reconnect { attempts: 1000 }).unwrap();
     let mut stops = Supervised::new(connect, OnLoss::FailStop).unwrap();
     // The sensor serves whoever asked last.
-    assert_eq!(stops.next_wrench().unwrap().unwrap().value.force().x, 7e-6);
-    drop(server);
+    assert_eq!(patiently(&mut stops).value.force().x, 7e-6);
+    *silence.borrow_mut() = Some(speech.lock().unwrap());
     while stops.next_wrench().is_ok() {}
     assert!(matches!(stops.next_wrench(), Err(SupervisedError::Stopped)));
-    let restarted = std::thread::spawn(move || {
-        std::thread::sleep(Duration::from_millis(150));
-        serve(address)
-    });
     // What reached its socket before the other one asked is given first.
     while again.losses() == 0 {
         assert_eq!(again.next_wrench().unwrap().unwrap().value.force().x, 7e-6);
     }
-    assert_eq!(again.reconnections(), again.losses());
-    // It stays stopped until it is told to go on, though the sensor is back.
+    assert!(again.losses() > 3 && again.reconnections() == again.losses());
+    // It stays stopped until it is told to go on, though the sensor speaks again.
     assert!(matches!(stops.next_wrench(), Err(SupervisedError::Stopped)));
     stops.resume().unwrap();
-    assert!(stops.next_wrench().is_ok());
-    drop(restarted.join().unwrap());
+    assert_eq!(patiently(&mut stops).value.force().x, 7e-6);
 }

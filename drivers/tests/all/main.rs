@@ -1,12 +1,15 @@
 //! The tests of the crate from outside, as one program: each program more is linked again.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
+extern crate alloc;
+
 mod ati_rdt;
 mod bota_serial;
 mod converters;
 mod line_sensors;
 mod mcap;
 mod middleware;
+mod patience;
 mod prototype;
 mod real_recordings;
 mod recording;

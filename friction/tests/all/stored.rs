@@ -40,6 +40,9 @@ fn kept<V: Serialize + DeserializeOwned + PartialEq + Debug>(value: &V) {
         }
     }
     assert!(serde_json::from_str::<V>("{}").is_err());
+    let mut misspelt = json;
+    misspelt["stifness"] = Value::from(1.0);
+    assert!(serde_json::from_value::<V>(misspelt).is_err());
 }
 
 fn pointers(json: &Value, path: &str, found: &mut Vec<String>) {

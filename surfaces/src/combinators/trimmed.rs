@@ -1,9 +1,8 @@
 //! A shape of which only a region may touch.
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, ForceLine};
 
 /// A part of space. Closures `Fn(&Vector3<T>) -> bool` are regions too.
@@ -47,10 +46,14 @@ impl<T: Real> Region<T> for HalfSpace<T> {
     }
 }
 
-serde_parts!(HalfSpace {
-    point_m: Vector3<T> = |region: &HalfSpace<T>| region.point,
-    inward: Vector3<T> = |region: &HalfSpace<T>| region.inward,
-} => |parts| HalfSpace::new(parts.point_m, parts.inward));
+stored! {
+    HalfSpace<T>, [T: Real],
+    |region| {
+        point_m: Vector3<T> = region.point,
+        inward: Vector3<T> = region.inward,
+    },
+    HalfSpace::new(point_m, inward)
+}
 
 /// A shape that is active only within a region: what lies outside is still part of the shape, and
 /// a force that presses there is reported as pressing outside the active region.

@@ -1,13 +1,12 @@
 //! Contact in a point, without local torque.
 
-use fingertip_wrench::{Line, LineOfAction, NoLineOfAction, Real, Wrench};
+use fingertip_wrench::{Line, LineOfAction, NoLineOfAction, Real, Wrench, stored};
 use nalgebra::Vector3;
 
 use super::long_way::long_way;
 use super::onto_line::onto_line;
 use super::{Contact, ContactModel, NoContact, Resolution};
 use crate::numeric::vectors::{hypotenuse, in_range, larger, smaller};
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, Crossing, ForceLine};
 
 /// A contact that transmits a force and no torque of its own: it lies where the wrench's line of
@@ -346,14 +345,18 @@ impl<T: Real> PointContact<T> {
     }
 }
 
-serde_parts!(PointContact {
-    #[serde(rename = "least_force_N", default = "T::zero")] least_force: T = |model: &PointContact<T>| model.least_force,
-    #[serde(default = "T::zero")] greatest_gap_m: T = |model: &PointContact<T>| model.greatest_gap,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    greatest_friction: Option<T> = |model: &PointContact<T>| model.greatest_friction,
-} => |parts| PointContact::new(parts.least_force)
-    .and_then(|model| model.accepting_gap(parts.greatest_gap_m))
-    .and_then(|model| match parts.greatest_friction {
-        Some(friction) => model.with_greatest_friction(friction),
-        None => Ok(model),
-    }));
+stored! {
+    PointContact<T>, [T: Real],
+    |model| {
+        #[serde(rename = "least_force_N", default = "T::zero")] least_force: T = model.least_force,
+        #[serde(default = "T::zero")] greatest_gap_m: T = model.greatest_gap,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        greatest_friction: Option<T> = model.greatest_friction,
+    },
+    PointContact::new(least_force)
+        .and_then(|model| model.accepting_gap(greatest_gap_m))
+        .and_then(|model| match greatest_friction {
+            Some(friction) => model.with_greatest_friction(friction),
+            None => Ok(model),
+        })
+}

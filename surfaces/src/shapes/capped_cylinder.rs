@@ -1,9 +1,8 @@
 //! The circular cylinder, closed at its ends.
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
-use crate::serde_parts::serde_parts;
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, Frustum, SignedDistance,
 };
@@ -111,10 +110,14 @@ impl<T: Real> SignedDistance<T> for CappedCylinder<T> {
     }
 }
 
-serde_parts!(CappedCylinder {
-    #[serde(default = "Vector3::zeros")]
-    centre_m: Vector3<T> = |cylinder: &CappedCylinder<T>| cylinder.centre,
-    #[serde(default = "Vector3::z")] axis: Vector3<T> = |cylinder: &CappedCylinder<T>| cylinder.axis(),
-    radius_m: T = |cylinder: &CappedCylinder<T>| cylinder.radius(),
-    half_length_m: T = |cylinder: &CappedCylinder<T>| cylinder.half_length,
-} => |parts| CappedCylinder::new(parts.centre_m, parts.axis, parts.radius_m, parts.half_length_m));
+stored! {
+    CappedCylinder<T>, [T: Real],
+    |cylinder| {
+        #[serde(default = "Vector3::zeros")]
+        centre_m: Vector3<T> = cylinder.centre,
+        #[serde(default = "Vector3::z")] axis: Vector3<T> = cylinder.axis(),
+        radius_m: T = cylinder.radius(),
+        half_length_m: T = cylinder.half_length,
+    },
+    CappedCylinder::new(centre_m, axis, radius_m, half_length_m)
+}

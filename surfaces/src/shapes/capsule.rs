@@ -2,13 +2,12 @@
 
 use core::hint::select_unpredictable;
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
 use crate::numeric::vectors::{length, unit_or};
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
 /// All points at one distance from a straight segment.
@@ -167,9 +166,13 @@ impl<T: Real> SignedDistance<T> for Capsule<T> {
     }
 }
 
-serde_parts!(Capsule {
-    #[serde(default = "Vector3::zeros")] centre_m: Vector3<T> = |capsule: &Capsule<T>| capsule.axis.origin,
-    #[serde(default = "Vector3::z")] axis: Vector3<T> = |capsule: &Capsule<T>| capsule.axis.direction,
-    half_length_m: T = |capsule: &Capsule<T>| capsule.half_length,
-    radius_m: T = |capsule: &Capsule<T>| capsule.radius,
-} => |parts| Capsule::new(parts.centre_m, parts.axis, parts.half_length_m, parts.radius_m));
+stored! {
+    Capsule<T>, [T: Real],
+    |capsule| {
+        #[serde(default = "Vector3::zeros")] centre_m: Vector3<T> = capsule.axis.origin,
+        #[serde(default = "Vector3::z")] axis: Vector3<T> = capsule.axis.direction,
+        half_length_m: T = capsule.half_length,
+        radius_m: T = capsule.radius,
+    },
+    Capsule::new(centre_m, axis, half_length_m, radius_m)
+}

@@ -1,6 +1,6 @@
 //! The cone, open at its wide end.
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::{ComplexField, Vector3};
 
 use super::axis::{Axis, Local, LocalEntry};
@@ -9,7 +9,6 @@ use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, is_finite, length};
 #[cfg(feature = "serde")]
 use crate::numeric::vectors::{from_degrees, to_degrees};
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine};
 
 /// The side of a circular cone, unbounded or active down to a depth.
@@ -179,11 +178,15 @@ impl<T: Real> ActiveSurface<T> for Cone<T> {
     }
 }
 
-serde_parts!(Cone {
-    #[serde(default = "Vector3::zeros")] apex_m: Vector3<T> = |cone: &Cone<T>| cone.axis.origin,
-    #[serde(default = "Vector3::z")] axis: Vector3<T> = |cone: &Cone<T>| cone.axis.direction,
-    half_angle_deg: T = |cone: &Cone<T>| to_degrees(cone.half_angle),
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    depth_m: Option<T> = |cone: &Cone<T>| cone.depth,
-} => |parts| Cone::new(parts.apex_m, parts.axis, from_degrees(parts.half_angle_deg))
-    .and_then(|cone| parts.depth_m.map_or(Ok(cone), |depth| cone.with_depth(depth))));
+stored! {
+    Cone<T>, [T: Real],
+    |cone| {
+        #[serde(default = "Vector3::zeros")] apex_m: Vector3<T> = cone.axis.origin,
+        #[serde(default = "Vector3::z")] axis: Vector3<T> = cone.axis.direction,
+        half_angle_deg: T = to_degrees(cone.half_angle),
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        depth_m: Option<T> = cone.depth,
+    },
+    Cone::new(apex_m, axis, from_degrees(half_angle_deg))
+        .and_then(|cone| depth_m.map_or(Ok(cone), |depth| cone.with_depth(depth)))
+}

@@ -1,11 +1,10 @@
 //! The circular cylinder, open at its ends.
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 use super::axis::Axis;
 use crate::numeric::vectors::{is_finite, length};
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, ForceLine};
 
 /// The lateral surface of a circular cylinder, unbounded or with an active part of finite length.
@@ -175,12 +174,16 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
     }
 }
 
-serde_parts!(Cylinder {
-    #[serde(default = "Vector3::zeros")] centre_m: Vector3<T> = |cylinder: &Cylinder<T>| cylinder.centre,
-    #[serde(default = "Vector3::z")] axis: Vector3<T> = |cylinder: &Cylinder<T>| cylinder.axis,
-    radius_m: T = |cylinder: &Cylinder<T>| cylinder.radius,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    half_length_m: Option<T> = |cylinder: &Cylinder<T>| cylinder.half_length,
-} => |parts| Cylinder::new(parts.centre_m, parts.axis, parts.radius_m).and_then(|cylinder| {
-    parts.half_length_m.map_or(Ok(cylinder), |half| cylinder.with_half_length(half))
-}));
+stored! {
+    Cylinder<T>, [T: Real],
+    |cylinder| {
+        #[serde(default = "Vector3::zeros")] centre_m: Vector3<T> = cylinder.centre,
+        #[serde(default = "Vector3::z")] axis: Vector3<T> = cylinder.axis,
+        radius_m: T = cylinder.radius,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        half_length_m: Option<T> = cylinder.half_length,
+    },
+    Cylinder::new(centre_m, axis, radius_m).and_then(|cylinder| {
+        half_length_m.map_or(Ok(cylinder), |half| cylinder.with_half_length(half))
+    })
+}

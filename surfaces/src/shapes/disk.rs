@@ -1,10 +1,9 @@
 //! The plane, bounded by a circle.
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 use crate::numeric::vectors::length;
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Plane};
 
 /// A plane of which only a disk is active.
@@ -70,8 +69,12 @@ impl<T: Real> ActiveSurface<T> for Disk<T> {
     }
 }
 
-serde_parts!(Disk {
-    #[serde(default = "Vector3::zeros")] centre_m: Vector3<T> = |disk: &Disk<T>| disk.plane.point(),
-    #[serde(default = "Vector3::z")] normal: Vector3<T> = |disk: &Disk<T>| disk.plane.outward(),
-    radius_m: T = |disk: &Disk<T>| disk.radius,
-} => |parts| Disk::new(parts.centre_m, parts.normal, parts.radius_m));
+stored! {
+    Disk<T>, [T: Real],
+    |disk| {
+        #[serde(default = "Vector3::zeros")] centre_m: Vector3<T> = disk.plane.point(),
+        #[serde(default = "Vector3::z")] normal: Vector3<T> = disk.plane.outward(),
+        radius_m: T = disk.radius,
+    },
+    Disk::new(centre_m, normal, radius_m)
+}

@@ -1,12 +1,11 @@
 //! The ellipsoid.
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 use crate::numeric::ellipse::closest_point;
 use crate::numeric::twofold::{Twofold, dot};
 use crate::numeric::vectors::{any_perpendicular, foot, hypotenuse, is_finite, length, unit_or};
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
 /// An ellipsoid about the origin, its axes along x, y and z; [`Posed`](crate::Posed) puts it
@@ -221,9 +220,13 @@ impl<T: Real> SignedDistance<T> for Ellipsoid<T> {
     }
 }
 
-serde_parts!(Ellipsoid {
-    semi_axes_m: Vector3<T> = |ellipsoid: &Ellipsoid<T>| ellipsoid.semi_axes,
-} => |parts| Ellipsoid::new(parts.semi_axes_m));
+stored! {
+    Ellipsoid<T>, [T: Real],
+    |ellipsoid| {
+        semi_axes_m: Vector3<T> = ellipsoid.semi_axes,
+    },
+    Ellipsoid::new(semi_axes_m)
+}
 
 #[cfg(test)]
 mod tests {

@@ -1,6 +1,6 @@
 //! The elliptic cylinder, unbounded, open or closed.
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 use crate::numeric::closest::{from_distance, to_convex};
@@ -8,7 +8,6 @@ use crate::numeric::ellipse::closest_point;
 use crate::numeric::interval::{End, Inside};
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, hypotenuse, is_finite, unit_or, within_range};
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance};
 
 /// How an elliptic cylinder ends.
@@ -218,7 +217,11 @@ impl<T: Real> ActiveSurface<T> for EllipticCylinder<T> {
     }
 }
 
-serde_parts!(EllipticCylinder {
-    semi_axes_m: [T; 2] = |cylinder: &EllipticCylinder<T>| cylinder.semi_axes,
-    ends_m: CylinderEnds<T> = |cylinder: &EllipticCylinder<T>| cylinder.ends,
-} => |parts| EllipticCylinder::new(parts.semi_axes_m, parts.ends_m));
+stored! {
+    EllipticCylinder<T>, [T: Real],
+    |cylinder| {
+        semi_axes_m: [T; 2] = cylinder.semi_axes,
+        ends_m: CylinderEnds<T> = cylinder.ends,
+    },
+    EllipticCylinder::new(semi_axes_m, ends_m)
+}

@@ -2,14 +2,13 @@
 
 use core::hint::select_unpredictable;
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
 use crate::numeric::twofold::{Twofold, difference, dot_with};
 use crate::numeric::vectors::hypotenuse;
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
 /// A truncated circular cone with flat ends, all of it active; with one radius zero, a closed
@@ -278,17 +277,21 @@ impl<T: Real> SignedDistance<T> for Frustum<T> {
     }
 }
 
-serde_parts!(Frustum {
-    #[serde(default = "Vector3::zeros")]
-    base_centre_m: Vector3<T> = |frustum: &Frustum<T>| frustum.axis.origin,
-    #[serde(default = "Vector3::z")] axis: Vector3<T> = |frustum: &Frustum<T>| frustum.axis.direction,
-    height_m: T = |frustum: &Frustum<T>| frustum.height,
-    base_radius_m: T = |frustum: &Frustum<T>| frustum.base_radius,
-    top_radius_m: T = |frustum: &Frustum<T>| frustum.top_radius,
-} => |parts| Frustum::new(
-    parts.base_centre_m,
-    parts.axis,
-    parts.height_m,
-    parts.base_radius_m,
-    parts.top_radius_m,
-));
+stored! {
+    Frustum<T>, [T: Real],
+    |frustum| {
+        #[serde(default = "Vector3::zeros")]
+        base_centre_m: Vector3<T> = frustum.axis.origin,
+        #[serde(default = "Vector3::z")] axis: Vector3<T> = frustum.axis.direction,
+        height_m: T = frustum.height,
+        base_radius_m: T = frustum.base_radius,
+        top_radius_m: T = frustum.top_radius,
+    },
+    Frustum::new(
+        base_centre_m,
+        axis,
+        height_m,
+        base_radius_m,
+        top_radius_m,
+    )
+}

@@ -1,13 +1,12 @@
 //! The elliptic paraboloid.
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 use crate::numeric::quadratic::roots;
 use crate::numeric::support;
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, length, unit_or};
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
 
 /// A dome whose top is the origin, with the z axis pointing out of it:
@@ -136,9 +135,13 @@ impl<T: Real> ActiveSurface<T> for Paraboloid<T> {
     }
 }
 
-serde_parts!(Paraboloid {
-    radii_m: [T; 2] = |paraboloid: &Paraboloid<T>| paraboloid.radii,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    depth_m: Option<T> = |paraboloid: &Paraboloid<T>| paraboloid.depth,
-} => |parts| Paraboloid::new(parts.radii_m)
-    .and_then(|paraboloid| parts.depth_m.map_or(Ok(paraboloid), |depth| paraboloid.with_depth(depth))));
+stored! {
+    Paraboloid<T>, [T: Real],
+    |paraboloid| {
+        radii_m: [T; 2] = paraboloid.radii,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        depth_m: Option<T> = paraboloid.depth,
+    },
+    Paraboloid::new(radii_m)
+        .and_then(|paraboloid| depth_m.map_or(Ok(paraboloid), |depth| paraboloid.with_depth(depth)))
+}

@@ -1,11 +1,10 @@
 //! The unbounded plane.
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 use crate::numeric::twofold::{difference, dot_with};
 use crate::numeric::vectors::{foot, is_finite};
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, ForceLine};
 
 /// A plane; the fingertip is on the side away from the normal.
@@ -121,7 +120,11 @@ impl<T: Real> ActiveSurface<T> for Plane<T> {
     }
 }
 
-serde_parts!(Plane {
-    #[serde(default = "Vector3::zeros")] point_m: Vector3<T> = |plane: &Plane<T>| plane.point,
-    #[serde(default = "Vector3::z")] normal: Vector3<T> = |plane: &Plane<T>| plane.normal,
-} => |parts| Plane::new(parts.point_m, parts.normal));
+stored! {
+    Plane<T>, [T: Real],
+    |plane| {
+        #[serde(default = "Vector3::zeros")] point_m: Vector3<T> = plane.point,
+        #[serde(default = "Vector3::z")] normal: Vector3<T> = plane.normal,
+    },
+    Plane::new(point_m, normal)
+}

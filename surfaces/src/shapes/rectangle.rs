@@ -1,10 +1,9 @@
 //! The plane, bounded by a rectangle.
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 use crate::numeric::vectors::length;
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Plane};
 
 /// A plane of which only a rectangle is active.
@@ -92,9 +91,13 @@ impl<T: Real> ActiveSurface<T> for Rectangle<T> {
     }
 }
 
-serde_parts!(Rectangle {
-    #[serde(default = "Vector3::zeros")]
-    centre_m: Vector3<T> = |rectangle: &Rectangle<T>| rectangle.plane.point(),
-    first_half_edge_m: Vector3<T> = |rectangle: &Rectangle<T>| rectangle.half_edges()[0],
-    second_half_edge_m: Vector3<T> = |rectangle: &Rectangle<T>| rectangle.half_edges()[1],
-} => |parts| Rectangle::new(parts.centre_m, parts.first_half_edge_m, parts.second_half_edge_m));
+stored! {
+    Rectangle<T>, [T: Real],
+    |rectangle| {
+        #[serde(default = "Vector3::zeros")]
+        centre_m: Vector3<T> = rectangle.plane.point(),
+        first_half_edge_m: Vector3<T> = rectangle.half_edges()[0],
+        second_half_edge_m: Vector3<T> = rectangle.half_edges()[1],
+    },
+    Rectangle::new(centre_m, first_half_edge_m, second_half_edge_m)
+}

@@ -1,13 +1,12 @@
 //! The box with round edges and corners.
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 use crate::numeric::closest::to_convex;
 use crate::numeric::roots::first_of_convex;
 use crate::numeric::twofold::{Twofold, outside_ball};
 use crate::numeric::vectors::{foot, length, unit_or};
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
 /// A box about the origin, its edges along x, y and z and rounded; [`Posed`](crate::Posed) puts it
@@ -175,7 +174,11 @@ impl<T: Real> SignedDistance<T> for RoundedBox<T> {
     }
 }
 
-serde_parts!(RoundedBox {
-    half_extents_m: Vector3<T> = |rounded: &RoundedBox<T>| rounded.half_extents,
-    rounding_m: T = |rounded: &RoundedBox<T>| rounded.rounding,
-} => |parts| RoundedBox::new(parts.half_extents_m, parts.rounding_m));
+stored! {
+    RoundedBox<T>, [T: Real],
+    |rounded| {
+        half_extents_m: Vector3<T> = rounded.half_extents,
+        rounding_m: T = rounded.rounding,
+    },
+    RoundedBox::new(half_extents_m, rounding_m)
+}

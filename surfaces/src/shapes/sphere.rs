@@ -1,11 +1,10 @@
 //! The sphere.
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 use crate::numeric::twofold::{difference, outside_ball};
 use crate::numeric::vectors::{larger, largest, length, smaller, unit_or};
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
 
 /// A sphere, its inside being the fingertip.
@@ -154,7 +153,11 @@ impl<T: Real> SignedDistance<T> for Sphere<T> {
     }
 }
 
-serde_parts!(Sphere {
-    #[serde(default = "Vector3::zeros")] centre_m: Vector3<T> = |sphere: &Sphere<T>| sphere.centre,
-    radius_m: T = |sphere: &Sphere<T>| sphere.radius,
-} => |parts| Sphere::new(parts.centre_m, parts.radius_m));
+stored! {
+    Sphere<T>, [T: Real],
+    |sphere| {
+        #[serde(default = "Vector3::zeros")] centre_m: Vector3<T> = sphere.centre,
+        radius_m: T = sphere.radius,
+    },
+    Sphere::new(centre_m, radius_m)
+}

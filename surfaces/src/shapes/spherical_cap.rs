@@ -1,11 +1,10 @@
 //! The sphere with an opening.
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 #[cfg(feature = "serde")]
 use crate::numeric::vectors::{from_degrees, to_degrees};
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, ForceLine, Sphere};
 
 /// A sphere that is active around a pole only: a dome, or, if the active part is more than half,
@@ -114,13 +113,17 @@ impl<T: Real> ActiveSurface<T> for SphericalCap<T> {
     }
 }
 
-serde_parts!(SphericalCap {
-    #[serde(default = "Vector3::zeros")]
-    centre_m: Vector3<T> = |cap: &SphericalCap<T>| cap.sphere.centre(),
-    radius_m: T = |cap: &SphericalCap<T>| cap.sphere.radius(),
-    #[serde(default = "Vector3::z")] pole: Vector3<T> = |cap: &SphericalCap<T>| cap.pole,
-    active_half_angle_deg: T = |cap: &SphericalCap<T>| to_degrees(cap.least_cosine.acos()),
-} => |parts| Sphere::new(parts.centre_m, parts.radius_m).and_then(|sphere| {
-    let cosine = from_degrees(parts.active_half_angle_deg).cos();
-    SphericalCap::new(sphere, parts.pole, cosine)
-}));
+stored! {
+    SphericalCap<T>, [T: Real],
+    |cap| {
+        #[serde(default = "Vector3::zeros")]
+        centre_m: Vector3<T> = cap.sphere.centre(),
+        radius_m: T = cap.sphere.radius(),
+        #[serde(default = "Vector3::z")] pole: Vector3<T> = cap.pole,
+        active_half_angle_deg: T = to_degrees(cap.least_cosine.acos()),
+    },
+    Sphere::new(centre_m, radius_m).and_then(|sphere| {
+        let cosine = from_degrees(active_half_angle_deg).cos();
+        SphericalCap::new(sphere, pole, cosine)
+    })
+}

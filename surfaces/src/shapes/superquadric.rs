@@ -1,12 +1,11 @@
 //! The convex superquadrics: from boxes over ellipsoids to octahedra.
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 use crate::numeric::roots::{bisected, first_of_convex};
 use crate::numeric::support;
 use crate::numeric::vectors::{length, unit_or, wide};
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
 
 /// A superellipsoid about the origin, its axes along x, y and z:
@@ -181,7 +180,11 @@ impl<T: Real> ActiveSurface<T> for Superquadric<T> {
     }
 }
 
-serde_parts!(Superquadric {
-    semi_axes_m: Vector3<T> = |superquadric: &Superquadric<T>| superquadric.semi_axes,
-    exponents: [T; 2] = |superquadric: &Superquadric<T>| superquadric.exponents,
-} => |parts| Superquadric::new(parts.semi_axes_m, parts.exponents));
+stored! {
+    Superquadric<T>, [T: Real],
+    |superquadric| {
+        semi_axes_m: Vector3<T> = superquadric.semi_axes,
+        exponents: [T; 2] = superquadric.exponents,
+    },
+    Superquadric::new(semi_axes_m, exponents)
+}

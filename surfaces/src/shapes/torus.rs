@@ -1,12 +1,11 @@
 //! The torus.
 
-use fingertip_wrench::{Line, Real};
+use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 use crate::numeric::closest::from_distance;
 use crate::numeric::roots::{bracketed_from, first_of_convex};
 use crate::numeric::vectors::{foot, hypotenuse, is_finite, unit_or};
-use crate::serde_parts::serde_parts;
 use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, SignedDistance};
 
 /// A ring around the z axis; [`Posed`](crate::Posed) puts it elsewhere.
@@ -276,10 +275,14 @@ impl<T: Real> SignedDistance<T> for Torus<T> {
     }
 }
 
-serde_parts!(Torus {
-    ring_radius_m: T = |torus: &Torus<T>| torus.ring_radius,
-    tube_radius_m: T = |torus: &Torus<T>| torus.tube_radius,
-} => |parts| Torus::new(parts.ring_radius_m, parts.tube_radius_m));
+stored! {
+    Torus<T>, [T: Real],
+    |torus| {
+        ring_radius_m: T = torus.ring_radius,
+        tube_radius_m: T = torus.tube_radius,
+    },
+    Torus::new(ring_radius_m, tube_radius_m)
+}
 
 #[cfg(test)]
 mod tests {

@@ -1,12 +1,11 @@
 //! The soft finger as a contact model.
 
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::{Real, Wrench, stored};
 use nalgebra::Vector3;
 
 use super::refined::refined;
 use crate::contact::long_way;
 use crate::numeric::vectors::{is_tame, larger, largest, length};
-use crate::serde_parts::serde_parts;
 use crate::{
     BadShape, Contact, ContactModel, ForceLine, NoContact, Resolution, Search, SoftContact, SoftFingerSurface,
 };
@@ -230,7 +229,11 @@ fn why_none<T: Real, S: SoftFingerSurface<T>>(wrench: &Wrench<T>, surface: &S) -
     NoContact::Misses { gap: approach.gap, closest: approach.point, normal: approach.normal }
 }
 
-serde_parts!(SoftFinger {
-    #[serde(rename = "least_force_N", default = "T::zero")]
-    least_force: T = |model: &SoftFinger<T>| model.least_force,
-} => |parts| SoftFinger::new(parts.least_force));
+stored! {
+    SoftFinger<T>, [T: Real],
+    |model| {
+        #[serde(rename = "least_force_N", default = "T::zero")]
+        least_force: T = model.least_force,
+    },
+    SoftFinger::new(least_force)
+}

@@ -60,7 +60,10 @@ fn what_a_constructor_refuses_a_file_cannot_bring_in() {
     let dead = refused(to_string(&sensor()).expect("writable"), "10.0", "-10.0");
     assert!(from_str::<SensorMatrix<f64, 6>>(&dead).is_err());
     let payload = to_string(&Payload::new(0.02, Vector3::x()).expect("a mass")).expect("writable");
-    assert!(from_str::<Payload<f64>>(&refused(payload, "0.02", "-0.02")).is_err());
+    assert!(from_str::<Payload<f64>>(&refused(payload.clone(), "0.02", "-0.02")).is_err());
+    // What is misspelt must not be passed over.
+    let misspelt = refused(payload, "{", r#"{"gravitation":1,"#);
+    assert!(from_str::<Payload<f64>>(&misspelt).unwrap_err().to_string().contains("`gravitation`"));
     let limits = ChannelLimits::new(Vector6::repeat(-1.0), Vector6::repeat(1.0)).expect("a range");
     let limits = refused(to_string(&limits).expect("writable"), "-1.0", "3.0");
     assert!(from_str::<ChannelLimits<f64, 6>>(&limits).is_err());

@@ -3,7 +3,8 @@
 use fingertip_calibration::Axis;
 use fingertip_calibration::file::{AtiCalibration, SignalUnit, Verdict};
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{Calibration, Direction, Options, calibrate};
+use fingertip_calibration::model::{Direction, Options};
+use fingertip_calibration::{Calibration, calibrate};
 
 use super::common;
 

@@ -1,9 +1,10 @@
 //! Home-made load cells against weights.
 
 use fingertip_calibration::Axis;
+use fingertip_calibration::calibrate;
 use fingertip_calibration::file::{SignalUnit, Verdict};
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{Direction, Limits, Method, Options, calibrate};
+use fingertip_calibration::model::{Direction, Limits, Method, Options};
 use fingertip_calibration::report::{Exclusion, Mistake, Report};
 
 use super::common;

@@ -1,9 +1,10 @@
 //! A poor sensor, and that the reports say so.
 
 use fingertip_calibration::Axis;
+use fingertip_calibration::calibrate;
 use fingertip_calibration::file::{CalibrationFile, SignalUnit, Verdict};
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{CalibrationError, Direction, Options, calibrate};
+use fingertip_calibration::model::{CalibrationError, Direction, Options};
 
 use super::common;
 

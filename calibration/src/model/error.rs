@@ -1,0 +1,56 @@
+//! Why there is no calibration.
+
+use thiserror::Error;
+
+use crate::file::FileError;
+use crate::fit::FitError;
+use crate::loads::LoadError;
+
+/// Why there is no calibration.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum CalibrationError {
+    /// The table of loads is wrong.
+    #[error(transparent)]
+    Loads(#[from] LoadError),
+    /// The fit has no answer.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// The calibration file cannot be used with the table.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The options contradict each other or the table.
+    #[error("option `{option}`: {message}")]
+    BadOption {
+        /// Which one.
+        option: &'static str,
+        /// What is wrong.
+        message: String,
+    },
+    /// A model with more coefficients predicts loads that it has not seen worse than a simpler one.
+    #[error(
+        "over-fitted: {coefficients} coefficients an axis for {samples} samples leave {fitted:.3} % of full scale on \
+         the loads of the fit but {} on loads left out of it; the linear model has {linear:.3} % there",
+        percent(*.left_out)
+    )]
+    OverFitted {
+        /// Coefficients per axis.
+        coefficients: usize,
+        /// Samples.
+        samples: usize,
+        /// RMS over all axes on the loads of the fit, % of full scale.
+        fitted: f64,
+        /// RMS over all axes on loads left out, % of full scale; `None` if it cannot be told since
+        /// some loads are needed to determine the model at all.
+        left_out: Option<f64>,
+        /// The same for the linear model.
+        linear: f64,
+    },
+    /// The fitted matrix cannot be inverted.
+    #[error("the fitted matrix has no inverse: some load gives no signal")]
+    Singular,
+}
+
+fn percent(value: Option<f64>) -> String {
+    value.map_or_else(|| "an undetermined error".to_owned(), |value| format!("{value:.3} %"))
+}

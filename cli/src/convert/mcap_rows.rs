@@ -1,0 +1,241 @@
+//! The rows of CSV that an MCAP file has, one for each time.
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use fingertip_drivers::recording::mcap::{Entry, McapReader, Recorded};
+use fingertip_drivers::recording::{ContactCells, Schema};
+
+use super::{Account, fault};
+use crate::error::CliError;
+use crate::recording_file::{mcap, open, unit as unit_of};
+
+/// A topic, and the columns that its messages fill.
+struct Columns {
+    topic: String,
+    kind: What,
+    frame: String,
+    /// The first of its columns.
+    start: usize,
+    width: usize,
+    /// Whether the row at hand has its cells already.
+    filled: bool,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum What {
+    Wrench,
+    Signals(String),
+    Contact,
+    Other,
+}
+
+impl What {
+    fn of(recorded: &Recorded) -> (Self, usize) {
+        match recorded {
+            Recorded::Wrench(_) => (Self::Wrench, 6),
+            Recorded::Signals(signals) => (Self::Signals(signals.unit.clone()), signals.values.len()),
+            Recorded::Contact(_) => (Self::Contact, 12),
+            _ => (Self::Other, 0),
+        }
+    }
+}
+
+/// Reads row after row, in memory that does not grow with the file.
+pub(super) struct Rows<R> {
+    reader: McapReader<R>,
+    input: PathBuf,
+    columns: Vec<Columns>,
+    row: Vec<f64>,
+    /// The first entry of the next row.
+    waiting: Option<Entry>,
+    wrenches: u64,
+    signals: u64,
+    contacts: u64,
+    rows: u64,
+    not_finite: u64,
+    backward: u64,
+    names: u64,
+}
+
+impl<R: Read> Rows<R> {
+    /// The rows of `file`, which is that at `input`. The latter is read through once, to see what there is; what to
+    /// know of that goes to `account`.
+    pub(super) fn new(file: R, input: &Path, account: &mut Account) -> Result<(Schema, Self), CliError> {
+        let (schema, columns) = survey(input, account)?;
+        let rows = Self {
+            reader: McapReader::new(file).map_err(|error| mcap(input, &error))?,
+            input: input.to_owned(),
+            columns,
+            row: vec![f64::NAN; schema.names().len()],
+            waiting: None,
+            wrenches: 0,
+            signals: 0,
+            contacts: 0,
+            rows: 0,
+            not_finite: 0,
+            backward: 0,
+            names: 0,
+        };
+        Ok((schema, rows))
+    }
+
+    /// The next row, a number for each column of the schema; NaN where there is none.
+    pub(super) fn next(&mut self) -> Result<Option<&[f64]>, CliError> {
+        self.row.fill(f64::NAN);
+        self.columns.iter_mut().for_each(|columns| columns.filled = false);
+        let mut at = None;
+        loop {
+            let entry = match self.waiting.take() {
+                None => self.reader.next_entry().map_err(|error| mcap(&self.input, &error))?,
+                waiting => waiting,
+            };
+            let Some(entry) = entry else { break };
+            let Some(place) = self.columns.iter_mut().find(|columns| columns.topic == entry.topic) else {
+                continue;
+            };
+            if let Some(last) = at.filter(|last| place.filled || *last != entry.time) {
+                self.backward += u64::from(entry.time <= last);
+                self.waiting = Some(entry);
+                break;
+            }
+            at = Some(entry.time);
+            place.filled = true;
+            let cells = self.row.iter_mut().skip(place.start).take(place.width);
+            match &entry.recorded {
+                Recorded::Wrench(wrench) => {
+                    self.wrenches += 1;
+                    self.not_finite += put(cells, wrench.components().as_slice());
+                }
+                Recorded::Signals(signals) => {
+                    self.signals += 1;
+                    self.not_finite += put(cells, &signals.values);
+                }
+                Recorded::Contact(contact) => {
+                    self.contacts += 1;
+                    self.names += u64::from(contact.name != "fingertip");
+                    let (position, normal, wrench) = (contact.position, contact.normal, contact.wrench);
+                    self.not_finite += put(cells, &ContactCells { position, normal, wrench }.cells());
+                }
+                _ => {}
+            }
+        }
+        let (Some(at), Some(time)) = (at, self.row.first_mut()) else { return Ok(None) };
+        *time = at;
+        self.rows += 1;
+        Ok(Some(&self.row))
+    }
+
+    /// Says what was read, and what of it rows cannot hold.
+    pub(super) fn account(&self, account: &mut Account) {
+        account.written("wrenches", self.wrenches);
+        account.written("signals", self.signals);
+        account.written("contacts", self.contacts);
+        account.written("rows", self.rows);
+        account.lost(self.not_finite, "numbers that are not finite (NaN becomes an empty cell)");
+        account.lost(self.names, "names of contacts");
+        if self.backward > 0 {
+            account.notes.push(format!(
+                "{} rows have a time that is not after that of the row before; other commands pass over them",
+                self.backward
+            ));
+        }
+        let mut frames: Vec<&str> = self.columns.iter().map(|columns| columns.frame.as_str()).collect();
+        frames.sort_unstable();
+        frames.dedup();
+        account.lost(frames.len() as u64, format!("names of frames: {}", frames.join(", ")));
+    }
+}
+
+/// Fills cells, and counts the values that are not finite.
+fn put<'a>(cells: impl Iterator<Item = &'a mut f64>, values: &[f64]) -> u64 {
+    for (cell, value) in cells.zip(values) {
+        *cell = *value;
+    }
+    values.iter().filter(|value| !value.is_finite()).count() as u64
+}
+
+/// Reads the file through once: what it holds, and the columns for it.
+fn survey(input: &Path, account: &mut Account) -> Result<(Schema, Vec<Columns>), CliError> {
+    let mut found: Vec<Columns> = Vec::new();
+    let mut others: Vec<(String, u64)> = Vec::new();
+    let mut reader = open(input)?;
+    while let Some(entry) = reader.next_entry().map_err(|error| mcap(input, &error))? {
+        let (kind, width) = What::of(&entry.recorded);
+        let second_contact = kind == What::Contact
+            && found.iter().any(|known| known.kind == kind && known.topic != entry.topic);
+        if kind == What::Other || second_contact {
+            match others.iter_mut().find(|(topic, _)| *topic == entry.topic) {
+                Some((_, number)) => *number += 1,
+                None => others.push((entry.topic, 1)),
+            }
+            continue;
+        }
+        match found.iter().find(|known| known.topic == entry.topic) {
+            None => {
+                let (topic, frame) = (entry.topic, entry.frame);
+                found.push(Columns { topic, kind, frame, start: 0, width, filled: false });
+            }
+            Some(known) if known.width != width || known.kind != kind => {
+                return Err(fault(
+                    input,
+                    format!(
+                        "topic {} changes its number of values or their unit at {} s",
+                        entry.topic, entry.time
+                    ),
+                ));
+            }
+            Some(_) => {}
+        }
+    }
+    if found.is_empty() {
+        return Err(fault(input, "it holds no wrenches, signals or contacts"));
+    }
+    for (topic, number) in &others {
+        account.lost(*number, format!("messages of {topic}, which CSV has no columns for"));
+    }
+    let mut schema = Schema::default().time();
+    for index in 0..found.len() {
+        let name = name(&found, index, account);
+        let Some(columns) = found.get_mut(index) else { continue };
+        columns.start = schema.names().len();
+        schema = match &columns.kind {
+            What::Wrench => schema.wrench(&name),
+            What::Signals(unit) => {
+                let unit = unit_of(unit);
+                if columns.topic.ends_with("/dummy") && columns.width == 1 {
+                    schema.dummy(&name, unit)
+                } else {
+                    schema.signals(&name, columns.width, unit)
+                }
+            }
+            What::Contact => schema.contact(),
+            What::Other => schema,
+        };
+    }
+    let mut names = schema.names().to_vec();
+    names.sort_unstable();
+    if let Some([twice, _]) = names.array_windows().find(|[a, b]| a == b) {
+        return Err(fault(input, format!("two topics would both be the column {twice}; rename one of them")));
+    }
+    Ok((schema, found))
+}
+
+/// The name of the sensor of a topic, as the prefix of its columns: nothing for our own topics without one,
+/// and for the only topic of its kind.
+fn name(found: &[Columns], index: usize, account: &mut Account) -> String {
+    let Some(columns) = found.get(index) else { return String::new() };
+    let own = columns.topic.strip_prefix("/fingertip/");
+    if let Some((path, _)) = own.map(|path| path.rsplit_once('/').unwrap_or(("", path))) {
+        return path.to_owned();
+    }
+    let same =
+        |other: &&Columns| core::mem::discriminant(&other.kind) == core::mem::discriminant(&columns.kind);
+    if found.iter().filter(same).count() == 1 {
+        account.notes.push(format!("topic {} has the columns without a name", columns.topic));
+        return String::new();
+    }
+    let plain = columns.topic.trim_matches('/').replace(|letter: char| !letter.is_alphanumeric(), "-");
+    account.notes.push(format!("topic {} has the columns {plain}_…", columns.topic));
+    plain
+}

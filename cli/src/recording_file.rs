@@ -1,0 +1,76 @@
+//! The file of a recording, read or written: CSV or MCAP, by its ending.
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufReader, BufWriter};
+use std::path::Path;
+
+use fingertip_drivers::recording::mcap::{McapError, McapReader};
+use fingertip_drivers::recording::{RecordingError, SignalUnit};
+
+use crate::error::CliError;
+
+/// Name of the frame in MCAP files.
+pub(crate) const FRAME: &str = "fingertip_sensor";
+
+/// What the ending of a name says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Csv,
+    Mcap,
+}
+
+impl Kind {
+    pub(crate) fn of(path: &Path) -> Result<Self, CliError> {
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        match ending.as_deref() {
+            Some("csv" | "txt") => Ok(Self::Csv),
+            Some("mcap") => Ok(Self::Mcap),
+            _ => Err(CliError::UnknownEnding { path: path.to_owned() }),
+        }
+    }
+}
+
+/// Creates a file; one that exists is written over only if that is wanted.
+pub(crate) fn create(path: &Path, force: bool) -> Result<BufWriter<File>, CliError> {
+    let mut options = OpenOptions::new();
+    let options = if force { options.create(true).truncate(true) } else { options.create_new(true) };
+    options.write(true).open(path).map(BufWriter::new).map_err(|source| match source.kind() {
+        io::ErrorKind::AlreadyExists => {
+            let source = io::Error::new(source.kind(), "it exists already; give another name, or --force");
+            CliError::write("recording", path, source)
+        }
+        _ => CliError::write("recording", path, source),
+    })
+}
+
+/// The bytes of an MCAP recording.
+pub(crate) fn bytes(path: &Path) -> Result<BufReader<File>, CliError> {
+    File::open(path).map(BufReader::new).map_err(|source| CliError::read("recording", path, source))
+}
+
+/// The entries of an MCAP recording.
+pub(crate) fn open(path: &Path) -> Result<McapReader<BufReader<File>>, CliError> {
+    McapReader::new(bytes(path)?).map_err(|error| mcap(path, &error))
+}
+
+/// The unit that a message of signals states.
+pub(crate) fn unit(name: &str) -> SignalUnit {
+    match name {
+        "V" => SignalUnit::Volts,
+        "counts" => SignalUnit::Counts,
+        _ => SignalUnit::Unstated,
+    }
+}
+
+/// An error of a CSV file that is written, with its name.
+pub(crate) fn csv(path: &Path, error: RecordingError) -> CliError {
+    match error {
+        RecordingError::Write { source } => CliError::write("recording", path, source),
+        other => CliError::Recording(other),
+    }
+}
+
+/// An error of an MCAP file, with its name.
+pub(crate) fn mcap(path: &Path, error: &McapError) -> CliError {
+    CliError::Mcap { path: path.to_owned(), message: error.to_string() }
+}
