@@ -2,14 +2,9 @@
 
 use fingertip_surfaces::testing::ball_of_triangles;
 use fingertip_surfaces::{
-<<<<<<< HEAD
-    CappedCylinder, Capsule, Cone, Cylinder, CylinderEnds, Ellipsoid, EllipticCylinder, Frustum, Implicit,
-    Knot, Offset, Paraboloid, Plane, Revolution, RoundedBox, Sphere, Superquadric, Torus,
-=======
     CappedCylinder, Capsule, Compound, Cone, Cylinder, CylinderEnds, Disk, DynSurface, Ellipsoid,
     EllipticCylinder, Frustum, HalfSpace, Heightfield, Implicit, Knot, Mesh, Offset, Paraboloid, Parts,
     Plane, Posed, Rectangle, Revolution, RoundedBox, Sphere, SphericalCap, Superquadric, Torus, Trimmed,
->>>>>>> audit5
 };
 use fingertip_wrench::{Real, RigidTransform};
 use nalgebra::Vector3;
@@ -48,48 +43,9 @@ pub(crate) fn elliptic_cylinder<T: Real>() -> EllipticCylinder<T> {
     EllipticCylinder::new([T::literal(0.007), T::literal(0.012)], CylinderEnds::Unbounded).unwrap()
 }
 
-pub(crate) fn closed_elliptic_cylinder<T: Real>() -> EllipticCylinder<T> {
-    EllipticCylinder::new([T::literal(0.007), T::literal(0.012)], CylinderEnds::Capped(T::literal(0.009)))
-        .unwrap()
-}
-
-pub(crate) fn capped_cylinder<T: Real>() -> CappedCylinder<T> {
-    let number = T::literal;
-    let centre = Vector3::new(number(0.001), number(0.0), number(-0.002));
-    let axis = Vector3::new(number(0.2), number(0.1), number(1.0));
-    CappedCylinder::new(centre, axis, number(0.007), number(0.011)).unwrap()
-}
-
-fn tapered<T: Real>(top: f64) -> Frustum<T> {
-    let number = T::literal;
-    let base = Vector3::new(number(0.001), number(0.0), number(-0.008));
-    let axis = Vector3::new(number(0.1), number(0.1), number(1.0));
-    Frustum::new(base, axis, number(0.016), number(0.009), number(top)).unwrap()
-}
-
-pub(crate) fn frustum<T: Real>() -> Frustum<T> {
-    tapered(0.005)
-}
-
-/// A closed cone.
-pub(crate) fn spike<T: Real>() -> Frustum<T> {
-    tapered(0.0)
-}
-
 /// A surface of revolution that is straight.
 pub(crate) fn tube<T: Real>() -> Revolution<T, [Knot<T>; 3]> {
     Revolution::from_profile([0.0, 0.006, 0.012].map(|z| [T::literal(z), T::literal(0.008)])).unwrap()
-}
-
-/// A surface of revolution that is curved everywhere.
-pub(crate) fn gel_tip<T: Real>() -> Revolution<T, [Knot<T>; 5]> {
-    let profile = [[0.000, 0.0080], [0.004, 0.0080], [0.008, 0.0074], [0.012, 0.0052], [0.014, 0.0]];
-    Revolution::from_profile(profile.map(|point| point.map(T::literal))).unwrap()
-}
-
-/// A skin over an ellipsoid.
-pub(crate) fn skin<T: Real>() -> Offset<T, Ellipsoid<T>> {
-    Offset::new(ellipsoid(), T::literal(0.002)).unwrap()
 }
 
 pub(crate) fn cone<T: Real>() -> Cone<T> {
@@ -170,6 +126,12 @@ pub(crate) fn closed_elliptic_cylinder<T: Real>() -> EllipticCylinder<T> {
 pub(crate) fn frustum<T: Real>() -> Frustum<T> {
     let (base, axis) = (vector(0.001, 0.0, -0.008), vector(0.1, 0.2, 1.0));
     Frustum::new(base, axis, T::literal(0.016), T::literal(0.010), T::literal(0.006)).unwrap()
+}
+
+/// A closed cone.
+pub(crate) fn spike<T: Real>() -> Frustum<T> {
+    let (base, axis) = (vector(0.001, 0.0, -0.008), vector(0.1, 0.1, 1.0));
+    Frustum::new(base, axis, T::literal(0.016), T::literal(0.009), T::zero()).unwrap()
 }
 
 pub(crate) fn revolution<T: Real>() -> Revolution<T, [Knot<T>; 5]> {
