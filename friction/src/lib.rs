@@ -17,6 +17,7 @@ mod likelihood_ratio;
 mod limit_curve;
 mod load_dependent;
 mod model;
+mod normal;
 mod pressure;
 mod ratio_tracker;
 pub mod run_length;

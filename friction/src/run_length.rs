@@ -1,7 +1,7 @@
 //! How long a change detector runs between false alarms, and the threshold for a wanted rate.
 
 use crate::BadDetector;
-use crate::uncertain::normal_distribution;
+use crate::normal::normal_distribution;
 
 /// Siegmund's correction for the overshoot over both boundaries: `2 · 0.583`.
 const OVERSHOOT: f64 = 1.166;

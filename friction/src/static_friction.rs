@@ -2,7 +2,7 @@
 
 use fingertip_wrench::{ContactForce, Real, stored};
 
-use crate::uncertain::normal_quantile;
+use crate::normal::normal_quantile;
 use crate::{BadDetector, BadNoise, ForceNoise, NormalForceGate};
 
 /// Half the width of the moving mean over the ratios.

@@ -1,9 +1,11 @@
 //! Linear algebra that the fits stand on.
 
+mod factors;
 mod pairs;
 mod singular;
 mod triangular;
 
+pub use factors::{Factors, Unobserved};
 pub use pairs::pairs;
 pub use singular::{Singular, pseudo_inverse};
-pub use triangular::{Factors, Triangular, Unobserved};
+pub use triangular::Triangular;

@@ -2,10 +2,14 @@
 
 mod carrying;
 mod columns;
+mod header;
 mod merge;
+mod reader;
+mod rest;
 mod table;
 mod text;
 
 pub use columns::Columns;
+pub use reader::{LoadReader, LoadRow};
+pub use rest::{Rest, signals_from_csv};
 pub use table::{LoadError, LoadTable, Zeros};
-pub use text::{LoadReader, LoadRow, Rest, signals_from_csv};

@@ -5,8 +5,9 @@ use embedded_hal::spi::ErrorType as BusErrorType;
 use fingertip_wrench::Real;
 use nalgebra::SVector;
 
+use super::configuration::Configuration;
 use super::scan::Scan;
-use super::wire::{Configuration, Data, FastCommand, Register, Request, Status, parse_answer};
+use super::wire::{Data, FastCommand, Register, Request, Status, parse_answer};
 use crate::converter::{
     Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, parts, ready_in_time,
     ready_in_time_async, sources,

@@ -60,6 +60,7 @@
 //! learned; nor could the time that a reset takes (10 µs are given), nor how far beyond full scale a conversion
 //! is good (it is taken for clipped there).
 
+mod configuration;
 mod driver;
 mod scan;
 mod wire;
@@ -67,11 +68,9 @@ mod wire;
 #[cfg(feature = "simulation")]
 mod simulator;
 
+pub use configuration::{Channel, Clock, Configuration, Gain, Oversampling, Reference};
 pub use driver::{AsyncMcp3564, Mcp3564};
-pub use wire::{
-    Channel, Clock, Configuration, Data, FastCommand, Gain, Oversampling, Reference, Register, Request,
-    Status,
-};
+pub use wire::{Data, FastCommand, Register, Request, Status};
 
 #[cfg(feature = "simulation")]
 pub use simulator::SimulatedMcp3564;

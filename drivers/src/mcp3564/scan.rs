@@ -1,6 +1,7 @@
 //! Cycles of inputs from single conversions.
 
-use super::wire::{Channel, Data};
+use super::configuration::Channel;
+use super::wire::Data;
 
 /// Puts conversions together to cycles through `N` inputs.
 ///

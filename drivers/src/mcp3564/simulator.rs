@@ -4,7 +4,8 @@ use alloc::boxed::Box;
 use alloc::collections::VecDeque;
 use core::fmt;
 
-use super::wire::{Data, FastCommand, Gain, Register, Request, Status, checksum};
+use super::configuration::Gain;
+use super::wire::{Data, FastCommand, Register, Request, Status, checksum};
 use crate::converter::{SimulatedConverter, SimulatedDevice};
 
 /// An MCP3564 of device address 1 with its clock of 4.9152 MHz, to be put on a

@@ -1,0 +1,147 @@
+//! Tables of loads row by row.
+
+use std::io::Read;
+
+use super::LoadError;
+use super::header::{Column, bad, layout, parse_name};
+use crate::Axis;
+use crate::file::SignalUnit;
+
+/// Reads a table of loads row by row, in the memory of one row: the format of
+/// [`LoadTable::from_csv`](super::LoadTable::from_csv).
+#[derive(Debug)]
+pub struct LoadReader<R> {
+    csv: csv::Reader<R>,
+    record: csv::StringRecord,
+    header: csv::StringRecord,
+    columns: Vec<Column>,
+    axes: Vec<Axis>,
+    unit: SignalUnit,
+    row: LoadRow,
+}
+
+/// One row of a table of loads.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LoadRow {
+    /// Line of the file, counting from 1.
+    pub line: u64,
+    /// The known load \[N, N·m\], in the order of the axes.
+    pub loads: Vec<f64>,
+    /// The readings.
+    pub signals: Vec<f64>,
+    /// Time \[s\].
+    pub time: Option<f64>,
+    /// Temperature \[°C\].
+    pub temperature: Option<f64>,
+    /// Weight.
+    pub weight: Option<f64>,
+    /// Quaternion x, y, z, w.
+    pub orientation: Option<[f64; 4]>,
+    /// What to call the sample.
+    pub name: Option<String>,
+    /// Its load case.
+    pub case: Option<String>,
+    /// Its group.
+    pub group: Option<String>,
+}
+
+impl<R: Read> LoadReader<R> {
+    /// Reads the header.
+    ///
+    /// # Errors
+    /// [`LoadError::BadText`], naming the column.
+    pub fn new(reader: R) -> Result<Self, LoadError> {
+        let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(reader);
+        let header = csv.headers().map_err(|error| bad(1, "", error.to_string()))?.clone();
+        let columns = header
+            .iter()
+            .map(|name| parse_name(name).map_err(|message| bad(1, name, message)))
+            .collect::<Result<Vec<_>, _>>()?;
+        let (axes, gauges, unit) = layout(&columns).map_err(|(column, message)| bad(1, &column, message))?;
+        let parts: Vec<usize> = columns
+            .iter()
+            .filter_map(|column| if let Column::Quaternion(part) = column { Some(*part) } else { None })
+            .collect();
+        let whole = parts.len() == 4 && (0..4).all(|part| parts.contains(&part));
+        if !(parts.is_empty() || whole) {
+            return Err(bad(1, "qx", "an orientation takes qx, qy, qz and qw, each once".to_owned()));
+        }
+        let row = LoadRow {
+            loads: vec![0.0; axes.len()],
+            signals: vec![0.0; gauges],
+            orientation: (!parts.is_empty()).then_some([0.0; 4]),
+            ..LoadRow::default()
+        };
+        Ok(Self { csv, record: csv::StringRecord::new(), header, columns, axes, unit, row })
+    }
+
+    /// The axes that have loads.
+    #[must_use]
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// How many gauges there are.
+    #[must_use]
+    pub fn gauges(&self) -> usize {
+        self.row.signals.len()
+    }
+
+    /// Unit of the readings.
+    #[must_use]
+    pub const fn signal_unit(&self) -> SignalUnit {
+        self.unit
+    }
+
+    /// Names of the columns that are not used.
+    #[must_use]
+    pub fn ignored(&self) -> Vec<String> {
+        let ignored = self.header.iter().zip(&self.columns).filter(|(_, column)| **column == Column::Ignored);
+        ignored.map(|(name, _)| name.to_owned()).collect()
+    }
+
+    /// The next row; `None` at the end.
+    ///
+    /// # Errors
+    /// [`LoadError::BadText`], naming line and column.
+    pub fn next_row(&mut self) -> Result<Option<&LoadRow>, LoadError> {
+        let more = self.csv.read_record(&mut self.record).map_err(|error| {
+            let line = error.position().map_or(0, csv::Position::line);
+            bad(line, "", error.to_string())
+        })?;
+        if !more {
+            return Ok(None);
+        }
+        let line = self.record.position().map_or(0, csv::Position::line);
+        let row = &mut self.row;
+        row.line = line;
+        for ((column, name), text) in self.columns.iter().zip(&self.header).zip(&self.record) {
+            let number = || match text.parse::<f64>() {
+                Ok(number) if number.is_finite() => Ok(number),
+                Ok(_) => Err(bad(line, name, format!("{text:?} is not a finite number"))),
+                Err(_) => Err(bad(line, name, format!("{text:?} is not a number"))),
+            };
+            match *column {
+                Column::Load(axis, size) => {
+                    if let Some(slot) = self.axes.iter().position(|a| *a == axis) {
+                        row.loads[slot] = number()? * size;
+                    }
+                }
+                Column::Signal(gauge, _, size) => row.signals[gauge] = number()? * size,
+                Column::Time => row.time = Some(number()?),
+                Column::Temperature => row.temperature = Some(number()?),
+                Column::Weight => row.weight = Some(number()?),
+                Column::Quaternion(part) => {
+                    if let Some(orientation) = &mut row.orientation {
+                        orientation[part] = number()?;
+                    }
+                }
+                Column::Case => row.case = Some(text.to_owned()),
+                Column::Group => row.group = Some(text.to_owned()),
+                Column::Name => row.name = Some(text.to_owned()),
+                Column::Ignored => {}
+            }
+        }
+        Ok(Some(row))
+    }
+}
