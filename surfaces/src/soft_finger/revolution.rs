@@ -72,6 +72,6 @@ impl<T: Real, K: AsRef<[Knot<T>]>> SoftFingerSurface<T> for Revolution<T, K> {
     }
 
     fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
-        self.turned(point.z)
+        self.patch_at(point.z)
     }
 }
