@@ -15,13 +15,15 @@ use super::split::{Group, Item};
 
 /// Levels of nodes in any tree: enough for 2³² triangles by halves.
 const MOST_LEVELS: usize = 14;
+/// Lists are cleared for every line: they are short where that is done word by word.
+const IS_WIDE: bool = cfg!(target_pointer_width = "64");
 /// Nodes on a line's list of those to be looked at: as long as there are no more, they are looked at in the
 /// order in which they were found, level by level.
-const MANY_OPEN: usize = 128;
+const MANY_OPEN: usize = if IS_WIDE { 128 } else { 16 };
 /// Then the last comes first, so that one node of a level is exchanged for its children at a time.
 const MOST_OPEN: usize = MANY_OPEN + WIDTH + (WIDTH - 1) * MOST_LEVELS + WIDTH;
 /// Packets that are collected before they are looked at.
-const MOST_LEAVES: usize = 64;
+const MOST_LEAVES: usize = if IS_WIDE { 64 } else { 24 };
 const ROOT: u32 = 0;
 
 #[derive(Clone, Debug, PartialEq)]

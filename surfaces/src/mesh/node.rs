@@ -27,10 +27,11 @@ impl Grid {
     /// times [`Probe::UNIT`](super::probe::Probe::UNIT), keeps within 32 bits.
     const EXTENT: f64 = 20_000.0;
     /// A line whose direction is rounded to a [`UNIT`](super::probe::Probe::UNIT)th leaves its place by
-    /// less than half that times the distance from where it is known, and none within the mesh is
-    /// greater than twice the mesh's radius: 2·√3·20000/2/32767.
-    const LEAVE: f64 = 1.06;
-    /// Epsilons of the mesh's size that all rounding in the test on a triangle is below.
+    /// half that times the distance from where it is known, and none within the mesh is greater than twice
+    /// the mesh's radius: 2·√3·20000/2/32767. In single precision the half may be 32767/2²³ more.
+    const LEAVE: f64 = 1.07;
+    /// Epsilons of the mesh's size that all rounding in the test on a triangle is below, and in what a line
+    /// is on the grid.
     const ROUNDINGS: f64 = 64.0;
 
     /// That of a mesh which lies in a box.
@@ -41,6 +42,12 @@ impl Grid {
         let steps_per_unit = extents.map(|extent| Self::EXTENT / if is_even { greatest } else { extent });
         let rounding = Self::ROUNDINGS * T::EPSILON.to_f64() * greatest;
         Self { steps_per_unit, is_even, margin: (steps_per_unit * rounding).add_scalar(Self::LEAVE) }
+    }
+
+    /// In steps, if these are the same along all axes.
+    #[inline]
+    pub(super) fn in_steps<T: Real>(&self, of: &Vector3<T>) -> Vector3<T> {
+        of * T::literal(self.steps_per_unit.x)
     }
 
     /// In steps.

@@ -75,14 +75,19 @@ impl<T: Real> RoundedBox<T> {
         })
     }
 
+    /// At a sharp edge, the normal of the face that a line comes to: so as it is a hair before.
+    #[cold]
+    #[inline(never)]
+    fn normal_before(&self, point: &Vector3<T>, direction: &Vector3<T>) -> Vector3<T> {
+        self.normal(&(point - direction * (self.bounds().1 * (T::EPSILON * T::literal(16.0)))))
+    }
+
     #[inline]
     fn crossing(&self, start: &Vector3<T>, direction: &Vector3<T>, t: T, along: T) -> Crossing<T> {
         let point = start + direction * t;
         let mut normal = self.normal(&point);
         if normal.dot(direction) > T::zero() {
-            // At a sharp edge, that of the other face: so as it is a hair before.
-            let hair = self.bounds().1 * (T::EPSILON * T::literal(16.0));
-            normal = self.normal(&(start + direction * (t - hair)));
+            normal = self.normal_before(&point, direction);
         }
         Crossing { along, point, normal, active: true }
     }
