@@ -162,7 +162,7 @@ where
     let mut random = Random::new(101);
     let mut worst = [0.0_f64; 2];
     for (model, worst) in Model::both(law, share).iter().zip(&mut worst) {
-        for _ in 0..40 {
+        for _ in 0..20 {
             let wrench = wrench_through(&mut random, surface, &law, share, model.spin());
             let found = model.found(&wrench, surface);
             let jacobian = model.jacobian(&found, &wrench, surface);
@@ -242,7 +242,7 @@ where
     let mut random = Random::new(103);
     let mut worst = 0.0_f64;
     for model in &Model::both(law, 0.9) {
-        for _ in 0..100 {
+        for _ in 0..25 {
             let wrench = wrench_through(&mut random, surface, &law, 0.9, model.spin());
             let found = model.found(&wrench, surface);
             let jacobian = model.jacobian(&found, &wrench, surface);

@@ -35,7 +35,17 @@ fn monte_carlo<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
     let case = loop {
         let spins = if soft { [0.1, 0.5] } else { [1e-12, 1e-11] };
         let case = Case::random(&mut random, surface, 0.017, spins, 2.0);
-        if case.incidence > 0.6 {
+        // Where the noise, of some hundredths of a millimetre, sees no edge and no fold, and no apex.
+        let bend = surface.shape_operator(&case.point);
+        let curvature = (bend.trace().powi(2) - bend.norm_squared()) / 2.0;
+        let pressing = case.wrench.force().dot(&case.normal).powi(2);
+        let steady = case.spin.powi(2) * curvature + pressing > 0.3 * pressing && bend.norm() < 500.0;
+        let aside = case.normal.cross(&random.direction()).normalize() * 5e-4;
+        let other = case.normal.cross(&aside);
+        let smooth = [aside, -aside, other, -other]
+            .iter()
+            .all(|step| surface.normal(&(case.point + step)).dot(&case.normal) > 0.9);
+        if case.incidence > 0.6 && steady && smooth {
             break case;
         }
     };
@@ -149,28 +159,40 @@ fn position_covariance_of_any_load() {
 
 #[test]
 fn covariance_matches_monte_carlo() {
-    for seed in 0..3 {
-        for soft in [false, true] {
-            let found = [
-                ("sphere", monte_carlo(&common::sphere::<f64>(), soft, seed)),
-                ("ellipsoid", monte_carlo(&common::ellipsoid::<f64>(), soft, seed)),
-                ("cylinder", monte_carlo(&common::cylinder::<f64>(), soft, seed)),
-                ("plane", monte_carlo(&common::plane::<f64>(), soft, seed)),
-                ("capsule", monte_carlo(&common::capsule::<f64>(), soft, seed)),
-            ];
-            for (name, (deviation, coverage)) in found {
+    macro_rules! check {
+        ($($shape:ident),+) => {
+            $(for soft in [false, true] {
+                let (deviation, coverage) = monte_carlo(&common::$shape::<f64>(), soft, 0);
                 println!(
-                    "{name:10} soft {soft:5} Monte Carlo deviates {:.2} %, 95 % ellipse holds {:.2} %",
+                    "{:18} soft {soft:5} Monte Carlo deviates {:.2} %, 95 % ellipse holds {:.2} %",
+                    stringify!($shape),
                     100.0 * deviation,
                     100.0 * coverage
                 );
                 assert!(
                     deviation < 0.03 && (0.94..=0.96).contains(&coverage),
-                    "{name} {deviation} {coverage}"
+                    "{} {deviation} {coverage}",
+                    stringify!($shape)
                 );
-            }
-        }
+            })+
+        };
     }
+    check!(
+        sphere,
+        ellipsoid,
+        cylinder,
+        plane,
+        capsule,
+        cone,
+        frustum,
+        elliptic_cylinder,
+        paraboloid,
+        torus,
+        superquadric,
+        rounded_box,
+        revolution,
+        posed
+    );
 }
 
 #[test]
@@ -460,7 +482,7 @@ fn all_convex_bounds(count: usize, of_slow_shapes: usize) {
 
 #[test]
 fn convex_bound_is_never_violated() {
-    all_convex_bounds(3000, 500);
+    all_convex_bounds(2000, 300);
 }
 
 #[test]
