@@ -491,6 +491,82 @@ fn convex_bound_is_never_violated_in_a_million() {
     all_convex_bounds(1_000_000, 1_000_000);
 }
 
+/// In single precision, whose rounding of wrench and shape counts as errors of these; that of the answer is
+/// the bound's own affair.
+#[test]
+fn convex_bound_holds_in_single_precision() {
+    fn check<S: ActiveSurface<f32>, D: ActiveSurface<f64>>(
+        name: &str,
+        single: &S,
+        exact: &D,
+        size: f64,
+        reach: f32,
+    ) {
+        let mut random = Random::new(48);
+        let model = PointContact::new(0.0_f32).unwrap().accepting_gap(1.0).unwrap();
+        let (mut none, mut ratios) = (0, Vec::new());
+        let (count, rounding) = (5000, f64::from(f32::EPSILON));
+        for _ in 0..count {
+            let (point, normal) = random.place(exact, size);
+            let force = if random.sign() > 0.0 {
+                random.force(&normal, 0.0, 1.0)
+            } else {
+                let across = random.direction().cross(&normal).normalize();
+                (across - normal * random.log_uniform(1e-6, 1.0)).normalize()
+            };
+            let relative = random.log_uniform(1e-8, 0.1);
+            let (force, torque): (Vector3<f64>, _) = (
+                force + random.direction() * relative,
+                point.cross(&force) + random.direction() * (relative * size),
+            );
+            let measured = Wrench::on_fingertip(force.cast::<f32>(), torque.cast::<f32>());
+            let errors = WorstErrors {
+                force: (relative + 2.0 * rounding) as f32,
+                torque: (relative * size + 2.0 * rounding * torque.norm()) as f32,
+                radius: (2.0 * rounding * size) as f32,
+                centre: 0.0,
+            };
+            let Some(contact) = model.resolve(&measured, single).contact().copied() else {
+                none += 1;
+                continue;
+            };
+            let Some(bound) = ConvexBound::new(single, &measured, &errors, reach) else {
+                none += 1;
+                continue;
+            };
+            let error = (contact.point.cast::<f64>() - point).norm();
+            assert!(
+                error <= f64::from(bound.distance),
+                "{name}: {error:e} {bound:?} {measured:?} {errors:?}"
+            );
+            // Of errors that are not rounding themselves.
+            if relative > 1e-4 {
+                ratios.push(f64::from(bound.distance) / error);
+            }
+        }
+        ratios.sort_by(f64::total_cmp);
+        let median = ratios[ratios.len() / 2];
+        println!(
+            "f32 {name:16} rigorous bound n={count}: 0 violated, median bound/error {median:.2}, none {none}"
+        );
+        assert!(median <= 5.0 && none * 4 < count, "{name} {median} {none}");
+    }
+    macro_rules! check {
+        ($($shape:ident $size:literal $reach:literal),+) => {
+            $(check(stringify!($shape), &common::$shape::<f32>(), &common::$shape::<f64>(), $size, $reach);)+
+        };
+    }
+    check!(
+        sphere 0.017 0.0171,
+        ellipsoid 0.017 0.0171,
+        plane 0.017 0.031,
+        capsule 0.017 0.0132,
+        frustum 0.014 0.0147,
+        cone 0.017 0.031,
+        mesh 0.012 0.0122
+    );
+}
+
 /// With an uncertain shape: the truth is an ellipsoid that lies within the tolerance.
 #[test]
 fn convex_bound_holds_for_an_uncertain_shape() {
