@@ -2,8 +2,8 @@
 
 use fingertip_surfaces::{
     Compliant, CompliantContact, CompliantPointContact, CompliantSoftFinger, Contact, ContactCovariance,
-    ContactJacobian, ContactModel, Ellipsoid, GeometrySensitivity, Hertz, Indentation, LinearStiffness,
-    LocalHertz, PointContact, PowerLaw, ShapeParameters, SkinLaw, SmoothSurface, SoftFinger,
+    ContactJacobian, ContactModel, DynSurface, Ellipsoid, GeometrySensitivity, Hertz, Indentation,
+    LinearStiffness, LocalHertz, PointContact, PowerLaw, ShapeParameters, SkinLaw, SmoothSurface, SoftFinger,
     SoftFingerSurface, Sphere, StiffnessLaw, Tabulated,
 };
 use fingertip_wrench::{Real, Wrench};
@@ -212,7 +212,7 @@ fn by_wrench() {
         ($shape:ident, $law:ident) => {
             through(
                 concat!(stringify!($shape), ", ", stringify!($law)),
-                (&common::$shape::<f64>(), &common::$shape::<Dual>()),
+                (&DynSurface::from(common::$shape::<f64>()), &DynSurface::from(common::$shape::<Dual>())),
                 ($law::<f64>(), $law::<Dual>()),
                 1e-12,
             );

@@ -1,7 +1,7 @@
 //! Covariance against Monte Carlo, bounds against the worst that can be done.
 
 use fingertip_surfaces::{
-    ActiveSurface, Contact, ContactCovariance, ContactJacobian, ContactModel, ConvexBound,
+    ActiveSurface, Contact, ContactCovariance, ContactJacobian, ContactModel, ConvexBound, DynSurface,
     GeometryUncertainty, PaperBounds, PointContact, SensorUncertainty, SmoothSurface, SoftFinger,
     SoftFingerSurface, Sphere, WorstErrors, WrenchNoise, shape_operator_by_differences,
 };
@@ -162,7 +162,7 @@ fn covariance_matches_monte_carlo() {
     macro_rules! check {
         ($($shape:ident),+) => {
             $(for soft in [false, true] {
-                let (deviation, coverage) = monte_carlo(&common::$shape::<f64>(), soft, 0);
+                let (deviation, coverage) = monte_carlo(&DynSurface::from(common::$shape()), soft, 0);
                 println!(
                     "{:18} soft {soft:5} Monte Carlo deviates {:.2} %, 95 % ellipse holds {:.2} %",
                     stringify!($shape),
@@ -453,30 +453,48 @@ fn convex_bound<S: ActiveSurface<f64>>(
 }
 
 fn all_convex_bounds(count: usize, of_slow_shapes: usize) {
-    // How far from the origin a contact can be: of a bounded shape its size, of an unbounded one what
+    // Through `DynSurface`, which is compiled once. How far from the origin a contact can be: of a bounded shape its size, of an unbounded one what
     // `Random::place` goes to.
-    convex_bound("sphere", &common::sphere::<f64>(), [0.017, 0.017], count, 41);
-    convex_bound("ellipsoid", &common::ellipsoid::<f64>(), [0.017, 0.017], count, 42);
-    convex_bound("cylinder", &common::cylinder::<f64>(), [0.017, 0.031], count, 43);
-    convex_bound("capsule", &common::capsule::<f64>(), [0.017, 0.0131], count, 44);
-    convex_bound("rounded box", &common::rounded_box::<f64>(), [0.017, 0.0183], of_slow_shapes, 45);
-    convex_bound("superquadric", &common::superquadric::<f64>(), [0.017, 0.0184], of_slow_shapes, 46);
-    convex_bound("plane", &common::plane::<f64>(), [0.017, 0.031], count, 141);
-    convex_bound("disk", &common::disk::<f64>(), [0.017, 0.031], count, 142);
-    convex_bound("rectangle", &common::rectangle::<f64>(), [0.017, 0.031], count, 143);
-    convex_bound("spherical cap", &common::spherical_cap::<f64>(), [0.017, 0.017], count, 144);
-    convex_bound("cone", &common::cone::<f64>(), [0.017, 0.031], count, 145);
-    convex_bound("frustum", &common::frustum::<f64>(), [0.014, 0.0146], count, 146);
-    convex_bound("capped cylinder", &common::capped_cylinder::<f64>(), [0.014, 0.015], count, 147);
-    convex_bound("elliptic cyl.", &common::elliptic_cylinder::<f64>(), [0.017, 0.031], count, 148);
-    convex_bound("closed ell. cyl.", &common::closed_elliptic_cylinder::<f64>(), [0.014, 0.0157], count, 149);
-    convex_bound("paraboloid", &common::paraboloid::<f64>(), [0.017, 0.031], count, 150);
-    convex_bound("gel tip", &common::revolution::<f64>(), [0.014, 0.0141], of_slow_shapes, 151);
+    convex_bound("sphere", &DynSurface::from(common::sphere()), [0.017, 0.017], count, 41);
+    convex_bound("ellipsoid", &DynSurface::from(common::ellipsoid()), [0.017, 0.017], count, 42);
+    convex_bound("cylinder", &DynSurface::from(common::cylinder()), [0.017, 0.031], count, 43);
+    convex_bound("capsule", &DynSurface::from(common::capsule()), [0.017, 0.0131], count, 44);
+    convex_bound(
+        "rounded box",
+        &DynSurface::from(common::rounded_box()),
+        [0.017, 0.0183],
+        of_slow_shapes,
+        45,
+    );
+    convex_bound(
+        "superquadric",
+        &DynSurface::from(common::superquadric()),
+        [0.017, 0.0184],
+        of_slow_shapes,
+        46,
+    );
+    convex_bound("plane", &DynSurface::from(common::plane()), [0.017, 0.031], count, 141);
+    convex_bound("disk", &DynSurface::from(common::disk()), [0.017, 0.031], count, 142);
+    convex_bound("rectangle", &DynSurface::from(common::rectangle()), [0.017, 0.031], count, 143);
+    convex_bound("spherical cap", &DynSurface::from(common::spherical_cap()), [0.017, 0.017], count, 144);
+    convex_bound("cone", &DynSurface::from(common::cone()), [0.017, 0.031], count, 145);
+    convex_bound("frustum", &DynSurface::from(common::frustum()), [0.014, 0.0146], count, 146);
+    convex_bound("capped cylinder", &DynSurface::from(common::capped_cylinder()), [0.014, 0.015], count, 147);
+    convex_bound("elliptic cyl.", &DynSurface::from(common::elliptic_cylinder()), [0.017, 0.031], count, 148);
+    convex_bound(
+        "closed ell. cyl.",
+        &DynSurface::from(common::closed_elliptic_cylinder()),
+        [0.014, 0.0157],
+        count,
+        149,
+    );
+    convex_bound("paraboloid", &DynSurface::from(common::paraboloid()), [0.017, 0.031], count, 150);
+    convex_bound("gel tip", &DynSurface::from(common::revolution()), [0.014, 0.0141], of_slow_shapes, 151);
     convex_bound("grown ellipsoid", &common::grown_ellipsoid::<f64>(), [0.019, 0.019], of_slow_shapes, 152);
     convex_bound("grown cylinder", &common::grown_cylinder::<f64>(), [0.017, 0.018], of_slow_shapes, 153);
-    convex_bound("mesh", &common::mesh::<f64>(), [0.012, 0.0121], of_slow_shapes, 154);
-    convex_bound("posed", &common::posed::<f64>(), [0.014, 0.018], count, 155);
-    convex_bound("trimmed", &common::trimmed::<f64>(), [0.017, 0.017], count, 156);
+    convex_bound("mesh", &DynSurface::from(common::mesh()), [0.012, 0.0121], of_slow_shapes, 154);
+    convex_bound("posed", &DynSurface::from(common::posed()), [0.014, 0.018], count, 155);
+    convex_bound("trimmed", &DynSurface::from(common::trimmed()), [0.017, 0.017], count, 156);
     convex_bound("implicit", &common::pillow::<f64>(), [0.012, 0.0121], of_slow_shapes, 157);
 }
 
@@ -553,7 +571,13 @@ fn convex_bound_holds_in_single_precision() {
     }
     macro_rules! check {
         ($($shape:ident $size:literal $reach:literal),+) => {
-            $(check(stringify!($shape), &common::$shape::<f32>(), &common::$shape::<f64>(), $size, $reach);)+
+            $(check(
+                stringify!($shape),
+                &DynSurface::from(common::$shape::<f32>()),
+                &DynSurface::from(common::$shape::<f64>()),
+                $size,
+                $reach,
+            );)+
         };
     }
     check!(
