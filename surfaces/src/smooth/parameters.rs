@@ -5,9 +5,9 @@ use nalgebra::Vector3;
 
 use crate::numeric::vectors::unit_or;
 use crate::{
-    ActiveSurface, CappedCylinder, Capsule, Cone, Cylinder, Ellipsoid, EllipticCylinder, Frustum,
-    GeometrySensitivity, Level, Paraboloid, Plane, RoundedBox, ShapeParameters, SmoothSurface, Sphere,
-    SphericalCap, Superquadric, Torus,
+    ActiveSurface, CappedCylinder, Capsule, Cone, Cylinder, Disk, Ellipsoid, EllipticCylinder, Frustum,
+    GeometrySensitivity, Level, Offset, Paraboloid, Plane, Posed, Rectangle, RoundedBox, ShapeParameters,
+    SignedDistance, SmoothSurface, Sphere, SphericalCap, Superquadric, Torus, Trimmed,
 };
 
 /// The radius.
@@ -35,6 +35,46 @@ impl<T: Real> ShapeParameters<T, 1> for SphericalCap<T> {
 impl<T: Real> ShapeParameters<T, 1> for Plane<T> {
     fn sensitivities(&self, _point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
         [GeometrySensitivity::offset()]
+    }
+}
+
+/// Its height along its normal.
+impl<T: Real> ShapeParameters<T, 1> for Disk<T> {
+    fn sensitivities(&self, _point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
+        [GeometrySensitivity::offset()]
+    }
+}
+
+/// Its height along its normal.
+impl<T: Real> ShapeParameters<T, 1> for Rectangle<T> {
+    fn sensitivities(&self, _point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
+        [GeometrySensitivity::offset()]
+    }
+}
+
+/// The distance.
+impl<T: Real, S: SignedDistance<T>> ShapeParameters<T, 1> for Offset<T, S> {
+    fn sensitivities(&self, _point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
+        [GeometrySensitivity::offset()]
+    }
+}
+
+/// Those of the whole shape.
+impl<T: Real, S: ShapeParameters<T, P>, R, const P: usize> ShapeParameters<T, P> for Trimmed<S, R> {
+    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; P] {
+        self.inner().sensitivities(point)
+    }
+}
+
+/// Those of the shape, wherever it is. (How well its place is known is a matter of
+/// [`GeometryUncertainty`](crate::GeometryUncertainty).)
+impl<T: Real, S: ShapeParameters<T, P>, const P: usize> ShapeParameters<T, P> for Posed<T, S> {
+    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; P] {
+        let pose = self.sensor_from_shape();
+        let inside = pose.rotation().tr_mul(&(point - pose.origin()));
+        self.inner()
+            .sensitivities(&inside)
+            .map(|change| GeometrySensitivity { tilt: pose.rotation() * change.tilt, ..change })
     }
 }
 

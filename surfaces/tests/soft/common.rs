@@ -134,9 +134,15 @@ pub(crate) fn spike<T: Real>() -> Frustum<T> {
     Frustum::new(base, axis, T::literal(0.016), T::literal(0.009), T::zero()).unwrap()
 }
 
-pub(crate) fn revolution<T: Real>() -> Revolution<T, [Knot<T>; 5]> {
-    let profile = [[0.0, 0.0080], [0.004, 0.0080], [0.008, 0.0074], [0.012, 0.0052], [0.014, 0.0]];
-    Revolution::from_profile(profile.map(|knot| knot.map(T::literal))).unwrap()
+const GEL_TIP: [[f64; 2]; 5] =
+    [[0.0, 0.0080], [0.004, 0.0080], [0.008, 0.0074], [0.012, 0.0052], [0.014, 0.0]];
+
+pub(crate) fn gel_tip<T: Real>() -> Revolution<T, [Knot<T>; 5]> {
+    Revolution::from_profile(GEL_TIP.map(|point| point.map(T::literal))).unwrap()
+}
+
+pub(crate) fn revolution<T: Real>() -> DynSurface<T> {
+    DynSurface::Revolution(Revolution::from_points(&GEL_TIP.map(|point| point.map(T::literal))).unwrap())
 }
 
 pub(crate) fn heightfield<T: Real>() -> Heightfield<T> {
@@ -157,12 +163,13 @@ fn pose<T: Real>() -> RigidTransform<T> {
     RigidTransform::from_axis_angle(vector(1.0, 0.4, -0.3), vector(0.001, 0.002, -0.002)).unwrap()
 }
 
-pub(crate) fn posed<T: Real>() -> Posed<T, CappedCylinder<T>> {
-    Posed::new(capped_cylinder(), pose())
+pub(crate) fn posed<T: Real>() -> DynSurface<T> {
+    DynSurface::Posed(Box::new(Posed::new(capped_cylinder().into(), pose())))
 }
 
-pub(crate) fn trimmed<T: Real>() -> Trimmed<Ellipsoid<T>, HalfSpace<T>> {
-    Trimmed::new(ellipsoid(), HalfSpace::new(vector(0.0, 0.0, 0.001), vector(0.0, 0.3, 1.0)).unwrap())
+pub(crate) fn trimmed<T: Real>() -> DynSurface<T> {
+    let region = HalfSpace::new(vector(0.0, 0.0, 0.001), vector(0.0, 0.3, 1.0)).unwrap();
+    DynSurface::Trimmed(Box::new(Trimmed::new(ellipsoid().into(), region)))
 }
 
 pub(crate) fn compound<T: Real>() -> Compound<CappedCylinder<T>, Sphere<T>> {

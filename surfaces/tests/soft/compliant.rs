@@ -1,9 +1,10 @@
 //! Skins, and the choice of a model.
 
 use fingertip_surfaces::{
-    Auto, Choice, CompliantContact, CompliantPointContact, CompliantSoftFinger, Contact, ContactModel, Hertz,
-    Indentation, LinearStiffness, LocalHertz, NoContact, PointContact, PowerLaw, Resolution, SkinLaw,
-    SmoothSurface, SoftFinger, SoftFingerSurface, Sphere, StiffnessLaw, Tabulated, contact_modulus,
+    Auto, Choice, CompliantContact, CompliantPointContact, CompliantSoftFinger, Contact, ContactModel,
+    DynSurface, Hertz, Indentation, LinearStiffness, LocalHertz, NoContact, PointContact, PowerLaw,
+    Resolution, SkinLaw, SmoothSurface, SoftFinger, SoftFingerSurface, Sphere, StiffnessLaw, Tabulated,
+    contact_modulus,
 };
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix6, Vector3, Vector6};
@@ -86,10 +87,10 @@ fn local<T: Real>() -> LocalHertz<T> {
 fn contacts_through_a_skin() {
     macro_rules! through {
         ($shape:ident, $law:ident, $spin:literal, $count:literal) => {
-            let (surface, law) = (common::$shape::<f64>(), $law::<f64>());
+            let (surface, law) = (DynSurface::from(common::$shape::<f64>()), $law::<f64>());
             let name = concat!(stringify!($shape), ", ", stringify!($law));
             through_skin(name, (&surface, &surface), (&law, &law), $spin, $count);
-            let single = (&common::$shape::<f32>(), &surface);
+            let single = (&DynSurface::from(common::$shape::<f32>()), &surface);
             through_skin(concat!("f32 ", stringify!($shape)), single, (&$law::<f32>(), &law), $spin, $count);
         };
     }

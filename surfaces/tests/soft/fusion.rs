@@ -224,7 +224,7 @@ fn no_contact_pulls() {
     let fusion = Fusion::new(noise(), MU).unwrap();
     let mut random = Random::new(97);
     let (mut lifted, mut unsettled) = (0, 0);
-    for _ in 0..2000 {
+    for _ in 0..800 {
         let mut scene: Scene<3> = scene(&mut random, &surface, 1.0);
         scene.wrench = Wrench::on_fingertip(random.direction() * 4.0, random.direction() * 0.05);
         for reading in &mut scene.readings {
@@ -238,8 +238,8 @@ fn no_contact_pulls() {
             assert!(contact.grip != Grip::Lifted || contact.force == Vector3::zeros());
         }
     }
-    println!("impossible wrenches: {lifted} of 6000 contacts lifted, {unsettled} of 2000 unsettled");
-    assert!(lifted > 100);
+    println!("impossible wrenches: {lifted} of 2400 contacts lifted, {unsettled} of 800 unsettled");
+    assert!(lifted > 100, "{lifted}");
 }
 
 /// A squeeze between two contacts leaves the wrench as it is: the estimate keeps to the array.

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use crate::shapes::conditioning;
 use crate::wrenches::{Case, Random};
 
-const COUNT: usize = 5000;
+const COUNT: usize = 3000;
 
 fn wide<T: Real>(v: &Vector3<T>) -> Vector3<f64> {
     v.map(Real::to_f64)

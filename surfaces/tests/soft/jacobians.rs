@@ -2,11 +2,12 @@
 
 use fingertip_surfaces::{
     ActiveSurface, CappedCylinder, Capsule, Cone, Contact, ContactCovariance, ContactJacobian, ContactModel,
-    Corner, Cylinder, CylinderEnds, Ellipsoid, EllipticCylinder, Frustum, GeometrySensitivity, Paraboloid,
-    Plane, PointContact, RoundedBox, ShapeParameters, SignedDistance, SmoothSurface, SoftFinger,
-    SoftFingerSurface, Sphere, Superquadric, Torus,
+    Corner, Cylinder, CylinderEnds, Disk, DynSurface, Ellipsoid, EllipticCylinder, Frustum,
+    GeometrySensitivity, HalfSpace, Offset, Paraboloid, Plane, PointContact, Posed, RoundedBox,
+    ShapeParameters, SmoothSurface, SoftFinger, SoftFingerSurface, Sphere, SphericalCap, Superquadric, Torus,
+    Trimmed,
 };
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::{Matrix6, Vector3, Vector6};
 use num_dual::Dual64;
 
@@ -182,6 +183,18 @@ macro_rules! by_wrench {
     };
 }
 
+/// Through [`DynSurface`], which is compiled once.
+macro_rules! by_wrench_of_any {
+    ($name:ident, $size:literal) => {
+        #[test]
+        fn $name() {
+            let (surface, dual) =
+                (DynSurface::from(common::$name::<f64>()), DynSurface::from(common::$name::<Dual>()));
+            by_wrench(stringify!($name), &surface, &dual, $size, 1e-12);
+        }
+    };
+}
+
 by_wrench!(sphere, 0.017);
 by_wrench!(ellipsoid, 0.017);
 by_wrench!(plane, 0.017);
@@ -194,17 +207,17 @@ by_wrench!(superquadric, 0.017);
 by_wrench!(rounded_box, 0.017);
 by_wrench!(pillow, 0.012);
 by_wrench!(torus, 0.0135);
-by_wrench!(disk, 0.013);
-by_wrench!(rectangle, 0.013);
-by_wrench!(spherical_cap, 0.017);
-by_wrench!(capped_cylinder, 0.014);
-by_wrench!(closed_elliptic_cylinder, 0.014);
-by_wrench!(frustum, 0.014);
-by_wrench!(revolution, 0.014);
-by_wrench!(heightfield, 0.010);
-by_wrench!(mesh, 0.012);
-by_wrench!(posed, 0.014);
-by_wrench!(trimmed, 0.017);
+by_wrench_of_any!(disk, 0.013);
+by_wrench_of_any!(rectangle, 0.013);
+by_wrench_of_any!(spherical_cap, 0.017);
+by_wrench_of_any!(capped_cylinder, 0.014);
+by_wrench_of_any!(closed_elliptic_cylinder, 0.014);
+by_wrench_of_any!(frustum, 0.014);
+by_wrench_of_any!(revolution, 0.014);
+by_wrench_of_any!(heightfield, 0.010);
+by_wrench_of_any!(mesh, 0.012);
+by_wrench_of_any!(posed, 0.014);
+by_wrench_of_any!(trimmed, 0.017);
 by_wrench!(compound, 0.020);
 by_wrench!(grown_ellipsoid, 0.019);
 by_wrench!(dyn_surface, 0.020);
@@ -291,7 +304,11 @@ where
 fn on_faces_edges_and_tips() {
     macro_rules! check {
         ($($shape:ident $size:literal),+) => {
-            $(wherever_it_touches(stringify!($shape), &common::$shape::<f64>(), &common::$shape::<Dual>(), $size);)+
+            $(
+                let (surface, dual) =
+                    (DynSurface::from(common::$shape::<f64>()), DynSurface::from(common::$shape::<Dual>()));
+                wherever_it_touches(stringify!($shape), &surface, &dual, $size);
+            )+
         };
     }
     check!(
@@ -302,9 +319,9 @@ fn on_faces_edges_and_tips() {
         mesh 0.012,
         heightfield 0.010,
         posed 0.014,
-        compound 0.020,
         dyn_surface 0.020
     );
+    wherever_it_touches("compound", &common::compound::<f64>(), &common::compound::<Dual>(), 0.020);
 }
 
 /// A surface that moves as a whole: the contact answers as it does to the change of the surface at the
@@ -465,47 +482,39 @@ by_sizes!(sizes_of_the_rounded_box, 0.017, [0.008, 0.010, 0.013, 0.004], |s| Rou
     s[3]
 ));
 
-/// On the side and on the ends alike: the six local numbers, at the point contact.
-#[test]
-fn sizes_of_closed_solids() {
-    let base = Vector3::new(0.001, 0.0, -0.008);
-    let (cylinder, frustum) = (
-        CappedCylinder::new(Vector3::zeros(), tilted(), 0.007, 0.011).unwrap(),
-        Frustum::new(base, tilted(), 0.016, 0.009, 0.005).unwrap(),
-    );
-    let mut random = Random::new(30);
-    let close = |ours: [f64; 2], exact: [f64; 2]| ours.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-12);
-    let mut seen = [0; 2];
-    for _ in 0..600 {
-        let (point, normal) = random.place(&cylinder, 0.013);
-        let [longer, wider] = cylinder.sensitivities(&point).map(|change| change.displacement);
-        let flat = normal.dot(&cylinder.axis()).abs() > 0.5;
-        seen[usize::from(flat)] += 1;
-        assert!(close([longer, wider], if flat { [1.0, 0.0] } else { [0.0, 1.0] }));
-        let (point, normal) = random.place(&frustum, 0.012);
-        // By central differences of the distance to the solid with one size changed.
-        let make = |sizes: [f64; 3]| Frustum::new(base, tilted(), sizes[0], sizes[1], sizes[2]).unwrap();
-        let sizes = [0.016, 0.009, 0.005];
-        for (k, change) in frustum.sensitivities(&point).iter().enumerate() {
-            let step = 1e-7;
-            let at = |sign: f64| {
-                let mut moved = sizes;
-                moved[k] += sign * step;
-                make(moved).signed_distance(&point).distance
-            };
-            let rise = -(at(1.0) - at(-1.0)) / (2.0 * step);
-            assert!((change.displacement - rise).abs() < 1e-6, "{k} {change:?} {rise} {point}");
-            let turned = |sign: f64| {
-                let mut moved = sizes;
-                moved[k] += sign * step;
-                make(moved).normal(&(point + normal * (change.displacement * sign * step)))
-            };
-            let tilt = (turned(1.0) - turned(-1.0)) / (2.0 * step);
-            assert!((change.tilt - tilt).norm() < 1e-5, "{k} {change:?} {tilt}");
-        }
-    }
-    assert!(seen[0] > 50 && seen[1] > 50);
-}
+// On the side and on the ends alike.
+by_sizes!(sizes_of_the_capped_cylinder, 0.013, [0.011, 0.007], |s| CappedCylinder::new(
+    Vector3::zeros(),
+    tilted(),
+    s[1],
+    s[0]
+));
+by_sizes!(sizes_of_the_closed_elliptic_cylinder, 0.014, [0.007, 0.012], |s| EllipticCylinder::new(
+    s,
+    CylinderEnds::Capped(T::literal(0.010))
+));
+by_sizes!(sizes_of_the_frustum, 0.013, [0.016, 0.009, 0.005], |s| Frustum::new(
+    Vector3::new(T::literal(0.001), T::zero(), T::literal(-0.008)),
+    tilted(),
+    s[0],
+    s[1],
+    s[2]
+));
+by_sizes!(sizes_of_the_cylinder, 0.017, [0.009], |s| Cylinder::new(Vector3::zeros(), tilted(), s[0]));
+by_sizes!(sizes_of_the_spherical_cap, 0.017, [0.013], |s| Sphere::centred(s[0])
+    .and_then(|sphere| SphericalCap::new(sphere, tilted(), T::literal(-0.2))));
+by_sizes!(sizes_of_the_disk, 0.013, [0.005], |s| Disk::new(
+    tilted::<T>().normalize() * s[0],
+    tilted(),
+    T::literal(0.012)
+));
+by_sizes!(sizes_of_the_grown_ellipsoid, 0.019, [0.002], |s| Offset::new(common::ellipsoid::<T>(), s[0]));
+by_sizes!(sizes_of_a_posed_and_trimmed_cone, 0.015, [0.5], |s| {
+    let pose = RigidTransform::from_axis_angle(tilted(), tilted::<T>() * T::literal(0.002)).unwrap();
+    let half_space = HalfSpace::new(tilted::<T>() * T::literal(-0.02), tilted());
+    Cone::new(Vector3::zeros(), -tilted(), s[0])
+        .and_then(|cone| half_space.map(|region| Posed::new(Trimmed::new(cone, region), pose)))
+});
 
 /// Turning a cylinder about an axis through the origin turns its axis and its centre.
 #[test]

@@ -164,7 +164,7 @@ shape_test!(ellipsoid, 0.017, 100_000, ROUND);
 shape_test!(paraboloid, 0.02, 100_000, ROUND);
 shape_test!(superquadric, 0.017, 100_000, ROUND);
 shape_test!(pillow, 0.012, 100_000, ROUND);
-shape_test!(revolution, 0.014, 100_000, ROUND);
+shape_test!(gel_tip, 0.014, 100_000, ROUND);
 shape_test!(grown_ellipsoid, 0.017, 20_000, ROUND);
 
 /// What came of many wrenches on a surface that is straight one way, or like a saddle.

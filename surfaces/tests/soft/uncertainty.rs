@@ -1,7 +1,7 @@
 //! Covariance against Monte Carlo, bounds against the worst that can be done.
 
 use fingertip_surfaces::{
-    ActiveSurface, Contact, ContactCovariance, ContactJacobian, ContactModel, ConvexBound,
+    ActiveSurface, Contact, ContactCovariance, ContactJacobian, ContactModel, ConvexBound, DynSurface,
     GeometryUncertainty, PaperBounds, PointContact, SensorUncertainty, SmoothSurface, SoftFinger,
     SoftFingerSurface, Sphere, WorstErrors, WrenchNoise, shape_operator_by_differences,
 };
@@ -35,7 +35,17 @@ fn monte_carlo<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
     let case = loop {
         let spins = if soft { [0.1, 0.5] } else { [1e-12, 1e-11] };
         let case = Case::random(&mut random, surface, 0.017, spins, 2.0);
-        if case.incidence > 0.6 {
+        // Where the noise, of some hundredths of a millimetre, sees no edge and no fold, and no apex.
+        let bend = surface.shape_operator(&case.point);
+        let curvature = (bend.trace().powi(2) - bend.norm_squared()) / 2.0;
+        let pressing = case.wrench.force().dot(&case.normal).powi(2);
+        let steady = case.spin.powi(2) * curvature + pressing > 0.3 * pressing && bend.norm() < 500.0;
+        let aside = case.normal.cross(&random.direction()).normalize() * 5e-4;
+        let other = case.normal.cross(&aside);
+        let smooth = [aside, -aside, other, -other]
+            .iter()
+            .all(|step| surface.normal(&(case.point + step)).dot(&case.normal) > 0.9);
+        if case.incidence > 0.6 && steady && smooth {
             break case;
         }
     };
@@ -149,28 +159,40 @@ fn position_covariance_of_any_load() {
 
 #[test]
 fn covariance_matches_monte_carlo() {
-    for seed in 0..3 {
-        for soft in [false, true] {
-            let found = [
-                ("sphere", monte_carlo(&common::sphere::<f64>(), soft, seed)),
-                ("ellipsoid", monte_carlo(&common::ellipsoid::<f64>(), soft, seed)),
-                ("cylinder", monte_carlo(&common::cylinder::<f64>(), soft, seed)),
-                ("plane", monte_carlo(&common::plane::<f64>(), soft, seed)),
-                ("capsule", monte_carlo(&common::capsule::<f64>(), soft, seed)),
-            ];
-            for (name, (deviation, coverage)) in found {
+    macro_rules! check {
+        ($($shape:ident),+) => {
+            $(for soft in [false, true] {
+                let (deviation, coverage) = monte_carlo(&DynSurface::from(common::$shape()), soft, 0);
                 println!(
-                    "{name:10} soft {soft:5} Monte Carlo deviates {:.2} %, 95 % ellipse holds {:.2} %",
+                    "{:18} soft {soft:5} Monte Carlo deviates {:.2} %, 95 % ellipse holds {:.2} %",
+                    stringify!($shape),
                     100.0 * deviation,
                     100.0 * coverage
                 );
                 assert!(
                     deviation < 0.03 && (0.94..=0.96).contains(&coverage),
-                    "{name} {deviation} {coverage}"
+                    "{} {deviation} {coverage}",
+                    stringify!($shape)
                 );
-            }
-        }
+            })+
+        };
     }
+    check!(
+        sphere,
+        ellipsoid,
+        cylinder,
+        plane,
+        capsule,
+        cone,
+        frustum,
+        elliptic_cylinder,
+        paraboloid,
+        torus,
+        superquadric,
+        rounded_box,
+        revolution,
+        posed
+    );
 }
 
 #[test]
@@ -431,42 +453,142 @@ fn convex_bound<S: ActiveSurface<f64>>(
 }
 
 fn all_convex_bounds(count: usize, of_slow_shapes: usize) {
-    // How far from the origin a contact can be: of a bounded shape its size, of an unbounded one what
+    // Through `DynSurface`, which is compiled once. How far from the origin a contact can be: of a bounded shape its size, of an unbounded one what
     // `Random::place` goes to.
-    convex_bound("sphere", &common::sphere::<f64>(), [0.017, 0.017], count, 41);
-    convex_bound("ellipsoid", &common::ellipsoid::<f64>(), [0.017, 0.017], count, 42);
-    convex_bound("cylinder", &common::cylinder::<f64>(), [0.017, 0.031], count, 43);
-    convex_bound("capsule", &common::capsule::<f64>(), [0.017, 0.0131], count, 44);
-    convex_bound("rounded box", &common::rounded_box::<f64>(), [0.017, 0.0183], of_slow_shapes, 45);
-    convex_bound("superquadric", &common::superquadric::<f64>(), [0.017, 0.0184], of_slow_shapes, 46);
-    convex_bound("plane", &common::plane::<f64>(), [0.017, 0.031], count, 141);
-    convex_bound("disk", &common::disk::<f64>(), [0.017, 0.031], count, 142);
-    convex_bound("rectangle", &common::rectangle::<f64>(), [0.017, 0.031], count, 143);
-    convex_bound("spherical cap", &common::spherical_cap::<f64>(), [0.017, 0.017], count, 144);
-    convex_bound("cone", &common::cone::<f64>(), [0.017, 0.031], count, 145);
-    convex_bound("frustum", &common::frustum::<f64>(), [0.014, 0.0146], count, 146);
-    convex_bound("capped cylinder", &common::capped_cylinder::<f64>(), [0.014, 0.015], count, 147);
-    convex_bound("elliptic cyl.", &common::elliptic_cylinder::<f64>(), [0.017, 0.031], count, 148);
-    convex_bound("closed ell. cyl.", &common::closed_elliptic_cylinder::<f64>(), [0.014, 0.0157], count, 149);
-    convex_bound("paraboloid", &common::paraboloid::<f64>(), [0.017, 0.031], count, 150);
-    convex_bound("gel tip", &common::revolution::<f64>(), [0.014, 0.0141], of_slow_shapes, 151);
+    convex_bound("sphere", &DynSurface::from(common::sphere()), [0.017, 0.017], count, 41);
+    convex_bound("ellipsoid", &DynSurface::from(common::ellipsoid()), [0.017, 0.017], count, 42);
+    convex_bound("cylinder", &DynSurface::from(common::cylinder()), [0.017, 0.031], count, 43);
+    convex_bound("capsule", &DynSurface::from(common::capsule()), [0.017, 0.0131], count, 44);
+    convex_bound(
+        "rounded box",
+        &DynSurface::from(common::rounded_box()),
+        [0.017, 0.0183],
+        of_slow_shapes,
+        45,
+    );
+    convex_bound(
+        "superquadric",
+        &DynSurface::from(common::superquadric()),
+        [0.017, 0.0184],
+        of_slow_shapes,
+        46,
+    );
+    convex_bound("plane", &DynSurface::from(common::plane()), [0.017, 0.031], count, 141);
+    convex_bound("disk", &DynSurface::from(common::disk()), [0.017, 0.031], count, 142);
+    convex_bound("rectangle", &DynSurface::from(common::rectangle()), [0.017, 0.031], count, 143);
+    convex_bound("spherical cap", &DynSurface::from(common::spherical_cap()), [0.017, 0.017], count, 144);
+    convex_bound("cone", &DynSurface::from(common::cone()), [0.017, 0.031], count, 145);
+    convex_bound("frustum", &DynSurface::from(common::frustum()), [0.014, 0.0146], count, 146);
+    convex_bound("capped cylinder", &DynSurface::from(common::capped_cylinder()), [0.014, 0.015], count, 147);
+    convex_bound("elliptic cyl.", &DynSurface::from(common::elliptic_cylinder()), [0.017, 0.031], count, 148);
+    convex_bound(
+        "closed ell. cyl.",
+        &DynSurface::from(common::closed_elliptic_cylinder()),
+        [0.014, 0.0157],
+        count,
+        149,
+    );
+    convex_bound("paraboloid", &DynSurface::from(common::paraboloid()), [0.017, 0.031], count, 150);
+    convex_bound("gel tip", &common::revolution(), [0.014, 0.0141], of_slow_shapes, 151);
     convex_bound("grown ellipsoid", &common::grown_ellipsoid::<f64>(), [0.019, 0.019], of_slow_shapes, 152);
     convex_bound("grown cylinder", &common::grown_cylinder::<f64>(), [0.017, 0.018], of_slow_shapes, 153);
-    convex_bound("mesh", &common::mesh::<f64>(), [0.012, 0.0121], of_slow_shapes, 154);
-    convex_bound("posed", &common::posed::<f64>(), [0.014, 0.018], count, 155);
-    convex_bound("trimmed", &common::trimmed::<f64>(), [0.017, 0.017], count, 156);
+    convex_bound("mesh", &DynSurface::from(common::mesh()), [0.012, 0.0121], of_slow_shapes, 154);
+    convex_bound("posed", &common::posed(), [0.014, 0.018], count, 155);
+    convex_bound("trimmed", &common::trimmed(), [0.017, 0.017], count, 156);
     convex_bound("implicit", &common::pillow::<f64>(), [0.012, 0.0121], of_slow_shapes, 157);
 }
 
 #[test]
 fn convex_bound_is_never_violated() {
-    all_convex_bounds(3000, 500);
+    all_convex_bounds(2000, 300);
 }
 
 #[test]
-#[ignore = "a million trials for each of 23 shapes"]
+#[ignore = "a million trials for each of 23 shapes: half an hour in release"]
 fn convex_bound_is_never_violated_in_a_million() {
     all_convex_bounds(1_000_000, 1_000_000);
+}
+
+/// In single precision, whose rounding of wrench and shape counts as errors of these; that of the answer is
+/// the bound's own affair.
+#[test]
+fn convex_bound_holds_in_single_precision() {
+    fn check<S: ActiveSurface<f32>, D: ActiveSurface<f64>>(
+        name: &str,
+        single: &S,
+        exact: &D,
+        size: f64,
+        reach: f32,
+    ) {
+        let mut random = Random::new(48);
+        let model = PointContact::new(0.0_f32).unwrap().accepting_gap(1.0).unwrap();
+        let (mut none, mut ratios) = (0, Vec::new());
+        let (count, rounding) = (5000, f64::from(f32::EPSILON));
+        for _ in 0..count {
+            let (point, normal) = random.place(exact, size);
+            let force = if random.sign() > 0.0 {
+                random.force(&normal, 0.0, 1.0)
+            } else {
+                let across = random.direction().cross(&normal).normalize();
+                (across - normal * random.log_uniform(1e-6, 1.0)).normalize()
+            };
+            let relative = random.log_uniform(1e-8, 0.1);
+            let (force, torque): (Vector3<f64>, _) = (
+                force + random.direction() * relative,
+                point.cross(&force) + random.direction() * (relative * size),
+            );
+            let measured = Wrench::on_fingertip(force.cast::<f32>(), torque.cast::<f32>());
+            let errors = WorstErrors {
+                force: (relative + 2.0 * rounding) as f32,
+                torque: (relative * size + 2.0 * rounding * torque.norm()) as f32,
+                radius: (2.0 * rounding * size) as f32,
+                centre: 0.0,
+            };
+            let Some(contact) = model.resolve(&measured, single).contact().copied() else {
+                none += 1;
+                continue;
+            };
+            let Some(bound) = ConvexBound::new(single, &measured, &errors, reach) else {
+                none += 1;
+                continue;
+            };
+            let error = (contact.point.cast::<f64>() - point).norm();
+            assert!(
+                error <= f64::from(bound.distance),
+                "{name}: {error:e} {bound:?} {measured:?} {errors:?}"
+            );
+            // Of errors that are not rounding themselves.
+            if relative > 1e-4 {
+                ratios.push(f64::from(bound.distance) / error);
+            }
+        }
+        ratios.sort_by(f64::total_cmp);
+        let median = ratios[ratios.len() / 2];
+        println!(
+            "f32 {name:16} rigorous bound n={count}: 0 violated, median bound/error {median:.2}, none {none}"
+        );
+        assert!(median <= 5.0 && none * 4 < count, "{name} {median} {none}");
+    }
+    macro_rules! check {
+        ($($shape:ident $size:literal $reach:literal),+) => {
+            $(check(
+                stringify!($shape),
+                &DynSurface::from(common::$shape::<f32>()),
+                &DynSurface::from(common::$shape::<f64>()),
+                $size,
+                $reach,
+            );)+
+        };
+    }
+    check!(
+        sphere 0.017 0.0171,
+        ellipsoid 0.017 0.0171,
+        plane 0.017 0.031,
+        capsule 0.017 0.0132,
+        frustum 0.014 0.0147,
+        cone 0.017 0.031,
+        mesh 0.012 0.0122
+    );
 }
 
 /// With an uncertain shape: the truth is an ellipsoid that lies within the tolerance.
