@@ -1,6 +1,6 @@
 //! The covariance of a contact.
 
-use fingertip_wrench::Real;
+use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix2, Matrix3, Matrix6, Vector3, Vector6};
 
 use super::{ContactJacobian, GeometrySensitivity, GeometryUncertainty, WrenchSpread};
@@ -46,6 +46,18 @@ impl<T: Real> ContactCovariance<T> {
     #[must_use]
     pub fn position_only(jacobian: &ContactJacobian<T>, wrench: &impl WrenchSpread<T>) -> Matrix2<T> {
         jacobian.position_covariance(wrench)
+    }
+
+    /// The same, straight from a contact that [`PointContact`](crate::PointContact) found in a wrench, on
+    /// whatever surface: its curvature does not matter. `None` where the force grazes.
+    #[inline]
+    #[must_use]
+    pub fn point_contact_position(
+        contact: &Contact<T>,
+        wrench: &Wrench<T>,
+        spread: &impl WrenchSpread<T>,
+    ) -> Option<Matrix2<T>> {
+        ContactJacobian::point_position_covariance(contact, wrench, spread)
     }
 
     /// The same, straight from a contact that [`SoftFinger`](crate::SoftFinger) found on a surface: the

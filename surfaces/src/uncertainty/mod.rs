@@ -11,6 +11,7 @@
 //! First order fails near grazing: it needs `ε sin φ ≪ R cos² φ`, where `ε` is the error of the
 //! line of action and `φ` the angle between force and inward normal (theory 2.4).
 
+mod answers;
 mod convex_bound;
 mod covariance;
 mod geometry;

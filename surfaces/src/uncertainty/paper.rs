@@ -3,6 +3,8 @@
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
+use crate::BadShape;
+
 /// Bounds (3) to (9) of Bicchi & Dario (1987) on a point contact with a sphere around the origin,
 /// for relative errors of every force and torque component of at most `E`.
 ///
@@ -33,9 +35,14 @@ pub struct PaperBounds<T: Real> {
 
 impl<T: Real> PaperBounds<T> {
     /// For a sphere of this radius \[m\] and this relative error `E` of each component.
-    #[must_use]
-    pub const fn new(radius: T, relative_error: T) -> Self {
-        Self { radius, relative_error }
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the radius is a positive finite length and the error finite and not negative.
+    pub fn new(radius: T, relative_error: T) -> Result<Self, BadShape> {
+        let radius = BadShape::check_length("bounds", "radius", radius)?;
+        let good = relative_error >= T::zero() && relative_error.is_number();
+        BadShape::check("bounds", "relative error", "finite and not negative", good)?;
+        Ok(Self { radius, relative_error })
     }
 
     /// (3): relative error of the force's magnitude, and of the force as a vector. Sharp.

@@ -1,10 +1,10 @@
 //! C: eight gauges, capsule, covariance of the contact, cumulative sum of the drop.
 
 use fingertip::friction::{Coulomb, DropDetector};
-use fingertip::surfaces::{Capsule, ContactCovariance, ContactJacobian, PointContact};
+use fingertip::surfaces::{Capsule, ContactCovariance, PointContact};
 use fingertip::wrench::{LeastSquares, SensorMatrix, Tare, WrenchCovariance};
 use fingertip::{Fingertip, Present};
-use nalgebra::{Matrix3, SVector, Vector3};
+use nalgebra::{SVector, Vector3};
 
 use crate::felt::spread;
 use crate::{FRICTION, Felt, LEAST_FORCE, STEP, Scene, Spread, Words, noise, sensor, session};
@@ -76,9 +76,9 @@ impl Scene<8> for SceneC {
     fn sense(&mut self, volts: &SVector<f32, 8>) -> Estimate {
         let touch = self.fingertip.sense(volts, STEP);
         let spread = touch.resolution.contact().and_then(|contact| {
-            // The position of a point contact does not depend on the curvature.
-            let by_wrench = ContactJacobian::of_point_contact(contact, &touch.wrench, &Matrix3::zeros())?;
-            Some(spread(&ContactCovariance::position_only(&by_wrench, self.noise.floor())))
+            let covariance =
+                ContactCovariance::point_contact_position(contact, &touch.wrench, self.noise.floor())?;
+            Some(spread(&covariance))
         });
         Estimate { felt: Felt::of(&touch), spread: spread.unwrap_or_default() }
     }

@@ -2,13 +2,13 @@
 //! limit surface, the likelihood ratio of a drop, the covariance of the contact.
 
 use fingertip::friction::{LikelihoodRatioDetector, PowerLimit, PressureDistribution};
-use fingertip::surfaces::{ContactCovariance, ContactJacobian, PointContact};
+use fingertip::surfaces::{ContactCovariance, PointContact};
 use fingertip::wrench::{
     Compensation, ConsistencyCheck, LeastSquares, SensorMatrix, Tare, Verdict, WrenchCovariance, WrenchSolver,
 };
 use fingertip::{Fingertip, Present};
 use fingertip_surfaces::Mesh;
-use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+use nalgebra::{SMatrix, SVector, Vector3};
 
 use crate::felt::spread;
 use crate::{FRICTION, Felt, LEAST_FORCE, STEP, Scene, Spread, Words, noise, sensor, session};
@@ -132,8 +132,9 @@ impl Scene<8> for SceneD {
         let touch = self.fingertip.feel(wrench, STEP, self.last.as_ref());
         self.last = touch.resolution.contact().map(|contact| contact.point);
         let spread = touch.resolution.contact().and_then(|contact| {
-            let by_wrench = ContactJacobian::of_point_contact(contact, &wrench, &Matrix3::zeros())?;
-            Some(spread(&ContactCovariance::position_only(&by_wrench, &self.noise.at(&wrench))))
+            let covariance =
+                ContactCovariance::point_contact_position(contact, &wrench, &self.noise.at(&wrench))?;
+            Some(spread(&covariance))
         });
         Assessment {
             felt: Felt::of(&touch),
