@@ -36,7 +36,14 @@ const DEPTH: usize = 10;
 /// torque, where the line of action touches the sphere, `|m − R ρ × f| = r|f|`; these angles and
 /// those at which the line passes the ring most closely are made ends of cells. Where `F` turns so near
 /// zero that the rounding of the wrench reaches it, two contacts merge in a fold: that is one contact.
-fn search<T: Real>(torus: &Torus<T>, wrench: &Wrench<T>, mut visit: impl FnMut(SoftContact<T>)) -> Search<T> {
+///
+/// `epsilon` is by how much the numbers of the wrench are rounded, relative to them.
+fn search<T: Real>(
+    torus: &Torus<T>,
+    wrench: &Wrench<T>,
+    epsilon: T,
+    mut visit: impl FnMut(SoftContact<T>),
+) -> Search<T> {
     let ring = torus.ring_radius();
     let lever = wrench.torque() / ring;
     let scale = larger(largest(&wrench.force()), largest(&lever)).normalising_factor();
@@ -54,10 +61,10 @@ fn search<T: Real>(torus: &Torus<T>, wrench: &Wrench<T>, mut visit: impl FnMut(S
         }
         return Search::Complete;
     }
-    let around = Around { force, torque, tube, power };
+    let around = Around { force, torque, tube, power, epsilon };
     let problem = Problem::new(torus, &wrench.force(), &wrench.torque());
     let mut search = Search::Complete;
-    around.roots(|angle| {
+    around.roots(|angle, is_fold| {
         let at = around.at(angle);
         let found = SoftContact {
             point: (at.outward + at.normal * tube) * ring,
@@ -69,7 +76,7 @@ fn search<T: Real>(torus: &Torus<T>, wrench: &Wrench<T>, mut visit: impl FnMut(S
         // derivative of a dual number.
         match problem.polished(&found) {
             Some(contact) => visit(contact),
-            None if problem.explains(&found) => visit(found),
+            None if is_fold || problem.explains(&found) => visit(found),
             None => search = Search::Incomplete,
         }
     });
@@ -80,18 +87,19 @@ fn search<T: Real>(torus: &Torus<T>, wrench: &Wrench<T>, mut visit: impl FnMut(S
 const MOST: usize = 8;
 
 /// The same, in double precision if the type is narrower and two contacts are about to merge in a fold: how far
-/// they are apart answers to the root of what rounding does to the wrench.
+/// they are apart answers to the root of what rounding does. What rounding does to the wrench itself may have
+/// made both vanish; then the fold is their contact still.
 fn on_torus<T: Real>(
     torus: &Torus<T>,
     wrench: &Wrench<T>,
     mut visit: impl FnMut(SoftContact<T>),
 ) -> Search<T> {
     if T::EPSILON.to_f64() <= f64::EPSILON {
-        return search(torus, wrench, visit);
+        return search(torus, wrench, T::EPSILON, visit);
     }
     let mut found = [None; MOST];
     let (mut count, mut steady) = (0, true);
-    let ended = search(torus, wrench, |contact| {
+    let ended = search(torus, wrench, T::EPSILON, |contact| {
         let slot = found.get_mut(count);
         steady &= slot.is_some() && !is_folding(torus, &wrench.force(), &contact);
         if let Some(slot) = slot {
@@ -101,7 +109,8 @@ fn on_torus<T: Real>(
     });
     if !steady && let Ok(double) = Torus::new(torus.ring_radius().to_f64(), torus.tube_radius().to_f64()) {
         let wrench = Wrench::on_fingertip(wide(&wrench.force()), wide(&wrench.torque()));
-        return in_type(search(&double, &wrench, |contact| visit(narrow(&contact))));
+        let epsilon = T::EPSILON.to_f64();
+        return in_type(search(&double, &wrench, epsilon, |contact| visit(narrow(&contact))));
     }
     found.into_iter().flatten().for_each(visit);
     ended
@@ -124,6 +133,8 @@ struct Around<T: Real> {
     tube: T,
     /// `r f·m`.
     power: T,
+    /// How far the numbers of the wrench are rounded, relative to them.
+    epsilon: T,
 }
 
 /// What the sphere around one point of the ring says.
@@ -181,11 +192,11 @@ impl<T: Real> Around<T> {
     fn noise(&self, at: &At<T>) -> T {
         let pressing = self.force.dot(&at.normal) * self.tube;
         let torque = self.torque.amax() + self.force.amax();
-        T::literal(4.0) * T::EPSILON * torque / (at.spin * at.spin + pressing * pressing).root()
+        T::literal(4.0) * self.epsilon * torque / (at.spin * at.spin + pressing * pressing).root()
     }
 
-    /// Every zero of `F`.
-    fn roots(&self, mut found: impl FnMut(T)) {
+    /// Every zero of `F`, and whether it is a fold.
+    fn roots(&self, mut found: impl FnMut(T, bool)) {
         let cell = T::two_pi() / T::literal(f64::from(CELLS));
         // Off the axes, where shapes and loads like to be symmetric.
         let end_of = |k: u8| cell * T::literal(f64::from(k) + 0.3719);
@@ -232,7 +243,7 @@ impl<T: Real> Around<T> {
     }
 
     /// The zeros between two angles.
-    fn within(&self, low: At<T>, high: At<T>, found: &mut impl FnMut(T)) {
+    fn within(&self, low: At<T>, high: At<T>, found: &mut impl FnMut(T, bool)) {
         let (half, eighth) = (T::literal(0.5), T::literal(0.125));
         let mut stack = [(low, high, 0); DEPTH + 2];
         let mut depth = 1;
@@ -261,17 +272,17 @@ impl<T: Real> Around<T> {
                 (at.value, at.slope)
             };
             if negative != (high.value < T::zero()) {
-                found(bracketed(low.angle, high.angle, sample));
+                found(bracketed(low.angle, high.angle, sample), false);
             } else if (low.slope < T::zero()) != negative && (high.slope < T::zero()) == negative {
                 // It turns on its way to zero; perhaps on the other side.
                 let turn = bisected(low.angle, high.angle, |t| (self.at(t).slope < T::zero()) != negative);
                 let at = self.at(turn);
                 if (at.value < T::zero()) != negative {
-                    found(bracketed(low.angle, turn, sample));
-                    found(bracketed(turn, high.angle, sample));
+                    found(bracketed(low.angle, turn, sample), false);
+                    found(bracketed(turn, high.angle, sample), false);
                 } else if at.value.abs() <= self.noise(&at) {
                     // Two contacts in a fold, for all that the wrench says.
-                    found(turn);
+                    found(turn, true);
                 }
             }
         }
