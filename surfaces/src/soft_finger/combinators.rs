@@ -258,9 +258,21 @@ impl<T: Real, S: SmoothSurface<T> + SignedDistance<T>> SmoothSurface<T> for Offs
                 (e1 * bend.m11 + e2 * bend.m21) * e1.transpose()
                     + (e1 * bend.m12 + e2 * bend.m22) * e2.transpose()
             }
+            // Around an edge or a tip of the inner surface.
             Some(_) if distance > T::zero() => {
-                let step = distance * T::EPSILON.cbrt();
-                hessian_by_differences(point, step, |p| self.inner().signed_distance(p).normal)
+                let foot = point - normal * distance;
+                match self.inner().corner(&foot, &normal) {
+                    Some(Corner::Edge { direction, bend }) => {
+                        let across = normal.cross(&direction);
+                        direction * direction.transpose() * (bend / (T::one() + bend * distance))
+                            + across * across.transpose() / distance
+                    }
+                    Some(Corner::Tip) => (Matrix3::identity() - normal * normal.transpose()) / distance,
+                    None => {
+                        let step = distance * T::EPSILON.cbrt();
+                        hessian_by_differences(point, step, |p| self.inner().signed_distance(p).normal)
+                    }
+                }
             }
             _ => Matrix3::zeros(),
         };

@@ -220,21 +220,8 @@ by_wrench_of_any!(posed, 0.014);
 by_wrench_of_any!(trimmed, 0.017);
 by_wrench!(compound, 0.020);
 by_wrench!(grown_ellipsoid, 0.019);
+by_wrench!(grown_cylinder, 0.017);
 by_wrench!(dyn_surface, 0.020);
-
-/// Round edges have their curvature from differences, known to `16ε^(2/3)`, and a case with a determinant
-/// of 0.02 makes fifty times as much of that.
-#[test]
-fn grown_cylinder() {
-    let tolerance = 50.0 * 16.0 * f64::EPSILON.powf(2.0 / 3.0);
-    by_wrench(
-        "grown_cylinder",
-        &common::grown_cylinder::<f64>(),
-        &common::grown_cylinder::<Dual>(),
-        0.017,
-        tolerance,
-    );
-}
 
 /// Under any wrench, on faces, edges and tips. Edges and tips have no shape operator: the point moves along
 /// the edge or stays, and the normal turns.
