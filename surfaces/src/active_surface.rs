@@ -142,14 +142,23 @@ pub trait ActiveSurface<T: Real> {
     /// tells on which side the point is. Shapes with an equation answer faster.
     fn contains(&self, point: &Vector3<T>) -> bool {
         let direction = Vector3::new(T::literal(0.48), T::literal(0.6), T::literal(0.64));
-        let mut nearest: Option<Crossing<T>> = None;
-        self.crossings(&Line { point: *point, direction }, |crossing| {
-            if nearest.is_none_or(|n| crossing.along.abs() < n.along.abs()) {
-                nearest = Some(crossing);
-            }
-        });
+        let nearest = nearest_crossing(self, &Line { point: *point, direction });
         nearest.is_some_and(|c| c.along * c.normal.dot(&direction) > T::zero())
     }
+}
+
+/// The crossing of a line that is nearest to its point.
+pub(crate) fn nearest_crossing<T: Real, S: ActiveSurface<T> + ?Sized>(
+    surface: &S,
+    line: &Line<T>,
+) -> Option<Crossing<T>> {
+    let mut nearest: Option<Crossing<T>> = None;
+    surface.crossings(line, |crossing| {
+        if nearest.is_none_or(|n| crossing.along.abs() < n.along.abs()) {
+            nearest = Some(crossing);
+        }
+    });
+    nearest
 }
 
 impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for &S {

@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
+use crate::active_surface::nearest_crossing;
 use crate::combinators::{closest_of, is_inside_along};
 use crate::soft_finger::combinators::{around_both, is_covered, of_both};
 use crate::{
@@ -170,11 +171,11 @@ impl<T: Real> Parts<T> {
         let mut best = (T::GREATEST, None);
         for part in &self.parts {
             let direction = normal.copied().unwrap_or_else(|| part.normal(point));
-            part.crossings(&Line { point: *point, direction }, |c| {
-                if c.along.abs() < best.0 {
-                    best = (c.along.abs(), Some(part));
-                }
-            });
+            if let Some(crossing) = nearest_crossing(part, &Line { point: *point, direction })
+                && crossing.along.abs() < best.0
+            {
+                best = (crossing.along.abs(), Some(part));
+            }
         }
         best.1
     }

@@ -3,6 +3,7 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
+use crate::active_surface::nearest_crossing;
 use crate::{ActiveSurface, ClosestApproach, Crossing};
 
 /// Two shapes, possibly overlapping, as one: what lies inside the other is no surface. Nest it for
@@ -85,15 +86,11 @@ impl<A, B> Compound<A, B> {
         A: ActiveSurface<T>,
         B: ActiveSurface<T>,
     {
-        let nearest = |distance: Option<T>, c: &Crossing<T>| {
-            Some(distance.map_or(c.along.abs(), |least: T| least.min(c.along.abs())))
-        };
         let along = |own: Vector3<T>| Line { point: *point, direction: normal.copied().unwrap_or(own) };
-        let (mut to_first, mut to_second) = (None, None);
-        self.first.crossings(&along(self.first.normal(point)), |c| to_first = nearest(to_first, &c));
-        self.second.crossings(&along(self.second.normal(point)), |c| to_second = nearest(to_second, &c));
+        let to_first = nearest_crossing(&self.first, &along(self.first.normal(point)));
+        let to_second = nearest_crossing(&self.second, &along(self.second.normal(point)));
         match (to_first, to_second) {
-            (Some(a), Some(b)) => !(b < a),
+            (Some(a), Some(b)) => !(b.along.abs() < a.along.abs()),
             (first, second) => first.is_some() || second.is_none(),
         }
     }

@@ -166,14 +166,17 @@ pub(super) fn pieces<T: Real>(knots: &[Knot<T>]) -> impl Iterator<Item = Piece<T
     })
 }
 
+/// The knots below and above a height, or the first or the last two, and the place of the lower one.
+fn interval<T: Real>(knots: &[Knot<T>], z: T) -> Option<(usize, &Knot<T>, &Knot<T>)> {
+    let last = knots.len().checked_sub(2)?;
+    let below = knots.iter().skip(1).position(|next| z <= next.z).unwrap_or(last);
+    Some((below, knots.get(below)?, knots.get(below + 1)?))
+}
+
 /// Squared radius at a height and its slope, with twice the digits and the slopes that the points
 /// have exactly; as if the first and the last piece went on beyond the ends.
 pub(super) fn exactly_at<T: Real>(knots: &[Knot<T>], z: T) -> Option<[Twofold<T>; 2]> {
-    let (this, next) = knots
-        .iter()
-        .zip(knots.iter().skip(1))
-        .find(|(_, next)| z <= next.z)
-        .or_else(|| knots.iter().zip(knots.iter().skip(1)).next_back())?;
+    let (_, this, next) = interval(knots, z)?;
     let slope = |rounded: T, rest: T| Twofold::difference(rounded, -rest);
     let middle = slope(this.middle_slope, this.rests[1]);
     let width = Twofold::difference(next.z, this.z);
@@ -191,9 +194,8 @@ pub(super) fn exactly_at<T: Real>(knots: &[Knot<T>], z: T) -> Option<[Twofold<T>
 
 /// The part of the side at a height, by the numbers of the nearer knot. Those at the ends go on.
 pub(super) fn patch_at<T: Real>(knots: &[Knot<T>], z: T) -> Option<Patch> {
-    let last = knots.len().checked_sub(2)?;
-    let below = knots.iter().skip(1).position(|next| z <= next.z).unwrap_or(last).min(last);
-    let (this, next) = (knots.get(below)?, knots.get(below + 1)?);
+    let (below, this, next) = interval(knots, z)?;
+    let is_last = below + 2 == knots.len();
     let [low, high, at] = [this.z, next.z, z].map(Real::to_f64);
     let exact = |rounded: T, rest: T| rounded.to_f64() + rest.to_f64();
     let middle = exact(this.middle_slope, this.rests[1]);
@@ -210,7 +212,7 @@ pub(super) fn patch_at<T: Real>(knots: &[Knot<T>], z: T) -> Option<Patch> {
         between: match (from_this, below) {
             (true, 0) => [f64::NEG_INFINITY, half],
             (true, _) => [low, half],
-            (false, below) if below == last => [half, f64::INFINITY],
+            (false, _) if is_last => [half, f64::INFINITY],
             (false, _) => [half, high],
         },
     })

@@ -5,7 +5,7 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use super::flat_ends::Face;
 use crate::ActiveSurface;
-use crate::numeric::vectors::{hypotenuse, length, unit_or};
+use crate::numeric::vectors::{any_perpendicular, hypotenuse, length, unit_or};
 use crate::{
     CappedCylinder, Capsule, Cone, Corner, Cylinder, Disk, Extent, Frustum, Level, Plane, Rectangle,
     RoundedBox, SignedDistance, SmoothSurface, Sphere, SphericalCap, Topology, Torus,
@@ -139,7 +139,7 @@ impl<T: Real> SmoothSurface<T> for Cone<T> {
         let height = from_apex.dot(&axis);
         let across = from_apex - axis * height;
         let radius = length(&across);
-        let outward = unit_or(&across, || crate::numeric::vectors::any_perpendicular(&axis));
+        let outward = unit_or(&across, || any_perpendicular(&axis));
         let flat = Matrix3::identity() - outward * outward.transpose() - axis * axis.transpose();
         let bend = cosine / radius;
         Level {
@@ -171,7 +171,7 @@ impl<T: Real> SmoothSurface<T> for Frustum<T> {
         let height = from_base.dot(&axis);
         let across = from_base - axis * height;
         let radius = length(&across);
-        let outward = unit_or(&across, || crate::numeric::vectors::any_perpendicular(&axis));
+        let outward = unit_or(&across, || any_perpendicular(&axis));
         let flat = Matrix3::identity() - outward * outward.transpose() - axis * axis.transpose();
         let bend = cosine / radius;
         Level {
@@ -192,10 +192,7 @@ impl<T: Real> SmoothSurface<T> for Frustum<T> {
 
     fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
         let level = self.level(point);
-        match Face::of(&self.axis(), &level, &self.normal(point)) {
-            Face::End => Matrix3::zeros(),
-            Face::Side | Face::Edge => level.shape_operator(),
-        }
+        Face::of(&self.axis(), &level, &self.normal(point)).shape_operator(&level)
     }
 
     fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
@@ -213,8 +210,7 @@ impl<T: Real> SmoothSurface<T> for Frustum<T> {
         if radius.is_zero() {
             return Some(Corner::Tip);
         }
-        let outward =
-            unit_or(&(from_base - axis * height), || crate::numeric::vectors::any_perpendicular(&axis));
+        let outward = unit_or(&(from_base - axis * height), || any_perpendicular(&axis));
         Some(Corner::Edge { direction: axis.cross(&outward), bend: normal.dot(&outward) / radius })
     }
 }
@@ -254,7 +250,7 @@ impl<T: Real> SmoothSurface<T> for Capsule<T> {
         let clamped = height.min(self.half_length()).max(-self.half_length());
         let across = from_centre - axis * clamped;
         let distance = length(&across);
-        let normal = unit_or(&across, || crate::numeric::vectors::any_perpendicular(&axis));
+        let normal = unit_or(&across, || any_perpendicular(&axis));
         let mut flat = Matrix3::identity() - normal * normal.transpose();
         if height.abs() < self.half_length() {
             flat -= axis * axis.transpose();

@@ -1,7 +1,7 @@
 //! The curvature of solids with flat ends.
 
 use fingertip_wrench::Real;
-use nalgebra::{Matrix2, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use super::smooth_surface::agree;
 use crate::Level;
@@ -28,12 +28,18 @@ impl Face {
         }
     }
 
-    /// The shape operator in the tangent plane; NaN on an edge.
-    pub(super) fn bend<T: Real>(self, level: &Level<T>, [e1, e2]: [&Vector3<T>; 2]) -> Matrix2<T> {
-        let steepness = length(&level.gradient);
-        let (w1, w2) = (level.hessian * e1 / steepness, level.hessian * e2 / steepness);
+    /// The shape operator; on an edge, that of the side.
+    pub(super) fn shape_operator<T: Real>(self, level: &Level<T>) -> Matrix3<T> {
         match self {
-            Self::Side => Matrix2::new(e1.dot(&w1), e1.dot(&w2), e1.dot(&w2), e2.dot(&w2)),
+            Self::End => Matrix3::zeros(),
+            Self::Side | Self::Edge => level.shape_operator(),
+        }
+    }
+
+    /// The shape operator in the tangent plane; NaN on an edge.
+    pub(super) fn bend<T: Real>(self, level: &Level<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        match self {
+            Self::Side => level.bend(length(&level.gradient), tangents),
             Self::End => Matrix2::zeros(),
             Self::Edge => Matrix2::repeat(T::zero() / T::zero()),
         }

@@ -67,10 +67,7 @@ impl<T: Real> SmoothSurface<T> for EllipticCylinder<T> {
 
     fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
         let level = self.level(point);
-        match Face::of(&Vector3::z(), &level, &self.normal(point)) {
-            Face::End => Matrix3::zeros(),
-            Face::Side | Face::Edge => level.shape_operator(),
-        }
+        Face::of(&Vector3::z(), &level, &self.normal(point)).shape_operator(&level)
     }
 
     fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {

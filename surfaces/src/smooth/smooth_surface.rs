@@ -40,6 +40,15 @@ impl<T: Real> Level<T> {
             flat * self.hessian * flat / steepness
         })
     }
+
+    /// Its matrix in two unit vectors across the gradient, of which this is the length.
+    #[inline]
+    pub(super) fn bend(&self, steepness: T, [e1, e2]: [&Vector3<T>; 2]) -> Matrix2<T> {
+        let inverse = T::one() / steepness;
+        let (w1, w2) = (self.hessian * e1, self.hessian * e2);
+        let mixed = e1.dot(&w2) * inverse;
+        Matrix2::new(e1.dot(&w1) * inverse, mixed, mixed, e2.dot(&w2) * inverse)
+    }
 }
 
 /// What is known of a surface as a whole: it tells how many contacts there can be.
@@ -120,11 +129,7 @@ pub trait SmoothSurface<T: Real>: ActiveSurface<T> {
         if !agree(&level.gradient, &(normal * steepness), steepness) {
             return Matrix2::repeat(T::zero() / T::zero());
         }
-        let inverse = T::one() / steepness;
-        let [e1, e2] = tangents;
-        let (w1, w2) = (level.hessian * e1, level.hessian * e2);
-        let mixed = e1.dot(&w2) * inverse;
-        Matrix2::new(e1.dot(&w1) * inverse, mixed, mixed, e2.dot(&w2) * inverse)
+        level.bend(steepness, tangents)
     }
 
     /// What edge or tip a contact with this normal is on; asked where [`bend`](Self::bend) is NaN. The

@@ -1,7 +1,9 @@
 //! What closed forms find, as the searches of shapes.
 
 use fingertip_wrench::{Line, Real, Wrench};
+use nalgebra::Vector3;
 
+use crate::active_surface::nearest_crossing;
 use crate::contact::flat;
 use crate::numeric::vectors::largest;
 use crate::{ActiveSurface, ForceLine, Search, SoftContact};
@@ -9,17 +11,8 @@ use crate::{ActiveSurface, ForceLine, Search, SoftContact};
 /// Whether a point of the surface belongs to its active part: as the crossing of the normal there
 /// says.
 pub(super) fn is_active<T: Real, S: ActiveSurface<T>>(surface: &S, contact: &SoftContact<T>) -> bool {
-    let mut nearest = T::GREATEST;
-    let mut active = false;
     let line = Line { point: contact.point, direction: -contact.normal };
-    surface.crossings(&line, |crossing| {
-        let distance = crossing.along.abs();
-        if distance < nearest {
-            nearest = distance;
-            active = crossing.active;
-        }
-    });
-    active
+    nearest_crossing(surface, &line).is_some_and(|crossing| crossing.active)
 }
 
 /// Gives a shape its soft fingers: from the shape, the wrench and the last contact, to a search that
@@ -83,8 +76,18 @@ pub(super) use part_of;
 /// than the force has at a lever of this length: otherwise rounding errors grow.
 #[inline(always)]
 pub(super) fn is_steady<T: Real>(push: &ForceLine<T>, contact: &SoftContact<T>, lever: T) -> bool {
-    let strength = push.squared().root();
-    let steep = -push.force().dot(&contact.normal) >= flat::<T>() * strength;
+    is_steady_under(&push.force(), push.squared().root(), contact, lever)
+}
+
+/// The same under a force of this strength.
+#[inline(always)]
+pub(super) fn is_steady_under<T: Real>(
+    force: &Vector3<T>,
+    strength: T,
+    contact: &SoftContact<T>,
+    lever: T,
+) -> bool {
+    let steep = -force.dot(&contact.normal) >= flat::<T>() * strength;
     steep & (contact.spin_torque.abs() <= strength * lever)
 }
 

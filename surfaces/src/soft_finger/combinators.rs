@@ -251,7 +251,8 @@ impl<T: Real, S: SmoothSurface<T> + SignedDistance<T>> SmoothSurface<T> for Offs
     fn level(&self, point: &Vector3<T>) -> Level<T> {
         let Distance { distance, normal } = self.inner().signed_distance(point);
         let (e1, e2) = tangents(&normal);
-        let bend = self.inner().bend(&(point - normal * distance), &normal, [&e1, &e2]);
+        let foot = point - normal * distance;
+        let bend = self.inner().bend(&foot, &normal, [&e1, &e2]);
         let hessian = match (Matrix2::identity() + bend * distance).try_inverse() {
             Some(spread) if bend.sum().is_number() => {
                 let bend = bend * spread;
@@ -259,21 +260,18 @@ impl<T: Real, S: SmoothSurface<T> + SignedDistance<T>> SmoothSurface<T> for Offs
                     + (e1 * bend.m12 + e2 * bend.m22) * e2.transpose()
             }
             // Around an edge or a tip of the inner surface.
-            Some(_) if distance > T::zero() => {
-                let foot = point - normal * distance;
-                match self.inner().corner(&foot, &normal) {
-                    Some(Corner::Edge { direction, bend }) => {
-                        let across = normal.cross(&direction);
-                        direction * direction.transpose() * (bend / (T::one() + bend * distance))
-                            + across * across.transpose() / distance
-                    }
-                    Some(Corner::Tip) => (Matrix3::identity() - normal * normal.transpose()) / distance,
-                    None => {
-                        let step = distance * T::EPSILON.cbrt();
-                        hessian_by_differences(point, step, |p| self.inner().signed_distance(p).normal)
-                    }
+            Some(_) if distance > T::zero() => match self.inner().corner(&foot, &normal) {
+                Some(Corner::Edge { direction, bend }) => {
+                    let across = normal.cross(&direction);
+                    direction * direction.transpose() * (bend / (T::one() + bend * distance))
+                        + across * across.transpose() / distance
                 }
-            }
+                Some(Corner::Tip) => (Matrix3::identity() - normal * normal.transpose()) / distance,
+                None => {
+                    let step = distance * T::EPSILON.cbrt();
+                    hessian_by_differences(point, step, |p| self.inner().signed_distance(p).normal)
+                }
+            },
             _ => Matrix3::zeros(),
         };
         Level { value: distance - self.distance(), gradient: normal, hessian }

@@ -2,7 +2,7 @@
 
 use fingertip_wrench::{Real, Wrench};
 
-use crate::contact::flat;
+use super::closed_form::is_steady_under;
 use crate::numeric::vectors::{length, wide};
 use crate::{Search, SoftContact};
 
@@ -35,9 +35,8 @@ pub(super) fn spins_little<T: Real>(wrench: &Wrench<T>, lever: T) -> impl Fn(&So
 
 /// Whether besides that the force presses at no flat angle, which multiplies rounding too.
 pub(super) fn is_steady<T: Real>(wrench: &Wrench<T>, lever: T) -> impl Fn(&SoftContact<T>) -> bool {
-    let (spins_little, force) = (spins_little(wrench, lever), wrench.force());
-    let least = length(&force) * flat();
-    move |contact| spins_little(contact) && -contact.normal.dot(&force) >= least
+    let (force, strength) = (wrench.force(), length(&wrench.force()));
+    move |contact| is_steady_under(&force, strength, contact, lever)
 }
 
 /// How a search ended, in the narrower type.

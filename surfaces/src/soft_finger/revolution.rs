@@ -49,7 +49,8 @@ impl<T: Real, K: AsRef<[Knot<T>]>> SoftFingerSurface<T> for Revolution<T, K> {
             [low, .., high] => (low.point()[0], high.point()[0]),
             _ => return Search::Complete,
         };
-        let spins_little = spins_little(wrench, self.extent().radius);
+        let reach = self.extent().radius;
+        let spins_little = spins_little(wrench, reach);
         let mut spun: [Option<Vector3<T>>; MOST] = [None; MOST];
         newton_soft_contacts(self, wrench, last, |rough| {
             let mut contact = rough;
@@ -57,7 +58,7 @@ impl<T: Real, K: AsRef<[Knot<T>]>> SoftFingerSurface<T> for Revolution<T, K> {
             // one may have been found as several.
             if !spins_little(&rough) {
                 contact = settled(wrench, self, &rough).unwrap_or(rough);
-                let close = T::EPSILON * T::literal(64.0) * self.extent().radius;
+                let close = T::EPSILON * T::literal(64.0) * reach;
                 let is_known = |known: &Vector3<T>| (known - contact.point).amax() <= close;
                 if spun.iter().flatten().any(is_known) {
                     return;
