@@ -1,7 +1,7 @@
 //! The stages wired together.
 
 use fingertip_surfaces::{ContactModel, Resolution};
-use fingertip_wrench::{Compensation, Real, Uncompensated, Wrench, WrenchSolver};
+use fingertip_wrench::{Compensation, ContactForce, Real, Uncompensated, Wrench, WrenchSolver};
 use nalgebra::Vector3;
 
 use crate::{Absent, FingertipBuilder, GripStage, SlipStage};
@@ -27,6 +27,8 @@ pub struct Touch<T: Real, Reading = (), Verdict = ()> {
     pub wrench: Wrench<T>,
     /// Where it touches, or why nowhere.
     pub resolution: Resolution<T>,
+    /// The force of the contact, split at its tangent plane; `None` without a contact.
+    pub force: Option<ContactForce<T>>,
     /// What the friction model says of the contact; `None` without a contact.
     pub grip: Option<Reading>,
     /// What the slip detector says.
@@ -79,15 +81,12 @@ impl<Solver, Surface, Model, Friction, Detector, Zero>
         Friction: GripStage<T>,
         Detector: SlipStage<T>,
     {
-        let resolution = self.model.resolve_near(&wrench, &self.surface, last);
-        let (grip, slip) = match resolution.contact() {
-            Some(contact) => {
-                let force = contact.contact_force();
-                (Some(self.friction.judge(&force)), self.detector.follow(Some(&force), time_step))
-            }
+        let (resolution, force) = self.model.feel_near(&wrench, &self.surface, last);
+        let (grip, slip) = match &force {
+            Some(force) => (Some(self.friction.judge(force)), self.detector.follow(Some(force), time_step)),
             None => (None, self.detector.follow(None, time_step)),
         };
-        Touch { wrench, resolution, grip, slip }
+        Touch { wrench, resolution, force, grip, slip }
     }
 
     /// The stage that takes off what is not load.

@@ -23,15 +23,15 @@ fn samples<T: Real>() -> Vec<ContactForce<T>> {
     (0..1000)
         .map(|_| {
             let mut noise = || rng.random_range(-0.02..0.02);
-            ContactForce {
-                normal: T::literal(4.0 + noise()),
-                tangential: Vector3::new(
+            ContactForce::new(
+                T::literal(4.0 + noise()),
+                Vector3::new(
                     T::literal(1.2 + noise()),
                     T::literal(0.9 + noise()),
                     T::literal(noise() * 1e-3),
                 ),
-                spin: T::literal(1e-3 * noise()),
-            }
+                T::literal(1e-3 * noise()),
+            )
         })
         .collect()
 }

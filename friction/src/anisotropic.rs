@@ -70,7 +70,7 @@ impl<T: Real> AnisotropicCoulomb<T> {
     fn split(&self, force: &ContactForce<T>) -> (T, T) {
         let [first, second] = &self.directions;
         let (one, two) = (force.tangential.dot(first), force.tangential.dot(second));
-        let rest = force.tangential - first * one - second * two;
+        let rest = force.tangential.vector() - first * one - second * two;
         let outside = rest.amax();
         if outside <= T::literal(8.0) * T::EPSILON * force.tangential.amax() {
             (one, two)
@@ -228,7 +228,7 @@ impl<T: Real> FrictionLimit<T> for AnisotropicCoulomb<T> {
         // The search errs in the angle; the gauge puts the result on the cone all the same.
         let normal = self.gauge((one, two)) * (T::one() + T::literal(4.0) * T::EPSILON);
         let tangential = self.directions[0] * one + self.directions[1] * two;
-        ContactForce { normal, tangential, spin: T::zero() }
+        ContactForce::new(normal, tangential, T::zero())
     }
 
     fn slip_direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>> {

@@ -33,24 +33,24 @@ impl<T: Real> Cone<T> {
     #[inline]
     pub(crate) fn margin(&self, load: T, normal: T) -> SlipMargin<T> {
         let holding = self.coefficient * normal;
-        if !(holding > T::zero()) {
-            return self.margin_without_hold(load, normal);
-        }
         let newtons = (holding - load) * self.cosine;
         let used = load / holding;
-        // A ratio that is not a number belongs to a margin that is none either.
-        if newtons.is_number() {
+        if holding > T::zero() && newtons.is_number() {
             SlipMargin { newtons, utilisation: if used < T::GREATEST { used } else { T::GREATEST } }
         } else {
-            SlipMargin::unknown()
+            self.margin_out_of_contact(load, normal)
         }
     }
 
-    /// Where friction holds nothing: the contact does not press, or so little that the product with μ
-    /// is zero.
+    /// Where friction holds nothing, the contact not pressing or so little that the product with μ is
+    /// zero; and where a number is out of range.
     #[cold]
     #[inline(never)]
-    fn margin_without_hold(&self, load: T, normal: T) -> SlipMargin<T> {
+    fn margin_out_of_contact(&self, load: T, normal: T) -> SlipMargin<T> {
+        if self.coefficient * normal > T::zero() {
+            // A ratio that is not a number belongs to a margin that is none either.
+            return SlipMargin::unknown();
+        }
         let newtons = if self.coefficient * load <= -normal {
             // The apex is nearest.
             -scaled_length(load, normal, T::zero())
@@ -127,7 +127,7 @@ pub(crate) fn hypot<T: Real>(a: T, b: T) -> T {
 pub(crate) fn rescaled<T: Real>(force: &ContactForce<T>, target: Option<(T, T)>) -> ContactForce<T> {
     match target {
         Some((factor, normal)) => {
-            ContactForce { normal, tangential: force.tangential * factor, spin: force.spin * factor }
+            ContactForce { normal, tangential: force.tangential.scaled(factor), spin: force.spin * factor }
         }
         None => ContactForce::zero(),
     }

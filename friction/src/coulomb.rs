@@ -122,7 +122,7 @@ impl<T: Real> FrictionLimit<T> for Coulomb<T> {
     fn slip_direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>> {
         let magnitude = force.tangential_magnitude();
         let scale = magnitude.normalising_factor();
-        let velocity = -(force.tangential * scale) / (magnitude * scale);
+        let velocity = -(force.tangential.vector() * scale) / (magnitude * scale);
         velocity.iter().all(|x| x.is_number()).then_some(SlipDirection { velocity, spin: T::zero() })
     }
 }
@@ -148,11 +148,11 @@ mod tests {
         let (mut newtons, mut used) = (vec![T::one(); forces.len()], vec![T::one(); forces.len()]);
         model.slip_margins(&normal, &tangential, &mut newtons, &mut used);
         for (k, &(normal, tangential)) in forces.iter().enumerate() {
-            let force = ContactForce {
-                normal: if normal >= T::zero() { normal } else { T::GREATEST + T::GREATEST },
-                tangential: Vector3::new(tangential, T::zero(), T::zero()),
-                spin: T::zero(),
-            };
+            let force = ContactForce::new(
+                if normal >= T::zero() { normal } else { T::GREATEST + T::GREATEST },
+                Vector3::new(tangential, T::zero(), T::zero()),
+                T::zero(),
+            );
             let one = model.slip_margin(&force);
             // The length of a vector along an axis is exact in the normal range; so is all the rest.
             assert!(

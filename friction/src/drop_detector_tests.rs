@@ -14,11 +14,11 @@ fn normal(rng: &mut impl Rng) -> f64 {
 }
 
 fn sample<T: Real>(f_n: f64, f_t: f64) -> ContactForce<T> {
-    ContactForce {
-        normal: T::literal(f_n),
-        tangential: Vector3::new(T::literal(0.6 * f_t), T::literal(-0.8 * f_t), T::zero()),
-        spin: T::zero(),
-    }
+    ContactForce::new(
+        T::literal(f_n),
+        Vector3::new(T::literal(0.6 * f_t), T::literal(-0.8 * f_t), T::zero()),
+        T::zero(),
+    )
 }
 
 /// One ramp: an object of 0.1 kg under a growing pull, held by LuGre friction that is integrated

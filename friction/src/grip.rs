@@ -133,11 +133,7 @@ mod tests {
     }
 
     fn load<T: Real>(tangential: f64) -> ContactForce<T> {
-        ContactForce {
-            normal: T::one(),
-            tangential: Vector3::new(T::zero(), T::literal(tangential), T::zero()),
-            spin: T::zero(),
-        }
+        ContactForce::new(T::one(), Vector3::new(T::zero(), T::literal(tangential), T::zero()), T::zero())
     }
 
     fn follows_the_load<T: Real>() {

@@ -132,7 +132,7 @@ impl<T: Real> IncipientSlip<T> {
         }
         let (scale, tangential) = (self.scale, &force.tangential);
         let Some(state) = &mut self.state else {
-            self.state = Some(State::at(Place { displacement: *displacement, force: *tangential }));
+            self.state = Some(State::at(Place { displacement: *displacement, force: **tangential }));
             return SlipVerdict::Holding;
         };
         let square = state.turn.square_to(displacement, scale);
@@ -147,7 +147,7 @@ impl<T: Real> IncipientSlip<T> {
         }
         if square < T::one() && state.known == 1 {
             // At rest before the motion: the force may relax.
-            state.turn.force = *tangential;
+            state.turn.force = **tangential;
             state.places[0] = state.turn;
             return state.verdict;
         }

@@ -168,11 +168,11 @@ mod tests {
     fn slide<T: Real>(rng: &mut Pcg64Mcg, mu: f64, sigma: f64) -> ContactForce<T> {
         let normal = rng.random_range(0.5..3.0);
         let noise: (f64, f64) = (StandardNormal.sample(rng), StandardNormal.sample(rng));
-        ContactForce {
-            normal: T::literal(normal + sigma * noise.0),
-            tangential: Vector3::new(T::zero(), T::literal(mu * normal + sigma * noise.1), T::zero()),
-            spin: T::zero(),
-        }
+        ContactForce::new(
+            T::literal(normal + sigma * noise.0),
+            Vector3::new(T::zero(), T::literal(mu * normal + sigma * noise.1), T::zero()),
+            T::zero(),
+        )
     }
 
     fn unbiased<T: Real>() {
@@ -232,7 +232,7 @@ mod tests {
         let mut friction = KineticFriction::<f64>::new(noise, 0.5).unwrap();
         let before = friction;
         for bad in [f64::NAN, f64::INFINITY, 0.0, -3.0] {
-            let force = ContactForce { normal: bad, tangential: Vector3::x(), spin: 0.0 };
+            let force = ContactForce::new(bad, Vector3::x(), 0.0);
             friction.observe(&force, 1e-3);
         }
         assert_eq!(friction, before);
@@ -240,7 +240,7 @@ mod tests {
         assert!(KineticFriction::new(noise, 0.0).is_err());
         // Huge forces overflow no estimate.
         for _ in 0..10 {
-            let force = ContactForce { normal: 1e200, tangential: Vector3::x() * 1e200, spin: 0.0 };
+            let force = ContactForce::new(1e200, Vector3::x() * 1e200, 0.0);
             friction.observe(&force, 1e-3);
         }
         assert!(friction.estimate().is_none());

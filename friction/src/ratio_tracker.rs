@@ -346,7 +346,8 @@ impl<T: Real> RatioTracker<T> {
     #[inline(always)]
     fn pressing(&mut self, force: &ContactForce<T>, time_step: T) -> Option<(T, T)> {
         let normal = force.normal;
-        let square = force.tangential.norm_squared();
+        let load = force.tangential_magnitude();
+        let square = load * load;
         // In this range no product over- or underflows and, since the square of the gate is a
         // normal number, no ratio either; and no component is NaN or infinite.
         let plain = square > T::LEAST_NORMAL / T::EPSILON
@@ -354,7 +355,7 @@ impl<T: Real> RatioTracker<T> {
             && normal > self.gate.least()
             && normal <= T::GREATEST
             && force.spin.is_number();
-        if plain { Some((normal, square.root())) } else { self.pressing_at_all(force, time_step) }
+        if plain { Some((normal, load)) } else { self.pressing_at_all(force, time_step) }
     }
 
     /// The same over the whole range.

@@ -197,9 +197,9 @@ pub(crate) fn direction<T: Real>(
     let length = hypot(sliding, spinning);
     let velocity = if tangential > T::zero() {
         let scale = tangential.normalising_factor();
-        force.tangential * scale * (-sliding / length / (tangential * scale))
+        force.tangential.vector() * scale * (-sliding / length / (tangential * scale))
     } else {
-        force.tangential
+        force.tangential.vector()
     };
     let rate = (-spinning / length / arm).copysign(-force.spin);
     (velocity.iter().all(|x| x.is_number()) && rate.is_number())

@@ -239,11 +239,11 @@ mod tests {
     use rand_pcg::Pcg64Mcg;
 
     fn force<T: Real>(normal: f64, tangential: f64) -> ContactForce<T> {
-        ContactForce {
-            normal: T::literal(normal),
-            tangential: Vector3::new(T::literal(tangential), T::zero(), T::zero()),
-            spin: T::zero(),
-        }
+        ContactForce::new(
+            T::literal(normal),
+            Vector3::new(T::literal(tangential), T::zero(), T::zero()),
+            T::zero(),
+        )
     }
 
     /// Ramps of several slopes and a plateau, each to a peak of 0.6 and then down.

@@ -62,7 +62,8 @@ impl Draws {
                 T::literal(size * libm::cos(angle)),
                 T::literal(size * libm::sin(angle)),
                 T::zero(),
-            ),
+            )
+            .into(),
             spin: T::literal(spin) * arm,
         }
     }
@@ -71,7 +72,7 @@ impl Draws {
 fn between<T: Real>(a: &ContactForce<T>, b: &ContactForce<T>, share: T) -> ContactForce<T> {
     ContactForce {
         normal: a.normal + (b.normal - a.normal) * share,
-        tangential: a.tangential + (b.tangential - a.tangential) * share,
+        tangential: (*a.tangential + (*b.tangential - *a.tangential) * share).into(),
         spin: a.spin + (b.spin - a.spin) * share,
     }
 }
@@ -79,7 +80,7 @@ fn between<T: Real>(a: &ContactForce<T>, b: &ContactForce<T>, share: T) -> Conta
 fn scaled<T: Real>(force: &ContactForce<T>, factor: T) -> ContactForce<T> {
     ContactForce {
         normal: force.normal * factor,
-        tangential: force.tangential * factor,
+        tangential: force.tangential.scaled(factor),
         spin: force.spin * factor,
     }
 }
@@ -112,8 +113,7 @@ pub fn friction_laws<T: Real>(
         );
 
         // Symmetry under reversal of the load.
-        let reversed =
-            ContactForce { normal: force.normal, tangential: -force.tangential, spin: -force.spin };
+        let reversed = ContactForce::new(force.normal, -*force.tangential, -force.spin);
         let back = model.slip_margin(&reversed);
         assert!(close(back.newtons, margin.newtons, size), "symmetry: {force:?} {margin:?} {back:?}");
 
@@ -129,7 +129,7 @@ pub fn friction_laws<T: Real>(
             }
             let step = norm(&ContactForce {
                 normal: other.normal - force.normal,
-                tangential: other.tangential - force.tangential,
+                tangential: (*other.tangential - *force.tangential).into(),
                 spin: other.spin - force.spin,
             });
             let change = (model.slip_margin(&other).newtons - margin.newtons).abs();
@@ -168,7 +168,7 @@ fn check_projection<T: Real>(
     let spinless = claims.arm == T::zero();
     let step = norm(&ContactForce {
         normal: projected.normal - force.normal,
-        tangential: projected.tangential - force.tangential,
+        tangential: (*projected.tangential - *force.tangential).into(),
         spin: if spinless { T::zero() } else { projected.spin - force.spin },
     });
     let wanted = (-model.slip_margin(force).newtons).max(T::zero());
@@ -250,11 +250,11 @@ fn check_direction<T: Real>(
 fn check_bad_input<T: Real>(model: &impl FrictionLimit<T>) {
     let nan = T::zero() / T::zero();
     let bad = [nan, T::one() / T::zero(), -T::one() / T::zero()];
-    let good = ContactForce { normal: T::one(), tangential: Vector3::x(), spin: T::zero() };
+    let good = ContactForce::new(T::one(), Vector3::x(), T::zero());
     for value in bad {
         for force in [
             ContactForce { normal: value, ..good },
-            ContactForce { tangential: Vector3::new(T::zero(), value, T::zero()), ..good },
+            ContactForce { tangential: Vector3::new(T::zero(), value, T::zero()).into(), ..good },
         ] {
             let margin = model.slip_margin(&force);
             assert!(
@@ -272,8 +272,7 @@ fn check_bad_input<T: Real>(model: &impl FrictionLimit<T>) {
     }
     for value in [T::zero(), T::LEAST_NORMAL, T::GREATEST] {
         for normal in [value, -value, T::one()] {
-            let force =
-                ContactForce { normal, tangential: Vector3::new(value, -value, T::zero()), spin: value };
+            let force = ContactForce::new(normal, Vector3::new(value, -value, T::zero()), value);
             let margin = model.slip_margin(&force);
             assert!(
                 margin.newtons.is_number() && margin.utilisation.is_number(),

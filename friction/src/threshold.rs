@@ -78,7 +78,7 @@ impl<T: Real> SlipDetector<T> for RatioThreshold<T> {
     fn update(&mut self, force: &ContactForce<T>, _time_step: T) -> SlipVerdict {
         let (normal, load) = (force.normal, force.tangential_magnitude());
         // As `verdict_of`, but with the branch that one sample foretells.
-        if !(normal > self.gate.least()) | !load.is_number() {
+        if !(normal > self.gate.least() && load.is_number()) {
             return SlipVerdict::NotPressing;
         }
         self.said(normal, load)
@@ -126,7 +126,7 @@ mod tests {
             let mut verdicts = vec![SlipVerdict::NotPressing; forces.len()];
             detector.verdicts(&normal, &tangential, &mut verdicts);
             for ((normal, tangential), verdict) in forces.into_iter().zip(verdicts) {
-                let force = ContactForce { normal, tangential: Vector3::new(0.0, tangential, 0.0), spin: 0.0 };
+                let force = ContactForce::new(normal, Vector3::new(0.0, tangential, 0.0), 0.0);
                 prop_assert_eq!(verdict, detector.update(&force, 1e-3), "{} {}", normal, tangential);
             }
         }

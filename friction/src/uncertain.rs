@@ -140,11 +140,11 @@ mod tests {
     use rand_distr::{Distribution, StandardNormal};
 
     fn force<T: Real>(normal: f64, tangential: f64) -> ContactForce<T> {
-        ContactForce {
-            normal: T::literal(normal),
-            tangential: Vector3::new(T::zero(), T::literal(tangential), T::zero()),
-            spin: T::zero(),
-        }
+        ContactForce::new(
+            T::literal(normal),
+            Vector3::new(T::zero(), T::literal(tangential), T::zero()),
+            T::zero(),
+        )
     }
 
     fn agree_with_sampling<T: Real>() {

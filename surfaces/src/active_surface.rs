@@ -30,8 +30,20 @@ pub struct Entry<T: Real> {
     /// The square of the cosine of incidence, `(f·n)²/|f|²`. Closed forms know it before they know
     /// the normal; unless it is positive the line misses, and the other fields mean nothing.
     pub incidence_squared: T,
+    /// What the force's parts along the normal and along the surface measure, where a closed form knows
+    /// that before it knows the normal. `None` says nothing.
+    pub parts: Option<ForceParts<T>>,
     /// `false` where the point belongs to the shape but not to the part that may touch.
     pub active: bool,
+}
+
+/// Magnitudes of a force's parts at a tangent plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceParts<T: Real> {
+    /// Normal force \[N\], positive when pressing.
+    pub normal: T,
+    /// Magnitude of the tangential force \[N\].
+    pub tangential: T,
 }
 
 impl<T: Real> Entry<T> {
@@ -43,6 +55,7 @@ impl<T: Real> Entry<T> {
             point: Vector3::zeros(),
             normal: Vector3::zeros(),
             incidence_squared: T::zero(),
+            parts: None,
             active: false,
         }
     }
@@ -53,7 +66,8 @@ impl<T: Real> Entry<T> {
     pub fn at(crossing: &Crossing<T>, direction: &Vector3<T>) -> Self {
         let Crossing { point, normal, active, .. } = *crossing;
         let incidence = -normal.dot(direction);
-        Self { point, normal, incidence_squared: incidence * incidence.abs(), active }.within_range()
+        Self { point, normal, incidence_squared: incidence * incidence.abs(), parts: None, active }
+            .within_range()
     }
 
     /// The same; none if it lies beyond the range of the type. That is said within the answer, since to

@@ -40,7 +40,7 @@ impl<T: Real> ForceLine<T> {
     pub fn new(wrench: &Wrench<T>, least_squared: T) -> Option<Self> {
         let force = wrench.force();
         let squared = force.norm_squared();
-        ((squared >= least_squared) & (squared <= Self::greatest_squared())).then(|| Self {
+        ((squared >= least_squared) & !(squared > Self::greatest_squared())).then(|| Self {
             force,
             torque: wrench.torque(),
             squared,

@@ -27,7 +27,7 @@ mod soft_finger;
 pub mod testing;
 mod uncertainty;
 
-pub use active_surface::{ActiveSurface, ClosestApproach, Crossing, Entry};
+pub use active_surface::{ActiveSurface, ClosestApproach, Crossing, Entry, ForceParts};
 pub use auto::{Auto, Choice, PitchTest};
 pub use bad_shape::BadShape;
 pub use combinators::{Compound, HalfSpace, Offset, Posed, Region, Trimmed};

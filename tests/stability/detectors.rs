@@ -15,11 +15,11 @@ use super::matrix::Row;
 const STEP: f64 = 1e-3;
 
 fn force<T: Real>(normal: f64, tangential: f64) -> ContactForce<T> {
-    ContactForce {
-        normal: T::literal(normal),
-        tangential: Vector3::new(T::literal(tangential), T::zero(), T::zero()),
-        spin: T::zero(),
-    }
+    ContactForce::new(
+        T::literal(normal),
+        Vector3::new(T::literal(tangential), T::zero(), T::zero()),
+        T::zero(),
+    )
 }
 
 /// A hold at a ratio of 0.6 that falls to 0.4 after 300 samples, read with noise and by `scale`.

@@ -36,11 +36,11 @@ fn limit<T: Real, M: FrictionModel<T>>(
         let mut random = Pcg64Mcg::seed_from_u64(36);
         for _ in 0..trials * 4 {
             let angle: f64 = random.random_range(0.0..core::f64::consts::TAU);
-            let force = ContactForce {
-                normal: T::literal(normal * random.random_range(0.999..1.001)),
-                tangential: Vector3::new(angle.cos(), angle.sin(), 0.0).map(|x| T::literal(x * tangential)),
-                spin: T::literal(tangential * 1e-3 * random.random_range(-1.0..1.0)),
-            };
+            let force = ContactForce::new(
+                T::literal(normal * random.random_range(0.999..1.001)),
+                Vector3::new(angle.cos(), angle.sin(), 0.0).map(|x| T::literal(x * tangential)),
+                T::literal(tangential * 1e-3 * random.random_range(-1.0..1.0)),
+            );
             let load = load(&force);
             let new = Big::new;
             let (mu, pressing) = (new(mu), new(force.normal.to_f64()));
@@ -67,10 +67,10 @@ fn limit<T: Real, M: FrictionModel<T>>(
     let mut row = Row::new::<T>(name, "no force, NaN, infinities");
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for place in 0..3 {
-            let mut force = ContactForce { normal: T::one(), tangential: Vector3::zeros(), spin: T::zero() };
+            let mut force = ContactForce::new(T::one(), Vector3::zeros(), T::zero());
             match place {
                 0 => force.normal = T::literal(bad),
-                1 => force.tangential.x = T::literal(bad),
+                1 => force.tangential = Vector3::new(T::literal(bad), T::zero(), T::zero()).into(),
                 _ => force.spin = T::literal(bad),
             }
             let margin = model.slip_margin(&force);

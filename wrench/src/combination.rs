@@ -114,7 +114,7 @@ impl Combination<6> for BicchiDario {
     fn combine<T: Real>(signals: &Vector6<T>) -> Vector6<T> {
         let [v1, v2, v3, v4, v5, v6] = signals.data.0[0];
         let (odd, even) = (v1 + v3, v2 + v4);
-        Vector6::new(odd + even, v5 - v1, v2 - v6, even - odd, v2 - v4, v1 - v3)
+        Vector6::new(odd + even, v5 - v1, -(v6 - v2), even - odd, v2 - v4, v1 - v3)
     }
 }
 

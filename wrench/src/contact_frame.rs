@@ -94,7 +94,7 @@ impl<T: Real> ContactFrame<T> {
     #[inline]
     #[must_use]
     pub fn compose<F: Frame>(&self, load: &ContactLoad<T>) -> Wrench<T, F> {
-        let force = load.force.tangential - self.normal * load.force.normal;
+        let force = load.force.tangential.vector() - self.normal * load.force.normal;
         let torque = load.rolling + self.normal * load.force.spin;
         Wrench::on_fingertip(force, torque + self.point.cross(&force))
     }

@@ -95,10 +95,8 @@ fn contacts() -> Result<(), Failure> {
 }
 
 fn friction() -> Result<(), Failure> {
-    let forces = [0.0_f32, 0.01, -0.02, 0.015, -0.005].map(|noise| ContactForce {
-        normal: 4.0 + noise,
-        tangential: Vector3::new(1.2 - noise, 0.9 + noise, 1e-3 * noise),
-        spin: 1e-3,
+    let forces = [0.0_f32, 0.01, -0.02, 0.015, -0.005].map(|noise| {
+        ContactForce::new(4.0 + noise, Vector3::new(1.2 - noise, 0.9 + noise, 1e-3 * noise), 1e-3)
     });
     let noise = ForceNoise::isotropic(0.02_f32)?;
     let gate = NormalForceGate::from_noise(&noise);

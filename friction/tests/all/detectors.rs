@@ -11,11 +11,11 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
 fn force<T: Real>(normal: f64, tangential: f64) -> ContactForce<T> {
-    ContactForce {
-        normal: T::literal(normal),
-        tangential: Vector3::new(T::zero(), T::literal(tangential), T::zero()),
-        spin: T::zero(),
-    }
+    ContactForce::new(
+        T::literal(normal),
+        Vector3::new(T::zero(), T::literal(tangential), T::zero()),
+        T::zero(),
+    )
 }
 
 struct Noise(Pcg64Mcg);
@@ -182,7 +182,7 @@ fn incipient_slip_is_seen_before_gross_slip_at_any_rate() {
         while x < 150e-6 {
             x += rate * 1e-3;
             let share = 1.0 - (1.0 - f64::min(x / full, 1.0)).powf(1.5);
-            let sample = ContactForce { normal: 4.0, tangential: -direction * (limit * share), spin: 0.0 };
+            let sample = ContactForce::new(4.0, -direction * (limit * share), 0.0);
             match detector.update(&sample, &(direction * x)) {
                 SlipVerdict::Warning => warned = warned.or(Some(x)),
                 SlipVerdict::Slipping => slipped = slipped.or(Some(x)),
@@ -194,7 +194,7 @@ fn incipient_slip_is_seen_before_gross_slip_at_any_rate() {
         assert!(warned < 0.9 * full && slipped > warned && slipped < 1.1 * full);
         warned_at.push(warned);
         // Turning back starts anew.
-        let back = ContactForce { normal: 4.0, tangential: -direction * limit * 0.9, spin: 0.0 };
+        let back = ContactForce::new(4.0, -direction * limit * 0.9, 0.0);
         assert_eq!(detector.update(&back, &(direction * (x - 3e-6))), SlipVerdict::Holding);
     }
     // Up to one sample of the fastest motion and one place.

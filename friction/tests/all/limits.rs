@@ -65,7 +65,7 @@ fn laws_hold() {
 }
 
 fn force(normal: f64, one: f64, two: f64, spin: f64) -> ContactForce<f64> {
-    ContactForce { normal, tangential: Vector3::new(one, two, 0.0), spin }
+    ContactForce::new(normal, Vector3::new(one, two, 0.0), spin)
 }
 
 #[test]
@@ -148,11 +148,11 @@ fn load_dependent_margin_is_certain_and_the_set_is_not_convex() {
             let step = [draws.signed(), draws.signed(), draws.signed(), draws.signed()];
             let length = step.iter().map(|x| x * x).sum::<f64>().sqrt();
             let step = step.map(|x| x * margin * 0.999_999 / length);
-            let there = ContactForce {
-                normal: f.normal + step[0],
-                tangential: f.tangential + Vector3::new(step[1], step[2], 0.0),
-                spin: f.spin + step[3] * arm,
-            };
+            let there = ContactForce::new(
+                f.normal + step[0],
+                *f.tangential + Vector3::new(step[1], step[2], 0.0),
+                f.spin + step[3] * arm,
+            );
             assert!(model.holds(&there), "{f:?} {there:?}");
         }
     }

@@ -113,7 +113,7 @@ fn states<T: Real + Serialize + DeserializeOwned>() {
     let (mut used, mut friction) = (fresh, StaticFriction::<T, 64>::with_noise(noise).unwrap());
     for index in 0..100 {
         let tangential = Vector3::new(l(0.01 * f64::from(index)), T::zero(), T::zero());
-        let force = ContactForce { normal: l(4.0), tangential, spin: T::zero() };
+        let force = ContactForce::new(l(4.0), tangential, T::zero());
         used.update(&force, l(1e-3));
         friction.observe(&force);
     }

@@ -29,7 +29,7 @@ fn read(name: &str) -> Option<Vec<Vec<f64>>> {
 }
 
 pub(crate) fn force(normal: f64, friction: f64) -> ContactForce<f64> {
-    ContactForce { normal, tangential: Vector3::new(friction, 0.0, 0.0), spin: 0.0 }
+    ContactForce::new(normal, Vector3::new(friction, 0.0, 0.0), 0.0)
 }
 
 /// When the detector of incipient slip warned \[s\], and how often it then called gross slip.

@@ -52,7 +52,7 @@ impl<T: Real> Contact<T> {
     #[inline]
     #[must_use]
     pub fn tangential_force(&self) -> Vector3<T> {
-        self.contact_force().tangential
+        self.contact_force().tangential.vector()
     }
 }
 

@@ -1,13 +1,15 @@
 //! Contact in a point, without local torque.
 
-use fingertip_wrench::{Line, LineOfAction, NoLineOfAction, Real, Wrench, stored};
+use fingertip_wrench::{
+    ContactForce, Line, LineOfAction, NoLineOfAction, Real, TangentialForce, Wrench, stored,
+};
 use nalgebra::Vector3;
 
 use super::long_way::long_way;
 use super::onto_line::onto_line;
 use super::{Contact, ContactModel, NoContact, Resolution};
 use crate::numeric::vectors::{hypotenuse, in_range, larger, smaller};
-use crate::{ActiveSurface, BadShape, Crossing, ForceLine};
+use crate::{ActiveSurface, BadShape, Crossing, ForceLine, ForceParts};
 
 /// A contact that transmits a force and no torque of its own: it lies where the wrench's line of
 /// action *enters* the surface (Salisbury 1984; equations (1), (2) of Bicchi & Dario 1987, mended
@@ -219,19 +221,56 @@ impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
     /// way then never goes through memory on its way to friction.
     #[inline(always)]
     fn resolve_near(&self, wrench: &Wrench<T>, surface: &S, last: Option<&Vector3<T>>) -> Resolution<T> {
-        let [least_squared, least_steepness] = self.short_way;
-        if let Some(push) = ForceLine::new(wrench, least_squared)
-            && let Some(entry) = surface.sole_entry(&push)
-            && entry.active
-            && entry.incidence_squared >= least_steepness
-        {
-            return Resolution::Contact(contact_at(wrench, entry.point, entry.normal));
+        match self.short_way(wrench, surface) {
+            Some((contact, _)) => Resolution::Contact(contact),
+            None => long_way(wrench, |copy| self.choose(copy, surface, last)),
         }
-        long_way(wrench, |copy| self.choose(copy, surface, last))
+    }
+
+    #[inline(always)]
+    fn feel_near(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        last: Option<&Vector3<T>>,
+    ) -> (Resolution<T>, Option<ContactForce<T>>) {
+        if let Some((contact, parts)) = self.short_way(wrench, surface) {
+            let force = parts.map_or_else(|| contact.contact_force(), |parts| split(&contact, &parts));
+            return (Resolution::Contact(contact), Some(force));
+        }
+        let resolution = long_way(wrench, |copy| self.choose(copy, surface, last));
+        let force = resolution.contact().map(Contact::contact_force);
+        (resolution, force)
+    }
+}
+
+/// Splits the force of a contact whose parts are known.
+#[inline(always)]
+fn split<T: Real>(contact: &Contact<T>, parts: &ForceParts<T>) -> ContactForce<T> {
+    let tangential = contact.force + contact.normal * parts.normal;
+    ContactForce {
+        normal: parts.normal,
+        tangential: TangentialForce::of_magnitude(tangential, parts.tangential),
+        spin: contact.spin_torque,
     }
 }
 
 impl<T: Real> PointContact<T> {
+    /// The contact of a force that enters where closed forms say, squarely enough that rounding does
+    /// not matter.
+    #[inline(always)]
+    fn short_way<S: ActiveSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+    ) -> Option<(Contact<T>, Option<ForceParts<T>>)> {
+        let [least_squared, least_steepness] = self.short_way;
+        let push = ForceLine::new(wrench, least_squared)?;
+        let entry = surface.sole_entry(&push)?;
+        (entry.active && entry.incidence_squared >= least_steepness)
+            .then(|| (contact_at(wrench, entry.point, entry.normal), entry.parts))
+    }
+
     /// The contact, or the reason why there is none.
     #[inline(never)]
     fn choose<S: ActiveSurface<T>>(

@@ -135,7 +135,8 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
             let half_chord = (remainder / squared).root();
             let entry = self.crossing(&line, along - half_chord * self.radius, foot - across * half_chord);
             let Crossing { point, normal, active, .. } = entry;
-            Entry { point, normal, incidence_squared: remainder * squared, active }.within_range()
+            Entry { point, normal, incidence_squared: remainder * squared, parts: None, active }
+                .within_range()
         })
     }
 

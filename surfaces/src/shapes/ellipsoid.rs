@@ -145,6 +145,7 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
             normal: gradient * flatness,
             // f·n = direction·scaled·flatness, and the foot is square to the direction.
             incidence_squared: remainder * (flatness * flatness) * (squared * inverse_both * squared),
+            parts: None,
             active: true,
         })
     }

@@ -90,6 +90,7 @@ impl<T: Real> ActiveSurface<T> for Plane<T> {
             point,
             normal: self.normal,
             incidence_squared: slope * slope * inverse,
+            parts: None,
             active: true,
         })
     }

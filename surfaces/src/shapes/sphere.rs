@@ -5,7 +5,10 @@ use nalgebra::Vector3;
 
 use crate::numeric::twofold::{difference, outside_ball};
 use crate::numeric::vectors::{larger, largest, length, smaller, unit_or};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, ForceParts,
+    SignedDistance,
+};
 
 /// A sphere, its inside being the fingertip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,19 +96,26 @@ impl<T: Real> ActiveSurface<T> for Sphere<T> {
     }
 
     /// In radii, too: the foot of the line seen from the centre, `f × m_c/(R·|f|²)`, and from there
-    /// back against the force by half a chord.
+    /// back against the force by half a chord. The foot's length is the sine of incidence: it gives the
+    /// tangential force to the last digits even where that is small.
     #[inline]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         let force = push.force();
         let inverse = T::one() / push.squared();
-        let foot = force.cross(&push.torque_about(&self.centre)) * (inverse * self.curvature);
+        let foot = (force.cross(&push.torque_about(&self.centre)) * self.curvature) * inverse;
         // The square of the cosine of incidence, and of half the chord.
-        let squared = T::one() - foot.norm_squared();
-        let normal = foot - force * (squared * inverse).root();
+        let sine_squared = foot.norm_squared();
+        let squared = T::one() - sine_squared;
+        let back = (squared * inverse).root();
+        let normal = foot - force * back;
         Some(Entry {
             point: self.centre + normal * self.radius,
             normal,
             incidence_squared: squared,
+            parts: Some(ForceParts {
+                normal: push.squared() * back,
+                tangential: (push.squared() * sine_squared).root(),
+            }),
             active: true,
         })
     }

@@ -229,7 +229,7 @@ fn friction_ratio<T: Real>() {
     // Magnitudes at the ends of the range, and no contact.
     for size in [T::LEAST_NORMAL, T::GREATEST * T::literal(0.25)] {
         let tangential = Vector3::new(size, T::zero(), T::zero());
-        let contact = ContactForce { normal: size, tangential, spin: T::zero() };
+        let contact = ContactForce::new(size, tangential, T::zero());
         assert_eq!(contact.tangential_magnitude(), size);
         assert_eq!(contact.friction_ratio(), Some(T::one()));
     }
@@ -237,7 +237,7 @@ fn friction_ratio<T: Real>() {
     let nan = T::zero() / T::zero();
     let broken = ContactForce { normal: nan, ..ContactForce::zero() };
     assert!(!broken.is_finite() && broken.friction_ratio().is_none());
-    let broken = ContactForce { normal: T::one(), tangential: Vector3::repeat(nan), spin: T::zero() };
+    let broken = ContactForce::new(T::one(), Vector3::repeat(nan), T::zero());
     assert!(!broken.is_finite() && broken.friction_ratio().is_none());
 }
 

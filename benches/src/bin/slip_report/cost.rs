@@ -26,14 +26,16 @@ fn hold<T: Real>() -> Vec<ContactForce<T>> {
     let mut rng = Pcg64Mcg::seed_from_u64(1);
     let mut noise = || -> f64 { 0.02 * Distribution::<f64>::sample(&StandardNormal, &mut rng) };
     (0..BATCH)
-        .map(|_| ContactForce {
-            normal: T::literal(4.0 + noise()),
-            tangential: Vector3::new(
-                T::literal(1.2 + noise()),
-                T::literal(0.9 + noise()),
-                T::literal(noise() * 1e-3),
-            ),
-            spin: T::zero(),
+        .map(|_| {
+            ContactForce::new(
+                T::literal(4.0 + noise()),
+                Vector3::new(
+                    T::literal(1.2 + noise()),
+                    T::literal(0.9 + noise()),
+                    T::literal(noise() * 1e-3),
+                ),
+                T::zero(),
+            )
         })
         .collect()
 }

@@ -82,11 +82,11 @@ pub(crate) fn sample(
     noise: f64,
     step: f64,
 ) -> ContactForce<f64> {
-    ContactForce {
-        normal: read(rng, normal, noise, step),
-        tangential: Vector3::new(read(rng, tangential, noise, step), 0.0, 0.0),
-        spin: 0.0,
-    }
+    ContactForce::new(
+        read(rng, normal, noise, step),
+        Vector3::new(read(rng, tangential, noise, step), 0.0, 0.0),
+        0.0,
+    )
 }
 
 /// What a user would state: the noise with that of the converter's steps.

@@ -49,20 +49,17 @@ impl Felt {
             SlipVerdict::Warning => 2,
             SlipVerdict::Slipping => 3,
         };
-        match (touch.resolution.contact(), touch.grip) {
-            (Some(contact), Some(grip)) => {
-                let force = contact.contact_force();
-                Self {
-                    contact: 1,
-                    point: contact.point.into(),
-                    normal_force: force.normal,
-                    tangential_force: force.tangential.into(),
-                    spin_torque: force.spin,
-                    margin: grip.newtons,
-                    utilisation: grip.utilisation,
-                    slip,
-                }
-            }
+        match (touch.resolution.contact(), touch.force, touch.grip) {
+            (Some(contact), Some(force), Some(grip)) => Self {
+                contact: 1,
+                point: contact.point.into(),
+                normal_force: force.normal,
+                tangential_force: force.tangential.vector().into(),
+                spin_torque: force.spin,
+                margin: grip.newtons,
+                utilisation: grip.utilisation,
+                slip,
+            },
             _ => Self { slip, ..Self::default() },
         }
     }
