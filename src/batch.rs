@@ -1,8 +1,8 @@
 //! Touches of many samples at once, for simulation, learning and replay.
 
 use fingertip_friction::{Coulomb, RatioThreshold, SlipVerdict};
-use fingertip_surfaces::PointContact;
-use fingertip_surfaces::batch::{BatchSurface, Contacts, Wrenches};
+use fingertip_surfaces::batch::{BatchSurface, Entered, Lines};
+use fingertip_surfaces::{ForceParts, PointContact};
 use fingertip_wrench::{Compensation, Real, WrenchSolver};
 use nalgebra::SVector;
 
@@ -33,22 +33,11 @@ impl<T> Touches<'_, T> {
     }
 }
 
-/// So many samples go through one stage before the next takes them: what they need in between stays in
-/// the nearest cache.
+/// So many samples are done over if one of them is no contact.
 const BLOCK: usize = 256;
 
-/// A little longer, lest columns lie a power of two apart and fight for the same lines of the cache.
-const COLUMN: usize = BLOCK + 16;
-
-/// What is known between the stages, of a block of samples. It begins with a line of the cache, lest
-/// every vector lies across two.
-#[repr(align(64))]
-struct Between<T> {
-    wrench: [[T; COLUMN]; 6],
-    normal: [[T; COLUMN]; 3],
-    gap: [T; COLUMN],
-    tangential: [T; COLUMN],
-}
+/// At least as many samples as the widest vectors hold.
+const VECTOR: usize = 16;
 
 impl<Solver, Surface, T, Zero>
     Fingertip<Solver, Surface, PointContact<T>, Present<Coulomb<T>>, Present<RatioThreshold<T>>, Zero>
@@ -86,18 +75,16 @@ where
         Surface: BatchSurface<T>,
     {
         let count = raw.iter().map(|column| column.len()).fold(touches.len(), usize::min);
-        let mut between = Between {
-            wrench: [[T::zero(); COLUMN]; 6],
-            normal: [[T::zero(); COLUMN]; 3],
-            gap: [T::zero(); COLUMN],
-            tangential: [T::zero(); COLUMN],
-        };
         let Touches { mut point, normal_force, mut tangential_force, margin, utilisation, slip } = touches;
-        let mut start = 0;
+        let (mut start, mut all_press) = (0, true);
         while start < count {
-            let block = start..count.min(start + BLOCK);
-            start = block.end;
-            self.block(
+            let end = count.min(start + BLOCK);
+            // Whole vectors: a few samples of the block before are done twice, which costs less than the
+            // rest of a vector would one by one.
+            let block = end.saturating_sub((end - start).next_multiple_of(VECTOR))..end;
+            start = end;
+            all_press = self.block(
+                all_press,
                 raw.map(|column| &column[block.clone()]),
                 Touches {
                     point: point.each_mut().map(|column| &mut column[block.clone()]),
@@ -107,85 +94,57 @@ where
                     utilisation: &mut utilisation[block.clone()],
                     slip: &mut slip[block],
                 },
-                &mut between,
             );
         }
     }
 
-    /// The first two stages. Columns that are arguments of their own are known not to overlap, which the
-    /// compiler would have to test otherwise, and would rather not vectorise.
+    /// At most [`BLOCK`] samples, every column of `raw` and `touches` having as many, and whether they are
+    /// all contacts: what is tried first with the next.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
-    fn wrenches<const N: usize>(
-        &self,
-        raw: [&[T]; N],
-        fx: &mut [T],
-        fy: &mut [T],
-        fz: &mut [T],
-        tx: &mut [T],
-        ty: &mut [T],
-        tz: &mut [T],
-    ) where
-        Zero: Compensation<T, N, Raw = SVector<T, N>>,
-        Solver: WrenchSolver<T, N>,
-    {
-        let count = fx.len();
-        let raw = raw.map(|column| &column[..count]);
-        let (fy, fz) = (&mut fy[..count], &mut fz[..count]);
-        let (tx, ty, tz) = (&mut tx[..count], &mut ty[..count], &mut tz[..count]);
-        for k in 0..count {
-            let signals = self.zero.compensate(&SVector::from_fn(|gauge, _| raw[gauge][k]));
-            let wrench = self.solver.solve(&signals);
-            let (force, torque) = (wrench.force(), wrench.torque());
-            (fx[k], fy[k], fz[k]) = (force.x, force.y, force.z);
-            (tx[k], ty[k], tz[k]) = (torque.x, torque.y, torque.z);
-        }
-    }
-
-    /// All stages of at most [`BLOCK`] samples; every column of `raw` and `touches` has as many.
-    #[inline(always)]
-    fn block<const N: usize>(&self, raw: [&[T]; N], touches: Touches<'_, T>, between: &mut Between<T>)
+    fn block<const N: usize>(&self, all_press: bool, raw: [&[T]; N], touches: Touches<'_, T>) -> bool
     where
         Zero: Compensation<T, N, Raw = SVector<T, N>>,
         Solver: WrenchSolver<T, N>,
         Surface: BatchSurface<T>,
     {
         let Touches { point, normal_force, tangential_force, margin, utilisation, slip } = touches;
-        let count = normal_force.len().min(BLOCK);
-        let raw = raw.map(|column| &column[..count]);
-        let [fx, fy, fz, tx, ty, tz] = between.wrench.each_mut().map(|column| &mut column[..count]);
-        self.wrenches(raw, fx, fy, fz, tx, ty, tz);
-        let force: [&[T]; 3] = [fx, fy, fz];
-        let [px, py, pz] = point.map(|column| &mut column[..count]);
-        let [nx, ny, nz] = between.normal.each_mut().map(|column| &mut column[..count]);
-        let gap = &mut between.gap[..count];
-        self.surface.contacts_in_line(
-            Wrenches { force, torque: [tx, ty, tz] },
-            Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap },
-        );
-        let [sx, sy, sz] = tangential_force;
-        let normal: [&[T]; 3] = [nx, ny, nz];
+        let ([px, py, pz], [sx, sy, sz]) = (point, tangential_force);
         let accepted = Accepted::by(&self.model);
-        let all =
-            self.all_press(accepted, force, normal, gap, sx, sy, sz, normal_force, margin, utilisation, slip);
-        if !all {
-            let tangential = &mut between.tangential[..count];
-            accepted.split(force, normal, gap, px, py, pz, sx, sy, sz, normal_force, tangential);
-            self.friction.0.slip_margins(normal_force, tangential, margin, utilisation);
-            self.detector.0.verdicts(normal_force, tangential, slip);
+        if all_press
+            && self.all_press(accepted, raw, px, py, pz, sx, sy, sz, normal_force, margin, utilisation, slip)
+        {
+            return true;
         }
+        self.any(accepted, raw, px, py, pz, sx, sy, sz, normal_force, margin, utilisation, slip);
+        normal_force.iter().fold(true, |all, &normal| all & (normal > T::zero()))
     }
 
-    /// The last stages of samples that all are contacts: `false` if one is not, and then what is written
-    /// means nothing. The same operations as in the general loops, without the choices.
+    /// The first two stages of one sample.
+    #[inline(always)]
+    fn load<const N: usize>(&self, raw: [&[T]; N], sample: usize) -> ([T; 3], [T; 3])
+    where
+        Zero: Compensation<T, N, Raw = SVector<T, N>>,
+        Solver: WrenchSolver<T, N>,
+    {
+        let signals = self.zero.compensate(&SVector::from_fn(|gauge, _| raw[gauge][sample]));
+        let wrench = self.solver.solve(&signals);
+        (wrench.force().into(), wrench.torque().into())
+    }
+
+    /// Samples that all are contacts: `false` if one may not be, and then what is written means nothing.
+    /// The same operations as of any samples, without the choices.
+    ///
+    /// Columns that are arguments of their own are known not to overlap, which the compiler would have to
+    /// test otherwise, and would rather not vectorise.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
-    fn all_press(
+    fn all_press<const N: usize>(
         &self,
         accepted: Accepted<T>,
-        force: [&[T]; 3],
-        normal: [&[T]; 3],
-        gap: &[T],
+        raw: [&[T]; N],
+        px: &mut [T],
+        py: &mut [T],
+        pz: &mut [T],
         sx: &mut [T],
         sy: &mut [T],
         sz: &mut [T],
@@ -193,27 +152,78 @@ where
         margin: &mut [T],
         utilisation: &mut [T],
         slip: &mut [SlipVerdict],
-    ) -> bool {
+    ) -> bool
+    where
+        Zero: Compensation<T, N, Raw = SVector<T, N>>,
+        Solver: WrenchSolver<T, N>,
+        Surface: BatchSurface<T>,
+    {
         let count = pressing.len();
-        let ([fx, fy, fz], [nx, ny, nz]) =
-            (force.map(|column| &column[..count]), normal.map(|column| &column[..count]));
+        let raw = raw.map(|column| &column[..count]);
+        let (px, py, pz) = (&mut px[..count], &mut py[..count], &mut pz[..count]);
         let (sx, sy, sz) = (&mut sx[..count], &mut sy[..count], &mut sz[..count]);
-        let (gap, slip) = (&gap[..count], &mut slip[..count]);
-        let (margin, utilisation) = (&mut margin[..count], &mut utilisation[..count]);
+        let (margin, utilisation, slip) =
+            (&mut margin[..count], &mut utilisation[..count], &mut slip[..count]);
         let mut all = true;
         for k in 0..count {
-            let (f, n) = ([fx[k], fy[k], fz[k]], [nx[k], ny[k], nz[k]]);
-            let (squared, along) = (dot(f, f), dot(f, n));
-            all &= accepted.touches(squared, along, gap[k]) & (squared <= T::GREATEST);
-            let [x, y, z] = [f[0] - n[0] * along, f[1] - n[1] * along, f[2] - n[2] * along];
-            let load = dot([x, y, z], [x, y, z]).root();
-            (sx[k], sy[k], sz[k], pressing[k]) = (x, y, z, -along);
-            let (newtons, used, ordinary) = self.friction.0.margin_in_contact(-along, load);
-            (margin[k], utilisation[k]) = (newtons, used);
+            let (f, torque) = self.load(raw, k);
+            let Entered { point, normal: n, parts, certain, .. } =
+                self.surface.enter(f, torque, Lines::Meeting);
+            let ForceParts { normal, tangential: load } = parts;
+            all &= certain & accepted.touches(dot(f, f), normal, T::zero());
+            [px[k], py[k], pz[k]] = point;
+            [sx[k], sy[k], sz[k]] = [f[0] + n[0] * normal, f[1] + n[1] * normal, f[2] + n[2] * normal];
+            let (newtons, used, ordinary) = self.friction.0.margin_in_contact(normal, load);
+            (pressing[k], margin[k], utilisation[k]) = (normal, newtons, used);
             all &= ordinary;
-            slip[k] = self.detector.0.verdict_of(-along, load);
+            slip[k] = self.detector.0.verdict_of(normal, load);
         }
         all
+    }
+
+    /// Any samples.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
+    fn any<const N: usize>(
+        &self,
+        accepted: Accepted<T>,
+        raw: [&[T]; N],
+        px: &mut [T],
+        py: &mut [T],
+        pz: &mut [T],
+        sx: &mut [T],
+        sy: &mut [T],
+        sz: &mut [T],
+        pressing: &mut [T],
+        margin: &mut [T],
+        utilisation: &mut [T],
+        slip: &mut [SlipVerdict],
+    ) where
+        Zero: Compensation<T, N, Raw = SVector<T, N>>,
+        Solver: WrenchSolver<T, N>,
+        Surface: BatchSurface<T>,
+    {
+        let count = pressing.len();
+        let raw = raw.map(|column| &column[..count]);
+        let (px, py, pz) = (&mut px[..count], &mut py[..count], &mut pz[..count]);
+        let (sx, sy, sz) = (&mut sx[..count], &mut sy[..count], &mut sz[..count]);
+        let (margin, utilisation, slip) =
+            (&mut margin[..count], &mut utilisation[..count], &mut slip[..count]);
+        for k in 0..count {
+            let (f, torque) = self.load(raw, k);
+            let Entered { point, normal: n, parts, gap, .. } = self.surface.enter(f, torque, Lines::Any);
+            // Without what is no number, of which nothing times zero makes one.
+            let f = f.map(|x| if x.abs() <= T::GREATEST { x } else { T::zero() });
+            // A factor, since the compiler makes branches of eight choices by one condition.
+            let keep = if accepted.touches(dot(f, f), parts.normal, gap) { T::one() } else { T::zero() };
+            let (normal, load) = (parts.normal * keep, parts.tangential * keep);
+            [px[k], py[k], pz[k]] = point.map(|x| x * keep);
+            let along = |axis: usize| f[axis] * keep + n[axis] * normal;
+            [sx[k], sy[k], sz[k]] = [along(0), along(1), along(2)];
+            pressing[k] = normal;
+            (margin[k], utilisation[k]) = self.friction.0.margin_of(normal, load);
+            slip[k] = self.detector.0.verdict_of(normal, load);
+        }
     }
 }
 
@@ -236,52 +246,13 @@ impl<T: Real> Accepted<T> {
         }
     }
 
-    /// Whether it is a contact: square of the force, its part along the normal, and the gap.
+    /// Whether it is a contact: square of the force, normal force, and the gap.
     #[inline(always)]
-    fn touches(&self, squared: T, along: T, gap: T) -> bool {
+    fn touches(&self, squared: T, normal: T, gap: T) -> bool {
         (squared >= self.least_squared)
             & (gap <= self.greatest_gap)
-            & (along < T::zero())
-            & (along * along >= self.least_steepness * squared)
-    }
-
-    /// Splits the forces at the tangent planes; takes back the points that are no contact.
-    #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
-    fn split(
-        &self,
-        force: [&[T]; 3],
-        normal: [&[T]; 3],
-        gap: &[T],
-        px: &mut [T],
-        py: &mut [T],
-        pz: &mut [T],
-        sx: &mut [T],
-        sy: &mut [T],
-        sz: &mut [T],
-        pressing: &mut [T],
-        tangential: &mut [T],
-    ) {
-        let count = tangential.len();
-        let ([fx, fy, fz], [nx, ny, nz]) =
-            (force.map(|column| &column[..count]), normal.map(|column| &column[..count]));
-        let (px, py, pz) = (&mut px[..count], &mut py[..count], &mut pz[..count]);
-        let (sx, sy, sz) = (&mut sx[..count], &mut sy[..count], &mut sz[..count]);
-        let (gap, pressing) = (&gap[..count], &mut pressing[..count]);
-        for k in 0..count {
-            // Without what is no number, of which nothing times zero makes one.
-            let f = [fx[k], fy[k], fz[k]].map(|x| if x.abs() <= T::GREATEST { x } else { T::zero() });
-            let n = [nx[k], ny[k], nz[k]];
-            let (squared, along) = (dot(f, f), dot(f, n));
-            // A factor, since the compiler makes branches of eight choices by one condition.
-            let keep = if self.touches(squared, along, gap[k]) { T::one() } else { T::zero() };
-            let [x, y, z] =
-                [(f[0] - n[0] * along) * keep, (f[1] - n[1] * along) * keep, (f[2] - n[2] * along) * keep];
-            (px[k], py[k], pz[k]) = (px[k] * keep, py[k] * keep, pz[k] * keep);
-            (sx[k], sy[k], sz[k]) = (x, y, z);
-            pressing[k] = -along * keep;
-            tangential[k] = dot([x, y, z], [x, y, z]).root();
-        }
+            & (normal > T::zero())
+            & (normal * normal >= self.least_steepness * squared)
     }
 }
 

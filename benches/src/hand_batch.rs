@@ -58,29 +58,32 @@ impl HandA {
         let (tx, ty, tz) = (&mut tx[..count], &mut ty[..count], &mut tz[..count]);
         let (normal_force, margin) = (&mut normal_force[..count], &mut margin[..count]);
         let utilisation = &mut utilisation[..count];
-        let (inverse_radius, friction) = (1.0 / self.radius, &self.friction);
+        let friction = &self.friction;
         let mut all = true;
         for k in 0..count {
             let (force, torque) = self.wrench(&[a[k], b[k], c[k], d[k], e[k], f[k]]);
             let squared = dot(force, force);
             let inverse = 1.0 / squared;
-            let foot = cross(force, torque).map(|x| x * inverse);
-            let half_chord = self.radius * self.radius - dot(foot, foot);
-            all &= (squared >= self.least_squared) & (half_chord > 0.0);
-            let point = add(foot, force, -(half_chord * inverse).sqrt());
-            let normal = point.map(|x| x * inverse_radius);
-            let along = dot(force, normal);
-            let tangential = add(force, normal, -along);
-            let load = dot(tangential, tangential).sqrt();
-            let holding = -friction.coefficient * along;
+            let scale = inverse * self.curvature;
+            let foot = cross(force, torque).map(|x| x * scale);
+            let sine_squared = dot(foot, foot);
+            let cosine_squared = 1.0 - sine_squared;
+            all &= (squared >= self.least_squared) & (cosine_squared > 0.0);
+            let back = (cosine_squared * inverse).sqrt();
+            let normal = add(foot, force, -back);
+            let point = normal.map(|x| x * self.radius);
+            let pressing = squared * back;
+            let tangential = add(force, normal, pressing);
+            let load = (squared * sine_squared).sqrt();
+            let holding = friction.coefficient * pressing;
             (px[k], py[k], pz[k]) = (point[0], point[1], point[2]);
             (tx[k], ty[k], tz[k]) = (tangential[0], tangential[1], tangential[2]);
-            (normal_force[k], margin[k]) = (-along, (holding - load) * friction.cosine);
+            (normal_force[k], margin[k]) = (pressing, (holding - load) * friction.cosine);
             utilisation[k] = load / holding;
             let near =
-                if load >= -friction.warning * along { SlipVerdict::Warning } else { SlipVerdict::Holding };
+                if load >= friction.warning * pressing { SlipVerdict::Warning } else { SlipVerdict::Holding };
             let said = if load >= holding { SlipVerdict::Slipping } else { near };
-            slip[k] = if -along > friction.gate { said } else { SlipVerdict::NotPressing };
+            slip[k] = if pressing > friction.gate { said } else { SlipVerdict::NotPressing };
         }
         all
     }

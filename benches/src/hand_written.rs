@@ -52,31 +52,33 @@ impl Friction {
     fn judge(&self, point: V, normal: V, force: V, spin: f32) -> Felt {
         let along = dot(force, normal);
         let tangential_force = add(force, normal, -along);
-        let normal_force = -along;
         let squared = dot(tangential_force, tangential_force);
-        let tangential = squared.sqrt();
         let spinning = spin * self.inverse_arm;
-        let load = if spin == 0.0 { tangential } else { (squared + spinning * spinning).sqrt() };
+        let load = (squared + spinning * spinning).sqrt();
+        let felt = Felt { contact: 1, point, tangential_force, spin_torque: spin, ..Felt::default() };
+        self.with(felt, -along, squared.sqrt(), load)
+    }
+
+    /// With the normal force, the tangential force's magnitude, and what both of it and the spin torque
+    /// ask of friction.
+    #[inline(always)]
+    fn with(&self, felt: Felt, normal_force: f32, tangential: f32, load: f32) -> Felt {
         let holding = self.coefficient * normal_force;
-        let ratio = tangential / normal_force;
         let slip = if normal_force <= self.gate {
             0
-        } else if ratio >= self.coefficient {
+        } else if tangential >= holding {
             3
-        } else if ratio >= self.warning {
+        } else if tangential >= self.warning * normal_force {
             2
         } else {
             1
         };
         Felt {
-            contact: 1,
-            point,
             normal_force,
-            tangential_force,
-            spin_torque: spin,
             margin: (holding - load) * self.cosine,
             utilisation: load / holding,
             slip,
+            ..felt
         }
     }
 }
@@ -92,10 +94,21 @@ pub struct HandA {
     pub coupling: [f32; 2],
     /// Of the sphere \[m\].
     pub radius: f32,
+    /// Its reciprocal \[1/m\].
+    pub curvature: f32,
     /// The square of the least force \[N²\].
     pub least_squared: f32,
     /// Friction and detector.
     pub friction: Friction,
+}
+
+/// Where a force enters the sphere, and its parts there.
+#[derive(Clone, Copy, Debug)]
+struct Touch {
+    point: V,
+    tangential_force: V,
+    normal_force: f32,
+    load: f32,
 }
 
 /// Column `j`: what a solver makes of a volt at gauge `j`.
@@ -123,6 +136,7 @@ impl HandA {
             diagonal: core::array::from_fn(|i| entry(i, i)),
             coupling: [entry(4, 1), entry(5, 2)],
             radius: 13e-3,
+            curvature: 1.0 / 13e-3,
             least_squared: 0.01,
             friction: Friction::of_scenes(),
         })
@@ -147,16 +161,33 @@ impl HandA {
     pub fn sense(&self, volts: &[f32; 6]) -> Felt {
         let (f, m) = self.wrench(volts);
         let squared = dot(f, f);
+        let Some(touch) = self.touch(f, m, squared) else { return Felt::default() };
+        let Touch { point, tangential_force, normal_force, load } = touch;
+        let felt = Felt { contact: 1, point, tangential_force, ..Felt::default() };
+        self.friction.with(felt, normal_force, load, load)
+    }
+
+    /// In radii the foot of the line is the sine of incidence: both parts of the force follow from it.
+    #[inline(always)]
+    fn touch(&self, f: V, m: V, squared: f32) -> Option<Touch> {
         let inverse = 1.0 / squared;
-        let foot = cross(f, m).map(|x| x * inverse);
-        let half_chord = self.radius * self.radius - dot(foot, foot);
+        let scale = inverse * self.curvature;
+        let foot = cross(f, m).map(|x| x * scale);
+        let sine_squared = dot(foot, foot);
+        let cosine_squared = 1.0 - sine_squared;
         // A NaN fails both.
-        if !(squared >= self.least_squared && half_chord > 0.0) {
-            return Felt::default();
+        if !(squared >= self.least_squared && cosine_squared > 0.0) {
+            return None;
         }
-        let point = add(foot, f, -(half_chord * inverse).sqrt());
-        let normal = point.map(|x| x / self.radius);
-        self.friction.judge(point, normal, f, 0.0)
+        let back = (cosine_squared * inverse).sqrt();
+        let normal = add(foot, f, -back);
+        let normal_force = squared * back;
+        Some(Touch {
+            point: normal.map(|x| x * self.radius),
+            tangential_force: add(f, normal, normal_force),
+            normal_force,
+            load: (squared * sine_squared).sqrt(),
+        })
     }
 }
 

@@ -18,9 +18,13 @@
 //! # Ok::<(), fingertip_surfaces::BadShape>(())
 //! ```
 
+mod kernel;
 mod kernels;
+mod sweep;
 
 use fingertip_wrench::Real;
+
+use crate::ForceParts;
 
 /// Wrenches on the fingertip: one slice per component, x, y and z.
 #[derive(Clone, Copy, Debug)]
@@ -42,6 +46,31 @@ pub struct Contacts<'a, T> {
     /// greatest finite number where there is no answer (no force, not finite, only pulling); point
     /// and normal are zero then.
     pub gap: &'a mut [T],
+}
+
+/// Which lines a loop has to expect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lines {
+    /// Those that meet the surface; of others, only that they may not.
+    Meeting,
+    /// Any.
+    Any,
+}
+
+/// Where the line of a force enters a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entered<T: Real> {
+    /// Point of entry, or for a line that misses the closest point of the surface \[m\].
+    pub point: [T; 3],
+    /// Outward unit normal there.
+    pub normal: [T; 3],
+    /// What the force's parts along the normal and along the surface measure.
+    pub parts: ForceParts<T>,
+    /// As in [`Contacts`].
+    pub gap: T,
+    /// `false` if there is no answer, all else being zero then; of [`Lines::Meeting`] also if the line
+    /// may not meet the surface, and then all else means nothing.
+    pub certain: bool,
 }
 
 /// Surfaces that resolve point contacts in batches.
@@ -71,4 +100,26 @@ pub trait BatchSurface<T: Real> {
     /// [`contacts`](Self::contacts) compiled into the caller, with the vectors that the caller has: for
     /// those who have chosen theirs already. To be always in line.
     fn contacts_in_line(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>);
+
+    /// Where the line of one force \[N\] and its torque about the origin \[N·m\] enters, for loops over
+    /// many: in line, and without a branch, so that the loop can be vectorised. Where the line meets, both
+    /// kinds of `lines` give the same bits; the fewer are expected, the less there is to choose.
+    ///
+    /// The default looks at a batch of one.
+    #[inline(always)]
+    fn enter(&self, force: [T; 3], torque: [T; 3], lines: Lines) -> Entered<T> {
+        let mut found = [T::zero(); 7];
+        let [px, py, pz, nx, ny, nz, gap] = found.each_mut().map(core::slice::from_mut);
+        self.contacts_in_line(
+            Wrenches {
+                force: force.each_ref().map(core::slice::from_ref),
+                torque: torque.each_ref().map(core::slice::from_ref),
+            },
+            Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap },
+        );
+        let [px, py, pz, nx, ny, nz, gap] = found;
+        let (point, normal) = ([px, py, pz], [nx, ny, nz]);
+        let certain = if lines == Lines::Meeting { gap == T::zero() } else { gap < T::GREATEST };
+        Entered { point, normal, parts: kernel::parts_at(force, normal), gap, certain }
+    }
 }
