@@ -115,3 +115,58 @@ pub fn scaled_length<T: Real>(x: T, y: T, z: T) -> T {
     let scale = largest(&v).normalising_factor();
     (v * scale).norm_squared().root() / scale
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+
+    use super::TangentialForce;
+    use crate::Real;
+
+    #[test]
+    fn extremes_have_a_length() {
+        let nan = f64::NAN;
+        for (vector, length) in [
+            (Vector3::zeros(), 0.0),
+            (Vector3::new(0.0, -5e-324, 0.0), 5e-324),
+            (Vector3::new(3e-320, 4e-320, 0.0), 5e-320),
+            (Vector3::new(3e307, 0.0, -4e307), 5e307),
+            (Vector3::new(0.0, 0.0, f64::MAX), f64::MAX),
+        ] {
+            let force = TangentialForce::new(vector);
+            assert!((force.magnitude() - length).abs() <= 1e-15 * length, "{force:?}");
+            assert_eq!(force.vector(), vector);
+        }
+        assert!(TangentialForce::new(Vector3::new(0.0, nan, 0.0)).magnitude().is_nan());
+        assert!(!TangentialForce::new(Vector3::new(f64::NEG_INFINITY, 0.0, 0.0)).magnitude().is_finite());
+    }
+
+    fn is_the_length<T: Real>(vector: [f64; 3], power: i32, factor: f64) {
+        let scale = T::literal(2.0).powi(power);
+        let vector = Vector3::from(vector).map(|x| T::literal(x) * scale);
+        let force = TangentialForce::from(vector);
+        let [x, y, z] = vector.map(|x| (x / scale).to_f64()).into();
+        let length = x.hypot(y).hypot(z);
+        let close = |found: T, wanted: f64| {
+            let found = (found / scale).to_f64();
+            assert!(
+                (found - wanted).abs() <= 4.0 * T::EPSILON.to_f64() * wanted,
+                "{force:?}: {found} {wanted}"
+            );
+        };
+        close(force.magnitude(), length);
+        let factor = T::literal(factor);
+        let scaled = force.scaled(factor);
+        close(scaled.magnitude(), length * factor.to_f64().abs());
+        assert_eq!(scaled.vector(), vector * factor);
+    }
+
+    proptest! {
+        #[test]
+        fn magnitudes_are_lengths(vector: [i16; 3], power in -60..60_i32, factor in -4.0..4.0_f64) {
+            is_the_length::<f32>(vector.map(f64::from), power, factor);
+            is_the_length::<f64>(vector.map(f64::from), power * 10, factor);
+        }
+    }
+}

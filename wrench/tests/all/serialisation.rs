@@ -46,6 +46,10 @@ fn plain_data_survives() {
     let none = [SVector::zeros(); 2];
     survives(&TemperatureCompensation::new(20.0, (0.0, 60.0), coefficients, none).expect("a model"));
     survives(&beam());
+    let force = ContactForce::new(2.0, Vector3::new(3.0, 4.0, 0.0), 1e-3);
+    survives(&force);
+    let text = to_string(&force).expect("writable");
+    assert_eq!(text, r#"{"normal":2.0,"tangential":[3.0,4.0,0.0],"spin":0.001}"#);
     survives(&Gauge { z: 0.01, theta: 0.5, q: -0.25 });
     survives(&GaugeLayout::new(&beam(), GaugeLayout::four_rosettes(0.35)).expect("a beam"));
 }
