@@ -102,7 +102,7 @@ impl<T: Real> ActiveSurface<T> for Sphere<T> {
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         let force = push.force();
         let inverse = T::one() / push.squared();
-        let foot = (force.cross(&push.torque_about(&self.centre)) * self.curvature) * inverse;
+        let foot = force.cross(&(push.torque_about(&self.centre) * self.curvature)) * inverse;
         // The square of the cosine of incidence, and of half the chord.
         let sine_squared = foot.norm_squared();
         let squared = T::one() - sine_squared;
