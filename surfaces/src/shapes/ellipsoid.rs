@@ -14,9 +14,10 @@ use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry,
 pub struct Ellipsoid<T: Real> {
     semi_axes: Vector3<T>,
     curvatures: Vector3<T>,
-    /// Up to where the shortcut is for the product of the squares of a force and of its scaled image;
-    /// less than nothing for an ellipsoid of which the squares of the curvatures leave its range.
-    greatest_both: T,
+    /// A power of two near the greatest semi-axis \[m\], and its reciprocal.
+    unit: [T; 2],
+    /// Reciprocals of the semi-axes in that unit.
+    relative: Vector3<T>,
 }
 
 /// The part of a line within the ellipsoid, scaled to the unit sphere.
@@ -50,10 +51,9 @@ impl<T: Real> Ellipsoid<T> {
             semi_axes.min() / semi_axes.max() >= T::EPSILON.root(),
         )?;
         let curvatures = semi_axes.map(|a| T::one() / a);
-        let (least, greatest) = (curvatures.min().powi(2), curvatures.max().powi(2));
-        let is_tame = least >= ForceLine::least_squared() && greatest <= ForceLine::greatest_squared();
-        let greatest_both = if is_tame { T::one() / T::LEAST_NORMAL } else { -T::one() };
-        Ok(Self { semi_axes, curvatures, greatest_both })
+        let per_unit = semi_axes.max().normalising_factor();
+        let unit = T::one() / per_unit;
+        Ok(Self { semi_axes, curvatures, unit: [unit, per_unit], relative: curvatures * unit })
     }
 
     /// The semi-axes \[m\].
@@ -72,8 +72,7 @@ impl<T: Real> Ellipsoid<T> {
     /// Lengths along the line count in a unit near the size of the ellipsoid, whatever the size.
     #[inline]
     fn chord(&self, line: &Line<T>) -> Option<Chord<T>> {
-        let unit = T::one() / self.semi_axes.max().normalising_factor();
-        let curvatures = self.curvatures * unit;
+        let ([unit, _], curvatures) = (self.unit, self.relative);
         let point = line.point.component_mul(&self.curvatures);
         let direction = line.direction.component_mul(&curvatures);
         let inverse = T::one() / direction.norm_squared();
@@ -120,31 +119,26 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
         }
     }
 
-    /// The same, with one division for both the foot and its scaled image, which nothing before waits
-    /// for.
+    /// The same, without a branch: in units near the size of the ellipsoid no square leaves the range
+    /// that the force's own is in by more than the aspect allows.
     #[inline]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         let force = push.force();
-        let direction = force.component_mul(&self.curvatures);
+        let direction = force.component_mul(&self.relative);
         let squared = direction.norm_squared();
-        let both = squared * push.squared();
-        let least = ForceLine::least_squared();
-        if !(squared >= least && both >= least && both <= self.greatest_both) {
-            return None;
-        }
-        let inverse_both = T::one() / both;
-        let inverse = inverse_both * push.squared();
-        let point = force.cross(&push.torque()).component_mul(&self.curvatures);
-        let foot = (point * squared - direction * point.dot(&direction)) * inverse_both;
+        let (inverse_force, inverse) = (T::one() / push.squared(), T::one() / squared);
+        let [_, per_unit] = self.unit;
+        let point = force.cross(&(push.torque() * per_unit)).component_mul(&self.relative) * inverse_force;
+        let foot = point - direction * (point.dot(&direction) * inverse);
         let remainder = T::one() - foot.norm_squared();
         let scaled = foot - direction * (remainder * inverse).root();
-        let gradient = scaled.component_mul(&self.curvatures);
+        let gradient = scaled.component_mul(&self.relative);
         let flatness = T::one() / gradient.norm_squared().root();
         Some(Entry {
             point: scaled.component_mul(&self.semi_axes),
             normal: gradient * flatness,
             // f·n = direction·scaled·flatness, and the foot is square to the direction.
-            incidence_squared: remainder * (flatness * flatness) * (squared * inverse_both * squared),
+            incidence_squared: remainder * (flatness * flatness) * (squared * inverse_force),
             parts: None,
             active: true,
         })
