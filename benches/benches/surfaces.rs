@@ -267,10 +267,10 @@ fn first<T: Real>(surface: &impl ActiveSurface<T>, (push, line): &(ForceLine<T>,
 /// One answer after the other is stored. Where nothing branches on what is found, the compiler takes
 /// several lines at a time.
 #[inline(never)]
-fn first_of_all(
-    surface: &impl ActiveSurface<f32>,
-    lines: &[(ForceLine<f32>, Line<f32>)],
-    kept: &mut [First<f32>],
+fn first_of_all<T: Real>(
+    surface: &impl ActiveSurface<T>,
+    lines: &[(ForceLine<T>, Line<T>)],
+    kept: &mut [First<T>],
 ) {
     for (line, kept) in lines.iter().zip(kept) {
         *kept = first(surface, line);
@@ -279,14 +279,42 @@ fn first_of_all(
 
 /// The same, but the compiler does not see that there is a next line.
 #[inline(never)]
-fn first_of_each(
-    surface: &impl ActiveSurface<f32>,
-    lines: &[(ForceLine<f32>, Line<f32>)],
-    kept: &mut [First<f32>],
+fn first_of_each<T: Real>(
+    surface: &impl ActiveSurface<T>,
+    lines: &[(ForceLine<T>, Line<T>)],
+    kept: &mut [First<T>],
 ) {
     for (line, kept) in lines.iter().zip(kept) {
         *kept = first(surface, black_box(line));
     }
+}
+
+/// Where each of the lines enters, as [`against_parry`] asks, for shapes of which parry has no like and in
+/// both precisions.
+fn entries<T: Real>(c: &mut Criterion, scalar: &str) {
+    let lines: Vec<(ForceLine<T>, Line<T>)> = lines(0.013)
+        .iter()
+        .map(|line| Line { point: line.point.map(T::literal), direction: line.direction.map(T::literal) })
+        .map(|line| (ForceLine::along(&line), line))
+        .collect();
+    let mut group = c.benchmark_group(format!("entries {scalar}"));
+    group.throughput(Throughput::Elements(COUNT as u64));
+    let mut kept = vec![(Vector3::zeros(), Vector3::zeros(), T::zero()); COUNT];
+    macro_rules! shape {
+        ($name:literal, $shape:expr) => {
+            let surface = $shape.unwrap();
+            group.bench_function($name, |b| {
+                b.iter(|| first_of_all(&surface, black_box(&lines), black_box(&mut kept)));
+            });
+            group.bench_function(concat!($name, ", one at a time"), |b| {
+                b.iter(|| first_of_each(&surface, black_box(&lines), black_box(&mut kept)));
+            });
+        };
+    }
+    let l = T::literal;
+    shape!("sphere", Sphere::centred(l(0.013)));
+    shape!("ellipsoid", Ellipsoid::new(Vector3::new(l(0.013), l(0.011), l(0.017))));
+    group.finish();
 }
 
 /// By parry: position along the line, negative if it misses, and normal.
@@ -392,6 +420,8 @@ fn all(c: &mut Criterion) {
     point_contact::<f32>(c, "f32");
     batch::<f32>(c, "f32");
     batch::<f64>(c, "f64");
+    entries::<f32>(c, "f32");
+    entries::<f64>(c, "f64");
     against_parry(c);
     meshes::<f64>(c, "f64");
     meshes::<f32>(c, "f32");
