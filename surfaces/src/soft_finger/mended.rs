@@ -29,6 +29,17 @@ pub(super) fn mended<T: Real, S: ActiveSurface<T>>(
     surface: &S,
     contact: &SoftContact<T>,
 ) -> SoftContact<T> {
+    mended_on(wrench, &|point| surface.normal(point), &|point| surface.outside_by(point), contact)
+}
+
+/// The same. Compiled once for all surfaces: what differs is only what they answer.
+#[inline(never)]
+fn mended_on<T: Real>(
+    wrench: &Wrench<T>,
+    normal: &dyn Fn(&Vector3<T>) -> Vector3<T>,
+    outside_by: &dyn Fn(&Vector3<T>) -> T,
+    contact: &SoftContact<T>,
+) -> SoftContact<T> {
     let scale = wrench.force().amax().normalising_factor();
     let (f, m) = (wrench.force() * scale, wrench.torque() * scale);
     let (c, n, spin) = (contact.point, contact.normal, contact.spin_torque * scale);
@@ -38,15 +49,13 @@ pub(super) fn mended<T: Real, S: ActiveSurface<T>>(
         return *contact;
     }
     let size = c.amax() + m.amax() / strength;
-    if (surface.normal(&c) - n).amax() > T::literal(64.0) * T::EPSILON {
+    if (normal(&c) - n).amax() > T::literal(64.0) * T::EPSILON {
         return *contact;
     }
     let (e1, e2) = tangents(&n);
     // At the cube root of ε the rounding of the normal and its third derivatives weigh about the same.
     let stride = size * T::EPSILON.cbrt();
-    let bend = |e: &Vector3<T>| {
-        (surface.normal(&(c + e * stride)) - surface.normal(&(c - e * stride))) / (stride + stride)
-    };
+    let bend = |e: &Vector3<T>| (normal(&(c + e * stride)) - normal(&(c - e * stride))) / (stride + stride);
     let (first, second) = (bend(&e1), bend(&e2));
     let steepest = larger(first.amax(), second.amax());
     if !(spin.abs() * steepest <= strength) {
@@ -63,7 +72,7 @@ pub(super) fn mended<T: Real, S: ActiveSurface<T>>(
         left(m.y, c.z, f.x, c.x, f.z, n.y),
         left(m.z, c.x, f.y, c.y, f.x, n.z),
     );
-    let outside = surface.outside_by(&c);
+    let outside = outside_by(&c);
     let turned = rest + n.cross(&f) * outside;
     let (r1, r2) = (e1.dot(&turned), e2.dot(&turned));
     let determinant = w11 * w22 - w12 * w12 + pressing * pressing;

@@ -4,7 +4,7 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use super::mended::mended;
-use super::patch::{Behind, Seen, Three, Way, cross, exactly, plus_times, rounded};
+use super::patch::{Behind, Patch, Seen, Three, Way, cross, exactly, plus_times, rounded};
 use crate::contact::flat;
 use crate::numeric::twofold::{Twofold, Wide};
 use crate::numeric::vectors::{larger, wide};
@@ -12,6 +12,9 @@ use crate::{SoftContact, SoftFingerSurface};
 
 /// Steps at most. From where rounding leaves a contact, two or three are enough, and one for each seam.
 const STEPS: usize = 16;
+
+/// What a surface is at a point ([`SoftFingerSurface::patch`]).
+type PatchAt<'a, T> = &'a dyn Fn(&Vector3<T>) -> Option<Patch>;
 
 /// The solution of the soft-finger equations next to a contact that is off by rounding errors.
 ///
@@ -35,7 +38,21 @@ pub(super) fn refined<T: Real, S: SoftFingerSurface<T>>(
     surface: &S,
     contact: &SoftContact<T>,
 ) -> SoftContact<T> {
-    let Some(patch) = surface.patch(&contact.point) else { return mended(wrench, surface, contact) };
+    match surface.patch(&contact.point) {
+        Some(patch) => refined_on(wrench, &patch, &|point| surface.patch(point), contact),
+        None => mended(wrench, surface, contact),
+    }
+}
+
+/// The same on a surface that tells what it is. Compiled once for all of them: what differs is only what
+/// they answer.
+#[inline(never)]
+fn refined_on<T: Real>(
+    wrench: &Wrench<T>,
+    patch: &Patch,
+    patch_at: PatchAt<'_, T>,
+    contact: &SoftContact<T>,
+) -> SoftContact<T> {
     let epsilon = T::EPSILON.to_f64();
     let (scale, load) = scaled(wrench);
     let [f, m] = load;
@@ -69,9 +86,9 @@ pub(super) fn refined<T: Real, S: SoftFingerSurface<T>>(
     // Of a type that is narrow enough for it double precision has digits to spare.
     let spare = f64::EPSILON * (m.amax() + reach * stiffness) * answer <= 0.02 * epsilon * reach;
     let found = if spare {
-        solve::<f64, T, S>(load, surface, start)
+        solve::<f64, T>(load, patch_at, start)
     } else {
-        solve::<Twofold<f64>, T, S>(load, surface, start)
+        solve::<Twofold<f64>, T>(load, patch_at, start)
     };
     match found {
         Some(end) if (end.point - point).amax() <= allowed && f.dot(&end.normal) < 0.0 => {
@@ -90,9 +107,18 @@ pub(super) fn settled<T: Real, S: SoftFingerSurface<T>>(
     surface: &S,
     contact: &SoftContact<T>,
 ) -> Option<SoftContact<T>> {
+    settled_on(wrench, &|point| surface.patch(point), contact)
+}
+
+#[inline(never)]
+fn settled_on<T: Real>(
+    wrench: &Wrench<T>,
+    patch_at: PatchAt<'_, T>,
+    contact: &SoftContact<T>,
+) -> Option<SoftContact<T>> {
     let (scale, load) = scaled(wrench);
     let start = (wide(&contact.point), contact.spin_torque.to_f64() * scale);
-    let end = solve::<Twofold<f64>, T, S>(load, surface, start)?;
+    let end = solve::<Twofold<f64>, T>(load, patch_at, start)?;
     (load[0].dot(&end.normal) < 0.0).then(|| end.renews(contact, scale))
 }
 
@@ -131,13 +157,13 @@ fn renewed<T: Real>(before: T, now: f64) -> T {
 /// on the seam, and the next goes on from there with the curvature of the neighbour: since the determinant
 /// has the same sign on both, it leads into it, and no part is met twice on the way to a contact that the
 /// equations say linearly (Katzenelson 1965).
-fn solve<W: Wide, T: Real, S: SoftFingerSurface<T>>(
+fn solve<W: Wide, T: Real>(
     [f, m]: [Vector3<f64>; 2],
-    surface: &S,
+    patch_at: PatchAt<'_, T>,
     (start, torque): (Vector3<f64>, f64),
 ) -> Option<End> {
     let (mut point, mut spin): (Three<W>, W) = (exactly(&start), W::exactly(torque));
-    let patch_at = |point: Vector3<f64>| surface.patch(&point.map(T::literal));
+    let patch_at = |point: Vector3<f64>| patch_at(&point.map(T::literal));
     let mut patch = patch_at(start)?;
     let mut before = f64::MAX;
     for taken in 0..STEPS {

@@ -6,6 +6,7 @@ use thiserror::Error;
 
 use super::collect::Crossings;
 use super::random::Random;
+use super::tried::Tried;
 use crate::numeric::vectors::{any_perpendicular, is_finite, length, unit_or};
 use crate::{ActiveSurface, Crossing, ForceLine, Posed};
 
@@ -135,6 +136,10 @@ impl<T: Real> SurfaceLaws<T> {
     /// # Errors
     /// The first [`Violation`].
     pub fn check<S: ActiveSurface<T>>(&self, surface: &S) -> Result<(), Violation<T>> {
+        self.check_tried(Tried::new(surface))
+    }
+
+    fn check_tried(&self, surface: Tried<'_, T>) -> Result<(), Violation<T>> {
         let mut random = Random::new(self.seed);
         let mut tilted = 0_u32;
         let mut compared = 0_u32;
@@ -142,7 +147,7 @@ impl<T: Real> SurfaceLaws<T> {
         let mut known = 0_usize;
         for _ in 0..self.lines {
             let line = random.line(&self.centre, self.radius);
-            let crossings = Crossings::of(surface, &line);
+            let crossings = Crossings::of(&surface, &line);
             if let Some(entry) = surface.sole_entry(&ForceLine::along(&line))
                 && entry.incidence_squared > T::zero()
             {
@@ -165,7 +170,7 @@ impl<T: Real> SurfaceLaws<T> {
             if crossings.least_incidence(&line) < T::literal(0.05) {
                 continue;
             }
-            if S::CLOSED_CONVEX {
+            if surface.closed_convex {
                 self.check_entered_once(surface, &line, &crossings)?;
             }
             self.check_sameness(surface, &line, &crossings, &mut random)?;
@@ -188,7 +193,7 @@ impl<T: Real> SurfaceLaws<T> {
         )?;
         for _ in 0..self.lines / 4 {
             let line = random.line(&self.centre, self.radius);
-            if Crossings::of(surface, &line).as_slice().is_empty() {
+            if Crossings::of(&surface, &line).as_slice().is_empty() {
                 self.check_closest(surface, &line, &samples)?;
             }
         }
@@ -206,29 +211,41 @@ impl<T: Real> SurfaceLaws<T> {
         make: impl Fn(T) -> Option<S>,
     ) -> Result<(), Violation<T>> {
         let Some(original) = make(T::one()) else { return Ok(()) };
+        let original = Tried::new(&original);
         for power in [-12, -4, 3, 7, 15] {
             let factor = T::literal(2.0).powi(power);
-            let Some(scaled) = make(factor) else { continue };
-            let mut random = Random::new(self.seed);
-            for _ in 0..self.lines / 4 {
-                let line = random.line(&self.centre, self.radius);
-                let here = Crossings::of(&original, &line);
-                let incidence = here.least_incidence(&line);
-                if incidence < T::literal(0.05) {
-                    continue;
-                }
-                let there =
-                    Crossings::of(&scaled, &Line { point: line.point * factor, direction: line.direction });
-                let allowed = self.roundings * T::EPSILON * self.size() / incidence;
-                self.compare(Law::Scaling, &line, &here, &there, allowed, |p| p / factor)?;
+            if let Some(scaled) = make(factor) {
+                self.check_scaled(original, Tried::new(&scaled), factor)?;
             }
         }
         Ok(())
     }
 
-    fn check_entered_once<S: ActiveSurface<T>>(
+    fn check_scaled(
         &self,
-        surface: &S,
+        original: Tried<'_, T>,
+        scaled: Tried<'_, T>,
+        factor: T,
+    ) -> Result<(), Violation<T>> {
+        let mut random = Random::new(self.seed);
+        for _ in 0..self.lines / 4 {
+            let line = random.line(&self.centre, self.radius);
+            let here = Crossings::of(&original, &line);
+            let incidence = here.least_incidence(&line);
+            if incidence < T::literal(0.05) {
+                continue;
+            }
+            let there =
+                Crossings::of(&scaled, &Line { point: line.point * factor, direction: line.direction });
+            let allowed = self.roundings * T::EPSILON * self.size() / incidence;
+            self.compare(Law::Scaling, &line, &here, &there, allowed, |p| p / factor)?;
+        }
+        Ok(())
+    }
+
+    fn check_entered_once(
+        &self,
+        surface: Tried<'_, T>,
         line: &Line<T>,
         crossings: &Crossings<T>,
     ) -> Result<(), Violation<T>> {
@@ -269,9 +286,9 @@ impl<T: Real> SurfaceLaws<T> {
         if found <= allowed { Ok(()) } else { Err(Violation { law, line: *line, found, allowed }) }
     }
 
-    fn check_crossing<S: ActiveSurface<T>>(
+    fn check_crossing(
         &self,
-        surface: &S,
+        surface: Tried<'_, T>,
         line: &Line<T>,
         crossing: &Crossing<T>,
     ) -> Result<(), Violation<T>> {
@@ -300,10 +317,10 @@ impl<T: Real> SurfaceLaws<T> {
     }
 
     /// The surface must be met within `allowed` of a point along a normal.
-    fn expect_on_surface<S: ActiveSurface<T>>(
+    fn expect_on_surface(
         &self,
         law: Law,
-        surface: &S,
+        surface: Tried<'_, T>,
         line: &Line<T>,
         point: &Vector3<T>,
         normal: &Vector3<T>,
@@ -344,9 +361,9 @@ impl<T: Real> SurfaceLaws<T> {
         Ok(())
     }
 
-    fn check_sameness<S: ActiveSurface<T>>(
+    fn check_sameness(
         &self,
-        surface: &S,
+        surface: Tried<'_, T>,
         line: &Line<T>,
         crossings: &Crossings<T>,
         random: &mut Random,
@@ -354,10 +371,10 @@ impl<T: Real> SurfaceLaws<T> {
         let incidence = crossings.least_incidence(line);
         let allowed = self.roundings * T::EPSILON * self.size() * T::literal(4.0) / incidence;
         let slid = Line { point: line.at(random.symmetric::<T>() * self.radius), direction: line.direction };
-        let same = Crossings::of(surface, &slid);
+        let same = Crossings::of(&surface, &slid);
         self.compare(Law::SameLineSamePoints, line, crossings, &same, allowed, |p| *p)?;
         let reversed = Line { point: line.point, direction: -line.direction };
-        let same = Crossings::of(surface, &reversed);
+        let same = Crossings::of(&surface, &reversed);
         for crossing in crossings.as_slice() {
             let nearest = same
                 .as_slice()
@@ -368,9 +385,9 @@ impl<T: Real> SurfaceLaws<T> {
         Ok(())
     }
 
-    fn check_rigid_motion<S: ActiveSurface<T>>(
+    fn check_rigid_motion(
         &self,
-        surface: &S,
+        surface: Tried<'_, T>,
         line: &Line<T>,
         crossings: &Crossings<T>,
         random: &mut Random,
@@ -386,9 +403,9 @@ impl<T: Real> SurfaceLaws<T> {
         self.compare(Law::RigidMotion, line, crossings, &there, allowed, |p| back.transform_point(p))
     }
 
-    fn check_inside<S: ActiveSurface<T>>(
+    fn check_inside(
         &self,
-        surface: &S,
+        surface: Tried<'_, T>,
         line: &Line<T>,
         crossings: &Crossings<T>,
     ) -> Result<(), Violation<T>> {
@@ -424,12 +441,12 @@ impl<T: Real> SurfaceLaws<T> {
     }
 
     /// `true` if neighbouring crossings do not lie in the tangent plane.
-    fn is_tilted<S: ActiveSurface<T>>(&self, surface: &S, line: &Line<T>, crossing: &Crossing<T>) -> bool {
+    fn is_tilted(&self, surface: Tried<'_, T>, line: &Line<T>, crossing: &Crossing<T>) -> bool {
         let step = T::EPSILON.cbrt();
         let first = any_perpendicular(&line.direction);
         for aside in [first, line.direction.cross(&first)] {
             let near = Line { point: line.point + aside * (step * self.radius), direction: line.direction };
-            if let Some(neighbour) = Crossings::of(surface, &near).nearest(&near, crossing) {
+            if let Some(neighbour) = Crossings::of(&surface, &near).nearest(&near, crossing) {
                 let chord = neighbour.point - crossing.point;
                 if chord.dot(&crossing.normal).abs() > step * T::literal(20.0) * length(&chord) {
                     return true;
@@ -439,9 +456,9 @@ impl<T: Real> SurfaceLaws<T> {
         false
     }
 
-    fn check_closest<S: ActiveSurface<T>>(
+    fn check_closest(
         &self,
-        surface: &S,
+        surface: Tried<'_, T>,
         line: &Line<T>,
         samples: &[Option<Vector3<T>>],
     ) -> Result<(), Violation<T>> {
@@ -469,11 +486,7 @@ impl<T: Real> SurfaceLaws<T> {
         Ok(())
     }
 
-    fn check_any_bits<S: ActiveSurface<T>>(
-        &self,
-        surface: &S,
-        random: &mut Random,
-    ) -> Result<(), Violation<T>> {
+    fn check_any_bits(&self, surface: Tried<'_, T>, random: &mut Random) -> Result<(), Violation<T>> {
         for k in 0..self.lines {
             let any = |random: &mut Random| {
                 let bits = random.bits();

@@ -17,6 +17,7 @@ mod ball;
 mod collect;
 mod laws;
 mod random;
+mod tried;
 
 #[cfg(feature = "alloc")]
 pub use ball::ball_of_triangles;

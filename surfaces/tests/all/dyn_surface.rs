@@ -1,5 +1,4 @@
 //! Files: every shape comes back as it was written, and nonsense does not come back at all.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 #![cfg(feature = "serde")]
 
 use fingertip_surfaces::*;

@@ -1,8 +1,7 @@
 //! Any bit pattern as wrench and shape: no panic, no NaN, no endless loop. The same as the fuzz
 //! target, with fewer cases.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-#[path = "../fuzz/src/any_shape.rs"]
+#[path = "../../fuzz/src/any_shape.rs"]
 mod any_shape;
 
 use proptest::prelude::*;

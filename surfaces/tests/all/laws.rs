@@ -1,5 +1,4 @@
 //! Every shape obeys the laws, in both precisions.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use fingertip_surfaces::testing::SurfaceLaws;
 use fingertip_surfaces::*;

@@ -1,5 +1,4 @@
 //! Batches answer as one at a time.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use fingertip_surfaces::batch::{BatchSurface, Contacts, Wrenches};
 use fingertip_surfaces::*;

@@ -1,5 +1,4 @@
 //! Meshes: watertight, refused when open, read from files.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use fingertip_surfaces::testing::{SurfaceLaws, ball_of_triangles};
 use fingertip_surfaces::*;

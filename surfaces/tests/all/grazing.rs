@@ -1,5 +1,4 @@
 //! The rigorous bound on the sphere, at every incidence and past tangency.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use fingertip_surfaces::*;
 use fingertip_wrench::{Real, Wrench};

@@ -1,5 +1,4 @@
 //! Point contact: typed outcomes, and the failures of other libraries that do not happen here.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use fingertip_surfaces::*;
 use fingertip_wrench::{Real, RigidTransform, Wrench};
