@@ -15,6 +15,7 @@ mod plane;
 mod profile;
 mod rectangle;
 mod revolution;
+mod ring;
 mod rounded_box;
 mod sphere;
 mod spherical_cap;
