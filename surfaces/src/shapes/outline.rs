@@ -213,8 +213,10 @@ impl<T: Real> Sight<T> {
                 >= T::zero();
             if convex {
                 let slope = |s: T| outline.slope(&way, s);
-                let (at_first, at_last) = (slope(first).0, slope(last).0);
-                if at_first <= T::zero() && at_last >= T::zero() {
+                let ((at_first, bend), (at_last, _)) = (slope(first), slope(last));
+                // Of a line through the axis G may fall from a root of Q on, where in s it has no slope.
+                let falls = at_first < T::zero() || (at_first.is_zero() && bend < T::zero());
+                if falls && at_last > T::zero() {
                     let start = first + (last - first) * T::literal(0.5);
                     let s = bracketed_from(start, first, last, T::zero(), slope);
                     self.keep(outline.place(&way, s));
