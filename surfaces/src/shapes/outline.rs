@@ -51,7 +51,7 @@ enum Way<T> {
 
 impl<T: Real> Outline<T> {
     /// `None` if the piece has no outline: seen along the axis where it narrows or widens.
-    fn new(piece: &Piece<T>, sight: &Sight<T>, reach: T) -> Option<Self> {
+    fn new(piece: &Piece<T>, sight: &Sight<T>) -> Option<Self> {
         let two = T::one() + T::one();
         let (sine, cosine, c) = (sight.sine, sight.cosine, piece.curvature);
         let width = piece.high - piece.low;
@@ -61,20 +61,25 @@ impl<T: Real> Outline<T> {
         } else {
             (piece.high, piece.squared_above, piece.slope_above, piece.slope, -width)
         };
+        // No circle of the piece is larger. Beyond, there is nothing to see, and digits to lose if it is thin.
+        let bulge = c.abs() * width * width * T::literal(0.25);
+        let most = larger(piece.squared, piece.squared_above) + bulge;
+        let radius = larger(most, T::zero()).root() * (T::one() + T::EPSILON * T::literal(4.0));
         let x_at = |slope: T| if slope.is_zero() { slope } else { slope * cosine / (sine + sine) };
+        // Where x comes within that radius, which way from that end.
+        let comes_in = |slope_there: T, there: T| {
+            let x = x_at(slope_there);
+            let within = smaller(larger(x, -radius), radius);
+            let way = if x == within { there } else { (within * two * sine / cosine - slope) / (c + c) };
+            (within, smaller(larger(way, smaller(span, T::zero())), larger(span, T::zero())))
+        };
+        let ((x, way), (far_x, far_way)) = (comes_in(slope, T::zero()), comes_in(far_slope, span));
         // As a function of the height or, where that hardly changes along the outline, of x.
         let by_height = (c * cosine).abs() <= sine;
-        let (x, way, x_slope, z_slope, end) = if by_height {
-            let x = x_at(slope);
-            (x, T::zero(), c * cosine / sine, T::one(), span)
+        let (x_slope, z_slope, end) = if by_height {
+            (c * cosine / sine, T::one(), far_way - way)
         } else {
-            let within = |x: T| smaller(larger(x, -reach), reach);
-            let end = x_at(slope);
-            let x = within(end);
-            // Where the slope is that of this x.
-            let way = if x == end { T::zero() } else { (x * two * sine / cosine - slope) / (c + c) };
-            let way = smaller(larger(way, smaller(span, T::zero())), larger(span, T::zero()));
-            (x, way, T::one(), sine / (c * cosine), within(x_at(far_slope)) - x)
+            (T::one(), sine / (c * cosine), far_x - x)
         };
         if !(end.abs() > T::zero() && x.is_number()) {
             return None;
@@ -190,7 +195,7 @@ impl<T: Real> Outline<T> {
 impl<T: Real> Sight<T> {
     /// Looks at all places of a piece of the side that may be nearest, but for its ends if the solid ends
     /// there.
-    pub(super) fn side(&mut self, piece: &Piece<T>, reach: T) {
+    pub(super) fn side(&mut self, piece: &Piece<T>) {
         // Where two outlines meet, that rounding may keep apart.
         let radius = larger(piece.squared, T::zero()).root();
         let x = if piece.slope.is_zero() {
@@ -200,7 +205,7 @@ impl<T: Real> Sight<T> {
         };
         let x = smaller(larger(x, -radius), radius);
         self.keep(Place::on_side(x, ((radius - x) * (radius + x)).root(), piece.low, piece.slope));
-        let Some(outline) = Outline::new(piece, self, reach) else { return };
+        let Some(outline) = Outline::new(piece, self) else { return };
         let stretches = outline.stretches();
         for (low, high) in stretches.into_iter().zip(stretches.into_iter().skip(1)) {
             let middle = low + (high - low) * T::literal(0.5);

@@ -81,11 +81,6 @@ impl<T: Real> Sight<T> {
         Self { sine, cosine, ahead, aside, far, axes: [x, y], centre: *centre, unit, nearest: None }
     }
 
-    /// A length in the units of this view.
-    pub(super) fn length(&self, length: T) -> T {
-        length * self.unit
-    }
-
     /// A stretch of the profile in the units of this view.
     pub(super) fn seen(&self, piece: &Piece<T>) -> Piece<T> {
         let squared = |x: T| x * self.unit * self.unit;

@@ -91,7 +91,7 @@ fn from_side(side: &Side<'_>, line: &Line<f64>) -> f64 {
     })
 }
 
-/// Profiles with several inward bends, thin necks, hourglasses, straight stretches, tips.
+/// Profiles with several inward bends, thin necks, hourglasses, straight stretches, tips, needles, pancakes.
 fn profile(random: &mut Pcg64Mcg, kind: usize) -> Vec<[f64; 2]> {
     let many = random.random_range(2..9);
     let mut z = -0.5;
@@ -114,7 +114,11 @@ fn profile(random: &mut Pcg64Mcg, kind: usize) -> Vec<[f64; 2]> {
         4 => {
             points.iter_mut().enumerate().for_each(|(k, point)| point[1] = if k % 2 == 0 { 0.3 } else { 0.4 })
         }
-        _ => {}
+        // Needles and pancakes.
+        _ => {
+            let stretch = 10_f64.powf(random.random_range(-3.0..3.0));
+            points.iter_mut().for_each(|point| point[0] *= stretch);
+        }
     }
     points
 }
@@ -156,6 +160,7 @@ fn none_is_nearer<T: Real>(trials: usize, size: f64) {
         else {
             continue;
         };
+        let reach = 1.0 + points[0][0].abs().max(points[points.len() - 1][0].abs());
         let side = Side { solid: &exact, ends: [points[0][0], points[points.len() - 1][0]] };
         for k in 0..6 {
             let aim = line(&mut random, &side, trial / 6 + k);
@@ -173,10 +178,10 @@ fn none_is_nearer<T: Real>(trials: usize, size: f64) {
             missing += 1;
             let found = solid.closest_approach(&given);
             let (gap, point) = (found.gap.to_f64() / size, wide(&found.point) / size);
-            let allowed = 64.0 * T::EPSILON.to_f64() * (1.0 + aim.point.norm());
+            let allowed = 64.0 * T::EPSILON.to_f64() * (reach + aim.point.norm());
             let level = exact.level(&point);
             let off = level.value.abs() / level.gradient.norm();
-            assert!(off <= 64.0 * T::EPSILON.to_f64(), "{trial} {k}: {off:e} off the surface");
+            assert!(off <= 64.0 * T::EPSILON.to_f64() * reach, "{trial} {k}: {off:e} off the surface");
             let apart = distance(&aim, &point);
             assert!((apart - gap).abs() <= allowed, "{trial} {k}: {gap:e} told, {apart:e} away");
             assert!(found.active && (found.normal.norm().to_f64() - 1.0).abs() < 8.0 * T::EPSILON.to_f64());
