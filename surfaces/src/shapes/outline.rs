@@ -122,14 +122,14 @@ impl<T: Real> Outline<T> {
     }
 
     /// Ascending values of τ between which Q has one sign and is monotonic, and G is convex or concave.
-    fn stretches(&self) -> [T; 9] {
+    fn stretches(&self) -> [T; 7] {
         let [low, high] = self.range;
         let inflection = (-self.aside * self.discriminant / self.curvature).cbrt();
         let inflections = roots(self.bend, self.lean, self.squared - inflection * inflection);
         let [a, b] = self.zeros().unwrap_or([low, high]);
         let [c, d] = inflections.filter(|_| inflection > T::zero()).unwrap_or([low, high]);
-        let mut all =
-            [low, low, a, b, c, d, -self.lean / self.bend, high, high].map(|t| smaller(larger(t, low), high));
+        let vertex = -self.lean / self.bend;
+        let mut all = [low, a, b, c, d, vertex, high].map(|t| smaller(larger(t, low), high));
         all.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap_or(core::cmp::Ordering::Equal));
         all
     }
