@@ -2,6 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 
+use fingertip_surfaces::testing::SurfaceLaws;
 use fingertip_surfaces::{ActiveSurface, Knot, Revolution, SmoothSurface};
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
@@ -202,4 +203,27 @@ fn no_place_of_a_revolution_is_nearer() {
     none_is_nearer::<f32>(60, 1e-6);
     none_is_nearer::<f64>(60, 1e3);
     none_is_nearer::<f32>(60, 1e3);
+}
+
+/// An hourglass, a thin neck, waves, sharp corners.
+#[test]
+fn revolutions_that_bend_inward_obey_the_laws() {
+    fn check<T: Real, const N: usize>(points: [[f64; 2]; N]) {
+        let [low, high] = [points[0][0], points[N - 1][0]];
+        let centre = Vector3::new(0.0, 0.0, 0.5 * (low + high)).map(T::literal);
+        let laws = SurfaceLaws::around(centre, T::literal(1.0)).with_edges().lines(400);
+        let make = |scale: T| {
+            Revolution::from_profile(points.map(|point| point.map(|x| T::literal(x) * scale))).ok()
+        };
+        laws.check(&make(T::one()).unwrap()).unwrap();
+        laws.check_scaling(make).unwrap();
+    }
+    fn both<const N: usize>(points: [[f64; 2]; N]) {
+        check::<f64, N>(points);
+        check::<f32, N>(points);
+    }
+    both([[0.0, 0.5], [0.5, 0.25], [1.0, 0.5]]);
+    both([[0.0, 0.5], [0.45, 0.1], [0.5, 0.05], [0.55, 0.1], [1.0, 0.5]]);
+    both([[0.0, 0.5], [0.2, 0.35], [0.4, 0.5], [0.6, 0.35], [0.8, 0.5], [1.0, 0.35], [1.2, 0.0]]);
+    both([[0.0, 0.0], [0.3, 0.4], [0.35, 0.3], [0.7, 0.45]]);
 }
