@@ -3,7 +3,7 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use crate::numeric::closest::{by_search, to_convex};
+use crate::numeric::closest::{by_search, from_distance, to_convex};
 use crate::numeric::roots::{all_of_lipschitz, first_of_convex};
 use crate::numeric::twofold::{Twofold, difference, dot_with};
 use crate::numeric::vectors::foot;
@@ -82,12 +82,17 @@ impl<T: Real, S: SignedDistance<T>> ActiveSurface<T> for Offset<T, S> {
         }
     }
 
-    /// Exact but for rounding outside a convex shape. Otherwise by a bounded search along the line, in
-    /// which a place that is nearer by at most 1/256 of the bounds' radius may be missed.
+    /// Outside a shape as exact as that of the shape itself, which has the same place nearest to the line;
+    /// inside a convex one exact but for rounding. Inside another one by a bounded search along the line,
+    /// in which a place that is nearer by at most 1/256 of the bounds' radius may be missed.
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let (centre, reach) = self.bounds();
         if S::CONVEX {
             to_convex(line, &centre, reach, |point| self.signed_distance(point))
+        } else if self.distance >= T::zero() {
+            let nearest = self.surface.closest_approach(line).point - line.point;
+            let place = line.at(nearest.dot(&line.direction));
+            from_distance(&place, self.signed_distance(&place))
         } else {
             by_search(line, &centre, reach, |point| self.signed_distance(point))
         }
@@ -161,5 +166,39 @@ mod files {
             let Read { distance_m, surface } = Read::<T, S>::deserialize(deserializer)?;
             Self::new(surface, distance_m).map_err(Error::custom)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Offset;
+    use crate::{ActiveSurface, Torus};
+    use fingertip_wrench::Line;
+    use nalgebra::Vector3;
+    use rand::{RngExt, SeedableRng};
+
+    /// The parallel surface of a torus is one with a thicker tube.
+    #[test]
+    fn closest_approaches_outside_a_torus_are_those_of_a_thicker_one() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(11);
+        let (thick, parallel) = (
+            Torus::<f64>::new(1.0, 0.375).unwrap(),
+            Offset::new(Torus::new(1.0, 0.25).unwrap(), 0.125).unwrap(),
+        );
+        let mut missing = 0;
+        for _ in 0..2000 {
+            let mut any = || Vector3::from_fn(|_, _| random.random_range(-1.5..1.5));
+            let line = Line { point: any(), direction: any().normalize() };
+            let (found, expected) = (parallel.closest_approach(&line), thick.closest_approach(&line));
+            assert!(
+                (found.gap - expected.gap).abs() <= 8.0 * f64::EPSILON,
+                "{line:?} {found:?} {expected:?}"
+            );
+            if expected.gap > 0.0 {
+                missing += 1;
+                assert!((found.point - expected.point).norm() < 1e-12 && found.active);
+            }
+        }
+        assert!(missing > 500, "{missing}");
     }
 }

@@ -160,7 +160,11 @@ impl<T: Real, S: ImplicitSurface<T>> ActiveSurface<T> for Implicit<S> {
 
     /// By a bounded search: of the points of the line within the bounds, the one nearest to the surface.
     /// The point of the surface under a point of the line is one straight under it, not certainly the
-    /// nearest: on a surface with hollows, and only there, the gap may be one to a farther part.
+    /// nearest: on a surface with hollows, and only there, the gap may be one to a farther part. A nearer one
+    /// is ruled out as far as the steepness tells, and no farther: a point of the line within the bounds
+    /// is no nearer to the surface than its value over `steepest`. To rule out more, as far as to a part x of
+    /// the gap, takes values all over the tube around the line, of the order of 1/x of them times the cube
+    /// of `steepest` over the gradient: too many for one call.
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let bounds = self.0.bounds();
         by_search(line, &bounds.centre, bounds.radius, |point| self.distance(point))

@@ -99,15 +99,16 @@ impl<T: Real> ActiveSurface<T> for Paraboloid<T> {
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let approach = support::closest_approach(line, |normal| {
             let [ra, rb] = self.radii;
+            // Where the slope is so steep that the point lies beyond the range, as if it were vertical.
+            let below = (T::GREATEST, Vector3::new(T::zero(), T::zero(), -T::GREATEST * T::literal(0.25)));
             if !(normal.z > T::EPSILON) {
-                return (T::GREATEST, Vector3::zeros());
+                return below;
             }
             let (x, y) = (normal.x / normal.z * ra, normal.y / normal.z * rb);
             let height = (normal.x * x + normal.y * y) * T::literal(0.5);
             let z = -(x * x / ra + y * y / rb) * T::literal(0.5);
-            // Where the slope is so steep that the point lies beyond the range, as if it were vertical.
             let far = !(x + y + z).is_number() || !height.is_number();
-            if far { (T::GREATEST, Vector3::zeros()) } else { (height, Vector3::new(x, y, z)) }
+            if far { below } else { (height, Vector3::new(x, y, z)) }
         });
         ClosestApproach { active: self.is_active(approach.point.z), ..approach }
     }

@@ -47,6 +47,7 @@ pub(super) struct Piece<T: Real> {
     pub(super) squared: T,
     pub(super) squared_above: T,
     pub(super) slope: T,
+    pub(super) slope_above: T,
     pub(super) curvature: T,
 }
 
@@ -152,6 +153,7 @@ pub(super) fn pieces<T: Real>(knots: &[Knot<T>]) -> impl Iterator<Item = Piece<T
                 squared,
                 squared_above: squared_middle,
                 slope: this.slope,
+                slope_above: this.middle_slope,
                 curvature: (this.middle_slope - this.slope) / width,
             },
             Piece {
@@ -160,6 +162,7 @@ pub(super) fn pieces<T: Real>(knots: &[Knot<T>]) -> impl Iterator<Item = Piece<T
                 squared: squared_middle,
                 squared_above,
                 slope: this.middle_slope,
+                slope_above: next.slope,
                 curvature: (next.slope - this.middle_slope) / width,
             },
         ]

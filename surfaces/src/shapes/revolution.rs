@@ -8,12 +8,11 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use super::profile::{Knot, exactly_at, fit, patch_at, pieces};
-use crate::numeric::closest::by_search;
+use super::sight::Sight;
 use crate::numeric::quadratic::roots;
-use crate::numeric::roots::bisected;
 use crate::numeric::twofold::Twofold;
-use crate::numeric::vectors::{foot, hypotenuse, length, unit_or};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Patch};
+use crate::numeric::vectors::{foot, hypotenuse, is_finite, length, unit_or};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Patch};
 
 /// A solid of revolution around the z axis; [`Posed`](crate::Posed) puts it elsewhere.
 ///
@@ -152,52 +151,6 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
         pieces(self.knots())
             .any(|piece| z > piece.low && z <= piece.high && radius * radius < piece.squared_at(z))
     }
-
-    /// Distance from the closest point of the profile, `false` if that is on a flat end.
-    fn distance(&self, point: &Vector3<T>) -> (Distance<T>, bool) {
-        let radius = hypotenuse(point.x, point.y);
-        let z = point.z;
-        let outward = unit_or(&Vector3::new(point.x, point.y, T::zero()), Vector3::x);
-        let far = |r: T, h: T| hypotenuse(radius - r, z - h);
-        let half = T::literal(0.5);
-        let mut best: Option<(T, T, T, bool)> = None;
-        let mut keep = |distance: T, r: T, h: T, active: bool| {
-            if best.is_none_or(|(least, ..)| distance < least) {
-                best = Some((distance, r, h, active));
-            }
-        };
-        // On each piece, where the distance stops falling (from either side of its middle).
-        for piece in pieces(self.knots()) {
-            let radius_at = |h: T| piece.squared_at(h).max(T::zero()).root();
-            let falls = |h: T| {
-                let r = radius_at(h);
-                (radius - r) * piece.slope_at(h) * half + (z - h) * r > T::zero()
-            };
-            let middle = (piece.low + piece.high) * half;
-            for (low, high) in [(piece.low, middle), (middle, piece.high)] {
-                let h = if falls(low) == falls(high) {
-                    if falls(low) { high } else { low }
-                } else {
-                    bisected(low, high, falls)
-                };
-                keep(far(radius_at(h), h), radius_at(h), h, true);
-            }
-        }
-        if let Some((low, high)) = self.ends() {
-            for end in [low, high] {
-                if end.radius > T::zero() && radius < end.radius {
-                    keep((z - end.z).abs(), radius, end.z, false);
-                }
-            }
-        }
-        let (distance, r, h, active) = best.unwrap_or((T::zero(), T::zero(), T::zero(), true));
-        let away = outward * (radius - r) + Vector3::z() * (z - h);
-        let side = || self.side_normal(outward.x * r, outward.y * r, h);
-        if self.inside(radius, z) {
-            return (Distance { distance: -distance, normal: unit_or(&-away, side) }, active);
-        }
-        (Distance { distance, normal: unit_or(&away, side) }, active)
-    }
 }
 
 impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
@@ -277,21 +230,44 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
         }
     }
 
-    /// By a bounded search along the line, which takes microseconds. The gap is exact but for rounding
-    /// where one place of the line is nearest by more than 1/256 of the radius of
-    /// a ball around the solid; otherwise another place, at most that much nearer, may be missed. The
-    /// distance of a place from the profile is the least of one candidate per half of every piece: of a
-    /// piece that bends inward more than a circle about the place, the nearest point may be missed.
+    /// The nearest of all places that can be: each piece of the side is a quadric, on whose outline the
+    /// stretches that have a nearest place each are known in closed form; rims and tips are looked at
+    /// besides. None is missed, and the gap is exact but for rounding. The work is bounded: per interval
+    /// of the profile five steps of Newton's method on average, and at most 59 for any of 270 000 lines tried.
+    ///
+    /// Of a line that crosses the surface, the gap is zero and the point the nearest one of its outline.
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let (centre, reach) = self.bounds();
-        let found = by_search(line, &centre, reach, |point| self.distance(point).0);
-        let active = self.distance(&found.point).1;
-        ClosestApproach { active, ..found }
+        let mut sight = Sight::new(line, &centre, reach);
+        let mut last = None;
+        for piece in pieces(self.knots()) {
+            let piece = sight.seen(&piece);
+            if last.is_none() {
+                sight.rim(piece.low, piece.squared.root(), piece.slope, -T::one());
+            }
+            sight.side(&piece);
+            last = Some(piece);
+        }
+        if let Some(piece) = last {
+            sight.rim(piece.high, piece.squared_above.root(), piece.slope_above, T::one());
+        }
+        let (gap, point, normal) = sight.nearest().unwrap_or_else(|| (T::zero(), centre, Vector3::z()));
+        let mut crosses = false;
+        self.crossings(line, |_| crosses = true);
+        let gap = if crosses { T::zero() } else { gap.max(T::zero()).min(T::GREATEST) };
+        ClosestApproach { gap, point: if is_finite(&point) { point } else { centre }, normal, active: true }
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
-        let (found, active) = self.distance(point);
-        if active { self.side_normal(point.x, point.y, point.z) } else { found.normal }
+        let radius = hypotenuse(point.x, point.y);
+        let [squared, slope, _] = self.profile(point.z);
+        let from_side = ((radius * radius - squared) / hypotenuse(radius + radius, slope)).abs();
+        let on = |end: &Knot<T>| radius < end.radius && (point.z - end.z).abs() < from_side;
+        match self.ends() {
+            Some((bottom, _)) if on(&bottom) => -Vector3::z(),
+            Some((_, top)) if on(&top) => Vector3::z(),
+            _ => self.side_normal(point.x, point.y, point.z),
+        }
     }
 
     /// Outside the side, on which the active part lies.

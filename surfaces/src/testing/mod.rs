@@ -14,11 +14,15 @@
 
 #[cfg(feature = "alloc")]
 mod ball;
+mod closest;
 mod collect;
+mod crossings;
+mod law;
 mod laws;
 mod random;
 mod tried;
 
 #[cfg(feature = "alloc")]
 pub use ball::ball_of_triangles;
-pub use laws::{Law, SurfaceLaws, Violation};
+pub use law::{Law, Violation};
+pub use laws::SurfaceLaws;

@@ -4,5 +4,6 @@
 mod big;
 mod pieces;
 mod quadrics;
+mod revolution;
 mod superquadric;
 mod torus;

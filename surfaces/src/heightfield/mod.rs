@@ -1,5 +1,7 @@
 //! Surfaces given by heights on a grid.
 
+mod closest;
+
 use alloc::vec::Vec;
 
 use fingertip_wrench::{Line, Real};
@@ -209,53 +211,21 @@ impl<T: Real> ActiveSurface<T> for Heightfield<T> {
         }
     }
 
-    /// The nearest height of the grid, then downhill from there: takes a time that grows with the
-    /// size of the grid.
+    /// Exact but for rounding: of a cell, the nearest place is a node, on a straight edge, or where the
+    /// normal is across the line, which is a root of a cubic. Of a line
+    /// that crosses, a crossing. Takes a time that grows with the size of the
+    /// grid, some steps per node and more for the cells near the line.
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
-        let middle = self.node(self.columns / 2, self.rows / 2);
-        let (offset, _) = foot(line, &middle);
-        let p = if is_finite(&offset) { middle + offset } else { middle };
-        let away = |q: &Vector3<T>| {
-            let d = q - p;
-            d - line.direction * d.dot(&line.direction)
-        };
-        let (mut best, mut least) = (middle, T::GREATEST);
-        for row in 0..self.rows {
-            for column in 0..self.columns {
-                let node = self.node(column, row);
-                let distance = length(&away(&node));
-                if distance < least {
-                    (best, least) = (node, distance);
-                }
+        let (nearest, distance) = self.nearest_to(line);
+        let mut crossing: Option<Crossing<T>> = None;
+        let from_nearest = |c: &Crossing<T>| length(&(c.point - nearest));
+        self.crossings(line, |c| {
+            if crossing.is_none_or(|known| from_nearest(&c) < from_nearest(&known)) {
+                crossing = Some(c);
             }
-        }
-        let ([cx, cy], [dx, dy]) = (self.corner, self.spacing);
-        let far = self.node(self.columns - 1, self.rows - 1);
-        let mut step = T::one();
-        for _ in 0..200 {
-            if !(step > T::EPSILON) {
-                break;
-            }
-            let mut better = false;
-            for (u, v) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
-                let x = (best.x + dx * step * T::literal(u)).max(cx).min(far.x);
-                let y = (best.y + dy * step * T::literal(v)).max(cy).min(far.y);
-                let point = Vector3::new(x, y, self.height(x, y).0);
-                let distance = length(&away(&point));
-                if distance < least {
-                    (best, least, better) = (point, distance, true);
-                }
-            }
-            if !better {
-                step *= T::literal(0.5);
-            }
-        }
-        ClosestApproach {
-            gap: least.min(T::GREATEST),
-            point: best,
-            normal: self.upward(best.x, best.y),
-            active: true,
-        }
+        });
+        let (point, gap) = crossing.map_or((nearest, distance), |c| (c.point, T::zero()));
+        ClosestApproach { gap, point, normal: self.upward(point.x, point.y), active: true }
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {

@@ -1,0 +1,58 @@
+//! What a surface has to obey.
+
+use fingertip_wrench::{Line, Real};
+use thiserror::Error;
+
+/// What a surface has to obey.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Law {
+    /// A crossing lies on the line, at the position that it names.
+    CrossingOnLine,
+    /// A crossing lies on the surface: a line through it along its normal meets the surface there.
+    CrossingOnSurface,
+    /// `sole_entry`, if it answers, is the crossing at which the line enters, but for rounding.
+    SoleEntry,
+    /// What `sole_entry` says of the force's parts is what its normal says of them.
+    ForceParts,
+    /// A surface that is [`CLOSED_CONVEX`](crate::ActiveSurface::CLOSED_CONVEX) is entered once and left once,
+    /// both at active points, and reports where it is entered first.
+    EnteredOnce,
+    /// Normals have length 1.
+    UnitNormal,
+    /// `normal` agrees with the normals of crossings.
+    NormalAgrees,
+    /// Neighbouring crossings lie in the tangent plane: the normal is the gradient's direction.
+    NormalIsGradient,
+    /// The same line the other way round, or counted from another point, crosses in the same points.
+    SameLineSamePoints,
+    /// Crossings of a closed surface alternate, first in, then out.
+    Alternation,
+    /// The line is inside between entry and exit, and nowhere else.
+    AllCrossingsFound,
+    /// Turning and moving both shape and line turns and moves the crossings.
+    RigidMotion,
+    /// Scaling both shape and line scales the crossings.
+    Scaling,
+    /// The closest point of a line that misses is a point of the surface, as far from the line as
+    /// the gap says.
+    ClosestOnSurface,
+    /// No other point of the surface is closer than the closest approach.
+    NothingIsCloser,
+    /// No NaN comes out of a finite line.
+    NoNan,
+}
+
+/// A law that a surface breaks, and the line on which it does.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("{law:?} is broken on the line through {line:?}: {found} is more than {allowed}")]
+pub struct Violation<T: Real> {
+    /// The law.
+    pub law: Law,
+    /// The line on which it is broken.
+    pub line: Line<T>,
+    /// By how much; the count of lines for laws that allow some exceptions.
+    pub found: T,
+    /// How much was allowed.
+    pub allowed: T,
+}
