@@ -2,7 +2,7 @@
 
 use fingertip_friction::{Coulomb, RatioThreshold, SlipVerdict};
 use fingertip_surfaces::batch::{BatchSurface, Entered, Lines};
-use fingertip_surfaces::{ForceParts, PointContact};
+use fingertip_surfaces::{ForceLine, ForceParts, PointContact};
 use fingertip_wrench::{Compensation, Real, WrenchSolver};
 use nalgebra::SVector;
 
@@ -170,13 +170,13 @@ where
             let Entered { point, normal: n, parts, certain, .. } =
                 self.surface.enter(f, torque, Lines::Meeting);
             let ForceParts { normal, tangential: load } = parts;
-            all &= certain & accepted.touches(dot(f, f), normal, T::zero());
+            all &= certain & accepted.touches(dot(f, f), parts, T::zero());
             [px[k], py[k], pz[k]] = point;
             [sx[k], sy[k], sz[k]] = [f[0] + n[0] * normal, f[1] + n[1] * normal, f[2] + n[2] * normal];
             let (newtons, used, ordinary) = self.friction.0.margin_in_contact(normal, load);
             (pressing[k], margin[k], utilisation[k]) = (normal, newtons, used);
             all &= ordinary;
-            slip[k] = self.detector.0.verdict_of(normal, load);
+            slip[k] = self.detector.0.verdict_in_contact(normal, load);
         }
         all
     }
@@ -215,7 +215,7 @@ where
             // Without what is no number, of which nothing times zero makes one.
             let f = f.map(|x| if x.abs() <= T::GREATEST { x } else { T::zero() });
             // A factor, since the compiler makes branches of eight choices by one condition.
-            let keep = if accepted.touches(dot(f, f), parts.normal, gap) { T::one() } else { T::zero() };
+            let keep = if accepted.touches(dot(f, f), parts, gap) { T::one() } else { T::zero() };
             let (normal, load) = (parts.normal * keep, parts.tangential * keep);
             [px[k], py[k], pz[k]] = point.map(|x| x * keep);
             let along = |axis: usize| f[axis] * keep + n[axis] * normal;
@@ -231,28 +231,29 @@ where
 #[derive(Clone, Copy)]
 struct Accepted<T> {
     least_squared: T,
+    greatest_squared: T,
     greatest_gap: T,
-    /// The square of the least cosine of incidence.
-    least_steepness: T,
+    greatest_ratio: T,
 }
 
 impl<T: Real> Accepted<T> {
     fn by(model: &PointContact<T>) -> Self {
-        let steepness = |mu: T| T::one() / (T::one() + mu * mu);
         Self {
-            least_squared: model.least_force() * model.least_force(),
+            least_squared: (model.least_force() * model.least_force()).max(ForceLine::least_squared()),
+            greatest_squared: ForceLine::greatest_squared(),
             greatest_gap: model.greatest_gap(),
-            least_steepness: model.greatest_friction().map_or(T::zero(), steepness),
+            greatest_ratio: model.greatest_friction().unwrap_or(T::GREATEST),
         }
     }
 
-    /// Whether it is a contact: square of the force, normal force, and the gap.
+    /// Whether it is a contact: square of the force, its parts, and the gap.
     #[inline(always)]
-    fn touches(&self, squared: T, normal: T, gap: T) -> bool {
+    fn touches(&self, squared: T, parts: ForceParts<T>, gap: T) -> bool {
         (squared >= self.least_squared)
+            & (squared <= self.greatest_squared)
             & (gap <= self.greatest_gap)
-            & (normal > T::zero())
-            & (normal * normal >= self.least_steepness * squared)
+            & (parts.normal > T::zero())
+            & (parts.tangential <= self.greatest_ratio * parts.normal)
     }
 }
 

@@ -12,13 +12,19 @@ use crate::hand_written::{HandA, add, cross, dot};
 impl HandA {
     /// Many samples, a column for each gauge; all columns are as long as the first.
     pub fn sense_all(&self, raw: [&[f32]; 6], touches: Touches<'_, f32>) {
+        // What it is given moves into the closure, which then is called itself, not by way of a function
+        // that knows no wide vectors.
+        pulp::Arch::new().dispatch(
+            #[inline(always)]
+            || self.sense_columns(raw, touches),
+        );
+    }
+
+    #[inline(always)]
+    fn sense_columns(&self, raw: [&[f32]; 6], touches: Touches<'_, f32>) {
         let Touches { point: [px, py, pz], normal_force, tangential_force: [tx, ty, tz], .. } = touches;
         let (margin, utilisation, slip) = (touches.margin, touches.utilisation, touches.slip);
-        let all = pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || self.sweep(raw, px, py, pz, normal_force, tx, ty, tz, margin, utilisation, slip),
-        );
-        if all {
+        if self.sweep(raw, px, py, pz, normal_force, tx, ty, tz, margin, utilisation, slip) {
             return;
         }
         for k in 0..slip.len() {

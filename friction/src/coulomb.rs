@@ -75,20 +75,21 @@ impl<T: Real> Coulomb<T> {
         let (margin, used, ordinary) = self.margin_in_contact(normal, load);
         let known = (normal >= T::zero()) & (load >= T::zero()) & (margin.abs() <= T::GREATEST);
         let idle = known & (load <= T::zero());
-        let used = if known & ordinary { used } else { T::GREATEST };
+        let used = if known & ordinary & (normal > T::zero()) { used } else { T::GREATEST };
         (if known { margin } else { -T::GREATEST }, if idle { T::zero() } else { used })
     }
 
-    /// Margin \[N\] and utilisation of an ordinary contact, and whether it is one: `false` where friction
-    /// holds nothing or a number is out of range, which [`margin_of`](Self::margin_of) knows to answer.
+    /// Margin \[N\] and utilisation of an ordinary contact, of which the normal force is positive, and
+    /// whether it is one: `false` where friction holds nothing or a number is out of range, which
+    /// [`margin_of`](Self::margin_of) knows to answer. Of an ordinary contact the load is a number.
     #[inline(always)]
     #[must_use]
     pub fn margin_in_contact(&self, normal: T, load: T) -> (T, T, bool) {
         let Cone { coefficient, cosine } = self.cone;
         let holding = coefficient * normal;
         let used = load / holding;
-        // Only then is the quotient a number.
-        let ordinary = (holding > T::zero()) & (holding <= T::GREATEST) & (used < T::GREATEST);
+        // Nothing, or no number, above or below the line leaves no number that is less.
+        let ordinary = (holding <= T::GREATEST) & (used < T::GREATEST);
         ((holding - load) * cosine, used, ordinary)
     }
 }

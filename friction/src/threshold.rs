@@ -58,9 +58,16 @@ impl<T: Real> RatioThreshold<T> {
     #[inline(always)]
     #[must_use]
     pub fn verdict_of(&self, normal: T, load: T) -> SlipVerdict {
-        let pressing = (normal > self.gate.least()) & (load >= T::zero()) & (load <= T::GREATEST);
+        let verdict = self.verdict_in_contact(normal, load);
+        if (load >= T::zero()) & (load <= T::GREATEST) { verdict } else { SlipVerdict::NotPressing }
+    }
+
+    /// The same where the load is known to be a number.
+    #[inline(always)]
+    #[must_use]
+    pub fn verdict_in_contact(&self, normal: T, load: T) -> SlipVerdict {
         let said = self.said(normal, load);
-        if pressing { said } else { SlipVerdict::NotPressing }
+        if normal > self.gate.least() { said } else { SlipVerdict::NotPressing }
     }
 
     /// What the ratio says of a contact that presses. Products instead of a quotient: sooner known, and

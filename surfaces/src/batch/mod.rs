@@ -69,7 +69,8 @@ pub struct Entered<T: Real> {
     /// As in [`Contacts`].
     pub gap: T,
     /// `false` if there is no answer, all else being zero then; of [`Lines::Meeting`] also if the line
-    /// may not meet the surface, and then all else means nothing.
+    /// may not meet the surface, and then all else means nothing, as where the square of the force is
+    /// beyond the range of [`ForceLine`](crate::ForceLine), which is not looked at then.
     pub certain: bool,
 }
 

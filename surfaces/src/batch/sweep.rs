@@ -60,10 +60,11 @@ fn all_meet<T: Real>(
     let (nx, ny, nz) = (&mut nx[..count], &mut ny[..count], &mut nz[..count]);
     let mut all = true;
     for k in 0..count {
-        let entered = kernel.enter([fx[k], fy[k], fz[k]], [tx[k], ty[k], tz[k]], Lines::Meeting);
-        all &= entered.certain;
-        [px[k], py[k], pz[k]] = entered.point;
-        [nx[k], ny[k], nz[k]] = entered.normal;
+        let (push, in_range) = Push::new([fx[k], fy[k], fz[k]], [tx[k], ty[k], tz[k]]);
+        let answer = kernel.answer(push, Lines::Meeting);
+        all &= in_range & answer.certain;
+        [px[k], py[k], pz[k]] = answer.point;
+        [nx[k], ny[k], nz[k]] = answer.normal;
         gap[k] = T::zero();
     }
     all
@@ -112,7 +113,7 @@ impl<T: Real, K: Kernel<T>> BatchSurface<T> for K {
         );
         if lines == Lines::Meeting {
             let Answer { point, normal, certain, .. } = answer;
-            return Entered { point, normal, parts, gap: T::zero(), certain: certain & in_range };
+            return Entered { point, normal, parts, gap: T::zero(), certain };
         }
         let certain = in_range & answer.is_finite();
         let keep = |x: T| pick(certain, x, T::zero());
