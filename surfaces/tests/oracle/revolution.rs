@@ -186,6 +186,14 @@ fn none_is_nearer<T: Real>(trials: usize, size: f64) {
             let apart = distance(&aim, &point);
             assert!((apart - gap).abs() <= allowed, "{trial} {k}: {gap:e} told, {apart:e} away");
             assert!(found.active && (found.normal.norm().to_f64() - 1.0).abs() < 8.0 * T::EPSILON.to_f64());
+            // The normal points to the line; where that is near, half of the digits tell.
+            let half_the_digits = T::EPSILON.to_f64().sqrt() * 8.0;
+            if gap > half_the_digits.sqrt() {
+                let away = aim.point - point;
+                let away = (away - aim.direction * away.dot(&aim.direction)) / apart;
+                let turned = (wide(&found.normal) - away).norm();
+                assert!(turned <= half_the_digits, "{trial} {k}: {turned:e} off the normal, {gap:e} away");
+            }
             let least = from_side(&side, &aim);
             assert!(gap <= least + allowed, "{trial} {k}: {gap:e} told, {least:e} found: {points:?} {aim:?}");
             as_near += i32::from(gap >= least - allowed);
