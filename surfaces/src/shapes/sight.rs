@@ -163,7 +163,7 @@ impl<T: Real> Sight<T> {
         let (_, place) = self.nearest?;
         let [ahead, aside] = self.apart(&place.point);
         let distance = hypotenuse(ahead, aside);
-        let normal = if place.end.is_zero() { place.normal() } else { self.normal_at_end(&place) };
+        let normal = self.normal(&place);
         let back = |v: &Vector3<T>| {
             let [x, y] = self.axes;
             x * v.x + y * v.y + Vector3::z() * v.z
@@ -171,19 +171,25 @@ impl<T: Real> Sight<T> {
         Some((distance / self.unit, self.centre + back(&place.point) / self.unit, back(&normal)))
     }
 
-    /// Towards the line. If it touches, across it: on a rim one between the normals of the side and of the
-    /// flat end that meet there, on a tip the one nearest to the axis.
-    fn normal_at_end(&self, place: &Place<T>) -> Vector3<T> {
+    /// Towards the line, if that is not so near that rounding turns it: however sharp the bend, that is where
+    /// the normal points. Else that of the side; on a rim one across the line between those of the side
+    /// and of the flat end that meet there, on a tip the one nearest to the axis.
+    fn normal(&self, place: &Place<T>) -> Vector3<T> {
         let across = |ahead: T, aside: T| Vector3::new(-ahead * self.cosine, aside, ahead * self.sine);
         let [ahead, aside] = self.apart(&place.point);
-        let end = Vector3::new(T::zero(), T::zero(), place.end);
-        if hypotenuse(ahead, aside) > T::EPSILON * T::literal(16.0) {
-            return unit_or(&across(ahead, aside), || end);
+        let (end, side) = (Vector3::new(T::zero(), T::zero(), place.end), place.normal());
+        let near = if place.end.is_zero() { T::EPSILON.root() } else { T::EPSILON * T::literal(16.0) };
+        let away = across(ahead, aside);
+        // Of a line that passes inside it is the other way.
+        if hypotenuse(ahead, aside) > near && away.dot(&(side + end)) > T::zero() {
+            return unit_or(&away, || side);
+        }
+        if place.end.is_zero() {
+            return side;
         }
         if place.point.x.is_zero() && place.point.y.is_zero() {
             return unit_or(&across(end.z * self.sine, T::zero()), || end);
         }
-        let side = place.normal();
         let (rises, falls) = (side.x * self.sine + side.z * self.cosine, end.z * self.cosine);
         unit_or(&(side * falls.abs() + end * rises.abs()), || side)
     }
