@@ -3,7 +3,7 @@
 use fingertip_wrench::Real;
 
 use super::profile::Piece;
-use super::sight::{Place, Sight};
+use super::sight::Sight;
 use crate::numeric::quadratic::{difference_of_products, roots};
 use crate::numeric::roots::bracketed_from;
 use crate::numeric::vectors::{larger, smaller};
@@ -185,10 +185,10 @@ impl<T: Real> Outline<T> {
         (if value.abs() <= noise { T::zero() } else { value }, bend)
     }
 
-    fn place(&self, way: &Way<T>, s: T) -> Place<T> {
+    fn look_at(&self, way: &Way<T>, s: T, sight: &mut Sight<T>) {
         let [[t, ..], [y, ..]] = self.along(way, s);
         let at = |[start, rate]: [T; 2]| start + rate * t;
-        Place::on_side(at(self.x), y, at(self.z), at(self.slope))
+        sight.keep_on_side(at(self.x), y, at(self.z), at(self.slope));
     }
 }
 
@@ -204,7 +204,7 @@ impl<T: Real> Sight<T> {
             piece.slope * self.cosine / (self.sine + self.sine)
         };
         let x = smaller(larger(x, -radius), radius);
-        self.keep(Place::on_side(x, ((radius - x) * (radius + x)).root(), piece.low, piece.slope));
+        self.keep_on_side(x, ((radius - x) * (radius + x)).root(), piece.low, piece.slope);
         let Some(outline) = Outline::new(piece, self) else { return };
         let stretches = outline.stretches();
         for (low, high) in stretches.into_iter().zip(stretches.into_iter().skip(1)) {
@@ -224,12 +224,12 @@ impl<T: Real> Sight<T> {
                 if falls && at_last > T::zero() {
                     let start = first + (last - first) * T::literal(0.5);
                     let s = bracketed_from(start, first, last, T::zero(), slope);
-                    self.keep(outline.place(&way, s));
+                    outline.look_at(&way, s, self);
                     continue;
                 }
             }
-            self.keep(outline.place(&way, first));
-            self.keep(outline.place(&way, last));
+            outline.look_at(&way, first, self);
+            outline.look_at(&way, last, self);
         }
     }
 }

@@ -239,17 +239,14 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let (centre, reach) = self.bounds();
         let mut sight = Sight::new(line, &centre, reach);
-        let mut last = None;
-        for piece in pieces(self.knots()) {
-            let piece = sight.seen(&piece);
-            if last.is_none() {
-                sight.rim(piece.low, piece.squared.root(), piece.slope, -T::one());
-            }
-            sight.side(&piece);
-            last = Some(piece);
+        let mut all = pieces(self.knots()).map(|piece| sight.seen(&piece));
+        if let Some(first) = all.next() {
+            let last = all.last().unwrap_or(first);
+            sight.rim(first.low, first.squared.root(), first.slope, -T::one());
+            sight.rim(last.high, last.squared_above.root(), last.slope_above, T::one());
         }
-        if let Some(piece) = last {
-            sight.rim(piece.high, piece.squared_above.root(), piece.slope_above, T::one());
+        for piece in pieces(self.knots()) {
+            sight.side(&sight.seen(&piece));
         }
         let (gap, point, normal) = sight.nearest().unwrap_or_else(|| (T::zero(), centre, Vector3::z()));
         let mut crosses = false;

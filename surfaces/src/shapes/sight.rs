@@ -9,19 +9,15 @@ use crate::numeric::vectors::{foot, hypotenuse, is_finite, larger, unit_or};
 
 /// A place on the side of a solid of revolution.
 #[derive(Clone, Copy)]
-pub(super) struct Place<T: Real> {
-    pub(super) point: Vector3<T>,
+struct Place<T: Real> {
+    point: Vector3<T>,
     /// `d(ρ²)/dz` there.
-    pub(super) slope: T,
+    slope: T,
     /// Towards which end a flat end or a tip is met there: up, down, or none.
     end: T,
 }
 
 impl<T: Real> Place<T> {
-    pub(super) fn on_side(x: T, y: T, z: T, slope: T) -> Self {
-        Self { point: Vector3::new(x, y, z), slope, end: T::zero() }
-    }
-
     /// Outward unit normal of the side.
     fn normal(&self) -> Vector3<T> {
         let up = -self.slope * T::literal(0.5);
@@ -47,8 +43,10 @@ pub(super) struct Sight<T: Real> {
     axes: [Vector3<T>; 2],
     centre: Vector3<T>,
     unit: T,
-    /// The nearest place known, and its distance.
-    nearest: Option<(T, Place<T>)>,
+    /// Heights of the rims, lower and upper.
+    rims: [T; 2],
+    /// The nearest place known, and where it lies in the plane across the line.
+    nearest: Option<([T; 2], Place<T>)>,
 }
 
 impl<T: Real> Sight<T> {
@@ -78,7 +76,18 @@ impl<T: Real> Sight<T> {
         let nearer = T::one() / larger(T::one(), larger(ahead.abs(), aside) / most);
         let far = [ahead, aside];
         let [ahead, aside] = far.map(|x| x * nearer);
-        Self { sine, cosine, ahead, aside, far, axes: [x, y], centre: *centre, unit, nearest: None }
+        Self {
+            sine,
+            cosine,
+            ahead,
+            aside,
+            far,
+            axes: [x, y],
+            centre: *centre,
+            unit,
+            rims: [-T::GREATEST, T::GREATEST],
+            nearest: None,
+        }
     }
 
     /// A stretch of the profile in the units of this view.
@@ -95,18 +104,37 @@ impl<T: Real> Sight<T> {
         }
     }
 
-    /// From the line to a point across it: in the plane, along `(−cosine, 0, sine)` and along y.
+    /// Where a point lies in the plane across the line: along `(−cosine, 0, sine)` and along y.
+    fn seen_at(&self, point: &Vector3<T>) -> [T; 2] {
+        [point.z * self.sine - point.x * self.cosine, point.y]
+    }
+
+    /// In that plane, from a point to the line.
     fn apart(&self, point: &Vector3<T>) -> [T; 2] {
-        let [ahead, aside] = self.far;
-        [ahead - (point.z * self.sine - point.x * self.cosine), aside - point.y]
+        let ([ahead, aside], [at, beside]) = (self.far, self.seen_at(point));
+        [ahead - at, aside - beside]
+    }
+
+    /// Takes note of a place of the side, but for its rims, that have other normals and are looked at
+    /// before.
+    pub(super) fn keep_on_side(&mut self, x: T, y: T, z: T, slope: T) {
+        let on_rim = |rim: &T| (z - *rim).abs() <= T::EPSILON * T::literal(8.0);
+        if !self.rims.iter().any(on_rim) {
+            self.keep(Place { point: Vector3::new(x, y, z), slope, end: T::zero() });
+        }
     }
 
     /// Takes note of a place.
-    pub(super) fn keep(&mut self, place: Place<T>) {
-        let [ahead, aside] = self.apart(&place.point);
-        let distance = hypotenuse(ahead, aside);
-        if self.nearest.is_none_or(|(least, _)| distance < least) {
-            self.nearest = Some((distance, place));
+    fn keep(&mut self, place: Place<T>) {
+        let here = self.seen_at(&place.point);
+        // The difference of the squares of two distances, which far away would be lost in either.
+        let nearer = self.nearest.is_none_or(|(known, _)| {
+            let more = |from: T, to: T, line: T| (to - from) * (to - line + (from - line));
+            let [ahead, aside] = self.far;
+            more(known[0], here[0], ahead) + more(known[1], here[1], aside) < T::zero()
+        });
+        if nearer {
+            self.nearest = Some((here, place));
         }
     }
 
@@ -115,6 +143,8 @@ impl<T: Real> Sight<T> {
         if !(radius > T::zero()) {
             return self.keep(Place { point: Vector3::new(T::zero(), T::zero(), z), slope, end });
         }
+        let [low, high] = self.rims;
+        self.rims = if end < T::zero() { [z, high] } else { [low, z] };
         let ahead = (self.ahead - z * self.sine) / radius;
         let start = Vector3::new(-ahead * self.cosine, self.aside / radius, ahead * self.sine);
         let seen = RingLine::new(start, Vector3::new(self.sine, T::zero(), self.cosine));
@@ -130,8 +160,10 @@ impl<T: Real> Sight<T> {
 
     /// The nearest place, its normal and its distance.
     pub(super) fn nearest(&self) -> Option<(T, Vector3<T>, Vector3<T>)> {
-        let (distance, place) = self.nearest?;
-        let normal = if place.end.is_zero() { place.normal() } else { self.normal_at_end(&place) };
+        let (_, place) = self.nearest?;
+        let [ahead, aside] = self.apart(&place.point);
+        let distance = hypotenuse(ahead, aside);
+        let normal = self.normal(&place);
         let back = |v: &Vector3<T>| {
             let [x, y] = self.axes;
             x * v.x + y * v.y + Vector3::z() * v.z
@@ -139,20 +171,26 @@ impl<T: Real> Sight<T> {
         Some((distance / self.unit, self.centre + back(&place.point) / self.unit, back(&normal)))
     }
 
-    /// Across the line, one between the normals of the side and of the flat end that meet on a rim; on a
-    /// tip the one towards the line.
-    fn normal_at_end(&self, place: &Place<T>) -> Vector3<T> {
-        let (side, end) = (place.normal(), Vector3::new(T::zero(), T::zero(), place.end));
-        let rises = side.x * self.sine + side.z * self.cosine;
-        let falls = end.z * self.cosine;
-        let is_rim = place.point.x != T::zero() || place.point.y != T::zero();
-        if is_rim && rises * falls <= T::zero() && rises != falls {
-            return unit_or(&(side * falls.abs() + end * rises.abs()), || side);
-        }
+    /// Towards the line, if that is not so near that rounding turns it: however sharp the bend, that is where
+    /// the normal points. Else that of the side; on a rim one across the line between those of the side
+    /// and of the flat end that meet there, on a tip the one nearest to the axis.
+    fn normal(&self, place: &Place<T>) -> Vector3<T> {
         let across = |ahead: T, aside: T| Vector3::new(-ahead * self.cosine, aside, ahead * self.sine);
         let [ahead, aside] = self.apart(&place.point);
-        let touches = hypotenuse(ahead, aside) <= T::EPSILON * T::literal(16.0);
-        let away = if touches { across(end.z * self.sine, T::zero()) } else { across(ahead, aside) };
-        unit_or(&away, || end)
+        let (end, side) = (Vector3::new(T::zero(), T::zero(), place.end), place.normal());
+        let near = if place.end.is_zero() { T::EPSILON.root() } else { T::EPSILON * T::literal(16.0) };
+        let away = across(ahead, aside);
+        // Of a line that passes inside it is the other way.
+        if hypotenuse(ahead, aside) > near && away.dot(&(side + end)) > T::zero() {
+            return unit_or(&away, || side);
+        }
+        if place.end.is_zero() {
+            return side;
+        }
+        if place.point.x.is_zero() && place.point.y.is_zero() {
+            return unit_or(&across(end.z * self.sine, T::zero()), || end);
+        }
+        let (rises, falls) = (side.x * self.sine + side.z * self.cosine, end.z * self.cosine);
+        unit_or(&(side * falls.abs() + end * rises.abs()), || side)
     }
 }

@@ -152,7 +152,7 @@ fn line(random: &mut Pcg64Mcg, side: &Side<'_>, kind: usize) -> Line<f64> {
 /// for what rounding takes from the profile and from the line where it passes.
 fn none_is_nearer<T: Real>(trials: usize, size: f64) {
     let mut random = Pcg64Mcg::seed_from_u64(17);
-    let (mut missing, mut as_near) = (0, 0);
+    let (mut missing, mut as_near, mut crossing, mut inward) = (0, 0, 0, 0);
     for trial in 0..trials {
         let given =
             profile(&mut random, trial).iter().map(|p| p.map(|x| T::literal(x * size))).collect::<Vec<_>>();
@@ -173,11 +173,15 @@ fn none_is_nearer<T: Real>(trials: usize, size: f64) {
             let mut crosses = false;
             exact.crossings(&aim, |_| crosses = true);
             solid.crossings(&given, |_| crosses = true);
+            let found = solid.closest_approach(&given);
             if crosses {
+                // A place of the outline all the same, and the normal out of the solid.
+                let step = found.normal * T::literal(size * 1e-3);
+                inward += i32::from(solid.contains(&(found.point + step)) && found.gap.is_zero());
+                crossing += 1;
                 continue;
             }
             missing += 1;
-            let found = solid.closest_approach(&given);
             let (gap, point) = (found.gap.to_f64() / size, wide(&found.point) / size);
             let allowed = 64.0 * T::EPSILON.to_f64() * (reach + aim.point.norm());
             let level = exact.level(&point);
@@ -186,13 +190,25 @@ fn none_is_nearer<T: Real>(trials: usize, size: f64) {
             let apart = distance(&aim, &point);
             assert!((apart - gap).abs() <= allowed, "{trial} {k}: {gap:e} told, {apart:e} away");
             assert!(found.active && (found.normal.norm().to_f64() - 1.0).abs() < 8.0 * T::EPSILON.to_f64());
+            // The normal points to the line; where that is near, half of the digits tell.
+            let half_the_digits = T::EPSILON.to_f64().sqrt() * 8.0;
+            if gap > half_the_digits.sqrt() {
+                let away = aim.point - point;
+                let away = (away - aim.direction * away.dot(&aim.direction)) / apart;
+                let turned = (wide(&found.normal) - away).norm();
+                assert!(turned <= half_the_digits, "{trial} {k}: {turned:e} off the normal, {gap:e} away");
+            }
             let least = from_side(&side, &aim);
             assert!(gap <= least + allowed, "{trial} {k}: {gap:e} told, {least:e} found: {points:?} {aim:?}");
             as_near += i32::from(gap >= least - allowed);
         }
     }
-    println!("{missing} lines that miss, of which samples found the nearest place for {as_near}");
+    println!(
+        "{inward} of {crossing} inward; {missing} lines that miss, of which samples found the nearest place for {as_near}"
+    );
     assert!(as_near * 100 > missing * 99);
+    // A step out of a narrow hollow may end on its other side.
+    assert!(inward * 100 <= crossing, "{inward} of {crossing}");
 }
 
 #[test]
