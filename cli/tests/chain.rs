@@ -1,4 +1,5 @@
 //! The whole chain: a simulated sensor is served, recorded, converted and analysed, by the command itself.
+//! A program apart from the other tests, so that none of them takes the processor from a sensor that sends.
 #![allow(clippy::unwrap_used, reason = "helpers of tests, which may fail so")]
 
 mod common;

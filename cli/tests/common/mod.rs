@@ -1,5 +1,5 @@
 //! Runs the command in a folder of its own.
-#![allow(dead_code, reason = "each test file uses what it needs")]
+#![allow(dead_code, reason = "each test program uses what it needs")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests, which may fail so")]
 
 use core::sync::atomic::{AtomicU32, Ordering};

@@ -1,10 +1,9 @@
 //! `fingertip design`: files that load, numbers that stay, errors that help.
 
-mod common;
-
-use common::Folder;
 use fingertip_calibration::design::{LayoutFile, LoadedTube};
 use fingertip_calibration::file::CalibrationFile;
+
+use crate::common::Folder;
 
 #[test]
 fn writes_a_layout_that_loads() {

@@ -1,8 +1,6 @@
 //! `fingertip analyze` on recordings whose answer is known, and on bad ones.
 
-mod common;
-
-use common::{Contacts, Folder};
+use crate::common::{Contacts, Folder};
 
 const SCENE: &str = "version = 1\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.01\n\
                      [contact]\nleast_force_N = 0.5\n[friction]\nstatic_coefficient = 0.5\n\

@@ -98,7 +98,7 @@ fn check_adds_the_weight_to_the_loads() {
     let folder = Folder::new();
     folder.write("poses.csv", &poses(&Rotation3::identity()));
     folder.succeed(&["calibrate", "--gravity", "poses.csv"]);
-    folder.write("bare.csv", &crate::loads(1.0));
+    folder.write("bare.csv", &super::loads(1.0));
     folder.succeed(&["calibrate", "bare.csv", "--full-scale", "10,10,10,0.1,0.1,0.1", "-o", "cal.toml"]);
     let mut text =
         String::from("fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,v1_V,v2_V,v3_V,v4_V,v5_V,v6_V,qx,qy,qz,qw\n");

@@ -11,7 +11,7 @@ const FULL: [&str; 2] = ["--full-scale", "10,10,10,0.1,0.1,0.1"];
 #[test]
 fn every_method_can_be_asked_for() {
     let folder = Folder::new();
-    folder.write("loads.csv", &crate::loads(1.0));
+    folder.write("loads.csv", &super::loads(1.0));
     folder.succeed(&[&["calibrate", "loads.csv", "-o", "old.toml"][..], &FULL].concat());
     let uncertain = ["--load-error", "0.01,0.0001", "--reading-error", "0.001"];
     let total = [&["--method", "total"][..], &uncertain].concat();
@@ -47,7 +47,7 @@ fn every_method_can_be_asked_for() {
 #[test]
 fn a_stream_gives_the_same_matrix() {
     let folder = Folder::new();
-    folder.write("loads.csv", &crate::loads(1.0));
+    folder.write("loads.csv", &super::loads(1.0));
     folder.succeed(&["calibrate", "loads.csv", "-o", "all.toml"]);
     let said = folder.succeed(&["calibrate", "loads.csv", "--stream", "-o", "stream.toml", "--rust", "s.rs"]);
     assert!(said.contains("unchecked") && said.contains("24 samples"), "{said}");
@@ -59,7 +59,7 @@ fn a_stream_gives_the_same_matrix() {
     let (all, stream) = (numbers("all.toml"), numbers("stream.toml"));
     assert_eq!(all.len(), 36);
     assert!(all.iter().zip(&stream).all(|(a, b)| (a - b).abs() < 1e-12));
-    folder.write("bad.csv", &crate::loads(1.0).replacen(",10,", ",x,", 1));
+    folder.write("bad.csv", &super::loads(1.0).replacen(",10,", ",x,", 1));
     let error = folder.fail(1, &["calibrate", "bad.csv", "--stream"]);
     assert!(error.contains("bad.csv: line") && error.contains("column"), "{error}");
     let error = folder.fail(1, &["calibrate", "loads.csv", "--stream", "--method", "huber"]);
@@ -182,10 +182,10 @@ fn touches_mend_a_calibration() {
         touches += &format!("{}\n", volts(&read(share)));
     }
     let folder = Folder::new();
-    folder.write("loads.csv", &crate::loads(1.0));
+    folder.write("loads.csv", &super::loads(1.0));
     folder.succeed(&[&["calibrate", "loads.csv", "-o", "cal.toml"][..], &FULL].concat());
     folder.write("touches.csv", &touches);
-    let known: String = crate::loads(1.0)
+    let known: String = super::loads(1.0)
         .lines()
         .enumerate()
         .map(|(i, line)| {

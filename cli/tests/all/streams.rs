@@ -1,14 +1,11 @@
 //! Long recordings and closed pipes.
 #![cfg(unix)]
-#![allow(clippy::unwrap_used, reason = "helpers of tests, which may fail so")]
-
-mod common;
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::process::{Command, Stdio};
 
-use common::Folder;
+use crate::common::Folder;
 
 const SCENE: &str = "version = 1\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"plane\"\n";
 

@@ -1,10 +1,8 @@
 //! Real input: two Nano17 under human finger pads, with the scene that ships with the project.
 
-mod common;
-
 use std::path::PathBuf;
 
-use common::{Contacts, Folder, scene, workspace};
+use crate::common::{Contacts, Folder, scene, workspace};
 
 fn recording() -> Option<PathBuf> {
     let folder =

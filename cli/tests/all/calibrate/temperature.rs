@@ -4,7 +4,7 @@ use crate::common::{Contacts, Folder};
 
 /// Loads at temperatures from 20 to 30 °C: zeros drift by 10 mV/K, gains by 0.2 %/K.
 fn warm_loads(column: bool) -> String {
-    let plain = crate::loads(1.0);
+    let plain = super::loads(1.0);
     let mut text = String::new();
     for pass in 0..4_u32 {
         for (i, line) in plain.lines().enumerate() {

@@ -1,9 +1,8 @@
 //! `fingertip demo`, and its volts through `fingertip analyze`.
 
-mod common;
-
-use common::{Contacts, Folder, scene};
 use fingertip_drivers::simulation::{Options, SimulatedFingertip, standard_session};
+
+use crate::common::{Contacts, Folder, scene};
 
 #[test]
 fn the_demo_needs_nothing_and_finds_what_happened() {

@@ -1,14 +1,11 @@
 //! The commands that calibrate, from outside.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, which may fail so")]
 
-#[path = "../common/mod.rs"]
-mod common;
 mod payload;
 mod sensor;
 mod surface;
 mod temperature;
 
-use common::Folder;
+use crate::common::Folder;
 
 /// Loads of each axis up and down; gauge i reads 2 V under 10 N or 0.1 N·m of axis i, and a tenth of its
 /// neighbour's; zeros of 0.1 V, readings rounded to 0.1 mV.

@@ -1,10 +1,9 @@
 //! Scenes of every shape, and calibrations of more than six gauges.
 
-mod common;
-
-use common::{Contacts, Folder, scene};
 use fingertip_calibration::file::{CalibrationFile, SignalUnit};
 use nalgebra::{DMatrix, Vector3, Vector6};
+
+use crate::common::{Contacts, Folder, scene};
 
 const HEADER: &str = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n";
 

@@ -1,0 +1,13 @@
+//! The commands from outside, as one program: its parts run beside each other.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, which may fail so")]
+
+mod analyze;
+mod calibrate;
+#[path = "../common/mod.rs"]
+mod common;
+mod demo;
+mod design;
+mod nano17;
+mod shapes;
+mod streams;
