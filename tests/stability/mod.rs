@@ -23,19 +23,33 @@ use matrix::Row;
 
 /// All rows. Random cases are drawn `trials` times each.
 pub(crate) fn all(trials: usize) -> Vec<Row> {
-    let mut rows = Vec::new();
-    solvers::rows::<f32>(trials, &mut rows);
-    solvers::rows::<f64>(trials, &mut rows);
-    lines::rows::<f32>(trials, &mut rows);
-    lines::rows::<f64>(trials, &mut rows);
-    contacts::rows::<f32>(trials, &mut rows);
-    contacts::rows::<f64>(trials, &mut rows);
-    soft::rows::<f32>(trials, &mut rows);
-    soft::rows::<f64>(trials, &mut rows);
-    friction::rows::<f32>(trials, &mut rows);
-    friction::rows::<f64>(trials, &mut rows);
-    detectors::rows::<f32>(trials, &mut rows);
-    detectors::rows::<f64>(trials, &mut rows);
-    fits::rows(trials, &mut rows);
-    rows
+    let parts: [fn(usize, &mut Vec<Row>); 13] = [
+        solvers::rows::<f32>,
+        solvers::rows::<f64>,
+        lines::rows::<f32>,
+        lines::rows::<f64>,
+        contacts::rows::<f32>,
+        contacts::rows::<f64>,
+        soft::rows::<f32>,
+        soft::rows::<f64>,
+        friction::rows::<f32>,
+        friction::rows::<f64>,
+        detectors::rows::<f32>,
+        detectors::rows::<f64>,
+        fits::rows,
+    ];
+    // Each draws from a stream of its own, so they may run beside each other.
+    std::thread::scope(|scope| {
+        let running = parts.map(|part| {
+            scope.spawn(move || {
+                let mut rows = Vec::new();
+                part(trials, &mut rows);
+                rows
+            })
+        });
+        running
+            .into_iter()
+            .flat_map(|part| part.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .collect()
+    })
 }
