@@ -7,6 +7,7 @@ use fingertip_wrench::{
 };
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 use proptest::prelude::*;
+use proptest::test_runner::RngAlgorithm;
 
 /// Any bits at all; or numbers of a size, so that solvers are built often enough.
 fn number64() -> impl Strategy<Value = f64> {
@@ -100,7 +101,12 @@ fn check<T: Real>(matrix: &[f64; 48], nominal: &[f64; 6], signals: &[f64; 8]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2_000, ..ProptestConfig::default() })]
+    // A choice starts a generator for every alternative, which is most of the time where the generator is ChaCha.
+    #![proptest_config(ProptestConfig {
+        cases: 2_000,
+        rng_algorithm: RngAlgorithm::XorShift,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn constructors_and_solvers_survive_any_bits(
