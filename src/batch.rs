@@ -111,7 +111,39 @@ where
         let ([px, py, pz], [sx, sy, sz]) = (point, tangential_force);
         let accepted = Accepted::by(&self.model);
         if all_press
-            && self.all_press(accepted, raw, px, py, pz, sx, sy, sz, normal_force, margin, utilisation, slip)
+            && if self.surface.is_at_origin() {
+                self.all_press(
+                    accepted,
+                    raw,
+                    px,
+                    py,
+                    pz,
+                    sx,
+                    sy,
+                    sz,
+                    normal_force,
+                    margin,
+                    utilisation,
+                    slip,
+                    true,
+                )
+            } else {
+                self.all_press(
+                    accepted,
+                    raw,
+                    px,
+                    py,
+                    pz,
+                    sx,
+                    sy,
+                    sz,
+                    normal_force,
+                    margin,
+                    utilisation,
+                    slip,
+                    false,
+                )
+            }
         {
             return true;
         }
@@ -152,6 +184,7 @@ where
         margin: &mut [T],
         utilisation: &mut [T],
         slip: &mut [SlipVerdict],
+        at_origin: bool,
     ) -> bool
     where
         Zero: Compensation<T, N, Raw = SVector<T, N>>,
@@ -168,7 +201,7 @@ where
         for k in 0..count {
             let (f, torque) = self.load(raw, k);
             let Entered { point, normal: n, parts, certain, .. } =
-                self.surface.enter(f, torque, Lines::Meeting);
+                self.surface.enter(f, torque, Lines::Meeting, at_origin);
             let ForceParts { normal, tangential: load } = parts;
             all &= certain & accepted.touches(dot(f, f), parts, T::zero());
             [px[k], py[k], pz[k]] = point;
@@ -211,7 +244,8 @@ where
             (&mut margin[..count], &mut utilisation[..count], &mut slip[..count]);
         for k in 0..count {
             let (f, torque) = self.load(raw, k);
-            let Entered { point, normal: n, parts, gap, .. } = self.surface.enter(f, torque, Lines::Any);
+            let Entered { point, normal: n, parts, gap, .. } =
+                self.surface.enter(f, torque, Lines::Any, false);
             // Without what is no number, of which nothing times zero makes one.
             let f = f.map(|x| if x.abs() <= T::GREATEST { x } else { T::zero() });
             // A factor, since the compiler makes branches of eight choices by one condition.

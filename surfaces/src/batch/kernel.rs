@@ -14,6 +14,12 @@ pub trait Kernel<T: Real> {
     /// Whether it gains from not expecting all lines.
     const VERSIONS: Versions;
 
+    /// Its centre is the origin of the sensor frame, and so torques need not be moved there.
+    #[inline(always)]
+    fn centred(&self) -> bool {
+        false
+    }
+
     /// Where one line meets it; whatever depends on the surface alone, the compiler takes out of the loop.
     fn answer(&self, push: Push<T>, lines: Lines) -> Answer<T>;
 }
@@ -25,23 +31,34 @@ pub struct Push<T> {
     pub(super) torque: [T; 3],
     pub(super) squared: T,
     pub(super) inverse: T,
+    /// The surface is centred at the origin. Known before the loop, and so nothing that is asked in it.
+    at_origin: bool,
 }
 
 impl<T: Real> Push<T> {
     /// And whether its square is in range.
     #[inline(always)]
-    pub(super) fn new(force: [T; 3], torque: [T; 3]) -> (Self, bool) {
+    pub(super) fn new(force: [T; 3], torque: [T; 3], at_origin: bool) -> (Self, bool) {
         let squared = dot(force, force);
         let in_range = (squared >= ForceLine::least_squared()) & (squared <= ForceLine::greatest_squared());
-        (Self { force, torque, squared, inverse: T::one() / squared }, in_range)
+        (Self { force, torque, squared, inverse: T::one() / squared, at_origin }, in_range)
     }
 
     /// The point of the line of action closest to a centre, seen from there, times a factor.
     #[inline(always)]
     pub(super) fn foot(&self, centre: [T; 3], factor: T) -> [T; 3] {
-        let turned = cross(self.force, centre);
-        let torque = zip(self.torque, turned, |m, t| m + t);
+        let torque = if self.at_origin {
+            self.torque
+        } else {
+            zip(self.torque, cross(self.force, centre), |m, t| m + t)
+        };
         scale(cross(self.force, torque), self.inverse * factor)
+    }
+
+    /// `centre + k·v`.
+    #[inline(always)]
+    pub(super) fn beyond(&self, centre: [T; 3], v: [T; 3], k: T) -> [T; 3] {
+        if self.at_origin { scale(v, k) } else { add(centre, v, k) }
     }
 }
 
@@ -53,7 +70,8 @@ pub struct Answer<T: Real> {
     /// The parts of the force; made from the normal if the kernel does not know better, and only if
     /// somebody asks.
     pub(super) parts: Option<ForceParts<T>>,
-    /// The line meets the surface and nothing has left the range on the way.
+    /// The line meets the surface and nothing has left the range on the way. Of a kernel that knows the
+    /// parts of the force, a normal force that is not positive says that the line misses, too.
     pub(super) certain: bool,
 }
 

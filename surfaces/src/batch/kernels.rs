@@ -1,6 +1,7 @@
 //! The kernels of the shapes.
 
 use fingertip_wrench::Real;
+use nalgebra::Vector3;
 
 use super::Lines;
 use super::kernel::{Answer, Chord, Kernel, Push, Versions, add, cross, dot, pick, scale, split, times, zip};
@@ -8,6 +9,11 @@ use crate::{Capsule, Cylinder, Ellipsoid, ForceParts, Plane, Sphere};
 
 impl<T: Real> Kernel<T> for Sphere<T> {
     const VERSIONS: Versions = Versions::Two;
+
+    #[inline(always)]
+    fn centred(&self) -> bool {
+        self.centre() == Vector3::zeros()
+    }
 
     #[inline(always)]
     fn answer(&self, push: Push<T>, lines: Lines) -> Answer<T> {
@@ -25,11 +31,11 @@ impl<T: Real> Kernel<T> for Sphere<T> {
             across = pick(chord.meets, across, squared);
         }
         Answer {
-            point: add(centre, normal, radius),
+            point: push.beyond(centre, normal, radius),
             normal,
             gap: chord.outside * radius,
             parts: Some(ForceParts { normal: pressing, tangential: across.root() }),
-            certain: chord.meets & has_room,
+            certain: has_room,
         }
     }
 }

@@ -68,9 +68,10 @@ pub struct Entered<T: Real> {
     pub parts: ForceParts<T>,
     /// As in [`Contacts`].
     pub gap: T,
-    /// `false` if there is no answer, all else being zero then; of [`Lines::Meeting`] also if the line
-    /// may not meet the surface, and then all else means nothing, as where the square of the force is
-    /// beyond the range of [`ForceLine`](crate::ForceLine), which is not looked at then.
+    /// `false` if there is no answer, all else being zero then. Of [`Lines::Meeting`] also if the line may
+    /// not meet the surface, which a normal force that is not positive says as well: all else means nothing
+    /// then, as where the square of the force is beyond the range of [`ForceLine`](crate::ForceLine), which
+    /// is not looked at.
     pub certain: bool,
 }
 
@@ -102,13 +103,23 @@ pub trait BatchSurface<T: Real> {
     /// those who have chosen theirs already. To be always in line.
     fn contacts_in_line(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>);
 
+    /// `true` if the surface is centred at the origin of the sensor frame, so that [`enter`](Self::enter) may
+    /// be told so.
+    #[inline(always)]
+    fn is_at_origin(&self) -> bool {
+        false
+    }
+
     /// Where the line of one force \[N\] and its torque about the origin \[N·m\] enters, for loops over
     /// many: in line, and without a branch, so that the loop can be vectorised. Where the line meets, both
     /// kinds of `lines` give the same bits; the fewer are expected, the less there is to choose.
+    /// `at_origin` may be `true` only if [`is_at_origin`](Self::is_at_origin) is, and gives the same bits but
+    /// for the signs of zeros: to be asked before the loop, lest it is asked for every line.
     ///
     /// The default looks at a batch of one.
     #[inline(always)]
-    fn enter(&self, force: [T; 3], torque: [T; 3], lines: Lines) -> Entered<T> {
+    fn enter(&self, force: [T; 3], torque: [T; 3], lines: Lines, at_origin: bool) -> Entered<T> {
+        let _ = at_origin;
         let mut found = [T::zero(); 7];
         let [px, py, pz, nx, ny, nz, gap] = found.each_mut().map(core::slice::from_mut);
         self.contacts_in_line(

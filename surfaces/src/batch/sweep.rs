@@ -23,7 +23,7 @@ fn run<T: Real, K: Kernel<T>>(wrenches: Wrenches<'_, T>, contacts: Contacts<'_, 
         return sweep(given, px, py, pz, nx, ny, nz, gap, kernel);
     }
     let [px, py, pz, nx, ny, nz, gap] = found;
-    let mut start = 0;
+    let (mut start, centred) = (0, kernel.centred());
     while start < count {
         let block = start..count.min(start + BLOCK);
         start = block.end;
@@ -31,7 +31,12 @@ fn run<T: Real, K: Kernel<T>>(wrenches: Wrenches<'_, T>, contacts: Contacts<'_, 
         let (px, py, pz) = (&mut px[block.clone()], &mut py[block.clone()], &mut pz[block.clone()]);
         let (nx, ny, nz) = (&mut nx[block.clone()], &mut ny[block.clone()], &mut nz[block.clone()]);
         let gap = &mut gap[block];
-        if !all_meet(given, px, py, pz, nx, ny, nz, gap, kernel) {
+        let all = if centred {
+            all_meet(given, px, py, pz, nx, ny, nz, gap, kernel, true)
+        } else {
+            all_meet(given, px, py, pz, nx, ny, nz, gap, kernel, false)
+        };
+        if !all {
             sweep(given, px, py, pz, nx, ny, nz, gap, kernel);
         }
     }
@@ -53,6 +58,7 @@ fn all_meet<T: Real>(
     nz: &mut [T],
     gap: &mut [T],
     kernel: &impl Kernel<T>,
+    at_origin: bool,
 ) -> bool {
     let count = gap.len();
     let [fx, fy, fz, tx, ty, tz] = given.map(|column| &column[..count]);
@@ -60,9 +66,10 @@ fn all_meet<T: Real>(
     let (nx, ny, nz) = (&mut nx[..count], &mut ny[..count], &mut nz[..count]);
     let mut all = true;
     for k in 0..count {
-        let (push, in_range) = Push::new([fx[k], fy[k], fz[k]], [tx[k], ty[k], tz[k]]);
+        let (push, in_range) = Push::new([fx[k], fy[k], fz[k]], [tx[k], ty[k], tz[k]], at_origin);
         let answer = kernel.answer(push, Lines::Meeting);
-        all &= in_range & answer.certain;
+        let presses = answer.parts.is_none_or(|parts| parts.normal > T::zero());
+        all &= in_range & answer.certain & presses;
         [px[k], py[k], pz[k]] = answer.point;
         [nx[k], ny[k], nz[k]] = answer.normal;
         gap[k] = T::zero();
@@ -90,7 +97,7 @@ fn sweep<T: Real>(
     let (px, py, pz) = (&mut px[..count], &mut py[..count], &mut pz[..count]);
     let (nx, ny, nz) = (&mut nx[..count], &mut ny[..count], &mut nz[..count]);
     for k in 0..count {
-        let entered = kernel.enter([fx[k], fy[k], fz[k]], [tx[k], ty[k], tz[k]], Lines::Any);
+        let entered = kernel.enter([fx[k], fy[k], fz[k]], [tx[k], ty[k], tz[k]], Lines::Any, false);
         [px[k], py[k], pz[k]] = entered.point;
         [nx[k], ny[k], nz[k]] = entered.normal;
         gap[k] = entered.gap;
@@ -104,8 +111,13 @@ impl<T: Real, K: Kernel<T>> BatchSurface<T> for K {
     }
 
     #[inline(always)]
-    fn enter(&self, force: [T; 3], torque: [T; 3], lines: Lines) -> Entered<T> {
-        let (push, in_range) = Push::new(force, torque);
+    fn is_at_origin(&self) -> bool {
+        self.centred()
+    }
+
+    #[inline(always)]
+    fn enter(&self, force: [T; 3], torque: [T; 3], lines: Lines, at_origin: bool) -> Entered<T> {
+        let (push, in_range) = Push::new(force, torque, at_origin);
         let answer = self.answer(push, lines);
         let parts = answer.parts.unwrap_or_else(
             #[inline(always)]
