@@ -261,6 +261,7 @@ fn batches_are_as_single_samples() {
         let model = PointContact::new(l(0.5)).unwrap();
         let centre = Vector3::new(l(1e-3), l(0.0), l(2e-3));
         many_at_once_are_as_one_at_a_time(Sphere::new(centre, l(0.009)).unwrap(), model);
+        many_at_once_are_as_one_at_a_time(Sphere::centred(l(0.009)).unwrap(), model);
         let shape = Ellipsoid::new(Vector3::new(l(0.012), l(0.009), l(0.007))).unwrap();
         many_at_once_are_as_one_at_a_time(shape, model);
         let model = model.with_greatest_friction(l(1.2)).unwrap();

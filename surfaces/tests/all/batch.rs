@@ -111,6 +111,7 @@ macro_rules! batches {
 }
 
 batches!(sphere, Sphere::new(v(0.1, -0.2, 0.3), T::one()), true);
+batches!(centred_sphere, Sphere::centred(T::one()), true);
 batches!(plane, Plane::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0)), true);
 batches!(cylinder, Cylinder::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0), T::one()), true);
 batches!(ellipsoid, Ellipsoid::new(v(1.0, 0.8, 0.6)), false);
