@@ -122,8 +122,7 @@ fn hold(strategy: &Strategy) -> Result<Outcome, Failure> {
             ((v + 0.1e-3 * noise) / step).round() * step
         });
         let touch = fingertip.sense(&volts, 1.0 / RATE);
-        if let Some(contact) = touch.resolution.contact() {
-            let force = contact.contact_force();
+        if let Some(force) = touch.force {
             learnt.observe(&force);
             if touch.slip == SlipVerdict::Slipping {
                 slips += 1;

@@ -2,7 +2,7 @@
 
 use fingertip_friction::{Coulomb, RatioThreshold, SlipVerdict};
 use fingertip_surfaces::batch::{BatchSurface, Entered, Lines};
-use fingertip_surfaces::{ForceLine, ForceParts, PointContact};
+use fingertip_surfaces::{ForceParts, PointContact};
 use fingertip_wrench::{Compensation, Real, WrenchSolver};
 use nalgebra::SVector;
 
@@ -47,7 +47,7 @@ where
     /// [`sense`](Self::sense) of many samples: `raw` has a column for each gauge. Of columns of
     /// different lengths, the shortest counts; the rest is left as it was.
     ///
-    /// Each stage is a loop without a branch that the compiler vectorises, with the widest vectors of
+    /// All stages are one loop without a branch that the compiler vectorises, with the widest vectors of
     /// the processor at hand if the feature `simd` is on; nothing is allocated. The answers are those of
     /// `sense`, but for three things. Rounding at a flat angle of incidence is not undone, and errors of
     /// the point grow there as the reciprocal cosine. Why there is no contact is not said. And of a
@@ -265,7 +265,6 @@ where
 #[derive(Clone, Copy)]
 struct Accepted<T> {
     least_squared: T,
-    greatest_squared: T,
     greatest_gap: T,
     greatest_ratio: T,
 }
@@ -273,8 +272,7 @@ struct Accepted<T> {
 impl<T: Real> Accepted<T> {
     fn by(model: &PointContact<T>) -> Self {
         Self {
-            least_squared: (model.least_force() * model.least_force()).max(ForceLine::least_squared()),
-            greatest_squared: ForceLine::greatest_squared(),
+            least_squared: model.least_force() * model.least_force(),
             greatest_gap: model.greatest_gap(),
             greatest_ratio: model.greatest_friction().unwrap_or(T::GREATEST),
         }
@@ -284,7 +282,6 @@ impl<T: Real> Accepted<T> {
     #[inline(always)]
     fn touches(&self, squared: T, parts: ForceParts<T>, gap: T) -> bool {
         (squared >= self.least_squared)
-            & (squared <= self.greatest_squared)
             & (gap <= self.greatest_gap)
             & (parts.normal > T::zero())
             & (parts.tangential <= self.greatest_ratio * parts.normal)

@@ -130,31 +130,31 @@ impl<T: Real> IncipientSlip<T> {
             self.state = None;
             return SlipVerdict::NotPressing;
         }
-        let (scale, tangential) = (self.scale, &force.tangential);
+        let (scale, tangential) = (self.scale, force.tangential.vector());
         let Some(state) = &mut self.state else {
-            self.state = Some(State::at(Place { displacement: *displacement, force: **tangential }));
+            self.state = Some(State::at(Place { displacement: *displacement, force: tangential }));
             return SlipVerdict::Holding;
         };
         let square = state.turn.square_to(displacement, scale);
         if square > state.farthest_square {
-            state.farthest.set(tangential, displacement);
+            state.farthest.set(&tangential, displacement);
             state.farthest_square = square;
         } else {
             let back = state.farthest.square_to(displacement, scale);
             if back > T::one() {
-                state.turn_around(tangential, displacement, back);
+                state.turn_around(&tangential, displacement, back);
             }
         }
         if square < T::one() && state.known == 1 {
             // At rest before the motion: the force may relax.
-            state.turn.force = **tangential;
+            state.turn.force = tangential;
             state.places[0] = state.turn;
             return state.verdict;
         }
         if state.places[state.newest].square_to(displacement, scale) < T::one() {
             return state.verdict;
         }
-        state.arrive(tangential, displacement, scale, self.warning_share)
+        state.arrive(&tangential, displacement, scale, self.warning_share)
     }
 
     /// The tangential stiffness of the patch that sticks \[N/m\]: the greatest mean since the motion

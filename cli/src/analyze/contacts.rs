@@ -52,9 +52,8 @@ impl ContactWriter {
         self.word(Status::of(&touch.resolution).word());
         self.cells(touch.wrench.force().as_ref());
         self.cells(touch.wrench.torque().as_ref());
-        match &touch.resolution {
-            Resolution::Contact(contact) => {
-                let force = contact.contact_force();
+        match (&touch.resolution, &touch.force) {
+            (Resolution::Contact(contact), Some(force)) => {
                 self.cells(contact.point.as_ref());
                 self.cells(contact.normal.as_ref());
                 self.cell(force.normal);
@@ -63,11 +62,11 @@ impl ContactWriter {
                 self.cell(touch.grip.flatten().map_or(f64::NAN, |margin| margin.newtons));
                 self.cell(contact.gap);
             }
-            Resolution::NoContact(NoContact::Misses { gap, .. }) => {
+            (Resolution::NoContact(NoContact::Misses { gap, .. }), _) => {
                 self.empty(CONTACT_CELLS - 1);
                 self.cell(*gap);
             }
-            Resolution::NoContact(_) => self.empty(CONTACT_CELLS),
+            _ => self.empty(CONTACT_CELLS),
         }
         self.word(match touch.slip {
             None => "",

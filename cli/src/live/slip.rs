@@ -33,8 +33,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         Span::raw(format!("  slips: {}", count(state.slips))),
     ]);
     frame.render_widget(Paragraph::new(line), light);
-    let force = state.touch.as_ref().and_then(|touch| touch.resolution.contact()).map(|c| c.contact_force());
-    let Some(force) = force else { return };
+    let Some(force) = state.touch.as_ref().and_then(|touch| touch.force) else { return };
     let margin = state.touch.as_ref().and_then(|touch| touch.grip.flatten());
     let mut text = format!("fn {}, ft {}", number(force.normal), number(force.tangential_magnitude()));
     if let Some(margin) = margin {

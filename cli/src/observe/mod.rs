@@ -93,12 +93,11 @@ impl Observations {
             trace.add(time, Some(*component));
         }
         self.force.add(force.norm());
-        let split = touch.resolution.contact().map(|contact| {
+        let split = touch.resolution.contact().zip(touch.force).map(|(contact, force)| {
             self.map.add(|| MapPoint {
                 place: self.projection.project(&contact.point),
-                normal_force: contact.normal_force(),
+                normal_force: force.normal,
             });
-            let force = contact.contact_force();
             (force.normal, force.tangential_magnitude(), force.friction_ratio())
         });
         let [normal_trace, tangential_trace] = &mut self.split;

@@ -70,8 +70,7 @@ pub struct Answer<T: Real> {
     /// The parts of the force; made from the normal if the kernel does not know better, and only if
     /// somebody asks.
     pub(super) parts: Option<ForceParts<T>>,
-    /// The line meets the surface and nothing has left the range on the way. Of a kernel that knows the
-    /// parts of the force, a normal force that is not positive says that the line misses, too.
+    /// The line meets the surface and nothing has left the range on the way.
     pub(super) certain: bool,
 }
 

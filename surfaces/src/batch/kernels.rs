@@ -35,7 +35,7 @@ impl<T: Real> Kernel<T> for Sphere<T> {
             normal,
             gap: chord.outside * radius,
             parts: Some(ForceParts { normal: pressing, tangential: across.root() }),
-            certain: has_room,
+            certain: chord.meets & has_room,
         }
     }
 }

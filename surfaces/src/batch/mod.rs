@@ -68,10 +68,8 @@ pub struct Entered<T: Real> {
     pub parts: ForceParts<T>,
     /// As in [`Contacts`].
     pub gap: T,
-    /// `false` if there is no answer, all else being zero then. Of [`Lines::Meeting`] also if the line may
-    /// not meet the surface, which a normal force that is not positive says as well: all else means nothing
-    /// then, as where the square of the force is beyond the range of [`ForceLine`](crate::ForceLine), which
-    /// is not looked at.
+    /// `false` if there is no answer, all else being zero then; of [`Lines::Meeting`] also if the line may
+    /// not meet the surface, and then all else means nothing.
     pub certain: bool,
 }
 

@@ -20,7 +20,8 @@ fn run<T: Real, K: Kernel<T>>(wrenches: Wrenches<'_, T>, contacts: Contacts<'_, 
     let count = found.iter().map(|column| column.len()).fold(shortest, usize::min);
     if K::VERSIONS == Versions::One {
         let [px, py, pz, nx, ny, nz, gap] = found.map(|column| &mut column[..count]);
-        return sweep(given, px, py, pz, nx, ny, nz, gap, kernel);
+        sweep(given, px, py, pz, nx, ny, nz, gap, kernel, Lines::Any, false);
+        return;
     }
     let [px, py, pz, nx, ny, nz, gap] = found;
     let (mut start, centred) = (0, kernel.centred());
@@ -32,52 +33,21 @@ fn run<T: Real, K: Kernel<T>>(wrenches: Wrenches<'_, T>, contacts: Contacts<'_, 
         let (nx, ny, nz) = (&mut nx[block.clone()], &mut ny[block.clone()], &mut nz[block.clone()]);
         let gap = &mut gap[block];
         let all = if centred {
-            all_meet(given, px, py, pz, nx, ny, nz, gap, kernel, true)
+            sweep(given, px, py, pz, nx, ny, nz, gap, kernel, Lines::Meeting, true)
         } else {
-            all_meet(given, px, py, pz, nx, ny, nz, gap, kernel, false)
+            sweep(given, px, py, pz, nx, ny, nz, gap, kernel, Lines::Meeting, false)
         };
         if !all {
-            sweep(given, px, py, pz, nx, ny, nz, gap, kernel);
+            sweep(given, px, py, pz, nx, ny, nz, gap, kernel, Lines::Any, false);
         }
     }
 }
 
-/// A block of lines that meet: `false` if one of them does not, and then what is written means nothing.
+/// As many lines as the slices hold, which are equally long: `false` if there is no answer to one of them, and
+/// then, of lines that were expected to meet, what is written means nothing.
 ///
 /// Columns that are arguments of their own are known not to overlap, which the compiler would have to
 /// test otherwise, and would rather not vectorise.
-#[inline(always)]
-#[allow(clippy::too_many_arguments)]
-fn all_meet<T: Real>(
-    given: [&[T]; 6],
-    px: &mut [T],
-    py: &mut [T],
-    pz: &mut [T],
-    nx: &mut [T],
-    ny: &mut [T],
-    nz: &mut [T],
-    gap: &mut [T],
-    kernel: &impl Kernel<T>,
-    at_origin: bool,
-) -> bool {
-    let count = gap.len();
-    let [fx, fy, fz, tx, ty, tz] = given.map(|column| &column[..count]);
-    let (px, py, pz) = (&mut px[..count], &mut py[..count], &mut pz[..count]);
-    let (nx, ny, nz) = (&mut nx[..count], &mut ny[..count], &mut nz[..count]);
-    let mut all = true;
-    for k in 0..count {
-        let (push, in_range) = Push::new([fx[k], fy[k], fz[k]], [tx[k], ty[k], tz[k]], at_origin);
-        let answer = kernel.answer(push, Lines::Meeting);
-        let presses = answer.parts.is_none_or(|parts| parts.normal > T::zero());
-        all &= in_range & answer.certain & presses;
-        [px[k], py[k], pz[k]] = answer.point;
-        [nx[k], ny[k], nz[k]] = answer.normal;
-        gap[k] = T::zero();
-    }
-    all
-}
-
-/// Any lines, as many as the slices hold, which are equally long.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 fn sweep<T: Real>(
@@ -90,18 +60,23 @@ fn sweep<T: Real>(
     nz: &mut [T],
     gap: &mut [T],
     kernel: &impl Kernel<T>,
-) {
+    lines: Lines,
+    at_origin: bool,
+) -> bool {
     let count = gap.len();
     // Slices of one known length let the compiler drop every bounds check from the loop.
     let [fx, fy, fz, tx, ty, tz] = given.map(|column| &column[..count]);
     let (px, py, pz) = (&mut px[..count], &mut py[..count], &mut pz[..count]);
     let (nx, ny, nz) = (&mut nx[..count], &mut ny[..count], &mut nz[..count]);
+    let mut all = true;
     for k in 0..count {
-        let entered = kernel.enter([fx[k], fy[k], fz[k]], [tx[k], ty[k], tz[k]], Lines::Any, false);
+        let entered = kernel.enter([fx[k], fy[k], fz[k]], [tx[k], ty[k], tz[k]], lines, at_origin);
+        all &= entered.certain;
         [px[k], py[k], pz[k]] = entered.point;
         [nx[k], ny[k], nz[k]] = entered.normal;
         gap[k] = entered.gap;
     }
+    all
 }
 
 impl<T: Real, K: Kernel<T>> BatchSurface<T> for K {
@@ -125,7 +100,7 @@ impl<T: Real, K: Kernel<T>> BatchSurface<T> for K {
         );
         if lines == Lines::Meeting {
             let Answer { point, normal, certain, .. } = answer;
-            return Entered { point, normal, parts, gap: T::zero(), certain };
+            return Entered { point, normal, parts, gap: T::zero(), certain: certain & in_range };
         }
         let certain = in_range & answer.is_finite();
         let keep = |x: T| pick(certain, x, T::zero());
