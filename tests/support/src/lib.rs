@@ -1,0 +1,8 @@
+//! What the tests of several crates share. Not published.
+#![allow(clippy::panic, clippy::expect_used)]
+
+mod recordings;
+mod worst;
+
+pub use recordings::{recording, recording_text};
+pub use worst::Worst;
