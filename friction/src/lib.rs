@@ -1,56 +1,29 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![doc = include_str!("../README.md")]
 
-mod anisotropic;
-mod bristle;
-mod bristle_law;
-mod cone;
-mod coulomb;
-mod cusum;
-mod drop_detector;
-mod gate;
+mod dynamics;
+mod estimate;
 mod grip;
-mod incipient_slip;
-mod kinetic_friction;
-mod likelihood_ratio;
-#[cfg(feature = "std")]
-mod limit_curve;
-mod load_dependent;
-mod model;
-mod normal;
-mod pressure;
-mod ratio_tracker;
-pub mod run_length;
-mod slip_detector;
-mod soft_finger;
-mod static_friction;
-mod stick_slip;
-mod stribeck;
+mod limits;
+mod slip;
 #[cfg(feature = "testing")]
 pub mod testing;
-mod threshold;
-mod uncertain;
 
-pub use anisotropic::AnisotropicCoulomb;
-pub use bristle::{Bristle, Coupled, Drive, DynamicFriction, Exponential, Implicit, Integrator, ReturnMap};
-pub use bristle_law::{BristleLaw, Dahl, ElastoPlastic, LuGre, StribeckFriction};
-pub use coulomb::{BadFriction, Coulomb};
-pub use cusum::{BadDetector, Cusum};
-pub use drop_detector::DropDetector;
-pub use gate::{BadNoise, ForceNoise, NormalForceGate};
+pub use dynamics::{
+    Bristle, BristleLaw, Coupled, Dahl, Drive, DynamicFriction, ElastoPlastic, Exponential, Implicit,
+    Integrator, LuGre, ReturnMap, Stribeck, StribeckFriction,
+};
+pub use estimate::{FrictionEstimate, KineticFriction, StaticFriction};
 pub use grip::{GripController, GripSettings};
-pub use incipient_slip::IncipientSlip;
-pub use kinetic_friction::KineticFriction;
-pub use likelihood_ratio::{LikelihoodRatio, LikelihoodRatioDetector};
+pub use limits::{
+    AnisotropicCoulomb, BadFriction, Coulomb, FrictionLimit, FrictionModel, LoadDependentLimit, PowerLimit,
+    PressureDistribution, SlipDirection, SlipMargin, SoftFingerLimit, UncertainCoulomb,
+};
 #[cfg(feature = "std")]
-pub use limit_curve::{LimitCurve, LimitPoint};
-pub use load_dependent::LoadDependentLimit;
-pub use model::{FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
-pub use pressure::PressureDistribution;
-pub use slip_detector::{SlipDetector, SlipVerdict};
-pub use soft_finger::{PowerLimit, SoftFingerLimit};
-pub use static_friction::{FrictionEstimate, StaticFriction};
-pub use stick_slip::{StickSlip, StickSlipDetector};
-pub use stribeck::Stribeck;
-pub use threshold::RatioThreshold;
-pub use uncertain::UncertainCoulomb;
+pub use limits::{LimitCurve, LimitPoint};
+pub use slip::run_length;
+pub use slip::{
+    BadDetector, BadNoise, Cusum, DropDetector, ForceNoise, IncipientSlip, LikelihoodRatio,
+    LikelihoodRatioDetector, NormalForceGate, RatioThreshold, SlipDetector, SlipVerdict, StickSlip,
+    StickSlipDetector,
+};

@@ -1,0 +1,88 @@
+//! How sliding friction falls with speed.
+
+use fingertip_wrench::{Real, stored};
+
+use crate::BadFriction;
+use crate::limits::cone::positive;
+
+/// Stribeck's curve `g(v) = F_c + (F_s − F_c) e^{−(v/v_s)²}`: the friction force of steady sliding
+/// without its viscous part (theory 6.1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stribeck<T: Real> {
+    kinetic: T,
+    breakaway: T,
+    speed: T,
+}
+
+impl<T: Real> Stribeck<T> {
+    /// From the kinetic friction F_c, the static friction F_s (newtons, or coefficients where the
+    /// law is loaded by a normal force), and the Stribeck speed v_s \[m/s\].
+    ///
+    /// # Errors
+    /// [`BadFriction`] unless all are positive and finite and F_s ≥ F_c.
+    pub fn new(kinetic: T, breakaway: T, speed: T) -> Result<Self, BadFriction> {
+        let kinetic = positive(kinetic, "kinetic friction")?;
+        let breakaway = positive(breakaway, "static friction")?;
+        if breakaway < kinetic {
+            return Err(BadFriction {
+                parameter: "static friction",
+                requirement: "at least the kinetic friction",
+            });
+        }
+        Ok(Self { kinetic, breakaway, speed: positive(speed, "Stribeck speed")? })
+    }
+
+    /// The same friction at every speed.
+    ///
+    /// # Errors
+    /// [`BadFriction`] unless it is positive and finite.
+    pub fn constant(friction: T) -> Result<Self, BadFriction> {
+        Self::new(friction, friction, T::one())
+    }
+
+    /// `g(|v|)`: from F_s at rest down to F_c. A NaN gives F_c.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, speed: T) -> T {
+        let relative = (speed / self.speed).abs();
+        // Beyond this the exponential is below the rounding of any result.
+        if relative < T::literal(26.0) && self.breakaway > self.kinetic {
+            self.kinetic + (self.breakaway - self.kinetic) * (-(relative * relative)).exp()
+        } else {
+            self.kinetic
+        }
+    }
+
+    /// F_c.
+    #[inline]
+    #[must_use]
+    pub const fn kinetic(&self) -> T {
+        self.kinetic
+    }
+
+    /// F_s.
+    #[inline]
+    #[must_use]
+    pub const fn breakaway(&self) -> T {
+        self.breakaway
+    }
+
+    /// v_s \[m/s\].
+    #[inline]
+    #[must_use]
+    pub const fn speed(&self) -> T {
+        self.speed
+    }
+}
+
+stored! {
+    Stribeck<T>, [T: Real],
+    |curve| {
+        kinetic: T = curve.kinetic,
+        #[serde(rename = "static")]
+        breakaway: T = curve.breakaway,
+        #[serde(rename = "speed_m_per_s")]
+        speed: T = curve.speed,
+    },
+    Self::new(kinetic, breakaway, speed)
+}

@@ -1,0 +1,5 @@
+//! How hard to grip.
+
+mod controller;
+
+pub use controller::{GripController, GripSettings};

@@ -1,0 +1,130 @@
+//! Page's cumulative sum.
+
+use fingertip_wrench::{Real, stored};
+use thiserror::Error;
+
+use crate::slip::ratio_tracker::ChangeTest;
+
+/// A one-sided cumulative sum `S ← max(0, S + x − k)` that passes at `S > h` (Page 1954). The
+/// Page-Hinkley test is the same statistic.
+///
+/// The inputs are standardised: zero mean and unit variance as long as nothing happens. The
+/// allowance `k` is half the smallest change of the mean worth finding; the threshold `h` sets the
+/// rate of false alarms ([`for_false_alarms`](Self::for_false_alarms), theory 7.2).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cusum<T> {
+    allowance: T,
+    threshold: T,
+    sum: T,
+}
+
+/// A parameter of a change detector is out of range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("the {parameter} of a change detector must be {requirement}")]
+pub struct BadDetector {
+    /// Which parameter.
+    pub parameter: &'static str,
+    /// What it must be.
+    pub requirement: &'static str,
+}
+
+impl<T: Real> Cusum<T> {
+    /// From the allowance and the threshold, both in standard deviations.
+    ///
+    /// # Errors
+    /// [`BadDetector`] unless the allowance is finite and not negative and the threshold positive
+    /// and finite.
+    pub fn new(allowance: T, threshold: T) -> Result<Self, BadDetector> {
+        if !(allowance >= T::zero() && allowance.is_number()) {
+            return Err(BadDetector { parameter: "allowance", requirement: "finite and not negative" });
+        }
+        if !(threshold > T::zero() && threshold.is_number()) {
+            return Err(BadDetector { parameter: "threshold", requirement: "positive and finite" });
+        }
+        Ok(Self { allowance, threshold, sum: T::zero() })
+    }
+
+    /// With the threshold for a wanted rate of false alarms, were the samples independent
+    /// (`run_length::cusum_threshold`: exact to 0.5 %, from a table, so that it needs no standard
+    /// library).
+    ///
+    /// # Errors
+    /// [`BadDetector`] unless the allowance is from 0.125 to 1.5 and the rates positive, finite and
+    /// not too wild for it.
+    pub fn for_false_alarms(
+        allowance: T,
+        false_alarms_per_minute: f64,
+        sample_rate: f64,
+    ) -> Result<Self, BadDetector> {
+        let length = crate::slip::run_length::run_length_for(false_alarms_per_minute, sample_rate);
+        let threshold = crate::slip::run_length::cusum_threshold(allowance.to_f64(), length)?;
+        Self::new(allowance, T::literal(threshold))
+    }
+
+    /// Allowance 0.75, threshold 7.
+    pub(crate) fn drop_default() -> Self {
+        Self { allowance: T::literal(0.75), threshold: T::literal(7.0), sum: T::zero() }
+    }
+
+    /// Takes one standardised sample and tells whether the sum is above the threshold. A NaN is
+    /// ignored.
+    #[inline]
+    pub fn add(&mut self, sample: T) -> bool {
+        // False for a NaN alone.
+        if sample.abs() >= T::zero() {
+            // Choices between values, not branches: the sum is above zero in no foreseeable way.
+            // In this order, the sum of before is waited for last.
+            let sum = self.sum + (sample - self.allowance);
+            let sum = if sum > T::zero() { sum } else { T::zero() };
+            // Twice the threshold bounds it, so that it comes down again from an infinite sample.
+            let greatest = self.threshold + self.threshold;
+            self.sum = if sum < greatest { sum } else { greatest };
+        }
+        self.sum > self.threshold
+    }
+
+    /// The sum as it stands.
+    #[inline]
+    #[must_use]
+    pub const fn sum(&self) -> T {
+        self.sum
+    }
+
+    /// The allowance k.
+    #[inline]
+    #[must_use]
+    pub const fn allowance(&self) -> T {
+        self.allowance
+    }
+
+    /// The threshold h.
+    #[inline]
+    #[must_use]
+    pub const fn threshold(&self) -> T {
+        self.threshold
+    }
+
+    /// Sets the sum to zero.
+    #[inline]
+    pub fn reset(&mut self) {
+        self.sum = T::zero();
+    }
+}
+
+impl<T: Real> ChangeTest<T> for Cusum<T> {
+    #[inline]
+    fn add(&mut self, sample: T) -> bool {
+        Self::add(self, sample)
+    }
+
+    #[inline]
+    fn reset(&mut self) {
+        Self::reset(self);
+    }
+}
+
+stored! {
+    Cusum<T>, [T: Real],
+    |sum| { allowance: T = sum.allowance, threshold: T = sum.threshold },
+    Self::new(allowance, threshold)
+}

@@ -1,0 +1,95 @@
+//! When the friction ratio means anything.
+
+use fingertip_wrench::{ContactForce, Real, stored};
+use thiserror::Error;
+
+#[cfg(feature = "serde")]
+use crate::limits::cone::positive;
+/// Standard deviations of the noise of a contact force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceNoise<T> {
+    /// Of the normal force \[N\].
+    pub normal: T,
+    /// Of each component of the tangential force \[N\].
+    pub tangential: T,
+}
+
+/// A noise figure is not positive and finite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("the noise of the {component} force must be positive and finite")]
+pub struct BadNoise {
+    /// Which component.
+    pub component: &'static str,
+}
+
+impl<T: Real> ForceNoise<T> {
+    /// The same noise on every component \[N\].
+    ///
+    /// # Errors
+    /// [`BadNoise`] unless it is positive and finite.
+    pub fn isotropic(deviation: T) -> Result<Self, BadNoise> {
+        Self { normal: deviation, tangential: deviation }.checked()
+    }
+
+    pub(crate) fn checked(self) -> Result<Self, BadNoise> {
+        let good = |x: T| x > T::zero() && x.is_number();
+        if !good(self.normal) {
+            return Err(BadNoise { component: "normal" });
+        }
+        if !good(self.tangential) {
+            return Err(BadNoise { component: "tangential" });
+        }
+        Ok(self)
+    }
+
+    /// Standard deviation of the friction ratio at normal force `normal` and ratio `ratio`:
+    /// `√(σ_t² + R²σ_n²)/N` (theory 7.1, first order).
+    #[inline]
+    #[must_use]
+    pub fn ratio_deviation(&self, normal: T, ratio: T) -> T {
+        let scaled = ratio * self.normal;
+        (self.tangential * self.tangential + scaled * scaled).root() / normal
+    }
+}
+
+/// Lets a sample through only when the normal force stands well above its noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalForceGate<T> {
+    least: T,
+}
+
+impl<T: Real> NormalForceGate<T> {
+    /// Ten standard deviations of the normal force: below that the ratio is biased by more than
+    /// 1 % and its noise is no longer Gaussian (theory 7.1).
+    #[inline]
+    #[must_use]
+    pub fn from_noise(noise: &ForceNoise<T>) -> Self {
+        Self { least: noise.normal * T::literal(10.0) }
+    }
+
+    /// The least normal force that passes \[N\].
+    #[inline]
+    #[must_use]
+    pub const fn least(&self) -> T {
+        self.least
+    }
+
+    /// The friction ratio of a sample that passes.
+    #[inline]
+    #[must_use]
+    pub fn ratio(&self, force: &ContactForce<T>) -> Option<T> {
+        if force.normal > self.least { force.friction_ratio() } else { None }
+    }
+}
+
+stored! {
+    ForceNoise<T>, [T: Real],
+    |noise| { normal: T = noise.normal, tangential: T = noise.tangential },
+    Self { normal, tangential }.checked()
+}
+
+stored! {
+    NormalForceGate<T>, [T: Real],
+    |gate| { least: T = gate.least },
+    positive(least, "least normal force").map(|least| Self { least })
+}

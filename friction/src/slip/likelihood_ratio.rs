@@ -1,0 +1,184 @@
+//! The generalised likelihood ratio over a sliding window.
+
+use fingertip_wrench::{ContactForce, Real, stored};
+
+use crate::slip::ratio_tracker::{ChangeTest, RatioTracker};
+use crate::slip::run_length::{likelihood_ratio_threshold, run_length_for};
+use crate::{BadDetector, BadNoise, ForceNoise, SlipDetector, SlipVerdict};
+
+/// `max_j S_j²/(2j) > threshold` over the sums `S_j > 0` of the last `j ≤ W` standardised samples:
+/// it needs no guess of the size of the change, as the cumulative sum does.
+///
+/// # Cost
+/// The sums are taken anew from the samples, so that no rounding adds up: W additions. But hardly
+/// any update needs them. The line through the first and the last point of the bound `√(2j·threshold)`
+/// lies below all of it, the root being concave; so a sum that passes the bound has passed the line,
+/// and then so has Page's cumulative sum with the line's slope as allowance, which costs one
+/// addition. Only while that is above the line's intercept are the sums looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LikelihoodRatio<T, const W: usize> {
+    /// The last samples, newest at `next − 1`.
+    samples: [T; W],
+    next: usize,
+    filled: usize,
+    window: usize,
+    threshold: T,
+    /// Slope and intercept of the line below the bound on the sums, and the cumulative sum.
+    slope: T,
+    intercept: T,
+    screen: T,
+}
+
+impl<T: Real, const W: usize> LikelihoodRatio<T, W> {
+    /// With a threshold and the full window.
+    ///
+    /// # Errors
+    /// [`BadDetector`] unless W is at least 2 and the threshold positive and finite.
+    pub fn new(threshold: T) -> Result<Self, BadDetector> {
+        Self::with_window(W, threshold)
+    }
+
+    /// With a window shorter than the room for it.
+    ///
+    /// # Errors
+    /// [`BadDetector`] unless the window is from 2 to W and the threshold positive and finite.
+    pub fn with_window(window: usize, threshold: T) -> Result<Self, BadDetector> {
+        if !(2..=W).contains(&window) {
+            return Err(BadDetector { parameter: "window", requirement: "at least 2, and within its room" });
+        }
+        if !(threshold > T::zero() && threshold.is_number()) {
+            return Err(BadDetector { parameter: "threshold", requirement: "positive and finite" });
+        }
+        let first = (threshold + threshold).root();
+        let last = first * T::literal(window as f64).root();
+        let slope = (last - first) / T::literal(window as f64 - 1.0);
+        // Lowered by far more than what the rounding of sums of that size comes to.
+        let intercept = (first - slope) - last * (T::EPSILON * T::literal(window as f64)).root();
+        let samples = [T::zero(); W];
+        Ok(Self { samples, next: 0, filled: 0, window, threshold, slope, intercept, screen: T::zero() })
+    }
+
+    /// Takes one standardised sample and tells whether the ratio is above the threshold. A NaN is
+    /// ignored.
+    #[inline]
+    pub fn add(&mut self, sample: T) -> bool {
+        if !sample.is_number() {
+            return false;
+        }
+        if let Some(place) = self.samples.get_mut(self.next) {
+            *place = sample;
+        }
+        self.next = if self.next + 1 >= self.window { 0 } else { self.next + 1 };
+        self.filled = (self.filled + 1).min(self.window);
+        let screen = self.screen + sample - self.slope;
+        self.screen = (if screen > T::zero() { screen } else { T::zero() }).min(T::GREATEST);
+        self.screen > self.intercept && self.any_sum_passes()
+    }
+
+    #[inline(never)]
+    fn any_sum_passes(&self) -> bool {
+        // Always in range; but a compiler cannot know, and would keep a panic ready.
+        let newer = self.samples.get(..self.next).unwrap_or(&[]);
+        let older = self.samples.get(self.next..self.window).unwrap_or(&[]);
+        let twice = self.threshold + self.threshold;
+        let (mut sum, mut bound) = (T::zero(), T::zero());
+        for x in newer.iter().rev().chain(older.iter().rev()).take(self.filled) {
+            sum += *x;
+            bound += twice;
+            if sum > T::zero() && sum * sum > bound {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Forgets all samples.
+    #[inline]
+    pub fn reset(&mut self) {
+        self.filled = 0;
+        self.next = 0;
+        self.screen = T::zero();
+    }
+}
+
+impl<T: Real, const W: usize> ChangeTest<T> for LikelihoodRatio<T, W> {
+    #[inline]
+    fn add(&mut self, sample: T) -> bool {
+        Self::add(self, sample)
+    }
+
+    #[inline]
+    fn reset(&mut self) {
+        Self::reset(self);
+    }
+}
+
+/// Finds slip as a fall of the friction ratio of unknown size: [`LikelihoodRatio`] on the same
+/// evidence as [`DropDetector`](crate::DropDetector), and as robust.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LikelihoodRatioDetector<T, const W: usize> {
+    tracker: RatioTracker<T>,
+    ratio: LikelihoodRatio<T, W>,
+}
+
+impl<T: Real, const W: usize> LikelihoodRatioDetector<T, W> {
+    /// From the noise of the contact force, a wanted rate of false alarms per minute, and the
+    /// sample rate \[Hz\].
+    ///
+    /// # Errors
+    /// [`BadDetector`] unless noise, rates and window are usable.
+    pub fn new(
+        noise: ForceNoise<T>,
+        false_alarms_per_minute: f64,
+        sample_rate: f64,
+    ) -> Result<Self, BadDetector> {
+        let length = run_length_for(false_alarms_per_minute, sample_rate);
+        let threshold = T::literal(likelihood_ratio_threshold(W, length)?);
+        Self::with_ratio(noise, LikelihoodRatio::new(threshold)?)
+    }
+
+    /// With another likelihood ratio.
+    ///
+    /// # Errors
+    /// [`BadDetector`] unless both deviations, and their squares, are positive and finite.
+    pub fn with_ratio(noise: ForceNoise<T>, ratio: LikelihoodRatio<T, W>) -> Result<Self, BadDetector> {
+        let tracker = RatioTracker::new(noise).map_err(|BadNoise { .. }| BadDetector {
+            parameter: "noise",
+            requirement: "positive and finite",
+        })?;
+        Ok(Self { tracker, ratio })
+    }
+}
+
+impl<T: Real, const W: usize> SlipDetector<T> for LikelihoodRatioDetector<T, W> {
+    #[inline]
+    fn update(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict {
+        self.tracker.update(&mut self.ratio, force, time_step)
+    }
+
+    #[inline]
+    fn update_open(&mut self, time_step: T) -> SlipVerdict {
+        self.tracker.update_open(time_step)
+    }
+
+    fn reset(&mut self) {
+        self.tracker.reset();
+        self.ratio.reset();
+    }
+}
+
+stored! {
+    LikelihoodRatio<T, W>, [T: Real, const W: usize],
+    |ratio| { window: usize = ratio.window, threshold: T = ratio.threshold },
+    Self::with_window(window, threshold)
+}
+
+stored! {
+    LikelihoodRatioDetector<T, W>, [T: Real, const W: usize],
+    |detector| {
+        noise: ForceNoise<T> = detector.tracker.noise(),
+        window: usize = detector.ratio.window,
+        threshold: T = detector.ratio.threshold,
+    },
+    LikelihoodRatio::with_window(window, threshold).and_then(|ratio| Self::with_ratio(noise, ratio))
+}

@@ -1,0 +1,209 @@
+//! The scalar that every crate of the workspace is generic over.
+
+use nalgebra::RealField;
+
+/// A real number: the one bound that all crates use.
+///
+/// It adds to nalgebra's [`RealField`] what numerical code needs and that trait lacks: the
+/// rounding unit and the range as constants, literals, exact scaling by a power of two, and a
+/// square root that becomes the hardware instruction on a microcontroller.
+///
+/// `f32` and `f64` are its full citizens. It is not sealed: dual numbers (to check Jacobians) or
+/// double-double numbers (to make references) may implement it. Only the three constants and
+/// [`literal`](Real::literal) and [`to_f64`](Real::to_f64) are required.
+pub trait Real: RealField + Copy {
+    /// Distance from 1 to the next larger number (`2^-52` for `f64`, `2^-23` for `f32`).
+    const EPSILON: Self;
+    /// Smallest positive normal number.
+    const LEAST_NORMAL: Self;
+    /// Largest finite number.
+    const GREATEST: Self;
+
+    /// The number nearest to `value`.
+    fn literal(value: f64) -> Self;
+
+    /// The `f64` nearest to this number, for printing and reports.
+    fn to_f64(self) -> f64;
+
+    /// Square root; NaN for a negative number.
+    ///
+    /// On Arm targets with a floating-point unit and without the standard library, `f32` uses the
+    /// `vsqrt` instruction instead of the software routine that nalgebra would call.
+    #[inline]
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+
+    /// A factor `k` that brings `self·k` near 1, without rounding error where the type is binary.
+    ///
+    /// For `f32` and `f64`, `k` is the power of two with `1 ≤ |self|·k < 2` for every normal
+    /// number below a quarter of the range, and both `k` and `1/k` are normal numbers for *every*
+    /// input, zero, subnormal, infinite and NaN included. Multiplying by it is exact unless the
+    /// product under- or overflows. The default divides, which rounds once.
+    #[inline]
+    fn normalising_factor(self) -> Self {
+        let magnitude = self.abs();
+        if magnitude > Self::LEAST_NORMAL && magnitude < Self::GREATEST {
+            Self::one() / magnitude
+        } else {
+            Self::one()
+        }
+    }
+
+    /// `true` unless NaN or infinite.
+    #[inline]
+    fn is_number(self) -> bool {
+        nalgebra::ComplexField::is_finite(&self)
+    }
+
+    /// Veltkamp's constant `2^⌈p/2⌉ + 1` for a binary type of `p` bits: it splits a number into
+    /// two halves whose products are exact.
+    #[inline]
+    fn splitter() -> Self {
+        // 1/ε is 2^(p−1), and the power of two at or below its root is 2^⌊(p−1)/2⌋.
+        let half = (Self::one() / Self::EPSILON).sqrt().normalising_factor();
+        Self::literal(2.0) / half + Self::one()
+    }
+
+    /// The product and its rounding error, `self·other = product + error` exactly (Dekker 1971
+    /// with Veltkamp's splitting; 17 operations and no fused multiply-add, which microcontrollers
+    /// do in software).
+    ///
+    /// Exact unless a factor is within `2^⌈p/2⌉` of the largest number (then the error is NaN) or
+    /// the error underflows: scale first.
+    #[inline]
+    fn two_product(self, other: Self) -> (Self, Self) {
+        let split = |x: Self| {
+            let wide = Self::splitter() * x;
+            let high = wide - (wide - x);
+            (high, x - high)
+        };
+        let product = self * other;
+        let (a_high, a_low) = split(self);
+        let (b_high, b_low) = split(other);
+        let error = a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low);
+        (product, error)
+    }
+
+    /// The sum and its rounding error, `self + other = sum + error` exactly (Knuth; Møller).
+    #[inline]
+    fn two_sum(self, other: Self) -> (Self, Self) {
+        let sum = self + other;
+        let part = sum - self;
+        (sum, (self - (sum - part)) + (other - part))
+    }
+}
+
+macro_rules! real {
+    ($float:ident, $mantissa_bits:literal, $exponent_mask:literal, $splitter:literal, $root:path) => {
+        impl Real for $float {
+            const EPSILON: Self = $float::EPSILON;
+            const LEAST_NORMAL: Self = $float::MIN_POSITIVE;
+            const GREATEST: Self = $float::MAX;
+
+            #[inline]
+            #[allow(clippy::cast_possible_truncation)]
+            fn literal(value: f64) -> Self {
+                value as $float
+            }
+
+            #[inline]
+            fn to_f64(self) -> f64 {
+                f64::from(self)
+            }
+
+            #[inline]
+            fn root(self) -> Self {
+                $root(self)
+            }
+
+            #[inline]
+            fn normalising_factor(self) -> Self {
+                let exponent = (self.to_bits() >> $mantissa_bits) & $exponent_mask;
+                // A biased exponent of 0 (zero, subnormal) counts as 1, and the topmost two as the
+                // largest whose reciprocal is still normal.
+                let clamped = exponent.clamp(1, $exponent_mask - 2);
+                $float::from_bits((($exponent_mask - 1) - clamped) << $mantissa_bits)
+            }
+
+            #[inline]
+            fn is_number(self) -> bool {
+                self.is_finite()
+            }
+
+            #[inline]
+            fn splitter() -> Self {
+                $splitter
+            }
+        }
+    };
+}
+
+real!(f32, 23, 0xff, 4_097.0, crate::scalar::hardware_sqrt::sqrt_f32);
+real!(f64, 52, 0x7ff, 134_217_729.0, nalgebra::ComplexField::sqrt);
+
+#[cfg(test)]
+mod tests {
+    use super::Real;
+    use proptest::prelude::*;
+
+    fn check_normalising_factor<T: Real>(value: T) {
+        let factor = value.normalising_factor();
+        assert!(factor >= T::LEAST_NORMAL && T::one() / factor >= T::LEAST_NORMAL);
+        let quarter = T::GREATEST / T::literal(4.0);
+        if value.abs() >= T::LEAST_NORMAL && value.abs() < quarter {
+            let scaled = value.abs() * factor;
+            assert!(scaled >= T::one() && scaled < T::literal(2.0));
+            assert_eq!(value * factor / factor, value);
+        }
+    }
+
+    /// The default of the trait, which the two types override by a constant.
+    fn splitter_by_the_formula<T: Real>() -> T {
+        let half = (T::one() / T::EPSILON).sqrt().normalising_factor();
+        T::literal(2.0) / half + T::one()
+    }
+
+    #[test]
+    fn splitter_is_two_to_half_the_bits_plus_one() {
+        assert_eq!(<f32 as Real>::splitter(), splitter_by_the_formula());
+        assert_eq!(<f64 as Real>::splitter(), splitter_by_the_formula());
+    }
+
+    proptest! {
+        #[test]
+        fn product_of_narrow_numbers_is_exact_in_two_parts(a in -1e15_f32..1e15, b in -1e15_f32..1e15) {
+            let (product, error) = a.two_product(b);
+            prop_assert_eq!(f64::from(product) + f64::from(error), f64::from(a) * f64::from(b));
+            let (sum, error) = a.two_sum(b);
+            prop_assert_eq!(f64::from(sum) + f64::from(error), f64::from(a) + f64::from(b));
+        }
+
+        #[test]
+        fn product_of_wide_numbers_is_exact_in_two_parts(a in any::<i64>(), b in any::<i64>()) {
+            // 53-bit integers, whose products an i128 holds.
+            let (a, b) = (a >> 11, b >> 11);
+            let (product, error) = (a as f64).two_product(b as f64);
+            prop_assert_eq!(product as i128 + error as i128, i128::from(a) * i128::from(b));
+        }
+
+        #[test]
+        fn normalising_factor_is_exact_for_any_bits(wide in any::<u64>(), narrow in any::<u32>()) {
+            check_normalising_factor(f64::from_bits(wide));
+            check_normalising_factor(f32::from_bits(narrow));
+        }
+
+        #[test]
+        fn root_is_correctly_rounded(x in 0.0_f32..) {
+            prop_assert_eq!(Real::root(x), x.sqrt());
+        }
+    }
+
+    #[test]
+    fn normalising_factor_at_the_extremes() {
+        for value in [0.0, f64::MIN_POSITIVE, 5e-324, 1.0, f64::MAX, f64::INFINITY, f64::NAN] {
+            check_normalising_factor(value);
+            check_normalising_factor(value as f32);
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! One matrix product.
+
+use nalgebra::{Matrix6, Vector6};
+use thiserror::Error;
+
+use crate::scalar::rounding::relative_rounding;
+use crate::solve::compensated::matrix_residual;
+use crate::{
+    GaussianElimination, LinearSolver, OwnError, Real, SensorMatrix, SensorMatrixError, SingularMatrix,
+    Wrench, WrenchSolver,
+};
+
+/// The inverse of the sensor matrix, multiplied with each reading: the fastest general solver.
+///
+/// The inverse itself is refined at construction until its entries are right to the last digit or
+/// two, so what is lost is lost in the product alone. Still the answer satisfies the equations less
+/// well than that of [`GaussianElimination`]: where elimination leaves a residual of a few rounding
+/// errors *whatever the matrix*, the product leaves up to
+/// [`residual_growth`](Self::residual_growth) times as much. [`ErrorBound`](crate::ErrorBound) says
+/// what that means for the wrench.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inverse<T: Real> {
+    /// Newtons and newton metres per signal.
+    matrix: Matrix6<T>,
+    residual_growth: T,
+}
+
+impl<T: Real> Inverse<T> {
+    /// Inverts the matrix.
+    ///
+    /// # Errors
+    /// As [`GaussianElimination::new`].
+    pub fn new(sensor: &SensorMatrix<T, 6>) -> Result<Self, SingularMatrix> {
+        let inverse = GaussianElimination::new(sensor)?.gain(sensor);
+        let matrix = Matrix6::from_fn(|axis, gauge| inverse[(axis, gauge)] * sensor.nominal()[axis]);
+        let residual_growth = (sensor.normalised().abs() * inverse.abs()).column_sum().amax();
+        if matrix.iter().all(|x| x.is_number()) && residual_growth.is_number() {
+            Ok(Self { matrix, residual_growth })
+        } else {
+            Err(SingularMatrix::OutOfRange)
+        }
+    }
+
+    /// The matrix that takes signals to newtons and newton metres.
+    #[inline]
+    #[must_use]
+    pub const fn matrix(&self) -> &Matrix6<T> {
+        &self.matrix
+    }
+
+    /// By what factor the residual `signals − C·answer` may exceed a rounding error of the largest
+    /// signal: `‖|C||C⁻¹|‖∞`, at least 1.
+    #[inline]
+    #[must_use]
+    pub const fn residual_growth(&self) -> T {
+        self.residual_growth
+    }
+}
+
+impl<T: Real> WrenchSolver<T, 6> for Inverse<T> {
+    #[inline]
+    fn solve(&self, signals: &Vector6<T>) -> Wrench<T> {
+        Wrench::from_components(&(self.matrix * signals))
+    }
+}
+
+impl<T: Real> LinearSolver<T, 6> for Inverse<T> {
+    fn gain(&self, sensor: &SensorMatrix<T, 6>) -> Matrix6<T> {
+        Matrix6::from_fn(|axis, gauge| self.matrix[(axis, gauge)] / sensor.nominal()[axis])
+    }
+
+    /// Six roundings of a product of six terms, one of the division in [`gain`](Self::gain).
+    fn own_error(&self, sensor: &SensorMatrix<T, 6>) -> OwnError<T, 6> {
+        let gain = self.gain(sensor);
+        let per_load = matrix_residual(&Matrix6::identity(), &gain, sensor.normalised()).abs();
+        OwnError { per_load, per_signal: gain.abs() * relative_rounding::<T>(7), magnitude: gain.abs() }
+    }
+}
+
+/// A published matrix that is not the inverse of a sensor matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum BadInverse {
+    /// An entry, a row, a column or a nominal load is unusable. Its "gauge" is the row of the matrix
+    /// given, an axis; its "axis" the column, a gauge.
+    #[error("the matrix from signals to wrench: {0}")]
+    Matrix(SensorMatrixError),
+    /// The matrix cannot be inverted.
+    #[error("the matrix from signals to wrench is singular: {0}")]
+    Singular(SingularMatrix),
+}
+
+impl<T: Real> SensorMatrix<T, 6> {
+    /// From the matrix that takes signals to newtons and newton metres, as sensor makers publish it
+    /// (an ATI `.cal` file has it as `UserAxis`), and the nominal loads.
+    ///
+    /// ```
+    /// use fingertip_wrench::SensorMatrix;
+    /// use nalgebra::{Matrix6, Vector6};
+    ///
+    /// // 5 N per volt: a nominal load of 10 N gives 2 V.
+    /// let published = Matrix6::from_diagonal_element(5.0);
+    /// let sensor = SensorMatrix::from_inverse(&published, Vector6::repeat(10.0))?;
+    /// assert_eq!(sensor.normalised()[(0, 0)], 2.0);
+    /// # Ok::<(), fingertip_wrench::BadInverse>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`BadInverse`].
+    pub fn from_inverse(wrench_per_signal: &Matrix6<T>, nominal: Vector6<T>) -> Result<Self, BadInverse> {
+        let unit =
+            SensorMatrix::new(*wrench_per_signal, Vector6::repeat(T::one())).map_err(BadInverse::Matrix)?;
+        let sensitivities = GaussianElimination::new(&unit).map_err(BadInverse::Singular)?.gain(&unit);
+        Self::from_sensitivities(sensitivities, nominal).map_err(BadInverse::Matrix)
+    }
+}
