@@ -12,7 +12,7 @@ use fingertip_calibration::design::{
     Assessment, ContactWeight, Criterion, Excitation, LayoutFile, LoadedTube, Material, MatrixUsed,
     NominalLoads, Placement, Search, Touch, Trial, TubeSpace, Wall, search,
 };
-use fingertip_drivers::simulation::{
+use fingertip_simulation::{
     Design, Options, SessionReport, SessionScore, SimulatedFingertip, standard_session,
 };
 

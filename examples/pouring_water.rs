@@ -15,7 +15,7 @@ use fingertip::friction::{
 };
 use fingertip::surfaces::PointContact;
 use fingertip::wrench::{GaussianElimination, Wrench};
-use fingertip_drivers::simulation::Design;
+use fingertip_simulation::Design;
 use nalgebra::{Vector1, Vector3};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};

@@ -10,7 +10,7 @@ use fingertip::wrench::{
 use fingertip_calibration::design::{
     Excitation, LayoutFile, LoadedTube, Material, NominalLoads, TubeSpace, Wall,
 };
-use fingertip_drivers::simulation::{
+use fingertip_simulation::{
     Design, Imperfections, Options, SessionScore, SimulatedFingertip, standard_session,
 };
 use nalgebra::Vector6;

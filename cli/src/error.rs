@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use fingertip_drivers::recording::RecordingError;
+use fingertip_recordings::RecordingError;
 use thiserror::Error;
 
 /// Why a run stopped.

@@ -1,6 +1,6 @@
 //! The readings of gauges in the rows of a recording.
 
-use fingertip_drivers::recording::{HeaderProblem, Layout, NumberColumn, Row, SignalColumns};
+use fingertip_recordings::{HeaderProblem, Layout, NumberColumn, Row, SignalColumns};
 
 use crate::calibrated::{GaugeReading, MOST_GAUGES, Readings};
 

@@ -4,8 +4,8 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, BufReader, BufWriter};
 use std::path::Path;
 
-use fingertip_drivers::recording::mcap::{McapError, McapReader};
-use fingertip_drivers::recording::{RecordingError, SignalUnit};
+use fingertip_recordings::mcap::{McapError, McapReader};
+use fingertip_recordings::{RecordingError, SignalUnit};
 
 use crate::error::CliError;
 

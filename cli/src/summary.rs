@@ -3,7 +3,7 @@
 use core::fmt;
 use std::path::Path;
 
-use fingertip_drivers::recording::Quality;
+use fingertip_recordings::Quality;
 
 use crate::observe::{Observations, Quantiles, Status};
 use crate::scene::Scene;

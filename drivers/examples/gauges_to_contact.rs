@@ -1,5 +1,5 @@
 //! From the gauges of a fingertip to the contact, on the host, without hardware:
-//! `cargo run --release -p fingertip-drivers --features ads131m,simulation --example gauges_to_contact`
+//! `cargo run --release -p fingertip-drivers --features ads131m,simulators --example gauges_to_contact`
 //!
 //! A simulated ADS131M08 converts six quarter bridges and, at the same moment, their excitation, which sags
 //! when a load is switched on. Its frames go through the driver, the bridges' front end, the tare and
@@ -12,16 +12,16 @@ use fingertip::Fingertip;
 use fingertip::friction::Coulomb;
 use fingertip::surfaces::PointContact;
 use fingertip::wrench::{GaussianElimination, SensorMatrix, TareAccumulator, Wrench};
-use fingertip_drivers::ads131m::{
-    Ads131m, ChannelSetup, Configuration, Gain, Oversampling, SimulatedAds131m,
-};
 use fingertip_drivers::bridge::{
     BridgeChannel, BridgeCircuit, BridgeFrontEnd, Bridged, CountScale, Excitation,
 };
-use fingertip_drivers::converter::{Patience, SimulatedBench, WireFaults};
+use fingertip_drivers::converters::ads131m::{
+    Ads131m, ChannelSetup, Configuration, Gain, Oversampling, SimulatedAds131m,
+};
+use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
 use fingertip_drivers::middleware::Solved;
-use fingertip_drivers::simulation::{Design, SurfacePoint};
 use fingertip_drivers::{SignalSource, SourceError, SourceErrorKind, WrenchSource};
+use fingertip_simulation::{Design, SurfacePoint};
 use nalgebra::{SMatrix, Vector3};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};

@@ -18,8 +18,9 @@ use std::time::Instant;
 use fingertip::Fingertip;
 use fingertip::friction::Coulomb;
 use fingertip::surfaces::{PointContact, Sphere};
-use fingertip_drivers::ati_rdt::{ClientError, CountsPerUnit, RdtClient, Record};
-use fingertip_drivers::{LinkStatistics, NbWrenchSource, WrenchSource};
+use fingertip_drivers::sensors::LinkStatistics;
+use fingertip_drivers::sensors::ati_rdt::{ClientError, CountsPerUnit, RdtClient, Record};
+use fingertip_drivers::{NbWrenchSource, WrenchSource};
 
 const RECORDS: u32 = 500_000;
 const RATE: f64 = 100_000.0;

@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
 
-use fingertip_drivers::recording::RecordingReader;
+use fingertip_recordings::RecordingReader;
 
 use super::args::AnalyzeArguments;
 use crate::convert::McapAsCsv;

@@ -14,7 +14,7 @@ use std::path::Path;
 
 use fingertip::Fingertip;
 use fingertip::surfaces::ActiveSurface;
-use fingertip_drivers::recording::Quality;
+use fingertip_recordings::Quality;
 
 use crate::error::CliError;
 use crate::observe::{Observations, Status};

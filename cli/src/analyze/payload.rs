@@ -4,7 +4,7 @@ use std::path::Path;
 
 use fingertip::wrench::{Payload, Wrench};
 use fingertip_calibration::file::PayloadFile;
-use fingertip_drivers::recording::{NumberColumn, Row};
+use fingertip_recordings::{NumberColumn, Row};
 use nalgebra::Vector3;
 
 use super::files::Rows;

@@ -1,7 +1,7 @@
 //! What a row of a recording holds of one sensor, be it wrenches or volts.
 
 use fingertip::wrench::{TareError, Wrench};
-use fingertip_drivers::recording::Row;
+use fingertip_recordings::Row;
 
 use crate::observe::Status;
 use crate::rest_watch::Doubt;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use fingertip::wrench::Wrench;
-use fingertip_drivers::recording::{HeaderProblem, Row};
+use fingertip_recordings::{HeaderProblem, Row};
 
 use super::args::AnalyzeArguments;
 use super::files::Rows;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fingertip::wrench::{TareError, Wrench};
-use fingertip_drivers::recording::{HeaderProblem, Layout, Row};
+use fingertip_recordings::{HeaderProblem, Layout, Row};
 
 use super::recorded::Recorded;
 use crate::calibrated::{Calibrated, Calibration, Readings};

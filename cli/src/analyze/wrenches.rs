@@ -1,7 +1,7 @@
 //! Recordings of wrenches.
 
 use fingertip::wrench::{TareAccumulator, TareError, Wrench};
-use fingertip_drivers::recording::{HeaderProblem, Layout, Row, WrenchColumns};
+use fingertip_recordings::{HeaderProblem, Layout, Row, WrenchColumns};
 use nalgebra::Vector6;
 
 use super::recorded::Recorded;

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use fingertip::wrench::{GaussianElimination, LeastSquares, TareError, Wrench};
 use fingertip_calibration::file::{CalibrationFile, SignalUnit as CalibratedUnit, Verdict};
-use fingertip_drivers::recording::SignalUnit;
+use fingertip_recordings::SignalUnit;
 
 use crate::error::CliError;
 use crate::observe::Status;

@@ -3,10 +3,8 @@
 use std::io;
 
 use fingertip::wrench::Wrench;
-use fingertip_drivers::recording::mcap::{
-    Header, McapError, McapWriter, RecordedContact, RecordedSignals, Topic,
-};
-use fingertip_drivers::recording::{ContactCells, RecordingReader, SignalColumns, SignalUnit, WrenchColumns};
+use fingertip_recordings::mcap::{Header, McapError, McapWriter, RecordedContact, RecordedSignals, Topic};
+use fingertip_recordings::{ContactCells, RecordingReader, SignalColumns, SignalUnit, WrenchColumns};
 
 use super::{Account, ConvertArguments, fault, topic};
 use crate::error::CliError;

@@ -3,7 +3,7 @@
 use std::io::{self, Read};
 use std::path::Path;
 
-use fingertip_drivers::recording::RecordingWriter;
+use fingertip_recordings::RecordingWriter;
 
 use super::mcap_rows::Rows;
 use super::{Account, ConvertArguments};

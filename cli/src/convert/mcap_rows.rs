@@ -3,8 +3,8 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use fingertip_drivers::recording::mcap::{Entry, McapReader, Recorded};
-use fingertip_drivers::recording::{ContactCells, Schema};
+use fingertip_recordings::mcap::{Entry, McapReader, Recorded};
+use fingertip_recordings::{ContactCells, Schema};
 
 use super::{Account, fault};
 use crate::error::CliError;

@@ -5,8 +5,8 @@ use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
 use fingertip_calibration::file::{CalibrationFile, FileError, Provenance, SignalUnit as CalibratedUnit};
-use fingertip_drivers::recording::{RecordingError, RecordingWriter, Schema, SignalUnit};
-use fingertip_drivers::simulation::{SimulatedFingertip, SimulatedSample};
+use fingertip_recordings::{RecordingError, RecordingWriter, Schema, SignalUnit};
+use fingertip_simulation::{SimulatedFingertip, SimulatedSample};
 use nalgebra::DMatrix;
 
 use crate::error::CliError;

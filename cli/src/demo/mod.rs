@@ -11,9 +11,7 @@ use fingertip::Fingertip;
 use fingertip::friction::{Coulomb, DropDetector, ForceNoise, SlipVerdict};
 use fingertip::surfaces::PointContact;
 use fingertip::wrench::GaussianElimination;
-use fingertip_drivers::simulation::{
-    Options, SessionReport, SessionScore, SimulatedFingertip, standard_session,
-};
+use fingertip_simulation::{Options, SessionReport, SessionScore, SimulatedFingertip, standard_session};
 use nalgebra::Vector3;
 
 use crate::error::CliError;

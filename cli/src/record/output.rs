@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use fingertip::surfaces::Resolution;
 use fingertip::wrench::Wrench;
-use fingertip_drivers::recording::mcap::{McapWriter, RecordedContact, RecordedSignals, Topic};
-use fingertip_drivers::recording::{ContactCells, RecordingWriter, Schema, SignalUnit};
+use fingertip_recordings::mcap::{McapWriter, RecordedContact, RecordedSignals, Topic};
+use fingertip_recordings::{ContactCells, RecordingWriter, Schema, SignalUnit};
 
 use crate::error::CliError;
 use crate::observe::SceneTouch;

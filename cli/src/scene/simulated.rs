@@ -2,7 +2,7 @@
 
 use fingertip::friction::{Coulomb, DropDetector, ForceNoise};
 use fingertip::surfaces::PointContact;
-use fingertip_drivers::simulation::{Options, Segment, SimulatedFingertip, standard_session};
+use fingertip_simulation::{Options, Segment, SimulatedFingertip, standard_session};
 use nalgebra::Vector3;
 
 use super::{Convention, Friction, Scene, SlipWatch};

@@ -1,7 +1,8 @@
 //! Sensors on a CAN interface of Linux.
 
-use fingertip_drivers::robotous::{CanAssembler, CanSensor, CanSensorError, Request};
-use fingertip_drivers::{AxisCounts, NbWrenchSource};
+use fingertip_drivers::NbWrenchSource;
+use fingertip_drivers::sensors::AxisCounts;
+use fingertip_drivers::sensors::robotous::{CanAssembler, CanSensor, CanSensorError, Request};
 use socketcan::embedded_can::{ExtendedId, Id, StandardId};
 use socketcan::{CanFilter, CanSocket, Socket, SocketOptions};
 

@@ -1,13 +1,13 @@
 //! Opens the sensor of an address.
 
-use fingertip_drivers::AxisCounts;
-use fingertip_drivers::ati_rdt::{CountsPerUnit, RdtClient};
-use fingertip_drivers::bota_serial::BotaDecoder;
-use fingertip_drivers::dynpick::{self, DynPickDecoder, Sensitivities};
-use fingertip_drivers::optoforce::{self, OptoForceDecoder};
-use fingertip_drivers::resense::{Limits, ResenseDecoder};
-use fingertip_drivers::robotous::{Request, RobotousDecoder};
-use fingertip_drivers::schunk_fts::{self, FtsClient};
+use fingertip_drivers::sensors::AxisCounts;
+use fingertip_drivers::sensors::ati_rdt::{CountsPerUnit, RdtClient};
+use fingertip_drivers::sensors::bota_serial::BotaDecoder;
+use fingertip_drivers::sensors::dynpick::{self, DynPickDecoder, Sensitivities};
+use fingertip_drivers::sensors::optoforce::{self, OptoForceDecoder};
+use fingertip_drivers::sensors::resense::{Limits, ResenseDecoder};
+use fingertip_drivers::sensors::robotous::{Request, RobotousDecoder};
+use fingertip_drivers::sensors::schunk_fts::{self, FtsClient};
 
 use super::address::{Address, Protocol};
 #[cfg(target_os = "linux")]

@@ -4,9 +4,9 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-use fingertip_drivers::recording::mcap::{McapReader, Recorded};
-use fingertip_drivers::recording::{RecordingError, RecordingReader};
 use fingertip_drivers::{Sample, SignalSource, SourceError, SourceErrorKind};
+use fingertip_recordings::mcap::{McapReader, Recorded};
+use fingertip_recordings::{RecordingError, RecordingReader};
 use thiserror::Error;
 
 use super::simulated::Rounds;

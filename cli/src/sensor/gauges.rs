@@ -4,8 +4,8 @@ use std::path::Path;
 
 use fingertip::wrench::Wrench;
 use fingertip_drivers::middleware::Paced;
-use fingertip_drivers::recording::{HeaderProblem, RecordingReader, SignalUnit};
 use fingertip_drivers::{ErrorType, Sample, WrenchSource};
+use fingertip_recordings::{HeaderProblem, RecordingReader, SignalUnit};
 
 use super::address::Address;
 use super::gauge_sources::{CsvGauges, GaugeFault, GaugeSource, McapGauges, SimulatedGauges};
@@ -128,7 +128,7 @@ mod tests {
     use std::path::PathBuf;
 
     use fingertip_calibration::file::{CalibrationFile, SignalUnit as CalibratedUnit};
-    use fingertip_drivers::recording::mcap::{McapWriter, RecordedSignals};
+    use fingertip_recordings::mcap::{McapWriter, RecordedSignals};
     use nalgebra::DMatrix;
 
     use super::super::{Feed, Next};

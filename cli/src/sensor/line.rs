@@ -5,7 +5,7 @@ use core::time::Duration;
 use std::io::{self, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 
-use fingertip_drivers::line::{LineDecoder, LineSensor};
+use fingertip_drivers::sensors::line::{LineDecoder, LineSensor};
 
 use super::address::Address;
 use super::losses::Losses;

@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use fingertip_drivers::LinkStatistics;
-use fingertip_drivers::line::LineStatistics;
+use fingertip_drivers::sensors::LinkStatistics;
+use fingertip_drivers::sensors::line::LineStatistics;
 
 use crate::table::count;
 

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use fingertip_drivers::middleware::Paced;
-use fingertip_drivers::recording::mcap::McapPlayback;
-use fingertip_drivers::recording::{RecordingReader, WrenchPlayback};
+use fingertip_drivers::playback::{McapPlayback, WrenchPlayback};
+use fingertip_recordings::RecordingReader;
 
 use super::losses::Losses;
 use super::{Feed, SourceFeed};

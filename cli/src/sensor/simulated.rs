@@ -6,8 +6,8 @@ use fingertip::wrench::{
     Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy, GaussianElimination, WrenchSolver,
 };
 use fingertip_drivers::middleware::Paced;
-use fingertip_drivers::simulation::{Options, SimulatedFingertip, standard_session};
 use fingertip_drivers::{ErrorType, Sample, SignalSource};
+use fingertip_simulation::{Options, SimulatedFingertip, standard_session};
 use nalgebra::Vector6;
 
 use super::address::Address;

@@ -4,7 +4,7 @@ use core::net::IpAddr;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use fingertip_drivers::FaultPlan;
+use fingertip_drivers::sensors::FaultPlan;
 
 /// The device that is simulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -88,7 +88,7 @@ pub(crate) struct SimulateArguments {
     #[arg(long, value_name = "PORT", default_value_t = 0)]
     pub(crate) http_port: u16,
     /// The port that schunk sends its samples to, at the client
-    #[arg(long, value_name = "PORT", default_value_t = fingertip_drivers::schunk_fts::UDP_PORT)]
+    #[arg(long, value_name = "PORT", default_value_t = fingertip_drivers::sensors::schunk_fts::UDP_PORT)]
     pub(crate) udp_port: u16,
     /// What carries a serial protocol
     #[arg(long, value_enum, default_value_t = if cfg!(unix) { Carrier::Pty } else { Carrier::Tcp })]

@@ -5,7 +5,7 @@ use std::io::{self, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::thread;
 
-use fingertip_drivers::ati_rdt::{Configuration, RdtClient, RdtServer, SimulatedNetFt};
+use fingertip_drivers::sensors::ati_rdt::{Configuration, RdtClient, RdtServer, SimulatedNetFt};
 
 use super::args::SimulateArguments;
 use super::load::Load;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use fingertip::wrench::Wrench;
-use fingertip_drivers::simulation::{Options, Script, SimulatedFingertip, SurfacePoint, standard_session};
+use fingertip_simulation::{Options, Script, SimulatedFingertip, SurfacePoint, standard_session};
 use nalgebra::Vector6;
 use rand::SeedableRng;
 use rand_distr::{Distribution, Normal};
@@ -110,7 +110,7 @@ fn script(scenario: Scenario) -> Script {
 #[cfg(test)]
 mod tests {
     use super::{Scenario, script};
-    use fingertip_drivers::simulation::{Options, SimulatedFingertip};
+    use fingertip_simulation::{Options, SimulatedFingertip};
 
     #[test]
     fn every_scenario_can_be_played_and_begins_with_a_rest() {

@@ -14,7 +14,7 @@ use std::time::Instant;
 
 use args::{Device, SimulateArguments};
 use clap::ValueEnum;
-use fingertip_drivers::SimulatedSensor;
+use fingertip_drivers::sensors::SimulatedSensor;
 use load::Load;
 
 use crate::error::CliError;

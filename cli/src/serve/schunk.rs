@@ -3,7 +3,7 @@
 use core::time::Duration;
 use std::thread;
 
-use fingertip_drivers::schunk_fts::{FtsServer, SimulatedFts};
+use fingertip_drivers::sensors::schunk_fts::{FtsServer, SimulatedFts};
 
 use super::args::SimulateArguments;
 use super::load::Load;

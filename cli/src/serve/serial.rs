@@ -5,13 +5,13 @@ use std::io::{self, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::thread;
 
-use fingertip_drivers::bota_serial::SimulatedBota;
-use fingertip_drivers::dynpick::SimulatedDynPick;
-use fingertip_drivers::line::{LineFaults, SerialDevice, SimulatedSerial};
-use fingertip_drivers::optoforce::SimulatedOptoForce;
-use fingertip_drivers::resense::SimulatedResense;
-use fingertip_drivers::robotous::SimulatedRft;
-use fingertip_drivers::{AxisCounts, Pace};
+use fingertip_drivers::sensors::bota_serial::SimulatedBota;
+use fingertip_drivers::sensors::dynpick::SimulatedDynPick;
+use fingertip_drivers::sensors::line::{LineFaults, SerialDevice, SimulatedSerial};
+use fingertip_drivers::sensors::optoforce::SimulatedOptoForce;
+use fingertip_drivers::sensors::resense::SimulatedResense;
+use fingertip_drivers::sensors::robotous::SimulatedRft;
+use fingertip_drivers::sensors::{AxisCounts, Pace};
 
 use super::args::{Carrier, Device, SimulateArguments};
 use super::load::Load;

@@ -1,6 +1,6 @@
 //! `fingertip demo`, and its volts through `fingertip analyze`.
 
-use fingertip_drivers::simulation::{Options, SimulatedFingertip, standard_session};
+use fingertip_simulation::{Options, SimulatedFingertip, standard_session};
 
 use crate::common::{Contacts, Folder, scene};
 

@@ -1,7 +1,7 @@
 //! The page on which an ATI sensor tells its configuration.
 #![no_main]
 
-use fingertip_drivers::ati_rdt::Configuration;
+use fingertip_drivers::sensors::ati_rdt::Configuration;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|page: &str| {

@@ -1,7 +1,7 @@
 //! Datagrams and requests of ATI's raw data transfer.
 #![no_main]
 
-use fingertip_drivers::ati_rdt::{CountsPerUnit, Receiver, Record, Request, records};
+use fingertip_drivers::sensors::ati_rdt::{CountsPerUnit, Receiver, Record, Request, records};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -2,8 +2,8 @@
 #![no_main]
 
 use fingertip_drivers::Sample;
-use fingertip_drivers::bota_serial::BotaDecoder;
-use fingertip_drivers::line::LineDecoder;
+use fingertip_drivers::sensors::bota_serial::BotaDecoder;
+use fingertip_drivers::sensors::line::LineDecoder;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

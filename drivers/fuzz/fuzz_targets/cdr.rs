@@ -1,7 +1,7 @@
 //! Messages in CDR.
 #![no_main]
 
-use fingertip_drivers::recording::mcap::Recorded;
+use fingertip_recordings::mcap::Recorded;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

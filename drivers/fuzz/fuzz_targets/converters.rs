@@ -1,11 +1,11 @@
 //! Bytes from converters.
 #![no_main]
 
-use fingertip_drivers::ads1256;
-use fingertip_drivers::ads131m::{Answer, Request};
-use fingertip_drivers::hx711::Shift;
-use fingertip_drivers::mcp3564::{Data, Request as ScanRequest};
-use fingertip_drivers::nau7802;
+use fingertip_drivers::converters::ads1256;
+use fingertip_drivers::converters::ads131m::{Answer, Request};
+use fingertip_drivers::converters::hx711::Shift;
+use fingertip_drivers::converters::mcp3564::{Data, Request as ScanRequest};
+use fingertip_drivers::converters::nau7802;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -1,7 +1,7 @@
 //! Recordings in CSV.
 #![no_main]
 
-use fingertip_drivers::recording::RecordingReader;
+use fingertip_recordings::RecordingReader;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -1,15 +1,16 @@
 //! Bytes of a line with a DynPick sensor.
 #![no_main]
 
-use fingertip_drivers::dynpick::DynPickDecoder;
-use fingertip_drivers::line::LineDecoder;
-use fingertip_drivers::{AxisCounts, Sample};
+use fingertip_drivers::sensors::dynpick::DynPickDecoder;
+use fingertip_drivers::sensors::line::LineDecoder;
+use fingertip_drivers::Sample;
+use fingertip_drivers::sensors::AxisCounts;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
     let Ok(counts) = AxisCounts::uniform(50.0, 2000.0) else { return };
     let mut decoder = DynPickDecoder::new(counts);
-    let _ = fingertip_drivers::dynpick::Sensitivities::parse(bytes);
+    let _ = fingertip_drivers::sensors::dynpick::Sensitivities::parse(bytes);
     for byte in bytes {
         if let Some(Ok(Sample { value, .. })) = LineDecoder::<f64>::push(&mut decoder, *byte) {
             assert!(value.is_finite());

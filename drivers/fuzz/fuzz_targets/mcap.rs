@@ -1,7 +1,7 @@
 //! MCAP files.
 #![no_main]
 
-use fingertip_drivers::recording::mcap::McapReader;
+use fingertip_recordings::mcap::McapReader;
 use libfuzzer_sys::fuzz_target;
 
 fn read(bytes: &[u8]) {

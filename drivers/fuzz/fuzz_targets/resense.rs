@@ -2,8 +2,8 @@
 #![no_main]
 
 use fingertip_drivers::Sample;
-use fingertip_drivers::line::LineDecoder;
-use fingertip_drivers::resense::{Limits, ResenseDecoder};
+use fingertip_drivers::sensors::line::LineDecoder;
+use fingertip_drivers::sensors::resense::{Limits, ResenseDecoder};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

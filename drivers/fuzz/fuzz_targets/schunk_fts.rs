@@ -1,7 +1,7 @@
 //! Datagrams, commands and answers of a SCHUNK FTS.
 #![no_main]
 
-use fingertip_drivers::schunk_fts::{Command, CommandAnswer, FtsReceiver, Packet};
+use fingertip_drivers::sensors::schunk_fts::{Command, CommandAnswer, FtsReceiver, Packet};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

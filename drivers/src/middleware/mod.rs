@@ -9,7 +9,7 @@ mod solved;
 mod supervised;
 mod watch;
 
-#[cfg(feature = "simulation")]
+#[cfg(feature = "simulators")]
 mod fault_injector;
 #[cfg(feature = "std")]
 mod paced;
@@ -19,7 +19,7 @@ pub use solved::Solved;
 pub use supervised::{OnLoss, Supervised, SupervisedError};
 pub use watch::{Fresh, ReadCounts, Watch, Watched};
 
-#[cfg(feature = "simulation")]
+#[cfg(feature = "simulators")]
 pub use fault_injector::{FaultInjector, InjectedError, Injections, SampleFaults};
 #[cfg(feature = "std")]
 pub use paced::Paced;

@@ -37,7 +37,7 @@ impl<T, V, E, F: FnMut(&Sample<T, V>) -> Result<(), E>> Record<T, V> for F {
 ///
 /// ```
 /// use fingertip_drivers::middleware::Recorder;
-/// use fingertip_drivers::recording::{RecordingReader, RecordingWriter, Schema, WrenchPlayback};
+/// use fingertip_recordings::{RecordingReader, RecordingWriter, Schema, WrenchPlayback};
 /// use fingertip_drivers::{Sample, WrenchSource};
 /// use fingertip_wrench::Wrench;
 ///
@@ -50,7 +50,7 @@ impl<T, V, E, F: FnMut(&Sample<T, V>) -> Result<(), E>> Record<T, V> for F {
 /// while let Some(_) = source.next_wrench()? {}
 /// assert!(source.failure().is_none());
 /// assert_eq!(copy.finish()?, file.as_bytes());
-/// # Ok::<(), fingertip_drivers::recording::RecordingError>(())
+/// # Ok::<(), fingertip_recordings::RecordingError>(())
 /// ```
 #[derive(Debug)]
 pub struct Recorder<S, R, E> {

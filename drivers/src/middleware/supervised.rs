@@ -60,7 +60,7 @@ impl<E: SourceError> SourceError for SupervisedError<E> {
 /// ```no_run
 /// use core::time::Duration;
 /// use fingertip_drivers::middleware::{OnLoss, Supervised};
-/// use fingertip_drivers::schunk_fts::{FtsClient, UDP_PORT};
+/// use fingertip_drivers::sensors::schunk_fts::{FtsClient, UDP_PORT};
 ///
 /// let timeout = Duration::from_millis(100);
 /// let connect = |attempt| {
@@ -69,7 +69,7 @@ impl<E: SourceError> SourceError for SupervisedError<E> {
 /// };
 /// let source = Supervised::new(connect, OnLoss::Reconnect { attempts: 10 })?;
 /// # drop(source);
-/// # Ok::<(), fingertip_drivers::middleware::SupervisedError<fingertip_drivers::schunk_fts::FtsClientError>>(())
+/// # Ok::<(), fingertip_drivers::middleware::SupervisedError<fingertip_drivers::sensors::schunk_fts::FtsClientError>>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Supervised<S, C> {

@@ -1,5 +1,5 @@
 //! The RDT receiver and client against the simulated sensor.
-#![cfg(all(feature = "ati-rdt", feature = "simulation"))]
+#![cfg(all(feature = "ati-rdt", feature = "simulators"))]
 
 use alloc::sync::Arc;
 use core::cell::RefCell;
@@ -7,11 +7,11 @@ use core::sync::atomic::{AtomicU64, Ordering};
 use core::time::Duration;
 use std::sync::{Mutex, MutexGuard};
 
-use fingertip_drivers::ati_rdt::{
+use fingertip_drivers::middleware::{OnLoss, Supervised, SupervisedError, Watched};
+use fingertip_drivers::sensors::ati_rdt::{
     ClientError, Command, CountsPerUnit, FaultPlan, RdtClient, RdtError, RdtServer, Receiver, Record,
     Request, SimulatedNetFt, records,
 };
-use fingertip_drivers::middleware::{OnLoss, Supervised, SupervisedError, Watched};
 use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
 
 use super::patience::{PATIENCE, SILENCE, patiently};

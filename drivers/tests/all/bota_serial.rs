@@ -1,9 +1,9 @@
 //! Bota's sensor driver against the simulated sensor.
-#![cfg(all(feature = "bota-serial", feature = "simulation"))]
+#![cfg(all(feature = "bota-serial", feature = "simulators"))]
 
-use fingertip_drivers::bota_serial::{BotaDecoder, BotaFault, Frame};
-use fingertip_drivers::line::{LineDecoder, LineError, LineFaults, LineSensor, SimulatedLine};
 use fingertip_drivers::middleware::Watch;
+use fingertip_drivers::sensors::bota_serial::{BotaDecoder, BotaFault, Frame};
+use fingertip_drivers::sensors::line::{LineDecoder, LineError, LineFaults, LineSensor, SimulatedLine};
 use fingertip_drivers::{Sample, SourceError, SourceErrorKind, WrenchSource};
 use fingertip_wrench::Wrench;
 use rand::{RngExt, SeedableRng};

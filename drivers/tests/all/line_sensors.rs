@@ -4,7 +4,7 @@
     feature = "dynpick",
     feature = "optoforce",
     feature = "resense",
-    feature = "simulation",
+    feature = "simulators",
     feature = "embedded-io"
 ))]
 
@@ -12,17 +12,16 @@ use core::future::Future;
 use core::pin::pin;
 use core::task::{Context, Poll, Waker};
 
-use fingertip_drivers::dynpick::{self, DynPickDecoder, DynPickFault};
-use fingertip_drivers::line::{
+use fingertip_drivers::sensors::AxisCounts;
+use fingertip_drivers::sensors::dynpick::{self, DynPickDecoder, DynPickFault};
+use fingertip_drivers::sensors::line::{
     AsyncLine, EmbeddedLine, LineDecoder, LineError, LineFaults, LineSensor, LineStatistics, SerialDevice,
     SimulatedLine, SimulatedSerial,
 };
-use fingertip_drivers::optoforce::{self, OptoForceDecoder, OptoForceFault};
-use fingertip_drivers::resense::{self, Limits, ResenseDecoder, ResenseFault};
-use fingertip_drivers::robotous::{self, RobotousDecoder, RobotousFault};
-use fingertip_drivers::{
-    AsyncWrenchSource, AxisCounts, NbWrenchSource, SourceError, SourceErrorKind, WrenchSource,
-};
+use fingertip_drivers::sensors::optoforce::{self, OptoForceDecoder, OptoForceFault};
+use fingertip_drivers::sensors::resense::{self, Limits, ResenseDecoder, ResenseFault};
+use fingertip_drivers::sensors::robotous::{self, RobotousDecoder, RobotousFault};
+use fingertip_drivers::{AsyncWrenchSource, NbWrenchSource, SourceError, SourceErrorKind, WrenchSource};
 use fingertip_wrench::Wrench;
 
 const FRAMES: u64 = 1_000_000;

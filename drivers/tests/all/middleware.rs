@@ -1,5 +1,5 @@
 //! Middleware over sources: faults are injected as counted, and found as injected.
-#![cfg(feature = "simulation")]
+#![cfg(feature = "simulators")]
 
 use core::convert::Infallible;
 

@@ -1,5 +1,5 @@
 //! What lets tests over sockets pass on a machine of any speed.
-#![cfg(all(feature = "ati-rdt", feature = "schunk-fts", feature = "simulation"))]
+#![cfg(all(feature = "ati-rdt", feature = "schunk-fts", feature = "simulators"))]
 
 use core::fmt::Debug;
 use core::sync::atomic::{AtomicU32, Ordering};

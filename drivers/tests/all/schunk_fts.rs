@@ -1,14 +1,15 @@
 //! The receiver of SCHUNK's datagrams over a bad link.
-#![cfg(all(feature = "schunk-fts", feature = "simulation"))]
+#![cfg(all(feature = "schunk-fts", feature = "simulators"))]
 
 use core::net::SocketAddr;
 use core::time::Duration;
 
 use fingertip_drivers::middleware::{OnLoss, Supervised, SupervisedError};
-use fingertip_drivers::schunk_fts::{
+use fingertip_drivers::sensors::FaultPlan;
+use fingertip_drivers::sensors::schunk_fts::{
     FtsClient, FtsClientError, FtsReceiver, FtsSample, FtsServer, Packet, SimulatedFts, emit_packet,
 };
-use fingertip_drivers::{FaultPlan, NbWrenchSource, SourceError, SourceErrorKind, WrenchSource};
+use fingertip_drivers::{NbWrenchSource, SourceError, SourceErrorKind, WrenchSource};
 use fingertip_wrench::Wrench;
 use rand::{RngExt, SeedableRng};
 

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use crate::solve::compensated;
 use crate::scalar::rounding::relative_rounding;
+use crate::solve::compensated;
 use crate::solve::equilibration::Equilibrated;
 use crate::{
     GaussianElimination, LinearSolver, OwnError, Real, SensorMatrix, SensorMatrixError, SingularMatrix,

@@ -2,10 +2,10 @@
 
 use embedded_hal_mock::eh1::delay::NoopDelay;
 use embedded_hal_mock::eh1::spi::{Mock as SpiMock, Transaction as Spi};
-use fingertip_drivers::ads1256::{
+use fingertip_drivers::converters::ads1256::{
     Ads1256, AsyncAds1256, Calibration, Configuration, Gain, Input, Pin, Rate, SimulatedAds1256,
 };
-use fingertip_drivers::converter::{
+use fingertip_drivers::converters::{
     ConverterFault, Level, Patience, SimulatedBench, SimulatedDelay, SimulatedLine, SimulatedSpi, Unwired,
     WireFaults,
 };

@@ -3,11 +3,11 @@
 use embedded_hal_mock::eh1::delay::NoopDelay;
 use embedded_hal_mock::eh1::digital::{Mock as PinMock, State, Transaction as Pin};
 use embedded_hal_mock::eh1::spi::{Mock as SpiMock, Transaction as Spi};
-use fingertip_drivers::ads131m::{
+use fingertip_drivers::converters::ads131m::{
     Ads131m, Answer, AsyncAds131m, ChannelSetup, Configuration, Gain, Input, Oversampling, Register, Request,
     SimulatedAds131m,
 };
-use fingertip_drivers::converter::{
+use fingertip_drivers::converters::{
     ConverterError, ConverterFault, Level, Patience, SimulatedBench, SimulatedDelay, SimulatedLine,
     SimulatedSpi, Unwired, WireFaults,
 };
@@ -73,7 +73,7 @@ fn conversions_come_in_order_without_a_gap() {
     // After a pause the two that are held are old, and not given.
     bench.advance(1_000_000_000);
     chip.restart();
-    let before = bench.with(|chip| fingertip_drivers::converter::SimulatedConverter::conversions(chip));
+    let before = bench.with(|chip| fingertip_drivers::converters::SimulatedConverter::conversions(chip));
     let number = chip.read().unwrap().counts[0] / 8;
     assert!(i64::from(number) > before as i64);
 }
@@ -182,7 +182,7 @@ fn stuck_lines_and_a_silent_pin_end_in_an_error() {
         }
         // And it goes on when the wire does; what was held meanwhile is not given.
         bench.set_faults(WireFaults::default());
-        let old = bench.with(|chip| fingertip_drivers::converter::SimulatedConverter::conversions(chip));
+        let old = bench.with(|chip| fingertip_drivers::converters::SimulatedConverter::conversions(chip));
         let next = chip.read().unwrap().counts[0] / 8;
         assert!(kind == SourceErrorKind::Corrupt || i64::from(next) > old as i64, "{next} {old}");
     }

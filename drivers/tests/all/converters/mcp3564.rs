@@ -2,12 +2,12 @@
 
 use embedded_hal_mock::eh1::delay::NoopDelay;
 use embedded_hal_mock::eh1::spi::{Mock as SpiMock, Transaction as Spi};
-use fingertip_drivers::converter::{
-    ConverterError, ConverterFault, Level, Patience, SimulatedBench, Unwired, WireFaults,
-};
-use fingertip_drivers::mcp3564::{
+use fingertip_drivers::converters::mcp3564::{
     AsyncMcp3564, Channel, Configuration, Data, FastCommand, Gain, Mcp3564, Oversampling, Register,
     SimulatedMcp3564,
+};
+use fingertip_drivers::converters::{
+    ConverterError, ConverterFault, Level, Patience, SimulatedBench, Unwired, WireFaults,
 };
 use fingertip_drivers::{AsyncSignalSource, NbSignalSource, SignalSource, SourceError, SourceErrorKind};
 

@@ -5,7 +5,7 @@
     feature = "hx711",
     feature = "mcp3564",
     feature = "nau7802",
-    feature = "simulation"
+    feature = "simulators"
 ))]
 
 mod ads1256;

@@ -3,12 +3,12 @@
 use embedded_hal::i2c::ErrorKind;
 use embedded_hal_mock::eh1::delay::NoopDelay;
 use embedded_hal_mock::eh1::i2c::{Mock as I2cMock, Transaction as I2c};
-use fingertip_drivers::converter::{
-    ConverterError, ConverterFault, Level, Patience, SimulatedBench, Unwired, WireFaults,
-};
-use fingertip_drivers::nau7802::{
+use fingertip_drivers::converters::nau7802::{
     ADDRESS, AsyncNau7802, Calibration, Configuration, Gain, Input, Nau7802, Rate, Register, Regulator,
     SimulatedNau7802,
+};
+use fingertip_drivers::converters::{
+    ConverterError, ConverterFault, Level, Patience, SimulatedBench, Unwired, WireFaults,
 };
 use fingertip_drivers::{AsyncSignalSource, NbSignalSource, SignalSource, SourceError, SourceErrorKind};
 

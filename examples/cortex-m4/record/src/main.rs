@@ -8,7 +8,7 @@ use std::fmt::Write;
 
 use fingertip::wrench::gauge_layout::{GaugeLayout, isotropic_angle};
 use fingertip::wrench::{SensorMatrix, Wrench};
-use fingertip_drivers::simulation::{
+use fingertip_simulation::{
     Design, Electronics, Imperfections, Options, Script, SimulatedFingertip, SurfacePoint, TrueContact,
 };
 use nalgebra::{SMatrix, SVector, Vector3};

@@ -1,0 +1,220 @@
+//! A client over a UDP socket.
+
+use core::time::Duration;
+use std::io::{self, Read, Write};
+use std::net::{TcpStream, ToSocketAddrs, UdpSocket};
+
+use fingertip_wrench::{Real, Wrench};
+use thiserror::Error;
+
+use super::configuration::{Configuration, ConfigurationError};
+use super::receiver::{CountsPerUnit, RdtError, Receiver};
+use super::wire::{Command, Record, Request, WireError, records};
+use crate::sensors::LinkStatistics;
+use crate::sensors::datagram_socket::DatagramSocket;
+use crate::{ErrorType, NbWrenchSource, Sample, SourceError, SourceErrorKind, WrenchSource};
+
+/// Why a client has no wrench to give.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ClientError {
+    /// The socket failed.
+    #[error("UDP socket: {0}")]
+    Socket(#[from] io::Error),
+    /// No record came in time.
+    #[error("no record within {timeout:?}; is the sensor on, reachable, and not serving another client?")]
+    Timeout {
+        /// How long was waited.
+        timeout: Duration,
+    },
+    /// A datagram is no record.
+    #[error("a datagram that is no record: {0}")]
+    Corrupt(#[from] WireError),
+    /// The sensor's page of its configuration tells nothing that can be used.
+    #[error("configuration of the sensor: {0}")]
+    Configuration(#[from] ConfigurationError),
+    /// The sensor reports a fault, or the settings are wrong.
+    #[error(transparent)]
+    Rdt(#[from] RdtError),
+}
+
+impl SourceError for ClientError {
+    fn kind(&self) -> SourceErrorKind {
+        match self {
+            Self::Socket(_) => SourceErrorKind::Transport,
+            Self::Timeout { .. } => SourceErrorKind::Timeout,
+            Self::Corrupt(_) => SourceErrorKind::Corrupt,
+            Self::Configuration(_) => SourceErrorKind::Unsupported,
+            Self::Rdt(error) => error.kind(),
+        }
+    }
+}
+
+/// More bytes than an Ethernet frame carries.
+const LARGEST: usize = 2048;
+
+/// Streams wrenches from a sensor. Never sets its bias unless [`bias`](Self::bias) is called; tells
+/// it to stop when dropped.
+#[derive(Debug)]
+pub struct RdtClient<T: Real> {
+    socket: DatagramSocket,
+    period: Option<T>,
+    receiver: Receiver<T>,
+    datagram: Box<[u8; LARGEST]>,
+    length: usize,
+    /// Where the next record of the datagram begins.
+    next: usize,
+}
+
+impl<T: Real> RdtClient<T> {
+    /// The port of the protocol.
+    pub const PORT: u16 = 49152;
+
+    /// Asks a sensor (its name or address with port 80) for its configuration over HTTP.
+    ///
+    /// # Errors
+    /// [`ClientError::Socket`] or [`ClientError::Configuration`].
+    pub fn configuration(
+        sensor: impl ToSocketAddrs,
+        timeout: Duration,
+    ) -> Result<Configuration, ClientError> {
+        let address = sensor.to_socket_addrs()?.next();
+        let address = address.ok_or_else(|| io::Error::from(io::ErrorKind::AddrNotAvailable))?;
+        let mut stream = TcpStream::connect_timeout(&address, timeout)?;
+        stream.set_read_timeout(Some(timeout))?;
+        stream.set_write_timeout(Some(timeout))?;
+        stream.write_all(Configuration::REQUEST.as_bytes())?;
+        let mut page = Vec::new();
+        // A page is some kilobytes; whatever serves more is no sensor.
+        stream.take(1 << 20).read_to_end(&mut page)?;
+        Ok(Configuration::parse(&String::from_utf8_lossy(&page))?)
+    }
+
+    /// Starts streaming from a sensor, one record to a datagram. `timeout` is how long to wait for a
+    /// record.
+    ///
+    /// # Errors
+    /// [`ClientError::Socket`].
+    pub fn connect(
+        sensor: impl ToSocketAddrs,
+        counts: CountsPerUnit<T>,
+        timeout: Duration,
+    ) -> Result<Self, ClientError> {
+        let sensor = sensor
+            .to_socket_addrs()?
+            .next()
+            .ok_or_else(|| io::Error::from(io::ErrorKind::AddrNotAvailable))?;
+        let any: core::net::IpAddr = match sensor {
+            core::net::SocketAddr::V4(_) => core::net::Ipv4Addr::UNSPECIFIED.into(),
+            core::net::SocketAddr::V6(_) => core::net::Ipv6Addr::UNSPECIFIED.into(),
+        };
+        let socket = UdpSocket::bind((any, 0))?;
+        socket.connect(sensor)?;
+        let client = Self {
+            socket: DatagramSocket::new(socket, timeout)?,
+            period: None,
+            receiver: Receiver::new(counts),
+            datagram: Box::new([0; LARGEST]),
+            length: 0,
+            next: 0,
+        };
+        client.send(Command::Stream)?;
+        Ok(client)
+    }
+
+    /// States the sensor's RDT rate \[1/s\], so that samples have a time: that of the sensor's
+    /// count of records, the lost ones included.
+    #[must_use]
+    pub fn timed_by(mut self, rate: T) -> Self {
+        self.period = (rate > T::zero() && rate.is_number()).then(|| T::one() / rate);
+        self
+    }
+
+    /// Takes the present load as zero, in the sensor. Collect a
+    /// [`Tare`](fingertip_wrench::Tare) instead where you can: this one is forgotten by the sensor
+    /// when it is switched off, and hides how large it was.
+    ///
+    /// # Errors
+    /// [`ClientError::Socket`].
+    pub fn bias(&self) -> Result<(), ClientError> {
+        self.send(Command::Bias)
+    }
+
+    /// How the link has behaved so far.
+    #[must_use]
+    pub const fn statistics(&self) -> &LinkStatistics {
+        self.receiver.statistics()
+    }
+
+    fn send(&self, command: Command) -> Result<(), ClientError> {
+        self.socket.send(&Request { command, count: 0 }.emit())?;
+        Ok(())
+    }
+
+    /// The next record of the datagram at hand, or of the next one.
+    fn next_record(&mut self) -> Result<Record, ClientError> {
+        if self.next >= self.length {
+            self.receive()?;
+        }
+        let bytes = self.datagram.get(self.next..self.length).unwrap_or_default();
+        self.next += Record::LENGTH;
+        let packet = records(bytes)?.next();
+        let packet = packet.ok_or(WireError::Length { expected: Record::LENGTH, found: 0 })?;
+        Ok(Record::parse(&packet))
+    }
+
+    fn receive(&mut self) -> Result<(), ClientError> {
+        (self.next, self.length) = (0, 0);
+        let Some((length, _)) = self.socket.receive(&mut self.datagram[..])? else {
+            return Err(ClientError::Timeout { timeout: self.socket.timeout() });
+        };
+        if let Err(error) = records(self.datagram.get(..length).unwrap_or_default()) {
+            self.receiver.note_corrupt();
+            return Err(error.into());
+        }
+        self.length = length;
+        Ok(())
+    }
+
+    fn next_sample(&mut self) -> Result<Sample<T, Wrench<T>>, ClientError> {
+        loop {
+            let record = self.next_record()?;
+            if let Some(value) = self.receiver.accept(&record)? {
+                #[allow(clippy::cast_precision_loss, reason = "exact for 10^15 records")]
+                let time = self.period.map(|period| period * T::literal(self.receiver.index() as f64));
+                return Ok(Sample { time, value });
+            }
+        }
+    }
+}
+
+impl<T: Real> Drop for RdtClient<T> {
+    fn drop(&mut self) {
+        // The sensor would go on for ever. If it cannot be told, nothing can be done about it here.
+        let _ = self.send(Command::Stop);
+    }
+}
+
+impl<T: Real> ErrorType for RdtClient<T> {
+    type Error = ClientError;
+}
+
+impl<T: Real> WrenchSource<T> for RdtClient<T> {
+    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, ClientError> {
+        self.socket.wait(true)?;
+        self.next_sample().map(Some)
+    }
+}
+
+/// For control that must not lag, put it into a [`Watched`](crate::middleware::Watched) and read the
+/// latest.
+impl<T: Real> NbWrenchSource<T> for RdtClient<T> {
+    fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, ClientError> {
+        self.socket.wait(false).map_err(ClientError::from)?;
+        match self.next_sample() {
+            Ok(sample) => Ok(Some(sample)),
+            Err(ClientError::Timeout { .. }) => Err(nb::Error::WouldBlock),
+            Err(error) => Err(nb::Error::Other(error)),
+        }
+    }
+}

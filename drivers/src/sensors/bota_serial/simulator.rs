@@ -1,0 +1,50 @@
+//! A Bota sensor that is not there.
+
+use alloc::vec::Vec;
+
+use super::wire::Frame;
+use crate::sensors::line::{SerialDevice, SerialRequest, SerialSample};
+
+/// A sensor that streams, for a [`SimulatedSerial`](crate::sensors::line::SimulatedSerial). It does not hear: configuration
+/// is not here.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SimulatedBota {
+    /// Time from one frame to the next, by which its clock goes on \[s\].
+    pub period: f64,
+    /// Status of all frames.
+    pub status: u16,
+}
+
+impl SimulatedBota {
+    /// A sensor at so many frames a second.
+    #[must_use]
+    pub fn new(rate: f64) -> Self {
+        Self { period: rate.recip(), status: 0 }
+    }
+}
+
+impl SerialDevice for SimulatedBota {
+    fn streams(&self) -> bool {
+        true
+    }
+
+    fn request(&self, _: &[u8]) -> Option<(SerialRequest, usize)> {
+        None
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the sensor sends single precision, and its clock wraps around"
+    )]
+    fn frame(&self, sample: &SerialSample) -> Vec<u8> {
+        let frame = Frame {
+            status: self.status,
+            components: sample.load.map(|component| component as f32),
+            // The remainder first: what is above the range of 32 bits would stay at its end.
+            microseconds: (sample.number as f64 * self.period * 1e6).rem_euclid(4_294_967_296.0) as u32,
+            temperature: 25.0,
+        };
+        frame.emit().to_vec()
+    }
+}

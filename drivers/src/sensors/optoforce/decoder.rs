@@ -1,0 +1,86 @@
+//! From frames to wrenches.
+
+use fingertip_wrench::{Real, Wrench};
+use thiserror::Error;
+
+use super::wire::{Format, Reading};
+use crate::sensors::axis_counts::AxisCounts;
+use crate::sensors::line::{Deframer, LineDecoder, LineStatistics};
+use crate::{Sample, SourceError, SourceErrorKind};
+
+/// What the sensor says is wrong with a reading.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum OptoForceFault {
+    /// Axes are overloaded.
+    #[error("the sensor is overloaded (status {status:#06x}: Fx at bit 9 to Tz at bit 4)")]
+    Overload {
+        /// The status word.
+        status: u16,
+    },
+    /// The electronics or the sensor report an error.
+    #[error("the sensor reports a fault (status {status:#06x})")]
+    Fault {
+        /// The status word.
+        status: u16,
+    },
+}
+
+impl SourceError for OptoForceFault {
+    fn kind(&self) -> SourceErrorKind {
+        match self {
+            Self::Overload { .. } => SourceErrorKind::Overload,
+            Self::Fault { .. } => SourceErrorKind::DeviceFault,
+        }
+    }
+}
+
+/// Decodes what the sensor sends. Samples have no time: the sensor numbers them, but at a rate that
+/// it does not say.
+#[derive(Clone, Copy, Debug)]
+pub struct OptoForceDecoder {
+    counts: AxisCounts,
+    deframer: Deframer<Format, { Reading::LENGTH }>,
+    last: Option<u16>,
+    missing: u64,
+}
+
+impl OptoForceDecoder {
+    /// For a sensor whose counts are these.
+    #[must_use]
+    pub const fn new(counts: AxisCounts) -> Self {
+        Self { counts, deframer: Deframer::new(Format), last: None, missing: 0 }
+    }
+
+    /// Readings that are missing by their numbers.
+    #[must_use]
+    pub const fn missing(&self) -> u64 {
+        self.missing
+    }
+}
+
+impl<T: Real> LineDecoder<T> for OptoForceDecoder {
+    type Fault = OptoForceFault;
+    /// Some 22 frames.
+    const PATIENCE: usize = 500;
+
+    fn push(&mut self, byte: u8) -> Option<Result<Sample<T, Wrench<T>>, OptoForceFault>> {
+        let Reading { count, status, counts } = self.deframer.push(byte)?;
+        if let Some(last) = self.last.replace(count) {
+            self.missing += u64::from(count.wrapping_sub(last).wrapping_sub(1));
+        }
+        Some(match status {
+            0 => Ok(Sample { time: None, value: self.counts.wrench(counts.map(i32::from)) }),
+            _ if status & !Reading::OVERLOAD == 0 => Err(OptoForceFault::Overload { status }),
+            _ => Err(OptoForceFault::Fault { status }),
+        })
+    }
+
+    fn restart(&mut self) {
+        self.deframer.clear();
+    }
+
+    fn statistics(&self) -> LineStatistics {
+        self.deframer.statistics()
+    }
+}

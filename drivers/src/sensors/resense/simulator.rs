@@ -1,0 +1,44 @@
+//! A Resense sensor that is not there.
+
+use alloc::vec::Vec;
+
+use super::wire::Reading;
+use crate::sensors::line::{SerialDevice, SerialRequest, SerialSample};
+
+/// A sensor that streams, or answers requests, for a [`SimulatedSerial`](crate::sensors::line::SimulatedSerial).
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SimulatedResense {
+    request: Vec<u8>,
+}
+
+impl SimulatedResense {
+    /// One that streams.
+    #[must_use]
+    pub fn streaming() -> Self {
+        Self::default()
+    }
+
+    /// One that gives a reading each time it hears these bytes.
+    #[must_use]
+    pub const fn asked_by(request: Vec<u8>) -> Self {
+        Self { request }
+    }
+}
+
+impl SerialDevice for SimulatedResense {
+    fn streams(&self) -> bool {
+        self.request.is_empty()
+    }
+
+    fn request(&self, heard: &[u8]) -> Option<(SerialRequest, usize)> {
+        let length = self.request.len();
+        (length > 0 && heard.starts_with(&self.request)).then_some((SerialRequest::Single, length))
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "the sensor sends single precision")]
+    fn frame(&self, sample: &SerialSample) -> Vec<u8> {
+        let [fx, fy, fz, tx, ty, tz] = sample.load.map(|component| component as f32);
+        let torque_millinewton_metres = [tx, ty, tz].map(|torque| torque * 1e3);
+        Reading { force: [fx, fy, fz], torque_millinewton_metres, temperature: 25.0 }.emit().to_vec()
+    }
+}

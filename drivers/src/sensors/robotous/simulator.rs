@@ -1,0 +1,44 @@
+//! A Robotous sensor on a serial line that is not there.
+
+use alloc::vec::Vec;
+
+use super::wire::{Reading, Request};
+use crate::sensors::axis_counts::AxisCounts;
+use crate::sensors::line::{SerialDevice, SerialRequest, SerialSample};
+
+/// A sensor that waits for requests, for a [`SimulatedSerial`](crate::sensors::line::SimulatedSerial).
+#[derive(Clone, Copy, Debug)]
+pub struct SimulatedRft {
+    counts: AxisCounts,
+    /// The overload byte of readings from now on.
+    pub overload: u8,
+}
+
+impl SimulatedRft {
+    /// With these counts per unit.
+    #[must_use]
+    pub const fn new(counts: AxisCounts) -> Self {
+        Self { counts, overload: 0 }
+    }
+}
+
+impl SerialDevice for SimulatedRft {
+    fn streams(&self) -> bool {
+        false
+    }
+
+    fn request(&self, heard: &[u8]) -> Option<(SerialRequest, usize)> {
+        let request = match Request::parse_serial(heard.first_chunk()?)? {
+            Request::Stream => SerialRequest::Stream,
+            Request::Stop => SerialRequest::Stop,
+            Request::Single => SerialRequest::Single,
+            Request::Bias { set } => SerialRequest::Zero { set },
+        };
+        Some((request, Request::SERIAL_LENGTH))
+    }
+
+    fn frame(&self, sample: &SerialSample) -> Vec<u8> {
+        let counts = self.counts.of(&sample.load);
+        Reading { streamed: sample.streamed, counts, overload: self.overload }.emit_serial().to_vec()
+    }
+}

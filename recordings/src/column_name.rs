@@ -1,0 +1,157 @@
+//! What the name of a column says.
+
+use fingertip_wrench::units::{ForceUnit, TorqueUnit};
+
+use crate::unit::{SignalUnit, seconds};
+
+/// A column, as far as its name tells.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct ColumnName {
+    /// What tells sensors apart, lower case; empty if nothing does.
+    pub(super) sensor: String,
+    pub(super) meaning: Meaning,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Meaning {
+    /// Time; seconds per unit, if the unit is known.
+    Time(Option<f64>),
+    /// Axis 0..3 of the force.
+    Force(usize, Option<ForceUnit>),
+    /// Axis 0..3 of the torque.
+    Torque(usize, Option<TorqueUnit>),
+    /// A signal by its number, with the value of one unit.
+    Signal(u32, SignalUnit, f64),
+    /// The dummy gauge.
+    Dummy(SignalUnit, f64),
+    /// Not one of ours.
+    Other,
+}
+
+impl ColumnName {
+    /// Whether it is a force, torque, signal or dummy gauge.
+    pub(super) const fn is_of_sensor(&self) -> bool {
+        !matches!(self.meaning, Meaning::Time(_) | Meaning::Other)
+    }
+
+    pub(super) fn parse(name: &str) -> Self {
+        let words = words(name);
+        let other = || Self { sensor: String::new(), meaning: Meaning::Other };
+        if let Some((at, length, axis, torque)) = find_axis(&words) {
+            // The unit stands behind the axis, last.
+            let mut end = words.len();
+            let behind = words.get(at + length..).unwrap_or_default();
+            let meaning = match (torque, behind.last()) {
+                (false, Some(last)) if ForceUnit::from_name(last).is_some() => {
+                    end -= 1;
+                    Meaning::Force(axis, ForceUnit::from_name(last))
+                }
+                (false, _) => Meaning::Force(axis, None),
+                (true, Some(_)) => {
+                    let (unit, used) = torque_unit(behind);
+                    end -= used;
+                    Meaning::Torque(axis, unit)
+                }
+                (true, None) => Meaning::Torque(axis, None),
+            };
+            return Self { sensor: join(&words, at, length, end), meaning };
+        }
+        if let [word, rest @ ..] = words.as_slice()
+            && matches!(word.as_str(), "t" | "time" | "timestamp" | "stamp")
+        {
+            return match rest {
+                [] => Self { sensor: String::new(), meaning: Meaning::Time(None) },
+                [unit] if seconds(unit).is_some() => {
+                    Self { sensor: String::new(), meaning: Meaning::Time(seconds(unit)) }
+                }
+                _ => other(),
+            };
+        }
+        let mut end = words.len();
+        let (unit, scale) = match words.last().and_then(|word| SignalUnit::from_name(word)) {
+            Some(known) if words.len() > 1 => {
+                end -= 1;
+                known
+            }
+            _ => (SignalUnit::Unstated, 1.0),
+        };
+        let named = words.get(..end).unwrap_or_default();
+        if let Some(at) = named.iter().position(|word| word == "dummy") {
+            return Self { sensor: join(&words, at, 1, end), meaning: Meaning::Dummy(unit, scale) };
+        }
+        // The last one that fits, so that `s1_v0` is signal 0 of sensor `s1`.
+        let found = named.iter().enumerate().rev().find_map(|(at, word)| Some((at, signal_number(word)?)));
+        match found {
+            Some((at, number)) => {
+                Self { sensor: join(&words, at, 1, end), meaning: Meaning::Signal(number, unit, scale) }
+            }
+            None => other(),
+        }
+    }
+}
+
+/// Lower-case words, parted by anything that parts words in headers.
+fn words(name: &str) -> Vec<String> {
+    name.trim_start_matches('\u{feff}')
+        .split(['_', '(', ')', '[', ']', '/', ':', ' ', '\t', ',', ';'])
+        .flat_map(|word| {
+            // `force.x` parts words, `N.m` does not.
+            let dotted = word
+                .split('.')
+                .any(|part| part.eq_ignore_ascii_case("force") || part.eq_ignore_ascii_case("torque"));
+            if dotted { word.split('.').collect::<Vec<_>>() } else { vec![word] }
+        })
+        .filter(|word| !word.is_empty())
+        .map(str::to_lowercase)
+        .collect()
+}
+
+/// Where the axis stands: index, how many words it takes, axis, whether it is of the torque.
+fn find_axis(words: &[String]) -> Option<(usize, usize, usize, bool)> {
+    let letter = |word: &str| ["x", "y", "z"].iter().position(|axis| *axis == word);
+    words.iter().enumerate().find_map(|(at, word)| {
+        let next = words.get(at + 1).and_then(|next| letter(next));
+        match (word.as_str(), next) {
+            ("force" | "f", Some(axis)) => return Some((at, 2, axis, false)),
+            ("torque" | "moment", Some(axis)) => return Some((at, 2, axis, true)),
+            _ => {}
+        }
+        let mut letters = word.chars();
+        let (kind, axis) = (letters.next()?, letter(letters.as_str())?);
+        match kind {
+            'f' => Some((at, 1, axis, false)),
+            't' | 'm' => Some((at, 1, axis, true)),
+            _ => None,
+        }
+    })
+}
+
+/// A unit of torque at the end of the words, and how many words it takes (`n m`, `lbf in`: two).
+fn torque_unit(behind: &[String]) -> (Option<TorqueUnit>, usize) {
+    if let [.., first, second] = behind
+        && let Some(unit) = TorqueUnit::from_name(&format!("{first}{second}"))
+    {
+        return (Some(unit), 2);
+    }
+    match behind.last().and_then(|last| TorqueUnit::from_name(last)) {
+        Some(unit) => (Some(unit), 1),
+        None => (None, 0),
+    }
+}
+
+/// The number of `v3`, `s0`, `ch12`, `gauge1`, `sg6`.
+fn signal_number(word: &str) -> Option<u32> {
+    let digits = word.find(|c: char| c.is_ascii_digit())?;
+    let (name, number) = word.split_at(digits);
+    if matches!(name, "v" | "s" | "ch" | "channel" | "g" | "gauge" | "sg" | "signal") {
+        number.parse().ok()
+    } else {
+        None
+    }
+}
+
+/// The words that are neither the axis nor the unit.
+fn join(words: &[String], at: usize, length: usize, end: usize) -> String {
+    let kept = words.iter().take(end).enumerate().filter(|(index, _)| *index < at || *index >= at + length);
+    kept.map(|(_, word)| word.as_str()).collect::<Vec<_>>().join("_")
+}

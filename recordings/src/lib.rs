@@ -1,0 +1,30 @@
+#![doc = include_str!("../README.md")]
+
+#[cfg(feature = "mcap")]
+extern crate alloc;
+
+mod bounded;
+mod cell;
+mod column_name;
+mod columns;
+mod error;
+mod layout;
+#[cfg(feature = "mcap")]
+pub mod mcap;
+mod quality;
+mod reader;
+mod row;
+mod start;
+mod time_watch;
+mod unit;
+mod writer;
+
+pub use columns::{ContactCells, ContactColumns, NumberColumn, SignalColumns, WrenchColumns};
+pub use error::{HeaderProblem, RecordingError};
+pub use fingertip_wrench::units::{ForceUnit, TorqueUnit};
+pub use layout::{AssumedUnits, Layout, LeftOut};
+pub use quality::{FaultCount, Quality};
+pub use reader::{ReaderOptions, RecordingReader};
+pub use row::{Row, RowMarks};
+pub use unit::SignalUnit;
+pub use writer::{RecordingWriter, Schema};

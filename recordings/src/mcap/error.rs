@@ -1,0 +1,56 @@
+//! What can be wrong with an MCAP file.
+
+use thiserror::Error;
+
+use super::cdr::CdrError;
+
+/// Why an MCAP file cannot be read or written.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum McapError {
+    /// The file is damaged, cut, or compressed, or the system refuses.
+    #[error("MCAP: {0}")]
+    File(#[from] ::mcap::McapError),
+    /// A message is not what its definition says.
+    #[error("a message of topic {topic}: {source}")]
+    Message {
+        /// Its topic.
+        topic: String,
+        /// What is wrong.
+        source: CdrError,
+    },
+    /// A time that cannot be written.
+    #[error("{time} s cannot be written: times are from 0 to 2147483647 s")]
+    Time {
+        /// The time \[s\].
+        time: f64,
+    },
+    /// A topic was made for other messages.
+    #[error("topic number {topic} is not for {what}")]
+    WrongTopic {
+        /// Its number.
+        topic: u16,
+        /// What was to be written.
+        what: &'static str,
+    },
+    /// There are no wrenches, or several topics of them and none was chosen.
+    #[error("choose a topic with wrenches; there are: {known}")]
+    ChooseTopic {
+        /// Their names.
+        known: String,
+    },
+}
+
+impl McapError {
+    /// `true` if the system refused to read or write, `false` if it is the file.
+    #[must_use]
+    pub const fn is_transport(&self) -> bool {
+        matches!(self, Self::File(::mcap::McapError::Io(_)))
+    }
+}
+
+impl From<std::io::Error> for McapError {
+    fn from(error: std::io::Error) -> Self {
+        Self::File(error.into())
+    }
+}

@@ -1,0 +1,44 @@
+//! Recordings in MCAP files, with ROS 2 messages in CDR: Foxglove, PlotJuggler and `ros2 bag` (with its
+//! MCAP storage) open them, since each file carries the definitions of its messages.
+//!
+//! | recorded | message |
+//! |---|---|
+//! | wrench | `geometry_msgs/msg/WrenchStamped` |
+//! | signals | `fingertip_msgs/msg/Signals`: header, unit, values |
+//! | contact | `tactile_msgs/msg/TactileContact`: header, name, position, normal, wrench |
+//!
+//! Times are seconds, as everywhere; in the file they are whole nanoseconds from 0 to 2³¹ s. Files are
+//! written in chunks with checksums and an index, without compression; compressed ones are not read. Reading
+//! takes as much memory as the longest chunk, however long the file.
+//!
+//! ```
+//! use std::io::Cursor;
+//! use fingertip_recordings::mcap::{McapReader, McapWriter, Recorded};
+//! use fingertip_wrench::Wrench;
+//! use nalgebra::Vector3;
+//!
+//! let mut writer = McapWriter::new(Cursor::new(Vec::new()))?;
+//! let topic = writer.wrenches("/fingertip/wrench", "tip")?;
+//! let wrench = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -2.0), Vector3::zeros());
+//! writer.write_wrench(topic, 0.25, &wrench)?;
+//! let file = writer.finish()?.into_inner();
+//!
+//! let mut reader = McapReader::new(file.as_slice())?;
+//! let entry = reader.next_entry()?.ok_or("nothing")?;
+//! assert_eq!((entry.topic.as_str(), entry.time), ("/fingertip/wrench", 0.25));
+//! assert_eq!(entry.recorded, Recorded::Wrench(wrench));
+//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
+
+mod cdr;
+mod definitions;
+mod error;
+mod messages;
+mod reader;
+mod writer;
+
+pub use cdr::{CdrError, CdrReader, CdrWriter};
+pub use error::McapError;
+pub use messages::{Header, Recorded, RecordedContact, RecordedSignals};
+pub use reader::{Entry, McapReader};
+pub use writer::{McapWriter, Topic};

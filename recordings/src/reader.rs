@@ -1,0 +1,337 @@
+//! Reads a recording row by row.
+
+use core::fmt;
+use std::fs::File;
+use std::io::{Cursor, Read};
+use std::path::Path;
+
+use csv::ByteRecord;
+
+use crate::bounded::Bounded;
+use crate::cell::Cell;
+use crate::columns::NumberColumn;
+use crate::error::{HeaderProblem, RecordingError};
+use crate::layout::{AssumedUnits, Layout, UsedColumn, shortened};
+use crate::quality::Quality;
+use crate::row::{Row, RowMarks};
+use crate::start::{delimiter, read_start};
+use crate::time_watch::{Step, TimeWatch};
+
+/// How a recording is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReaderOptions {
+    /// Units of columns whose names have none; none by default.
+    pub assumed_units: AssumedUnits,
+    /// A step of time above this many times the median of all steps before is a gap; 1.5 by
+    /// default, so that one lost sample shows.
+    pub gap_factor: f64,
+}
+
+impl Default for ReaderOptions {
+    fn default() -> Self {
+        Self { assumed_units: AssumedUnits::default(), gap_factor: 1.5 }
+    }
+}
+
+/// Reads a recording row by row, in memory that does not grow with the file.
+pub struct RecordingReader<R> {
+    file: String,
+    csv: csv::Reader<Bounded<std::io::Chain<Cursor<Vec<u8>>, R>>>,
+    record: ByteRecord,
+    layout: Layout,
+    time_watch: TimeWatch,
+    values: Vec<f64>,
+    last_values: Vec<f64>,
+    line: u64,
+    quality: Quality,
+}
+
+impl<R> fmt::Debug for RecordingReader<R> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { file, layout, line, quality, .. } = self;
+        f.debug_struct("RecordingReader")
+            .field("file", file)
+            .field("layout", layout)
+            .field("line", line)
+            .field("quality", quality)
+            .finish_non_exhaustive()
+    }
+}
+
+impl RecordingReader<File> {
+    /// Opens a file.
+    ///
+    /// # Errors
+    /// [`RecordingError`] if it cannot be read or its header does not describe a sensor.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, RecordingError> {
+        Self::open_with(path, ReaderOptions::default())
+    }
+
+    /// Opens a file, with options.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub fn open_with(path: impl AsRef<Path>, options: ReaderOptions) -> Result<Self, RecordingError> {
+        let file = path.as_ref().display().to_string();
+        match File::open(path) {
+            Ok(input) => Self::with_options(file, input, options),
+            Err(source) => Err(RecordingError::Open { file, source }),
+        }
+    }
+}
+
+impl<R: Read> RecordingReader<R> {
+    /// Reads the header of `input`; `file` is what errors call it. No buffer is needed around it.
+    ///
+    /// # Errors
+    /// [`RecordingError`] if it cannot be read or its header does not describe a sensor.
+    pub fn new(file: impl Into<String>, input: R) -> Result<Self, RecordingError> {
+        Self::with_options(file, input, ReaderOptions::default())
+    }
+
+    /// Reads the header, with options.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_options(
+        file: impl Into<String>,
+        mut input: R,
+        options: ReaderOptions,
+    ) -> Result<Self, RecordingError> {
+        let file = file.into();
+        let start = match read_start(&mut input) {
+            Ok(start) => start,
+            Err(source) => return Err(RecordingError::Read { file, line: 0, source }),
+        };
+        let delimiter = delimiter(&start);
+        let mut csv = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .comment(Some(b'#'))
+            .delimiter(delimiter)
+            // A carriage return before it is trimmed with the blanks around a cell.
+            .terminator(csv::Terminator::Any(b'\n'))
+            .buffer_capacity(1 << 16)
+            .from_reader(Bounded::new(Cursor::new(start).chain(input)));
+        let mut record = ByteRecord::new();
+        let names = loop {
+            match csv.read_byte_record(&mut record) {
+                Ok(true) if is_blank(&record) => csv.get_mut().start_record(),
+                Ok(true) => break record.iter().map(|name| String::from_utf8_lossy(name).into_owned()),
+                Ok(false) => return Err(RecordingError::Empty { file }),
+                Err(error) => return Err(read_error(file, 0, csv.get_ref().reached(), error)),
+            }
+        };
+        let names: Vec<String> = names.collect();
+        let layout = match Layout::from_header(&names, options.assumed_units) {
+            Ok(layout) => layout,
+            Err(problem) => return Err(RecordingError::Header { file, problem }),
+        };
+        let line = line_of_record(&csv);
+        let values = vec![f64::NAN; layout.used.len()];
+        Ok(Self {
+            file,
+            csv,
+            record,
+            last_values: values.clone(),
+            values,
+            layout,
+            time_watch: TimeWatch::new(options.gap_factor),
+            line,
+            quality: Quality::default(),
+        })
+    }
+
+    /// What the file holds.
+    #[must_use]
+    pub const fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Reads the column called so too, whatever its case, from the next row on; `None` if there is no
+    /// such column. For what belongs to no sensor, such as `temperature_C` or `qx`: numbers are given as
+    /// they stand in the file.
+    ///
+    /// ```
+    /// use fingertip_recordings::RecordingReader;
+    ///
+    /// let file = "t_s,v1_V,temperature_C\n0,0.5,21.5\n1,0.5,\n";
+    /// let mut reader = RecordingReader::new("example.csv", file.as_bytes())?;
+    /// let celsius = reader.watch("temperature_c").ok_or("no such column")?;
+    /// assert_eq!(reader.next_row()?.and_then(|row| row.number(&celsius)), Some(21.5));
+    /// assert_eq!(reader.next_row()?.and_then(|row| row.number(&celsius)), None);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn watch(&mut self, name: &str) -> Option<NumberColumn> {
+        let column = self.layout.columns().iter().position(|column| column.eq_ignore_ascii_case(name))?;
+        self.layout.used.push(UsedColumn { column, scale: 1.0, optional: false });
+        self.values.push(f64::NAN);
+        self.last_values.push(f64::NAN);
+        Some(NumberColumn { slot: self.values.len() - 1 })
+    }
+
+    /// What was wrong so far.
+    #[must_use]
+    pub const fn quality(&self) -> &Quality {
+        &self.quality
+    }
+
+    /// What errors call the file.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// Bytes taken from the input so far, those read ahead included: for a progress bar.
+    #[must_use]
+    pub fn bytes_read(&self) -> u64 {
+        self.csv.get_ref().total()
+    }
+
+    /// Wraps a problem with the header in an error that names the file, as for a sensor that the
+    /// layout does not have.
+    #[must_use]
+    pub fn header_error(&self, problem: HeaderProblem) -> RecordingError {
+        RecordingError::Header { file: self.file.clone(), problem }
+    }
+
+    /// The next row, or `None` at the end.
+    ///
+    /// # Errors
+    /// [`RecordingError`] for a row with too few or too many cells, a cell that is not a number, or
+    /// if reading fails. The next call goes on behind the bad row.
+    pub fn next_row(&mut self) -> Result<Option<Row<'_>>, RecordingError> {
+        loop {
+            self.csv.get_mut().start_record();
+            match self.csv.read_byte_record(&mut self.record) {
+                Ok(true) => {}
+                Ok(false) => return Ok(None),
+                Err(error) => {
+                    let reached = self.csv.get_ref().reached();
+                    return Err(read_error(self.file.clone(), self.line, reached, error));
+                }
+            }
+            self.line = line_of_record(&self.csv);
+            let (expected, found) = (self.layout.columns().len(), self.record.len());
+            if expected == found {
+                break;
+            }
+            if !is_blank(&self.record) {
+                return Err(RecordingError::Ragged {
+                    file: self.file.clone(),
+                    line: self.line,
+                    expected,
+                    found,
+                });
+            }
+        }
+        let mut marks = RowMarks::default();
+        core::mem::swap(&mut self.values, &mut self.last_values);
+        let (mut any_bad, mut same) = (false, true);
+        for ((used, value), last) in self.layout.used.iter().zip(&mut self.values).zip(&self.last_values) {
+            *value = match Cell::read(&self.record, *used) {
+                Cell::Number(number) => number,
+                Cell::Empty if used.optional => f64::NAN,
+                bad => {
+                    any_bad = true;
+                    bad.count(self.line, &mut marks, &mut self.quality).ok_or_else(|| {
+                        not_a_number(&self.file, self.line, &self.layout, &self.record, *used)
+                    })?
+                }
+            };
+            // Bits, so that a NaN equals itself and the first row equals nothing.
+            same &= value.to_bits() == last.to_bits();
+        }
+        same &= self.quality.rows > 0;
+        let (mut time, mut time_step) = (None, None);
+        if let Some(used) = self.layout.time {
+            match Cell::read(&self.record, used) {
+                Cell::Number(number) => {
+                    time = Some(number);
+                    match self.time_watch.step_to(number) {
+                        Step::First => {}
+                        Step::Usual(step) => time_step = Some(step),
+                        Step::Gap(step) => {
+                            time_step = Some(step);
+                            marks.gap = true;
+                        }
+                        Step::Same if same => marks.repeated = true,
+                        Step::Same | Step::Backward => marks.backward = true,
+                    }
+                    marks.held = same && time_step.is_some();
+                }
+                bad => {
+                    marks.bad_time = true;
+                    bad.count(self.line, &mut marks, &mut self.quality).ok_or_else(|| {
+                        not_a_number(&self.file, self.line, &self.layout, &self.record, used)
+                    })?;
+                }
+            }
+        } else {
+            marks.repeated = same;
+        }
+        let row = Row { line: self.line, time, time_step, marks, values: &self.values };
+        self.quality.note(&row, any_bad);
+        Ok(Some(row))
+    }
+}
+
+impl Quality {
+    fn note(&mut self, row: &Row<'_>, any_bad: bool) {
+        self.rows += 1;
+        let (marks, line) = (row.marks, row.line);
+        if marks == RowMarks::default() {
+            return;
+        }
+        for (marked, fault) in [
+            (marks.gap, &mut self.gaps),
+            (marks.repeated, &mut self.repeated_rows),
+            (marks.backward, &mut self.backward_times),
+            (marks.held, &mut self.held_rows),
+            (!row.is_usable() || any_bad, &mut self.unusable_rows),
+        ] {
+            if marked {
+                fault.add(line);
+            }
+        }
+    }
+}
+
+#[cold]
+fn not_a_number(
+    file: &str,
+    line: u64,
+    layout: &Layout,
+    record: &ByteRecord,
+    used: UsedColumn,
+) -> RecordingError {
+    RecordingError::NotANumber {
+        file: file.to_owned(),
+        line,
+        column: layout.columns().get(used.column).cloned().unwrap_or_default(),
+        found: shortened(&String::from_utf8_lossy(record.get(used.column).unwrap_or_default()), 40),
+    }
+}
+
+#[cold]
+fn read_error(file: String, line: u64, too_long: bool, error: csv::Error) -> RecordingError {
+    if too_long {
+        return RecordingError::TooLong { file, line, limit: Bounded::<()>::LIMIT };
+    }
+    let source = match error.into_kind() {
+        csv::ErrorKind::Io(source) => source,
+        other => std::io::Error::other(format!("{other:?}")),
+    };
+    RecordingError::Read { file, line, source }
+}
+
+/// The line of the record read last: every record ends with a line end, which has been counted. (The
+/// position of the record itself is that of the comments and empty lines before it.)
+fn line_of_record<R: Read>(csv: &csv::Reader<R>) -> u64 {
+    csv.position().line().saturating_sub(1)
+}
+
+/// A line of nothing but blanks.
+fn is_blank(record: &ByteRecord) -> bool {
+    record.len() <= 1 && record.get(0).is_none_or(|cell| cell.trim_ascii().is_empty())
+}

@@ -1,0 +1,155 @@
+//! Writes a recording in our schema.
+
+use core::fmt;
+use std::io::Write;
+
+use fingertip_wrench::Wrench;
+
+use crate::columns::CONTACT_COLUMNS;
+use crate::error::RecordingError;
+use crate::unit::SignalUnit;
+
+/// The columns of a recording to write, in SI units.
+///
+/// ```
+/// use fingertip_recordings::{Schema, SignalUnit};
+///
+/// let schema = Schema::default().time().signals("", 6, SignalUnit::Volts).dummy("", SignalUnit::Volts);
+/// assert_eq!(schema.names().join(","), "t_s,v1_V,v2_V,v3_V,v4_V,v5_V,v6_V,dummy_V");
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[must_use]
+pub struct Schema {
+    names: Vec<String>,
+}
+
+impl Schema {
+    /// Adds the time \[s\].
+    pub fn time(self) -> Self {
+        self.column("t_s")
+    }
+
+    /// Adds the six columns of a wrench \[N, N·m\] of a sensor; an empty name for the only one.
+    pub fn wrench(mut self, sensor: &str) -> Self {
+        for axis in ["fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm"] {
+            self = self.column(&prefixed(sensor, axis));
+        }
+        self
+    }
+
+    /// Adds `count` signals of a sensor, numbered from 1.
+    pub fn signals(mut self, sensor: &str, count: usize, unit: SignalUnit) -> Self {
+        for number in 1..=count {
+            self = self.column(&prefixed(sensor, &format!("v{number}{}", unit.suffix())));
+        }
+        self
+    }
+
+    /// Adds the dummy gauge of a sensor.
+    pub fn dummy(self, sensor: &str, unit: SignalUnit) -> Self {
+        self.column(&prefixed(sensor, &format!("dummy{}", unit.suffix())))
+    }
+
+    /// Adds the columns of a contact: write [`ContactCells::cells`](crate::ContactCells::cells), or NaN
+    /// where there is none.
+    pub fn contact(self) -> Self {
+        CONTACT_COLUMNS.into_iter().fold(self, |schema, name| schema.column(name))
+    }
+
+    /// Adds a column of another meaning, with the unit in its name; commas, quotes and line ends
+    /// become underscores.
+    pub fn column(mut self, name: &str) -> Self {
+        self.names.push(name.replace([',', ';', '"', '\n', '\r', '\t'], "_"));
+        self
+    }
+
+    /// The names of the columns.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+}
+
+fn prefixed(sensor: &str, name: &str) -> String {
+    if sensor.is_empty() { name.to_owned() } else { format!("{sensor}_{name}") }
+}
+
+/// Writes rows of numbers under a header. Numbers are written with as many digits as it takes to
+/// read them back exactly.
+pub struct RecordingWriter<W> {
+    out: W,
+    columns: usize,
+    line: String,
+    digits: ryu::Buffer,
+}
+
+impl<W> fmt::Debug for RecordingWriter<W> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("RecordingWriter").field("columns", &self.columns).finish_non_exhaustive()
+    }
+}
+
+impl<W: Write> RecordingWriter<W> {
+    /// Writes the header. Put a [`std::io::BufWriter`] around a file.
+    ///
+    /// # Errors
+    /// [`RecordingError::Write`].
+    pub fn new(mut out: W, schema: &Schema) -> Result<Self, RecordingError> {
+        writeln!(out, "{}", schema.names.join(",")).map_err(failed)?;
+        Ok(Self { out, columns: schema.names.len(), line: String::new(), digits: ryu::Buffer::new() })
+    }
+
+    /// Writes one row: one number for every column, in the order of the schema. NaN stands for a
+    /// missing one and leaves its cell empty; infinities are written as `inf`.
+    ///
+    /// # Errors
+    /// [`RecordingError::WrongRow`] if there are too few or too many numbers, otherwise
+    /// [`RecordingError::Write`].
+    pub fn write(&mut self, values: impl IntoIterator<Item = f64>) -> Result<(), RecordingError> {
+        self.line.clear();
+        let mut found = 0;
+        for value in values {
+            if found > 0 {
+                self.line.push(',');
+            }
+            found += 1;
+            if !value.is_nan() {
+                // The shortest number that reads back exactly, with an exponent where it is very
+                // large or small.
+                self.line.push_str(self.digits.format(value));
+            }
+        }
+        if found != self.columns {
+            return Err(RecordingError::WrongRow { expected: self.columns, found });
+        }
+        self.line.push('\n');
+        self.out.write_all(self.line.as_bytes()).map_err(failed)
+    }
+
+    /// Writes a row of a recording with the schema time, one wrench.
+    ///
+    /// # Errors
+    /// As [`write`](Self::write).
+    pub fn write_wrench(&mut self, time: f64, wrench: &Wrench<f64>) -> Result<(), RecordingError> {
+        self.write(core::iter::once(time).chain(wrench.components().iter().copied()))
+    }
+
+    /// What is written to.
+    #[must_use]
+    pub const fn get_mut(&mut self) -> &mut W {
+        &mut self.out
+    }
+
+    /// Writes out what is buffered, and gives the output back.
+    ///
+    /// # Errors
+    /// [`RecordingError::Write`].
+    pub fn finish(mut self) -> Result<W, RecordingError> {
+        self.out.flush().map_err(failed)?;
+        Ok(self.out)
+    }
+}
+
+fn failed(source: std::io::Error) -> RecordingError {
+    RecordingError::Write { source }
+}

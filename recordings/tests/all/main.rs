@@ -1,0 +1,6 @@
+//! The tests of the crate from outside, as one program: each program more is linked again.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
+
+mod csv;
+mod mcap;
+mod real_recordings;

@@ -1,0 +1,5 @@
+//! The tests of the crate from outside, as one program: each program more is linked again.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
+
+mod prototype;
+mod simulation;
