@@ -4,8 +4,9 @@
 //!
 //! `cargo run --example custom_surface`
 
+use fingertip::contact::{ContactModel, PointContact};
 use fingertip::surfaces::testing::SurfaceLaws;
-use fingertip::surfaces::{ContactModel, Implicit, ImplicitBounds, ImplicitSurface, PointContact};
+use fingertip::surfaces::{Implicit, ImplicitBounds, ImplicitSurface};
 use fingertip::wrench::Wrench;
 use nalgebra::Vector3;
 

@@ -6,7 +6,8 @@
 use core::error::Error;
 
 use fingertip::Fingertip;
-use fingertip::surfaces::{PointContact, Sphere};
+use fingertip::contact::PointContact;
+use fingertip::surfaces::Sphere;
 use fingertip::wrench::{DummyGaugeAccumulator, GaussianElimination};
 use fingertip_calibration::design::{
     Assessment, ContactWeight, Criterion, Excitation, LayoutFile, LoadedTube, Material, MatrixUsed,

@@ -9,11 +9,11 @@
 //! the first slip. Fixed grips are run beside it.
 
 use fingertip::Fingertip;
+use fingertip::contact::PointContact;
 use fingertip::friction::{
     Bristle, Coulomb, Drive, DropDetector, ForceNoise, GripController, GripSettings, LuGre, SlipVerdict,
     StaticFriction, Stribeck,
 };
-use fingertip::surfaces::PointContact;
 use fingertip::wrench::{GaussianElimination, Wrench};
 use fingertip_simulation::Design;
 use nalgebra::{Vector1, Vector3};

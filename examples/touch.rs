@@ -3,8 +3,9 @@
 //! `cargo run --example touch`
 
 use fingertip::Fingertip;
+use fingertip::contact::{PointContact, Resolution};
 use fingertip::friction::Coulomb;
-use fingertip::surfaces::{PointContact, Resolution, Sphere};
+use fingertip::surfaces::Sphere;
 use fingertip::wrench::gauge_layout::{GaugeLayout, ThinWalledBeam};
 use fingertip::wrench::{GaussianElimination, Wrench};
 use nalgebra::{Vector3, Vector6};

@@ -1,8 +1,9 @@
 //! Touches of many samples at once, for simulation, learning and replay.
 
+use fingertip_contact::PointContact;
+use fingertip_contact::batch::{BatchSurface, Entered, Lines};
 use fingertip_friction::{Coulomb, RatioThreshold, SlipVerdict};
-use fingertip_surfaces::batch::{BatchSurface, Entered, Lines};
-use fingertip_surfaces::{ForceParts, PointContact};
+use fingertip_surfaces::ForceParts;
 use fingertip_wrench::{Compensation, Real, WrenchSolver};
 use nalgebra::SVector;
 

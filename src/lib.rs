@@ -1,18 +1,19 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![doc = include_str!("../README.md")]
 
-#[cfg(feature = "friction")]
+#[cfg(all(feature = "batch", feature = "friction"))]
 mod batch;
 mod builder;
 mod pipeline;
 mod stage;
 
+pub use fingertip_contact as contact;
 #[cfg(feature = "friction")]
 pub use fingertip_friction as friction;
 pub use fingertip_surfaces as surfaces;
 pub use fingertip_wrench as wrench;
 
-#[cfg(feature = "friction")]
+#[cfg(all(feature = "batch", feature = "friction"))]
 pub use batch::Touches;
 pub use builder::FingertipBuilder;
 pub use pipeline::{Fingertip, Touch};

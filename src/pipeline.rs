@@ -1,6 +1,6 @@
 //! The stages wired together.
 
-use fingertip_surfaces::{ContactModel, Resolution};
+use fingertip_contact::{ContactModel, Resolution};
 use fingertip_wrench::{Compensation, ContactForce, Real, Uncompensated, Wrench, WrenchSolver};
 use nalgebra::Vector3;
 

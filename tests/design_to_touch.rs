@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests, which may fail so")]
 
 use fingertip::Fingertip;
-use fingertip::surfaces::PointContact;
+use fingertip::contact::PointContact;
 use fingertip::wrench::{
     Decoupled, DummyGaugeAccumulator, GaussianElimination, ThreeRosettes, Wrench, WrenchSolver,
 };

@@ -1,11 +1,12 @@
 //! The whole pipeline against contacts that are known: signals in, touch out.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+use fingertip::contact::batch::BatchSurface;
+use fingertip::contact::{NoContact, PointContact, Resolution};
 use fingertip::friction::{
     Coulomb, DropDetector, ForceNoise, NormalForceGate, RatioThreshold, SlipMargin, SlipVerdict,
 };
-use fingertip::surfaces::batch::BatchSurface;
-use fingertip::surfaces::{ActiveSurface, Ellipsoid, NoContact, PointContact, Resolution, Sphere};
+use fingertip::surfaces::{ActiveSurface, Ellipsoid, Sphere};
 use fingertip::wrench::gauge_layout::{GaugeLayout, ThinWalledBeam};
 use fingertip::wrench::{
     Compensation, GaussianElimination, Real, SensorMatrix, Tare, Uncompensated, Wrench, WrenchSolver,

@@ -1,8 +1,8 @@
 //! Soft fingers, their covariance, and error against run time of the methods.
 
-#[path = "../../surfaces/tests/soft/pillow.rs"]
+#[path = "../../contact/tests/soft/pillow.rs"]
 mod pillow;
-#[path = "../../surfaces/tests/soft/wrenches.rs"]
+#[path = "../../contact/tests/soft/wrenches.rs"]
 #[allow(dead_code, reason = "shared with the tests, which use all of it")]
 mod wrenches;
 
@@ -11,11 +11,14 @@ use core::time::Duration;
 use std::time::Instant;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use fingertip_contact::{
+    Auto, CompliantSoftFinger, ContactCovariance, ContactJacobian, ContactModel, ConvexBound, Hertz,
+    IndependentNoise, IsotropicNoise, PointContact, Resolution, Search, SoftContact, SoftFinger,
+    SoftFingerSurface, WorstErrors, newton_soft_contacts,
+};
 use fingertip_surfaces::{
-    ActiveSurface, Auto, CappedCylinder, Capsule, CompliantSoftFinger, Cone, ContactCovariance,
-    ContactJacobian, ContactModel, ConvexBound, Cylinder, Ellipsoid, Heightfield, Hertz, Implicit,
-    IndependentNoise, IsotropicNoise, Plane, PointContact, Resolution, Search, SmoothSurface, SoftContact,
-    SoftFinger, SoftFingerSurface, Sphere, Superquadric, Torus, WorstErrors, newton_soft_contacts,
+    ActiveSurface, CappedCylinder, Capsule, Cone, Cylinder, Ellipsoid, Heightfield, Implicit, Plane,
+    SmoothSurface, Sphere, Superquadric, Torus,
 };
 use fingertip_wrench::{Line, Wrench};
 use nalgebra::{Matrix2, Matrix6, Vector3, Vector6};

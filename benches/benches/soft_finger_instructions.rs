@@ -4,9 +4,8 @@
 
 use core::hint::black_box;
 
-use fingertip_surfaces::{
-    ContactCovariance, ContactModel, Ellipsoid, PointContact, Resolution, SoftFinger, Sphere,
-};
+use fingertip_contact::{ContactCovariance, ContactModel, PointContact, Resolution, SoftFinger};
+use fingertip_surfaces::{Ellipsoid, Sphere};
 use fingertip_wrench::Wrench;
 use gungraun::{library_benchmark, library_benchmark_group, main};
 use nalgebra::{Matrix6, Vector3, Vector6};

@@ -9,8 +9,8 @@
 use core::error::Error;
 
 use fingertip::Fingertip;
+use fingertip::contact::PointContact;
 use fingertip::friction::Coulomb;
-use fingertip::surfaces::PointContact;
 use fingertip::wrench::{GaussianElimination, SensorMatrix, TareAccumulator, Wrench};
 use fingertip_drivers::bridge::{
     BridgeChannel, BridgeCircuit, BridgeFrontEnd, Bridged, CountScale, Excitation,

@@ -16,8 +16,9 @@ use std::net::UdpSocket;
 use std::time::Instant;
 
 use fingertip::Fingertip;
+use fingertip::contact::PointContact;
 use fingertip::friction::Coulomb;
-use fingertip::surfaces::{PointContact, Sphere};
+use fingertip::surfaces::Sphere;
 use fingertip_drivers::sensors::LinkStatistics;
 use fingertip_drivers::sensors::ati_rdt::{ClientError, CountsPerUnit, RdtClient, Record};
 use fingertip_drivers::{NbWrenchSource, WrenchSource};

@@ -1,6 +1,7 @@
 //! How well a pipeline did on a simulated session.
 
-use fingertip_surfaces::{ContactModel, PointContact, Sphere};
+use fingertip_contact::{ContactModel, PointContact};
+use fingertip_surfaces::Sphere;
 use fingertip_wrench::Wrench;
 use nalgebra::Vector3;
 

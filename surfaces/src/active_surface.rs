@@ -73,7 +73,8 @@ impl<T: Real> Entry<T> {
     /// The same; none if it lies beyond the range of the type. That is said within the answer, since to
     /// take an answer back costs more than to find it.
     #[inline(always)]
-    pub(crate) fn within_range(self) -> Self {
+    #[doc(hidden)]
+    pub fn within_range(self) -> Self {
         let incidence_squared = if in_range(&self.point) { self.incidence_squared } else { T::zero() };
         Self { incidence_squared, ..self }
     }
@@ -162,7 +163,8 @@ pub trait ActiveSurface<T: Real> {
 }
 
 /// The crossing of a line that is nearest to its point.
-pub(crate) fn nearest_crossing<T: Real, S: ActiveSurface<T> + ?Sized>(
+#[doc(hidden)]
+pub fn nearest_crossing<T: Real, S: ActiveSurface<T> + ?Sized>(
     surface: &S,
     line: &Line<T>,
 ) -> Option<Crossing<T>> {

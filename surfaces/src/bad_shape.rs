@@ -20,11 +20,7 @@ pub struct BadShape {
 
 impl BadShape {
     /// `value`, if it is a length: positive, finite, and with a reciprocal that is finite too.
-    pub(crate) fn check_length<T: Real>(
-        shape: &'static str,
-        parameter: &'static str,
-        value: T,
-    ) -> Result<T, Self> {
+    pub fn check_length<T: Real>(shape: &'static str, parameter: &'static str, value: T) -> Result<T, Self> {
         if value >= T::LEAST_NORMAL && value <= T::one() / T::LEAST_NORMAL {
             Ok(value)
         } else {
@@ -33,7 +29,7 @@ impl BadShape {
     }
 
     /// Nothing, if `condition` holds.
-    pub(crate) fn check(
+    pub fn check(
         shape: &'static str,
         parameter: &'static str,
         requirement: &'static str,
@@ -43,7 +39,7 @@ impl BadShape {
     }
 
     /// `point`, if it is finite.
-    pub(crate) fn check_point<T: Real>(
+    pub fn check_point<T: Real>(
         shape: &'static str,
         parameter: &'static str,
         point: Vector3<T>,
@@ -52,7 +48,7 @@ impl BadShape {
     }
 
     /// The unit vector along `direction`, if it has a direction.
-    pub(crate) fn check_direction<T: Real>(
+    pub fn check_direction<T: Real>(
         shape: &'static str,
         parameter: &'static str,
         direction: Vector3<T>,

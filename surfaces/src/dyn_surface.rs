@@ -3,17 +3,17 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-use fingertip_wrench::{Line, Real, Wrench};
+use fingertip_wrench::{Line, Real};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::active_surface::nearest_crossing;
 use crate::combinators::{closest_of, is_inside_along};
-use crate::soft_finger::combinators::{around_both, is_covered, of_both};
+use crate::smooth::combinators::around_both;
 use crate::{
     ActiveSurface, CappedCylinder, Capsule, ClosestApproach, Cone, Corner, Crossing, Cylinder, Disk,
-    Ellipsoid, EllipticCylinder, Extent, ForceLine, Frustum, HalfSpace, Heightfield, Knot, Level, Mesh,
-    Paraboloid, Patch, Plane, Posed, Rectangle, Revolution, RoundedBox, Search, SmoothSurface, SoftContact,
-    SoftFingerSurface, Sphere, SphericalCap, Superquadric, Topology, Torus, Trimmed,
+    Ellipsoid, EllipticCylinder, Extent, Frustum, HalfSpace, Heightfield, Knot, Level, Mesh, Paraboloid,
+    Plane, Posed, Rectangle, Revolution, RoundedBox, SmoothSurface, Sphere, SphericalCap, Superquadric,
+    Topology, Torus, Trimmed,
 };
 
 /// Any of the shapes: for files and programs that learn the shape at run time. On a hot path use
@@ -47,7 +47,6 @@ use crate::{
         bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
     )
 )]
-#[non_exhaustive]
 pub enum DynSurface<T: Real> {
     /// [`Plane`].
     Plane(Plane<T>),
@@ -111,31 +110,33 @@ pub struct Parts<T: Real> {
 }
 
 /// Calls a method of whichever shape it is.
-macro_rules! each {
+#[doc(hidden)]
+#[macro_export]
+macro_rules! each_surface {
     ($surface:expr, $shape:ident => $call:expr) => {
         match $surface {
-            DynSurface::Plane($shape) => $call,
-            DynSurface::Disk($shape) => $call,
-            DynSurface::Rectangle($shape) => $call,
-            DynSurface::Sphere($shape) => $call,
-            DynSurface::SphericalCap($shape) => $call,
-            DynSurface::Ellipsoid($shape) => $call,
-            DynSurface::Cylinder($shape) => $call,
-            DynSurface::CappedCylinder($shape) => $call,
-            DynSurface::EllipticCylinder($shape) => $call,
-            DynSurface::Capsule($shape) => $call,
-            DynSurface::Cone($shape) => $call,
-            DynSurface::Frustum($shape) => $call,
-            DynSurface::Torus($shape) => $call,
-            DynSurface::Superquadric($shape) => $call,
-            DynSurface::RoundedBox($shape) => $call,
-            DynSurface::Paraboloid($shape) => $call,
-            DynSurface::Revolution($shape) => $call,
-            DynSurface::Heightfield($shape) => $call,
-            DynSurface::Mesh($shape) => $call,
-            DynSurface::Posed($shape) => $call,
-            DynSurface::Trimmed($shape) => $call,
-            DynSurface::Compound($shape) => $call,
+            $crate::DynSurface::Plane($shape) => $call,
+            $crate::DynSurface::Disk($shape) => $call,
+            $crate::DynSurface::Rectangle($shape) => $call,
+            $crate::DynSurface::Sphere($shape) => $call,
+            $crate::DynSurface::SphericalCap($shape) => $call,
+            $crate::DynSurface::Ellipsoid($shape) => $call,
+            $crate::DynSurface::Cylinder($shape) => $call,
+            $crate::DynSurface::CappedCylinder($shape) => $call,
+            $crate::DynSurface::EllipticCylinder($shape) => $call,
+            $crate::DynSurface::Capsule($shape) => $call,
+            $crate::DynSurface::Cone($shape) => $call,
+            $crate::DynSurface::Frustum($shape) => $call,
+            $crate::DynSurface::Torus($shape) => $call,
+            $crate::DynSurface::Superquadric($shape) => $call,
+            $crate::DynSurface::RoundedBox($shape) => $call,
+            $crate::DynSurface::Paraboloid($shape) => $call,
+            $crate::DynSurface::Revolution($shape) => $call,
+            $crate::DynSurface::Heightfield($shape) => $call,
+            $crate::DynSurface::Mesh($shape) => $call,
+            $crate::DynSurface::Posed($shape) => $call,
+            $crate::DynSurface::Trimmed($shape) => $call,
+            $crate::DynSurface::Compound($shape) => $call,
         }
     };
 }
@@ -144,23 +145,23 @@ impl<T: Real> ActiveSurface<T> for DynSurface<T> {
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         // By reference, so that nested shapes do not make ever new types of visitors.
         let visit: &mut dyn FnMut(Crossing<T>) = &mut visit;
-        each!(self, shape => shape.crossings(line, visit));
+        each_surface!(self, shape => shape.crossings(line, visit));
     }
 
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
-        each!(self, shape => shape.closest_approach(line))
+        each_surface!(self, shape => shape.closest_approach(line))
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
-        each!(self, shape => shape.normal(point))
+        each_surface!(self, shape => shape.normal(point))
     }
 
     fn outside_by(&self, point: &Vector3<T>) -> T {
-        each!(self, shape => shape.outside_by(point))
+        each_surface!(self, shape => shape.outside_by(point))
     }
 
     fn contains(&self, point: &Vector3<T>) -> bool {
-        each!(self, shape => shape.contains(point))
+        each_surface!(self, shape => shape.contains(point))
     }
 }
 
@@ -215,27 +216,27 @@ impl<T: Real> ActiveSurface<T> for Parts<T> {
 
 impl<T: Real> SmoothSurface<T> for DynSurface<T> {
     fn level(&self, point: &Vector3<T>) -> Level<T> {
-        each!(self, shape => shape.level(point))
+        each_surface!(self, shape => shape.level(point))
     }
 
     fn extent(&self) -> Extent<T> {
-        each!(self, shape => shape.extent())
+        each_surface!(self, shape => shape.extent())
     }
 
     fn topology(&self) -> Topology {
-        each!(self, shape => shape.topology())
+        each_surface!(self, shape => shape.topology())
     }
 
     fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
-        each!(self, shape => shape.shape_operator(point))
+        each_surface!(self, shape => shape.shape_operator(point))
     }
 
     fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
-        each!(self, shape => shape.bend(point, normal, tangents))
+        each_surface!(self, shape => shape.bend(point, normal, tangents))
     }
 
     fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
-        each!(self, shape => shape.corner(point, normal))
+        each_surface!(self, shape => shape.corner(point, normal))
     }
 }
 
@@ -262,50 +263,6 @@ impl<T: Real> SmoothSurface<T> for Parts<T> {
 
     fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
         self.nearest(point, Some(normal))?.corner(point, normal)
-    }
-}
-
-impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        last: Option<&Vector3<T>>,
-        mut visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        let visit: &mut dyn FnMut(SoftContact<T>) = &mut visit;
-        each!(self, shape => shape.soft_contacts(wrench, last, visit))
-    }
-
-    fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
-        each!(self, shape => shape.patch(point))
-    }
-
-    #[inline]
-    fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
-        each!(self, shape => shape.sole_soft_contact(push))
-    }
-}
-
-impl<T: Real> SoftFingerSurface<T> for Parts<T> {
-    fn soft_contacts(
-        &self,
-        wrench: &Wrench<T>,
-        last: Option<&Vector3<T>>,
-        mut visit: impl FnMut(SoftContact<T>),
-    ) -> Search<T> {
-        let mut search = Search::Complete;
-        let mut seen = false;
-        for (k, part) in self.parts.iter().enumerate() {
-            let of_part = part.soft_contacts(wrench, last, |contact| {
-                let mut others = self.parts.iter().enumerate().filter(|(other, _)| *other != k);
-                if !others.any(|(other, part)| is_covered(part, &contact, other > k)) {
-                    seen = true;
-                    visit(contact);
-                }
-            });
-            search = of_both(search, of_part, false);
-        }
-        if seen { of_both(search, Search::Complete, true) } else { search }
     }
 }
 

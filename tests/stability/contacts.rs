@@ -2,10 +2,9 @@
 //! of action and from the exact surface. An error of the contact point that exceeds these is the
 //! conditioning of the case, 1/cos φ.
 
+use fingertip_contact::{ContactModel, NoContact, PointContact, Resolution, SoftFingerSurface};
 use fingertip_surfaces::testing::ball_of_triangles;
-use fingertip_surfaces::{
-    ActiveSurface, ContactModel, Mesh, NoContact, PointContact, Resolution, SmoothSurface, SoftFingerSurface,
-};
+use fingertip_surfaces::{ActiveSurface, Mesh, SmoothSurface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};

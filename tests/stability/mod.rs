@@ -4,7 +4,7 @@
 //! Bounds: what a backward stable routine keeps, a small multiple of the rounding unit times the
 //! conditioning of the case. References: arithmetic of 220 bits, or an invariant of the law.
 
-#[path = "../../surfaces/tests/oracle/big.rs"]
+#[path = "../../contact/tests/oracle/big.rs"]
 #[allow(dead_code, clippy::unwrap_used, reason = "an oracle of finite numbers")]
 pub(crate) mod big;
 pub(crate) mod contacts;

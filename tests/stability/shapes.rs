@@ -8,7 +8,7 @@ use super::levels::Level;
 
 /// What is done with each shape.
 pub(crate) trait Visitor<T: Real> {
-    fn shape<S: fingertip_surfaces::SmoothSurface<T> + fingertip_surfaces::SoftFingerSurface<T>>(
+    fn shape<S: fingertip_surfaces::SmoothSurface<T> + fingertip_contact::SoftFingerSurface<T>>(
         &mut self,
         name: &'static str,
         surface: S,

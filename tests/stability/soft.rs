@@ -3,10 +3,12 @@
 
 use core::cell::Cell;
 
-use fingertip_surfaces::{
-    ActiveSurface, ClosestApproach, ContactModel, Crossing, Extent, Level as LevelAtPoint, NoContact,
-    Resolution, Search, SmoothSurface, SoftContact, SoftFinger, SoftFingerSurface, Topology,
+use fingertip_contact::{
+    ContactModel, NoContact, Resolution, Search, SoftContact, SoftFinger, SoftFingerSurface,
     newton_soft_contacts,
+};
+use fingertip_surfaces::{
+    ActiveSurface, ClosestApproach, Crossing, Extent, Level as LevelAtPoint, SmoothSurface, Topology,
 };
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;

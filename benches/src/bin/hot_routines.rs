@@ -5,14 +5,13 @@ use core::hint::black_box;
 
 use fingertip_benches::hand_written::{HandA, HandB};
 use fingertip_benches::{paper_sensor, signals};
+use fingertip_contact::{ContactModel, PointContact, SoftFinger};
 use fingertip_friction::{
     Coulomb, DropDetector, ForceNoise, FrictionModel, LikelihoodRatioDetector, NormalForceGate, PowerLimit,
     RatioThreshold, SlipDetector, SoftFingerLimit,
 };
 use fingertip_scenes::{Felt, Scene, SceneA, SceneB, SceneC, SceneD, Volts};
-use fingertip_surfaces::{
-    Capsule, Cone, ContactModel, Cylinder, Ellipsoid, Plane, PointContact, SoftFinger, Sphere, Torus,
-};
+use fingertip_surfaces::{Capsule, Cone, Cylinder, Ellipsoid, Plane, Sphere, Torus};
 use fingertip_wrench::{
     BicchiDario, ContactForce, Decoupled, GaussianElimination, Inverse, LeastSquares, Refined, SensorMatrix,
     Wrench, WrenchSolver,

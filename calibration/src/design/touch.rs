@@ -147,7 +147,8 @@ pub struct TouchSet {
 #[cfg(test)]
 mod tests {
     use super::Touch;
-    use fingertip_surfaces::{ContactModel, PointContact, Sphere};
+    use fingertip_contact::{ContactModel, PointContact};
+    use fingertip_surfaces::Sphere;
     use fingertip_wrench::Wrench;
     use nalgebra::{Vector3, Vector6};
     use proptest::prelude::*;

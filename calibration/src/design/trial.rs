@@ -1,6 +1,7 @@
 //! A design tried end to end, before it is built.
 
-use fingertip_surfaces::{ActiveSurface, ContactModel, PointContact};
+use fingertip_contact::{ContactModel, PointContact};
+use fingertip_surfaces::ActiveSurface;
 use fingertip_wrench::Wrench;
 use nalgebra::{DMatrix, DVector, Vector6};
 use rand::{RngExt as _, SeedableRng as _};

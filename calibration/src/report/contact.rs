@@ -85,7 +85,8 @@ mod tests {
     use crate::file::Covariance;
     use crate::fit::least_squares;
     use crate::fit::testing::{gaussian_matrix, sensor};
-    use fingertip_surfaces::{ContactModel as _, PointContact, Sphere};
+    use fingertip_contact::{ContactModel as _, PointContact};
+    use fingertip_surfaces::Sphere;
     use fingertip_wrench::Wrench;
     use nalgebra::{DVector, Vector6};
     use rand::SeedableRng as _;

@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use fingertip::contact::{NoContact, Resolution};
 use fingertip::friction::SlipVerdict;
-use fingertip::surfaces::{NoContact, Resolution};
 
 use crate::error::CliError;
 use crate::observe::{SceneTouch, Status};

@@ -8,8 +8,8 @@ mod findings;
 mod rest;
 
 use fingertip::Fingertip;
+use fingertip::contact::PointContact;
 use fingertip::friction::{Coulomb, DropDetector, ForceNoise, SlipVerdict};
-use fingertip::surfaces::PointContact;
 use fingertip::wrench::GaussianElimination;
 use fingertip_simulation::{Options, SessionReport, SessionScore, SimulatedFingertip, standard_session};
 use nalgebra::Vector3;

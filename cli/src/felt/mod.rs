@@ -3,9 +3,8 @@
 mod noise;
 
 use fingertip::Fingertip;
-use fingertip::surfaces::{
-    ActiveSurface, ConfidenceEllipse, Contact, ContactCovariance, ContactJacobian, Resolution,
-};
+use fingertip::contact::{ConfidenceEllipse, Contact, ContactCovariance, ContactJacobian, Resolution};
+use fingertip::surfaces::ActiveSurface;
 use fingertip::wrench::{TareAccumulator, Wrench};
 use nalgebra::{Matrix3, Vector6};
 

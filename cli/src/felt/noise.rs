@@ -1,6 +1,6 @@
 //! The noise of a sensor, measured while it is used.
 
-use fingertip::surfaces::WrenchNoise;
+use fingertip::contact::WrenchNoise;
 use fingertip::wrench::Wrench;
 use nalgebra::Vector6;
 

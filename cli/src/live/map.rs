@@ -2,7 +2,7 @@
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use fingertip::surfaces::Contact;
+use fingertip::contact::Contact;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Stylize};

@@ -4,8 +4,8 @@ use alloc::collections::VecDeque;
 use core::time::Duration;
 use std::time::Instant;
 
+use fingertip::contact::ConfidenceEllipse;
 use fingertip::friction::SlipVerdict;
-use fingertip::surfaces::ConfidenceEllipse;
 use fingertip::wrench::Wrench;
 
 use crate::felt::{NoiseWatch, ellipse};

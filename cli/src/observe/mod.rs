@@ -112,9 +112,8 @@ impl Observations {
         if let Some(ratio) = ratio {
             self.ratio.add(ratio);
         }
-        if let fingertip::surfaces::Resolution::NoContact(fingertip::surfaces::NoContact::Misses {
-            gap,
-            ..
+        if let fingertip::contact::Resolution::NoContact(fingertip::contact::NoContact::Misses {
+            gap, ..
         }) = touch.resolution
         {
             self.gap.add(gap);

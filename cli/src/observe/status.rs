@@ -1,6 +1,6 @@
 //! How one sample ended, as a word.
 
-use fingertip::surfaces::{NoContact, Resolution};
+use fingertip::contact::{NoContact, Resolution};
 
 /// Contact, or why not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

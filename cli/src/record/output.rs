@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-use fingertip::surfaces::Resolution;
+use fingertip::contact::Resolution;
 use fingertip::wrench::Wrench;
 use fingertip_recordings::mcap::{McapWriter, RecordedContact, RecordedSignals, Topic};
 use fingertip_recordings::{ContactCells, RecordingWriter, Schema, SignalUnit};

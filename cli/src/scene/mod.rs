@@ -9,7 +9,8 @@ mod surface;
 use std::fs;
 use std::path::Path;
 
-use fingertip::surfaces::{DynSurface, PointContact};
+use fingertip::contact::PointContact;
+use fingertip::surfaces::DynSurface;
 use fingertip::wrench::Wrench;
 use nalgebra::Vector3;
 use serde::Deserialize;

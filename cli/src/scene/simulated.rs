@@ -1,7 +1,7 @@
 //! The scene of the simulated fingertip.
 
+use fingertip::contact::PointContact;
 use fingertip::friction::{Coulomb, DropDetector, ForceNoise};
-use fingertip::surfaces::PointContact;
 use fingertip_simulation::{Options, Segment, SimulatedFingertip, standard_session};
 use nalgebra::Vector3;
 

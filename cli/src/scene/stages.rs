@@ -1,10 +1,10 @@
 //! The contact model, the friction and the slip detector of a scene.
 
+use fingertip::contact::PointContact;
 use fingertip::friction::{
     Coulomb, DropDetector, ForceNoise, FrictionModel, NormalForceGate, RatioThreshold, SlipDetector,
     SlipMargin, SlipVerdict,
 };
-use fingertip::surfaces::PointContact;
 use fingertip::wrench::ContactForce;
 use fingertip::{GripStage, SlipStage};
 use serde::Deserialize;

@@ -57,7 +57,8 @@ impl<S: ActiveSurface<f64>> ActiveSurface<f64> for Capped<S> {
 
 #[cfg(test)]
 mod tests {
-    use fingertip::surfaces::{ContactModel, NoContact, PointContact, Resolution, Sphere};
+    use fingertip::contact::{ContactModel, NoContact, PointContact, Resolution};
+    use fingertip::surfaces::Sphere;
     use fingertip::wrench::Wrench;
     use nalgebra::Vector3;
 

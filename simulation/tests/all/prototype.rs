@@ -1,8 +1,8 @@
 //! The simulated prototype through the whole pipeline reproduces the paper's figures.
 
 use fingertip::Fingertip;
+use fingertip::contact::PointContact;
 use fingertip::friction::{Coulomb, DropDetector, ForceNoise, SlipVerdict};
-use fingertip::surfaces::PointContact;
 use fingertip::wrench::{
     Compensation, DummyGauge, DummyGaugeAccumulator, GaussianElimination, Tare, WrenchSolver,
 };

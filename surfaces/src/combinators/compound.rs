@@ -47,7 +47,8 @@ impl<A, B> Compound<A, B> {
 /// `true` if the point at `along` on a line is inside a shape, told from the shape's own crossing
 /// with the same line that is nearest: so two shapes that meet in a seam agree on which of them owns
 /// it. A tie counts as inside if `tie`.
-pub(crate) fn is_inside_along<T: Real>(
+#[doc(hidden)]
+pub fn is_inside_along<T: Real>(
     shape: &impl ActiveSurface<T>,
     line: &Line<T>,
     along: T,

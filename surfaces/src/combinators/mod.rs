@@ -8,7 +8,8 @@ mod trimmed;
 pub use compound::Compound;
 #[cfg(feature = "alloc")]
 pub(crate) use compound::closest_of;
-pub(crate) use compound::is_inside_along;
+#[doc(hidden)]
+pub use compound::is_inside_along;
 pub use offset::Offset;
 pub use posed::Posed;
 pub use trimmed::{HalfSpace, Region, Trimmed};

@@ -62,7 +62,8 @@ impl<T: Real> Heightfield<T> {
         self.heights.get(row * self.columns + column).copied().unwrap_or_else(T::zero)
     }
 
-    pub(crate) fn node(&self, column: usize, row: usize) -> Vector3<T> {
+    #[doc(hidden)]
+    pub fn node(&self, column: usize, row: usize) -> Vector3<T> {
         let place = |k: usize| T::literal(k as f64);
         let [x, y] = self.corner;
         let [dx, dy] = self.spacing;

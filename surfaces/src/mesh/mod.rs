@@ -147,23 +147,27 @@ impl<T: Real> Mesh<T> {
 
     /// The origin of the stored vertices \[m\], and the factor that they are scaled by.
     #[inline]
-    pub(crate) const fn frame(&self) -> (Vector3<T>, T) {
+    #[doc(hidden)]
+    pub const fn frame(&self) -> (Vector3<T>, T) {
         (self.centre, self.scale)
     }
 
     /// A vertex as stored.
     #[inline]
-    pub(crate) fn stored(&self, vertex: u32) -> Option<&Vector3<T>> {
+    #[doc(hidden)]
+    pub fn stored(&self, vertex: u32) -> Option<&Vector3<T>> {
         self.vertices.get(vertex as usize)
     }
 
     /// Every vertex with those at the other ends of its edges.
-    pub(crate) fn fans(&self) -> impl Iterator<Item = (u32, &[u32])> + '_ {
+    #[doc(hidden)]
+    pub fn fans(&self) -> impl Iterator<Item = (u32, &[u32])> + '_ {
         self.fans.iter()
     }
 
     #[inline]
-    pub(crate) fn normal_of(&self, triangle: usize) -> Vector3<T> {
+    #[doc(hidden)]
+    pub fn normal_of(&self, triangle: usize) -> Vector3<T> {
         self.corners(triangle).map_or_else(Vector3::z, |corners| packet::normal_of(&corners.map(|v| *v)))
     }
 }

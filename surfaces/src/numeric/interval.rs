@@ -7,31 +7,24 @@ use crate::Crossing;
 
 /// One end of the part of a line inside a convex solid.
 #[derive(Clone, Copy)]
-pub(crate) struct End<T: Real> {
-    pub(crate) along: T,
-    pub(crate) normal: Vector3<T>,
-    pub(crate) active: bool,
+pub struct End<T: Real> {
+    pub along: T,
+    pub normal: Vector3<T>,
+    pub active: bool,
 }
 
 /// The part of a line inside a convex solid.
 #[derive(Clone, Copy)]
-pub(crate) struct Inside<T: Real> {
-    pub(crate) entry: End<T>,
-    pub(crate) exit: End<T>,
+pub struct Inside<T: Real> {
+    pub entry: End<T>,
+    pub exit: End<T>,
 }
 
 impl<T: Real> Inside<T> {
     /// What is left inside the half-space below the plane at `level` along the unit vector
     /// `normal`, for a line that starts at `height` over the origin; `None` if nothing is.
     #[inline]
-    pub(crate) fn below(
-        self,
-        level: T,
-        height: T,
-        slope: T,
-        normal: Vector3<T>,
-        active: bool,
-    ) -> Option<Self> {
+    pub fn below(self, level: T, height: T, slope: T, normal: Vector3<T>, active: bool) -> Option<Self> {
         let along = (level - height) / slope;
         let end = End { along, normal, active };
         let clipped = if slope > T::zero() && along < T::GREATEST {
@@ -49,13 +42,7 @@ impl<T: Real> Inside<T> {
     /// Reports both ends, `offset` being the position along the line of the point that the
     /// distances count from, `start`.
     #[inline]
-    pub(crate) fn report(
-        self,
-        line: &Line<T>,
-        start: &Vector3<T>,
-        offset: T,
-        mut visit: impl FnMut(Crossing<T>),
-    ) {
+    pub fn report(self, line: &Line<T>, start: &Vector3<T>, offset: T, mut visit: impl FnMut(Crossing<T>)) {
         for end in [self.entry, self.exit] {
             if end.along.abs() < T::GREATEST {
                 visit(Crossing {

@@ -5,7 +5,7 @@ use fingertip_wrench::Real;
 /// `a·d − b·c` to two rounding errors, however much cancels (Kahan's algorithm; Jeannerod, Louvet &
 /// Muller 2013).
 #[inline]
-pub(crate) fn difference_of_products<T: Real>(a: T, d: T, b: T, c: T) -> T {
+pub fn difference_of_products<T: Real>(a: T, d: T, b: T, c: T) -> T {
     let (p, p_error) = a.two_product(d);
     let (q, q_error) = b.two_product(c);
     (p - q) + (p_error - q_error)
@@ -17,7 +17,7 @@ pub(crate) fn difference_of_products<T: Real>(a: T, d: T, b: T, c: T) -> T {
 /// the roots without cancellation: `q = −(b + sign(b)·√(b² − a·c))`, `q/a`, `c/q`. A root beyond
 /// the range of the type is infinite or NaN; the caller shall test.
 #[inline]
-pub(crate) fn roots<T: Real>(a: T, b: T, c: T) -> Option<[T; 2]> {
+pub fn roots<T: Real>(a: T, b: T, c: T) -> Option<[T; 2]> {
     let discriminant = difference_of_products(b, b, a, c);
     if !(discriminant >= T::zero()) {
         return None;

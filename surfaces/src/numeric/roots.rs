@@ -7,7 +7,7 @@ const MOST_HALVINGS: usize = 120;
 
 /// A root of `f` in `[low, high]`, at whose ends `f` has different signs (or is zero), as
 /// [`bracketed_from`] the middle finds it. `f` returns the value and the derivative.
-pub(crate) fn bracketed<T: Real>(low: T, high: T, f: impl Fn(T) -> (T, T)) -> T {
+pub fn bracketed<T: Real>(low: T, high: T, f: impl Fn(T) -> (T, T)) -> T {
     let (at_low, _) = f(low);
     let (at_high, _) = f(high);
     if at_low == T::zero() {
@@ -24,13 +24,7 @@ pub(crate) fn bracketed<T: Real>(low: T, high: T, f: impl Fn(T) -> (T, T)) -> T 
 /// method from `start` between them, kept inside the bracket, bisecting whenever it does not halve its
 /// step. Values up to `noise` cannot be told from zero.
 #[inline]
-pub(crate) fn bracketed_from<T: Real>(
-    start: T,
-    mut below: T,
-    mut above: T,
-    noise: T,
-    f: impl Fn(T) -> (T, T),
-) -> T {
+pub fn bracketed_from<T: Real>(start: T, mut below: T, mut above: T, noise: T, f: impl Fn(T) -> (T, T)) -> T {
     let mut t = start;
     let mut step_before = (above - below).abs();
     for _ in 0..2 * MOST_HALVINGS {
@@ -61,7 +55,7 @@ pub(crate) fn bracketed_from<T: Real>(
 }
 
 /// Where a falling function of `[low, high]` changes sign, by its sign alone.
-pub(crate) fn bisected<T: Real>(mut low: T, mut high: T, is_before: impl Fn(T) -> bool) -> T {
+pub fn bisected<T: Real>(mut low: T, mut high: T, is_before: impl Fn(T) -> bool) -> T {
     for _ in 0..MOST_HALVINGS {
         let middle = low + (high - low) * T::literal(0.5);
         if !(middle > low && middle < high) {
@@ -82,7 +76,7 @@ pub(crate) fn bisected<T: Real>(mut low: T, mut high: T, is_before: impl Fn(T) -
 /// Newton's method on a convex function never oversteps its first root, since the tangent lies
 /// below the function; so an iterate that has passed the minimum without meeting a root proves
 /// that there is none. `f` returns value and derivative (any subgradient).
-pub(crate) fn first_of_convex<T: Real>(start: T, towards: T, f: impl Fn(T) -> (T, T)) -> Option<T> {
+pub fn first_of_convex<T: Real>(start: T, towards: T, f: impl Fn(T) -> (T, T)) -> Option<T> {
     let mut t = start;
     for _ in 0..MOST_HALVINGS {
         let (value, slope) = f(t);
@@ -112,7 +106,7 @@ const DEPTH: usize = 24;
 /// them is still looked for.
 ///
 /// The work is bounded: at most a few thousand evaluations, for a line that stays tangent.
-pub(crate) fn all_of_lipschitz<T: Real>(
+pub fn all_of_lipschitz<T: Real>(
     low: T,
     high: T,
     steepest: T,

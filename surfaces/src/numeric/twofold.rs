@@ -9,33 +9,33 @@ use nalgebra::Vector3;
 /// Not in line: it is for the few places where most digits cancel, which are not on the fast path,
 /// and a microcontroller should hold it once.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Twofold<T> {
+pub struct Twofold<T> {
     high: T,
     low: T,
 }
 
 impl<T: Real> Twofold<T> {
     #[inline]
-    pub(crate) fn new(x: T) -> Self {
+    pub fn new(x: T) -> Self {
         Self { high: x, low: T::zero() }
     }
 
     /// `a − b`, exactly.
     #[inline]
-    pub(crate) fn difference(a: T, b: T) -> Self {
+    pub fn difference(a: T, b: T) -> Self {
         let (high, low) = a.two_sum(-b);
         Self { high, low }
     }
 
     #[inline(never)]
-    pub(crate) fn plus(self, other: Self) -> Self {
+    pub fn plus(self, other: Self) -> Self {
         let (sum, error) = self.high.two_sum(other.high);
         let (high, low) = sum.two_sum(error + (self.low + other.low));
         Self { high, low }
     }
 
     #[inline(never)]
-    pub(crate) fn times(self, other: Self) -> Self {
+    pub fn times(self, other: Self) -> Self {
         let (product, error) = self.high.two_product(other.high);
         let (high, low) = product.two_sum(error + (self.high * other.low + self.low * other.high));
         Self { high, low }
@@ -43,7 +43,7 @@ impl<T: Real> Twofold<T> {
 
     /// The quotient by a number that is not twofold.
     #[inline(never)]
-    pub(crate) fn over(self, divisor: T) -> Self {
+    pub fn over(self, divisor: T) -> Self {
         let quotient = self.high / divisor;
         let (product, error) = quotient.two_product(divisor);
         let (high, low) = quotient.two_sum(((self.high - product) - error + self.low) / divisor);
@@ -51,14 +51,14 @@ impl<T: Real> Twofold<T> {
     }
 
     /// The quotient by a twofold number.
-    pub(crate) fn divided_by(self, divisor: Self) -> Self {
+    pub fn divided_by(self, divisor: Self) -> Self {
         let quotient = self.over(divisor.high);
         // 1/(h + l) = 1/h − l/h², but for the square of what rounding took.
         quotient.minus(quotient.times(Self::new(divisor.low / divisor.high)))
     }
 
     /// The square root; zero of what is not positive.
-    pub(crate) fn root(self) -> Self {
+    pub fn root(self) -> Self {
         let root = self.value().root();
         if !(root > T::zero()) {
             return Self::new(T::zero());
@@ -68,25 +68,25 @@ impl<T: Real> Twofold<T> {
     }
 
     #[inline]
-    pub(crate) fn minus(self, other: Self) -> Self {
+    pub fn minus(self, other: Self) -> Self {
         self.plus(Self { high: -other.high, low: -other.low })
     }
 
     #[inline]
-    pub(crate) fn squared(self) -> Self {
+    pub fn squared(self) -> Self {
         self.times(self)
     }
 
     /// Rounded to one number.
     #[inline]
-    pub(crate) fn value(self) -> T {
+    pub fn value(self) -> T {
         self.high + self.low
     }
 }
 
 /// Arithmetic with more digits than a result needs: double precision for what is single, twice that for
 /// what is double.
-pub(crate) trait Wide: Copy {
+pub trait Wide: Copy {
     fn exactly(x: f64) -> Self;
     fn plus(self, other: Self) -> Self;
     fn minus(self, other: Self) -> Self;
@@ -165,25 +165,25 @@ impl Wide for Twofold<f64> {
 
 /// `a − b`, exactly.
 #[inline]
-pub(crate) fn difference<T: Real>(a: &Vector3<T>, b: &Vector3<T>) -> [Twofold<T>; 3] {
+pub fn difference<T: Real>(a: &Vector3<T>, b: &Vector3<T>) -> [Twofold<T>; 3] {
     [Twofold::difference(a.x, b.x), Twofold::difference(a.y, b.y), Twofold::difference(a.z, b.z)]
 }
 
 /// Scalar product.
 #[inline(never)]
-pub(crate) fn dot<T: Real>([a, b, c]: [Twofold<T>; 3], [x, y, z]: [Twofold<T>; 3]) -> Twofold<T> {
+pub fn dot<T: Real>([a, b, c]: [Twofold<T>; 3], [x, y, z]: [Twofold<T>; 3]) -> Twofold<T> {
     a.times(x).plus(b.times(y)).plus(c.times(z))
 }
 
 /// Scalar product with a vector of ordinary numbers.
 #[inline]
-pub(crate) fn dot_with<T: Real>(a: [Twofold<T>; 3], b: &Vector3<T>) -> Twofold<T> {
+pub fn dot_with<T: Real>(a: [Twofold<T>; 3], b: &Vector3<T>) -> Twofold<T> {
     dot(a, [Twofold::new(b.x), Twofold::new(b.y), Twofold::new(b.z)])
 }
 
 /// How far the end of a vector is outside the ball of this radius about its start, to first order:
 /// `(|v|² − r²)/2r`.
-pub(crate) fn outside_ball<T: Real>([x, y, z]: [Twofold<T>; 3], radius: T) -> T {
+pub fn outside_ball<T: Real>([x, y, z]: [Twofold<T>; 3], radius: T) -> T {
     // Not by `dot`, which a microcontroller with a sphere would hold for this alone.
     let squared = x.squared().plus(y.squared()).plus(z.squared());
     squared.minus(Twofold::new(radius).squared()).value() / (radius + radius)

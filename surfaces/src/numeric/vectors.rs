@@ -6,46 +6,46 @@ use nalgebra::Vector3;
 /// The largest magnitude of a component. Unlike `amax` it passes over a NaN, which costs nothing:
 /// what is scaled by it stays NaN.
 #[inline]
-pub(crate) fn largest<T: Real>(v: &Vector3<T>) -> T {
+pub fn largest<T: Real>(v: &Vector3<T>) -> T {
     larger(larger(v.x.abs(), v.y.abs()), v.z.abs())
 }
 
 /// The larger of two numbers; the second if one is NaN.
 #[inline]
-pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
+pub fn larger<T: Real>(a: T, b: T) -> T {
     if a > b { a } else { b }
 }
 
 /// The smaller of two numbers; the second if one is NaN.
 #[inline]
-pub(crate) fn smaller<T: Real>(a: T, b: T) -> T {
+pub fn smaller<T: Real>(a: T, b: T) -> T {
     if a < b { a } else { b }
 }
 
 /// `true` if products of up to eight such numbers stay within the range of the type, with all their
 /// digits.
 #[inline]
-pub(crate) fn is_tame<T: Real>(x: T) -> bool {
+pub fn is_tame<T: Real>(x: T) -> bool {
     x > T::LEAST_NORMAL.root().root().root() && x < T::GREATEST.root().root().root()
 }
 
 /// A power of two that brings a number near 1, or just 1 if it is tame: to be used where products
 /// must stay in range, and no more.
 #[inline]
-pub(crate) fn taming_factor<T: Real>(x: T) -> T {
+pub fn taming_factor<T: Real>(x: T) -> T {
     if is_tame(x) { T::one() } else { x.normalising_factor() }
 }
 
 /// Euclidean length, for components over the whole range of the type.
 #[inline]
-pub(crate) fn length<T: Real>(v: &Vector3<T>) -> T {
+pub fn length<T: Real>(v: &Vector3<T>) -> T {
     let scale = v.amax().normalising_factor();
     (v * scale).norm_squared().root() / scale
 }
 
 /// `√(a² + b²)` for numbers over the whole range of the type.
 #[inline]
-pub(crate) fn hypotenuse<T: Real>(a: T, b: T) -> T {
+pub fn hypotenuse<T: Real>(a: T, b: T) -> T {
     let scale = a.abs().max(b.abs()).normalising_factor();
     let (a, b) = (a * scale, b * scale);
     (a * a + b * b).root() / scale
@@ -53,7 +53,7 @@ pub(crate) fn hypotenuse<T: Real>(a: T, b: T) -> T {
 
 /// The unit vector along `v`; `fallback` if `v` is zero or not finite.
 #[inline]
-pub(crate) fn unit_or<T: Real>(v: &Vector3<T>, fallback: impl FnOnce() -> Vector3<T>) -> Vector3<T> {
+pub fn unit_or<T: Real>(v: &Vector3<T>, fallback: impl FnOnce() -> Vector3<T>) -> Vector3<T> {
     let scaled = v * v.amax().normalising_factor();
     let squared = scaled.norm_squared();
     if squared > T::zero() && squared.is_number() {
@@ -68,7 +68,7 @@ pub(crate) fn unit_or<T: Real>(v: &Vector3<T>, fallback: impl FnOnce() -> Vector
 /// Two unit vectors that span the plane across `normal`, right-handed with it without a root or a branch
 /// (Duff et al. 2017, after Frisvad 2012).
 #[inline]
-pub(crate) fn tangents<T: Real>(normal: &Vector3<T>) -> (Vector3<T>, Vector3<T>) {
+pub fn tangents<T: Real>(normal: &Vector3<T>) -> (Vector3<T>, Vector3<T>) {
     let sign = if normal.z >= T::zero() { T::one() } else { -T::one() };
     let a = -T::one() / (sign + normal.z);
     let b = normal.x * normal.y * a;
@@ -80,7 +80,7 @@ pub(crate) fn tangents<T: Real>(normal: &Vector3<T>) -> (Vector3<T>, Vector3<T>)
 
 /// A unit vector across a unit vector.
 #[inline]
-pub(crate) fn any_perpendicular<T: Real>(direction: &Vector3<T>) -> Vector3<T> {
+pub fn any_perpendicular<T: Real>(direction: &Vector3<T>) -> Vector3<T> {
     tangents(direction).0
 }
 
@@ -89,7 +89,7 @@ pub(crate) fn any_perpendicular<T: Real>(direction: &Vector3<T>) -> Vector3<T> {
 /// Off by a rounding error of the distance between `centre` and the line's own point: lines of action
 /// have theirs nearby.
 #[inline]
-pub(crate) fn foot<T: Real>(line: &Line<T>, centre: &Vector3<T>) -> (Vector3<T>, T) {
+pub fn foot<T: Real>(line: &Line<T>, centre: &Vector3<T>) -> (Vector3<T>, T) {
     let from_centre = line.point - centre;
     let along = -from_centre.dot(&line.direction);
     (from_centre + line.direction * along, along)
@@ -97,25 +97,25 @@ pub(crate) fn foot<T: Real>(line: &Line<T>, centre: &Vector3<T>) -> (Vector3<T>,
 
 /// In double precision.
 #[inline]
-pub(crate) fn wide<T: Real>(v: &Vector3<T>) -> Vector3<f64> {
+pub fn wide<T: Real>(v: &Vector3<T>) -> Vector3<f64> {
     v.map(Real::to_f64)
 }
 
 /// An angle as files have it.
 #[cfg(feature = "serde")]
-pub(crate) fn to_degrees<T: Real>(radians: T) -> T {
+pub fn to_degrees<T: Real>(radians: T) -> T {
     radians * T::literal(180.0) / T::pi()
 }
 
 /// And back.
 #[cfg(feature = "serde")]
-pub(crate) fn from_degrees<T: Real>(degrees: T) -> T {
+pub fn from_degrees<T: Real>(degrees: T) -> T {
     degrees / T::literal(180.0) * T::pi()
 }
 
 /// The vector, or one that is nearer by so much that its length does not leave the range.
 #[inline]
-pub(crate) fn within_range<T: Real>(v: &Vector3<T>) -> Vector3<T> {
+pub fn within_range<T: Real>(v: &Vector3<T>) -> Vector3<T> {
     let far = T::GREATEST * T::literal(0.0625);
     v.map(|x| x.max(-far).min(far))
 }
@@ -123,13 +123,13 @@ pub(crate) fn within_range<T: Real>(v: &Vector3<T>) -> Vector3<T> {
 /// `false` for a point beyond the range of the type, as where a line is parallel to a surface but for
 /// a rounding error; cheaper than [`is_finite`]. No shape of this crate shall report one; a user's might.
 #[inline]
-pub(crate) fn in_range<T: Real>(point: &Vector3<T>) -> bool {
+pub fn in_range<T: Real>(point: &Vector3<T>) -> bool {
     (point.x + point.y + point.z).is_number()
 }
 
 /// `true` if no component is NaN or infinite.
 #[inline]
-pub(crate) fn is_finite<T: Real>(v: &Vector3<T>) -> bool {
+pub fn is_finite<T: Real>(v: &Vector3<T>) -> bool {
     v.x.is_number() & v.y.is_number() & v.z.is_number()
 }
 

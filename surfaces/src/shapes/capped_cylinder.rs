@@ -35,7 +35,8 @@ impl<T: Real> CappedCylinder<T> {
 
     /// As the frustum that it is.
     #[inline]
-    pub(crate) const fn solid(&self) -> &Frustum<T> {
+    #[doc(hidden)]
+    pub const fn solid(&self) -> &Frustum<T> {
         &self.solid
     }
 

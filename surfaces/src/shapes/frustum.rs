@@ -122,13 +122,15 @@ impl<T: Real> Frustum<T> {
 
     /// By how much the radius shrinks per height.
     #[inline]
-    pub(crate) const fn taper(&self) -> T {
+    #[doc(hidden)]
+    pub const fn taper(&self) -> T {
         self.taper
     }
 
     /// Cosine of the angle between the side and the axis.
     #[inline]
-    pub(crate) const fn side_cosine(&self) -> T {
+    #[doc(hidden)]
+    pub const fn side_cosine(&self) -> T {
         self.side_cosine
     }
 

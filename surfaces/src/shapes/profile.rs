@@ -3,7 +3,7 @@
 use fingertip_wrench::Real;
 
 use crate::numeric::twofold::Twofold;
-use crate::{BadShape, Patch};
+use crate::{BadShape, LocalSurface};
 
 /// One point of a profile, and how the curve goes on from there to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -196,7 +196,7 @@ pub(super) fn exactly_at<T: Real>(knots: &[Knot<T>], z: T) -> Option<[Twofold<T>
 }
 
 /// The part of the side at a height, by the numbers of the nearer knot. Those at the ends go on.
-pub(super) fn patch_at<T: Real>(knots: &[Knot<T>], z: T) -> Option<Patch> {
+pub(super) fn local_surface_at<T: Real>(knots: &[Knot<T>], z: T) -> Option<LocalSurface> {
     let (below, this, next) = interval(knots, z)?;
     let is_last = below + 2 == knots.len();
     let [low, high, at] = [this.z, next.z, z].map(Real::to_f64);
@@ -206,7 +206,7 @@ pub(super) fn patch_at<T: Real>(knots: &[Knot<T>], z: T) -> Option<Patch> {
     let from_this = at <= half;
     let knot = if from_this { this } else { next };
     let slope = exact(knot.slope, knot.rests[0]);
-    Some(Patch::Turned {
+    Some(LocalSurface::Turned {
         origin: knot.z.to_f64(),
         radius: knot.radius.to_f64(),
         slope,

@@ -7,12 +7,12 @@ use alloc::vec::Vec;
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use super::profile::{Knot, exactly_at, fit, patch_at, pieces};
+use super::profile::{Knot, exactly_at, fit, local_surface_at, pieces};
 use super::sight::Sight;
 use crate::numeric::quadratic::roots;
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, hypotenuse, is_finite, length, unit_or};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Patch};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, LocalSurface};
 
 /// A solid of revolution around the z axis; [`Posed`](crate::Posed) puts it elsewhere.
 ///
@@ -92,7 +92,8 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
     }
 
     /// Squared radius at a height, with its first and second derivative; straight beyond the ends.
-    pub(crate) fn profile(&self, z: T) -> [T; 3] {
+    #[doc(hidden)]
+    pub fn profile(&self, z: T) -> [T; 3] {
         let mut found = None;
         for piece in pieces(self.knots()) {
             if z < piece.low && found.is_some() {
@@ -109,7 +110,8 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
 
     /// `true` if the radius is a concave function of the height: on each piece,
     /// `2ρ²(ρ²)″ ≤ ((ρ²)′)²`, of which both sides differ by a constant.
-    pub(crate) fn is_convex(&self) -> bool {
+    #[doc(hidden)]
+    pub fn is_convex(&self) -> bool {
         pieces(self.knots()).all(|piece| {
             let four = T::literal(4.0);
             let (rise, bend) = (piece.slope * piece.slope, four * piece.squared * piece.curvature);
@@ -117,7 +119,8 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
         })
     }
 
-    pub(crate) fn bounds(&self) -> (Vector3<T>, T) {
+    #[doc(hidden)]
+    pub fn bounds(&self) -> (Vector3<T>, T) {
         let (low, high) = self.ends().map_or((T::zero(), T::zero()), |(a, b)| (a.z, b.z));
         let half = (high - low) * T::literal(0.5);
         // The spline may bulge over its knots: by its slope, at most.
@@ -143,8 +146,9 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
     }
 
     /// The part of the side at a height, to the last digit.
-    pub(crate) fn patch_at(&self, z: T) -> Option<Patch> {
-        patch_at(self.knots(), z)
+    #[doc(hidden)]
+    pub fn local_surface_at(&self, z: T) -> Option<LocalSurface> {
+        local_surface_at(self.knots(), z)
     }
 
     fn inside(&self, radius: T, z: T) -> bool {

@@ -1,10 +1,11 @@
 //! Curvature: what surfaces know beyond crossings and normals.
 
+pub(crate) mod combinators;
 mod distances;
 mod flat_ends;
 mod gauges;
 mod implicit;
-mod parameters;
+mod revolution;
 mod smooth_surface;
 
 pub use implicit::SmoothImplicit;

@@ -84,18 +84,6 @@ fn nonsense_is_refused_with_a_reason() {
 }
 
 #[test]
-fn models_survive_a_file() {
-    let model = PointContact::new(0.1)
-        .and_then(|m| m.accepting_gap(0.001))
-        .and_then(|m| m.with_greatest_friction(0.8))
-        .unwrap();
-    let written = toml::to_string(&model).unwrap();
-    assert!(written.contains("least_force_N = 0.1"), "{written}");
-    assert_eq!(toml::from_str::<PointContact<f64>>(&written).unwrap(), model);
-    assert!(toml::from_str::<PointContact<f64>>("least_force_N = -1.0").is_err());
-}
-
-#[test]
 fn fixed_profiles_survive_a_file() {
     let tip = Revolution::from_profile([[0.0, 0.3], [0.3, 0.25], [0.5, 0.0]]).unwrap();
     let written = toml::to_string(&tip).unwrap();

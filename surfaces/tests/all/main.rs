@@ -1,11 +1,7 @@
-//! Shapes, their laws, files of them, and point contact.
+//! Shapes, their laws, and files of them.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod any_bits;
-mod batch;
 mod dyn_surface;
-mod grazing;
 mod laws;
 mod mesh;
-mod point_contact;

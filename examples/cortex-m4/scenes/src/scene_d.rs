@@ -2,7 +2,7 @@
 //! limit surface, the likelihood ratio of a drop, the covariance of the contact.
 
 use fingertip::friction::{LikelihoodRatioDetector, PowerLimit, PressureDistribution};
-use fingertip::surfaces::{ContactCovariance, PointContact};
+use fingertip::contact::{ContactCovariance, PointContact};
 use fingertip::wrench::{
     Compensation, ConsistencyCheck, LeastSquares, SensorMatrix, Tare, Verdict, WrenchCovariance, WrenchSolver,
 };

@@ -1,6 +1,7 @@
 //! Where numerical error stops mattering.
 
-use fingertip_surfaces::{ContactModel, Ellipsoid, PointContact, SoftFinger};
+use fingertip_contact::{ContactModel, PointContact, SoftFinger};
+use fingertip_surfaces::Ellipsoid;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};

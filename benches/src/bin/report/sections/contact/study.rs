@@ -3,9 +3,8 @@
 use core::cell::Cell;
 use core::hint::black_box;
 
-use fingertip_surfaces::{
-    ContactModel, PointContact, Resolution, SmoothSurface, SoftFinger, SoftFingerSurface,
-};
+use fingertip_contact::{ContactModel, PointContact, Resolution, SoftFinger, SoftFingerSurface};
+use fingertip_surfaces::SmoothSurface;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};

@@ -1,0 +1,177 @@
+//! What a tactile array says of one contact.
+
+use fingertip_wrench::{Line, Real};
+use nalgebra::{Matrix2, Matrix3, Matrix5, Matrix6x5, Vector2, Vector3, Vector5};
+
+use fingertip_surfaces::numeric::vectors::tangents;
+use fingertip_surfaces::numeric::vectors::unit_or;
+use fingertip_surfaces::{ActiveSurface, BadShape};
+
+/// One contact as a tactile array in the skin reports it (extrinsic tactile sensing).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ArrayContact<T: Real> {
+    /// Centroid of the pressure \[m\].
+    pub centroid: Vector3<T>,
+    /// Covariance of the centroid \[m²\]; only its part in the tangent plane counts.
+    pub centroid_covariance: Matrix3<T>,
+    /// Sum of the pressure: the normal force \[N\].
+    pub normal_force: T,
+    /// Standard deviation of the normal force \[N\].
+    pub normal_deviation: T,
+}
+
+impl<T: Real> ArrayContact<T> {
+    pub(super) fn is_valid(&self) -> bool {
+        let numbers = self.centroid.sum() + self.centroid_covariance.sum() + self.normal_force;
+        let spread = self.centroid_covariance.diagonal().min();
+        numbers.is_number()
+            && spread >= T::zero()
+            && self.normal_deviation > T::zero()
+            && self.normal_deviation.is_number()
+    }
+}
+
+/// The reading as a Gaussian in the frame of the surface at the centroid: two shifts in the tangent
+/// plane there, and the force.
+#[derive(Clone, Copy)]
+pub(super) struct Prior<T: Real> {
+    origin: Vector3<T>,
+    normal: Vector3<T>,
+    tangents: [Vector3<T>; 2],
+    shift_covariance: Matrix2<T>,
+    pub(super) force: Vector3<T>,
+    normal_variance: T,
+    tangential_variance: T,
+}
+
+/// Where a contact is taken to be while the estimate is sought.
+#[derive(Clone, Copy)]
+pub(super) struct State<T: Real> {
+    pub(super) shift: Vector2<T>,
+    pub(super) force: Vector3<T>,
+    pub(super) point: Vector3<T>,
+    pub(super) normal: Vector3<T>,
+}
+
+impl<T: Real> State<T> {
+    /// Shift and force.
+    pub(super) fn vector(&self) -> Vector5<T> {
+        Vector5::new(self.shift.x, self.shift.y, self.force.x, self.force.y, self.force.z)
+    }
+}
+
+impl<T: Real> Prior<T> {
+    pub(super) fn new<S: ActiveSurface<T>>(
+        surface: &S,
+        reading: &ArrayContact<T>,
+        friction: T,
+    ) -> Result<Self, BadShape> {
+        let bad = |requirement| BadShape { shape: "array contact", parameter: "reading", requirement };
+        if !reading.is_valid() {
+            return Err(bad("finite, with variances that are not negative and a deviation above zero"));
+        }
+        let outward = surface.normal(&reading.centroid);
+        let (point, normal) = nearest(surface, &reading.centroid, &outward).ok_or(bad("near the surface"))?;
+        let (first, second) = tangents(&normal);
+        let spread = |a: &Vector3<T>, b: &Vector3<T>| a.dot(&(reading.centroid_covariance * b));
+        let mixed = (spread(&first, &second) + spread(&second, &first)) * T::literal(0.5);
+        // Nothing is known of the tangential force but that friction holds it: of a disc of radius μ N
+        // the variance along each axis is (μ N/2)².
+        let radius = reading.normal_force.abs().max(reading.normal_deviation) * friction;
+        let weight = radius * T::literal(0.5);
+        Ok(Self {
+            origin: point,
+            normal,
+            tangents: [first, second],
+            shift_covariance: Matrix2::new(spread(&first, &first), mixed, mixed, spread(&second, &second)),
+            force: -normal * reading.normal_force,
+            normal_variance: reading.normal_deviation * reading.normal_deviation,
+            tangential_variance: weight * weight,
+        })
+    }
+
+    /// On the surface, straight above or below a shift in the tangent plane.
+    pub(super) fn state<S: ActiveSurface<T>>(
+        &self,
+        surface: &S,
+        shift: Vector2<T>,
+        force: Vector3<T>,
+    ) -> Option<State<T>> {
+        let above = self.origin + self.tangents[0] * shift.x + self.tangents[1] * shift.y;
+        let (point, normal) = nearest(surface, &above, &self.normal)?;
+        (normal.dot(&self.normal) > T::zero()).then_some(State { shift, force, point, normal })
+    }
+
+    /// How the normal at a state turns with each of the two shifts.
+    pub(super) fn turning<S: ActiveSurface<T>>(&self, surface: &S, state: &State<T>) -> [Vector3<T>; 2] {
+        // Far less than where the contact may be, far more than rounding.
+        let spread = self.shift_covariance.diagonal().amax().root();
+        let size = spread.max(state.point.amax() * T::EPSILON.root());
+        let step = size * T::EPSILON.cbrt() * T::literal(16.0);
+        self.moved_tangents(state).map(|moved| {
+            let (ahead, behind) = (state.point + moved * step, state.point - moved * step);
+            let change = (surface.normal(&ahead) - surface.normal(&behind)) / (step + step);
+            if change.sum().is_number() { change } else { Vector3::zeros() }
+        })
+    }
+
+    /// What its own reading asks of the force, if it is to be none: minus the slope of the prior.
+    pub(super) fn asks_at_rest(&self) -> Vector3<T> {
+        let along = self.normal * self.force.dot(&self.normal);
+        along / self.normal_variance + (self.force - along) / self.tangential_variance
+    }
+
+    /// A light force on the side of a state's friction cone on which a slope gains most.
+    pub(super) fn lightest_on(&self, state: &State<T>, asked: &Vector3<T>, friction: T) -> Vector3<T> {
+        let slope = asked + self.asks_at_rest();
+        let across = slope - state.normal * slope.dot(&state.normal);
+        let direction = unit_or(&across, || self.tangents[0]);
+        (direction * friction - state.normal) * (self.normal_variance.root() * T::literal(0.1))
+    }
+
+    /// Covariance of shift and force.
+    pub(super) fn covariance(&self) -> Matrix5<T> {
+        let along = self.normal * self.normal.transpose();
+        let force = along * self.normal_variance + (Matrix3::identity() - along) * self.tangential_variance;
+        let mut whole = Matrix5::zeros();
+        whole.fixed_view_mut::<2, 2>(0, 0).copy_from(&self.shift_covariance);
+        whole.fixed_view_mut::<3, 3>(2, 2).copy_from(&force);
+        whole
+    }
+
+    /// Derivatives of the contact's wrench by shift and force.
+    pub(super) fn jacobian(&self, state: &State<T>) -> Matrix6x5<T> {
+        let mut jacobian = Matrix6x5::zeros();
+        jacobian.fixed_view_mut::<3, 3>(0, 2).copy_from(&Matrix3::identity());
+        jacobian.fixed_view_mut::<3, 3>(3, 2).copy_from(&state.point.cross_matrix());
+        let rise = T::one() / state.normal.dot(&self.normal);
+        for (column, tangent) in self.tangents.iter().enumerate() {
+            // Along the tangent, then along the prior's normal back onto the surface.
+            let moved = tangent - self.normal * (state.normal.dot(tangent) * rise);
+            jacobian.fixed_view_mut::<3, 1>(3, column).copy_from(&moved.cross(&state.force));
+        }
+        jacobian
+    }
+
+    /// The two tangents of the prior, carried to a state's tangent plane.
+    pub(super) fn moved_tangents(&self, state: &State<T>) -> [Vector3<T>; 2] {
+        let rise = T::one() / state.normal.dot(&self.normal);
+        self.tangents.map(|tangent| tangent - self.normal * (state.normal.dot(&tangent) * rise))
+    }
+}
+
+/// The point of the surface nearest to `point` along `direction`, with its normal.
+fn nearest<T: Real, S: ActiveSurface<T>>(
+    surface: &S,
+    point: &Vector3<T>,
+    direction: &Vector3<T>,
+) -> Option<(Vector3<T>, Vector3<T>)> {
+    let mut best: Option<(T, Vector3<T>, Vector3<T>)> = None;
+    surface.crossings(&Line { point: *point, direction: *direction }, |crossing| {
+        let distance = crossing.along.abs();
+        if best.is_none_or(|(least, ..)| distance < least) {
+            best = Some((distance, crossing.point, crossing.normal));
+        }
+    });
+    best.map(|(_, point, normal)| (point, normal))
+}

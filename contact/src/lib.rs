@@ -1,0 +1,31 @@
+#![cfg_attr(not(feature = "std"), no_std)]
+#![doc = include_str!("../README.md")]
+
+#[cfg(feature = "batch")]
+pub mod batch;
+#[cfg(feature = "fusion")]
+mod fusion;
+mod model;
+#[cfg(feature = "skin")]
+mod skin;
+mod soft_finger;
+mod uncertainty;
+
+#[cfg(feature = "fusion")]
+pub use fusion::{ArrayContact, Fused, FusedContact, Fusion, Grip};
+pub use model::{
+    Auto, Choice, Contact, ContactBound, ContactModel, NoContact, PitchTest, PointContact, Resolution,
+    WorstErrors,
+};
+#[cfg(feature = "skin")]
+pub use skin::{
+    Compliant, CompliantContact, CompliantPointContact, CompliantSoftFinger, Hertz, Indentation,
+    IndentationSlope, LinearStiffness, LocalHertz, PowerLaw, SkinLaw, StiffnessLaw, Tabulated,
+    contact_modulus,
+};
+pub use soft_finger::{Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};
+pub use uncertainty::{
+    ConfidenceEllipse, ContactCovariance, ContactJacobian, ConvexBound, GeometrySensitivity,
+    GeometryUncertainty, IndependentNoise, IsotropicNoise, PaperBounds, SensorUncertainty, ShapeParameters,
+    WorstCase, WrenchNoise, WrenchSpread,
+};

@@ -1,0 +1,401 @@
+//! Contact in a point, without local torque.
+
+use fingertip_wrench::{
+    ContactForce, Line, LineOfAction, NoLineOfAction, Real, TangentialForce, Wrench, stored,
+};
+use nalgebra::Vector3;
+
+use super::long_way::long_way;
+use super::onto_line::onto_line;
+use super::{Contact, ContactModel, NoContact, Resolution};
+use fingertip_surfaces::numeric::vectors::{hypotenuse, in_range, larger, smaller};
+use fingertip_surfaces::{ActiveSurface, BadShape, Crossing, ForceLine, ForceParts};
+
+/// A contact that transmits a force and no torque of its own: it lies where the wrench's line of
+/// action *enters* the surface (Salisbury 1984; equations (1), (2) of Bicchi & Dario 1987, mended
+/// in theory 1).
+///
+/// The pitch of the wrench is ignored. A shape that is not convex may be entered several times. Of
+/// those entries the ones that would need more friction than
+/// [`with_greatest_friction`](Self::with_greatest_friction) allows are set aside; of the rest the one
+/// nearest to the last contact is taken if that is given, otherwise the one where the force presses
+/// most squarely, which asks least of friction. [`Contact::alternatives`] counts the others, and
+/// [`candidates`](Self::candidates) reports them all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointContact<T: Real> {
+    least_force: T,
+    greatest_gap: T,
+    greatest_friction: Option<T>,
+    /// `1/√(1 + μ²)`: the least cosine between force and inward normal.
+    least_incidence: T,
+    /// The least square of a force, and of the cosine, that take the short way.
+    short_way: [T; 2],
+}
+
+/// Below this cosine of incidence, where rounding errors grow more than threefold, the long way is
+/// taken.
+#[inline]
+pub(crate) fn flat<T: Real>() -> T {
+    T::literal(0.3)
+}
+
+impl<T: Real> PointContact<T> {
+    /// Forces below `least_force` \[N\] are no contact. Take it from the noise of the sensor: three
+    /// to five standard deviations of the force at rest. Zero accepts every force but zero.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the threshold is finite and not negative.
+    pub fn new(least_force: T) -> Result<Self, BadShape> {
+        let least_force = check("least force", least_force)?;
+        Ok(Self {
+            least_force,
+            greatest_gap: T::zero(),
+            greatest_friction: None,
+            least_incidence: T::zero(),
+            short_way: [(least_force * least_force).max(ForceLine::least_squared()), flat::<T>().powi(2)],
+        })
+    }
+
+    /// Accepts a line of action that misses the surface by at most `greatest_gap` \[m\], as noise
+    /// makes it do near grazing: the contact is then the closest point of the surface.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the gap is finite and not negative.
+    pub fn accepting_gap(self, greatest_gap: T) -> Result<Self, BadShape> {
+        Ok(Self { greatest_gap: check("accepted gap", greatest_gap)?, ..self })
+    }
+
+    /// No contact needs a friction ratio above `greatest_friction`: entries that do are left out,
+    /// and so are lines that miss, at which the ratio is infinite.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless it is finite and not negative.
+    pub fn with_greatest_friction(self, greatest_friction: T) -> Result<Self, BadShape> {
+        let mu = check("greatest friction", greatest_friction)?;
+        let least_incidence = T::one() / hypotenuse(T::one(), mu);
+        let [least_squared, _] = self.short_way;
+        let short_way = [least_squared, least_incidence.max(flat()).powi(2)];
+        Ok(Self { greatest_friction: Some(mu), least_incidence, short_way, ..self })
+    }
+
+    /// The least force that counts as a contact \[N\].
+    #[inline]
+    #[must_use]
+    pub const fn least_force(&self) -> T {
+        self.least_force
+    }
+
+    /// By how much a line of action may miss the surface \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn greatest_gap(&self) -> T {
+        self.greatest_gap
+    }
+
+    /// The greatest friction ratio that a contact may need, if there is a limit.
+    #[inline]
+    #[must_use]
+    pub const fn greatest_friction(&self) -> Option<T> {
+        self.greatest_friction
+    }
+
+    /// The line of action, if the force is one.
+    #[inline]
+    fn axis(&self, wrench: &Wrench<T>) -> Result<LineOfAction<T>, NoContact<T>> {
+        match wrench.line_of_action() {
+            Ok(axis) if axis.force >= self.least_force => Ok(axis),
+            Ok(axis) => Err(NoContact::BelowThreshold { force: axis.force }),
+            Err(NoLineOfAction::NoForce) => Err(NoContact::BelowThreshold { force: T::zero() }),
+            Err(_) => Err(NoContact::NotFinite),
+        }
+    }
+
+    /// Calls `visit` with every contact that would explain the wrench, in no particular order: all
+    /// entries of the line of action into the active surface that friction can hold. Their
+    /// `alternatives` are left zero.
+    ///
+    /// # Errors
+    /// [`NoContact`] if there is none, as [`resolve`](ContactModel::resolve) would say.
+    pub fn candidates<S: ActiveSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        mut visit: impl FnMut(Contact<T>),
+    ) -> Result<(), NoContact<T>> {
+        let axis = self.axis(wrench)?;
+        let mut any = false;
+        surface.crossings(&axis.line, |crossing| {
+            let incidence = -axis.line.direction.dot(&crossing.normal);
+            let pressing = incidence > T::zero() && incidence >= self.least_incidence;
+            if crossing.active && pressing && in_range(&crossing.point) {
+                any = true;
+                visit(entered(wrench, surface, &crossing, incidence));
+            }
+        });
+        if any {
+            return Ok(());
+        }
+        self.resolve(wrench, surface).into_result().map(&mut visit)
+    }
+}
+
+#[inline]
+fn contact_at<T: Real>(wrench: &Wrench<T>, point: Vector3<T>, normal: Vector3<T>) -> Contact<T> {
+    Contact { point, normal, force: wrench.force(), spin_torque: T::zero(), gap: T::zero(), alternatives: 0 }
+}
+
+/// The contact at a crossing; where the force meets the surface at a flat angle, without the rounding
+/// errors that grow there.
+fn entered<T: Real, S: ActiveSurface<T>>(
+    wrench: &Wrench<T>,
+    surface: &S,
+    crossing: &Crossing<T>,
+    incidence: T,
+) -> Contact<T> {
+    let Crossing { point, normal, .. } = *crossing;
+    let point =
+        if incidence < flat() { onto_line(wrench, surface, point, &normal, incidence) } else { point };
+    contact_at(wrench, point, normal)
+}
+
+/// Friction can't hold a force at this cosine of incidence.
+fn too_flat<T: Real>(point: Vector3<T>, incidence: T) -> NoContact<T> {
+    let sine = larger((T::one() - incidence) * (T::one() + incidence), T::zero()).root();
+    NoContact::BeyondFriction { point, friction_ratio: smaller(sine / incidence, T::GREATEST) }
+}
+
+fn check<T: Real>(parameter: &'static str, value: T) -> Result<T, BadShape> {
+    BadShape::check(
+        "point contact",
+        parameter,
+        "finite and not negative",
+        value >= T::zero() && value.is_number(),
+    )
+    .map(|()| value)
+}
+
+/// What has been seen of the crossings so far.
+struct Seen<T: Real> {
+    best: Option<(Crossing<T>, T)>,
+    candidates: u8,
+    too_flat: Option<(Vector3<T>, T)>,
+    tangent: Option<Crossing<T>>,
+    pulling: Option<Vector3<T>>,
+    outside: Option<Vector3<T>>,
+}
+
+impl<T: Real> Seen<T> {
+    /// Takes note of why a crossing is no contact.
+    #[inline(never)]
+    fn refuse(&mut self, crossing: &Crossing<T>, incidence: T) {
+        if !in_range(&crossing.point) {
+            return;
+        }
+        if !crossing.active {
+            self.outside = Some(crossing.point);
+        } else if !(incidence > T::zero()) {
+            if incidence >= -T::EPSILON * T::literal(64.0) {
+                self.tangent = Some(*crossing);
+            }
+            self.pulling = Some(crossing.point);
+        } else if self.too_flat.is_none_or(|(_, best)| incidence > best) {
+            self.too_flat = Some((crossing.point, incidence));
+        }
+    }
+
+    /// Why none of the crossings is a contact; `None` if there was none at all.
+    #[cold]
+    fn reason(&self) -> Option<NoContact<T>> {
+        if let Some((point, incidence)) = self.too_flat {
+            return Some(too_flat(point, incidence));
+        }
+        if let Some(point) = self.pulling {
+            return Some(NoContact::OnlyPulling { point });
+        }
+        self.outside.map(|point| NoContact::OutsideActiveRegion { point })
+    }
+}
+
+impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {
+    /// Always in line, with the long way kept out of the registers: a contact that is found the short
+    /// way then never goes through memory on its way to friction.
+    #[inline(always)]
+    fn resolve_near(&self, wrench: &Wrench<T>, surface: &S, last: Option<&Vector3<T>>) -> Resolution<T> {
+        match self.short_way(wrench, surface) {
+            Some((contact, _)) => Resolution::Contact(contact),
+            None => long_way(wrench, |copy| self.choose(copy, surface, last)),
+        }
+    }
+
+    #[inline(always)]
+    fn feel_near(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        last: Option<&Vector3<T>>,
+    ) -> (Resolution<T>, Option<ContactForce<T>>) {
+        if let Some((contact, parts)) = self.short_way(wrench, surface) {
+            let force = parts.map_or_else(|| contact.contact_force(), |parts| split(&contact, &parts));
+            return (Resolution::Contact(contact), Some(force));
+        }
+        let resolution = long_way(wrench, |copy| self.choose(copy, surface, last));
+        let force = resolution.contact().map(Contact::contact_force);
+        (resolution, force)
+    }
+}
+
+/// Splits the force of a contact whose parts are known.
+#[inline(always)]
+fn split<T: Real>(contact: &Contact<T>, parts: &ForceParts<T>) -> ContactForce<T> {
+    let tangential = contact.force + contact.normal * parts.normal;
+    ContactForce {
+        normal: parts.normal,
+        tangential: TangentialForce::of_magnitude(tangential, parts.tangential),
+        spin: contact.spin_torque,
+    }
+}
+
+impl<T: Real> PointContact<T> {
+    /// The contact of a force that enters where closed forms say, squarely enough that rounding does
+    /// not matter.
+    #[inline(always)]
+    fn short_way<S: ActiveSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+    ) -> Option<(Contact<T>, Option<ForceParts<T>>)> {
+        let [least_squared, least_steepness] = self.short_way;
+        let push = ForceLine::new(wrench, least_squared)?;
+        let entry = surface.sole_entry(&push)?;
+        (entry.active && entry.incidence_squared >= least_steepness)
+            .then(|| (contact_at(wrench, entry.point, entry.normal), entry.parts))
+    }
+
+    /// The contact, or the reason why there is none.
+    #[inline(never)]
+    fn choose<S: ActiveSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        last: Option<&Vector3<T>>,
+    ) -> Resolution<T> {
+        let axis = match self.axis(wrench) {
+            Ok(axis) => axis,
+            Err(reason) => return Resolution::NoContact(reason),
+        };
+        let found = if S::CLOSED_CONVEX {
+            self.only_entry(wrench, surface, &axis.line)
+        } else {
+            self.best_entry(wrench, surface, &axis.line, last)
+        };
+        found.unwrap_or_else(|| self.near_miss(wrench, surface, &axis.line))
+    }
+
+    /// Where the line enters a surface that no line enters twice; `None` if it misses.
+    #[inline(always)]
+    fn only_entry<S: ActiveSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        line: &Line<T>,
+    ) -> Option<Resolution<T>> {
+        let mut entry = None;
+        surface.crossings(line, |crossing| {
+            if entry.is_none() {
+                entry = Some(crossing);
+            }
+        });
+        let crossing: Crossing<T> = entry?;
+        if !in_range(&crossing.point) {
+            return Some(Resolution::NoContact(NoContact::NotFinite));
+        }
+        // A line that is tangent within rounding neither presses nor pulls, but touches.
+        let incidence = larger(-line.direction.dot(&crossing.normal), T::zero());
+        Some(if incidence >= self.least_incidence {
+            Resolution::Contact(entered(wrench, surface, &crossing, incidence))
+        } else {
+            Resolution::NoContact(too_flat(crossing.point, incidence))
+        })
+    }
+
+    /// Of all entries the best, or the reason why none is a contact; `None` if there are none.
+    #[inline(always)]
+    fn best_entry<S: ActiveSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        line: &Line<T>,
+        last: Option<&Vector3<T>>,
+    ) -> Option<Resolution<T>> {
+        let mut seen =
+            Seen { best: None, candidates: 0, too_flat: None, tangent: None, pulling: None, outside: None };
+        surface.crossings(line, |crossing| {
+            let incidence = -line.direction.dot(&crossing.normal);
+            let pressing = incidence > T::zero() && incidence >= self.least_incidence;
+            if !(crossing.active && pressing && in_range(&crossing.point)) {
+                seen.refuse(&crossing, incidence);
+                return;
+            }
+            seen.candidates = seen.candidates.saturating_add(1);
+            let better = match (&seen.best, last) {
+                (None, _) => true,
+                (Some((best, _)), Some(last)) => {
+                    (crossing.point - last).norm_squared() < (best.point - last).norm_squared()
+                }
+                (Some((_, best)), None) => incidence > *best,
+            };
+            if better {
+                seen.best = Some((crossing, incidence));
+            }
+        });
+        if let Some((crossing, incidence)) = seen.best {
+            let contact = entered(wrench, surface, &crossing, incidence);
+            return Some(Resolution::Contact(Contact { alternatives: seen.candidates - 1, ..contact }));
+        }
+        // A line that is tangent within rounding neither presses nor pulls, but touches.
+        if let (Some(crossing), true) = (seen.tangent, self.least_incidence <= T::zero()) {
+            return Some(Resolution::Contact(contact_at(wrench, crossing.point, crossing.normal)));
+        }
+        seen.reason().map(Resolution::NoContact)
+    }
+
+    /// What to make of a line that misses.
+    #[inline(always)]
+    fn near_miss<S: ActiveSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        line: &Line<T>,
+    ) -> Resolution<T> {
+        let approach = surface.closest_approach(line);
+        if !(in_range(&approach.point) && approach.gap.is_number()) {
+            return Resolution::NoContact(NoContact::NotFinite);
+        }
+        let incidence = larger(-line.direction.dot(&approach.normal), T::zero());
+        if approach.gap <= self.greatest_gap && approach.active && incidence >= self.least_incidence {
+            let contact = contact_at(wrench, approach.point, approach.normal);
+            return Resolution::Contact(Contact { gap: approach.gap, ..contact });
+        }
+        Resolution::NoContact(NoContact::Misses {
+            gap: approach.gap,
+            closest: approach.point,
+            normal: approach.normal,
+        })
+    }
+}
+
+stored! {
+    PointContact<T>, [T: Real],
+    |model| {
+        #[serde(rename = "least_force_N", default = "T::zero")] least_force: T = model.least_force,
+        #[serde(default = "T::zero")] greatest_gap_m: T = model.greatest_gap,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        greatest_friction: Option<T> = model.greatest_friction,
+    },
+    PointContact::new(least_force)
+        .and_then(|model| model.accepting_gap(greatest_gap_m))
+        .and_then(|model| match greatest_friction {
+            Some(friction) => model.with_greatest_friction(friction),
+            None => Ok(model),
+        })
+}

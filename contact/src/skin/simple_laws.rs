@@ -1,0 +1,94 @@
+//! Laws of one or two constants.
+
+use fingertip_wrench::Real;
+
+use super::{Indentation, StiffnessLaw};
+use fingertip_surfaces::BadShape;
+
+/// Depth in proportion to the force, `δ = N/k`, with a patch as a rigid flat cuts it out of a
+/// sphere, `a = √(2Rδ)`: a soft layer of springs (Winkler) in the small.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct LinearStiffness<T: Real> {
+    stiffness: T,
+    radius: T,
+}
+
+impl<T: Real> LinearStiffness<T> {
+    /// From the stiffness \[N/m\] and the radius of the fingertip \[m\], which gives the patch.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless both are positive and finite.
+    pub fn new(stiffness: T, radius: T) -> Result<Self, BadShape> {
+        BadShape::check_length("linear skin", "stiffness", stiffness)
+            .map_err(|bad| BadShape { requirement: "positive and finite", ..bad })?;
+        BadShape::check_length("linear skin", "radius", radius)?;
+        Ok(Self { stiffness, radius })
+    }
+}
+
+impl<T: Real> StiffnessLaw<T> for LinearStiffness<T> {
+    #[inline]
+    fn indentation(&self, normal_force: T) -> Indentation<T> {
+        let depth = normal_force / self.stiffness;
+        let radius = (self.radius * (depth + depth)).root();
+        Indentation { depth, patch: [radius; 2] }
+    }
+
+    fn compliance(&self, _normal_force: T) -> T {
+        T::one() / self.stiffness
+    }
+}
+
+/// Powers of the force: `a = c_a N^γ_a`, `δ = c_δ N^γ_δ`.
+///
+/// For a material whose stress grows as the power ν of strain, `γ_a = 1/(2 + ν)` and
+/// `γ_δ = 2γ_a`; γ_a lies between 0 (all the patch at once) and 1/3 (linearly elastic: Hertz).
+/// Xydas & Kao (1999) measured γ_a of soft fingers between 0.1 and 1/3.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct PowerLaw<T: Real> {
+    patch: T,
+    patch_exponent: T,
+    depth: T,
+    depth_exponent: T,
+}
+
+impl<T: Real> PowerLaw<T> {
+    /// From the patch radius at 1 N \[m\] with its exponent, and the depth at 1 N \[m\] with its
+    /// exponent.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the lengths are positive and finite, and the exponents between 0
+    /// (excluded) and 1.
+    pub fn new(patch: [T; 2], depth: [T; 2]) -> Result<Self, BadShape> {
+        for [length, exponent] in [patch, depth] {
+            BadShape::check_length("power-law skin", "lengths at 1 N", length)?;
+            BadShape::check(
+                "power-law skin",
+                "exponents",
+                "above 0 and at most 1",
+                exponent > T::zero() && exponent <= T::one(),
+            )?;
+        }
+        let ([patch, patch_exponent], [depth, depth_exponent]) = (patch, depth);
+        Ok(Self { patch, patch_exponent, depth, depth_exponent })
+    }
+}
+
+impl<T: Real> StiffnessLaw<T> for PowerLaw<T> {
+    #[inline]
+    fn indentation(&self, normal_force: T) -> Indentation<T> {
+        if !(normal_force > T::zero()) {
+            return Indentation { depth: T::zero(), patch: [T::zero(); 2] };
+        }
+        let radius = self.patch * normal_force.powf(self.patch_exponent);
+        let depth = self.depth * normal_force.powf(self.depth_exponent);
+        Indentation { depth: depth.min(T::GREATEST), patch: [radius.min(T::GREATEST); 2] }
+    }
+
+    /// `γ_δ δ/N`; at no force without bound, but for an exponent of 1.
+    fn compliance(&self, normal_force: T) -> T {
+        self.depth * self.depth_exponent * normal_force.max(T::zero()).powf(self.depth_exponent - T::one())
+    }
+}

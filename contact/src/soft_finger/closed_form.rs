@@ -1,0 +1,126 @@
+//! What closed forms find, as the searches of shapes.
+
+use fingertip_wrench::{Line, Real, Wrench};
+use nalgebra::Vector3;
+
+use crate::model::flat;
+use crate::{Search, SoftContact};
+use fingertip_surfaces::nearest_crossing;
+use fingertip_surfaces::numeric::vectors::largest;
+use fingertip_surfaces::{ActiveSurface, ForceLine};
+
+/// Whether a point of the surface belongs to its active part: as the crossing of the normal there
+/// says.
+pub(super) fn is_active<T: Real, S: ActiveSurface<T>>(surface: &S, contact: &SoftContact<T>) -> bool {
+    let line = Line { point: contact.point, direction: -contact.normal };
+    nearest_crossing(surface, &line).is_some_and(|crossing| crossing.active)
+}
+
+/// Gives a shape its soft fingers: from the shape, the wrench and the last contact, to a search that
+/// visits what it finds.
+macro_rules! soft_finger {
+    ($(#[$doc:meta])* $shape:ident, |$this:ident, $wrench:ident, $last:pat_param, $visit:ident| $search:expr
+        $(, sole |$only:ident, $load:ident| $sole:expr)?
+        $(, patch |$part:pat_param, $point:pat_param| $patch:expr)?) => {
+        $(#[$doc])*
+        impl<T: fingertip_wrench::Real> $crate::SoftFingerSurface<T> for $shape<T> {
+            #[inline]
+            #[allow(unused_mut)]
+            fn soft_contacts(
+                &self,
+                $wrench: &fingertip_wrench::Wrench<T>,
+                $last: Option<&nalgebra::Vector3<T>>,
+                mut $visit: impl FnMut($crate::SoftContact<T>),
+            ) -> $crate::Search<T> {
+                let $this = self;
+                $search
+            }
+
+            $(#[inline(always)]
+            fn sole_soft_contact(&self, $load: &fingertip_surfaces::ForceLine<T>) -> Option<$crate::SoftContact<T>> {
+                let $only = self;
+                $sole
+            })?
+
+            $(fn patch(&self, $point: &nalgebra::Vector3<T>) -> Option<fingertip_surfaces::LocalSurface> {
+                let $part = self;
+                $patch
+            })?
+        }
+    };
+}
+
+pub(super) use soft_finger;
+
+/// Shapes that are a part of another shape.
+macro_rules! part_of {
+    ($shape:ident, $whole:ident) => {
+        $crate::soft_finger::closed_form::soft_finger!(
+            $shape,
+            |shape, wrench, last, visit| {
+                shape.$whole().soft_contacts(wrench, last, |contact| {
+                    visit($crate::SoftContact {
+                        active: $crate::soft_finger::closed_form::is_active(shape, &contact),
+                        ..contact
+                    });
+                })
+            },
+            patch | shape,
+            point | shape.$whole().patch(point)
+        );
+    };
+}
+
+pub(super) use part_of;
+
+/// `true` if the force presses at no flat angle on what a shortcut found, and the spin torque is not more
+/// than the force has at a lever of this length: otherwise rounding errors grow.
+#[inline(always)]
+pub(super) fn is_steady<T: Real>(push: &ForceLine<T>, contact: &SoftContact<T>, lever: T) -> bool {
+    is_steady_under(&push.force(), push.squared().root(), contact, lever)
+}
+
+/// The same under a force of this strength.
+#[inline(always)]
+pub(super) fn is_steady_under<T: Real>(
+    force: &Vector3<T>,
+    strength: T,
+    contact: &SoftContact<T>,
+    lever: T,
+) -> bool {
+    let steep = -force.dot(&contact.normal) >= flat::<T>() * strength;
+    steep & (contact.spin_torque.abs() <= strength * lever)
+}
+
+/// What was found, or why not, as a search.
+#[inline]
+pub(super) fn told<T: Real>(
+    found: Result<SoftContact<T>, Search<T>>,
+    mut visit: impl FnMut(SoftContact<T>),
+) -> Search<T> {
+    match found {
+        Ok(contact) => {
+            visit(contact);
+            Search::Complete
+        }
+        Err(search) => search,
+    }
+}
+
+/// The contact of a closed convex body, which has one wherever there is a spin torque: if none was found,
+/// rounding hides it, unless the wrench is a pure force for all that its numbers say.
+///
+/// # Errors
+/// How the search ended without it.
+pub(super) fn sole<T: Real>(
+    found: Option<SoftContact<T>>,
+    wrench: &Wrench<T>,
+) -> Result<SoftContact<T>, Search<T>> {
+    found.ok_or_else(|| {
+        let power = wrench.force().dot(&wrench.torque()).abs();
+        let largest_product = largest(&wrench.force()) * largest(&wrench.torque());
+        // Half a unit in the last place of every number, and as much in three products and two sums.
+        let pure = !(power > largest_product * T::EPSILON * T::literal(8.0));
+        if pure { Search::Complete } else { Search::Incomplete }
+    })
+}

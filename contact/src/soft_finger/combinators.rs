@@ -1,0 +1,132 @@
+//! Shapes made of shapes.
+
+use fingertip_wrench::{Line, Real, Wrench};
+use nalgebra::Vector3;
+
+use crate::{Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
+use fingertip_surfaces::is_inside_along;
+use fingertip_surfaces::{
+    ActiveSurface, Compound, ForceLine, LocalSurface, Offset, Posed, Region, SignedDistance, SmoothSurface,
+    Trimmed,
+};
+
+impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
+    #[inline]
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        last: Option<&Vector3<T>>,
+        mut visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        let pose = self.sensor_from_shape();
+        let (rotation, origin) = (pose.rotation(), pose.origin());
+        let inside = Wrench::on_fingertip(
+            rotation.tr_mul(&wrench.force()),
+            rotation.tr_mul(&wrench.torque_about(&origin)),
+        );
+        let last = last.map(|last| rotation.tr_mul(&(last - origin)));
+        let search = self.inner().soft_contacts(&inside, last.as_ref(), |contact| {
+            visit(SoftContact {
+                point: rotation * contact.point + origin,
+                normal: rotation * contact.normal,
+                ..contact
+            });
+        });
+        match search {
+            Search::Grazing(pair) => Search::Grazing(pair.map(|point| rotation * point + origin)),
+            other => other,
+        }
+    }
+
+    #[inline]
+    fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+        let pose = self.sensor_from_shape();
+        self.inner().sole_soft_contact(&push.seen_from(pose)).map(|contact| SoftContact {
+            point: pose.transform_point(&contact.point),
+            normal: pose.rotate(&contact.normal),
+            ..contact
+        })
+    }
+}
+
+impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Trimmed<S, R> {
+    #[inline]
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        last: Option<&Vector3<T>>,
+        mut visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        self.inner().soft_contacts(wrench, last, |contact| {
+            visit(SoftContact {
+                active: contact.active && self.region().includes(&contact.point),
+                ..contact
+            });
+        })
+    }
+
+    fn patch(&self, point: &Vector3<T>) -> Option<LocalSurface> {
+        self.inner().patch(point)
+    }
+
+    #[inline]
+    fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+        self.inner().sole_soft_contact(push).map(|contact| SoftContact {
+            active: contact.active && self.region().includes(&contact.point),
+            ..contact
+        })
+    }
+}
+
+/// `true` if a contact of one part lies inside another part, or on the seam and is not its own.
+pub(crate) fn is_covered<T: Real>(part: &impl ActiveSurface<T>, contact: &SoftContact<T>, tie: bool) -> bool {
+    let line = Line { point: contact.point, direction: contact.normal };
+    is_inside_along(part, &line, T::zero(), &contact.point, tie)
+}
+
+/// What is known of a union from what is known of two parts; `seen` if there was a contact.
+pub(crate) fn of_both<T: Real>(first: Search<T>, second: Search<T>, seen: bool) -> Search<T> {
+    match (first, second) {
+        (Search::Incomplete, _) | (_, Search::Incomplete) => Search::Incomplete,
+        (Search::Grazing(pair), _) | (_, Search::Grazing(pair)) if !seen => Search::Grazing(pair),
+        _ => Search::Complete,
+    }
+}
+
+/// The contacts of both parts that do not lie inside the other. On the seam, which is a groove,
+/// nothing flat can touch.
+impl<T: Real, A: SoftFingerSurface<T>, B: SoftFingerSurface<T>> SoftFingerSurface<T> for Compound<A, B> {
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        last: Option<&Vector3<T>>,
+        mut visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        let (first, second) = self.parts();
+        let mut seen = false;
+        let of_first = first.soft_contacts(wrench, last, |contact| {
+            if !is_covered(second, &contact, true) {
+                seen = true;
+                visit(contact);
+            }
+        });
+        let of_second = second.soft_contacts(wrench, last, |contact| {
+            if !is_covered(first, &contact, false) {
+                seen = true;
+                visit(contact);
+            }
+        });
+        of_both(of_first, of_second, seen)
+    }
+}
+
+impl<T: Real, S: SmoothSurface<T> + SignedDistance<T>> SoftFingerSurface<T> for Offset<T, S> {
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        last: Option<&Vector3<T>>,
+        visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        newton_soft_contacts(self, wrench, last, visit)
+    }
+}

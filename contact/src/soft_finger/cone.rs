@@ -1,0 +1,176 @@
+//! The cone.
+
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::{ComplexField, Vector3};
+
+use super::closed_form::{is_active, soft_finger, told};
+use super::double::finely;
+use super::newton::Problem;
+use super::refined::settled;
+use super::rim::on_rim;
+use crate::{Search, SoftContact};
+use fingertip_surfaces::numeric::vectors::tangents;
+use fingertip_surfaces::numeric::vectors::wide;
+use fingertip_surfaces::numeric::vectors::{length, unit_or};
+use fingertip_surfaces::{ActiveSurface, Cone, Extent, LocalSurface};
+
+/// The soft-finger contact on the unbounded cone: the closed form of theory 3.2 for `D = diag(1,
+/// 1, −tan² α)`, `s = 0`, in which the quadratic for `K²` is linear,
+/// `h = −√(−mᵀ adj(D) m)`, `K = (f·m)/h`, `c = (K adj(D) m + (Df) × m + h f)/(K² det D + fᵀDf)`.
+///
+/// The denominator vanishes where the force is parallel to a side (then one of two crossings is at
+/// infinity), and takes digits with it before it does. So a Newton step or two follow, which bring
+/// them back; where they do not, they start on the side that the torque tells, and where nothing is
+/// left, from where the line of action enters.
+///
+/// # Errors
+/// How the search ended: [`Search::Complete`] if no rounding of the wrench gives the side a contact.
+#[inline]
+pub(super) fn on_cone<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
+    let (apex, axis) = (cone.apex(), cone.axis());
+    let torque = wrench.torque_about(&apex);
+    let force = wrench.force();
+    // With the axis along z, where the direction away from it is known to the last digit: on a needle
+    // under a large spin torque everything hangs on it.
+    let (first, second) = tangents(&axis);
+    let inward = |v: &Vector3<T>| Vector3::new(v.dot(&first), v.dot(&second), v.dot(&axis));
+    let outward = |v: &Vector3<T>| first * v.x + second * v.y + axis * v.z;
+    let upright =
+        Cone::new(Vector3::zeros(), Vector3::z(), cone.half_angle()).map_err(|_| Search::Incomplete)?;
+    // A cone has no size: the wrench brings one.
+    let reach = length(&torque) / length(&force);
+    let reach = if reach > T::LEAST_NORMAL { reach } else { T::one() };
+    let extent = Extent { centre: Vector3::zeros(), radius: reach };
+    let problem = Problem::with_extent(&upright, &extent, &inward(&force), &inward(&torque));
+    let (f, m) = (problem.force, problem.torque);
+    let (sine, cosine) = (cone.half_angle().sin(), cone.half_angle().cos());
+    // D times cos² α, which stays in range: (cos², cos², −sin²).
+    let (d1, d3) = (cosine * cosine, -(sine * sine));
+    let adjugate = Vector3::new(d1 * d3 * m.x, d1 * d3 * m.y, d1 * d1 * m.z);
+    let along = -m.dot(&adjugate);
+    let eight = T::literal(8.0) * T::EPSILON;
+    // Rounding of the torque about the apex, of `f·m`, and of what follows.
+    let loose = eight * (m.amax() + f.amax() * (apex.amax() / reach) * problem.reach);
+    let loose_power = loose * f.abs().sum();
+    let loose_along = (adjugate.abs().sum() * T::literal(2.0) + loose * T::literal(3.0)) * loose;
+    // A pure force either hits or misses.
+    let pure = problem.power.abs() <= loose_power;
+    let ended = |certain: bool| if certain || pure { Search::Complete } else { Search::Incomplete };
+    if !(along > T::zero()) {
+        return Err(ended(along < -loose_along));
+    }
+    let h = -along.root();
+    let k = problem.power / h;
+    let df = Vector3::new(d1 * f.x, d1 * f.y, d3 * f.z);
+    let denominator = k * k * d1 * d1 * d3 + f.dot(&df);
+    let closed = (adjugate * k + df.cross(&m) + f * h) / denominator;
+    let to_sensor = |contact: &SoftContact<T>| SoftContact {
+        point: outward(&contact.point) + apex,
+        normal: outward(&contact.normal),
+        ..*contact
+    };
+    let finish = |point: Vector3<T>| {
+        let place = problem.place(point)?;
+        let state = problem.newton(place, problem.spin_at(&place)?, &problem.torque, 24)?;
+        let found = state.converged && problem.presses(&state) && state.place.point.z > T::zero();
+        found.then(|| to_sensor(&problem.contact(&state)))
+    };
+    if closed.z > T::zero() {
+        if let Some(contact) = finish(closed) {
+            return Ok(contact);
+        }
+        // Under a large spin torque the torque tells better on which side the contact is.
+        let rest = (m - closed.cross(&f)) * -problem.power;
+        let across = unit_or(&Vector3::new(rest.x, rest.y, T::zero()), Vector3::x) * (sine / cosine);
+        let turned = (across + Vector3::z()) * closed.z;
+        if let Some(contact) = finish(turned) {
+            return Ok(contact);
+        }
+        // Next to the tip only more digits tell where the way ends.
+        for rough in [closed, turned] {
+            let near = problem.place(rough).and_then(|place| {
+                let spin = problem.spin_at(&place)?;
+                Some(to_sensor(&problem.contact(&problem.state(place, spin, &problem.torque))))
+            });
+            if let Some(contact) = near.and_then(|near| settled(wrench, cone, &near)) {
+                return Ok(contact);
+            }
+        }
+    }
+    let mut found = None;
+    if let Ok(line) = wrench.line_of_action() {
+        cone.crossings(&line.line, |crossing| {
+            if found.is_none() && crossing.normal.dot(&line.line.direction) < T::zero() {
+                found = finish(problem.inward(&inward(&(crossing.point - apex))));
+            }
+        });
+    }
+    found.ok_or_else(|| {
+        // `c·a > 0` asks whether `(adj(D) m f·m + h (Df) × m − f mᵀadj(D) m)·a` and the denominator
+        // times `h²` differ in sign.
+        let aside = df.cross(&m).z;
+        let over = adjugate.z * problem.power + h * aside + f.z * along;
+        let under = problem.power * problem.power * d1 * d1 * d3 + f.dot(&df) * along;
+        let (size, twice) = (f.amax(), problem.power.abs() * T::literal(2.0));
+        let loose_over = adjugate.z.abs() * loose_power
+            + loose * (problem.power.abs() + (h.abs() + h.abs()) * size)
+            + ((aside / h).abs() + f.z.abs()) * loose_along;
+        let loose_under = twice * loose_power + size * size * (loose_along + eight * along) * T::literal(3.0);
+        let decided = along > loose_along && over.abs() > loose_over && under.abs() > loose_under;
+        ended(decided && (over > T::zero()) == (under > T::zero()))
+    })
+}
+
+/// The same, or the contact at the tip, on which any normal will do that is steeper than the side's.
+fn on_side_or_tip<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
+    let mut found = on_cone(cone, wrench);
+    if found.is_err() {
+        let (apex, tip) = (cone.apex(), -cone.axis());
+        let least = cone.half_angle().sin();
+        on_rim(
+            T::zero(),
+            &tip,
+            &wrench.force(),
+            &wrench.torque_about(&apex),
+            |normal, _| normal.dot(&tip) >= least,
+            |contact| found = Ok(SoftContact { point: apex, ..contact }),
+        );
+    }
+    found
+}
+
+/// The same, in double precision if the type is narrower and the spin torque rules: then rounding decides
+/// between the side and the tip.
+///
+/// # Errors
+/// As [`on_cone`].
+fn on_cone_finely<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
+    let force = length(&wrench.force());
+    let is_steady = |contact: &SoftContact<T>| {
+        let radius = length(&(contact.point - cone.apex())) * cone.half_angle().sin();
+        contact.spin_torque.abs() <= force * radius
+    };
+    finely(on_side_or_tip(cone, wrench), is_steady, wrench, |wrench| {
+        let double = Cone::new(wide(&cone.apex()), wide(&cone.axis()), cone.half_angle().to_f64());
+        double.ok().map(|double| on_side_or_tip(&double, wrench))
+    })
+}
+
+soft_finger!(
+    /// The side, or the tip, on which any normal will do that is steeper than the side's.
+    Cone,
+    |shape, wrench, _, visit| told(
+        on_cone_finely(shape, wrench).map(|contact| {
+            let active = contact.point == shape.apex() || is_active(shape, &contact);
+            SoftContact { active, ..contact }
+        }),
+        visit
+    ),
+    patch | shape,
+    _ | Some(LocalSurface::Cone {
+        origin: wide(&shape.apex()),
+        axis: wide(&shape.axis()),
+        radius: 0.0,
+        taper: [-ComplexField::tan(shape.half_angle().to_f64()), 1.0],
+    })
+);

@@ -1,0 +1,88 @@
+//! The one contact on a convex surface, by following a path that cannot end.
+
+use fingertip_wrench::Real;
+use nalgebra::Vector3;
+
+use super::newton::{Place, Problem, State};
+use super::unit_sphere::OnUnitSphere;
+use fingertip_surfaces::SmoothSurface;
+
+impl<T: Real, S: SmoothSurface<T>> Problem<'_, T, S> {
+    /// The contact that presses, on a convex surface: Newton from the start, and if that does not
+    /// end in it, along a path of problems that begins with one whose solution is the start.
+    ///
+    /// At the start `c₀` the force presses, and with `τ₀ = f·m/f·n₀` it solves the problem with
+    /// the torque `m₀ = c₀ × f + τ₀ n₀`, for which `f·m₀ = f·m`. On the way from `m₀` to `m`
+    /// along a straight line, `f·m` stays what it is. If it is not zero, no solution on the way
+    /// can leave the side that presses (there `f·n = 0` and so `f·m = τ f·n = 0`), none can run
+    /// to infinity (the surface is bounded, and `|τ| ≤ |m| + |c||f|`), and the Jacobian is
+    /// regular, since `τ²κ + (f·n)² > 0` for `κ ≥ 0`. So the solution continues along the whole
+    /// line, and as a convex surface has only one that presses, its end is the answer (theory
+    /// 3.4). If `f·m = 0` the torques of lines that hit the body form a convex set, and the same
+    /// holds from an entry to an entry.
+    pub(super) fn on_convex(&self, start: Place<T>) -> Option<State<T>> {
+        let spin = self.spin_at(&start)?;
+        if let Some(state) = self.newton(start, spin, &self.torque, 24)
+            && state.converged
+            && self.presses(&state)
+        {
+            return Some(state);
+        }
+        self.follow(start, spin)
+    }
+
+    /// The contact, if Newton finds it from where it would be if the surface were the ball around it.
+    pub(super) fn starting_on_ball(&self) -> Option<State<T>> {
+        let direction = direction_on_ball(&self.force, &self.torque);
+        // Onto the surface along the ray from the centre, roughly.
+        let mut place = self.place(direction * self.reach)?;
+        for _ in 0..2 {
+            let drop = place.height / place.normal.dot(&direction);
+            if !(drop.abs() > T::literal(0.05)) {
+                break;
+            }
+            place = self.place(place.point - direction * drop)?;
+        }
+        let state = self.newton(place, self.spin_at(&place)?, &self.torque, 12)?;
+        // What a level function does beyond its extent is not known.
+        let near = state.place.point.norm_squared() <= self.reach * self.reach * T::literal(1.01);
+        (state.converged && near && self.presses(&state)).then_some(state)
+    }
+
+    fn follow(&self, start: Place<T>, spin: T) -> Option<State<T>> {
+        let half = T::literal(0.5);
+        let torque_at_start = start.point.cross(&self.force) + start.normal * spin;
+        let way = self.torque - torque_at_start;
+        let mut done = T::zero();
+        let mut stride = half;
+        let mut at: (Place<T>, T) = (start, spin);
+        for _ in 0..192 {
+            let next = (done + stride).min(T::one());
+            let torque = if next < T::one() { torque_at_start + way * next } else { self.torque };
+            match self.newton(at.0, at.1, &torque, if next < T::one() { 8 } else { 16 }) {
+                Some(state) if state.converged && self.presses(&state) => {
+                    if !(next < T::one()) {
+                        return Some(state);
+                    }
+                    at = (state.place, state.spin);
+                    done = next;
+                    stride += stride;
+                }
+                _ => {
+                    stride *= half;
+                    if stride < T::EPSILON {
+                        return None;
+                    }
+                }
+            }
+        }
+        None
+    }
+}
+
+/// The place where the unit sphere's closed form would put the contact, seen from the centre: a
+/// start that is good where the spin torque rules, and exact on a sphere.
+pub(super) fn direction_on_ball<T: Real>(force: &Vector3<T>, torque: &Vector3<T>) -> Vector3<T> {
+    let solved = OnUnitSphere::new(force, torque, force.norm_squared(), force.dot(torque));
+    solved.grazing(force, torque).map_or_else(|| solved.point(), |[point, _]| point)
+}

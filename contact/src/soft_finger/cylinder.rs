@@ -1,0 +1,131 @@
+//! Cylinders without flat ends: the ellipsoid's closed form with the third axis at infinity.
+
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+
+use super::closed_form::{is_steady, soft_finger, told};
+use super::double::{finely, spins_little};
+use crate::{Search, SoftContact};
+use fingertip_surfaces::numeric::vectors::{tangents, wide};
+use fingertip_surfaces::{Cylinder, LocalSurface};
+
+/// The soft-finger contact on the unbounded cylinder around the third axis with semi-axes `a` (and
+/// their reciprocals) along the first two, for a wrench in the same frame.
+///
+/// `D = diag(1/a₁², 1/a₂², 0)` in theory 3.2: `h = −√(fᵀDf − (m₃/(a₁a₂))²)`,
+/// `K = (f·m)/h`, `c = (K adj(D) m + (Df) × m + h f)/(fᵀDf)`. There is a contact only where the
+/// line of action hits the lateral surface: a spin torque does not bend a line back to a surface
+/// that is straight.
+#[inline]
+pub(super) fn on_cylinder<T: Real>(
+    a: [T; 2],
+    b: [T; 2],
+    force: &Vector3<T>,
+    torque: &Vector3<T>,
+    mut visit: impl FnMut(SoftContact<T>),
+) -> Search<T> {
+    let length = a[0].max(a[1]);
+    let unit = length.normalising_factor();
+    let lever = torque * unit;
+    let scale = force.amax().max(lever.amax()).normalising_factor();
+    let f = force * scale;
+    let m = lever * scale;
+    let length = T::one() / unit;
+    let b = [b[0] * length, b[1] * length];
+    let (fx, fy) = (f.x * b[0], f.y * b[1]);
+    // The wrench may have been all spin: bring what counts near 1 again before squaring.
+    let across = fx.abs().max(fy.abs());
+    let zoom = across.normalising_factor();
+    let (fx, fy) = (fx * zoom, fy * zoom);
+    let squared = fx * fx + fy * fy;
+    let total = squared.root();
+    let mz = m.z * b[0] * b[1] * zoom;
+    // The direction of a force along the axis is noise.
+    let noise = T::literal(4.0) * T::EPSILON * f.amax() * b[0].max(b[1]);
+    if !(across > noise) || !(mz.abs() < total) {
+        return Search::Complete;
+    }
+    let h = -((total - mz) * (total + mz)).root();
+    // All of these carry the factor `zoom`, h too; K does not.
+    let k = f.dot(&m) * zoom / h;
+    let inverse = T::one() / squared;
+    // In the affine frame: y = (f̃ × m̃ + h f̃)/|f̃|².
+    let (x, y) = ((fy * mz + h * fx) * inverse, (h * fy - fx * mz) * inverse);
+    let (gx, gy) = (fx * b[0], fy * b[1]);
+    let z = (k * m.z * (b[0] * b[1]) * (b[0] * b[1]) * zoom * zoom
+        + (gx * m.y - gy * m.x) * zoom
+        + h * zoom * f.z)
+        * inverse;
+    let gradient = Vector3::new(x * b[0], y * b[1], T::zero());
+    let steepness = gradient.norm_squared().root();
+    let point = Vector3::new(x / b[0], y / b[1], z) * length;
+    let spin_torque = k * steepness / scale * length;
+    if (point.x + point.y + point.z + spin_torque).is_number() {
+        visit(SoftContact { point, normal: gradient / steepness, spin_torque, active: true });
+    }
+    Search::Complete
+}
+
+/// On the side of an unbounded circular cylinder, for the torque about its centre.
+pub(super) fn on_round_side<T: Real>(
+    centre: &Vector3<T>,
+    axis: &Vector3<T>,
+    radius: T,
+    force: &Vector3<T>,
+    torque: &Vector3<T>,
+) -> Option<SoftContact<T>> {
+    let (first, second) = tangents(axis);
+    let inward = |v: &Vector3<T>| Vector3::new(v.dot(&first), v.dot(&second), v.dot(axis));
+    let outward = |v: &Vector3<T>| first * v.x + second * v.y + axis * v.z;
+    let (force, torque) = (inward(force), inward(torque));
+    let mut found = None;
+    on_cylinder([radius; 2], [T::one() / radius; 2], &force, &torque, |contact| {
+        found = Some(SoftContact {
+            point: outward(&contact.point) + centre,
+            normal: outward(&contact.normal),
+            ..contact
+        });
+    });
+    found
+}
+
+#[inline(always)]
+fn cylinder_contact<T: Real>(
+    shape: &Cylinder<T>,
+    force: &Vector3<T>,
+    torque_about: impl FnOnce(&Vector3<T>) -> Vector3<T>,
+) -> Option<SoftContact<T>> {
+    let (centre, axis) = (shape.centre(), shape.axis());
+    let contact = on_round_side(&centre, &axis, shape.radius(), force, &torque_about(&centre))?;
+    let height = (contact.point - centre).dot(&axis);
+    Some(SoftContact { active: shape.half_length().is_none_or(|half| height.abs() <= half), ..contact })
+}
+
+/// In double precision if the type is narrower and the spin torque rules.
+fn on_cylinder_finely<T: Real>(shape: &Cylinder<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
+    let found = cylinder_contact(shape, &wrench.force(), |point| wrench.torque_about(point));
+    finely(found.ok_or(Search::Complete), spins_little(wrench, shape.radius()), wrench, |wrench| {
+        let double = Cylinder::new(wide(&shape.centre()), wide(&shape.axis()), shape.radius().to_f64());
+        let double = match shape.half_length() {
+            Some(half) => double.and_then(|double| double.with_half_length(half.to_f64())),
+            None => double,
+        };
+        let found = cylinder_contact(&double.ok()?, &wrench.force(), |point| wrench.torque_about(point));
+        Some(found.ok_or(Search::Complete))
+    })
+}
+
+soft_finger!(
+    Cylinder,
+    |shape, wrench, _, visit| told(on_cylinder_finely(shape, wrench), visit),
+    sole | shape,
+    push | cylinder_contact(shape, &push.force(), |point| push.torque_about(point))
+        .filter(|contact| is_steady(push, contact, shape.radius() * T::literal(0.5))),
+    patch | shape,
+    _ | Some(LocalSurface::Cone {
+        origin: wide(&shape.centre()),
+        axis: wide(&shape.axis()),
+        radius: shape.radius().to_f64(),
+        taper: [0.0, 1.0],
+    })
+);

@@ -1,0 +1,142 @@
+//! Sphere and ellipsoid, through the unit sphere.
+
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+
+use super::closed_form::{part_of, soft_finger, told};
+use super::unit_sphere::OnUnitSphere;
+use crate::{Search, SoftContact};
+use fingertip_surfaces::numeric::vectors::{larger, largest, taming_factor};
+use fingertip_surfaces::{Ellipsoid, ForceLine, Sphere, SphericalCap};
+
+/// The soft-finger contact on a sphere.
+///
+/// `f·m` is that of the wrench as it is given, about the sensor's origin: the same about any point,
+/// but for the rounding that moving a torque takes. So a pure force stays one.
+///
+/// # Errors
+/// The pair of points that a pure force which misses would graze.
+pub(super) fn on_sphere<T: Real>(
+    sphere: &Sphere<T>,
+    wrench: &Wrench<T>,
+) -> Result<SoftContact<T>, [Vector3<T>; 2]> {
+    let (centre, radius, curvature) = (sphere.centre(), sphere.radius(), sphere.curvature());
+    let lever = wrench.torque_about(&centre) * curvature;
+    let scale = taming_factor(larger(largest(&wrench.force()), largest(&lever)));
+    let (f, m) = (wrench.force() * scale, lever * scale);
+    let power = f.dot(&(wrench.torque() * scale)) * curvature;
+    let solved = OnUnitSphere::new(&f, &m, f.norm_squared(), power);
+    if let Some(pair) = solved.grazing(&f, &m) {
+        return Err(pair.map(|point| point * radius + centre));
+    }
+    let normal = solved.point();
+    Ok(SoftContact {
+        point: normal * radius + centre,
+        normal,
+        spin_torque: solved.spin * radius * scale.normalising_factor(),
+        active: true,
+    })
+}
+
+/// The same for a force that is tame and presses steeply.
+#[inline(always)]
+pub(super) fn steeply_on_sphere<T: Real>(sphere: &Sphere<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+    let (centre, radius, curvature) = (sphere.centre(), sphere.radius(), sphere.curvature());
+    let (f, m) = (push.force(), push.torque_about(&centre) * curvature);
+    let solved = OnUnitSphere::steep(&f, &m, push.squared(), f.dot(&push.torque()) * curvature)?;
+    let normal = solved.point();
+    Some(SoftContact {
+        point: normal * radius + centre,
+        normal,
+        spin_torque: solved.spin * radius,
+        active: true,
+    })
+}
+
+/// The soft-finger contact on an ellipsoid.
+///
+/// With `c = A y`, `A = diag(a)`, the equations become those of the unit sphere under the wrench
+/// `(A⁻¹ f, A m / det A)`; the spin torque is `k |A⁻¹ y| · det A` in the scale of that wrench.
+/// (`D = A⁻²` in theory 3.2, where the identity is `(Df) × m = A(f̃ × m̃)`.)
+///
+/// # Errors
+/// The pair of points that a pure force which misses would graze.
+pub(super) fn on_ellipsoid<T: Real>(
+    shape: &Ellipsoid<T>,
+    wrench: &Wrench<T>,
+) -> Result<SoftContact<T>, [Vector3<T>; 2]> {
+    let semi_axes = shape.semi_axes();
+    // Lengths in units of the largest semi-axis, by a power of two; then the product of two
+    // reciprocals is at least 1/4 and overflows only where the shape itself is not representable.
+    let unit = largest(&semi_axes).normalising_factor();
+    let length = unit.normalising_factor();
+    let b = shape.curvatures() * length;
+    let f = wrench.force().component_mul(&b);
+    let m = wrench.torque().component_mul(&(across(&b) * unit));
+    let scale = taming_factor(larger(largest(&f), largest(&m)));
+    let (f, m) = (f * scale, m * scale);
+    // As on the sphere: what is exactly zero before stretching shall be so after it.
+    let power = (wrench.force() * scale).dot(&(wrench.torque() * scale)) * (b.x * b.y * b.z * unit);
+    let solved = OnUnitSphere::new(&f, &m, f.norm_squared(), power);
+    if let Some(pair) = solved.grazing(&f, &m) {
+        return Err(pair.map(|point| point.component_mul(&semi_axes)));
+    }
+    let point = solved.point();
+    let gradient = point.component_mul(&b);
+    let steepness = gradient.norm_squared().root();
+    let volume = (semi_axes.x * unit) * (semi_axes.y * unit) * semi_axes.z;
+    Ok(SoftContact {
+        point: point.component_mul(&semi_axes),
+        normal: gradient * (T::one() / steepness),
+        spin_torque: solved.spin * volume * steepness * scale.normalising_factor(),
+        active: true,
+    })
+}
+
+/// The same for a force that is tame and presses steeply, on an ellipsoid of which the same holds.
+#[inline(always)]
+pub(super) fn steeply_on_ellipsoid<T: Real>(
+    shape: &Ellipsoid<T>,
+    push: &ForceLine<T>,
+) -> Option<SoftContact<T>> {
+    let (a, b) = (shape.semi_axes(), shape.curvatures());
+    let f = push.force().component_mul(&b);
+    let m = push.torque().component_mul(&across(&b));
+    let solved = OnUnitSphere::steep(&f, &m, f.norm_squared(), f.dot(&m))?;
+    let point = solved.point();
+    let gradient = point.component_mul(&b);
+    let squared = gradient.norm_squared();
+    if !((squared >= T::LEAST_NORMAL) & (squared <= T::GREATEST)) {
+        return None;
+    }
+    let steepness = squared.root();
+    Some(SoftContact {
+        point: point.component_mul(&a),
+        normal: gradient * (T::one() / steepness),
+        // A force first, then a length: no product leaves the range that its result is in.
+        spin_torque: (solved.spin * a.x) * (a.y * steepness) * a.z,
+        active: true,
+    })
+}
+
+/// The reciprocals of the areas that two semi-axes span: what takes `A m / det A` from a torque.
+#[inline(always)]
+fn across<T: Real>(b: &Vector3<T>) -> Vector3<T> {
+    Vector3::new(b.y * b.z, b.z * b.x, b.x * b.y)
+}
+
+soft_finger!(
+    Sphere,
+    |shape, wrench, _, visit| told(on_sphere(shape, wrench).map_err(Search::Grazing), visit),
+    sole | shape,
+    push | steeply_on_sphere(shape, push)
+);
+
+soft_finger!(
+    Ellipsoid,
+    |shape, wrench, _, visit| told(on_ellipsoid(shape, wrench).map_err(Search::Grazing), visit),
+    sole | shape,
+    push | steeply_on_ellipsoid(shape, push)
+);
+
+part_of!(SphericalCap, sphere);

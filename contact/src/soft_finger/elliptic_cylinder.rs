@@ -1,0 +1,104 @@
+//! The elliptic cylinder, with its ends.
+
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+
+use super::closed_form::{soft_finger, sole, told};
+use super::cylinder::on_cylinder;
+use super::double::{finely, is_steady};
+use super::plane::on_plane;
+use super::rim::on_elliptic_rim;
+use crate::{Search, SoftContact};
+use fingertip_surfaces::numeric::vectors::smaller;
+use fingertip_surfaces::{ActiveSurface, CylinderEnds, EllipticCylinder, LocalSurface};
+
+/// The soft-finger contact on the side by the closed form; on flat ends as on planes, within their outline;
+/// and on the edges between them, with a normal between those of the faces that meet. A closed one is convex
+/// and has one contact, on one of these.
+///
+/// # Errors
+/// How the search ended without one.
+fn on_elliptic_cylinder<T: Real>(
+    shape: &EllipticCylinder<T>,
+    wrench: &Wrench<T>,
+) -> Result<SoftContact<T>, Search<T>> {
+    let axes = shape.semi_axes();
+    let reciprocals = axes.map(|a| T::one() / a);
+    let mut side = None;
+    on_cylinder(axes, reciprocals, &wrench.force(), &wrench.torque(), |contact| side = Some(contact));
+    let within = |half: T| move |contact: &SoftContact<T>| contact.point.z.abs() <= half;
+    match shape.ends() {
+        CylinderEnds::Unbounded => side.ok_or(Search::Complete),
+        CylinderEnds::Open(half) => side
+            .map(|contact| SoftContact { active: within(half)(&contact), ..contact })
+            .ok_or(Search::Complete),
+        CylinderEnds::Capped(half) => {
+            let on_end = |normal| on_elliptic_end(axes, reciprocals, &normal, half, wrench);
+            let found =
+                side.filter(within(half)).or_else(|| on_end(Vector3::z())).or_else(|| on_end(-Vector3::z()));
+            sole(found, wrench)
+        }
+    }
+}
+
+/// On a flat end with an elliptic outline, or on the edge around it.
+fn on_elliptic_end<T: Real>(
+    axes: [T; 2],
+    reciprocals: [T; 2],
+    normal: &Vector3<T>,
+    half: T,
+    wrench: &Wrench<T>,
+) -> Option<SoftContact<T>> {
+    let origin = normal * half;
+    let (force, torque) = (wrench.force(), wrench.torque_about(&origin));
+    let mut found = on_plane(normal, &force, &torque).filter(|contact| {
+        let (x, y) = (contact.point.x * reciprocals[0], contact.point.y * reciprocals[1]);
+        x * x + y * y <= T::one()
+    });
+    if found.is_none() {
+        // The side's normal at `A ρ` is along `A⁻¹ ρ`.
+        let outward = |n: &Vector3<T>, ring: &Vector3<T>| {
+            n.x * ring.x * reciprocals[0] + n.y * ring.y * reciprocals[1] >= T::zero()
+        };
+        on_elliptic_rim(
+            axes,
+            normal,
+            &force,
+            &torque,
+            |n, ring| n.dot(normal) >= T::zero() && outward(n, ring),
+            |contact| found = Some(contact),
+        );
+    }
+    found.map(|contact| SoftContact { point: contact.point + origin, ..contact })
+}
+
+/// In double precision if the type is narrower and rounding decides between the side and an end.
+fn on_elliptic_cylinder_finely<T: Real>(
+    shape: &EllipticCylinder<T>,
+    wrench: &Wrench<T>,
+) -> Result<SoftContact<T>, Search<T>> {
+    let [a, b] = shape.semi_axes();
+    finely(on_elliptic_cylinder(shape, wrench), is_steady(wrench, smaller(a, b)), wrench, |wrench| {
+        let ends = match shape.ends() {
+            CylinderEnds::Unbounded => CylinderEnds::Unbounded,
+            CylinderEnds::Open(half) => CylinderEnds::Open(half.to_f64()),
+            CylinderEnds::Capped(half) => CylinderEnds::Capped(half.to_f64()),
+        };
+        let double = EllipticCylinder::new(shape.semi_axes().map(Real::to_f64), ends);
+        double.ok().map(|double| on_elliptic_cylinder(&double, wrench))
+    })
+}
+
+soft_finger!(
+    EllipticCylinder,
+    |shape, wrench, _, visit| told(on_elliptic_cylinder_finely(shape, wrench), visit),
+    patch | shape,
+    point
+        | Some(match shape.ends() {
+            CylinderEnds::Capped(half) if !shape.normal(point).z.is_zero() => {
+                let end = Vector3::z() * 1.0_f64.copysign(point.z.to_f64());
+                LocalSurface::Plane { point: end * half.to_f64(), normal: end }
+            }
+            _ => LocalSurface::EllipticCylinder { semi_axes: shape.semi_axes().map(Real::to_f64) },
+        })
+);

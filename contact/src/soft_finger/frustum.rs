@@ -1,0 +1,157 @@
+//! Solids of revolution with flat ends: closed cylinder, cone, truncated cone.
+
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+
+use super::closed_form::{soft_finger, sole, told};
+use super::cone::on_cone;
+use super::cylinder::on_round_side;
+use super::double::{finely, is_steady};
+use super::newton::Problem;
+use super::plane::on_plane;
+use super::refined::settled;
+use super::rim::on_rim;
+use crate::{Search, SoftContact};
+use fingertip_surfaces::numeric::vectors::wide;
+use fingertip_surfaces::{ActiveSurface, CappedCylinder, Cone, Frustum, LocalSurface};
+
+/// The soft-finger contact on a frustum: of the side, by the closed form of its cone or cylinder; of
+/// the flat ends, by that of the plane; of the edges between them and of a tip, with a normal between
+/// those of the faces that meet. A convex solid has one contact, and it has it on one of these.
+pub(super) fn on_frustum<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+    let (base, axis, height) = (solid.base_centre(), solid.axis(), solid.height());
+    let force = wrench.force();
+    if let Some(contact) = on_side(solid, wrench) {
+        let above = (contact.point - base).dot(&axis);
+        if above >= T::zero() && above <= height {
+            return Some(contact);
+        }
+    }
+    let (sine, cosine) = (solid.taper() * solid.side_cosine(), solid.side_cosine());
+    for (outward, origin, radius) in
+        [(axis, base + axis * height, solid.top_radius()), (-axis, base, solid.base_radius())]
+    {
+        let torque = wrench.torque_about(&origin);
+        if let Some(contact) = on_plane(&outward, &force, &torque)
+            && contact.point.norm_squared() <= radius * radius
+        {
+            return Some(SoftContact { point: contact.point + origin, ..contact });
+        }
+        // The side's normal has this much along the end's.
+        let lean = if outward == axis { sine } else { -sine };
+        let mut found = None;
+        on_rim(
+            radius,
+            &outward,
+            &force,
+            &torque,
+            |normal, ring| {
+                let up = normal.dot(&outward);
+                let out = if radius.is_zero() {
+                    (normal - outward * up).norm_squared().root()
+                } else {
+                    normal.dot(ring)
+                };
+                out >= T::zero() && cosine * up >= lean * out
+            },
+            |contact| found = Some(SoftContact { point: contact.point + origin, ..contact }),
+        );
+        if found.is_some() {
+            return found;
+        }
+    }
+    None
+}
+
+/// On the side, unbounded: by a closed form, and a step of Newton's method, which makes good what the
+/// closed form of a slender cone loses by counting from a far apex.
+fn on_side<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+    let (base, axis, taper) = (solid.base_centre(), solid.axis(), solid.taper());
+    let cone = || {
+        let apex = base + axis * (solid.base_radius() / taper);
+        let into = if taper > T::zero() { -axis } else { axis };
+        Cone::new(apex, into, taper.abs().atan()).ok()
+    };
+    let rough = if taper.is_zero() { None } else { cone().map(|cone| on_cone(&cone, wrench)) };
+    let rough = match rough {
+        Some(contact) => contact.ok()?,
+        None => {
+            let radius = (solid.base_radius() + solid.top_radius()) * T::literal(0.5);
+            on_round_side(&base, &axis, radius, &wrench.force(), &wrench.torque_about(&base))?
+        }
+    };
+    if taper.is_zero() {
+        return Some(rough);
+    }
+    let polished = Problem::new(solid, &wrench.force(), &wrench.torque()).polished(&rough);
+    polished.or_else(|| settled(wrench, solid, &rough))
+}
+
+/// In double precision if the type is narrower and rounding decides between the side, an end and an edge.
+/// `double` is the same solid.
+fn on_frustum_finely<T: Real>(
+    solid: &Frustum<T>,
+    wrench: &Wrench<T>,
+    double: impl FnOnce() -> Option<Frustum<f64>>,
+) -> Result<SoftContact<T>, Search<T>> {
+    let lever = (solid.base_radius() + solid.top_radius()) * T::literal(0.5);
+    finely(sole(on_frustum(solid, wrench), wrench), is_steady(wrench, lever), wrench, |wrench| {
+        double().map(|double| sole(on_frustum(&double, wrench), wrench))
+    })
+}
+
+/// The side, or the plane of an end: which of them the normal of the surface is nearer to.
+///
+/// `middle` is a point of the axis, `below` and `above` the heights of the ends over it.
+fn solid_patch<T: Real>(
+    solid: &Frustum<T>,
+    point: &Vector3<T>,
+    middle: &Vector3<T>,
+    ends: [f64; 2],
+) -> LocalSurface {
+    let (origin, axis) = (wide(middle), wide(&solid.axis()));
+    let end = |height: f64| origin + axis * (height / axis.norm());
+    let lean = solid.normal(point).dot(&solid.axis());
+    let least = solid.taper() * solid.side_cosine();
+    // Halfway between the side's normal and an end's.
+    let half = T::literal(0.5);
+    if lean > (T::one() + least) * half {
+        LocalSurface::Plane { point: end(ends[1]), normal: axis }
+    } else if lean < (least - T::one()) * half {
+        LocalSurface::Plane { point: end(ends[0]), normal: -axis }
+    } else {
+        let [below, above] = [solid.base_radius(), solid.top_radius()].map(Real::to_f64);
+        LocalSurface::Cone { origin, axis, radius: below, taper: [below - above, solid.height().to_f64()] }
+    }
+}
+
+soft_finger!(
+    Frustum,
+    |shape, wrench, _, visit| told(
+        on_frustum_finely(shape, wrench, || {
+            let [height, base, top] =
+                [shape.height(), shape.base_radius(), shape.top_radius()].map(Real::to_f64);
+            Frustum::new(wide(&shape.base_centre()), wide(&shape.axis()), height, base, top).ok()
+        }),
+        visit
+    ),
+    patch | shape,
+    point | Some(solid_patch(shape, point, &shape.base_centre(), [0.0, shape.height().to_f64()]))
+);
+
+soft_finger!(
+    CappedCylinder,
+    |shape, wrench, _, visit| told(
+        on_frustum_finely(shape.solid(), wrench, || {
+            let [radius, half] = [shape.radius(), shape.half_length()].map(Real::to_f64);
+            let double = CappedCylinder::new(wide(&shape.centre()), wide(&shape.axis()), radius, half);
+            double.ok().map(|double| *double.solid())
+        }),
+        visit
+    ),
+    patch | shape,
+    point | {
+        let half = shape.half_length().to_f64();
+        Some(solid_patch(shape.solid(), point, &shape.centre(), [-half, half]))
+    }
+);

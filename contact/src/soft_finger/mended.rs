@@ -1,0 +1,96 @@
+//! What rounding did to a soft contact that the force meets at a flat angle, undone.
+
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+
+use crate::SoftContact;
+use crate::model::{flat, torque_left};
+use fingertip_surfaces::ActiveSurface;
+use fingertip_surfaces::numeric::twofold::Twofold;
+use fingertip_surfaces::numeric::vectors::larger;
+use fingertip_surfaces::numeric::vectors::tangents;
+
+/// The solution of the soft-finger equations next to a contact that is off by rounding errors.
+///
+/// Rounding of the closed forms, and of Newton's last step, leaves a torque `r = m − c × f − τ n` and a
+/// height `e` above the surface. Where the force is nearly square to the normal the contact answers to
+/// them with up to the reciprocal cosine of incidence: a rounding error at a cosine of 0.05 is one of
+/// twenty. Both are found here with twice the digits ([`ActiveSurface::outside_by`] for `e`), and a step
+/// of Newton's method takes them away, so that of the step's own error that factor is all that is left.
+/// The step need not be exact: the curvature comes from differences of the normal.
+///
+/// A contact at an edge or a tip keeps its place, since its normal is not the surface's there; so does
+/// one under a spin torque that outweighs the force: if the surface is round both ways it is steady
+/// (theory 3.4), and if not, the rounding of the wrench itself moves it further than that of the formulas.
+/// A step that is longer than rounding explains is not taken.
+#[cold]
+#[inline(never)]
+pub(super) fn mended<T: Real, S: ActiveSurface<T>>(
+    wrench: &Wrench<T>,
+    surface: &S,
+    contact: &SoftContact<T>,
+) -> SoftContact<T> {
+    mended_on(wrench, &|point| surface.normal(point), &|point| surface.outside_by(point), contact)
+}
+
+/// The same. Compiled once for all surfaces: what differs is only what they answer.
+#[inline(never)]
+fn mended_on<T: Real>(
+    wrench: &Wrench<T>,
+    normal: &dyn Fn(&Vector3<T>) -> Vector3<T>,
+    outside_by: &dyn Fn(&Vector3<T>) -> T,
+    contact: &SoftContact<T>,
+) -> SoftContact<T> {
+    let scale = wrench.force().amax().normalising_factor();
+    let (f, m) = (wrench.force() * scale, wrench.torque() * scale);
+    let (c, n, spin) = (contact.point, contact.normal, contact.spin_torque * scale);
+    let (strength, pressing) = (f.norm_squared().root(), f.dot(&n));
+    let incidence = -pressing / strength;
+    if !(incidence < flat() && incidence >= T::literal(32.0) * T::EPSILON.root()) {
+        return *contact;
+    }
+    let size = c.amax() + m.amax() / strength;
+    if (normal(&c) - n).amax() > T::literal(64.0) * T::EPSILON {
+        return *contact;
+    }
+    let (e1, e2) = tangents(&n);
+    // At the cube root of ε the rounding of the normal and its third derivatives weigh about the same.
+    let stride = size * T::EPSILON.cbrt();
+    let bend = |e: &Vector3<T>| (normal(&(c + e * stride)) - normal(&(c - e * stride))) / (stride + stride);
+    let (first, second) = (bend(&e1), bend(&e2));
+    let steepest = larger(first.amax(), second.amax());
+    if !(spin.abs() * steepest <= strength) {
+        return *contact;
+    }
+    let (w11, w22) = (spin * e1.dot(&first), spin * e2.dot(&second));
+    let w12 = spin * (e1.dot(&second) + e2.dot(&first)) * T::literal(0.5);
+
+    let left = |m: T, y: T, fz: T, z: T, fy: T, n: T| {
+        torque_left(m, y, fz, z, fy).minus(Twofold::new(spin).times(Twofold::new(n))).value()
+    };
+    let rest = Vector3::new(
+        left(m.x, c.y, f.z, c.z, f.y, n.x),
+        left(m.y, c.z, f.x, c.x, f.z, n.y),
+        left(m.z, c.x, f.y, c.y, f.x, n.z),
+    );
+    let outside = outside_by(&c);
+    let turned = rest + n.cross(&f) * outside;
+    let (r1, r2) = (e1.dot(&turned), e2.dot(&turned));
+    let determinant = w11 * w22 - w12 * w12 + pressing * pressing;
+    let a1 = (w22 * r1 - (w12 + pressing) * r2) / determinant;
+    let a2 = (w11 * r2 - (w12 - pressing) * r1) / determinant;
+    let step = e1 * a1 + e2 * a2 - n * outside;
+    let allowed = T::literal(64.0) * T::EPSILON * size * (strength * strength / determinant.abs());
+    if !(step.amax() <= allowed) {
+        return *contact;
+    }
+    let twist = n.dot(&(rest - step.cross(&f)));
+    // Turned as the step is: the equations have been solved for this normal, whatever its rounding.
+    let turned = n + first * a1 + second * a2;
+    SoftContact {
+        point: c + step,
+        normal: turned / turned.norm_squared().root(),
+        spin_torque: contact.spin_torque + twist / scale,
+        ..*contact
+    }
+}

@@ -1,0 +1,103 @@
+//! What a search for soft-finger contacts finds.
+
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+
+use fingertip_surfaces::{ActiveSurface, ForceLine, LocalSurface};
+
+/// One solution of the soft-finger equations `m = c × f + τ n(c)` with `f·n ≤ 0` and `c` on the
+/// surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SoftContact<T: Real> {
+    /// The contact centroid `c` \[m\].
+    pub point: Vector3<T>,
+    /// Outward unit normal `n` there.
+    pub normal: Vector3<T>,
+    /// Spin torque `τ` on the fingertip about the outward normal \[N·m\].
+    pub spin_torque: T,
+    /// `false` where the point belongs to the shape but not to the part that may touch.
+    pub active: bool,
+}
+
+/// How a search for soft-finger contacts ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Search<T: Real> {
+    /// Every contact that presses has been visited.
+    Complete,
+    /// The wrench is a pure force whose line misses the surface. The equations hold at these two
+    /// points, where the force grazes and the two spin torques are opposite: nothing tells which.
+    Grazing([Vector3<T>; 2]),
+    /// The iteration ended at its bound, or rounding decides: contacts may be missing.
+    Incomplete,
+}
+
+/// A surface that knows the soft-finger contacts of a wrench.
+///
+/// # For users
+/// [`SoftFinger`](crate::SoftFinger) asks this of a surface; there is no need to call it directly,
+/// except to see all solutions on a shape that is not convex.
+///
+/// # For implementers
+/// Shapes with a level function implement [`SmoothSurface`](fingertip_surfaces::SmoothSurface) and forward to
+/// [`newton_soft_contacts`](crate::newton_soft_contacts).
+///
+/// `visit` shall be called once for every solution that presses, those outside the active region
+/// too. The wrench is finite, its force is not zero, and its largest component lies between the roots
+/// of the least and of the greatest number of the type. Solutions shall be accurate for spin
+/// torques down to zero.
+pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
+    /// Calls `visit` for every solution that presses. `last`, the contact point of the sample
+    /// before, may be used as a start.
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        last: Option<&Vector3<T>>,
+        visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T>;
+
+    /// What the surface is near one of its points, to the last digit.
+    ///
+    /// Where a surface is straight one way, a contact under a large spin torque answers to the last digit
+    /// of its normal; shapes that tell it so have contacts to the last digit. `None`, as the default
+    /// answers, takes normals at their word.
+    #[inline]
+    fn patch(&self, point: &Vector3<T>) -> Option<LocalSurface> {
+        let _ = point;
+        None
+    }
+
+    /// The contact, for shapes that have but one and know it in closed form: a shortcut past
+    /// [`soft_contacts`](Self::soft_contacts) that [`SoftFinger`](crate::SoftFinger) takes first.
+    ///
+    /// `None`, as the default answers, says nothing; an answer shall be the only contact that
+    /// `soft_contacts` would visit. Where the force presses at so flat an angle that rounding errors
+    /// grow, leave it at `None`: what [`soft_contacts`](Self::soft_contacts) visits is then mended.
+    #[inline]
+    fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+        let _ = push;
+        None
+    }
+}
+
+impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
+    #[inline]
+    fn soft_contacts(
+        &self,
+        wrench: &Wrench<T>,
+        last: Option<&Vector3<T>>,
+        visit: impl FnMut(SoftContact<T>),
+    ) -> Search<T> {
+        (**self).soft_contacts(wrench, last, visit)
+    }
+
+    #[inline]
+    fn patch(&self, point: &Vector3<T>) -> Option<LocalSurface> {
+        (**self).patch(point)
+    }
+
+    #[inline]
+    fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+        (**self).sole_soft_contact(push)
+    }
+}

@@ -1,0 +1,98 @@
+//! The closed form that every ellipsoid reduces to.
+
+use fingertip_wrench::Real;
+use nalgebra::Vector3;
+
+use crate::model::flat;
+use fingertip_surfaces::ForceLine;
+
+/// The soft-finger contact of a wrench `(f, m)` about the centre of the unit sphere:
+/// `m = k c + c × f`, `|c| = 1`, `f·c < 0`.
+///
+/// Bicchi, Salisbury & Brock (1990, 1993) found `k` as the root of a quadratic and `c` as a
+/// rational function with `k` in its denominator, which loses half of the digits by `|k| = 1e-8`
+/// and all of them at zero. With the second unknown `h = f·c = (f·m)/k` the same solution is
+/// (theory 3.2)
+///
+/// ```text
+/// σ = |m|² − |f|²,  ρ = √(σ² + 4(f·m)²)
+/// σ ≥ 0:  k² = (σ + ρ)/2,  h = (f·m)/k          σ < 0:  h² = (ρ − σ)/2,  k = (f·m)/h
+/// c = (k m + f × m + h f) / (k² + |f|²),        h < 0,        k² + |f|² = (ρ + |m|² + |f|²)/2
+/// ```
+///
+/// which divides by nothing that is small: a spin torque of zero is an ordinary case.
+pub(crate) struct OnUnitSphere<T: Real> {
+    /// `k`.
+    pub(crate) spin: T,
+    /// `|h|`.
+    along: T,
+    /// `c` times `k² + |f|²`, and the reciprocal of that.
+    stretched: Vector3<T>,
+    inverse: T,
+    /// `|f|²`.
+    force: T,
+    /// `|m|² + |f|²`.
+    squares: T,
+    /// The line of action passes the sphere by or touches it.
+    misses: bool,
+}
+
+impl<T: Real> OnUnitSphere<T> {
+    /// For a force and a torque of which the larger is tame, so that fourth powers stay in range; it
+    /// must not be zero, and the force must not be. `force` is `|f|²`, `power` is `f·m`, which may
+    /// be known better than from the two vectors.
+    // Called, it costs as much again as it computes, for what it returns does not fit into registers.
+    #[inline(always)]
+    pub(crate) fn new(f: &Vector3<T>, m: &Vector3<T>, force: T, power: T) -> Self {
+        let half = T::literal(0.5);
+        let torque = m.norm_squared();
+        let (squares, sigma, twice) = (force + torque, torque - force, power + power);
+        let root = (sigma * sigma + twice * twice).root();
+        // k² + |f|² = (ρ + |m|² + |f|²)/2, which does not wait for k.
+        let inverse = T::one() / ((root + squares) * half);
+        let larger = ((root + sigma.abs()) * half).root();
+        let smaller = power.abs() / larger;
+        let misses = sigma >= T::zero();
+        // Without a branch, which no one could predict.
+        let (spin, along) = if misses { (larger, smaller) } else { (smaller, larger) };
+        let spin = spin.copysign(-power);
+        let stretched = m * spin + f.cross(m) - f * along;
+        Self { spin, along, stretched, inverse, force, squares, misses }
+    }
+
+    /// The same in the range that a shortcut is for: `None` where fourth powers over- or underflow,
+    /// where the force presses at so flat an angle that rounding errors grow more than threefold, and
+    /// where a number is NaN.
+    #[inline(always)]
+    pub(crate) fn steep(f: &Vector3<T>, m: &Vector3<T>, force: T, power: T) -> Option<Self> {
+        let solved = Self::new(f, m, force, power);
+        let fourth = solved.squares * solved.squares;
+        let in_range = (fourth >= ForceLine::least_squared()) & (fourth <= T::GREATEST);
+        (in_range & (solved.along * solved.along >= flat::<T>().powi(2) * force)).then_some(solved)
+    }
+
+    /// `c`: point and normal at once.
+    #[inline(always)]
+    pub(crate) fn point(&self) -> Vector3<T> {
+        self.stretched * self.inverse
+    }
+
+    /// The pair of points that a pure force whose line misses could only graze, with equal and
+    /// opposite spin torques; the same point twice if the line touches. `None` if the force presses.
+    ///
+    /// The sign of `f·m` tells one point of the pair from the other. Half a unit in the last place of
+    /// every component of the wrench changes `f·m` by up to `ε|f||m|`, and the sum of its products
+    /// rounds about as much: below four times `ε` the cosine of incidence `|h|/|f|` is zero for all
+    /// that the numbers say.
+    #[inline(always)]
+    pub(crate) fn grazing(&self, f: &Vector3<T>, m: &Vector3<T>) -> Option<[Vector3<T>; 2]> {
+        let least = (T::EPSILON * T::literal(4.0)).powi(2) * self.force;
+        (self.misses && !(self.along * self.along > least)).then(|| self.pair(f, m))
+    }
+
+    #[cold]
+    fn pair(&self, f: &Vector3<T>, m: &Vector3<T>) -> [Vector3<T>; 2] {
+        let (cross, along) = (f.cross(m), m * self.spin);
+        [(cross + along) * self.inverse, (cross - along) * self.inverse]
+    }
+}

@@ -1,0 +1,33 @@
+//! How sure a contact is: Jacobians, covariance, worst case, rigorous bounds.
+//!
+//! Three answers to three questions, from the cheapest to the safest:
+//!
+//! | question | answer | holds |
+//! |---|---|---|
+//! | how does noise spread the contact? | [`ContactJacobian`], [`ContactCovariance`] | to first order |
+//! | how far can errors of known size push it? | [`ContactJacobian::worst_case`], [`Contact::first_order_bound`](crate::Contact::first_order_bound) | to first order |
+//! | where can the true contact not be? | [`ContactBound::on_sphere`](crate::ContactBound::on_sphere), [`ConvexBound`] | always |
+//!
+//! First order fails near grazing: it needs `ε sin φ ≪ R cos² φ`, where `ε` is the error of the
+//! line of action and `φ` the angle between force and inward normal (theory 2.4).
+
+mod answers;
+mod convex_bound;
+mod covariance;
+mod geometry;
+mod jacobian;
+mod paper;
+mod parameters;
+mod sensor;
+mod skin;
+mod spread;
+mod worst_case;
+
+pub use convex_bound::ConvexBound;
+pub use covariance::{ConfidenceEllipse, ContactCovariance};
+pub use geometry::{GeometrySensitivity, GeometryUncertainty, ShapeParameters};
+pub use jacobian::ContactJacobian;
+pub use paper::PaperBounds;
+pub use sensor::{SensorUncertainty, WrenchNoise};
+pub use spread::{IndependentNoise, IsotropicNoise, WrenchSpread};
+pub use worst_case::WorstCase;

@@ -1,0 +1,117 @@
+//! From the noise of gauges and of a calibration to the covariance of a wrench.
+
+use fingertip_wrench::{Real, Wrench, WrenchSolver};
+use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
+
+use fingertip_surfaces::BadShape;
+
+/// What is uncertain in a sensor: the signals, by noise, and the sensor matrix, by calibration.
+///
+/// `w = B s` with the solver's matrix `B`. The signals are `s = A w + noise`; an error `dA` of
+/// the sensitivities `A` \[signal per N, N·m\] acts as an error `−dA w` of the signals. So, with
+/// noise covariance `Σ_s` and a covariance `Σ_i` of row `i` of `A` (rows independent, as a
+/// calibration by least squares gives them),
+///
+/// ```text
+/// Σ_w = B (Σ_s + diag(wᵀ Σ_i w)) Bᵀ
+/// ```
+///
+/// which makes noise proportional to the load out of an uncertain calibration, and a floor out of
+/// the noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SensorUncertainty<T: Real, const N: usize> {
+    solver: SMatrix<T, 6, N>,
+    /// `B Σ_s Bᵀ`.
+    floor: Matrix6<T>,
+    rows: Option<[Matrix6<T>; N]>,
+}
+
+impl<T: Real, const N: usize> SensorUncertainty<T, N> {
+    /// Of a solver, with the covariance of its signals. (A solver is linear: its matrix is what it
+    /// answers to unit signals.)
+    ///
+    /// # Errors
+    /// [`BadShape`] unless the covariance is finite and has no negative variance.
+    pub fn new<S: WrenchSolver<T, N>>(solver: &S, signals: &SMatrix<T, N, N>) -> Result<Self, BadShape> {
+        let good =
+            signals.iter().all(|x| x.is_number()) && signals.diagonal().iter().all(|x| *x >= T::zero());
+        if !good {
+            return Err(BadShape {
+                shape: "sensor uncertainty",
+                parameter: "covariance of the signals",
+                requirement: "finite, with no negative variance",
+            });
+        }
+        let mut matrix = SMatrix::<T, 6, N>::zeros();
+        for gauge in 0..N {
+            let mut unit = SVector::<T, N>::zeros();
+            unit[gauge] = T::one();
+            matrix.set_column(gauge, &solver.solve(&unit).components());
+        }
+        Ok(Self { solver: matrix, floor: matrix * signals * matrix.transpose(), rows: None })
+    }
+
+    /// Of a solver whose gauges have independent noise of these standard deviations.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless they are finite.
+    pub fn independent<S: WrenchSolver<T, N>>(
+        solver: &S,
+        deviations: &SVector<T, N>,
+    ) -> Result<Self, BadShape> {
+        Self::new(solver, &SMatrix::from_diagonal(&deviations.component_mul(deviations)))
+    }
+
+    /// Adds the covariance of each gauge's six sensitivities \[signal per N, N·m\]. From a fit by
+    /// least squares to loads `X` with residual deviation `s_i`: `s_i² (XᵀX)⁻¹`.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless all entries are finite.
+    pub fn with_calibration(self, rows: [Matrix6<T>; N]) -> Result<Self, BadShape> {
+        if rows.iter().all(|row| row.iter().all(|x| x.is_number())) {
+            Ok(Self { rows: Some(rows), ..self })
+        } else {
+            Err(BadShape {
+                shape: "sensor uncertainty",
+                parameter: "covariance of the calibration",
+                requirement: "finite",
+            })
+        }
+    }
+
+    /// Covariance of a wrench that was solved from this sensor's signals.
+    #[must_use]
+    pub fn wrench_covariance(&self, wrench: &Wrench<T>) -> Matrix6<T> {
+        let Some(rows) = &self.rows else { return self.floor };
+        let w = wrench.components();
+        let mut covariance = self.floor;
+        for (gauge, row) in rows.iter().enumerate() {
+            let variance = w.dot(&(row * w)).max(T::zero());
+            let column = self.solver.column(gauge);
+            covariance += column * column.transpose() * variance;
+        }
+        covariance
+    }
+}
+
+/// The noise model of a data sheet: a floor, and a part that grows with the load,
+/// `σ_i² = σ_0i² + (E w_i)²` (theory 2.2).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct WrenchNoise<T: Real> {
+    /// Standard deviations at rest \[N, N, N, N·m, N·m, N·m\].
+    pub floor: Vector6<T>,
+    /// Relative standard deviation under load.
+    pub relative: T,
+}
+
+impl<T: Real> WrenchNoise<T> {
+    /// Covariance of a wrench, its components independent.
+    #[must_use]
+    pub fn covariance(&self, wrench: &Wrench<T>) -> Matrix6<T> {
+        let proportional = wrench.components() * self.relative;
+        Matrix6::from_diagonal(
+            &(self.floor.component_mul(&self.floor) + proportional.component_mul(&proportional)),
+        )
+    }
+}

@@ -1,0 +1,119 @@
+//! Batches answer as one at a time.
+
+use fingertip_contact::batch::{BatchSurface, Contacts, Wrenches};
+use fingertip_contact::*;
+use fingertip_surfaces::*;
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+fn agrees<T: Real, S: ActiveSurface<T> + BatchSurface<T>>(surface: &S, exact_misses: bool) {
+    let mut random = Pcg64Mcg::seed_from_u64(3);
+    let count = 5003;
+    let mut columns: [Vec<T>; 6] = Default::default();
+    for k in 0..count {
+        let strength = 10_f64.powf(random.random_range(-7.0..7.0));
+        let force = Vector3::<f64>::from_fn(|_, _| random.random_range(-1.0..1.0)) * strength;
+        // In the first, no line misses.
+        let reach = if k < 1500 { 0.2 } else { 1.2 };
+        let at = Vector3::<f64>::from_fn(|_, _| random.random_range(-reach..reach));
+        let mut parts = [force, at.cross(&force)].map(|v| v.data.0[0]).concat();
+        if k >= 1500 && k % 100 == 0 {
+            parts[k / 100 % 6] = [f64::NAN, f64::INFINITY][k / 100 % 2];
+        }
+        if k >= 1500 && k % 100 == 1 {
+            parts[..3].fill(0.0);
+        }
+        for (column, part) in columns.iter_mut().zip(parts) {
+            column.push(T::literal(part));
+        }
+    }
+    let mut out = [(); 7].map(|()| vec![T::zero(); count]);
+    let [px, py, pz, nx, ny, nz, gap] = &mut out;
+    let [fx, fy, fz, tx, ty, tz] = columns.each_ref().map(|column| &column[..]);
+    surface.contacts(
+        Wrenches { force: [fx, fy, fz], torque: [tx, ty, tz] },
+        Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap },
+    );
+    alone_or_together(surface, [fx, fy, fz, tx, ty, tz], &out);
+    let model = PointContact::new(T::zero()).unwrap();
+    let (mut met, mut missed, mut nothing) = (0, 0, 0);
+    for k in 0..count {
+        let wrench = Wrench::from_components(&columns.each_ref().map(|column| column[k]).into());
+        let point = Vector3::new(out[0][k], out[1][k], out[2][k]);
+        let normal = Vector3::new(out[3][k], out[4][k], out[5][k]);
+        let gap = out[6][k];
+        assert!(out.iter().all(|column| column[k].is_number()), "{k}");
+        let near = |a: &Vector3<T>, b: &Vector3<T>, incidence: T| {
+            let allowed = T::EPSILON * T::literal(400.0) / incidence.max(T::literal(1e-3));
+            assert!((a - b).norm() <= allowed, "{k}: {a:?} instead of {b:?}");
+        };
+        match model.resolve(&wrench, surface) {
+            Resolution::Contact(contact) => {
+                // Rounding decides on lines that are nearly tangent.
+                if contact.incidence() > T::literal(1e-3) {
+                    met += 1;
+                    assert_eq!(gap, T::zero(), "{k}: {contact:?}");
+                    near(&point, &contact.point, contact.incidence());
+                    near(&normal, &contact.normal, contact.incidence());
+                }
+            }
+            Resolution::NoContact(NoContact::Misses { gap: expected, closest, .. }) => {
+                missed += 1;
+                if exact_misses && expected > T::literal(1e-3) {
+                    assert!(
+                        (gap - expected).abs() <= T::EPSILON * T::literal(400.0),
+                        "{k}: {gap} {expected}"
+                    );
+                    near(&point, &closest, T::one());
+                }
+            }
+            Resolution::NoContact(_) => {
+                nothing += 1;
+                assert_eq!((gap, point), (T::GREATEST, Vector3::zeros()), "{k}");
+            }
+        }
+    }
+    assert!(met > 1000 && nothing >= 50, "{met} {missed} {nothing}");
+}
+
+/// Wide vectors, narrow ones and the remainder of a loop all give the same bits.
+fn alone_or_together<T: Real, S: BatchSurface<T>>(surface: &S, given: [&[T]; 6], together: &[Vec<T>; 7]) {
+    for k in 0..together[0].len() {
+        let [fx, fy, fz, tx, ty, tz] = given.map(|column| &column[k..=k]);
+        let mut alone = [[T::zero()]; 7];
+        let [px, py, pz, nx, ny, nz, gap] = &mut alone;
+        surface.contacts(
+            Wrenches { force: [fx, fy, fz], torque: [tx, ty, tz] },
+            Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap },
+        );
+        for (alone, together) in alone.iter().zip(together) {
+            assert_eq!(alone[0], together[k], "{k}");
+        }
+    }
+}
+
+fn v<T: Real>(x: f64, y: f64, z: f64) -> Vector3<T> {
+    Vector3::new(x, y, z).map(T::literal)
+}
+
+macro_rules! batches {
+    ($name:ident, $shape:expr, $exact:expr) => {
+        #[test]
+        fn $name() {
+            fn check<T: Real>() {
+                agrees::<T, _>(&$shape.unwrap(), $exact);
+            }
+            check::<f32>();
+            check::<f64>();
+        }
+    };
+}
+
+batches!(sphere, Sphere::new(v(0.1, -0.2, 0.3), T::one()), true);
+batches!(centred_sphere, Sphere::centred(T::one()), true);
+batches!(plane, Plane::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0)), true);
+batches!(cylinder, Cylinder::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0), T::one()), true);
+batches!(ellipsoid, Ellipsoid::new(v(1.0, 0.8, 0.6)), false);
+batches!(capsule, Capsule::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0), T::literal(0.5), T::literal(0.6)), false);

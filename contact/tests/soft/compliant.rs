@@ -1,0 +1,429 @@
+//! Skins, and the choice of a model.
+
+use fingertip_contact::{
+    Auto, Choice, CompliantContact, CompliantPointContact, CompliantSoftFinger, Contact, ContactModel, Hertz,
+    Indentation, LinearStiffness, LocalHertz, NoContact, PointContact, PowerLaw, Resolution, SkinLaw,
+    SoftFinger, SoftFingerSurface, StiffnessLaw, Tabulated, contact_modulus,
+};
+use fingertip_surfaces::{DynSurface, SmoothSurface, Sphere};
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+use crate::common;
+use crate::skin::{hertz, power, spring, table};
+use crate::wrenches::Random;
+
+/// A wrench from a contact on the parallel surface: known depth, place and spin torque. `T` is the
+/// precision of the model; the contact is known in double.
+///
+/// The iteration stops at a residual of `4ε` of the size in each coordinate, of which the contraction (at
+/// most ½ here) and the angle of the force (56° at most) make `4ε·√3·2/0.55`, some 25ε; the rigid contact
+/// and, in single precision, the rounding of the wrench add as much, times the same.
+fn through_skin<T, S, D, L, M>(
+    name: &str,
+    (surface, exact): (&S, &D),
+    (law, exact_law): (&L, &M),
+    spin: f64,
+    count: usize,
+) where
+    T: Real,
+    S: SoftFingerSurface<T> + SmoothSurface<T>,
+    D: SoftFingerSurface<f64> + SmoothSurface<f64>,
+    L: SkinLaw<T, S> + Copy,
+    M: SkinLaw<f64, D>,
+{
+    let mut random = Random::new(61);
+    let tolerance = 128.0 * T::EPSILON.to_f64();
+    let soft = CompliantSoftFinger::new(SoftFinger::new(T::zero()).unwrap(), *law);
+    let point_model = CompliantPointContact::new(PointContact::new(T::zero()).unwrap(), *law);
+    let (mut worst, mut deepest) = (0.0_f64, 0.0_f64);
+    let wide = |v: &Vector3<T>| v.map(Real::to_f64);
+    let narrow = |w: &Wrench<f64>| Wrench::from_components(&w.components().map(T::literal));
+    for _ in 0..count {
+        let (place, normal) = random.place(exact, 0.017);
+        let force = {
+            let size = random_force(&mut random);
+            random.force(&normal, 0.55, size)
+        };
+        let pressing = -force.dot(&normal);
+        let at = Contact { point: place, normal, force, spin_torque: 0.0, gap: 0.0, alternatives: 0 };
+        let Indentation { depth, patch } = exact_law.indentation_at(exact, &at, pressing);
+        deepest = deepest.max(depth);
+        let touched = place - normal * depth;
+        let torque = spin * force.norm() * 0.013 * random.uniform(-1.0, 1.0);
+        let wrench = Wrench::on_fingertip(force, touched.cross(&force) + normal * torque);
+        let found = soft.resolve_indented(&narrow(&wrench), surface, None).unwrap();
+        let pure =
+            point_model.resolve_indented(&narrow(&Wrench::from_force_at(&touched, force)), surface, None);
+        let spins = (found.contact.spin_torque.to_f64() - torque).abs() / (force.norm() * 0.017);
+        for found in [found, pure.unwrap()] {
+            let off = |point: &Vector3<T>, exact: &Vector3<f64>| (wide(point) - exact).norm() / 0.017;
+            worst =
+                worst.max(off(&found.contact.point, &touched)).max(off(&found.undeformed, &place)).max(spins);
+            let shallow = (found.indentation.depth.to_f64() - depth).abs() / 0.017;
+            // The patch as far as the normal force is known, and its curvature.
+            let sides = [0, 1].map(|k| (found.indentation.patch[k].to_f64() / patch[k] - 1.0).abs());
+            worst = worst.max(shallow).max(sides[0].max(sides[1]) * 0.1);
+        }
+    }
+    println!(
+        "{name:28} through a skin: error {:.1} ε of the size, deepest {:.2} mm",
+        worst / T::EPSILON.to_f64(),
+        deepest * 1e3
+    );
+    assert!(worst < tolerance, "{name} {worst:e}");
+}
+
+fn random_force(random: &mut Random) -> f64 {
+    random.log_uniform(0.05, 20.0)
+}
+
+fn local<T: Real>() -> LocalHertz<T> {
+    LocalHertz::new(T::literal(2e6), T::zero(), T::literal(0.1)).unwrap()
+}
+
+/// Every law on some shapes, in both precisions; the spring gives way by 2.5 mm at 20 N.
+#[test]
+fn contacts_through_a_skin() {
+    macro_rules! through {
+        ($shape:ident, $law:ident, $spin:literal, $count:literal) => {
+            let (surface, law) = (DynSurface::from(common::$shape::<f64>()), $law::<f64>());
+            let name = concat!(stringify!($shape), ", ", stringify!($law));
+            through_skin(name, (&surface, &surface), (&law, &law), $spin, $count);
+            let single = (&DynSurface::from(common::$shape::<f32>()), &surface);
+            through_skin(concat!("f32 ", stringify!($shape)), single, (&$law::<f32>(), &law), $spin, $count);
+        };
+    }
+    through!(sphere, spring, 0.3, 1000);
+    through!(ellipsoid, spring, 0.3, 1000);
+    through!(ellipsoid, hertz, 0.3, 1000);
+    through!(cylinder, power, 0.3, 1000);
+    through!(plane, table, 0.3, 1000);
+    through!(capsule, hertz, 0.2, 1000);
+    through!(paraboloid, table, 0.2, 500);
+    through!(superquadric, hertz, 0.2, 200);
+    through!(ellipsoid, local, 0.2, 200);
+}
+
+/// Whatever the force, the numbers or the softness: a contact that is finite, or a reason.
+#[test]
+fn a_skin_at_extremes() {
+    fn any<L: SkinLaw<f64, Sphere<f64>> + Copy>(law: L) -> [usize; 2] {
+        let sphere = Sphere::centred(0.013).unwrap();
+        let model = CompliantSoftFinger::new(SoftFinger::new(0.0).unwrap(), law);
+        let point = CompliantPointContact::new(PointContact::new(0.0).unwrap(), law);
+        let mut random = Random::new(73);
+        let (mut contacts, mut reasons) = (0, 0);
+        for _ in 0..3000 {
+            let size = random.log_uniform(1e-300, 1e300);
+            let arm = random.log_uniform(1e-12, 1e3);
+            let (force, torque) = (random.direction() * size, random.direction() * size * arm);
+            let mut components = Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z);
+            if random.uniform(0.0, 1.0) < 0.2 {
+                let bad = [f64::NAN, f64::INFINITY, -f64::INFINITY, 0.0, f64::MIN_POSITIVE, f64::MAX, -0.0];
+                components[random.uniform(0.0, 6.0) as usize] = bad[random.uniform(0.0, 7.0) as usize];
+            }
+            let wrench = Wrench::from_components(&components);
+            for found in [
+                model.resolve_indented(&wrench, &sphere, None),
+                point.resolve_indented(&wrench, &sphere, None),
+            ] {
+                match found {
+                    Ok(found) => {
+                        contacts += 1;
+                        let numbers = found.contact.point.sum()
+                            + found.contact.normal.sum()
+                            + found.contact.spin_torque;
+                        assert!(numbers.is_finite(), "{wrench:?} {found:?}");
+                        assert!(found.indentation.depth >= 0.0 && found.indentation.patch[1] >= 0.0);
+                    }
+                    Err(_) => reasons += 1,
+                }
+            }
+        }
+        [contacts, reasons]
+    }
+    let seen = [
+        any(spring::<f64>()),
+        any(hertz::<f64>()),
+        any(power::<f64>()),
+        any(table::<f64>()),
+        any(local::<f64>()),
+    ];
+    println!("contacts and reasons at extremes: {seen:?}");
+    assert!(seen.iter().all(|[contacts, reasons]| *contacts > 500 && *reasons > 500));
+}
+
+/// A fixed point that is found is one: the contact lies the depth of its own force below the surface. One
+/// that is not found is said not to be, and that only where the skin is as soft as the surface is round.
+#[test]
+fn the_fixed_point_is_one_or_it_is_said() {
+    let ellipsoid = common::ellipsoid::<f64>();
+    let mut random = Random::new(79);
+    for stiffness in [1e5, 1e4, 3e3, 1e3, 100.0, 1.0] {
+        let spring = LinearStiffness::new(stiffness, 0.011).unwrap();
+        let model = CompliantSoftFinger::new(SoftFinger::new(0.0).unwrap(), spring);
+        let (mut unresolved, mut deep) = (0, 0);
+        for _ in 0..1000 {
+            let (point, normal) = random.place(&ellipsoid, 0.017);
+            let force = random.force(&normal, 0.2, 5.0);
+            let depth = -force.dot(&normal) / stiffness;
+            let spin = 5.0 * 0.017 * random.uniform(-1.0, 1.0);
+            let wrench = Wrench::on_fingertip(force, (point - normal * depth).cross(&force) + normal * spin);
+            let soft = ellipsoid.shape_operator(&point).norm() * depth > 0.2;
+            deep += usize::from(soft);
+            match model.resolve_indented(&wrench, &ellipsoid, None) {
+                Ok(found) => {
+                    let CompliantContact { contact, undeformed, indentation } = found;
+                    let depth = contact.normal_force() / stiffness;
+                    // Within the residual, of which a soft skin makes a change of depth.
+                    let hair = 32.0 * f64::EPSILON * (0.017 + depth);
+                    assert!((indentation.depth - depth).abs() <= hair, "{found:?}");
+                    assert!(
+                        (undeformed - contact.normal * depth - contact.point).norm() <= hair,
+                        "{found:?}"
+                    );
+                    assert!((ellipsoid.level(&undeformed).value * 0.008).abs() <= hair);
+                    let rest =
+                        wrench.torque() - contact.point.cross(&force) - contact.normal * contact.spin_torque;
+                    assert!(
+                        rest.norm() <= hair * 5.0 * 4.0 + 4.0 * f64::EPSILON * wrench.torque().norm(),
+                        "{rest}"
+                    );
+                }
+                Err(reason) => {
+                    assert_eq!(reason, NoContact::Unresolved);
+                    assert!(soft, "{reason:?} {wrench:?}");
+                    unresolved += 1;
+                }
+            }
+        }
+        println!("spring of {stiffness} N/m at 5 N: {unresolved} of 1000 unresolved, {deep} deep");
+        assert!(stiffness < 2e3 || unresolved == 0);
+    }
+}
+
+#[test]
+fn bad_skins_are_refused() {
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(LinearStiffness::new(bad, 0.013).is_err() && LinearStiffness::new(1e3, bad).is_err());
+        assert!(Hertz::sphere(bad, 1e6).is_err() && Hertz::sphere(0.013, bad).is_err());
+        assert!(Hertz::new([0.013, bad], 1e6).is_err() && Hertz::new([bad, 0.013], 1e6).is_err());
+        assert!(PowerLaw::new([bad, 0.3], [1e-3, 0.5]).is_err());
+        assert!(PowerLaw::new([1e-3, bad], [1e-3, 0.5]).is_err());
+        assert!(PowerLaw::new([1e-3, 0.3], [bad, 0.5]).is_err());
+        assert!(PowerLaw::new([1e-3, 0.3], [1e-3, bad]).is_err());
+        assert!(LocalHertz::new(bad, 0.0, 0.1).is_err() && LocalHertz::new(1e6, 0.0, bad).is_err());
+    }
+    assert!(PowerLaw::new([1e-3, 1.1], [1e-3, 0.5]).is_err() && Hertz::new([1.0, 1e-9], 1e6).is_err());
+    assert!(
+        LocalHertz::new(1e6, f64::NAN, 0.1).is_err() && LocalHertz::new(1e6, f64::INFINITY, 0.1).is_err()
+    );
+    for points in [
+        [[1.0, 0.2, 1.0], [2.0, 0.1, 1.5]],
+        [[1.0, 0.2, 1.0], [2.0, 0.3, 0.5]],
+        [[0.0, 0.0, 0.0], [2.0, 0.3, 0.5]],
+        [[1.0, 0.2, 1.0], [f64::INFINITY, 0.3, 1.5]],
+    ] {
+        assert!(Tabulated::new(points).is_err(), "{points:?}");
+    }
+    let spring = LinearStiffness::new(5e3, 0.013).unwrap();
+    for share in [-0.1, 1.1, f64::NAN] {
+        assert!(CompliantSoftFinger::new(SoftFinger::new(0.0).unwrap(), spring).with_share(share).is_err());
+    }
+}
+
+/// What a law says of its slope against differences of the depth.
+#[test]
+fn compliances_are_slopes() {
+    fn check(name: &str, law: &impl StiffnessLaw<f64>) {
+        for force in [1e-3, 0.3, 2.0, 30.0] {
+            let step = force * 1e-5;
+            let slope =
+                (law.indentation(force + step).depth - law.indentation(force - step).depth) / (step + step);
+            // To second order in the step, and rounding over it.
+            assert!((law.compliance(force) / slope - 1.0).abs() < 1e-9, "{name} {force}");
+        }
+    }
+    check("spring", &spring::<f64>());
+    check("Hertz", &hertz::<f64>());
+    check("power law", &power::<f64>());
+    check("table", &table::<f64>());
+}
+
+#[test]
+fn the_parallel_surface_of_a_sphere_is_a_sphere() {
+    let sphere = Sphere::centred(0.013).unwrap();
+    let spring = LinearStiffness::new(5000.0, 0.013).unwrap();
+    let model = CompliantSoftFinger::new(SoftFinger::new(0.0).unwrap(), spring);
+    let mut random = Random::new(67);
+    for _ in 0..300 {
+        let normal = random.direction();
+        let force = random.force(&normal, 0.6, 3.0);
+        let wrench = Wrench::on_fingertip(force, (normal * 0.0125).cross(&force) + normal * 0.004);
+        let found = model.resolve_indented(&wrench, &sphere, None).unwrap();
+        let shrunk = Sphere::centred(0.013 - found.indentation.depth).unwrap();
+        let rigid = *SoftFinger::new(0.0).unwrap().resolve(&wrench, &shrunk).contact().unwrap();
+        assert!((rigid.point - found.contact.point).norm() < 1e-14);
+        assert!((rigid.spin_torque - found.contact.spin_torque).abs() < 1e-14);
+        let patch = found.indentation.patch[0];
+        assert!((patch * patch - 2.0 * 0.013 * found.indentation.depth).abs() < 1e-16);
+    }
+}
+
+#[test]
+fn hertz_of_a_round_patch_and_of_two_bodies() {
+    // a³ = 3FR/(4E*), δ = a²/R.
+    let modulus = contact_modulus([1e6, f64::INFINITY], [0.48, 0.3]).unwrap();
+    assert!((modulus - 1e6 / (1.0 - 0.48 * 0.48)).abs() < 1e-6);
+    let found = Hertz::sphere(0.013, modulus).unwrap().indentation(2.0);
+    let a = (3.0 * 2.0 * 0.013 / (4.0 * modulus)).cbrt();
+    assert!((found.patch[0] / a - 1.0).abs() < 1e-14 && (found.patch[1] / a - 1.0).abs() < 1e-14);
+    assert!((found.depth / (a * a / 0.013) - 1.0).abs() < 1e-14);
+    assert!(contact_modulus([1e6, -1.0], [0.3, 0.3]).is_err());
+    assert!(contact_modulus([f64::INFINITY, f64::INFINITY], [0.3, 0.3]).is_err());
+    assert!(Hertz::new([0.01, 0.01], f64::NAN).is_err());
+    assert_eq!(Hertz::sphere(0.013, modulus).unwrap().indentation(0.0).depth, 0.0);
+    // The order of the radii does not matter, and the patch is longer along the flatter side.
+    let one = Hertz::new([0.05, 0.01], 1e6).unwrap();
+    assert_eq!(one, Hertz::new([0.01, 0.05], 1e6).unwrap());
+    for ratio in [1.000_001_f64, 2.0, 100.0, 1e6] {
+        let law = Hertz::new([0.01 * ratio, 0.01], 1e6).unwrap();
+        let [a, b] = law.indentation(1.0).patch;
+        assert!(a > b && law.peak_pressure(1.0) > 0.0);
+        // Known to 20 % at a ratio of 100 (theory 4.1).
+        assert!(ratio > 1e3 || ((b / a) / ratio.powf(-2.0 / 3.0) - 1.0).abs() < 0.2);
+    }
+}
+
+#[test]
+fn a_skin_without_contact_says_why() {
+    let sphere = Sphere::centred(0.013).unwrap();
+    let spring = LinearStiffness::new(5000.0, 0.013).unwrap();
+    let model = CompliantPointContact::new(PointContact::new(0.5).unwrap(), spring);
+    let weak = Wrench::from_force_at(&Vector3::zeros(), Vector3::new(0.0, 0.0, -0.1));
+    assert!(matches!(model.resolve(&weak, &sphere), Resolution::NoContact(NoContact::BelowThreshold { .. })));
+    let far: Wrench<f64> = Wrench::from_force_at(&Vector3::new(0.1, 0.0, 0.0), Vector3::new(0.0, 0.0, -1.0));
+    assert!(matches!(model.resolve(&far, &sphere), Resolution::NoContact(NoContact::Misses { .. })));
+    // Softer than it is thick: whatever comes, it is no NaN.
+    let mud = CompliantPointContact::new(
+        PointContact::new(0.0).unwrap(),
+        LinearStiffness::new(1.0, 0.013).unwrap(),
+    );
+    let hard: Wrench<f64> =
+        Wrench::from_force_at(&Vector3::new(0.005, 0.0, 0.0), Vector3::new(0.3, 0.0, -10.0));
+    if let Resolution::Contact(contact) = mud.resolve(&hard, &sphere) {
+        assert!(contact.point.iter().all(|x: &f64| x.is_finite()));
+    }
+    assert!(model.with_share(1.5).is_err());
+}
+
+fn auto(deviations: &Vector6<f64>) -> Auto<f64> {
+    let noise = Matrix6::from_diagonal(&deviations.component_mul(deviations));
+    Auto::new(PointContact::new(0.0).unwrap(), SoftFinger::new(0.0).unwrap(), noise).unwrap()
+}
+
+#[test]
+fn pitch_test_has_the_rate_it_claims_and_finds_spin() {
+    let deviations = Vector6::new(2e-3, 3e-3, 2e-3, 2e-5, 3e-5, 1e-5);
+    let sphere = common::sphere::<f64>();
+    let mut random = Random::new(71);
+    let mut exceeded = [0; 3];
+    let mut softened = 0;
+    let count = 40_000;
+    for _ in 0..count {
+        let (point, normal) = random.place(&sphere, 0.017);
+        let force = random.force(&normal, 0.5, 2.0);
+        let noise = Vector6::from_fn(|i, _| deviations[i] * random.normal());
+        let clean: Wrench<f64> = Wrench::from_force_at(&point, force);
+        let noisy = Wrench::from_components(&(clean.components() + noise));
+        for (slot, threshold) in exceeded.iter_mut().zip([3.841, 6.635, 10.828]) {
+            let test = auto(&deviations).with_threshold(threshold).unwrap().test(&noisy).unwrap();
+            *slot += usize::from(test.choice == Choice::SoftFinger);
+        }
+        let spun = Wrench::on_fingertip(noisy.force(), noisy.torque() + normal * 2e-3);
+        let (resolution, test) = auto(&deviations).resolve_with_test(&spun, &sphere, None);
+        softened += usize::from(test.unwrap().choice == Choice::SoftFinger);
+        assert!(resolution.contact().is_some());
+    }
+    let rates = exceeded.map(|n| f64::from(n as u32) / f64::from(count));
+    println!("pitch test: {rates:?} at 5, 1, 0.1 %; spin of 2 mN·m found in {softened} of {count}");
+    for (rate, expected) in rates.iter().zip([0.05, 0.01, 0.001]) {
+        let allowed = 5.0 * (expected / f64::from(count)).sqrt();
+        assert!((rate - expected).abs() < allowed, "{rate} {expected}");
+    }
+    assert!(softened == count as usize);
+}
+
+/// Contacts whose pitch is the greatest that one contact can have are refused as seldom as the number of
+/// standard deviations says, one side of a normal distribution; and the reason carries the pitch and the
+/// excess of the test.
+#[test]
+fn one_contact_is_seldom_refused() {
+    let deviations = Vector6::new(2e-3, 3e-3, 2e-3, 2e-5, 3e-5, 1e-5);
+    let sphere = common::sphere::<f64>();
+    let mut random = Random::new(83);
+    let greatest = 1e-3;
+    let choosers = [1.0, 2.0, 3.0].map(|k| auto(&deviations).with_greatest_pitch(greatest, k).unwrap());
+    let mut refused = [0; 3];
+    let count = 40_000;
+    for _ in 0..count {
+        let (point, normal) = random.place(&sphere, 0.017);
+        let force = random.force(&normal, 0.5, 2.0);
+        let noise = Vector6::from_fn(|i, _| deviations[i] * random.normal());
+        let pitch = random.sign() * greatest;
+        let clean: Wrench<f64> = Wrench::on_fingertip(force, point.cross(&force) + force * pitch);
+        let noisy = Wrench::from_components(&(clean.components() + noise));
+        for (slot, chooser) in refused.iter_mut().zip(&choosers) {
+            let test = chooser.test(&noisy).unwrap();
+            *slot += usize::from(test.choice == Choice::NotOneContact);
+            assert!((test.pitch - noisy.line_of_action().unwrap().pitch).abs() < 1e-15);
+            match chooser.resolve(&noisy, &sphere) {
+                Resolution::NoContact(NoContact::NotOneContact { pitch, excess }) => {
+                    assert_eq!(
+                        (pitch, excess, test.choice),
+                        (test.pitch, test.excess, Choice::NotOneContact)
+                    );
+                }
+                _ => assert!(test.choice != Choice::NotOneContact),
+            }
+        }
+    }
+    let rates = refused.map(|n| f64::from(n as u32) / f64::from(count));
+    println!("one contact refused at 1, 2, 3 standard deviations: {rates:?}");
+    for (rate, expected) in rates.iter().zip([0.158_655, 0.022_750, 0.001_350]) {
+        assert!((rate - expected).abs() < 5.0 * (expected / f64::from(count)).sqrt(), "{rate} {expected}");
+    }
+}
+
+#[test]
+fn a_pitch_beyond_one_contact_is_refused() {
+    let deviations = Vector6::repeat(1e-4);
+    // e μ = 1 mm.
+    let chooser = auto(&deviations).with_greatest_pitch(1e-3, 3.0).unwrap();
+    let sphere = common::sphere::<f64>();
+    let force = Vector3::new(0.0, 0.0, -2.0);
+    let top = sphere.centre() + Vector3::new(0.0, 0.0, sphere.radius());
+    let with = |pitch: f64| Wrench::on_fingertip(force, top.cross(&force) + force * pitch);
+    let choice = |pitch| chooser.resolve_with_test(&with(pitch), &sphere, None);
+    assert_eq!(choice(0.0).1.unwrap().choice, Choice::PointContact);
+    let (soft, test) = choice(0.9e-3);
+    assert_eq!(test.unwrap().choice, Choice::SoftFinger);
+    assert!((soft.contact().unwrap().spin_torque + 2.0 * 0.9e-3).abs() < 1e-12, "{soft:?}");
+    let (refused, test) = choice(3e-3);
+    assert_eq!(test.unwrap().choice, Choice::NotOneContact);
+    match refused {
+        Resolution::NoContact(NoContact::NotOneContact { pitch, excess }) => {
+            assert!((pitch - 3e-3).abs() < 1e-15 && excess > 3.0);
+        }
+        other => panic!("{other:?}"),
+    }
+    // Two contacts with a lever arm between them do that.
+    let two = Wrench::from_force_at(&Vector3::new(0.01, 0.0, 0.0), Vector3::new(0.0, 1.0, -1.0))
+        + Wrench::from_force_at(&Vector3::new(-0.01, 0.0, 0.0), Vector3::new(0.0, -1.0, -1.0));
+    assert!(matches!(chooser.resolve(&two, &sphere), Resolution::NoContact(NoContact::NotOneContact { .. })));
+    assert!(matches!(
+        chooser.resolve(&Wrench::zero(), &sphere),
+        Resolution::NoContact(NoContact::BelowThreshold { .. })
+    ));
+}

@@ -1,0 +1,434 @@
+//! The Jacobians of contacts through a skin, against dual numbers.
+
+use fingertip_contact::{
+    Compliant, CompliantContact, CompliantPointContact, CompliantSoftFinger, Contact, ContactCovariance,
+    ContactJacobian, ContactModel, GeometrySensitivity, Hertz, Indentation, LinearStiffness, LocalHertz,
+    PointContact, PowerLaw, ShapeParameters, SkinLaw, SoftFinger, SoftFingerSurface, StiffnessLaw, Tabulated,
+};
+use fingertip_surfaces::{DynSurface, Ellipsoid, SmoothSurface, Sphere};
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::{Matrix6, Vector3, Vector6};
+use num_dual::Dual64;
+
+use crate::common;
+use crate::jacobians::{deviation, lift, local, on, seeded};
+use crate::uncertainty::{noisy, wrench_covariance};
+use crate::wrenches::Random;
+
+type Dual = Dual64;
+
+/// A wrench of a contact at the place where a skin touches under it.
+fn wrench_through<S, L>(random: &mut Random, surface: &S, law: &L, share: f64, spin: f64) -> Wrench<f64>
+where
+    S: SoftFingerSurface<f64> + SmoothSurface<f64>,
+    L: SkinLaw<f64, S>,
+{
+    loop {
+        let (point, normal) = random.place(surface, 0.017);
+        let size = random.log_uniform(0.05, 20.0);
+        let force = random.force(&normal, 0.6, size);
+        let above = Contact { point, normal, force, spin_torque: 0.0, gap: 0.0, alternatives: 0 };
+        let depth = law.indentation_at(surface, &above, -force.dot(&normal)).depth * share;
+        // Not as deep as the tip of a cone is round, or an edge is near; nor near a fold, where two contacts
+        // merge and all derivatives grow without bound.
+        let (e1, e2) = (normal.cross(&force).normalize(), force.normalize());
+        let smooth = [e1, -e1, e2, -e2].iter().all(|e| {
+            let aside = (e - normal * e.dot(&normal)).normalize() * (depth * 3.0);
+            surface.normal(&(point + aside)).dot(&normal) > 0.5
+        });
+        let bend = surface.shape_operator(&point);
+        let torque = spin * force.norm() * 0.013 * random.uniform(-1.0, 1.0);
+        let curvature = (bend.trace().powi(2) - bend.norm_squared()) / 2.0;
+        let pressing = force.dot(&normal);
+        let index = torque.powi(2) * curvature + pressing.powi(2);
+        let greatest = torque.powi(2) * bend.norm_squared() + pressing.powi(2);
+        if smooth && bend.norm() * depth < 0.3 && index > 0.1 * greatest {
+            return Wrench::on_fingertip(force, (point - normal * depth).cross(&force) + normal * torque);
+        }
+    }
+}
+
+/// The derivative of the contact, by the fixed point of `shift = δ n` itself: from the contact that is
+/// known, each turn of it brings the derivative nearer by the factor by which it contracts.
+fn by_fixed_point<M, L, S>(
+    rigid: &M,
+    law: &L,
+    share: f64,
+    surface: &S,
+    wrench: &Wrench<Dual>,
+    found: &CompliantContact<f64>,
+) -> Contact<Dual>
+where
+    M: ContactModel<Dual, S>,
+    L: SkinLaw<Dual, S>,
+    S: SmoothSurface<Dual>,
+{
+    let near = lift(&found.undeformed);
+    let mut shift = lift(&(found.undeformed - found.contact.point));
+    let mut last = None;
+    for _ in 0..50 {
+        let torque = wrench.torque() + shift.cross(&wrench.force());
+        let effective = Wrench::on_fingertip(wrench.force(), torque);
+        let contact = *rigid.resolve_near(&effective, surface, Some(&near)).contact().unwrap();
+        let depth =
+            law.indentation_at(surface, &contact, contact.normal_force()).depth * Dual::from_re(share);
+        shift = contact.normal * depth;
+        last = Some(Contact { point: contact.point - shift, ..contact });
+    }
+    last.unwrap()
+}
+
+enum Model<L> {
+    Point(CompliantPointContact<f64, L>),
+    Soft(CompliantSoftFinger<f64, L>),
+}
+
+impl<L: Copy> Model<L> {
+    fn both(law: L, share: f64) -> [Self; 2] {
+        [
+            Self::Point(Compliant::new(PointContact::new(0.0).unwrap(), law).with_share(share).unwrap()),
+            Self::Soft(Compliant::new(SoftFinger::new(0.0).unwrap(), law).with_share(share).unwrap()),
+        ]
+    }
+
+    fn spin(&self) -> f64 {
+        match self {
+            Self::Point(_) => 0.01,
+            Self::Soft(_) => 1.0,
+        }
+    }
+
+    fn found<S>(&self, wrench: &Wrench<f64>, surface: &S) -> CompliantContact<f64>
+    where
+        L: SkinLaw<f64, S>,
+        S: SoftFingerSurface<f64> + SmoothSurface<f64>,
+    {
+        match self {
+            Self::Point(model) => model.resolve_indented(wrench, surface, None),
+            Self::Soft(model) => model.resolve_indented(wrench, surface, None),
+        }
+        .unwrap()
+    }
+
+    fn jacobian<S>(
+        &self,
+        found: &CompliantContact<f64>,
+        wrench: &Wrench<f64>,
+        surface: &S,
+    ) -> ContactJacobian<f64>
+    where
+        L: SkinLaw<f64, S>,
+        S: SmoothSurface<f64>,
+    {
+        match self {
+            Self::Point(model) => model.jacobian(found, wrench, surface),
+            Self::Soft(model) => model.jacobian(found, surface),
+        }
+        .unwrap()
+    }
+
+    fn dual<S, D>(
+        &self,
+        law: &D,
+        share: f64,
+        surface: &S,
+        wrench: &Wrench<Dual>,
+        found: &CompliantContact<f64>,
+    ) -> Contact<Dual>
+    where
+        D: SkinLaw<Dual, S>,
+        S: SoftFingerSurface<Dual> + SmoothSurface<Dual>,
+    {
+        let zero = Dual::from_re(0.0);
+        match self {
+            Self::Point(_) => {
+                by_fixed_point(&PointContact::new(zero).unwrap(), law, share, surface, wrench, found)
+            }
+            Self::Soft(_) => {
+                by_fixed_point(&SoftFinger::new(zero).unwrap(), law, share, surface, wrench, found)
+            }
+        }
+    }
+}
+
+fn through<S, D, L, M>(name: &str, (surface, dual): (&S, &D), (law, dual_law): (L, M), tolerance: f64)
+where
+    S: SoftFingerSurface<f64> + SmoothSurface<f64>,
+    D: SoftFingerSurface<Dual> + SmoothSurface<Dual>,
+    L: SkinLaw<f64, S> + Copy,
+    M: SkinLaw<Dual, D>,
+{
+    let share = 0.9;
+    let mut random = Random::new(101);
+    let mut worst = [0.0_f64; 2];
+    for (model, worst) in Model::both(law, share).iter().zip(&mut worst) {
+        for _ in 0..20 {
+            let wrench = wrench_through(&mut random, surface, &law, share, model.spin());
+            let found = model.found(&wrench, surface);
+            let jacobian = model.jacobian(&found, &wrench, surface);
+            let mut reference = Matrix6::zeros();
+            for axis in 0..6 {
+                let moved = model.dual(&dual_law, share, dual, &seeded(&wrench, Some(axis)), &found);
+                reference.set_column(axis, &local(&moved, &jacobian.tangents()));
+                let change = moved.point.map(|x| x.eps);
+                let off = jacobian.point().column(axis) - change;
+                let rise = change.dot(&found.contact.normal) - jacobian.height()[axis];
+                let deviation = off.norm().hypot(rise) / change.norm().max(1e-2);
+                assert!(deviation <= tolerance, "{name} {deviation:e}");
+            }
+            *worst = worst.max(deviation(&jacobian.local(), &reference));
+        }
+    }
+    println!(
+        "{name:24} through a skin, ∂/∂(f, m) against dual numbers: point {:.1e}, soft {:.1e}",
+        worst[0], worst[1]
+    );
+    assert!(worst.iter().all(|worst| *worst <= tolerance), "{name} {worst:?}");
+}
+
+pub(crate) fn spring<T: Real>() -> LinearStiffness<T> {
+    LinearStiffness::new(T::literal(8000.0), T::literal(0.013)).unwrap()
+}
+
+pub(crate) fn hertz<T: Real>() -> Hertz<T> {
+    Hertz::new([T::literal(0.013), T::literal(0.009)], T::literal(2e6)).unwrap()
+}
+
+pub(crate) fn power<T: Real>() -> PowerLaw<T> {
+    PowerLaw::new([0.003, 0.25].map(T::literal), [0.0005, 0.4].map(T::literal)).unwrap()
+}
+
+pub(crate) fn table<T: Real>() -> Tabulated<T, 3> {
+    Tabulated::new(
+        [[1.0, 0.0004, 0.002], [5.0, 0.0009, 0.004], [20.0, 0.0016, 0.005]]
+            .map(|point| point.map(T::literal)),
+    )
+    .unwrap()
+}
+
+#[test]
+fn by_wrench() {
+    macro_rules! through {
+        ($shape:ident, $law:ident) => {
+            through(
+                concat!(stringify!($shape), ", ", stringify!($law)),
+                (&DynSurface::from(common::$shape::<f64>()), &DynSurface::from(common::$shape::<Dual>())),
+                ($law::<f64>(), $law::<Dual>()),
+                1e-12,
+            );
+        };
+    }
+    through!(sphere, spring);
+    through!(ellipsoid, spring);
+    through!(ellipsoid, hertz);
+    through!(cylinder, power);
+    through!(capsule, hertz);
+    through!(plane, table);
+    through!(cone, power);
+    through!(paraboloid, hertz);
+    through!(superquadric, hertz);
+    through!(capped_cylinder, spring);
+    through!(torus, table);
+    through!(posed, hertz);
+}
+
+/// Of a law that knows its slopes from differences, against differences of fourth order of the contact:
+/// both are good for two thirds of the digits.
+fn through_by_differences<S, L>(name: &str, surface: &S, law: L)
+where
+    S: SoftFingerSurface<f64> + SmoothSurface<f64>,
+    L: SkinLaw<f64, S> + Copy,
+{
+    let mut random = Random::new(103);
+    let mut worst = 0.0_f64;
+    for model in &Model::both(law, 0.9) {
+        for _ in 0..25 {
+            let wrench = wrench_through(&mut random, surface, &law, 0.9, model.spin());
+            let found = model.found(&wrench, surface);
+            let jacobian = model.jacobian(&found, &wrench, surface);
+            let size = Vector6::new(1.0, 1.0, 1.0, 0.013, 0.013, 0.013) * (wrench.force().norm() * 2e-4);
+            for axis in 0..6 {
+                let at = |steps: f64| {
+                    let mut moved = wrench.components();
+                    moved[axis] += steps * size[axis];
+                    model.found(&Wrench::from_components(&moved), surface).contact.point
+                };
+                let slope = ((at(1.0) - at(-1.0)) * 8.0 - (at(2.0) - at(-2.0))) / (12.0 * size[axis]);
+                let off = (jacobian.point().column(axis) - slope).norm();
+                assert!(off <= 1e-8 * slope.norm().max(1e-2), "{name} {off:e} {slope}");
+                worst = worst.max(off / slope.norm().max(1e-2));
+            }
+        }
+    }
+    println!("{name:24} through a skin, ∂c/∂(f, m) against differences: {worst:.1e}");
+}
+
+/// A law whose slope is left to differences.
+#[derive(Clone, Copy)]
+struct Plain<L>(L);
+
+impl<S, L: StiffnessLaw<f64>> SkinLaw<f64, S> for Plain<L> {
+    fn indentation_at(&self, _: &S, _: &Contact<f64>, normal_force: f64) -> Indentation<f64> {
+        self.0.indentation(normal_force)
+    }
+}
+
+#[test]
+fn by_wrench_where_slopes_are_differences() {
+    let local = LocalHertz::new(2e6, 0.0, 0.1).unwrap();
+    through_by_differences("ellipsoid, local Hertz", &common::ellipsoid::<f64>(), local);
+    through_by_differences("paraboloid, local Hertz", &common::paraboloid::<f64>(), local);
+    through_by_differences("ellipsoid, plain Hertz", &common::ellipsoid::<f64>(), Plain(hertz::<f64>()));
+}
+
+/// Sizes and place of the undeformed surface.
+fn by_parameter<S, D, const P: usize>(
+    name: &str,
+    surface: &S,
+    sensitivities: impl Fn(&Vector3<f64>) -> [GeometrySensitivity<f64>; P],
+    dual: impl Fn(usize) -> D,
+) where
+    S: SoftFingerSurface<f64> + SmoothSurface<f64>,
+    D: SoftFingerSurface<Dual> + SmoothSurface<Dual>,
+{
+    let mut random = Random::new(107);
+    let mut worst = 0.0_f64;
+    for model in &Model::both(hertz::<f64>(), 0.9) {
+        for _ in 0..40 {
+            let wrench = wrench_through(&mut random, surface, &hertz::<f64>(), 0.9, model.spin());
+            let found = model.found(&wrench, surface);
+            let jacobian = model.jacobian(&found, &wrench, surface);
+            for (index, change) in sensitivities(&found.undeformed).iter().enumerate() {
+                let change = jacobian.of_deformed(change);
+                let moved = model.dual(&hertz::<Dual>(), 0.9, &dual(index), &seeded(&wrench, None), &found);
+                let reference = local(&moved, &jacobian.tangents());
+                let force = wrench.force().norm() / 0.013;
+                let scale = Vector6::new(1.0, 1.0, force, force, force, force * 0.013);
+                let off = (jacobian.answer_to(&change) - reference).component_div(&scale).norm();
+                let point = jacobian.point_answer_to(&change) - moved.point.map(|x| x.eps);
+                assert!(off.hypot(point.norm()) <= 1e-12, "{name} {index} {off:e} {point}");
+                worst = worst.max(off.hypot(point.norm()));
+            }
+        }
+    }
+    println!("{name:24} through a skin, ∂/∂θ against dual numbers: {worst:.1e}");
+}
+
+#[test]
+fn by_geometry() {
+    let sphere = common::sphere::<f64>();
+    let (centre, radius) = (sphere.centre(), sphere.radius());
+    by_parameter(
+        "sphere",
+        &sphere,
+        |point| {
+            let moved = GeometrySensitivity::rigid_motions(&sphere, point, &Vector3::zeros());
+            [ShapeParameters::<f64, 1>::sensitivities(&sphere, point)[0], moved[0], moved[1], moved[2]]
+        },
+        |index| {
+            let moved =
+                Vector3::new(on(centre.x, index == 1), on(centre.y, index == 2), on(centre.z, index == 3));
+            Sphere::new(moved, on(radius, index == 0)).unwrap()
+        },
+    );
+    let ellipsoid = common::ellipsoid::<f64>();
+    let axes = ellipsoid.semi_axes();
+    by_parameter(
+        "ellipsoid",
+        &ellipsoid,
+        |point| ellipsoid.sensitivities(point),
+        |index| {
+            let axes = Vector3::from_fn(|k, _| on(axes[k], k == index));
+            Ellipsoid::new(axes).unwrap()
+        },
+    );
+}
+
+/// Position, normal and tangential force and spin torque of a contact through a skin under noise, and its
+/// height.
+#[test]
+fn covariance_matches_monte_carlo() {
+    let surface = common::ellipsoid::<f64>();
+    let law = hertz::<f64>();
+    let mut random = Random::new(109);
+    for model in &Model::both(law, 0.9) {
+        // 2 N, so that the noise of 1 mN is small.
+        let wrench = wrench_through(&mut random, &surface, &law, 0.9, model.spin());
+        let wrench = {
+            let scale = 2.0 / wrench.force().norm();
+            Wrench::on_fingertip(wrench.force() * scale, wrench.torque() * scale)
+        };
+        let covariance = wrench_covariance(&mut random);
+        let factor = covariance.cholesky().unwrap().l();
+        let truth = model.found(&wrench, &surface);
+        let jacobian = model.jacobian(&truth, &wrench, &surface);
+        let predicted = ContactCovariance::new(&jacobian, &covariance);
+        let only = ContactCovariance::position_only(&jacobian, &covariance);
+        assert!((only - predicted.position()).amax() <= 1e-13 * only.amax());
+        let ellipse = predicted.ellipse(0.95).unwrap();
+        let [e1, e2] = predicted.tangents();
+        let (mut sums, mut height, mut inside) = (Matrix6::zeros(), 0.0, 0);
+        let count = 25_000;
+        for _ in 0..count {
+            let found = model.found(&noisy(&mut random, &wrench, &factor), &surface);
+            let contact = found.contact;
+            let moved = contact.point - truth.contact.point;
+            let slid = contact.tangential_force() - truth.contact.tangential_force();
+            let numbers = Vector6::new(
+                moved.dot(&e1),
+                moved.dot(&e2),
+                contact.normal_force() - truth.contact.normal_force(),
+                slid.dot(&e1),
+                slid.dot(&e2),
+                contact.spin_torque - truth.contact.spin_torque,
+            );
+            sums += numbers * numbers.transpose();
+            // Not along the normal, where the curvature of the surface is seen too.
+            height += ((found.indentation.depth - truth.indentation.depth) * 0.9).powi(2);
+            let [a, b] = [0, 1].map(|i| moved.dot(&ellipse.directions[i]) / ellipse.semi_axes[i]);
+            inside += usize::from(a * a + b * b <= 1.0);
+        }
+        let (sampled, rows) = (sums / f64::from(count), if model.spin() < 0.1 { 5 } else { 6 });
+        let deviations = predicted.local().diagonal().map(f64::sqrt);
+        let mut worst = (height / f64::from(count) / predicted.height_variance() - 1.0).abs();
+        for i in 0..rows {
+            for j in 0..rows {
+                let off =
+                    (sampled[(i, j)] - predicted.local()[(i, j)]).abs() / (deviations[i] * deviations[j]);
+                assert!(off < 0.03, "{i} {j} {off}");
+                worst = worst.max(off);
+            }
+        }
+        let coverage = inside as f64 / f64::from(count);
+        println!(
+            "through a skin, Monte Carlo deviates {:.2} %, 95 % ellipse holds {:.2} %",
+            100.0 * worst,
+            100.0 * coverage
+        );
+        assert!(worst < 0.03 && (0.94..=0.96).contains(&coverage), "{worst} {coverage}");
+    }
+}
+
+/// The worst case over a box of errors is that of a corner, height included; where the skin gives way
+/// without end there is no Jacobian.
+#[test]
+fn worst_cases_and_none() {
+    let surface = common::ellipsoid::<f64>();
+    let mut random = Random::new(113);
+    let model = CompliantSoftFinger::new(SoftFinger::new(0.0).unwrap(), hertz::<f64>());
+    let wrench = wrench_through(&mut random, &surface, &hertz::<f64>(), 1.0, 1.0);
+    let found = model.resolve_indented(&wrench, &surface, None).unwrap();
+    let jacobian = model.jacobian(&found, &surface).unwrap();
+    let limits = Vector6::new(0.01, 0.02, 0.03, 1e-4, 2e-4, 3e-4);
+    let corners = (0..64_u8).map(|corner| {
+        let signs = Vector6::from_fn(|i, _| if corner >> i & 1 == 1 { 1.0 } else { -1.0 });
+        (jacobian.point() * limits.component_mul(&signs)).norm()
+    });
+    let worst = jacobian.worst_case(&limits).distance;
+    assert!((worst / corners.fold(0.0, f64::max) - 1.0).abs() < 1e-12);
+    // At no force Hertz's skin gives way without end.
+    let lifted = CompliantContact { contact: Contact { force: Vector3::zeros(), ..found.contact }, ..found };
+    assert!(model.jacobian(&lifted, &surface).is_none());
+    let nan = Contact { spin_torque: f64::NAN, ..found.contact };
+    assert!(model.jacobian(&CompliantContact { contact: nan, ..found }, &surface).is_none());
+}
