@@ -8,8 +8,8 @@ use core::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fingertip::contact::batch::{BatchSurface, Contacts, Wrenches};
-use fingertip::surfaces::testing::ball_of_triangles;
 use fingertip::contact::*;
+use fingertip::surfaces::testing::ball_of_triangles;
 use fingertip::surfaces::*;
 use fingertip::wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;

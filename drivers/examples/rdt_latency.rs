@@ -19,9 +19,10 @@ use fingertip::Fingertip;
 use fingertip::contact::PointContact;
 use fingertip::friction::Coulomb;
 use fingertip::surfaces::Sphere;
+use fingertip_drivers::WrenchSource;
+use fingertip_drivers::polled::NbWrenchSource;
 use fingertip_drivers::sensors::LinkStatistics;
 use fingertip_drivers::sensors::ati_rdt::{ClientError, CountsPerUnit, RdtClient, Record};
-use fingertip_drivers::{NbWrenchSource, WrenchSource};
 
 const RECORDS: u32 = 500_000;
 const RATE: f64 = 100_000.0;

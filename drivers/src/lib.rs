@@ -4,6 +4,7 @@
 #[cfg(any(feature = "simulators", feature = "recordings", all(feature = "schunk-fts", feature = "std")))]
 extern crate alloc;
 
+mod awaited;
 pub mod bridge;
 #[cfg(feature = "converter")]
 #[cfg_attr(
@@ -17,12 +18,12 @@ pub mod bridge;
     allow(dead_code, reason = "without a converter there is nobody to use it")
 )]
 pub mod converters;
-mod faces;
 pub mod middleware;
 #[cfg(feature = "recordings")]
 pub mod playback;
+pub mod polled;
 pub mod sensors;
 mod source;
 
-pub use faces::{AsyncSignalSource, AsyncWrenchSource, NbSignalSource, NbWrenchSource};
+pub use awaited::{AsyncSignalSource, AsyncWrenchSource};
 pub use source::{ErrorType, Sample, SignalSource, SourceError, SourceErrorKind, WrenchSource};

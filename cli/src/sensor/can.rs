@@ -1,6 +1,6 @@
 //! Sensors on a CAN interface of Linux.
 
-use fingertip_drivers::NbWrenchSource;
+use fingertip_drivers::polled::NbWrenchSource;
 use fingertip_drivers::sensors::AxisCounts;
 use fingertip_drivers::sensors::robotous::{CanAssembler, CanSensor, CanSensorError, Request};
 use socketcan::embedded_can::{ExtendedId, Id, StandardId};

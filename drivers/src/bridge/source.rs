@@ -7,9 +7,8 @@ use nalgebra::SVector;
 use thiserror::Error;
 
 use super::front_end::{BridgeFault, BridgeFrontEnd};
-use crate::{
-    AsyncSignalSource, ErrorType, NbSignalSource, Sample, SignalSource, SourceError, SourceErrorKind,
-};
+use crate::polled::NbSignalSource;
+use crate::{AsyncSignalSource, ErrorType, Sample, SignalSource, SourceError, SourceErrorKind};
 
 /// Why there is no strain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]

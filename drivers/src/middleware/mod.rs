@@ -14,7 +14,7 @@ mod fault_injector;
 #[cfg(feature = "std")]
 mod paced;
 
-pub use recorder::{Record, Recorder};
+pub use recorder::Recorder;
 pub use solved::Solved;
 pub use supervised::{OnLoss, Supervised, SupervisedError};
 pub use watch::{Fresh, ReadCounts, Watch, Watched};

@@ -3,32 +3,11 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::SVector;
 
-use crate::{
-    AsyncSignalSource, AsyncWrenchSource, ErrorType, NbSignalSource, NbWrenchSource, Sample, SignalSource,
-    WrenchSource,
-};
+use crate::polled::{NbSignalSource, NbWrenchSource};
+use crate::{AsyncSignalSource, AsyncWrenchSource, ErrorType, Sample, SignalSource, WrenchSource};
 
-/// Where samples are written down: a CSV or MCAP file, a ring buffer, a closure.
-pub trait Record<T, V> {
-    /// Why a sample cannot be written down.
-    type Error;
-
-    /// Writes down a sample.
-    ///
-    /// # Errors
-    /// Whatever keeps it from being written.
-    fn record(&mut self, sample: &Sample<T, V>) -> Result<(), Self::Error>;
-}
-
-impl<T, V, E, F: FnMut(&Sample<T, V>) -> Result<(), E>> Record<T, V> for F {
-    type Error = E;
-
-    fn record(&mut self, sample: &Sample<T, V>) -> Result<(), E> {
-        self(sample)
-    }
-}
-
-/// A source whose samples are written down before they are given.
+/// A source whose samples are written down before they are given: to a CSV or MCAP file or a ring buffer, by a
+/// closure.
 ///
 /// A disk that is full does not stop the hand: if a sample cannot be written, it is given all the
 /// same. The record ends there, so that it has no hole; the reason and the number of samples that
@@ -87,11 +66,11 @@ impl<S, R, E> Recorder<S, R, E> {
 
     fn recorded<T, V>(&mut self, sample: Option<Sample<T, V>>) -> Option<Sample<T, V>>
     where
-        R: Record<T, V, Error = E>,
+        R: FnMut(&Sample<T, V>) -> Result<(), E>,
     {
         if let Some(sample) = &sample {
             if self.failure.is_none() {
-                self.failure = self.record.record(sample).err();
+                self.failure = (self.record)(sample).err();
             }
             self.unrecorded += u64::from(self.failure.is_some());
         }
@@ -106,7 +85,7 @@ impl<S: ErrorType, R, E> ErrorType for Recorder<S, R, E> {
 impl<T: Real, S, R, E> WrenchSource<T> for Recorder<S, R, E>
 where
     S: WrenchSource<T>,
-    R: Record<T, Wrench<T>, Error = E>,
+    R: FnMut(&Sample<T, Wrench<T>>) -> Result<(), E>,
 {
     fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, S::Error> {
         let sample = self.source.next_wrench()?;
@@ -117,7 +96,7 @@ where
 impl<T: Real, S, R, E> NbWrenchSource<T> for Recorder<S, R, E>
 where
     S: NbWrenchSource<T>,
-    R: Record<T, Wrench<T>, Error = E>,
+    R: FnMut(&Sample<T, Wrench<T>>) -> Result<(), E>,
 {
     fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, S::Error> {
         let sample = self.source.poll_wrench()?;
@@ -128,7 +107,7 @@ where
 impl<T: Real, S, R, E> AsyncWrenchSource<T> for Recorder<S, R, E>
 where
     S: AsyncWrenchSource<T>,
-    R: Record<T, Wrench<T>, Error = E>,
+    R: FnMut(&Sample<T, Wrench<T>>) -> Result<(), E>,
 {
     async fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, S::Error> {
         let sample = self.source.next_wrench().await?;
@@ -139,7 +118,7 @@ where
 impl<T: Real, const N: usize, S, R, E> SignalSource<T, N> for Recorder<S, R, E>
 where
     S: SignalSource<T, N>,
-    R: Record<T, SVector<T, N>, Error = E>,
+    R: FnMut(&Sample<T, SVector<T, N>>) -> Result<(), E>,
 {
     fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, S::Error> {
         let sample = self.source.next_signals()?;
@@ -150,7 +129,7 @@ where
 impl<T: Real, const N: usize, S, R, E> NbSignalSource<T, N> for Recorder<S, R, E>
 where
     S: NbSignalSource<T, N>,
-    R: Record<T, SVector<T, N>, Error = E>,
+    R: FnMut(&Sample<T, SVector<T, N>>) -> Result<(), E>,
 {
     fn poll_signals(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, S::Error> {
         let sample = self.source.poll_signals()?;
@@ -161,7 +140,7 @@ where
 impl<T: Real, const N: usize, S, R, E> AsyncSignalSource<T, N> for Recorder<S, R, E>
 where
     S: AsyncSignalSource<T, N>,
-    R: Record<T, SVector<T, N>, Error = E>,
+    R: FnMut(&Sample<T, SVector<T, N>>) -> Result<(), E>,
 {
     async fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, S::Error> {
         let sample = self.source.next_signals().await?;

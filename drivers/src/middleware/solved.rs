@@ -3,10 +3,8 @@
 use fingertip_wrench::{Compensation, Real, Wrench, WrenchSolver};
 use nalgebra::SVector;
 
-use crate::{
-    AsyncSignalSource, AsyncWrenchSource, ErrorType, NbSignalSource, NbWrenchSource, Sample, SignalSource,
-    WrenchSource,
-};
+use crate::polled::{NbSignalSource, NbWrenchSource};
+use crate::{AsyncSignalSource, AsyncWrenchSource, ErrorType, Sample, SignalSource, WrenchSource};
 
 /// Wrenches from the signals of `N` gauges: tare (or another compensation) and solver around any source of
 /// signals, so that a converter with a calibration is a force/torque sensor like any other.

@@ -3,7 +3,8 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::SVector;
 
-use crate::{ErrorType, NbSignalSource, NbWrenchSource, Sample, SignalSource, WrenchSource};
+use crate::polled::{NbSignalSource, NbWrenchSource};
+use crate::{ErrorType, Sample, SignalSource, WrenchSource};
 
 /// A sample, and how fresh it is.
 #[derive(Clone, Copy, Debug, PartialEq)]

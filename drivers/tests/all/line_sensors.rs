@@ -12,6 +12,7 @@ use core::future::Future;
 use core::pin::pin;
 use core::task::{Context, Poll, Waker};
 
+use fingertip_drivers::polled::NbWrenchSource;
 use fingertip_drivers::sensors::AxisCounts;
 use fingertip_drivers::sensors::dynpick::{self, DynPickDecoder, DynPickFault};
 use fingertip_drivers::sensors::line::{
@@ -21,7 +22,7 @@ use fingertip_drivers::sensors::line::{
 use fingertip_drivers::sensors::optoforce::{self, OptoForceDecoder, OptoForceFault};
 use fingertip_drivers::sensors::resense::{self, Limits, ResenseDecoder, ResenseFault};
 use fingertip_drivers::sensors::robotous::{self, RobotousDecoder, RobotousFault};
-use fingertip_drivers::{AsyncWrenchSource, NbWrenchSource, SourceError, SourceErrorKind, WrenchSource};
+use fingertip_drivers::{AsyncWrenchSource, SourceError, SourceErrorKind, WrenchSource};
 use fingertip_wrench::Wrench;
 
 const FRAMES: u64 = 1_000_000;

@@ -5,11 +5,12 @@ use core::net::SocketAddr;
 use core::time::Duration;
 
 use fingertip_drivers::middleware::{OnLoss, Supervised, SupervisedError};
+use fingertip_drivers::polled::NbWrenchSource;
 use fingertip_drivers::sensors::FaultPlan;
 use fingertip_drivers::sensors::schunk_fts::{
     FtsClient, FtsClientError, FtsReceiver, FtsSample, FtsServer, Packet, SimulatedFts, emit_packet,
 };
-use fingertip_drivers::{NbWrenchSource, SourceError, SourceErrorKind, WrenchSource};
+use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
 use fingertip_wrench::Wrench;
 use rand::{RngExt, SeedableRng};
 

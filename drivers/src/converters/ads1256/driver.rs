@@ -6,11 +6,12 @@ use fingertip_wrench::Real;
 use nalgebra::SVector;
 
 use super::wire::{Calibration, Command, Configuration, Input, Register};
+use crate::Sample;
 use crate::converters::{
     Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, Reading, parts, ready_in_time,
     ready_in_time_async, sources,
 };
-use crate::{NbSignalSource, Sample};
+use crate::polled::NbSignalSource;
 
 type Failure<S, P> = ConverterError<<S as BusErrorType>::Error, <P as PinErrorType>::Error>;
 

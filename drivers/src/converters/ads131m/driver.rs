@@ -8,10 +8,11 @@ use nalgebra::SVector;
 use super::configuration::Configuration;
 use super::state::Core;
 use super::wire::{Answer, LONGEST, Request};
+use crate::Sample;
 use crate::converters::{
     Conversion, ConverterError, ConverterFault, Patience, parts, ready_in_time, ready_in_time_async, sources,
 };
-use crate::{NbSignalSource, Sample};
+use crate::polled::NbSignalSource;
 
 type Failure<S, P> = ConverterError<<S as BusErrorType>::Error, <P as PinErrorType>::Error>;
 

@@ -9,7 +9,8 @@ use crate::converters::{
     Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, ready_in_time,
     ready_in_time_async,
 };
-use crate::{AsyncSignalSource, ErrorType, NbSignalSource, Sample, SignalSource};
+use crate::polled::NbSignalSource;
+use crate::{AsyncSignalSource, ErrorType, Sample, SignalSource};
 
 type Failure<C, P> = ConverterError<<C as PinErrorType>::Error, <P as PinErrorType>::Error>;
 

@@ -8,11 +8,12 @@ use nalgebra::SVector;
 use super::configuration::Configuration;
 use super::scan::Scan;
 use super::wire::{Data, FastCommand, Register, Request, Status, parse_answer};
+use crate::Sample;
 use crate::converters::{
     Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, parts, ready_in_time,
     ready_in_time_async, sources,
 };
-use crate::{NbSignalSource, Sample};
+use crate::polled::NbSignalSource;
 
 type Failure<S, P> = ConverterError<<S as BusErrorType>::Error, <P as PinErrorType>::Error>;
 

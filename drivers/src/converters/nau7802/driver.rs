@@ -12,7 +12,8 @@ use crate::converters::{
     Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, Reading, parts, ready_in_time,
     ready_in_time_async,
 };
-use crate::{AsyncSignalSource, NbSignalSource, Sample, SignalSource};
+use crate::polled::NbSignalSource;
+use crate::{AsyncSignalSource, Sample, SignalSource};
 
 type Failure<B, P> = ConverterError<<B as BusErrorType>::Error, <P as PinErrorType>::Error>;
 

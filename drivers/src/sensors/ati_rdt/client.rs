@@ -10,9 +10,10 @@ use thiserror::Error;
 use super::configuration::{Configuration, ConfigurationError};
 use super::receiver::{CountsPerUnit, RdtError, Receiver};
 use super::wire::{Command, Record, Request, WireError, records};
+use crate::polled::NbWrenchSource;
 use crate::sensors::LinkStatistics;
 use crate::sensors::datagram_socket::DatagramSocket;
-use crate::{ErrorType, NbWrenchSource, Sample, SourceError, SourceErrorKind, WrenchSource};
+use crate::{ErrorType, Sample, SourceError, SourceErrorKind, WrenchSource};
 
 /// Why a client has no wrench to give.
 #[derive(Debug, Error)]

@@ -8,7 +8,8 @@ use fingertip_wrench::{Real, Wrench};
 use super::decoder::LineDecoder;
 use super::error::LineError;
 use super::pump::{Pump, Step, pumping};
-use crate::{AsyncWrenchSource, ErrorType, NbWrenchSource, Sample, WrenchSource};
+use crate::polled::NbWrenchSource;
+use crate::{AsyncWrenchSource, ErrorType, Sample, WrenchSource};
 
 /// A sensor on any `embedded_io::Read`, blocking; polled, too, if the line can say whether bytes are
 /// there (`ReadReady`).

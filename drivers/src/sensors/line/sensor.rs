@@ -7,7 +7,8 @@ use fingertip_wrench::{Real, Wrench};
 use super::decoder::LineDecoder;
 use super::error::LineError;
 use super::pump::{Pump, Step, pumping};
-use crate::{ErrorType, NbWrenchSource, Sample, WrenchSource};
+use crate::polled::NbWrenchSource;
+use crate::{ErrorType, Sample, WrenchSource};
 
 /// A sensor on anything that can be read, such as an open serial port. Set the read timeout of a
 /// port to some periods of the sensor.

@@ -10,7 +10,8 @@ use thiserror::Error;
 use super::can::{CanAssembler, CanStatistics};
 use super::decoder::RobotousFault;
 use super::wire::Request;
-use crate::{ErrorType, NbWrenchSource, Sample, SourceError, SourceErrorKind, WrenchSource};
+use crate::polled::NbWrenchSource;
+use crate::{ErrorType, Sample, SourceError, SourceErrorKind, WrenchSource};
 
 /// Why there is no sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]

@@ -4,7 +4,8 @@ use embedded_hal_mock::eh1::delay::NoopDelay;
 use embedded_hal_mock::eh1::digital::{Mock as PinMock, State, Transaction as Pin};
 use fingertip_drivers::converters::hx711::{AsyncHx711, Hx711, Mode, SimulatedHx711s};
 use fingertip_drivers::converters::{ConverterFault, Level, Patience, SimulatedBench, WireFaults};
-use fingertip_drivers::{AsyncSignalSource, NbSignalSource, SignalSource, SourceError, SourceErrorKind};
+use fingertip_drivers::polled::NbSignalSource;
+use fingertip_drivers::{AsyncSignalSource, SignalSource, SourceError, SourceErrorKind};
 use nalgebra::Vector3;
 
 use super::block_on;

@@ -9,7 +9,8 @@ use fingertip_drivers::converters::mcp3564::{
 use fingertip_drivers::converters::{
     ConverterError, ConverterFault, Level, Patience, SimulatedBench, Unwired, WireFaults,
 };
-use fingertip_drivers::{AsyncSignalSource, NbSignalSource, SignalSource, SourceError, SourceErrorKind};
+use fingertip_drivers::polled::NbSignalSource;
+use fingertip_drivers::{AsyncSignalSource, SignalSource, SourceError, SourceErrorKind};
 
 use super::block_on;
 
