@@ -7,8 +7,7 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::active_surface::nearest_crossing;
-use crate::combinators::{closest_of, is_inside_along};
-use crate::smooth::combinators::around_both;
+use crate::combinators::{around_both, closest_of, is_inside_along};
 use crate::{
     ActiveSurface, CappedCylinder, Capsule, ClosestApproach, Cone, Corner, Crossing, Cylinder, Disk,
     Ellipsoid, EllipticCylinder, Extent, Frustum, HalfSpace, Heightfield, Knot, Level, Mesh, Paraboloid,

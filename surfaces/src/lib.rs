@@ -41,6 +41,5 @@ pub use mesh::{Mesh, MeshError};
 pub use shapes::*;
 pub use signed_distance::{Distance, SignedDistance};
 pub use smooth::{
-    Corner, Extent, Level, SmoothImplicit, SmoothSurface, Topology, hessian_by_differences,
-    shape_operator_by_differences,
+    Corner, Extent, Level, SmoothSurface, Topology, hessian_by_differences, shape_operator_by_differences,
 };

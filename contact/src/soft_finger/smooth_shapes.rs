@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use super::closed_form::{is_active, soft_finger};
 use crate::{Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
 use fingertip_surfaces::numeric::vectors::wide;
-use fingertip_surfaces::{Implicit, LocalSurface, Paraboloid, SmoothImplicit, Superquadric};
+use fingertip_surfaces::{Implicit, ImplicitSurface, LocalSurface, Paraboloid, Superquadric};
 
 // The first is active all over.
 soft_finger!(
@@ -28,7 +28,7 @@ soft_finger!(Paraboloid, |shape, wrench, last, visit| {
     })
 });
 
-impl<T: Real, S: SmoothImplicit<T>> SoftFingerSurface<T> for Implicit<S> {
+impl<T: Real, S: ImplicitSurface<T>> SoftFingerSurface<T> for Implicit<S> {
     #[inline]
     fn soft_contacts(
         &self,

@@ -1,6 +1,6 @@
 //! A general implicit surface, with analytic second derivatives. The benches share this file.
 
-use fingertip_surfaces::{ImplicitBounds, ImplicitSurface, SmoothImplicit, Topology};
+use fingertip_surfaces::{ImplicitBounds, ImplicitSurface, Topology};
 use fingertip_wrench::Real;
 use nalgebra::{Matrix3, Vector3};
 
@@ -30,9 +30,7 @@ impl<T: Real> ImplicitSurface<T> for Pillow {
     fn bounds(&self) -> ImplicitBounds<T> {
         ImplicitBounds { centre: Vector3::zeros(), radius: T::literal(0.0121), steepest: T::literal(420.0) }
     }
-}
 
-impl<T: Real> SmoothImplicit<T> for Pillow {
     fn hessian(&self, p: &Vector3<T>) -> Matrix3<T> {
         let q = p * T::literal(100.0);
         Matrix3::from_diagonal(&q.map(|x| (x * x * T::literal(6.0) + T::literal(0.5)) * T::literal(1e4)))

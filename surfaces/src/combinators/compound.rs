@@ -1,10 +1,11 @@
 //! The union of two shapes.
 
+use crate::numeric::vectors::length;
 use fingertip_wrench::{Line, Real};
-use nalgebra::Vector3;
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::active_surface::nearest_crossing;
-use crate::{ActiveSurface, ClosestApproach, Crossing};
+use crate::{ActiveSurface, ClosestApproach, Corner, Crossing, Extent, Level, SmoothSurface};
 
 /// Two shapes, possibly overlapping, as one: what lies inside the other is no surface. Nest it for
 /// more than two.
@@ -126,4 +127,54 @@ impl<T: Real, A: ActiveSurface<T>, B: ActiveSurface<T>> ActiveSurface<T> for Com
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.first.contains(point) || self.second.contains(point)
     }
+}
+
+/// That of the part whose surface is nearer; on the seam, that of either.
+impl<T: Real, A: SmoothSurface<T>, B: SmoothSurface<T>> SmoothSurface<T> for Compound<A, B> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let (first, second) = self.parts();
+        if self.is_of_first(point, None) { first.level(point) } else { second.level(point) }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let (first, second) = self.parts();
+        around_both(&first.extent(), &second.extent())
+    }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        let (first, second) = self.parts();
+        if self.is_of_first(point, None) { first.shape_operator(point) } else { second.shape_operator(point) }
+    }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        let (first, second) = self.parts();
+        if self.is_of_first(point, Some(normal)) {
+            first.bend(point, normal, tangents)
+        } else {
+            second.bend(point, normal, tangents)
+        }
+    }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        let (first, second) = self.parts();
+        if self.is_of_first(point, Some(normal)) {
+            first.corner(point, normal)
+        } else {
+            second.corner(point, normal)
+        }
+    }
+}
+
+/// The least ball around two balls.
+pub(crate) fn around_both<T: Real>(one: &Extent<T>, other: &Extent<T>) -> Extent<T> {
+    let apart = other.centre - one.centre;
+    let distance = length(&apart);
+    if distance + other.radius <= one.radius {
+        return *one;
+    }
+    if distance + one.radius <= other.radius {
+        return *other;
+    }
+    let radius = (distance + one.radius + other.radius) * T::literal(0.5);
+    Extent { centre: one.centre + apart * ((radius - one.radius) / distance), radius }
 }

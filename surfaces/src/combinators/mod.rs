@@ -6,10 +6,10 @@ mod posed;
 mod trimmed;
 
 pub use compound::Compound;
-#[cfg(feature = "alloc")]
-pub(crate) use compound::closest_of;
 #[doc(hidden)]
 pub use compound::is_inside_along;
+#[cfg(feature = "alloc")]
+pub(crate) use compound::{around_both, closest_of};
 pub use offset::Offset;
 pub use posed::Posed;
 pub use trimmed::{HalfSpace, Region, Trimmed};

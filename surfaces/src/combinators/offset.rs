@@ -1,13 +1,16 @@
 //! The parallel surface.
 
 use fingertip_wrench::{Line, Real};
-use nalgebra::Vector3;
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::numeric::closest::{by_search, from_distance, to_convex};
 use crate::numeric::roots::{all_of_lipschitz, first_of_convex};
 use crate::numeric::twofold::{Twofold, difference, dot_with};
-use crate::numeric::vectors::foot;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, SignedDistance};
+use crate::numeric::vectors::{foot, tangents};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Extent, Level, SignedDistance,
+    SmoothSurface, Topology, hessian_by_differences,
+};
 
 /// All points at one distance from a shape: outside it (a skin put over a fingertip), or inside
 /// (a skin pressed in; theory 4.3). Unlike a shape with larger semi-axes it has the same thickness
@@ -130,6 +133,49 @@ impl<T: Real, S: SignedDistance<T>> SignedDistance<T> for Offset<T, S> {
 }
 
 /// In files, the surface and the distance.
+/// The distance, with the curvature of the parallel surface, `W/(1 + δW)` at the distance `δ` over
+/// a point of the inner surface with the shape operator `W`; over an edge or a tip, which the offset makes
+/// round, from differences of the normal.
+impl<T: Real, S: SmoothSurface<T> + SignedDistance<T>> SmoothSurface<T> for Offset<T, S> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let Distance { distance, normal } = self.inner().signed_distance(point);
+        let (e1, e2) = tangents(&normal);
+        let foot = point - normal * distance;
+        let bend = self.inner().bend(&foot, &normal, [&e1, &e2]);
+        let hessian = match (Matrix2::identity() + bend * distance).try_inverse() {
+            Some(spread) if bend.sum().is_number() => {
+                let bend = bend * spread;
+                (e1 * bend.m11 + e2 * bend.m21) * e1.transpose()
+                    + (e1 * bend.m12 + e2 * bend.m22) * e2.transpose()
+            }
+            // Around an edge or a tip of the inner surface.
+            Some(_) if distance > T::zero() => match self.inner().corner(&foot, &normal) {
+                Some(Corner::Edge { direction, bend }) => {
+                    let across = normal.cross(&direction);
+                    direction * direction.transpose() * (bend / (T::one() + bend * distance))
+                        + across * across.transpose() / distance
+                }
+                Some(Corner::Tip) => (Matrix3::identity() - normal * normal.transpose()) / distance,
+                None => {
+                    let step = distance * T::EPSILON.cbrt();
+                    hessian_by_differences(point, step, |p| self.inner().signed_distance(p).normal)
+                }
+            },
+            _ => Matrix3::zeros(),
+        };
+        Level { value: distance - self.distance(), gradient: normal, hessian }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let (centre, radius) = self.bounds();
+        Extent { centre, radius }
+    }
+
+    fn topology(&self) -> Topology {
+        if S::CONVEX { Topology::Convex } else { self.inner().topology() }
+    }
+}
+
 #[cfg(feature = "serde")]
 mod files {
     use fingertip_wrench::Real;

@@ -1,9 +1,12 @@
 //! A shape, moved.
 
 use fingertip_wrench::{Line, Real, RigidTransform};
-use nalgebra::Vector3;
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
-use crate::{ActiveSurface, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
+use crate::{
+    ActiveSurface, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Level,
+    SignedDistance, SmoothSurface, Topology,
+};
 
 /// A shape somewhere else in the sensor frame, turned.
 ///
@@ -127,6 +130,52 @@ impl<T: Real, S: SignedDistance<T>> SignedDistance<T> for Posed<T, S> {
 }
 
 /// In files, the pose is the shape's origin in the sensor frame and the rotation vector.
+impl<T: Real, S: SmoothSurface<T>> SmoothSurface<T> for Posed<T, S> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let pose = self.sensor_from_shape();
+        let rotation = pose.rotation();
+        let level = self.inner().level(&rotation.tr_mul(&(point - pose.origin())));
+        Level {
+            value: level.value,
+            gradient: rotation * level.gradient,
+            hessian: rotation * level.hessian * rotation.transpose(),
+        }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let extent = self.inner().extent();
+        Extent { centre: self.sensor_from_shape().transform_point(&extent.centre), ..extent }
+    }
+
+    fn topology(&self) -> Topology {
+        self.inner().topology()
+    }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        let pose = self.sensor_from_shape();
+        let rotation = pose.rotation();
+        rotation
+            * self.inner().shape_operator(&rotation.tr_mul(&(point - pose.origin())))
+            * rotation.transpose()
+    }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, [e1, e2]: [&Vector3<T>; 2]) -> Matrix2<T> {
+        let pose = self.sensor_from_shape();
+        let inside = |v: &Vector3<T>| pose.rotation().tr_mul(v);
+        self.inner().bend(&inside(&(point - pose.origin())), &inside(normal), [&inside(e1), &inside(e2)])
+    }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        let pose = self.sensor_from_shape();
+        let rotation = pose.rotation();
+        let inside = rotation.tr_mul(&(point - pose.origin()));
+        self.inner().corner(&inside, &rotation.tr_mul(normal)).map(|corner| match corner {
+            Corner::Edge { direction, bend } => Corner::Edge { direction: rotation * direction, bend },
+            Corner::Tip => Corner::Tip,
+        })
+    }
+}
+
 #[cfg(feature = "serde")]
 mod files {
     use fingertip_wrench::{Real, RigidTransform};

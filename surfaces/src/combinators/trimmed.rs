@@ -1,9 +1,12 @@
 //! A shape of which only a region may touch.
 
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::Vector3;
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, ForceLine};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Entry, Extent, ForceLine, Level,
+    SmoothSurface, Topology,
+};
 
 /// A part of space. Closures `Fn(&Vector3<T>) -> bool` are regions too.
 pub trait Region<T: Real> {
@@ -43,6 +46,33 @@ impl<T: Real> Region<T> for HalfSpace<T> {
     #[inline]
     fn includes(&self, point: &Vector3<T>) -> bool {
         (point - self.point).dot(&self.inward) >= T::zero()
+    }
+}
+
+impl<T: Real, S: SmoothSurface<T>, R: Region<T>> SmoothSurface<T> for Trimmed<S, R> {
+    #[inline]
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        self.inner().level(point)
+    }
+
+    fn extent(&self) -> Extent<T> {
+        self.inner().extent()
+    }
+
+    fn topology(&self) -> Topology {
+        self.inner().topology()
+    }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        self.inner().shape_operator(point)
+    }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        self.inner().bend(point, normal, tangents)
+    }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        self.inner().corner(point, normal)
     }
 }
 

@@ -1,10 +1,11 @@
 //! The circular cylinder, closed at its ends.
 
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::Vector3;
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, Frustum, SignedDistance,
+    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Frustum,
+    Level, SignedDistance, SmoothSurface, Topology,
 };
 
 /// A circular cylinder with flat ends, all of it active: a [`Frustum`] with equal radii.
@@ -108,6 +109,33 @@ impl<T: Real> SignedDistance<T> for CappedCylinder<T> {
 
     fn bounds(&self) -> (Vector3<T>, T) {
         self.solid.bounds()
+    }
+}
+
+/// The level function is that of the side; the flat ends are not part of it, but of the curvature.
+impl<T: Real> SmoothSurface<T> for CappedCylinder<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        self.solid().level(point)
+    }
+
+    fn extent(&self) -> Extent<T> {
+        self.solid().extent()
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
+    }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        self.solid().shape_operator(point)
+    }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        self.solid().bend(point, normal, tangents)
+    }
+
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        self.solid().corner(point, normal)
     }
 }
 

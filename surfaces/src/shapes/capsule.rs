@@ -3,12 +3,15 @@
 use core::hint::select_unpredictable;
 
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
-use crate::numeric::vectors::{length, unit_or};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
+use crate::numeric::vectors::{any_perpendicular, length, unit_or};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level,
+    SignedDistance, SmoothSurface, Topology,
+};
 
 /// All points at one distance from a straight segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -163,6 +166,31 @@ impl<T: Real> SignedDistance<T> for Capsule<T> {
 
     fn bounds(&self) -> (Vector3<T>, T) {
         (self.axis.origin, self.half_length + self.radius)
+    }
+}
+
+impl<T: Real> SmoothSurface<T> for Capsule<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let axis = self.axis();
+        let from_centre = point - self.centre();
+        let height = from_centre.dot(&axis);
+        let clamped = height.min(self.half_length()).max(-self.half_length());
+        let across = from_centre - axis * clamped;
+        let distance = length(&across);
+        let normal = unit_or(&across, || any_perpendicular(&axis));
+        let mut flat = Matrix3::identity() - normal * normal.transpose();
+        if height.abs() < self.half_length() {
+            flat -= axis * axis.transpose();
+        }
+        Level { value: distance - self.radius(), gradient: normal, hessian: flat / distance }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        Extent { centre: self.centre(), radius: self.half_length() + self.radius() }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
     }
 }
 

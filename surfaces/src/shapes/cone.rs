@@ -1,15 +1,18 @@
 //! The cone, open at its wide end.
 
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::{ComplexField, Vector3};
+use nalgebra::{ComplexField, Matrix3, Vector3};
 
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
 use crate::numeric::twofold::Twofold;
-use crate::numeric::vectors::{foot, is_finite, length};
+use crate::numeric::vectors::{any_perpendicular, foot, is_finite, length, unit_or};
 #[cfg(feature = "serde")]
 use crate::numeric::vectors::{from_degrees, to_degrees};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Level,
+    SmoothSurface, Topology,
+};
 
 /// The side of a circular cone, unbounded or active down to a depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -175,6 +178,38 @@ impl<T: Real> ActiveSurface<T> for Cone<T> {
     fn contains(&self, point: &Vector3<T>) -> bool {
         let (height, across) = self.axis.split_point(point);
         height > T::zero() && self.is_active(height) && length(&across) * self.cosine < height * self.sine
+    }
+}
+
+/// The extent of a cone is a ball of one metre around its apex.
+impl<T: Real> SmoothSurface<T> for Cone<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let axis = self.axis();
+        let (sine, cosine) = (self.half_angle().sin(), self.half_angle().cos());
+        let from_apex = point - self.apex();
+        let height = from_apex.dot(&axis);
+        let across = from_apex - axis * height;
+        let radius = length(&across);
+        let outward = unit_or(&across, || any_perpendicular(&axis));
+        let flat = Matrix3::identity() - outward * outward.transpose() - axis * axis.transpose();
+        let bend = cosine / radius;
+        Level {
+            value: radius * cosine - height * sine,
+            gradient: outward * cosine - axis * sine,
+            hessian: if bend.is_number() { flat * bend } else { Matrix3::zeros() },
+        }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        Extent { centre: self.apex(), radius: T::one() }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
+    }
+
+    fn corner(&self, _point: &Vector3<T>, _normal: &Vector3<T>) -> Option<Corner<T>> {
+        Some(Corner::Tip)
     }
 }
 

@@ -1,11 +1,14 @@
 //! The circular cylinder, open at its ends.
 
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::axis::Axis;
 use crate::numeric::vectors::{is_finite, length};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, ForceLine};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, Extent, ForceLine, Level, SmoothSurface,
+    Topology,
+};
 
 /// The lateral surface of a circular cylinder, unbounded or with an active part of finite length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,6 +175,29 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
     fn contains(&self, point: &Vector3<T>) -> bool {
         let (height, across) = self.around().split_point(point);
         self.is_active(height) && (across * self.curvature).norm_squared() < T::one()
+    }
+}
+
+impl<T: Real> SmoothSurface<T> for Cylinder<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let axis = self.axis();
+        let from_centre = point - self.centre();
+        let across = from_centre - axis * from_centre.dot(&axis);
+        let distance = length(&across);
+        let normal = self.normal(point);
+        let flat = Matrix3::identity() - normal * normal.transpose() - axis * axis.transpose();
+        Level { value: distance - self.radius(), gradient: normal, hessian: flat / distance }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        Extent {
+            centre: self.centre(),
+            radius: self.half_length().map_or(self.radius(), |half| half.max(self.radius())),
+        }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
     }
 }
 

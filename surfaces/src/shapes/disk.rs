@@ -4,7 +4,9 @@ use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 use crate::numeric::vectors::length;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Plane};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, Plane, SmoothSurface, Topology,
+};
 
 /// A plane of which only a disk is active.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,6 +68,20 @@ impl<T: Real> ActiveSurface<T> for Disk<T> {
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.plane.contains(point)
+    }
+}
+
+impl<T: Real> SmoothSurface<T> for Disk<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        self.plane().level(point)
+    }
+
+    fn extent(&self) -> Extent<T> {
+        Extent { centre: self.plane().point(), radius: self.radius() }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
     }
 }
 

@@ -1,12 +1,15 @@
 //! The ellipsoid.
 
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::Vector3;
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::numeric::ellipse::closest_point;
 use crate::numeric::twofold::{Twofold, dot};
 use crate::numeric::vectors::{any_perpendicular, foot, hypotenuse, is_finite, length, unit_or};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level,
+    SignedDistance, SmoothSurface, Topology,
+};
 
 /// An ellipsoid about the origin, its axes along x, y and z; [`Posed`](crate::Posed) puts it
 /// elsewhere.
@@ -213,6 +216,40 @@ impl<T: Real> SignedDistance<T> for Ellipsoid<T> {
 
     fn bounds(&self) -> (Vector3<T>, T) {
         (Vector3::zeros(), self.semi_axes.max())
+    }
+}
+
+/// `|A⁻¹ r| − 1` with its derivatives: `g = A⁻² r/γ`, `H = (A⁻² − g gᵀ)/γ`.
+#[inline]
+pub(super) fn elliptic_gauge<T: Real>(point: &Vector3<T>, curvatures: &Vector3<T>) -> Level<T> {
+    let scaled = point.component_mul(curvatures);
+    let gauge = length(&scaled);
+    let gradient = scaled.component_mul(curvatures) / gauge;
+    let squares = Matrix3::from_diagonal(&curvatures.component_mul(curvatures));
+    Level { value: gauge - T::one(), gradient, hessian: (squares - gradient * gradient.transpose()) / gauge }
+}
+
+impl<T: Real> SmoothSurface<T> for Ellipsoid<T> {
+    #[inline]
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        elliptic_gauge(point, &self.curvatures())
+    }
+
+    /// `eᵀA⁻²e/|A⁻²c|`, where `1/|A⁻²c| = c·n`: all terms of that sum are positive.
+    #[inline]
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        let (curvatures, inverse) = (self.curvatures(), point.dot(normal));
+        let [e1, e2] = tangents.map(|e| e.component_mul(&curvatures));
+        let mixed = e1.dot(&e2) * inverse;
+        Matrix2::new(e1.norm_squared() * inverse, mixed, mixed, e2.norm_squared() * inverse)
+    }
+
+    fn extent(&self) -> Extent<T> {
+        Extent { centre: Vector3::zeros(), radius: self.semi_axes().amax() }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
     }
 }
 

@@ -1,14 +1,19 @@
 //! The elliptic cylinder, unbounded, open or closed.
 
+use super::ellipsoid::elliptic_gauge;
+use crate::smooth::flat_ends::Face;
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::Vector3;
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::numeric::closest::{from_distance, to_convex};
 use crate::numeric::ellipse::closest_point;
 use crate::numeric::interval::{End, Inside};
 use crate::numeric::twofold::Twofold;
-use crate::numeric::vectors::{foot, hypotenuse, is_finite, unit_or, within_range};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance};
+use crate::numeric::vectors::{foot, hypotenuse, is_finite, length, unit_or, within_range};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Extent, Level, SmoothSurface,
+    Topology,
+};
 
 /// How an elliptic cylinder ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -214,6 +219,46 @@ impl<T: Real> ActiveSurface<T> for EllipticCylinder<T> {
             CylinderEnds::Open(half) | CylinderEnds::Capped(half) => point.z.abs() < half,
         };
         within && x * x + y * y < T::one()
+    }
+}
+
+/// The level function is that of the side; flat ends are not part of it, but of the curvature.
+impl<T: Real> SmoothSurface<T> for EllipticCylinder<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let [a, b] = self.semi_axes();
+        elliptic_gauge(point, &Vector3::new(T::one() / a, T::one() / b, T::zero()))
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let [a, b] = self.semi_axes();
+        let half = match self.ends() {
+            CylinderEnds::Unbounded => T::zero(),
+            CylinderEnds::Open(half) | CylinderEnds::Capped(half) => half,
+        };
+        Extent { centre: Vector3::zeros(), radius: a.max(b).max(half) }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
+    }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        let level = self.level(point);
+        Face::of(&Vector3::z(), &level, &self.normal(point)).shape_operator(&level)
+    }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        let level = self.level(point);
+        Face::of(&Vector3::z(), &level, normal).bend(&level, tangents)
+    }
+
+    /// On the ellipse of an end: with `c = (a cos θ, b sin θ)`, `c″ = −c` and `c′ = (−y a/b, x b/a)`.
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        let [a, b] = self.semi_axes();
+        let along = Vector3::new(-point.y * a / b, point.x * b / a, T::zero());
+        let steepness = length(&along);
+        let bend = (normal.x * point.x + normal.y * point.y) / steepness / steepness;
+        Some(Corner::Edge { direction: along / steepness, bend })
     }
 }
 

@@ -1,15 +1,19 @@
 //! The cone or truncated cone, closed at its ends.
 
+use crate::smooth::flat_ends::Face;
 use core::hint::select_unpredictable;
 
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::Vector3;
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
 use crate::numeric::twofold::{Twofold, difference, dot_with};
-use crate::numeric::vectors::hypotenuse;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
+use crate::numeric::vectors::{any_perpendicular, hypotenuse, length, unit_or};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Level,
+    SignedDistance, SmoothSurface, Topology,
+};
 
 /// A truncated circular cone with flat ends, all of it active; with one radius zero, a closed
 /// cone; with equal radii, a closed cylinder.
@@ -276,6 +280,59 @@ impl<T: Real> SignedDistance<T> for Frustum<T> {
 
     fn bounds(&self) -> (Vector3<T>, T) {
         (self.middle, hypotenuse(self.half_height, self.base_radius.max(self.top_radius)))
+    }
+}
+
+/// The level function is that of the side; the flat ends are not part of it, but of the curvature.
+impl<T: Real> SmoothSurface<T> for Frustum<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let axis = self.axis();
+        let (taper, cosine) = (self.taper(), self.side_cosine());
+        let from_base = point - self.base_centre();
+        let height = from_base.dot(&axis);
+        let across = from_base - axis * height;
+        let radius = length(&across);
+        let outward = unit_or(&across, || any_perpendicular(&axis));
+        let flat = Matrix3::identity() - outward * outward.transpose() - axis * axis.transpose();
+        let bend = cosine / radius;
+        Level {
+            value: (radius - self.base_radius() + taper * height) * cosine,
+            gradient: (outward + axis * taper) * cosine,
+            hessian: if bend.is_number() { flat * bend } else { Matrix3::zeros() },
+        }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let (centre, radius) = self.bounds();
+        Extent { centre, radius }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
+    }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        let level = self.level(point);
+        Face::of(&self.axis(), &level, &self.normal(point)).shape_operator(&level)
+    }
+
+    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        let level = self.level(point);
+        Face::of(&self.axis(), &level, normal).bend(&level, tangents)
+    }
+
+    /// On the rim of the nearer end.
+    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
+        let axis = self.axis();
+        let from_base = point - self.base_centre();
+        let height = from_base.dot(&axis);
+        let upper = height > self.height() * T::literal(0.5);
+        let radius = if upper { self.top_radius() } else { self.base_radius() };
+        if radius.is_zero() {
+            return Some(Corner::Tip);
+        }
+        let outward = unit_or(&(from_base - axis * height), || any_perpendicular(&axis));
+        Some(Corner::Edge { direction: axis.cross(&outward), bend: normal.dot(&outward) / radius })
     }
 }
 

@@ -1,12 +1,15 @@
 //! Shapes that are given by an equation.
 
 use fingertip_wrench::{Line, Real};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::numeric::closest::by_search;
 use crate::numeric::roots::all_of_lipschitz;
 use crate::numeric::vectors::{foot, is_finite, length, unit_or};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Extent, Level, SmoothSurface, Topology,
+    hessian_by_differences,
+};
 
 /// Where an implicit surface lies and how steep its function is: what makes the search for
 /// crossings certain to end and to miss none.
@@ -61,6 +64,18 @@ pub trait ImplicitSurface<T: Real> {
     fn value_left(&self, point: &Vector3<T>) -> T {
         let _ = point;
         T::zero()
+    }
+
+    /// Second derivatives of the value. The default takes them from differences of the gradient.
+    fn hessian(&self, point: &Vector3<T>) -> Matrix3<T> {
+        let step = self.bounds().radius * T::EPSILON.cbrt();
+        hessian_by_differences(point, step, |p| self.gradient(p))
+    }
+
+    /// What is known of the surface as a whole; the default assumes nothing. To say
+    /// [`Topology::Convex`] of a convex surface makes a soft-finger contact a hundred times faster.
+    fn topology(&self) -> Topology {
+        Topology::Unknown
     }
 }
 
@@ -182,5 +197,21 @@ impl<T: Real, S: ImplicitSurface<T>> ActiveSurface<T> for Implicit<S> {
     fn contains(&self, point: &Vector3<T>) -> bool {
         let bounds = self.0.bounds();
         length(&(point - bounds.centre)) <= bounds.radius && self.0.value(point) < T::zero()
+    }
+}
+
+impl<T: Real, S: ImplicitSurface<T>> SmoothSurface<T> for Implicit<S> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let inner = self.inner();
+        Level { value: inner.value(point), gradient: inner.gradient(point), hessian: inner.hessian(point) }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let bounds = self.inner().bounds();
+        Extent { centre: bounds.centre, radius: bounds.radius }
+    }
+
+    fn topology(&self) -> Topology {
+        self.inner().topology()
     }
 }

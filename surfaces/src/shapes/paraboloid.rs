@@ -1,13 +1,13 @@
 //! The elliptic paraboloid.
 
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::numeric::quadratic::roots;
 use crate::numeric::support;
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, length, unit_or};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, SmoothSurface, Topology};
 
 /// A dome whose top is the origin, with the z axis pointing out of it:
 /// `z = −x²/(2·R_x) − y²/(2·R_y)`; [`Posed`](crate::Posed) puts it elsewhere.
@@ -133,6 +133,28 @@ impl<T: Real> ActiveSurface<T> for Paraboloid<T> {
         let [a, b] = self.curvatures;
         point.x * point.x * a + point.y * point.y * b + point.z + point.z < T::zero()
             && self.is_active(point.z)
+    }
+}
+
+/// The extent of an unbounded paraboloid is a ball of its larger radius of curvature.
+impl<T: Real> SmoothSurface<T> for Paraboloid<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let [a, b] = self.radii();
+        let (x, y) = (point.x / a, point.y / b);
+        Level {
+            value: point.z + (point.x * x + point.y * y) * T::literal(0.5),
+            gradient: Vector3::new(x, y, T::one()),
+            hessian: Matrix3::from_diagonal(&Vector3::new(T::one() / a, T::one() / b, T::zero())),
+        }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let [a, b] = self.radii();
+        Extent { centre: Vector3::zeros(), radius: a.max(b) }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
     }
 }
 

@@ -1,11 +1,14 @@
 //! The unbounded plane.
 
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::numeric::twofold::{difference, dot_with};
 use crate::numeric::vectors::{foot, is_finite};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, ForceLine};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, Extent, ForceLine, Level, SmoothSurface,
+    Topology,
+};
 
 /// A plane; the fingertip is on the side away from the normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,6 +121,22 @@ impl<T: Real> ActiveSurface<T> for Plane<T> {
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.height(point) < T::zero()
+    }
+}
+
+/// The extent of an unbounded plane is a ball of one metre around its point.
+impl<T: Real> SmoothSurface<T> for Plane<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let normal = self.normal(point);
+        Level { value: normal.dot(&(point - self.point())), gradient: normal, hessian: Matrix3::zeros() }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        Extent { centre: self.point(), radius: T::one() }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
     }
 }
 

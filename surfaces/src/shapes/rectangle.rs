@@ -3,8 +3,10 @@
 use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
-use crate::numeric::vectors::length;
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Plane};
+use crate::numeric::vectors::{hypotenuse, length};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, Plane, SmoothSurface, Topology,
+};
 
 /// A plane of which only a rectangle is active.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,6 +90,21 @@ impl<T: Real> ActiveSurface<T> for Rectangle<T> {
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.plane.contains(point)
+    }
+}
+
+impl<T: Real> SmoothSurface<T> for Rectangle<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        self.plane().level(point)
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let [first, second] = self.half_edges();
+        Extent { centre: self.plane().point(), radius: hypotenuse(length(&first), length(&second)) }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
     }
 }
 

@@ -5,14 +5,16 @@ use core::marker::PhantomData;
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
 use fingertip_wrench::{Line, Real};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::profile::{Knot, exactly_at, fit, local_surface_at, pieces};
 use super::sight::Sight;
 use crate::numeric::quadratic::roots;
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, hypotenuse, is_finite, length, unit_or};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, LocalSurface};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, LocalSurface, SmoothSurface, Topology,
+};
 
 /// A solid of revolution around the z axis; [`Posed`](crate::Posed) puts it elsewhere.
 ///
@@ -287,6 +289,30 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
 }
 
 /// In files, a list of points `[z, radius]`.
+/// `x² + y² − ρ²(z)`, piece by piece; beyond the ends of the profile `ρ²` goes on straight, which
+/// keeps a convex profile convex. The curvature jumps where pieces meet; the flat ends are not part
+/// of the level function.
+impl<T: Real, K: AsRef<[Knot<T>]>> SmoothSurface<T> for Revolution<T, K> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let [squared, slope, curvature] = self.profile(point.z);
+        let two = T::one() + T::one();
+        Level {
+            value: point.x * point.x + point.y * point.y - squared,
+            gradient: Vector3::new(two * point.x, two * point.y, -slope),
+            hessian: Matrix3::from_diagonal(&Vector3::new(two, two, -curvature)),
+        }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        let (centre, radius) = self.bounds();
+        Extent { centre, radius }
+    }
+
+    fn topology(&self) -> Topology {
+        if self.is_convex() { Topology::Convex } else { Topology::Unknown }
+    }
+}
+
 #[cfg(feature = "serde")]
 mod files {
     use core::fmt;

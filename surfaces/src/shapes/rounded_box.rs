@@ -1,13 +1,16 @@
 //! The box with round edges and corners.
 
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::numeric::closest::to_convex;
 use crate::numeric::roots::first_of_convex;
 use crate::numeric::twofold::{Twofold, outside_ball};
 use crate::numeric::vectors::{foot, length, unit_or};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, SignedDistance};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level,
+    SignedDistance, SmoothSurface, Topology,
+};
 
 /// A box about the origin, its edges along x, y and z and rounded; [`Posed`](crate::Posed) puts it
 /// elsewhere.
@@ -176,6 +179,40 @@ impl<T: Real> SignedDistance<T> for RoundedBox<T> {
 
     fn bounds(&self) -> (Vector3<T>, T) {
         (Vector3::zeros(), length(&self.half_extents))
+    }
+}
+
+/// Flat faces, round edges and corners: the curvature jumps where they meet. With a rounding of
+/// zero there is no normal at the edges.
+impl<T: Real> SmoothSurface<T> for RoundedBox<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let core = self.half_extents().map(|half| half - self.rounding());
+        let beyond = point.abs() - core;
+        let sign = point.map(|x| T::one().copysign(x));
+        let outside = beyond.map(|x| x.max(T::zero()));
+        let distance = length(&outside);
+        if distance > T::zero() {
+            let normal = (outside / distance).component_mul(&sign);
+            let round =
+                Matrix3::from_diagonal(&beyond.map(|x| if x > T::zero() { T::one() } else { T::zero() }));
+            return Level {
+                value: distance - self.rounding(),
+                gradient: normal,
+                hessian: (round - normal * normal.transpose()) / distance,
+            };
+        }
+        let face = beyond.imax();
+        let mut gradient = Vector3::zeros();
+        gradient[face] = sign[face];
+        Level { value: beyond[face] - self.rounding(), gradient, hessian: Matrix3::zeros() }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        Extent { centre: Vector3::zeros(), radius: length(&self.half_extents()) }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
     }
 }
 

@@ -1,13 +1,13 @@
 //! The sphere.
 
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::Vector3;
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::numeric::twofold::{difference, outside_ball};
 use crate::numeric::vectors::{larger, largest, length, smaller, unit_or};
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, ForceLine, ForceParts,
-    SignedDistance,
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, ForceParts,
+    Level, SignedDistance, SmoothSurface, Topology,
 };
 
 /// A sphere, its inside being the fingertip.
@@ -161,6 +161,38 @@ impl<T: Real> SignedDistance<T> for Sphere<T> {
 
     fn bounds(&self) -> (Vector3<T>, T) {
         (self.centre, self.radius)
+    }
+}
+
+impl<T: Real> SmoothSurface<T> for Sphere<T> {
+    #[inline]
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let from_centre = point - self.centre();
+        let distance = length(&from_centre);
+        let normal = self.normal(point);
+        Level {
+            value: distance - self.radius(),
+            gradient: normal,
+            hessian: (Matrix3::identity() - normal * normal.transpose()) / distance,
+        }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        Extent { centre: self.centre(), radius: self.radius() }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
+    }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        let normal = self.normal(point);
+        (Matrix3::identity() - normal * normal.transpose()) / self.radius()
+    }
+
+    #[inline]
+    fn bend(&self, _point: &Vector3<T>, _normal: &Vector3<T>, _tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+        Matrix2::from_diagonal_element(self.curvature())
     }
 }
 

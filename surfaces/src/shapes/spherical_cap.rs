@@ -1,11 +1,14 @@
 //! The sphere with an opening.
 
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 #[cfg(feature = "serde")]
 use crate::numeric::vectors::{from_degrees, to_degrees};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, ForceLine, Sphere};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, Extent, ForceLine, Level, SmoothSurface,
+    Sphere, Topology,
+};
 
 /// A sphere that is active around a pole only: a dome, or, if the active part is more than half,
 /// a sphere with an opening for its support.
@@ -110,6 +113,25 @@ impl<T: Real> ActiveSurface<T> for SphericalCap<T> {
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.sphere.contains(point)
+    }
+}
+
+impl<T: Real> SmoothSurface<T> for SphericalCap<T> {
+    #[inline]
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        self.sphere().level(point)
+    }
+
+    fn extent(&self) -> Extent<T> {
+        self.sphere().extent()
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
+    }
+
+    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
+        self.sphere().shape_operator(point)
     }
 }
 

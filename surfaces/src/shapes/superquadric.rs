@@ -1,12 +1,12 @@
 //! The convex superquadrics: from boxes over ellipsoids to octahedra.
 
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::numeric::roots::{bisected, first_of_convex};
 use crate::numeric::support;
 use crate::numeric::vectors::{length, unit_or, wide};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing};
+use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, SmoothSurface, Topology};
 
 /// A superellipsoid about the origin, its axes along x, y and z:
 /// `((|x/a|^(2/e₂) + |y/b|^(2/e₂))^(e₂/e₁) + |z/c|^(2/e₁)) = 1` (Barr 1981);
@@ -177,6 +177,77 @@ impl<T: Real> ActiveSurface<T> for Superquadric<T> {
 
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.gauge(&point.component_mul(&self.curvatures)).0 < T::one()
+    }
+}
+
+/// `(|a|^p + |b|^p)^(1/p)` with its first and second derivatives. Where a second derivative is
+/// infinite (on an axis, for `p < 2`) a large finite number stands for it.
+struct Norm<T> {
+    value: T,
+    first: [T; 2],
+    /// By a and a, a and b, b and b.
+    second: [T; 3],
+}
+
+impl<T: Real> Norm<T> {
+    fn new(a: T, b: T, p: T) -> Self {
+        let (x, y) = (a.abs(), b.abs());
+        let greatest = x.max(y);
+        if !(greatest > T::zero()) {
+            return Self { value: T::zero(), first: [T::zero(); 2], second: [T::zero(); 3] };
+        }
+        let (x, y) = (x / greatest, y / greatest);
+        let (xp, yp) = (x.powf(p), y.powf(p));
+        let sum = xp + yp;
+        let relative = sum.powf(T::one() / p);
+        let value = relative * greatest;
+        // (x/N)^p and (y/N)^p add up to 1; lower powers follow by dividing.
+        let (x, y) = (x / relative, y / relative);
+        let (xp, yp) = (xp / sum, yp / sum);
+        let over = |power: T, own: T| if own > T::zero() { power / own } else { T::zero() };
+        let flat = p - T::one();
+        let (dx, dy) = if flat > T::zero() { (over(xp, x), over(yp, y)) } else { (T::one(), T::one()) };
+        let least = T::EPSILON;
+        let steep = |own: T, power: T, other: T| {
+            // (p − 1)/N · (x/N)^(p−2) · (y/N)^p
+            if own > least { power / (own * own) * other } else { least.powf(flat - T::one()) * other }
+        };
+        let factor = flat / value;
+        let (sa, sb) = (T::one().copysign(a), T::one().copysign(b));
+        Self {
+            value,
+            first: [dx * sa, dy * sb],
+            second: [factor * steep(x, xp, yp), -factor * dx * dy * sa * sb, factor * steep(y, yp, xp)],
+        }
+    }
+}
+
+impl<T: Real> SmoothSurface<T> for Superquadric<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let curvatures = self.semi_axes().map(|a| T::one() / a);
+        let v = point.component_mul(&curvatures);
+        let two = T::one() + T::one();
+        let [outer, inner] = self.exponents().map(|e| two / e);
+        let plane = Norm::new(v.x, v.y, inner);
+        let whole = Norm::new(plane.value, v.z, outer);
+        let [px, py] = plane.first;
+        let [wp, wz] = whole.first;
+        let [wpp, wpz, wzz] = whole.second;
+        let [pxx, pxy, pyy] = plane.second;
+        let gradient = Vector3::new(wp * px, wp * py, wz).component_mul(&curvatures);
+        let (xx, xy, yy) = (wpp * px * px + wp * pxx, wpp * px * py + wp * pxy, wpp * py * py + wp * pyy);
+        let (xz, yz) = (wpz * px, wpz * py);
+        let scale = Matrix3::from_diagonal(&curvatures);
+        let hessian = scale * Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, wzz) * scale;
+        Level { value: whole.value - T::one(), gradient, hessian }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        Extent { centre: Vector3::zeros(), radius: length(&self.semi_axes()) }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Convex
     }
 }
 

@@ -6,7 +6,10 @@ use nalgebra::Vector3;
 use super::ring::RingLine;
 use crate::numeric::closest::from_distance;
 use crate::numeric::vectors::{foot, hypotenuse, is_finite, unit_or};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, SignedDistance};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Extent, Level, SignedDistance,
+    SmoothSurface, Topology,
+};
 
 /// A ring around the z axis; [`Posed`](crate::Posed) puts it elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,6 +104,30 @@ impl<T: Real> SignedDistance<T> for Torus<T> {
 
     fn bounds(&self) -> (Vector3<T>, T) {
         (Vector3::zeros(), self.ring_radius + self.tube_radius)
+    }
+}
+
+impl<T: Real> SmoothSurface<T> for Torus<T> {
+    fn level(&self, point: &Vector3<T>) -> Level<T> {
+        let radial = hypotenuse(point.x, point.y);
+        let outward = unit_or(&Vector3::new(point.x, point.y, T::zero()), Vector3::x);
+        let beyond = radial - self.ring_radius();
+        let tube = hypotenuse(beyond, point.z);
+        let normal = unit_or(&(outward * beyond + Vector3::z() * point.z), || outward);
+        let around = Vector3::new(-outward.y, outward.x, T::zero());
+        let along = around.cross(&normal);
+        // Curvature across the tube, and around the ring.
+        let hessian =
+            along * along.transpose() / tube + around * around.transpose() * (normal.dot(&outward) / radial);
+        Level { value: tube - self.tube_radius(), gradient: normal, hessian }
+    }
+
+    fn extent(&self) -> Extent<T> {
+        Extent { centre: Vector3::zeros(), radius: self.ring_radius() + self.tube_radius() }
+    }
+
+    fn topology(&self) -> Topology {
+        Topology::Closed { euler_characteristic: 0 }
     }
 }
 

@@ -8,7 +8,7 @@ use crate::Level;
 use crate::numeric::vectors::length;
 
 /// What part of a solid with flat ends has a normal.
-pub(super) enum Face {
+pub(crate) enum Face {
     Side,
     End,
     /// Between the two.
@@ -17,7 +17,7 @@ pub(super) enum Face {
 
 impl Face {
     /// The ends are across the unit vector `axis`; the level function is that of the side.
-    pub(super) fn of<T: Real>(axis: &Vector3<T>, level: &Level<T>, normal: &Vector3<T>) -> Self {
+    pub(crate) fn of<T: Real>(axis: &Vector3<T>, level: &Level<T>, normal: &Vector3<T>) -> Self {
         let side = level.gradient / length(&level.gradient);
         let end = axis * T::one().copysign(axis.dot(normal));
         let beside = (side - normal).norm_squared() <= (end - normal).norm_squared();
@@ -29,7 +29,7 @@ impl Face {
     }
 
     /// The shape operator; on an edge, that of the side.
-    pub(super) fn shape_operator<T: Real>(self, level: &Level<T>) -> Matrix3<T> {
+    pub(crate) fn shape_operator<T: Real>(self, level: &Level<T>) -> Matrix3<T> {
         match self {
             Self::End => Matrix3::zeros(),
             Self::Side | Self::Edge => level.shape_operator(),
@@ -37,7 +37,7 @@ impl Face {
     }
 
     /// The shape operator in the tangent plane; NaN on an edge.
-    pub(super) fn bend<T: Real>(self, level: &Level<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
+    pub(crate) fn bend<T: Real>(self, level: &Level<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
         match self {
             Self::Side => level.bend(length(&level.gradient), tangents),
             Self::End => Matrix2::zeros(),
