@@ -6,6 +6,7 @@ pub mod batch;
 #[cfg(feature = "fusion")]
 mod fusion;
 mod model;
+mod shapes;
 #[cfg(feature = "skin")]
 mod skin;
 mod soft_finger;

@@ -4,10 +4,10 @@
 //! comes in two versions that give the same bits: a block of lines is taken to meet, and done over for
 //! any lines if one of them does not.
 
+use fingertip_surfaces::{ForceLine, ForceParts};
 use fingertip_wrench::Real;
 
 use super::Lines;
-use fingertip_surfaces::{ForceLine, ForceParts};
 
 /// A surface that many lines of action can be met with at once.
 pub trait Kernel<T: Real> {
@@ -27,10 +27,10 @@ pub trait Kernel<T: Real> {
 /// A force, what it turns about the origin, its square and the reciprocal of that.
 #[derive(Clone, Copy)]
 pub struct Push<T> {
-    pub(super) force: [T; 3],
-    pub(super) torque: [T; 3],
-    pub(super) squared: T,
-    pub(super) inverse: T,
+    pub(crate) force: [T; 3],
+    pub(crate) torque: [T; 3],
+    pub(crate) squared: T,
+    pub(crate) inverse: T,
     /// The surface is centred at the origin. Known before the loop, and so nothing that is asked in it.
     at_origin: bool,
 }
@@ -38,7 +38,7 @@ pub struct Push<T> {
 impl<T: Real> Push<T> {
     /// And whether its square is in range.
     #[inline(always)]
-    pub(super) fn new(force: [T; 3], torque: [T; 3], at_origin: bool) -> (Self, bool) {
+    pub(crate) fn new(force: [T; 3], torque: [T; 3], at_origin: bool) -> (Self, bool) {
         let squared = dot(force, force);
         let in_range = (squared >= ForceLine::least_squared()) & (squared <= ForceLine::greatest_squared());
         (Self { force, torque, squared, inverse: T::one() / squared, at_origin }, in_range)
@@ -46,7 +46,7 @@ impl<T: Real> Push<T> {
 
     /// The point of the line of action closest to a centre, seen from there, times a factor.
     #[inline(always)]
-    pub(super) fn foot(&self, centre: [T; 3], factor: T) -> [T; 3] {
+    pub(crate) fn foot(&self, centre: [T; 3], factor: T) -> [T; 3] {
         let torque = if self.at_origin {
             self.torque
         } else {
@@ -57,40 +57,40 @@ impl<T: Real> Push<T> {
 
     /// `centre + k·v`.
     #[inline(always)]
-    pub(super) fn beyond(&self, centre: [T; 3], v: [T; 3], k: T) -> [T; 3] {
+    pub(crate) fn beyond(&self, centre: [T; 3], v: [T; 3], k: T) -> [T; 3] {
         if self.at_origin { scale(v, k) } else { add(centre, v, k) }
     }
 }
 
 /// What a kernel says of a line.
 pub struct Answer<T: Real> {
-    pub(super) point: [T; 3],
-    pub(super) normal: [T; 3],
-    pub(super) gap: T,
+    pub(crate) point: [T; 3],
+    pub(crate) normal: [T; 3],
+    pub(crate) gap: T,
     /// The parts of the force; made from the normal if the kernel does not know better, and only if
     /// somebody asks.
-    pub(super) parts: Option<ForceParts<T>>,
+    pub(crate) parts: Option<ForceParts<T>>,
     /// The line meets the surface and nothing has left the range on the way.
-    pub(super) certain: bool,
+    pub(crate) certain: bool,
 }
 
 impl<T: Real> Answer<T> {
     /// Of a kernel that does not know whether all is finite, nor whether the line meets.
     #[inline(always)]
-    pub(super) fn new(point: [T; 3], normal: [T; 3], gap: T) -> Self {
+    pub(crate) fn new(point: [T; 3], normal: [T; 3], gap: T) -> Self {
         Self::of(point, normal, gap, gap == T::zero())
     }
 
     /// Of a kernel that does not know whether all is finite.
     #[inline(always)]
-    pub(super) fn of(point: [T; 3], normal: [T; 3], gap: T, meets: bool) -> Self {
+    pub(crate) fn of(point: [T; 3], normal: [T; 3], gap: T, meets: bool) -> Self {
         let answer = Self { point, normal, gap, parts: None, certain: meets };
         Self { certain: meets & answer.is_finite(), ..answer }
     }
 
     /// Anything not finite on the way ends up here.
     #[inline(always)]
-    pub(super) fn is_finite(&self) -> bool {
+    pub(crate) fn is_finite(&self) -> bool {
         (self.gap + dot(self.point, self.normal)).abs() <= T::GREATEST
     }
 }
@@ -103,56 +103,56 @@ pub enum Versions {
 }
 
 #[inline(always)]
-pub(super) fn dot<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3]) -> T {
+pub(crate) fn dot<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3]) -> T {
     a * x + b * y + c * z
 }
 
 #[inline(always)]
-pub(super) fn add<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3], k: T) -> [T; 3] {
+pub(crate) fn add<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3], k: T) -> [T; 3] {
     [a + x * k, b + y * k, c + z * k]
 }
 
 #[inline(always)]
-pub(super) fn cross<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3]) -> [T; 3] {
+pub(crate) fn cross<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3]) -> [T; 3] {
     [b * z - c * y, c * x - a * z, a * y - b * x]
 }
 
 #[inline(always)]
-pub(super) fn zip<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3], join: impl Fn(T, T) -> T) -> [T; 3] {
+pub(crate) fn zip<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3], join: impl Fn(T, T) -> T) -> [T; 3] {
     [join(a, x), join(b, y), join(c, z)]
 }
 
 #[inline(always)]
-pub(super) fn times<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+pub(crate) fn times<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     zip(a, b, |a, b| a * b)
 }
 
 #[inline(always)]
-pub(super) fn scale<T: Real>([a, b, c]: [T; 3], k: T) -> [T; 3] {
+pub(crate) fn scale<T: Real>([a, b, c]: [T; 3], k: T) -> [T; 3] {
     [a * k, b * k, c * k]
 }
 
 #[inline(always)]
-pub(super) fn pick<T: Real>(condition: bool, yes: T, no: T) -> T {
+pub(crate) fn pick<T: Real>(condition: bool, yes: T, no: T) -> T {
     if condition { yes } else { no }
 }
 
 /// How a quadric scaled to the unit sphere is met, given the foot's and the direction's squares.
 #[derive(Clone, Copy)]
-pub(super) struct Chord<T> {
+pub(crate) struct Chord<T> {
     /// What the foot is to be multiplied by, to reach the surface where the line misses.
-    pub(super) shrink: T,
+    pub(crate) shrink: T,
     /// How far back along the direction the line enters.
-    pub(super) back: T,
+    pub(crate) back: T,
     /// How far the foot is outside.
-    pub(super) outside: T,
-    pub(super) meets: bool,
+    pub(crate) outside: T,
+    pub(crate) meets: bool,
 }
 
 impl<T: Real> Chord<T> {
     /// One root serves the line that meets and the line that misses.
     #[inline(always)]
-    pub(super) fn new(foot_squared: T, inverse_direction_squared: T, lines: Lines) -> Self {
+    pub(crate) fn new(foot_squared: T, inverse_direction_squared: T, lines: Lines) -> Self {
         let remainder = T::one() - foot_squared;
         let meets = remainder >= T::zero();
         let half_chord = remainder * inverse_direction_squared;
@@ -171,7 +171,7 @@ impl<T: Real> Chord<T> {
 
 /// A force's part along a unit normal, and the square of the rest.
 #[inline(always)]
-pub(super) fn split<T: Real>(force: [T; 3], normal: [T; 3]) -> (T, T) {
+pub(crate) fn split<T: Real>(force: [T; 3], normal: [T; 3]) -> (T, T) {
     let along = dot(force, normal);
     let across = add(force, normal, -along);
     (along, dot(across, across))
@@ -179,7 +179,7 @@ pub(super) fn split<T: Real>(force: [T; 3], normal: [T; 3]) -> (T, T) {
 
 /// What a force's parts measure at a tangent plane, within the range where squares are numbers.
 #[inline(always)]
-pub(super) fn parts_at<T: Real>(force: [T; 3], normal: [T; 3]) -> ForceParts<T> {
+pub(crate) fn parts_at<T: Real>(force: [T; 3], normal: [T; 3]) -> ForceParts<T> {
     let (along, squared) = split(force, normal);
     ForceParts { normal: -along, tangential: squared.root() }
 }

@@ -18,13 +18,11 @@
 //! # Ok::<(), fingertip_surfaces::BadShape>(())
 //! ```
 
-mod kernel;
-mod kernels;
+pub(crate) mod kernel;
 mod sweep;
 
-use fingertip_wrench::Real;
-
 use fingertip_surfaces::ForceParts;
+use fingertip_wrench::Real;
 
 /// Wrenches on the fingertip: one slice per component, x, y and z.
 #[derive(Clone, Copy, Debug)]

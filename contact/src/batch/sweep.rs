@@ -1,10 +1,10 @@
 //! Runs a kernel over columns.
 
+use fingertip_surfaces::ForceParts;
 use fingertip_wrench::Real;
 
 use super::kernel::{Answer, Kernel, Push, Versions, parts_at, pick};
 use super::{BatchSurface, Contacts, Entered, Lines, Wrenches};
-use fingertip_surfaces::ForceParts;
 
 /// How many wrenches are taken together.
 const BLOCK: usize = 64;

@@ -1,11 +1,11 @@
 //! Friction cones as constraints of an estimate.
 
+use fingertip_surfaces::ActiveSurface;
+use fingertip_surfaces::numeric::vectors::length;
 use fingertip_wrench::Real;
 use nalgebra::{Matrix4, Vector3, Vector4, Vector5};
 
 use super::prior::{Prior, State};
-use fingertip_surfaces::ActiveSurface;
-use fingertip_surfaces::numeric::vectors::length;
 
 /// Where in its friction cone a force lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

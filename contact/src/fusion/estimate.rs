@@ -1,12 +1,12 @@
 //! The most probable contacts, given a wrench and a tactile array.
 
+use fingertip_surfaces::{ActiveSurface, BadShape};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix3, Matrix4, Matrix5, Matrix6, Matrix6x5, Vector2, Vector3, Vector4, Vector5, Vector6};
 
 use super::ArrayContact;
 use super::cone::{Grip, Held, Wall, cone_multipliers, project};
 use super::prior::{Prior, State};
-use fingertip_surfaces::{ActiveSurface, BadShape};
 
 /// Estimates one to four contacts from one wrench and what a tactile array says of each.
 ///

@@ -1,11 +1,10 @@
 //! What a tactile array says of one contact.
 
-use fingertip_wrench::{Line, Real};
-use nalgebra::{Matrix2, Matrix3, Matrix5, Matrix6x5, Vector2, Vector3, Vector5};
-
 use fingertip_surfaces::numeric::vectors::tangents;
 use fingertip_surfaces::numeric::vectors::unit_or;
 use fingertip_surfaces::{ActiveSurface, BadShape};
+use fingertip_wrench::{Line, Real};
+use nalgebra::{Matrix2, Matrix3, Matrix5, Matrix6x5, Vector2, Vector3, Vector5};
 
 /// One contact as a tactile array in the skin reports it (extrinsic tactile sensing).
 #[derive(Clone, Copy, Debug, PartialEq)]

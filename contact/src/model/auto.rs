@@ -1,11 +1,11 @@
 //! Point contact or soft finger, as the wrench asks for.
 
+use fingertip_surfaces::BadShape;
+use fingertip_surfaces::numeric::vectors::length;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::{ContactModel, NoContact, PointContact, Resolution, SoftFinger, SoftFingerSurface};
-use fingertip_surfaces::BadShape;
-use fingertip_surfaces::numeric::vectors::length;
 
 /// Which model the pitch of a wrench asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,12 +1,12 @@
 //! How far a contact may be from the truth.
 
+use fingertip_surfaces::Sphere;
+use fingertip_surfaces::numeric::vectors::{hypotenuse, length};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix3, Matrix3x6, Matrix6};
 
 use super::Contact;
 use crate::ConvexBound;
-use fingertip_surfaces::Sphere;
-use fingertip_surfaces::numeric::vectors::{hypotenuse, length};
 
 /// What is known about the errors behind a contact: the greatest they can be.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,11 +1,10 @@
 //! What rounding did to a contact that the force meets at a flat angle, undone.
 
-use fingertip_wrench::{Real, Wrench};
-use nalgebra::Vector3;
-
 use fingertip_surfaces::ActiveSurface;
 use fingertip_surfaces::numeric::twofold::Twofold;
 use fingertip_surfaces::numeric::vectors::largest;
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
 
 /// The point where the line of action meets the surface, from one that is off by rounding errors of
 /// line and surface.

@@ -1,5 +1,7 @@
 //! Contact in a point, without local torque.
 
+use fingertip_surfaces::numeric::vectors::{hypotenuse, in_range, larger, smaller};
+use fingertip_surfaces::{ActiveSurface, BadShape, Crossing, ForceLine, ForceParts};
 use fingertip_wrench::{
     ContactForce, Line, LineOfAction, NoLineOfAction, Real, TangentialForce, Wrench, stored,
 };
@@ -8,8 +10,6 @@ use nalgebra::Vector3;
 use super::long_way::long_way;
 use super::onto_line::onto_line;
 use super::{Contact, ContactModel, NoContact, Resolution};
-use fingertip_surfaces::numeric::vectors::{hypotenuse, in_range, larger, smaller};
-use fingertip_surfaces::{ActiveSurface, BadShape, Crossing, ForceLine, ForceParts};
 
 /// A contact that transmits a force and no torque of its own: it lies where the wrench's line of
 /// action *enters* the surface (Salisbury 1984; equations (1), (2) of Bicchi & Dario 1987, mended

@@ -1,10 +1,10 @@
 //! Elastic bodies: the theory of Hertz.
 
+use fingertip_surfaces::BadShape;
 use fingertip_wrench::Real;
 
 use super::carlson::{r_d, r_f};
 use super::{Indentation, StiffnessLaw};
-use fingertip_surfaces::BadShape;
 
 /// The contact modulus `E*` \[Pa\] of two bodies: `1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂`, from their
 /// Young's moduli \[Pa\] and Poisson's ratios. An infinite modulus is a rigid body.

@@ -1,13 +1,13 @@
 //! Hertz's theory with the curvature where it touches.
 
+use fingertip_surfaces::numeric::vectors::tangents;
+use fingertip_surfaces::{BadShape, SmoothSurface};
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 use super::hertz::Hertz;
 use super::{Indentation, IndentationSlope, SkinLaw, StiffnessLaw};
 use crate::Contact;
-use fingertip_surfaces::numeric::vectors::tangents;
-use fingertip_surfaces::{BadShape, SmoothSurface};
 
 /// [`Hertz`] for a fingertip whose curvature changes from place to place, on flat objects or on
 /// spherical ones. Solving for the patch at every sample costs a few microseconds.

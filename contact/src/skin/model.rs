@@ -1,11 +1,11 @@
 //! Contact through a skin.
 
+use fingertip_surfaces::{ActiveSurface, BadShape};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix3, Vector3};
 
 use super::{Indentation, IndentationSlope, SkinLaw};
 use crate::{Contact, ContactModel, NoContact, PointContact, Resolution, SoftFinger};
-use fingertip_surfaces::{ActiveSurface, BadShape};
 
 /// A contact model for a fingertip with a soft skin: under the force the skin's surface gives way,
 /// so that the contact lies on the parallel surface below the undeformed one.

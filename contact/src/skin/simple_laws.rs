@@ -1,9 +1,9 @@
 //! Laws of one or two constants.
 
+use fingertip_surfaces::BadShape;
 use fingertip_wrench::Real;
 
 use super::{Indentation, StiffnessLaw};
-use fingertip_surfaces::BadShape;
 
 /// Depth in proportion to the force, `δ = N/k`, with a patch as a rigid flat cuts it out of a
 /// sphere, `a = √(2Rδ)`: a soft layer of springs (Winkler) in the small.

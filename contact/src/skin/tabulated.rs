@@ -1,9 +1,9 @@
 //! A measured law.
 
+use fingertip_surfaces::BadShape;
 use fingertip_wrench::Real;
 
 use super::{Indentation, StiffnessLaw};
-use fingertip_surfaces::BadShape;
 
 /// `N` measured points of depth and patch radius over force, with straight lines between them, from
 /// zero to the first, and beyond the last with the slope before it.

@@ -1,17 +1,17 @@
 //! What closed forms find, as the searches of shapes.
 
+use fingertip_surfaces::nearest_crossing;
+use fingertip_surfaces::numeric::vectors::largest;
+use fingertip_surfaces::{ActiveSurface, ForceLine};
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::model::flat;
 use crate::{Search, SoftContact};
-use fingertip_surfaces::nearest_crossing;
-use fingertip_surfaces::numeric::vectors::largest;
-use fingertip_surfaces::{ActiveSurface, ForceLine};
 
 /// Whether a point of the surface belongs to its active part: as the crossing of the normal there
 /// says.
-pub(super) fn is_active<T: Real, S: ActiveSurface<T>>(surface: &S, contact: &SoftContact<T>) -> bool {
+pub(crate) fn is_active<T: Real, S: ActiveSurface<T>>(surface: &S, contact: &SoftContact<T>) -> bool {
     let line = Line { point: contact.point, direction: -contact.normal };
     nearest_crossing(surface, &line).is_some_and(|crossing| crossing.active)
 }
@@ -50,7 +50,7 @@ macro_rules! soft_finger {
     };
 }
 
-pub(super) use soft_finger;
+pub(crate) use soft_finger;
 
 /// Shapes that are a part of another shape.
 macro_rules! part_of {
@@ -71,18 +71,18 @@ macro_rules! part_of {
     };
 }
 
-pub(super) use part_of;
+pub(crate) use part_of;
 
 /// `true` if the force presses at no flat angle on what a shortcut found, and the spin torque is not more
 /// than the force has at a lever of this length: otherwise rounding errors grow.
 #[inline(always)]
-pub(super) fn is_steady<T: Real>(push: &ForceLine<T>, contact: &SoftContact<T>, lever: T) -> bool {
+pub(crate) fn is_steady<T: Real>(push: &ForceLine<T>, contact: &SoftContact<T>, lever: T) -> bool {
     is_steady_under(&push.force(), push.squared().root(), contact, lever)
 }
 
 /// The same under a force of this strength.
 #[inline(always)]
-pub(super) fn is_steady_under<T: Real>(
+pub(crate) fn is_steady_under<T: Real>(
     force: &Vector3<T>,
     strength: T,
     contact: &SoftContact<T>,
@@ -94,7 +94,7 @@ pub(super) fn is_steady_under<T: Real>(
 
 /// What was found, or why not, as a search.
 #[inline]
-pub(super) fn told<T: Real>(
+pub(crate) fn told<T: Real>(
     found: Result<SoftContact<T>, Search<T>>,
     mut visit: impl FnMut(SoftContact<T>),
 ) -> Search<T> {
@@ -112,7 +112,7 @@ pub(super) fn told<T: Real>(
 ///
 /// # Errors
 /// How the search ended without it.
-pub(super) fn sole<T: Real>(
+pub(crate) fn sole<T: Real>(
     found: Option<SoftContact<T>>,
     wrench: &Wrench<T>,
 ) -> Result<SoftContact<T>, Search<T>> {

@@ -1,11 +1,11 @@
 //! The one contact on a convex surface, by following a path that cannot end.
 
+use fingertip_surfaces::SmoothSurface;
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 use super::newton::{Place, Problem, State};
 use super::unit_sphere::OnUnitSphere;
-use fingertip_surfaces::SmoothSurface;
 
 impl<T: Real, S: SmoothSurface<T>> Problem<'_, T, S> {
     /// The contact that presses, on a convex surface: Newton from the start, and if that does not
@@ -20,7 +20,7 @@ impl<T: Real, S: SmoothSurface<T>> Problem<'_, T, S> {
     /// line, and as a convex surface has only one that presses, its end is the answer (theory
     /// 3.4). If `f·m = 0` the torques of lines that hit the body form a convex set, and the same
     /// holds from an entry to an entry.
-    pub(super) fn on_convex(&self, start: Place<T>) -> Option<State<T>> {
+    pub(crate) fn on_convex(&self, start: Place<T>) -> Option<State<T>> {
         let spin = self.spin_at(&start)?;
         if let Some(state) = self.newton(start, spin, &self.torque, 24)
             && state.converged
@@ -32,7 +32,7 @@ impl<T: Real, S: SmoothSurface<T>> Problem<'_, T, S> {
     }
 
     /// The contact, if Newton finds it from where it would be if the surface were the ball around it.
-    pub(super) fn starting_on_ball(&self) -> Option<State<T>> {
+    pub(crate) fn starting_on_ball(&self) -> Option<State<T>> {
         let direction = direction_on_ball(&self.force, &self.torque);
         // Onto the surface along the ray from the centre, roughly.
         let mut place = self.place(direction * self.reach)?;
@@ -82,7 +82,7 @@ impl<T: Real, S: SmoothSurface<T>> Problem<'_, T, S> {
 
 /// The place where the unit sphere's closed form would put the contact, seen from the centre: a
 /// start that is good where the spin torque rules, and exact on a sphere.
-pub(super) fn direction_on_ball<T: Real>(force: &Vector3<T>, torque: &Vector3<T>) -> Vector3<T> {
+pub(crate) fn direction_on_ball<T: Real>(force: &Vector3<T>, torque: &Vector3<T>) -> Vector3<T> {
     let solved = OnUnitSphere::new(force, torque, force.norm_squared(), force.dot(torque));
     solved.grazing(force, torque).map_or_else(|| solved.point(), |[point, _]| point)
 }

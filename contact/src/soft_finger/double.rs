@@ -1,14 +1,14 @@
 //! The second opinion of double precision.
 
+use fingertip_surfaces::numeric::vectors::{length, wide};
 use fingertip_wrench::{Real, Wrench};
 
 use super::closed_form::is_steady_under;
 use crate::{Search, SoftContact};
-use fingertip_surfaces::numeric::vectors::{length, wide};
 
 /// What a search says, asked again in double precision if the type is narrower and the answer hangs by
 /// its last digits.
-pub(super) fn finely<T: Real>(
+pub(crate) fn finely<T: Real>(
     found: Result<SoftContact<T>, Search<T>>,
     is_steady: impl FnOnce(&SoftContact<T>) -> bool,
     wrench: &Wrench<T>,
@@ -28,19 +28,19 @@ pub(super) fn finely<T: Real>(
 
 /// Whether the spin torque of a contact is not more than the force has at a lever of this length: beyond it
 /// the torque rules, and rounding decides.
-pub(super) fn spins_little<T: Real>(wrench: &Wrench<T>, lever: T) -> impl Fn(&SoftContact<T>) -> bool {
+pub(crate) fn spins_little<T: Real>(wrench: &Wrench<T>, lever: T) -> impl Fn(&SoftContact<T>) -> bool {
     let torque = length(&wrench.force()) * lever;
     move |contact| contact.spin_torque.abs() <= torque
 }
 
 /// Whether besides that the force presses at no flat angle, which multiplies rounding too.
-pub(super) fn is_steady<T: Real>(wrench: &Wrench<T>, lever: T) -> impl Fn(&SoftContact<T>) -> bool {
+pub(crate) fn is_steady<T: Real>(wrench: &Wrench<T>, lever: T) -> impl Fn(&SoftContact<T>) -> bool {
     let (force, strength) = (wrench.force(), length(&wrench.force()));
     move |contact| is_steady_under(&force, strength, contact, lever)
 }
 
 /// How a search ended, in the narrower type.
-pub(super) fn in_type<T: Real>(search: Search<f64>) -> Search<T> {
+pub(crate) fn in_type<T: Real>(search: Search<f64>) -> Search<T> {
     match search {
         Search::Grazing(pair) => Search::Grazing(pair.map(|point| point.map(T::literal))),
         Search::Complete => Search::Complete,
@@ -49,7 +49,7 @@ pub(super) fn in_type<T: Real>(search: Search<f64>) -> Search<T> {
 }
 
 /// A contact in the narrower type.
-pub(super) fn narrow<T: Real>(contact: &SoftContact<f64>) -> SoftContact<T> {
+pub(crate) fn narrow<T: Real>(contact: &SoftContact<f64>) -> SoftContact<T> {
     SoftContact {
         point: contact.point.map(T::literal),
         normal: contact.normal.map(T::literal),

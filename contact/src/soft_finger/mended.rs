@@ -1,14 +1,14 @@
 //! What rounding did to a soft contact that the force meets at a flat angle, undone.
 
+use fingertip_surfaces::ActiveSurface;
+use fingertip_surfaces::numeric::twofold::Twofold;
+use fingertip_surfaces::numeric::vectors::larger;
+use fingertip_surfaces::numeric::vectors::tangents;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::SoftContact;
 use crate::model::{flat, torque_left};
-use fingertip_surfaces::ActiveSurface;
-use fingertip_surfaces::numeric::twofold::Twofold;
-use fingertip_surfaces::numeric::vectors::larger;
-use fingertip_surfaces::numeric::vectors::tangents;
 
 /// The solution of the soft-finger equations next to a contact that is off by rounding errors.
 ///
@@ -25,7 +25,7 @@ use fingertip_surfaces::numeric::vectors::tangents;
 /// A step that is longer than rounding explains is not taken.
 #[cold]
 #[inline(never)]
-pub(super) fn mended<T: Real, S: ActiveSurface<T>>(
+pub(crate) fn mended<T: Real, S: ActiveSurface<T>>(
     wrench: &Wrench<T>,
     surface: &S,
     contact: &SoftContact<T>,

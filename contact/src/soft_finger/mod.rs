@@ -1,35 +1,17 @@
 //! Contact with a spin torque about the normal: the soft finger.
 
-mod capsule;
-mod closed_form;
-mod combinators;
-mod cone;
-mod convex;
-mod cylinder;
-mod double;
-#[cfg(feature = "alloc")]
-mod dyn_surface;
-mod ellipsoid;
-mod elliptic_cylinder;
-mod frustum;
-#[cfg(feature = "alloc")]
-mod heightfield;
-mod mended;
-#[cfg(feature = "alloc")]
-mod mesh;
-mod model;
-mod newton;
-mod patch;
-mod plane;
-mod refined;
-mod revolution;
-mod rim;
-mod rounded_box;
-mod search;
-mod smooth_shapes;
-mod solution;
-mod torus;
-mod unit_sphere;
+pub(crate) mod closed_form;
+pub(crate) mod convex;
+pub(crate) mod double;
+pub(crate) mod mended;
+pub(crate) mod model;
+pub(crate) mod newton;
+pub(crate) mod patch;
+pub(crate) mod refined;
+pub(crate) mod rim;
+pub(crate) mod search;
+pub(crate) mod solution;
+pub(crate) mod unit_sphere;
 
 pub use model::SoftFinger;
 pub use search::newton_soft_contacts;

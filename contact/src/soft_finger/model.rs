@@ -1,13 +1,13 @@
 //! The soft finger as a contact model.
 
+use fingertip_surfaces::numeric::vectors::{is_tame, larger, largest, length};
+use fingertip_surfaces::{BadShape, ForceLine};
 use fingertip_wrench::{Real, Wrench, stored};
 use nalgebra::Vector3;
 
 use super::refined::refined;
 use crate::model::long_way;
 use crate::{Contact, ContactModel, NoContact, Resolution, Search, SoftContact, SoftFingerSurface};
-use fingertip_surfaces::numeric::vectors::{is_tame, larger, largest, length};
-use fingertip_surfaces::{BadShape, ForceLine};
 
 /// A contact that transmits a force and a torque about the normal: `m = c × f + τ n`, `c` on the
 /// surface, `f·n < 0` (Bicchi, Salisbury & Brock 1990, 1993).

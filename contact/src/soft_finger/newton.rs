@@ -1,34 +1,34 @@
 //! Newton's method for the soft-finger equations on a smooth surface.
 
+use fingertip_surfaces::numeric::vectors::{larger, tangents};
+use fingertip_surfaces::{Extent, SmoothSurface};
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 use crate::SoftContact;
-use fingertip_surfaces::numeric::vectors::{larger, tangents};
-use fingertip_surfaces::{Extent, SmoothSurface};
 
 /// The soft-finger problem in the units of the surface: lengths from the centre of its extent, in
 /// its radius; force and torque such that the larger is near 1.
-pub(super) struct Problem<'a, T: Real, S> {
+pub(crate) struct Problem<'a, T: Real, S> {
     surface: &'a S,
     centre: Vector3<T>,
     length: T,
     /// Radius of the extent, in its own units: from 1 to 2.
-    pub(super) reach: T,
+    pub(crate) reach: T,
     wrench_unit: T,
-    pub(super) force: Vector3<T>,
-    pub(super) torque: Vector3<T>,
+    pub(crate) force: Vector3<T>,
+    pub(crate) torque: Vector3<T>,
     /// `f·m`, which every solution shares.
-    pub(super) power: T,
+    pub(crate) power: T,
 }
 
 /// The surface at a point, in the units of the problem.
 #[derive(Clone, Copy)]
-pub(super) struct Place<T: Real> {
-    pub(super) point: Vector3<T>,
-    pub(super) normal: Vector3<T>,
+pub(crate) struct Place<T: Real> {
+    pub(crate) point: Vector3<T>,
+    pub(crate) normal: Vector3<T>,
     /// Distance from the surface, to first order.
-    pub(super) height: T,
+    pub(crate) height: T,
     /// Two unit vectors that span the tangent plane, `first × second = normal`.
     first: Vector3<T>,
     second: Vector3<T>,
@@ -46,24 +46,24 @@ impl<T: Real> Place<T> {
 
 /// An approximate solution.
 #[derive(Clone, Copy)]
-pub(super) struct State<T: Real> {
-    pub(super) place: Place<T>,
-    pub(super) spin: T,
+pub(crate) struct State<T: Real> {
+    pub(crate) place: Place<T>,
+    pub(crate) spin: T,
     residual: Vector3<T>,
     merit: T,
     /// The residual is rounding, and so is the distance from the surface.
-    pub(super) converged: bool,
+    pub(crate) converged: bool,
 }
 
 impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
     /// For a finite wrench whose force is not zero.
-    pub(super) fn new(surface: &'a S, force: &Vector3<T>, torque: &Vector3<T>) -> Self {
+    pub(crate) fn new(surface: &'a S, force: &Vector3<T>, torque: &Vector3<T>) -> Self {
         let extent = surface.extent();
         Self::with_extent(surface, &extent, force, &(torque - extent.centre.cross(force)))
     }
 
     /// With units from a given extent, and the torque about its centre.
-    pub(super) fn with_extent(
+    pub(crate) fn with_extent(
         surface: &'a S,
         extent: &Extent<T>,
         force: &Vector3<T>,
@@ -87,21 +87,21 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
     }
 
     /// How far the sensor's origin is from that of the problem.
-    pub(super) fn arm(&self) -> T {
+    pub(crate) fn arm(&self) -> T {
         self.centre.amax() / self.length
     }
 
     /// From the sensor frame.
-    pub(super) fn inward(&self, point: &Vector3<T>) -> Vector3<T> {
+    pub(crate) fn inward(&self, point: &Vector3<T>) -> Vector3<T> {
         (point - self.centre) / self.length
     }
 
     /// To the sensor frame.
-    pub(super) fn outward(&self, point: &Vector3<T>) -> Vector3<T> {
+    pub(crate) fn outward(&self, point: &Vector3<T>) -> Vector3<T> {
         self.centre + point * self.length
     }
 
-    pub(super) fn contact(&self, state: &State<T>) -> SoftContact<T> {
+    pub(crate) fn contact(&self, state: &State<T>) -> SoftContact<T> {
         SoftContact {
             point: self.outward(&state.place.point),
             normal: state.place.normal,
@@ -111,7 +111,7 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
     }
 
     #[inline]
-    pub(super) fn place(&self, point: Vector3<T>) -> Option<Place<T>> {
+    pub(crate) fn place(&self, point: Vector3<T>) -> Option<Place<T>> {
         let level = self.surface.level(&self.outward(&point));
         let (normal, steepness) = level.normal()?;
         let (first, second) = tangents(&normal);
@@ -130,7 +130,7 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
 
     /// `det J` of theory 3.4, in these units and without its negative factor: `τ²κ + (f·n)²`. Its
     /// sign is the index of the solution; zero is a fold, where two solutions merge.
-    pub(super) fn determinant(&self, state: &State<T>) -> T {
+    pub(crate) fn determinant(&self, state: &State<T>) -> T {
         let (place, pressing) = (&state.place, self.force.dot(&state.place.normal));
         let (w11, w22) = (place.first.dot(&place.bend_first), place.second.dot(&place.bend_second));
         let w12 = place.first.dot(&place.bend_second);
@@ -138,7 +138,7 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
     }
 
     #[inline]
-    pub(super) fn state(&self, place: Place<T>, spin: T, torque: &Vector3<T>) -> State<T> {
+    pub(crate) fn state(&self, place: Place<T>, spin: T, torque: &Vector3<T>) -> State<T> {
         let residual = place.normal * spin + place.point.cross(&self.force) - torque;
         let merit = residual.norm_squared() + place.height * place.height;
         State { place, spin, residual, merit, converged: false }
@@ -175,7 +175,7 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
     /// Damped Newton from a start, for the torque `torque` instead of the problem's own; at most
     /// `bound` steps. Each step is halved until the residual falls, or the next step would. However
     /// short the last one was, it ends only where the equations hold.
-    pub(super) fn newton(
+    pub(crate) fn newton(
         &self,
         start: Place<T>,
         spin: T,
@@ -254,7 +254,7 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
     }
 
     /// `true` if a contact solves the equations up to rounding.
-    pub(super) fn explains(&self, contact: &SoftContact<T>) -> bool {
+    pub(crate) fn explains(&self, contact: &SoftContact<T>) -> bool {
         self.place(self.inward(&contact.point)).is_some_and(|place| {
             let spin = contact.spin_torque * self.wrench_unit / self.length;
             self.settled(self.state(place, spin, &self.torque)).is_some()
@@ -283,7 +283,7 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
     }
 
     /// A contact that is right but for rounding, after a few steps of Newton's method.
-    pub(super) fn polished(&self, contact: &SoftContact<T>) -> Option<SoftContact<T>> {
+    pub(crate) fn polished(&self, contact: &SoftContact<T>) -> Option<SoftContact<T>> {
         let place = self.place(self.inward(&contact.point))?;
         let spin = contact.spin_torque * self.wrench_unit / self.length;
         let state = self.newton(place, spin, &self.torque, 6)?;
@@ -293,7 +293,7 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
     /// The spin torque that the force's component along the wrench asks for at a place,
     /// `f·m/f·n`, if it presses there.
     #[inline]
-    pub(super) fn spin_at(&self, place: &Place<T>) -> Option<T> {
+    pub(crate) fn spin_at(&self, place: &Place<T>) -> Option<T> {
         let pressing = -self.force.dot(&place.normal);
         let spin = -self.power / pressing;
         (pressing > T::zero() && spin.is_number()).then_some(spin)
@@ -301,7 +301,7 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
 
     /// `true` if the force presses there, by more than rounding can turn round.
     #[inline]
-    pub(super) fn presses(&self, state: &State<T>) -> bool {
+    pub(crate) fn presses(&self, state: &State<T>) -> bool {
         // Along the solution f·m = τ f·n holds exactly: the sign of τ tells as well as f·n does,
         // and better where the force grazes.
         if self.power.abs() > T::EPSILON * T::literal(16.0) * self.force.amax() {

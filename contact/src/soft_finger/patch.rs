@@ -1,34 +1,33 @@
 //! What a surface is near a point, to the last digit.
 
-use fingertip_wrench::Real;
-use nalgebra::{ComplexField, RealField, Vector3};
-
 use fingertip_surfaces::numeric::twofold::Wide;
 use fingertip_surfaces::numeric::vectors::tangents;
 use fingertip_surfaces::{LocalSurface, SmoothSurface};
+use fingertip_wrench::Real;
+use nalgebra::{ComplexField, RealField, Vector3};
 
-pub(super) type Three<W> = [W; 3];
+pub(crate) type Three<W> = [W; 3];
 
-pub(super) fn exactly<W: Wide>(v: &Vector3<f64>) -> Three<W> {
+pub(crate) fn exactly<W: Wide>(v: &Vector3<f64>) -> Three<W> {
     [W::exactly(v.x), W::exactly(v.y), W::exactly(v.z)]
 }
 
-pub(super) fn rounded<W: Wide>(v: Three<W>) -> Vector3<f64> {
+pub(crate) fn rounded<W: Wide>(v: Three<W>) -> Vector3<f64> {
     Vector3::from(v.map(W::rounded))
 }
 
 #[inline(never)]
-pub(super) fn dot<W: Wide>(a: Three<W>, b: Three<W>) -> W {
+pub(crate) fn dot<W: Wide>(a: Three<W>, b: Three<W>) -> W {
     a[0].times(b[0]).plus(a[1].times(b[1])).plus(a[2].times(b[2]))
 }
 
 /// `a + b·t`.
 #[inline(never)]
-pub(super) fn plus_times<W: Wide>(a: Three<W>, b: Three<W>, t: W) -> Three<W> {
+pub(crate) fn plus_times<W: Wide>(a: Three<W>, b: Three<W>, t: W) -> Three<W> {
     [a[0].plus(b[0].times(t)), a[1].plus(b[1].times(t)), a[2].plus(b[2].times(t))]
 }
 
-pub(super) fn cross<W: Wide>(a: Three<W>, b: Three<W>) -> Three<W> {
+pub(crate) fn cross<W: Wide>(a: Three<W>, b: Three<W>) -> Three<W> {
     let part = |i: usize, j: usize| a[i].times(b[j]).minus(a[j].times(b[i]));
     [part(1, 2), part(2, 0), part(0, 1)]
 }
@@ -40,18 +39,18 @@ fn unit<W: Wide>(v: Three<W>) -> (W, Three<W>) {
 }
 
 /// A surface at a point.
-pub(super) struct Seen<W> {
+pub(crate) struct Seen<W> {
     /// Distance from it, to first order \[m\].
-    pub(super) height: W,
+    pub(crate) height: W,
     /// Outward unit normal.
-    pub(super) normal: Three<W>,
+    pub(crate) normal: Three<W>,
     /// A unit vector along a line of curvature, and the curvatures along it and across it \[1/m\].
-    pub(super) around: Vector3<f64>,
-    pub(super) curvatures: [f64; 2],
+    pub(crate) around: Vector3<f64>,
+    pub(crate) curvatures: [f64; 2],
 }
 
 /// What a part of a surface tells of its points, with more digits than a number has.
-pub(super) trait Digits {
+pub(crate) trait Digits {
     /// The part as it is next to a point.
     fn seen<W: Wide>(&self, point: Three<W>) -> Seen<W>;
 
@@ -225,7 +224,7 @@ impl Digits for LocalSurface {
 }
 
 /// Where a way from a point of a part of a surface leads.
-pub(super) enum Way {
+pub(crate) enum Way {
     /// No more is known than that the curvature does not jump there, or seldom.
     Open,
     /// To another point of the part.
@@ -235,7 +234,7 @@ pub(super) enum Way {
 }
 
 /// What is behind a seam.
-pub(super) enum Behind {
+pub(crate) enum Behind {
     /// This part.
     Part(LocalSurface),
     /// The part that the surface has at this height.

@@ -1,5 +1,8 @@
 //! A soft contact to the last digit.
 
+use fingertip_surfaces::LocalSurface;
+use fingertip_surfaces::numeric::twofold::{Twofold, Wide};
+use fingertip_surfaces::numeric::vectors::{larger, wide};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -7,9 +10,6 @@ use super::mended::mended;
 use super::patch::{Behind, Digits, Seen, Three, Way, cross, exactly, plus_times, rounded};
 use crate::model::flat;
 use crate::{SoftContact, SoftFingerSurface};
-use fingertip_surfaces::LocalSurface;
-use fingertip_surfaces::numeric::twofold::{Twofold, Wide};
-use fingertip_surfaces::numeric::vectors::{larger, wide};
 
 /// Steps at most. From where rounding leaves a contact, two or three are enough, and one for each seam.
 const STEPS: usize = 16;
@@ -34,7 +34,7 @@ type PartAt<'a, T> = &'a dyn Fn(&Vector3<T>) -> Option<LocalSurface>;
 /// the contact before.
 #[cold]
 #[inline(never)]
-pub(super) fn refined<T: Real, S: SoftFingerSurface<T>>(
+pub(crate) fn refined<T: Real, S: SoftFingerSurface<T>>(
     wrench: &Wrench<T>,
     surface: &S,
     contact: &SoftContact<T>,
@@ -103,7 +103,7 @@ fn refined_on<T: Real>(
 /// to a tip. `None` unless the equations hold, and the force presses.
 #[cold]
 #[inline(never)]
-pub(super) fn settled<T: Real, S: SoftFingerSurface<T>>(
+pub(crate) fn settled<T: Real, S: SoftFingerSurface<T>>(
     wrench: &Wrench<T>,
     surface: &S,
     contact: &SoftContact<T>,

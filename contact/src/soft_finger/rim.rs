@@ -13,7 +13,7 @@ use crate::SoftContact;
 /// be across the edge's tangent `t = a × ρ`: `M·t = m·t + ϱ f·a = 0`, which two angles fulfil. Pressing
 /// asks for `n = −sign(f·m) M/|M|`, `τ = −sign(f·m)|M|`. Without a spin torque, `f·m = 0`, a line
 /// would have to meet the edge exactly: that is left to the faces. A radius of zero makes it a tip.
-pub(super) fn on_rim<T: Real>(
+pub(crate) fn on_rim<T: Real>(
     radius: T,
     axis: &Vector3<T>,
     force: &Vector3<T>,
@@ -42,7 +42,7 @@ pub(super) fn on_rim<T: Real>(
 ///
 /// With `c = A ρ(θ)`, `A = diag(a, b)`, the tangent is `A t`, and `c × A t = ab a`: so `M·A t = (A m)·t +
 /// ab f·a`, which is the condition on a circle under another wrench.
-pub(super) fn on_elliptic_rim<T: Real>(
+pub(crate) fn on_elliptic_rim<T: Real>(
     semi_axes: [T; 2],
     axis: &Vector3<T>,
     force: &Vector3<T>,

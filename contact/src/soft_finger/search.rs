@@ -1,12 +1,12 @@
 //! All soft-finger contacts on a smooth surface.
 
+use fingertip_surfaces::{SmoothSurface, Topology};
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
 use super::convex::direction_on_ball;
 use super::newton::{Place, Problem, State};
 use crate::{Search, SoftContact};
-use fingertip_surfaces::{SmoothSurface, Topology};
 
 /// More solutions than that are not told apart.
 const MOST: usize = 16;

@@ -1,9 +1,8 @@
 //! What a search for soft-finger contacts finds.
 
+use fingertip_surfaces::{ActiveSurface, ForceLine, LocalSurface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
-
-use fingertip_surfaces::{ActiveSurface, ForceLine, LocalSurface};
 
 /// One solution of the soft-finger equations `m = c × f + τ n(c)` with `f·n ≤ 0` and `c` on the
 /// surface.

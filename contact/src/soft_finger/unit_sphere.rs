@@ -1,10 +1,10 @@
 //! The closed form that every ellipsoid reduces to.
 
+use fingertip_surfaces::ForceLine;
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 use crate::model::flat;
-use fingertip_surfaces::ForceLine;
 
 /// The soft-finger contact of a wrench `(f, m)` about the centre of the unit sphere:
 /// `m = k c + c × f`, `|c| = 1`, `f·c < 0`.

@@ -1,11 +1,11 @@
 //! Where the true contact on any convex surface can be, whatever the size of the errors.
 
+use fingertip_surfaces::ActiveSurface;
+use fingertip_surfaces::numeric::vectors::{hypotenuse, length, tangents};
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::WorstErrors;
-use fingertip_surfaces::ActiveSurface;
-use fingertip_surfaces::numeric::vectors::{hypotenuse, length, tangents};
 
 /// A region that certainly holds the true contact: a piece of the round tube about the measured
 /// line of action.

@@ -1,11 +1,11 @@
 //! The covariance of a contact.
 
+use fingertip_surfaces::SmoothSurface;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix2, Matrix3, Matrix6, Vector3, Vector6};
 
 use super::{ContactJacobian, GeometrySensitivity, GeometryUncertainty, WrenchSpread};
 use crate::Contact;
-use fingertip_surfaces::SmoothSurface;
 
 /// How noise of the wrench and of the geometry spreads a contact, to first order: the covariance
 /// of its position along the two tangents \[m\], normal force, tangential force along the two

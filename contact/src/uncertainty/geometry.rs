@@ -1,5 +1,6 @@
 //! How surfaces change with their parameters.
 
+use fingertip_surfaces::{Level, SmoothSurface};
 use fingertip_wrench::Real;
 use nalgebra::{Matrix3, Vector3};
 
@@ -93,5 +94,39 @@ impl<T: Real> GeometryUncertainty<T> {
             attitude: Matrix3::zeros(),
             pivot: Vector3::zeros(),
         }
+    }
+}
+
+/// Of a level function of the coordinates over the semi-axes, by one of these.
+pub(crate) fn stretched<T: Real>(
+    level: &Level<T>,
+    point: &Vector3<T>,
+    axis: usize,
+    length: T,
+) -> GeometrySensitivity<T> {
+    let mut turned = level.hessian.column(axis) * (-point[axis] / length);
+    turned[axis] -= level.gradient[axis] / length;
+    let value = -level.gradient[axis] * point[axis] / length;
+    GeometrySensitivity::of_level(value, &turned, &level.gradient, &level.hessian)
+}
+
+/// Moving and turning: what every surface has in common. Columns of the result are displacement
+/// and tilt for the three translations, then the three rotations about `pivot`.
+impl<T: Real> GeometrySensitivity<T> {
+    /// How the surface changes at a point with the six rigid motions: translations along the axes
+    /// of the sensor frame, rotations about them through `pivot`.
+    #[must_use]
+    pub fn rigid_motions<S: SmoothSurface<T>>(
+        surface: &S,
+        point: &Vector3<T>,
+        pivot: &Vector3<T>,
+    ) -> [Self; 6] {
+        let normal = surface.normal(point);
+        let bend = surface.shape_operator(point);
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        [0, 1, 2, 3, 4, 5].map(|i| match axes.get(i) {
+            Some(axis) => Self::translation(axis, &normal, &bend),
+            None => Self::rotation(&axes[i % 3], pivot, point, &normal, &bend),
+        })
     }
 }

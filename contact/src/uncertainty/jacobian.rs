@@ -1,13 +1,13 @@
 //! First derivatives of a contact.
 
+use fingertip_surfaces::numeric::vectors::{larger, tangents};
+use fingertip_surfaces::{Corner, ForceLine, SmoothSurface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix2, Matrix3, Vector3, Vector6};
 
 use super::WrenchSpread;
 use super::skin::Sinking;
 use crate::Contact;
-use fingertip_surfaces::numeric::vectors::{larger, tangents};
-use fingertip_surfaces::{Corner, ForceLine, SmoothSurface};
 
 /// The first derivatives of a contact with respect to the wrench `(f, m)` \[N, N·m\] about the
 /// origin of the sensor frame, and to the geometry of the surface.

@@ -14,10 +14,9 @@
 mod answers;
 mod convex_bound;
 mod covariance;
-mod geometry;
+pub(crate) mod geometry;
 mod jacobian;
 mod paper;
-mod parameters;
 mod sensor;
 mod skin;
 mod spread;

@@ -1,9 +1,8 @@
 //! The error bounds of the first paper, mended.
 
+use fingertip_surfaces::BadShape;
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
-
-use fingertip_surfaces::BadShape;
 
 /// Bounds (3) to (9) of Bicchi & Dario (1987) on a point contact with a sphere around the origin,
 /// for relative errors of every force and torque component of at most `E`.

@@ -1,9 +1,8 @@
 //! From the noise of gauges and of a calibration to the covariance of a wrench.
 
+use fingertip_surfaces::BadShape;
 use fingertip_wrench::{Real, Wrench, WrenchSolver};
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
-
-use fingertip_surfaces::BadShape;
 
 /// What is uncertain in a sensor: the signals, by noise, and the sensor matrix, by calibration.
 ///

@@ -1,12 +1,12 @@
 //! First derivatives of a contact through a skin.
 
+use fingertip_surfaces::SmoothSurface;
+use fingertip_surfaces::numeric::vectors::tangents;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix2, Matrix6, Vector2, Vector3, Vector6};
 
 use super::{ContactJacobian, GeometrySensitivity};
 use crate::{CompliantContact, CompliantPointContact, CompliantSoftFinger, IndentationSlope, SkinLaw};
-use fingertip_surfaces::SmoothSurface;
-use fingertip_surfaces::numeric::vectors::tangents;
 
 /// How the surface under a contact sinks with it.
 ///

@@ -1,13 +1,17 @@
 //! Cylinders without flat ends: the ellipsoid's closed form with the third axis at infinity.
 
+use fingertip_surfaces::numeric::vectors::{tangents, wide};
+use fingertip_surfaces::{Cylinder, LocalSurface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use super::closed_form::{is_steady, soft_finger, told};
-use super::double::{finely, spins_little};
-use crate::{Search, SoftContact};
-use fingertip_surfaces::numeric::vectors::{tangents, wide};
-use fingertip_surfaces::{Cylinder, LocalSurface};
+#[cfg(feature = "batch")]
+use crate::batch::Lines;
+#[cfg(feature = "batch")]
+use crate::batch::kernel::{Answer, Chord, Kernel, Push, Versions, add, dot, scale};
+use crate::soft_finger::closed_form::{is_steady, soft_finger, told};
+use crate::soft_finger::double::{finely, spins_little};
+use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
 
 /// The soft-finger contact on the unbounded cylinder around the third axis with semi-axes `a` (and
 /// their reciprocals) along the first two, for a wrench in the same frame.
@@ -129,3 +133,34 @@ soft_finger!(
         taper: [0.0, 1.0],
     })
 );
+
+/// The radius.
+impl<T: Real> ShapeParameters<T, 1> for Cylinder<T> {
+    fn sensitivities(&self, _point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
+        [GeometrySensitivity::offset()]
+    }
+}
+
+#[cfg(feature = "batch")]
+impl<T: Real> Kernel<T> for Cylinder<T> {
+    const VERSIONS: Versions = Versions::Two;
+
+    /// The ends are not looked at: the side is unbounded here.
+    #[inline(always)]
+    fn answer(&self, push: Push<T>, lines: Lines) -> Answer<T> {
+        let (centre, core, radius) = (self.centre().into(), self.axis().into(), self.radius());
+        let curvature = T::one() / radius;
+        let start = push.foot(centre, T::one());
+        let (height, rise) = (dot(start, core), dot(push.force, core));
+        let across = add(start, core, -height);
+        let drift = add(push.force, core, -rise);
+        let inverse = T::one() / dot(drift, drift);
+        let along = -dot(across, drift) * inverse;
+        let foot = scale(add(across, drift, along), curvature);
+        let chord = Chord::new(dot(foot, foot), inverse, lines);
+        let normal = add(scale(foot, chord.shrink), drift, -chord.back);
+        let height = height + (along - chord.back * radius) * rise;
+        let point = add(add(centre, core, height), normal, radius);
+        Answer::of(point, normal, chord.outside * radius, chord.meets)
+    }
+}

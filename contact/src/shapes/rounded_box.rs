@@ -1,13 +1,13 @@
 //! The rounded box.
 
+use fingertip_surfaces::numeric::vectors::wide;
+use fingertip_surfaces::{LocalSurface, RoundedBox, SmoothSurface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use super::closed_form::{soft_finger, told};
-use super::double::{finely, spins_little};
-use crate::{Search, SoftContact, newton_soft_contacts};
-use fingertip_surfaces::numeric::vectors::wide;
-use fingertip_surfaces::{LocalSurface, RoundedBox};
+use crate::soft_finger::closed_form::{soft_finger, told};
+use crate::soft_finger::double::{finely, spins_little};
+use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact, newton_soft_contacts};
 
 /// By Newton's method; in double precision if the type is narrower and the spin torque rules: then rounding
 /// decides between faces, edges and corners.
@@ -37,3 +37,21 @@ soft_finger!(
         Some(LocalSurface::RoundedBox { half_extents, rounding, beyond })
     }
 );
+
+/// The three half extents, then the rounding: a half extent moves a face with the edges and corners at
+/// its rim; a rounding moves edges and corners inward as it grows.
+impl<T: Real> ShapeParameters<T, 4> for RoundedBox<T> {
+    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 4] {
+        let level = self.level(point);
+        let sign = point.map(|x| T::one().copysign(x));
+        let n = level.gradient;
+        let of =
+            |value: T, turned: Vector3<T>| GeometrySensitivity::of_level(value, &turned, &n, &level.hessian);
+        let wider = |i: usize| {
+            let mut moved = Vector3::zeros();
+            moved[i] = sign[i];
+            of(-n.dot(&moved), -(level.hessian * moved))
+        };
+        [wider(0), wider(1), wider(2), of(n.dot(&sign) - T::one(), level.hessian * sign)]
+    }
+}

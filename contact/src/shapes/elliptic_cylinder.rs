@@ -1,16 +1,17 @@
 //! The elliptic cylinder, with its ends.
 
+use crate::uncertainty::geometry::stretched;
+use fingertip_surfaces::numeric::vectors::smaller;
+use fingertip_surfaces::{ActiveSurface, CylinderEnds, EllipticCylinder, LocalSurface, SmoothSurface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use super::closed_form::{soft_finger, sole, told};
 use super::cylinder::on_cylinder;
-use super::double::{finely, is_steady};
 use super::plane::on_plane;
-use super::rim::on_elliptic_rim;
-use crate::{Search, SoftContact};
-use fingertip_surfaces::numeric::vectors::smaller;
-use fingertip_surfaces::{ActiveSurface, CylinderEnds, EllipticCylinder, LocalSurface};
+use crate::soft_finger::closed_form::{soft_finger, sole, told};
+use crate::soft_finger::double::{finely, is_steady};
+use crate::soft_finger::rim::on_elliptic_rim;
+use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
 
 /// The soft-finger contact on the side by the closed form; on flat ends as on planes, within their outline;
 /// and on the edges between them, with a normal between those of the faces that meet. A closed one is convex
@@ -102,3 +103,13 @@ soft_finger!(
             _ => LocalSurface::EllipticCylinder { semi_axes: shape.semi_axes().map(Real::to_f64) },
         })
 );
+
+/// The two semi-axes; on a flat end they change nothing.
+impl<T: Real> ShapeParameters<T, 2> for EllipticCylinder<T> {
+    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 2] {
+        if self.normal(point).z.abs() > T::literal(0.5) {
+            return [GeometrySensitivity::none(); 2];
+        }
+        [0, 1].map(|i| stretched(&self.level(point), point, i, self.semi_axes()[i]))
+    }
+}

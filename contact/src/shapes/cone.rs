@@ -1,18 +1,18 @@
 //! The cone.
 
-use fingertip_wrench::{Real, Wrench};
-use nalgebra::{ComplexField, Vector3};
-
-use super::closed_form::{is_active, soft_finger, told};
-use super::double::finely;
-use super::newton::Problem;
-use super::refined::settled;
-use super::rim::on_rim;
-use crate::{Search, SoftContact};
 use fingertip_surfaces::numeric::vectors::tangents;
 use fingertip_surfaces::numeric::vectors::wide;
 use fingertip_surfaces::numeric::vectors::{length, unit_or};
-use fingertip_surfaces::{ActiveSurface, Cone, Extent, LocalSurface};
+use fingertip_surfaces::{ActiveSurface, Cone, Extent, LocalSurface, SmoothSurface};
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::{ComplexField, Vector3};
+
+use crate::soft_finger::closed_form::{is_active, soft_finger, told};
+use crate::soft_finger::double::finely;
+use crate::soft_finger::newton::Problem;
+use crate::soft_finger::refined::settled;
+use crate::soft_finger::rim::on_rim;
+use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
 
 /// The soft-finger contact on the unbounded cone: the closed form of theory 3.2 for `D = diag(1,
 /// 1, −tan² α)`, `s = 0`, in which the quadratic for `K²` is linear,
@@ -174,3 +174,19 @@ soft_finger!(
         taper: [-ComplexField::tan(shape.half_angle().to_f64()), 1.0],
     })
 );
+
+/// The half angle, per radian. With the level function `S = r cos α − h sin α` of the distance `r`
+/// from the axis and the depth `h` under the apex.
+impl<T: Real> ShapeParameters<T, 1> for Cone<T> {
+    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
+        let level = self.level(point);
+        let (sine, cosine) = self.half_angle().sin_cos();
+        let from_apex = point - self.apex();
+        let depth = from_apex.dot(&self.axis());
+        // ρ = (g + a sin α)/cos α.
+        let outward = (level.gradient + self.axis() * sine) / cosine;
+        let value = -(from_apex.dot(&outward) * sine + depth * cosine);
+        let turned = -(outward * sine + self.axis() * cosine);
+        [GeometrySensitivity::of_level(value, &turned, &level.gradient, &level.hessian)]
+    }
+}

@@ -1,10 +1,10 @@
 //! Bodies of flat facets.
 
+use fingertip_surfaces::Mesh;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::{Search, SoftContact, SoftFingerSurface};
-use fingertip_surfaces::Mesh;
 
 /// The soft finger on the polyhedron that the mesh *is*: facets are flat and normals are theirs, not
 /// interpolated. A contact is either inside a facet, by the closed form of the plane, or on a vertex,

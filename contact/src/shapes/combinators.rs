@@ -1,13 +1,15 @@
 //! Shapes made of shapes.
 
-use fingertip_wrench::{Line, Real, Wrench};
-use nalgebra::Vector3;
-
-use crate::{Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
 use fingertip_surfaces::is_inside_along;
 use fingertip_surfaces::{
     ActiveSurface, Compound, ForceLine, LocalSurface, Offset, Posed, Region, SignedDistance, SmoothSurface,
     Trimmed,
+};
+use fingertip_wrench::{Line, Real, Wrench};
+use nalgebra::Vector3;
+
+use crate::{
+    GeometrySensitivity, Search, ShapeParameters, SoftContact, SoftFingerSurface, newton_soft_contacts,
 };
 
 impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
@@ -128,5 +130,31 @@ impl<T: Real, S: SmoothSurface<T> + SignedDistance<T>> SoftFingerSurface<T> for 
         visit: impl FnMut(SoftContact<T>),
     ) -> Search<T> {
         newton_soft_contacts(self, wrench, last, visit)
+    }
+}
+
+/// The distance.
+impl<T: Real, S: SignedDistance<T>> ShapeParameters<T, 1> for Offset<T, S> {
+    fn sensitivities(&self, _point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
+        [GeometrySensitivity::offset()]
+    }
+}
+
+/// Those of the whole shape.
+impl<T: Real, S: ShapeParameters<T, P>, R, const P: usize> ShapeParameters<T, P> for Trimmed<S, R> {
+    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; P] {
+        self.inner().sensitivities(point)
+    }
+}
+
+/// Those of the shape, wherever it is. (How well its place is known is a matter of
+/// [`GeometryUncertainty`](crate::GeometryUncertainty).)
+impl<T: Real, S: ShapeParameters<T, P>, const P: usize> ShapeParameters<T, P> for Posed<T, S> {
+    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; P] {
+        let pose = self.sensor_from_shape();
+        let inside = pose.rotation().tr_mul(&(point - pose.origin()));
+        self.inner()
+            .sensitivities(&inside)
+            .map(|change| GeometrySensitivity { tilt: pose.rotation() * change.tilt, ..change })
     }
 }

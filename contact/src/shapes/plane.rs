@@ -1,12 +1,16 @@
 //! The plane.
 
+use fingertip_surfaces::numeric::vectors::{largest, wide};
+use fingertip_surfaces::{Disk, LocalSurface, Plane, Rectangle};
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
-use super::closed_form::{is_steady, part_of, soft_finger, told};
-use crate::{Search, SoftContact};
-use fingertip_surfaces::numeric::vectors::{largest, wide};
-use fingertip_surfaces::{Disk, LocalSurface, Plane, Rectangle};
+#[cfg(feature = "batch")]
+use crate::batch::Lines;
+#[cfg(feature = "batch")]
+use crate::batch::kernel::{Answer, Kernel, Push, Versions, add, dot, pick, zip};
+use crate::soft_finger::closed_form::{is_steady, part_of, soft_finger, told};
+use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
 
 /// The soft-finger contact on the plane through the origin, for a wrench about the origin:
 /// `τ = f·m/f·n`, `c = n × m/f·n` (theory 3.2). It is the centre of pressure whatever the friction
@@ -63,3 +67,39 @@ soft_finger!(
 
 part_of!(Disk, plane);
 part_of!(Rectangle, plane);
+
+/// Its height along its normal.
+impl<T: Real> ShapeParameters<T, 1> for Plane<T> {
+    fn sensitivities(&self, _point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
+        [GeometrySensitivity::offset()]
+    }
+}
+
+#[cfg(feature = "batch")]
+impl<T: Real> Kernel<T> for Plane<T> {
+    const VERSIONS: Versions = Versions::One;
+
+    #[inline(always)]
+    fn answer(&self, push: Push<T>, _: Lines) -> Answer<T> {
+        let (origin, normal): ([T; 3], [T; 3]) = (self.point().into(), self.outward().into());
+        let slope = dot(push.force, normal);
+        let foot = push.foot(origin, T::one());
+        let across = add(foot, push.force, -dot(foot, normal) / slope);
+        let gap = pick(slope < T::zero(), T::zero(), T::one() / T::zero());
+        Answer::new(zip(origin, across, |o, a| o + a), normal, gap)
+    }
+}
+
+/// Its height along its normal.
+impl<T: Real> ShapeParameters<T, 1> for Disk<T> {
+    fn sensitivities(&self, _point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
+        [GeometrySensitivity::offset()]
+    }
+}
+
+/// Its height along its normal.
+impl<T: Real> ShapeParameters<T, 1> for Rectangle<T> {
+    fn sensitivities(&self, _point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
+        [GeometrySensitivity::offset()]
+    }
+}

@@ -1,57 +1,18 @@
-//! Sphere and ellipsoid, through the unit sphere.
+//! The ellipsoid, through the unit sphere.
 
+#[cfg(feature = "batch")]
+use crate::batch::Lines;
+#[cfg(feature = "batch")]
+use crate::batch::kernel::{Answer, Chord, Kernel, Push, Versions, add, cross, dot, scale, times};
+use crate::uncertainty::geometry::stretched;
+use fingertip_surfaces::numeric::vectors::{larger, largest, taming_factor};
+use fingertip_surfaces::{Ellipsoid, ForceLine, SmoothSurface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use super::closed_form::{part_of, soft_finger, told};
-use super::unit_sphere::OnUnitSphere;
-use crate::{Search, SoftContact};
-use fingertip_surfaces::numeric::vectors::{larger, largest, taming_factor};
-use fingertip_surfaces::{Ellipsoid, ForceLine, Sphere, SphericalCap};
-
-/// The soft-finger contact on a sphere.
-///
-/// `f·m` is that of the wrench as it is given, about the sensor's origin: the same about any point,
-/// but for the rounding that moving a torque takes. So a pure force stays one.
-///
-/// # Errors
-/// The pair of points that a pure force which misses would graze.
-pub(super) fn on_sphere<T: Real>(
-    sphere: &Sphere<T>,
-    wrench: &Wrench<T>,
-) -> Result<SoftContact<T>, [Vector3<T>; 2]> {
-    let (centre, radius, curvature) = (sphere.centre(), sphere.radius(), sphere.curvature());
-    let lever = wrench.torque_about(&centre) * curvature;
-    let scale = taming_factor(larger(largest(&wrench.force()), largest(&lever)));
-    let (f, m) = (wrench.force() * scale, lever * scale);
-    let power = f.dot(&(wrench.torque() * scale)) * curvature;
-    let solved = OnUnitSphere::new(&f, &m, f.norm_squared(), power);
-    if let Some(pair) = solved.grazing(&f, &m) {
-        return Err(pair.map(|point| point * radius + centre));
-    }
-    let normal = solved.point();
-    Ok(SoftContact {
-        point: normal * radius + centre,
-        normal,
-        spin_torque: solved.spin * radius * scale.normalising_factor(),
-        active: true,
-    })
-}
-
-/// The same for a force that is tame and presses steeply.
-#[inline(always)]
-pub(super) fn steeply_on_sphere<T: Real>(sphere: &Sphere<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
-    let (centre, radius, curvature) = (sphere.centre(), sphere.radius(), sphere.curvature());
-    let (f, m) = (push.force(), push.torque_about(&centre) * curvature);
-    let solved = OnUnitSphere::steep(&f, &m, push.squared(), f.dot(&push.torque()) * curvature)?;
-    let normal = solved.point();
-    Some(SoftContact {
-        point: normal * radius + centre,
-        normal,
-        spin_torque: solved.spin * radius,
-        active: true,
-    })
-}
+use crate::soft_finger::closed_form::{soft_finger, told};
+use crate::soft_finger::unit_sphere::OnUnitSphere;
+use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
 
 /// The soft-finger contact on an ellipsoid.
 ///
@@ -126,17 +87,39 @@ fn across<T: Real>(b: &Vector3<T>) -> Vector3<T> {
 }
 
 soft_finger!(
-    Sphere,
-    |shape, wrench, _, visit| told(on_sphere(shape, wrench).map_err(Search::Grazing), visit),
-    sole | shape,
-    push | steeply_on_sphere(shape, push)
-);
-
-soft_finger!(
     Ellipsoid,
     |shape, wrench, _, visit| told(on_ellipsoid(shape, wrench).map_err(Search::Grazing), visit),
     sole | shape,
     push | steeply_on_ellipsoid(shape, push)
 );
 
-part_of!(SphericalCap, sphere);
+/// The three semi-axes.
+impl<T: Real> ShapeParameters<T, 3> for Ellipsoid<T> {
+    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 3] {
+        [0, 1, 2].map(|i| stretched(&self.level(point), point, i, self.semi_axes()[i]))
+    }
+}
+
+#[cfg(feature = "batch")]
+impl<T: Real> Kernel<T> for Ellipsoid<T> {
+    const VERSIONS: Versions = Versions::Two;
+
+    /// Of a line that misses, the point is the one on which a scaled copy of the ellipsoid would be
+    /// touched: close to the closest for small gaps, but not the same; the gap is the distance
+    /// between the line and that point's tangent plane.
+    #[inline(always)]
+    fn answer(&self, push: Push<T>, lines: Lines) -> Answer<T> {
+        let semi_axes: [T; 3] = self.semi_axes().into();
+        let curvatures = semi_axes.map(|a| T::one() / a);
+        let start = times(scale(cross(push.force, push.torque), push.inverse), curvatures);
+        let direction = times(push.force, curvatures);
+        let inverse = T::one() / dot(direction, direction);
+        let foot = add(start, direction, -dot(start, direction) * inverse);
+        let chord = Chord::new(dot(foot, foot), inverse, lines);
+        let scaled = add(scale(foot, chord.shrink), direction, -chord.back);
+        let gradient = times(scaled, curvatures);
+        let flatness = T::one() / dot(gradient, gradient).root();
+        let (point, normal) = (times(scaled, semi_axes), scale(gradient, flatness));
+        Answer::of(point, normal, chord.outside * flatness, chord.meets)
+    }
+}

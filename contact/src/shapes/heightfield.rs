@@ -1,11 +1,11 @@
 //! Surfaces given by heights on a grid.
 
+use fingertip_surfaces::Heightfield;
+use fingertip_surfaces::numeric::quadratic::roots;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::{Search, SoftContact, SoftFingerSurface};
-use fingertip_surfaces::Heightfield;
-use fingertip_surfaces::numeric::quadratic::roots;
 
 /// The soft finger on the bilinear surface that the heightfield *is*, cell by cell, as
 /// [`Mesh`](fingertip_surfaces::Mesh) does it facet by facet: a contact lies inside a cell, with the normal of its

@@ -1,12 +1,12 @@
 //! The surface of revolution.
 
+use fingertip_surfaces::{Knot, LocalSurface, Revolution, SmoothSurface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use super::double::spins_little;
-use super::refined::settled;
+use crate::soft_finger::double::spins_little;
+use crate::soft_finger::refined::settled;
 use crate::{Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
-use fingertip_surfaces::{Knot, LocalSurface, Revolution, SmoothSurface};
 
 /// More contacts than that are not told apart.
 const MOST: usize = 16;

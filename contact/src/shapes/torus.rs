@@ -1,16 +1,16 @@
 //! The torus: every contact, as a root of a function of one angle.
 
+use fingertip_surfaces::numeric::roots::{bisected, bracketed};
+use fingertip_surfaces::numeric::vectors::{larger, largest, unit_or, wide};
+use fingertip_surfaces::{ActiveSurface, LocalSurface, SmoothSurface, Torus};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use super::closed_form::soft_finger;
-use super::double::{in_type, narrow};
-use super::newton::Problem;
-use super::unit_sphere::OnUnitSphere;
-use crate::{Search, SoftContact};
-use fingertip_surfaces::numeric::roots::{bisected, bracketed};
-use fingertip_surfaces::numeric::vectors::{larger, largest, wide};
-use fingertip_surfaces::{ActiveSurface, LocalSurface, Torus};
+use crate::soft_finger::closed_form::soft_finger;
+use crate::soft_finger::double::{in_type, narrow};
+use crate::soft_finger::newton::Problem;
+use crate::soft_finger::unit_sphere::OnUnitSphere;
+use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
 
 /// Cells that the circle is cut into to begin with.
 const CELLS: u8 = 24;
@@ -296,3 +296,19 @@ soft_finger!(
     patch | shape,
     _ | Some(LocalSurface::Torus { ring: shape.ring_radius().to_f64(), tube: shape.tube_radius().to_f64() })
 );
+
+/// The radius of the ring, then that of the tube. A larger ring moves each section of the tube
+/// outward.
+impl<T: Real> ShapeParameters<T, 2> for Torus<T> {
+    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 2] {
+        let normal = self.normal(point);
+        let outward = unit_or(&Vector3::new(point.x, point.y, T::zero()), Vector3::x);
+        let level = self.level(point);
+        // The derivative across the tube; that around the ring stays out.
+        let around = Vector3::new(-outward.y, outward.x, T::zero());
+        let along = around.cross(&normal);
+        let turned = -along * (along.dot(&outward) / self.tube_radius());
+        let ring = GeometrySensitivity::of_level(-normal.dot(&outward), &turned, &normal, &level.hessian);
+        [ring, GeometrySensitivity::offset()]
+    }
+}

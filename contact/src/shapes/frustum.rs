@@ -1,19 +1,19 @@
 //! Solids of revolution with flat ends: closed cylinder, cone, truncated cone.
 
+use fingertip_surfaces::numeric::vectors::wide;
+use fingertip_surfaces::{ActiveSurface, CappedCylinder, Cone, Frustum, LocalSurface, SmoothSurface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use super::closed_form::{soft_finger, sole, told};
 use super::cone::on_cone;
 use super::cylinder::on_round_side;
-use super::double::{finely, is_steady};
-use super::newton::Problem;
 use super::plane::on_plane;
-use super::refined::settled;
-use super::rim::on_rim;
-use crate::{Search, SoftContact};
-use fingertip_surfaces::numeric::vectors::wide;
-use fingertip_surfaces::{ActiveSurface, CappedCylinder, Cone, Frustum, LocalSurface};
+use crate::soft_finger::closed_form::{soft_finger, sole, told};
+use crate::soft_finger::double::{finely, is_steady};
+use crate::soft_finger::newton::Problem;
+use crate::soft_finger::refined::settled;
+use crate::soft_finger::rim::on_rim;
+use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
 
 /// The soft-finger contact on a frustum: of the side, by the closed form of its cone or cylinder; of
 /// the flat ends, by that of the plane; of the edges between them and of a tip, with a normal between
@@ -155,3 +155,40 @@ soft_finger!(
         Some(solid_patch(shape.solid(), point, &shape.centre(), [-half, half]))
     }
 );
+
+/// Height, base radius, top radius. With the level function `S = r − R + (R − R′) z/h` of the
+/// distance `r` from the axis and the height `z` over the base.
+impl<T: Real> ShapeParameters<T, 3> for Frustum<T> {
+    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 3] {
+        let (axis, taper, height) = (self.axis(), self.taper(), self.height());
+        let above = (point - self.base_centre()).dot(&axis);
+        let level = self.level(point);
+        // Which of the three faces is the outermost here.
+        if above - height > level.value || -above > level.value {
+            let top = if above > height * T::literal(0.5) {
+                GeometrySensitivity::offset()
+            } else {
+                GeometrySensitivity::none()
+            };
+            return [top, GeometrySensitivity::none(), GeometrySensitivity::none()];
+        }
+        let steep = T::one() / self.side_cosine();
+        let (gradient, hessian) = (level.gradient * steep, level.hessian * steep);
+        let share = above / height;
+        let of =
+            |value: T, slope: T| GeometrySensitivity::of_level(value, &(axis * slope), &gradient, &hessian);
+        let one = T::one();
+        [of(-taper * share, -taper / height), of(share - one, one / height), of(-share, -one / height)]
+    }
+}
+
+/// Half length, then radius; each moves the faces that it bounds.
+impl<T: Real> ShapeParameters<T, 2> for CappedCylinder<T> {
+    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 2] {
+        if self.normal(point).dot(&self.axis()).abs() > T::literal(0.5) {
+            [GeometrySensitivity::offset(), GeometrySensitivity::none()]
+        } else {
+            [GeometrySensitivity::none(), GeometrySensitivity::offset()]
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! The capsule.
+
+use fingertip_surfaces::numeric::vectors::wide;
+use fingertip_surfaces::{ActiveSurface, Capsule, Cylinder, LocalSurface, SmoothSurface, Sphere};
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+
+use super::cylinder::on_round_side;
+use super::sphere::on_sphere;
+#[cfg(feature = "batch")]
+use crate::batch::Lines;
+#[cfg(feature = "batch")]
+use crate::batch::kernel::{Answer, Kernel, Push, Versions, add, dot, pick, scale};
+use crate::soft_finger::closed_form::{soft_finger, sole, told};
+use crate::soft_finger::double::{finely, is_steady, spins_little};
+use crate::soft_finger::refined::refined;
+use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
+
+/// The soft-finger contact on a capsule: of the side, or of the round ends, each by its closed form where
+/// it applies.
+///
+/// # Errors
+/// That there is none: [`Search::Complete`], or the pair of points of an end that a pure force grazes.
+fn on_capsule<T: Real>(shape: &Capsule<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
+    let (centre, axis, half) = (shape.centre(), shape.axis(), shape.half_length());
+    let torque = wrench.torque_about(&centre);
+    // Rounding under a large spin torque, or at a flat angle, moves a contact along the side, and past its
+    // ends.
+    let is_steady = is_steady(wrench, shape.radius());
+    if let Ok(side) = Cylinder::new(centre, axis, shape.radius())
+        && let Some(contact) = on_round_side(&centre, &axis, shape.radius(), &wrench.force(), &torque)
+        && let contact = if is_steady(&contact) { contact } else { refined(wrench, &side, &contact) }
+        && (contact.point - centre).dot(&axis).abs() <= half
+    {
+        return Ok(contact);
+    }
+    let mut search = Search::Complete;
+    for end in [axis, -axis] {
+        // A convex surface has one contact at most; a point of the seam belongs to the side.
+        let Ok(ball) = Sphere::new(centre + end * half, shape.radius()) else { continue };
+        match on_sphere(&ball, wrench) {
+            Ok(contact) if contact.normal.dot(&end) >= T::zero() => return Ok(contact),
+            Ok(_) => {}
+            Err(pair) => {
+                if pair.iter().all(|point| (point - ball.centre()).dot(&end) >= T::zero()) {
+                    search = Search::Grazing(pair);
+                }
+            }
+        }
+    }
+    Err(search)
+}
+
+/// The same, in double precision if the type is narrower and the spin torque rules: then rounding decides
+/// between the side and an end.
+fn on_capsule_finely<T: Real>(shape: &Capsule<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
+    finely(on_capsule(shape, wrench), spins_little(wrench, shape.radius()), wrench, |wrench| {
+        let [half, radius] = [shape.half_length(), shape.radius()].map(Real::to_f64);
+        let double = Capsule::new(wide(&shape.centre()), wide(&shape.axis()), half, radius);
+        double.ok().map(|double| on_capsule(&double, wrench))
+    })
+}
+
+soft_finger!(
+    /// The closed forms of the side and of the two round ends, each where it applies.
+    Capsule,
+    |shape, wrench, _, visit| told(
+        on_capsule_finely(shape, wrench).or_else(|search| match search {
+            Search::Complete => sole(None, wrench),
+            other => Err(other),
+        }),
+        visit
+    ),
+    patch | shape,
+    point | {
+        let (origin, axis) = (wide(&shape.centre()), wide(&shape.axis()));
+        let (height, half) = ((point - shape.centre()).dot(&shape.axis()), shape.half_length());
+        let radius = shape.radius().to_f64();
+        Some(if height.abs() <= half {
+            LocalSurface::Cone { origin, axis, radius, taper: [0.0, 1.0] }
+        } else {
+            LocalSurface::Ball { origin, axis, height: half.copysign(height).to_f64(), radius }
+        })
+    }
+);
+
+/// Half length, then radius. A longer capsule moves its ends and leaves its side.
+impl<T: Real> ShapeParameters<T, 2> for Capsule<T> {
+    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 2] {
+        let axis = self.axis();
+        let height = (point - self.centre()).dot(&axis);
+        let longer = if height.abs() > self.half_length() {
+            let outward = axis * T::one().copysign(height);
+            GeometrySensitivity::translation(&outward, &self.normal(point), &self.shape_operator(point))
+        } else {
+            GeometrySensitivity::none()
+        };
+        [longer, GeometrySensitivity::offset()]
+    }
+}
+
+#[cfg(feature = "batch")]
+impl<T: Real> Kernel<T> for Capsule<T> {
+    const VERSIONS: Versions = Versions::One;
+
+    #[inline(always)]
+    fn answer(&self, push: Push<T>, _: Lines) -> Answer<T> {
+        let (centre, core): ([T; 3], [T; 3]) = (self.centre().into(), self.axis().into());
+        let (half, radius) = (self.half_length(), self.radius());
+        let curvature = T::one() / radius;
+        let u = scale(push.force, push.inverse.root());
+        let start = push.foot(centre, T::one());
+        let (height, rise) = (dot(start, core), dot(u, core));
+        let across = add(start, core, -height);
+        let drift = add(u, core, -rise);
+        // Where the line enters the unbounded side, or comes closest to it; from infinitely far
+        // along the axis if it never does.
+        let inverse = T::one() / dot(drift, drift).max(T::LEAST_NORMAL.root());
+        let nearest = -dot(across, drift) * inverse;
+        let foot = scale(add(across, drift, nearest), curvature);
+        let left = T::one() - dot(foot, foot);
+        let side = nearest - (left.max(T::zero()) * inverse).root() * radius;
+        // The end of the segment that governs: where the entry is beyond one, that.
+        let entry = height + side * rise;
+        let middle = entry.max(-half).min(half);
+        let inside = entry == middle;
+        // On the ball about the end.
+        let from_end = add(start, core, -middle);
+        let to_end = -dot(from_end, u);
+        let ball_foot = scale(add(from_end, u, to_end), curvature);
+        let ball_left = T::one() - dot(ball_foot, ball_foot);
+        let ball = to_end - ball_left.max(T::zero()).root() * radius;
+        let point = add(start, u, pick(inside, side, ball));
+        let reached = dot(point, core).max(-half).min(half);
+        let outward = add(point, core, -reached);
+        let distance = dot(outward, outward).root();
+        let normal = scale(outward, T::one() / distance);
+        let hit = pick(inside, left, ball_left) >= T::zero();
+        let gap = pick(hit, T::zero(), (distance - radius).max(T::zero()));
+        Answer::new(add(add(centre, core, reached), normal, radius), normal, gap)
+    }
+}
