@@ -8,7 +8,7 @@ use crate::linear::{Singular, Triangular};
 
 /// Total least squares of `y = xᵀΘ (+ constant)` where the regressors have errors of standard
 /// deviation `regressor_deviations` and the responses of `response_deviations`, both independent
-/// (theory 8; Van Huffel & Vandewalle 1991).
+/// (`docs/theory/calibration.md#errors-in-the-loads`; Van Huffel & Vandewalle 1991).
 ///
 /// Columns are divided by their deviations, an exact constant column is projected out first, and
 /// the right singular vectors of the smallest singular values give the answer; a QR accumulator
