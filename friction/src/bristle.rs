@@ -97,8 +97,8 @@ impl Integrator for ReturnMap {
 /// # Bounded and passive
 /// `|z| ≤ F_s/σ₀` for every step, by the integrator and a radial clamp. The damping term `σ₁ż` is
 /// taken as the mean over the step and limited, step by step, to what keeps
-/// `h F·v ≥ ½σ₀(|z⁺|² − |z|²)`: with the plain term LuGre itself gives energy at speeds above
-/// `4(σ₁+σ₂)g/σ₁²` (Barabanov & Ortega 2000; `docs/theory/friction.md#passivity`).
+/// `h F·v ≥ ½σ₀(|z⁺|² − |z|²)`: with the plain term LuGre itself can give energy at speeds above
+/// `4(σ₁+σ₂)g/σ₁²` (`docs/theory/friction.md#passivity`; on passivity also Barabanov & Ortega 2000).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bristle<T: Real, Law, const D: usize, Method = Exponential> {
     law: Law,
