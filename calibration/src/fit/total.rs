@@ -13,7 +13,7 @@ use crate::linear::{Singular, Triangular};
 /// Columns are divided by their deviations, an exact constant column is projected out first, and
 /// the right singular vectors of the smallest singular values give the answer; a QR accumulator
 /// reduces the data before, so that this streams. Ordinary least squares would attenuate: it tends
-/// to `C (I + Σ_P⁻¹ Σ_e)⁻¹`.
+/// to `C (I + Σ_e Σ_P⁻¹)⁻¹`.
 ///
 /// With `constant`, the last row of the coefficients is the constant. The covariance is the first
 /// order one, that of regression with the residuals' covariance `Σ_V + C Σ_e Cᵀ`.
