@@ -83,7 +83,7 @@ impl Design {
     }
 
     /// Nominal loads \[N, N·m\]: the force range, and the torque that it makes at 10 mm, as the
-    /// paper's condition numbers have it (theory 1.3).
+    /// paper's condition numbers have it (`docs/theory/wrench.md#condition-numbers-of-the-paper`).
     #[must_use]
     pub fn nominal_loads(&self) -> Vector6<f64> {
         let (force, torque) = (self.force_range, self.force_range * 10e-3);

@@ -19,7 +19,7 @@ use super::shapes::{Visitor, each};
 const UNITS: f64 = 16.0;
 
 /// The same for the nearest point to a line that misses, which is found by iteration in the space
-/// where a needle is a ball: 1e-13 of the size in `f64` (theory 12).
+/// where a needle is a ball: 1e-13 of the size in `f64` (`docs/theory/README.md#stress-cases`).
 const NEAR_MISS_UNITS: f64 = 450.0;
 
 pub(crate) fn wide<T: Real>(v: &Vector3<T>) -> [f64; 3] {

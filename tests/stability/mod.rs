@@ -1,5 +1,5 @@
-//! The matrix of stress cases (theory 12 and more) and every routine, in `f32` and `f64`: run small
-//! by the test `stability` and large by the report of the benches, which shares these files.
+//! The matrix of stress cases (`docs/theory/README.md#stress-cases` and more) and every routine, in `f32` and
+//! `f64`: run small by the test `stability` and large by the report of the benches, which shares these files.
 //!
 //! Bounds: what a backward stable routine keeps, a small multiple of the rounding unit times the
 //! conditioning of the case. References: arithmetic of 220 bits, or an invariant of the law.

@@ -91,7 +91,8 @@ impl Contacts<'_> {
         let Ok(model) = SoftFinger::new(T::zero()) else { return row };
         let mut random = Pcg64Mcg::seed_from_u64(35);
         let (size, epsilon) = (level.size(scale), T::EPSILON.to_f64());
-        // Newton's method in units in which a pancake is one: 1e-13 of the size in `f64` (theory 12).
+        // Newton's method in units in which a pancake is one: 1e-13 of the size in `f64`
+        // (`docs/theory/README.md#stress-cases`).
         let flat = matches!(level, Level::Ellipsoid { semi_axes: [a, _, c] } if c < 0.01 * a);
         let units = if flat && evaluations.is_some() { 450.0 } else { UNITS };
         let slow = matches!(level, Level::Superquadric { .. });

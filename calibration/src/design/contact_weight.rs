@@ -12,10 +12,10 @@ use super::{DesignError, Touch};
 ///
 /// For a point contact at `c` with outward normal `n` and force `f` on the fingertip,
 /// `J = Π[ −[f][c], [f] ]/|f|²` with `Π = I − f nᵀ/(f·n)`: the implicit function theorem on the
-/// crossing of the line of action with the surface (theory 2.2; the shape enters by its normal
-/// only). With channels of independent noise of standard deviation s, `Σ = s²(CᵀC)⁻¹`, and the rms
-/// error of the position is `s·√(tr(W(CᵀC)⁻¹))`: first order in the noise, hence too small near
-/// grazing and near the threshold of force.
+/// crossing of the line of action with the surface (`docs/theory/contact.md#errors-of-a-point-contact`; the
+/// shape enters by its normal only). With channels of independent noise of standard deviation s,
+/// `Σ = s²(CᵀC)⁻¹`, and the rms error of the position is `s·√(tr(W(CᵀC)⁻¹))`: first order in the noise, hence
+/// too small near grazing and near the threshold of force.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ContactWeight {
     matrix: Matrix6<f64>,

@@ -17,8 +17,9 @@ pub enum TubeTheory {
     Corrected,
     /// What the program behind that paper's table seems to have used: `W_s = W_h`, `W_t = W_h/R`,
     /// that is mean shear `V/A` and no factors `(1+μ)`. It reproduces the four printed condition
-    /// numbers to 1.6 %, which (17) as printed cannot by less than 19.6 % (theory 1.3; an
-    /// inference). Only for comparison with the paper.
+    /// numbers to 1.6 %, which (17) as printed cannot by less than 19.6 %
+    /// (`docs/theory/wrench.md#condition-numbers-of-the-paper`; an inference). Only for comparison with the
+    /// paper.
     Reconstructed1987,
 }
 

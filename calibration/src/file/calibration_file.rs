@@ -95,8 +95,8 @@ pub enum SignalUnit {
 }
 
 /// Covariance of the normalised matrix, as a Kronecker product: the covariance of entries
-/// `(i, j)` and `(k, l)` is `signals[i][k] · loads[j][l]` (theory 8; the classical result for
-/// multi-response regression).
+/// `(i, j)` and `(k, l)` is `signals[i][k] · loads[j][l]` (`docs/theory/calibration.md#least-squares`; the
+/// classical result for multi-response regression).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Covariance {

@@ -9,8 +9,8 @@ use crate::linear::Triangular;
 const MOST_ITERATIONS: usize = 200;
 
 /// The Gauss-Helmert model: `y = Θᵀ (x + e) + noise`, with standard deviations of the errors `e`
-/// and of the noise given for every sample (theory 8; Helmert 1907; Neitzel 2010 for why the loads
-/// must be adjusted in the iteration).
+/// and of the noise given for every sample (`docs/theory/calibration.md#errors-in-the-loads`; Helmert 1907;
+/// Neitzel 2010 for why the loads must be adjusted in the iteration).
 ///
 /// `design` is samples × regressors, `design_deviations` the same shape (0 for a regressor that is
 /// exact, such as the constant), `response_deviations` samples × responses, positive. The maximum

@@ -15,7 +15,7 @@ const MAD_TO_DEVIATION: f64 = 1.482_602_218_505_602;
 const MOST_ITERATIONS: usize = 500;
 
 /// Huber's M-estimate, each response on its own, by iteratively reweighted least squares with the
-/// median absolute deviation as scale (theory 8; Huber 1981, chapter 7).
+/// median absolute deviation as scale (`docs/theory/calibration.md#robust-fits`; Huber 1981, chapter 7).
 ///
 /// The residual covariance is Huber's, `K² Σψ² / (n−k) / (mean ψ')²` with his correction for finite
 /// samples `K = 1 + (k/n) (1−m)/m`, m = mean ψ' the share of residuals within the threshold (Huber 1981,

@@ -27,8 +27,8 @@ impl Ransac {
         Self { thresholds, outliers: 0.2, confidence: 0.999, seed: 1 }
     }
 
-    /// How many draws of `size` samples it takes: `log(1−p) / log(1−(1−ε)^size)` (theory 8; Fischler
-    /// & Bolles 1981), at least 1 and at most 100 000.
+    /// How many draws of `size` samples it takes: `log(1−p) / log(1−(1−ε)^size)`
+    /// (`docs/theory/calibration.md#robust-fits`; Fischler & Bolles 1981), at least 1 and at most 100 000.
     #[must_use]
     pub fn draws(&self, size: usize) -> usize {
         let clean = (1.0 - self.outliers.clamp(0.0, 0.9)).powi(i32::try_from(size).unwrap_or(i32::MAX));

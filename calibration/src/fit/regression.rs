@@ -14,7 +14,7 @@ pub struct Fit {
     pub inverse_gram: DMatrix<f64>,
     /// Covariance of one sample's residuals (of weight 1), responses × responses. With
     /// `inverse_gram` it gives the covariance of the coefficients: entry `(i, j)` with `(k, l)` is
-    /// `inverse_gram[i][k] · residual_covariance[j][l]` (theory 8).
+    /// `inverse_gram[i][k] · residual_covariance[j][l]` (`docs/theory/calibration.md#least-squares`).
     pub residual_covariance: DMatrix<f64>,
     /// By how much each sample counted for each response, in \[0, 1\]: 1 for plain least squares,
     /// less for what a robust fit distrusts.
@@ -108,7 +108,7 @@ pub(super) fn accumulate(
 }
 
 /// Least squares, weighted if weights are given (variance of sample i = residual covariance /
-/// weight i), by QR of the weighted rows (theory 8).
+/// weight i), by QR of the weighted rows (`docs/theory/calibration.md#least-squares`).
 ///
 /// `design` is samples × regressors, `responses` samples × responses. Whitening the responses
 /// among each other would change nothing, since all have the same regressors (Zellner 1962).

@@ -5,8 +5,9 @@ use nalgebra::DMatrix;
 use super::regression::{accumulate, check};
 use super::{Fit, FitError};
 
-/// The maximum a posteriori estimate with a Gaussian prior: `Θ = (XᵀX + Λ)⁻¹ (XᵀY + ΛΘ₀)` (theory
-/// 8), computed by QR of the rows of the data with those of `Λ^{1/2} [I | Θ₀]` below.
+/// The maximum a posteriori estimate with a Gaussian prior: `Θ = (XᵀX + Λ)⁻¹ (XᵀY + ΛΘ₀)`
+/// (`docs/theory/calibration.md#prior-knowledge`), computed by QR of the rows of the data with those of
+/// `Λ^{1/2} [I | Θ₀]` below.
 ///
 /// `precision` Λ is symmetric positive definite, the inverse covariance of the prior in units of
 /// the residual variance: `σ² Σ₀⁻¹`. With `Λ = λ I` and Θ₀ = 0 it is ridge regression. Directions

@@ -7,7 +7,7 @@ use super::{FitError, least_squares};
 use crate::file::Temperature;
 
 /// A sensor whose readings drift: `v = zero + z₁ΔT + z₂ΔT² + (1 + αΔT) · C · load`, each gauge with
-/// coefficients of its own (theory 8).
+/// coefficients of its own (`docs/theory/calibration.md#temperature`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct TemperatureFit {
     /// The matrix at the reference temperature, gauges × regressors.

@@ -8,12 +8,12 @@ use crate::linear::{Singular, Triangular};
 
 /// Total least squares of `y = xᵀΘ (+ constant)` where the regressors have errors of standard
 /// deviation `regressor_deviations` and the responses of `response_deviations`, both independent
-/// (theory 8; Van Huffel & Vandewalle 1991).
+/// (`docs/theory/calibration.md#errors-in-the-loads`; Van Huffel & Vandewalle 1991).
 ///
 /// Columns are divided by their deviations, an exact constant column is projected out first, and
 /// the right singular vectors of the smallest singular values give the answer; a QR accumulator
 /// reduces the data before, so that this streams. Ordinary least squares would attenuate: it tends
-/// to `C (I + Σ_P⁻¹ Σ_e)⁻¹`.
+/// to `C (I + Σ_e Σ_P⁻¹)⁻¹`.
 ///
 /// With `constant`, the last row of the coefficients is the constant. The covariance is the first
 /// order one, that of regression with the residuals' covariance `Σ_V + C Σ_e Cᵀ`.

@@ -7,7 +7,8 @@ use super::{Fitted, GeometryError};
 use crate::fit::{FitError, least_squares};
 
 /// Where a surface sits in the sensor frame, from touches at known points of the surface
-/// (coordinates in its own frame): `min Σ |m − (Q y + t) × f|²` over rigid motions (theory 8).
+/// (coordinates in its own frame): `min Σ |m − (Q y + t) × f|²` over rigid motions
+/// (`docs/theory/calibration.md#the-shape-of-the-tip`).
 ///
 /// Gauss-Newton from the 24 rotations that map axes to axes; the best is taken. Deviations: rotation about x, y,
 /// z of the sensor \[rad\], then the origin x, y, z \[m\]. Three touches in general position are the least;

@@ -119,7 +119,7 @@ pub(super) fn named(error: FitError, names: &[&str]) -> FitError {
 }
 
 /// Sphere from touches at known directions: `m = ρ n × f + t × f`, linear in radius ρ and centre t
-/// (theory 8). Deviations: radius, centre x, y, z.
+/// (`docs/theory/calibration.md#the-shape-of-the-tip`). Deviations: radius, centre x, y, z.
 ///
 /// The touches need friction: where all forces point along the normals, every line of action passes
 /// through the centre and the radius is not observable; the error says so.
@@ -238,8 +238,9 @@ pub fn fit_plane(
 }
 
 /// What touches at unknown places say of a sphere's radius: with friction coefficient at most `friction`,
-/// `R ≥ greatest distance of a line of action from the centre / sin(atan μ)` (theory 8). `None` for a
-/// friction that is not positive or a wrench without line of action.
+/// `R ≥ greatest distance of a line of action from the centre / sin(atan μ)`
+/// (`docs/theory/calibration.md#the-shape-of-the-tip`). `None` for a friction that is not positive or a
+/// wrench without line of action.
 #[must_use]
 pub fn least_radius(centre: &Vector3<f64>, wrenches: &[Wrench<f64>], friction: f64) -> Option<f64> {
     let mut greatest = 0.0_f64;

@@ -68,9 +68,9 @@ pub struct PayloadFit {
 }
 
 /// Fits weight, centre of mass and zero to readings in several poses: `f = Rᵀ g + b_f`,
-/// `m = c × Rᵀ g + b_m`, two linear least-squares problems (theory 8). The second has the weight of the
-/// first among its regressors: what is uncertain of it is carried over to the centre of mass and the torque
-/// at rest, to first order.
+/// `m = c × Rᵀ g + b_m`, two linear least-squares problems (`docs/theory/calibration.md#gravity`). The second
+/// has the weight of the first among its regressors: what is uncertain of it is carried over to the centre of
+/// mass and the torque at rest, to first order.
 ///
 /// With gravity's direction given, two poses could do; four generic poses are the least in general, and
 /// eight or more are advised.

@@ -5,7 +5,8 @@ use nalgebra::Matrix6;
 use statrs::distribution::{ChiSquared, ContinuousCDF as _};
 
 /// Watches the pitch of point contacts: `T = (f·m)² / (mᵀΣ_ff m + 2 mᵀΣ_fm f + fᵀΣ_mm f)` follows χ²
-/// with one degree of freedom as long as contacts are points and the calibration holds (theory 11.1).
+/// with one degree of freedom as long as contacts are points and the calibration holds
+/// (`docs/theory/calibration.md#point-contacts-in-use`).
 ///
 /// One contact of a soft pad proves nothing; that all of the last hundred have pitch does. The window
 /// forgets exponentially, so a drift is noticed however long the monitor ran before.

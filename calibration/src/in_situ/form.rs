@@ -10,8 +10,9 @@ use crate::linear::{Singular, Triangular};
 ///
 /// Every point contact has a wrench without pitch, `f·m = 0`. With `wrench = B · signals` that is
 /// `Vᵀ S V = 0`, `S = Bᵀ J B`, J the matrix that exchanges forces and torques. Touches that nobody
-/// measured thus determine S up to a factor: 20 of the 36 numbers in B (theory 8). The other 16 (the
-/// group O(3,3) and a scale) need known loads: see [`super::refine`].
+/// measured thus determine S up to a factor: 20 of the 36 numbers in B
+/// (`docs/theory/calibration.md#point-contacts-in-use`). The other 16 (the group O(3,3) and a scale) need
+/// known loads: see [`super::refine`].
 #[derive(Clone, Debug)]
 pub struct PointContactForm {
     gauges: usize,

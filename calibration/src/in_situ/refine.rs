@@ -23,9 +23,9 @@ pub struct Refined {
 }
 
 /// Mends the map from signals to loads (in nominal loads, so that forces and torques weigh alike) so that
-/// the touches have no pitch and the known loads come out: Levenberg-Marquardt on `Σ (fᵀm / (|f||m|) / pitch_deviation)² +
-/// Σ |B V − P|² / load_deviation²` from the calibration that there is (theory 8). Changes that
-/// nothing asks for are not made.
+/// the touches have no pitch and the known loads come out: Levenberg-Marquardt on
+/// `Σ (fᵀm / (|f||m|) / pitch_deviation)² + Σ |B V − P|² / load_deviation²` from the calibration that there
+/// is (`docs/theory/calibration.md#point-contacts-in-use`). Changes that nothing asks for are not made.
 ///
 /// Touches leave a scale and the group O(3,3) open, 16 numbers; known loads in general directions that
 /// are no point contacts leave 3 open if there are three of them, 1 with four, none with five (against

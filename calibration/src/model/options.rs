@@ -9,8 +9,8 @@ pub enum Direction {
     /// `signals = C · load + zero`, the physical one: errors are in the readings. The default.
     SignalsFromLoads,
     /// `load = B · signals + constant`, inverse regression: smaller residuals on the loads of the
-    /// calibration, but drawn towards their mean (theory 8). What makers of sensors often publish, and
-    /// the only one with quadratic terms.
+    /// calibration, but drawn towards their mean (`docs/theory/calibration.md#the-model`). What makers of
+    /// sensors often publish, and the only one with quadratic terms.
     LoadsFromSignals,
 }
 

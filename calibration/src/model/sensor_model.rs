@@ -209,8 +209,8 @@ impl SensorModel {
     }
 
     /// Covariance of the load \[N, N·m\] that one reading tells of near a load: that of one reading
-    /// and that of the fit, `C⁺ Σ_V C⁺ᵀ (1 + xᵀG⁻¹x)` (theory 8). `None` if the matrix has deficient
-    /// rank.
+    /// and that of the fit, `C⁺ Σ_V C⁺ᵀ (1 + xᵀG⁻¹x)` (`docs/theory/calibration.md#least-squares`). `None` if
+    /// the matrix has deficient rank.
     #[must_use]
     pub fn load_covariance(&self, load: &DVector<f64>) -> Option<DMatrix<f64>> {
         let (matrix, _) = self.matrix_and_zero().ok()?;

@@ -58,8 +58,9 @@ pub enum MotionError {
     NoAlignment,
 }
 
-/// Shape from motion for three components (Voyles, Morrow & Khosla 1997; theory 8): a weight of
-/// known size (`force` \[N\]) is turned into nine or more unknown directions.
+/// Shape from motion for three components (Voyles, Morrow & Khosla 1997;
+/// `docs/theory/calibration.md#shape-from-motion`): a weight of known size (`force` \[N\]) is turned into
+/// nine or more unknown directions.
 ///
 /// The centred readings (samples × gauges) have rank three; in the coordinates of their singular
 /// vectors they lie on an ellipsoid, whose centre is the zero and whose shape is the sensor. From there, sensor,

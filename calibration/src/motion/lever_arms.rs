@@ -45,7 +45,7 @@ pub struct LeverArmFit {
 }
 
 /// Finds the matrix of a sensor from weights of known size at four or more known lever arms that do
-/// not lie in a plane, in unknown directions (theory 8).
+/// not lie in a plane, in unknown directions (`docs/theory/calibration.md#shape-from-motion`).
 ///
 /// Each arm alone gives `B_k = C G_k O_k`, `G_k = [I; [r_k]×]`, with an unknown orthogonal `O_k`
 /// ([`constant_force`](super::constant_force())). The rotations are found by Levenberg-Marquardt on

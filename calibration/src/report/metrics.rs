@@ -1,5 +1,5 @@
-//! What is measured of a sensor, axis by axis (theory 8; terms of VDI/VDE 2638 and ISO 376, which
-//! know one axis only).
+//! What is measured of a sensor, axis by axis (`docs/theory/calibration.md#figures-of-quality`; terms of
+//! VDI/VDE 2638 and ISO 376, which know one axis only).
 
 use alloc::collections::BTreeMap;
 

@@ -112,7 +112,8 @@ impl<T: Real> Wall<T> {
     }
 }
 
-/// The point of the friction cone at a state that is nearest to its force (theory 5).
+/// The point of the friction cone at a state that is nearest to its force
+/// (`docs/theory/friction.md#cone-over-a-norm`).
 pub(super) fn project<T: Real>(state: &State<T>, friction: T, kind: Grip) -> Vector3<T> {
     let pressing = -state.force.dot(&state.normal);
     let tangential = state.force + state.normal * pressing;

@@ -12,7 +12,7 @@ use super::prior::{Prior, State};
 ///
 /// A wrench has six numbers, two hard contacts have ten: the array is needed to tell them apart, the
 /// wrench to give them tangential forces, which an array of pressures does not feel. The estimate
-/// is the maximum of the posterior (theory 11.3)
+/// is the maximum of the posterior (`docs/theory/contact.md#fusion-with-an-array`)
 ///
 /// ```text
 /// min ‖w − Σ W(c_i) F_i‖²_Σ⁻¹ + Σ ‖c_i − ĉ_i‖²_R_i⁻¹ + Σ (N_i − N̂_i)²/σ_i² + Σ |F_t,i|²/(μ N̂_i/2)²

@@ -37,16 +37,16 @@ pub struct PitchTest<T: Real> {
 /// Chooses between [`PointContact`] and [`SoftFinger`] by the pitch test, sample by sample.
 ///
 /// A single hard point contact gives a wrench of pitch zero. So
-/// `T = (f·m)²/(mᵀΣ_ff m + 2mᵀΣ_fm f + fᵀΣ_mm f)` follows χ² with one degree of freedom (theory
-/// 11.1); above the threshold there is a spin torque, and the soft finger finds the place where it
-/// acts about the normal. Below, the point contact is as good, and less noisy.
+/// `T = (f·m)²/(mᵀΣ_ff m + 2mᵀΣ_fm f + fᵀΣ_mm f)` follows χ² with one degree of freedom
+/// (`docs/theory/contact.md#pitch-test`); above the threshold there is a spin torque, and the soft finger
+/// finds the place where it acts about the normal. Below, the point contact is as good, and less noisy.
 ///
 /// A soft finger with friction coefficient `μ` and torque arm `e` (for Hertz's patch of radius
 /// `a`, `3πa/16`) has a pitch of at most `e μ`. A pitch above that by more than so many
 /// standard deviations is of no single contact: [`NoContact::NotOneContact`].
 ///
 /// What the test cannot tell: parallel forces at several places have no pitch either, and look
-/// like one contact between them (theory 11.2).
+/// like one contact between them (`docs/theory/contact.md#what-six-numbers-cannot-tell`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Auto<T: Real> {
     point: PointContact<T>,

@@ -37,15 +37,16 @@ pub struct ContactBound<T: Real> {
     /// No point of contact that agrees with the measurement is farther away than this \[m\].
     pub distance: T,
     /// The line of action is so near to tangent that linear propagation of errors (covariances)
-    /// is not to be trusted: `ε·sin φ > 0.1·R·cos² φ` (theory 2.4), or it misses the surface.
+    /// is not to be trusted: `ε·sin φ > 0.1·R·cos² φ` (`docs/theory/contact.md#grazing`), or it misses the
+    /// surface.
     pub grazing: bool,
 }
 
 impl<T: Real> ContactBound<T> {
     /// A rigorous bound of the error of a point contact with a sphere: it holds for errors of
     /// any size up to the whole force, at any incidence, for lines that graze or miss too
-    /// (theory 2.3). Near grazing it grows as the root of the errors, where linear bounds would
-    /// be infinite. Rounding in the scalar type is included.
+    /// (`docs/theory/contact.md#rigorous-bound-on-a-sphere`). Near grazing it grows as the root of the
+    /// errors, where linear bounds would be infinite. Rounding in the scalar type is included.
     ///
     /// The computed contact is that of [`PointContact`](crate::PointContact), or for a line that misses the closest
     /// point of the sphere. `None` if the wrench has no line of action or the force error is not
@@ -116,9 +117,9 @@ impl<T: Real> From<ConvexBound<T>> for ContactBound<T> {
 
 impl<T: Real> Contact<T> {
     /// First-order bound of the error of a point contact on any smooth surface,
-    /// `(|δm| + |c|·|δf|)/(|f|·cos φ)` \[m\] (theory 2.2), for errors of the force \[N\] and of the
-    /// torque about the sensor's origin \[N·m\] up to the given lengths. `None` at an incidence of
-    /// zero, where there is no such bound.
+    /// `(|δm| + |c|·|δf|)/(|f|·cos φ)` \[m\] (`docs/theory/contact.md#errors-of-a-point-contact`), for errors
+    /// of the force \[N\] and of the torque about the sensor's origin \[N·m\] up to the given lengths. `None`
+    /// at an incidence of zero, where there is no such bound.
     #[must_use]
     pub fn first_order_bound(&self, force_error: T, torque_error: T) -> Option<T> {
         let force = length(&self.force);
@@ -128,8 +129,8 @@ impl<T: Real> Contact<T> {
 
     /// How the contact point moves with the wrench: the derivative of the point by force (first
     /// three columns \[m/N\]) and torque (last three \[1/N\]), by the implicit function theorem
-    /// (theory 2.2). `wrench` is the one that the point contact was resolved from. `None` at an
-    /// incidence of zero.
+    /// (`docs/theory/contact.md#errors-of-a-point-contact`). `wrench` is the one that the point contact was
+    /// resolved from. `None` at an incidence of zero.
     ///
     /// ```text
     /// ∂c/∂m = Π[f]/|f|²,  ∂c/∂f = −Π[f]([c] + p·I)/|f|²,  Π = I − f·nᵀ/(f·n),  p = pitch

@@ -39,7 +39,8 @@ impl<T: Real> Contact<T> {
     }
 
     /// Cosine of the angle between the force and the inward normal, in [0, 1]: 1 for a push
-    /// straight in. Errors of the contact point grow as its reciprocal (theory 2.2, 2.4).
+    /// straight in. Errors of the contact point grow as its reciprocal
+    /// (`docs/theory/contact.md#errors-of-a-point-contact`).
     #[inline]
     #[must_use]
     pub fn incidence(&self) -> T {

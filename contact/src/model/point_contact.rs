@@ -13,7 +13,7 @@ use super::{Contact, ContactModel, NoContact, Resolution};
 
 /// A contact that transmits a force and no torque of its own: it lies where the wrench's line of
 /// action *enters* the surface (Salisbury 1984; equations (1), (2) of Bicchi & Dario 1987, mended
-/// in theory 1).
+/// in `docs/theory/README.md#errata-of-the-paper`).
 ///
 /// The pitch of the wrench is ignored. A shape that is not convex may be entered several times. Of
 /// those entries the ones that would need more friction than

@@ -14,9 +14,10 @@ use crate::soft_finger::refined::settled;
 use crate::soft_finger::rim::on_rim;
 use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
 
-/// The soft-finger contact on the unbounded cone: the closed form of theory 3.2 for `D = diag(1,
-/// 1, −tan² α)`, `s = 0`, in which the quadratic for `K²` is linear,
-/// `h = −√(−mᵀ adj(D) m)`, `K = (f·m)/h`, `c = (K adj(D) m + (Df) × m + h f)/(K² det D + fᵀDf)`.
+/// The soft-finger contact on the unbounded cone: the closed form of
+/// `docs/theory/contact.md#central-quadrics` for `D = diag(1, 1, −tan² α)`, `s = 0`, in which the quadratic
+/// for `K²` is linear, `h = −√(−mᵀ adj(D) m)`, `K = (f·m)/h`,
+/// `c = (K adj(D) m + (Df) × m + h f)/(K² det D + fᵀDf)`.
 ///
 /// The denominator vanishes where the force is parallel to a side (then one of two crossings is at
 /// infinity), and takes digits with it before it does. So a Newton step or two follow, which bring

@@ -16,7 +16,7 @@ use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
 /// The soft-finger contact on the unbounded cylinder around the third axis with semi-axes `a` (and
 /// their reciprocals) along the first two, for a wrench in the same frame.
 ///
-/// `D = diag(1/a₁², 1/a₂², 0)` in theory 3.2: `h = −√(fᵀDf − (m₃/(a₁a₂))²)`,
+/// `D = diag(1/a₁², 1/a₂², 0)` in `docs/theory/contact.md#central-quadrics`: `h = −√(fᵀDf − (m₃/(a₁a₂))²)`,
 /// `K = (f·m)/h`, `c = (K adj(D) m + (Df) × m + h f)/(fᵀDf)`. There is a contact only where the
 /// line of action hits the lateral surface: a spin torque does not bend a line back to a surface
 /// that is straight.

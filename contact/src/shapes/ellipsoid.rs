@@ -18,7 +18,7 @@ use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
 ///
 /// With `c = A y`, `A = diag(a)`, the equations become those of the unit sphere under the wrench
 /// `(A⁻¹ f, A m / det A)`; the spin torque is `k |A⁻¹ y| · det A` in the scale of that wrench.
-/// (`D = A⁻²` in theory 3.2, where the identity is `(Df) × m = A(f̃ × m̃)`.)
+/// (`D = A⁻²` in `docs/theory/contact.md#central-quadrics`, where the identity is `(Df) × m = A(f̃ × m̃)`.)
 ///
 /// # Errors
 /// The pair of points that a pure force which misses would graze.

@@ -13,8 +13,9 @@ use crate::soft_finger::closed_form::{is_steady, part_of, soft_finger, told};
 use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
 
 /// The soft-finger contact on the plane through the origin, for a wrench about the origin:
-/// `τ = f·m/f·n`, `c = n × m/f·n` (theory 3.2). It is the centre of pressure whatever the friction
-/// (theory 3.6). `None` unless the force presses and the point can be represented.
+/// `τ = f·m/f·n`, `c = n × m/f·n` (`docs/theory/contact.md#central-quadrics`). It is the centre of pressure
+/// whatever the friction (`docs/theory/contact.md#contact-centroid`). `None` unless the force presses and the
+/// point can be represented.
 #[inline]
 pub(super) fn on_plane<T: Real>(
     normal: &Vector3<T>,

@@ -10,10 +10,10 @@ use crate::{Contact, ContactModel, NoContact, PointContact, Resolution, SoftFing
 /// A contact model for a fingertip with a soft skin: under the force the skin's surface gives way,
 /// so that the contact lies on the parallel surface below the undeformed one.
 ///
-/// Exactly (theory 4.3): with the depth `δ` of the fingertip's own part of the indentation, the
-/// contact is `c = c_s − δ n` below a point `c_s` of the undeformed surface with normal `n`, and
-/// `τ n + c × f = m` reads `τ n + c_s × f = m + δ n × f`. So the rigid model, given the torque
-/// `m + δ n × f`, finds `c_s`. As `δ` and `n` depend on the answer this is solved by iteration
+/// Exactly (`docs/theory/contact.md#the-contact-under-a-skin`): with the depth `δ` of the fingertip's own
+/// part of the indentation, the contact is `c = c_s − δ n` below a point `c_s` of the undeformed surface with
+/// normal `n`, and `τ n + c × f = m` reads `τ n + c_s × f = m + δ n × f`. So the rigid model, given the
+/// torque `m + δ n × f`, finds `c_s`. As `δ` and `n` depend on the answer this is solved by iteration
 /// (Broyden's method on the vector `δ n`, at most 40 rigid solutions, usually 4 to 6). No surface
 /// but a sphere has its parallel surface among shapes of its kind: to shrink the semi-axes of an
 /// ellipsoid instead would put the contact somewhere else.

@@ -17,9 +17,9 @@ impl<T: Real, S: SmoothSurface<T>> Problem<'_, T, S> {
     /// can leave the side that presses (there `f·n = 0` and so `f·m = τ f·n = 0`), none can run
     /// to infinity (the surface is bounded, and `|τ| ≤ |m| + |c||f|`), and the Jacobian is
     /// regular, since `τ²κ + (f·n)² > 0` for `κ ≥ 0`. So the solution continues along the whole
-    /// line, and as a convex surface has only one that presses, its end is the answer (theory
-    /// 3.4). If `f·m = 0` the torques of lines that hit the body form a convex set, and the same
-    /// holds from an entry to an entry.
+    /// line, and as a convex surface has only one that presses, its end is the answer
+    /// (`docs/theory/contact.md#uniqueness`). If `f·m = 0` the torques of lines that hit the body form a
+    /// convex set, and the same holds from an entry to an entry.
     pub(crate) fn on_convex(&self, start: Place<T>) -> Option<State<T>> {
         let spin = self.spin_at(&start)?;
         if let Some(state) = self.newton(start, spin, &self.torque, 24)

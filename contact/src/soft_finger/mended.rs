@@ -21,8 +21,8 @@ use crate::model::{flat, torque_left};
 ///
 /// A contact at an edge or a tip keeps its place, since its normal is not the surface's there; so does
 /// one under a spin torque that outweighs the force: if the surface is round both ways it is steady
-/// (theory 3.4), and if not, the rounding of the wrench itself moves it further than that of the formulas.
-/// A step that is longer than rounding explains is not taken.
+/// (`docs/theory/contact.md#general-surfaces`), and if not, the rounding of the wrench itself moves it
+/// further than that of the formulas. A step that is longer than rounding explains is not taken.
 #[cold]
 #[inline(never)]
 pub(crate) fn mended<T: Real, S: ActiveSurface<T>>(

@@ -14,7 +14,8 @@ use crate::{Contact, ContactModel, NoContact, Resolution, Search, SoftContact, S
 ///
 /// The point is the contact centroid: for a patch on a plane, or one that is small against the
 /// radius of curvature, the centre of pressure, whatever the friction (on a sphere, up to
-/// 0.06 a²/R for a patch of radius `a` at a friction coefficient of 0.5; theory 3.6).
+/// 0.06 a²/R for a patch of radius `a` at a friction coefficient of 0.5;
+/// `docs/theory/contact.md#contact-centroid`).
 ///
 /// On a convex surface there is at most one such point; a shape that is not convex may have
 /// several, and [`Contact::alternatives`] counts the others. Then the one nearest to the last
@@ -25,9 +26,9 @@ use crate::{Contact, ContactModel, NoContact, Resolution, Search, SoftContact, S
 /// are taken for the bodies of facets that they are.
 ///
 /// Against [`PointContact`](crate::PointContact): it is right where there is a spin torque, and
-/// noisier where there is none, since it takes every torque along the force for spin (theory 3.4;
-/// the factor is the tangent of the angle between force and normal). [`Auto`](crate::Auto)
-/// chooses.
+/// noisier where there is none, since it takes every torque along the force for spin
+/// (`docs/theory/contact.md#errors-of-a-soft-finger`; the factor is the tangent of the angle between force
+/// and normal). [`Auto`](crate::Auto) chooses.
 ///
 /// What is no contact is said by type: [`NoContact::PureCouple`] where there is a torque but no
 /// force, [`NoContact::Ambiguous`] where a pure force could only graze the surface at two points,

@@ -128,8 +128,8 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
         (place.height + place.bend_first.sum() + place.bend_second.sum()).is_number().then_some(place)
     }
 
-    /// `det J` of theory 3.4, in these units and without its negative factor: `τ²κ + (f·n)²`. Its
-    /// sign is the index of the solution; zero is a fold, where two solutions merge.
+    /// `det J` of `docs/theory/contact.md#general-surfaces`, in these units and without its negative factor:
+    /// `τ²κ + (f·n)²`. Its sign is the index of the solution; zero is a fold, where two solutions merge.
     pub(crate) fn determinant(&self, state: &State<T>) -> T {
         let (place, pressing) = (&state.place, self.force.dot(&state.place.normal));
         let (w11, w22) = (place.first.dot(&place.bend_first), place.second.dot(&place.bend_second));
@@ -149,7 +149,7 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
     /// The four equations `τ n + c × f = m`, `S(c) = 0` of Bicchi, Salisbury & Brock, taken apart
     /// along the normal and the tangent plane: `n·dc = −S/|g|`, then two equations in the plane
     /// with the matrix `τ W + (f·n) J₂`, then `dτ` from the normal one. The determinant is that of
-    /// theory 3.4. Second derivatives enter as `dn = (I − nnᵀ) H dc/|g|`.
+    /// `docs/theory/contact.md#general-surfaces`. Second derivatives enter as `dn = (I − nnᵀ) H dc/|g|`.
     #[inline]
     fn step(&self, state: &State<T>) -> Option<(Vector3<T>, T)> {
         let place = &state.place;

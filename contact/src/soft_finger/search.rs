@@ -27,9 +27,9 @@ const FEWEST_STARTS: usize = 24;
 ///   `f·m ≠ 0`; if they do not, the search is repeated on a finer grid, and if they still do not,
 ///   the answer is [`Search::Incomplete`], as it is for a surface that slips through the grid. (Proof: the map `(c, τ) ↦ c × f + τ n` from the
 ///   surface times the real line has, up to the factor `−1/2`, the Jacobian determinant of
-///   theory 3.4. It is proper, so its degree can be counted at large torques, where the
-///   preimages have `n = ±m/|m|`: χ in all, half of them pressing. Contacts cannot pass between
-///   pressing and pulling, since `f·n = 0` implies `f·m = 0`.) So a ring has an even number of
+///   `docs/theory/contact.md#surfaces-that-are-not-convex`. It is proper, so its degree can be counted at
+///   large torques, where the preimages have `n = ±m/|m|`: χ in all, half of them pressing. Contacts cannot
+///   pass between pressing and pulling, since `f·n = 0` implies `f·m = 0`.) So a ring has an even number of
 ///   contacts, as many with either sign.
 pub fn newton_soft_contacts<T: Real, S: SmoothSurface<T>>(
     surface: &S,

@@ -12,7 +12,7 @@ use crate::model::flat;
 /// Bicchi, Salisbury & Brock (1990, 1993) found `k` as the root of a quadratic and `c` as a
 /// rational function with `k` in its denominator, which loses half of the digits by `|k| = 1e-8`
 /// and all of them at zero. With the second unknown `h = f·c = (f·m)/k` the same solution is
-/// (theory 3.2)
+/// (`docs/theory/contact.md#central-quadrics`)
 ///
 /// ```text
 /// σ = |m|² − |f|²,  ρ = √(σ² + 4(f·m)²)

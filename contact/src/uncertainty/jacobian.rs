@@ -20,12 +20,12 @@ use crate::Contact;
 /// With outward normal `n`, shape operator `W` (the normal changes by `W dc`), tangents `E` and
 /// `b = dm − c × df`:
 ///
-/// * **soft finger** (theory 3.4): `τ W dc + n dτ + dc × f = b` gives
+/// * **soft finger** (`docs/theory/contact.md#errors-of-a-soft-finger`): `τ W dc + n dτ + dc × f = b` gives
 ///   `(τ EᵀWE + (f·n) J₂) Eᵀdc = Eᵀb`, `dτ = n·b − n·(dc × f)`. The determinant is
 ///   `τ²κ + (f·n)²`: a spin torque makes a convex surface *less* sensitive.
-/// * **point contact** (theory 2.2), of whatever pitch `p`: `dc × f = b − p df − f dp` gives
-///   `dc = n × (b − p df − f dp)/(f·n)`, which is `Π[f] dm/|f|² − Π[f]([c] + p) df/|f|²` with
-///   `Π = I − f nᵀ/(f·n)`.
+/// * **point contact** (`docs/theory/contact.md#errors-of-a-point-contact`), of whatever pitch `p`:
+///   `dc × f = b − p df − f dp` gives `dc = n × (b − p df − f dp)/(f·n)`, which is
+///   `Π[f] dm/|f|² − Π[f]([c] + p) df/|f|²` with `Π = I − f nᵀ/(f·n)`.
 ///
 /// * **through a skin**, either of these on the parallel surface on which the contact lies, which sinks as
 ///   the normal force grows:

@@ -9,7 +9,7 @@
 //! | where can the true contact not be? | [`ContactBound::on_sphere`](crate::ContactBound::on_sphere), [`ConvexBound`] | always |
 //!
 //! First order fails near grazing: it needs `ε sin φ ≪ R cos² φ`, where `ε` is the error of the
-//! line of action and `φ` the angle between force and inward normal (theory 2.4).
+//! line of action and `φ` the angle between force and inward normal (`docs/theory/contact.md#grazing`).
 
 mod answers;
 mod convex_bound;

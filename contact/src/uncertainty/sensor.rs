@@ -94,7 +94,7 @@ impl<T: Real, const N: usize> SensorUncertainty<T, N> {
 }
 
 /// The noise model of a data sheet: a floor, and a part that grows with the load,
-/// `σ_i² = σ_0i² + (E w_i)²` (theory 2.2).
+/// `σ_i² = σ_0i² + (E w_i)²` (`docs/theory/wrench.md#covariance-of-a-wrench`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WrenchNoise<T: Real> {

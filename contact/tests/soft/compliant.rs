@@ -291,7 +291,7 @@ fn hertz_of_a_round_patch_and_of_two_bodies() {
         let law = Hertz::new([0.01 * ratio, 0.01], 1e6).unwrap();
         let [a, b] = law.indentation(1.0).patch;
         assert!(a > b && law.peak_pressure(1.0) > 0.0);
-        // Known to 20 % at a ratio of 100 (theory 4.1).
+        // Known to 20 % at a ratio of 100 (`docs/theory/contact.md#hertz`).
         assert!(ratio > 1e3 || ((b / a) / ratio.powf(-2.0 / 3.0) - 1.0).abs() < 0.2);
     }
 }

@@ -544,7 +544,7 @@ fn agrees_with_the_position_sensitivity_of_a_contact() {
 
 #[test]
 fn spin_steadies_a_contact_on_a_sphere() {
-    // ‖∂c/∂m‖ = 1/√(f_n² + (τ/R)²) (theory 3.4).
+    // ‖∂c/∂m‖ = 1/√(f_n² + (τ/R)²) (`docs/theory/contact.md#general-surfaces`).
     let surface = common::sphere::<f64>();
     let mut random = Random::new(37);
     for _ in 0..300 {

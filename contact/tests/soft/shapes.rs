@@ -43,9 +43,9 @@ struct Outcome {
 
 /// How much the rounding of a wrench moves a contact of its own accord, in units of `ε·size`: the
 /// size of the torque, times the inverse of `τ EᵀWE + (f·n) J₂`, which takes torques to positions
-/// (theory 3.4). Where the surface is curved both ways a large spin torque steadies the contact;
-/// where it is flat one way, rounding of a spin torque `τ` moves it by `τ²/(R f_n)²·ε`, whatever
-/// the method.
+/// (`docs/theory/contact.md#general-surfaces`). Where the surface is curved both ways a large spin torque
+/// steadies the contact; where it is flat one way, rounding of a spin torque `τ` moves it by `τ²/(R f_n)²·ε`,
+/// whatever the method.
 pub(crate) fn conditioning<S: SmoothSurface<f64>>(surface: &S, case: &Case, size: f64) -> f64 {
     let bend = surface.shape_operator(&case.point);
     let normal_force = case.wrench.force().dot(&case.normal);

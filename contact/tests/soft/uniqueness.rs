@@ -1,5 +1,5 @@
-//! How many contacts a wrench can have (theory 3.4), by a search that shares nothing with ours: plain
-//! Newton on the four equations in `(c, K)` from anywhere.
+//! How many contacts a wrench can have (`docs/theory/contact.md#uniqueness`), by a search that shares nothing
+//! with ours: plain Newton on the four equations in `(c, K)` from anywhere.
 
 use fingertip_contact::SoftFingerSurface;
 use fingertip_surfaces::{ActiveSurface, SmoothSurface};
@@ -121,7 +121,7 @@ fn determinant<S: SmoothSurface<f64> + ActiveSurface<f64>>(name: &str, surface: 
         let scale = g.norm_squared() * (1.0 + (k * h.norm()).powi(2));
         worst = worst.max((jacobian.determinant() - expected).abs() / scale);
     }
-    println!("{name:12} det J as in theory 3.4 to {worst:.1e}");
+    println!("{name:12} det J as in docs/theory/contact.md#general-surfaces to {worst:.1e}");
     assert!(worst < 1e-14, "{name} {worst:e}");
 }
 

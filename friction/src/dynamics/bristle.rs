@@ -24,7 +24,7 @@ pub trait DynamicFriction<T: Real, const D: usize> {
 /// How the deflection is carried over one step of constant velocity.
 ///
 /// All three keep `|z| ≤ F_s/σ₀`, do not let two states of the same law part (for α = 1), and are
-/// passive, for every step length (theory 6.2).
+/// passive, for every step length (`docs/theory/friction.md#integrators`).
 pub trait Integrator: Copy {
     /// The new deflection. `step` is `hv`, `slide` is `hλ` with
     /// `λ = α σ₀|v|/g`, and `limit` is `g/σ₀`.
@@ -97,8 +97,8 @@ impl Integrator for ReturnMap {
 /// # Bounded and passive
 /// `|z| ≤ F_s/σ₀` for every step, by the integrator and a radial clamp. The damping term `σ₁ż` is
 /// taken as the mean over the step and limited, step by step, to what keeps
-/// `h F·v ≥ ½σ₀(|z⁺|² − |z|²)`: with the plain term LuGre itself gives energy at speeds above
-/// `4(σ₁+σ₂)g/σ₁²` (Barabanov & Ortega 2000; theory 6.3).
+/// `h F·v ≥ ½σ₀(|z⁺|² − |z|²)`: with the plain term LuGre itself can give energy at speeds above
+/// `4(σ₁+σ₂)g/σ₁²` (`docs/theory/friction.md#passivity`; on passivity also Barabanov & Ortega 2000).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bristle<T: Real, Law, const D: usize, Method = Exponential> {
     law: Law,
@@ -184,8 +184,8 @@ impl<T: Real, Law: BristleLaw<T>, const D: usize, Method: Integrator> Bristle<T,
 
     /// One step of a body of some mass under a drive, held by this friction: one linear solve, no
     /// iteration, passive for every step length: the energy `½mv² + ½σ₀z²` grows by no more than
-    /// the work of the drive (theory 6.3), thanks to `σ₁ ≤ 4σ₀/λ`. The friction rate is frozen
-    /// first at the old and then at the foretold velocity. First order.
+    /// the work of the drive (`docs/theory/friction.md#a-body-held-by-friction`), thanks to `σ₁ ≤ 4σ₀/λ`. The
+    /// friction rate is frozen first at the old and then at the foretold velocity. First order.
     ///
     /// Returns the old velocity and changes nothing where the input is not finite, the time step
     /// not positive or a mass not positive.

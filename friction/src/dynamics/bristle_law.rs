@@ -5,7 +5,8 @@ use fingertip_wrench::{Real, stored};
 use crate::limits::cone::{not_negative, positive};
 use crate::{BadFriction, Stribeck};
 
-/// A friction law `F = σ₀z + σ₁ż + σ₂v`, `ż = v − α(z, v) σ₀|v|z/g(|v|)` (theory 6.1).
+/// A friction law `F = σ₀z + σ₁ż + σ₂v`, `ż = v − α(z, v) σ₀|v|z/g(|v|)`
+/// (`docs/theory/friction.md#bristle-laws`).
 ///
 /// Forces are in newtons, or per newton of normal force where the state is loaded
 /// ([`Bristle::set_load`](crate::Bristle::set_load)). In two or three dimensions, `|v|` and `|z|`

@@ -6,7 +6,7 @@ use crate::BadFriction;
 use crate::limits::cone::positive;
 
 /// Stribeck's curve `g(v) = F_c + (F_s − F_c) e^{−(v/v_s)²}`: the friction force of steady sliding
-/// without its viscous part (theory 6.1).
+/// without its viscous part (`docs/theory/friction.md#bristle-laws`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stribeck<T: Real> {
     kinetic: T,

@@ -5,7 +5,7 @@ use fingertip_wrench::{ContactForce, Real, stored};
 use crate::{BadNoise, Cusum, ForceNoise, FrictionEstimate, NormalForceGate};
 
 /// Fits `|f_t| = μ f_n` to the samples of a slide, with noise on both (Deming's regression through
-/// the origin) and exponential forgetting (theory 7.3):
+/// the origin) and exponential forgetting (`docs/theory/friction.md#kinetic-friction`):
 ///
 /// `μ = [S_tt − λS_nn + √((S_tt − λS_nn)² + 4λS_nt²)]/(2S_nt)`, `λ = σ_t²/σ_n²`.
 ///

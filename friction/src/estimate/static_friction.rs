@@ -35,7 +35,7 @@ impl<T: Real> FrictionEstimate<T> {
 }
 
 /// Learns the static friction coefficient from the peak of the friction ratio before each slip
-/// (theory 7.3).
+/// (`docs/theory/friction.md#static-friction`).
 ///
 /// The last N ratios are kept. At an onset, the greatest of their five-sample means is taken; the
 /// maximum of noisy means lies above the noise-free peak by about the expected maximum of as many

@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 use crate::limits::cone::{hypot, positive, saturated};
 use crate::{BadFriction, FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
 
-/// The elliptic cone `(f₁/μ₁)² + (f₂/μ₂)² ≤ f_n²` (theory 5), with coefficients along two
-/// perpendicular directions of the tangent plane.
+/// The elliptic cone `(f₁/μ₁)² + (f₂/μ₂)² ≤ f_n²` (`docs/theory/friction.md#anisotropic-limit`), with
+/// coefficients along two perpendicular directions of the tangent plane.
 ///
 /// The margin is the signed Euclidean distance of the contact force to the cone, found as the least
 /// distance to its supporting planes (a bounded search in one variable, some 40 steps of a square

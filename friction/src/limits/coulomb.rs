@@ -6,8 +6,8 @@ use thiserror::Error;
 use crate::limits::cone::{Cone, rescaled};
 use crate::{FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
 
-/// Coulomb's cone `|f_t| ≤ μ f_n` (theory 5). The spin torque is not limited: a point contact
-/// carries none.
+/// Coulomb's cone `|f_t| ≤ μ f_n` (`docs/theory/friction.md#coulombs-cone`). The spin torque is not limited:
+/// a point contact carries none.
 ///
 /// The margin is the signed Euclidean distance of the contact force to the cone:
 /// `(μ f_n − |f_t|)/√(1+μ²)`, and minus the length of the force where the apex is nearest.

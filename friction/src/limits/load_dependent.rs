@@ -8,7 +8,7 @@ use crate::{BadFriction, FrictionLimit, FrictionModel, SlipDirection, SlipMargin
 
 /// The elliptic soft-finger limit `|f_t|² + (τ/e(f_n))² ≤ (μ f_n)²` whose torque arm grows with
 /// the normal force as the patch does, `e = e₀ (f_n/N₀)^γ` (a = c·N^γ; Hertz γ = 1/3, rubber less:
-/// Xydas & Kao 1999; theory 4.2, 5).
+/// Xydas & Kao 1999; `docs/theory/friction.md#load-dependent-limit`).
 ///
 /// The set of forces that hold is **not convex** (the mid-point of two holding forces may slip) and
 /// not a cone, so no distance is 1-Lipschitz and exact at once. The margin here is certified: while

@@ -51,7 +51,7 @@ impl PressureDistribution {
 
     /// The greatest spin torque over the greatest tangential force and the patch radius, `e/a`:
     /// 2/3 uniform, 3π/16 Hertz, 8/15 Winkler, `B(3/k, 1+1/k)/B(2/k, 1+1/k)` for a power law
-    /// (theory 4.2).
+    /// (`docs/theory/friction.md#pressure-distributions`).
     #[must_use]
     pub fn relative_arm(&self) -> f64 {
         match *self {
@@ -64,7 +64,7 @@ impl PressureDistribution {
 
     /// The exponent q of the [`PowerLimit`](crate::PowerLimit) nearest to the exact limit curve:
     /// 1.70 uniform, 1.725 Hertz, 1.74 Winkler; all of them lie on `1.70 + 0.3 (2/3 − e/a)`. The
-    /// limit is then within 1 % of the exact one along every ray (theory 5).
+    /// limit is then within 1 % of the exact one along every ray (`docs/theory/friction.md#power-limit`).
     #[must_use]
     pub fn limit_exponent(&self) -> f64 {
         1.70 + 0.3 * (2.0 / 3.0 - self.relative_arm())
@@ -97,7 +97,8 @@ mod tests {
 
     #[test]
     fn arms_match_the_closed_forms() {
-        // Theory 4.2's table, good to 1e-6 (its number of digits).
+        // The values of `docs/theory/friction.md#pressure-distributions`, good to 1e-6 (its number of
+        // digits).
         for (k, arm) in [(1.5, 0.558_221), (3.0, 0.620_245), (4.0, 0.635_410), (8.0, 0.655_785)] {
             assert!((PressureDistribution::PowerLaw(k).relative_arm() - arm).abs() < 1e-6);
         }

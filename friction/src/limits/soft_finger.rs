@@ -5,7 +5,8 @@ use fingertip_wrench::{ContactForce, Real, stored};
 use crate::limits::cone::{Cone, hypot, positive, rescaled};
 use crate::{BadFriction, FrictionLimit, FrictionModel, PressureDistribution, SlipDirection, SlipMargin};
 
-/// The elliptic soft-finger limit `|f_t|² + (τ/e)² ≤ (μ f_n)²` (Howe & Cutkosky 1996; theory 5).
+/// The elliptic soft-finger limit `|f_t|² + (τ/e)² ≤ (μ f_n)²` (Howe & Cutkosky 1996;
+/// `docs/theory/friction.md#soft-finger-limit`).
 ///
 /// The torque arm `e` is the greatest spin torque over the greatest tangential force: `3πa/16` for
 /// Hertz pressure on a patch of radius `a`. The ellipse is up to 6.6 % too wide for the common
@@ -20,7 +21,8 @@ pub struct SoftFingerLimit<T: Real> {
 }
 
 /// The soft-finger limit `|f_t|^q + |τ/e|^q ≤ (μ f_n)^q`, within 1 % of the exact limit surface
-/// with the exponent that [`PressureDistribution::limit_exponent`] gives (theory 5).
+/// with the exponent that [`PressureDistribution::limit_exponent`] gives
+/// (`docs/theory/friction.md#power-limit`).
 ///
 /// The margin is the signed distance in the norm `√((|δf_t|^q + |δτ/e|^q)^(2/q) + δf_n²)`, which
 /// exceeds the Euclidean length of the same change by at most `2^(1/q−1/2)` (6 % at q = 1.72).
@@ -41,7 +43,7 @@ impl<T: Real> SoftFingerLimit<T> {
     }
 
     /// The ellipse shrunk until it lies inside the exact limit of every pressure distribution
-    /// between uniform and Winkler: by 0.934 (theory 5).
+    /// between uniform and Winkler: by 0.934 (`docs/theory/friction.md#soft-finger-limit`).
     ///
     /// # Errors
     /// [`BadFriction`] unless both are positive and finite.

@@ -7,7 +7,8 @@ use crate::limits::normal::{normal_distribution, normal_quantile};
 use crate::{BadFriction, ForceNoise};
 
 /// Coulomb friction with a standard deviation on its coefficient and noise on the force: how
-/// probable is slip, and how hard to press for a wanted probability (theory 5).
+/// probable is slip, and how hard to press for a wanted probability
+/// (`docs/theory/friction.md#uncertain-friction`).
 ///
 /// First order: `z = (μN − |f_t|)/√(σ_t² + μ²σ_n² + N²σ_μ²)`, and slip with probability Φ(−z).
 #[derive(Clone, Copy, Debug, PartialEq)]

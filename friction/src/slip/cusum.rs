@@ -10,7 +10,8 @@ use crate::slip::ratio_tracker::ChangeTest;
 ///
 /// The inputs are standardised: zero mean and unit variance as long as nothing happens. The
 /// allowance `k` is half the smallest change of the mean worth finding; the threshold `h` sets the
-/// rate of false alarms ([`for_false_alarms`](Self::for_false_alarms), theory 7.2).
+/// rate of false alarms ([`for_false_alarms`](Self::for_false_alarms),
+/// `docs/theory/friction.md#cumulative-sum`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cusum<T> {
     allowance: T,

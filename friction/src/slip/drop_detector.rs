@@ -9,10 +9,10 @@ use crate::{BadNoise, Cusum, ForceNoise, SlipDetector, SlipVerdict};
 /// either.
 ///
 /// An α-β tracker (α = 0.15) follows the ratio, and another the tangential force; a one-sided
-/// cumulative sum ([`Cusum`], Page 1954; theory 7.2) of the standardised fall below the forecast
-/// rises when the ratio falls faster than the tracker foretells, and calls slip when it passes the
-/// threshold. Each drop gives one [`SlipVerdict::Slipping`]; the detector then starts anew, so that
-/// the next drop of a stick-slip motion is found too.
+/// cumulative sum ([`Cusum`], Page 1954; `docs/theory/friction.md#cumulative-sum`) of the standardised fall
+/// below the forecast rises when the ratio falls faster than the tracker foretells, and calls slip when it
+/// passes the threshold. Each drop gives one [`SlipVerdict::Slipping`]; the detector then starts anew, so
+/// that the next drop of a stick-slip motion is found too.
 ///
 /// # What it bears
 /// - Steps of the normal force, up or down: the ratio moves without the tangential force, or the
@@ -46,7 +46,8 @@ pub struct DropDetector<T> {
 impl<T: Real> DropDetector<T> {
     /// From the noise of the contact force, with allowance 0.75 and threshold 7. With these, white
     /// noise of the stated size gives less than one false alarm in ten minutes at 1 kHz, and a
-    /// drop of five deviations of the ratio is found within about two samples (theory 7.2).
+    /// drop of five deviations of the ratio is found within about two samples
+    /// (`docs/theory/friction.md#drop-of-the-ratio`).
     ///
     /// # Errors
     /// [`BadNoise`] unless both deviations, and their squares, are positive and finite.

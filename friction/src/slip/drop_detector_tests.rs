@@ -1,4 +1,4 @@
-//! Theory 7.2's experiment, and what must not alarm.
+//! The experiment of `docs/theory/friction.md#drop-of-the-ratio`, and what must not alarm.
 
 use fingertip_wrench::{ContactForce, Real};
 use nalgebra::Vector3;

@@ -43,7 +43,7 @@ impl<T: Real> ForceNoise<T> {
     }
 
     /// Standard deviation of the friction ratio at normal force `normal` and ratio `ratio`:
-    /// `√(σ_t² + R²σ_n²)/N` (theory 7.1, first order).
+    /// `√(σ_t² + R²σ_n²)/N` (`docs/theory/friction.md#friction-ratio`, first order).
     #[inline]
     #[must_use]
     pub fn ratio_deviation(&self, normal: T, ratio: T) -> T {
@@ -60,7 +60,7 @@ pub struct NormalForceGate<T> {
 
 impl<T: Real> NormalForceGate<T> {
     /// Ten standard deviations of the normal force: below that the ratio is biased by more than
-    /// 1 % and its noise is no longer Gaussian (theory 7.1).
+    /// 1 % and its noise is no longer Gaussian (`docs/theory/friction.md#friction-ratio`).
     #[inline]
     #[must_use]
     pub fn from_noise(noise: &ForceNoise<T>) -> Self {

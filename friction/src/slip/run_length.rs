@@ -204,7 +204,8 @@ mod tests {
 
     #[test]
     fn nystrom_matches_published_run_lengths() {
-        // Theory 7.2's table; the two-sided 168 and 465 of Montgomery are half of 335.4 and 930.9.
+        // The table of `docs/theory/friction.md#cumulative-sum`; the two-sided 168 and 465 of Montgomery are
+        // half of 335.4 and 930.9.
         for (k, h, quiet, changed) in [
             (0.25, 8.0, 736.8, 28.76),
             (0.5, 4.0, 335.4, 8.38),
@@ -248,7 +249,7 @@ mod tests {
                 assert!((found / run_length - 1.0).abs() < bound.max(0.02), "{k} {run_length} {h} {found}");
             }
         }
-        // Theory 7.2: one a minute.
+        // One a minute: `docs/theory/friction.md#cumulative-sum`.
         for (rate, k, h) in [(1e3, 0.5, 9.15), (1e3, 1.0, 4.71), (1e4, 0.5, 11.45), (1e2, 1.0, 3.56)] {
             let found = cusum_threshold(k, run_length_for(1.0, rate)).unwrap();
             assert!((found - h).abs() < 0.01, "{found} {h}");

@@ -250,7 +250,7 @@ fn prescribed_motion_agrees_with_radau() {
     assert!(exponential < 1e-4 && implicit < 3e-3, "{exponential} {implicit}");
 }
 
-/// Theory 6.3's drift oracle: a load that oscillates below break-away.
+/// The drift of `docs/theory/friction.md#bristle-laws`: a load that oscillates below break-away.
 #[test]
 fn elasto_plastic_does_not_creep_and_lugre_does() {
     fn creep<L: BristleLaw<f64> + Copy>(law: L) -> f64 {

@@ -128,7 +128,8 @@ fn equal_coefficients_are_coulomb() {
 
 #[test]
 fn load_dependent_margin_is_certain_and_the_set_is_not_convex() {
-    // Theory 5: between N = 1 and 8 with γ = 1/3, the mid-point torque is above the cap.
+    // `docs/theory/friction.md#load-dependent-limit`: between N = 1 and 8 with γ = 1/3, the mid-point torque
+    // is above the cap.
     let model = LoadDependentLimit::new(1.0_f64, 1e-3, 1.0, 1.0 / 3.0).unwrap();
     let cap = |n: f64| n * model.arm_at(n);
     let middle = force(4.5, 0.0, 0.0, 0.5 * (cap(1.0) + cap(8.0)));

@@ -15,8 +15,8 @@ fn stribeck(v: f64) -> (f64, f64) {
     (bell, 1.0 + bell)
 }
 
-/// Theory 6.3's benchmark: a mass of 1 kg pulled through a spring of 2 N/m whose end moves at
-/// 0.1 m/s. States: position, velocity, deflection.
+/// The benchmark of `docs/theory/friction.md#a-body-held-by-friction`: a mass of 1 kg pulled through a spring
+/// of 2 N/m whose end moves at 0.1 m/s. States: position, velocity, deflection.
 struct StickSlip;
 
 impl ODE<f64, [f64; 3]> for StickSlip {

@@ -13,8 +13,8 @@ use crate::{
 };
 
 /// All points at one distance from a shape: outside it (a skin put over a fingertip), or inside
-/// (a skin pressed in; theory 4.3). Unlike a shape with larger semi-axes it has the same thickness
-/// everywhere.
+/// (a skin pressed in; `docs/theory/surfaces.md#parallel-surfaces`). Unlike a shape with larger semi-axes it
+/// has the same thickness everywhere.
 ///
 /// Outside a convex shape it is convex and smooth. Inside, it ends where it would fold over itself.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -102,8 +102,8 @@ const DEPTH: usize = 24;
 /// Every root of a function in `[low, high]` that is farther than `(high − low)·2⁻²⁰` (or 256
 /// rounding units, if that is more) from its neighbour, in ascending order. `f` returns value and derivative; the value changes by at most
 /// `steepest` per unit length, which lets whole intervals be ruled out: this is what certifies
-/// that no root is missed (theory 10.3). Where two roots are closer than that, the minimum between
-/// them is still looked for.
+/// that no root is missed (`docs/theory/surfaces.md#certified-roots`). Where two roots are closer than that,
+/// the minimum between them is still looked for.
 ///
 /// The work is bounded: at most a few thousand evaluations, for a line that stays tangent.
 pub fn all_of_lipschitz<T: Real>(

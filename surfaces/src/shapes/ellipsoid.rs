@@ -114,7 +114,7 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
     const CLOSED_CONVEX: bool = true;
 
     /// Scaled to the unit sphere, the line is a line still, and `along` is kept (Bicchi, Salisbury
-    /// & Brock 1993 for the case without local torque; theory 3.2).
+    /// & Brock 1993 for the case without local torque; `docs/theory/surfaces.md#ellipsoid`).
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         if let Some(chord) = self.chord(line) {
@@ -148,7 +148,8 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
         })
     }
 
-    /// In the shadow along the line, the ellipsoid is an ellipse, the line a point (theory 10.4).
+    /// In the shadow along the line, the ellipsoid is an ellipse, the line a point
+    /// (`docs/theory/surfaces.md#ellipses-and-ellipsoids`).
     fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
         let (p, _) = foot(line, &Vector3::zeros());
         let p = if is_finite(&p) { p } else { Vector3::zeros() };

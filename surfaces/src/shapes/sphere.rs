@@ -76,8 +76,8 @@ impl<T: Real> Sphere<T> {
 impl<T: Real> ActiveSurface<T> for Sphere<T> {
     const CLOSED_CONVEX: bool = true;
 
-    /// Equation (2) of Bicchi & Dario 1987 with its signs mended (theory 1, E1), in radii, so that
-    /// nothing over- or underflows.
+    /// Equation (2) of Bicchi & Dario 1987 with its signs mended (`docs/theory/surfaces.md#sphere`), in
+    /// radii, so that nothing over- or underflows.
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let (foot, along) = self.foot(line);

@@ -102,7 +102,7 @@ impl<T: Real> Superquadric<T> {
     }
 
     /// The gauge of a scaled point: 1 on the surface, less inside, convex along every line
-    /// (theory 10.3).
+    /// (`docs/theory/surfaces.md#convex-bodies-with-a-gauge`).
     #[inline]
     fn gauge(&self, scaled: &Vector3<T>) -> (T, Vector3<T>) {
         Self::nested(scaled, self.norms)

@@ -53,7 +53,8 @@ impl<T: Real> Torus<T> {
 }
 
 impl<T: Real> ActiveSurface<T> for Torus<T> {
-    /// Up to four crossings, each bracketed between extrema of the distance from the ring (theory 10.3).
+    /// Up to four crossings, each bracketed between extrema of the distance from the ring
+    /// (`docs/theory/surfaces.md#torus`).
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let (seen, along) = self.seen(line);
         seen.crossings(self.tube_radius / self.ring_radius, |t| {

@@ -1,9 +1,9 @@
 //! The forward model of strain gauges on a thin-walled cylindrical beam.
 //!
-//! Theory 1.4: equations (16), (17) of Bicchi & Dario 1987 with their misprints mended. The beam
-//! lies along the first axis, its tip at +X; the wrench is taken about the origin (the centre of
-//! the paper's sphere). A gauge at axial distance `Z` behind the origin sits at
-//! `(−Z, R cos θ, R sin θ)` and is turned by `Q` from the beam axis towards increasing `θ`.
+//! Equations (16), (17) of Bicchi & Dario 1987 with their misprints mended:
+//! `docs/theory/wrench.md#gauge-model`. The beam lies along the first axis, its tip at +X; the wrench is
+//! taken about the origin (the centre of the paper's sphere). A gauge at axial distance `Z` behind the origin
+//! sits at `(−Z, R cos θ, R sin θ)` and is turned by `Q` from the beam axis towards increasing `θ`.
 
 use nalgebra::{SMatrix, Vector6};
 use thiserror::Error;
@@ -204,8 +204,8 @@ impl<T: Real> GaugeLayout<T, 6> {
     ///
     /// With `(1+μ) sin 2q = cos² q − μ sin² q` ([`isotropic_angle`]) and all nominal forces `f`, all
     /// nominal torques `f·R`, the condition number is √2, the least that any gauges on a tube can
-    /// have (theory 9); with the axial load and the torque about the axis rated √2 times higher it is
-    /// exactly 1.
+    /// have (`docs/theory/calibration.md#lower-bound-of-the-condition-number`); with the axial load and the
+    /// torque about the axis rated √2 times higher it is exactly 1.
     #[must_use]
     pub fn three_rosettes(q: T) -> [Gauge<T>; 6] {
         rosettes(q)
@@ -234,7 +234,8 @@ fn rosettes<T: Real, const N: usize>(q: T) -> [Gauge<T>; N] {
 
 /// The angle `q` \[rad\] at which crossed gauges see shear as strongly as axial strain:
 /// `(1+μ) sin 2q = cos² q − μ sin² q`, that is `tan q = (√((1+μ)² + μ) − (1+μ))/μ`, 19.79° for
-/// μ = 0.33 (theory 9). For Poisson's ratio in (−0.3, 0.5]; otherwise NaN may come out.
+/// μ = 0.33 (`docs/theory/wrench.md#rosettes`). For Poisson's ratio in (−0.3, 0.5]; otherwise NaN may come
+/// out.
 #[must_use]
 pub fn isotropic_angle<T: Real>(poisson_ratio: T) -> T {
     // μ t² + 2(1+μ) t − 1 = 0, in the form that does not cancel for small μ.

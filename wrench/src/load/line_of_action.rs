@@ -32,8 +32,8 @@ impl<T: Real> Line<T> {
 /// The axis of a wrench: the line about which it is a force along, and a couple about, one and
 /// the same direction.
 ///
-/// With force `f` and torque `m` about the origin (theory 0; Salisbury 1984, equation (1) of
-/// Bicchi & Dario 1987):
+/// With force `f` and torque `m` about the origin (`docs/theory/wrench.md#line-of-action`; Salisbury 1984,
+/// equation (1) of Bicchi & Dario 1987):
 /// foot point `f × m / |f|²`, direction `f/|f|`, pitch `f·m / |f|²`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

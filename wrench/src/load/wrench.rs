@@ -111,7 +111,7 @@ impl<T: Real, F: Frame> Wrench<T, F> {
     }
 
     /// The same load, expressed in frame `To` and with its torque about the origin of `To`:
-    /// `f' = R f`, `m' = R m + t × R f` (theory 0).
+    /// `f' = R f`, `m' = R m + t × R f` (`docs/theory/wrench.md#wrench-and-frames`).
     #[inline]
     #[must_use]
     pub fn expressed_in<To: Frame>(&self, to_from_here: &RigidTransform<T, To, F>) -> Wrench<T, To> {
