@@ -21,7 +21,7 @@ pub use gauges::{
 };
 pub use load::{
     BadNormal, ContactForce, ContactFrame, ContactLoad, Frame, Line, LineOfAction, NoLineOfAction,
-    RigidTransform, Sensor, TangentialForce, TransformError, Wrench, scaled_length,
+    RigidTransform, Sensor, TangentialForce, TransformError, Wrench, scaled_length, tangents,
 };
 pub use scalar::Real;
 pub use solve::{

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use thiserror::Error;
 
-use crate::{ContactForce, Frame, Real, Wrench};
+use crate::{ContactForce, Frame, Real, Wrench, tangents};
 
 /// A point of a surface with its outward unit normal and two tangents: right-handed,
 /// `tangent₁ × tangent₂ = normal`.
@@ -47,13 +47,7 @@ impl<T: Real> ContactFrame<T> {
             return Err(BadNormal);
         }
         let normal = scaled / length;
-        // Duff et al. 2017: continuous but for a half plane, accurate everywhere.
-        let one = T::one();
-        let sign = if normal.z < T::zero() { -one } else { one };
-        let a = -one / (sign + normal.z);
-        let b = normal.x * normal.y * a;
-        let first = Vector3::new(one + sign * normal.x * normal.x * a, sign * b, -sign * normal.x);
-        let second = Vector3::new(b, sign + normal.y * normal.y * a, -normal.y);
+        let (first, second) = tangents(&normal);
         Ok(Self { point, normal, tangents: [first, second] })
     }
 
