@@ -16,5 +16,7 @@ mod real_recordings;
 mod recording;
 mod rows;
 mod schunk_fts;
+mod simulated_flaws;
+mod simulated_truth;
 mod simulation;
 mod wire;
