@@ -7,6 +7,7 @@ mod ati_rdt;
 mod bota_serial;
 mod bridge_bounds;
 mod converters;
+mod faulty_links;
 mod line_sensors;
 mod mcap;
 mod mcap_by_hand;
