@@ -241,7 +241,7 @@ fn a_length_beyond_its_record_is_an_error_before_anything_is_allocated_for_it() 
         let left = record.len() - 9 - at - 4;
         for stated in [left as u32 + 1, 1 << 31, u32::MAX] {
             let damaged = changed(record, at, stated);
-            for file in [file(&[damaged.clone()]), file(&[chunk(&damaged)])] {
+            for file in [file(core::slice::from_ref(&damaged)), file(&[chunk(&damaged)])] {
                 let mut reader = McapReader::new(file.as_slice()).unwrap();
                 let error = reader.next_entry().unwrap_err();
                 assert_eq!(error.kind(), SourceErrorKind::Corrupt);

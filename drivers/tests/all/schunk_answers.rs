@@ -1,6 +1,7 @@
 //! The client of a SCHUNK FTS against a server whose bytes are written here.
 #![cfg(all(feature = "schunk-fts", feature = "ati-rdt", feature = "simulation"))]
 
+use core::net::SocketAddr;
 use std::io::{Read, Write};
 use std::net::{TcpListener, UdpSocket};
 use std::thread::JoinHandle;
@@ -12,7 +13,7 @@ use super::patience::{PATIENCE, unused_port};
 
 /// Takes one client, answers its first command with `answer`, sends datagrams to its port, acknowledges a stop and
 /// gives all that it heard.
-fn serve(answer: Vec<u8>, port: u16, datagrams: Vec<Vec<u8>>) -> (std::net::SocketAddr, JoinHandle<Vec<u8>>) {
+fn serve(answer: Vec<u8>, port: u16, datagrams: Vec<Vec<u8>>) -> (SocketAddr, JoinHandle<Vec<u8>>) {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = listener.local_addr().unwrap();
     let server = std::thread::spawn(move || {

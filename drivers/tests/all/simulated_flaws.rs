@@ -98,7 +98,8 @@ fn gains_scale_rows_and_what_is_read() {
 #[test]
 fn gauges_are_glued_off_their_places() {
     type Place = fn(&mut Gauge<f64>) -> &mut f64;
-    let places: [(Place, fn(&mut Imperfections) -> &mut f64, f64); 3] = [
+    type Flaw = fn(&mut Imperfections) -> &mut f64;
+    let places: [(Place, Flaw, f64); 3] = [
         (|gauge| &mut gauge.z, |flaws| &mut flaws.axial_placement, 1e-5),
         (|gauge| &mut gauge.theta, |flaws| &mut flaws.circumferential_placement, 1e-3),
         (|gauge| &mut gauge.q, |flaws| &mut flaws.angle, 1e-3),

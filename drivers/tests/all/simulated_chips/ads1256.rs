@@ -134,7 +134,9 @@ fn what_comes_too_soon_is_counted_and_answered_with_ones() {
         for (wait, soon) in [(6509, 1), (6510, 0)] {
             let before = chip.hurried();
             chip.select();
-            command.iter().for_each(|byte| drop(chip.shift(*byte)));
+            for byte in command {
+                chip.shift(*byte);
+            }
             chip.advance(wait);
             let answer = chip.shift(0);
             assert_eq!((chip.hurried() - before, answer == 0xFF), (soon, soon == 1), "{command:?} {wait}");
