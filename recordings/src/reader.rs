@@ -42,6 +42,8 @@ pub struct RecordingReader<R> {
     time_watch: TimeWatch,
     values: Vec<f64>,
     last_values: Vec<f64>,
+    /// Whether the line before was a row, with which the next one can be compared.
+    follows: bool,
     line: u64,
     quality: Quality,
 }
@@ -137,6 +139,7 @@ impl<R: Read> RecordingReader<R> {
             values,
             layout,
             time_watch: TimeWatch::new(options.gap_factor),
+            follows: false,
             line,
             quality: Quality::default(),
         })
@@ -201,6 +204,9 @@ impl<R: Read> RecordingReader<R> {
     /// [`RecordingError`] for a row with too few or too many cells, a cell that is not a number, or
     /// if reading fails. The next call goes on behind the bad row.
     pub fn next_row(&mut self) -> Result<Option<Row<'_>>, RecordingError> {
+        // Behind a row that cannot be read, whose numbers are half of one row and half of another, nothing is
+        // known to be repeated.
+        let mut same = core::mem::take(&mut self.follows);
         loop {
             self.csv.get_mut().start_record();
             match self.csv.read_byte_record(&mut self.record) {
@@ -227,7 +233,7 @@ impl<R: Read> RecordingReader<R> {
         }
         let mut marks = RowMarks::default();
         core::mem::swap(&mut self.values, &mut self.last_values);
-        let (mut any_bad, mut same) = (false, true);
+        let mut any_bad = false;
         for ((used, value), last) in self.layout.used.iter().zip(&mut self.values).zip(&self.last_values) {
             *value = match Cell::read(&self.record, *used) {
                 Cell::Number(number) => number,
@@ -239,10 +245,9 @@ impl<R: Read> RecordingReader<R> {
                     })?
                 }
             };
-            // Bits, so that a NaN equals itself and the first row equals nothing.
+            // Bits, so that a NaN equals itself.
             same &= value.to_bits() == last.to_bits();
         }
-        same &= self.quality.rows > 0;
         let (mut time, mut time_step) = (None, None);
         if let Some(used) = self.layout.time {
             match Cell::read(&self.record, used) {
@@ -272,6 +277,7 @@ impl<R: Read> RecordingReader<R> {
         }
         let row = Row { line: self.line, time, time_step, marks, values: &self.values };
         self.quality.note(&row, any_bad);
+        self.follows = true;
         Ok(Some(row))
     }
 }

@@ -78,11 +78,12 @@ impl TimeWatch {
         // The steps in order of size: the lower median is the one with this many before it.
         let rank = (self.known - 1) / 2;
         let count = |bin: usize| self.bins.get(bin).copied().unwrap_or_default();
-        while self.below > rank && self.median > 0 {
+        // Below the first bin there are none, and up to the last one there are all: both loops end within.
+        while self.below > rank {
             self.median -= 1;
             self.below -= count(self.median);
         }
-        while self.below + count(self.median) <= rank && self.median + 1 < Self::BINS {
+        while self.below + count(self.median) <= rank {
             self.below += count(self.median);
             self.median += 1;
         }

@@ -170,7 +170,7 @@ impl SessionScore {
             let error = (point - contact.point).norm();
             hold.resolved += 1;
             hold.squared_position += error * error;
-            hold.greatest_position = hold.greatest_position.max(error);
+            hold.greatest_position = greatest(hold.greatest_position, error);
         }
     }
 
@@ -222,6 +222,11 @@ impl Hold {
     }
 }
 
+/// The greater of two; NaN if one of them is, which `f64::max` would pass over.
+fn greatest(one: f64, other: f64) -> f64 {
+    if one.is_nan() || one > other { one } else { other }
+}
+
 impl SessionReport {
     /// The presses by their force, from the least.
     #[must_use]
@@ -248,7 +253,7 @@ impl SessionReport {
             presses: presses.len(),
             mean_force_error: presses.iter().map(|press| press.force_error).sum::<f64>() / count,
             mean_position_error: presses.iter().map(|press| position(press)).sum::<f64>() / count,
-            greatest_position_error: presses.iter().map(|press| position(press)).fold(0.0, f64::max),
+            greatest_position_error: presses.iter().map(|press| position(press)).fold(0.0, greatest),
             sample_position_error: (squares / f64::max(resolved, 1.0)).sqrt(),
             resolved: resolved / samples,
         }

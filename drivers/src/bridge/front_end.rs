@@ -220,10 +220,11 @@ impl<T: Real, const N: usize, const M: usize> BridgeFrontEnd<T, N, M> {
             let change = bridge.circuit.change(ratio).ok_or(BridgeFault::Implausible { channel })?;
             let strain = change / factor;
             let per_count = (bridge.scale.full_scale / bridge.scale.full_scale_counts * per_excitation).abs();
-            // Half a count of the bridge, half of one of the excitation, and eight roundings.
-            let lost = per_count * T::literal(0.5)
-                + ratio.abs()
-                    * (excitation_error / (T::one() - excitation_error) + T::literal(8.0) * T::EPSILON);
+            // Half a count of the bridge over an excitation that is less by half of one, that half itself, and
+            // eight roundings.
+            let lost = (per_count * T::literal(0.5) + ratio.abs() * excitation_error)
+                / (T::one() - excitation_error)
+                + ratio.abs() * T::literal(8.0) * T::EPSILON;
             // The relation is convex or concave throughout, so that the ends of the interval bound it.
             let slope = |ratio: T| bridge.circuit.slope_of_change(ratio) / factor.abs();
             let steepest = |width: T| {

@@ -54,9 +54,14 @@ impl DatagramLink {
             self.injected.duplicates += 1;
             self.injected.late += u64::from(held_back.is_some());
             self.out.extend([datagram.to_vec(), datagram.to_vec()]);
-        } else if chance < loss + duplication + reorder && held_back.is_none() {
-            self.held_back = Some(datagram.to_vec());
-            return;
+        } else if chance < loss + duplication + reorder {
+            // While another one is held back, it arrives as it is.
+            if held_back.is_none() {
+                self.held_back = Some(datagram.to_vec());
+                return;
+            }
+            self.injected.late += 1;
+            self.out.push_back(datagram.to_vec());
         } else if chance < loss + duplication + reorder + truncation {
             self.injected.corrupt += 1;
             let length = self.random.random_range(0..datagram.len().max(1));

@@ -173,6 +173,68 @@ mod tests {
         assert_eq!(*watch.statistics(), expected);
     }
 
+    /// What comes of numbers one after another.
+    fn arrivals<const N: usize>(numbers: [u32; N]) -> (SequenceWatch, [Arrival; N]) {
+        let mut watch = SequenceWatch::default();
+        let arrivals = numbers.map(|number| watch.arrive(number));
+        (watch, arrivals)
+    }
+
+    #[test]
+    fn a_number_is_news_up_to_the_furthest_one_ahead() {
+        let furthest = SequenceWatch::FURTHEST;
+        let (watch, seen) = arrivals([5, 5 + furthest]);
+        assert_eq!(seen[1], Arrival::New { missing: furthest - 1 });
+        assert_eq!((watch.index(), watch.statistics().lost), (furthest.into(), u64::from(furthest) - 1));
+        let (watch, seen) = arrivals([5, 6 + furthest]);
+        assert_eq!(seen[1], Arrival::Doubtful);
+        assert_eq!((watch.index(), watch.statistics().lost), (0, 0));
+    }
+
+    #[test]
+    fn a_number_is_late_only_within_the_window_and_not_before_the_first_one() {
+        // The first was 1000: what is before it never counted as lost.
+        for (number, expected) in [(1000, Arrival::Duplicate), (999, Arrival::Doubtful)] {
+            assert_eq!(arrivals([1000, 1002, number]).1[2], expected);
+        }
+        let window = SequenceWatch::WINDOW;
+        for (behind, expected) in [(window - 1, Arrival::Late), (window, Arrival::Doubtful)] {
+            let (watch, seen) = arrivals([1000, 1100, 1100 - behind]);
+            assert_eq!(seen[2], expected);
+            assert_eq!(watch.statistics().lost, 99 - u64::from(expected == Arrival::Late));
+        }
+        // What came before a jump is known for as long as the window reaches.
+        let at_its_edge = arrivals([1000, 1000 + window - 1, 1000, 1001]).1;
+        assert_eq!(at_its_edge[2..], [Arrival::Duplicate, Arrival::Late]);
+        let beyond = arrivals([1000, 1000 + window, 1001, 1001, 1000]).1;
+        assert_eq!(beyond[2..], [Arrival::Late, Arrival::Duplicate, Arrival::Doubtful]);
+        // Nothing of what came before it is in the window.
+        let far = arrivals([1000, 2000, 1990, 1990]).1;
+        assert_eq!(far[2..], [Arrival::Late, Arrival::Duplicate]);
+    }
+
+    #[test]
+    fn the_sender_counts_anew_if_a_doubtful_number_is_followed_by_the_next() {
+        let far = 3_000_000_000;
+        let (watch, seen) = arrivals([10, far, far + 1, far + 2]);
+        assert_eq!(seen[1..], [Arrival::Doubtful, Arrival::Start, Arrival::New { missing: 0 }]);
+        assert_eq!((watch.statistics().restarts, watch.index()), (1, 2));
+        // Not by the same, nor by one that leaves one out, nor if news came between.
+        assert_eq!(arrivals([10, far, far]).1[2], Arrival::Doubtful);
+        assert_eq!(arrivals([10, far, far + 2, far + 3]).1[2..], [Arrival::Doubtful, Arrival::Start]);
+        assert_eq!(arrivals([10, far, 11, far + 1]).1[3], Arrival::Doubtful);
+        // What is before the new beginning was never counted as lost.
+        let (watch, seen) = arrivals([10, 14, far, far + 1, far - 1]);
+        assert_eq!((seen[4], watch.statistics().lost), (Arrival::Duplicate, 3));
+    }
+
+    #[test]
+    fn news_is_what_is_newer_than_all_before() {
+        assert!(Arrival::Start.is_news() && Arrival::New { missing: 3 }.is_news());
+        let old = [Arrival::Late, Arrival::Duplicate, Arrival::Doubtful];
+        assert!(!old.into_iter().any(Arrival::is_news));
+    }
+
     proptest! {
         #[test]
         fn any_numbers_are_taken(numbers in prop::collection::vec(any::<u32>(), 0..200)) {

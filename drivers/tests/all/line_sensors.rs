@@ -178,7 +178,6 @@ fn what_the_sensors_say_of_themselves_is_an_error() {
     assert!(matches!(error, LineError::Device(DynPickFault::Saturated { axis: 1 })), "{error}");
 }
 
-/// Runs a future that never waits.
 /// A simulated device where its port would be, through 30 samples: the wrenches that come, each asked for by
 /// `request` before its sample.
 fn through<D: LineDecoder<f64>>(
@@ -215,7 +214,7 @@ fn each_device_is_simulated_at_the_other_end_of_its_line() {
         let numbers = first..30;
         assert_eq!(wrenches.len(), numbers.len());
         for (wrench, number) in wrenches.iter().zip(numbers) {
-            assert!((wrench.components() - expected(number).components()).amax() < 1e-9, "{wrench:?}");
+            assert!((wrench.components() - expected(number).components()).norm() < 1e-9, "{wrench:?}");
         }
     };
     let once = |bytes: Vec<u8>, at| move |number| if number == at { bytes.clone() } else { Vec::new() };
@@ -250,6 +249,7 @@ fn each_device_is_simulated_at_the_other_end_of_its_line() {
     assert!(came.iter().all(|wrench| wrench.force().y == -2.0));
 }
 
+/// Runs a future that never waits.
 fn ready<F: Future>(future: F) -> F::Output {
     match pin!(future).poll(&mut Context::from_waker(Waker::noop())) {
         Poll::Ready(output) => output,
@@ -351,16 +351,16 @@ fn resense_over_a_million_readings_is_never_off_by_more_than_a_step() {
                             given += 1;
                             let sample: fingertip_drivers::Sample<f64, Wrench<f64>> = sample;
                             let truth = reading(sent);
-                            let force = (sample.value.force()
-                                - nalgebra::Vector3::from(truth.force.map(f64::from)))
-                            .amax();
+                            let force =
+                                sample.value.force() - nalgebra::Vector3::from(truth.force.map(f64::from));
                             let torque =
                                 truth.torque_millinewton_metres.map(|torque| f64::from(torque) * 1e-3);
-                            let torque = (sample.value.torque() - nalgebra::Vector3::from(torque)).amax();
+                            let torque = sample.value.torque() - nalgebra::Vector3::from(torque);
                             // Two steps: the one before may have been off by one.
-                            beyond += u64::from(
-                                force > 2.0 * f64::from(force_step) || torque > 2.0 * f64::from(torque_step),
-                            );
+                            let within = |error: nalgebra::Vector3<f64>, step: f32| {
+                                error.iter().all(|error| error.abs() <= 2.0 * f64::from(step))
+                            };
+                            beyond += u64::from(!(within(force, force_step) && within(torque, torque_step)));
                         }
                         Some(Err(_)) => refused += 1,
                         None => {}

@@ -5,9 +5,15 @@ extern crate alloc;
 
 mod ati_rdt;
 mod bota_serial;
+mod bridge_bounds;
 mod converters;
+mod faulty_links;
 mod line_sensors;
 mod middleware;
+mod pace;
 mod patience;
 mod playback;
+mod schunk_answers;
 mod schunk_fts;
+mod simulated_chips;
+mod wire;

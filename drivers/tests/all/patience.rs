@@ -7,7 +7,7 @@ use core::time::Duration;
 use std::net::UdpSocket;
 
 use fingertip_drivers::middleware::{Supervised, SupervisedError};
-use fingertip_drivers::{ErrorType, Sample, WrenchSource};
+use fingertip_drivers::{ErrorType, Sample, SourceError, SourceErrorKind, WrenchSource};
 use fingertip_wrench::Wrench;
 
 /// How long to wait for what must come.
@@ -37,9 +37,18 @@ where
     for _ in 0..PATIENCE.as_millis() / SILENCE.as_millis() {
         match source.next_wrench() {
             Ok(sample) => return sample.unwrap(),
-            Err(error @ SupervisedError::Source(_)) => panic!("{error:?}"),
+            // Nothing else is tried again.
+            Err(error) if !is_late(&error) => panic!("{error:?}"),
             Err(error) => last = Some((error, source.resume())),
         }
     }
     panic!("{last:?}");
+}
+
+/// Whether a source was stopped, now or before, since nothing came in time.
+fn is_late<E: SourceError>(error: &SupervisedError<E>) -> bool {
+    match error {
+        SupervisedError::Lost(error) => error.kind() == SourceErrorKind::Timeout,
+        error => matches!(error, SupervisedError::Stopped),
+    }
 }

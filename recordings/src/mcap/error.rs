@@ -11,6 +11,16 @@ pub enum McapError {
     /// The file is damaged, cut, or compressed, or the system refuses.
     #[error("MCAP: {0}")]
     File(#[from] ::mcap::McapError),
+    /// A length in a record is beyond its bytes.
+    #[error("MCAP: {what} says {stated} bytes where {found} are left")]
+    Length {
+        /// What it is the length of.
+        what: &'static str,
+        /// What it says.
+        stated: u32,
+        /// Bytes that are left of the record.
+        found: usize,
+    },
     /// A message is not what its definition says.
     #[error("a message of topic {topic}: {source}")]
     Message {

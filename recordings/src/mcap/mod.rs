@@ -33,6 +33,7 @@
 mod cdr;
 mod definitions;
 mod error;
+mod lengths;
 mod messages;
 mod reader;
 mod writer;

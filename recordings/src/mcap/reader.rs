@@ -11,6 +11,7 @@ use ::mcap::{MAGIC, parse_record};
 use crc::{CRC_32_ISO_HDLC, Crc};
 
 use super::error::McapError;
+use super::lengths;
 use super::messages::{Header, Recorded};
 
 /// The CRC of MCAP is that of zlib.
@@ -70,10 +71,10 @@ impl<R: Read> McapReader<R> {
     /// The next message, or `None` at the end. Behind an error of the file nothing more can be read.
     ///
     /// # Errors
-    /// [`McapError::File`] or [`McapError::Message`].
+    /// [`McapError::File`], [`McapError::Length`] or [`McapError::Message`].
     pub fn next_entry(&mut self) -> Result<Option<Entry>, McapError> {
         let next = self.next_message();
-        if matches!(next, Err(McapError::File(_))) {
+        if matches!(next, Err(McapError::File(_) | McapError::Length { .. })) {
             self.past_data = true;
         }
         next
@@ -88,6 +89,7 @@ impl<R: Read> McapReader<R> {
             };
             let data = self.record.get(contents).unwrap_or_default();
             // Only what is used here is parsed: the library panics on an attachment whose length is wrong.
+            lengths::check(opcode, data)?;
             match opcode {
                 op::CHUNK if self.chunk.is_empty() => {
                     let length = checked_chunk(data)?.len();

@@ -3,4 +3,6 @@
 
 mod csv;
 mod mcap;
+mod mcap_by_hand;
 mod real_recordings;
+mod rows;

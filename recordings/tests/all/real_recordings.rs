@@ -1,28 +1,17 @@
 //! Every shared recording that fits a layout is read to its end; those that do not say why.
 //!
-//! The recordings are not part of this project: their folder is `FINGERTIP_DATA`, or
-//! `../shared/data` beside the workspace.
+//! The recordings are not part of this project: see `fingertip_test_support::recording`.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use fingertip_recordings::{
     AssumedUnits, ForceUnit, HeaderProblem, Quality, ReaderOptions, RecordingError, RecordingReader,
     TorqueUnit,
 };
-
-fn data(file: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os("FINGERTIP_DATA")
-        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/data"), PathBuf::from);
-    let path = folder.join(file);
-    if path.exists() {
-        return Some(path);
-    }
-    println!("skipped: {file} is not there (set FINGERTIP_DATA to the folder of the recordings)");
-    None
-}
+use fingertip_test_support::recording;
 
 /// Reads to the end; how many rows gave a wrench or signals of each sensor.
-fn read(path: &PathBuf, options: ReaderOptions) -> (Vec<u64>, Quality, RecordingReader<std::fs::File>) {
+fn read(path: &Path, options: ReaderOptions) -> (Vec<u64>, Quality, RecordingReader<std::fs::File>) {
     let mut reader = RecordingReader::open_with(path, options).unwrap();
     let (wrenches, signals) = (reader.layout().wrenches().to_vec(), reader.layout().signals().to_vec());
     let mut given = vec![0; wrenches.len() + signals.len()];
@@ -43,7 +32,7 @@ fn read(path: &PathBuf, options: ReaderOptions) -> (Vec<u64>, Quality, Recording
 
 #[test]
 fn two_nano17_sensors_in_newton_millimetres() {
-    let Some(path) = data("nano17_three_finger/roll.csv") else { return };
+    let Some(path) = recording("nano17_three_finger/roll.csv") else { return };
     let (given, quality, reader) = read(&path, ReaderOptions::default());
     let names: Vec<&str> = reader.layout().wrenches().iter().map(|sensor| sensor.name()).collect();
     assert_eq!((names, given), (vec!["s1", "s2"], vec![1602, 1602]));
@@ -58,7 +47,7 @@ fn two_nano17_sensors_in_newton_millimetres() {
 
 #[test]
 fn volts_of_two_sensors_without_units() {
-    let Some(path) = data("ati_delta_raw_1khz/quiet_drives_off.csv") else { return };
+    let Some(path) = recording("ati_delta_raw_1khz/quiet_drives_off.csv") else { return };
     let (given, quality, reader) = read(&path, ReaderOptions::default());
     let names: Vec<&str> = reader.layout().signals().iter().map(|sensor| sensor.name()).collect();
     assert_eq!((names, given), (vec!["wallace", "gromit"], vec![14_012, 14_012]));
@@ -67,7 +56,7 @@ fn volts_of_two_sensors_without_units() {
 
 #[test]
 fn volts_beside_columns_of_something_else() {
-    let Some(path) = data("ati_delta_raw_1khz/heave_1hz_after_recal.csv") else { return };
+    let Some(path) = recording("ati_delta_raw_1khz/heave_1hz_after_recal.csv") else { return };
     let (given, _, reader) = read(&path, ReaderOptions::default());
     assert_eq!(given, [24_022]);
     assert_eq!(reader.layout().ignored().collect::<Vec<_>>(), ["heave_mm", "pitch_deg"]);
@@ -75,7 +64,7 @@ fn volts_beside_columns_of_something_else() {
 
 #[test]
 fn two_wrenches_told_apart_by_a_word_in_the_middle() {
-    let Some(path) = data("fareke_6axis_crosstalk/readings.csv") else { return };
+    let Some(path) = recording("fareke_6axis_crosstalk/readings.csv") else { return };
     let (given, quality, reader) = read(&path, ReaderOptions::default());
     let names: Vec<&str> = reader.layout().wrenches().iter().map(|sensor| sensor.name()).collect();
     assert_eq!(names, ["meas", ""]);
@@ -85,7 +74,7 @@ fn two_wrenches_told_apart_by_a_word_in_the_middle() {
 
 #[test]
 fn a_wrench_without_units_is_read_only_if_the_user_states_them() {
-    let Some(path) = data("ati_axia80_gravity/poses7.csv") else { return };
+    let Some(path) = recording("ati_axia80_gravity/poses7.csv") else { return };
     let error = RecordingReader::open(&path).unwrap_err();
     let RecordingError::Header { problem: HeaderProblem::MissingUnit { column, example }, .. } = error else {
         panic!("{error}")
@@ -99,7 +88,7 @@ fn a_wrench_without_units_is_read_only_if_the_user_states_them() {
 
 #[test]
 fn eight_signals_beside_a_wrench_without_units() {
-    let Some(path) = data("jonurce_fts8/samples_dec25.csv") else { return };
+    let Some(path) = recording("jonurce_fts8/samples_dec25.csv") else { return };
     let (given, quality, reader) = read(&path, ReaderOptions::default());
     assert_eq!(reader.layout().left_out().len(), 1);
     assert_eq!(given, [quality.rows - quality.unusable_rows.count()]);
@@ -108,7 +97,7 @@ fn eight_signals_beside_a_wrench_without_units() {
 
 #[test]
 fn the_gaps_of_the_tribometer_are_those_its_readme_tells() {
-    let Some(path) = data("friction_tribometer/reciprocating.csv") else { return };
+    let Some(path) = recording("friction_tribometer/reciprocating.csv") else { return };
     // It has no wrench: friction and normal force of a tribometer. Named as a wrench it can be read.
     let text = std::fs::read_to_string(&path).unwrap();
     let header = "t_s,fx_N,fy_N,fz_N";
@@ -131,7 +120,7 @@ fn forces_alone_and_tables_of_numbers_are_no_recording() {
         ("friction_tribometer/strokes.csv", "no column is a force"),
         ("ati_delta_raw_1khz/gromit_si660_60_matrix.csv", "no column is a force"),
     ] {
-        let Some(path) = data(file) else { continue };
+        let Some(path) = recording(file) else { continue };
         let error = RecordingReader::open(&path).unwrap_err();
         assert!(error.to_string().contains(said), "{error}");
     }

@@ -2,4 +2,6 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
 mod prototype;
+mod simulated_flaws;
+mod simulated_truth;
 mod simulation;

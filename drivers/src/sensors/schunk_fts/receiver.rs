@@ -47,8 +47,8 @@ impl FtsReceiver {
     }
 
     fn unwrap(&self, counter: u16) -> u32 {
-        // Away from zero, so that what comes before the first one wraps without harm.
-        let newest = self.newest.unwrap_or(1 << 16 | u32::from(counter));
+        // What comes before the first one wraps, which does no harm.
+        let newest = self.newest.unwrap_or(u32::from(counter));
         #[allow(clippy::cast_possible_truncation, reason = "the low bits are wanted")]
         let ahead = counter.wrapping_sub(newest as u16).cast_signed();
         newest.wrapping_add_signed(i32::from(ahead))

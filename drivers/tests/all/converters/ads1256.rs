@@ -248,6 +248,9 @@ fn the_bytes_on_the_bus_are_those_of_the_data_sheet() {
     assert_eq!(chip.read().unwrap().counts, [-2, 0x12_3456]);
     assert_eq!(chip.read(), Err(ConverterFault::Answer { expected: 0x1_0000, found: 0x1_0001 }.into()));
     assert_eq!(chip.read(), Err(ConverterFault::Reset.into()));
+    let statistics = *chip.statistics();
+    assert_eq!((statistics.conversions, statistics.stale, statistics.saturated), (1, 1, 0));
+    assert_eq!((statistics.corrupt, statistics.resets, statistics.timeouts), (1, 1, 0));
     let (mut spi, ..) = chip.release();
     spi.done();
 }

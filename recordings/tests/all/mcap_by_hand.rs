@@ -1,0 +1,262 @@
+//! MCAP files whose every byte is written here, after the specification of the format.
+
+use std::io::Cursor;
+
+use fingertip_drivers::playback::McapPlayback;
+use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
+use fingertip_recordings::mcap::{Entry, McapError, McapReader, Recorded};
+use fingertip_wrench::Wrench;
+
+const MAGIC: [u8; 8] = *b"\x89MCAP0\r\n";
+
+/// The CRC-32 of zlib, bit by bit.
+fn crc(bytes: &[u8]) -> u32 {
+    let mut crc = u32::MAX;
+    for byte in bytes {
+        crc ^= u32::from(*byte);
+        for _ in 0..8 {
+            crc = if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 };
+        }
+    }
+    !crc
+}
+
+fn string(text: &str) -> Vec<u8> {
+    [&(text.len() as u32).to_le_bytes()[..], text.as_bytes()].concat()
+}
+
+fn record(opcode: u8, contents: &[u8]) -> Vec<u8> {
+    [&[opcode][..], &(contents.len() as u64).to_le_bytes(), contents].concat()
+}
+
+fn schema(id: u16, name: &str) -> Vec<u8> {
+    record(3, &[id.to_le_bytes().to_vec(), string(name), string("ros2msg"), string("float64 x")].concat())
+}
+
+fn channel(id: u16, schema: u16, topic: &str, encoding: &str) -> Vec<u8> {
+    let metadata = [string("key"), string("value")].concat();
+    let length = (metadata.len() as u32).to_le_bytes().to_vec();
+    let ids = [id.to_le_bytes(), schema.to_le_bytes()].concat();
+    record(4, &[ids, string(topic), string(encoding), length, metadata].concat())
+}
+
+fn message(channel: u16, log_time: u64, data: &[u8]) -> Vec<u8> {
+    let head = [&channel.to_le_bytes()[..], &[7, 0, 0, 0], &log_time.to_le_bytes(), &[0; 8]].concat();
+    record(5, &[&head[..], data].concat())
+}
+
+/// A chunk with this checksum.
+fn chunk_with(records: &[u8], checksum: u32, compression: &str) -> Vec<u8> {
+    let length = (records.len() as u64).to_le_bytes();
+    let head = [&[0; 16][..], &length, &checksum.to_le_bytes(), &string(compression), &length].concat();
+    record(6, &[&head[..], records].concat())
+}
+
+fn chunk(records: &[u8]) -> Vec<u8> {
+    chunk_with(records, crc(records), "")
+}
+
+fn data_end() -> Vec<u8> {
+    record(15, &[0; 4])
+}
+
+/// Header, stamp 3.25 s in the frame "tip", force 1, 2, 3 and torque 4, 5, 6.
+fn wrench() -> Vec<u8> {
+    let mut cdr = vec![0, 1, 0, 0, 3, 0, 0, 0, 0x80, 0xB2, 0xE6, 0x0E, 4, 0, 0, 0, b't', b'i', b'p', 0];
+    for component in [1.0, 2.0, 3.0, 4.0, 5.0, 6.0_f64] {
+        cdr.extend(component.to_le_bytes());
+    }
+    cdr
+}
+
+const WRENCH: &str = "geometry_msgs/msg/WrenchStamped";
+
+/// A schema and a channel of wrenches with the number 1.
+fn definitions() -> Vec<u8> {
+    [schema(1, WRENCH), channel(1, 1, "/tip", "cdr")].concat()
+}
+
+fn file(records: &[Vec<u8>]) -> Vec<u8> {
+    [MAGIC.to_vec(), records.concat()].concat()
+}
+
+fn entries(file: &[u8]) -> Result<Vec<Entry>, McapError> {
+    let mut reader = McapReader::new(file)?;
+    let mut entries = Vec::new();
+    while let Some(entry) = reader.next_entry()? {
+        entries.push(entry);
+    }
+    Ok(entries)
+}
+
+fn expected() -> Entry {
+    let recorded = Recorded::Wrench(Wrench::from_components(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0].into()));
+    Entry { topic: "/tip".to_owned(), time: 3.25, frame: "tip".to_owned(), recorded }
+}
+
+#[test]
+fn a_message_is_read_in_a_chunk_and_outside_of_one() {
+    // The check value that the catalogue of CRCs gives.
+    assert_eq!(crc(b"123456789"), 0xCBF4_3926);
+    let message = message(1, 0, &wrench());
+    let header = record(1, &[string("ros2"), string("by hand")].concat());
+    let outside = file(&[header.clone(), definitions(), message.clone(), data_end()]);
+    assert_eq!(entries(&outside).unwrap(), [expected()]);
+    let records = [definitions(), message.clone(), message.clone()].concat();
+    // A record that is not known is passed over, within a chunk and without.
+    let inside = file(&[header, chunk(&records), record(0x80, &[1; 9]), chunk(&message), data_end()]);
+    assert_eq!(entries(&inside).unwrap(), [expected(), expected(), expected()]);
+    // A checksum of zero is none.
+    let unchecked = file(&[chunk_with(&records, 0, ""), data_end()]);
+    assert_eq!(entries(&unchecked).unwrap().len(), 2);
+    // A chunk may be empty; what follows on the end of the data is not read.
+    let empty = file(&[chunk(&[]), chunk(&records), data_end(), vec![5, 1]]);
+    assert_eq!(entries(&empty).unwrap().len(), 2);
+}
+
+#[test]
+fn a_chunk_must_be_whole_and_plain() {
+    let records = [definitions(), message(1, 0, &wrench())].concat();
+    let error = |chunk: Vec<u8>| entries(&file(&[chunk, data_end()])).unwrap_err().to_string();
+    let wrong = chunk_with(&records, crc(&records) ^ 1, "");
+    assert!(error(wrong).to_lowercase().contains("crc"));
+    assert!(error(chunk_with(&records, crc(&records), "zstd")).contains("zstd"));
+    let mut longer = chunk(&records);
+    // The length of the records, behind 9 bytes of the record and 32 of the chunk, is one less than there are.
+    assert_eq!(longer[41..49], (records.len() as u64).to_le_bytes());
+    longer[41..49].copy_from_slice(&(records.len() as u64 - 1).to_le_bytes());
+    assert!(entries(&file(&[longer, data_end()])).is_err());
+    // Each length within the chunk that is cut short.
+    for length in [0, 23, 24, 27, 28, 31, 32, 39] {
+        assert!(entries(&file(&[record(6, &chunk(&records)[9..9 + length]), data_end()])).is_err());
+    }
+    // A record in it that says more than the chunk has.
+    let mut beyond = records.clone();
+    beyond[1] = 0xFF;
+    assert!(entries(&file(&[chunk(&beyond), data_end()])).is_err());
+    let cut = [definitions(), vec![5, 0, 0]].concat();
+    assert!(entries(&file(&[chunk(&cut), data_end()])).is_err());
+}
+
+#[test]
+fn messages_that_are_not_known_are_passed_over_at_the_time_they_were_logged() {
+    let (unknown, json) = (channel(2, 0, "/none", "cdr"), channel(3, 1, "/json", "json"));
+    let records = [
+        definitions(),
+        unknown,
+        json,
+        message(2, 2_500_000_000, &[1, 2]),
+        message(3, 4_000_000_000, &wrench()),
+        data_end(),
+    ];
+    let found = entries(&file(&records)).unwrap();
+    let seen: Vec<(&str, f64)> = found.iter().map(|entry| (entry.topic.as_str(), entry.time)).collect();
+    assert_eq!(seen, [("/none", 2.5), ("/json", 4.0)]);
+    assert!(found.iter().all(|entry| entry.recorded == Recorded::Other && entry.frame.is_empty()));
+    // A channel that was never made.
+    let error = entries(&file(&[definitions(), message(9, 0, &wrench()), data_end()])).unwrap_err();
+    assert_eq!(error.kind(), SourceErrorKind::Corrupt);
+}
+
+#[test]
+fn a_message_that_is_damaged_costs_itself_and_a_file_that_is_damaged_its_rest() {
+    let mut short = wrench();
+    short.pop();
+    let file = file(&[definitions(), message(1, 0, &short), message(1, 0, &wrench()), data_end()]);
+    let mut reader = McapReader::new(file.as_slice()).unwrap();
+    let error = reader.next_entry().unwrap_err();
+    assert!(matches!(&error, McapError::Message { topic, .. } if topic == "/tip"), "{error}");
+    assert_eq!(error.kind(), SourceErrorKind::Corrupt);
+    assert_eq!(reader.next_entry().unwrap(), Some(expected()));
+    assert_eq!(reader.next_entry().unwrap(), None);
+    // It is chosen by name, and its damaged message is met when it is played.
+    let mut playback = McapPlayback::new(Cursor::new(&file), "/tip").unwrap();
+    assert!(matches!(playback.next_wrench(), Err(McapError::Message { .. })));
+    assert!(playback.next_wrench().unwrap().is_some() && playback.next_wrench().unwrap().is_none());
+    // Without its end the file is an error, and then there is nothing more.
+    let cut = &file[..file.len() - 13];
+    let mut reader = McapReader::new(cut).unwrap();
+    assert!(reader.next_entry().is_err() && reader.next_entry().is_ok());
+    assert!(matches!(reader.next_entry(), Err(McapError::File(_))));
+    assert_eq!(reader.next_entry().unwrap(), None);
+}
+
+#[test]
+fn a_topic_is_chosen_by_name_or_by_being_the_only_one_with_wrenches() {
+    let other = channel(2, 1, "/other", "cdr");
+    let both = file(&[
+        definitions(),
+        other,
+        message(1, 0, &wrench()),
+        message(2, 0, &wrench()),
+        message(1, 0, &wrench()),
+        data_end(),
+    ]);
+    let played = |topic| {
+        let mut playback = McapPlayback::new(Cursor::new(&both), topic)?;
+        let mut played = 0;
+        while playback.next_wrench()?.is_some() {
+            played += 1;
+        }
+        Ok::<_, McapError>(played)
+    };
+    assert_eq!((played("/tip").unwrap(), played("/other").unwrap()), (2, 1));
+    for topic in ["", "/"] {
+        let error = played(topic).unwrap_err();
+        assert!(error.to_string().ends_with("there are: /tip, /other"), "{error}");
+        assert_eq!(error.kind(), SourceErrorKind::Unsupported);
+    }
+    // What is wrong with a file is said if it hides all wrenches, and is met in its place if it does not.
+    let hidden = file(&[definitions(), vec![5]]);
+    assert!(matches!(McapPlayback::new(Cursor::new(&hidden), ""), Err(McapError::File(_))));
+    let behind = file(&[definitions(), message(1, 0, &wrench()), vec![5]]);
+    let mut playback = McapPlayback::new(Cursor::new(&behind), "").unwrap();
+    assert!(playback.next_wrench().unwrap().is_some());
+    assert!(playback.next_wrench().is_err());
+}
+
+/// The contents of a record, with four bytes of it changed.
+fn changed(record: &[u8], at: usize, length: u32) -> Vec<u8> {
+    let mut changed = record.to_vec();
+    changed[9 + at..9 + at + 4].copy_from_slice(&length.to_le_bytes());
+    changed
+}
+
+#[test]
+fn a_length_beyond_its_record_is_an_error_before_anything_is_allocated_for_it() {
+    // Where lengths stand in a schema "S" with "ros2msg" and a channel "/t" with "cdr" and two strings.
+    let (schema, channel) = (schema(1, "S"), channel(1, 1, "/t", "cdr"));
+    let places = [
+        (&schema, 2, 1, "the name of a schema"),
+        (&schema, 7, 7, "the encoding of a schema"),
+        (&schema, 18, 9, "the text of a schema"),
+        (&channel, 4, 2, "the topic of a channel"),
+        (&channel, 10, 3, "the encoding of a channel"),
+        (&channel, 17, 16, "the metadata of a channel"),
+        (&channel, 21, 3, "a key of metadata"),
+        (&channel, 28, 5, "a value of metadata"),
+    ];
+    for (record, at, length, expected) in places {
+        assert_eq!(record[9 + at..13 + at], u32::to_le_bytes(length), "{expected}");
+        let left = record.len() - 9 - at - 4;
+        for stated in [left as u32 + 1, 1 << 31, u32::MAX] {
+            let damaged = changed(record, at, stated);
+            for file in [file(core::slice::from_ref(&damaged)), file(&[chunk(&damaged)])] {
+                let mut reader = McapReader::new(file.as_slice()).unwrap();
+                let error = reader.next_entry().unwrap_err();
+                assert_eq!(error.kind(), SourceErrorKind::Corrupt);
+                let McapError::Length { what, stated: said, found } = error else { panic!("{error}") };
+                assert_eq!((what, said, found), (expected, stated, left));
+                assert_eq!(reader.next_entry().unwrap(), None, "nothing is read behind it");
+            }
+        }
+    }
+    // The schema of 13 bytes that asked for 4 GiB.
+    let short = file(&[record(3, &[1, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0, 0, 0, 0, 0, 0, 0])]);
+    assert!(matches!(entries(&short), Err(McapError::Length { stated: u32::MAX, found: 7, .. })));
+    // Records that end before their lengths.
+    for (opcode, length) in [(3, 0), (3, 2), (3, 5), (4, 0), (4, 3), (4, 4), (4, 7)] {
+        let error = entries(&file(&[record(opcode, &vec![0; length])])).unwrap_err();
+        assert!(matches!(error, McapError::Length { .. }), "{opcode} {length}: {error}");
+    }
+}

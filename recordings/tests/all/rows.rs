@@ -1,0 +1,55 @@
+//! Rows of a recording that say again what the row before said.
+
+use fingertip_recordings::{RecordingError, RecordingReader};
+
+/// Lines of the rows that are marked as repeated, held and backward.
+fn marked(file: &str) -> [Vec<u64>; 3] {
+    let mut reader = RecordingReader::new("test.csv", file.as_bytes()).unwrap();
+    let mut lines = [const { Vec::new() }; 3];
+    loop {
+        match reader.next_row() {
+            Ok(Some(row)) => {
+                let marks = row.marks();
+                for (lines, marked) in lines.iter_mut().zip([marks.repeated, marks.held, marks.backward]) {
+                    lines.extend(marked.then(|| row.line()));
+                }
+                assert_eq!(row.is_usable(), !(marks.repeated || marks.backward || marks.bad_time));
+            }
+            Ok(None) => return lines,
+            // Where it goes on is what is tested.
+            Err(RecordingError::NotANumber { .. } | RecordingError::Ragged { .. }) => {}
+            Err(error) => panic!("{error}"),
+        }
+    }
+}
+
+#[test]
+fn without_time_a_row_is_repeated_if_all_its_numbers_are() {
+    let file = "v1_V,v2_V,note\n1,2,a\n1,2,b\n1,3,b\n2,3,b\n2,3,b\n2,3,b\n3,2,b\n2,3,b\n";
+    assert_eq!(marked(file), [vec![3, 6, 7], vec![], vec![]]);
+}
+
+#[test]
+fn the_first_row_repeats_nothing_though_all_its_cells_are_missing() {
+    let file = "v1_V,v2_V\n,\n,\n1,\n1,\n,1\n";
+    assert_eq!(marked(file), [vec![3, 5], vec![], vec![]]);
+}
+
+#[test]
+fn with_time_a_row_is_repeated_at_the_same_time_and_held_at_a_later_one() {
+    let file = "t_s,v1_V\n0,1\n0,1\n1,1\n1,2\n2,2\n1,2\n";
+    assert_eq!(marked(file), [vec![3], vec![4, 6], vec![5, 7]]);
+}
+
+#[test]
+fn behind_a_row_that_cannot_be_read_nothing_is_known_to_be_repeated() {
+    // The numbers of the row before the one before, or of the one before, come again.
+    for bad in ["x,9", "9,x", "1,2,3"] {
+        for again in ["1,2", "3,4", "9,4", "9,2"] {
+            let file = format!("v1_V,v2_V\n1,2\n3,4\n{bad}\n{again}\n{again}\n");
+            assert_eq!(marked(&file), [vec![6], vec![], vec![]], "{bad} then {again}");
+        }
+    }
+    // Lines without a row are none.
+    assert_eq!(marked("v1_V\n1\n\n# pause\n1\n"), [vec![5], vec![], vec![]]);
+}
