@@ -1,6 +1,6 @@
 //! Gauge layouts against what the paper and mechanics say of them, and the decoupled solver on them.
 
-use crate::support::{cast, generator, random_vector, symmetric, wide};
+use crate::support::{cast, generator, greatest, random_vector, symmetric, wide};
 use fingertip_wrench::gauge_layout::{GaugeLayout, LayoutError, ThinWalledBeam, isotropic_angle};
 use fingertip_wrench::{
     BicchiDario, Combination, Conditioning, Decoupled, ErrorBound, FourRosettes, GaussianElimination,
@@ -125,7 +125,7 @@ fn decoupled_is_elimination<T: Real, K: Combination<6>>(
     let decoupled = Decoupled::<T, K, 6>::new(&sensor).expect("decoupled");
     let condition = Conditioning::of(&sensor).condition_number().to_f64();
     let epsilon = T::EPSILON.to_f64();
-    assert!(decoupled.neglected().amax().to_f64() < 40.0 * condition * epsilon);
+    assert!(greatest(decoupled.neglected()) < 40.0 * condition * epsilon);
     for _ in 0..10_000 {
         let load = Wrench::from_components(&cast(&random_vector::<6>(&mut random)));
         let signals = sensor.signals(&load);
@@ -183,7 +183,7 @@ fn decoupled_stays_within_its_bound_on_a_machined_sensor() {
         });
         let sensor = SensorMatrix::new(calibrated, nominal()).expect("proper");
         let decoupled = Decoupled::<f64, BicchiDario, 6>::new(&sensor).expect("decoupled");
-        assert!(decoupled.neglected().amax() > 1e-3);
+        assert!(greatest(decoupled.neglected()) > 1e-3);
         let bound = ErrorBound::new(&sensor, &decoupled, &Uncertainty::none()).expect("bounded");
         for _ in 0..1_000 {
             let load = Vector6::from_fn(|_, _| symmetric(&mut random)).component_mul(&nominal());
@@ -197,7 +197,8 @@ fn decoupled_stays_within_its_bound_on_a_machined_sensor() {
     }
     let median = crate::support::median(&mut ratios);
     println!("decoupled on a machined sensor: median bound / error {median:.2}");
-    assert!(median < 20.0);
+    // Measured: 1.7. Couplings of random signs partly cancel; `reached_bounds` has the worst.
+    assert!(median < 1.9, "{median}");
 }
 
 #[test]
@@ -255,7 +256,7 @@ fn a_combination_of_ones_own_with_a_block() {
     let solver = Decoupled::<f64, Block, 6>::new(&sensor).expect("decoupled");
     let load = Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0);
     let found = solver.solve(&sensor.signals(&Wrench::from_components(&load)));
-    assert!((found.components() - load).amax() < 1e-14);
+    assert!(greatest(&(found.components() - load)) < 1e-14);
 }
 
 #[test]
