@@ -247,7 +247,7 @@ fn stages_of_ones_own_answer_in_their_own_words() {
     assert_eq!((held.grip, held.slip), (Some(10.0), (Some(10.0), 0.5)));
     let open = fingertip.feel(Wrench::zero(), 0.25, None);
     assert_eq!((open.grip, open.slip), (None, (None, 0.25)));
-    assert_eq!((fingertip.friction(), *fingertip.detector_mut()), (&Own, Own));
+    assert_eq!((*fingertip.friction(), *fingertip.detector_mut()), (Own, Own));
 }
 
 /// The order in which stages are chosen does not matter, and the later choice of a stage counts.

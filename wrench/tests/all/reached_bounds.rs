@@ -39,7 +39,8 @@ fn reached<const N: usize, S: LinearSolver<f64, N>>(
             let found = solver.solve(&signals);
             let true_load = load.component_mul(sensor.nominal());
             let share = (found.components() - true_load)[axis].abs() / bound.at(&signals, &found)[axis];
-            assert!(share <= 1.0, "{share}");
+            // The test itself rounds the signals.
+            assert!(share <= 1.0 + 1e-12, "{share}");
             (least, greatest) = (least.min(share), greatest.max(share));
         }
     }
