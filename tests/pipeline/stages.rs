@@ -3,8 +3,8 @@
 use core::cell::RefCell;
 
 use fingertip::friction::{
-    Coulomb, DropDetector, ForceNoise, FrictionModel, NormalForceGate, RatioThreshold, SlipDetector, SlipMargin,
-    SlipVerdict,
+    Coulomb, DropDetector, ForceNoise, FrictionModel, NormalForceGate, RatioThreshold, SlipDetector,
+    SlipMargin, SlipVerdict,
 };
 use fingertip::surfaces::{Contact, ContactModel, NoContact, PointContact, Resolution, Sphere, Torus};
 use fingertip::wrench::{
@@ -238,11 +238,8 @@ impl SlipStage<f64> for Own {
 #[test]
 fn stages_of_ones_own_answer_in_their_own_words() {
     let handed = Handed::default();
-    let mut fingertip = Fingertip::builder()
-        .friction_stage(Own)
-        .slip_stage(Own)
-        .contact(sphere(), Noted(&handed))
-        .build();
+    let mut fingertip =
+        Fingertip::builder().friction_stage(Own).slip_stage(Own).contact(sphere(), Noted(&handed)).build();
     let held = fingertip.feel(pressed(), 0.5, None);
     assert_eq!((held.grip, held.slip), (Some(10.0), (Some(10.0), 0.5)));
     let open = fingertip.feel(Wrench::zero(), 0.25, None);

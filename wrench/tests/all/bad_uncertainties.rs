@@ -153,7 +153,10 @@ fn covariance_by_its_definition() {
     let sensor = SensorMatrix::new(matrix, nominal).expect("proper");
     let solver = GaussianElimination::new(&sensor).expect("regular");
     let inverse = matrix.try_inverse().expect("regular");
-    let noise = Matrix6::from_fn(|i, j| if i == j { 3.0 + i as f64 } else { 0.1 * (i as f64 - 2.5) * (j as f64 - 2.5) });
+    let noise =
+        Matrix6::from_fn(
+            |i, j| if i == j { 3.0 + i as f64 } else { 0.1 * (i as f64 - 2.5) * (j as f64 - 2.5) },
+        );
     let entries = Matrix6::from_fn(|i, j| 1e-2 * (1 + i + 2 * j) as f64);
     let model = WrenchCovariance::new(&sensor, &solver, &noise)
         .and_then(|model| model.with_matrix_deviations(&sensor, &entries))

@@ -1,6 +1,8 @@
 //! Extended sensors: least squares, what redundancy tells, and what it does not.
 
-use crate::support::{cast, generator, greatest, normal, of_condition, random_vector, sensor, symmetric, wide};
+use crate::support::{
+    cast, generator, greatest, normal, of_condition, random_vector, sensor, symmetric, wide,
+};
 use fingertip_wrench::{
     BadCheck, ConsistencyCheck, DriftMonitor, Fault, GaussianElimination, LeastSquares, LeastSquaresError,
     Real, SensorMatrix, Verdict, WrenchSolver, singular_values,

@@ -3,7 +3,10 @@
 
 mod any_bits;
 mod bad_uncertainties;
+mod channel_limits;
+mod compensations;
 mod conditioning;
+mod consistency_limits;
 mod contact_frames;
 mod error_bounds;
 mod frames;

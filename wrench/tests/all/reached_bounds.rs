@@ -2,8 +2,8 @@
 
 use crate::support::{generator, greatest, of_condition, sensor, wide};
 use fingertip_wrench::{
-    BicchiDario, Combination, Decoupled, ErrorBound, GaussianElimination, Inverse, LeastSquares, LinearSolver,
-    Refined, SensorMatrix, Uncertainty, Wrench,
+    BicchiDario, Combination, Decoupled, ErrorBound, GaussianElimination, Inverse, LeastSquares,
+    LinearSolver, Refined, SensorMatrix, Uncertainty, Wrench,
 };
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 
@@ -25,8 +25,8 @@ fn reached<const N: usize, S: LinearSolver<f64, N>>(
         let matrix = wide(sensor.normalised());
         let inverse = solver.gain(&sensor);
         let noise = noise * matrix.amax();
-        let uncertainty = Uncertainty::of_signals(SVector::repeat(noise))
-            .with_relative_matrix_error(&sensor, fraction);
+        let uncertainty =
+            Uncertainty::of_signals(SVector::repeat(noise)).with_relative_matrix_error(&sensor, fraction);
         let bound = ErrorBound::new(&sensor, &solver, &uncertainty).expect("bounded");
         let load = crate::support::random_vector::<6>(&mut random);
         for axis in 0..6 {

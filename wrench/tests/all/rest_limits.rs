@@ -39,7 +39,8 @@ fn statistics(readings: &[f64], step: f64) -> (Statistics, f64) {
     while readings.len() > 32 * length {
         length *= 2;
     }
-    let means: Vec<f64> = readings.chunks_exact(length).map(|s| s.iter().sum::<f64>() / length as f64).collect();
+    let means: Vec<f64> =
+        readings.chunks_exact(length).map(|s| s.iter().sum::<f64>() / length as f64).collect();
     let (count, stretch) = (means.len() as f64, length as f64);
     let middle = means.iter().sum::<f64>() / count;
     let by_stretches = means.iter().map(|x| (x - middle).powi(2)).sum::<f64>() / (count - 1.0) * stretch;
@@ -229,9 +230,12 @@ fn noise_wider_than_it_is_known_to_be_is_unsteady() {
         for told in TOLD {
             let told = Told { known: Some(0.75), ..told };
             let known = 0.75 * 0.75 + told.step * told.step / 12.0;
-            let (error, ..) = at_the_limit(critical, told, |i, size| size * noise(i), |_, spread| {
-                spread * spread - critical.readings_variance * known
-            });
+            let (error, ..) = at_the_limit(
+                critical,
+                told,
+                |i, size| size * noise(i),
+                |_, spread| spread * spread - critical.readings_variance * known,
+            );
             assert_eq!(error, NotAtRest::Unsteady { gauge: 0 });
         }
     }

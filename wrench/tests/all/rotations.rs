@@ -85,7 +85,8 @@ fn axes<T: Real>() {
     let motion = Motion::from_axis_angle(Vector3::z() * tiny, Vector3::x()).expect("a rotation");
     assert!((motion.rotation()[(1, 0)] / tiny - T::one()).abs() < l(4.0) * T::EPSILON);
     assert!((motion.rotation()[(0, 1)] / tiny + T::one()).abs() < l(4.0) * T::EPSILON);
-    let huge = Motion::<T>::from_axis_angle(Vector3::y() * (T::GREATEST * l(0.5)), Vector3::x()).expect("a rotation");
+    let huge = Motion::<T>::from_axis_angle(Vector3::y() * (T::GREATEST * l(0.5)), Vector3::x())
+        .expect("a rotation");
     let defect = huge.rotation().transpose() * huge.rotation() - Matrix3::identity();
     assert!(greatest(&defect) < 8.0 * T::EPSILON.to_f64());
     let still = Motion::<T>::from_axis_angle(Vector3::zeros(), Vector3::x()).expect("a rotation");
