@@ -185,7 +185,7 @@ fn a_drift_monitor_judges_the_weighted_mean() {
         // A fault of the fifth gauge that comes and goes.
         let mut signals = solver_signals(&sensor, i) * (0.1 * i as f64);
         signals += random_vector::<GAUGES>(&mut random).component_mul(&noise()) * 0.1;
-        signals[5] += 3e-3 * (i as f64 * 0.05).sin();
+        signals[5] += 1e-2 * (i as f64 * 0.05).sin();
         let share = (1.0 / i as f64).max(weight);
         mean = mean * (1.0 - share) + signals * share;
         let found = monitor.update(&solver, &signals);

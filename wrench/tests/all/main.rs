@@ -20,5 +20,6 @@ mod rest_and_channels;
 mod rest_limits;
 mod rotations;
 mod serialisation;
+mod solver_limits;
 #[path = "../support/mod.rs"]
 mod support;
