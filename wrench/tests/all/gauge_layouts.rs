@@ -294,3 +294,29 @@ fn determinant_of_the_papers_matrix() {
         }
     }
 }
+
+#[test]
+fn beams_at_the_edge_of_what_is_possible() {
+    let with =
+        |poisson_ratio: f64| ThinWalledBeam { poisson_ratio, ..beam::<f64>(5.0, 0.3) }.section_constants();
+    assert!(with(0.5).is_ok() && with(-0.999).is_ok() && with(0.0).is_ok());
+    for ratio in [-1.0, 0.501, f64::NAN] {
+        assert_eq!(with(ratio), Err(LayoutError::BadBeam { quantity: "Poisson's ratio" }));
+    }
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refused = |quantity| Err(LayoutError::BadBeam { quantity });
+        let beam = beam::<f64>(5.0, 0.3);
+        assert_eq!(ThinWalledBeam { radius: bad, ..beam }.section_constants(), refused("radius"));
+        assert_eq!(ThinWalledBeam { thickness: bad, ..beam }.section_constants(), refused("wall thickness"));
+        assert_eq!(
+            ThinWalledBeam { youngs_modulus: bad, ..beam }.section_constants(),
+            refused("Young's modulus")
+        );
+    }
+    // A gain takes strains to signals.
+    let layout = GaugeLayout::new(&beam(5.0, 0.33), GaugeLayout::three_rosettes(0.35)).expect("proper");
+    let (one, many) = (layout.sensor_matrix(1.0, nominal()), layout.sensor_matrix(1024.0, nominal()));
+    let (one, many) = (one.expect("regular"), many.expect("regular"));
+    assert_eq!(*many.normalised(), one.normalised() * 1024.0);
+    assert_eq!(layout.strain_matrix() * Matrix6::from_diagonal(&nominal()), *one.normalised());
+}
