@@ -33,9 +33,9 @@ impl<T: Real> TangentialForce<T> {
     pub fn new(vector: Vector3<T>) -> Self {
         let squared = vector.norm_squared();
         let root = squared.root();
-        // Above ν/ε², ν being the least normal number, no square that counts has underflowed.
-        let magnitude = if (squared >= T::LEAST_NORMAL / (T::EPSILON * T::EPSILON)) & (squared <= T::GREATEST)
-        {
+        // Above ν/ε, ν being the least normal number, a square that has underflowed to nothing would not have
+        // counted.
+        let magnitude = if (squared >= T::LEAST_NORMAL / T::EPSILON) & (squared <= T::GREATEST) {
             root
         } else {
             // By value: a force whose address is taken has to be written to memory.

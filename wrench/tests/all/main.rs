@@ -8,6 +8,7 @@ mod compensations;
 mod conditioning;
 mod consistency_limits;
 mod contact_frames;
+mod counted_rounding;
 mod error_bounds;
 mod frames;
 mod gauge_layouts;
