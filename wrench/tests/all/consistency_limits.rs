@@ -157,6 +157,18 @@ fn suspects_are_those_without_whom_the_others_agree() {
     ));
 }
 
+/// Of six gauges none is watched, and any signals agree; none at all, too.
+#[test]
+fn six_gauges_agree_about_anything() {
+    let sensor = sensor::<f64, 6>(&of_condition::<6>(&mut generator(153), 3.0));
+    let solver = LeastSquares::new(&sensor).expect("regular");
+    let check = ConsistencyCheck::new(&solver, &SVector::repeat(1e-3), RATE).expect("valid");
+    assert_eq!(*check.residual_limit(), Vector6::zeros());
+    for signals in [SVector::zeros(), SVector::repeat(1.0), random_vector::<6>(&mut generator(154))] {
+        assert_eq!(check.verdict(&solver, &signals), Verdict::Consistent);
+    }
+}
+
 /// Large signals may leave residuals of their rounding.
 #[test]
 fn rounding_is_no_fault() {

@@ -133,6 +133,42 @@ fn in_any_unit<const N: usize, S: LinearSolver<f64, N>>(build: impl Fn(&SensorMa
     }
 }
 
+/// The gain of every solver inverts the matrix, whatever the units of gauges and loads.
+fn inverts<S: LinearSolver<f64, 6>>(build: impl Fn(&SensorMatrix<f64, 6>) -> S) {
+    let mut random = generator(173);
+    for _ in 0..20 {
+        let matrix = of_condition::<6>(&mut random, 10.0);
+        let scaled = Matrix6::from_fn(|i, j| matrix[(i, j)] * 2.0_f64.powi(7 * i as i32 - 5 * j as i32));
+        let nominal = Vector6::from_fn(|i, _| 3.0_f64.powi(i as i32 - 3));
+        let sensor = SensorMatrix::new(scaled, nominal).expect("proper");
+        let solver = build(&sensor);
+        let gain = solver.gain(&sensor);
+        let signals = random_vector::<6>(&mut random);
+        let found = solver.solve(&signals).components();
+        for i in 0..6 {
+            // Of terms as large as the product of their scales lets them be.
+            let size: f64 = (0..6).map(|k| (gain[(i, k)] * signals[k]).abs()).sum();
+            let product: f64 = (0..6).map(|k| gain[(i, k)] * signals[k]).sum();
+            assert!((found[i] / nominal[i] - product).abs() < 1e3 * f64::EPSILON * size);
+            for j in 0..6 {
+                let size: f64 = (0..6).map(|k| (gain[(i, k)] * scaled[(k, j)]).abs()).sum();
+                let product: f64 = (0..6).map(|k| gain[(i, k)] * scaled[(k, j)]).sum();
+                let wanted = f64::from(u8::from(i == j));
+                assert!((product - wanted).abs() < 1e3 * f64::EPSILON * size, "{i} {j}: {product}");
+            }
+        }
+        let magnitude = solver.own_error(&sensor).magnitude;
+        assert!((0..36).all(|k| (magnitude[k] / gain[k].abs() - 1.0).abs() < 1e-9));
+    }
+}
+
+#[test]
+fn gains_invert_in_any_unit() {
+    inverts(|sensor| GaussianElimination::new(sensor).expect("regular"));
+    inverts(|sensor| Inverse::new(sensor).expect("regular"));
+    inverts(|sensor| Refined::new(sensor).expect("regular"));
+}
+
 #[test]
 fn bounds_are_the_same_in_any_unit() {
     in_any_unit::<6, _>(|sensor| GaussianElimination::new(sensor).expect("regular"));

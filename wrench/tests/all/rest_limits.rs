@@ -136,10 +136,11 @@ fn root(growing: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// The readings of `motion`, so large that `excess` (of its statistics over the limit) is zero, times
-/// 0.99 and 1.01: the first are at rest, the second are refused as returned.
+/// `1 ∓ hair`: the first are at rest, the second are refused as returned. The hair is a few times what the
+/// approximations of the critical values state.
 fn at_the_limit(
     critical: &Critical,
-    told: Told,
+    (told, hair): (Told, f64),
     motion: impl Fn(usize, f64) -> f64,
     excess: impl Fn(&Statistics, f64) -> f64,
 ) -> (NotAtRest, Statistics, f64) {
@@ -148,17 +149,17 @@ fn at_the_limit(
         let (found, spread) = statistics(&all(size), told.step);
         excess(&found, spread)
     });
-    let within = judge(&all(size * 0.99), critical.rate, told);
-    let rested = within.unwrap_or_else(|error| panic!("{error} at 0.99 of the limit {size}"));
+    let within = judge(&all(size * (1.0 - hair)), critical.rate, told);
+    let rested = within.unwrap_or_else(|error| panic!("{error} below the limit {size}"));
     // The tare of what is at rest, with its errors.
-    let (wanted, _) = statistics(&all(size * 0.99), told.step);
+    let (wanted, _) = statistics(&all(size * (1.0 - hair)), told.step);
     let close = |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-12 * (1.0 + wanted.abs()));
     close(rested.tare.zero()[0], wanted.mean);
     close(rested.noise[0], wanted.deviation);
     let counted = (critical.readings as f64).sqrt();
     close(rested.tare_noise[0], wanted.deviation.max(wanted.by_stretches.sqrt()) / counted);
     assert_eq!(rested.samples as usize, critical.readings);
-    let beyond = all(size * 1.01);
+    let beyond = all(size * (1.0 + hair));
     let (found, spread) = statistics(&beyond, told.step);
     let error = judge(&beyond, critical.rate, told).expect_err("beyond the limit");
     (error, found, spread)
@@ -181,7 +182,7 @@ fn a_reading_too_far_from_the_mean_is_an_outlier() {
                 let knock = |i: usize, size: f64| {
                     noise(i) + if i == critical.readings / 2 { side * size } else { 0.0 }
                 };
-                let (error, found, spread) = at_the_limit(critical, told, knock, |found, spread| {
+                let (error, found, spread) = at_the_limit(critical, (told, 1e-4), knock, |found, spread| {
                     found.farthest - told.step / 2.0 - critical.distance * spread
                 });
                 let NotAtRest::Outlier { gauge: 0, over_noise } = error else { panic!("{error:?}") };
@@ -198,7 +199,7 @@ fn a_slope_that_noise_does_not_explain_is_drift_up_or_down() {
             for side in [1.0, -1.0] {
                 let drift = |i: usize, size: f64| noise(i) + side * size * i as f64 * 0.01;
                 let forgiven = told.step.max(told.tolerance);
-                let (error, found, spread) = at_the_limit(critical, told, drift, |found, _| {
+                let (error, found, spread) = at_the_limit(critical, (told, 1e-4), drift, |found, _| {
                     found.moved.abs() - forgiven - critical.slope * found.moved_error
                 });
                 let NotAtRest::Drifts { gauge: 0, over_noise } = error else { panic!("{error:?}") };
@@ -215,7 +216,7 @@ fn stretches_that_differ_more_than_their_readings_are_unsteady() {
             // The same noise on the means of stretches, whose length is four or eight.
             let swing = |i: usize, size: f64| noise(i) + size * noise(i / critical.stretch);
             let forgiven = told.step.max(told.tolerance);
-            let (error, ..) = at_the_limit(critical, told, swing, |found, spread| {
+            let (error, ..) = at_the_limit(critical, (told, 5e-3), swing, |found, spread| {
                 let expected = spread * spread + found.stretch * forgiven * forgiven;
                 found.by_stretches - critical.stretches * expected
             });
@@ -232,7 +233,7 @@ fn noise_wider_than_it_is_known_to_be_is_unsteady() {
             let known = 0.75 * 0.75 + told.step * told.step / 12.0;
             let (error, ..) = at_the_limit(
                 critical,
-                told,
+                (told, 1e-3),
                 |i, size| size * noise(i),
                 |_, spread| spread * spread - critical.readings_variance * known,
             );
@@ -318,6 +319,21 @@ fn far_from_zero<T: Real>(offset: f64, grain: f64) {
 fn rest_is_judged_far_from_zero() {
     far_from_zero::<f64>(1e6, 2.0_f64.powi(-20));
     far_from_zero::<f32>(4096.0, 2.0_f64.powi(-6));
+}
+
+/// Sums of stretches do not grow with the offset: what they say is as exact as the readings are.
+#[test]
+fn stretches_are_summed_from_the_first_reading() {
+    let one = |x: f64| SVector::<f32, 1>::new(x as f32);
+    // A place of the sum of eight readings would be worth four grains, of a reading half of one.
+    let (offset, grain) = (65_536.0, 2.0_f64.powi(-6));
+    let readings: Vec<f64> = (0..205).map(|i| noise(i) + 2.0 * noise(i / 16) + 3.0).collect();
+    let mut test =
+        RestTest::<f32, 1>::new(1e-9).and_then(|test| test.with_tolerance(one(1e3))).expect("valid");
+    readings.iter().for_each(|x| assert!(test.add(&one(offset + grain * x))));
+    let found = f64::from(test.finish().expect("at rest").tare_noise[0]) / grain * 205.0_f64.sqrt();
+    let (wanted, _) = statistics(&readings, 0.0);
+    assert!((found / wanted.by_stretches.sqrt() - 1.0).abs() < 1e-6, "{found}");
 }
 
 /// As many stretches as there are to be, whatever the number of readings: by what they say of the tare.

@@ -41,6 +41,10 @@ fn skeels_limit<T: Real>() {
             let error = LeastSquares::new(&sensor).err();
             assert_eq!(error.is_none(), regular, "{units}: {error:?}");
         }
+        if units == 33 {
+            // Each solve may be all wrong: no number of steps is enough, and no more than the most are taken.
+            assert_eq!(Refined::new(&sensor).map(|solver| solver.steps()), Ok(Refined::<T>::MAX_STEPS));
+        }
         if units >= 128 {
             let skeel = Conditioning::of(&sensor).skeel.expect("regular").to_f64();
             let wanted = (4.0 + 3.0 * delta.to_f64()) / delta.to_f64();
@@ -53,6 +57,35 @@ fn skeels_limit<T: Real>() {
 fn a_matrix_is_singular_from_skeels_limit_on() {
     skeels_limit::<f32>();
     skeels_limit::<f64>();
+}
+
+/// Five columns that differ by `δ` each, and one of its own. What is left of the last of the five is `1.1 δ`, with
+/// which the factorisation is content from 48ε on; Skeel's number is `8/δ`, which is too much up to 64ε.
+fn crowded<T: Real>() {
+    for (units, regular) in [(46, false), (200, true)] {
+        let delta = T::EPSILON * T::literal(f64::from(units));
+        let mut matrix = Matrix6::<T>::identity();
+        for i in 1..6 {
+            for j in 1..6 {
+                matrix[(i, j)] = if i == j { T::one() + delta } else { T::one() };
+            }
+        }
+        let sensor = SensorMatrix::new(matrix, Vector6::repeat(T::one())).expect("proper");
+        match LeastSquares::new(&sensor) {
+            Ok(_) => assert!(regular, "{units}"),
+            Err(LeastSquaresError::DependentAxis { axis }) => {
+                assert!(!regular && axis > 0, "{units}: {axis}")
+            }
+            Err(other) => panic!("{other}"),
+        }
+        assert_eq!(GaussianElimination::new(&sensor).is_ok(), regular, "{units}");
+    }
+}
+
+#[test]
+fn columns_that_crowd_are_dependent_by_skeels_number() {
+    crowded::<f32>();
+    crowded::<f64>();
 }
 
 /// As many steps as the bound of one solve asks for, and no more.
