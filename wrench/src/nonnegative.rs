@@ -58,6 +58,10 @@ mod tests {
         assert_eq!(neumann(&Matrix6::<f64>::zeros()), Some(Matrix6::identity()));
         for coupling in [1.0, 1.5, 1e200, f64::INFINITY, f64::NAN] {
             assert_eq!(neumann(&Matrix6::from_diagonal_element(coupling)), None);
+            // One entry of that kind alone.
+            let mut one = Matrix6::zeros();
+            one[(2, 2)] = coupling;
+            assert_eq!(neumann(&one), None);
         }
     }
 }

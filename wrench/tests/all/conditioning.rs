@@ -150,6 +150,9 @@ fn extremes_of_singular_values() {
     }
     let subnormal = singular_values(&Matrix6::<f64>::from_diagonal_element(5e-324));
     assert!(subnormal.iter().all(|x| *x == 5e-324));
+    // Columns whose squares underflow are put in order, too.
+    let faint = Matrix6::from_diagonal(&Vector6::new(1e-200, 1.0, 1e-190, 1e-195, 1e-170, 1e-180));
+    assert_eq!(singular_values(&faint).as_slice(), [1.0, 1e-170, 1e-180, 1e-190, 1e-195, 1e-200]);
 }
 
 fn sensor(matrix: Matrix6<f64>) -> SensorMatrix<f64, 6> {

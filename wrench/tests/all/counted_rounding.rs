@@ -95,6 +95,27 @@ fn a_refined_answer_rounds_twice() {
     }
 }
 
+/// Of the error `E` before it a step leaves `P (I + P) E` at most, `P` being the error of one solve: where `P`
+/// is not small, that is what is left of the first error in the end.
+#[test]
+fn what_refinement_leaves_of_the_first_error_is_stated() {
+    for units in [33, 50, 100, 300] {
+        let mut matrix = Matrix6::<f64>::identity();
+        (matrix[(1, 4)], matrix[(4, 1)]) = (1.0, 1.0);
+        matrix[(4, 4)] += f64::EPSILON * f64::from(units);
+        let sensor = unit_loads(matrix);
+        let one = GaussianElimination::new(&sensor).expect("regular").own_error(&sensor).per_load;
+        let refined = Refined::new(&sensor).expect("regular");
+        let stated = refined.own_error(&sensor).per_load;
+        let mut left = one;
+        for _ in 0..refined.steps() {
+            left = one * (Matrix6::identity() + one) * left;
+        }
+        assert!(left.iter().all(|x| x.is_finite()) && left[(1, 1)] > f64::EPSILON, "{units}: {left}");
+        assert!((0..36).all(|k| stated[k] >= left[k] * (1.0 - 1e-12)), "{units}: {stated} {left}");
+    }
+}
+
 /// Other units of load and of signal: the same bound, but for the rounding of the bound itself.
 fn in_any_unit<const N: usize, S: LinearSolver<f64, N>>(build: impl Fn(&SensorMatrix<f64, N>) -> S) {
     let mut random = generator(172);

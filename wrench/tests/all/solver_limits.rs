@@ -2,8 +2,9 @@
 
 use crate::support::{cast, generator, greatest, of_condition};
 use fingertip_wrench::{
-    BadInverse, Conditioning, GaussianElimination, Inverse, LeastSquares, LeastSquaresError, LinearSolver,
-    Real, Refined, SensorMatrix, SensorMatrixError, SingularMatrix, WrenchSolver,
+    BadInverse, BicchiDario, Combination, Conditioning, Decoupled, GaussianElimination, Inverse,
+    LeastSquares, LeastSquaresError, LinearSolver, NotDecoupled, Real, Refined, SensorMatrix,
+    SensorMatrixError, SingularMatrix, WrenchSolver,
 };
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 
@@ -165,6 +166,13 @@ fn what_leaves_the_range_is_refused() {
     assert_eq!(Inverse::new(&of(1e-200, 1e150)).err(), Some(SingularMatrix::OutOfRange));
     assert_eq!(LeastSquares::new(&of(1e-200, 1e150)).err(), Some(LeastSquaresError::OutOfRange));
     assert!(Inverse::new(&of(1e-200, 1e50)).is_ok() && LeastSquares::new(&of(1e-200, 1e50)).is_ok());
+    let combination = Matrix6::from_fn(|i, j| BicchiDario::MATRIX[i][j]).try_inverse().expect("independent");
+    let combined = |entry: f64, nominal: f64| {
+        let sensor = SensorMatrix::new(combination * entry, Vector6::repeat(nominal)).expect("proper");
+        Decoupled::<f64, BicchiDario, 6>::new(&sensor).err()
+    };
+    assert_eq!(combined(1e-200, 1e50), None);
+    assert_eq!(combined(1e-200, 1e150), Some(NotDecoupled::OutOfRange));
     // Weights whose ratio is none.
     let mut deviations = Vector6::repeat(1e300);
     assert!(LeastSquares::weighted(&of(1.0, 1.0), &deviations).is_ok());
