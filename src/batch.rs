@@ -14,7 +14,8 @@ use crate::{Fingertip, Present};
 pub struct Touches<'a, T> {
     /// Where the environment touches \[m\]; zero without contact.
     pub point: [&'a mut [T]; 3],
-    /// Normal force \[N\]: positive in contact, zero without.
+    /// Normal force \[N\]: positive in contact, zero without; zero, too, where a line that misses is
+    /// [accepted](PointContact::accepting_gap).
     pub normal_force: &'a mut [T],
     /// Tangential force on the fingertip \[N\].
     pub tangential_force: [&'a mut [T]; 3],
@@ -251,7 +252,9 @@ where
             let f = f.map(|x| if x.abs() <= T::GREATEST { x } else { T::zero() });
             // A factor, since the compiler makes branches of eight choices by one condition.
             let keep = if accepted.touches(dot(f, f), parts, gap) { T::one() } else { T::zero() };
-            let (normal, load) = (parts.normal * keep, parts.tangential * keep);
+            // Of a line that misses, rounding gives it either sign.
+            let normal = if parts.normal > T::zero() { parts.normal * keep } else { T::zero() };
+            let load = parts.tangential * keep;
             [px[k], py[k], pz[k]] = point.map(|x| x * keep);
             let along = |axis: usize| f[axis] * keep + n[axis] * normal;
             [sx[k], sy[k], sz[k]] = [along(0), along(1), along(2)];
@@ -266,6 +269,7 @@ where
 #[derive(Clone, Copy)]
 struct Accepted<T> {
     least_squared: T,
+    /// Zero if friction is limited: a line that misses asks for infinite friction.
     greatest_gap: T,
     greatest_ratio: T,
 }
@@ -274,7 +278,7 @@ impl<T: Real> Accepted<T> {
     fn by(model: &PointContact<T>) -> Self {
         Self {
             least_squared: model.least_force() * model.least_force(),
-            greatest_gap: model.greatest_gap(),
+            greatest_gap: if model.greatest_friction().is_some() { T::zero() } else { model.greatest_gap() },
             greatest_ratio: model.greatest_friction().unwrap_or(T::GREATEST),
         }
     }
@@ -282,10 +286,12 @@ impl<T: Real> Accepted<T> {
     /// Whether it is a contact: square of the force, its parts, and the gap.
     #[inline(always)]
     fn touches(&self, squared: T, parts: ForceParts<T>, gap: T) -> bool {
-        (squared >= self.least_squared)
-            & (gap <= self.greatest_gap)
+        let enters = (gap <= T::zero())
             & (parts.normal > T::zero())
-            & (parts.tangential <= self.greatest_ratio * parts.normal)
+            & (parts.tangential <= self.greatest_ratio * parts.normal);
+        // The greatest number is no gap: it stands for no answer.
+        let misses = (gap > T::zero()) & (gap <= self.greatest_gap) & (gap < T::GREATEST);
+        (squared >= self.least_squared) & (enters | misses)
     }
 }
 

@@ -22,5 +22,6 @@ fn no_case_loses_more_digits_than_its_conditioning() {
     }
     println!("{} rows", rows.len());
     assert!(bad == 0, "{bad} of {} rows broke their bound", rows.len());
-    assert!(rows.len() > 300, "the matrix is whole: {}", rows.len());
+    // So many as were counted: no routine, case or precision may go missing.
+    assert_eq!(rows.len(), 1287, "the matrix is whole");
 }

@@ -108,7 +108,7 @@ impl<T: Real> Visitor<T> for Contacts<'_> {
         level: Level,
         scale: f64,
     ) {
-        let Ok(model) = PointContact::new(T::zero()) else { return };
+        let model = PointContact::new(T::zero()).expect("a model");
         let routine = format!("point contact, {name}");
         let mut row = Row::new::<T>(&routine, self.case);
         let mut random = Pcg64Mcg::seed_from_u64(33);
@@ -183,7 +183,7 @@ fn off_mesh(point: &Big3, vertices: &[Vector3<f64>], triangles: &[[u32; 3]]) -> 
 
 fn meshes<T: Real>(trials: usize, rows: &mut Vec<Row>) {
     let mut random = Pcg64Mcg::seed_from_u64(34);
-    let Ok(model) = PointContact::new(T::zero()) else { return };
+    let model = PointContact::new(T::zero()).expect("a model");
     for (kind, sliver) in [("mesh", 0.5), ("mesh with slivers of 1e-6", 1e-6)] {
         let (vertices, triangles) = ball_of_triangles(9, 12, Some(sliver));
         let vertices: Vec<Vector3<T>> = vertices.iter().map(|v| v.map(T::literal)).collect();
@@ -257,7 +257,7 @@ impl<T: Real> Visitor<T> for Axes<'_> {
         _: Level,
         _: f64,
     ) {
-        let Ok(model) = PointContact::new(T::zero()) else { return };
+        let model = PointContact::new(T::zero()).expect("a model");
         let mut row = Row::new::<T>(format!("point contact, {name}"), "force along the axis");
         along_axis(&surface, &model, &mut row);
         self.0.push(row);

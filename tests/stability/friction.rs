@@ -109,6 +109,11 @@ fn fall(x: &Big) -> Big {
     -sum
 }
 
+/// What is above zero of a number; a NaN stays one.
+fn excess(x: f64) -> f64 {
+    if x <= 0.0 { 0.0 } else { x }
+}
+
 /// `|z| ≤ F_s/σ₀`, no energy from nothing, and no NaN, for any motion.
 fn invariants<T: Real, L: BristleLaw<T> + Copy, M: Integrator, const D: usize>(
     row: &mut Row,
@@ -125,11 +130,11 @@ fn invariants<T: Real, L: BristleLaw<T> + Copy, M: Integrator, const D: usize>(
         let after = bristle.energy().to_f64();
         let note = || format!("step {index}: {v:?} {force:?} {:?}", bristle.deflection());
         let length = bristle.deflection().norm().to_f64();
-        row.error((length / bound).max(1.0) - 1.0, 16.0 * epsilon, note);
+        row.error(excess(length / bound - 1.0), 16.0 * epsilon, note);
         let work = (0..D).map(|k| force[k].to_f64() * v[k].to_f64()).sum::<f64>() * step;
         let elastic = law.stiffness().to_f64() * length;
         let size = before + after + (force.norm().to_f64() + elastic) * v.norm().to_f64() * step;
-        let gained = (after - before - work).max(0.0);
+        let gained = excess(after - before - work);
         row.error(gained, 64.0 * epsilon * size + f64::MIN_POSITIVE, note);
     }
 }
@@ -153,7 +158,7 @@ fn body<T: Real, L: BristleLaw<T> + Copy>(
         let after = energy(&end, &bristle);
         let work = force.to_f64() * end[0].to_f64() * step;
         let size = before + after + work.abs();
-        let gained = (after - before - work).max(0.0);
+        let gained = excess(after - before - work);
         let bound = 256.0 * T::EPSILON.to_f64() * size + f64::MIN_POSITIVE;
         row.error(gained, bound, || format!("{v:?} to {end:?}, force {force:?}"));
         v = end;
@@ -171,20 +176,19 @@ fn dynamics<T: Real>(trials: usize, rows: &mut Vec<Row>) {
         ("speed 1e-12 m/s", 1e5, 316.0, 1e-3, 1e-12, 1e-3, 1.0),
         ("speed 1e6 m/s", 1e5, 316.0, 1e-3, 1e6, 1e-3, 1.0),
     ] {
-        let Ok(curve) = Stribeck::new(l(1.0), l(1.5), l(stribeck)) else { continue };
-        let Ok(lugre) = LuGre::new(l(stiffness), l(damping), l(0.4), curve) else { continue };
+        let curve = Stribeck::new(l(1.0), l(1.5), l(stribeck)).expect("a curve");
+        let lugre = LuGre::new(l(stiffness), l(damping), l(0.4), curve).expect("a law");
         let mut random = Pcg64Mcg::seed_from_u64(37);
         let motion = (speed, step);
         macro_rules! run {
             ($name:literal, $law:expr, $method:ty) => {
-                if let Ok(law) = $law {
-                    let mut row = Row::new::<T>($name, case);
-                    for _ in 0..trials {
-                        invariants::<T, _, $method, 1>(&mut row, law, motion, &mut random);
-                        invariants::<T, _, $method, 3>(&mut row, law, motion, &mut random);
-                    }
-                    rows.push(row);
+                let law = $law.expect("a law");
+                let mut row = Row::new::<T>($name, case);
+                for _ in 0..trials {
+                    invariants::<T, _, $method, 1>(&mut row, law, motion, &mut random);
+                    invariants::<T, _, $method, 3>(&mut row, law, motion, &mut random);
                 }
+                rows.push(row);
             };
         }
         let known = Ok::<_, fingertip_friction::BadFriction>(lugre);
@@ -216,16 +220,15 @@ fn dynamics<T: Real>(trials: usize, rows: &mut Vec<Row>) {
         rows.push(row);
     }
     let mut row = Row::new::<T>("LuGre, exponential", "no force, NaN, infinities");
-    if let Ok(law) = LuGre::<T>::reference() {
-        let mut bristle = Bristle::<T, _, 1>::new(law);
-        bristle.step(&Vector1::new(l(1e-3)), l(1e-3));
-        let before = bristle;
-        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let force = bristle.step(&Vector1::new(l(bad)), l(1e-3));
-            row.expect(force[0].is_number() && bristle == before, || format!("velocity {bad}"));
-            let force = bristle.step(&Vector1::new(l(1e-3)), l(bad));
-            row.expect(force[0].is_number() && bristle == before, || format!("time {bad}"));
-        }
+    let law = LuGre::<T>::reference().expect("a law");
+    let mut bristle = Bristle::<T, _, 1>::new(law);
+    bristle.step(&Vector1::new(l(1e-3)), l(1e-3));
+    let before = bristle;
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let force = bristle.step(&Vector1::new(l(bad)), l(1e-3));
+        row.expect(force[0].is_number() && bristle == before, || format!("velocity {bad}"));
+        let force = bristle.step(&Vector1::new(l(1e-3)), l(bad));
+        row.expect(force[0].is_number() && bristle == before, || format!("time {bad}"));
     }
     rows.push(row);
 }
@@ -233,26 +236,23 @@ fn dynamics<T: Real>(trials: usize, rows: &mut Vec<Row>) {
 pub(crate) fn rows<T: Real>(trials: usize, rows: &mut Vec<Row>) {
     let l = T::literal;
     for (mu, name) in [(0.5, "Coulomb cone, μ 0.5"), (1e-3, "Coulomb cone, μ 1e-3")] {
-        if let Ok(model) = Coulomb::new(l(mu)) {
-            limit::<T, _>(name, &model, l(mu).to_f64(), tangential, trials, rows);
-        }
+        let model = Coulomb::new(l(mu)).expect("a coefficient");
+        limit::<T, _>(name, &model, l(mu).to_f64(), tangential, trials, rows);
     }
     let (mu, arm, exponent) = (l(0.5).to_f64(), l(1e-3).to_f64(), l(1.72).to_f64());
     let spin = |force: &ContactForce<T>| &Big::new(force.spin.to_f64()).abs() / &Big::new(arm);
-    if let Ok(model) = SoftFingerLimit::new(l(mu), l(arm)) {
-        let load = |force: &ContactForce<T>| {
-            let (t, s) = (tangential(force), spin(force));
-            (&(&t * &t) + &(&s * &s)).sqrt()
-        };
-        limit::<T, _>("soft-finger ellipse", &model, mu, load, trials, rows);
-    }
-    if let Ok(model) = PowerLimit::new(l(mu), l(arm), l(exponent)) {
-        let load = |force: &ContactForce<T>| {
-            let q = Big::new(exponent);
-            let sum = &tangential(force).powf(&q) + &spin(force).powf(&q);
-            sum.powf(&(&Big::new(1.0) / &q))
-        };
-        limit::<T, _>("soft-finger power limit", &model, mu, load, trials, rows);
-    }
+    let model = SoftFingerLimit::new(l(mu), l(arm)).expect("a limit");
+    let load = |force: &ContactForce<T>| {
+        let (t, s) = (tangential(force), spin(force));
+        (&(&t * &t) + &(&s * &s)).sqrt()
+    };
+    limit::<T, _>("soft-finger ellipse", &model, mu, load, trials, rows);
+    let model = PowerLimit::new(l(mu), l(arm), l(exponent)).expect("a limit");
+    let load = |force: &ContactForce<T>| {
+        let q = Big::new(exponent);
+        let sum = &tangential(force).powf(&q) + &spin(force).powf(&q);
+        sum.powf(&(&Big::new(1.0) / &q))
+    };
+    limit::<T, _>("soft-finger power limit", &model, mu, load, trials, rows);
     dynamics::<T>(trials, rows);
 }

@@ -4,6 +4,8 @@
 //! Bounds: what a backward stable routine keeps, a small multiple of the rounding unit times the
 //! conditioning of the case. References: arithmetic of 220 bits, or an invariant of the law.
 
+#![allow(clippy::expect_used, reason = "a case that cannot be made is a failure, not to be passed over")]
+
 #[path = "../../contact/tests/oracle/big.rs"]
 #[allow(dead_code, clippy::unwrap_used, reason = "an oracle of finite numbers")]
 pub(crate) mod big;

@@ -235,6 +235,44 @@ mod tests {
         assert_eq!(LengthUnit::Foot.in_metres(), 0.304_8);
     }
 
+    /// From the definitions of the pound (0.45359237 kg), the inch (25.4 mm) and standard gravity.
+    #[test]
+    fn every_unit_has_its_size() {
+        for (name, newtons) in [
+            ("N", 1.0),
+            ("mN", 0.001),
+            ("kN", 1000.0),
+            ("lbf", 4.448_221_615_260_5),
+            ("klbf", 4_448.221_615_260_5),
+            ("ozf", 0.278_013_850_953_781_3),
+            ("gf", 0.009_806_65),
+            ("kgf", 9.806_65),
+        ] {
+            let found = ForceUnit::from_name(name).map(ForceUnit::in_newtons).unwrap_or(0.0);
+            assert!((found / newtons - 1.0).abs() < 4.0 * f64::EPSILON, "{name}: {found}");
+        }
+        for (name, newton_metres) in [
+            ("Nm", 1.0),
+            ("Nmm", 0.001),
+            ("mNm", 0.001),
+            ("Ncm", 0.01),
+            ("kNm", 1000.0),
+            ("lbf-in", 0.112_984_829_027_616_7),
+            ("lbf-ft", 1.355_817_948_331_400_4),
+            ("ozf-in", 0.007_061_551_814_226_044),
+            ("kgf-m", 9.806_65),
+            ("kgf-cm", 0.098_066_5),
+            ("gf-cm", 0.000_098_066_5),
+        ] {
+            let found = TorqueUnit::from_name(name).map(TorqueUnit::in_newton_metres).unwrap_or(0.0);
+            assert!((found / newton_metres - 1.0).abs() < 4.0 * f64::EPSILON, "{name}: {found}");
+        }
+        for (name, metres) in [("m", 1.0), ("cm", 0.01), ("mm", 0.001), ("in", 0.0254), ("ft", 0.3048)] {
+            let found = LengthUnit::from_name(name).map(LengthUnit::in_metres).unwrap_or(0.0);
+            assert!((found / metres - 1.0).abs() < 4.0 * f64::EPSILON, "{name}: {found}");
+        }
+    }
+
     #[test]
     fn no_name_stands_twice_and_each_is_found() {
         for (i, (name, unit)) in FORCES.iter().enumerate() {
@@ -254,6 +292,8 @@ mod tests {
         }
         assert_eq!(ForceUnit::from_name("mN"), Some(ForceUnit::Millinewton));
         assert_eq!((ForceUnit::from_name("MN"), TorqueUnit::from_name("MNm")), (None, None));
+        assert_eq!(TorqueUnit::from_name("mNm"), Some(TorqueUnit::MillinewtonMetre));
+        assert_eq!(TorqueUnit::from_name("MNM"), Some(TorqueUnit::MillinewtonMetre));
         assert_eq!(LengthUnit::from_name("MM"), Some(LengthUnit::Millimetre));
         assert_eq!((ForceUnit::from_name(""), ForceUnit::from_name("Nm")), (None, None));
     }

@@ -60,31 +60,53 @@ pub(crate) fn student_quantile(tail: f64, degrees: f64) -> f64 {
 mod tests {
     use super::*;
 
+    /// Computed with 40 digits from the error function.
     #[test]
-    fn normal_quantiles_of_the_tables() {
+    fn normal_quantiles_are_right_in_both_tails() {
         for (tail, expected) in [
             (0.5, 0.0),
-            (0.158_655_253_931_457, 1.0),
-            (0.025, 1.959_963_984_540_054),
-            (0.001_349_898_031_630_094_6, 3.0),
-            (2.866_515_718_791_939e-7, 5.0),
-            (9.865_876_450_376_98e-10, 6.0),
+            (0.45, 0.125_661_346_855_074),
+            (0.4, 0.253_347_103_135_799_8),
+            (0.3, 0.524_400_512_708_040_8),
+            (0.2, 0.841_621_233_572_914_2),
+            (0.1, 1.281_551_565_544_6),
+            (0.05, 1.644_853_626_951_473),
+            (0.03, 1.880_793_608_151_251),
+            (0.0242, 1.973_839_463_313_199),
+            (0.01, 2.326_347_874_040_841),
+            (1e-3, 3.090_232_306_167_814),
+            (1e-4, 3.719_016_485_455_681),
+            (1e-6, 4.753_424_308_822_899),
+            (1e-8, 5.612_001_244_174_789),
+            (1e-10, 6.361_340_902_404_056),
+            (1e-15, 7.941_345_326_170_997),
         ] {
-            assert!((normal_quantile(tail) - expected).abs() < 5e-8 * (1.0 + expected));
-            assert!((normal_quantile(1.0 - tail) + expected).abs() < 1e-6 * (1.0 + expected));
+            // Acklam states 1.15e-9 of the quantile.
+            assert!((normal_quantile(tail) - expected).abs() <= 1.2e-9 * expected, "{tail}");
+            // The other tail, as far as 1 − tail holds it.
+            let known = 1.2e-9 * expected + 1e-15 / tail;
+            assert!((normal_quantile(1.0 - tail) + expected).abs() <= known, "1 - {tail}");
         }
     }
 
+    /// Computed with 40 digits from the incomplete beta function.
     #[test]
-    fn student_quantiles_of_the_tables() {
-        for (tail, degrees, expected) in [
-            (0.025, 30.0, 2.042_272_456),
-            (0.005, 30.0, 2.749_995_654),
-            (0.0005, 30.0, 3.645_958_635),
-            (0.0005, 60.0, 3.460_200_469),
-            (0.025, 120.0, 1.979_930_405),
+    fn student_quantiles_are_right_from_thirty_degrees_on() {
+        for (tail, degrees, expected, error) in [
+            (0.4, 30.0, 0.255_605_364_951_912_8, 1e-8),
+            (0.1, 30.0, 1.310_415_025_391_396, 1e-7),
+            (0.01, 30.0, 2.457_261_542_400_591, 1e-6),
+            (1e-4, 30.0, 4.233_985_957_272_021, 1e-4),
+            (1e-6, 30.0, 5.871_117_120_418_883, 3e-3),
+            (1e-4, 60.0, 3.962_089_364_705_941, 4e-6),
+            (1e-6, 60.0, 5.263_554_854_652_545, 1e-4),
+            (0.05, 200.0, 1.652_508_100_910_878, 1e-8),
+            (1e-7, 200.0, 5.387_193_370_779_757, 2e-6),
+            (0.025, 1000.0, 1.962_339_080_826_408, 2e-9),
+            (1e-7, 1000.0, 5.235_998_469_292_347, 2e-9),
         ] {
-            assert!((student_quantile(tail, degrees) - expected).abs() < 2e-5 * expected);
+            let found = student_quantile(tail, degrees);
+            assert!((found / expected - 1.0).abs() <= error, "{tail} {degrees}: {}", found / expected - 1.0);
         }
     }
 }

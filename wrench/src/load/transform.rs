@@ -110,13 +110,11 @@ impl<T: Real, To: Frame, From: Frame> RigidTransform<T, To, From> {
         let scale = axis_angle.amax().normalising_factor();
         let scaled = axis_angle * scale;
         let length = scaled.norm_squared().root();
-        if length <= T::zero() {
-            return Ok(Self::translation(origin));
-        }
         let angle = length / scale;
         if !angle.is_number() {
             return Err(TransformError::NotFinite);
         }
+        // Of no angle the axis is not asked.
         let axis = Unit::new_unchecked(scaled / length);
         Ok(Self::from_parts(Rotation3::from_axis_angle(&axis, angle), origin))
     }

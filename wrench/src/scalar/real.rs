@@ -42,12 +42,7 @@ pub trait Real: RealField + Copy {
     /// product under- or overflows. The default divides, which rounds once.
     #[inline]
     fn normalising_factor(self) -> Self {
-        let magnitude = self.abs();
-        if magnitude > Self::LEAST_NORMAL && magnitude < Self::GREATEST {
-            Self::one() / magnitude
-        } else {
-            Self::one()
-        }
+        reciprocal_in_range(self)
     }
 
     /// `true` unless NaN or infinite.
@@ -60,9 +55,7 @@ pub trait Real: RealField + Copy {
     /// two halves whose products are exact.
     #[inline]
     fn splitter() -> Self {
-        // 1/ε is 2^(p−1), and the power of two at or below its root is 2^⌊(p−1)/2⌋.
-        let half = (Self::one() / Self::EPSILON).sqrt().normalising_factor();
-        Self::literal(2.0) / half + Self::one()
+        splitter_by_epsilon()
     }
 
     /// The product and its rounding error, `self·other = product + error` exactly (Dekker 1971
@@ -92,6 +85,19 @@ pub trait Real: RealField + Copy {
         let part = sum - self;
         (sum, (self - (sum - part)) + (other - part))
     }
+}
+
+/// The default of [`Real::normalising_factor`].
+fn reciprocal_in_range<T: Real>(x: T) -> T {
+    let magnitude = x.abs();
+    if magnitude > T::LEAST_NORMAL && magnitude < T::GREATEST { T::one() / magnitude } else { T::one() }
+}
+
+/// The default of [`Real::splitter`], for types whose normalising factor is a power of two.
+fn splitter_by_epsilon<T: Real>() -> T {
+    // 1/ε is 2^(p−1), and the power of two at or below its root is 2^⌊(p−1)/2⌋.
+    let half = (T::one() / T::EPSILON).sqrt().normalising_factor();
+    T::literal(2.0) / half + T::one()
 }
 
 macro_rules! real {
@@ -144,7 +150,7 @@ real!(f64, 52, 0x7ff, 134_217_729.0, nalgebra::ComplexField::sqrt);
 
 #[cfg(test)]
 mod tests {
-    use super::Real;
+    use super::{Real, reciprocal_in_range, splitter_by_epsilon};
     use proptest::prelude::*;
 
     fn check_normalising_factor<T: Real>(value: T) {
@@ -158,16 +164,21 @@ mod tests {
         }
     }
 
-    /// The default of the trait, which the two types override by a constant.
-    fn splitter_by_the_formula<T: Real>() -> T {
-        let half = (T::one() / T::EPSILON).sqrt().normalising_factor();
-        T::literal(2.0) / half + T::one()
-    }
-
     #[test]
     fn splitter_is_two_to_half_the_bits_plus_one() {
-        assert_eq!(<f32 as Real>::splitter(), splitter_by_the_formula());
-        assert_eq!(<f64 as Real>::splitter(), splitter_by_the_formula());
+        assert_eq!(<f32 as Real>::splitter(), splitter_by_epsilon());
+        assert_eq!(<f64 as Real>::splitter(), splitter_by_epsilon());
+    }
+
+    /// What a type gets that has no powers of two to offer.
+    #[test]
+    fn the_default_factor_is_the_reciprocal_of_what_has_one() {
+        for x in [1.0, -4.0, 0.125, -3e300, 1e-300_f64] {
+            assert_eq!(reciprocal_in_range(x), 1.0 / x.abs());
+        }
+        for x in [0.0, f64::MIN_POSITIVE, -5e-324, f64::MAX, -f64::INFINITY, f64::NAN] {
+            assert_eq!(reciprocal_in_range(x), 1.0);
+        }
     }
 
     proptest! {

@@ -61,11 +61,8 @@ pub trait Combination<const N: usize> {
                 let factor = Self::MATRIX[i][j];
                 sum = match sum {
                     _ if factor == 0.0 => sum,
-                    Some(sum) if factor == 1.0 => Some(sum + signals[j]),
-                    Some(sum) if factor == -1.0 => Some(sum - signals[j]),
+                    // A product with a constant 1 or -1 the compiler leaves out.
                     Some(sum) => Some(sum + signals[j] * T::literal(factor)),
-                    None if factor == 1.0 => Some(signals[j]),
-                    None if factor == -1.0 => Some(-signals[j]),
                     None => Some(signals[j] * T::literal(factor)),
                 };
             }
@@ -201,6 +198,27 @@ mod tests {
         // Powers of three: sums are exact in f64 and no two of them agree by accident.
         let signals = SVector::<f64, N>::from_fn(|i, _| 3.0_f64.powi(i as i32));
         assert_eq!(C::combine(&signals), ByTable::<C>::combine(&signals));
+    }
+
+    /// A table with factors of all kinds, and a row of zeros.
+    struct AnyFactors;
+    impl Combination<6> for AnyFactors {
+        const MATRIX: [[f64; 6]; 6] = [
+            [0.5, 0.0, -1.0, 1.0, 3.0, -0.25],
+            [-1.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+            [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+            [0.0, -2.0, 0.0, 0.0, 0.0, 1.0],
+            [0.0, 0.0, 1.0, 0.0, -1.0, 0.0],
+            [0.0, 0.0, 0.0, 0.0, 0.0, -8.0],
+        ];
+        const KEPT: [[bool; 6]; 6] = diagonal_pattern();
+    }
+
+    #[test]
+    fn a_combination_is_the_product_with_its_table() {
+        let signals = SVector::<f64, 6>::from_fn(|i, _| 3.0_f64.powi(i as i32));
+        let table = nalgebra::Matrix6::from_fn(|i, j| AnyFactors::MATRIX[i][j]);
+        assert_eq!(AnyFactors::combine(&signals), table * signals);
     }
 
     #[test]

@@ -247,7 +247,8 @@ impl<T: Real, const N: usize> RestTest<T, N> {
         let means = || self.stretches.iter().take(finished).map(|sum| sum[gauge].to_f64() / length);
         let count = finished as f64;
         let mean = means().sum::<f64>() / count;
-        (means().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (count - 1.0) * length, count)
+        let scatter: f64 = means().map(|x| x - mean).map(|off| off * off).sum();
+        (scatter / (count - 1.0) * length, count)
     }
 
     fn count(&self) -> T {
@@ -292,10 +293,6 @@ impl<T: Real, const N: usize> RestTest<T, N> {
         let spread = nalgebra::ComplexField::sqrt(measured * measured + step * step / 12.0);
         if !spread.is_finite() {
             return Err(NotAtRest::OutOfRange { gauge });
-        }
-        if !(spread > 0.0) {
-            // Not one reading differs from another.
-            return Ok(());
         }
         let mean = self.moments.mean()[gauge];
         let farthest = (self.greatest[gauge] - mean).max(mean - self.least[gauge]).to_f64();

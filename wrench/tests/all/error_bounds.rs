@@ -1,4 +1,5 @@
-//! No bound is ever violated, and none is idle talk.
+//! No bound is ever violated. How far typical errors stay below is measured and held to; that the bounds are
+//! reached by the worst errors is for `reached_bounds`.
 
 use crate::support::double_double::{difference, solve};
 use crate::support::{cast, generator, median, normal, of_condition, random_vector, sensor, symmetric, wide};
@@ -15,8 +16,11 @@ const LOADS: usize = 1_000;
 
 /// Trials of one solver: a sensor of random condition up to 100, perturbed within 0.5 % of each
 /// column, signals within 0.5 % of the largest; the bound against the true load.
+///
+/// `typical` is what the median of bound over error was measured to be, and a tenth: a worst case is that
+/// much above errors of random sign.
 fn never_violated<T: Real, const N: usize, S: LinearSolver<T, N>>(
-    seed: u128,
+    (seed, typical): (u128, f64),
     sensors: usize,
     loads: usize,
     matrix_of: impl Fn(&mut rand_pcg::Pcg64Mcg) -> SMatrix<f64, N, 6>,
@@ -70,7 +74,7 @@ fn never_violated<T: Real, const N: usize, S: LinearSolver<T, N>>(
         ratios.len()
     );
     assert!(unbounded * 20 < sensors);
-    assert!(median <= 20.0, "{median}");
+    assert!(median <= typical, "{median}");
 }
 
 fn minimal(random: &mut rand_pcg::Pcg64Mcg) -> Matrix6<f64> {
@@ -100,50 +104,50 @@ fn machined<K: Combination<N>, const N: usize>(random: &mut rand_pcg::Pcg64Mcg) 
 #[test]
 fn bound_of_elimination_holds() {
     let new = |sensor: &_| GaussianElimination::new(sensor).expect("regular");
-    never_violated::<f64, 6, _>(1, SENSORS, LOADS, minimal, new);
+    never_violated::<f64, 6, _>((1, 7.5), SENSORS, LOADS, minimal, new);
     let new = |sensor: &_| GaussianElimination::new(sensor).expect("regular");
-    never_violated::<f32, 6, _>(2, SENSORS, LOADS, minimal, new);
+    never_violated::<f32, 6, _>((2, 7.5), SENSORS, LOADS, minimal, new);
 }
 
 #[test]
 fn bound_of_refinement_holds() {
     let new = |sensor: &_| Refined::new(sensor).expect("regular");
-    never_violated::<f64, 6, _>(3, SENSORS, LOADS, minimal, new);
+    never_violated::<f64, 6, _>((3, 7.5), SENSORS, LOADS, minimal, new);
     let new = |sensor: &_| Refined::new(sensor).expect("regular");
-    never_violated::<f32, 6, _>(4, SENSORS, LOADS, minimal, new);
+    never_violated::<f32, 6, _>((4, 7.5), SENSORS, LOADS, minimal, new);
 }
 
 #[test]
 fn bound_of_the_inverse_holds() {
     let new = |sensor: &_| Inverse::new(sensor).expect("regular");
-    never_violated::<f64, 6, _>(5, SENSORS, LOADS, minimal, new);
+    never_violated::<f64, 6, _>((5, 7.5), SENSORS, LOADS, minimal, new);
     let new = |sensor: &_| Inverse::new(sensor).expect("regular");
-    never_violated::<f32, 6, _>(6, SENSORS, LOADS, minimal, new);
+    never_violated::<f32, 6, _>((6, 7.5), SENSORS, LOADS, minimal, new);
 }
 
 #[test]
 fn bound_of_decoupling_holds_with_machining_errors() {
     let new = |sensor: &_| Decoupled::<f64, BicchiDario, 6>::new(sensor).expect("decoupled");
-    never_violated(7, SENSORS, LOADS, machined::<BicchiDario, 6>, new);
+    never_violated((7, 2.8), SENSORS, LOADS, machined::<BicchiDario, 6>, new);
     let new = |sensor: &_| Decoupled::<f32, ThreeRosettes, 6>::new(sensor).expect("decoupled");
-    never_violated(8, SENSORS, LOADS, machined::<ThreeRosettes, 6>, new);
+    never_violated((8, 2.8), SENSORS, LOADS, machined::<ThreeRosettes, 6>, new);
     let new = |sensor: &_| Decoupled::<f64, FourRosettes, 8>::new(sensor).expect("decoupled");
-    never_violated(9, SENSORS, LOADS / 10, machined::<FourRosettes, 8>, new);
+    never_violated((9, 2.8), SENSORS, LOADS / 10, machined::<FourRosettes, 8>, new);
 }
 
 #[test]
 fn bound_of_least_squares_holds() {
     let new = |sensor: &_| LeastSquares::new(sensor).expect("regular");
-    never_violated::<f64, 9, _>(10, SENSORS, LOADS, extended, new);
+    never_violated::<f64, 9, _>((10, 9.0), SENSORS, LOADS, extended, new);
     let weights = SVector::<f32, 9>::from_fn(|i, _| 1.0 + i as f32);
     let new = |sensor: &_| LeastSquares::weighted(sensor, &weights).expect("regular");
-    never_violated::<f32, 9, _>(11, SENSORS, LOADS, extended, new);
+    never_violated::<f32, 9, _>((11, 9.0), SENSORS, LOADS, extended, new);
 }
 
-/// With nothing uncertain, the bound is about rounding alone.
+/// With nothing uncertain, the bound is about rounding alone. `typical` as above: rounding errors cancel
+/// the more, the more of them are counted.
 fn rounding_alone<T: Real, S: LinearSolver<T, 6>>(
-    seed: u128,
-    condition: f64,
+    (seed, condition, typical): (u128, f64, f64),
     build: impl Fn(&SensorMatrix<T, 6>) -> S,
 ) {
     let mut random = generator(seed);
@@ -166,26 +170,27 @@ fn rounding_alone<T: Real, S: LinearSolver<T, 6>>(
             ratios.push(allowed.norm() / off.norm());
         }
     }
+    let median = median(&mut ratios);
     println!(
-        "{} at condition {condition:e}: median bound / rounding error {:.1}",
-        core::any::type_name::<S>(),
-        median(&mut ratios)
+        "{} at condition {condition:e}: median bound / rounding error {median:.1}",
+        core::any::type_name::<S>()
     );
+    assert!(median <= typical, "{median}");
 }
 
 #[test]
 fn bound_on_rounding_holds() {
     for (seed, condition) in [(20, 2.0), (21, 1e3), (22, 1e8)] {
-        rounding_alone::<f64, _>(seed, condition, |s| GaussianElimination::new(s).expect("regular"));
-        rounding_alone::<f64, _>(seed, condition, |s| Inverse::new(s).expect("regular"));
-        rounding_alone::<f64, _>(seed, condition, |s| Refined::new(s).expect("regular"));
-        rounding_alone::<f64, _>(seed, condition, |s| LeastSquares::new(s).expect("regular"));
+        rounding_alone::<f64, _>((seed, condition, 77.0), |s| GaussianElimination::new(s).expect("regular"));
+        rounding_alone::<f64, _>((seed, condition, 25.0), |s| Inverse::new(s).expect("regular"));
+        rounding_alone::<f64, _>((seed, condition, 5.7), |s| Refined::new(s).expect("regular"));
+        rounding_alone::<f64, _>((seed, condition, 8.2), |s| LeastSquares::new(s).expect("regular"));
     }
     for (seed, condition) in [(23, 2.0), (24, 1e3)] {
-        rounding_alone::<f32, _>(seed, condition, |s| GaussianElimination::new(s).expect("regular"));
-        rounding_alone::<f32, _>(seed, condition, |s| Inverse::new(s).expect("regular"));
-        rounding_alone::<f32, _>(seed, condition, |s| Refined::new(s).expect("regular"));
-        rounding_alone::<f32, _>(seed, condition, |s| LeastSquares::new(s).expect("regular"));
+        rounding_alone::<f32, _>((seed, condition, 77.0), |s| GaussianElimination::new(s).expect("regular"));
+        rounding_alone::<f32, _>((seed, condition, 25.0), |s| Inverse::new(s).expect("regular"));
+        rounding_alone::<f32, _>((seed, condition, 5.7), |s| Refined::new(s).expect("regular"));
+        rounding_alone::<f32, _>((seed, condition, 8.2), |s| LeastSquares::new(s).expect("regular"));
     }
 }
 
@@ -233,7 +238,8 @@ fn equation_14_holds() {
     }
     let median = median(&mut ratios);
     println!("equation (14): {} trials, median bound / error {median:.1}", ratios.len());
-    assert!(median <= 20.0);
+    // Measured: 3.7, half of the trials being the worst there are.
+    assert!(median <= 4.1, "{median}");
 }
 
 /// The covariance against the spread of many readings.

@@ -1,6 +1,6 @@
 //! Gauge layouts against what the paper and mechanics say of them, and the decoupled solver on them.
 
-use crate::support::{cast, generator, random_vector, symmetric, wide};
+use crate::support::{cast, generator, greatest, random_vector, symmetric, wide};
 use fingertip_wrench::gauge_layout::{GaugeLayout, LayoutError, ThinWalledBeam, isotropic_angle};
 use fingertip_wrench::{
     BicchiDario, Combination, Conditioning, Decoupled, ErrorBound, FourRosettes, GaussianElimination,
@@ -125,7 +125,7 @@ fn decoupled_is_elimination<T: Real, K: Combination<6>>(
     let decoupled = Decoupled::<T, K, 6>::new(&sensor).expect("decoupled");
     let condition = Conditioning::of(&sensor).condition_number().to_f64();
     let epsilon = T::EPSILON.to_f64();
-    assert!(decoupled.neglected().amax().to_f64() < 40.0 * condition * epsilon);
+    assert!(greatest(decoupled.neglected()) < 40.0 * condition * epsilon);
     for _ in 0..10_000 {
         let load = Wrench::from_components(&cast(&random_vector::<6>(&mut random)));
         let signals = sensor.signals(&load);
@@ -183,7 +183,7 @@ fn decoupled_stays_within_its_bound_on_a_machined_sensor() {
         });
         let sensor = SensorMatrix::new(calibrated, nominal()).expect("proper");
         let decoupled = Decoupled::<f64, BicchiDario, 6>::new(&sensor).expect("decoupled");
-        assert!(decoupled.neglected().amax() > 1e-3);
+        assert!(greatest(decoupled.neglected()) > 1e-3);
         let bound = ErrorBound::new(&sensor, &decoupled, &Uncertainty::none()).expect("bounded");
         for _ in 0..1_000 {
             let load = Vector6::from_fn(|_, _| symmetric(&mut random)).component_mul(&nominal());
@@ -197,7 +197,8 @@ fn decoupled_stays_within_its_bound_on_a_machined_sensor() {
     }
     let median = crate::support::median(&mut ratios);
     println!("decoupled on a machined sensor: median bound / error {median:.2}");
-    assert!(median < 20.0);
+    // Measured: 1.7. Couplings of random signs partly cancel; `reached_bounds` has the worst.
+    assert!(median < 1.9, "{median}");
 }
 
 #[test]
@@ -255,7 +256,7 @@ fn a_combination_of_ones_own_with_a_block() {
     let solver = Decoupled::<f64, Block, 6>::new(&sensor).expect("decoupled");
     let load = Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0);
     let found = solver.solve(&sensor.signals(&Wrench::from_components(&load)));
-    assert!((found.components() - load).amax() < 1e-14);
+    assert!(greatest(&(found.components() - load)) < 1e-14);
 }
 
 #[test]
@@ -292,4 +293,30 @@ fn determinant_of_the_papers_matrix() {
             }
         }
     }
+}
+
+#[test]
+fn beams_at_the_edge_of_what_is_possible() {
+    let with =
+        |poisson_ratio: f64| ThinWalledBeam { poisson_ratio, ..beam::<f64>(5.0, 0.3) }.section_constants();
+    assert!(with(0.5).is_ok() && with(-0.999).is_ok() && with(0.0).is_ok());
+    for ratio in [-1.0, 0.501, f64::NAN] {
+        assert_eq!(with(ratio), Err(LayoutError::BadBeam { quantity: "Poisson's ratio" }));
+    }
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refused = |quantity| Err(LayoutError::BadBeam { quantity });
+        let beam = beam::<f64>(5.0, 0.3);
+        assert_eq!(ThinWalledBeam { radius: bad, ..beam }.section_constants(), refused("radius"));
+        assert_eq!(ThinWalledBeam { thickness: bad, ..beam }.section_constants(), refused("wall thickness"));
+        assert_eq!(
+            ThinWalledBeam { youngs_modulus: bad, ..beam }.section_constants(),
+            refused("Young's modulus")
+        );
+    }
+    // A gain takes strains to signals.
+    let layout = GaugeLayout::new(&beam(5.0, 0.33), GaugeLayout::three_rosettes(0.35)).expect("proper");
+    let (one, many) = (layout.sensor_matrix(1.0, nominal()), layout.sensor_matrix(1024.0, nominal()));
+    let (one, many) = (one.expect("regular"), many.expect("regular"));
+    assert_eq!(*many.normalised(), one.normalised() * 1024.0);
+    assert_eq!(layout.strain_matrix() * Matrix6::from_diagonal(&nominal()), *one.normalised());
 }

@@ -2,7 +2,13 @@
 #![allow(clippy::expect_used, clippy::panic, clippy::needless_range_loop, reason = "tests")]
 
 mod any_bits;
+mod bad_uncertainties;
+mod channel_limits;
+mod compensations;
 mod conditioning;
+mod consistency_limits;
+mod contact_frames;
+mod counted_rounding;
 mod error_bounds;
 mod frames;
 mod gauge_layouts;
@@ -10,7 +16,11 @@ mod least_squares;
 mod line_of_action;
 mod minimal_solvers;
 mod published_certificates;
+mod reached_bounds;
 mod rest_and_channels;
+mod rest_limits;
+mod rotations;
 mod serialisation;
+mod solver_limits;
 #[path = "../support/mod.rs"]
 mod support;

@@ -2,6 +2,7 @@
 
 use crate::support::double_double::{difference, residual, solve};
 use crate::support::{cast, generator, of_condition, random_vector, sensor, wide};
+use fingertip_test_support::Worst;
 use fingertip_wrench::{
     GaussianElimination, Inverse, LeastSquares, Real, Refined, SensorMatrix, SensorMatrixError,
     SingularMatrix, WrenchSolver,
@@ -11,17 +12,17 @@ use rand::RngExt;
 
 /// Worst figures over a decade, in units of ε.
 #[derive(Default, Debug)]
-struct Worst {
-    residual: f64,
-    forward_per_condition: f64,
-    inverse_per_condition: f64,
-    refined: f64,
+struct Figures {
+    residual: Worst,
+    forward_per_condition: Worst,
+    inverse_per_condition: Worst,
+    refined: Worst,
 }
 
-fn accuracy_in_decade<T: Real>(decade: i32, matrices: usize) -> Worst {
+fn accuracy_in_decade<T: Real>(decade: i32, matrices: usize) -> Figures {
     let mut random = generator(decade as u128);
     let epsilon = T::EPSILON.to_f64();
-    let mut worst = Worst::default();
+    let mut worst = Figures::default();
     for _ in 0..matrices {
         let condition = 10.0_f64.powf(f64::from(decade) + random.random_range(0.0..1.0));
         let sensor = sensor::<T, 6>(&of_condition::<6>(&mut random, condition));
@@ -40,12 +41,12 @@ fn accuracy_in_decade<T: Real>(decade: i32, matrices: usize) -> Worst {
         let gauss = GaussianElimination::new(&sensor).expect("regular");
         let (loads, forward) = error_of(&gauss);
         let relative = residual(&matrix, &right, &loads).norm() / loads.norm() / epsilon;
-        worst.residual = worst.residual.max(relative);
-        worst.forward_per_condition = worst.forward_per_condition.max(forward / condition);
+        worst.residual.see(relative);
+        worst.forward_per_condition.see(forward / condition);
         let inverse = Inverse::new(&sensor).expect("regular");
-        worst.inverse_per_condition = worst.inverse_per_condition.max(error_of(&inverse).1 / condition);
+        worst.inverse_per_condition.see(error_of(&inverse).1 / condition);
         let refined = Refined::new(&sensor).expect("regular");
-        worst.refined = worst.refined.max(error_of(&refined).1);
+        worst.refined.see(error_of(&refined).1);
     }
     worst
 }
@@ -55,10 +56,11 @@ fn check_accuracy<T: Real>(decades: i32, matrices: usize) {
         let worst = accuracy_in_decade::<T>(decade, matrices);
         println!("condition 1e{decade}, in units of epsilon: {worst:?}");
         // The spectral norm of every matrix is 1 but for rounding.
-        assert!(worst.residual <= 16.0, "{worst:?}");
-        assert!(worst.forward_per_condition <= 10.0, "{worst:?}");
-        assert!(worst.inverse_per_condition <= 10.0, "{worst:?}");
-        assert!(worst.refined <= 4.0, "{worst:?}");
+        // Measured: 2.9, 2.6, 1.25 and 0.48, of which half a unit is the rounding of the answer itself.
+        assert!(worst.residual.get() <= 4.0, "{worst:?}");
+        assert!(worst.forward_per_condition.get() <= 4.0, "{worst:?}");
+        assert!(worst.inverse_per_condition.get() <= 2.0, "{worst:?}");
+        assert!(worst.refined.get() <= 0.6, "{worst:?}");
     }
 }
 

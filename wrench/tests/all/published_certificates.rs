@@ -1,7 +1,8 @@
 //! Factory certificates of four six-axis sensors: from the derived volts back to the measured
 //! wrench.
 
-use crate::support::recording;
+use crate::support::greatest;
+use fingertip_test_support::recording_text;
 use fingertip_wrench::{
     Conditioning, ErrorBound, GaussianElimination, Inverse, LeastSquares, Refined, SensorMatrix, Uncertainty,
     WrenchSolver,
@@ -18,7 +19,7 @@ fn numbers(value: &Value) -> Vector6<f64> {
 #[test]
 fn derived_volts_give_the_measured_wrench() {
     let (Some(certificates), Some(loads)) =
-        (recording("ati_cert_loads/certificates.json"), recording("ati_cert_loads/loads.csv"))
+        (recording_text("ati_cert_loads/certificates.json"), recording_text("ati_cert_loads/loads.csv"))
     else {
         return;
     };
@@ -47,7 +48,7 @@ fn derived_volts_give_the_measured_wrench() {
         let printed = Uncertainty::of_signals(Vector6::repeat(0.5e-6));
         let bound = ErrorBound::new(&sensor, &gauss, &printed).expect("bounded");
         // The inverse of the inverse is the published matrix.
-        assert!((inverse.matrix() - published).amax() < 1e-14 * published.amax());
+        assert!(greatest(&(inverse.matrix() - published)) < 1e-14 * greatest(&published));
         for row in rows.iter().filter(|row| row[0] == serial) {
             let six =
                 |first: usize| Vector6::from_fn(|i, _| row[first + i].parse::<f64>().expect("a number"));

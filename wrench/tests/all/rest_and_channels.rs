@@ -1,6 +1,7 @@
 //! Taring only at rest, and channels that lie, over simulated readings and recordings.
 
-use crate::support::{generator, normal, recording};
+use crate::support::{generator, normal};
+use fingertip_test_support::recording_text;
 use fingertip_wrench::{
     BadLimits, ChannelFault, ChannelLimits, ChannelMonitor, Compensation, NotAtRest, Real, RestTest, Tare,
     TareAccumulator, TareError,
@@ -229,7 +230,7 @@ fn a_sensor_on_which_nothing_moves_is_not_stuck() {
 /// inside the 1024 of the converter.
 #[test]
 fn saturated_poses_of_a_real_sensor_are_found() {
-    let Some(text) = recording("jonurce_fts8/poses.csv") else { return };
+    let Some(text) = recording_text("jonurce_fts8/poses.csv") else { return };
     let limits = ChannelLimits::<f64, 8>::new(SVector::repeat(50.0), SVector::repeat(950.0)).expect("valid");
     let mut lines = text.lines();
     let names: Vec<&str> = lines.next().expect("a header").split(',').collect();
@@ -252,7 +253,7 @@ fn saturated_poses_of_a_real_sensor_are_found() {
 /// 14 s of a sensor on which nothing moves, at 1 kHz, 16 bits.
 #[test]
 fn a_real_sensor_at_rest_passes_and_its_noise_is_known() {
-    let Some(text) = recording("ati_delta_raw_1khz/quiet_drives_off.csv") else { return };
+    let Some(text) = recording_text("ati_delta_raw_1khz/quiet_drives_off.csv") else { return };
     let readings: Vec<Vector6<f64>> = text
         .lines()
         .skip(1)
@@ -291,7 +292,7 @@ fn a_real_sensor_at_rest_passes_and_its_noise_is_known() {
     readings.iter().take(1_000).for_each(|reading| assert!(strict.add(reading)));
     assert_eq!(strict.finish(), Err(NotAtRest::Unsteady { gauge: 0 }));
     // The same second while a drive heaves the sensor.
-    let Some(text) = recording("ati_delta_raw_1khz/heave_1hz_after_recal.csv") else { return };
+    let Some(text) = recording_text("ati_delta_raw_1khz/heave_1hz_after_recal.csv") else { return };
     let mut test = RestTest::<f64, 6>::new(0.01).expect("valid");
     for line in text.lines().skip(5_000).take(1_000) {
         let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect();
