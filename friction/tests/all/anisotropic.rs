@@ -134,8 +134,22 @@ fn what_is_out_of_the_plane_counts_against_the_lower_coefficient() {
             // Its sign is kept by a projection, which comes back into the plane.
             let strong = ContactForce::new(0.1, *f.tangential, 0.0);
             let found = model().project(&strong);
-            assert!(found.tangential.z.abs() < 1e-15 && found.tangential.dot(&directions()[1]) * inside >= 0.0);
+            assert!(
+                found.tangential.z.abs() < 1e-15 && found.tangential.dot(&directions()[1]) * inside >= 0.0
+            );
         }
+    }
+}
+
+/// At any size of the force.
+#[test]
+fn what_is_out_of_the_plane_counts_at_any_scale() {
+    let at = |scale: f64| {
+        let tangential = directions()[0] * 0.5 + Vector3::z();
+        model().slip_margin(&ContactForce::new(10.0 * scale, tangential * scale, 0.0)).utilisation
+    };
+    for scale in [2.0_f64.powi(-900), 2.0_f64.powi(-60), 2.0_f64.powi(60), 2.0_f64.powi(900)] {
+        assert!((at(scale) / at(1.0) - 1.0).abs() < 1e-14, "{scale:e}: {} {}", at(scale), at(1.0));
     }
 }
 

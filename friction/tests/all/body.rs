@@ -33,15 +33,21 @@ fn momentum_is_balanced_in_every_direction() {
 
 /// One step along a line from the law's own equations: velocity at the end and the deflection, for a slide
 /// rate λ. The balance is linear in the velocity, so that two trials solve it.
-fn solved(rate: f64, z: f64, v: f64, drive: &Drive<f64, 1>, load: f64, damping: f64, h: f64) -> (f64, f64, f64) {
+fn solved(
+    rate: f64,
+    z: f64,
+    v: f64,
+    drive: &Drive<f64, 1>,
+    load: f64,
+    damping: f64,
+    h: f64,
+) -> (f64, f64, f64) {
     let damping = if rate > 0.0 { damping.min(4.0 * STIFFNESS / rate) } else { damping };
     let end = |w: f64| {
         let after = (z + h * w) / (1.0 + h * rate);
         (after, load * (STIFFNESS * after + damping * (after - z) / h + 0.5 * w))
     };
-    let lack = |w: f64| {
-        drive.mass[0] * (w - v) - h * (drive.force[0] - drive.stiffness * h * w - end(w).1)
-    };
+    let lack = |w: f64| drive.mass[0] * (w - v) - h * (drive.force[0] - drive.stiffness * h * w - end(w).1);
     let (none, one) = (lack(0.0), lack(1.0));
     let w = -none / (one - none);
     (w, end(w).0, end(w).1)
@@ -72,7 +78,10 @@ fn steps_are_solved<L: BristleLaw<f64> + Copy>(law: L, seed: u64) {
         let size = v.abs() + wanted.abs() + 1e-3;
         assert!((end.velocity[0] - wanted).abs() <= 1e-10 * size, "{index}: {end:?} {wanted}");
         // The friction of a short step is a difference of momenta over the step.
-        assert!((end.friction[0] - friction).abs() <= 1e-10 * (size / h + 10.0), "{index}: {end:?} {friction}");
+        assert!(
+            (end.friction[0] - friction).abs() <= 1e-10 * (size / h + 10.0),
+            "{index}: {end:?} {friction}"
+        );
         let cut = after.clamp(-1.2 / STIFFNESS, 1.2 / STIFFNESS);
         assert!((bristle.deflection()[0] - cut).abs() <= 1e-10 * (h * size + 1e-3), "{index}");
         slid += usize::from(h * rate(foretold) > 0.1);

@@ -119,7 +119,9 @@ impl FrictionLimit<f64> for Broken {
         let v = found.velocity;
         match self.1 {
             Fault::HasNoDirection => None,
-            Fault::DirectionIsLong => Some(SlipDirection { velocity: v * (1.0 + 1e-9), spin: found.spin * (1.0 + 1e-9) }),
+            Fault::DirectionIsLong => {
+                Some(SlipDirection { velocity: v * (1.0 + 1e-9), spin: found.spin * (1.0 + 1e-9) })
+            }
             Fault::DirectionOfPush => Some(SlipDirection { velocity: -v, spin: -found.spin }),
             Fault::DirectionOblique => {
                 let turned = Vector3::new(v.x * 0.8 - v.y * 0.6, v.x * 0.6 + v.y * 0.8, 0.0);
@@ -177,7 +179,10 @@ fn each_law_notices_its_fault() {
         (claims(), Fault::MarginOfTheGreatest, "finite"),
     ] {
         let said = said(claims, fault);
-        assert!(said.as_ref().is_some_and(|said| said.starts_with(&format!("{law}:"))), "{fault:?}: {said:?}");
+        assert!(
+            said.as_ref().is_some_and(|said| said.starts_with(&format!("{law}:"))),
+            "{fault:?}: {said:?}"
+        );
     }
     // What is not claimed is not asked.
     assert_eq!(said(unconvex, Fault::DirectionOblique), None);

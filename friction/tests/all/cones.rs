@@ -75,7 +75,13 @@ fn margins_and_utilisation_match_a_search() {
             };
             assert!((margin.utilisation / used - 1.0).abs() < 1e-13 || margin.utilisation == used, "{f:?}");
             let safety = case.model.factor_of_safety(&f);
-            let wanted = if used == f64::MAX { 0.0 } else if used > 0.0 { 1.0 / used } else { f64::MAX };
+            let wanted = if used == f64::MAX {
+                0.0
+            } else if used > 0.0 {
+                1.0 / used
+            } else {
+                f64::MAX
+            };
             assert!((safety - wanted).abs() <= 1e-13 * wanted, "{f:?} {safety} {wanted}");
         }
     }
@@ -127,7 +133,9 @@ fn grip_forces_are_just_enough() {
             let none = case.model.normal_force_keeping(&f, 0.0);
             assert_eq!(case.model.normal_force_keeping(&f, -5.0), none);
         }
-        for (load, greatest) in [(0.0, 0.0), (f64::NAN, f64::MAX), (f64::INFINITY, f64::MAX), (1e308, f64::MAX)] {
+        for (load, greatest) in
+            [(0.0, 0.0), (f64::NAN, f64::MAX), (f64::INFINITY, f64::MAX), (1e308, f64::MAX)]
+        {
             let f = force(1.0, load, 0.0, 0.0);
             let least = case.model.least_normal_force(&f, 10.0);
             assert!(least == greatest || (load == 1e308 && least.is_finite()), "{load} {least}");
@@ -176,7 +184,9 @@ fn slip_is_against_the_gradient() {
         }
     }
     // Spin alone: none of it slides.
-    for (model, spin) in [(SoftFingerLimit::new(0.5, ARM).unwrap(), 2.0), (SoftFingerLimit::new(0.5, ARM).unwrap(), -2.0)] {
+    for (model, spin) in
+        [(SoftFingerLimit::new(0.5, ARM).unwrap(), 2.0), (SoftFingerLimit::new(0.5, ARM).unwrap(), -2.0)]
+    {
         let found = model.slip_direction(&force(1.0, 0.0, 0.0, spin)).unwrap();
         assert_eq!(found.velocity, Vector3::zeros());
         assert!((found.spin + spin.signum() / ARM).abs() < 1e-12 / ARM, "{found:?}");
@@ -248,7 +258,9 @@ fn the_conservative_ellipse_lies_inside_the_exact_limit() {
     let model = SoftFingerLimit::conservative(0.5, ARM).unwrap();
     assert_eq!(model.arm(), ARM);
     let mut least = f64::INFINITY;
-    for pressure in [PressureDistribution::Uniform, PressureDistribution::Hertz, PressureDistribution::Winkler] {
+    for pressure in
+        [PressureDistribution::Uniform, PressureDistribution::Hertz, PressureDistribution::Winkler]
+    {
         for point in LimitCurve::new(pressure).table(41) {
             // The exact limit for 1 N.
             let f = force(1.0, 0.5 * point.force, 0.0, 0.5 * ARM * point.torque);

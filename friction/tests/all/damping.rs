@@ -34,8 +34,7 @@ fn force_at_a_constant_velocity_is_the_closed_form() {
                 for step in 0..20 {
                     let force = bristle.step(&(direction * speed), h);
                     let (start, end) = (deflection(h * f64::from(step)), deflection(h * f64::from(step + 1)));
-                    let exact =
-                        load * (STIFFNESS * end + DAMPING * (end - start) / h + VISCOUS * speed);
+                    let exact = load * (STIFFNESS * end + DAMPING * (end - start) / h + VISCOUS * speed);
                     // The difference of deflections that are nearly equal has lost digits.
                     let rounding = 64.0 * f64::EPSILON * load * (2.0 + DAMPING * limit / h);
                     let error = (force - direction * exact).norm();
@@ -74,9 +73,7 @@ fn damping_is_the_greatest_passive<L: BristleLaw<f64> + Copy, M: Integrator, con
         }
         // ½σ₀(|z⁺|² − |z|²), without its cancellation.
         let stored = 0.5 * law.stiffness() * change.dot(&(after + before));
-        let passive = |damping: f64| {
-            path.dot(&(after * law.stiffness() + change * (damping / h))) >= stored
-        };
+        let passive = |damping: f64| path.dot(&(after * law.stiffness() + change * (damping / h))) >= stored;
         let mut damping = law.damping();
         if passive(damping) {
             plain += 1;

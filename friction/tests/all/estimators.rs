@@ -1,8 +1,6 @@
 //! The estimators of friction against closed forms and plain minimisation, on samples without noise.
 
-use fingertip_friction::{
-    ForceNoise, FrictionEstimate, KineticFriction, StaticFriction, UncertainCoulomb,
-};
+use fingertip_friction::{ForceNoise, FrictionEstimate, KineticFriction, StaticFriction, UncertainCoulomb};
 use fingertip_wrench::ContactForce;
 use nalgebra::Vector3;
 
@@ -89,7 +87,10 @@ fn slip(friction: &mut StaticFriction<f64, 8>, ratio: f64) -> FrictionEstimate<f
     let estimate = friction.onset().unwrap();
     assert_eq!(friction.peak(), None);
     let again = friction.estimate().unwrap();
-    assert_eq!((again.coefficient, again.deviation, again.surface_changed), (estimate.coefficient, estimate.deviation, false));
+    assert_eq!(
+        (again.coefficient, again.deviation, again.surface_changed),
+        (estimate.coefficient, estimate.deviation, false)
+    );
     estimate
 }
 
@@ -155,7 +156,9 @@ fn quantiles_of_an_estimate_are_those_of_a_lognormal() {
     close(model.quantile(0.025), 0.5 - 0.1 * 1.959_963_984_540_054);
     assert_eq!(model.quantile(1e-9), 0.0);
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
-        assert!(UncertainCoulomb::new(bad, 0.1, None).is_err() && UncertainCoulomb::new(0.5, bad, None).is_err());
+        assert!(
+            UncertainCoulomb::new(bad, 0.1, None).is_err() && UncertainCoulomb::new(0.5, bad, None).is_err()
+        );
         assert!(UncertainCoulomb::new(0.5, 0.1, Some(ForceNoise { normal: bad, ..NOISE })).is_err());
         assert!(StaticFriction::<f64, 8>::new(NOISE, bad, 0.0).is_err());
         assert!(StaticFriction::<f64, 8>::new(NOISE, 0.0, bad).is_err());
@@ -209,7 +212,9 @@ fn slide(friction: &mut KineticFriction<f64>, step: f64, memory: f64) -> Vec<(f6
 /// Deming's regression is where `Σ w (t − μn)²/(σ_t² + μ²σ_n²)` is least.
 #[test]
 fn kinetic_friction_is_the_line_of_least_weighed_distance() {
-    for noise in [NOISE, ForceNoise { normal: 0.05, tangential: 0.02 }, ForceNoise { normal: 0.2, tangential: 1e-3 }] {
+    for noise in
+        [NOISE, ForceNoise { normal: 0.05, tangential: 0.02 }, ForceNoise { normal: 0.2, tangential: 1e-3 }]
+    {
         for (step, memory) in [(1e-3, 10.0), (1e-3, 0.02), (0.0, 1.0), (0.5, 0.1)] {
             let mut friction = KineticFriction::new(noise, memory).unwrap();
             let seen = slide(&mut friction, step, memory);

@@ -114,6 +114,8 @@ fn each_setting_has_its_bounds() {
         assert!(refused(GripSettings { safety: bad, ..SETTINGS }));
         assert!(refused(GripSettings { slip_boost: bad, ..SETTINGS }));
     }
-    assert!(refused(GripSettings { rise: 0.0, ..SETTINGS }) && refused(GripSettings { fall: 0.0, ..SETTINGS }));
+    assert!(
+        refused(GripSettings { rise: 0.0, ..SETTINGS }) && refused(GripSettings { fall: 0.0, ..SETTINGS })
+    );
     assert!(refused(GripSettings { least: 20.1, ..SETTINGS }));
 }

@@ -74,9 +74,13 @@ fn stiffness_of_a_spring_is_found_after_five_windows() {
 fn warning_and_slip_come_at_their_shares() {
     let at = 12.0 * WINDOW;
     let end = at + 1.5 * WINDOW;
-    for (share, warns, slips) in
-        [(0.66, false, false), (0.64, true, false), (0.21, true, false), (0.19, true, true), (-1.0, true, true)]
-    {
+    for (share, warns, slips) in [
+        (0.66, false, false),
+        (0.64, true, false),
+        (0.21, true, false),
+        (0.19, true, true),
+        (-1.0, true, true),
+    ] {
         for verdict in [SlipVerdict::Warning, SlipVerdict::Slipping] {
             let mut detector = started(1e3);
             let found = until(&mut detector, (START, end), knee(at, share), verdict);
@@ -110,6 +114,26 @@ fn verdicts_last_until_the_motion_turns() {
     }
     let stiffness = detector.stiffness().unwrap();
     assert!((stiffness / 2e3 - 1.0).abs() < 1e-6, "{stiffness}");
+}
+
+/// A motion that turns twice within half a window starts anew at the second turn.
+#[test]
+fn a_second_turn_counts_as_the_first() {
+    let mut detector = started(1e3);
+    until(&mut detector, (START, 8.0 * WINDOW), |x| 1e3 * x, SlipVerdict::Warning);
+    let turn = 7.7 * WINDOW;
+    for x in [turn, turn + START] {
+        assert_eq!(sample(&mut detector, x, 1e3 * x), SlipVerdict::Holding);
+        assert_eq!(detector.stiffness(), None);
+    }
+    let mut x = turn + START;
+    while detector.stiffness().is_none() {
+        x += STEP;
+        assert_eq!(sample(&mut detector, x, 1e3 * x), SlipVerdict::Holding);
+        assert!(x < turn + 6.0 * WINDOW);
+    }
+    // Five windows on, but for what the first place lies beyond a quarter of one.
+    assert!((x - turn - 5.0 * WINDOW).abs() < 0.1 * WINDOW, "{}", (x - turn) / WINDOW);
 }
 
 /// The mean stiffness falls as the patch lets go; what counts is the greatest.
@@ -194,7 +218,10 @@ fn an_open_contact_forgets_and_a_faulty_sample_does_not() {
     // Ten deviations do not pass the gate, a little more does.
     let mut pressed = detector;
     let end = Vector3::new(0.1, 0.2, -0.1) + direction() * (8.0 * WINDOW);
-    assert_eq!(pressed.update(&ContactForce::new(0.1 + 1e-9, Vector3::zeros(), 0.0), &end), SlipVerdict::Holding);
+    assert_eq!(
+        pressed.update(&ContactForce::new(0.1 + 1e-9, Vector3::zeros(), 0.0), &end),
+        SlipVerdict::Holding
+    );
     assert!(pressed.stiffness().is_some());
     assert_eq!(
         detector.update(&ContactForce::new(0.1, Vector3::zeros(), 0.0), &end),
@@ -206,7 +233,9 @@ fn an_open_contact_forgets_and_a_faulty_sample_does_not() {
 #[test]
 fn limits_of_the_settings() {
     let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.01).unwrap());
-    for (window, share) in [(1e-6, 0.2), (1e-6, 1.0), (0.0, 0.5), (-1.0, 0.5), (1e-309, 0.5), (f64::INFINITY, 0.5)] {
+    for (window, share) in
+        [(1e-6, 0.2), (1e-6, 1.0), (0.0, 0.5), (-1.0, 0.5), (1e-309, 0.5), (f64::INFINITY, 0.5)]
+    {
         assert!(IncipientSlip::new(gate, window, share).is_err(), "{window} {share}");
     }
     assert!(IncipientSlip::new(gate, 1e-6, 0.201).is_ok() && IncipientSlip::new(gate, 1.0, 0.999).is_ok());

@@ -2,8 +2,8 @@
 
 use fingertip_friction::testing::Draws;
 use fingertip_friction::{
-    Bristle, BristleLaw, Dahl, DynamicFriction, ElastoPlastic, Implicit, Integrator, LuGre, ReturnMap, Stribeck,
-    StribeckFriction,
+    Bristle, BristleLaw, Dahl, DynamicFriction, ElastoPlastic, Implicit, Integrator, LuGre, ReturnMap,
+    Stribeck, StribeckFriction,
 };
 use nalgebra::{SVector, Vector1, Vector3};
 
@@ -130,7 +130,8 @@ fn plastic_share_rises_along_half_a_sine() {
         assert_eq!(law.plastic_share(elastic, false, speed), 0.0);
         // sin(−π/2), −π/4, 0, π/6, π/2.
         let root = core::f64::consts::FRAC_1_SQRT_2;
-        for (x, share) in [(0.0, 0.0), (0.25, 0.5 * (1.0 - root)), (0.5, 0.5), (2.0 / 3.0, 0.75), (1.0, 1.0)] {
+        for (x, share) in [(0.0, 0.0), (0.25, 0.5 * (1.0 - root)), (0.5, 0.5), (2.0 / 3.0, 0.75), (1.0, 1.0)]
+        {
             assert!((at(x) - share).abs() < 1e-12, "{x} {}", at(x));
         }
         assert_eq!(law.plastic_share(sliding, true, speed), 0.0);

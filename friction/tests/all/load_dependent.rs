@@ -72,7 +72,9 @@ fn margin_is_the_greatest_that_is_certain() {
     }
     // Without load, nothing depends on the arm but the last of the margin.
     let free = model(0.3).slip_margin(&ContactForce::new(5.0, Vector3::zeros(), 0.0));
-    assert!(free.newtons > 0.0 && free.newtons < 5.0 * MU / (1.0 + MU * MU).sqrt() && free.utilisation == 0.0);
+    assert!(
+        free.newtons > 0.0 && free.newtons < 5.0 * MU / (1.0 + MU * MU).sqrt() && free.utilisation == 0.0
+    );
 }
 
 /// Outside, margin and projection are those of the ellipse with the present arm.
@@ -132,11 +134,24 @@ fn grip_forces_are_just_enough() {
         assert_eq!(model.least_normal_force(&f, -1.0), 0.0);
         assert_eq!(model.least_normal_force(&f, f64::NAN), f64::MAX);
         for bad in [f64::NAN, f64::INFINITY] {
-            for f in [ContactForce::new(1.0, Vector3::x() * bad, 0.0), ContactForce::new(1.0, Vector3::x(), bad)] {
+            for f in
+                [ContactForce::new(1.0, Vector3::x() * bad, 0.0), ContactForce::new(1.0, Vector3::x(), bad)]
+            {
                 assert_eq!(model.least_normal_force(&f, 1.0), f64::MAX, "{f:?}");
                 assert_eq!(model.normal_force_keeping(&f, 1.0), f64::MAX, "{f:?}");
             }
         }
+    }
+    // A spin that no force of the type holds.
+    let greatest = ContactForce::new(1.0, Vector3::zeros(), f64::MAX);
+    assert_eq!(model(0.0).least_normal_force(&greatest, 1.0), f64::MAX);
+    assert_eq!(model(0.0).normal_force_keeping(&greatest, 1.0), f64::MAX);
+    // A coefficient with which the cone is wide: the search does not start too far below.
+    let wide = LoadDependentLimit::new(50.0, ARM, REFERENCE, 0.3).unwrap();
+    let f = ContactForce::new(1.0, Vector3::x() * 1e-3, 1e-6);
+    for margin in [0.25, 2.0, 100.0] {
+        let normal = wide.normal_force_keeping(&f, margin);
+        assert!(wide.slip_margin(&ContactForce { normal, ..f }).newtons >= margin, "{margin} {normal}");
     }
     // Spin alone, over the whole range of the type.
     for spin in [1e-300, 1e-12, 1.0, 1e100] {

@@ -192,7 +192,10 @@ fn estimators_forget_surface_and_samples() {
     let mut used = new;
     for index in 0..100 {
         let x = 1e-6 * f64::from(index);
-        used.update(&ContactForce::new(4.0, Vector3::new(-1e3 * x, 0.0, 0.0), 0.0), &Vector3::new(x, 0.0, 0.0));
+        used.update(
+            &ContactForce::new(4.0, Vector3::new(-1e3 * x, 0.0, 0.0), 0.0),
+            &Vector3::new(x, 0.0, 0.0),
+        );
     }
     assert!(used.stiffness().is_some());
     used.reset();

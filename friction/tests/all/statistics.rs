@@ -1,8 +1,8 @@
 //! The statistics for changes, at their edges and against their definitions; and the gate before them.
 
 use fingertip_friction::{
-    Cusum, ForceNoise, LikelihoodRatio, LikelihoodRatioDetector, NormalForceGate, RatioThreshold, SlipDetector,
-    SlipVerdict,
+    Cusum, ForceNoise, LikelihoodRatio, LikelihoodRatioDetector, NormalForceGate, RatioThreshold,
+    SlipDetector, SlipVerdict,
 };
 use fingertip_wrench::ContactForce;
 use nalgebra::Vector3;
@@ -87,10 +87,15 @@ fn likelihood_ratio_is_its_definition_on_changes_of_all_sizes() {
         }
         assert!(passed > 50, "{passed}");
     }
-    for (window, threshold) in [(1, 3.0), (17, 3.0), (0, 3.0), (8, 0.0), (8, -1.0), (8, f64::NAN), (8, f64::INFINITY)] {
+    for (window, threshold) in
+        [(1, 3.0), (17, 3.0), (0, 3.0), (8, 0.0), (8, -1.0), (8, f64::NAN), (8, f64::INFINITY)]
+    {
         assert!(LikelihoodRatio::<f64, 16>::with_window(window, threshold).is_err(), "{window} {threshold}");
     }
-    assert!(LikelihoodRatio::<f64, 2>::new(3.0).is_ok() && LikelihoodRatio::<f64, 16>::with_window(16, 3.0).is_ok());
+    assert!(
+        LikelihoodRatio::<f64, 2>::new(3.0).is_ok()
+            && LikelihoodRatio::<f64, 16>::with_window(16, 3.0).is_ok()
+    );
 }
 
 /// Samples near the end of the range, which overflow sums and squares, come out as a change.
@@ -129,7 +134,8 @@ fn gate_is_at_ten_deviations() {
     let noise = ForceNoise { normal: 0.05, tangential: 0.2 };
     let gate = NormalForceGate::from_noise(&noise);
     assert_eq!(gate.least(), 0.5);
-    let at = |normal: f64, load: f64| gate.ratio(&ContactForce::new(normal, Vector3::new(load, 0.0, 0.0), 0.0));
+    let at =
+        |normal: f64, load: f64| gate.ratio(&ContactForce::new(normal, Vector3::new(load, 0.0, 0.0), 0.0));
     assert_eq!((at(0.5, 0.1), at(0.512, 0.128), at(2.0, 3.0)), (None, Some(0.25), Some(1.5)));
     assert_eq!((at(f64::NAN, 1.0), at(2.0, f64::NAN), at(-2.0, 1.0)), (None, None, None));
 }
@@ -139,7 +145,9 @@ fn gate_is_at_ten_deviations() {
 fn ratio_deviation_agrees_with_sampling() {
     let mut rng = Pcg64Mcg::seed_from_u64(123);
     let mut draw = || -> f64 { StandardNormal.sample(&mut rng) };
-    for noise in [ForceNoise { normal: 0.02, tangential: 0.001 }, ForceNoise { normal: 0.001, tangential: 0.02 }] {
+    for noise in
+        [ForceNoise { normal: 0.02, tangential: 0.001 }, ForceNoise { normal: 0.001, tangential: 0.02 }]
+    {
         for (normal, ratio) in [(2.0, 0.5), (4.0, 2.0)] {
             let count = 100_000;
             let sum: f64 = (0..count)
@@ -182,7 +190,9 @@ fn threshold_verdicts_at_the_limits_themselves() {
     }
     assert_eq!(detector.verdict_of(2.0, f64::NAN), SlipVerdict::NotPressing);
     assert_eq!(detector.verdict_of(2.0, -0.1), SlipVerdict::NotPressing);
-    assert!(RatioThreshold::new(gate, 0.5, 1.0).is_ok() && RatioThreshold::new(gate, f64::INFINITY, 0.5).is_err());
+    assert!(
+        RatioThreshold::new(gate, 0.5, 1.0).is_ok() && RatioThreshold::new(gate, f64::INFINITY, 0.5).is_err()
+    );
     // The shortest column counts.
     let mut verdicts = [SlipVerdict::NotPressing; 3];
     detector.verdicts(&[2.0, 2.0], &[0.0, 1.0, 1.0], &mut verdicts);
