@@ -51,8 +51,7 @@ impl LimitCurve {
             let (force, torque) = ring(r, centre);
             (weight * force, weight * torque)
         };
-        let inner =
-            if centre > 0.0 { double_exponential(0.0, centre.min(1.0), integrand) } else { (0.0, 0.0) };
+        let inner = double_exponential(0.0, centre.min(1.0), integrand);
         let outer = if centre < 1.0 { double_exponential(centre, 1.0, integrand) } else { (0.0, 0.0) };
         LimitPoint {
             force: inner.0 + outer.0,

@@ -46,7 +46,6 @@ pub fn cusum_threshold(allowance: f64, run_length: f64) -> Result<f64, BadDetect
     // e^x − x − 1 = 2k²·ARL, by Newton from above: the left side is convex.
     let target = 2.0 * allowance * allowance * run_length;
     let mut x = libm::log(target + 2.0) + 1.0;
-    x = x.max(libm::sqrt(2.0 * target).min(x + 1.0));
     for _ in 0..60 {
         let step = (libm::expm1(x) - x - target) / libm::expm1(x);
         if !(step.abs() > 1e-14 * x) {

@@ -181,6 +181,7 @@ fn what_is_not_finite_holds_nothing() {
             assert_eq!((margin.newtons, margin.utilisation), (-f64::MAX, f64::MAX), "{f:?}");
             assert!(!model().holds(&f), "{f:?}");
             assert_eq!(model().project(&f), ContactForce::zero(), "{f:?}");
+            assert_eq!(model().slip_direction(&f), None, "{f:?}");
         }
         // A spin is not limited, but one that is no number is no force.
         assert_eq!(model().project(&ContactForce::new(4.0, Vector3::x(), bad)), ContactForce::zero());

@@ -103,6 +103,21 @@ fn a_drop_counts_by_the_ratio_of_the_day() {
     }
 }
 
+/// Also after a step of the normal force, with which the ratio jumps, once its roughness is forgotten.
+#[test]
+fn a_drop_counts_by_the_ratio_after_a_jump() {
+    for (before, after_it) in [(4.0, 60.0), (60.0, 4.0)] {
+        let mut detector = held(before, 6.0, 60, PERIOD);
+        for index in 0..2000 {
+            let change = if index % 2 == 0 { 1e-9 } else { 0.0 };
+            detector.update(&force(after_it, 6.0 + change), PERIOD);
+        }
+        let found = critical(6.0, |drop| after(&detector, after_it, 6.0 - drop)).unwrap();
+        let unit = THRESHOLD * innovation_deviation() * across(6.0 / after_it);
+        assert!((found / unit - 1.0).abs() < 1.0 / 32.0, "{before} to {after_it}: {found} {unit}");
+    }
+}
+
 /// The lesser of two falls counts: a step of the normal force moves only the ratio of a contact that
 /// holds, and only the force of one that slides.
 #[test]
@@ -154,6 +169,14 @@ fn the_first_eight_samples_give_no_evidence() {
                 assert_eq!(detector.update(&force(4.0, level + change), PERIOD), SlipVerdict::Holding);
             }
             assert_eq!(after(&detector, 4.0, 0.1), count == 9, "sample {count}");
+            if count == 9 {
+                // Both lines have started from the level now held: each decides as in a long hold.
+                let by_ratio = critical(0.5, |drop| after(&detector, 4.0, level - drop)).unwrap();
+                let by_force = critical(0.5, |drop| after(&detector, 8.0, level - drop)).unwrap();
+                let unit = THRESHOLD * innovation_deviation();
+                assert!((by_ratio / (unit * across(level / 4.0)) - 1.0).abs() < 1.0 / 32.0, "{by_ratio}");
+                assert!((by_force / (unit * NOISE.tangential) - 1.0).abs() < 1e-6, "{by_force}");
+            }
         }
     }
 }

@@ -129,6 +129,10 @@ fn states<T: Real + Serialize + DeserializeOwned>() {
         broken["log_coefficient_and_variance"][place] = bad.into();
         assert!(serde_json::from_value::<StaticFriction<T, 64>>(broken).is_err(), "{place} {bad}");
     }
+    let mut sure = json;
+    sure["log_coefficient_and_variance"][1] = 0.0.into();
+    let sure = serde_json::from_value::<StaticFriction<T, 64>>(sure).unwrap();
+    assert_eq!(sure.estimate().unwrap().deviation, T::zero());
 }
 
 fn dynamics<T: Real + Serialize + DeserializeOwned>() {
