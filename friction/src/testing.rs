@@ -208,6 +208,10 @@ fn check_normal_forces<T: Real>(
         there.newtons >= margin - claims.tolerance * (size + keeping),
         "normal force keeps the margin: {force:?} {keeping:?} {there:?}"
     );
+    assert!(
+        !claims.homogeneous || there.newtons <= margin + claims.tolerance * (size + keeping),
+        "normal force is the least to keep the margin: {force:?} {keeping:?} {there:?}"
+    );
     let below = model.slip_margin(&ContactForce { normal: keeping * T::literal(0.9), ..*force });
     assert!(
         below.newtons < margin + claims.tolerance * size,

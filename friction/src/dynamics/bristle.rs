@@ -237,11 +237,8 @@ impl<T: Real, Law: BristleLaw<T>, const D: usize, Method: Integrator> Bristle<T,
         let (rate, _) = self.slide(length(at), self.deflection.dot(at) < T::zero());
         let keep = T::one() / (T::one() + h * rate);
         let stiffness = self.law.stiffness();
-        let damping = if rate > T::zero() {
-            self.law.damping().min(T::literal(4.0) * stiffness / rate)
-        } else {
-            self.law.damping()
-        };
+        // Where nothing slides the bound is infinite.
+        let damping = self.law.damping().min(T::literal(4.0) * stiffness / rate);
         let combined = h * stiffness + damping;
         let added = (h * combined * keep + h * self.law.viscous()) * self.load + h * h * drive.stiffness;
         let held = self.deflection * (self.load * (damping - combined * keep));
@@ -288,14 +285,14 @@ impl<T: Real, Law: BristleLaw<T>, const D: usize, Method: Integrator> DynamicFri
         // The mean damping force over the step, no greater than passivity allows.
         let change = after - before;
         let stiffness = self.law.stiffness();
-        let mut damping =
-            if time_step > T::zero() { self.law.damping() / (stiffness * time_step) } else { T::zero() };
+        let mut damping = self.law.damping() / (stiffness * time_step);
         let power = change.dot(&path);
         if power < T::zero() {
             let half = T::literal(0.5);
             let spare = after.dot(&path) - half * change.dot(&(after + before));
             damping = damping.min(spare.max(T::zero()) / -power);
         }
+        // A step of no time, or of next to none.
         if !damping.is_number() {
             damping = T::zero();
         }

@@ -195,7 +195,8 @@ mod tests {
         let (bias, deviation, told) = (sum / trials, (squares / trials).sqrt(), told / trials);
         println!("bias {bias:.6}, deviation {deviation:.6}, told {told:.6}");
         assert!(bias.abs() < 4.0 * deviation / trials.sqrt() + 1e-4, "{bias}");
-        assert!((told / deviation - 1.0).abs() < 0.15, "{told} {deviation}");
+        // The deviation of 400 trials is known to 3.5 %.
+        assert!((told / deviation - 1.0).abs() < 0.1, "{told} {deviation}");
     }
 
     #[test]

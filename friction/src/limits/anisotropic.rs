@@ -239,7 +239,9 @@ impl<T: Real> FrictionLimit<T> for AnisotropicCoulomb<T> {
             + self.directions[1] * (two * scale / self.coefficients[1]);
         let length = gradient.norm_squared().root();
         let velocity = -gradient / length;
-        velocity.iter().all(|x| x.is_number()).then_some(SlipDirection { velocity, spin: T::zero() })
+        // Without a load the quotient is not a number.
+        let known = force.is_finite() && velocity.iter().all(|x| x.is_number());
+        known.then_some(SlipDirection { velocity, spin: T::zero() })
     }
 }
 

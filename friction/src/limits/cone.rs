@@ -114,8 +114,8 @@ pub(crate) fn saturated<T: Real>(force: T) -> T {
 #[inline]
 pub(crate) fn hypot<T: Real>(a: T, b: T) -> T {
     let squared = a * a + b * b;
-    // Above ν/ε², ν being the least normal number, no square that counts has underflowed.
-    if squared >= T::LEAST_NORMAL / (T::EPSILON * T::EPSILON) && squared <= T::GREATEST {
+    // Above the least normal number, what a square has lost by underflow is below the rounding of the sum.
+    if squared >= T::LEAST_NORMAL && squared <= T::GREATEST {
         squared.root()
     } else {
         scaled_length(a, b, T::zero())

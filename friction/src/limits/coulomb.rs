@@ -124,7 +124,9 @@ impl<T: Real> FrictionLimit<T> for Coulomb<T> {
         let magnitude = force.tangential_magnitude();
         let scale = magnitude.normalising_factor();
         let velocity = -(force.tangential.vector() * scale) / (magnitude * scale);
-        velocity.iter().all(|x| x.is_number()).then_some(SlipDirection { velocity, spin: T::zero() })
+        // Without a load the quotient is not a number.
+        let known = force.is_finite() && velocity.iter().all(|x| x.is_number());
+        known.then_some(SlipDirection { velocity, spin: T::zero() })
     }
 }
 

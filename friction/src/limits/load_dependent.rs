@@ -120,7 +120,7 @@ impl<T: Real> FrictionModel<T> for LoadDependentLimit<T> {
             mu * normal - shrunk * load >= margin * hypot(mu, shrunk)
         };
         // The frozen margin is an upper bound (κ ≥ 1); bisect below it.
-        let (mut low, mut high) = (T::zero(), frozen.newtons.min(normal * T::literal(0.999)));
+        let (mut low, mut high) = (T::zero(), frozen.newtons);
         if certain(high) {
             return SlipMargin { newtons: high, ..frozen };
         }
@@ -147,12 +147,8 @@ impl<T: Real> FrictionLimit<T> for LoadDependentLimit<T> {
     /// With the arm at the normal force sought.
     fn normal_force_keeping(&self, force: &ContactForce<T>, margin: T) -> T {
         let margin = margin.max(T::zero());
-        let start = self.least_with(force, T::one(), margin / self.cone.cosine);
-        if !(start < T::GREATEST) {
-            return T::GREATEST;
-        }
         // The certified margin is a little less than the frozen one: raise until it is kept.
-        let mut normal = start;
+        let mut normal = self.least_with(force, T::one(), margin / self.cone.cosine);
         for _ in 0..200 {
             let there = ContactForce { normal, ..*force };
             if self.slip_margin(&there).newtons >= margin {

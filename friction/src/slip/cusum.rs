@@ -46,7 +46,7 @@ impl<T: Real> Cusum<T> {
     }
 
     /// With the threshold for a wanted rate of false alarms, were the samples independent
-    /// (`run_length::cusum_threshold`: exact to 0.5 %, from a table, so that it needs no standard
+    /// (`run_length::cusum_threshold`: good to 0.7 % or better, from a table, so that it needs no standard
     /// library).
     ///
     /// # Errors

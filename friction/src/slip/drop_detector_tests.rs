@@ -85,7 +85,7 @@ fn theory_ramps<T: Real>(seed: u64) {
     let quantile = |share: f64| delays[((delays.len() - 1) as f64 * share).round() as usize];
     println!("median {:.2e} s, 95 % {:.2e} s, missed {missed}, early {early}", quantile(0.5), quantile(0.95));
     assert_eq!(missed, 0);
-    assert!(early <= 1, "{early} early");
+    assert_eq!(early, 0);
     assert!(quantile(0.5) <= 1e-3 && quantile(0.95) <= 3e-3, "{} {}", quantile(0.5), quantile(0.95));
 }
 
@@ -139,7 +139,8 @@ fn quiet_holds<T: Real>() {
         0.02,
     );
     println!("alarms in 10 min: constant {constant}, drift {drift}, hum {hum}, moved {moved}");
-    assert!(constant <= 1 && drift <= 1 && hum <= 10 && moved <= 10, "{constant} {drift} {hum} {moved}");
+    // Less than one in ten minutes, as documented.
+    assert!(constant.max(drift).max(hum).max(moved) <= 1, "{constant} {drift} {hum} {moved}");
 }
 
 #[test]
@@ -203,8 +204,7 @@ fn repeated_dropped_and_quantised_samples_do_not_alarm() {
         lsb / 12.0_f64.sqrt(),
     );
     println!("alarms in 5 min: repeated {repeated}, irregular {irregular}, quantised {quantised}");
-    // One a minute at most.
-    assert!(repeated <= 5 && irregular <= 5 && quantised <= 5, "{repeated} {irregular} {quantised}");
+    assert!(repeated.max(irregular).max(quantised) <= 1, "{repeated} {irregular} {quantised}");
 }
 
 #[test]
@@ -290,7 +290,12 @@ fn what_it_can_not_tell() {
     let deviation = 0.02 * (1.0_f64 + 0.4 * 0.4).sqrt();
     let shares = [2.0, 3.0, 4.0, 5.0, 6.0].map(|size| found(&|_| 1.6 - size * deviation));
     println!("found of drops by 2, 3, 4, 5, 6 deviations: {shares:?}");
-    assert!(shares.is_sorted() && shares[0] < 0.2 && shares[3] > 0.85 && shares[4] > 0.98, "{shares:?}");
+    // As documented: 2 %, 40 %, 95 % and all, of which 2000 trials err by four times 1.1 % at most.
+    let documented = [0.02, 0.4, 0.95, 1.0, 1.0];
+    for (share, documented) in shares.iter().zip(documented) {
+        assert!((share - documented).abs() < 0.045, "{shares:?}");
+    }
+    assert!(shares.is_sorted() && shares[0] < 0.04 && shares[3] > 0.995 && shares[4] > 0.999, "{shares:?}");
     // From 1.6 N through nothing to 1.6 N the other way, in 2, 20 and 200 samples.
     let turned = [2.0, 20.0, 200.0]
         .map(|count| found(&|index| (1.6 - 3.2 * (index as f64 + 1.0) / count).abs().min(1.6)));

@@ -38,7 +38,8 @@ struct State<T: Real> {
     /// The last places, a quarter window apart, the oldest after the newest.
     places: [Place<T>; PLACES + 1],
     newest: usize,
-    known: usize,
+    /// No place has been left behind yet.
+    resting: bool,
     verdict: SlipVerdict,
     /// Greatest mean stiffness since the turn \[N/m\], zero while unknown.
     stiffness: T,
@@ -145,7 +146,7 @@ impl<T: Real> IncipientSlip<T> {
                 state.turn_around(&tangential, displacement, back);
             }
         }
-        if square < T::one() && state.known == 1 {
+        if square < T::one() && state.resting {
             // At rest before the motion: the force may relax.
             state.turn.force = tangential;
             state.places[0] = state.turn;
@@ -191,13 +192,9 @@ impl<T: Real> State<T> {
         let after = |index: usize| if index >= PLACES { 0 } else { index + 1 };
         self.newest = after(self.newest);
         self.places[self.newest].set(force, displacement);
-        if self.known <= PLACES {
-            self.known += 1;
-        }
-        if self.known <= PLACES {
-            return self.verdict;
-        }
-        // The first stretches settle: fewer than four windows tell no mean stiffness.
+        self.resting = false;
+        // The first stretches settle: fewer than four windows tell no mean stiffness. While fewer places are
+        // known than there is room for, the oldest is the turn itself.
         let settled = T::literal((4 * PLACES * 4 * PLACES) as f64);
         let (here, oldest) = (&self.places[self.newest], &self.places[after(self.newest)]);
         if self.turn.square_to(&oldest.displacement, scale) < settled {
@@ -229,7 +226,7 @@ impl<T: Real> State<T> {
             farthest_square: T::zero(),
             places: [place; PLACES + 1],
             newest: 0,
-            known: 1,
+            resting: true,
             verdict: SlipVerdict::Holding,
             stiffness: T::zero(),
         }

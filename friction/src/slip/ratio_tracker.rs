@@ -312,16 +312,19 @@ impl<T: Real> RatioTracker<T> {
         force: &ContactForce<T>,
         time_step: T,
     ) -> SlipVerdict {
-        let Some((normal, tangential)) = self.pressing(force, time_step) else {
-            return SlipVerdict::NotPressing;
-        };
-        let fall = match self.ordinary(normal, tangential, time_step) {
+        let plain = self.plain(force);
+        let fall = match plain.and_then(|(normal, load)| self.ordinary(normal, load, time_step)) {
             Some(fall) => fall,
-            None => match self.any(normal, tangential, time_step) {
-                Evidence::NotPressing => return SlipVerdict::NotPressing,
-                Evidence::None => return SlipVerdict::Holding,
-                Evidence::Fall(fall) => fall,
-            },
+            None => {
+                let Some((normal, load)) = plain.or_else(|| self.pressing_at_all(force, time_step)) else {
+                    return SlipVerdict::NotPressing;
+                };
+                match self.any(normal, load, time_step) {
+                    Evidence::NotPressing => return SlipVerdict::NotPressing,
+                    Evidence::None => return SlipVerdict::Holding,
+                    Evidence::Fall(fall) => fall,
+                }
+            }
         };
         if test.add(fall) {
             test.reset();
@@ -342,9 +345,10 @@ impl<T: Real> RatioTracker<T> {
         SlipVerdict::NotPressing
     }
 
-    /// Normal and tangential force of a sample from which something may be learnt.
+    /// Normal and tangential force of a sample from which something may be learnt, in the range in which
+    /// the lines cannot leave theirs.
     #[inline(always)]
-    fn pressing(&mut self, force: &ContactForce<T>, time_step: T) -> Option<(T, T)> {
+    fn plain(&self, force: &ContactForce<T>) -> Option<(T, T)> {
         let normal = force.normal;
         let load = force.tangential_magnitude();
         let square = load * load;
@@ -355,7 +359,7 @@ impl<T: Real> RatioTracker<T> {
             && normal > self.gate.least()
             && normal <= T::GREATEST
             && force.spin.is_number();
-        if plain { Some((normal, load)) } else { self.pressing_at_all(force, time_step) }
+        plain.then_some((normal, load))
     }
 
     /// The same over the whole range.
@@ -378,7 +382,7 @@ impl<T: Real> RatioTracker<T> {
         (tangential < T::GREATEST * normal).then_some((normal, tangential))
     }
 
-    /// The evidence of an ordinary sample: new, of a started tracker, at an even rate below 2 kHz.
+    /// The evidence of an ordinary sample: plain, new, of a started tracker, at an even rate below 2 kHz.
     /// Says and does nothing for others.
     #[inline(always)]
     fn ordinary(&mut self, normal: T, tangential: T, time_step: T) -> Option<T> {

@@ -29,8 +29,9 @@ pub fn siegmund_run_length(allowance: f64, threshold: f64, mean: f64) -> f64 {
 }
 
 /// The threshold of a one-sided cumulative sum of standardised independent samples for an average
-/// run length between false alarms, from Siegmund's formula and a table of its error; good to 0.5 %
-/// for allowances from 0.125 to 1.5 and run lengths from 1e3 to 1e9. Needs no standard library.
+/// run length between false alarms, from Siegmund's formula and a table of its error; good to 0.05 %
+/// for run lengths from 1e5, or from 1e3 with an allowance up to 1, and to 0.7 % for run lengths from
+/// 1e3 with allowances up to 1.5. Needs no standard library.
 ///
 /// # Errors
 /// [`BadDetector`] unless the allowance is in that range and the run length at least 10.
@@ -45,7 +46,6 @@ pub fn cusum_threshold(allowance: f64, run_length: f64) -> Result<f64, BadDetect
     // e^x − x − 1 = 2k²·ARL, by Newton from above: the left side is convex.
     let target = 2.0 * allowance * allowance * run_length;
     let mut x = libm::log(target + 2.0) + 1.0;
-    x = x.max(libm::sqrt(2.0 * target).min(x + 1.0));
     for _ in 0..60 {
         let step = (libm::expm1(x) - x - target) / libm::expm1(x);
         if !(step.abs() > 1e-14 * x) {
@@ -62,18 +62,15 @@ pub fn cusum_threshold(allowance: f64, run_length: f64) -> Result<f64, BadDetect
             correction = at_low + share * (at_high - at_low);
         }
     }
-    let threshold = x / (2.0 * allowance) - OVERSHOOT + correction;
-    if threshold > 0.0 {
-        Ok(threshold)
-    } else {
-        Err(BadDetector { parameter: "average run length", requirement: "longer for this allowance" })
-    }
+    // Above zero: for a run length of 10, least at the greatest allowance, where it is 0.2.
+    Ok(x / (2.0 * allowance) - OVERSHOOT + correction)
 }
 
 /// Average run length between false alarms of a windowed one-sided generalised likelihood ratio
 /// `max_j S_j²/(2j) > threshold`, `j ≤ window`, `S_j > 0`, of standardised independent samples, by
 /// Siegmund & Venkatraman (1995): `2√(2π) e^{b²/2} / (b ∫ x ν(x)² dx)` over `[b/√window, b]` with
-/// `b = √(2·threshold)`.
+/// `b = √(2·threshold)`. It holds for large thresholds and long windows: what it tells is up to a
+/// quarter too long for windows of 16 and more, and up to 1.8 times too long for a window of 4.
 #[must_use]
 pub fn likelihood_ratio_run_length(window: usize, threshold: f64) -> f64 {
     let b = libm::sqrt(2.0 * threshold);
@@ -223,7 +220,7 @@ mod tests {
     /// Prints the table's entries as they should be.
     #[test]
     fn correction_table_is_the_solvers() {
-        let mut worst = 0.0_f64;
+        let mut worst = fingertip_test_support::Worst::new();
         for (k, told) in CORRECTION {
             let start = cusum_threshold(k, 1e5).unwrap();
             let (mut low, mut high) = (start - 0.3, start + 0.3);
@@ -233,9 +230,9 @@ mod tests {
             }
             let plain = cusum_threshold(k, 1e5).unwrap() - told;
             println!("({k}, {:.4}),", high - plain);
-            worst = worst.max((high - plain - told).abs());
+            worst.see(high - plain - told);
         }
-        assert!(worst < 1e-4, "{worst}");
+        assert!(worst.get() < 1e-4, "{}", worst.get());
     }
 
     #[test]

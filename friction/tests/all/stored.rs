@@ -122,6 +122,17 @@ fn states<T: Real + Serialize + DeserializeOwned>() {
     friction.onset().unwrap();
     assert_eq!(again(&friction).estimate(), friction.estimate());
     assert!(again(&friction).estimate().is_some());
+    // What no onset can have taught is refused: a coefficient out of range, a variance below zero.
+    let json = serde_json::to_value(&friction).unwrap();
+    for (place, bad) in [(0, 1e9), (1, -1e-3)] {
+        let mut broken = json.clone();
+        broken["log_coefficient_and_variance"][place] = bad.into();
+        assert!(serde_json::from_value::<StaticFriction<T, 64>>(broken).is_err(), "{place} {bad}");
+    }
+    let mut sure = json;
+    sure["log_coefficient_and_variance"][1] = 0.0.into();
+    let sure = serde_json::from_value::<StaticFriction<T, 64>>(sure).unwrap();
+    assert_eq!(sure.estimate().unwrap().deviation, T::zero());
 }
 
 fn dynamics<T: Real + Serialize + DeserializeOwned>() {

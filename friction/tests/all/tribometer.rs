@@ -1,6 +1,7 @@
 //! A recording of a reciprocating tribometer: 100 strokes with displacement.
 
 use fingertip_friction::{ForceNoise, KineticFriction};
+use fingertip_test_support::Worst;
 
 #[path = "../support/tribometer.rs"]
 mod recording;
@@ -11,7 +12,9 @@ use recording::{Recording, force};
 fn peaks_match_the_strokes() {
     let Some(recording) = Recording::open() else { return };
     let errors = recording.peak_errors().unwrap();
-    let worst = errors.iter().fold(0.0_f64, |worst, error| worst.max(error.abs()));
+    let mut greatest = Worst::new();
+    errors.iter().for_each(|error| greatest.see(*error));
+    let worst = greatest.get();
     let within = errors.iter().filter(|error| error.abs() < 0.01).count();
     println!("peak within 1 % in {within} of {} strokes, worst {:.3} %", errors.len(), worst * 100.0);
     assert_eq!((within, errors.len()), (100, 100));

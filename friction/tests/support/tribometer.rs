@@ -1,8 +1,6 @@
 //! The recording of a reciprocating tribometer, and what the estimators and the detector of
 //! incipient slip make of it: for the tests and the slip report.
 
-use std::path::PathBuf;
-
 use fingertip_friction::{ForceNoise, IncipientSlip, NormalForceGate, SlipVerdict, StaticFriction};
 use fingertip_wrench::ContactForce;
 use nalgebra::Vector3;
@@ -16,16 +14,13 @@ pub(crate) struct Recording {
     pub(crate) strokes: Vec<Vec<f64>>,
 }
 
-/// The columns of a file of numbers; `None` where it is absent.
+/// The columns of a file of numbers; `None` where it is absent, which is said.
 fn read(name: &str) -> Option<Vec<Vec<f64>>> {
-    let folder = std::env::var_os("FINGERTIP_DATA")
-        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/data"), PathBuf::from);
-    let path = folder.join("friction_tribometer").join(name);
-    let Ok(text) = std::fs::read_to_string(&path) else {
-        println!("skipped: no {}", path.display());
-        return None;
-    };
-    text.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().ok()).collect()).collect()
+    let text = fingertip_test_support::recording_text(&format!("friction_tribometer/{name}"))?;
+    let parsed: Option<_> =
+        text.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().ok()).collect()).collect();
+    assert!(parsed.is_some(), "{name} holds what is no number");
+    parsed
 }
 
 pub(crate) fn force(normal: f64, friction: f64) -> ContactForce<f64> {

@@ -1,0 +1,161 @@
+//! The force that a step returns: elastic, damping and viscous part, each against what it stands for.
+
+use fingertip_friction::testing::Draws;
+use fingertip_friction::{
+    Bristle, BristleLaw, DynamicFriction, ElastoPlastic, Exponential, Implicit, Integrator, LuGre, ReturnMap,
+    Stribeck,
+};
+use fingertip_test_support::Worst;
+use fingertip_wrench::Real;
+use nalgebra::{SVector, Vector1, Vector3};
+
+use crate::reference;
+
+const STIFFNESS: f64 = 2e3;
+const DAMPING: f64 = 3.0;
+const VISCOUS: f64 = 0.5;
+
+fn law() -> LuGre<f64> {
+    LuGre::new(STIFFNESS, DAMPING, VISCOUS, Stribeck::new(0.8, 1.2, 1e-2).unwrap()).unwrap()
+}
+
+/// From rest at a constant velocity the deflection is `g/σ₀ (1 − e^{−σ₀vt/g})`, which gives the force at
+/// any time but for the damping, of which the step returns the mean.
+#[test]
+fn force_at_a_constant_velocity_is_the_closed_form() {
+    let direction = Vector3::new(2.0, -1.0, 2.0) / 3.0;
+    for load in [1.0, 2.5] {
+        for speed in [1e-3, 1e-2, 0.3_f64] {
+            for h in [1e-5, 1e-3, 1e-2] {
+                let mut bristle = Bristle::<f64, _, 3>::new(law());
+                bristle.set_load(load);
+                let limit = (0.8 + 0.4 * (-(speed / 1e-2).powi(2)).exp()) / STIFFNESS;
+                let deflection = |t: f64| -limit * (-speed * t / limit).exp_m1();
+                for step in 0..20 {
+                    let force = bristle.step(&(direction * speed), h);
+                    let (start, end) = (deflection(h * f64::from(step)), deflection(h * f64::from(step + 1)));
+                    let exact = load * (STIFFNESS * end + DAMPING * (end - start) / h + VISCOUS * speed);
+                    // The difference of deflections that are nearly equal has lost digits.
+                    let rounding = 64.0 * f64::EPSILON * load * (2.0 + DAMPING * limit / h);
+                    let error = (force - direction * exact).norm();
+                    assert!(error <= rounding, "{load} {speed} {h} {step}: {force:?} {exact}");
+                }
+            }
+        }
+    }
+}
+
+/// The damping force is that of σ₁, or the greatest below it with which no energy comes out: found by
+/// bisection over the balance of energy itself.
+fn damping_is_the_greatest_passive<L: BristleLaw<f64> + Copy, M: Integrator, const D: usize>(
+    law: L,
+    draws: &mut Draws,
+) -> (usize, usize) {
+    let (mut limited, mut plain) = (0, 0);
+    let mut bristle = Bristle::<f64, L, D, M>::with_method(law);
+    let mut slow = SVector::zeros();
+    for index in 0..3000 {
+        // Slow for long, up to the static friction; fast the same way, where friction is less; anywhere.
+        let any = SVector::<f64, D>::from_fn(|_, _| draws.signed());
+        let (v, h) = match index % 3 {
+            0 => (any * 1e-3, 1.0),
+            1 => (slow * (1e4 * draws.share()) + any, 1e-6 * 1e2_f64.powf(draws.share())),
+            _ => (any * 10.0 * draws.share().powi(3), 1e-6 * 1e4_f64.powf(draws.share())),
+        };
+        slow = v;
+        let before = *bristle.deflection();
+        let force = bristle.step(&v, h);
+        let after = *bristle.deflection();
+        let (path, change) = (v * h, after - before);
+        if path.norm() < 1e-6 * after.norm() {
+            // Of so short a way the change of the deflection keeps too few digits.
+            continue;
+        }
+        // ½σ₀(|z⁺|² − |z|²), without its cancellation.
+        let stored = 0.5 * law.stiffness() * change.dot(&(after + before));
+        let passive = |damping: f64| path.dot(&(after * law.stiffness() + change * (damping / h))) >= stored;
+        let mut damping = law.damping();
+        if passive(damping) {
+            plain += 1;
+        } else {
+            limited += 1;
+            let (mut low, mut high) = (0.0, damping);
+            for _ in 0..200 {
+                let middle = 0.5 * (low + high);
+                if passive(middle) { low = middle } else { high = middle }
+            }
+            damping = low;
+        }
+        let exact = after * law.stiffness() + change * (damping / h) + v * law.viscous();
+        // Where the change is nearly across the path, much damping gives little energy.
+        let power = change.dot(&path).abs();
+        let across = if power > 0.0 { change.norm() * (path.norm() + change.norm()) / power } else { 1.0 };
+        let size = law.stiffness() * (after.norm() + before.norm()) + v.norm() * law.viscous();
+        let rounding = 64.0 * f64::EPSILON * (size * across + law.damping() * after.norm() / h);
+        assert!((force - exact).norm() <= rounding, "{force:?} {exact:?} damping {damping}");
+    }
+    (limited, plain)
+}
+
+#[test]
+fn damping_is_limited_just_to_what_passivity_allows() {
+    let mut draws = Draws::new(31);
+    let curve = Stribeck::new(0.8, 1.2, 1e-2).unwrap();
+    let mut counts = Vec::new();
+    for damping in [3.0, 30.0] {
+        let law = LuGre::new(STIFFNESS, damping, VISCOUS, curve).unwrap();
+        let plastic = ElastoPlastic::new(law, 0.5).unwrap();
+        counts.push(damping_is_the_greatest_passive::<_, Exponential, 1>(law, &mut draws));
+        counts.push(damping_is_the_greatest_passive::<_, Exponential, 3>(law, &mut draws));
+        counts.push(damping_is_the_greatest_passive::<_, Implicit, 2>(law, &mut draws));
+        counts.push(damping_is_the_greatest_passive::<_, ReturnMap, 2>(law, &mut draws));
+        counts.push(damping_is_the_greatest_passive::<_, Exponential, 2>(plastic, &mut draws));
+    }
+    println!("limited and plain: {counts:?}");
+    // Both happen, or the test shows nothing.
+    assert!(counts.iter().all(|(limited, plain)| *limited > 20 && *plain > 200), "{counts:?}");
+}
+
+/// Forces on a motion to and fro, too slow for the limit, against the deflections of Radau's method: its
+/// differences give the mean damping of each step.
+#[test]
+fn force_on_a_prescribed_motion_agrees_with_radau() {
+    let velocity = |t: f64| 1e-2 * (100.0 * t).sin();
+    let h = 2e-5;
+    let deflections = reference::moved(velocity, 0.1, h).unwrap();
+    assert!(deflections.len() >= 5000, "{}", deflections.len());
+    let mut bristle = Bristle::<f64, _, 1>::new(LuGre::reference().unwrap());
+    let (mut worst, mut damped) = (Worst::new(), Worst::new());
+    for (index, pair) in deflections.windows(2).enumerate() {
+        let v = velocity(h * (index as f64 + 0.5));
+        let damping = 1e5_f64.sqrt() * (pair[1] - pair[0]) / h;
+        let exact = 1e5 * pair[1] + damping + 0.4 * v;
+        worst.see(bristle.step(&Vector1::new(v), h)[0] - exact);
+        damped.see(damping);
+    }
+    println!("force within {:.2e} N, damping up to {:.2e} N", worst.get(), damped.get());
+    assert!(damped.get() > 0.5, "there is damping to be seen: {}", damped.get());
+    assert!(worst.get() < 2e-3, "{}", worst.get());
+}
+
+/// A deflection at rest gives the elastic force alone, and a step of no time adds the viscous force.
+#[test]
+fn no_motion_and_no_time_give_the_elastic_force() {
+    fn same<T: Real>() {
+        let l = T::literal;
+        let mut bristle = Bristle::<T, _, 2>::new(LuGre::<T>::reference().unwrap());
+        bristle.set_load(l(2.0));
+        bristle.step(&SVector::<T, 2>::new(l(1e-3), l(-2e-3)), l(1e-3));
+        let before = bristle;
+        let elastic = *before.deflection() * (l(1e5) * l(2.0));
+        assert_eq!(bristle.step(&SVector::zeros(), l(1e-3)), elastic);
+        assert_eq!(bristle, before);
+        let v = SVector::<T, 2>::new(l(3.0), l(1.0));
+        let force = bristle.step(&v, T::zero());
+        assert_eq!(bristle, before);
+        let wanted = elastic + v * (l(0.4) * l(2.0));
+        assert!((force - wanted).norm() <= l(8.0) * T::EPSILON * wanted.norm(), "{force:?} {wanted:?}");
+    }
+    same::<f64>();
+    same::<f32>();
+}
