@@ -174,6 +174,7 @@ fn next(candidates: &[Candidate], known: [bool; 6]) -> Option<(usize, &Candidate
 
 #[cfg(test)]
 mod tests {
+    use crate::testing::Largest as _;
     use super::Decoupling;
     use crate::design::test_spaces::{free, paper, rosettes};
     use crate::design::{NominalLoads, TubeSpace};
@@ -190,7 +191,7 @@ mod tests {
             let mut load = Vector6::repeat(0.3);
             load[axis] = -2.0;
             let signals = matrix * DVector::from_column_slice(load.as_slice());
-            assert!((found.solve(&signals).unwrap() - load).amax() < 1e-12);
+            assert!((found.solve(&signals).unwrap() - load).largest() < 1e-12);
         }
         found
     }

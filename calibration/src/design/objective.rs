@@ -100,6 +100,7 @@ fn derivative(parameter: &Parameter, t: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use crate::testing::Largest as _;
     use super::Objective;
     use crate::design::test_spaces::{free, paper};
     use crate::design::{Criterion, DesignSpace, NominalLoads};
@@ -125,7 +126,7 @@ mod tests {
                     moved[i] -= 2.0 * step;
                     let below = objective.smoothed(&moved, power).unwrap().0;
                     let difference = (above - below) / (2.0 * step);
-                    prop_assert!((difference - slope[i]).abs() <= 2e-4 * slope.amax().max(1.0),
+                    prop_assert!((difference - slope[i]).abs() <= 2e-4 * slope.largest().max(1.0),
                         "{i} {difference} {}", slope[i]);
                 }
             }

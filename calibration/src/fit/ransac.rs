@@ -154,6 +154,7 @@ fn fit_to(
 
 #[cfg(test)]
 mod tests {
+    use crate::testing::Largest as _;
     use super::{Ransac, ransac};
     use crate::fit::testing::{gaussian_matrix, sensor};
     use crate::fit::{FitError, least_squares};
@@ -176,7 +177,7 @@ mod tests {
             let good: Vec<usize> = (0..60).filter(|i| !bad(*i)).collect();
             let clean =
                 least_squares(&design.select_rows(&good), &responses.select_rows(&good), None).unwrap();
-            assert!((fit.coefficients - clean.coefficients).amax() < 1e-12);
+            assert!((fit.coefficients - clean.coefficients).largest() < 1e-12);
             assert!((0..60).all(|i| (fit.trust[(i, 0)] == 0.0) == bad(i)));
         }
     }

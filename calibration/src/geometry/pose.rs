@@ -130,6 +130,7 @@ fn descend(
 
 #[cfg(test)]
 mod tests {
+    use crate::testing::Largest as _;
     use super::fit_pose;
     use crate::fit::testing::gaussian;
     use crate::geometry::GeometryError;
@@ -152,8 +153,8 @@ mod tests {
                 })
                 .collect();
             let fit = fit_pose(&touches).unwrap();
-            assert!((fit.shape.rotation() - rotation.matrix()).amax() < 1e-9, "{}", fit.rms);
-            assert!((fit.shape.origin() - origin).amax() < 1e-10);
+            assert!((fit.shape.rotation() - rotation.matrix()).largest() < 1e-9, "{}", fit.rms);
+            assert!((fit.shape.origin() - origin).largest() < 1e-10);
         }
     }
 

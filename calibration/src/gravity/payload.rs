@@ -253,6 +253,7 @@ fn vector(matrix: &DMatrix<f64>) -> Vector3<f64> {
 
 #[cfg(test)]
 mod tests {
+    use crate::testing::Largest as _;
     use super::{PayloadError, PayloadOptions, fit_payload};
     use crate::fit::testing::gaussian;
     use crate::gravity::{Pose, fit_orientation};
@@ -297,10 +298,10 @@ mod tests {
             let poses = poses(random, 4, g, c, bias);
             let options = PayloadOptions { down: None, ..PayloadOptions::default() };
             if let Ok(fit) = fit_payload(&poses, &options) && fit.condition_number < 20.0 {
-                prop_assert!((fit.weight - g).amax() < 1e-12);
-                prop_assert!((fit.centre_of_mass - c).amax() < 1e-12);
-                prop_assert!((fit.force_bias - bias.fixed_rows::<3>(0)).amax() < 1e-12);
-                prop_assert!((fit.torque_bias - bias.fixed_rows::<3>(3)).amax() < 1e-12);
+                prop_assert!((fit.weight - g).largest() < 1e-12);
+                prop_assert!((fit.centre_of_mass - c).largest() < 1e-12);
+                prop_assert!((fit.force_bias - bias.fixed_rows::<3>(0)).largest() < 1e-12);
+                prop_assert!((fit.torque_bias - bias.fixed_rows::<3>(3)).largest() < 1e-12);
             }
         }
 
@@ -317,8 +318,8 @@ mod tests {
                 })
                 .collect();
             let fit = fit_orientation(&poses, &-Vector3::z()).unwrap();
-            prop_assert!((fit.sensor_from_flange - mount).amax() < 1e-10);
-            prop_assert!((fit.weight - 4.0).abs() < 1e-10 && (fit.force_bias - bias).amax() < 1e-10);
+            prop_assert!((fit.sensor_from_flange - mount).largest() < 1e-10);
+            prop_assert!((fit.weight - 4.0).abs() < 1e-10 && (fit.force_bias - bias).largest() < 1e-10);
             prop_assert!(fit.distortion < 1e-10);
         }
     }

@@ -108,6 +108,7 @@ impl LoadTable {
 
 #[cfg(test)]
 mod tests {
+    use crate::testing::Largest as _;
     use super::LoadTable;
     use crate::Axis;
     use crate::calibrate;
@@ -136,7 +137,7 @@ mod tests {
         let merged = LoadTable::merged(&sessions).unwrap();
         assert_eq!((merged.samples(), merged.groups[23], merged.cases[23]), (24, 1, 23));
         let model = calibrate(&merged.centred_by_group(), &options).unwrap().model;
-        assert!((model.fit.coefficients - truth).amax() < 1e-12);
+        assert!((model.fit.coefficients - truth).largest() < 1e-12);
         assert!(LoadTable::merged(&[]).is_err());
     }
 }

@@ -236,6 +236,7 @@ impl ConstantForce {
 
 #[cfg(test)]
 mod tests {
+    use crate::testing::Largest as _;
     use super::{MotionError, constant_force};
     use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
     use nalgebra::{DMatrix, DVector, Vector3};
@@ -265,16 +266,16 @@ mod tests {
             }
             let found = constant_force(&signals, 5.0).unwrap();
             prop_assert!(found.misfit < 1e-9 && found.leakage < 1e-9);
-            prop_assert!((&found.zero - &zero).amax() < 1e-8);
+            prop_assert!((&found.zero - &zero).largest() < 1e-8);
             // The Gram matrix does not know of rotations.
             let again = DMatrix::from_fn(30, 3, |i, j| found.force(&signals.row(i).transpose()).unwrap()[j]);
             let gram = &again * again.transpose();
-            prop_assert!((gram - &forces * forces.transpose()).amax() < 1e-7);
+            prop_assert!((gram - &forces * forces.transpose()).largest() < 1e-7);
             let known: Vec<_> = (0..3)
                 .map(|i| (signals.row(i).transpose(), Vector3::from_fn(|j, _| forces[(i, j)])))
                 .collect();
             if let Ok(aligned) = found.aligned(&known) {
-                prop_assert!((aligned.signals_from_force - truth.transpose()).amax() < 1e-5);
+                prop_assert!((aligned.signals_from_force - truth.transpose()).largest() < 1e-5);
             }
         }
     }

@@ -15,3 +15,5 @@ mod rust_constants;
 mod shapes;
 mod spread;
 mod tables;
+#[path = "../../src/testing.rs"]
+mod testing;
