@@ -213,8 +213,6 @@ mod tests {
                 assert!(!is_said_to_drift(samples, sign * 0.999 * least), "{samples} {sign}");
             }
         }
-        // The middle reading of an odd number belongs to the second half, which is then at rest.
-        assert!(is_said_to_drift(37, 1.01 * few) && !is_said_to_drift(37, 0.9 * few));
         // A ramp, up and down.
         for slope in [1e-2, -1e-2] {
             let ramp = DMatrix::from_fn(1000, 6, |i, j| if j == 4 { slope * i as f64 } else { 0.0 });

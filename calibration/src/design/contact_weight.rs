@@ -94,8 +94,8 @@ impl ContactWeight {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::{ContactWeight, Touch};
+    use crate::testing::Largest as _;
     use core::f64::consts::PI;
     use fingertip_surfaces::Sphere;
     use nalgebra::{Matrix6, Vector3, Vector6};

@@ -162,10 +162,10 @@ impl Criterion {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::{Criterion, gram};
     use crate::design::ContactWeight;
     use crate::linear::Singular;
+    use crate::testing::Largest as _;
     use nalgebra::{DMatrix, Matrix6, Vector6};
     use proptest::prelude::*;
 

@@ -174,10 +174,10 @@ fn next(candidates: &[Candidate], known: [bool; 6]) -> Option<(usize, &Candidate
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::Decoupling;
     use crate::design::test_spaces::{free, paper, rosettes};
     use crate::design::{NominalLoads, TubeSpace};
+    use crate::testing::Largest as _;
     use nalgebra::{DMatrix, DVector, Vector6};
 
     fn matrix(space: &TubeSpace, values: &[f64]) -> DMatrix<f64> {

@@ -231,10 +231,10 @@ fn rounded(value: f64, parts: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::LayoutFile;
     use crate::design::test_spaces::{paper, rosettes};
     use crate::design::{Bridge, Excitation, LoadedTube, Material, NominalLoads};
+    use crate::testing::Largest as _;
 
     fn excitation() -> Excitation {
         Excitation { supply: 5.0, gauge_factor: 2.0, amplifier_gain: 400.0 }

@@ -100,10 +100,10 @@ fn derivative(parameter: &Parameter, t: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::Objective;
     use crate::design::test_spaces::{free, paper};
     use crate::design::{Criterion, DesignSpace, NominalLoads};
+    use crate::testing::Largest as _;
     use nalgebra::DVector;
     use proptest::prelude::*;
 

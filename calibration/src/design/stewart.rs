@@ -231,9 +231,9 @@ impl DesignSpace for StewartSpace {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::{Stewart, StewartSpace};
     use crate::design::{Criterion, Material, NominalLoads, Search, search};
+    use crate::testing::Largest as _;
     use nalgebra::Vector6;
     use proptest::prelude::*;
 

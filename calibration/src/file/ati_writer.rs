@@ -84,8 +84,8 @@ fn escape(value: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::super::{AtiCalibration, AtiError, CalibrationFile, FileError, SignalUnit};
+    use crate::testing::Largest as _;
     use nalgebra::DMatrix;
     use proptest::prelude::*;
 

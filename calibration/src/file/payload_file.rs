@@ -210,8 +210,8 @@ impl PayloadFile {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::{FileError, PayloadFile};
+    use crate::testing::Largest as _;
     use nalgebra::{Matrix3, Vector3};
 
     fn file() -> PayloadFile {

@@ -101,10 +101,10 @@ pub fn gauss_helmert(
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::gauss_helmert;
     use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
     use crate::fit::{least_squares, total_least_squares};
+    use crate::testing::Largest as _;
     use nalgebra::DMatrix;
     use rand::SeedableRng as _;
 

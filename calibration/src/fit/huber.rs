@@ -99,10 +99,10 @@ pub(crate) fn deviation(residuals: impl Iterator<Item = f64>, regressors: usize)
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::huber;
     use crate::fit::least_squares;
     use crate::fit::testing::{gaussian_matrix, sensor};
+    use crate::testing::Largest as _;
     use rand::{RngExt as _, SeedableRng as _};
 
     #[test]

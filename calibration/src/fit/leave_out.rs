@@ -82,10 +82,10 @@ pub fn leave_out(
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::leave_out;
     use crate::fit::least_squares;
     use crate::fit::testing::{gaussian_matrix, sensor};
+    use crate::testing::Largest as _;
     use nalgebra::DMatrix;
     use rand::SeedableRng as _;
 

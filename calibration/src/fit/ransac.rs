@@ -154,10 +154,10 @@ fn fit_to(
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::{Ransac, ransac};
     use crate::fit::testing::{gaussian_matrix, sensor};
     use crate::fit::{FitError, least_squares};
+    use crate::testing::Largest as _;
     use rand::SeedableRng as _;
 
     #[test]

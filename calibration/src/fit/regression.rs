@@ -140,9 +140,9 @@ pub fn least_squares(
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::{FitError, least_squares};
     use crate::fit::testing::{gaussian_matrix, sensor};
+    use crate::testing::Largest as _;
     use nalgebra::DMatrix;
     use proptest::prelude::*;
     use rand::SeedableRng as _;

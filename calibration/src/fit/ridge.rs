@@ -56,10 +56,10 @@ pub fn ridge(
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::ridge;
     use crate::fit::least_squares;
     use crate::fit::testing::{gaussian_matrix, sensor};
+    use crate::testing::Largest as _;
     use nalgebra::DMatrix;
     use rand::SeedableRng as _;
 

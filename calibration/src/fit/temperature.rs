@@ -121,10 +121,10 @@ pub fn fit_temperature(
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::fit_temperature;
     use crate::fit::FitError;
     use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
+    use crate::testing::Largest as _;
     use nalgebra::{DMatrix, DVector};
     use rand::SeedableRng as _;
 

@@ -91,10 +91,10 @@ pub fn total_least_squares(
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::total_least_squares;
     use crate::fit::testing::{gaussian_matrix, sensor};
     use crate::fit::{FitError, least_squares};
+    use crate::testing::Largest as _;
     use nalgebra::DMatrix;
     use rand::SeedableRng as _;
 
@@ -150,7 +150,8 @@ mod tests {
             assert!(near(&total.residual_covariance, &plain.residual_covariance), "{samples}");
             assert!(near(&total.inverse_gram, &plain.inverse_gram), "{samples}");
             assert_eq!((total.trust, total.iterations), (plain.trust, 1));
-            let fewer = (loads.rows(1, samples - 1).into_owned(), responses.rows(1, samples - 1).into_owned());
+            let fewer =
+                (loads.rows(1, samples - 1).into_owned(), responses.rows(1, samples - 1).into_owned());
             let fewer = total_least_squares(&fewer.0, &fewer.1, &[1e-8; 3], &[0.1; 2], constant);
             assert_eq!(fewer.is_ok(), samples == 9);
         }

@@ -108,10 +108,10 @@ pub fn fit_cylinder_along(
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::{fit_cylinder, fit_cylinder_along};
     use crate::fit::testing::gaussian;
     use crate::geometry::{GeometryError, Touch};
+    use crate::testing::Largest as _;
     use fingertip_wrench::Wrench;
     use nalgebra::Vector3;
     use rand::SeedableRng as _;

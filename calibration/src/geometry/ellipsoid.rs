@@ -215,10 +215,10 @@ fn taken_apart(
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::{fit_aligned_ellipsoid, fit_ellipsoid};
     use crate::fit::testing::gaussian;
     use crate::geometry::{GeometryError, Touch};
+    use crate::testing::Largest as _;
     use fingertip_surfaces::ActiveSurface as _;
     use fingertip_wrench::Wrench;
     use nalgebra::{Matrix3, Rotation3, Vector3};

@@ -130,10 +130,10 @@ fn descend(
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::fit_pose;
     use crate::fit::testing::gaussian;
     use crate::geometry::GeometryError;
+    use crate::testing::Largest as _;
     use fingertip_wrench::Wrench;
     use nalgebra::{Rotation3, Vector3};
     use rand::SeedableRng as _;

@@ -256,9 +256,9 @@ pub fn least_radius(centre: &Vector3<f64>, wrenches: &[Wrench<f64>], friction: f
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::{GeometryError, Touch, fit_meeting_point, fit_plane, fit_sphere, least_radius};
     use crate::fit::testing::gaussian;
+    use crate::testing::Largest as _;
     use fingertip_wrench::Wrench;
     use nalgebra::Vector3;
     use proptest::prelude::*;

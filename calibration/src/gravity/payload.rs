@@ -253,10 +253,10 @@ fn vector(matrix: &DMatrix<f64>) -> Vector3<f64> {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::{PayloadError, PayloadOptions, fit_payload};
     use crate::fit::testing::gaussian;
     use crate::gravity::{Pose, fit_orientation};
+    use crate::testing::Largest as _;
     use nalgebra::{Rotation3, Vector3, Vector6};
     use proptest::prelude::*;
     use rand::SeedableRng as _;

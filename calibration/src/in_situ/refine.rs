@@ -172,9 +172,9 @@ fn reduced(jacobian: &DMatrix<f64>, residual: &DVector<f64>) -> Result<(Singular
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::refine;
     use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
+    use crate::testing::Largest as _;
     use nalgebra::{DMatrix, Vector3};
     use rand::SeedableRng as _;
     use rand_pcg::Pcg64Mcg;

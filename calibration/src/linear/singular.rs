@@ -136,8 +136,8 @@ pub fn pseudo_inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::{Singular, pseudo_inverse};
+    use crate::testing::Largest as _;
     use nalgebra::DMatrix;
     use proptest::prelude::*;
     use rand::SeedableRng as _;

@@ -182,8 +182,8 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::Triangular;
+    use crate::testing::Largest as _;
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
     use rand::SeedableRng as _;

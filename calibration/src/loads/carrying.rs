@@ -49,9 +49,9 @@ impl LoadTable {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use crate::file::PayloadFile;
     use crate::loads::{LoadError, LoadTable};
+    use crate::testing::Largest as _;
     use nalgebra::Vector3;
 
     #[test]

@@ -108,13 +108,13 @@ impl LoadTable {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::LoadTable;
     use crate::Axis;
     use crate::calibrate;
     use crate::file::SignalUnit;
     use crate::fit::testing::{gaussian_matrix, sensor};
     use crate::model::Options;
+    use crate::testing::Largest as _;
     use rand::SeedableRng as _;
 
     /// Forces in one session, torques in another, a different zero in each: neither alone determines the

@@ -131,7 +131,6 @@ impl StreamedFit {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::StreamedFit;
     use crate::Axis;
     use crate::calibrate;
@@ -139,6 +138,7 @@ mod tests {
     use crate::fit::testing::{gaussian_matrix, sensor};
     use crate::loads::LoadTable;
     use crate::model::{CalibrationError, Options};
+    use crate::testing::Largest as _;
     use rand::SeedableRng as _;
 
     #[test]

@@ -236,9 +236,9 @@ impl ConstantForce {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::{MotionError, constant_force};
     use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
+    use crate::testing::Largest as _;
     use nalgebra::{DMatrix, DVector, Vector3};
     use proptest::prelude::*;
     use rand::SeedableRng as _;

@@ -224,10 +224,10 @@ fn refine(map: &mut DMatrix<f64>, annihilator: &DMatrix<f64>) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::testing::Largest as _;
     use super::{LeverArm, lever_arms};
     use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
     use crate::motion::MotionError;
+    use crate::testing::Largest as _;
     use nalgebra::{DMatrix, DVector, Vector3};
     use rand::SeedableRng as _;
     use rand_pcg::Pcg64Mcg;

@@ -1,5 +1,6 @@
 //! The report in its three forms, on a sensor made for the purpose.
 
+use super::testing::Largest as _;
 use fingertip_calibration::Axis;
 use fingertip_calibration::calibrate;
 use fingertip_calibration::file::{SignalUnit, Verdict};
@@ -9,7 +10,6 @@ use fingertip_calibration::nalgebra::DMatrix;
 use fingertip_calibration::report::{Mistake, Report};
 use fingertip_test_support::Worst;
 use rand::{RngExt as _, SeedableRng as _};
-use super::testing::Largest as _;
 
 /// Up and down each axis twice, with a known hysteresis of 0.01 and a creep of 0.002 nominal loads.
 fn table() -> LoadTable {

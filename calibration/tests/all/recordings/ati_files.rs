@@ -5,8 +5,6 @@ use fingertip_calibration::file::{AtiCalibration, CalibrationFile};
 
 use fingertip_test_support::recording;
 
-
-
 #[test]
 fn all_files_are_read_and_their_matrices_agree() {
     for (folder, files) in [("ati_cal_files", 6), ("ati_cert_loads", 4), ("ati_delta_raw_1khz", 1)] {

