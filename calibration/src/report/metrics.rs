@@ -194,8 +194,9 @@ pub(crate) fn cross_talk(
     let mut result = vec![vec![None; axes]; axes];
     for i in 0..table.samples() {
         let share = |j: usize| (table.loads[(i, j)] / full_scale[j]).abs();
-        let Some(pure) = (0..axes).find(|j| share(*j) > 0.0) else { continue };
-        if (0..axes).any(|j| j != pure && share(j) > 1e-3 * share(pure)) {
+        let Some(pure) = (0..axes).max_by(|a, b| share(*a).total_cmp(&share(*b))) else { continue };
+        let mixed = (0..axes).any(|j| j != pure && share(j) > 1e-3 * share(pure));
+        if mixed || !(share(pure) > 0.0) {
             continue;
         }
         for (axis, row) in result.iter_mut().enumerate().filter(|(axis, _)| *axis != pure) {

@@ -6,14 +6,17 @@ mod design_end_to_end;
 mod design_optimum;
 mod equivariance;
 mod in_situ;
+mod metrics;
 mod motion;
 mod payload;
 mod random;
 mod recordings;
 mod report;
+mod report_forms;
 mod rust_constants;
 mod shapes;
 mod spread;
 mod tables;
 #[path = "../../src/testing.rs"]
 mod testing;
+mod verdict;
