@@ -44,12 +44,7 @@ fn close(found: Option<f64>, expected: f64) {
 
 #[test]
 fn errors_are_percentages_of_full_scale() {
-    let table = table(&[
-        x(0.0, 0.0),
-        x(8.0, 8.4),
-        y(16.0, 15.2),
-        ([0.0, 0.0, 32.0], [-0.3, 0.0, 32.0]),
-    ]);
+    let table = table(&[x(0.0, 0.0), x(8.0, 8.4), y(16.0, 15.2), ([0.0, 0.0, 32.0], [-0.3, 0.0, 32.0])]);
     let report = check(&table);
     assert_eq!((report.samples, report.cases, report.details.len()), (4, 4, 4));
     let [x, y, z] = &report.axes[..] else { panic!("{report}") };
@@ -64,9 +59,14 @@ fn errors_are_percentages_of_full_scale() {
     let scales: Vec<f64> = report.axes.iter().map(|axis| axis.full_scale).collect();
     assert_eq!(scales, FULL_SCALE[..3]);
     let third = &report.details[2];
-    assert_eq!((third.name.as_str(), &third.applied, &third.measured), ("sample 3", &vec![0.0, 16.0, 0.0], &vec![0.0, 15.2, 0.0]));
+    assert_eq!(
+        (third.name.as_str(), &third.applied, &third.measured),
+        ("sample 3", &vec![0.0, 16.0, 0.0], &vec![0.0, 15.2, 0.0])
+    );
     // Nothing was fitted.
-    assert!(report.axes.iter().all(|axis| axis.left_out_percent.is_none() && axis.deviation_percent.is_none()));
+    assert!(
+        report.axes.iter().all(|axis| axis.left_out_percent.is_none() && axis.deviation_percent.is_none())
+    );
 }
 
 #[test]
@@ -121,7 +121,8 @@ fn of(samples: &[Sample<3>], groups: &[usize], value: fn(&AxisReport) -> Option<
 
 #[test]
 fn hysteresis_is_between_rising_and_falling_load() {
-    let hysteresis = |samples: &[Sample<3>], groups: &[usize]| of(samples, groups, |axis| axis.hysteresis_percent);
+    let hysteresis =
+        |samples: &[Sample<3>], groups: &[usize]| of(samples, groups, |axis| axis.hysteresis_percent);
     // Means of two rising and of two falling readings; held loads count as neither.
     let samples = [
         x(0.0, 0.0),
@@ -160,9 +161,18 @@ fn hysteresis_is_between_rising_and_falling_load() {
 
 #[test]
 fn repeatability_is_pooled_over_loads() {
-    let repeatability = |samples: &[Sample<3>], groups: &[usize]| of(samples, groups, |axis| axis.repeatability_percent);
-    let samples =
-        [x(4.0, 1.0), x(8.0, 2.0), x(4.0, 3.0), x(8.0, 2.0), x(8.0, 5.0), x(0.0, 7.0), x(0.0, 9.0), x(2.0, 0.0)];
+    let repeatability =
+        |samples: &[Sample<3>], groups: &[usize]| of(samples, groups, |axis| axis.repeatability_percent);
+    let samples = [
+        x(4.0, 1.0),
+        x(8.0, 2.0),
+        x(4.0, 3.0),
+        x(8.0, 2.0),
+        x(8.0, 5.0),
+        x(0.0, 7.0),
+        x(0.0, 9.0),
+        x(2.0, 0.0),
+    ];
     // Sums of squares 2 and 6 of one and two degrees of freedom; in any group.
     for groups in [[0; 8], [0, 1, 2, 3, 4, 5, 6, 7]] {
         let found = repeatability(&samples, &groups);
@@ -174,7 +184,8 @@ fn repeatability_is_pooled_over_loads() {
 
 #[test]
 fn zero_returns_after_loading() {
-    let zero_return = |samples: &[Sample<3>], groups: &[usize]| of(samples, groups, |axis| axis.zero_return_percent);
+    let zero_return =
+        |samples: &[Sample<3>], groups: &[usize]| of(samples, groups, |axis| axis.zero_return_percent);
     let samples = [
         x(0.0, 0.1),
         x(0.0, 5.0), // after no load: not counted

@@ -184,7 +184,7 @@ fn page_says_all_of_it() {
 <p>Method: a &amp; b; 3 samples in 2 load cases, 4 coefficients each; condition number N<sub>c</sub> = 3.46.</p>
 <h2>Errors, % of full scale</h2>
 <div class=\"wide\"><table><thead><tr><th></th><th>Fx</th><th>Tz</th></tr></thead>
-<tr><td>full scale</td><td>8.000 N</td><td>0.01234 N·m</td></tr>
+<tr><td>full scale</td><td>8.000 N</td><td>0.01235 N·m</td></tr>
 <tr class=\"first\" title=\"root mean square of the error on these loads\"><td>RMS</td><td>1.000</td><td>1.000</td></tr>
 <tr title=\"greatest error on these loads\"><td>greatest</td><td>2.500</td><td>2.500</td></tr>
 <tr title=\"each load case predicted by a fit without it\"><td>left out, RMS</td><td>1.500</td><td>–</td></tr>
@@ -252,9 +252,13 @@ fn page_leaves_out_what_there_is_not() {
     };
     short.details.iter_mut().for_each(|sample| sample.left_out = None);
     let text = page(&short);
-    assert!(text.contains("3 samples in 2 load cases; condition number N<sub>c</sub> = infinite (singular).</p>"));
+    assert!(
+        text.contains("3 samples in 2 load cases; condition number N<sub>c</sub> = infinite (singular).</p>")
+    );
     assert!(text.contains("</span>these loads</p>"));
-    for absent in ["Why", "Mind", "Cross-talk", "Where touches", "The matrix", "Samples left out", "left out of"] {
+    for absent in
+        ["Why", "Mind", "Cross-talk", "Where touches", "The matrix", "Samples left out", "left out of"]
+    {
         assert!(!text.contains(&format!("<h2>{absent}")) && !text.contains("the same loads"), "{absent}");
     }
     let lines = report().lines.map(|lines| LineReport { expected_mm: None, ..lines });
