@@ -11,6 +11,7 @@ mod motion;
 mod payload;
 mod random;
 mod recordings;
+mod refusals;
 mod report;
 mod report_forms;
 mod rust_constants;
