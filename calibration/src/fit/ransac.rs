@@ -190,5 +190,10 @@ mod tests {
         let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(1);
         let (design, noise) = (gaussian_matrix(&mut random, 30, 6), gaussian_matrix(&mut random, 30, 6));
         assert!(matches!(ransac(&design, &noise, None, &options), Err(FitError::NoConsensus { .. })));
+        // A draw agrees with itself; one more sample must, however many may be bad.
+        let few = (design.view((0, 0), (4, 2)).into_owned(), noise.view((0, 0), (4, 1)).into_owned());
+        let options = Ransac { outliers: 0.9, ..Ransac::new(vec![1e-9]) };
+        let needs = FitError::NoConsensus { agreeing: 2, samples: 4, needed: 3 };
+        assert_eq!(ransac(&few.0, &few.1, None, &options).unwrap_err(), needs);
     }
 }

@@ -280,6 +280,35 @@ mod tests {
         }
     }
 
+    /// One direction, but for a milliradian in one of ten readings, tells of no turn about itself; a hundredth of
+    /// a radian does.
+    #[test]
+    fn parallel_forces_settle_no_rotation() {
+        let random = &mut Pcg64Mcg::seed_from_u64(3);
+        let truth = sensor(random, 3, 4);
+        let found = constant_force(&(directions(random, 30) * &truth), 5.0).unwrap();
+        let known = |angle: f64| -> Vec<_> {
+            (0..10)
+                .map(|i| {
+                    let angle = if i == 4 { angle } else { 0.0 };
+                    let force = Vector3::new(0.0, 5.0 * angle.sin(), 5.0 * angle.cos());
+                    (truth.tr_mul(&force), force)
+                })
+                .map(|(signals, force)| (DVector::from_column_slice(signals.as_slice()), force))
+                .collect()
+        };
+        assert_eq!(found.aligned(&known(1e-3)).unwrap_err(), MotionError::NoAlignment);
+        assert_eq!(found.aligned(&[]).unwrap_err(), MotionError::NoAlignment);
+        for bad in [Vector3::zeros(), Vector3::new(f64::NAN, 0.0, 1.0)] {
+            let mut with = known(0.5);
+            with[7].1 = bad;
+            assert_eq!(found.aligned(&with).unwrap_err(), MotionError::NoAlignment);
+        }
+        let aligned = found.aligned(&known(0.01)).unwrap();
+        // Of a turn about the common direction an error of 1e-9 shows a hundredfold.
+        assert!((aligned.signals_from_force - truth.transpose()).largest() < 1e-5);
+    }
+
     #[test]
     fn hopeless_data_are_refused() {
         let random = &mut Pcg64Mcg::seed_from_u64(1);

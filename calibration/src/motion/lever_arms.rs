@@ -283,5 +283,12 @@ mod tests {
         wrong[2].arm = Vector3::new(0.0, 0.05, 0.03);
         assert!(matches!(lever_arms(&wrong, 5.0, 1e-3, 100, 1), Err(MotionError::NoSolution { .. })));
         assert!(lever_arms(&noisy[..3], 5.0, 1e-2, 10, 1).is_err());
+        let refusal = |arm: &dyn Fn(Vector3<f64>) -> Vector3<f64>| {
+            let mut arms = noisy.clone();
+            arms.iter_mut().for_each(|one| one.arm = arm(one.arm));
+            lever_arms(&arms, 5.0, 1e-2, 10, 1).unwrap_err().to_string()
+        };
+        assert!(refusal(&|_| Vector3::zeros()).contains("all are zero"));
+        assert!(refusal(&|arm| arm * f64::INFINITY).contains("all are zero"));
     }
 }

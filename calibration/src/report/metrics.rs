@@ -105,10 +105,8 @@ fn linearity(table: &LoadTable, predicted: &DMatrix<f64>, axis: usize) -> Option
         .map(|i| (table.loads[(i, axis)], predicted[(i, axis)]))
         .filter(|(load, _)| *load != 0.0)
         .collect();
-    let mut distinct: Vec<f64> = pairs.iter().map(|(load, _)| *load).collect();
-    distinct.sort_by(f64::total_cmp);
-    distinct.dedup();
-    if distinct.len() < 2 {
+    let first = pairs.first()?.0;
+    if pairs.iter().all(|(load, _)| *load == first) {
         return None;
     }
     let slope = pairs.iter().map(|(l, p)| l * p).sum::<f64>() / pairs.iter().map(|(l, _)| l * l).sum::<f64>();

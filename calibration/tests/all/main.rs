@@ -14,6 +14,7 @@ mod recordings;
 mod refusals;
 mod report;
 mod report_forms;
+mod residuals;
 mod rust_constants;
 mod shapes;
 mod spread;

@@ -92,6 +92,13 @@ fn exchanged_axes_units_and_gauges_are_suspected() {
     let found = &check(&wrong).suspicions[0];
     let Mistake::Axes { reads } = &found.mistake else { panic!("{found}") };
     assert_eq!(reads[..3], [(Axis::Fy, false), (Axis::Fx, false), (Axis::Fz, false)]);
+    // The figures are those of all axes together, as they are and as they would be.
+    let overall = |report: &Report| {
+        let squares: f64 = report.axes.iter().map(|axis| axis.rms_percent.powi(2)).sum();
+        (squares / report.axes.len() as f64).sqrt()
+    };
+    assert!((found.before_percent / overall(&check(&wrong)) - 1.0).abs() < 1e-9 && !found.outliers_aside);
+    assert!((found.after_percent / overall(&check(&table)) - 1.0).abs() < 1e-9);
     wrong = table.clone();
     wrong.loads.column_mut(2).neg_mut();
     assert!(check(&wrong).suspicions[0].to_string().contains("−Fz"));

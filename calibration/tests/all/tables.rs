@@ -122,6 +122,27 @@ fn merged_sessions_have_errors_as_stated() {
     spread.agrees_in_the_mean("merged sessions");
 }
 
+/// Three groups of which two are of one sample: their means take as many degrees of freedom as there are, so that
+/// nothing is known of the noise. What is stated stays finite.
+#[test]
+fn without_a_degree_of_freedom_the_statement_is_that_of_the_fit() {
+    let loads = DMatrix::from_column_slice(4, 1, &[1.0, 2.0, 5.0, 7.0]);
+    let signals = DMatrix::from_column_slice(4, 1, &[2.0, 4.5, 1.0, 3.0]);
+    let mut table = LoadTable::new(&[Axis::Fz], loads, signals, SignalUnit::Volt).unwrap();
+    table.groups = vec![0, 0, 1, 2];
+    let options = Options { bias: false, nominal: Some(vec![1.0]), ..Options::default() };
+    // Centred, two samples of ±0.5 N and ±1.25 V are left: the slope fits them exactly.
+    let fit = calibrate(&table.centred_by_group(), &options).unwrap().model.fit;
+    assert!((fit.coefficients[(0, 0)] - 2.5).abs() < 1e-12);
+    assert!((0.0..1e-12).contains(&fit.residual_covariance[(0, 0)]), "{}", fit.residual_covariance);
+    table.groups = vec![0, 0, 0, 1];
+    // Here one degree is left of three: all of the residuals, which centring left, are its.
+    let centred = table.centred_by_group();
+    let fit = calibrate(&centred, &options).unwrap().model.fit;
+    let left = &centred.signals - &centred.loads * &fit.coefficients;
+    assert!((fit.residual_covariance[(0, 0)] / left.norm_squared() - 1.0).abs() < 1e-12);
+}
+
 /// Each group has a zero of one reading or two, and loads to one side only, which that spoils most.
 #[test]
 fn tared_groups_have_errors_as_stated() {
