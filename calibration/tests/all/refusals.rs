@@ -5,6 +5,7 @@ use fingertip_calibration::calibrate;
 use fingertip_calibration::experiment::{Information, plan, plan_after};
 use fingertip_calibration::file::SignalUnit;
 use fingertip_calibration::fit::{FitError, fit_temperature, gauss_helmert, least_squares, leave_out, ridge};
+use fingertip_calibration::in_situ::refine;
 use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{Direction, Method, Options};
 use fingertip_calibration::nalgebra::DMatrix;
@@ -151,6 +152,32 @@ fn of_temperatures() {
     }
     assert!(fit_temperature(&loads, &signals, &celsius[..11], 20.0).is_err());
     assert!(fit_temperature(&loads, &signals, &[20.0; 12], 20.0).is_err());
+}
+
+#[test]
+fn of_touches() {
+    let random = &mut Pcg64Mcg::seed_from_u64(102);
+    let start = DMatrix::identity(6, 6);
+    let (touches, known) = (gaussians(random, 30, 6), gaussians(random, 6, 6));
+    let refined =
+        |start: &DMatrix<f64>, touches: &DMatrix<f64>, loads: &DMatrix<f64>, deviations: (f64, f64)| {
+            refine(start, touches, deviations.0, &known, loads, deviations.1)
+        };
+    let good = (1e-2, 1e-2);
+    for deviations in
+        [(0.0, 1e-2), (1e-2, 0.0), (-1.0, 1e-2), (1e-2, -1.0), (f64::NAN, 1e-2), (1e-2, f64::NAN)]
+    {
+        assert!(is_bad_input(refined(&start, &touches, &known, deviations)), "{deviations:?}");
+    }
+    for wrong in [DMatrix::identity(5, 6), DMatrix::identity(6, 7), &start * f64::NAN] {
+        assert!(is_bad_input(refined(&wrong, &touches, &known, good)));
+    }
+    for wrong in [DMatrix::zeros(30, 5), &touches * f64::INFINITY] {
+        assert!(is_bad_input(refined(&start, &wrong, &known, good)));
+    }
+    for wrong in [DMatrix::zeros(5, 6), DMatrix::zeros(6, 5), &known * f64::NAN] {
+        assert!(is_bad_input(refined(&start, &touches, &wrong, good)));
+    }
 }
 
 #[test]
