@@ -17,6 +17,8 @@ pub mod model;
 pub mod motion;
 pub mod report;
 pub mod tare;
+#[cfg(test)]
+mod testing;
 
 pub use axis::Axis;
 pub use calibrate::{Calibration, calibrate};

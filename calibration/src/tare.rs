@@ -76,7 +76,7 @@ impl CalibrationFile {
         self.check_readings(&signals)?;
         if let Some(drift) = &self.temperature {
             for (i, mut row) in signals.row_iter_mut().enumerate() {
-                let known = temperatures.as_ref().map(|list| list[i]).or(celsius);
+                let known = temperatures.as_ref().map(|list| list[i]).or(celsius.filter(|t| t.is_finite()));
                 let reference = drift.reference_celsius;
                 let celsius = known.ok_or(FileError::NeedsTemperature { reference })?;
                 row -= RowDVector::from_vec(drift.drift_of_zero(celsius));
@@ -186,6 +186,73 @@ mod tests {
         assert!(file().tared_by(&moving).unwrap().warnings[0].contains("gauge 4"));
     }
 
+    /// Readings that alternate by ±1 about a level that changes by `step` halfway.
+    fn stepped(samples: usize, step: f64) -> DMatrix<f64> {
+        DMatrix::from_fn(samples, 6, |i, j| {
+            let noise = if i % 2 == 0 { 1.0 } else { -1.0 };
+            noise + if j == 2 && 2 * i >= samples { step } else { 0.0 }
+        })
+    }
+
+    fn is_said_to_drift(samples: usize, step: f64) -> bool {
+        let warnings = file().tared_by(&stepped(samples, step)).unwrap().warnings;
+        assert!(warnings.iter().all(|warning| warning.starts_with("gauge 3: ")), "{warnings:?}");
+        !warnings.is_empty()
+    }
+
+    /// The deviation of all readings is √(1 + d²/4) · √(n/(n−1)) with a step of d. Of many readings it is one
+    /// deviation that the step must exceed: d > 2/√3. Of 36 it is five standard errors of the difference of the
+    /// halves, 10/√36 of a deviation: d² (1 − 25/36 · 36/35) > 25/9 · 36/35.
+    #[test]
+    fn drift_is_warned_of_in_both_directions() {
+        let few = (20.0_f64 / 7.0 / (1.0 - 5.0 / 7.0)).sqrt();
+        // Of 10 000 readings n/(n−1) changes the fourth digit.
+        for (samples, least) in [(10_000, 2.0 / 3.0_f64.sqrt()), (36, few)] {
+            for sign in [1.0, -1.0] {
+                assert!(is_said_to_drift(samples, sign * 1.001 * least), "{samples} {sign}");
+                assert!(!is_said_to_drift(samples, sign * 0.999 * least), "{samples} {sign}");
+            }
+        }
+        // A ramp, up and down.
+        for slope in [1e-2, -1e-2] {
+            let ramp = DMatrix::from_fn(1000, 6, |i, j| if j == 4 { slope * i as f64 } else { 0.0 });
+            let warnings = file().tared_by(&ramp).unwrap().warnings;
+            assert!(warnings.len() == 1 && warnings[0].starts_with("gauge 5: "), "{warnings:?}");
+        }
+        // Readings that do not change at all are at rest.
+        assert!(file().tared_by(&DMatrix::from_element(10, 6, 3.0)).unwrap().warnings.is_empty());
+    }
+
+    /// Two readings: their mean, half their difference times √2, and what changed.
+    #[test]
+    fn two_readings_are_enough() {
+        let mut before = file();
+        before.range = Some([-10.0, 10.0]);
+        let signals = DMatrix::from_fn(2, 6, |i, j| j as f64 + 1e6 * f64::EPSILON * i as f64);
+        let tared = before.tared_by(&signals).unwrap();
+        assert_eq!(tared.samples, 2);
+        for j in 0..6 {
+            let mean = j as f64 + 0.5e6 * f64::EPSILON;
+            assert_eq!((tared.file.zero[j], tared.moved[j]), (mean, mean - 0.5));
+            let noise = tared.file.noise.as_ref().unwrap()[j];
+            assert!((noise / (1e6 * f64::EPSILON * 0.5_f64.sqrt()) - 1.0).abs() < 1e-5);
+        }
+        // One reading within the range is enough for a zero, at its ends none is.
+        let mut end = DMatrix::from_element(3, 6, 10.0);
+        end[(1, 0)] = 9.9;
+        assert!(matches!(before.tared_by(&end), Err(RestError::Saturated { gauge: 2 })));
+        end.row_mut(1).fill(9.9);
+        assert!(before.tared_by(&end).is_ok());
+        let low = DMatrix::from_element(3, 6, -10.0);
+        assert!(matches!(before.tared_by(&low), Err(RestError::Saturated { gauge: 1 })));
+        let five = DMatrix::zeros(3, 5);
+        let error = before.tared_by(&five).unwrap_err();
+        assert!(
+            matches!(error, RestError::Calibration(FileError::WrongGauges { found: 6, expected: 5 })),
+            "{error}"
+        );
+    }
+
     #[test]
     fn mistakes_are_named() {
         let text = "v1_V,v2_V,v3_V,v4_V,v5_V,v6_V\n1,2,3,4,5,6\n1,2,3,4,5,6\n";
@@ -209,6 +276,9 @@ mod tests {
         let needs = |error| matches!(error, RestError::Calibration(FileError::NeedsTemperature { .. }));
         assert!(needs(drifting.tared(text.as_bytes(), None).unwrap_err()));
         assert!(needs(drifting.tared_by(&DMatrix::zeros(3, 6)).unwrap_err()));
+        for wrong in [f64::NAN, f64::INFINITY] {
+            assert!(needs(drifting.tared(text.as_bytes(), Some(wrong)).unwrap_err()), "{wrong}");
+        }
         let warm =
             "v1_V,v2_V,v3_V,v4_V,v5_V,v6_V,temperature_C\n1,1,1,1,1,1,22\n1.05,1.05,1.05,1.05,1.05,1.05,27\n";
         assert!((drifting.tared(warm.as_bytes(), None).unwrap().file.zero[2] - 0.98).abs() < 1e-12);

@@ -95,6 +95,7 @@ impl ContactWeight {
 #[cfg(test)]
 mod tests {
     use super::{ContactWeight, Touch};
+    use crate::testing::Largest as _;
     use core::f64::consts::PI;
     use fingertip_surfaces::Sphere;
     use nalgebra::{Matrix6, Vector3, Vector6};
@@ -117,7 +118,7 @@ mod tests {
         let by_points = ContactWeight::on_sphere(13e-3, PI, 0.3, 1.0).unwrap();
         let scale = Vector6::new(1.0, 1.0, 1.0, 0.013, 0.013, 0.013);
         let (a, b) = (by_lines.normalised(&scale), by_points.normalised(&scale));
-        let off = (a.matrix() - b.matrix()).amax() / b.matrix().amax();
+        let off = (a.matrix() - b.matrix()).largest() / b.matrix().largest();
         assert!(off < 0.02, "{off} {} {}", a.matrix(), b.matrix());
     }
 

@@ -165,6 +165,7 @@ mod tests {
     use super::{Criterion, gram};
     use crate::design::ContactWeight;
     use crate::linear::Singular;
+    use crate::testing::Largest as _;
     use nalgebra::{DMatrix, Matrix6, Vector6};
     use proptest::prelude::*;
 
@@ -215,7 +216,7 @@ mod tests {
                 let step = 1e-5;
                 let difference = (at(step).0 - at(-step).0) / (2.0 * step);
                 let slope = at(0.0).1.component_mul(&direction).sum();
-                let size = at(0.0).1.amax() * direction.amax() * 36.0;
+                let size = at(0.0).1.largest() * direction.largest() * 36.0;
                 prop_assert!((slope - difference).abs() <= 1e-4 * size.max(1e-3), "{criterion:?} {slope} {difference}");
             }
         }

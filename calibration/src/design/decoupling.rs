@@ -177,6 +177,7 @@ mod tests {
     use super::Decoupling;
     use crate::design::test_spaces::{free, paper, rosettes};
     use crate::design::{NominalLoads, TubeSpace};
+    use crate::testing::Largest as _;
     use nalgebra::{DMatrix, DVector, Vector6};
 
     fn matrix(space: &TubeSpace, values: &[f64]) -> DMatrix<f64> {
@@ -190,7 +191,7 @@ mod tests {
             let mut load = Vector6::repeat(0.3);
             load[axis] = -2.0;
             let signals = matrix * DVector::from_column_slice(load.as_slice());
-            assert!((found.solve(&signals).unwrap() - load).amax() < 1e-12);
+            assert!((found.solve(&signals).unwrap() - load).largest() < 1e-12);
         }
         found
     }

@@ -234,6 +234,7 @@ mod tests {
     use super::LayoutFile;
     use crate::design::test_spaces::{paper, rosettes};
     use crate::design::{Bridge, Excitation, LoadedTube, Material, NominalLoads};
+    use crate::testing::Largest as _;
 
     fn excitation() -> Excitation {
         Excitation { supply: 5.0, gauge_factor: 2.0, amplifier_gain: 400.0 }
@@ -255,11 +256,11 @@ mod tests {
             let sensor = again.sensor_matrix::<6>().unwrap();
             let direct = again.gauge_layout::<6>().unwrap();
             let direct = direct.sensor_matrix(excitation().gain(), tube().loads.components()).unwrap();
-            let off = (sensor.normalised() - direct.normalised()).amax();
-            assert!(off <= 1e-14 * direct.normalised().amax());
+            let off = (sensor.normalised() - direct.normalised()).largest();
+            assert!(off <= 1e-14 * direct.normalised().largest());
             let predicted = again.predicted_calibration().unwrap();
             let off = predicted.sensor_matrix::<6>().unwrap().normalised() - sensor.normalised();
-            assert_eq!(off.amax(), 0.0);
+            assert_eq!(off.largest(), 0.0);
         }
     }
 

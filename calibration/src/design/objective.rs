@@ -103,6 +103,7 @@ mod tests {
     use super::Objective;
     use crate::design::test_spaces::{free, paper};
     use crate::design::{Criterion, DesignSpace, NominalLoads};
+    use crate::testing::Largest as _;
     use nalgebra::DVector;
     use proptest::prelude::*;
 
@@ -125,7 +126,7 @@ mod tests {
                     moved[i] -= 2.0 * step;
                     let below = objective.smoothed(&moved, power).unwrap().0;
                     let difference = (above - below) / (2.0 * step);
-                    prop_assert!((difference - slope[i]).abs() <= 2e-4 * slope.amax().max(1.0),
+                    prop_assert!((difference - slope[i]).abs() <= 2e-4 * slope.largest().max(1.0),
                         "{i} {difference} {}", slope[i]);
                 }
             }

@@ -273,6 +273,55 @@ mod tests {
         assert!((strength.wall_buckling_ratio * 2.0 - 1.0).abs() < 1e-9);
     }
 
+    /// The formulas of the documentation, worked out apart from this code for one tube of 20 mm and 0.2 mm: the
+    /// loads at which it buckles.
+    #[test]
+    fn single_loads_buckle_where_the_formulas_say() {
+        let wall = 0.2e-3;
+        let of = |force: [f64; 3], torque: [f64; 3], length: f64| {
+            LoadedTube { radius: 20e-3, length, ..tube(force, torque) }.strength(wall).unwrap()
+        };
+        let near = |found: f64, expected: f64| {
+            assert!((found / expected - 1.0).abs() < 1e-12, "{found} instead of {expected}");
+        };
+        let compression = of([6_406.391_629_609_737, NONE, NONE], [NONE; 3], 12e-3);
+        near(compression.wall_buckling_ratio, 1.0);
+        near(compression.column_buckling_ratio, 6_406.391_629_609_737 / 6_175_416.772_159_714);
+        near(compression.wall_ratio, 0.01);
+        let moment = 72.771_402_724_899_87;
+        near(of([NONE; 3], [NONE, moment, NONE], 12e-3).wall_buckling_ratio, 1.0);
+        near(of([NONE; 3], [NONE, 0.6 * moment, 0.8 * moment], 12e-3).wall_buckling_ratio, 1.0);
+        // Z is 34 here, and 0.5 for the short one, which counts as 1. The share of shear is a square.
+        near(of([NONE; 3], [74.066_459_694_494_2, NONE, NONE], 12e-3).wall_buckling_ratio, 1.0);
+        near(of([NONE; 3], [2.0 * 336.784_633_990_464_6, NONE, NONE], 1.5e-3).wall_buckling_ratio, 4.0);
+        // A transverse force F shears as a torque of 2RF does, and bends at the clamped end.
+        let force = 100.0;
+        let shear = force * 2.0 * 20e-3 / 336.784_633_990_464_6;
+        let expected = shear * shear + force * 1.5e-3 / moment;
+        near(of([NONE, force, NONE], [NONE; 3], 1.5e-3).wall_buckling_ratio, expected);
+        near(of([NONE, 0.6 * force, 0.8 * force], [NONE; 3], 1.5e-3).wall_buckling_ratio, expected);
+    }
+
+    /// What just holds, and a little less.
+    #[test]
+    fn a_tube_holds_up_to_its_limits() {
+        let good = tube([10.0; 3], [0.1; 3]).strength(0.2e-3).unwrap();
+        let safety = 1.0 / good.worst_ratio();
+        assert!(good.holds(0.999_999 * safety) && !good.holds(1.000_001 * safety));
+        let of_ratios = |yields: f64, wall: f64, column: f64| super::TubeStrength {
+            yield_ratio: yields,
+            wall_buckling_ratio: wall,
+            column_buckling_ratio: column,
+            ..good
+        };
+        for strength in [of_ratios(0.5, 0.2, 0.1), of_ratios(0.1, 0.5, 0.2), of_ratios(0.2, 0.1, 0.5)] {
+            assert_eq!(strength.worst_ratio(), 0.5);
+            assert!(strength.holds(2.0) && !strength.holds(2.001));
+            assert!(super::TubeStrength { wall_ratio: THICKEST_WALL, ..strength }.holds(2.0));
+            assert!(!super::TubeStrength { wall_ratio: 1.01 * THICKEST_WALL, ..strength }.holds(1.0));
+        }
+    }
+
     #[test]
     fn refuses_bad_numbers() {
         let good = tube([30.0; 3], [0.3; 3]);

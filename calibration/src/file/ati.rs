@@ -134,6 +134,11 @@ impl AtiCalibration {
         };
         let known = ["PartNumber", "CalDate", "ForceUnits", "TorqueUnits", "DistUnits"];
         let text = |node: Node<'_, '_>, name: &str| node.attribute(name).unwrap_or_default().to_owned();
+        let force_unit = unit(calibration, "ForceUnits", |name| Axis::Fx.unit_size(name))?;
+        let torque_unit = unit(calibration, "TorqueUnits", |name| Axis::Tx.unit_size(name))?;
+        let sizes = Axis::ALL.map(|axis| {
+            axis.unit_size(if axis.is_torque() { &torque_unit } else { &force_unit }).unwrap_or(f64::NAN)
+        });
         let result = Self {
             serial: text(sensor, "Serial"),
             body_style: text(sensor, "BodyStyle"),
@@ -141,33 +146,37 @@ impl AtiCalibration {
             file_version: text(sensor, "CalFileVersion"),
             part_number: text(calibration, "PartNumber"),
             date: text(calibration, "CalDate"),
-            force_unit: unit(calibration, "ForceUnits", |name| Axis::Fx.unit_size(name))?,
-            torque_unit: unit(calibration, "TorqueUnits", |name| Axis::Tx.unit_size(name))?,
+            force_unit,
+            torque_unit,
             distance_unit: unit(calibration, "DistUnits", length)?,
             other: calibration
                 .attributes()
-                .filter(|attribute| !known.contains(&attribute.name()))
+                // Two of different namespaces may have the same name.
+                .filter(|attribute| attribute.namespace().is_none() && !known.contains(&attribute.name()))
                 .map(|attribute| (attribute.name().to_owned(), attribute.value().to_owned()))
                 .collect(),
-            axes: rows(calibration, "Axis", gauges)?,
+            axes: rows(calibration, "Axis", gauges, &sizes)?,
             translation: [shift("Dx")?, shift("Dy")?, shift("Dz")?],
             rotation: [shift("Rx")?, shift("Ry")?, shift("Rz")?],
             user_axes: match calibration.children().any(|node| node.has_tag_name("UserAxis")) {
-                true => Some(rows(calibration, "UserAxis", gauges)?),
+                true => Some(rows(calibration, "UserAxis", gauges, &sizes)?),
                 false => None,
             },
         };
-        Ok(result)
+        match result.transformed_axes() {
+            Ok(_) | Err(AtiError::Turned) => Ok(result),
+            Err(error) => Err(error),
+        }
     }
 
     /// Load \[N, N·m\] per volt about the user's origin, 6 × gauges: from `UserAxis` where the file
     /// has it, otherwise from `Axis` and the transform.
     ///
     /// # Errors
-    /// [`AtiError::Turned`].
+    /// [`AtiError::Turned`], or [`AtiError::BadAttribute`] if a number made by hand is not finite in SI.
     pub fn loads_per_volt(&self) -> Result<DMatrix<f64>, AtiError> {
         match &self.user_axes {
-            Some(rows) => Ok(self.in_si(rows)),
+            Some(rows) => self.in_si("UserAxis", rows),
             None => self.transformed_axes(),
         }
     }
@@ -176,14 +185,15 @@ impl AtiCalibration {
     /// not the file has `UserAxis`.
     ///
     /// # Errors
-    /// [`AtiError::Turned`].
+    /// [`AtiError::Turned`], or [`AtiError::BadAttribute`] if a number is not finite in SI, or too great for
+    /// the transform.
     pub fn transformed_axes(&self) -> Result<DMatrix<f64>, AtiError> {
         if self.rotation.iter().any(|angle| *angle != 0.0) {
             return Err(AtiError::Turned);
         }
         let length = length(&self.distance_unit).unwrap_or(f64::NAN);
         let origin = Vector3::from(self.translation) * length;
-        let mut matrix = self.in_si(&self.axes);
+        let mut matrix = self.in_si("Axis", &self.axes)?;
         for mut column in matrix.column_iter_mut() {
             let force = Vector3::new(column[0], column[1], column[2]);
             let moved = origin.cross(&force);
@@ -191,7 +201,16 @@ impl AtiCalibration {
                 column[3 + i] -= moved[i];
             }
         }
-        Ok(matrix)
+        if matrix.iter().all(|value| value.is_finite()) {
+            return Ok(matrix);
+        }
+        let [dx, dy, dz] = self.translation;
+        Err(AtiError::BadAttribute {
+            element: "BasicTransform".to_owned(),
+            attribute: "Dx, Dy, Dz".to_owned(),
+            found: format!("{dx}, {dy}, {dz}"),
+            requirement: "must move the torques by finite numbers",
+        })
     }
 
     /// Full scale of the six axes \[N, N·m\].
@@ -260,6 +279,9 @@ impl AtiCalibration {
             max: file.nominal[i],
             scale: 1.0,
         });
+        if let Some(axis) = rows.iter().position(|row| row.values.iter().any(|value| !value.is_finite())) {
+            return Err(FileError::NotFinite { field: format!("inverse of matrix[..][{axis}]") });
+        }
         let mut other = Vec::new();
         if let Some([low, high]) = file.range {
             other.push(("OutputRange".to_owned(), (high - low).to_string()));
@@ -298,11 +320,26 @@ impl AtiCalibration {
             .unwrap_or(f64::NAN)
     }
 
-    fn in_si(&self, rows: &[AtiAxis; 6]) -> DMatrix<f64> {
+    /// Rows of elements called `tag`, in SI.
+    fn in_si(&self, tag: &str, rows: &[AtiAxis; 6]) -> Result<DMatrix<f64>, AtiError> {
         let gauges = rows.iter().map(|row| row.values.len()).min().unwrap_or(0);
-        DMatrix::from_fn(6, gauges, |i, j| rows[i].values[j] / rows[i].scale * self.size(Axis::ALL[i]))
+        let matrix =
+            DMatrix::from_fn(6, gauges, |i, j| rows[i].values[j] / rows[i].scale * self.size(Axis::ALL[i]));
+        for ((row, axis), found) in matrix.row_iter().zip(Axis::ALL).zip(rows) {
+            if let Some(gauge) = row.iter().position(|value| !value.is_finite()) {
+                return Err(AtiError::BadAttribute {
+                    element: format!("{tag} {axis}"),
+                    attribute: "values".to_owned(),
+                    found: found.values[gauge].to_string(),
+                    requirement: FINITE_IN_SI,
+                });
+            }
+        }
+        Ok(matrix)
     }
 }
+
+const FINITE_IN_SI: &str = "must be finite, over the scale and in N or N·m";
 
 fn child<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Result<Node<'a, 'input>, AtiError> {
     node.children()
@@ -349,7 +386,13 @@ fn unit(node: Node<'_, '_>, name: &str, size: impl Fn(&str) -> Option<f64>) -> R
     }
 }
 
-fn rows(calibration: Node<'_, '_>, tag: &str, gauges: usize) -> Result<[AtiAxis; 6], AtiError> {
+/// The six rows of elements called `tag`, whose units have these sizes in SI.
+fn rows(
+    calibration: Node<'_, '_>,
+    tag: &str,
+    gauges: usize,
+    sizes: &[f64; 6],
+) -> Result<[AtiAxis; 6], AtiError> {
     let row = |axis: Axis| -> Result<AtiAxis, AtiError> {
         let node = calibration
             .children()
@@ -372,6 +415,13 @@ fn rows(calibration: Node<'_, '_>, tag: &str, gauges: usize) -> Result<[AtiAxis;
             if !(value > 0.0) {
                 return Err(bad(node, name, &value.to_string(), "must be positive"));
             }
+        }
+        let size = sizes[axis.index()];
+        if !(max * size > 0.0 && (max * size).is_finite()) {
+            return Err(bad(node, "max", &max.to_string(), "must be positive and finite in N or N·m"));
+        }
+        if let Some(value) = values.iter().find(|value| !(**value / scale * size).is_finite()) {
+            return Err(bad(node, "values", &value.to_string(), FINITE_IN_SI));
         }
         Ok(AtiAxis { values, max, scale })
     };

@@ -57,7 +57,7 @@ impl AtiCalibration {
 fn write_row(text: &mut String, tag: &str, axis: Axis, row: &AtiAxis, scaled: bool) {
     let values: String = row.values.iter().map(|value| format!(" {value}")).collect();
     let _ = write!(text, "\t\t<{tag} Name=\"{axis}\" values=\"{values} \" max=\"{}\"", row.max);
-    if scaled {
+    if scaled || row.scale != 1.0 {
         let _ = write!(text, " scale=\"{}\"", row.scale);
     }
     text.push_str("/>\n");
@@ -70,8 +70,12 @@ fn escape(value: &str) -> String {
             '&' => escaped.push_str("&amp;"),
             '<' => escaped.push_str("&lt;"),
             '"' => escaped.push_str("&quot;"),
+            // As they stand, a reader takes them for spaces.
+            '\t' | '\n' | '\r' => {
+                let _ = write!(escaped, "&#{};", u32::from(character));
+            }
             // XML has no way to write other control characters.
-            c if c.is_control() => escaped.push(' '),
+            c if c < ' ' => escaped.push(' '),
             c => escaped.push(c),
         }
     }
@@ -80,7 +84,8 @@ fn escape(value: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{AtiCalibration, AtiError, CalibrationFile, SignalUnit};
+    use super::super::{AtiCalibration, AtiError, CalibrationFile, FileError, SignalUnit};
+    use crate::testing::Largest as _;
     use nalgebra::DMatrix;
     use proptest::prelude::*;
 
@@ -112,7 +117,7 @@ mod tests {
         assert!((file.nominal[5] - 15.0 * pound_inch).abs() < 1e-15);
         // Forward and back: the load that one volt on gauge 1 tells of.
         let load = file.load(&[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]).unwrap();
-        assert!((load - matrix.column(1)).amax() < 1e-14);
+        assert!((load - matrix.column(1)).largest() < 1e-14);
     }
 
     #[test]
@@ -153,6 +158,92 @@ mod tests {
         assert!(matches!(singular.to_calibration(), Err(AtiError::Calibration(_))));
     }
 
+    /// Finite in the file's own units, but not in N and N·m: refused by name, not read as infinite.
+    #[test]
+    fn numbers_that_si_cannot_hold_are_refused_by_name() {
+        for (from, to, element, attribute, value) in [
+            ("0 20 0 0 0 0", "0 5e307 0 0 0 0", "Axis Fy", "`values`", 5e307),
+            (" 10 0 0", " -5e307 0 0", "Axis Fx", "`values`", -5e307),
+            ("max=\"25\"", "max=\"1e308\"", "Axis Fz", "`max`", 1e308),
+            ("5 0\" max=\"15\"", "5 0\" max=\"5e-324\"", "Axis Ty", "`max`", 5e-324),
+            ("scale=\"2\"", "scale=\"1e-308\"", "Axis Tx", "`values`", 4.0),
+            ("Dz=\"0.5\"", "Dz=\"1e308\"", "BasicTransform", "`Dx, Dy, Dz`", 1e308),
+        ] {
+            let text = NEW.replace("scale=\"10\"", "scale=\"1\"");
+            let broken = text.replacen(from, to, 1);
+            assert_ne!(broken, text);
+            let error = AtiCalibration::from_xml(&broken).unwrap_err();
+            assert!(matches!(error, AtiError::BadAttribute { .. }), "{error:?}");
+            let error = error.to_string();
+            let named = [element, attribute, &value.to_string()].iter().all(|part| error.contains(*part));
+            assert!(named, "{error}");
+        }
+        // Nor does a calibration whose inverse is none give one.
+        let mut file = AtiCalibration::from_xml(NEW).unwrap().to_calibration().unwrap();
+        file.matrix = DMatrix::from_diagonal_element(6, 6, 1e-100);
+        file.nominal = vec![1e300; 6];
+        let error = AtiCalibration::from_calibration(&file).unwrap_err();
+        assert!(matches!(error, FileError::NotFinite { .. }), "{error}");
+    }
+
+    #[test]
+    fn texts_and_scales_of_both_layouts_round_trip() {
+        let mut ati = AtiCalibration::from_xml(NEW).unwrap();
+        ati.serial = "a\tb\nc\rd <&>\"' é\u{85}".to_owned();
+        ati.other[0].1 = " 2 0 ".to_owned();
+        let mut rows = ati.axes.clone();
+        rows[3].scale = 7.5;
+        ati.user_axes = Some(rows);
+        assert_eq!(AtiCalibration::from_xml(&ati.to_xml()).unwrap(), ati);
+        // What XML cannot say becomes a space.
+        ati.serial = "a\u{1}b".to_owned();
+        assert_eq!(AtiCalibration::from_xml(&ati.to_xml()).unwrap().serial, "a b");
+        // Attributes of other namespaces are not the calibration's.
+        let strange = NEW.replace("OutputRange=", "xmlns:o=\"urn:o\" o:OutputRange=\"3\" OutputRange=");
+        let ati = AtiCalibration::from_xml(&strange).unwrap();
+        assert_eq!(ati.other, AtiCalibration::from_xml(NEW).unwrap().other);
+    }
+
+    #[test]
+    fn range_is_read_and_written() {
+        let range = |range: &str, bipolar: &str| {
+            let text = NEW.replace("OutputRange=\"20\"", &format!("OutputRange=\"{range}\""));
+            let text = text.replace("OutputBipolar=\"True\"", &format!("OutputBipolar=\"{bipolar}\""));
+            AtiCalibration::from_xml(&text).unwrap().to_calibration().unwrap().range
+        };
+        assert_eq!(range(" 20 ", "TRUE"), Some([-10.0, 10.0]));
+        assert_eq!(range("20", "False"), Some([0.0, 20.0]));
+        for nonsense in ["0", "-20", "x", "inf", "nan"] {
+            assert_eq!(range(nonsense, "True"), None, "{nonsense}");
+        }
+        let mut file = AtiCalibration::from_xml(NEW).unwrap().to_calibration().unwrap();
+        assert_eq!(file.quality.verdict, crate::file::Verdict::Unchecked);
+        assert!(file.quality.reasons[0].contains("tare"));
+        for ends in [[-5.0, 5.0], [0.0, 4.0]] {
+            file.range = Some(ends);
+            let ati = AtiCalibration::from_calibration(&file).unwrap();
+            let again = AtiCalibration::from_xml(&ati.to_xml()).unwrap().to_calibration().unwrap();
+            assert_eq!(again.range, Some(ends));
+        }
+    }
+
+    #[test]
+    fn what_a_cal_file_cannot_say_is_refused() {
+        let plain = AtiCalibration::from_xml(NEW).unwrap().to_calibration().unwrap();
+        let refused = |change: &dyn Fn(&mut CalibrationFile)| {
+            let mut file = plain.clone();
+            change(&mut file);
+            AtiCalibration::from_calibration(&file).unwrap_err().to_string()
+        };
+        assert!(refused(&|file| file.quadratic = Some(DMatrix::zeros(6, 21))).contains("quadratic"));
+        assert!(refused(&|file| file.signal_unit = SignalUnit::Count).contains("signal_unit"));
+        assert!(refused(&|file| file.matrix.fill_row(0, 0.0)).contains("inverse"));
+        assert!(refused(&|file| file.nominal[2] = -1.0).contains("nominal[2]"));
+        let three = DMatrix::identity(6, 3);
+        let three = CalibrationFile::new(three, vec![1.0; 3], vec![0.0; 6], SignalUnit::Volt).unwrap();
+        assert!(matches!(AtiCalibration::from_calibration(&three), Err(FileError::NotSixAxes { found: 3 })));
+    }
+
     proptest! {
         #[test]
         fn our_calibration_survives_a_detour(entries in proptest::collection::vec(-1.0..1.0_f64, 36)) {
@@ -162,7 +253,7 @@ mod tests {
             ).unwrap();
             let ati = AtiCalibration::from_calibration(&file).unwrap();
             let again = AtiCalibration::from_xml(&ati.to_xml()).unwrap().to_calibration().unwrap();
-            prop_assert!((again.matrix - file.matrix).amax() < 1e-11);
+            prop_assert!((again.matrix - file.matrix).largest() < 1e-11);
             prop_assert_eq!(again.nominal, file.nominal);
         }
     }

@@ -119,3 +119,131 @@ fn shape(field: &str, matrix: &DMatrix<f64>, rows: usize, columns: usize) -> Res
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{CalibrationFile, Covariance, SignalUnit, Temperature};
+    use nalgebra::DMatrix;
+
+    /// Seven gauges, six axes, every field.
+    fn file() -> CalibrationFile {
+        let matrix = DMatrix::from_fn(7, 6, |i, j| if i == j { 2.0 } else { 0.1 });
+        let mut file = CalibrationFile::new(matrix, vec![10.0; 6], vec![0.5; 7], SignalUnit::Volt).unwrap();
+        file.noise = Some(vec![0.0; 7]);
+        file.range = Some([-1.0, 1.0]);
+        file.quadratic = Some(DMatrix::zeros(6, 28));
+        file.covariance = Some(Covariance { signals: DMatrix::zeros(7, 7), loads: DMatrix::zeros(6, 6) });
+        file.temperature = Some(Temperature {
+            reference_celsius: 20.0,
+            range_celsius: [20.0, 20.0],
+            zero_drift: vec![0.0; 7],
+            zero_curvature: vec![0.0; 7],
+            gain_drift: vec![0.0; 7],
+        });
+        file.quality.condition_number = Some(2.0);
+        file.quality.rms_percent = Some(vec![0.0; 6]);
+        file.quality.greatest_percent = Some(vec![0.0; 6]);
+        file.quality.left_out_percent = Some(vec![0.0; 6]);
+        file
+    }
+
+    fn refused(change: impl FnOnce(&mut CalibrationFile)) -> String {
+        let mut file = file();
+        change(&mut file);
+        file.validate().unwrap_err().to_string()
+    }
+
+    fn warm(change: impl FnOnce(&mut Temperature)) -> String {
+        refused(|file| change(file.temperature.as_mut().unwrap()))
+    }
+
+    #[test]
+    fn numbers_that_are_none_are_named() {
+        file().validate().unwrap();
+        let nan = f64::NAN;
+        for (found, field) in [
+            (refused(|file| file.matrix[(6, 5)] = nan), "matrix[6][5]"),
+            (refused(|file| file.nominal[1] = f64::INFINITY), "nominal[1]"),
+            (refused(|file| file.zero[6] = nan), "zero[6]"),
+            (refused(|file| file.noise.as_mut().unwrap()[2] = nan), "noise[2]"),
+            (refused(|file| file.range = Some([nan, 1.0])), "range[0]"),
+            (refused(|file| file.quadratic.as_mut().unwrap()[(5, 27)] = nan), "quadratic[5][27]"),
+            (
+                refused(|file| file.covariance.as_mut().unwrap().signals[(6, 0)] = nan),
+                "covariance.signals[6][0]",
+            ),
+            (refused(|file| file.covariance.as_mut().unwrap().loads[(0, 5)] = nan), "covariance.loads[0][5]"),
+            (warm(|drift| drift.reference_celsius = nan), "temperature.reference_celsius"),
+            (warm(|drift| drift.range_celsius[1] = f64::INFINITY), "temperature.range_celsius[1]"),
+            (warm(|drift| drift.zero_drift[0] = nan), "temperature.zero_drift[0]"),
+            (warm(|drift| drift.zero_curvature[6] = nan), "temperature.zero_curvature[6]"),
+            (warm(|drift| drift.gain_drift[3] = nan), "temperature.gain_drift[3]"),
+            (refused(|file| file.quality.condition_number = Some(f64::INFINITY)), "quality.condition_number"),
+            (refused(|file| file.quality.rms_percent.as_mut().unwrap()[4] = nan), "quality.rms_percent[4]"),
+            (
+                refused(|file| file.quality.greatest_percent.as_mut().unwrap()[0] = nan),
+                "quality.greatest_percent[0]",
+            ),
+            (
+                refused(|file| file.quality.left_out_percent.as_mut().unwrap()[5] = nan),
+                "quality.left_out_percent[5]",
+            ),
+        ] {
+            assert_eq!(found, format!("field `{field}` is not a finite number"));
+        }
+    }
+
+    #[test]
+    fn lists_of_the_wrong_length_are_named() {
+        for (found, field, length, expected) in [
+            (refused(|file| file.matrix = DMatrix::zeros(0, 6)), "matrix", 0, 6),
+            (refused(|file| file.matrix = DMatrix::zeros(7, 0)), "matrix", 0, 6),
+            (refused(|file| file.matrix = DMatrix::zeros(7, 5)), "matrix[0]", 5, 6),
+            (refused(|file| file.nominal.truncate(5)), "nominal", 5, 6),
+            (refused(|file| file.zero.push(0.0)), "zero", 8, 7),
+            (refused(|file| file.noise = Some(vec![0.0; 6])), "noise", 6, 7),
+            (refused(|file| file.quadratic = Some(DMatrix::zeros(7, 28))), "quadratic", 7, 6),
+            (refused(|file| file.quadratic = Some(DMatrix::zeros(6, 27))), "quadratic[0]", 27, 28),
+            (
+                refused(|file| file.covariance.as_mut().unwrap().signals = DMatrix::zeros(6, 7)),
+                "covariance.signals",
+                6,
+                7,
+            ),
+            (
+                refused(|file| file.covariance.as_mut().unwrap().signals = DMatrix::zeros(7, 6)),
+                "covariance.signals[0]",
+                6,
+                7,
+            ),
+            (
+                refused(|file| file.covariance.as_mut().unwrap().loads = DMatrix::zeros(7, 6)),
+                "covariance.loads",
+                7,
+                6,
+            ),
+            (warm(|drift| drift.zero_drift.truncate(6)), "temperature.zero_drift", 6, 7),
+            (warm(|drift| drift.zero_curvature.push(0.0)), "temperature.zero_curvature", 8, 7),
+            (warm(|drift| drift.gain_drift.clear()), "temperature.gain_drift", 0, 7),
+            (refused(|file| file.quality.rms_percent = Some(vec![])), "quality.rms_percent", 0, 6),
+        ] {
+            assert_eq!(found, format!("field `{field}` has {length} entries; expected {expected}"));
+        }
+    }
+
+    #[test]
+    fn numbers_out_of_range_are_named() {
+        for (found, field) in [
+            (refused(|file| file.axes.swap(1, 2)), "axes"),
+            (refused(|file| file.axes[5] = file.axes[4]), "axes"),
+            (refused(|file| file.nominal[3] = 0.0), "nominal[3]"),
+            (refused(|file| file.nominal[0] = -1.0), "nominal[0]"),
+            (refused(|file| file.noise.as_mut().unwrap()[6] = -1e-9), "noise[6]"),
+            (refused(|file| file.range = Some([1.0, 1.0])), "range"),
+            (warm(|drift| drift.range_celsius = [20.1, 30.0]), "temperature.range_celsius"),
+            (warm(|drift| drift.range_celsius = [10.0, 19.9]), "temperature.range_celsius"),
+        ] {
+            assert!(found.starts_with(&format!("field `{field}` must be ")), "{found}");
+        }
+    }
+}

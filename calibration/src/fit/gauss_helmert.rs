@@ -104,6 +104,7 @@ mod tests {
     use super::gauss_helmert;
     use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
     use crate::fit::{least_squares, total_least_squares};
+    use crate::testing::Largest as _;
     use nalgebra::DMatrix;
     use rand::SeedableRng as _;
 
@@ -119,7 +120,7 @@ mod tests {
         deviations.column_mut(3).fill(0.0);
         let fit =
             gauss_helmert(&design, &responses, &deviations, &DMatrix::from_element(200, 3, 0.2)).unwrap();
-        assert!((fit.coefficients - total.coefficients).amax() < 1e-9);
+        assert!((fit.coefficients - total.coefficients).largest() < 1e-9);
     }
 
     #[test]
@@ -148,6 +149,6 @@ mod tests {
         let design = gaussian_matrix(&mut random, 20, 6);
         let deviations = DMatrix::from_fn(20, 6, |i, j| 0.01 * (1 + i + j) as f64);
         let fit = gauss_helmert(&design, &(&design * &truth), &deviations, &deviations).unwrap();
-        assert!((fit.coefficients - truth).amax() < 1e-12);
+        assert!((fit.coefficients - truth).largest() < 1e-12);
     }
 }

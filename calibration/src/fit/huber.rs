@@ -102,6 +102,7 @@ mod tests {
     use super::huber;
     use crate::fit::least_squares;
     use crate::fit::testing::{gaussian_matrix, sensor};
+    use crate::testing::Largest as _;
     use rand::{RngExt as _, SeedableRng as _};
 
     #[test]
@@ -110,7 +111,7 @@ mod tests {
         let truth = sensor(&mut random, 7, 6);
         let design = gaussian_matrix(&mut random, 40, 7);
         let fit = huber(&design, &(&design * &truth), None).unwrap();
-        assert!((fit.coefficients - truth).amax() < 1e-13);
+        assert!((fit.coefficients - truth).largest() < 1e-13);
     }
 
     /// A tenth of the readings off by 300 standard deviations: within twice the error of the fit

@@ -157,6 +157,7 @@ mod tests {
     use super::{Ransac, ransac};
     use crate::fit::testing::{gaussian_matrix, sensor};
     use crate::fit::{FitError, least_squares};
+    use crate::testing::Largest as _;
     use rand::SeedableRng as _;
 
     #[test]
@@ -176,7 +177,7 @@ mod tests {
             let good: Vec<usize> = (0..60).filter(|i| !bad(*i)).collect();
             let clean =
                 least_squares(&design.select_rows(&good), &responses.select_rows(&good), None).unwrap();
-            assert!((fit.coefficients - clean.coefficients).amax() < 1e-12);
+            assert!((fit.coefficients - clean.coefficients).largest() < 1e-12);
             assert!((0..60).all(|i| (fit.trust[(i, 0)] == 0.0) == bad(i)));
         }
     }
@@ -189,5 +190,10 @@ mod tests {
         let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(1);
         let (design, noise) = (gaussian_matrix(&mut random, 30, 6), gaussian_matrix(&mut random, 30, 6));
         assert!(matches!(ransac(&design, &noise, None, &options), Err(FitError::NoConsensus { .. })));
+        // A draw agrees with itself; one more sample must, however many may be bad.
+        let few = (design.view((0, 0), (4, 2)).into_owned(), noise.view((0, 0), (4, 1)).into_owned());
+        let options = Ransac { outliers: 0.9, ..Ransac::new(vec![1e-9]) };
+        let needs = FitError::NoConsensus { agreeing: 2, samples: 4, needed: 3 };
+        assert_eq!(ransac(&few.0, &few.1, None, &options).unwrap_err(), needs);
     }
 }

@@ -142,6 +142,7 @@ pub fn least_squares(
 mod tests {
     use super::{FitError, least_squares};
     use crate::fit::testing::{gaussian_matrix, sensor};
+    use crate::testing::Largest as _;
     use nalgebra::DMatrix;
     use proptest::prelude::*;
     use rand::SeedableRng as _;
@@ -154,7 +155,7 @@ mod tests {
             let design = gaussian_matrix(&mut random, 20, 7);
             let weights: Vec<f64> = (0..20).map(|i| 0.1 + f64::from(i)).collect();
             let fit = least_squares(&design, &(&design * &truth), Some(&weights)).unwrap();
-            prop_assert!((fit.coefficients - truth).amax() < 1e-12);
+            prop_assert!((fit.coefficients - truth).largest() < 1e-12);
         }
     }
 

@@ -60,6 +60,7 @@ mod tests {
     use super::ridge;
     use crate::fit::least_squares;
     use crate::fit::testing::{gaussian_matrix, sensor};
+    use crate::testing::Largest as _;
     use nalgebra::DMatrix;
     use rand::SeedableRng as _;
 
@@ -75,12 +76,12 @@ mod tests {
         // The normal equations: a fair oracle while all is well conditioned.
         let left = design.transpose() * &design + &precision;
         let right = design.transpose() * &responses + &precision * &prior;
-        assert!((left * fit.coefficients - right).amax() < 1e-11);
+        assert!((left * fit.coefficients - right).largest() < 1e-11);
         let weak = ridge(&design, &responses, None, &prior, &(&precision * 1e-14)).unwrap();
         let plain = least_squares(&design, &responses, None).unwrap();
-        assert!((weak.coefficients - plain.coefficients).amax() < 1e-12);
+        assert!((weak.coefficients - plain.coefficients).largest() < 1e-12);
         let exact = ridge(&design, &(&design * &prior), None, &prior, &precision).unwrap();
-        assert!((exact.coefficients - &prior).amax() < 1e-13);
+        assert!((exact.coefficients - &prior).largest() < 1e-13);
         assert!(ridge(&design, &responses, None, &prior, &-precision).is_err());
     }
 
@@ -91,6 +92,6 @@ mod tests {
         let mut design = gaussian_matrix(&mut random, 30, 6);
         design.column_mut(4).fill(0.0);
         let fit = ridge(&design, &(&design * truth), None, &prior, &DMatrix::identity(6, 6)).unwrap();
-        assert!((fit.coefficients.row(4) - prior.row(4)).amax() < 4.0 * f64::EPSILON);
+        assert!((fit.coefficients.row(4) - prior.row(4)).largest() < 4.0 * f64::EPSILON);
     }
 }

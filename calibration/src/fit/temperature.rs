@@ -124,6 +124,7 @@ mod tests {
     use super::fit_temperature;
     use crate::fit::FitError;
     use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
+    use crate::testing::Largest as _;
     use nalgebra::{DMatrix, DVector};
     use rand::SeedableRng as _;
 
@@ -149,8 +150,8 @@ mod tests {
     fn exact_without_noise() {
         let (loads, signals, celsius, matrix, gain) = made(0.0);
         let fit = fit_temperature(&loads, &signals, &celsius, 22.0).unwrap();
-        assert!((fit.matrix - matrix).amax() < 1e-12);
-        assert!((DVector::from_vec(fit.temperature.gain_drift) - gain).amax() < 1e-13);
+        assert!((fit.matrix - matrix).largest() < 1e-12);
+        assert!((DVector::from_vec(fit.temperature.gain_drift) - gain).largest() < 1e-13);
         assert!(fit.temperature.zero_drift.iter().all(|z| (z - 0.01).abs() < 1e-13));
         assert!(fit.temperature.zero_curvature.iter().all(|z| (z + 1e-4).abs() < 1e-14));
         assert!(fit.zero.iter().all(|z| (z - 0.3).abs() < 1e-12));

@@ -94,6 +94,7 @@ mod tests {
     use super::total_least_squares;
     use crate::fit::testing::{gaussian_matrix, sensor};
     use crate::fit::{FitError, least_squares};
+    use crate::testing::Largest as _;
     use nalgebra::DMatrix;
     use rand::SeedableRng as _;
 
@@ -104,7 +105,7 @@ mod tests {
         let loads = gaussian_matrix(&mut random, 30, 6);
         let responses = loads.clone().insert_column(6, 1.0) * &truth;
         let fit = total_least_squares(&loads, &responses, &[0.1; 6], &[0.2; 8], true).unwrap();
-        assert!((fit.coefficients - truth).amax() < 1e-12);
+        assert!((fit.coefficients - truth).largest() < 1e-12);
     }
 
     /// The attenuation of least squares, as the formula has it, and none in total least squares.
@@ -123,11 +124,37 @@ mod tests {
         ));
         let uncertain = loads + errors;
         let total = total_least_squares(&uncertain, &responses, &deviations, &[0.1; 6], false).unwrap();
-        assert!((total.coefficients - &truth).amax() < 0.03 * truth.amax());
+        assert!((total.coefficients - &truth).largest() < 0.03 * truth.largest());
         let plain = least_squares(&uncertain, &responses, None).unwrap().coefficients;
         let attenuated = DMatrix::from_fn(6, 6, |i, j| truth[(i, j)] / (1.0 + deviations[i] * deviations[i]));
-        assert!((&plain - attenuated).amax() < 0.02 * truth.amax());
-        assert!((plain - &truth).amax() > 0.15 * truth.amax());
+        assert!((&plain - attenuated).largest() < 0.02 * truth.largest());
+        assert!((plain - &truth).largest() > 0.15 * truth.largest());
+    }
+
+    /// Loads that are as good as exact leave least squares: the same coefficients, and the same statement of
+    /// their errors, with as many degrees of freedom.
+    #[test]
+    fn least_squares_are_the_limit_of_exact_loads() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(12);
+        for (constant, samples) in [(false, 4), (true, 5), (false, 9), (true, 9)] {
+            let loads = gaussian_matrix(&mut random, samples, 3);
+            let design = if constant { loads.clone().insert_column(3, 1.0) } else { loads.clone() };
+            let truth = sensor(&mut random, design.ncols(), 2);
+            let responses = &design * truth + gaussian_matrix(&mut random, samples, 2) * 0.1;
+            let total = total_least_squares(&loads, &responses, &[1e-8; 3], &[0.1; 2], constant).unwrap();
+            let plain = least_squares(&design, &responses, None).unwrap();
+            // Of the order of the errors of the loads over those of the responses, squared, and of rounding,
+            // both times the condition of few random loads.
+            let near = |a: &DMatrix<f64>, b: &DMatrix<f64>| (a - b).largest() <= 1e-9 * b.largest();
+            assert!(near(&total.coefficients, &plain.coefficients), "{samples}");
+            assert!(near(&total.residual_covariance, &plain.residual_covariance), "{samples}");
+            assert!(near(&total.inverse_gram, &plain.inverse_gram), "{samples}");
+            assert_eq!((total.trust, total.iterations), (plain.trust, 1));
+            let fewer =
+                (loads.rows(1, samples - 1).into_owned(), responses.rows(1, samples - 1).into_owned());
+            let fewer = total_least_squares(&fewer.0, &fewer.1, &[1e-8; 3], &[0.1; 2], constant);
+            assert_eq!(fewer.is_ok(), samples == 9);
+        }
     }
 
     #[test]
@@ -137,6 +164,15 @@ mod tests {
         let responses = gaussian_matrix(&mut random, 20, 2);
         let answer = total_least_squares(&loads, &responses, &[1.0; 2], &[0.0; 2], false);
         assert!(matches!(answer, Err(FitError::BadInput { .. })));
+        for wrong in [f64::NAN, f64::INFINITY, -1.0] {
+            let answer = total_least_squares(&loads, &responses, &[1.0, wrong], &[1.0; 2], false);
+            assert!(matches!(answer, Err(FitError::BadInput { .. })), "{wrong}");
+        }
+        for (regressors, responding) in [(1, 2), (2, 3)] {
+            let (regressors, responding) = (vec![1.0; regressors], vec![1.0; responding]);
+            let answer = total_least_squares(&loads, &responses, &regressors, &responding, false);
+            assert!(matches!(answer, Err(FitError::BadInput { .. })));
+        }
         let zero = DMatrix::zeros(20, 2);
         let answer = total_least_squares(&zero, &zero, &[1.0; 2], &[1.0; 2], false);
         assert_eq!(answer.unwrap_err(), FitError::NotIdentified);

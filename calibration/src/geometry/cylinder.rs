@@ -111,6 +111,7 @@ mod tests {
     use super::{fit_cylinder, fit_cylinder_along};
     use crate::fit::testing::gaussian;
     use crate::geometry::{GeometryError, Touch};
+    use crate::testing::Largest as _;
     use fingertip_wrench::Wrench;
     use nalgebra::Vector3;
     use rand::SeedableRng as _;
@@ -151,7 +152,7 @@ mod tests {
                 [fit_cylinder(&touches).unwrap(), fit_cylinder_along(&touches, &(axis * 2.0)).unwrap()]
             {
                 assert!((fitted.shape.radius() - 0.008).abs() < 1e-10);
-                assert!((fitted.shape.centre() - base).amax() < 1e-10);
+                assert!((fitted.shape.centre() - base).largest() < 1e-10);
                 assert!(fitted.shape.axis().cross(&axis).norm() < 1e-10);
                 assert_eq!(fitted.unobserved, ["position along the axis"]);
             }

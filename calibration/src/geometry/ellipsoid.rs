@@ -218,6 +218,7 @@ mod tests {
     use super::{fit_aligned_ellipsoid, fit_ellipsoid};
     use crate::fit::testing::gaussian;
     use crate::geometry::{GeometryError, Touch};
+    use crate::testing::Largest as _;
     use fingertip_surfaces::ActiveSurface as _;
     use fingertip_wrench::Wrench;
     use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -257,11 +258,11 @@ mod tests {
             let (turn, centre) = (Rotation3::from_scaled_axis(vector(random)), vector(random) * 0.01);
             let touches = touches(random, axes, &turn, centre, 15);
             let fitted = fit_ellipsoid(&touches).unwrap();
-            assert!((fitted.shape.semi_axes - axes).amax() < 1e-10, "{fitted:?}");
-            assert!((fitted.shape.sensor_from_ellipsoid.origin() - centre).amax() < 1e-10);
+            assert!((fitted.shape.semi_axes - axes).largest() < 1e-10, "{fitted:?}");
+            assert!((fitted.shape.sensor_from_ellipsoid.origin() - centre).largest() < 1e-10);
             // Principal axes have no sign.
             let found = fitted.shape.sensor_from_ellipsoid.rotation().tr_mul(turn.matrix());
-            assert!((found.abs() - Matrix3::identity()).amax() < 1e-8, "{found}");
+            assert!((found.abs() - Matrix3::identity()).largest() < 1e-8, "{found}");
             assert!(fitted.unobserved.is_empty() && fitted.deviations.len() == 9);
             // Touched points lie on the surface.
             let surface = fitted.shape.surface().unwrap();
@@ -278,8 +279,8 @@ mod tests {
             let centre = vector(random) * 0.01;
             let touches = touches(random, axes, &Rotation3::identity(), centre, 15);
             let fitted = fit_aligned_ellipsoid(&touches).unwrap();
-            assert!((fitted.shape.semi_axes - axes).amax() < 1e-10);
-            assert!((fitted.shape.centre - centre).amax() < 1e-10);
+            assert!((fitted.shape.semi_axes - axes).largest() < 1e-10);
+            assert!((fitted.shape.centre - centre).largest() < 1e-10);
         }
     }
 

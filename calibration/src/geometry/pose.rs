@@ -134,6 +134,7 @@ mod tests {
     use super::fit_pose;
     use crate::fit::testing::gaussian;
     use crate::geometry::GeometryError;
+    use crate::testing::Largest as _;
     use fingertip_wrench::Wrench;
     use nalgebra::{Rotation3, Vector3};
     use rand::SeedableRng as _;
@@ -153,8 +154,8 @@ mod tests {
                 })
                 .collect();
             let fit = fit_pose(&touches).unwrap();
-            assert!((fit.shape.rotation() - rotation.matrix()).amax() < 1e-9, "{}", fit.rms);
-            assert!((fit.shape.origin() - origin).amax() < 1e-10);
+            assert!((fit.shape.rotation() - rotation.matrix()).largest() < 1e-9, "{}", fit.rms);
+            assert!((fit.shape.origin() - origin).largest() < 1e-10);
         }
     }
 

@@ -259,6 +259,7 @@ pub fn least_radius(centre: &Vector3<f64>, wrenches: &[Wrench<f64>], friction: f
 mod tests {
     use super::{GeometryError, Touch, fit_meeting_point, fit_plane, fit_sphere, least_radius};
     use crate::fit::testing::gaussian;
+    use crate::testing::Largest as _;
     use fingertip_wrench::Wrench;
     use nalgebra::Vector3;
     use proptest::prelude::*;
@@ -286,7 +287,7 @@ mod tests {
                 normals.iter().map(|n| touch(random, centre + n * 0.013, *n, 0.4)).collect();
             let sphere = fit_sphere(&touches).unwrap();
             prop_assert!((sphere.shape.radius() - 0.013).abs() < 1e-12);
-            prop_assert!((sphere.shape.centre() - centre).amax() < 1e-12);
+            prop_assert!((sphere.shape.centre() - centre).largest() < 1e-12);
             let wrenches: Vec<_> = touches.iter().map(|touch| touch.wrench).collect();
             // All touches have friction 0.4, so the bound is sharp.
             prop_assert!((least_radius(&centre, &wrenches, 0.4).unwrap() - 0.013).abs() < 1e-12);
@@ -303,7 +304,7 @@ mod tests {
                 })
                 .collect();
             let plane = fit_plane(&pivots, &normal).unwrap();
-            prop_assert!((plane.shape.offset - 0.01).abs() < 1e-10 && (plane.shape.normal - normal).amax() < 1e-8);
+            prop_assert!((plane.shape.offset - 0.01).abs() < 1e-10 && (plane.shape.normal - normal).largest() < 1e-8);
         }
     }
 
@@ -321,7 +322,7 @@ mod tests {
         assert!(error.to_string().contains("unobserved: radius"), "{error}");
         // But the centre is.
         let wrenches: Vec<_> = frictionless.iter().map(|touch| touch.wrench).collect();
-        assert!((fit_meeting_point(&wrenches).unwrap().shape - centre).amax() < 1e-12);
+        assert!((fit_meeting_point(&wrenches).unwrap().shape - centre).largest() < 1e-12);
         let parallel = vec![wrenches[0]; 5];
         assert!(matches!(fit_meeting_point(&parallel), Err(GeometryError::Fit(_))));
         let mut bad = frictionless;

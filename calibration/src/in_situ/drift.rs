@@ -97,6 +97,65 @@ mod tests {
         Wrench::from_components(&noisy)
     }
 
+    /// Two touches worked out by hand.
+    #[test]
+    fn figures_are_those_of_the_formulas() {
+        let mut covariance = Matrix6::from_diagonal(&Vector6::new(0.1, 0.1, 0.1, 0.05, 0.05, 0.05));
+        covariance[(0, 3)] = 0.02;
+        covariance[(3, 0)] = 0.02;
+        let mut monitor = DriftMonitor::new(covariance, 2.0).unwrap();
+        // f·m = 2, and the variance 0.1·2 + 0.05·4 + 2·0.02·2.
+        assert!(
+            monitor.push(&Wrench::on_fingertip(Vector3::new(2.0, 0.0, 0.0), Vector3::new(1.0, 1.0, 0.0)))
+        );
+        let close = |found: f64, expected: f64| {
+            assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+        };
+        let one = monitor.verdict().unwrap();
+        close(one.mean, 4.0 / 0.48);
+        // erfc √(T/2).
+        close(one.chance, 0.003_892_417_122_778_627);
+        // 9 over 0.1·9 + 0.05; the first counts half.
+        assert!(monitor.push(&Wrench::on_fingertip(Vector3::z(), Vector3::z() * 3.0)));
+        let two = monitor.verdict().unwrap();
+        close(two.mean, (0.5 * 4.0 / 0.48 + 9.0 / 0.95) / 1.5);
+        // χ² with 1.5²/1.25 degrees of freedom.
+        close(two.chance, 0.000_209_297_068_913_026);
+        assert_eq!((one.touches, two.touches, two.drifted), (1, 2, false));
+        // One in a million is at T = 23.93 of one degree.
+        for (statistic, drifted) in [(23.9_f64, false), (23.96, true)] {
+            let covariance = Matrix6::identity();
+            let mut monitor = DriftMonitor::new(covariance, 1.0).unwrap();
+            let size = (2.0 * statistic).sqrt();
+            for sign in [1.0, -1.0] {
+                assert!(
+                    monitor.push(&Wrench::on_fingertip(Vector3::y() * size, Vector3::y() * (sign * size)))
+                );
+                let verdict = monitor.verdict().unwrap();
+                assert_eq!(verdict.drifted, drifted, "{verdict:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn bad_numbers_are_refused() {
+        let good = Matrix6::identity();
+        assert!(DriftMonitor::new(good, 1.0).is_some());
+        for memory in [0.999, 0.0, -5.0, f64::NAN, f64::INFINITY] {
+            assert!(DriftMonitor::new(good, memory).is_none(), "{memory}");
+        }
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let mut covariance = good;
+            covariance[(4, 4)] = bad;
+            assert!(DriftMonitor::new(covariance, 10.0).is_none(), "{bad}");
+        }
+        let mut monitor = DriftMonitor::new(good, 10.0).unwrap();
+        for bad in [f64::NAN, f64::INFINITY, 1e200] {
+            assert!(!monitor.push(&Wrench::on_fingertip(Vector3::x() * bad, Vector3::x())));
+        }
+        assert_eq!(monitor.verdict(), None);
+    }
+
     #[test]
     fn drift_is_noticed_and_truth_is_not_accused() {
         let random = &mut Pcg64Mcg::seed_from_u64(5);

@@ -141,7 +141,7 @@ pub fn angle_between(a: &DMatrix<f64>, b: &DMatrix<f64>) -> f64 {
 mod tests {
     use super::{PointContactForm, angle_between, form_of};
     use crate::fit::testing::{gaussian, sensor};
-    use nalgebra::{DVector, Vector3};
+    use nalgebra::{DMatrix, DVector, Vector3};
     use rand::SeedableRng as _;
     use rand_pcg::Pcg64Mcg;
 
@@ -163,6 +163,41 @@ mod tests {
             let form = gathered.solve().unwrap();
             assert!(angle_between(&form.matrix, &form_of(&b)) < 1e-10);
             assert!(form.ambiguity < 1e-10 && form.signature == (3, 3));
+        }
+    }
+
+    #[test]
+    fn angles_between_forms_are_those_of_their_entries() {
+        let at = |angle: f64| DMatrix::from_row_slice(2, 2, &[angle.cos(), 0.0, 0.0, angle.sin()]) * 3.0;
+        for angle in [0.0, 1e-12, 1e-3, 0.4, 0.5, 1.0, 1.57] {
+            for (sign, size) in [(1.0, 1.0), (-1.0, 1e-3)] {
+                let found = angle_between(&at(0.0), &(at(angle) * (sign * size)));
+                assert!((found - angle).abs() < 1e-14, "{found} {angle}");
+            }
+        }
+        let right = core::f64::consts::FRAC_PI_2;
+        assert_eq!(angle_between(&at(0.1), &DMatrix::identity(3, 3)), right);
+        assert!((angle_between(&at(0.0), &at(right)) - right).abs() < 1e-14);
+    }
+
+    /// Norm 1, a positive trace, or else a positive first entry.
+    #[test]
+    fn forms_have_one_size_and_sign() {
+        let random = &mut Pcg64Mcg::seed_from_u64(4);
+        let b = sensor(random, 6, 6);
+        let form = form_of(&b);
+        assert!((form.norm() - 1.0).abs() < 1e-14 && form.trace() >= 0.0);
+        // Reversed torques reverse the form.
+        let mut reversed = b.clone();
+        reversed.rows_mut(3, 3).neg_mut();
+        assert!((form_of(&reversed) - &form).iter().all(|off| off.abs() < 1e-14));
+        // Of a sensor that reads wrenches the trace is zero.
+        for sign in [1.0, -1.0] {
+            let mut plain = DMatrix::identity(6, 6);
+            plain.rows_mut(3, 3).scale_mut(sign);
+            let form = form_of(&plain);
+            let expected = 1.0 / 6.0_f64.sqrt();
+            assert!((form[(0, 3)] - expected).abs() < 1e-15 && (form[(5, 2)] - expected).abs() < 1e-15);
         }
     }
 

@@ -174,6 +174,7 @@ fn reduced(jacobian: &DMatrix<f64>, residual: &DVector<f64>) -> Result<(Singular
 mod tests {
     use super::refine;
     use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
+    use crate::testing::Largest as _;
     use nalgebra::{DMatrix, Vector3};
     use rand::SeedableRng as _;
     use rand_pcg::Pcg64Mcg;
@@ -209,7 +210,7 @@ mod tests {
             let both = refine(&drifted, &signals, 1e-3, &known, &loads, 1e-3).unwrap();
             assert_eq!(both.unobserved, open);
             if open == 0 {
-                assert!((both.loads_per_signal - &truth).amax() < 1e-7);
+                assert!((both.loads_per_signal - &truth).largest() < 1e-7);
             }
             let none = DMatrix::zeros(0, 6);
             assert_eq!(

@@ -137,18 +137,19 @@ pub fn pseudo_inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
 #[cfg(test)]
 mod tests {
     use super::{Singular, pseudo_inverse};
+    use crate::testing::Largest as _;
     use nalgebra::DMatrix;
     use proptest::prelude::*;
     use rand::SeedableRng as _;
 
     fn check(matrix: &DMatrix<f64>) {
         let Singular { left, values, right } = Singular::new(matrix).unwrap();
-        let scale = matrix.amax().max(f64::MIN_POSITIVE);
+        let scale = matrix.largest().max(f64::MIN_POSITIVE);
         let again = &left * DMatrix::from_diagonal(&values) * right.transpose();
-        assert!((again - matrix).amax() <= 1e-14 * scale, "{matrix}");
+        assert!((again - matrix).largest() <= 1e-14 * scale, "{matrix}");
         let small = if matrix.nrows() >= matrix.ncols() { &right } else { &left };
         let k = values.len();
-        assert!((small.transpose() * small - DMatrix::identity(k, k)).amax() < 1e-14);
+        assert!((small.transpose() * small - DMatrix::identity(k, k)).largest() < 1e-14);
         // The sum of squares is an oracle that the rotations do not know of.
         let squares: f64 = matrix.iter().map(|x| (x / scale) * (x / scale)).sum();
         let sum: f64 = values.iter().map(|x| (x / scale) * (x / scale)).sum();
@@ -181,13 +182,25 @@ mod tests {
             if let Some(inverse) = pseudo_inverse(&matrix) {
                 let tolerance = 1e-14 * Singular::new(&matrix).unwrap().condition_number();
                 let product = &inverse * &matrix;
-                prop_assert!((product - DMatrix::identity(6, 6)).amax() < tolerance);
+                prop_assert!((product - DMatrix::identity(6, 6)).largest() < tolerance);
                 let projector = &matrix * &inverse;
-                prop_assert!((&projector - projector.transpose()).amax() < tolerance);
+                prop_assert!((&projector - projector.transpose()).largest() < tolerance);
                 let wide = pseudo_inverse(&matrix.transpose()).unwrap();
-                prop_assert!((wide - inverse.transpose()).amax() <= f64::EPSILON * inverse.amax());
+                prop_assert!((wide - inverse.transpose()).largest() <= f64::EPSILON * inverse.largest());
             }
         }
+    }
+
+    #[test]
+    fn a_zero_matrix_has_zero_values_and_no_rank() {
+        for (rows, columns) in [(3, 2), (2, 3), (1, 1)] {
+            let found = Singular::new(&DMatrix::zeros(rows, columns)).unwrap();
+            assert!(found.values.iter().all(|value| *value == 0.0) && found.left.iter().all(|x| *x == 0.0));
+            assert_eq!((found.rank(), found.condition_number()), (0, f64::INFINITY));
+        }
+        let found = Singular::new(&DMatrix::from_row_slice(2, 2, &[3.0, 0.0, 0.0, -0.5])).unwrap();
+        assert_eq!((found.rank(), found.condition_number()), (2, 6.0));
+        assert_eq!(found.values.as_slice(), [3.0, 0.5]);
     }
 
     #[test]

@@ -183,6 +183,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::Triangular;
+    use crate::testing::Largest as _;
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
     use rand::SeedableRng as _;
@@ -211,13 +212,13 @@ mod tests {
             let theta = factors.coefficients().unwrap();
             let qr = x.clone().qr();
             let direct = qr.r().solve_upper_triangular(&(qr.q().transpose() * &y)).unwrap();
-            prop_assert!((&theta - &direct).amax() <= 1e-12 * direct.amax());
+            prop_assert!((&theta - &direct).largest() <= 1e-12 * direct.largest());
             let residual = &y - &x * &theta;
             let covariance = residual.transpose() * &residual / (rows - 5) as f64;
-            prop_assert!((factors.residual_covariance().unwrap() - covariance).amax() < 1e-13);
+            prop_assert!((factors.residual_covariance().unwrap() - covariance).largest() < 1e-13);
             let gram = (&x / scale).transpose() * (&x / scale);
             let product = gram * factors.inverse_gram().unwrap() * scale * scale;
-            prop_assert!((product - DMatrix::identity(5, 5)).amax() < 1e-10);
+            prop_assert!((product - DMatrix::identity(5, 5)).largest() < 1e-10);
         }
 
         #[test]
@@ -231,9 +232,9 @@ mod tests {
             prop_assert!(first.merge(&second));
             let (a, b) = (first.factors(), whole.factors());
             prop_assert_eq!(a.samples, 300);
-            prop_assert!((a.coefficients().unwrap() - b.coefficients().unwrap()).amax() < 1e-12);
+            prop_assert!((a.coefficients().unwrap() - b.coefficients().unwrap()).largest() < 1e-12);
             let difference = a.residual_covariance().unwrap() - b.residual_covariance().unwrap();
-            prop_assert!(difference.amax() < 1e-13);
+            prop_assert!(difference.largest() < 1e-13);
         }
     }
 
@@ -250,7 +251,7 @@ mod tests {
         }
         let difference =
             weighted.factors().coefficients().unwrap() - repeated.factors().coefficients().unwrap();
-        assert!(difference.amax() < 1e-14);
+        assert!(difference.largest() < 1e-14);
     }
 
     #[test]
@@ -303,7 +304,7 @@ mod tests {
             let mut triangular = Triangular::new(6, 1);
             push_all(&mut triangular, &x, &DMatrix::from_column_slice(200, 1, y.as_slice()));
             let theta = triangular.factors().coefficients().unwrap();
-            let error = (theta.column(0) - &truth).amax();
+            let error = (theta.column(0) - &truth).largest();
             assert!(error < 100.0 * f64::EPSILON * 10_f64.powi(power), "{power}: {error:e}");
         }
     }

@@ -51,6 +51,7 @@ impl LoadTable {
 mod tests {
     use crate::file::PayloadFile;
     use crate::loads::{LoadError, LoadTable};
+    use crate::testing::Largest as _;
     use nalgebra::Vector3;
 
     #[test]
@@ -69,7 +70,7 @@ mod tests {
             }
         }
         // Tared with the body on, in the mean of rows 1 and 3: zero.
-        assert!((table.carrying(&payload, true).unwrap().loads - loads).amax() < 1e-15);
+        assert!((table.carrying(&payload, true).unwrap().loads - loads).largest() < 1e-15);
         let mut bare = table;
         bare.orientations = None;
         assert!(matches!(bare.carrying(&payload, false), Err(LoadError::Empty { .. })));

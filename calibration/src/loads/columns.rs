@@ -5,6 +5,7 @@ use std::io::Read;
 use nalgebra::{DMatrix, Vector3, Vector6};
 
 use super::LoadError;
+use super::header::number_in;
 use crate::Axis;
 
 /// A CSV with a header, of which columns are taken by name; other columns do not matter. Blanks around
@@ -65,10 +66,7 @@ impl Columns {
         let name = self.header.get(index).map_or("", String::as_str);
         let number = |(line, cells): &(u64, Vec<String>)| {
             let cell = cells.get(index).map_or("", String::as_str);
-            let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
-            number
-                .map(|number| number * scale)
-                .ok_or_else(|| bad(*line, name, &format!("{cell:?} is not a finite number")))
+            number_in(cell, scale).map_err(|what| bad(*line, name, &format!("{cell:?} is not {what}")))
         };
         self.rows.iter().map(number).collect()
     }

@@ -114,3 +114,15 @@ pub(super) fn signal_layout(columns: &[Column]) -> Layout {
 pub(super) fn bad(line: u64, column: &str, message: String) -> LoadError {
     LoadError::BadText { line, column: column.to_owned(), message }
 }
+
+/// The number that a cell says, in a unit of this size; or what it is not. A finite number may be infinite in
+/// SI.
+pub(super) fn number_in(text: &str, size: f64) -> Result<f64, &'static str> {
+    let number = text.parse::<f64>().map_err(|_| "a number")?;
+    let scaled = number * size;
+    match (number.is_finite(), scaled.is_finite()) {
+        (_, true) => Ok(scaled),
+        (true, false) => Err("a finite number in SI"),
+        (false, false) => Err("a finite number"),
+    }
+}

@@ -114,6 +114,7 @@ mod tests {
     use crate::file::SignalUnit;
     use crate::fit::testing::{gaussian_matrix, sensor};
     use crate::model::Options;
+    use crate::testing::Largest as _;
     use rand::SeedableRng as _;
 
     /// Forces in one session, torques in another, a different zero in each: neither alone determines the
@@ -136,7 +137,7 @@ mod tests {
         let merged = LoadTable::merged(&sessions).unwrap();
         assert_eq!((merged.samples(), merged.groups[23], merged.cases[23]), (24, 1, 23));
         let model = calibrate(&merged.centred_by_group(), &options).unwrap().model;
-        assert!((model.fit.coefficients - truth).amax() < 1e-12);
+        assert!((model.fit.coefficients - truth).largest() < 1e-12);
         assert!(LoadTable::merged(&[]).is_err());
     }
 }

@@ -3,7 +3,7 @@
 use std::io::Read;
 
 use super::LoadError;
-use super::header::{Column, bad, layout, parse_name};
+use super::header::{Column, bad, layout, number_in, parse_name};
 use crate::Axis;
 use crate::file::SignalUnit;
 
@@ -116,24 +116,22 @@ impl<R: Read> LoadReader<R> {
         let row = &mut self.row;
         row.line = line;
         for ((column, name), text) in self.columns.iter().zip(&self.header).zip(&self.record) {
-            let number = || match text.parse::<f64>() {
-                Ok(number) if number.is_finite() => Ok(number),
-                Ok(_) => Err(bad(line, name, format!("{text:?} is not a finite number"))),
-                Err(_) => Err(bad(line, name, format!("{text:?} is not a number"))),
+            let number = |size: f64| {
+                number_in(text, size).map_err(|what| bad(line, name, format!("{text:?} is not {what}")))
             };
             match *column {
                 Column::Load(axis, size) => {
                     if let Some(slot) = self.axes.iter().position(|a| *a == axis) {
-                        row.loads[slot] = number()? * size;
+                        row.loads[slot] = number(size)?;
                     }
                 }
-                Column::Signal(gauge, _, size) => row.signals[gauge] = number()? * size,
-                Column::Time => row.time = Some(number()?),
-                Column::Temperature => row.temperature = Some(number()?),
-                Column::Weight => row.weight = Some(number()?),
+                Column::Signal(gauge, _, size) => row.signals[gauge] = number(size)?,
+                Column::Time => row.time = Some(number(1.0)?),
+                Column::Temperature => row.temperature = Some(number(1.0)?),
+                Column::Weight => row.weight = Some(number(1.0)?),
                 Column::Quaternion(part) => {
                     if let Some(orientation) = &mut row.orientation {
-                        orientation[part] = number()?;
+                        orientation[part] = number(1.0)?;
                     }
                 }
                 Column::Case => row.case = Some(text.to_owned()),

@@ -5,7 +5,7 @@ use std::io::Read;
 use nalgebra::DMatrix;
 
 use super::LoadError;
-use super::header::{Column, bad, parse_name, signal_layout};
+use super::header::{Column, bad, number_in, parse_name, signal_layout};
 use crate::file::SignalUnit;
 
 /// Readings without load.
@@ -47,13 +47,12 @@ pub fn signals_from_csv(reader: impl Read) -> Result<Rest, LoadError> {
         let start = signals.len();
         signals.resize(start + gauges, 0.0);
         for ((column, name), text) in columns.iter().zip(&header).zip(&record) {
-            let number = || {
-                let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
-                number.ok_or_else(|| bad(line, name, format!("{text:?} is not a finite number")))
+            let number = |size: f64| {
+                number_in(text, size).map_err(|what| bad(line, name, format!("{text:?} is not {what}")))
             };
             match *column {
-                Column::Signal(gauge, _, size) => signals[start + gauge] = number()? * size,
-                Column::Temperature => temperatures.push(number()?),
+                Column::Signal(gauge, _, size) => signals[start + gauge] = number(size)?,
+                Column::Temperature => temperatures.push(number(1.0)?),
                 _ => {}
             }
         }

@@ -1,5 +1,6 @@
 //! Tables of loads as CSV.
 
+use std::collections::HashMap;
 use std::io::Read;
 
 use nalgebra::DMatrix;
@@ -62,14 +63,12 @@ impl LoadTable {
 }
 
 fn numbered(texts: &[String]) -> Vec<usize> {
-    let mut seen: Vec<&String> = Vec::new();
+    let mut seen = HashMap::new();
     texts
         .iter()
         .map(|text| {
-            seen.iter().position(|other| *other == text).unwrap_or_else(|| {
-                seen.push(text);
-                seen.len() - 1
-            })
+            let next = seen.len();
+            *seen.entry(text).or_insert(next)
         })
         .collect()
 }
@@ -141,6 +140,13 @@ mod tests {
             ("v1_V\n1\n", ["fx_N", "loads"]),
             ("fx_N,v1_V,weight\n1,2,-3\n", ["line 2", "weight"]),
             ("fx_N,v0_V\n1,2\n", ["line 1", "v0_V"]),
+            ("fx_N,v1001_V\n1,2\n", ["line 1", "v1001_V"]),
+            // Finite in its own unit only.
+            ("fx_kN,v1_V\n1e308,2\n", ["line 2", "fx_kN"]),
+            ("fx_N,v1_kN\n1,1e308\n", ["line 2", "v1_kN"]),
+            ("fx_N,v1_V,t_s\n1,2,inf\n", ["line 2", "t_s"]),
+            ("fx_N,v1_V,qx,qy,qz\n1,2,0,0,0\n", ["line 1", "qx"]),
+            ("fx_N,v1_V,qx,qy,qz,qx\n1,2,0,0,0,0\n", ["line 1", "qx"]),
         ] {
             let error = LoadTable::from_csv(text.as_bytes()).unwrap_err().to_string();
             assert!(names.iter().all(|name| error.contains(name)), "{text}: {error}");

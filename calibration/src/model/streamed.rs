@@ -138,6 +138,7 @@ mod tests {
     use crate::fit::testing::{gaussian_matrix, sensor};
     use crate::loads::LoadTable;
     use crate::model::{CalibrationError, Options};
+    use crate::testing::Largest as _;
     use rand::SeedableRng as _;
 
     #[test]
@@ -156,9 +157,9 @@ mod tests {
         let whole = calibrate(&table, &Options::default()).unwrap().model;
         let streamed = fit.clone().finish(None).unwrap();
         assert_eq!(streamed.nominal, whole.nominal);
-        assert!((&streamed.fit.coefficients - &whole.fit.coefficients).amax() < 1e-12);
-        assert!((&streamed.fit.inverse_gram - &whole.fit.inverse_gram).amax() < 1e-13);
-        assert!((&streamed.fit.residual_covariance - &whole.fit.residual_covariance).amax() < 1e-15);
+        assert!((&streamed.fit.coefficients - &whole.fit.coefficients).largest() < 1e-12);
+        assert!((&streamed.fit.inverse_gram - &whole.fit.inverse_gram).largest() < 1e-13);
+        assert!((&streamed.fit.residual_covariance - &whole.fit.residual_covariance).largest() < 1e-15);
         assert!(matches!(fit.finish(Some(&[1.0; 5])), Err(CalibrationError::BadOption { .. })));
         let mut blind = StreamedFit::new(&[Axis::Fx, Axis::Fz], 2, SignalUnit::Volt, true);
         (0..9).for_each(|i| assert!(blind.push(&[f64::from(i), 0.0], &[f64::from(i), 1.0], 1.0)));

@@ -55,7 +55,7 @@ pub(super) fn account_for_zeros(table: &LoadTable, design: &DMatrix<f64>, fit: &
         }
     };
     // Without a degree of freedom to spare nothing is known; the fit's own figure is then the least bad.
-    if freedom > 0.0 && before > 0.0 {
+    if freedom > 0.0 {
         fit.residual_covariance *= before / freedom;
     }
 }

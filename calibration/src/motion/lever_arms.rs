@@ -227,6 +227,7 @@ mod tests {
     use super::{LeverArm, lever_arms};
     use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
     use crate::motion::MotionError;
+    use crate::testing::Largest as _;
     use nalgebra::{DMatrix, DVector, Vector3};
     use rand::SeedableRng as _;
     use rand_pcg::Pcg64Mcg;
@@ -261,11 +262,11 @@ mod tests {
             let (truth, zero) = truth(random);
             let arms = arms(random, &truth, &zero, 0.0);
             let fit = lever_arms(&arms, 5.0, 1e-6, 300, seed).unwrap();
-            assert!((&fit.zero - &zero).amax() < 1e-6);
+            assert!((&fit.zero - &zero).largest() < 1e-6);
             // One force is known to point roughly along −z.
             let load = DVector::from_column_slice(&[1.0, 0.5, -3.0, 0.0, 0.0, 0.0]);
             let fit = fit.with_sign(&(&truth * load + zero), &-Vector3::z()).unwrap();
-            assert!((&fit.sensitivities - &truth).amax() < 1e-5 * truth.amax(), "{}", fit.residual);
+            assert!((&fit.sensitivities - &truth).largest() < 1e-5 * truth.largest(), "{}", fit.residual);
             println!("{} of {} starts", fit.hits, fit.starts);
         }
     }
@@ -277,10 +278,17 @@ mod tests {
         let noisy = arms(random, &truth, &zero, 1e-3);
         let fit = lever_arms(&noisy, 5.0, 1e-2, 300, 1).unwrap();
         let fit = fit.with_sign(&(truth.column(0) + &zero), &Vector3::x()).unwrap();
-        assert!((&fit.sensitivities - &truth).amax() < 0.02 * truth.amax());
+        assert!((&fit.sensitivities - &truth).largest() < 0.02 * truth.largest());
         let mut wrong = noisy.clone();
         wrong[2].arm = Vector3::new(0.0, 0.05, 0.03);
         assert!(matches!(lever_arms(&wrong, 5.0, 1e-3, 100, 1), Err(MotionError::NoSolution { .. })));
         assert!(lever_arms(&noisy[..3], 5.0, 1e-2, 10, 1).is_err());
+        let refusal = |arm: &dyn Fn(Vector3<f64>) -> Vector3<f64>| {
+            let mut arms = noisy.clone();
+            arms.iter_mut().for_each(|one| one.arm = arm(one.arm));
+            lever_arms(&arms, 5.0, 1e-2, 10, 1).unwrap_err().to_string()
+        };
+        assert!(refusal(&|_| Vector3::zeros()).contains("all are zero"));
+        assert!(refusal(&|arm| arm * f64::INFINITY).contains("all are zero"));
     }
 }

@@ -105,10 +105,8 @@ fn linearity(table: &LoadTable, predicted: &DMatrix<f64>, axis: usize) -> Option
         .map(|i| (table.loads[(i, axis)], predicted[(i, axis)]))
         .filter(|(load, _)| *load != 0.0)
         .collect();
-    let mut distinct: Vec<f64> = pairs.iter().map(|(load, _)| *load).collect();
-    distinct.sort_by(f64::total_cmp);
-    distinct.dedup();
-    if distinct.len() < 2 {
+    let first = pairs.first()?.0;
+    if pairs.iter().all(|(load, _)| *load == first) {
         return None;
     }
     let slope = pairs.iter().map(|(l, p)| l * p).sum::<f64>() / pairs.iter().map(|(l, _)| l * l).sum::<f64>();
@@ -194,8 +192,9 @@ pub(crate) fn cross_talk(
     let mut result = vec![vec![None; axes]; axes];
     for i in 0..table.samples() {
         let share = |j: usize| (table.loads[(i, j)] / full_scale[j]).abs();
-        let Some(pure) = (0..axes).find(|j| share(*j) > 0.0) else { continue };
-        if (0..axes).any(|j| j != pure && share(j) > 1e-3 * share(pure)) {
+        let Some(pure) = (0..axes).max_by(|a, b| share(*a).total_cmp(&share(*b))) else { continue };
+        let mixed = (0..axes).any(|j| j != pure && share(j) > 1e-3 * share(pure));
+        if mixed || !(share(pure) > 0.0) {
             continue;
         }
         for (axis, row) in result.iter_mut().enumerate().filter(|(axis, _)| *axis != pure) {

@@ -44,12 +44,13 @@ impl Report {
             }
         }
         let all = || fitted.iter().chain(&left_out);
+        // A maximum passes over NaN.
+        if fitted.is_empty() || !all().all(|(x, error)| x.is_finite() && error.is_finite()) {
+            return None;
+        }
         let least = all().map(|p| p.0).fold(f64::INFINITY, f64::min);
         let most = all().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
         let error = all().map(|p| p.1.abs()).fold(0.0, f64::max);
-        if !(least.is_finite() && most.is_finite() && error.is_finite()) {
-            return None;
-        }
         let margin = if most > least { 0.05 * (most - least) } else { 1.0 };
         let error = if error > 0.0 { 1.1 * error } else { 1.0 };
         let mut svg = String::new();

@@ -9,6 +9,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64Mcg;
 
 use super::random::{gaussian, gaussians, sensor, vector};
+use super::testing::Largest as _;
 
 const SAMPLES: usize = 40;
 
@@ -94,10 +95,10 @@ fn of_every_regression() {
             let changed = setting.changed(random);
             let (one, other) = (method(&setting).unwrap(), method(&changed).unwrap());
             let back = &changed.frame * other.coefficients * (changed.load / changed.signal);
-            let difference = (back - &one.coefficients).amax();
+            let difference = (back - &one.coefficients).largest();
             assert!(difference < tolerance, "{name}: {difference:e}");
             let unit = changed.signal * changed.signal;
-            let spread = (other.residual_covariance / unit - &one.residual_covariance).amax();
+            let spread = (other.residual_covariance / unit - &one.residual_covariance).largest();
             assert!(spread < 10.0 * tolerance, "{name}: {spread:e}");
         }
     }
@@ -122,13 +123,15 @@ fn of_the_temperature_terms() {
         let warm: Vec<f64> = order.iter().map(|i| celsius[*i]).collect();
         let turned = loads.select_rows(&order) * &frame * 1e3;
         let other = fit_temperature(&turned, &(signals.select_rows(&order) * 1e-4), &warm, 20.0).unwrap();
-        assert!((other.matrix * frame.transpose() * 1e7 - &fit.matrix).amax() < 1e-10);
+        assert!((other.matrix * frame.transpose() * 1e7 - &fit.matrix).largest() < 1e-10);
         for (a, b) in [
             (&other.temperature.zero_drift, &fit.temperature.zero_drift),
             (&other.temperature.zero_curvature, &fit.temperature.zero_curvature),
         ] {
+            assert_eq!((a.len(), b.len()), (2, 2));
             assert!(a.iter().zip(b).all(|(a, b)| (1e4 * a - b).abs() < 1e-11));
         }
+        assert_eq!(other.temperature.gain_drift.len(), 2);
         let gains = other.temperature.gain_drift.iter().zip(&fit.temperature.gain_drift);
         assert!(gains.into_iter().all(|(a, b)| (a - b).abs() < 1e-11));
     }

@@ -7,6 +7,7 @@ use rand_pcg::Pcg64Mcg;
 
 use super::random::{gaussian, gaussians, sensor, turn, vector};
 use super::spread::Spread;
+use super::testing::Largest as _;
 
 /// Loads of touches of a surface of unit size, their pitch wrong by so much.
 fn touches(random: &mut Pcg64Mcg, count: usize, pitch: f64) -> DMatrix<f64> {
@@ -117,7 +118,7 @@ fn touches_do_not_mind_units_order_and_frames() {
         let two = refine(&start, &mixed, 1e-3, &(&known * &mix * 1e-4), &turned, 1e-3).unwrap();
         let back = frame.transpose() * &two.loads_per_signal * mix.transpose() * 1e-4;
         // It ends where the sum of squares does not fall by 1e-12 of itself any more.
-        let change = (back - &one.loads_per_signal).component_div(&one.deviations).amax();
+        let change = (back - &one.loads_per_signal).component_div(&one.deviations).largest();
         assert!(change < 1e-3, "{change:e}");
         assert!((two.pitch.1 / one.pitch.1 - 1.0).abs() < 1e-5);
         assert_eq!((one.unobserved, two.unobserved), (0, 0));

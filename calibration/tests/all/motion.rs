@@ -7,6 +7,7 @@ use rand_pcg::Pcg64Mcg;
 
 use super::random::{gaussians, sensor, turn};
 use super::spread::Spread;
+use super::testing::Largest as _;
 
 /// Noise of a reading; forces of 5 N give readings of 10.
 const NOISE: f64 = 0.02;
@@ -129,10 +130,10 @@ fn shape_from_motion_does_not_mind_units_order_and_frames() {
         // What does not know of the rotation of all forces.
         let gram = |map: &DMatrix<f64>| map * map.transpose();
         let back = mix.transpose() * gram(&one.signals_from_force) * &mix * (volt / newton).powi(2);
-        let change = (gram(&two.signals_from_force) - &back).amax() / back.amax();
+        let change = (gram(&two.signals_from_force) - &back).largest() / back.largest();
         assert!(change < allowed * one.size_deviation.max(1e-3), "{change:e}");
         let zero = &two.zero / volt - mix.transpose() * &one.zero;
-        assert!(zero.amax() < allowed * one.zero_deviation.max(), "{zero}");
+        assert!(zero.largest() < allowed * one.zero_deviation.largest(), "{zero}");
         assert!((two.noise / volt / one.noise - 1.0).abs() < 1e-9);
         assert!((two.size_deviation / one.size_deviation - 1.0).abs() < 1e-6);
     }
@@ -157,9 +158,9 @@ fn shape_from_motion_does_not_mind_units_order_and_frames() {
         if back.dot(&one.sensitivities) < 0.0 {
             back.neg_mut();
         }
-        let change = (&back - &one.sensitivities).component_div(&one.deviations).amax();
+        let change = (&back - &one.sensitivities).component_div(&one.deviations).largest();
         assert!(change < allowed, "{change:e}");
-        assert!(((&two.zero / volt - &one.zero).component_div(&one.zero_deviation)).amax() < allowed);
+        assert!(((&two.zero / volt - &one.zero).component_div(&one.zero_deviation)).largest() < allowed);
         assert!((two.noise / volt / one.noise - 1.0).abs() < 1e-9);
     }
 }

@@ -7,6 +7,7 @@ use rand_pcg::Pcg64Mcg;
 
 use super::random::{turn, vector};
 use super::spread::Spread;
+use super::testing::Largest as _;
 
 const CENTRE: Vector3<f64> = Vector3::new(0.02, -0.03, 0.05);
 const FORCE: Vector3<f64> = Vector3::new(0.4, -0.3, 0.2);
@@ -110,7 +111,7 @@ fn payload_and_mounting_do_not_mind_units_order_and_frames() {
         // Rounding, as often as the poses are conditioned and the weight stands over the biases.
         let close = |a: Vector3<f64>, b: Vector3<f64>, size: f64| {
             let allowed = 1e3 * f64::EPSILON * fit.condition_number.powi(2) * size;
-            assert!((a - b).amax() < allowed, "{a} {b}");
+            assert!((a - b).largest() < allowed, "{a} {b}");
         };
         close(same.weight / newton, base * fit.weight, 3.0);
         close(same.centre_of_mass / metre, sensor * fit.centre_of_mass, 0.1);
@@ -132,7 +133,7 @@ fn payload_and_mounting_do_not_mind_units_order_and_frames() {
             .collect();
         let two = fit_orientation(&turned, &(base * down)).unwrap();
         let allowed = 1e3 * f64::EPSILON * fit.condition_number.powi(2);
-        assert!((two.sensor_from_flange - sensor * one.sensor_from_flange).amax() < allowed);
+        assert!((two.sensor_from_flange - sensor * one.sensor_from_flange).largest() < allowed);
         assert!((two.weight / newton - one.weight).abs() < 4.0 * allowed);
         close(two.force_bias / newton, sensor * one.force_bias, 3.0);
     }

@@ -1,5 +1,6 @@
 //! The report in its three forms, on a sensor made for the purpose.
 
+use super::testing::Largest as _;
 use fingertip_calibration::Axis;
 use fingertip_calibration::calibrate;
 use fingertip_calibration::file::{SignalUnit, Verdict};
@@ -7,6 +8,7 @@ use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{CalibrationError, Direction, Method, Options};
 use fingertip_calibration::nalgebra::DMatrix;
 use fingertip_calibration::report::{Mistake, Report};
+use fingertip_test_support::Worst;
 use rand::{RngExt as _, SeedableRng as _};
 
 /// Up and down each axis twice, with a known hysteresis of 0.01 and a creep of 0.002 nominal loads.
@@ -90,6 +92,13 @@ fn exchanged_axes_units_and_gauges_are_suspected() {
     let found = &check(&wrong).suspicions[0];
     let Mistake::Axes { reads } = &found.mistake else { panic!("{found}") };
     assert_eq!(reads[..3], [(Axis::Fy, false), (Axis::Fx, false), (Axis::Fz, false)]);
+    // The figures are those of all axes together, as they are and as they would be.
+    let overall = |report: &Report| {
+        let squares: f64 = report.axes.iter().map(|axis| axis.rms_percent.powi(2)).sum();
+        (squares / report.axes.len() as f64).sqrt()
+    };
+    assert!((found.before_percent / overall(&check(&wrong)) - 1.0).abs() < 1e-9 && !found.outliers_aside);
+    assert!((found.after_percent / overall(&check(&table)) - 1.0).abs() < 1e-9);
     wrong = table.clone();
     wrong.loads.column_mut(2).neg_mut();
     assert!(check(&wrong).suspicions[0].to_string().contains("−Fz"));
@@ -121,11 +130,11 @@ fn every_method_finds_the_sensor() {
     ] {
         let found = calibrate(&table, &Options { method: method.clone(), ..Options::default() }).unwrap();
         let difference = found.to_file().unwrap().matrix - plain.to_file().unwrap().matrix;
-        assert!(difference.amax() < 0.05, "{method:?}: {}", difference.amax());
+        assert!(difference.largest() < 0.05, "{method:?}: {}", difference.largest());
     }
     let backward = Options { direction: Direction::LoadsFromSignals, ..Options::default() };
     let found = calibrate(&table, &backward).unwrap().to_file().unwrap();
-    assert!((found.matrix - plain.to_file().unwrap().matrix).amax() < 0.05);
+    assert!((found.matrix - plain.to_file().unwrap().matrix).largest() < 0.05);
 }
 
 #[test]
@@ -152,7 +161,7 @@ fn quadratic_terms_are_kept_where_they_help_and_refused_where_not() {
     let reading = [0.3, -0.7, 0.5];
     let by_file = again.load(&reading).unwrap();
     let by_model = calibration.model.loads(&DMatrix::from_row_slice(1, 3, &reading)).unwrap();
-    assert!((by_file.transpose() - by_model.row(0)).amax() < 1e-12);
+    assert!((by_file.transpose() - by_model.row(0)).largest() < 1e-12);
     let error = calibrate(&make(0.0), &options).unwrap_err();
     assert!(matches!(error, CalibrationError::OverFitted { coefficients: 10, samples: 60, .. }), "{error}");
 }
@@ -170,7 +179,11 @@ fn drift_with_temperature_is_fitted_and_kept() {
     table.temperatures = Some(celsius);
     let without = calibrate(&table, &Options::default()).unwrap();
     assert!(without.report.notes.iter().any(|note| note.contains("temperatures")));
-    let rms = |report: &Report| report.axes.iter().map(|axis| axis.rms_percent).fold(0.0, f64::max);
+    let rms = |report: &Report| {
+        let mut worst = Worst::new();
+        report.axes.iter().for_each(|axis| worst.see(axis.rms_percent));
+        worst.get()
+    };
     let with = calibrate(&table, &Options { reference_celsius: Some(25.0), ..Options::default() }).unwrap();
     assert!(rms(&with.report) < 0.3 * rms(&without.report), "{}", with.report);
     let file = with.to_file().unwrap();

@@ -11,6 +11,7 @@ use rand_pcg::Pcg64Mcg;
 
 use super::random::{gaussian, turn, vector};
 use super::spread::Spread;
+use super::testing::Largest as _;
 
 const CENTRE: Vector3<f64> = Vector3::new(0.003, -0.002, 0.004);
 
@@ -173,7 +174,7 @@ impl Change {
     /// Lengths agree to so much \[m\]: rounding of positions of 30 mm, times what conditions them, or for
     /// searches where they end.
     fn close(&self, changed: &Vector3<f64>, point: &Vector3<f64>, allowed: f64) {
-        let off = (changed / self.metre - (self.turn * point + self.origin)).amax();
+        let off = (changed / self.metre - (self.turn * point + self.origin)).largest();
         assert!(off < allowed, "{off:e}");
     }
 }
@@ -219,7 +220,7 @@ fn shapes_do_not_mind_units_order_and_frames() {
         let pose = |fit: &fingertip_calibration::geometry::PosedEllipsoid| fit.sensor_from_ellipsoid;
         change.close(&pose(&two.shape).origin(), &pose(&one.shape).origin(), settled);
         let found = pose(&two.shape).rotation().tr_mul(&(change.turn * pose(&one.shape).rotation()));
-        assert!((found.abs() - Matrix3::identity()).amax() < 1e-8, "{found}");
+        assert!((found.abs() - Matrix3::identity()).largest() < 1e-8, "{found}");
         // Its axes stay along those of the frame, so only units, order and place may change.
         let moved = Change { turn: Matrix3::identity(), ..change };
         let (one, two) =
@@ -258,7 +259,7 @@ fn pivots_planes_and_poses_do_not_mind_units_order_and_frames() {
         change.close(&two.shape, &one.shape, 10.0 * allowed);
         let Ok(one) = fit_plane(&pivots, &normal) else { continue };
         let two = fit_plane(&changed, &(change.turn * normal)).unwrap();
-        assert!((two.shape.normal - change.turn * one.shape.normal).amax() < 1e-9);
+        assert!((two.shape.normal - change.turn * one.shape.normal).largest() < 1e-9);
         // The foot of the plane moves with the origin.
         let offset = one.shape.offset + two.shape.normal.dot(&change.origin);
         assert!((two.shape.offset / change.metre - offset).abs() < 1e-10, "{offset}");
@@ -279,8 +280,8 @@ fn pivots_planes_and_poses_do_not_mind_units_order_and_frames() {
             .collect();
         let (one, two) = (fit_pose(&touches).unwrap(), fit_pose(&changed).unwrap());
         // The search ends at turns of 1e-13, or of 1e-10 if rounding lets it come no nearer.
-        assert!((two.shape.rotation() - change.turn * one.shape.rotation()).amax() < 1e-9);
+        assert!((two.shape.rotation() - change.turn * one.shape.rotation()).largest() < 1e-9);
         change.close(&two.shape.origin(), &one.shape.origin(), 1e-10);
-        assert!((change.point(&one.shape.origin()) - two.shape.origin()).amax() < 1e-10 * change.metre);
+        assert!((change.point(&one.shape.origin()) - two.shape.origin()).largest() < 1e-10 * change.metre);
     }
 }

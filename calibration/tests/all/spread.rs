@@ -1,5 +1,7 @@
 //! What fits say of their own errors, against the spread of thousands of them.
 
+use fingertip_test_support::Worst;
+
 /// Errors of every trial, and the mean variances that the fits state, parameter by parameter.
 pub(crate) struct Spread {
     errors: Vec<Vec<f64>>,
@@ -44,8 +46,12 @@ impl Spread {
     /// more of each, in which a wrong factor cannot hide.
     pub(crate) fn agrees(&self, what: &str) {
         let ratios: Vec<Ratio> = (0..self.stated.len()).map(|i| self.ratio(i..i + 1)).collect();
-        let worst = ratios.iter().fold(0.0_f64, |most, ratio| most.max(ratio.off.abs()));
-        let doubt = ratios.iter().fold(0.0_f64, |most, ratio| most.max(ratio.doubt));
+        let (mut worst, mut doubt) = (Worst::new(), Worst::new());
+        for ratio in &ratios {
+            worst.see(ratio.off);
+            doubt.see(ratio.doubt);
+        }
+        let (worst, doubt) = (worst.get(), doubt.get());
         let mean = self.ratio(0..self.stated.len()).off;
         println!(
             "{what}: worst {:.2} %, mean {:+.2} %, standard error {:.2} %",

@@ -12,6 +12,7 @@ use rand_pcg::Pcg64Mcg;
 
 use super::random::{gaussians, sensor, turn};
 use super::spread::Spread;
+use super::testing::Largest as _;
 
 /// Quadratic loads of three gauges: bent, with cross-terms and a constant.
 fn bent(signals: &DMatrix<f64>, linear: &DMatrix<f64>, second: &DMatrix<f64>) -> DMatrix<f64> {
@@ -50,7 +51,7 @@ fn quadratic_sensors_come_back_with_errors_as_stated() {
     let clean = bent(&signals, &linear, &second);
     let truth = all(&linear, &second);
     let fit = calibrate(&forces(&clean, &signals), &quadratic()).unwrap().model.fit;
-    assert!((fit.coefficients - &truth).amax() < 1e-12);
+    assert!((fit.coefficients - &truth).largest() < 1e-12);
     let spread = Spread::over(600, || {
         let loads = &clean + gaussians(random, 30, 3) * 0.01;
         let fit = calibrate(&forces(&loads, &signals), &quadratic()).unwrap().model.fit;
@@ -79,7 +80,7 @@ fn quadratic_sensors_do_not_mind_units_order_and_frames() {
         let unseen = gaussians(random, 5, 3);
         let (a, b) = (one.model.loads(&unseen).unwrap(), two.model.loads(&(&unseen * 1e-4)).unwrap());
         // Rounding of the constant column beside squares of signals.
-        assert!((b * frame.transpose() / 1e3 - a).amax() < 1e-10);
+        assert!((b * frame.transpose() / 1e3 - a).largest() < 1e-10);
         let trace = |calibration: &fingertip_calibration::Calibration| {
             calibration.model.fit.residual_covariance.trace()
         };
@@ -110,7 +111,7 @@ fn merged_sessions_have_errors_as_stated() {
     let random = &mut Pcg64Mcg::seed_from_u64(73);
     let truth = sensor(random, 6, 6);
     let clean = sessions(random, &truth);
-    assert!((merged(&clean, 1.0).coefficients - &truth).amax() < 1e-12);
+    assert!((merged(&clean, 1.0).coefficients - &truth).largest() < 1e-12);
     let spread = Spread::over(400, || {
         let mut noisy = clean.clone();
         noisy.iter_mut().for_each(|session| session.signals += gaussians(random, 15, 6) * 0.01);
@@ -119,6 +120,27 @@ fn merged_sessions_have_errors_as_stated() {
         ((fit.coefficients - &truth).as_slice().to_vec(), variances.as_slice().to_vec())
     });
     spread.agrees_in_the_mean("merged sessions");
+}
+
+/// Three groups of which two are of one sample: their means take as many degrees of freedom as there are, so that
+/// nothing is known of the noise. What is stated stays finite.
+#[test]
+fn without_a_degree_of_freedom_the_statement_is_that_of_the_fit() {
+    let loads = DMatrix::from_column_slice(4, 1, &[1.0, 2.0, 5.0, 7.0]);
+    let signals = DMatrix::from_column_slice(4, 1, &[2.0, 4.5, 1.0, 3.0]);
+    let mut table = LoadTable::new(&[Axis::Fz], loads, signals, SignalUnit::Volt).unwrap();
+    table.groups = vec![0, 0, 1, 2];
+    let options = Options { bias: false, nominal: Some(vec![1.0]), ..Options::default() };
+    // Centred, two samples of ±0.5 N and ±1.25 V are left: the slope fits them exactly.
+    let fit = calibrate(&table.centred_by_group(), &options).unwrap().model.fit;
+    assert!((fit.coefficients[(0, 0)] - 2.5).abs() < 1e-12);
+    assert!((0.0..1e-12).contains(&fit.residual_covariance[(0, 0)]), "{}", fit.residual_covariance);
+    table.groups = vec![0, 0, 0, 1];
+    // Here one degree is left of three: all of the residuals, which centring left, are its.
+    let centred = table.centred_by_group();
+    let fit = calibrate(&centred, &options).unwrap().model.fit;
+    let left = &centred.signals - &centred.loads * &fit.coefficients;
+    assert!((fit.residual_covariance[(0, 0)] / left.norm_squared() - 1.0).abs() < 1e-12);
 }
 
 /// Each group has a zero of one reading or two, and loads to one side only, which that spoils most.
@@ -133,7 +155,7 @@ fn tared_groups_have_errors_as_stated() {
     let nominal = Some(vec![1.0; 3]);
     let options = Options { bias: false, tare_groups: true, nominal, ..Options::default() };
     let fitted = |table: &LoadTable| calibrate(table, &options).unwrap().model.fit;
-    assert!((fitted(&clean).coefficients - &truth).amax() < 1e-12);
+    assert!((fitted(&clean).coefficients - &truth).largest() < 1e-12);
     let spread = Spread::over(800, || {
         let mut noisy = clean.clone();
         noisy.signals += gaussians(random, 30, 3) * 0.01;
@@ -170,7 +192,7 @@ fn merged_sessions_do_not_mind_units_order_and_frames() {
         })
         .collect();
     let (one, two) = (merged(&some, 1.0), merged(&other, 1e3));
-    assert!((frame * two.coefficients * 1e4 - one.coefficients).amax() < 1e-11);
+    assert!((frame * two.coefficients * 1e4 - one.coefficients).largest() < 1e-11);
 }
 
 /// Bad samples leave the others exact, whatever they are and how few there are to tell the noise from.
@@ -189,7 +211,7 @@ fn samples_that_agree_are_fitted_exactly() {
         let nominal = Some(vec![1.0; 6]);
         let found =
             calibrate(&table, &Options { method, bias: false, nominal, ..Options::default() }).unwrap();
-        assert!((found.model.fit.coefficients - &truth).amax() < 1e-12);
+        assert!((found.model.fit.coefficients - &truth).largest() < 1e-12);
         let named: Vec<&str> = found.report.excluded.iter().map(|sample| sample.sample.as_str()).collect();
         assert_eq!(named, ["sample 5", "sample 12", "sample 24"]);
     }
@@ -218,6 +240,6 @@ fn streamed_fits_do_not_mind_units_order_and_frames() {
     };
     let (matrix, zero): (DMatrix<f64>, DVector<f64>) = fitted(&loads, &signals, 1.0, false);
     let (other, offset) = fitted(&(&loads * &frame * 1e3), &(&signals * 1e-4), 1e3, true);
-    assert!((other * frame.transpose() * 1e4 - matrix).amax() < 1e-12);
-    assert!((offset * 1e4 - zero).amax() < 1e-13);
+    assert!((other * frame.transpose() * 1e4 - matrix).largest() < 1e-12);
+    assert!((offset * 1e4 - zero).largest() < 1e-13);
 }

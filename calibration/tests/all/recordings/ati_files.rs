@@ -3,13 +3,13 @@
 use fingertip_calibration::Axis;
 use fingertip_calibration::file::{AtiCalibration, CalibrationFile};
 
-use super::common;
+use fingertip_test_support::recording;
 
 #[test]
 fn all_files_are_read_and_their_matrices_agree() {
-    let mut read = 0;
-    for folder in ["ati_cal_files", "ati_cert_loads", "ati_delta_raw_1khz"] {
-        let Some(folder) = common::data(folder) else { continue };
+    for (folder, files) in [("ati_cal_files", 6), ("ati_cert_loads", 4), ("ati_delta_raw_1khz", 1)] {
+        let mut read = 0;
+        let Some(folder) = recording(folder) else { continue };
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
             if path.extension().is_none_or(|extension| extension != "cal") {
@@ -37,6 +37,6 @@ fn all_files_are_read_and_their_matrices_agree() {
             assert!(again.sensor_matrix::<6>().is_ok());
             read += 1;
         }
+        assert_eq!(read, files);
     }
-    println!("{read} .cal files read");
 }

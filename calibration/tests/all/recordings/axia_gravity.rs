@@ -3,11 +3,13 @@
 use fingertip_calibration::gravity::{PayloadOptions, Pose, fit_payload};
 use fingertip_calibration::nalgebra::{Vector3, Vector6};
 
+use fingertip_test_support::recording;
+
 use super::common;
 
 #[test]
 fn published_weight_and_biases_come_back() {
-    let Some(path) = common::data("ati_axia80_gravity/poses7.csv") else { return };
+    let Some(path) = recording("ati_axia80_gravity/poses7.csv") else { return };
     let table = common::csv(&path);
     let q = common::columns(&table, &["qx", "qy", "qz", "qw"]);
     let w = common::columns(&table, &["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"]);

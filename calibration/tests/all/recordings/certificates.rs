@@ -6,11 +6,14 @@ use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{Direction, Options};
 use fingertip_calibration::{Calibration, calibrate};
 
+use fingertip_test_support::{Worst, recording};
+
+use super::super::testing::Largest as _;
 use super::common;
 
 /// Loads in the units of the certificate: the README's figures are of these.
 fn certificate(serial: &str) -> Option<(AtiCalibration, LoadTable)> {
-    let path = common::data("ati_cert_loads")?;
+    let path = recording("ati_cert_loads")?;
     let text = std::fs::read_to_string(path.join(format!("{serial}.cal"))).unwrap();
     let ati = AtiCalibration::from_xml(&text).unwrap();
     let (header, mut rows) = common::csv(&path.join("loads.csv"));
@@ -77,6 +80,7 @@ const PUBLISHED: [Published; 4] = [
 
 fn close(serial: &str, what: &str, found: impl Iterator<Item = f64>, expected: &[f64]) {
     let found: Vec<f64> = found.collect();
+    assert_eq!(found.len(), expected.len(), "{serial} {what}");
     for (found, expected) in found.iter().zip(expected) {
         // Three digits behind the point are printed.
         assert!((found - expected).abs() < 6e-4, "{serial} {what}: {found:.4} instead of {expected}");
@@ -90,14 +94,15 @@ fn published_matrix_and_errors_come_back() {
         let Calibration { model, report, .. } = calibrate(&table, &options(&ati, false)).unwrap();
         // The fitted loads per volt against ATI's, at the greatest voltage of each gauge, % of full scale.
         let published = ati.loads_per_volt().unwrap();
-        let mut worst = 0.0_f64;
+        let mut worst = Worst::new();
         for i in 0..6 {
             for j in 0..6 {
                 let fitted = model.fit.coefficients[(j, i)] * model.nominal[i];
-                let volts = table.signals.column(j).amax();
-                worst = worst.max(100.0 * (fitted - published[(i, j)]).abs() * volts / model.nominal[i]);
+                let volts = table.signals.column(j).largest();
+                worst.see(100.0 * (fitted - published[(i, j)]) * volts / model.nominal[i]);
             }
         }
+        let worst = worst.get();
         println!("{serial}: matrix within {worst:.4} % of full scale");
         assert!(worst < 0.006, "{serial}: {worst}");
         close(serial, "RMS", report.axes.iter().map(|axis| axis.rms_percent), &rms);
@@ -120,6 +125,7 @@ fn signals_on_loads_agree_within_the_errors() {
         let Some((ati, table)) = certificate(serial) else { return };
         let forward = Options { direction: Direction::SignalsFromLoads, ..options(&ati, false) };
         let report = calibrate(&table, &forward).unwrap().report;
+        assert_eq!(report.axes.len(), 6);
         for (axis, rms) in report.axes.iter().zip(rms) {
             assert!(axis.rms_percent < 1.1 * rms, "{serial} {}: {} {rms}", axis.axis, axis.rms_percent);
         }

@@ -4,20 +4,6 @@ use std::path::PathBuf;
 
 use fingertip_calibration::nalgebra::DMatrix;
 
-/// A path under the data folder: `FINGERTIP_DATA`, or `../shared/data` beside the workspace. `None`,
-/// and a line that says so, where it is absent.
-pub(crate) fn data(path: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os("FINGERTIP_DATA")
-        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/data"), PathBuf::from);
-    // A worktree lies one folder deeper than a plain checkout.
-    let deeper = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let found = [folder, deeper].into_iter().map(|folder| folder.join(path)).find(|path| path.exists());
-    if found.is_none() {
-        println!("skipped: {path} is not in the data folder (set FINGERTIP_DATA)");
-    }
-    found
-}
-
 /// A CSV file as its header and rows of text.
 pub(crate) fn csv(path: &PathBuf) -> (Vec<String>, Vec<Vec<String>>) {
     let text = std::fs::read_to_string(path).unwrap();

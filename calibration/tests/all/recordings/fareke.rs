@@ -7,12 +7,14 @@ use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{Direction, Limits, Method, Options};
 use fingertip_calibration::report::{Exclusion, Mistake, Report};
 
+use fingertip_test_support::recording;
+
 use super::common;
 
 const GRAM_FORCE: f64 = 9.80665e-3;
 
 fn cell(cell: &str, validation: &str) -> Option<LoadTable> {
-    let path = common::data("fareke_3axis_raw/cells.csv")?;
+    let path = recording("fareke_3axis_raw/cells.csv")?;
     let (header, mut rows) = common::csv(&path);
     rows.retain(|row| row[0] == cell && row[1] == validation);
     let table = (header, rows);
@@ -39,6 +41,7 @@ fn errors_are_those_of_the_readme() {
     for (number, rms) in published {
         let Some(table) = cell(number, "0") else { return };
         let report = calibrate(&table, &options()).unwrap().report;
+        assert_eq!(report.axes.len(), 3);
         for (axis, rms) in report.axes.iter().zip(rms) {
             assert!(
                 (axis.rms / GRAM_FORCE - rms).abs() < 6e-4,
@@ -66,6 +69,7 @@ fn bad_reading_of_cell_3_is_named() {
             calibrate(&table, &Options { reject_outliers: true, ..options.clone() }).unwrap().report;
         assert_eq!(without.verdict, Verdict::Good, "{without}");
         assert!(without.excluded.iter().any(|sample| sample.sample == "(0, 151, 0) gf"));
+        assert_eq!(without.axes.len(), 3);
         for axis in &without.axes {
             println!("{}: RMS {:.4} %", axis.axis, axis.rms_percent);
             assert!(axis.rms_percent < 0.1, "{without}");
@@ -113,13 +117,14 @@ fn validation_of_cell_2_is_as_published() {
     file.nominal.iter_mut().for_each(|load| assert!((*load / GRAM_FORCE - 872.1).abs() < 1e-9));
     let report =
         Report::of_check(&file, &unseen.tared_by_group().unwrap(), &Limits::default(), None).unwrap();
+    assert_eq!(report.axes.len(), 3);
     for (axis, rms) in report.axes.iter().zip([4.609, 12.062, 19.601]) {
         assert!((axis.rms / GRAM_FORCE - rms).abs() < 6e-4, "{}", axis.rms / GRAM_FORCE);
     }
 }
 
 fn six_axes() -> Option<LoadTable> {
-    let path = common::data("fareke_6axis_crosstalk/readings.csv")?;
+    let path = recording("fareke_6axis_crosstalk/readings.csv")?;
     let table = common::csv(&path);
     let loads = common::columns(&table, &["Fx_N", "Fy_N", "Fz_N", "Mx_Nm", "My_Nm", "Mz_Nm"]);
     let signals = common::columns(
@@ -146,6 +151,7 @@ fn six_axis_rig_is_as_in_the_readme() {
         (&affine, [0.179, 0.196, 0.202, 0.526, 0.319, 0.258]),
         (&tared, [0.120, 0.157, 0.131, 0.570, 0.336, 0.202]),
     ] {
+        assert_eq!(found.len(), 6);
         for (found, published) in found.iter().zip(published) {
             assert!(*found < published + 6e-4, "{found} {published}");
         }

@@ -6,10 +6,12 @@ use fingertip_calibration::file::{CalibrationFile, SignalUnit, Verdict};
 use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{CalibrationError, Direction, Options};
 
+use fingertip_test_support::recording;
+
 use super::common;
 
 fn poses() -> Option<LoadTable> {
-    let path = common::data("jonurce_fts8/poses.csv")?;
+    let path = recording("jonurce_fts8/poses.csv")?;
     let table = common::csv(&path);
     let loads = common::columns(&table, &["Fx", "Fy", "Fz", "Mx", "My", "Mz"]);
     let names: [String; 8] = core::array::from_fn(|i| format!("s{i}_mean"));
@@ -37,6 +39,7 @@ fn saturated_poses_are_left_out_by_name_and_the_sensor_is_called_poor() {
     let saturated = [13, 14, 21, 25, 26, 27, 32, 33, 40, 43, 44, 53, 55].map(|i| format!("pose {i}"));
     assert_eq!(named, saturated);
     assert!(report.excluded[0].reason.contains("gauge 8 saturated: reading 16.871"));
+    assert_eq!(report.axes.len(), 6);
     for (axis, (rms, left_out)) in report.axes.iter().zip([
         (1.651, 21.3),
         (1.645, 22.3),

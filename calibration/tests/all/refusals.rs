@@ -1,0 +1,259 @@
+//! What fits refuse, and where exactly they begin to.
+
+use fingertip_calibration::Axis;
+use fingertip_calibration::calibrate;
+use fingertip_calibration::experiment::{Information, plan, plan_after};
+use fingertip_calibration::file::SignalUnit;
+use fingertip_calibration::fit::{FitError, fit_temperature, gauss_helmert, least_squares, leave_out, ridge};
+use fingertip_calibration::in_situ::refine;
+use fingertip_calibration::loads::LoadTable;
+use fingertip_calibration::model::{Direction, Method, Options};
+use fingertip_calibration::nalgebra::DMatrix;
+use rand::SeedableRng as _;
+use rand_pcg::Pcg64Mcg;
+
+use super::random::{gaussians, sensor};
+
+const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+
+fn is_bad_input<T>(answer: Result<T, FitError>) -> bool {
+    matches!(answer, Err(FitError::BadInput { .. }))
+}
+
+/// Each entry of a matrix in turn, spoilt.
+fn spoilt(matrix: &DMatrix<f64>) -> impl Iterator<Item = DMatrix<f64>> {
+    (0..matrix.len()).flat_map(move |i| {
+        BAD.into_iter().map(move |bad| {
+            let mut matrix = matrix.clone();
+            matrix[i] = bad;
+            matrix
+        })
+    })
+}
+
+#[test]
+fn of_least_squares() {
+    let random = &mut Pcg64Mcg::seed_from_u64(95);
+    let (design, responses) = (gaussians(random, 5, 2), gaussians(random, 5, 2));
+    assert!(least_squares(&design, &responses, Some(&[0.0, 1.0, 1.0, 1.0, 1.0])).is_ok());
+    for wrong in spoilt(&design) {
+        assert!(is_bad_input(least_squares(&wrong, &responses, None)));
+        assert!(is_bad_input(least_squares(&responses, &wrong, None)));
+    }
+    for weights in [vec![1.0; 4], vec![1.0; 6], vec![1.0, 1.0, -1e-9, 1.0, 1.0]] {
+        assert!(is_bad_input(least_squares(&design, &responses, Some(&weights))));
+    }
+    for bad in BAD {
+        assert!(is_bad_input(least_squares(&design, &responses, Some(&[1.0, 1.0, 1.0, 1.0, bad]))));
+    }
+    assert!(is_bad_input(least_squares(&DMatrix::zeros(5, 0), &responses, None)));
+    assert!(is_bad_input(least_squares(&design, &DMatrix::zeros(5, 0), None)));
+    // Samples of weight 0 do not count.
+    let few = least_squares(&design, &responses, Some(&[1.0, 1.0, 0.0, 0.0, 0.0]));
+    assert_eq!(few, Err(FitError::TooFewSamples { samples: 2, coefficients: 2 }));
+    assert!(least_squares(&design, &responses, Some(&[1.0, 1.0, 1.0, 0.0, 0.0])).is_ok());
+    // A design that is dependent names the direction.
+    let mut dependent = design.clone();
+    let twice = dependent.column(0) * 2.0;
+    dependent.set_column(1, &twice);
+    let error = least_squares(&dependent, &responses, None).unwrap_err().to_string();
+    // Of unit columns the difference is unobserved.
+    assert!(error.starts_with("the loads leave 1 of 2 directions unobserved: "), "{error}");
+    assert!(error.contains("0.71 x0") && error.contains("0.71 x1"), "{error}");
+    let blind = design.columns(0, 1).into_owned().insert_column(1, 0.0);
+    let error = least_squares(&blind, &responses, None).unwrap_err().to_string();
+    assert_eq!(error, "the loads leave 1 of 2 directions unobserved: x1");
+}
+
+#[test]
+fn of_ridge() {
+    let random = &mut Pcg64Mcg::seed_from_u64(96);
+    let (design, responses, prior) =
+        (gaussians(random, 5, 2), gaussians(random, 5, 3), gaussians(random, 2, 3));
+    let precision = DMatrix::identity(2, 2);
+    let fit =
+        |prior: &DMatrix<f64>, precision: &DMatrix<f64>| ridge(&design, &responses, None, prior, precision);
+    assert!(fit(&prior, &precision).is_ok());
+    for wrong in spoilt(&prior).chain([DMatrix::zeros(3, 2), DMatrix::zeros(2, 2), DMatrix::zeros(1, 3)]) {
+        assert!(is_bad_input(fit(&wrong, &precision)));
+    }
+    for wrong in [DMatrix::identity(3, 3), DMatrix::zeros(2, 2), -&precision, DMatrix::identity(1, 1)] {
+        assert!(is_bad_input(fit(&prior, &wrong)));
+    }
+    // The residuals of data and prior over the number of samples.
+    let fit = fit(&prior, &precision).unwrap();
+    let left = &responses - &design * &fit.coefficients;
+    let pulled = &fit.coefficients - &prior;
+    let expected = (left.tr_mul(&left) + pulled.tr_mul(&pulled)) / 5.0;
+    let off = (&fit.residual_covariance - &expected).abs();
+    assert!(off.iter().all(|off| *off < 1e-13), "{off}");
+    assert_eq!((fit.trust, fit.iterations), (DMatrix::from_element(5, 3, 1.0), 1));
+}
+
+#[test]
+fn of_gauss_helmert() {
+    let random = &mut Pcg64Mcg::seed_from_u64(97);
+    let (design, responses) = (gaussians(random, 6, 2), gaussians(random, 6, 1));
+    let (exact, noise) = (DMatrix::zeros(6, 2), DMatrix::from_element(6, 1, 0.1));
+    let fit = |errors: &DMatrix<f64>, noise: &DMatrix<f64>| gauss_helmert(&design, &responses, errors, noise);
+    // With exact loads and equal noise it is least squares, but for the noise that is stated.
+    let plain = least_squares(&design, &responses, None).unwrap();
+    let same = fit(&exact, &noise).unwrap();
+    assert!((same.coefficients - &plain.coefficients).iter().all(|off| off.abs() < 1e-12));
+    assert!((same.residual_covariance - plain.residual_covariance).iter().all(|off| off.abs() < 1e-12));
+    assert!((same.inverse_gram - plain.inverse_gram).iter().all(|off| off.abs() < 1e-12));
+    for wrong in spoilt(&exact).chain([DMatrix::from_element(6, 2, -1e-9), DMatrix::zeros(5, 2)]) {
+        assert!(is_bad_input(fit(&wrong, &noise)));
+    }
+    for wrong in spoilt(&noise).chain([DMatrix::zeros(6, 1), -&noise, DMatrix::from_element(6, 2, 0.1)]) {
+        assert!(is_bad_input(fit(&exact, &wrong)));
+    }
+}
+
+#[test]
+fn of_leaving_out() {
+    let random = &mut Pcg64Mcg::seed_from_u64(99);
+    let (design, responses) = (gaussians(random, 6, 2), gaussians(random, 6, 2));
+    let fit = least_squares(&design, &responses, None).unwrap();
+    let tried = |cases: &[usize], trust: (usize, usize)| {
+        let mut fit = fit.clone();
+        fit.trust = DMatrix::from_element(trust.0, trust.1, 1.0);
+        let mut calls = Vec::new();
+        leave_out(&design, &responses, None, &fit, cases, |case, members, _| {
+            calls.push((case, members.to_vec()))
+        })
+        .map(|()| calls)
+    };
+    let calls = tried(&[7, 3, 7, 3, 9, 7], (6, 2)).unwrap();
+    assert_eq!(calls, [(3, vec![1, 3]), (7, vec![0, 2, 5]), (9, vec![4])]);
+    for (cases, trust) in [(5, (6, 2)), (7, (6, 2)), (6, (5, 2)), (6, (6, 1))] {
+        assert!(is_bad_input(tried(&vec![0; cases], trust)));
+    }
+}
+
+#[test]
+fn of_temperatures() {
+    let random = &mut Pcg64Mcg::seed_from_u64(100);
+    let loads = gaussians(random, 12, 2);
+    let signals = &loads * DMatrix::from_element(2, 1, 2.0) + gaussians(random, 12, 1) * 1e-6;
+    let celsius: Vec<f64> = (0..12).map(|i| 20.0 + f64::from(i * 5 % 12)).collect();
+    let fitted = fit_temperature(&loads, &signals, &celsius, 19.0).unwrap();
+    // The reference belongs to the range.
+    assert_eq!(fitted.temperature.range_celsius, [19.0, 31.0]);
+    assert_eq!(
+        fit_temperature(&loads, &signals, &celsius, 40.0).unwrap().temperature.range_celsius,
+        [20.0, 40.0]
+    );
+    for bad in BAD {
+        assert!(fit_temperature(&loads, &signals, &celsius, bad).is_err());
+        let mut wrong = celsius.clone();
+        wrong[5] = bad;
+        assert!(fit_temperature(&loads, &signals, &wrong, 20.0).is_err());
+    }
+    assert!(fit_temperature(&loads, &signals, &celsius[..11], 20.0).is_err());
+    assert!(fit_temperature(&loads, &signals, &[20.0; 12], 20.0).is_err());
+}
+
+#[test]
+fn of_touches() {
+    let random = &mut Pcg64Mcg::seed_from_u64(102);
+    let start = DMatrix::identity(6, 6);
+    let (touches, known) = (gaussians(random, 30, 6), gaussians(random, 6, 6));
+    let refined =
+        |start: &DMatrix<f64>, touches: &DMatrix<f64>, loads: &DMatrix<f64>, deviations: (f64, f64)| {
+            refine(start, touches, deviations.0, &known, loads, deviations.1)
+        };
+    let good = (1e-2, 1e-2);
+    for deviations in
+        [(0.0, 1e-2), (1e-2, 0.0), (-1.0, 1e-2), (1e-2, -1.0), (f64::NAN, 1e-2), (1e-2, f64::NAN)]
+    {
+        assert!(is_bad_input(refined(&start, &touches, &known, deviations)), "{deviations:?}");
+    }
+    for wrong in [DMatrix::identity(5, 6), DMatrix::identity(6, 7), &start * f64::NAN] {
+        assert!(is_bad_input(refined(&wrong, &touches, &known, good)));
+    }
+    for wrong in [DMatrix::zeros(30, 5), &touches * f64::INFINITY] {
+        assert!(is_bad_input(refined(&start, &wrong, &known, good)));
+    }
+    for wrong in [DMatrix::zeros(5, 6), DMatrix::zeros(6, 5), &known * f64::NAN] {
+        assert!(is_bad_input(refined(&start, &touches, &wrong, good)));
+    }
+}
+
+#[test]
+fn of_plans() {
+    let candidates = DMatrix::identity(3, 3);
+    assert!(plan(&candidates, false, 1.0, 3).is_ok());
+    for accuracy in [0.0, -1.0, f64::NAN] {
+        assert!(is_bad_input(plan(&candidates, false, accuracy, 3)));
+    }
+    assert!(is_bad_input(plan(&DMatrix::zeros(0, 3), false, 1.0, 3)));
+    for wrong in spoilt(&candidates) {
+        assert!(is_bad_input(plan(&wrong, false, 1.0, 3)));
+        assert!(is_bad_input(plan_after(&wrong, &candidates, false, 1.0, 3)));
+    }
+    // One load of each axis has the error of one reading; the third makes the plan whole.
+    assert_eq!(
+        plan(&candidates, false, 1.0, 2),
+        Err(FitError::TooFewSamples { samples: 2, coefficients: 3 })
+    );
+    let three = plan(&candidates, false, 1.0, 3).unwrap();
+    assert_eq!(three.order.len(), 3);
+    assert!(three.deviation[1].is_infinite() && (three.deviation[2] - 1.0).abs() < 1e-5, "{three:?}");
+    let again = plan(&candidates, false, 0.99 / 2.0_f64.sqrt(), 20).unwrap();
+    assert_eq!((again.order.len(), again.deviation.len()), (9, 9));
+    let mut information = Information::new(2, false);
+    assert!(
+        !information.add(&[1.0]) && !information.add(&[1.0, 2.0, 3.0]) && !information.add(&[1.0, f64::NAN])
+    );
+    assert_eq!((information.variance(&[1.0]), information.variance(&[f64::INFINITY, 0.0])), (None, None));
+    assert!(information.add(&[2.0, 0.0]));
+    assert!((information.variance(&[2.0, 0.0]).unwrap() - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn of_options() {
+    let random = &mut Pcg64Mcg::seed_from_u64(101);
+    let loads = gaussians(random, 30, 3);
+    let signals = &loads * sensor(random, 3, 4) + gaussians(random, 30, 4) * 1e-3;
+    let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt).unwrap();
+    let error = |options: Options| calibrate(&table, &options).map(|_| ()).unwrap_err().to_string();
+    let plain = Options::default();
+    for nominal in
+        [vec![1.0; 2], vec![1.0; 4], vec![1.0, 0.0, 1.0], vec![1.0, f64::INFINITY, 1.0], vec![-1.0; 3]]
+    {
+        assert!(error(Options { nominal: Some(nominal), ..plain.clone() }).contains("nominal"));
+    }
+    let total = |loads: usize, signals: usize| Method::Total {
+        load_deviations: vec![1e-3; loads],
+        signal_deviations: vec![1e-3; signals],
+    };
+    assert!(calibrate(&table, &Options { method: total(3, 4), ..plain.clone() }).is_ok());
+    for (of_loads, of_signals) in [(2, 4), (3, 3), (4, 4), (3, 5)] {
+        error(Options { method: total(of_loads, of_signals), ..plain.clone() });
+        let method = Method::GaussHelmert {
+            load_deviations: vec![1e-3; of_loads],
+            relative: 0.0,
+            signal_deviations: vec![1e-3; of_signals],
+        };
+        error(Options { method, ..plain.clone() });
+    }
+    let prior = calibrate(&table, &plain).unwrap().to_file().unwrap();
+    let with = |prior: &fingertip_calibration::file::CalibrationFile, relative: f64| Options {
+        method: Method::Prior { prior: Box::new(prior.clone()), relative },
+        ..plain.clone()
+    };
+    assert!(calibrate(&table, &with(&prior, 0.1)).is_ok());
+    for relative in [0.0, -1.0, f64::NAN] {
+        error(with(&prior, relative));
+    }
+    let mut fewer = prior.clone();
+    fewer.matrix = fewer.matrix.rows(0, 3).into_owned();
+    fewer.zero.truncate(3);
+    error(with(&fewer, 0.1));
+    // Only signals on loads.
+    for method in [total(3, 4), with(&prior, 0.1).method] {
+        error(Options { method, direction: Direction::LoadsFromSignals, ..plain.clone() });
+    }
+    error(Options { quadratic: true, ..plain.clone() });
+}
