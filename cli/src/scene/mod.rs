@@ -2,6 +2,8 @@
 //!
 //! Format, units and defaults are documented in `examples/scenes/README.md`, and nowhere else.
 
+#[cfg(test)]
+mod hostile;
 mod simulated;
 mod stages;
 mod surface;
