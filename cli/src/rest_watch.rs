@@ -176,7 +176,8 @@ mod tests {
         let mut random = Pcg64Mcg::seed_from_u64(2);
         let mut watch = RestWatch::default();
         for i in 0..400 {
-            let mut reading = Vector6::from_fn(|_, _| (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0);
+            let mut reading =
+                Vector6::from_fn(|_, _| (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0);
             reading[3] += more(i);
             add(&mut watch, reading);
         }
@@ -206,7 +207,9 @@ mod tests {
         // Forces that are not finite tell no range.
         let mut watch = RestWatch::default();
         let wrench = |force: f64| Wrench::on_fingertip(Vector3::repeat(force), Vector3::zeros());
-        [0.0, f64::INFINITY].iter().for_each(|force| watch.add(&Vector6::zeros(), &Vector6::zeros(), &wrench(*force)));
+        [0.0, f64::INFINITY]
+            .iter()
+            .for_each(|force| watch.add(&Vector6::zeros(), &Vector6::zeros(), &wrench(*force)));
         assert_eq!(watch.doubt(|channel| channel.to_string()).unwrap().force_range, 0.0);
     }
 }

@@ -94,7 +94,11 @@ mod tests {
             assert_eq!(noise.relative, 0.0);
             for axis in 0..6 {
                 let expected = deviation * (axis + 1) as f64;
-                assert!((noise.floor[axis] / expected - 1.0).abs() < 1e-12, "{} for {expected}", noise.floor[axis]);
+                assert!(
+                    (noise.floor[axis] / expected - 1.0).abs() < 1e-12,
+                    "{} for {expected}",
+                    noise.floor[axis]
+                );
             }
         };
         check(&watch, 4.0 * 0.5 / 6.0_f64.sqrt());

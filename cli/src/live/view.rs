@@ -218,4 +218,41 @@ mod tests {
         let text = picture(&pressed(Vector3::new(-0.05, -0.01, 0.0), 10), (80, 24));
         assert!(text.contains("force below the threshold") && !text.contains('●'), "{text}");
     }
+
+    /// Compares with a picture that somebody has looked at; with `FINGERTIP_ACCEPT=1`, writes it.
+    fn assert_accepted(name: &str, picture: &str) {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/accepted").join(name);
+        if std::env::var_os("FINGERTIP_ACCEPT").is_some() {
+            std::fs::write(&path, picture).unwrap();
+        }
+        let accepted = std::fs::read_to_string(&path).unwrap();
+        assert!(picture == accepted, "{name} has become\n{picture}");
+    }
+
+    #[test]
+    fn the_pictures_are_those_that_were_accepted() {
+        let mut state = pressed(Vector3::new(-1.5, -1.2, 0.3), 100);
+        state.rate = 1000.4;
+        assert_accepted("live_wide.txt", &picture(&state, (80, 24)));
+        assert_accepted("live_narrow.txt", &picture(&state, (40, 30)));
+        assert_accepted("live_low.txt", &picture(&state, (72, 10)));
+        // Without room for the map: forces, then slip.
+        assert_accepted("live_small.txt", &picture(&state, (40, 20)));
+        let mut lost = pressed(Vector3::new(-0.5, -0.1, 0.3), 3);
+        lost.health = Health::Lost("unplugged".to_owned());
+        (lost.faults, lost.last_fault, lost.reconnections) = (12_345, Some("cut".to_owned()), 2);
+        lost.losses.lost = Some(3);
+        assert_accepted("live_lost.txt", &picture(&lost, (100, 24)));
+    }
+
+    #[test]
+    fn a_small_window_has_one_line() {
+        let mut state = pressed(Vector3::new(-1.5, -1.2, 0.3), 100);
+        let first = |state: &State, size| picture(state, size).lines().next().unwrap().trim_end().to_owned();
+        assert_eq!(first(&state, (27, 8)), "1.94 N contact");
+        assert_eq!(first(&state, (28, 7)), "1.94 N contact");
+        assert!(first(&state, (28, 8)).starts_with(" live "));
+        state.health = Health::Resting;
+        assert_eq!(first(&state, (50, 3)), "taking the zero: do not touch");
+    }
 }

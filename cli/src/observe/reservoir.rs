@@ -74,7 +74,8 @@ mod tests {
         let mut kept = [0_u32; 5];
         let mut made = 0;
         for seed in 0..RUNS {
-            let mut some = Reservoir { random: Pcg64Mcg::seed_from_u64(u64::from(seed)), ..Reservoir::new(2) };
+            let mut some =
+                Reservoir { random: Pcg64Mcg::seed_from_u64(u64::from(seed)), ..Reservoir::new(2) };
             for item in 0..kept.len() {
                 some.add(|| {
                     made += 1;

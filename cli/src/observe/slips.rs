@@ -91,13 +91,13 @@ mod tests {
         let mut slips = Slips::default();
         let call = Some(SlipVerdict::Slipping);
         // Calls 50 ms apart are one slip, calls 51 ms apart are two.
-        slips.follow(1.0, call, Some(2.0), Some(0.4));
-        slips.follow(1.05, call, Some(2.5), Some(0.3));
-        slips.follow(1.101, call, None, None);
-        let first = Slip { time: 1.0, normal_force: Some(2.0), ratio: Some(0.4) };
-        assert_eq!(slips.kept(), [first, Slip { time: 1.101, normal_force: None, ratio: None }]);
+        slips.follow(0.0, call, Some(2.0), Some(0.4));
+        slips.follow(0.05, call, Some(2.5), Some(0.3));
+        slips.follow(0.101, call, None, None);
+        let first = Slip { time: 0.0, normal_force: Some(2.0), ratio: Some(0.4) };
+        assert_eq!(slips.kept(), [first, Slip { time: 0.101, normal_force: None, ratio: None }]);
         // A recording that is put together may go back in time.
-        slips.follow(0.5, call, None, None);
+        slips.follow(-0.5, call, None, None);
         assert_eq!(slips.count(), 3);
     }
 

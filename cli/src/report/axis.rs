@@ -184,12 +184,21 @@ mod tests {
         let slack = 1e-6 * step;
         for (number, tick) in ticks.iter().enumerate() {
             assert!((tick.value / step - (tick.value / step).round()).abs() < 1e-6, "{tick:?} of {axis:?}");
-            assert!((read(&tick.label) - tick.value).abs() < 1e-6 * step.max(tick.value.abs()), "{tick:?} of {axis:?}");
+            assert!(
+                (read(&tick.label) - tick.value).abs() < 1e-6 * step.max(tick.value.abs()),
+                "{tick:?} of {axis:?}"
+            );
             assert!((tick.value - ticks[0].value - number as f64 * step).abs() < slack, "{ticks:?}");
-            assert!(tick.value >= axis.low - slack && tick.value <= axis.high + slack, "{tick:?} of {axis:?}");
+            assert!(
+                tick.value >= axis.low - slack && tick.value <= axis.high + slack,
+                "{tick:?} of {axis:?}"
+            );
         }
         let ends = (ticks[0].value - step, ticks[ticks.len() - 1].value + step);
-        assert!(ends.0 < axis.low + slack && ends.1 > axis.high - slack, "ticks are missing: {axis:?} {ticks:?}");
+        assert!(
+            ends.0 < axis.low + slack && ends.1 > axis.high - slack,
+            "ticks are missing: {axis:?} {ticks:?}"
+        );
     }
 
     #[test]
@@ -198,7 +207,8 @@ mod tests {
         for _ in 0..2000 {
             let range = 10.0_f64.powf(random.random_range(-9.0..9.0));
             let most = random.random_range(1..9_usize);
-            let round = (-12..12_i32).flat_map(|decade| [1.0, 2.0, 5.0].map(|lead| lead * 10.0_f64.powi(decade)));
+            let round =
+                (-12..12_i32).flat_map(|decade| [1.0, 2.0, 5.0].map(|lead| lead * 10.0_f64.powi(decade)));
             let expected = round.into_iter().find(|step| range / step <= most as f64 * 1.000_001).unwrap();
             let found = step(range, most);
             assert!((found / expected - 1.0).abs() < 1e-12, "{range} in {most}: {found} for {expected}");
@@ -220,7 +230,10 @@ mod tests {
             assert!((axis.place(axis.low), axis.place(axis.high)) == (0.0, 1.0));
             for most in [2, 3, 5, 7] {
                 let ticks = axis.ticks(most);
-                assert!((1..=most + 1).contains(&ticks.len()) || ticks.is_empty() && most == 2, "{axis:?} {ticks:?}");
+                assert!(
+                    (1..=most + 1).contains(&ticks.len()) || ticks.is_empty() && most == 2,
+                    "{axis:?} {ticks:?}"
+                );
                 if !ticks.is_empty() {
                     check_even(&axis, &ticks, step(axis.high - axis.low, most));
                 }
@@ -261,7 +274,8 @@ mod tests {
             assert!(axis.high / axis.low > 9.999 && axis.low <= low && axis.high >= high, "{axis:?}");
             assert!((axis.low * axis.high / (low * high) - 1.0).abs() < 1e-9, "{axis:?}");
             let within = |leads: &[f64]| -> Vec<f64> {
-                let all = (-8..=14_i32).flat_map(|decade| leads.iter().map(move |lead| lead * 10.0_f64.powi(decade)));
+                let all = (-8..=14_i32)
+                    .flat_map(|decade| leads.iter().map(move |lead| lead * 10.0_f64.powi(decade)));
                 all.filter(|value| *value >= axis.low * 0.999 && *value <= axis.high * 1.001).collect()
             };
             let most = random.random_range(3..8_usize);

@@ -140,7 +140,8 @@ mod tests {
         }
         assert_eq!(marks.iter().map(|(_, y)| *y).collect::<Vec<_>>(), [top, top + height, top, top + height]);
         // The axis runs along the lower edge, its marks hang from it.
-        let axis: Vec<_> = all.iter().filter(|path| path.class == "axis").map(|path| &path.pieces[0]).collect();
+        let axis: Vec<_> =
+            all.iter().filter(|path| path.class == "axis").map(|path| &path.pieces[0]).collect();
         let (marks, line) = axis.split_at(axis.len() - 1);
         assert_eq!(*line[0], [(left, top + height), (left + width, top + height)]);
         for mark in marks {

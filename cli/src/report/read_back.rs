@@ -104,7 +104,10 @@ impl Ruler {
         let slope = (v1 - v0) / (p1 - p0);
         let ruler = Self { zero: v0 - slope * p0, slope };
         for (place, value) in marks {
-            assert!((ruler.at(*place) - value).abs() < 0.11 * slope.abs(), "marks that are not in line: {marks:?}");
+            assert!(
+                (ruler.at(*place) - value).abs() < 0.11 * slope.abs(),
+                "marks that are not in line: {marks:?}"
+            );
         }
         ruler
     }

@@ -88,7 +88,8 @@ mod tests {
     #[test]
     fn gauges_stand_where_they_are_and_lean_as_they_do() {
         let places = [(-0.002, 0.0, 14.0), (0.0, 120.0, -40.0), (0.010, 240.0, 80.0), (0.012, 330.0, 200.0)];
-        let gauge = |(z, theta, q): (f64, f64, f64)| Gauge { z, theta: theta.to_radians(), q: q.to_radians() };
+        let gauge =
+            |(z, theta, q): (f64, f64, f64)| Gauge { z, theta: theta.to_radians(), q: q.to_radians() };
         let layout = TubeLayout {
             beam: ThinWalledBeam { radius: 5e-3, thickness: 1e-4, youngs_modulus: 7e10, poisson_ratio: 0.3 },
             gauges: places.map(gauge).to_vec(),
@@ -124,7 +125,10 @@ mod tests {
             let end = if head.1 < tail.1 { head } else { tail };
             let side = if number == 2 { -8.0 } else { 8.0 };
             let label = texts(&svg).into_iter().find(|text| text.text == number.to_string()).unwrap();
-            assert!((label.at.0 - end.0 - side).abs() < 0.2 && (label.at.1 - end.1 - 2.0).abs() < 0.2, "{label:?}");
+            assert!(
+                (label.at.0 - end.0 - side).abs() < 0.2 && (label.at.1 - end.1 - 2.0).abs() < 0.2,
+                "{label:?}"
+            );
         }
         let line = |class: &str| all.iter().find(|path| path.class == class).unwrap().pieces[0][0].1;
         assert!(up.at(line("axis")).abs() <= up.error() && (up.at(line("rim")) - 20.0).abs() <= up.error());

@@ -27,7 +27,19 @@ fn pick<'a, T>(random: &mut Pcg64Mcg, list: &'a [T]) -> &'a T {
 /// A value that may be meant for something else.
 fn odd(random: &mut Pcg64Mcg) -> Value {
     let numbers = [
-        0.0, -0.0, -1.0, 1e-320, -1e-320, 1e308, -1e308, 1e200, 1e-200, 180.0, f64::NAN, f64::INFINITY,
+        0.0,
+        -0.0,
+        -1.0,
+        1e-320,
+        -1e-320,
+        // In millimetres still a number.
+        1e300,
+        -1e300,
+        1e200,
+        1e-200,
+        180.0,
+        f64::NAN,
+        f64::INFINITY,
         f64::NEG_INFINITY,
     ];
     let number = *pick(random, &numbers);
@@ -76,7 +88,10 @@ fn spoiled(random: &mut Pcg64Mcg) -> String {
     let mut text = toml::to_string(&table).unwrap();
     match random.random_range(0..10) {
         // A section twice, and text that ends too early.
-        0 => text.push_str(*pick(random, &["\n[surface]\nshape = 'plane'\n", "\n[input]\n", "\n[slip]\n[slip]\n"])),
+        0 => text.push_str(*pick(
+            random,
+            &["\n[surface]\nshape = 'plane'\n", "\n[input]\n", "\n[slip]\n[slip]\n"],
+        )),
         1 => {
             let end = random.random_range(0..text.len());
             text = text.chars().take(end).collect();
@@ -120,7 +135,10 @@ fn a_spoiled_scene_is_refused_in_a_sentence_or_has_finite_numbers() {
             Err((line, message)) => {
                 refused += 1;
                 assert!(message.len() > 10 && !message.contains('\n'), "{message:?} for\n{text}");
-                assert!(line.is_none_or(|line| line >= 1 && line <= text.lines().count() + 1), "{line:?}\n{text}");
+                assert!(
+                    line.is_none_or(|line| line >= 1 && line <= text.lines().count() + 1),
+                    "{line:?}\n{text}"
+                );
             }
             Ok(scene) => {
                 taken += 1;

@@ -1,8 +1,13 @@
 //! A sphere of which only a cap may touch.
 
+use core::f64::consts::PI;
+
 use fingertip::surfaces::{ActiveSurface, ClosestApproach, Crossing};
 use fingertip::wrench::Line;
 use nalgebra::Vector3;
+
+/// Below every cosine, rounding included.
+const EVERYWHERE: f64 = -2.0;
 
 /// A surface whose active region is where its normal lies within an angle of the pole: on a
 /// sphere, a cap.
@@ -16,13 +21,13 @@ pub(crate) struct Capped<S> {
 impl<S> Capped<S> {
     /// All of the surface.
     pub(crate) fn whole(inner: S, pole: Vector3<f64>) -> Self {
-        // Below every cosine, rounding included.
-        Self { inner, pole, least_cosine: -2.0 }
+        Self { inner, pole, least_cosine: EVERYWHERE }
     }
 
     /// The part within `half_angle` \[rad\] of the unit vector `pole`.
     pub(crate) fn within(inner: S, pole: Vector3<f64>, half_angle: f64) -> Self {
-        Self { inner, pole, least_cosine: half_angle.cos() }
+        let least_cosine = if half_angle < PI { half_angle.cos() } else { EVERYWHERE };
+        Self { inner, pole, least_cosine }
     }
 
     /// The whole surface.
@@ -59,8 +64,8 @@ impl<S: ActiveSurface<f64>> ActiveSurface<f64> for Capped<S> {
 mod tests {
     use fingertip::surfaces::{ActiveSurface, ContactModel, NoContact, PointContact, Resolution, Sphere};
     use fingertip::wrench::{Line, Wrench};
-    use rand::{RngExt, SeedableRng};
     use nalgebra::Vector3;
+    use rand::{RngExt, SeedableRng};
 
     use super::Capped;
 

@@ -203,7 +203,8 @@ mod tests {
             ((u - u0) / unit, (v - v0) / unit)
         };
         let ((ua, va), (ub, vb)) = (to(at + a), to(at + b));
-        let (lengths, inner, turn) = ((ua * ua + va * va, a.norm_squared()), ua * ub + va * vb, ua * vb - va * ub);
+        let (lengths, inner, turn) =
+            ((ua * ua + va * va, a.norm_squared()), ua * ub + va * vb, ua * vb - va * ub);
         assert!((lengths.0 / lengths.1 - 1.0).abs() < 1e-5, "{lengths:?}");
         assert!((inner - a.dot(&b)).abs() < 1e-5 * a.norm() * b.norm());
         assert!((turn - out.dot(&a.cross(&b))).abs() < 1e-5 * a.norm() * b.norm());
