@@ -6,8 +6,11 @@ mod analyze;
 mod calibrate;
 #[path = "../common/mod.rs"]
 mod common;
+mod conversions;
 mod demo;
 mod design;
 mod nano17;
+mod reports;
+mod said;
 mod shapes;
 mod streams;
