@@ -10,6 +10,7 @@ mod conversions;
 mod demo;
 mod design;
 mod nano17;
+mod recorded;
 mod reports;
 mod said;
 mod shapes;
