@@ -1,6 +1,8 @@
 //! Readings of gauges, which a calibration turns into wrenches.
 
 mod gauges;
+#[cfg(test)]
+mod tests;
 
 use std::path::Path;
 

@@ -344,6 +344,7 @@ mod tests {
         let map = draw("test", &projection, &contacts(&projection, &points));
         assert_readable(&map.svg);
         let (across, up) = rulers(&map.svg);
+        assert_eq!(dots(&map).len(), points.len());
         for ((x, y), i) in dots(&map).into_iter().zip(0..) {
             let (degrees, height) = place(i);
             assert!((across.at(x) - degrees).abs() <= across.error(), "{degrees}");

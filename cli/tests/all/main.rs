@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, which may fail so")]
 
 mod analyze;
+mod analyze_rows;
 mod calibrate;
 #[path = "../common/mod.rs"]
 mod common;

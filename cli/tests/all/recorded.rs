@@ -190,9 +190,11 @@ fn a_simulation_tells_where_it_is_and_what_it_did() {
     let script =
         ["simulate", "--duration", "0.1", "--serve", "bota", "--over", "tcp", "--script", "script.toml"];
     assert!(folder.succeed(&script).contains("script.toml (0.7 s, "));
-    for (text, expected) in
-        [("segments = []", "no segments"), ("[[segments]]\ndo = 'fly'\n", "script.toml"), ("x = = 1", "script.toml")]
-    {
+    for (text, expected) in [
+        ("segments = []", "no segments"),
+        ("[[segments]]\ndo = 'fly'\n", "script.toml"),
+        ("x = = 1", "script.toml"),
+    ] {
         folder.write("script.toml", text);
         let error = folder.fail(1, &script);
         assert!(error.contains(expected), "{error}");
