@@ -302,7 +302,6 @@ mod tests {
     fn what_an_address_lacks_or_has_too_much_is_named() {
         for (address, expected) in [
             ("robotous:///dev/null?counts_per_N=5", "belong together"),
-            ("dynpick:///no/such?counts_per_Nm=5", "belong together"),
             ("ati://127.0.0.1:9?counts_per_N=5", "belong together"),
             ("dynpick:///no/such?counts_per_N=5&counts_per_Nm=7", "cannot open /no/such at 921600 baud"),
             ("dynpick:///no/such", "cannot open /no/such at 921600 baud"),
