@@ -188,9 +188,9 @@ fn damaged_frames_are_noticed_and_passed_over() {
         }
     }
     let told = server.finish().replace('\u{202f}', "");
-    // 28 % of the frames have at least one fault, four standard deviations of 1.6 % aside.
+    // 18.8 % of the frames are lost, or have a flipped bit or lack a byte: four standard deviations of 1.4 %.
     let (samples, damaged) = (number_before(told.trim_start(), "samples"), number_before(&told, "damaged"));
-    assert!(samples >= 600.0 && (0.2..0.36).contains(&(damaged / samples)), "{told}");
+    assert!(samples >= 600.0 && (0.13..0.25).contains(&(damaged / samples)), "{told}");
 }
 
 /// What a browser, and the client of this library, is told of the sensor.

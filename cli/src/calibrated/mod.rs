@@ -1,7 +1,6 @@
 //! Readings of gauges, which a calibration turns into wrenches.
 
 mod gauges;
-#[cfg(test)]
 mod tests;
 
 use std::path::Path;

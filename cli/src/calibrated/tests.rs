@@ -1,4 +1,5 @@
 //! Readings through calibrations of every number of gauges, and what is said of them.
+#![cfg(test)]
 
 use std::fs;
 use std::path::{Path, PathBuf};

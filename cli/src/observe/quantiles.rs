@@ -81,7 +81,7 @@ impl Quantiles {
         }
         let mut seen = self.zeros;
         if rank < seen {
-            return Some(0.0_f64.max(self.least));
+            return Some(self.least);
         }
         for (index, bucket) in self.buckets.iter().enumerate() {
             seen += bucket;

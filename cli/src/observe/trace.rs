@@ -94,7 +94,6 @@ impl Trace {
             [] => Bin::default(),
         });
         self.bins = joined.collect();
-        self.bins.reserve_exact(CAPACITY - self.bins.len());
         self.stride *= 2;
     }
 

@@ -7,7 +7,6 @@ pub(crate) mod contours;
 mod figures;
 mod map;
 mod page;
-#[cfg(test)]
 mod read_back;
 mod svg;
 pub(crate) mod unrolled_tube;

@@ -1,4 +1,5 @@
 //! Reads a drawing as its reader does: by the marks along its axes.
+#![cfg(test)]
 
 /// A path of a drawing: its class, and its pieces.
 pub(super) struct Path {

@@ -1,4 +1,5 @@
 //! Scenes that nobody would write on purpose: each is refused in a sentence, or is one of finite numbers.
+#![cfg(test)]
 
 use std::path::Path;
 

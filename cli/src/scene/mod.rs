@@ -2,7 +2,6 @@
 //!
 //! Format, units and defaults are documented in `examples/scenes/README.md`, and nowhere else.
 
-#[cfg(test)]
 mod hostile;
 mod simulated;
 mod stages;

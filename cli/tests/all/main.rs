@@ -10,6 +10,7 @@ mod common;
 mod conversions;
 mod demo;
 mod design;
+mod live;
 mod nano17;
 mod recorded;
 mod reports;

@@ -302,3 +302,140 @@ fn of_the_demo() {
         report.split("<figure>").find(|figure| figure.contains("Position error against load")).unwrap();
     assert_accepted("demo_errors.html", &without_curves(&format!("</style>{figure}")));
 }
+
+#[test]
+fn of_a_calibration_that_is_mended() {
+    let random = &mut Pcg64Mcg::seed_from_u64(12);
+    let folder = Folder::new();
+    folder.write("loads.csv", &noisy_loads());
+    folder.succeed(&[&["calibrate", "loads.csv", "-o", "cal.toml"][..], &FULL].concat());
+    // The sensor of `loads`, of which gauge 2 has become 4 % stronger, touched on a sphere of 10 mm.
+    let mut touches = String::from("v1_V,v2_V,v3_V,v4_V,v5_V,v6_V\n");
+    for _ in 0..80 {
+        let (normal, force) = (direction(random), direction(random) * 5.0);
+        let torque = (normal * 0.01).cross(&force);
+        let share: [f64; 6] =
+            core::array::from_fn(|i| if i < 3 { force[i] / 10.0 } else { torque[i - 3] / 0.1 });
+        let volts: Vec<String> = (0..6)
+            .map(|i| {
+                let gain = if i == 1 { 1.04 } else { 1.0 };
+                format!("{:.9}", 0.1 + gain * (2.0 * share[i] + 0.2 * share[(i + 1) % 6]))
+            })
+            .collect();
+        touches += &format!("{}\n", volts.join(","));
+    }
+    folder.write("touches.csv", &noisy(&touches, &["v"], 1e-3));
+    assert_accepted("refine.txt", &folder.succeed(&["refine", "cal.toml", "touches.csv"]));
+    let mend = ["refine", "cal.toml", "touches.csv", "--loads", "loads.csv", "-o", "mended.toml"];
+    assert_accepted("refine_with_loads.txt", &folder.succeed(&mend));
+    let mended = folder.read("mended.toml");
+    assert!(
+        mended.contains("; refined by point contacts\"") && mended.contains("verdict = \"unchecked\""),
+        "{mended}"
+    );
+    for (from, to, expected) in
+        [("_V", "_counts", "another unit than the calibration"), (",v6_V", ",dummy_V", "gauges")]
+    {
+        folder.write("other.csv", &touches.replace(from, to));
+        let error = folder.fail(1, &["refine", "cal.toml", "other.csv"]);
+        assert!(error.contains("other.csv") && error.contains(expected), "{error}");
+    }
+    for (from, to) in [("_V", "_counts"), ("fx_N", "weight")] {
+        folder.write("other.csv", &noisy_loads().replace(from, to));
+        let error = folder.fail(1, &["refine", "cal.toml", "touches.csv", "--loads", "other.csv"]);
+        assert!(error.contains("other.csv: it has other axes, gauges or units"), "{error}");
+    }
+    folder.write("forces.csv", "fx_N,fy_N,fz_N,v1_V,v2_V,v3_V\n1,0,0,1,0,0\n0,1,0,0,1,0\n0,0,1,0,0,1\n0,0,0,0,0,0\n-1,0,0,-1,0,0\n0,-1,0,0,-1,0\n");
+    folder.succeed(&["calibrate", "forces.csv", "-o", "forces.toml"]);
+    let error = folder.fail(1, &["refine", "forces.toml", "touches.csv"]);
+    assert!(error.contains("only a linear calibration of six components"), "{error}");
+}
+
+#[test]
+fn of_uncertain_loads_and_of_what_a_calibration_is_told() {
+    let folder = Folder::new();
+    folder.write("loads.csv", &noisy_loads());
+    let run = |more: &[&str]| {
+        let all = [&["calibrate", "loads.csv", "-o", "cal.toml"][..], &FULL, more].concat();
+        let output = folder.run(&all);
+        let said = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap()).concat();
+        (output.status.code().unwrap(), said)
+    };
+    let total = |loads: &str, readings: &str| {
+        run(&["--method", "total", "--load-error", loads, "--reading-error", readings])
+    };
+    let good = total("0.01,0.0001", "0.002");
+    assert_eq!(good.0, 0, "{}", good.1);
+    // One for each axis and gauge is the same, if they are the same.
+    assert_eq!(total("0.01,0.01,0.01,0.0001,0.0001,0.0001", "0.002,0.002,0.002,0.002,0.002,0.002"), good);
+    assert_ne!(total("0.5,0.0001", "0.002").1, good.1);
+    assert_ne!(total("0.01,0.01", "0.002").1, good.1);
+    for loads in ["1", "1,2,3", "0,1", "-1,1", "nan,1", "1,1,1,1,1,0"] {
+        let (code, said) = total(loads, "1");
+        assert!(
+            code == 1
+                && said.contains("--load-error must have 2 numbers (forces, torques) or 6, all positive"),
+            "{loads}: {said}"
+        );
+    }
+    for readings in ["0", "1,2", "-1", "1,1,1,1,1,0"] {
+        let (code, said) = total("1,1", readings);
+        assert!(
+            code == 1 && said.contains("--reading-error must have 1 number or 6, all positive"),
+            "{readings}: {said}"
+        );
+    }
+    // Of forces alone one number is enough.
+    let forces = "fx_N,fy_N,fz_N,v1_V,v2_V,v3_V\n1,0,0,1,0,0\n0,1,0,0,1,0\n0,0,1,0,0,1\n0,0,0,0,0,0\n-1,0,0,-1,0,0\n0,-1,0,0,-1,0\n0,0,-1,0,0,-1\n";
+    folder.write("forces.csv", &noisy(forces, &["v"], 1e-3));
+    let total = [
+        "calibrate",
+        "forces.csv",
+        "-o",
+        "f.toml",
+        "--method",
+        "total",
+        "--reading-error",
+        "0.001",
+        "--load-error",
+    ];
+    let one = folder.succeed(&[&total[..], &["0.001"]].concat());
+    assert_eq!(folder.succeed(&[&total[..], &["0.001,0.001,0.001"]].concat()), one);
+    // An earlier calibration must be of the same sensor, and its method that of a prior.
+    let (code, said) = run(&["--prior", "f.toml"]);
+    assert!(code == 1 && said.contains("the earlier calibration has other axes, gauges or units"), "{said}");
+    let (code, said) = run(&["--prior", "f.toml", "--method", "huber"]);
+    assert!(code == 1 && said.contains("--prior is for --method prior alone"), "{said}");
+    // What is told is written down.
+    let told = [
+        "--serial",
+        "T7",
+        "--date",
+        "2026-11-21",
+        "--range",
+        "-4",
+        "4.5",
+        "--html",
+        "r.html",
+        "--cal",
+        "x.cal",
+    ];
+    let (code, said) = run(&told);
+    assert!(code == 0 && said.contains("Written: cal.toml, x.cal, r.html\n"), "{said}");
+    let text = folder.read("cal.toml");
+    for expected in
+        ["serial = \"T7\"", "date = \"2026-11-21\"", "source = \"loads.csv\"", "range = [-4.0, 4.5]"]
+    {
+        assert!(text.contains(expected), "{expected} is not in {text}");
+    }
+    assert!(folder.read("r.html").contains("<title>T7</title>"), "{}", &folder.read("r.html")[..500]);
+    // Without a zero, and of loads from signals.
+    run(&["--no-bias"]);
+    assert!(
+        folder.read("cal.toml").contains("zero = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]"),
+        "{}",
+        folder.read("cal.toml")
+    );
+    let (code, said) = run(&["--inverse"]);
+    assert!(code == 0 && folder.read("cal.toml").contains("of loads"), "{said}");
+}
