@@ -189,7 +189,7 @@ mod tests {
     fn the_rate_is_that_of_the_last_second_that_is_over() {
         let mut state = State::new(String::new());
         let begun = Instant::now();
-        let mut at = |milliseconds: u64, state: &mut State| {
+        let at = |milliseconds: u64, state: &mut State| {
             let now = begun + Duration::from_millis(milliseconds);
             state.sample(0.0, &Wrench::zero(), None, now);
             state.rate

@@ -168,7 +168,7 @@ mod tests {
             let time = f64::from(sample) * 1e-3;
             // A point at 45° from the top, and something like noise.
             let point = Vector3::new(0.0092, 0.0092, 0.0) * (1.0 + 1e-4 * f64::from(sample % 3));
-            let wrench = Wrench::from_force_at(&point, force);
+            let wrench: Wrench<f64> = Wrench::from_force_at(&point, force);
             let touch = feel.feel(time, &wrench).unwrap();
             state.sample(time, &wrench, touch, Instant::now());
         }
@@ -255,7 +255,7 @@ mod tests {
         for sample in 0..120_u32 {
             let (point, force) = place(0.05 * f64::from(sample));
             let noise = noise * (11.0 * f64::from(sample)).sin();
-            let wrench = Wrench::from_force_at(&point, force);
+            let wrench: Wrench<f64> = Wrench::from_force_at(&point, force);
             let noisy = Wrench::from_components(
                 &(wrench.components() + Vector6::new(0.0, 0.0, 0.0, noise, -noise, noise)),
             );

@@ -14,51 +14,101 @@ use crate::common::Folder;
 /// Longer than a busy machine takes.
 const PATIENCE: Duration = Duration::from_secs(100);
 
-/// The command in a terminal of 80 by 24, and what it has shown so far.
+/// What stands on a screen of 80 by 24.
+struct Screen {
+    cells: Vec<Vec<char>>,
+    at: (usize, usize),
+    /// What came of a sequence whose end is still to come.
+    sequence: Option<String>,
+}
+
+impl Screen {
+    fn new() -> Self {
+        Self { cells: vec![vec![' '; 80]; 24], at: (0, 0), sequence: None }
+    }
+
+    /// Takes what a program writes: letters, and jumps to a row and a column. Of colours there is nothing to be seen.
+    fn write(&mut self, text: &str) {
+        for letter in text.chars() {
+            if let Some(mut sequence) = self.sequence.take() {
+                sequence.push(letter);
+                match sequence.strip_prefix('[').and_then(|jump| jump.strip_suffix('H')) {
+                    Some(jump) => {
+                        let (row, column) = jump.split_once(';').unwrap_or(("1", "1"));
+                        self.at = (row.parse::<usize>().unwrap() - 1, column.parse::<usize>().unwrap() - 1);
+                    }
+                    None if letter.is_ascii_alphabetic() => {}
+                    None => self.sequence = Some(sequence),
+                }
+            } else if letter == '\u{1b}' {
+                self.sequence = Some(String::new());
+            } else if let Some(cell) = self.cells.get_mut(self.at.0).and_then(|row| row.get_mut(self.at.1)) {
+                *cell = letter;
+                self.at.1 += 1;
+            }
+        }
+    }
+
+    fn text(&self) -> String {
+        self.cells.iter().map(|row| row.iter().collect::<String>() + "\n").collect()
+    }
+}
+
+/// The command in a terminal, and what it has shown so far.
 struct Terminal {
-    screen: TTYPort,
+    line: TTYPort,
     child: Child,
-    shown: String,
+    screen: Screen,
+    /// Bytes of a letter whose rest is still to come.
+    rest: Vec<u8>,
 }
 
 impl Terminal {
     fn start(folder: &Folder, arguments: &[&str]) -> Self {
-        let (mut screen, line) = TTYPort::pair().unwrap();
-        screen.set_timeout(Duration::from_millis(50)).unwrap();
-        let path = line.name().unwrap();
+        let (mut line, other) = TTYPort::pair().unwrap();
+        line.set_timeout(Duration::from_millis(50)).unwrap();
+        let path = other.name().unwrap();
         let size = Command::new("stty").args(["-F", &path, "cols", "80", "rows", "24"]).status().unwrap();
         assert!(size.success());
         let tty = OpenOptions::new().read(true).write(true).open(&path).unwrap();
         let mut command = folder.command(&[&["live"], arguments].concat());
         command.stdin(tty.try_clone().unwrap()).stdout(tty).stderr(Stdio::piped());
         let child = command.spawn().unwrap();
-        Self { screen, child, shown: String::new() }
+        Self { line, child, screen: Screen::new(), rest: Vec::new() }
     }
 
-    /// Waits for something to be shown, and forgets what came before it.
+    fn read(&mut self) {
+        let mut bytes = [0; 4096];
+        let Ok(length) = self.line.read(&mut bytes) else { return };
+        self.rest.extend_from_slice(&bytes[..length]);
+        let whole = match core::str::from_utf8(&self.rest) {
+            Ok(text) => text.len(),
+            Err(error) => error.valid_up_to(),
+        };
+        let rest = self.rest.split_off(whole);
+        self.screen.write(core::str::from_utf8(&self.rest).unwrap());
+        self.rest = rest;
+    }
+
+    /// Waits for something to be shown.
     fn until(&mut self, expected: &str) {
         let start = Instant::now();
-        let mut bytes = [0; 4096];
-        while !self.shown.contains(expected) {
-            assert!(start.elapsed() < PATIENCE, "{expected:?} does not come:\n{}", self.shown);
-            if let Ok(length) = self.screen.read(&mut bytes) {
-                self.shown.push_str(&String::from_utf8_lossy(&bytes[..length]));
-            }
+        while !self.screen.text().contains(expected) {
+            assert!(start.elapsed() < PATIENCE, "{expected:?} does not come:\n{}", self.screen.text());
+            self.read();
         }
-        self.shown.clear();
     }
 
     fn press(&mut self, keys: &[u8]) {
-        self.screen.write_all(keys).unwrap();
+        self.line.write_all(keys).unwrap();
     }
 
     /// Waits for the end, and gives the exit code and the errors.
     fn finish(mut self) -> (Option<i32>, String) {
         let start = Instant::now();
-        let mut bytes = [0; 4096];
         let status = loop {
             // What nobody reads would hold the program up.
-            let _ = self.screen.read(&mut bytes);
+            self.read();
             if let Some(status) = self.child.try_wait().unwrap() {
                 break status;
             }
@@ -91,17 +141,17 @@ fn a_recording_is_shown_until_somebody_has_seen_enough() {
         assert_eq!(terminal.finish(), (Some(0), String::new()), "{keys:?}");
     }
     let mut terminal = Terminal::start(&folder, &["--replay", "touch.csv", "--speed", "0"]);
-    terminal.until("3.25 N");
+    terminal.until("fx     3.25 N");
     // Any other key does nothing, and a picture that is held can be let go.
     terminal.press(b"x ");
-    terminal.until("held");
+    terminal.until(" held  touch.csv");
     terminal.press(b" ");
-    terminal.until("over");
+    terminal.until("the recording is over");
     terminal.press(b"q");
     assert_eq!(terminal.finish().0, Some(0));
     // A zero of the first 0.15 s.
     let mut terminal = Terminal::start(&folder, &["--replay", "touch.csv", "--speed", "0", "--tare", "0.15"]);
-    terminal.until("2.25 N");
+    terminal.until("fx     2.25 N");
     terminal.press(b"q");
     assert_eq!(terminal.finish().0, Some(0));
 }
@@ -113,7 +163,7 @@ fn the_simulation_comes_with_its_scene() {
     terminal.until("Contact (y right, z up)");
     terminal.press(b"rt");
     terminal.until("taking the zero");
-    terminal.until("live");
+    terminal.until(" live  sim");
     terminal.press(b"q");
     assert_eq!(terminal.finish(), (Some(0), String::new()));
 }

@@ -340,7 +340,7 @@ fn of_a_calibration_that_is_mended() {
         let error = folder.fail(1, &["refine", "cal.toml", "other.csv"]);
         assert!(error.contains("other.csv") && error.contains(expected), "{error}");
     }
-    for (from, to) in [("_V", "_counts"), ("fx_N", "weight")] {
+    for (from, to) in [("_V", "_counts"), ("fx_N", "mood")] {
         folder.write("other.csv", &noisy_loads().replace(from, to));
         let error = folder.fail(1, &["refine", "cal.toml", "touches.csv", "--loads", "other.csv"]);
         assert!(error.contains("other.csv: it has other axes, gauges or units"), "{error}");
@@ -364,12 +364,16 @@ fn of_uncertain_loads_and_of_what_a_calibration_is_told() {
     let total = |loads: &str, readings: &str| {
         run(&["--method", "total", "--load-error", loads, "--reading-error", readings])
     };
-    let good = total("0.01,0.0001", "0.002");
-    assert_eq!(good.0, 0, "{}", good.1);
+    let fitted = |loads: &str, readings: &str| {
+        let (code, said) = total(loads, readings);
+        assert_eq!(code, 0, "{said}");
+        folder.read("cal.toml")
+    };
+    let good = fitted("0.01,0.0001", "0.002");
     // One for each axis and gauge is the same, if they are the same.
-    assert_eq!(total("0.01,0.01,0.01,0.0001,0.0001,0.0001", "0.002,0.002,0.002,0.002,0.002,0.002"), good);
-    assert_ne!(total("0.5,0.0001", "0.002").1, good.1);
-    assert_ne!(total("0.01,0.01", "0.002").1, good.1);
+    assert_eq!(fitted("0.01,0.01,0.01,0.0001,0.0001,0.0001", "0.002,0.002,0.002,0.002,0.002,0.002"), good);
+    assert_ne!(fitted("0.5,0.0001", "0.002"), good);
+    assert_ne!(fitted("0.01,0.01", "0.002"), good);
     for loads in ["1", "1,2,3", "0,1", "-1,1", "nan,1", "1,1,1,1,1,0"] {
         let (code, said) = total(loads, "1");
         assert!(
