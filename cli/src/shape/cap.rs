@@ -110,7 +110,7 @@ mod tests {
             active[usize::from(expected)] += 1;
             // A line through the point, along its normal, and one that passes above it.
             let point = sphere.centre() + normal * 0.01;
-            let line = Line { point: point, direction: normal };
+            let line = Line { point, direction: normal };
             let mut seen = Vec::new();
             cap.crossings(&line, |crossing| seen.push((crossing.normal, crossing.active)));
             assert_eq!(seen.len(), 2);
