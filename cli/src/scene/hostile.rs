@@ -89,8 +89,11 @@ fn spoiled(random: &mut Pcg64Mcg) -> String {
     let mut text = toml::to_string(&table).unwrap();
     match random.random_range(0..10) {
         // A section twice, and text that ends too early.
-        0 => text
-            .push_str(pick(random, &["\n[surface]\nshape = 'plane'\n", "\n[input]\n", "\n[slip]\n[slip]\n"])),
+        0 => {
+            let twice = ["\n[surface]\nshape = 'plane'\n", "\n[input]\n", "\n[slip]\n[slip]\n"];
+            let section: &str = pick(random, &twice);
+            text.push_str(section);
+        }
         1 => {
             let end = random.random_range(0..text.len());
             text = text.chars().take(end).collect();
