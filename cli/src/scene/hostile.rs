@@ -91,8 +91,7 @@ fn spoiled(random: &mut Pcg64Mcg) -> String {
         // A section twice, and text that ends too early.
         0 => {
             let twice = ["\n[surface]\nshape = 'plane'\n", "\n[input]\n", "\n[slip]\n[slip]\n"];
-            let section: &str = pick(random, &twice);
-            text.push_str(section);
+            text.push_str(twice[random.random_range(0..twice.len())]);
         }
         1 => {
             let end = random.random_range(0..text.len());
