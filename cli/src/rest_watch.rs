@@ -103,7 +103,7 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_pcg::Pcg64Mcg;
 
-    use super::RestWatch;
+    use super::{Doubt, RestWatch};
 
     /// A rest in steps of `step`, with noise of `noise`, moving by `drift` in all.
     fn watched(step: f64, noise: f64, drift: f64, seed: u64) -> RestWatch<6> {
@@ -136,5 +136,80 @@ mod tests {
             assert!(doubt.seen.starts_with("channel 2 moved"), "{doubt}");
             assert!((1.9..2.2).contains(&doubt.force_range), "{doubt}");
         }
+    }
+
+    fn add(watch: &mut RestWatch<6>, reading: Vector6<f64>) {
+        let wrench = Wrench::on_fingertip(reading.fixed_rows::<3>(0).into(), Vector3::zeros());
+        watch.add(&reading, &reading, &wrench);
+    }
+
+    #[test]
+    fn the_step_of_a_converter_is_the_smallest_change_of_each_channel() {
+        let mut random = Pcg64Mcg::seed_from_u64(9);
+        let mut watch = RestWatch::default();
+        let mut readings = Vec::new();
+        for _ in 0..200 {
+            // Channel i in steps of i + 1, channel 5 without any change.
+            let reading = Vector6::from_fn(|channel, _| {
+                let steps = if channel == 5 { 0 } else { random.random_range(-9..9) };
+                f64::from(steps) * (channel + 1) as f64
+            });
+            add(&mut watch, reading);
+            readings.push(reading);
+        }
+        for channel in 0..6 {
+            let changes = readings.windows(2).map(|pair| (pair[1][channel] - pair[0][channel]).abs());
+            let smallest = changes.filter(|change| *change > 0.0).fold(f64::INFINITY, f64::min);
+            let expected = if smallest.is_finite() { smallest } else { 0.0 };
+            assert_eq!(watch.step[channel], expected, "channel {channel}");
+        }
+        // What is not finite is no step.
+        let before = watch.step;
+        for value in [f64::INFINITY, 0.0, f64::NAN] {
+            add(&mut watch, Vector6::repeat(value));
+        }
+        assert_eq!(watch.step, before);
+    }
+
+    /// 400 readings with a noise of about one, of which channel 3 is changed by `more`.
+    fn doubt(more: impl Fn(usize) -> f64) -> Option<Doubt> {
+        let mut random = Pcg64Mcg::seed_from_u64(2);
+        let mut watch = RestWatch::default();
+        for i in 0..400 {
+            let mut reading =
+                Vector6::from_fn(|_, _| (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0);
+            reading[3] += more(i);
+            add(&mut watch, reading);
+        }
+        watch.doubt(|channel| format!("channel {channel}"))
+    }
+
+    #[test]
+    fn every_doubt_names_its_channel_and_says_how_large_it_is() {
+        assert_eq!(doubt(|_| 5.0), None);
+        let seen = |more: &dyn Fn(usize) -> f64| doubt(more).unwrap().seen;
+        let outlier = seen(&|i| if i == 100 { 60.0 } else { 0.0 });
+        assert!(outlier.starts_with("channel 3 was once "), "{outlier}");
+        let wander = seen(&|i| if (i / 100) % 2 == 0 { 1.5 } else { -1.5 });
+        assert!(wander.starts_with("channel 3 "), "{wander}");
+        let few = {
+            let mut watch = RestWatch::default();
+            (0..3).for_each(|i| add(&mut watch, Vector6::repeat(f64::from(i))));
+            watch.doubt(|channel| channel.to_string()).unwrap()
+        };
+        assert!(few.seen.starts_with("3 samples are too few to tell a rest"), "{few}");
+        // Each of three forces ranges from 0 to 2: the diagonal of the box.
+        assert!((few.force_range - 12.0_f64.sqrt()).abs() < 1e-12, "{few}");
+        assert_eq!(
+            few.to_string(),
+            format!("{}, and the force ranged over 3.46 N, so far the tare may be off", few.seen)
+        );
+        // Forces that are not finite tell no range.
+        let mut watch = RestWatch::default();
+        let wrench = |force: f64| Wrench::on_fingertip(Vector3::repeat(force), Vector3::zeros());
+        [0.0, f64::INFINITY]
+            .iter()
+            .for_each(|force| watch.add(&Vector6::zeros(), &Vector6::zeros(), &wrench(*force)));
+        assert_eq!(watch.doubt(|channel| channel.to_string()).unwrap().force_range, 0.0);
     }
 }

@@ -5,13 +5,13 @@ use core::sync::atomic::{AtomicBool, Ordering};
 
 /// Turns true when the user wants to end: Ctrl-C, or a request of the system. A second one is no more
 /// urgent than the first: what is being written is finished.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Stop(Arc<AtomicBool>);
 
 impl Stop {
     /// Listens from now on. Call it once.
     pub(crate) fn listen() -> Self {
-        let stop = Self(Arc::new(AtomicBool::new(false)));
+        let stop = Self::default();
         let flag = Arc::clone(&stop.0);
         // Without it Ctrl-C ends the program at once, as it ends any other.
         let _ = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed));

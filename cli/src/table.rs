@@ -113,7 +113,7 @@ pub(crate) fn percent(part: u64, whole: u64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Table, count, number, percent};
+    use super::{Table, count, number, number_or_dash, percent, short};
 
     #[test]
     fn lines_up_its_columns() {
@@ -133,5 +133,64 @@ mod tests {
             (percent(3, 3), percent(0, 3), percent(1, 3)),
             ("100 %".into(), "0 %".into(), "33.33 %".into())
         );
+    }
+
+    #[test]
+    fn a_number_has_three_digits_whatever_its_size() {
+        // Each read back is within half a unit of its third digit.
+        for decade in -12..12_i32 {
+            for lead in [1.0, 1.234_5, 4.996, 9.94, 9.949_9] {
+                for sign in [1.0, -1.0] {
+                    let value = sign * lead * 10.0_f64.powi(decade);
+                    let text = number(value);
+                    let read: f64 = text.parse().unwrap();
+                    assert!((read - value).abs() <= 0.500_001 * 10.0_f64.powi(decade - 2), "{value}: {text}");
+                    assert_eq!(text.contains('e'), !(-3..5).contains(&decade), "{value}: {text}");
+                    if !text.contains('e') && decade < 3 {
+                        let digits = text.chars().filter(char::is_ascii_digit).collect::<String>();
+                        assert_eq!(digits.trim_start_matches('0').len(), 3, "{value}: {text}");
+                    }
+                    assert_eq!(short(value).parse::<f64>().unwrap(), read, "{value}: {}", short(value));
+                    assert!(
+                        !short(value).ends_with(['.'])
+                            && (short(value).contains('e')
+                                || !short(value).contains('.')
+                                || !short(value).ends_with('0')),
+                        "{value}: {}",
+                        short(value)
+                    );
+                }
+            }
+        }
+        assert_eq!([100.0, 10.0, 2.5, 0.0, 1e5].map(short), ["100", "10", "2.5", "0", "1.00e5"]);
+        assert_eq!((number_or_dash(None), number_or_dash(Some(2.0))), ("–".to_owned(), "2.00".to_owned()));
+        assert_eq!(
+            [0, 7, 999, 1000, 999_999, 1_000_000].map(count),
+            ["0", "7", "999", "1\u{202f}000", "999\u{202f}999", "1\u{202f}000\u{202f}000"]
+        );
+    }
+
+    #[test]
+    fn shares_are_exact_where_it_matters() {
+        for (part, whole, expected) in [
+            (0, 0, "–"),
+            (1, 10_000, "0.01 %"),
+            (1, 10_001, "<0.01 %"),
+            (9_999, 10_000, "99.99 %"),
+            (10_000, 10_001, ">99.99 %"),
+            (1, 2, "50.00 %"),
+            (5, 5, "100 %"),
+        ] {
+            assert_eq!(percent(part, whole), expected);
+        }
+    }
+
+    #[test]
+    fn rows_of_other_lengths_and_empty_ones_are_no_trouble() {
+        let mut table = Table::new("T", ["", ""]);
+        table.row(["long name".to_owned(), "1".to_owned(), "µ2".to_owned()]);
+        table.row(["x".to_owned(), String::new()]);
+        table.row([String::new(), "12".to_owned()]);
+        assert_eq!(table.to_string(), "T\n  long name   1  µ2\n  x\n             12\n");
     }
 }

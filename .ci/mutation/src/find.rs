@@ -15,6 +15,9 @@ use crate::fault::{Fault, Form};
 /// All faults of a file, or why it cannot be read.
 pub fn faults(file: &str, text: &str) -> syn::Result<Vec<Fault>> {
     let tree = syn::parse_file(text)?;
+    if is_for_tests(&tree.attrs) {
+        return Ok(Vec::new());
+    }
     let mut finder = Finder { file, text, faults: Vec::new() };
     finder.visit_file(&tree);
     Ok(finder.faults)

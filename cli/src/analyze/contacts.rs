@@ -41,7 +41,7 @@ impl ContactWriter {
         } else {
             Out::File(File::create(path).map_err(|source| CliError::write("contacts", path, source))?)
         };
-        let mut buffer = Vec::with_capacity(BUFFER + 1024);
+        let mut buffer = Vec::with_capacity(BUFFER);
         buffer.extend_from_slice(HEADER.as_bytes());
         Ok(Self { out, path: path.to_owned(), buffer })
     }
@@ -88,9 +88,9 @@ impl ContactWriter {
     #[inline]
     fn time(&mut self, time: f64) {
         if time.is_finite() {
-            let rounded = (time * 1e9).round() * 1e-9;
+            let rounded = (time * 1e9).round() / 1e9;
             // Long times have no nanoseconds to round to.
-            let rounded = if rounded.is_finite() { (rounded * 1e9).round() / 1e9 } else { time };
+            let rounded = if rounded.is_finite() { rounded } else { time };
             self.buffer.extend_from_slice(zmij::Buffer::new().format_finite(rounded).as_bytes());
         }
     }

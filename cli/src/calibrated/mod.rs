@@ -1,6 +1,7 @@
 //! Readings of gauges, which a calibration turns into wrenches.
 
 mod gauges;
+mod tests;
 
 use std::path::Path;
 

@@ -119,3 +119,115 @@ pub(crate) fn ellipse(touch: &SceneTouch, noise: &NoiseWatch) -> Option<Confiden
     let covariance = noise.wrench_noise()?.covariance(&touch.wrench);
     ContactCovariance::new(&jacobian, &covariance).ellipse(0.95)
 }
+
+#[cfg(test)]
+mod tests {
+    use fingertip::friction::SlipVerdict;
+    use fingertip::wrench::Wrench;
+    use nalgebra::{Vector3, Vector6};
+    use std::path::Path;
+
+    use super::{NoiseWatch, Rest, SceneFeel, ellipse};
+    use crate::scene::Scene;
+
+    fn uniform(value: f64) -> Wrench<f64> {
+        Wrench::from_components(&Vector6::repeat(value))
+    }
+
+    #[test]
+    fn the_zero_is_the_mean_of_the_rest() {
+        let mut rest = Rest::new(Some(0.5));
+        // From 10.0 to 10.4 s at rest; what comes at 10.5 s does not belong to it.
+        for (time, value) in [(10.0, 1.0), (10.25, 2.0), (10.4, 6.0)] {
+            assert!(rest.is_resting());
+            assert_eq!(rest.take(time, &uniform(value)).unwrap(), None);
+        }
+        assert_eq!(rest.take(10.5, &uniform(5.0)).unwrap(), Some(uniform(2.0)));
+        assert!(!rest.is_resting());
+        assert_eq!(*rest.zero(), Vector6::repeat(3.0));
+        assert_eq!(rest.take(11.0, &uniform(3.0)).unwrap(), Some(uniform(0.0)));
+        // No rest takes nothing off; one without samples is an error in one sentence.
+        assert_eq!(Rest::new(None).take(0.0, &uniform(7.0)).unwrap(), Some(uniform(7.0)));
+        let mut short = Rest::new(Some(0.5));
+        assert_eq!(short.take(0.0, &uniform(f64::NAN)).unwrap(), None);
+        let error = short.take(1.0, &uniform(1.0)).unwrap_err();
+        assert!(
+            error.starts_with("no zero from 0.5 s at rest: ") && error.contains("rest longer"),
+            "{error}"
+        );
+    }
+
+    const SCENE: &str = "version = 1\n[input]\nconvention = \"reaction\"\nrest_s = 0.1\n[surface]\nshape = \"SHAPE\"\n\
+        [friction]\nstatic_coefficient = 0.5\n[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n";
+
+    fn scene(shape: &str) -> Scene {
+        Scene::read(&SCENE.replace("SHAPE\"", shape), "test", Path::new("")).unwrap()
+    }
+
+    #[test]
+    fn every_shape_is_felt_where_it_is_pressed() {
+        for (shape, top) in [
+            ("plane\"\npoint_m = [0.0, 0.0, 0.01]", 0.01),
+            ("sphere\"\nradius_m = 0.02", 0.02),
+            ("cylinder\"\nradius_m = 0.03\naxis = [1.0, 0.0, 0.0]", 0.03),
+            ("ellipsoid\"\nsemi_axes_m = [0.01, 0.02, 0.04]", 0.04),
+        ] {
+            let push: Wrench<f64> =
+                Wrench::from_force_at(&Vector3::new(0.0, 0.0, top), Vector3::new(0.1, 0.0, -1.0));
+            let reaction = Wrench::from_components(&-push.components());
+            // Behind its rest, or at once where the zero is taken off already.
+            let mut feel = SceneFeel::new(scene(shape), false);
+            for time in [0.0, 0.05] {
+                assert!(feel.feel(time, &uniform(0.3)).unwrap().is_none());
+            }
+            let biased = Wrench::from_components(&(reaction.components() + Vector6::repeat(0.3)));
+            let behind = feel.feel(0.1, &biased).unwrap().unwrap();
+            let at_once = SceneFeel::new(scene(shape), true).feel(0.0, &reaction).unwrap().unwrap();
+            for touch in [behind, at_once] {
+                let contact = touch.resolution.contact().unwrap();
+                assert!((contact.point - Vector3::new(0.0, 0.0, top)).norm() < 1e-12, "{shape}: {contact:?}");
+                assert!((touch.wrench.components() - push.components()).norm() < 1e-12);
+                assert!((touch.force.unwrap().normal - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn a_pause_is_no_slip() {
+        // A ratio that has risen to 0.4 and falls to 0.1 within 10 ms has slipped; behind a pause nobody knows.
+        for (pause, expected) in [(0.01, true), (0.6, false)] {
+            let mut feel = SceneFeel::new(scene("plane\""), true);
+            let mut slipped = false;
+            let mut time = 0.0;
+            for sample in 0..60 {
+                let ratio = if sample < 40 { 0.01 * f64::from(sample) } else { 0.1 };
+                time += if sample == 40 { pause } else { 0.01 };
+                let load: Wrench<f64> =
+                    Wrench::from_reaction(Vector3::new(ratio, 0.0, -1.0), Vector3::zeros());
+                let touch = feel.feel(time, &load).unwrap().unwrap();
+                slipped |= touch.slip == Some(SlipVerdict::Slipping);
+            }
+            assert_eq!(slipped, expected, "a pause of {pause} s");
+        }
+    }
+
+    #[test]
+    fn the_ellipse_is_that_of_the_noise() {
+        let mut noise = NoiseWatch::default();
+        let mut feel = SceneFeel::new(scene("plane\""), true);
+        let load = Wrench::from_force_at(&Vector3::zeros(), Vector3::new(0.0, 0.0, 1.0));
+        let touch = feel.feel(0.0, &load).unwrap().unwrap();
+        assert!(touch.resolution.contact().is_some() && ellipse(&touch, &noise).is_none());
+        for sample in 0..400_u32 {
+            // Second differences of ±a are ±4a: a deviation of 0.01 N·m in the two torques that move the point.
+            let deviation = if sample.is_multiple_of(2) { 1.0 } else { -1.0 } * 0.01 * 6.0_f64.sqrt() / 4.0;
+            let wobble = Vector6::new(0.0, 0.0, 0.0, deviation, deviation, 0.0);
+            noise.add(&Wrench::from_components(&(load.components() + wobble)));
+        }
+        // Under 1 N a torque of 0.01 N·m moves the point by 10 mm; 95 % of two dimensions is 2.4477 deviations.
+        let ellipse = ellipse(&touch, &noise).unwrap();
+        for axis in ellipse.semi_axes {
+            assert!((axis / (0.01 * 2.447_746_8) - 1.0).abs() < 1e-4, "{axis}");
+        }
+    }
+}

@@ -74,4 +74,46 @@ mod tests {
             assert!((floor[axis] / expected - 1.0).abs() < 0.2, "{floor}");
         }
     }
+
+    /// A wrench of six components that alternate between ±`size`, ± twice it, and so on.
+    fn alternating(sample: u32, size: f64) -> Wrench<f64> {
+        let sign = if sample.is_multiple_of(2) { 1.0 } else { -1.0 };
+        Wrench::from_components(&Vector6::from_fn(|axis, _| sign * size * (axis + 1) as f64))
+    }
+
+    #[test]
+    fn second_differences_are_averaged_as_is_said() {
+        // Second differences of ±a, alternating, are ±4a: the variance is 16a²/6 from the first on.
+        let mut watch = NoiseWatch::default();
+        for sample in 0..22 {
+            assert!(watch.wrench_noise().is_none(), "{sample}");
+            watch.add(&alternating(sample, 0.5));
+        }
+        let check = |watch: &NoiseWatch, deviation: f64| {
+            let noise = watch.wrench_noise().unwrap();
+            assert_eq!(noise.relative, 0.0);
+            for axis in 0..6 {
+                let expected = deviation * (axis + 1) as f64;
+                assert!(
+                    (noise.floor[axis] / expected - 1.0).abs() < 1e-12,
+                    "{} for {expected}",
+                    noise.floor[axis]
+                );
+            }
+        };
+        check(&watch, 4.0 * 0.5 / 6.0_f64.sqrt());
+        // A reading that is none is left out, and no difference is taken across it.
+        watch.add(&Wrench::from_components(&Vector6::repeat(f64::NAN)));
+        (0..800).for_each(|sample| watch.add(&alternating(sample, 0.5)));
+        check(&watch, 4.0 * 0.5 / 6.0_f64.sqrt());
+        // Behind 500 samples the mean forgets: each new square has the weight 1/500. Behind +a, −a come +a/2, −a/2:
+        // the two differences across the change are 3.5a and 2.5a, the others 4a/2.
+        let (a, mut expected) = (0.5, 16.0 * 0.25 / 6.0);
+        let mut blend = |difference: f64| expected += (difference * difference / 6.0 - expected) / 500.0;
+        blend(3.5 * a);
+        blend(2.5 * a);
+        (2..300).for_each(|_| blend(2.0 * a));
+        (0..300).for_each(|sample| watch.add(&alternating(sample, 0.25)));
+        check(&watch, expected.sqrt());
+    }
 }

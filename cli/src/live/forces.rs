@@ -88,4 +88,32 @@ mod tests {
         assert!(bar(1.0, 2, Color::Red).is_empty());
         assert_eq!(bar(f64::NAN, 11, Color::Red).len(), 3);
     }
+
+    #[test]
+    fn the_scale_is_the_next_round_number() {
+        for decade in -9..9_i32 {
+            let size = 10_f64.powi(decade);
+            for (value, expected) in
+                [(1.01, 2.0), (1.99, 2.0), (2.01, 5.0), (4.99, 5.0), (5.01, 10.0), (9.99, 10.0)]
+            {
+                let found = rounded_up(value * size);
+                assert!((found / (expected * size) - 1.0).abs() < 1e-12, "{value}e{decade}: {found}");
+            }
+        }
+        // What has no next round number is at the end of the scale.
+        assert_eq!([0.0, f64::NAN, f64::INFINITY].map(rounded_up), [f64::MAX; 3]);
+    }
+
+    #[test]
+    fn both_halves_of_a_bar_are_equally_long() {
+        for width in 0..20_usize {
+            for share in [-2.0, -1.0, -0.5, 0.0, 0.3, 1.0, f64::NAN] {
+                let lengths: Vec<usize> =
+                    bar(share, width, Color::Red).iter().map(|span| span.content.chars().count()).collect();
+                let half = (width.max(1) - 1) / 2;
+                let expected = if half == 0 { Vec::new() } else { vec![half, 1, half] };
+                assert_eq!(lengths, expected, "{share} in {width}");
+            }
+        }
+    }
 }

@@ -133,3 +133,36 @@ fn paint(canvas: &mut Context<'_>, projection: &Projection, state: &State, conta
         canvas.print(x, y, Line::from("●").fg(Color::White).bold());
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use core::f64::consts::PI;
+
+    use nalgebra::Vector3;
+
+    use super::super::state::State;
+    use super::{Projection, edge, extent};
+
+    #[test]
+    fn the_map_is_as_large_as_what_it_shows() {
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let zero = Vector3::zeros();
+        let mut state = State::new(String::new());
+        let plane = Projection::plane(zero, Vector3::z(), &axes);
+        // Ten millimetres, unless something lies farther out.
+        assert_eq!(extent(&plane, &state), (10.0, 10.0));
+        state.trail.extend([(3.0, -12.0), (f64::NAN, f64::INFINITY), (-11.0, 0.0)]);
+        assert_eq!(extent(&plane, &state), (12.0, 12.0));
+        // The whole way round, and the active length, or a quarter of the way round, or what is farther.
+        let tube = |half| Projection::cylinder(zero, Vector3::y(), 0.004, half, &axes);
+        assert_eq!(extent(&tube(Some(0.007)), &state), (4.0 * PI, 7.0));
+        assert_eq!(extent(&tube(None), &state), (4.0 * PI, 12.0));
+        state.trail.clear();
+        assert_eq!(extent(&tube(None), &state), (4.0 * PI, 2.0 * PI));
+        // 2 sin(θ/2): the whole sphere is 2, half of it √2.
+        let sphere = |rim| extent(&Projection::sphere(zero, Vector3::z(), rim, &axes), &state);
+        assert_eq!(sphere(None), (2.0, 2.0));
+        assert!((edge(Some(PI / 2.0)) - 2.0_f64.sqrt()).abs() < 1e-15);
+        assert_eq!(sphere(Some(1.0)), (edge(Some(1.0)), edge(Some(1.0))));
+    }
+}

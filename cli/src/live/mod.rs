@@ -215,3 +215,93 @@ fn show(mut terminal: DefaultTerminal, shared: &Shared, frames: f64) -> io::Resu
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use alloc::sync::Arc;
+    use core::sync::atomic::{AtomicBool, Ordering};
+    use core::time::Duration;
+    use std::path::Path;
+    use std::sync::Mutex;
+
+    use fingertip::wrench::Wrench;
+    use nalgebra::Vector6;
+
+    use super::{Health, Rest, Shared, State, Stop, Stream, StreamOptions, read};
+    use crate::felt::SceneFeel;
+    use crate::scene::Scene;
+    use crate::sensor::{Feed, Losses, Next, Reading};
+
+    /// Gives what it is told to, and asks for something at one of its samples.
+    struct Told {
+        samples: Vec<Next>,
+        given: usize,
+        shared: Arc<Shared>,
+        tare_at: usize,
+    }
+
+    impl Feed for Told {
+        fn next(&mut self) -> Result<Next, String> {
+            if self.given == self.tare_at {
+                self.shared.tare.store(true, Ordering::Relaxed);
+            }
+            self.given += 1;
+            Ok(self.samples.get(self.given - 1).cloned().unwrap_or(Next::End))
+        }
+        fn losses(&self) -> Losses {
+            Losses { lost: Some(self.given as u64), ..Losses::default() }
+        }
+    }
+
+    fn sample(time: f64, value: f64) -> Next {
+        let wrench = Wrench::from_components(&Vector6::repeat(value));
+        Next::Reading(Reading { time: Some(time), wrench, volts: None })
+    }
+
+    /// What the view has to show when the samples have been read.
+    fn shown(samples: Vec<Next>, rest: Option<f64>, tare_at: usize, feel: Option<SceneFeel>) -> State {
+        let shared = Arc::new(Shared {
+            state: Mutex::new(State::new("test".to_owned())),
+            stop: Stop::default(),
+            tare: AtomicBool::new(false),
+        });
+        let mut feed =
+            Some(Box::new(Told { samples, given: 0, shared: Arc::clone(&shared), tare_at }) as Box<dyn Feed>);
+        let options = StreamOptions { silence: Duration::from_secs(3600), reconnect: false };
+        let stream = Stream::new(Box::new(move || feed.take().ok_or_else(String::new)), options).unwrap();
+        read(&shared, stream, Rest::new(rest), feel).unwrap();
+        shared.state().clone()
+    }
+
+    #[test]
+    fn samples_are_shown_less_their_zero() {
+        let samples = |count: u32| (0..count).map(|i| sample(f64::from(i), f64::from(i))).collect::<Vec<_>>();
+        let state = shown(samples(5), None, usize::MAX, None);
+        assert_eq!((state.samples, state.time, state.losses.lost), (5, 4.0, Some(5)));
+        assert_eq!(state.wrench.unwrap().force().x, 4.0);
+        assert_eq!(state.health, Health::Ended);
+        // A rest of two seconds holds the samples at 0 s and 1 s.
+        let state = shown(samples(5), Some(2.0), usize::MAX, None);
+        assert_eq!((state.samples, state.wrench.unwrap().force().x), (3, 3.5));
+        // A zero is asked for while the third sample comes: what comes in the second behind it is not shown.
+        let mut close = samples(3);
+        close.extend((0..40).map(|i| sample(3.0 + 0.1 * f64::from(i), 7.0)));
+        let state = shown(close, None, 2, None);
+        assert_eq!((state.samples, state.wrench.unwrap().force().x), (3 + 30, 0.0));
+    }
+
+    #[test]
+    fn faults_are_counted_and_the_last_is_kept() {
+        let faults = ["one", "two"].map(|why| Next::Fault(why.to_owned()));
+        let state = shown([vec![sample(0.0, 1.0)], faults.to_vec()].concat(), None, usize::MAX, None);
+        assert_eq!((state.faults, state.last_fault.as_deref(), state.losses.lost), (2, Some("two"), Some(3)));
+    }
+
+    #[test]
+    fn a_scene_makes_a_touch_of_a_sample() {
+        let scene = Scene::load_or_simulated(Path::new("sim")).unwrap();
+        let state = shown(vec![sample(0.0, -1.0)], None, usize::MAX, Some(SceneFeel::new(scene, true)));
+        assert!(state.touch.is_some());
+        assert!(shown(vec![sample(0.0, -1.0)], None, usize::MAX, None).touch.is_none());
+    }
+}

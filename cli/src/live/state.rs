@@ -160,3 +160,113 @@ impl State {
         self.slips = 0;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use core::time::Duration;
+    use std::path::Path;
+    use std::time::Instant;
+
+    use fingertip::contact::{NoContact, Resolution};
+    use fingertip::friction::SlipVerdict;
+    use fingertip::wrench::Wrench;
+    use nalgebra::Vector3;
+
+    use super::{SceneTouch, State, TRAIL};
+    use crate::felt::SceneFeel;
+    use crate::scene::Scene;
+
+    fn touch(slip: Option<SlipVerdict>) -> Option<SceneTouch> {
+        let resolution = Resolution::NoContact(NoContact::NotFinite);
+        Some(SceneTouch { wrench: Wrench::zero(), resolution, force: None, grip: None, slip })
+    }
+
+    fn load(force: [f64; 3], torque: [f64; 3]) -> Wrench<f64> {
+        Wrench::on_fingertip(force.into(), torque.into())
+    }
+
+    #[test]
+    fn the_rate_is_that_of_the_last_second_that_is_over() {
+        let mut state = State::new(String::new());
+        let begun = Instant::now();
+        let at = |milliseconds: u64, state: &mut State| {
+            let now = begun + Duration::from_millis(milliseconds);
+            state.sample(0.0, &Wrench::zero(), None, now);
+            state.rate
+        };
+        // 250 samples a second, then 100: told at the end of each second, or of what came to be more.
+        (0..1000).step_by(4).for_each(|ms| assert_eq!(at(ms, &mut state), 0.0));
+        assert_eq!(at(1000, &mut state), 250.0);
+        (1010..2000).step_by(10).for_each(|ms| assert_eq!(at(ms, &mut state), 250.0));
+        assert_eq!(at(2000, &mut state), 100.0);
+        assert_eq!(at(4000, &mut state), 0.5);
+        assert_eq!(state.samples, 250 + 1 + 99 + 1 + 1);
+    }
+
+    #[test]
+    fn the_scale_is_that_of_the_greatest_component_until_it_is_forgotten() {
+        let mut state = State::new(String::new());
+        let mut take = |wrench: Wrench<f64>| {
+            state.sample(0.0, &wrench, None, Instant::now());
+            state.greatest
+        };
+        assert_eq!(take(Wrench::zero()), [1e-3, 1e-6]);
+        assert_eq!(take(load([1.0, -3.0, 2.0], [0.0, 0.01, -0.02])), [3.0, 0.02]);
+        assert_eq!(take(load([1.0, 1.0, 1.0], [0.05, 0.0, 0.0])), [3.0, 0.05]);
+        assert_eq!(take(load([f64::INFINITY, 0.0, 0.0], [9.0, 0.0, 0.0])), [3.0, 0.05]);
+        state.trail.push_back((1.0, 2.0));
+        state.slips = 3;
+        state.forget();
+        assert_eq!((state.greatest, state.slips, state.trail.len()), ([1e-3, 1e-6], 0, 0));
+    }
+
+    #[test]
+    fn calls_in_quick_succession_are_one_slip_which_is_shown_for_half_a_second() {
+        let mut state = State::new(String::new());
+        let mut take = |time: f64, verdict: Option<SlipVerdict>| {
+            state.sample(time, &Wrench::zero(), touch(verdict), Instant::now());
+            (state.slips, state.verdict())
+        };
+        let (slipping, holding) = (Some(SlipVerdict::Slipping), Some(SlipVerdict::Holding));
+        assert_eq!(take(1.0, holding), (0, holding));
+        assert_eq!(take(1.01, slipping), (1, slipping));
+        // Called without a break for longer than a slip is remembered, it is still one.
+        assert_eq!(take(1.10, slipping), (1, slipping));
+        assert_eq!(take(1.11, holding), (1, slipping));
+        assert_eq!(take(1.14, slipping), (1, slipping));
+        assert_eq!(take(1.16, holding), (1, slipping));
+        assert_eq!(take(1.25, slipping), (2, slipping));
+        assert_eq!(take(1.74, holding), (2, slipping));
+        assert_eq!(take(1.76, holding), (2, holding));
+        // A recording that begins anew is not behind its last slip.
+        assert_eq!(take(0.0, holding), (2, holding));
+        assert_eq!(take(2.0, None), (2, None));
+    }
+
+    #[test]
+    fn the_trail_has_the_last_places_and_no_place_twice() {
+        let scene = Scene::load_or_simulated(Path::new("sim")).unwrap();
+        let mut state = State::new(String::new());
+        let projection = scene.projection;
+        state.projection = Some(projection);
+        let mut feel = SceneFeel::new(scene, true);
+        let mut places = Vec::new();
+        for step in 0..TRAIL + 10 {
+            let angle = 1e-3 * step as f64;
+            let normal = Vector3::new(angle.cos(), angle.sin(), 0.0);
+            let wrench = Wrench::from_force_at(&(normal * 0.013), -normal * 2.0);
+            let touch = feel.feel(step as f64, &wrench).unwrap();
+            let point = touch.as_ref().and_then(|touch| touch.resolution.contact()).unwrap().point;
+            assert!((point - normal * 0.013).norm() < 1e-12);
+            state.sample(step as f64, &wrench, touch, Instant::now());
+            state.refresh();
+            state.refresh();
+            places.push(projection.project(&point));
+        }
+        assert_eq!(state.trail.iter().copied().collect::<Vec<_>>(), places[10..]);
+        assert_eq!(state.status(), "contact");
+        // Twenty samples tell the noise, and that the ellipse.
+        assert!(state.ellipse.is_some());
+        assert_eq!(State::new(String::new()).status(), "nothing yet");
+    }
+}

@@ -119,7 +119,7 @@ mod tests {
     use std::time::Instant;
 
     use fingertip::wrench::Wrench;
-    use nalgebra::Vector3;
+    use nalgebra::{Vector3, Vector6};
     use ratatui::Terminal;
     use ratatui::backend::TestBackend;
 
@@ -168,7 +168,7 @@ mod tests {
             let time = f64::from(sample) * 1e-3;
             // A point at 45° from the top, and something like noise.
             let point = Vector3::new(0.0092, 0.0092, 0.0) * (1.0 + 1e-4 * f64::from(sample % 3));
-            let wrench = Wrench::from_force_at(&point, force);
+            let wrench: Wrench<f64> = Wrench::from_force_at(&point, force);
             let touch = feel.feel(time, &wrench).unwrap();
             state.sample(time, &wrench, touch, Instant::now());
         }
@@ -217,5 +217,83 @@ mod tests {
     fn what_is_no_contact_says_why() {
         let text = picture(&pressed(Vector3::new(-0.05, -0.01, 0.0), 10), (80, 24));
         assert!(text.contains("force below the threshold") && !text.contains('●'), "{text}");
+    }
+
+    /// Compares with a picture that somebody has looked at; with `FINGERTIP_ACCEPT=1`, writes it.
+    fn assert_accepted(name: &str, picture: &str) {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/accepted").join(name);
+        if std::env::var_os("FINGERTIP_ACCEPT").is_some() {
+            std::fs::write(&path, picture).unwrap();
+        }
+        let accepted = std::fs::read_to_string(&path).unwrap();
+        assert!(picture == accepted, "{name} has become\n{picture}");
+    }
+
+    #[test]
+    fn the_pictures_are_those_that_were_accepted() {
+        let mut state = pressed(Vector3::new(-1.5, -1.2, 0.3), 100);
+        state.rate = 1000.4;
+        assert_accepted("live_wide.txt", &picture(&state, (80, 24)));
+        assert_accepted("live_narrow.txt", &picture(&state, (40, 30)));
+        assert_accepted("live_low.txt", &picture(&state, (72, 10)));
+        // Without room for the map: forces, then slip.
+        assert_accepted("live_small.txt", &picture(&state, (40, 20)));
+        let mut lost = pressed(Vector3::new(-0.5, -0.1, 0.3), 3);
+        lost.health = Health::Lost("unplugged".to_owned());
+        (lost.faults, lost.last_fault, lost.reconnections) = (12_345, Some("cut".to_owned()), 2);
+        lost.losses.lost = Some(3);
+        assert_accepted("live_lost.txt", &picture(&lost, (100, 24)));
+    }
+
+    /// A scene of a surface, pressed here and there with something like noise of so many newtons.
+    fn wandering(surface: &str, noise: f64, place: impl Fn(f64) -> (Vector3<f64>, Vector3<f64>)) -> State {
+        let text = format!("version = 1\n[input]\nconvention = \"on_fingertip\"\n[surface]\n{surface}\n");
+        let scene = Scene::read(&text, "test", Path::new("")).unwrap();
+        let mut state = State::new("test".to_owned());
+        state.projection = Some(scene.projection);
+        let mut feel = SceneFeel::new(scene, true);
+        for sample in 0..120_u32 {
+            let (point, force) = place(0.05 * f64::from(sample));
+            let noise = noise * (11.0 * f64::from(sample)).sin();
+            let wrench: Wrench<f64> = Wrench::from_force_at(&point, force);
+            let noisy = Wrench::from_components(
+                &(wrench.components() + Vector6::new(0.0, 0.0, 0.0, noise, -noise, noise)),
+            );
+            let time = f64::from(sample) * 1e-2;
+            let touch = feel.feel(time, &noisy).unwrap();
+            state.sample(time, &noisy, touch, Instant::now());
+            state.refresh();
+        }
+        state
+    }
+
+    #[test]
+    fn the_maps_of_other_surfaces_are_those_that_were_accepted() {
+        let plane =
+            |t: f64| (Vector3::new(0.008 * t.cos(), 0.013 * t.sin(), 0.0), Vector3::new(0.1, 0.0, -2.0));
+        assert_accepted("live_plane.txt", &picture(&wandering("shape = \"plane\"", 0.002, plane), (80, 24)));
+        let tube = |t: f64| {
+            let (sin, cos) = (2.0 * t.sin()).sin_cos();
+            (Vector3::new(0.01 * sin, 0.004 * t.cos(), 0.01 * cos), Vector3::new(-2.0 * sin, 0.2, -2.0 * cos))
+        };
+        let shape = "shape = \"cylinder\"\nradius_m = 0.01\naxis = [0.0, 1.0, 0.0]";
+        assert_accepted("live_tube.txt", &picture(&wandering(shape, 1e-4, tube), (80, 24)));
+        let half = format!("{shape}\nhalf_length_m = 0.006");
+        assert_accepted("live_half_tube.txt", &picture(&wandering(&half, 3e-3, tube), (80, 24)));
+        let cap = "shape = \"sphere\"\nradius_m = 0.01\nactive_half_angle_deg = 80.0";
+        let top =
+            |t: f64| (Vector3::new(0.003 * t.cos(), 0.003 * t.sin(), 0.0095), Vector3::new(0.0, 0.0, -1.0));
+        assert_accepted("live_cap.txt", &picture(&wandering(cap, 1e-3, top), (80, 24)));
+    }
+
+    #[test]
+    fn a_small_window_has_one_line() {
+        let mut state = pressed(Vector3::new(-1.5, -1.2, 0.3), 100);
+        let first = |state: &State, size| picture(state, size).lines().next().unwrap().trim_end().to_owned();
+        assert_eq!(first(&state, (27, 8)), "1.94 N contact");
+        assert_eq!(first(&state, (28, 7)), "1.94 N contact");
+        assert!(first(&state, (28, 8)).starts_with(" live "));
+        state.health = Health::Resting;
+        assert_eq!(first(&state, (50, 3)), "taking the zero: do not touch");
     }
 }

@@ -69,7 +69,7 @@ impl Observations {
             counts: [0; Status::ALL.len()],
             rows: 0,
             first_time: None,
-            last_time: 0.0,
+            last_time: f64::NEG_INFINITY,
             force: Quantiles::default(),
             normal: Quantiles::default(),
             tangential: Quantiles::default(),
@@ -138,7 +138,8 @@ impl Observations {
         self.counts[status as usize] += 1;
         if time.is_finite() {
             self.first_time.get_or_insert(time);
-            self.last_time = time;
+            // A time that goes back is not the last one.
+            self.last_time = self.last_time.max(time);
         }
     }
 
@@ -153,12 +154,12 @@ impl Observations {
 
     /// From first to last sample \[s\].
     pub(crate) fn duration(&self) -> f64 {
-        self.last_time - self.first_time.unwrap_or(self.last_time)
+        self.first_time.map_or(0.0, |first| self.last_time - first)
     }
 
     /// First and last time \[s\].
     pub(crate) fn time_range(&self) -> (f64, f64) {
-        (self.first_time.unwrap_or(0.0), self.last_time)
+        self.first_time.map_or((0.0, 0.0), |first| (first, self.last_time))
     }
 
     pub(crate) fn projection(&self) -> &Projection {

@@ -81,7 +81,7 @@ impl Quantiles {
         }
         let mut seen = self.zeros;
         if rank < seen {
-            return Some(0.0_f64.max(self.least));
+            return Some(self.least);
         }
         for (index, bucket) in self.buckets.iter().enumerate() {
             seen += bucket;
@@ -138,5 +138,57 @@ mod tests {
         assert_eq!(sketch.quantile(1.0), Some(3.0));
         sketch.add(f64::INFINITY);
         assert_eq!(sketch.greatest(), Some(f64::INFINITY));
+    }
+
+    /// 2⁻⁴⁰ and 2⁴⁰, between which numbers are told apart.
+    const TOLD_APART: (f64, f64) = (1.0 / (1_u64 << 40) as f64, (1_u64 << 40) as f64);
+
+    #[test]
+    fn every_rank_of_a_short_stream_is_that_of_the_sorted_numbers() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(4);
+        for length in 1..60_usize {
+            let mut sketch = Quantiles::default();
+            // Repeated numbers, zeros, and numbers beyond what is told apart at either end.
+            let mut all: Vec<f64> = (0..length)
+                .map(|_| match random.random_range(0..6) {
+                    0 => 0.0,
+                    1 => TOLD_APART.0 * random.random::<f64>(),
+                    2 => TOLD_APART.1 * (1.0 + random.random::<f64>()),
+                    3 => 2.5,
+                    _ => 2.0_f64.powi(random.random_range(-40..40)),
+                })
+                .collect();
+            all.iter().for_each(|value| sketch.add(*value));
+            all.sort_by(f64::total_cmp);
+            let (least, greatest) = (all[0], all[length - 1]);
+            for (rank, exact) in all.iter().enumerate() {
+                let share = if length > 1 { rank as f64 / (length - 1) as f64 } else { 0.0 };
+                let found = sketch.quantile(share).unwrap();
+                assert!((least..=greatest).contains(&found), "{found} of {all:?}");
+                if rank == 0 || rank == length - 1 {
+                    assert_eq!(found, *exact);
+                } else if *exact < TOLD_APART.0 {
+                    assert!(found < TOLD_APART.0, "rank {rank}: {found} for {exact}");
+                } else {
+                    let exact = exact.min(TOLD_APART.1);
+                    assert!((found - exact).abs() <= exact / 256.0, "rank {rank}: {found} for {exact}");
+                }
+            }
+            // Shares beyond the ends are the ends.
+            assert_eq!((sketch.quantile(-1.0), sketch.quantile(2.0)), (Some(least), Some(greatest)));
+        }
+    }
+
+    #[test]
+    fn the_middle_of_a_bucket_is_given_and_shares_round_to_the_nearest_rank() {
+        // The bucket from 1 has the width 2⁻⁷.
+        let mut sketch = Quantiles::default();
+        [0.5, 1.0, 1.0, 2.0].iter().for_each(|value| sketch.add(*value));
+        assert_eq!(sketch.quantile(0.5), Some(1.0 + 0.5 / 128.0));
+        // Of four numbers, ranks 0 to 3: a share of 0.17 is next to rank 1, of 0.16 to rank 0.
+        assert_eq!(sketch.quantile(0.17), Some(1.0 + 0.5 / 128.0));
+        assert_eq!(sketch.quantile(0.16), Some(0.5));
+        assert_eq!(sketch.greatest(), Some(2.0));
+        assert_eq!(Quantiles::default().greatest(), None);
     }
 }

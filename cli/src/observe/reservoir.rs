@@ -47,6 +47,9 @@ impl<Item> Reservoir<Item> {
 
 #[cfg(test)]
 mod tests {
+    use rand::SeedableRng;
+    use rand_pcg::Pcg64Mcg;
+
     use super::Reservoir;
 
     #[test]
@@ -63,5 +66,32 @@ mod tests {
             let share = many.kept().iter().filter(|item| **item / 10_000 == tenth).count();
             assert!((50..150).contains(&share), "tenth {tenth}: {share}");
         }
+    }
+
+    #[test]
+    fn every_item_of_a_short_stream_is_kept_equally_often() {
+        const RUNS: u32 = 20_000;
+        let mut kept = [0_u32; 5];
+        let mut made = 0;
+        for seed in 0..RUNS {
+            let mut some =
+                Reservoir { random: Pcg64Mcg::seed_from_u64(u64::from(seed)), ..Reservoir::new(2) };
+            for item in 0..kept.len() {
+                some.add(|| {
+                    made += 1;
+                    item
+                });
+            }
+            some.kept().iter().for_each(|item| kept[*item] += 1);
+            assert_eq!((some.kept().len(), some.seen()), (2, 5));
+        }
+        // Kept with the probability 2/5: a standard deviation is 0.0035.
+        for (item, times) in kept.iter().enumerate() {
+            let share = f64::from(*times) / f64::from(RUNS);
+            assert!((share - 0.4).abs() < 0.0175, "item {item}: {share}");
+        }
+        // Item i (from 1) is made with the probability min(1, 2/i): 2 + 2/3 + 2/4 + 2/5 in all, ± 0.005.
+        let each = f64::from(made) / f64::from(RUNS);
+        assert!((each - (2.0 + 2.0 / 3.0 + 0.5 + 0.4)).abs() < 0.025, "{each}");
     }
 }

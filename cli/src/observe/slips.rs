@@ -65,7 +65,7 @@ impl Slips {
 mod tests {
     use fingertip::friction::SlipVerdict;
 
-    use super::Slips;
+    use super::{Slip, Slips};
 
     #[test]
     fn one_slide_is_one_slip_however_often_it_is_called() {
@@ -84,5 +84,30 @@ mod tests {
         let mut off = Slips::default();
         off.follow(0.0, None, None, None);
         assert_eq!(off.count(), 0);
+    }
+
+    #[test]
+    fn the_first_call_of_a_slip_is_kept_with_its_force_and_its_ratio() {
+        let mut slips = Slips::default();
+        let call = Some(SlipVerdict::Slipping);
+        // Calls 50 ms apart are one slip, calls 51 ms apart are two.
+        slips.follow(0.0, call, Some(2.0), Some(0.4));
+        slips.follow(0.05, call, Some(2.5), Some(0.3));
+        slips.follow(0.101, call, None, None);
+        let first = Slip { time: 0.0, normal_force: Some(2.0), ratio: Some(0.4) };
+        assert_eq!(slips.kept(), [first, Slip { time: 0.101, normal_force: None, ratio: None }]);
+        // A recording that is put together may go back in time.
+        slips.follow(-0.5, call, None, None);
+        assert_eq!(slips.count(), 3);
+    }
+
+    #[test]
+    fn all_slips_are_counted_and_a_thousand_are_kept() {
+        let mut slips = Slips::default();
+        for number in 0..1500 {
+            slips.follow(f64::from(number), Some(SlipVerdict::Slipping), None, None);
+        }
+        assert_eq!((slips.count(), slips.kept().len()), (1500, 1000));
+        assert_eq!(slips.kept()[999].time, 999.0);
     }
 }

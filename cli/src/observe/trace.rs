@@ -94,7 +94,6 @@ impl Trace {
             [] => Bin::default(),
         });
         self.bins = joined.collect();
-        self.bins.reserve_exact(CAPACITY - self.bins.len());
         self.stride *= 2;
     }
 
@@ -124,6 +123,8 @@ impl Trace {
 
 #[cfg(test)]
 mod tests {
+    use rand::{RngExt, SeedableRng};
+
     use super::{CAPACITY, Point, Trace};
 
     fn points(trace: &Trace) -> Vec<Point> {
@@ -169,5 +170,52 @@ mod tests {
         }
         let lengths: Vec<usize> = trace.pieces().iter().map(Vec::len).collect();
         assert_eq!(lengths, [2, 1]);
+    }
+
+    /// What the documentation says, from all samples at once: bins of equally many samples, as few to a bin as
+    /// fit; the first least and the first greatest value of each, in order of time; a piece ends with a bin that
+    /// has a gap.
+    fn by_hand(samples: &[(f64, Option<f64>)]) -> Vec<Vec<Point>> {
+        let stride = (0..).map(|k| 1 << k).find(|stride| samples.len() <= CAPACITY * stride).unwrap();
+        let (mut pieces, mut piece) = (Vec::new(), Vec::new());
+        for bin in samples.chunks(stride) {
+            let good = || bin.iter().filter_map(|(time, value)| value.map(|value| (*time, value)));
+            let extreme = |sign: f64| {
+                good().fold(None, |best: Option<(f64, f64)>, next| match best {
+                    Some(best) if sign * best.1 <= sign * next.1 => Some(best),
+                    _ => Some(next),
+                })
+            };
+            if let (Some(least), Some(greatest)) = (extreme(1.0), extreme(-1.0)) {
+                let mut ends = vec![least, greatest];
+                ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+                ends.dedup();
+                piece.extend(ends.into_iter().map(|(time, value)| Point { time, value }));
+            }
+            if bin.iter().any(|(_, value)| value.is_none()) && !piece.is_empty() {
+                pieces.push(core::mem::take(&mut piece));
+            }
+        }
+        pieces.extend((!piece.is_empty()).then_some(piece));
+        pieces
+    }
+
+    #[test]
+    fn bins_are_those_of_the_whole_recording_however_it_grew() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(1);
+        for length in [0, 1, 2, 479, 480, 481, 959, 960, 961, 1919, 1921, 5000] {
+            for gaps in [0.0, 0.002, 0.3] {
+                let mut trace = Trace::default();
+                let mut samples = Vec::new();
+                for i in 0..length {
+                    // Few different values, so that extremes are met more than once.
+                    let value = f64::from(random.random_range(-20..20_i32));
+                    let value = (random.random::<f64>() >= gaps).then_some(value);
+                    trace.add(f64::from(i) * 0.5, value);
+                    samples.push((f64::from(i) * 0.5, value));
+                }
+                assert_eq!(trace.pieces(), by_hand(&samples), "{length} samples, {gaps} of them gaps");
+            }
+        }
     }
 }

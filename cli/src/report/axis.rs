@@ -139,7 +139,9 @@ fn tick_label(value: f64, step: f64, largest: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::Axis;
+    use rand::{RngExt, SeedableRng};
+
+    use super::{Axis, Tick, step};
 
     fn labels(axis: &Axis, most: usize) -> Vec<String> {
         axis.ticks(most).into_iter().map(|tick| tick.label).collect()
@@ -170,5 +172,154 @@ mod tests {
             assert!(axis.low <= low && axis.high >= high);
             assert!(axis.high - axis.low < 2.0 * (high - low));
         }
+    }
+
+    /// What a reader makes of a label.
+    fn read(label: &str) -> f64 {
+        label.replace('−', "-").parse().unwrap()
+    }
+
+    /// Ticks are all the multiples of one step that lie in the range, and their labels say their values.
+    fn check_even(axis: &Axis, ticks: &[Tick], step: f64) {
+        let slack = 1e-6 * step;
+        for (number, tick) in ticks.iter().enumerate() {
+            assert!((tick.value / step - (tick.value / step).round()).abs() < 1e-6, "{tick:?} of {axis:?}");
+            assert!(
+                (read(&tick.label) - tick.value).abs() < 1e-6 * step.max(tick.value.abs()),
+                "{tick:?} of {axis:?}"
+            );
+            assert!((tick.value - ticks[0].value - number as f64 * step).abs() < slack, "{ticks:?}");
+            assert!(
+                tick.value >= axis.low - slack && tick.value <= axis.high + slack,
+                "{tick:?} of {axis:?}"
+            );
+        }
+        let ends = (ticks[0].value - step, ticks[ticks.len() - 1].value + step);
+        assert!(
+            ends.0 < axis.low + slack && ends.1 > axis.high - slack,
+            "ticks are missing: {axis:?} {ticks:?}"
+        );
+    }
+
+    #[test]
+    fn a_step_is_the_least_round_one_that_cuts_into_few_pieces() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(1);
+        for _ in 0..2000 {
+            let range = 10.0_f64.powf(random.random_range(-9.0..9.0));
+            let most = random.random_range(1..9_usize);
+            let round =
+                (-12..12_i32).flat_map(|decade| [1.0, 2.0, 5.0].map(|lead| lead * 10.0_f64.powi(decade)));
+            let expected = round.into_iter().find(|step| range / step <= most as f64 * 1.000_001).unwrap();
+            let found = step(range, most);
+            assert!((found / expected - 1.0).abs() < 1e-12, "{range} in {most}: {found} for {expected}");
+        }
+        // Exactly so many pieces are not too many; and none at all are one.
+        assert_eq!((step(5.0, 5), step(30.0, 6), step(1.0, 0)), (1.0, 5.0, 1.0));
+        for range in [0.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(step(range, 5), 1.0);
+        }
+    }
+
+    #[test]
+    fn linear_ticks_are_even_and_labelled_with_their_values() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(2);
+        for _ in 0..2000 {
+            let size = 10.0_f64.powf(random.random_range(-8.0..8.0));
+            let low = size * random.random_range(-3.0..3.0);
+            let axis = Axis::linear("", low, low + size * random.random_range(0.01..1.0));
+            assert!((axis.place(axis.low), axis.place(axis.high)) == (0.0, 1.0));
+            for most in [2, 3, 5, 7] {
+                let ticks = axis.ticks(most);
+                assert!(
+                    (1..=most + 1).contains(&ticks.len()) || ticks.is_empty() && most == 2,
+                    "{axis:?} {ticks:?}"
+                );
+                if !ticks.is_empty() {
+                    check_even(&axis, &ticks, step(axis.high - axis.low, most));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn degrees_are_cut_at_parts_of_the_circle() {
+        for (range, most, expected) in [
+            (360.0, 6, 90.0),
+            (270.0, 6, 45.0),
+            (269.0, 6, 45.0),
+            (180.0, 6, 30.0),
+            (90.0, 6, 15.0),
+            (60.0, 6, 10.0),
+            (29.0, 6, 5.0),
+            (12.0, 6, 2.0),
+            (6.0, 6, 1.0),
+            (5.9, 6, 1.0),
+            // Finer than a degree as any other axis, and farther than parts of the circle reach.
+            (2.9, 6, 0.5),
+            (541.0, 6, 100.0),
+        ] {
+            let axis = Axis::degrees("", -0.3 * range, 0.7 * range);
+            check_even(&axis, &axis.ticks(most), expected);
+        }
+    }
+
+    #[test]
+    fn logarithmic_axes_have_all_their_round_numbers() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(3);
+        for _ in 0..1000 {
+            let low = 10.0_f64.powf(random.random_range(-5.0..5.0));
+            let high = low * 10.0_f64.powf(random.random_range(0.0..6.0));
+            let axis = Axis::log("", low, high);
+            // At least a decade, about the same middle.
+            assert!(axis.high / axis.low > 9.999 && axis.low <= low && axis.high >= high, "{axis:?}");
+            assert!((axis.low * axis.high / (low * high) - 1.0).abs() < 1e-9, "{axis:?}");
+            let within = |leads: &[f64]| -> Vec<f64> {
+                let all = (-8..=14_i32)
+                    .flat_map(|decade| leads.iter().map(move |lead| lead * 10.0_f64.powi(decade)));
+                all.filter(|value| *value >= axis.low * 0.999 && *value <= axis.high * 1.001).collect()
+            };
+            let most = random.random_range(3..8_usize);
+            let fine = within(&[1.0, 2.0, 5.0]);
+            let expected = if fine.len() <= most { fine } else { within(&[1.0]) };
+            let ticks = axis.ticks(most);
+            assert_eq!(ticks.iter().map(|tick| tick.value).collect::<Vec<_>>(), expected, "{axis:?}");
+            for tick in ticks {
+                assert!((read(&tick.label) / tick.value - 1.0).abs() < 1e-12, "{tick:?}");
+            }
+        }
+        let axis = Axis::log("", 0.01, 100.0);
+        let places = [0.01, 0.1, 1.0, 100.0, 0.0, -3.0, f64::INFINITY].map(|value| axis.place(value));
+        // Three decades below the low end is as far down as it goes, here three quarters of the axis.
+        for (found, expected) in places.into_iter().zip([0.0, 0.25, 0.5, 1.0, -0.75, -0.75, 2.0]) {
+            assert!((found - expected).abs() < 1e-12, "{found} for {expected}");
+        }
+        for (low, high) in [(0.0, 1.0), (-1.0, 1.0), (2.0, 1.0), (1.0, f64::INFINITY), (f64::NAN, 1.0)] {
+            let axis = Axis::log("", low, high);
+            assert!((axis.low - 0.1).abs() < 1e-12 && (axis.high - 1.0).abs() < 1e-12, "{axis:?}");
+        }
+    }
+
+    #[test]
+    fn what_gives_no_range_has_one_all_the_same() {
+        let ends = |axis: &Axis| (axis.low, axis.high);
+        assert_eq!(ends(&Axis::linear("", 3.0, 7.0)), (3.0, 7.0));
+        assert_eq!(ends(&Axis::linear("", 5.0, 5.0)), (2.5, 7.5));
+        assert_eq!(ends(&Axis::linear("", -4.0, -4.0)), (-6.0, -2.0));
+        assert_eq!(ends(&Axis::linear("", 0.0, 0.0)), (-1.0, 1.0));
+        assert_eq!(ends(&Axis::linear("", 2.0, 1.0)), (1.0, 3.0));
+        assert_eq!(ends(&Axis::linear("", 1.0, f64::INFINITY)), (0.0, 1.0));
+        assert_eq!(ends(&Axis::rounded("", -3.2, 17.9)), (-5.0, 20.0));
+        assert_eq!(ends(&Axis::rounded("", 0.0, 20.0)), (0.0, 20.0));
+        let axis = Axis::linear("", 2.0, 4.0);
+        assert_eq!([3.0, 5.0, -9.0, 99.0].map(|value| axis.place(value)), [0.5, 1.5, -1.0, 2.0]);
+    }
+
+    #[test]
+    fn labels_are_short_and_have_a_true_minus() {
+        assert_eq!(labels(&Axis::linear("", -2e6, 2e6), 2), ["-2e6", "0", "2e6"]);
+        assert_eq!(labels(&Axis::linear("", 0.0, 999_999.0), 2), ["0", "500000"]);
+        assert_eq!(labels(&Axis::linear("", -0.001, 0.001), 2), ["−0.001", "0.000", "0.001"]);
+        assert_eq!(labels(&Axis::linear("", 0.0, 1e-4), 1), ["0.0000", "0.0001"]);
+        assert_eq!(labels(&Axis::linear("", 0.0, 9e-5), 1), ["0.0000"]);
     }
 }

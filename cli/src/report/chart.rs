@@ -85,3 +85,69 @@ impl Chart {
         self.svg.finish()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::read_back::{Ruler, assert_readable, paths, points, rulers, size};
+    use super::{Axis, Chart, Point};
+
+    fn close(ruler: Ruler, place: f64, value: f64) -> bool {
+        (ruler.at(place) - value).abs() <= ruler.error()
+    }
+
+    #[test]
+    fn what_is_drawn_can_be_read_off_the_axes() {
+        let curve: Vec<Vec<Point>> = (0..3)
+            .map(|piece| {
+                let time = |i: i32| f64::from(10 * piece + i);
+                (0..=2 * piece).map(|i| Point { time: time(i), value: (0.3 * time(i)).sin() }).collect()
+            })
+            .collect();
+        let dots = [(1.0, -0.7), (12.5, 0.3)];
+        let x = Axis::linear("time / s", 0.0, 25.0);
+        let y = Axis::rounded("force / N", -0.9, 0.9);
+        let mut chart = Chart::new("test", x, y);
+        chart.curve("a", &curve);
+        chart.dots("b", &dots);
+        chart.level("level", 0.25);
+        chart.marks("mark", [3.0, 17.0].into_iter());
+        let svg = chart.finish();
+        assert_readable(&svg);
+        let (across, up) = rulers(&svg);
+        let all = paths(&svg);
+        let drawn = &all.iter().find(|path| path.class == "curve a").unwrap().pieces;
+        assert_eq!(drawn.iter().map(Vec::len).collect::<Vec<_>>(), [1, 3, 5]);
+        for ((x, y), point) in drawn.concat().into_iter().zip(curve.concat()) {
+            assert!(close(across, x, point.time) && close(up, y, point.value), "{point:?}");
+        }
+        let drawn = points(&svg, "dots b");
+        assert_eq!(drawn.len(), 2);
+        for ((x, y), dot) in drawn.into_iter().zip(dots) {
+            assert!(close(across, x, dot.0) && close(up, y, dot.1), "{dot:?}");
+        }
+        // A level goes from edge to edge, a mark from top to bottom of the frame that all is cut at.
+        let frame = svg.split_once("<svg x=\"").unwrap().1;
+        let numbers: Vec<f64> = frame.split('"').step_by(2).take(4).map(|n| n.parse().unwrap()).collect();
+        let [left, top, width, height] = numbers[..] else { panic!("{numbers:?}") };
+        assert!(close(across, left, 0.0) && close(across, left + width, 25.0), "{numbers:?}");
+        assert!(close(up, top, 1.0) && close(up, top + height, -1.0), "{numbers:?}");
+        let level = points(&svg, "level");
+        assert!(level.iter().all(|(_, y)| close(up, *y, 0.25)), "{level:?}");
+        assert_eq!(level.iter().map(|(x, _)| *x).collect::<Vec<_>>(), [left, left + width]);
+        let marks = points(&svg, "mark");
+        for (index, time) in [3.0, 3.0, 17.0, 17.0].into_iter().enumerate() {
+            assert!(close(across, marks[index].0, time), "{marks:?}");
+        }
+        assert_eq!(marks.iter().map(|(_, y)| *y).collect::<Vec<_>>(), [top, top + height, top, top + height]);
+        // The axis runs along the lower edge, its marks hang from it.
+        let axis: Vec<_> =
+            all.iter().filter(|path| path.class == "axis").map(|path| &path.pieces[0]).collect();
+        let (marks, line) = axis.split_at(axis.len() - 1);
+        assert_eq!(*line[0], [(left, top + height), (left + width, top + height)]);
+        for mark in marks {
+            assert!(mark[0].1 == top + height && mark[1] == (mark[0].0, top + height + 4.0), "{mark:?}");
+        }
+        let (wide, high) = size(&svg);
+        assert!(left > 0.0 && top > 0.0 && left + width < wide && top + height < high);
+    }
+}

@@ -63,7 +63,9 @@ fn two_digits(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::Classes;
+    use super::super::read_back::{rectangles, texts, value};
+    use super::super::svg::Svg;
+    use super::{Classes, two_digits};
 
     #[test]
     fn classes_rise_with_the_value_and_use_both_ends() {
@@ -76,5 +78,77 @@ mod tests {
         assert_eq!(Classes::of(core::iter::empty()).class(1.0), 0);
         let wide = Classes::of((1..1000).map(|i| f64::from(i) * 0.1));
         assert_eq!((wide.class(0.01), wide.class(1e6)), (0, Classes::COUNT - 1));
+    }
+
+    /// Bounds and colours as the legend shows them.
+    fn legend(classes: &Classes) -> (Vec<f64>, Vec<String>) {
+        let mut svg = Svg::new(300.0, 100.0, "");
+        classes.legend(&mut svg, (20.0, 50.0), 210.0);
+        let svg = svg.finish();
+        let colours = rectangles(&svg);
+        let width = 210.0 / colours.len() as f64;
+        for (rank, (_, left, wide)) in colours.iter().enumerate() {
+            assert!(
+                (left - (20.0 + width * rank as f64)).abs() < 0.06 && (wide - (width - 1.0)).abs() < 0.06
+            );
+        }
+        let ticks: Vec<_> = texts(&svg).into_iter().filter(|text| text.class == "tick").collect();
+        // Each bound stands under the line between its two colours.
+        for (rank, tick) in ticks.iter().enumerate() {
+            assert!((tick.at.0 - (20.0 + width * (rank + 1) as f64 - 0.5)).abs() < 0.06, "{tick:?}");
+        }
+        let bounds = ticks.iter().map(|tick| value(&tick.text).unwrap()).collect();
+        (bounds, colours.into_iter().map(|(class, ..)| class).collect())
+    }
+
+    /// Every value has the colour that stands between the bounds around it.
+    fn check(classes: &Classes, values: impl Iterator<Item = f64>) {
+        let (bounds, colours) = legend(classes);
+        assert_eq!(colours.len(), bounds.len() + 1);
+        // Bounds are as exact as their labels.
+        let near = bounds.iter().flat_map(|bound| [0.999_999 * bound, 1.000_001 * bound]);
+        for value in values.chain(near) {
+            let rank = bounds.iter().filter(|bound| value >= **bound).count();
+            assert_eq!(format!("q{}", classes.class(value)), colours[rank], "{value} between {bounds:?}");
+        }
+    }
+
+    #[test]
+    fn the_legend_tells_the_colour_of_every_value() {
+        // Of one order: round bounds, evenly.
+        let narrow = || (0..=100).map(|i| 2.0 + 0.1 * f64::from(i));
+        let classes = Classes::of(narrow());
+        check(&classes, narrow());
+        assert_eq!(legend(&classes).0, [4.0, 6.0, 8.0, 10.0]);
+        assert_eq!(legend(&classes).1, ["q0", "q1", "q3", "q4", "q6"]);
+        // Over three decades: even ratios, to two digits; two in a hundred at either end do not count.
+        let wide = || (0..=100).map(|i| 10.0_f64.powf(0.03 * f64::from(i)));
+        let classes = Classes::of(wide());
+        check(&classes, wide());
+        let (bounds, colours) = legend(&classes);
+        assert_eq!(colours, ["q0", "q1", "q2", "q3", "q4", "q5", "q6"]);
+        let (low, high) = (10.0_f64.powf(0.06), 10.0_f64.powf(2.94));
+        for (i, bound) in (1..).zip(&bounds) {
+            let exact = low * (high / low).powf(f64::from(i) / 7.0);
+            assert!((bound / exact - 1.0).abs() < 0.05, "{bound} for {exact}");
+        }
+        // Just below and above the ratio of fifteen at which they change.
+        for (greatest, count) in [(14.9, 6), (15.5, 6)] {
+            let classes = Classes::of([1.0, greatest].into_iter());
+            let bounds = legend(&classes).0;
+            let ratios = bounds.array_windows().map(|[a, b]| b / a);
+            let even_ratio = ratios.clone().all(|ratio| (1.35..1.6).contains(&ratio));
+            assert!(bounds.len() <= count && even_ratio == (greatest > 15.0), "{bounds:?}");
+        }
+        // What is not positive or not finite has no say.
+        let odd = [f64::NAN, -3.0, 0.0, f64::INFINITY].into_iter();
+        assert_eq!(legend(&Classes::of(odd.chain(narrow()))), legend(&Classes::of(narrow())));
+    }
+
+    #[test]
+    fn two_digits_are_the_nearest() {
+        for (value, expected) in [(123.4, 120.0), (0.067_89, 0.068), (9.96, 10.0), (1.0, 1.0), (99.4, 99.0)] {
+            assert!((two_digits(value) / expected - 1.0).abs() < 1e-12, "{value}: {}", two_digits(value));
+        }
     }
 }

@@ -113,7 +113,8 @@ fn segments(xs: &[f64], ys: &[f64], values: &[Vec<f64>], level: f64) -> Vec<Segm
 
 #[cfg(test)]
 mod tests {
-    use super::segments;
+    use super::super::read_back::{assert_readable, paths, rulers};
+    use super::{Axis, Contours, LEVELS, draw, segments};
 
     #[test]
     fn contour_of_a_cone_is_a_circle() {
@@ -130,5 +131,93 @@ mod tests {
         let (xs, ys) = ([0.0, 1.0], [0.0, 1.0]);
         assert_eq!(segments(&xs, &ys, &[vec![0.0, 1.0], vec![1.0, 0.0]], 0.5).len(), 2);
         assert!(segments(&xs, &ys, &[vec![0.0, f64::INFINITY], vec![1.0, 0.0]], 0.5).is_empty());
+    }
+
+    #[test]
+    fn contours_of_an_inclined_plane_are_straight() {
+        // x/3 + y = 1 over the rectangle from (0, 0) to (3, 2), in cells of different sizes: from (0, 1) to (3, 0).
+        let (xs, ys) = ([0.0, 0.5, 2.0, 3.0], [0.0, 0.3, 1.5, 2.0]);
+        let values: Vec<Vec<f64>> =
+            ys.iter().map(|y| xs.iter().map(|x| 10.0 + x / 3.0 + y).collect()).collect();
+        let found = segments(&xs, &ys, &values, 11.0);
+        let length: f64 = found.iter().map(|[a, b]| (a.0 - b.0).hypot(a.1 - b.1)).sum();
+        assert!((length - 10.0_f64.sqrt()).abs() < 1e-12, "{length}");
+        assert!(found.iter().flatten().all(|(x, y)| (x / 3.0 + y - 1.0).abs() < 1e-12), "{found:?}");
+        assert!(segments(&xs, &ys, &values, 9.9).is_empty() && segments(&xs, &ys, &values, 13.1).is_empty());
+    }
+
+    #[test]
+    fn a_saddle_is_split_by_its_middle() {
+        let near = |found: &[[(f64, f64); 2]], expected: [[(f64, f64); 2]; 2]| {
+            let same = |a: &[(f64, f64); 2], b: &[(f64, f64); 2]| {
+                let close = |p: (f64, f64), q: (f64, f64)| (p.0 - q.0).hypot(p.1 - q.1) < 1e-12;
+                close(a[0], b[0]) && close(a[1], b[1]) || close(a[0], b[1]) && close(a[1], b[0])
+            };
+            assert_eq!(found.len(), 2);
+            assert!(
+                expected.iter().all(|segment| found.iter().any(|other| same(segment, other))),
+                "{found:?}"
+            );
+        };
+        // The middle is 0.5. A level below it cuts the low corners off, one above it the high ones.
+        let (xs, ys) = ([0.0, 1.0], [0.0, 1.0]);
+        let low_first = [vec![0.0, 1.0], vec![1.0, 0.0]];
+        near(&segments(&xs, &ys, &low_first, 0.4), [[(0.4, 0.0), (0.0, 0.4)], [(1.0, 0.6), (0.6, 1.0)]]);
+        near(&segments(&xs, &ys, &low_first, 0.6), [[(0.6, 0.0), (1.0, 0.4)], [(0.4, 1.0), (0.0, 0.6)]]);
+        let high_first = [vec![1.0, 0.0], vec![0.0, 1.0]];
+        near(&segments(&xs, &ys, &high_first, 0.4), [[(0.6, 0.0), (1.0, 0.4)], [(0.4, 1.0), (0.0, 0.6)]]);
+        near(&segments(&xs, &ys, &high_first, 0.6), [[(0.4, 0.0), (0.0, 0.4)], [(1.0, 0.6), (0.6, 1.0)]]);
+    }
+
+    #[test]
+    fn the_drawing_read_by_its_axes_has_the_contours_where_they_are() {
+        // 5 (1 + r) about (30, 2), on axes that are not alike: each level is an ellipse.
+        let xs: Vec<f64> = (0..=60).map(f64::from).collect();
+        let ys: Vec<f64> = (0..=60).map(|i| f64::from(i) / 15.0).collect();
+        let radius = |x: f64, y: f64| ((x - 30.0) / 15.0).hypot(y - 2.0);
+        let values: Vec<Vec<f64>> =
+            ys.iter().map(|y| xs.iter().map(|x| 5.0 * (1.0 + radius(*x, *y))).collect()).collect();
+        let (svg, keys) = draw(&Contours {
+            title: "test",
+            x: Axis::linear("Q / °", 0.0, 60.0),
+            y: Axis::linear("d / mm", 0.0, 4.0),
+            xs: &xs,
+            ys: &ys,
+            values: &values,
+            marks: &[(30.0, 2.0), (15.0, 1.0)],
+        });
+        assert_readable(&svg);
+        let (across, up) = rulers(&svg);
+        let all = paths(&svg);
+        // The levels over the least value, 5, as far as they are reached: r = level − 1 up to 2·√2.
+        let reached: Vec<f64> = LEVELS.into_iter().filter(|level| *level < 1.0 + 8.0_f64.sqrt()).collect();
+        assert_eq!(keys.len(), reached.len());
+        for ((class, name), level) in keys.iter().zip(&reached) {
+            assert!((name.parse::<f64>().unwrap() / (5.0 * level) - 1.0).abs() < 1e-9, "{name}");
+            let path = all.iter().find(|path| path.class == format!("curve {class}")).unwrap();
+            let mut seen = 0;
+            for (x, y) in path.pieces.concat() {
+                let found = 1.0 + radius(across.at(x), up.at(y));
+                // The cone is bilinear only within cells of 1/15, the places are rounded.
+                assert!((found - level).abs() < 0.02, "{class}: {found} for {level}");
+                seen += 1;
+            }
+            assert!(seen >= 8, "{class}");
+        }
+        // Crosses: the best is larger and of another class.
+        let crosses = |class: &str, size: f64, at: (f64, f64)| {
+            let lines: Vec<_> =
+                all.iter().filter(|path| path.class == class).map(|path| &path.pieces[0]).collect();
+            let [level, upright] = lines[..] else { panic!("{} lines", lines.len()) };
+            let middle = |line: &[(f64, f64)]| (0.5 * (line[0].0 + line[1].0), 0.5 * (line[0].1 + line[1].1));
+            for line in [level, upright] {
+                let (x, y) = middle(line);
+                assert!((across.at(x) - at.0).abs() < across.error() && (up.at(y) - at.1).abs() < up.error());
+            }
+            assert!((level[1].0 - level[0].0 - 2.0 * size).abs() < 0.11 && level[0].1 == level[1].1);
+            assert!((upright[1].1 - upright[0].1 - 2.0 * size).abs() < 0.11 && upright[0].0 == upright[1].0);
+        };
+        crosses("curve wide d", 6.0, (30.0, 2.0));
+        crosses("curve wide e", 4.0, (15.0, 1.0));
     }
 }

@@ -7,6 +7,7 @@ pub(crate) mod contours;
 mod figures;
 mod map;
 mod page;
+mod read_back;
 mod svg;
 pub(crate) mod unrolled_tube;
 

@@ -84,7 +84,9 @@ fn push_figure(page: &mut String, figure: &Figure) {
 
 #[cfg(test)]
 mod tests {
-    use super::unbroken;
+    use super::super::Figure;
+    use super::super::svg::escape;
+    use super::{Findings, Table, render, unbroken};
 
     #[test]
     fn numbers_stay_with_their_units() {
@@ -92,5 +94,49 @@ mod tests {
             unbroken("It is 1.5 N, or 3 %. In 2 steps."),
             "It is 1.5\u{a0}N, or 3\u{a0}%. In 2 steps."
         );
+    }
+
+    #[test]
+    fn only_a_number_and_its_unit_are_kept_together() {
+        let kept = |text: &str| unbroken(text).replace('\u{a0}', "_");
+        assert_eq!(kept("5 mm, 3 ms; 1 Hz: 2 s"), "5_mm, 3_ms; 1_Hz: 2_s");
+        assert_eq!(kept("N of s % 5 apples x1 N"), "N of s % 5 apples x1_N");
+        assert_eq!(kept("  5  N "), "  5  N ");
+        assert_eq!(kept("N"), "N");
+    }
+
+    #[test]
+    fn the_page_holds_everything_that_was_found_and_nothing_unescaped() {
+        let mut table = Table::new("T<1>", ["", "a & b"]);
+        table.row(["first".to_owned(), "1 N".to_owned()]);
+        table.row(["second".to_owned(), "\"2\"".to_owned()]);
+        let findings = Findings {
+            title: "A < B".to_owned(),
+            lead: vec!["Lead 1 N.".to_owned()],
+            tables: vec![table],
+            notes: vec!["mind > this".to_owned()],
+        };
+        let figure = |keys| Figure {
+            title: "F&G".to_owned(),
+            svg: "<svg></svg>".to_owned(),
+            keys,
+            caption: "C \"q\"".to_owned(),
+        };
+        let page = render(&findings, &[figure(vec![("a", "x < y".to_owned())]), figure(Vec::new())]);
+        let (_, body) = page.split_once("<body>\n").unwrap();
+        let (body, footer) = body.split_once("<footer>").unwrap();
+        let expected = "<main>\n<h1>A &lt; B</h1>\n<p class=\"lead\">Lead 1\u{a0}N.</p>\n<div class=\"tables\">\n\
+            <section><h2>T&lt;1&gt;</h2><table><thead><tr><th scope=\"col\"></th><th scope=\"col\">a &amp; b</th></tr></thead>\
+            <tbody>\n<tr><th scope=\"row\">first</th><td>1\u{a0}N</td></tr>\n<tr><th scope=\"row\">second</th>\
+            <td>&quot;2&quot;</td></tr>\n</tbody></table></section>\n</div>\n<div class=\"figures\">\n\
+            <figure><h2>F&amp;G</h2>\n<p class=\"keys\"><span><i class=\"a\"></i>x &lt; y</span></p>\n<svg></svg>\n\
+            <figcaption>C &quot;q&quot;</figcaption></figure>\n<figure><h2>F&amp;G</h2>\n<svg></svg>\n\
+            <figcaption>C &quot;q&quot;</figcaption></figure>\n</div>\n\
+            <h2>To be minded</h2>\n<ul>\n<li>mind &gt; this.</li>\n</ul>\n";
+        assert_eq!(body, expected);
+        assert!(footer.ends_with("</footer>\n</main>\n</body>\n</html>\n"));
+        assert!(page.contains("<title>A &lt; B</title>"));
+        assert!(!render(&Findings::default(), &[]).contains("To be minded"));
+        assert_eq!(escape("<&>\""), "&lt;&amp;&gt;&quot;");
     }
 }

@@ -122,3 +122,33 @@ impl Svg {
 pub(crate) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Anchor, Svg};
+
+    #[test]
+    fn every_piece_is_written_as_it_is_drawn() {
+        let mut svg = Svg::new(10.0, 20.0, "a < b");
+        svg.line("l", (1.0, 2.0), (3.04, 4.06));
+        svg.rectangle("r", (1.0, 2.0), (-1.0, 3.0));
+        svg.rectangle("r", (1.0, 2.0), (4.0, -3.0));
+        svg.circle("c", (1.0, 2.0), 3.0);
+        svg.label("t", (5.0, 6.0), Anchor::Middle, "x & y");
+        svg.curve("k", [&[(0.0, 1.0), (2.0, 3.0)][..], &[(4.0, 5.0)]].into_iter());
+        svg.dots("d", [(1.0, 2.0), (3.0, 4.0)].into_iter());
+        svg.dots("none", core::iter::empty());
+        svg.begin_clip((1.0, 2.0), (3.0, 4.0));
+        svg.end_clip();
+        let expected = "<svg viewBox=\"0 0 10 20\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\">\
+            <title>a &lt; b</title><path class=\"l\" d=\"M1.0 2.0L3.0 4.1\"/>\
+            <rect class=\"r\" x=\"1.0\" y=\"2.0\" width=\"0.0\" height=\"3.0\"/>\
+            <rect class=\"r\" x=\"1.0\" y=\"2.0\" width=\"4.0\" height=\"0.0\"/>\
+            <circle class=\"c\" cx=\"1.0\" cy=\"2.0\" r=\"3.0\"/>\
+            <text class=\"t\" x=\"5.0\" y=\"6.0\" text-anchor=\"middle\">x &amp; y</text>\
+            <path class=\"curve k\" d=\"M0.0 1.0L2.0 3.0M4.0 5.0h0\"/>\
+            <path class=\"dots d\" d=\"M1.0 2.0h0M3.0 4.0h0\"/>\
+            <svg x=\"1.0\" y=\"2.0\" width=\"3.0\" height=\"4.0\" viewBox=\"1.0 2.0 3.0 4.0\"></svg></svg>";
+        assert_eq!(svg.finish(), expected);
+    }
+}

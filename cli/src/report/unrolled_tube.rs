@@ -77,3 +77,60 @@ pub(crate) fn draw(layout: &TubeLayout, clamped_at: f64) -> String {
 fn lies_left(q: f64) -> bool {
     q.tan() < 0.0
 }
+
+#[cfg(test)]
+mod tests {
+    use fingertip::wrench::gauge_layout::{Gauge, ThinWalledBeam};
+
+    use super::super::read_back::{paths, rulers, texts};
+    use super::{TubeLayout, draw};
+
+    #[test]
+    fn gauges_stand_where_they_are_and_lean_as_they_do() {
+        let places = [(-0.002, 0.0, 14.0), (0.0, 120.0, -40.0), (0.010, 240.0, 80.0), (0.012, 330.0, 200.0)];
+        let gauge =
+            |(z, theta, q): (f64, f64, f64)| Gauge { z, theta: theta.to_radians(), q: q.to_radians() };
+        let layout = TubeLayout {
+            beam: ThinWalledBeam { radius: 5e-3, thickness: 1e-4, youngs_modulus: 7e10, poisson_ratio: 0.3 },
+            gauges: places.map(gauge).to_vec(),
+            bridges: Vec::new(),
+        };
+        let svg = draw(&layout, 0.02);
+        let (across, up) = rulers(&svg);
+        // True to scale: an angle of 360° is 10π mm.
+        let per_unit = (across.at(1.0) - across.at(0.0)) / 360.0 * core::f64::consts::TAU * 5.0;
+        assert!((up.at(1.0) - up.at(0.0) - per_unit).abs() < 1e-3 * per_unit, "not to scale");
+        let all = paths(&svg);
+        let drawn: Vec<_> = all.iter().filter(|path| path.class.starts_with("curve thick")).collect();
+        assert_eq!(drawn.len(), places.len());
+        for (path, (z, theta, q)) in drawn.iter().zip(places) {
+            let [tail, head] = path.pieces[0][..] else { panic!("no line") };
+            let middle = (across.at(0.5 * (tail.0 + head.0)), up.at(0.5 * (tail.1 + head.1)));
+            // At the edge of −30°, which is 330°.
+            let turned = (middle.0 - theta).rem_euclid(360.0);
+            assert!(turned.min(360.0 - turned) <= across.error(), "{middle:?} for {theta}");
+            assert!((middle.1 - 1e3 * z).abs() <= up.error(), "{middle:?} for {z}");
+            // From the axis, which points up to the tip, towards increasing angles, to the right.
+            let leans = (head.0 - tail.0).atan2(tail.1 - head.1).to_degrees();
+            assert!(((leans - q + 180.0).rem_euclid(360.0) - 180.0).abs() < 0.5, "{leans} for {q}");
+            // A fifteenth of the circumference long.
+            let long = (head.0 - tail.0).hypot(head.1 - tail.1) * per_unit;
+            assert!((long / (core::f64::consts::TAU * 5.0 / 15.0) - 1.0).abs() < 0.01, "{long}");
+        }
+        let classes: Vec<&str> = drawn.iter().map(|path| path.class.as_str()).collect();
+        assert_eq!(classes, ["curve thick a", "curve thick b", "curve thick a", "curve thick a"]);
+        // The number stands at that end of its gauge which is nearer to the tip, on the side to which it leans.
+        for (number, path) in (1..).zip(&drawn) {
+            let [tail, head] = path.pieces[0][..] else { panic!("no line") };
+            let end = if head.1 < tail.1 { head } else { tail };
+            let side = if number == 2 { -8.0 } else { 8.0 };
+            let label = texts(&svg).into_iter().find(|text| text.text == number.to_string()).unwrap();
+            assert!(
+                (label.at.0 - end.0 - side).abs() < 0.2 && (label.at.1 - end.1 - 2.0).abs() < 0.2,
+                "{label:?}"
+            );
+        }
+        let line = |class: &str| all.iter().find(|path| path.class == class).unwrap().pieces[0][0].1;
+        assert!(up.at(line("axis")).abs() <= up.error() && (up.at(line("rim")) - 20.0).abs() <= up.error());
+    }
+}

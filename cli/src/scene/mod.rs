@@ -2,6 +2,7 @@
 //!
 //! Format, units and defaults are documented in `examples/scenes/README.md`, and nowhere else.
 
+mod hostile;
 mod simulated;
 mod stages;
 mod surface;
@@ -119,6 +120,14 @@ impl Scene {
     }
 }
 
+#[cfg(test)]
+impl Scene {
+    /// A scene of this text.
+    pub(crate) fn read(text: &str, name: &str, folder: &Path) -> Result<Self, String> {
+        parse(text, name, folder).map_err(|(_, message)| message)
+    }
+}
+
 /// Line, if it is known, and sentence.
 type Fault = (Option<usize>, String);
 
@@ -228,7 +237,7 @@ mod tests {
         "version = 1\n[input]\nconvention = \"reaction\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
 
     fn check(text: &str) -> Result<Scene, String> {
-        parse(text, "test", Path::new("")).map_err(|(_, message)| message)
+        Scene::read(text, "test", Path::new(""))
     }
 
     #[test]

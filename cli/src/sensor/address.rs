@@ -223,4 +223,62 @@ mod tests {
         assert!(address.whole::<u16>("http").unwrap_err().contains("99999"));
         assert!(address.needed("counts_per_N", "what").unwrap_err().contains("?counts_per_N="));
     }
+
+    #[test]
+    fn hosts_have_the_port_that_is_given_or_the_usual_one() {
+        for (place, with, without) in [
+            ("tip.local", "tip.local:7", "tip.local"),
+            ("tip.local:80", "tip.local:80", "tip.local"),
+            ("tip.local:none", "tip.local:none:7", "tip.local:none"),
+            ("[::1]:80", "[::1]:80", "[::1]"),
+            ("[::1]", "[::1]:7", "[::1]"),
+            ("fe80::1", "fe80::1:7", "fe80::1"),
+        ] {
+            let address: Address = format!("ati://{place}").parse().unwrap();
+            assert_eq!((address.host(7), address.host_only()), (with.to_owned(), without.to_owned()));
+            assert_eq!(address.to_string(), format!("ati://{place}"));
+        }
+    }
+
+    #[test]
+    fn every_protocol_has_its_place() {
+        for (name, protocol, options) in Protocol::ALL {
+            let is_network = matches!(protocol, Protocol::Ati | Protocol::OnRobot | Protocol::Schunk);
+            let bare = name.parse::<Address>();
+            match protocol {
+                Protocol::Simulated => assert_eq!(bare.unwrap().place, ""),
+                _ if is_network => assert_eq!(bare.unwrap().place, "127.0.0.1"),
+                _ => assert!(bare.unwrap_err().contains(&format!("For example {name}"))),
+            }
+            let address: Address =
+                format!("{}://there?{}=3", name.to_uppercase(), options[0]).parse().unwrap();
+            assert_eq!(
+                (address.protocol, address.place.as_str(), address.over_tcp),
+                (protocol, "there", false)
+            );
+            assert_eq!(address.option(options[0]), Some("3"));
+            assert_eq!(address.is_simulated(), name == "sim");
+            let over_tcp = format!("{name}+tcp://there").parse::<Address>();
+            let is_serial = ["bota", "robotous", "dynpick", "optoforce", "resense"].contains(&name);
+            assert_eq!(over_tcp.is_ok_and(|address| address.over_tcp), is_serial, "{name}");
+            assert_eq!(protocol.is_serial(), is_serial);
+        }
+        let error = "bota+tcp".parse::<Address>().unwrap_err();
+        assert!(error.contains("For example bota+tcp://127.0.0.1:4000"), "{error}");
+    }
+
+    #[test]
+    fn numbers_of_an_address_are_numbers() {
+        let address: Address =
+            "ati://x?rate_Hz=5&rate_Hz=7&&counts_per_N=0&counts_per_Nm=inf&http=80".parse().unwrap();
+        // The last one counts.
+        assert_eq!(address.positive("rate_Hz"), Ok(Some(7.0)));
+        assert_eq!(address.needed("rate_Hz", ""), Ok(7.0));
+        assert_eq!(address.number("counts_per_N"), Ok(Some(0.0)));
+        assert!(address.positive("counts_per_N").unwrap_err().contains("counts_per_N=0 must be above 0"));
+        assert!(address.number("counts_per_Nm").unwrap_err().contains("counts_per_Nm=inf is not a number"));
+        assert_eq!(address.whole::<u16>("http"), Ok(Some(80)));
+        assert_eq!(address.whole::<u16>("seed"), Ok(None));
+        assert_eq!(address.number("seed"), Ok(None));
+    }
 }

@@ -82,6 +82,7 @@ impl Feed for CanFeed {
 mod tests {
     use super::super::address::Address;
     use super::super::open;
+    use super::{Id, exactly, identifier};
 
     #[test]
     fn what_is_wrong_is_named() {
@@ -93,6 +94,27 @@ mod tests {
         ] {
             let error = open(&address.parse::<Address>().unwrap()).map(|_| ()).unwrap_err();
             assert!(error.contains(expected), "{error}");
+        }
+    }
+
+    #[test]
+    fn three_digits_are_eleven_bits_and_more_are_twenty_nine() {
+        let of = |digits: &str| {
+            let address: Address = format!("robotous+can://can0?first={digits}").parse().unwrap();
+            identifier(&address, "first").map(|id| match id {
+                Id::Standard(id) => (u32::from(id.as_raw()), false),
+                Id::Extended(id) => (id.as_raw(), true),
+            })
+        };
+        assert_eq!((of("64"), of("7ff"), of("0")), (Ok((0x64, false)), Ok((0x7ff, false)), Ok((0, false))));
+        assert_eq!((of("0064"), of("1fffffff")), (Ok((0x64, true)), Ok((0x1fff_ffff, true))));
+        assert!(of("800").is_err() && of("20000000").is_err() && of("xyz").is_err());
+        // A filter compares all bits, and the mark of the longer format.
+        for (digits, number) in [("64", 0x64_u32), ("0064", 0x8000_0064)] {
+            let address: Address = format!("robotous+can://can0?first={digits}").parse().unwrap();
+            let filter = format!("{:?}", exactly(identifier(&address, "first").unwrap()));
+            let expected = format!("{:?}", socketcan::CanFilter::new(number, 0x9fff_ffff));
+            assert_eq!(filter, expected);
         }
     }
 }

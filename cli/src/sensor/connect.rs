@@ -207,3 +207,121 @@ fn bytes(digits: &str) -> Result<Vec<u8>, String> {
         .map(|at| digits.get(at..at + 2).and_then(|pair| u8::from_str_radix(pair, 16).ok()).ok_or_else(wrong))
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::io::{self, Read, Write};
+
+    use super::super::address::Address;
+    use super::super::line::{Line, asked, streaming};
+    use super::super::{Feed, Next};
+    use super::{DynPickDecoder, ask, bytes, counts, open};
+    use fingertip_drivers::sensors::AxisCounts;
+
+    /// A device that has so much to say, a few bytes at a time, and then keeps silent or fails.
+    struct Told {
+        says: Vec<u8>,
+        then: io::ErrorKind,
+    }
+
+    impl Read for Told {
+        fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+            if self.says.is_empty() {
+                return Err(self.then.into());
+            }
+            let length = buffer.len().min(3).min(self.says.len());
+            buffer[..length].copy_from_slice(&self.says[..length]);
+            self.says.drain(..length);
+            Ok(length)
+        }
+    }
+
+    impl Write for Told {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            if self.then == io::ErrorKind::BrokenPipe { Err(self.then.into()) } else { Ok(bytes.len()) }
+        }
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    fn told(says: &[u8], then: io::ErrorKind) -> Told {
+        Told { says: says.to_vec(), then }
+    }
+
+    #[test]
+    fn an_answer_is_a_line_of_text_or_as_much_as_comes() {
+        use io::ErrorKind::{BrokenPipe, PermissionDenied, TimedOut, WouldBlock};
+        let answer = |says: &[u8], then| ask(&mut told(says, then), b"p");
+        assert_eq!(answer(b"24.9,24.9\nmore", PermissionDenied).unwrap(), b"24.9,24.9\n");
+        for silent in [TimedOut, WouldBlock] {
+            assert_eq!(answer(b"24.9", silent).unwrap(), b"24.9");
+            assert_eq!(answer(b"", silent).unwrap(), b"");
+        }
+        // A device that never ends its line is cut short.
+        assert_eq!(answer(&[b'7'; 500], PermissionDenied).unwrap(), [b'7'; 200]);
+        assert_eq!(answer(b"24", PermissionDenied).unwrap_err().kind(), PermissionDenied);
+        assert_eq!(answer(b"24", BrokenPipe).unwrap_err().kind(), BrokenPipe);
+    }
+
+    #[test]
+    fn requests_that_are_not_answered_are_lost() {
+        let decoder = || DynPickDecoder::new(AxisCounts::uniform(40.0, 1640.0).unwrap());
+        let line = || Box::new(told(b"", io::ErrorKind::TimedOut)) as Box<dyn Line>;
+        let mut feed = asked(line(), decoder(), b"R".to_vec(), |_| Some(1));
+        assert_eq!(feed.losses().lost, Some(1));
+        for expected in 1..5 {
+            assert!(matches!(feed.next(), Ok(Next::Silence)));
+            assert_eq!(feed.losses().lost, Some(expected));
+        }
+        let mut gone =
+            asked(Box::new(told(b"", io::ErrorKind::BrokenPipe)), decoder(), b"R".to_vec(), |_| None);
+        assert!(gone.next().unwrap_err().starts_with("cannot ask the sensor"));
+        assert_eq!(gone.losses().lost, Some(0));
+        // One that streams by itself tells what its decoder knows.
+        let feed: Box<dyn Feed> = streaming(line(), decoder(), b"S", |_| Some(7)).unwrap();
+        assert_eq!(feed.losses().lost, Some(7));
+        let broken = streaming(Box::new(told(b"", io::ErrorKind::BrokenPipe)), decoder(), b"S", |_| None);
+        assert!(broken.err().unwrap().starts_with("cannot tell the sensor to start"));
+    }
+
+    #[test]
+    fn bytes_are_pairs_of_hexadecimal_digits() {
+        assert_eq!(bytes("3A0a00ff"), Ok(vec![0x3a, 0x0a, 0x00, 0xff]));
+        for wrong in ["", "3", "3A0", "3G", "ä", "+1"] {
+            assert_eq!(
+                bytes(wrong).is_ok(),
+                // `from_str_radix` takes a sign.
+                wrong == "+1",
+                "{wrong}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_an_address_lacks_or_has_too_much_is_named() {
+        for (address, expected) in [
+            ("robotous:///dev/null?counts_per_N=5", "belong together"),
+            ("ati://127.0.0.1:9?counts_per_N=5", "belong together"),
+            ("dynpick:///no/such?counts_per_N=5&counts_per_Nm=7", "cannot open /no/such at 921600 baud"),
+            ("dynpick:///no/such", "cannot open /no/such at 921600 baud"),
+            ("robotous:///no/such", "cannot open /no/such at 115200 baud"),
+            ("bota:///no/such?baud=9600", "cannot open /no/such at 9600 baud"),
+            ("bota:///no/such?rate_Hz=0", "rate_Hz=0 must be above 0"),
+            ("optoforce:///no/such?counts_per_N=5", "counts_per_Nm is needed"),
+            ("optoforce:///no/such?counts_per_N=5&counts_per_Nm=5&rate_Hz=50", "1000, 333, 100, 30 and 10"),
+            ("optoforce:///no/such?counts_per_N=5&counts_per_Nm=5&rate_Hz=333", "at 1000000 baud"),
+            ("resense:///no/such?greatest_N=5", "greatest_Nm is needed"),
+            ("resense:///no/such?greatest_N=5&greatest_Nm=1&request=3", "two for each byte"),
+            ("resense:///no/such?greatest_N=5&greatest_Nm=1", "at 2000000 baud"),
+            ("bota+tcp://127.0.0.1:1", "cannot connect to 127.0.0.1:1"),
+            ("sim?rate_Hz=-1", "rate_Hz=-1 must be above 0"),
+            ("sim?seed=x", "seed=x is not a whole number"),
+        ] {
+            let error = open(&address.parse::<Address>().unwrap()).err().unwrap();
+            assert!(error.contains(expected), "{address}: {error}");
+        }
+        let both: Address = "robotous:///x?counts_per_N=5&counts_per_Nm=7".parse().unwrap();
+        assert_eq!(counts(&both).unwrap(), Some(AxisCounts::uniform(5.0, 7.0).unwrap()));
+    }
+}

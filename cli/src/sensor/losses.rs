@@ -77,3 +77,33 @@ impl fmt::Display for Losses {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{LinkStatistics, Losses};
+
+    #[test]
+    fn losses_add_up_and_are_said_as_far_as_they_are_known() {
+        let all =
+            Losses { lost: Some(1200), late: 2, duplicates: 3, corrupt: 4, skipped_bytes: 5, restarts: 6 };
+        let said = "1\u{202f}200 lost, 2 late, 3 repeated, 4 damaged, 5 bytes skipped, counted anew 6 times";
+        assert_eq!(all.to_string(), said);
+        let twice =
+            Losses { lost: Some(2400), late: 4, duplicates: 6, corrupt: 8, skipped_bytes: 10, restarts: 12 };
+        assert_eq!(all.and(all), twice);
+        let untold = Losses { lost: None, corrupt: 1, ..Losses::default() };
+        assert_eq!(untold.to_string(), "lost: not told, 1 damaged");
+        assert_eq!((untold.and(untold).lost, untold.and(all).lost), (None, Some(1200)));
+        assert_eq!(Losses { lost: Some(0), ..untold }.to_string(), "0 lost, 0 late, 0 repeated, 1 damaged");
+    }
+
+    #[test]
+    fn what_a_link_says_is_taken_over() {
+        let mut link = LinkStatistics::default();
+        (link.lost, link.late, link.duplicates, link.restarts) = (1, 2, 3, 4);
+        (link.corrupt, link.doubtful) = (5, 60);
+        let expected =
+            Losses { lost: Some(1), late: 2, duplicates: 3, corrupt: 65, skipped_bytes: 0, restarts: 4 };
+        assert_eq!(Losses::of_link(&link), expected);
+    }
+}

@@ -86,3 +86,32 @@ impl Feed for Simulated {
         Losses { lost: Some(0), ..Losses::default() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use fingertip_drivers::SignalSource;
+    use fingertip_simulation::{Options, Script, SimulatedFingertip};
+
+    use super::{Rounds, fresh};
+
+    #[test]
+    fn a_session_begins_anew_and_its_time_goes_on() {
+        let options = Options { sample_rate: 100.0, ..Options::default() };
+        let session = SimulatedFingertip::new(&Script::default().rest(0.5), options).unwrap();
+        let round: Vec<_> = session.clone().collect();
+        let mut rounds = Rounds::new(session);
+        for number in 0..3 * round.len() {
+            let Ok(Some(sample)) = rounds.next_signals() else { panic!("no sample") };
+            let expected = number as f64 * 0.01;
+            assert!((sample.time.unwrap() - expected).abs() < 1e-9, "{:?} for {expected}", sample.time);
+            assert_eq!(sample.value, round[number % round.len()].raw);
+        }
+    }
+
+    #[test]
+    fn an_address_sets_the_rate_and_the_seed() {
+        let options = |text: &str| *fresh(&text.parse().unwrap()).unwrap().options();
+        assert_eq!((options("sim").sample_rate, options("sim").seed), (1000.0, 1));
+        assert_eq!((options("sim?rate_Hz=250").sample_rate, options("sim?seed=9").seed), (250.0, 9));
+    }
+}

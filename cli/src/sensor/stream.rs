@@ -176,6 +176,33 @@ mod tests {
     use super::super::{Feed, Losses, Next, Reading};
     use super::{Event, Stream, StreamOptions};
 
+    /// Gives what it is told to, then silence.
+    struct Told(Vec<Result<Next, String>>);
+
+    impl Feed for Told {
+        fn next(&mut self) -> Result<Next, String> {
+            if self.0.is_empty() { Ok(Next::Silence) } else { self.0.remove(0) }
+        }
+        fn losses(&self) -> Losses {
+            Losses { lost: Some(1), late: 2, ..Losses::default() }
+        }
+    }
+
+    fn told(silence: Duration, reconnect: bool, connections: Vec<Vec<Result<Next, String>>>) -> Stream {
+        let mut connections = connections.into_iter();
+        let open = move || {
+            let told = connections.next().ok_or_else(|| "not there".to_owned())?;
+            Ok(Box::new(Told(told)) as Box<dyn Feed>)
+        };
+        Stream::new(Box::new(open), StreamOptions { silence, reconnect }).unwrap()
+    }
+
+    const HOUR: Duration = Duration::from_secs(3600);
+
+    fn reading(time: Option<f64>) -> Result<Next, String> {
+        Ok(Next::Reading(Reading { time, wrench: Wrench::zero(), volts: None }))
+    }
+
     /// Gives some samples with times, then fails.
     struct Short(Vec<f64>);
 
@@ -218,5 +245,74 @@ mod tests {
         // The second connection's clock starts anew, at the time that has passed here.
         assert!(times[3] >= 0.3 && times[3] <= begun.elapsed().as_secs_f64(), "{times:?}");
         assert!((times[5] - times[3] - 2.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn silence_is_nothing_until_it_has_lasted() {
+        let mut patient = told(HOUR, false, vec![vec![]]);
+        assert!(matches!(patient.next(), Ok(Event::Nothing)));
+        let mut hasty = told(Duration::ZERO, false, vec![vec![]]);
+        assert_eq!(hasty.next().unwrap_err(), "the sensor sends nothing: no sample for 0 s");
+        let brief = Duration::from_micros(1);
+        let mut hasty = told(brief, false, vec![vec![reading(None)]]);
+        assert!(matches!(hasty.next(), Ok(Event::Sample(..))));
+        std::thread::sleep(2 * brief);
+        assert_eq!(hasty.next().unwrap_err(), "the sensor fell silent: no sample for 0.000001 s");
+    }
+
+    #[test]
+    fn faults_are_passed_on_and_count_as_a_sign_of_life() {
+        let mut stream = told(HOUR, false, vec![vec![Ok(Next::Fault("cut".to_owned())), Ok(Next::End)]]);
+        // As if the sensor had been silent for longer than is allowed.
+        if let Some(long_ago) = Instant::now().checked_sub(2 * HOUR) {
+            stream.heard = long_ago;
+        }
+        assert!(matches!(stream.next(), Ok(Event::Fault(why)) if why == "cut"));
+        assert!(stream.heard.elapsed() < HOUR);
+        assert!(matches!(stream.next(), Ok(Event::End)));
+    }
+
+    #[test]
+    fn samples_that_arrive_together_keep_their_order() {
+        let mut stream = told(HOUR, false, vec![vec![reading(None), reading(None), reading(None)]]);
+        assert!(!stream.is_timed_by_arrival());
+        let mut times = Vec::new();
+        for _ in 0..3 {
+            let Ok(Event::Sample(time, _)) = stream.next() else { panic!("no sample") };
+            times.push(time);
+            // The clock stands still: all three come at one time.
+            stream.heard = stream.begun;
+        }
+        assert!(stream.is_timed_by_arrival());
+        assert!(times[0] == 0.0 && times[1] >= 1e-6 && times[2] - times[1] >= 0.999e-6, "{times:?}");
+        // A clock that has gone on tells the time itself.
+        let mut late = told(HOUR, false, vec![vec![reading(None), reading(None)]]);
+        assert!(matches!(late.next(), Ok(Event::Sample(time, _)) if time == 0.0));
+        if let Some(earlier) = late.begun.checked_sub(Duration::from_secs(100)) {
+            late.begun = earlier;
+            assert!(matches!(late.next(), Ok(Event::Sample(time, _)) if (100.0..3600.0).contains(&time)));
+        }
+    }
+
+    #[test]
+    fn what_is_lost_is_connected_anew_only_if_that_is_wanted() {
+        let connections = || vec![vec![Ok(Next::End)], vec![reading(Some(7.0)), Err("pulled".to_owned())]];
+        let mut once = told(HOUR, false, connections());
+        assert!(matches!(once.next(), Ok(Event::End)));
+        let mut again = told(HOUR, true, connections());
+        assert_eq!((again.losses().lost, again.losses().late), (Some(1), 2));
+        assert!(matches!(again.next(), Ok(Event::Lost(why)) if why == "the line was closed"));
+        // Between connections what was lost before still counts.
+        assert_eq!((again.losses().lost, again.losses().late, again.reconnections()), (Some(1), 2, 0));
+        assert!(matches!(again.next(), Ok(Event::Nothing)));
+        assert_eq!((again.losses().lost, again.losses().late, again.reconnections()), (Some(2), 4, 1));
+        assert!(matches!(again.next(), Ok(Event::Sample(..))));
+        assert!(matches!(again.next(), Ok(Event::Lost(why)) if why.starts_with("pulled; is the sensor on")));
+        // There is no third connection: it goes on trying.
+        assert!(matches!(again.next(), Ok(Event::Nothing)));
+        assert_eq!((again.losses().lost, again.reconnections()), (Some(2), 1));
+        let none = || Err::<Box<dyn Feed>, _>("not there".to_owned());
+        let options = StreamOptions { silence: HOUR, reconnect: true };
+        assert_eq!(Stream::new(Box::new(none), options).err().unwrap(), "not there");
     }
 }

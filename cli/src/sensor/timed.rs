@@ -35,3 +35,40 @@ impl Feed for Timed {
         Losses { lost: Some(counts.missing), late: counts.backward, ..self.feed.losses() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use fingertip::wrench::Wrench;
+
+    use super::super::{Feed, Losses, Next, Reading};
+    use super::Timed;
+
+    /// Gives samples of these times; what is not finite stands for a sample without one.
+    struct At(Vec<f64>);
+
+    impl Feed for At {
+        fn next(&mut self) -> Result<Next, String> {
+            if self.0.is_empty() {
+                return Ok(Next::Silence);
+            }
+            let time = Some(self.0.remove(0)).filter(|time| time.is_finite());
+            Ok(Next::Reading(Reading { time, wrench: Wrench::zero(), volts: None }))
+        }
+        fn losses(&self) -> Losses {
+            Losses { corrupt: 5, ..Losses::default() }
+        }
+    }
+
+    #[test]
+    fn what_is_missing_shows_in_the_times() {
+        // At 100 a second: 0.02 is missing, then 0.05 to 0.07, and 0.03 comes late.
+        let times = vec![0.0, 0.01, 0.03, 0.04, 0.08, f64::NAN, 0.03, 0.09];
+        let mut feed = Timed::new(Box::new(At(times)), 100.0);
+        let mut lost = Vec::new();
+        while let Ok(Next::Reading(_)) = feed.next() {
+            lost.push(feed.losses().lost);
+        }
+        assert_eq!(lost[..6], [Some(0), Some(0), Some(1), Some(1), Some(4), Some(4)]);
+        assert_eq!((feed.losses().late, feed.losses().corrupt), (1, 5));
+    }
+}

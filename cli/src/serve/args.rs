@@ -154,3 +154,56 @@ impl FaultArguments {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Device, FaultArguments};
+
+    const NONE: FaultArguments = FaultArguments {
+        loss: 0.0,
+        duplicate: 0.0,
+        reorder: 0.0,
+        truncate: 0.0,
+        bit_flip: 0.0,
+        lost_byte: 0.0,
+        garbage: 0.0,
+    };
+
+    #[test]
+    fn a_link_has_its_own_faults_each_with_a_probability() {
+        let datagrams = [Device::Ati, Device::Schunk];
+        let serial = [Device::Bota, Device::Robotous, Device::Dynpick, Device::Optoforce, Device::Resense];
+        type Set = fn(&mut FaultArguments) -> &mut f64;
+        let all: [(&str, Set, bool, bool); 7] = [
+            ("--loss", |faults| &mut faults.loss, true, true),
+            ("--duplicate", |faults| &mut faults.duplicate, true, false),
+            ("--reorder", |faults| &mut faults.reorder, true, false),
+            ("--truncate", |faults| &mut faults.truncate, true, false),
+            ("--bit-flip", |faults| &mut faults.bit_flip, false, true),
+            ("--lost-byte", |faults| &mut faults.lost_byte, false, true),
+            ("--garbage", |faults| &mut faults.garbage, false, true),
+        ];
+        for (name, set, of_datagrams, of_serial) in all {
+            for device in datagrams.into_iter().chain(serial) {
+                let check = |chance: f64| {
+                    let mut faults = NONE;
+                    *set(&mut faults) = chance;
+                    faults.check(device)
+                };
+                let has = if datagrams.contains(&device) { of_datagrams } else { of_serial };
+                assert_eq!(check(0.0), Ok(()));
+                for chance in [1e-9, 1.0] {
+                    assert_eq!(check(chance).is_ok(), has, "{name} {chance} of {device:?}");
+                }
+                for chance in [-1e-9, 1.000_001, f64::NAN] {
+                    let error = check(chance).unwrap_err();
+                    assert!(error.contains(name) && error.contains("is no probability"), "{error}");
+                }
+            }
+        }
+        let some = FaultArguments { loss: 0.1, duplicate: 0.2, reorder: 0.3, truncate: 0.4, ..NONE };
+        let plan = some.of_datagrams(7);
+        let parts = [plan.loss, plan.duplication, plan.reorder, plan.truncation];
+        assert_eq!((parts, plan.seed), ([0.1, 0.2, 0.3, 0.4], 7));
+    }
+}

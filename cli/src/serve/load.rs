@@ -109,7 +109,10 @@ fn script(scenario: Scenario) -> Script {
 
 #[cfg(test)]
 mod tests {
-    use super::{Scenario, script};
+    use clap::Parser;
+
+    use super::{Load, Scenario, SimulateArguments, script};
+    use crate::args::{Arguments, Command};
     use fingertip_simulation::{Options, SimulatedFingertip};
 
     #[test]
@@ -122,6 +125,46 @@ mod tests {
                 "{scenario:?}"
             );
             assert_eq!(fingertip.any(|sample| sample.truth.contact.is_some()), scenario != Scenario::Rest);
+        }
+    }
+
+    fn load(more: &[&str]) -> Load {
+        let start = ["fingertip", "simulate", "--serve", "ati", "--scenario", "press"];
+        let arguments: Box<SimulateArguments> = match Arguments::parse_from(start.iter().chain(more)).command
+        {
+            Command::Simulate(arguments) => Box::new(arguments),
+            _ => panic!("another command"),
+        };
+        Load::new(&arguments).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    #[test]
+    fn the_load_is_the_truth_again_and_again() {
+        let options = Options { sample_rate: 50.0, ..Options::default() };
+        let truth: Vec<_> = SimulatedFingertip::new(&script(Scenario::Press), options).unwrap().collect();
+        let mut load = load(&["--rate", "50", "--noise", "0"]);
+        assert!((load.duration() - 11.0).abs() < 1e-9);
+        for number in 0..2 * truth.len() + 10 {
+            assert_eq!(load.samples(), number as u64);
+            assert_eq!(load.next(), truth[number % truth.len()].truth.wrench);
+        }
+        load.restart();
+        assert_eq!(load.next(), truth[0].truth.wrench);
+    }
+
+    #[test]
+    fn noise_has_the_deviation_that_is_asked_for() {
+        let mut load = load(&["--noise", "0.2"]);
+        // The first second is a rest: noise and nothing else.
+        let mut squares = [0.0; 6];
+        for _ in 0..990 {
+            let wrench = load.next().components();
+            squares.iter_mut().zip(wrench.iter()).for_each(|(sum, component)| *sum += component * component);
+        }
+        for (axis, sum) in squares.into_iter().enumerate() {
+            // Of 990 samples a deviation is known to 2.2 %.
+            let expected = if axis < 3 { 0.2 } else { 0.001 };
+            assert!(((sum / 990.0_f64).sqrt() / expected - 1.0).abs() < 0.1, "axis {axis}: {sum}");
         }
     }
 }

@@ -1,8 +1,13 @@
 //! A sphere of which only a cap may touch.
 
+use core::f64::consts::PI;
+
 use fingertip::surfaces::{ActiveSurface, ClosestApproach, Crossing};
 use fingertip::wrench::Line;
 use nalgebra::Vector3;
+
+/// Below every cosine, rounding included.
+const EVERYWHERE: f64 = -2.0;
 
 /// A surface whose active region is where its normal lies within an angle of the pole: on a
 /// sphere, a cap.
@@ -16,13 +21,13 @@ pub(crate) struct Capped<S> {
 impl<S> Capped<S> {
     /// All of the surface.
     pub(crate) fn whole(inner: S, pole: Vector3<f64>) -> Self {
-        // Below every cosine, rounding included.
-        Self { inner, pole, least_cosine: -2.0 }
+        Self { inner, pole, least_cosine: EVERYWHERE }
     }
 
     /// The part within `half_angle` \[rad\] of the unit vector `pole`.
     pub(crate) fn within(inner: S, pole: Vector3<f64>, half_angle: f64) -> Self {
-        Self { inner, pole, least_cosine: half_angle.cos() }
+        let least_cosine = if half_angle < PI { half_angle.cos() } else { EVERYWHERE };
+        Self { inner, pole, least_cosine }
     }
 
     /// The whole surface.
@@ -58,9 +63,10 @@ impl<S: ActiveSurface<f64>> ActiveSurface<f64> for Capped<S> {
 #[cfg(test)]
 mod tests {
     use fingertip::contact::{ContactModel, NoContact, PointContact, Resolution};
-    use fingertip::surfaces::Sphere;
-    use fingertip::wrench::Wrench;
+    use fingertip::surfaces::{ActiveSurface, Sphere};
+    use fingertip::wrench::{Line, Wrench};
     use nalgebra::Vector3;
+    use rand::{RngExt, SeedableRng};
 
     use super::Capped;
 
@@ -89,5 +95,43 @@ mod tests {
             let whole = Capped::whole(sphere, Vector3::x());
             assert!(model.resolve(&wrench, &whole).contact().is_some(), "{angle}");
         }
+    }
+
+    #[test]
+    fn what_is_active_is_what_lies_within_the_angle() {
+        let sphere = Sphere::new(Vector3::new(0.001, -0.002, 0.003), 0.01).unwrap();
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(3);
+        let mut direction = || Vector3::from_fn(|_, _| random.random_range(-1.0..1.0_f64)).normalize();
+        let mut active = [0, 0];
+        for _ in 0..2000 {
+            let (pole, normal) = (direction(), direction());
+            let half_angle: f64 = 1.2;
+            let cap = Capped::within(sphere, pole, half_angle);
+            let expected = normal.angle(&pole) <= half_angle;
+            active[usize::from(expected)] += 1;
+            // A line through the point, along its normal, and one that passes above it.
+            let point = sphere.centre() + normal * 0.01;
+            let line = Line { point, direction: normal };
+            let mut seen = Vec::new();
+            cap.crossings(&line, |crossing| seen.push((crossing.normal, crossing.active)));
+            assert_eq!(seen.len(), 2);
+            for (normal, active) in seen {
+                assert_eq!(active, normal.angle(&pole) <= half_angle);
+            }
+            let aside = normal.cross(&direction()).normalize();
+            let above = Line { point: point + normal * 0.005, direction: aside };
+            let approach = cap.closest_approach(&above);
+            assert_eq!(approach.active, expected);
+            assert!((approach.normal - normal).norm() < 1e-9);
+            assert!((cap.normal(&point) - normal).norm() < 1e-9);
+            // The whole, and a cap of half a turn, leave nothing out: not even the antipode.
+            for all in [Capped::whole(sphere, pole), Capped::within(sphere, pole, core::f64::consts::PI)] {
+                let line = Line { point: sphere.centre(), direction: pole };
+                all.crossings(&line, |crossing| assert!(crossing.active, "{:?}", crossing.normal));
+                assert!(all.closest_approach(&above).active);
+            }
+            assert_eq!(cap.inner().radius(), 0.01);
+        }
+        assert!(active.iter().all(|times| *times > 300), "{active:?}");
     }
 }

@@ -138,9 +138,11 @@ fn across(direction: &Vector3<f64>, candidates: &[Vector3<f64>; 3]) -> Vector3<f
 mod tests {
     use core::f64::consts::PI;
 
-    use nalgebra::Vector3;
+    use nalgebra::{Rotation3, Vector3};
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
 
-    use super::Projection;
+    use super::{MapKind, Projection};
 
     fn axes() -> [Vector3<f64>; 3] {
         [Vector3::x(), Vector3::y(), Vector3::z()]
@@ -182,5 +184,81 @@ mod tests {
         assert_eq!(Projection::plane(Vector3::zeros(), slanted, &axes()).names(), ["right", "up"]);
         let side = Projection::sphere(Vector3::zeros(), Vector3::x(), None, &axes());
         assert_eq!(side.names(), ["y", "z"]);
+    }
+
+    fn turned(random: &mut Pcg64Mcg) -> Rotation3<f64> {
+        Rotation3::from_scaled_axis(Vector3::from_fn(|_, _| random.random_range(-2.0..2.0)))
+    }
+
+    /// Where two short steps on a surface lead on its map, against the steps themselves: maps keep lengths (in the
+    /// middle) and show the surface from outside, so that what turns left there turns left on the map.
+    fn check_at(map: &Projection, at: Vector3<f64>, out: Vector3<f64>, unit: f64, random: &mut Pcg64Mcg) {
+        let mut step = || {
+            let any = Vector3::from_fn(|_, _| random.random_range(-1.0..1.0));
+            (any - out * out.dot(&any)) * 1e-7
+        };
+        let (a, b) = (step(), step());
+        let to = |point: Vector3<f64>| {
+            let ((u, v), (u0, v0)) = (map.project(&point), map.project(&at));
+            ((u - u0) / unit, (v - v0) / unit)
+        };
+        let ((ua, va), (ub, vb)) = (to(at + a), to(at + b));
+        let (lengths, inner, turn) =
+            ((ua * ua + va * va, a.norm_squared()), ua * ub + va * vb, ua * vb - va * ub);
+        assert!((lengths.0 / lengths.1 - 1.0).abs() < 1e-5, "{lengths:?}");
+        assert!((inner - a.dot(&b)).abs() < 1e-5 * a.norm() * b.norm());
+        assert!((turn - out.dot(&a.cross(&b))).abs() < 1e-5 * a.norm() * b.norm());
+    }
+
+    #[test]
+    fn maps_show_the_surface_from_outside_in_every_pose() {
+        let random = &mut Pcg64Mcg::seed_from_u64(7);
+        for _ in 0..200 {
+            let turn = turned(random);
+            let frame = axes().map(|axis| turn * axis);
+            let centre = Vector3::from_fn(|_, _| random.random_range(-0.1..0.1));
+            let out = turned(random) * Vector3::x();
+            check_at(&Projection::plane(centre, out, &frame), centre, out, 1e3, random);
+            let sphere = Projection::sphere(centre, out, None, &frame);
+            check_at(&sphere, centre + out * 0.02, out, 1.0 / 0.02, random);
+            // A cylinder along an axis of its frame keeps lengths everywhere.
+            let cylinder = Projection::cylinder(centre, frame[1], 0.02, None, &frame);
+            let angle = random.random_range(-3.0..3.0_f64);
+            let radial = frame[2] * angle.cos() + frame[0] * angle.sin();
+            check_at(&cylinder, centre + radial * 0.02 + frame[1] * 0.03, radial, 1e3, random);
+            let (u, v) = cylinder.project(&(centre + radial * 0.02 + frame[1] * 0.03));
+            assert!((u - 20.0 * angle).abs() < 1e-6 && (v - 30.0).abs() < 1e-6, "{u} {v}");
+        }
+    }
+
+    #[test]
+    fn directions_are_named_by_the_axes_they_lie_along() {
+        let zero = Vector3::zeros();
+        let names = |map: Projection| map.names();
+        assert_eq!(names(Projection::sphere(zero, Vector3::z(), None, &axes())), ["x", "y"]);
+        assert_eq!(names(Projection::sphere(zero, Vector3::y(), None, &axes())), ["x", "−z"]);
+        assert_eq!(names(Projection::sphere(zero, -Vector3::x(), None, &axes())), ["y", "−z"]);
+        assert_eq!(names(Projection::cylinder(zero, Vector3::y(), 1.0, None, &axes())), ["x", "y"]);
+        assert_eq!(names(Projection::cylinder(zero, Vector3::z(), 1.0, None, &axes())), ["y", "z"]);
+        assert_eq!(names(Projection::cylinder(zero, Vector3::x(), 1.0, None, &axes())), ["−y", "x"]);
+        // A hair beside an axis is not along it.
+        let beside = Vector3::new(1e-4, 0.0, 1.0).normalize();
+        assert_eq!(names(Projection::plane(zero, beside, &axes())), ["right", "y"]);
+        // A direction that leans towards x by less than 30° from its plane still has x to the right.
+        let near = Vector3::new(0.85, 0.0, 0.53).normalize();
+        assert_eq!(names(Projection::sphere(zero, near, None, &axes())), ["right", "y"]);
+        let nearer = Vector3::new(0.88, 0.0, 0.475).normalize();
+        assert_eq!(names(Projection::sphere(zero, nearer, None, &axes())), ["y", "up"]);
+    }
+
+    #[test]
+    fn the_pole_is_the_middle_and_its_antipode_the_edge() {
+        let map = Projection::sphere(Vector3::zeros(), Vector3::x(), Some(1.0), &axes());
+        assert_eq!(map.project(&Vector3::x()), (0.0, 0.0));
+        assert_eq!(map.project(&-Vector3::x()), (2.0, 0.0));
+        assert_eq!(map.project(&Vector3::zeros()), (0.0, 0.0));
+        assert_eq!(map.kind(), MapKind::Polar { rim: Some(1.0) });
+        let map = Projection::cylinder(Vector3::zeros(), Vector3::y(), 0.04, Some(0.011), &axes());
+        assert_eq!(map.kind(), MapKind::Unrolled { radius: 40.0, half_length: Some(11.0) });
     }
 }

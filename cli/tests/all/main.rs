@@ -3,11 +3,17 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, which may fail so")]
 
 mod analyze;
+mod analyze_rows;
 mod calibrate;
 #[path = "../common/mod.rs"]
 mod common;
+mod conversions;
 mod demo;
 mod design;
+mod live;
 mod nano17;
+mod recorded;
+mod reports;
+mod said;
 mod shapes;
 mod streams;

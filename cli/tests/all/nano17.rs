@@ -1,20 +1,10 @@
 //! Real input: two Nano17 under human finger pads, with the scene that ships with the project.
 
-use std::path::PathBuf;
+use fingertip_test_support::recording;
 
-use crate::common::{Contacts, Folder, scene, workspace};
+use crate::common::{Contacts, Folder, scene};
 
-fn recording() -> Option<PathBuf> {
-    let folder =
-        std::env::var_os("FINGERTIP_DATA").map_or_else(|| workspace().join("../shared/data"), PathBuf::from);
-    let path = folder.join("nano17_three_finger/roll.csv");
-    if path.exists() {
-        Some(path)
-    } else {
-        println!("skipped: {} is not there (set FINGERTIP_DATA)", path.display());
-        None
-    }
-}
+const ROLL: &str = "nano17_three_finger/roll.csv";
 
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
@@ -23,7 +13,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 
 #[test]
 fn fingers_on_a_cylinder_are_found_on_their_pads() {
-    let Some(recording) = recording() else { return };
+    let Some(recording) = recording(ROLL) else { return };
     let recording = recording.display().to_string();
     let folder = Folder::new();
     // Median friction ratio and number of samples above 1 N for thumb and ring finger, computed from
@@ -77,7 +67,7 @@ fn fingers_on_a_cylinder_are_found_on_their_pads() {
 
 #[test]
 fn the_other_convention_puts_the_contacts_on_the_far_side() {
-    let Some(recording) = recording() else { return };
+    let Some(recording) = recording(ROLL) else { return };
     let recording = recording.display().to_string();
     let folder = Folder::new();
     let text = std::fs::read_to_string(scene("nano17_cylinder.toml")).unwrap();
@@ -91,7 +81,7 @@ fn the_other_convention_puts_the_contacts_on_the_far_side() {
 
 #[test]
 fn a_choice_between_two_sensors_must_be_made() {
-    let Some(recording) = recording() else { return };
+    let Some(recording) = recording(ROLL) else { return };
     let recording = recording.display().to_string();
     let folder = Folder::new();
     let scene = scene("nano17_cylinder.toml");

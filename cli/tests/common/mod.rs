@@ -37,6 +37,7 @@ impl Folder {
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_fingertip"));
         command.current_dir(&self.0).args(arguments).stdin(Stdio::null());
+        name_test(&mut command);
         command
     }
 
@@ -68,6 +69,103 @@ impl Drop for Folder {
     }
 }
 
+/// Tells a program which test it runs for: `.ci/mutants` wants to know.
+pub(crate) fn name_test(command: &mut Command) {
+    if let Some(name) = std::thread::current().name() {
+        command.env("FINGERTIP_MUTANTS_TEST", name);
+    }
+}
+
+/// Compares a text with the one of `tests/accepted` that somebody has looked at: the same words, and the same
+/// numbers to within one unit of the last place, in which two machines may round apart. With
+/// `FINGERTIP_ACCEPT=1` it is written there instead.
+pub(crate) fn assert_accepted(name: &str, found: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/accepted").join(name);
+    if std::env::var_os("FINGERTIP_ACCEPT").is_some() {
+        fs::write(&path, found).unwrap();
+        return;
+    }
+    let accepted = fs::read_to_string(&path).unwrap();
+    assert_eq!(
+        found.lines().count(),
+        accepted.lines().count(),
+        "{name} has another number of lines:\n{found}"
+    );
+    for (line, (found, accepted)) in found.lines().zip(accepted.lines()).enumerate() {
+        let (mut a, mut b) = (Pieces(found), Pieces(accepted));
+        loop {
+            let (ours, theirs) = (a.next(), b.next());
+            let same = match (&ours, &theirs) {
+                (Some(ours), Some(theirs)) => ours.agrees(theirs),
+                (ours, theirs) => ours.is_none() && theirs.is_none(),
+            };
+            assert!(same, "{name}, line {}: {ours:?} for {theirs:?} in\n{found}", line + 1);
+            if ours.is_none() {
+                break;
+            }
+        }
+    }
+}
+
+/// Cuts a text into numbers and what stands between them.
+struct Pieces<'a>(&'a str);
+
+#[derive(Debug)]
+enum Piece<'a> {
+    Words(&'a str),
+    /// The number, and one unit of its last place.
+    Number(f64, f64),
+}
+
+impl<'a> Iterator for Pieces<'a> {
+    type Item = Piece<'a>;
+
+    fn next(&mut self) -> Option<Piece<'a>> {
+        let text = self.0;
+        let digit = text.find(|c: char| c.is_ascii_digit());
+        let start = digit.map_or(text.len(), |at| if text[..at].ends_with('-') { at - 1 } else { at });
+        if start > 0 {
+            self.0 = &text[start..];
+            return Some(Piece::Words(&text[..start]));
+        }
+        digit?;
+        let digits = |text: &str| text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
+        let sign = usize::from(text.starts_with('-'));
+        let mut end = sign + digits(&text[sign..]);
+        let mut decimals = 0;
+        if text[end..].starts_with('.') && digits(&text[end + 1..]) > 0 {
+            decimals = digits(&text[end + 1..]);
+            end += 1 + decimals;
+        }
+        let mut exponent = 0;
+        if let Some(power) = text[end..].strip_prefix('e') {
+            let sign = usize::from(power.starts_with('-'));
+            let length = digits(&power[sign..]);
+            if length > 0 {
+                exponent = power[..sign + length].parse().unwrap();
+                end += 1 + sign + length;
+            }
+        }
+        let number = text[..end].parse().unwrap();
+        self.0 = &text[end..];
+        Some(Piece::Number(number, 10_f64.powi(exponent - decimals as i32)))
+    }
+}
+
+impl Piece<'_> {
+    fn agrees(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Piece::Words(a), Piece::Words(b)) => a == b,
+            // Whole numbers are counts, which are the same everywhere.
+            (Piece::Number(a, unit), Piece::Number(b, other)) => {
+                let unit = unit.min(*other);
+                a == b || unit != 1.0 && (a - b).abs() <= unit * (1.0 + 1e-9)
+            }
+            _ => false,
+        }
+    }
+}
+
 /// A port where nobody listens, and nobody will: it is below those that systems give away by themselves.
 pub(crate) fn unused_port() -> u16 {
     static NEXT: AtomicU32 = AtomicU32::new(0);
@@ -80,14 +178,10 @@ pub(crate) fn unused_port() -> u16 {
     }
 }
 
-/// The root of the workspace.
-pub(crate) fn workspace() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_owned()
-}
-
 /// A scene that ships with the project.
 pub(crate) fn scene(name: &str) -> String {
-    workspace().join("examples/scenes").join(name).display().to_string()
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    workspace.join("examples/scenes").join(name).display().to_string()
 }
 
 /// The rows of a `contacts.csv` by the names of its columns.

@@ -1,8 +1,8 @@
 //! The commands that calibrate, from outside.
 
-mod payload;
+pub(crate) mod payload;
 mod sensor;
-mod surface;
+pub(crate) mod surface;
 mod temperature;
 
 use crate::common::Folder;

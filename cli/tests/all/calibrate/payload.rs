@@ -30,7 +30,7 @@ const HEADER: &str = "qx,qy,qz,qw,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n";
 const SCENE: &str = "version = 1\n[input]\nconvention = \"on_fingertip\"\nsample_rate_Hz = 100.0\n\
                      [surface]\nshape = \"sphere\"\nradius_m = 0.01\n[contact]\nleast_force_N = 0.05\n";
 
-fn poses(mount: &Rotation3<f64>) -> String {
+pub(crate) fn poses(mount: &Rotation3<f64>) -> String {
     (0..10).fold(HEADER.to_owned(), |text, i| text + &row(&turn(i), mount, None))
 }
 

@@ -57,7 +57,7 @@ fn a_stream_gives_the_same_matrix() {
         rows.split(['[', ']', ',', '\n']).filter_map(|cell| cell.trim().parse().ok()).collect()
     };
     let (all, stream) = (numbers("all.toml"), numbers("stream.toml"));
-    assert_eq!(all.len(), 36);
+    assert_eq!((all.len(), stream.len()), (36, 36));
     assert!(all.iter().zip(&stream).all(|(a, b)| (a - b).abs() < 1e-12));
     folder.write("bad.csv", &super::loads(1.0).replacen(",10,", ",x,", 1));
     let error = folder.fail(1, &["calibrate", "bad.csv", "--stream"]);

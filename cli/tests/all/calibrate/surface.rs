@@ -18,7 +18,7 @@ fn row(random: &mut Pcg64Mcg, point: &Vector3<f64>, normal: &Vector3<f64>, cells
     format!("{},{},{},{},{},{}{cells}\n", f.x, f.y, f.z, m.x, m.y, m.z)
 }
 
-fn touches(shape: &str) -> String {
+pub(crate) fn touches(shape: &str) -> String {
     let random = &mut Pcg64Mcg::seed_from_u64(5);
     let wrench = "fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm";
     let centre = Vector3::new(0.001, -0.002, 0.004);
