@@ -26,6 +26,13 @@ impl<T: Real> SurfaceLaws<T> {
         let disagrees = (distance_from_line(&found.point) - found.gap).abs();
         self.expect(Law::ClosestOnSurface, line, disagrees, allowed)?;
         self.expect(Law::ClosestOnSurface, line, -found.gap, T::zero())?;
+        let norm_error = (length(&found.normal) - T::one()).abs();
+        self.expect(Law::UnitNormal, line, norm_error, self.roundings * T::EPSILON)?;
+        // On an edge, any normal of it will do.
+        if !self.edges {
+            let turned = length(&(surface.normal(&found.point) - found.normal));
+            self.expect(Law::NormalAgrees, line, turned, self.half_the_digits())?;
+        }
         self.expect_on_surface(
             Law::ClosestOnSurface,
             surface,

@@ -3,6 +3,10 @@
 use fingertip_wrench::Real;
 use nalgebra::{Matrix3, Vector3};
 
+use super::proper::is_covariance;
+use crate::BadShape;
+use crate::numeric::vectors::is_finite;
+
 /// How a surface changes near a contact, per unit of one of its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GeometrySensitivity<T: Real> {
@@ -93,5 +97,22 @@ impl<T: Real> GeometryUncertainty<T> {
             attitude: Matrix3::zeros(),
             pivot: Vector3::zeros(),
         }
+    }
+
+    /// Itself, if it can be: for numbers that come from elsewhere.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless all numbers are finite, the variance is not negative, and the covariances are
+    /// symmetric and have no negative variance in any direction, but for rounding.
+    pub fn checked(self) -> Result<Self, BadShape> {
+        let check = |parameter, good| {
+            let requirement = "finite, symmetric and without a negative variance";
+            BadShape::check("geometry's uncertainty", parameter, requirement, good)
+        };
+        check("offset", self.offset.is_number() && self.offset >= T::zero())?;
+        check("position", is_covariance(&self.position))?;
+        check("attitude", is_covariance(&self.attitude))?;
+        BadShape::check("geometry's uncertainty", "pivot", "finite", is_finite(&self.pivot))?;
+        Ok(self)
     }
 }

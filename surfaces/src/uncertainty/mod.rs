@@ -17,6 +17,7 @@ mod covariance;
 mod geometry;
 mod jacobian;
 mod paper;
+mod proper;
 mod sensor;
 mod skin;
 mod spread;

@@ -306,6 +306,46 @@ fn friction_sets_candidates_aside() {
     assert!(strict.candidates(&wrench, &ring, |_| ()).is_err());
 }
 
+/// A line that is tangent is a contact without a normal force, which no friction holds: with any limit it
+/// is refused. On shapes that are entered once, and on others.
+#[test]
+fn tangent_lines_and_friction() {
+    let limited = model().with_greatest_friction(5.0).unwrap();
+    // Tangent to the rounding: lines a few units in the last place inside and outside of the surface.
+    let ring = Torus::new(0.02, 0.005).unwrap();
+    let tube = Cylinder::new(Vector3::zeros(), Vector3::z(), 0.025).unwrap();
+    let ball = Sphere::centred(0.025).unwrap();
+    let (mut touched, mut refused) = (0, 0);
+    for ulps in -40..=40_i32 {
+        let wrench =
+            Wrench::from_force_at(&v(0.025 + 3.5e-18 * f64::from(ulps), 0.0, 0.0), v(0.0, -1.0, 0.0));
+        for free in [
+            model().resolve(&wrench, &ring),
+            model().resolve(&wrench, &tube),
+            model().resolve(&wrench, &ball),
+        ] {
+            match free {
+                Resolution::Contact(contact) => {
+                    touched += 1;
+                    assert!(contact.incidence() < 1e-6, "{contact:?}");
+                }
+                other => {
+                    assert!(matches!(other, Resolution::NoContact(NoContact::Misses { .. })), "{other:?}")
+                }
+            }
+        }
+        for held in [
+            limited.resolve(&wrench, &ring),
+            limited.resolve(&wrench, &tube),
+            limited.resolve(&wrench, &ball),
+        ] {
+            assert!(held.contact().is_none(), "{ulps} {held:?}");
+            refused += 1;
+        }
+    }
+    assert!(touched > 20 && refused == 243, "{touched} {refused}");
+}
+
 #[test]
 fn thresholds_are_validated() {
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
