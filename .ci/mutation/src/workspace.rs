@@ -1,0 +1,92 @@
+//! The packages of the workspace and the sources in which faults are put.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde::Deserialize;
+
+use crate::Failure;
+
+/// Where a sample's time or a sensor's bytes go through. What is off line has faults drawn by `--package`.
+const HOT: &[&str] = &[
+    "wrench/src/",
+    "surfaces/src/batch/",
+    "surfaces/src/contact/",
+    "surfaces/src/soft_finger/",
+    "surfaces/src/shapes/",
+    "surfaces/src/numeric/",
+    "contact/src/",
+    "friction/src/",
+    "drivers/src/",
+    "calibration/src/tare.rs",
+    "src/",
+];
+
+/// Never: they are tests, or serve tests.
+const NOT: &[&str] = &["/tests/", "/testing/", "/testing.rs", "_tests.rs", "/fuzz/", "/examples/", "/test_"];
+
+#[derive(Debug, Deserialize)]
+pub struct Package {
+    pub name: String,
+    manifest_path: PathBuf,
+}
+
+impl Package {
+    pub fn folder(&self) -> &Path {
+        self.manifest_path.parent().unwrap_or(Path::new("."))
+    }
+}
+
+#[derive(Deserialize)]
+struct Metadata {
+    packages: Vec<Package>,
+}
+
+/// The packages of the workspace in `root`.
+pub fn packages(root: &Path) -> Result<Vec<Package>, Failure> {
+    let output = Command::new("cargo")
+        .args(["metadata", "--format-version=1", "--no-deps"])
+        .current_dir(root)
+        .output()?;
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).into());
+    }
+    Ok(serde_json::from_slice::<Metadata>(&output.stdout)?.packages)
+}
+
+/// All files that git knows or would take, from the root.
+pub fn files(root: &Path) -> Result<Vec<String>, Failure> {
+    let output = Command::new("git")
+        .args(["ls-files", "--cached", "--others", "--exclude-standard", "-z"])
+        .current_dir(root)
+        .output()?;
+    let names = String::from_utf8(output.stdout)?;
+    let mut names: Vec<String> =
+        names.split('\0').filter(|name| root.join(name).is_file()).map(str::to_owned).collect();
+    names.sort();
+    names.dedup();
+    Ok(names)
+}
+
+/// The package that holds a file: the one with the deepest folder above it.
+pub fn package_of<'a>(root: &Path, packages: &'a [Package], file: &str) -> Option<&'a Package> {
+    let file = root.join(file);
+    packages
+        .iter()
+        .filter(|package| file.starts_with(package.folder()))
+        .max_by_key(|package| package.folder().components().count())
+}
+
+/// Whether faults may be put into a file at all.
+pub fn is_source(file: &str) -> bool {
+    let in_sources = file.starts_with("src/") || file.contains("/src/");
+    file.ends_with(".rs")
+        && in_sources
+        && !["tests/", "examples/", "benches/", "."].iter().any(|start| file.starts_with(start))
+        && !NOT.iter().any(|part| file.contains(part))
+}
+
+/// Whether a file is drawn from when no package is asked for.
+pub fn is_hot(file: &str) -> bool {
+    HOT.iter().any(|start| file.starts_with(start))
+}
