@@ -3,6 +3,7 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
+use crate::numeric::covariance::is_covariance;
 use crate::numeric::vectors::length;
 use crate::{BadShape, ContactModel, NoContact, PointContact, Resolution, SoftFinger, SoftFingerSurface};
 
@@ -60,10 +61,11 @@ impl<T: Real> Auto<T> {
     /// threshold is 6.635, which one wrench in a hundred of a point contact exceeds.
     ///
     /// # Errors
-    /// [`BadShape`] unless the covariance is finite and has no negative variance.
+    /// [`BadShape`] unless the covariance is finite, symmetric and has no negative variance in any direction,
+    /// but for rounding.
     pub fn new(point: PointContact<T>, soft: SoftFinger<T>, noise: Matrix6<T>) -> Result<Self, BadShape> {
-        let good = noise.iter().all(|x| x.is_number()) && noise.diagonal().iter().all(|x| *x >= T::zero());
-        BadShape::check("pitch test", "covariance", "finite, with no negative variance", good)?;
+        let requirement = "finite, symmetric and without a negative variance";
+        BadShape::check("pitch test", "covariance", requirement, is_covariance(&noise))?;
         Ok(Self { point, soft, noise, threshold: T::literal(6.634_896_601_021_213), greatest_pitch: None })
     }
 

@@ -1,6 +1,7 @@
 //! Numerical tools that several shapes share.
 
 pub(crate) mod closest;
+pub(crate) mod covariance;
 pub(crate) mod ellipse;
 pub(crate) mod interval;
 pub(crate) mod quadratic;

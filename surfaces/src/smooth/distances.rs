@@ -121,7 +121,7 @@ impl<T: Real> SmoothSurface<T> for Cylinder<T> {
     fn extent(&self) -> Extent<T> {
         Extent {
             centre: self.centre(),
-            radius: self.half_length().map_or(self.radius(), |half| half.max(self.radius())),
+            radius: self.half_length().map_or(self.radius(), |half| hypotenuse(half, self.radius())),
         }
     }
 

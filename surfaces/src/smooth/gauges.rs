@@ -5,7 +5,7 @@ use fingertip_wrench::Real;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use super::flat_ends::Face;
-use crate::numeric::vectors::length;
+use crate::numeric::vectors::{hypotenuse, length};
 use crate::{
     ActiveSurface, Corner, CylinderEnds, Ellipsoid, EllipticCylinder, Extent, Level, Paraboloid,
     SmoothSurface, Superquadric, Topology,
@@ -58,7 +58,8 @@ impl<T: Real> SmoothSurface<T> for EllipticCylinder<T> {
             CylinderEnds::Unbounded => T::zero(),
             CylinderEnds::Open(half) | CylinderEnds::Capped(half) => half,
         };
-        Extent { centre: Vector3::zeros(), radius: a.max(b).max(half) }
+        // As far as the rims, which lie beyond both.
+        Extent { centre: Vector3::zeros(), radius: hypotenuse(a.max(b), half) }
     }
 
     fn topology(&self) -> Topology {

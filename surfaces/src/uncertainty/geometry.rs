@@ -3,8 +3,8 @@
 use fingertip_wrench::Real;
 use nalgebra::{Matrix3, Vector3};
 
-use super::proper::is_covariance;
 use crate::BadShape;
+use crate::numeric::covariance::is_covariance;
 use crate::numeric::vectors::is_finite;
 
 /// How a surface changes near a contact, per unit of one of its parameters.

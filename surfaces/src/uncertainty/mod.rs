@@ -17,7 +17,6 @@ mod covariance;
 mod geometry;
 mod jacobian;
 mod paper;
-mod proper;
 mod sensor;
 mod skin;
 mod spread;

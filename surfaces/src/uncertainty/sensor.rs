@@ -3,8 +3,8 @@
 use fingertip_wrench::{Real, Wrench, WrenchSolver, stored};
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 
-use super::proper::is_covariance;
 use crate::BadShape;
+use crate::numeric::covariance::is_covariance;
 
 const SHAPE: &str = "sensor uncertainty";
 const COVARIANCE: &str = "finite, symmetric and without a negative variance";

@@ -50,6 +50,23 @@ fn of_the_signals_and_the_calibration() {
     assert!((found - Matrix6::identity() * 1e-6).norm() < 1e-20);
 }
 
+/// Of the pitch test and of fusion with an array; the latter divides by it.
+#[test]
+fn of_the_wrench() {
+    let auto = |noise| Auto::new(PointContact::new(0.0).unwrap(), SoftFinger::new(0.0).unwrap(), noise);
+    let mut flat = Matrix6::identity();
+    flat[(3, 3)] = 0.0;
+    assert!(auto(flat).is_ok() && Fusion::new(Matrix6::identity(), 0.5).is_ok());
+    for matrix in bad() {
+        assert_eq!(auto(matrix).unwrap_err().parameter, "covariance", "{matrix}");
+        assert_eq!(Fusion::new(matrix, 0.5).unwrap_err().parameter, "covariance of the wrench", "{matrix}");
+    }
+    assert!(Fusion::new(flat, 0.5).is_err());
+    for friction in [0.0, -0.5, f64::NAN, f64::INFINITY] {
+        assert_eq!(Fusion::new(Matrix6::identity(), friction).unwrap_err().parameter, "friction coefficient");
+    }
+}
+
 #[test]
 fn of_a_data_sheet() {
     let floor = Vector6::repeat(0.1);

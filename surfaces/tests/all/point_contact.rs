@@ -1,7 +1,7 @@
 //! Point contact: typed outcomes, and the failures of other libraries that do not happen here.
 
 use fingertip_surfaces::*;
-use fingertip_wrench::{Real, RigidTransform, Wrench};
+use fingertip_wrench::{Line, Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -212,6 +212,12 @@ fn an_edge_is_pressed_or_missed_by_a_hair() {
                 Resolution::Contact(contact) => {
                     let pull = push.dot(&contact.normal) / push.norm();
                     assert!(pull <= T::EPSILON * T::literal(64.0), "{wrench:?} {contact:?}");
+                    if k % 3 == 0 {
+                        // Of a face that the point lies on.
+                        let half = v(0.8, 0.6, 0.5).map(T::literal).dot(&contact.normal.abs());
+                        let off = (contact.point.dot(&contact.normal) - half).abs();
+                        assert!(off <= T::EPSILON * T::literal(64.0), "{wrench:?} {contact:?}");
+                    }
                     pressed += 1;
                 }
                 Resolution::NoContact(NoContact::Misses { gap, closest, .. }) => {
@@ -344,6 +350,46 @@ fn tangent_lines_and_friction() {
         }
     }
     assert!(touched > 20 && refused == 243, "{touched} {refused}");
+}
+
+/// A sphere that tells of a point how far outside it is, right or wrong.
+struct Telling(f64);
+
+impl ActiveSurface<f64> for Telling {
+    fn crossings(&self, line: &Line<f64>, visit: impl FnMut(Crossing<f64>)) {
+        tip().crossings(line, visit);
+    }
+
+    fn closest_approach(&self, line: &Line<f64>) -> ClosestApproach<f64> {
+        tip().closest_approach(line)
+    }
+
+    fn normal(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        tip().normal(point)
+    }
+
+    fn outside_by(&self, _: &Vector3<f64>) -> f64 {
+        self.0
+    }
+}
+
+/// At a flat angle a contact is moved along the line by what rounding explains, and by no more.
+#[test]
+fn only_rounding_is_undone_at_a_flat_angle() {
+    let point = v(0.0, 0.013, 0.0);
+    for cosine in [0.05, 0.2] {
+        let force = v(1.0, -cosine, 0.0).normalize();
+        let wrench = Wrench::from_force_at(&point, force);
+        let at = |outside: f64| model().resolve(&wrench, &Telling(outside)).contact().unwrap().point;
+        let told = 1e-17;
+        let moved = at(told) - at(0.0);
+        // Farther along the force, into the sphere; the coordinates are exact to 1e-18.
+        let expected = force * (told / -force.dot(&Vector3::y()));
+        assert!((moved - expected).norm() < 4e-18, "{cosine}: {moved:e} {expected:e}");
+        for lie in [1e-10, 1e-3, f64::NAN] {
+            assert!((at(lie) - point).norm() < 1e-15, "{cosine} {lie}");
+        }
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use nalgebra::SMatrix;
 ///
 /// The matrix of the correlations is factored (Cholesky), its diagonal raised by what rounding makes of
 /// `N` products of `N` numbers: so a covariance of less than full rank passes.
-pub(super) fn is_covariance<T: Real, const N: usize>(matrix: &SMatrix<T, N, N>) -> bool {
+pub(crate) fn is_covariance<T: Real, const N: usize>(matrix: &SMatrix<T, N, N>) -> bool {
     if !matrix.iter().all(|x| x.is_number()) {
         return false;
     }
