@@ -20,10 +20,12 @@ fn field(heights: &[f64]) -> Heightfield<f64> {
     Heightfield::new(CORNER, SPACING, COLUMNS, heights.to_vec()).unwrap()
 }
 
-/// The height over the grid by its four neighbours; `None` beside the grid.
+/// The height over the grid by its four neighbours; `None` beside the grid, but for rounding.
 fn height(heights: &[f64], x: f64, y: f64) -> Option<f64> {
     let (u, v) = ((x - CORNER[0]) / SPACING[0], (y - CORNER[1]) / SPACING[1]);
-    if !(0.0..=(COLUMNS - 1) as f64).contains(&u) || !(0.0..=(ROWS - 1) as f64).contains(&v) {
+    if !(-1e-12..=(COLUMNS - 1) as f64 + 1e-12).contains(&u)
+        || !(-1e-12..=(ROWS - 1) as f64 + 1e-12).contains(&v)
+    {
         return None;
     }
     let (i, j) = ((u as usize).min(COLUMNS - 2), (v as usize).min(ROWS - 2));
@@ -195,8 +197,11 @@ fn nothing_is_nearer_than_the_closest_approach() {
         let away = found.point - line.point;
         let distance = (away - direction * away.dot(&direction)).norm();
         assert!((distance - found.gap).abs() < 1e-14, "{line:?} {found:?}");
-        let on = height(&heights, found.point.x, found.point.y).unwrap();
-        assert!((on - found.point.z).abs() < 1e-14, "{line:?} {found:?}");
+        // On the border of the grid it may lie beside it by rounding.
+        let [x, y] = [found.point.x.clamp(CORNER[0], 1.8), found.point.y.clamp(CORNER[1], 1.6)];
+        assert!((found.point.xy() - nalgebra::Vector2::new(x, y)).norm() < 1e-14, "{line:?} {found:?}");
+        let on = height(&heights, x, y).unwrap();
+        assert!((on - found.point.z).abs() < 1e-13, "{line:?} {found:?}");
         let least = least_in_cell(&heights, &line, cell);
         assert!(found.gap <= least + 1e-8, "{line:?} {found:?} {least}");
         attained += usize::from(found.gap > least - 1e-8);
