@@ -207,7 +207,7 @@ fn nothing_is_nearer_than_the_closest_approach() {
         attained += usize::from(found.gap > least - 1e-8);
     }
     println!("{missed} lines miss, {attained} are nearest to the cell they were made for");
-    assert!(missed > 100 && attained > 20, "{missed} {attained}");
+    assert!(missed > 50 && attained > 30, "{missed} {attained}");
 }
 
 #[test]
