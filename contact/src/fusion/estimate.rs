@@ -7,6 +7,7 @@ use nalgebra::{Matrix3, Matrix4, Matrix5, Matrix6, Matrix6x5, Vector2, Vector3, 
 use super::ArrayContact;
 use super::cone::{Grip, Held, Wall, cone_multipliers, project};
 use super::prior::{Prior, State};
+use crate::uncertainty::is_covariance;
 
 /// Estimates one to four contacts from one wrench and what a tactile array says of each.
 ///
@@ -83,7 +84,8 @@ impl<T: Real> Fusion<T> {
     /// # Errors
     /// [`BadShape`] otherwise.
     pub fn new(wrench_covariance: Matrix6<T>, friction: T) -> Result<Self, BadShape> {
-        let good = wrench_covariance.sum().is_number() && wrench_covariance.cholesky().is_some();
+        // Of the matrix, the factors see one half only.
+        let good = is_covariance(&wrench_covariance) && wrench_covariance.cholesky().is_some();
         BadShape::check("fusion", "covariance of the wrench", "positive definite", good)?;
         let good = friction > T::zero() && friction.is_number();
         BadShape::check("fusion", "friction coefficient", "positive and finite", good)?;

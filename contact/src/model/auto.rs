@@ -5,6 +5,7 @@ use fingertip_surfaces::numeric::vectors::length;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
+use crate::uncertainty::is_covariance;
 use crate::{ContactModel, NoContact, PointContact, Resolution, SoftFinger, SoftFingerSurface};
 
 /// Which model the pitch of a wrench asks for.
@@ -61,10 +62,11 @@ impl<T: Real> Auto<T> {
     /// threshold is 6.635, which one wrench in a hundred of a point contact exceeds.
     ///
     /// # Errors
-    /// [`BadShape`] unless the covariance is finite and has no negative variance.
+    /// [`BadShape`] unless the covariance is finite, symmetric and has no negative variance in any direction,
+    /// but for rounding.
     pub fn new(point: PointContact<T>, soft: SoftFinger<T>, noise: Matrix6<T>) -> Result<Self, BadShape> {
-        let good = noise.iter().all(|x| x.is_number()) && noise.diagonal().iter().all(|x| *x >= T::zero());
-        BadShape::check("pitch test", "covariance", "finite, with no negative variance", good)?;
+        let requirement = "finite, symmetric and without a negative variance";
+        BadShape::check("pitch test", "covariance", requirement, is_covariance(&noise))?;
         Ok(Self { point, soft, noise, threshold: T::literal(6.634_896_601_021_213), greatest_pitch: None })
     }
 

@@ -86,3 +86,41 @@ pub(crate) fn direction_on_ball<T: Real>(force: &Vector3<T>, torque: &Vector3<T>
     let solved = OnUnitSphere::new(force, torque, force.norm_squared(), force.dot(torque));
     solved.grazing(force, torque).map_or_else(|| solved.point(), |[point, _]| point)
 }
+
+#[cfg(test)]
+mod tests {
+    use fingertip_wrench::Wrench;
+    use nalgebra::Vector3;
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+
+    use super::Problem;
+    use crate::{ActiveSurface, ContactModel, Ellipsoid, SoftFinger};
+
+    /// From any place where the force presses the path leads to the contact, as far as it may be.
+    #[test]
+    fn the_path_leads_to_the_contact_from_anywhere() {
+        let mut random = Pcg64Mcg::seed_from_u64(41);
+        let surface = Ellipsoid::new(Vector3::new(0.5, 0.7, 1.0)).unwrap();
+        let mut followed = 0;
+        for _ in 0..300 {
+            let mut any = || Vector3::from_fn(|_, _| random.random_range(-1.0..1.0));
+            let (force, torque, from): (Vector3<f64>, Vector3<f64>, Vector3<f64>) = (any(), any(), any());
+            let wrench = Wrench::on_fingertip(force, torque);
+            let contact = *SoftFinger::new(0.0).unwrap().resolve(&wrench, &surface).contact().unwrap();
+            let problem = Problem::new(&surface, &force, &torque);
+            // Onto the ellipsoid, and to the side on which the force presses.
+            let start = from.component_mul(&surface.semi_axes()) / from.norm();
+            let start = if surface.normal(&start).dot(&force) < 0.0 { start } else { -start };
+            if surface.normal(&start).dot(&force) > -0.2 * force.norm() || force.dot(&torque).abs() < 1e-2 {
+                continue;
+            }
+            let start = problem.place(problem.inward(&start)).unwrap();
+            let state = problem.follow(start, problem.spin_at(&start).unwrap()).unwrap();
+            let found = problem.contact(&state);
+            assert!((found.point - contact.point).norm() < 1e-12, "{wrench:?} {found:?} {contact:?}");
+            followed += 1;
+        }
+        assert!(followed > 150, "{followed}");
+    }
+}

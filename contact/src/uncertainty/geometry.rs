@@ -1,8 +1,11 @@
 //! How surfaces change with their parameters.
 
-use fingertip_surfaces::{Level, SmoothSurface};
+use fingertip_surfaces::numeric::vectors::is_finite;
+use fingertip_surfaces::{BadShape, Level, SmoothSurface};
 use fingertip_wrench::Real;
 use nalgebra::{Matrix3, Vector3};
+
+use super::is_covariance;
 
 /// How a surface changes near a contact, per unit of one of its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,6 +97,23 @@ impl<T: Real> GeometryUncertainty<T> {
             attitude: Matrix3::zeros(),
             pivot: Vector3::zeros(),
         }
+    }
+
+    /// Itself, if it can be: for numbers that come from elsewhere.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless all numbers are finite, the variance is not negative, and the covariances are
+    /// symmetric and have no negative variance in any direction, but for rounding.
+    pub fn checked(self) -> Result<Self, BadShape> {
+        let check = |parameter, good| {
+            let requirement = "finite, symmetric and without a negative variance";
+            BadShape::check("geometry's uncertainty", parameter, requirement, good)
+        };
+        check("offset", self.offset.is_number() && self.offset >= T::zero())?;
+        check("position", is_covariance(&self.position))?;
+        check("attitude", is_covariance(&self.attitude))?;
+        BadShape::check("geometry's uncertainty", "pivot", "finite", is_finite(&self.pivot))?;
+        Ok(self)
     }
 }
 

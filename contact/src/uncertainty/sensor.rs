@@ -1,8 +1,18 @@
 //! From the noise of gauges and of a calibration to the covariance of a wrench.
 
 use fingertip_surfaces::BadShape;
-use fingertip_wrench::{Real, Wrench, WrenchSolver};
+use fingertip_wrench::{Real, Wrench, WrenchSolver, stored};
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
+
+use crate::uncertainty::is_covariance;
+
+const SHAPE: &str = "sensor uncertainty";
+const COVARIANCE: &str = "finite, symmetric and without a negative variance";
+const DEVIATIONS: &str = "finite and not negative";
+
+fn are_deviations<T: Real, const N: usize>(deviations: &SVector<T, N>) -> bool {
+    deviations.iter().all(|x| x.is_number() && *x >= T::zero())
+}
 
 /// What is uncertain in a sensor: the signals, by noise, and the sensor matrix, by calibration.
 ///
@@ -30,17 +40,10 @@ impl<T: Real, const N: usize> SensorUncertainty<T, N> {
     /// answers to unit signals.)
     ///
     /// # Errors
-    /// [`BadShape`] unless the covariance is finite and has no negative variance.
+    /// [`BadShape`] unless the covariance is finite, symmetric and has no negative variance in any
+    /// direction, but for rounding.
     pub fn new<S: WrenchSolver<T, N>>(solver: &S, signals: &SMatrix<T, N, N>) -> Result<Self, BadShape> {
-        let good =
-            signals.iter().all(|x| x.is_number()) && signals.diagonal().iter().all(|x| *x >= T::zero());
-        if !good {
-            return Err(BadShape {
-                shape: "sensor uncertainty",
-                parameter: "covariance of the signals",
-                requirement: "finite, with no negative variance",
-            });
-        }
+        BadShape::check(SHAPE, "covariance of the signals", COVARIANCE, is_covariance(signals))?;
         let mut matrix = SMatrix::<T, 6, N>::zeros();
         for gauge in 0..N {
             let mut unit = SVector::<T, N>::zeros();
@@ -53,11 +56,12 @@ impl<T: Real, const N: usize> SensorUncertainty<T, N> {
     /// Of a solver whose gauges have independent noise of these standard deviations.
     ///
     /// # Errors
-    /// [`BadShape`] unless they are finite.
+    /// [`BadShape`] unless they are finite and not negative.
     pub fn independent<S: WrenchSolver<T, N>>(
         solver: &S,
         deviations: &SVector<T, N>,
     ) -> Result<Self, BadShape> {
+        BadShape::check(SHAPE, "noise of the signals", DEVIATIONS, are_deviations(deviations))?;
         Self::new(solver, &SMatrix::from_diagonal(&deviations.component_mul(deviations)))
     }
 
@@ -65,17 +69,11 @@ impl<T: Real, const N: usize> SensorUncertainty<T, N> {
     /// least squares to loads `X` with residual deviation `s_i`: `s_i² (XᵀX)⁻¹`.
     ///
     /// # Errors
-    /// [`BadShape`] unless all entries are finite.
+    /// [`BadShape`] unless each is finite, symmetric and has no negative variance in any direction, but for
+    /// rounding.
     pub fn with_calibration(self, rows: [Matrix6<T>; N]) -> Result<Self, BadShape> {
-        if rows.iter().all(|row| row.iter().all(|x| x.is_number())) {
-            Ok(Self { rows: Some(rows), ..self })
-        } else {
-            Err(BadShape {
-                shape: "sensor uncertainty",
-                parameter: "covariance of the calibration",
-                requirement: "finite",
-            })
-        }
+        BadShape::check(SHAPE, "covariance of the calibration", COVARIANCE, rows.iter().all(is_covariance))?;
+        Ok(Self { rows: Some(rows), ..self })
     }
 
     /// Covariance of a wrench that was solved from this sensor's signals.
@@ -96,7 +94,6 @@ impl<T: Real, const N: usize> SensorUncertainty<T, N> {
 /// The noise model of a data sheet: a floor, and a part that grows with the load,
 /// `σ_i² = σ_0i² + (E w_i)²` (`docs/theory/wrench.md#covariance-of-a-wrench`).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WrenchNoise<T: Real> {
     /// Standard deviations at rest \[N, N, N, N·m, N·m, N·m\].
     pub floor: Vector6<T>,
@@ -105,6 +102,16 @@ pub struct WrenchNoise<T: Real> {
 }
 
 impl<T: Real> WrenchNoise<T> {
+    /// From standard deviations at rest \[N, N, N, N·m, N·m, N·m\], and relative ones under load.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless all are finite and not negative.
+    pub fn new(floor: Vector6<T>, relative: T) -> Result<Self, BadShape> {
+        let good = are_deviations(&floor) && are_deviations(&SVector::<T, 1>::new(relative));
+        BadShape::check("noise of a wrench", "standard deviations", DEVIATIONS, good)?;
+        Ok(Self { floor, relative })
+    }
+
     /// Covariance of a wrench, its components independent.
     #[must_use]
     pub fn covariance(&self, wrench: &Wrench<T>) -> Matrix6<T> {
@@ -113,4 +120,13 @@ impl<T: Real> WrenchNoise<T> {
             &(self.floor.component_mul(&self.floor) + proportional.component_mul(&proportional)),
         )
     }
+}
+
+stored! {
+    WrenchNoise<T>, [T: Real],
+    |noise| {
+        floor: Vector6<T> = noise.floor,
+        relative: T = noise.relative,
+    },
+    WrenchNoise::new(floor, relative)
 }

@@ -4,6 +4,7 @@ use fingertip_wrench::Real;
 use nalgebra::{Vector3, Vector6};
 
 use super::ContactJacobian;
+use fingertip_surfaces::numeric::vectors::larger;
 
 /// How far errors within a box push a contact, to first order.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,9 +21,9 @@ pub struct WorstCase<T: Real> {
 }
 
 impl<T: Real> ContactJacobian<T> {
-    /// Over all errors of the wrench with `|dw_j| ≤ box_j` \[N, N·m\]. The distance is the maximum
-    /// of a convex function over a box, so one of its 64 corners attains it; corners that are
-    /// opposite count once.
+    /// Over all errors of the wrench with `|dw_j| ≤ |box_j|` \[N, N·m\]; NaN if one of these is. The
+    /// distance is the maximum of a convex function over a box, so one of its 64 corners attains it;
+    /// corners that are opposite count once.
     #[must_use]
     pub fn worst_case(&self, errors: &Vector6<T>) -> WorstCase<T> {
         let absolute = |row: Vector6<T>| row.abs().dot(&errors.abs());
@@ -46,7 +47,8 @@ impl<T: Real> ContactJacobian<T> {
                     z -= a3[axis];
                 }
             }
-            greatest = greatest.max(x * x + y * y + z * z);
+            // Of a NaN and a number, the NaN: it is in every corner.
+            greatest = larger(greatest, x * x + y * y + z * z);
         }
         WorstCase {
             components: Vector3::new(

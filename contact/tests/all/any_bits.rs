@@ -1,13 +1,16 @@
 //! Any bit pattern as wrench and shape: no panic, no NaN, no endless loop. The same as the fuzz
-//! target, with fewer cases.
+//! target, with fewer cases, the same in every run: what a new seed might find is the fuzz target's affair.
 
 #[path = "../../fuzz/src/any_shape.rs"]
 mod any_shape;
 
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4000))]
+    #![proptest_config(ProptestConfig {
+        cases: 4000, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default()
+    })]
 
     #[test]
     fn nothing_breaks_in_double_precision(bits in proptest::array::uniform32(any::<u64>()), kind in any::<u8>()) {

@@ -1,10 +1,16 @@
-//! Point contact: one by one and in batches, at flat angles and at extremes.
+//! Point contact, one by one and in batches, at flat angles and at extremes; which model; how sure.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod any_bits;
+mod auto;
+mod bad_uncertainty;
 mod batch;
+mod convex_bound;
+mod covariance;
 mod extremes;
+mod fusion;
 mod grazing;
 mod point_contact;
 mod stored;
+mod worst_case;

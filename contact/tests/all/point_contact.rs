@@ -2,7 +2,7 @@
 
 use fingertip_contact::*;
 use fingertip_surfaces::*;
-use fingertip_wrench::{Real, RigidTransform, Wrench};
+use fingertip_wrench::{Line, Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -213,6 +213,12 @@ fn an_edge_is_pressed_or_missed_by_a_hair() {
                 Resolution::Contact(contact) => {
                     let pull = push.dot(&contact.normal) / push.norm();
                     assert!(pull <= T::EPSILON * T::literal(64.0), "{wrench:?} {contact:?}");
+                    if k % 3 == 0 {
+                        // Of a face that the point lies on.
+                        let half = v(0.8, 0.6, 0.5).map(T::literal).dot(&contact.normal.abs());
+                        let off = (contact.point.dot(&contact.normal) - half).abs();
+                        assert!(off <= T::EPSILON * T::literal(64.0), "{wrench:?} {contact:?}");
+                    }
                     pressed += 1;
                 }
                 Resolution::NoContact(NoContact::Misses { gap, closest, .. }) => {
@@ -305,6 +311,86 @@ fn friction_sets_candidates_aside() {
     };
     assert!((friction_ratio - ratios[0]).abs() < 1e-12);
     assert!(strict.candidates(&wrench, &ring, |_| ()).is_err());
+}
+
+/// A line that is tangent is a contact without a normal force, which no friction holds: with any limit it
+/// is refused. On shapes that are entered once, and on others.
+#[test]
+fn tangent_lines_and_friction() {
+    let limited = model().with_greatest_friction(5.0).unwrap();
+    // Tangent to the rounding: lines a few units in the last place inside and outside of the surface.
+    let ring = Torus::new(0.02, 0.005).unwrap();
+    let tube = Cylinder::new(Vector3::zeros(), Vector3::z(), 0.025).unwrap();
+    let ball = Sphere::centred(0.025).unwrap();
+    let (mut touched, mut refused) = (0, 0);
+    for ulps in -40..=40_i32 {
+        let wrench =
+            Wrench::from_force_at(&v(0.025 + 3.5e-18 * f64::from(ulps), 0.0, 0.0), v(0.0, -1.0, 0.0));
+        for free in [
+            model().resolve(&wrench, &ring),
+            model().resolve(&wrench, &tube),
+            model().resolve(&wrench, &ball),
+        ] {
+            match free {
+                Resolution::Contact(contact) => {
+                    touched += 1;
+                    assert!(contact.incidence() < 1e-6, "{contact:?}");
+                }
+                other => {
+                    assert!(matches!(other, Resolution::NoContact(NoContact::Misses { .. })), "{other:?}")
+                }
+            }
+        }
+        for held in [
+            limited.resolve(&wrench, &ring),
+            limited.resolve(&wrench, &tube),
+            limited.resolve(&wrench, &ball),
+        ] {
+            assert!(held.contact().is_none(), "{ulps} {held:?}");
+            refused += 1;
+        }
+    }
+    assert!(touched > 20 && refused == 243, "{touched} {refused}");
+}
+
+/// A sphere that tells of a point how far outside it is, right or wrong.
+struct Telling(f64);
+
+impl ActiveSurface<f64> for Telling {
+    fn crossings(&self, line: &Line<f64>, visit: impl FnMut(Crossing<f64>)) {
+        tip().crossings(line, visit);
+    }
+
+    fn closest_approach(&self, line: &Line<f64>) -> ClosestApproach<f64> {
+        tip().closest_approach(line)
+    }
+
+    fn normal(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        tip().normal(point)
+    }
+
+    fn outside_by(&self, _: &Vector3<f64>) -> f64 {
+        self.0
+    }
+}
+
+/// At a flat angle a contact is moved along the line by what rounding explains, and by no more.
+#[test]
+fn only_rounding_is_undone_at_a_flat_angle() {
+    let point = v(0.0, 0.013, 0.0);
+    for cosine in [0.05, 0.2] {
+        let force = v(1.0, -cosine, 0.0).normalize();
+        let wrench = Wrench::from_force_at(&point, force);
+        let at = |outside: f64| model().resolve(&wrench, &Telling(outside)).contact().unwrap().point;
+        let told = 1e-17;
+        let moved = at(told) - at(0.0);
+        // Farther along the force, into the sphere; the coordinates are exact to 1e-18.
+        let expected = force * (told / -force.dot(&Vector3::y()));
+        assert!((moved - expected).norm() < 4e-18, "{cosine}: {moved:e} {expected:e}");
+        for lie in [1e-10, 1e-3, f64::NAN] {
+            assert!((at(lie) - point).norm() < 1e-15, "{cosine} {lie}");
+        }
+    }
 }
 
 #[test]

@@ -5,6 +5,7 @@ use fingertip_surfaces::{
     ActiveSurface, CappedCylinder, Compound, CylinderEnds, DynSurface, EllipticCylinder, Frustum,
     Heightfield, Mesh, Offset, Paraboloid, Parts, Revolution, Sphere,
 };
+use fingertip_test_support::Worst;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -33,14 +34,15 @@ fn any_wrench(random: &mut Random, size: f64) -> Wrench<f64> {
 /// On a convex body every wrench with `f·m ≠ 0` has exactly one contact, and the equations hold.
 fn exactly_one<S: SoftFingerSurface<f64>>(name: &str, body: &S, size: f64, count: usize) {
     let mut random = Random::new(61);
-    let mut worst = 0.0_f64;
+    let mut worst = Worst::new();
     for _ in 0..count {
         let wrench = any_wrench(&mut random, size);
         let found = all(body, &wrench);
         assert_eq!(found.len(), 1, "{name} {wrench:?} {found:?}");
         assert!(wrench.force().dot(&found[0].normal) < 0.0, "{name} {wrench:?} {found:?}");
-        worst = worst.max(residual(&found[0], &wrench, size));
+        worst.see(residual(&found[0], &wrench, size));
     }
+    let worst = worst.get();
     println!("{name:16} exactly one contact for {count} wrenches, residual {worst:.1e}");
     assert!(worst < 1e-12, "{name} {worst:e}");
 }
@@ -48,7 +50,7 @@ fn exactly_one<S: SoftFingerSurface<f64>>(name: &str, body: &S, size: f64, count
 /// The contact that a wrench was made from is among those found.
 fn comes_back<S: SoftFingerSurface<f64>>(name: &str, body: &S, size: f64, spin: f64, tolerance: f64) {
     let mut random = Random::new(62);
-    let mut worst = 0.0_f64;
+    let mut worst = Worst::new();
     for _ in 0..3000 {
         let case = Case::random(&mut random, body, size, [1e-6, spin], 1.0);
         if case.incidence < 0.1 {
@@ -57,10 +59,11 @@ fn comes_back<S: SoftFingerSurface<f64>>(name: &str, body: &S, size: f64, spin: 
         let found = all(body, &case.wrench);
         let off = found.iter().map(|c| (c.point - case.point).norm() / size).fold(f64::INFINITY, f64::min);
         assert!(off < tolerance, "{name}: {off:e} {case:?} {found:?}");
-        worst = worst.max(off);
+        worst.see(off);
         let contact = SoftFinger::new(0.0).unwrap().resolve_near(&case.wrench, body, Some(&case.point));
         assert!((contact.contact().unwrap().point - case.point).norm() < tolerance * size);
     }
+    let worst = worst.get();
     println!("{name:16} comes back to {worst:.1e} of its size");
 }
 

@@ -6,6 +6,7 @@ use fingertip_contact::{
     SoftFinger, SoftFingerSurface, StiffnessLaw, Tabulated, contact_modulus,
 };
 use fingertip_surfaces::{DynSurface, SmoothSurface, Sphere};
+use fingertip_test_support::Worst;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
@@ -36,7 +37,7 @@ fn through_skin<T, S, D, L, M>(
     let tolerance = 128.0 * T::EPSILON.to_f64();
     let soft = CompliantSoftFinger::new(SoftFinger::new(T::zero()).unwrap(), *law);
     let point_model = CompliantPointContact::new(PointContact::new(T::zero()).unwrap(), *law);
-    let (mut worst, mut deepest) = (0.0_f64, 0.0_f64);
+    let (mut worst, mut deepest) = (Worst::new(), Worst::new());
     let wide = |v: &Vector3<T>| v.map(Real::to_f64);
     let narrow = |w: &Wrench<f64>| Wrench::from_components(&w.components().map(T::literal));
     for _ in 0..count {
@@ -48,7 +49,7 @@ fn through_skin<T, S, D, L, M>(
         let pressing = -force.dot(&normal);
         let at = Contact { point: place, normal, force, spin_torque: 0.0, gap: 0.0, alternatives: 0 };
         let Indentation { depth, patch } = exact_law.indentation_at(exact, &at, pressing);
-        deepest = deepest.max(depth);
+        deepest.see(depth);
         let touched = place - normal * depth;
         let torque = spin * force.norm() * 0.013 * random.uniform(-1.0, 1.0);
         let wrench = Wrench::on_fingertip(force, touched.cross(&force) + normal * torque);
@@ -58,14 +59,18 @@ fn through_skin<T, S, D, L, M>(
         let spins = (found.contact.spin_torque.to_f64() - torque).abs() / (force.norm() * 0.017);
         for found in [found, pure.unwrap()] {
             let off = |point: &Vector3<T>, exact: &Vector3<f64>| (wide(point) - exact).norm() / 0.017;
-            worst =
-                worst.max(off(&found.contact.point, &touched)).max(off(&found.undeformed, &place)).max(spins);
+            worst.see(off(&found.contact.point, &touched));
+            worst.see(off(&found.undeformed, &place));
+            worst.see(spins);
             let shallow = (found.indentation.depth.to_f64() - depth).abs() / 0.017;
             // The patch as far as the normal force is known, and its curvature.
             let sides = [0, 1].map(|k| (found.indentation.patch[k].to_f64() / patch[k] - 1.0).abs());
-            worst = worst.max(shallow).max(sides[0].max(sides[1]) * 0.1);
+            for error in [shallow, sides[0] * 0.1, sides[1] * 0.1] {
+                worst.see(error);
+            }
         }
     }
+    let (worst, deepest) = (worst.get(), deepest.get());
     println!(
         "{name:28} through a skin: error {:.1} ε of the size, deepest {:.2} mm",
         worst / T::EPSILON.to_f64(),

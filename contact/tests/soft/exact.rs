@@ -2,6 +2,7 @@
 //! straight one way and the spin torque large, double precision is not enough.
 
 use fingertip_surfaces::{Capsule, Cone, Cylinder, Plane, RoundedBox, SmoothSurface, Torus};
+use fingertip_test_support::Worst;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix4, Vector3, Vector4};
 
@@ -190,5 +191,5 @@ pub(crate) fn contact<T: Real>(
 /// How far a point is from an exact one, by the largest coordinate.
 pub(crate) fn distance<T: Real>(found: &Vector3<T>, exact: &Big3) -> f64 {
     let off = minus(&wide(found), exact);
-    off.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max)
+    Worst::of(off.iter().map(|x| x.to_f64())).get()
 }

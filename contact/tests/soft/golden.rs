@@ -2,6 +2,7 @@
 
 use fingertip_contact::{ContactModel, Hertz, SoftFinger, SoftFingerSurface, StiffnessLaw};
 use fingertip_surfaces::{Ellipsoid, SmoothSurface, Sphere};
+use fingertip_test_support::Worst;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -252,7 +253,7 @@ fn greatest_error<T: Real, S: SoftFingerSurface<T> + SmoothSurface<T>>(
     shape: impl Fn(Vector3<T>) -> S,
 ) -> (f64, f64) {
     let vector = |v: &[f64; 3]| Vector3::from(v.map(T::literal));
-    let mut worst = (0.0_f64, 0.0_f64);
+    let mut worst = [Worst::new(); 2];
     for case in cases {
         let axes = Vector3::from(case.axes);
         let surface = shape(vector(&case.axes));
@@ -266,12 +267,14 @@ fn greatest_error<T: Real, S: SoftFingerSurface<T> + SmoothSurface<T>>(
         let spin = (torque - expected.cross(&force)).dot(&normal);
         let own = conditioning(&ellipsoid(axes), &Case::new(expected, normal, force, spin), axes.amax());
         let allowed = least.max(own * T::EPSILON.to_f64() / 4.0);
-        worst.0 = worst.0.max((found - expected).amax() / axes.amax() / allowed);
+        for error in (found - expected).iter() {
+            worst[0].see(error / axes.amax() / allowed);
+        }
         let spin = case.k * expected.component_div(&axes.component_mul(&axes)).norm();
         let scale = Vector3::from(case.force).norm() * axes.amax() + Vector3::from(case.torque).norm();
-        worst.1 = worst.1.max((contact.spin_torque.to_f64() - spin).abs() / scale / allowed);
+        worst[1].see((contact.spin_torque.to_f64() - spin) / scale / allowed);
     }
-    worst
+    (worst[0].get(), worst[1].get())
 }
 
 fn sphere<T: Real>(axes: Vector3<T>) -> Sphere<T> {
@@ -326,7 +329,7 @@ fn soft_fingers_in_single_precision() {
 }
 
 fn hertz_error<T: Real>() -> f64 {
-    let mut worst = 0.0_f64;
+    let mut worst = Worst::new();
     for [force, rx, ry, modulus, a, b, peak, depth] in HERTZ {
         let number = T::literal;
         let law = Hertz::new([number(ry), number(rx)], number(modulus)).unwrap();
@@ -335,10 +338,10 @@ fn hertz_error<T: Real>() -> f64 {
         for (got, expected) in
             [(found.patch[0], a), (found.patch[1], b), (pressure, peak), (found.depth, depth)]
         {
-            worst = worst.max((got.to_f64() / expected - 1.0).abs());
+            worst.see(got.to_f64() / expected - 1.0);
         }
     }
-    worst
+    worst.get()
 }
 
 #[test]

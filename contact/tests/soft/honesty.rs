@@ -3,6 +3,7 @@
 
 use fingertip_contact::{Contact, ContactModel, NoContact, Resolution, SoftFinger};
 use fingertip_surfaces::{ActiveSurface, Cone, Frustum};
+use fingertip_test_support::Worst;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -68,7 +69,7 @@ fn contacts_come_back<T: Real>(name: &str) {
     for cone in cones::<T>() {
         let exact = widened(&cone);
         for spin in [1.0, 100.0, 1e4] {
-            let (mut random, mut worst) = (Random::new(91), [0.0_f64; 3]);
+            let (mut random, mut worst) = (Random::new(91), [Worst::new(); 3]);
             let (mut unresolved, mut lost) = (0, 0);
             for _ in 0..COUNT {
                 let case = Case::random(&mut random, &exact, 1.0, [spin * 0.3, spin], 1.0);
@@ -77,7 +78,7 @@ fn contacts_come_back<T: Real>(name: &str) {
                     Resolution::Contact(contact) => {
                         for (worst, error) in worst.iter_mut().zip(backward_errors(&exact, &wrench, &contact))
                         {
-                            *worst = worst.max(error);
+                            worst.see(error);
                         }
                     }
                     Resolution::NoContact(NoContact::Unresolved) => {
@@ -92,6 +93,7 @@ fn contacts_come_back<T: Real>(name: &str) {
                     Resolution::NoContact(reason) => panic!("{reason:?} {case:?}"),
                 }
             }
+            let worst = worst.map(Worst::get);
             println!(
                 "{name} cone of {:.2} from {:.1}, spin torque {spin} |f| R: residual, height and normal to \
                  {worst:.2?} of rounding, {unresolved} of {COUNT} unresolved ({lost} avoidable)",

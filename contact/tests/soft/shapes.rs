@@ -2,6 +2,7 @@
 
 use fingertip_contact::{Contact, ContactModel, NoContact, Resolution, SoftFinger, SoftFingerSurface};
 use fingertip_surfaces::{SmoothSurface, Sphere};
+use fingertip_test_support::Worst;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -36,9 +37,9 @@ fn errors<T: Real>(
 
 struct Outcome {
     failures: usize,
-    worst: [f64; 2],
+    worst: [Worst; 2],
     /// The error of the point times the incidence: what is left if the conditioning is taken out.
-    conditioned: f64,
+    conditioned: Worst,
 }
 
 /// How much the rounding of a wrench moves a contact of its own accord, in units of `ε·size`: the
@@ -66,7 +67,7 @@ fn run<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
     tolerance: f64,
 ) {
     let mut random = Random::new(17);
-    let mut outcome = Outcome { failures: 0, worst: [0.0; 2], conditioned: 0.0 };
+    let mut outcome = Outcome { failures: 0, worst: [Worst::new(); 2], conditioned: Worst::new() };
     for _ in 0..count {
         let magnitude = random.log_uniform(1e-6, 1e6);
         let case = Case::random(&mut random, surface, size, [1e-16, 1e4], magnitude);
@@ -74,8 +75,9 @@ fn run<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
             Resolution::Contact(contact) => {
                 let [point, spin] = errors(&contact, &case.point, case.spin, size, &case.wrench);
                 let allowed = conditioning(surface, &case, size);
-                outcome.worst = [outcome.worst[0].max(point), outcome.worst[1].max(spin)];
-                outcome.conditioned = outcome.conditioned.max(point / allowed);
+                outcome.worst[0].see(point);
+                outcome.worst[1].see(spin);
+                outcome.conditioned.see(point / allowed);
             }
             Resolution::NoContact(reason) => {
                 if outcome.failures < 3 {
@@ -85,17 +87,14 @@ fn run<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
             }
         }
     }
+    let (worst, conditioned) = (outcome.worst.map(Worst::get), outcome.conditioned.get());
     println!(
         "{name:18} f64 n={count} failures {} error/size {:.1e} (spin {:.1e}), in units of its conditioning {:.1e}",
-        outcome.failures, outcome.worst[0], outcome.worst[1], outcome.conditioned
+        outcome.failures, worst[0], worst[1], conditioned
     );
     assert_eq!(outcome.failures, 0, "{name}");
-    assert!(outcome.conditioned <= 24.0 * f64::EPSILON, "{name}: {:e}", outcome.conditioned);
-    assert!(
-        outcome.worst[0] <= tolerance && outcome.worst[1] <= tolerance.max(1e-13),
-        "{name}: {:?}",
-        outcome.worst
-    );
+    assert!(conditioned <= 24.0 * f64::EPSILON, "{name}: {conditioned:e}");
+    assert!(worst[0] <= tolerance && worst[1] <= tolerance.max(1e-13), "{name}: {worst:?}");
 }
 
 /// In f32 against the solution in f64 of the same, rounded, wrench on the same, rounded, shape.
@@ -108,7 +107,7 @@ fn run_single<S: SoftFingerSurface<f32>, D: SoftFingerSurface<f64> + SmoothSurfa
     tolerance: f64,
 ) {
     let mut random = Random::new(18);
-    let (mut failures, mut worst, mut conditioned) = (0, 0.0_f64, 0.0_f64);
+    let (mut failures, mut worst, mut conditioned) = (0, Worst::new(), Worst::new());
     for _ in 0..count {
         let magnitude = random.log_uniform(1e-6, 1e6);
         let case = Case::random(&mut random, double, size, [1e-16, 1e4], magnitude);
@@ -118,8 +117,8 @@ fn run_single<S: SoftFingerSurface<f32>, D: SoftFingerSurface<f64> + SmoothSurfa
         match resolve::<f32, _>(single, &wrench, case.point) {
             Resolution::Contact(contact) => {
                 let [point, _] = errors(&contact, &reference.point, reference.spin_torque, size, &wrench);
-                worst = worst.max(point);
-                conditioned = conditioned.max(point / conditioning(double, &case, size));
+                worst.see(point);
+                conditioned.see(point / conditioning(double, &case, size));
             }
             Resolution::NoContact(reason) => {
                 if failures < 3 {
@@ -129,6 +128,7 @@ fn run_single<S: SoftFingerSurface<f32>, D: SoftFingerSurface<f64> + SmoothSurfa
             }
         }
     }
+    let (worst, conditioned) = (worst.get(), conditioned.get());
     println!(
         "{name:18} f32 n={count} failures {failures} error/size {worst:.1e}, in units of its conditioning {conditioned:.1e}"
     );
@@ -176,7 +176,7 @@ struct Straight {
     elsewhere: usize,
     lost: usize,
     /// Greatest error relative to the size, or to the distance of a contact that is further away.
-    worst: f64,
+    worst: Worst,
 }
 
 /// On a surface that is straight one way a spin torque of 1e4 f R moves a contact by 1e8 times the
@@ -234,7 +234,7 @@ fn straight<T: Real, S: SoftFingerSurface<T> + Exact>(
             if off > goal {
                 println!("{off:e} {case:?} {contact:?}");
             }
-            seen.worst = seen.worst.max(off);
+            seen.worst.see(off);
         }
     }
     seen
@@ -254,6 +254,7 @@ macro_rules! straight_test {
                     ("f32", 1e-6, straight::<f32, _>(&single, &widened, $size, count / 5, most / 2, 1e-6)),
                 ] {
                     let Straight { failures, compared, elsewhere, lost, worst } = seen;
+                    let worst = worst.get();
                     println!(
                         "{name:18} {scalar} failures {failures}, against 220 bits {compared} ({elsewhere} at ends, edges and tips, \
                          {lost} without an answer): error/size {worst:.1e}"

@@ -5,6 +5,7 @@ use fingertip_contact::{
     PointContact, SensorUncertainty, SoftFinger, SoftFingerSurface, WorstErrors, WrenchNoise,
 };
 use fingertip_surfaces::{ActiveSurface, DynSurface, SmoothSurface, Sphere, shape_operator_by_differences};
+use fingertip_test_support::Worst;
 use fingertip_wrench::{GaussianElimination, SensorMatrix, Wrench, WrenchSolver};
 use nalgebra::{Matrix2, Matrix3, Matrix6, Vector3, Vector6};
 
@@ -96,12 +97,12 @@ fn monte_carlo<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
     }
     let sampled = sums / f64::from(count);
     let deviations = predicted.local().diagonal().map(f64::sqrt);
-    let mut worst = 0.0_f64;
+    let mut worst = Worst::new();
     for i in 0..6 {
         for j in 0..6 {
             let scale = deviations[i] * deviations[j];
             if scale > 0.0 {
-                worst = worst.max((sampled[(i, j)] - predicted.local()[(i, j)]).abs() / scale);
+                worst.see((sampled[(i, j)] - predicted.local()[(i, j)]) / scale);
             }
         }
     }
@@ -115,14 +116,15 @@ fn monte_carlo<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
     let rank_two = predicted.point() * truth.normal;
     assert!(rank_two.norm() <= 1e-15 * predicted.point().norm());
     let position = ContactCovariance::position_only(&jacobian, &covariance);
-    assert!((position - predicted.position()).amax() <= 1e-14 * position.amax());
+    assert!((position - predicted.position()).norm() <= 1e-14 * position.norm());
     let straight = if soft {
         ContactCovariance::soft_finger_position(&truth, surface, &covariance)
     } else {
         ContactCovariance::point_contact_position(&truth, &case.wrench, &covariance)
     };
-    assert!((position - straight.unwrap()).amax() <= 1e-13 * position.amax());
-    (worst.max(difference.amax()), inside as f64 / f64::from(count))
+    assert!((position - straight.unwrap()).norm() <= 1e-13 * position.norm());
+    difference.iter().for_each(|x| worst.see(*x));
+    (worst.get(), inside as f64 / f64::from(count))
 }
 
 /// Straight from the contact, with noise in proportion to the load, the covariance is the same at any
@@ -147,7 +149,7 @@ fn position_covariance_of_any_load() {
         for exponent in [-400, -250, -3, 9, 250, 400] {
             let scale = 2.0_f64.powi(exponent);
             let extreme = of(&scaled(scale), scale).unwrap();
-            assert!((extreme - usual).amax() <= 1e-13 * usual.amax(), "2^{exponent}: {extreme} {usual}");
+            assert!((extreme - usual).norm() <= 1e-13 * usual.norm(), "2^{exponent}: {extreme} {usual}");
         }
         let across = contact.normal.cross(&random.direction());
         let grazing = Contact { force: across - contact.normal * contact.normal.dot(&across), ..contact };
@@ -226,7 +228,7 @@ fn uncertain_geometry_matches_monte_carlo() {
         height += change.dot(&truth.normal).powi(2);
     }
     let sampled = sums / f64::from(count);
-    assert!((sampled - predicted.position()).amax() < 0.03 * predicted.position().amax());
+    assert!((sampled - predicted.position()).norm() < 0.03 * predicted.position().norm());
     assert!((height / f64::from(count) / predicted.height_variance() - 1.0).abs() < 0.03);
 }
 
@@ -264,7 +266,7 @@ fn gauges_to_wrench_match_monte_carlo() {
     let deviations = predicted.diagonal().map(f64::sqrt);
     let difference =
         (sums / f64::from(count) - predicted).component_div(&(deviations * deviations.transpose()));
-    assert!(difference.amax() < 0.03, "{difference}");
+    assert!(Worst::of(difference.iter().copied()).get() < 0.03, "{difference}");
     let sheet = WrenchNoise { floor: Vector6::repeat(0.1), relative: 0.01 };
     assert!((sheet.covariance(&wrench)[(2, 2)] - (0.01 + 0.05_f64.powi(2))).abs() < 1e-15);
     let nan = Vector6::repeat(f64::NAN);
@@ -341,7 +343,8 @@ fn gauges_to_normal_and_tangential_force_match_monte_carlo() {
         let (forces, points) = (forces / f64::from(count), points / f64::from(count));
         let expected = predicted.normal_and_tangential(&truth);
         let deviations = expected.diagonal().map(f64::sqrt);
-        let of_forces = (forces - expected).component_div(&(deviations * deviations.transpose())).amax();
+        let of_forces = (forces - expected).component_div(&(deviations * deviations.transpose()));
+        let of_forces = Worst::of(of_forces.iter().copied()).get();
         let of_points = (points - predicted.point()).norm() / predicted.point().norm();
         let coverage = inside as f64 / f64::from(count);
         println!(
@@ -365,7 +368,7 @@ fn curvature_from_differences_of_the_normal() {
         let (point, _) = random.place(&surface, 0.017);
         let exact = surface.shape_operator(&point);
         let found = shape_operator_by_differences(&surface, &point, 1e-7);
-        assert!((exact - found).amax() < 1e-6 * exact.amax());
+        assert!((exact - found).norm() < 1e-6 * exact.norm());
     }
 }
 
@@ -380,15 +383,17 @@ fn worst_cases_are_attained_and_not_exceeded() {
         let jacobian = ContactJacobian::of_soft_finger(&contact, &bend).unwrap();
         let limits = Vector6::from_fn(|i, _| random.uniform(0.1, 1.0) * if i < 3 { 0.01 } else { 1e-4 });
         let worst = jacobian.worst_case(&limits);
-        let mut attained = (0.0_f64, Vector3::zeros());
+        let (mut distance, mut components) = (Worst::new(), [Worst::new(); 3]);
         for corner in 0..64_u8 {
             let signs = Vector6::from_fn(|i, _| if corner >> i & 1 == 1 { 1.0 } else { -1.0 });
             let moved = jacobian.point() * limits.component_mul(&signs);
-            attained =
-                (attained.0.max(moved.norm()), attained.1.zip_map(&moved, |a: f64, b: f64| a.max(b.abs())));
+            distance.see(moved.norm());
+            components.iter_mut().zip(&moved).for_each(|(worst, error)| worst.see(*error));
         }
-        assert!((worst.distance / attained.0 - 1.0).abs() < 1e-12);
-        assert!((worst.components - attained.1).amax() < 1e-12 * worst.distance);
+        assert!((worst.distance / distance.get() - 1.0).abs() < 1e-12);
+        assert!(
+            (worst.components - Vector3::from(components.map(Worst::get))).norm() < 1e-12 * worst.distance
+        );
         let cheap = worst.components.norm();
         assert!(worst.distance <= cheap * (1.0 + 1e-12));
     }
@@ -405,7 +410,7 @@ fn convex_bound<S: ActiveSurface<f64>>(
     let mut random = Random::new(seed);
     let model = PointContact::new(0.0).unwrap().accepting_gap(1.0).unwrap();
     let (mut ratios, mut silent, mut past, mut none) = (Vec::new(), 0, 0, 0);
-    let mut tightest = 0.0_f64;
+    let mut tightest = Worst::new();
     for _ in 0..count {
         let (point, normal) = random.place(surface, size);
         assert!(point.norm() <= reach, "{name}");
@@ -440,14 +445,14 @@ fn convex_bound<S: ActiveSurface<f64>>(
         let along = (point - contact.point).dot(&measured.force().normalize());
         assert!(bound.along[0] <= along && along <= bound.along[1], "{name} {along} {bound:?}");
         past += usize::from(bound.past_silhouette);
-        tightest = tightest.max(error / bound.distance);
+        tightest.see(error / bound.distance);
         ratios.push(bound.distance / error);
     }
     ratios.sort_by(f64::total_cmp);
     let median = ratios[ratios.len() / 2];
     println!(
         "{name:16} rigorous bound n={count}: 0 violated, median bound/error {median:.2}, tightest {:.2}, grazing {past}, silent {silent}, no contact {none}",
-        1.0 / tightest
+        1.0 / tightest.get()
     );
     assert!(silent * 1000 < count && none * 4 < count, "{name}: silent {silent}, no contact {none}");
     assert!(median <= 5.0, "{name} {median}");
@@ -651,15 +656,16 @@ fn the_bounds_of_the_first_paper() {
     };
     let corners = |wrench: &Wrench<f64>| {
         let truth = point(wrench);
-        let mut worst = (Vector3::<f64>::zeros(), 0.0_f64);
+        let (mut distance, mut components) = (Worst::new(), [Worst::new(); 3]);
         for corner in 0..64_u8 {
             let moved = wrench
                 .components()
                 .map_with_location(|i, _, x| x * if corner >> i & 1 == 1 { 1.0 + 1e-6 } else { 1.0 - 1e-6 });
             let error = point(&Wrench::from_components(&moved)) - truth;
-            worst = (worst.0.zip_map(&error, |a: f64, b: f64| a.max(b.abs())), worst.1.max(error.norm()));
+            distance.see(error.norm());
+            components.iter_mut().zip(&error).for_each(|(worst, error)| worst.see(*error));
         }
-        worst
+        (Vector3::from(components.map(Worst::get)), distance.get())
     };
     for _ in 0..500 {
         let normal = random.direction();
@@ -671,7 +677,7 @@ fn the_bounds_of_the_first_paper() {
         // (7) and (8), for a force through the centre: sharp to first order.
         let (components, distance) = corners(&Wrench::on_fingertip(force, Vector3::zeros()));
         let sharp = bounds.central_contact_sharp(&force);
-        assert!((components - sharp).amax() < 1e-5 * bounds.central_distance());
+        assert!((components - sharp).norm() < 1e-5 * bounds.central_distance());
         assert!((0..3).all(|i| sharp[i] <= bounds.central_contact(&force)[i]));
         let sharp = bounds.central_distance_sharp(&force);
         assert!((distance / sharp - 1.0).abs() < 1e-4, "{distance:e} {sharp:e}");

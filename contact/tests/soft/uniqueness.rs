@@ -3,6 +3,7 @@
 
 use fingertip_contact::SoftFingerSurface;
 use fingertip_surfaces::{ActiveSurface, SmoothSurface};
+use fingertip_test_support::Worst;
 use fingertip_wrench::Wrench;
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 
@@ -101,7 +102,7 @@ fn convex_surfaces_have_one_contact() {
 /// `det J = −½ [(K²/4)|g|⁴ κ + (f·g)²]`, `κ = gᵀ adj(H) g/|g|⁴`: for any level function.
 fn determinant<S: SmoothSurface<f64> + ActiveSurface<f64>>(name: &str, surface: &S, size: f64) {
     let mut random = Random::new(72);
-    let mut worst = 0.0_f64;
+    let mut worst = Worst::new();
     for _ in 0..2000 {
         let (point, _) = random.place(surface, size);
         let level = surface.level(&point);
@@ -119,8 +120,9 @@ fn determinant<S: SmoothSurface<f64> + ActiveSurface<f64>>(name: &str, surface: 
         let bent = k * k / 4.0 * g.dot(&(adjugate * g));
         let expected = -0.5 * (bent + force.dot(&g).powi(2));
         let scale = g.norm_squared() * (1.0 + (k * h.norm()).powi(2));
-        worst = worst.max((jacobian.determinant() - expected).abs() / scale);
+        worst.see((jacobian.determinant() - expected) / scale);
     }
+    let worst = worst.get();
     println!("{name:12} det J as in docs/theory/contact.md#general-surfaces to {worst:.1e}");
     assert!(worst < 1e-14, "{name} {worst:e}");
 }

@@ -4,7 +4,7 @@ use fingertip_wrench::{Line, Real, stored};
 use nalgebra::{Matrix3, Vector3};
 
 use super::axis::Axis;
-use crate::numeric::vectors::{is_finite, length};
+use crate::numeric::vectors::{hypotenuse, is_finite, length};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, Extent, ForceLine, Level, SmoothSurface,
     Topology,
@@ -192,7 +192,7 @@ impl<T: Real> SmoothSurface<T> for Cylinder<T> {
     fn extent(&self) -> Extent<T> {
         Extent {
             centre: self.centre(),
-            radius: self.half_length().map_or(self.radius(), |half| half.max(self.radius())),
+            radius: self.half_length().map_or(self.radius(), |half| hypotenuse(half, self.radius())),
         }
     }
 

@@ -235,7 +235,8 @@ impl<T: Real> SmoothSurface<T> for EllipticCylinder<T> {
             CylinderEnds::Unbounded => T::zero(),
             CylinderEnds::Open(half) | CylinderEnds::Capped(half) => half,
         };
-        Extent { centre: Vector3::zeros(), radius: a.max(b).max(half) }
+        // As far as the rims, which lie beyond both.
+        Extent { centre: Vector3::zeros(), radius: hypotenuse(a.max(b), half) }
     }
 
     fn topology(&self) -> Topology {

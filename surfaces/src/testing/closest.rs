@@ -8,7 +8,7 @@ use super::laws::SurfaceLaws;
 use super::random::Random;
 use super::tried::Tried;
 use crate::ActiveSurface;
-use crate::numeric::vectors::{is_finite, length};
+use crate::numeric::vectors::{any_perpendicular, is_finite, length};
 
 impl<T: Real> SurfaceLaws<T> {
     pub(super) fn check_closest(
@@ -26,6 +26,13 @@ impl<T: Real> SurfaceLaws<T> {
         let disagrees = (distance_from_line(&found.point) - found.gap).abs();
         self.expect(Law::ClosestOnSurface, line, disagrees, allowed)?;
         self.expect(Law::ClosestOnSurface, line, -found.gap, T::zero())?;
+        let norm_error = (length(&found.normal) - T::one()).abs();
+        self.expect(Law::UnitNormal, line, norm_error, self.roundings * T::EPSILON)?;
+        // On an edge, any normal of it will do.
+        if !self.edges {
+            let turned = length(&(surface.normal(&found.point) - found.normal));
+            self.expect(Law::NormalAgrees, line, turned, self.half_the_digits())?;
+        }
         self.expect_on_surface(
             Law::ClosestOnSurface,
             surface,
@@ -34,6 +41,20 @@ impl<T: Real> SurfaceLaws<T> {
             &found.normal,
             allowed,
         )?;
+        // Nor does a parallel line meet it that is a little nearer than the gap, on whatever side.
+        let within = found.gap * T::literal(0.98) - allowed;
+        if within > T::zero() {
+            let first = any_perpendicular(&line.direction);
+            let second = line.direction.cross(&first);
+            for k in 0..16_u8 {
+                let angle = T::two_pi() * T::literal(f64::from(k) / 16.0);
+                let aside = (first * angle.cos() + second * angle.sin()) * within;
+                let near = Line { point: line.point + aside, direction: line.direction };
+                let mut met = T::zero();
+                surface.crossings(&near, |_| met = T::one());
+                self.expect(Law::NothingIsCloser, line, met, T::zero())?;
+            }
+        }
         for sample in samples.iter().flatten() {
             let closer = found.gap - distance_from_line(sample);
             self.expect(Law::NothingIsCloser, line, closer, allowed)?;

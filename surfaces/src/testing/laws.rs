@@ -180,6 +180,11 @@ impl<T: Real> SurfaceLaws<T> {
         Ok(())
     }
 
+    /// How far the normals of a point that is known up to rounding may be apart, where curvature is great.
+    pub(super) fn half_the_digits(&self) -> T {
+        (self.roundings * T::EPSILON).root() * T::literal(4.0)
+    }
+
     /// How far from the truth a line may be found to meet the surface near `point`.
     ///
     /// What is rounded off a direction turns the line, which passes a point by as much as that point is

@@ -60,3 +60,75 @@ impl Random {
         Line { point: centre + offset + slide, direction }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::Random;
+
+    /// The numbers that the algorithm's authors give for this seed.
+    #[test]
+    fn the_stream_is_that_of_splitmix() {
+        let mut random = Random::new(1_234_567);
+        for expected in [
+            6_457_827_717_110_365_317,
+            3_203_168_211_198_807_973,
+            9_817_491_932_198_370_423,
+            4_593_380_528_125_082_431,
+            16_408_922_859_458_223_821,
+        ] {
+            assert_eq!(random.bits(), expected);
+        }
+    }
+
+    /// The moments of uniform distributions, to five of their own deviations.
+    #[test]
+    fn numbers_fill_their_range_evenly() {
+        let mut random = Random::new(5);
+        let count = 100_000;
+        let (mut sum, mut squares, mut balls, mut ways) = (0.0, 0.0, 0.0, Vector3::zeros());
+        for _ in 0..count {
+            let x: f64 = random.symmetric();
+            assert!((-1.0..1.0).contains(&x));
+            sum += x;
+            squares += x * x;
+            let inside: Vector3<f64> = random.in_ball();
+            assert!(inside.norm() <= 1.0);
+            balls += inside.norm_squared();
+            let direction: Vector3<f64> = random.direction();
+            assert!((direction.norm() - 1.0).abs() < 1e-15);
+            ways += direction.component_mul(&direction);
+        }
+        let within = |sum: f64, mean: f64, deviation: f64| {
+            let n = f64::from(count);
+            (sum / n - mean).abs() < 5.0 * deviation / n.sqrt()
+        };
+        assert!(
+            within(sum, 0.0, 3.0_f64.sqrt().recip()) && within(squares, 1.0 / 3.0, 0.3),
+            "{sum} {squares}"
+        );
+        // Of |v|² = u^(2/3): 3/5, and 3/7 − 9/25 is the variance.
+        assert!(within(balls, 0.6, 0.263), "{balls}");
+        assert!(ways.iter().all(|way| within(*way, 1.0 / 3.0, 0.3)), "{ways}");
+    }
+
+    /// Lines pass the centre within 1.2 radii along each of two directions, start within three radii of there,
+    /// and go to those limits.
+    #[test]
+    fn lines_go_by_a_ball() {
+        let mut random = Random::new(6);
+        let centre = Vector3::new(5.0, -7.0, 3.0);
+        let (mut farthest, mut longest) = (0.0_f64, 0.0_f64);
+        for _ in 0..2000 {
+            let line = random.line(&centre, 2.0);
+            let away: Vector3<f64> = line.point - centre;
+            let slide = away.dot(&line.direction);
+            let offset = (away - line.direction * slide).norm();
+            assert!((line.direction.norm() - 1.0).abs() < 1e-15);
+            assert!(slide.abs() <= 6.0 && offset <= 2.4 * 2.0_f64.sqrt(), "{slide} {offset}");
+            (farthest, longest) = (farthest.max(offset), longest.max(slide.abs()));
+        }
+        assert!(farthest > 3.0 && longest > 5.9, "{farthest} {longest}");
+    }
+}

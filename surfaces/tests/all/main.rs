@@ -3,5 +3,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod dyn_surface;
+mod heightfield;
+mod hostile_files;
 mod laws;
+mod laws_bite;
 mod mesh;
+mod smooth;

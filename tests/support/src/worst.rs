@@ -10,6 +10,20 @@ impl Worst {
         Self(0.0)
     }
 
+    /// Of all these errors.
+    ///
+    /// # Panics
+    ///
+    /// If one is NaN.
+    #[track_caller]
+    pub fn of(errors: impl IntoIterator<Item = f64>) -> Self {
+        let mut worst = Self::new();
+        for error in errors {
+            worst.see(error);
+        }
+        worst
+    }
+
     /// Takes the absolute value of one more error.
     ///
     /// # Panics
@@ -33,11 +47,10 @@ mod tests {
 
     #[test]
     fn the_greatest_magnitude_is_kept() {
-        let mut worst = Worst::new();
-        for error in [0.5, -2.0, 1.0] {
-            worst.see(error);
-        }
+        let mut worst = Worst::of([0.5, -2.0, 1.0]);
         assert_eq!(worst.get(), 2.0);
+        worst.see(-3.0);
+        assert_eq!(worst.get(), 3.0);
     }
 
     #[test]
