@@ -95,7 +95,9 @@ mod tests {
     use rand_pcg::Pcg64Mcg;
 
     use super::Problem;
-    use crate::{ActiveSurface, ContactModel, Ellipsoid, SoftFinger};
+    use fingertip_surfaces::{ActiveSurface, Ellipsoid};
+
+    use crate::{ContactModel, SoftFinger};
 
     /// From any place where the force presses the path leads to the contact, as far as it may be.
     #[test]
