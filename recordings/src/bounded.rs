@@ -44,7 +44,13 @@ impl<R: Read> Read for Bounded<R> {
             self.reached = true;
             return Err(io::Error::other("line too long"));
         }
-        let count = self.inner.read(buffer)?;
+        // A signal may interrupt a read; it is no end of the file, and `csv` would take it for one.
+        let count = loop {
+            match self.inner.read(buffer) {
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                read => break read?,
+            }
+        };
         if count == 0
             && !self.ended
             && let Some(first) = buffer.first_mut()

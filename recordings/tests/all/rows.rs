@@ -53,3 +53,42 @@ fn behind_a_row_that_cannot_be_read_nothing_is_known_to_be_repeated() {
     // Lines without a row are none.
     assert_eq!(marked("v1_V\n1\n\n# pause\n1\n"), [vec![5], vec![], vec![]]);
 }
+
+#[test]
+fn the_last_row_needs_no_line_end() {
+    for file in ["v1_V,v2_V\n1,2\n3,45", "v1_V,v2_V\n1,2\n3,45\n", "v1_V,v2_V\r\n1,2\r\n3,45\r\n"] {
+        let mut reader = RecordingReader::new("test.csv", file.as_bytes()).unwrap();
+        let sensor = reader.layout().only_signals().unwrap().clone();
+        let mut rows = Vec::new();
+        while let Some(row) = reader.next_row().unwrap() {
+            rows.push((row.line(), row.signals::<2>(&sensor).unwrap().as_slice().to_vec()));
+        }
+        assert_eq!(rows, [(2, vec![1.0, 2.0]), (3, vec![3.0, 45.0])]);
+        assert_eq!(reader.bytes_read(), file.len() as u64);
+    }
+}
+
+/// Gives a byte at a time, and says in between that it was interrupted.
+struct Interrupted<'a>(&'a [u8], bool);
+
+impl std::io::Read for Interrupted<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        self.1 = !self.1;
+        if self.1 {
+            return Err(std::io::ErrorKind::Interrupted.into());
+        }
+        let length = buffer.len().min(1);
+        self.0.read(&mut buffer[..length])
+    }
+}
+
+#[test]
+fn a_read_that_is_interrupted_goes_on() {
+    let file = "t_s,v1_V\n0,1\n1,2\n";
+    let mut reader = RecordingReader::new("test.csv", Interrupted(file.as_bytes(), false)).unwrap();
+    let mut times = Vec::new();
+    while let Some(row) = reader.next_row().unwrap() {
+        times.extend(row.time());
+    }
+    assert_eq!(times, [0.0, 1.0]);
+}

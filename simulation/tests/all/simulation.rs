@@ -221,6 +221,38 @@ fn the_score_knows_perfect_late_and_false() {
     assert_eq!((early.slips_found(), early.false_alarms.len()), (0, 1));
 }
 
+#[test]
+fn presses_of_one_force_are_one_level() {
+    let at = SurfacePoint::degrees(30.0, 0.0);
+    let press = |script: Script, force| script.press(at, force, 0.1).hold(0.1).release(0.1);
+    // Nearer to each other than a millionth, and further.
+    let script = [20.0, 0.1, 20.000_01, 20.000_1].into_iter().fold(Script::default(), press);
+    let fingertip = made(&script, 1);
+    let mut score = SessionScore::new(&fingertip);
+    // Every other sample is found, 1 µm off at 0.1 N and 3 µm at the others; all wrenches are 1 % too large.
+    for (number, sample) in fingertip.enumerate() {
+        let contact = sample.truth.contact;
+        let off = |force: f64| if force < 1.0 { 1e-6 } else { 3e-6 };
+        let point = contact.map(|contact| contact.point + Vector3::new(0.0, off(contact.force.norm()), 0.0));
+        let point = point.filter(|_| number % 2 == 0);
+        score.add(&sample, &(sample.truth.wrench * 1.01), point.as_ref(), false);
+    }
+    let report = score.report();
+    let levels = report.levels();
+    let presses: Vec<(f64, usize)> =
+        levels.iter().map(|level| ((level.force * 1e6).round() / 1e6, level.presses)).collect();
+    assert_eq!(presses, [(0.1, 1), (20.0, 2), (20.0001, 1)]);
+    for (level, off) in levels.iter().zip([1e-6, 3e-6, 3e-6]) {
+        assert!((level.mean_force_error - 0.01).abs() < 1e-12);
+        assert!(level.mean_position_error < 1e-15 && level.greatest_position_error < 1e-15);
+        assert!((level.sample_position_error - off).abs() < 1e-12 && (level.resolved - 0.5).abs() < 0.01);
+    }
+    for press in &report.presses {
+        assert!((press.greatest_position_error - press.sample_position_error).abs() < 1e-12);
+        assert!(press.resolved < press.samples && press.resolved >= press.samples / 2);
+    }
+}
+
 #[cfg(feature = "serde")]
 #[test]
 fn a_script_is_written_and_read() {

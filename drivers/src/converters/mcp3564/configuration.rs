@@ -210,4 +210,20 @@ mod tests {
         assert_eq!(configuration.data_rate(4.9152e6), 4800.0);
         assert_eq!((Gain::Third.factor() * 3.0, Gain::X1.factor(), Gain::X64.factor()), (1.0, 1.0, 64.0));
     }
+    #[test]
+    fn corrections_are_on_if_they_are_other_than_none() {
+        let plain = Configuration::new([Channel::PairA]);
+        for (offset, gain_correction, enabled, bytes) in [
+            (0, 0x80_0000, 0xF4, [0, 0, 0, 0x80, 0, 0]),
+            (-2, 0x80_0000, 0xF6, [0xFF, 0xFF, 0xFE, 0x80, 0, 0]),
+            (0, 0x80_0001, 0xF5, [0, 0, 0, 0x80, 0, 1]),
+            (0x01_0203, 0x40_5060, 0xF7, [1, 2, 3, 0x40, 0x50, 0x60]),
+        ] {
+            let registers = Configuration { offset, gain_correction, ..plain }.registers();
+            assert_eq!((registers[3], &registers[12..]), (enabled, &bytes[..]));
+        }
+        let chopping = Configuration { chopping: true, reference: Reference::PinsOfR, ..plain };
+        assert_eq!((chopping.registers()[0], chopping.registers()[2]), (0x62, 0x8F));
+        assert_eq!(chopping.data_rate(4.9152e6), 2400.0);
+    }
 }

@@ -167,4 +167,15 @@ mod tests {
             assert_eq!(counts, (number > 2 && number % 2 == 1).then_some([number, number - 1]));
         }
     }
+    #[test]
+    fn a_channel_that_was_not_asked_for_is_passed_over() {
+        let mut scan = Scan::new([Channel::Pin0, Channel::Pin1]);
+        // Before the order is known: it ends what was learnt so far.
+        let seen: Vec<_> = [9, 0, 9, 0, 1, 0, 9, 0, 1]
+            .map(|channel| scan.push(Data { channel, counts: i32::from(channel) }))
+            .to_vec();
+        let learnt = [(None, 1); 5];
+        assert_eq!(seen[..5], learnt);
+        assert_eq!(seen[5..], [(None, 0), (None, 2), (None, 0), (Some([0, 1]), 0)]);
+    }
 }
