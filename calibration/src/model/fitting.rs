@@ -64,8 +64,13 @@ fn fit(table: &LoadTable, options: &Options, nominal: &[f64]) -> Result<Fit, Fit
     let y = responses(table, options, nominal);
     let weights = table.weights.as_deref();
     let forward = options.direction == Direction::SignalsFromLoads;
-    let relative =
-        |deviations: &[f64]| -> Vec<f64> { deviations.iter().zip(nominal).map(|(s, n)| s / n).collect() };
+    let deviations = FitError::BadInput { what: "the list of standard deviations" };
+    let relative = |list: &[f64]| -> Result<Vec<f64>, FitError> {
+        if list.len() != nominal.len() {
+            return Err(deviations.clone());
+        }
+        Ok(list.iter().zip(nominal).map(|(s, n)| s / n).collect())
+    };
     let backward = FitError::BadInput { what: "the direction (the method fits signals from loads only)" };
     match &options.method {
         Method::LeastSquares => least_squares(&x, &y, weights),
@@ -77,21 +82,21 @@ fn fit(table: &LoadTable, options: &Options, nominal: &[f64]) -> Result<Fit, Fit
         Method::Total { load_deviations, signal_deviations } => total_least_squares(
             &normalised(&table.loads, nominal),
             &y,
-            &relative(load_deviations),
+            &relative(load_deviations)?,
             signal_deviations,
             options.bias,
         ),
         Method::GaussHelmert { load_deviations, relative: share, signal_deviations } => {
-            let fixed = relative(load_deviations);
-            if fixed.len() != nominal.len() || signal_deviations.len() != y.ncols() {
-                return Err(FitError::BadInput { what: "the list of standard deviations" });
+            let fixed = relative(load_deviations)?;
+            if signal_deviations.len() != y.ncols() {
+                return Err(deviations);
             }
-            let deviations = DMatrix::from_fn(x.nrows(), x.ncols(), |i, j| {
+            let of_loads = DMatrix::from_fn(x.nrows(), x.ncols(), |i, j| {
                 // The constant is exact.
                 if j < fixed.len() { fixed[j].hypot(share * x[(i, j)]) } else { 0.0 }
             });
             let noise = DMatrix::from_fn(y.nrows(), y.ncols(), |_, j| signal_deviations[j]);
-            gauss_helmert(&x, &y, &deviations, &noise)
+            gauss_helmert(&x, &y, &of_loads, &noise)
         }
         Method::Prior { prior, relative } => {
             fit_with_prior(&x, &y, weights, prior, *relative, nominal, options.bias)
