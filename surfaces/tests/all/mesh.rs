@@ -97,7 +97,7 @@ fn fine_mesh_agrees_with_the_sphere() {
         sphere.crossings(&line, |c| b.push(c.along));
         sorted(&mut a);
         sorted(&mut b);
-        assert_eq!(a.len(), 2);
+        assert_eq!((a.len(), b.len()), (2, 2));
         assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 2e-3), "{a:?} {b:?}");
     }
 }

@@ -202,6 +202,36 @@ fn extents_hold_their_shapes() {
     assert!(broken.is_empty(), "{broken:?}");
 }
 
+/// Of shapes whose level function is that of the whole, the inside is where it is negative.
+#[test]
+fn the_inside_is_where_the_level_is_negative() {
+    let mut random = Pcg64Mcg::seed_from_u64(6);
+    let whole = [
+        "plane",
+        "sphere",
+        "ellipsoid",
+        "cylinder",
+        "elliptic cylinder",
+        "capsule",
+        "cone",
+        "torus",
+        "superquadric",
+        "rounded box",
+        "paraboloid",
+        "posed",
+    ];
+    for (name, surface, ..) in shapes().into_iter().filter(|(name, ..)| whole.contains(name)) {
+        let (mut inside, mut outside) = (0, 0);
+        for _ in 0..2000 {
+            let point = v(0.1, -0.1, 0.2) + Vector3::from_fn(|_, _| random.random_range(-1.2..1.2));
+            let expected = surface.level(&point).value < 0.0;
+            assert_eq!(surface.contains(&point), expected, "{name}: {point}");
+            *(if expected { &mut inside } else { &mut outside }) += 1;
+        }
+        assert!(inside > 100 && outside > 100, "{name}: {inside} {outside}");
+    }
+}
+
 /// Steepness and curvature of a level function of any scale: those of `k(|x|² − R²)`.
 #[test]
 fn a_level_of_any_scale() {
