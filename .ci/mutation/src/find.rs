@@ -192,11 +192,8 @@ impl<'ast> Visit<'ast> for Finder<'_> {
 
     fn visit_stmt(&mut self, statement: &'ast syn::Stmt) {
         if let syn::Stmt::Expr(expression, Some(_)) = statement {
-            let removable = match expression {
-                Expr::Assign(_) | Expr::MethodCall(_) | Expr::Call(_) => true,
-                Expr::Binary(_) => true,
-                _ => false,
-            };
+            let removable =
+                matches!(expression, Expr::Assign(_) | Expr::MethodCall(_) | Expr::Call(_) | Expr::Binary(_));
             if removable {
                 self.add(statement, Form::Statement, String::new(), "statement removed".to_owned());
             }
