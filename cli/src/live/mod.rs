@@ -75,7 +75,7 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
     let rest = Rest::new(seconds.filter(|_| arguments.calibration.is_none()));
     let feel = scene.map(|scene| SceneFeel::new(scene, true));
     // Before the terminal is taken, so that what is wrong is said in plain lines.
-    let stream = open(arguments, seconds.filter(|rest| *rest > 0.0), named.as_deref())?;
+    let stream = open(arguments, seconds, named.as_deref())?;
     let shared =
         Arc::new(Shared { state: Mutex::new(state), stop: Stop::listen(), tare: AtomicBool::new(false) });
     let reading = Arc::clone(&shared);

@@ -262,13 +262,15 @@ mod tests {
 
     #[test]
     fn faults_are_passed_on_and_count_as_a_sign_of_life() {
-        let mut stream = told(HOUR, false, vec![vec![Ok(Next::Fault("cut".to_owned())), Ok(Next::End)]]);
-        // As if the sensor had been silent for longer than is allowed.
-        if let Some(long_ago) = Instant::now().checked_sub(2 * HOUR) {
-            stream.heard = long_ago;
-        }
+        let next = vec![Ok(Next::Fault("cut".to_owned())), reading(Some(1.0)), Ok(Next::End)];
+        let mut stream = told(HOUR, false, vec![next]);
+        // Each is heard now, and no earlier.
+        let before = Instant::now();
         assert!(matches!(stream.next(), Ok(Event::Fault(why)) if why == "cut"));
-        assert!(stream.heard.elapsed() < HOUR);
+        let between = Instant::now();
+        assert!(stream.heard >= before && stream.heard <= between);
+        assert!(matches!(stream.next(), Ok(Event::Sample(..))));
+        assert!(stream.heard >= between);
         assert!(matches!(stream.next(), Ok(Event::End)));
     }
 

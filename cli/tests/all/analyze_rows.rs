@@ -29,6 +29,9 @@ fn rows_without_time_have_that_of_their_rate() {
     let rows = format!("t_s,{WRENCH}\n7,0,0,-1,0,0,0\n7.5,0,0,-2,0,0,0\n");
     let found = contacts(&SCENE.replace("[surface]", "sample_rate_Hz = 40.0\n[surface]"), &rows);
     assert_eq!(found.numbers("t_s"), [7.0, 7.5]);
+    let (_, output) = analyze(SCENE, &rows, &["--no-report"]);
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(said.contains("2 samples over 0.500 s"), "{said}");
 }
 
 #[test]
@@ -40,14 +43,15 @@ fn times_are_written_to_the_nanosecond_as_far_as_they_have_one() {
     assert_eq!(found.words("t_s"), ["0.3", "1.000000001", "123456789.12345679", "1e+300"]);
 }
 
-/// Forty rows of rest, the third force of which rises by `range` in all, then a push, at 100 rows a second.
+/// Forty rows of rest, the third force of which rises by `range` in all, then a push, at 100 rows a second from 5 s on.
 fn rest(range: f64) -> String {
     let mut rows = format!("t_s,{WRENCH}\n");
     for i in 0..40 {
-        rows += &format!("{},0,0,{},0,0,0\n", 0.01 * f64::from(i), range * f64::from(i) / 39.0);
+        // A row without a time neither ends the rest nor belongs to it.
+        let time = if i == 20 { String::new() } else { format!("5.{i:02}") };
+        rows += &format!("{time},0,0,{},0,0,0\n", range * f64::from(i) / 39.0);
     }
-    // A row without a time neither ends the rest nor belongs to it.
-    rows.replace("0.2,0,0", ",0,0") + "0.4,0,0,-7,0,0,0\n0.41,0,0,-8,0,0,0\n"
+    rows + "5.40,0,0,-7,0,0,0\n5.41,0,0,-8,0,0,0\n"
 }
 
 #[test]

@@ -142,7 +142,8 @@ fn foreign(folder: &Folder) {
     writer.write_contact(one, 1.0, contact("fingertip")).unwrap();
     writer.write_contact(two, 1.0, contact("thumb")).unwrap();
     writer.write_wrench(left, 2.0, &wrench(3.0)).unwrap();
-    writer.write_contact(one, 2.0, contact("thumb")).unwrap();
+    let crooked = RecordedContact { normal: Vector3::new(f64::NAN, 0.0, 1.0), ..contact("thumb") };
+    writer.write_contact(one, 2.0, crooked).unwrap();
     // The same time twice, and one that goes back.
     writer.write_wrench(left, 2.0, &wrench(4.0)).unwrap();
     writer.write_wrench(right, 1.5, &wrench(5.0)).unwrap();
@@ -160,7 +161,7 @@ fn rows_are_put_together_by_their_times() {
         Note: topic /daq has the columns without a name\n\
         Note: topic /one has the columns without a name\n\
         Note: 2 rows have a time that is not after that of the row before; other commands pass over them\n\
-        Lost: 1 messages of /two, which CSV has no columns for; 1 numbers that are not finite (NaN becomes an empty \
+        Lost: 1 messages of /two, which CSV has no columns for; 2 numbers that are not finite (NaN becomes an empty \
         cell); 1 names of contacts; 2 names of frames: left, right\n";
     assert_eq!(said, expected);
     let rows = Contacts::parse(&folder.read("a.csv"));
@@ -172,6 +173,7 @@ fn rows_are_put_together_by_their_times() {
     assert_eq!(cells("v1_V"), [Some(0.5), None, None, None]);
     assert_eq!(cells("v2_V"), [None; 4]);
     assert_eq!(cells("v3_V"), [Some(0.25), None, None, None]);
+    assert_eq!(cells("contact_nx"), [Some(0.0), None, None, None]);
     assert_eq!(cells("contact_y_m"), [Some(0.002), Some(0.002), None, None]);
 }
 

@@ -115,11 +115,21 @@ fn what_is_asked_of_a_recording_is_done_or_refused() {
     let folder = Folder::new();
     let now = || SystemTime::now().duration_since(UNIX_EPOCH).unwrap().as_secs_f64();
     let before = now();
-    let said =
-        folder.succeed(&["record", FAST, "-o", "day.csv", "--samples", "20", "--unix-time", "--quiet"]);
+    let said = folder.succeed(&[
+        "record",
+        FAST,
+        "-o",
+        "day.csv",
+        "--samples",
+        "20",
+        "--unix-time",
+        "--quiet",
+        "--tare",
+        "1",
+    ]);
     assert_eq!(said, "");
     let times = Contacts::parse(&folder.read("day.csv")).numbers("t_s");
-    assert!(times[0] >= before - 1e-6 && times[0] <= now() + 1e-6, "{times:?}");
+    assert!(times[0] >= before + 0.9 && times[0] <= now() + 1e-6, "{times:?}");
     assert!((times[19] - times[0] - 0.019).abs() < 1e-6);
     for (option, value) in [
         ("duration", "0"),
@@ -199,6 +209,17 @@ fn a_simulation_tells_where_it_is_and_what_it_did() {
         let error = folder.fail(1, &script);
         assert!(error.contains(expected), "{error}");
     }
+    folder.succeed(&[
+        "simulate",
+        "--serve",
+        "bota",
+        "--over",
+        "tcp",
+        "--rate",
+        "100000",
+        "--duration",
+        "0.05",
+    ]);
     for (option, expected) in [
         ("--rate=-1", "--rate -1 must be above 0"),
         ("--rate=100001", "up to 100000"),
