@@ -255,3 +255,57 @@ fn lines_that_miss_by_little_are_taken_alike() {
     let [within, whatever, none] = missed;
     assert!(within > 100 && whatever > 200 && none == 0, "{missed:?}");
 }
+
+/// The gap that is accepted is accepted to its end; a force without an answer lies at no gap.
+#[test]
+fn gaps_end_where_they_are_said_to() {
+    let sphere = Sphere::centred(1.0).unwrap();
+    let accepting = |gap: f64| tip(sphere, PointContact::new(0.1).unwrap().accepting_gap(gap).unwrap());
+    let past = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 1.25), Vector3::new(-2.0, 0.0, 0.0));
+    for (gap, taken) in [(0.25, true), (0.25 - 1e-9, false), (0.25 + 1e-9, true)] {
+        let tip = accepting(gap);
+        assert_eq!({ tip }.feel(past, 1e-3, None).resolution.contact().is_some(), taken, "{gap}");
+        let (columns, _) = sense_all(&tip, &[past]);
+        assert_eq!(columns[2][0], if taken { 1.0 } else { 0.0 }, "{gap}");
+    }
+    // Squares of this force overflow.
+    let huge = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 1.25), Vector3::new(-1e200, 0.0, 0.0));
+    let (columns, slip) = sense_all(&accepting(f64::MAX), &[huge]);
+    assert_eq!((columns.map(|column| column[0]), slip[0]), ([0.0; 9], SlipVerdict::NotPressing));
+}
+
+/// Friction so strong or so weak that what it holds, or what is used of it, leaves the range.
+#[test]
+fn frictions_out_of_range_are_answered_alike() {
+    for (coefficient, size) in [(1e300, 1e100), (1e-300, 1e-12), (1e-300, 1e100), (1e300, 1e-12)] {
+        let tip = Fingertip::builder()
+            .solver(Direct)
+            .contact(Sphere::centred(1.0).unwrap(), PointContact::new(0.0).unwrap())
+            .friction(Coulomb::new(coefficient).unwrap())
+            .slip_detector(
+                RatioThreshold::new(
+                    NormalForceGate::from_noise(&ForceNoise::isotropic(1e-15).unwrap()),
+                    0.6,
+                    0.75,
+                )
+                .unwrap(),
+            )
+            .build();
+        let wrenches: Vec<_> = presses(40).into_iter().map(|wrench| wrench * size).collect();
+        let (columns, _) = sense_all(&tip, &wrenches);
+        for (k, wrench) in wrenches.iter().enumerate() {
+            let grip = { tip }.feel(*wrench, 1e-3, None).grip.unwrap();
+            let close = |found: f64, wanted: f64| found == wanted || (found / wanted - 1.0).abs() < 1e-9;
+            assert!(
+                close(columns[7][k], grip.newtons),
+                "{coefficient:e} {size:e}: {} {grip:?}",
+                columns[7][k]
+            );
+            assert!(
+                close(columns[8][k], grip.utilisation),
+                "{coefficient:e} {size:e}: {} {grip:?}",
+                columns[8][k]
+            );
+        }
+    }
+}

@@ -1,6 +1,12 @@
 //! The pipeline from outside, as one program: each program more is linked again.
 #![cfg(feature = "friction")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::needless_range_loop,
+    reason = "tests"
+)]
 
 use fingertip::wrench::gauge_layout::{GaugeLayout, ThinWalledBeam};
 use fingertip::wrench::{Real, SensorMatrix};

@@ -64,10 +64,8 @@ fn column_norm<T: Real, const N: usize>(a: &SMatrix<T, N, 6>, j: usize) -> T {
 /// Makes columns `p` and `q` orthogonal; `false` if they were.
 fn rotate<T: Real, const N: usize>(a: &mut SMatrix<T, N, 6>, p: usize, q: usize, orthogonal: T) -> bool {
     let (long, short) = (column_norm(a, p), column_norm(a, q));
-    if long.is_zero() || short.is_zero() {
-        return false;
-    }
-    // The cosine between them, from unit vectors: no under- or overflow.
+    // The cosine between them, from unit vectors: no under- or overflow. With a column of zeros it is NaN, which
+    // is orthogonal enough.
     let cosine = (a.column(p) / long).dot(&(a.column(q) / short));
     if !(cosine.abs() > orthogonal * T::literal(N as f64)) {
         return false;

@@ -150,6 +150,13 @@ fn extremes_of_singular_values() {
     }
     let subnormal = singular_values(&Matrix6::<f64>::from_diagonal_element(5e-324));
     assert!(subnormal.iter().all(|x| *x == 5e-324));
+    // Columns at half a right angle whose lengths have no ratio that can be squared.
+    for short in [1e-30, 1e-170, 1e-200, 1e-290] {
+        let mut aslant = Matrix6::<f64>::identity();
+        (aslant[(0, 1)], aslant[(1, 1)]) = (short, short);
+        let values = singular_values(&aslant);
+        assert!((values[5] / short - 1.0).abs() < 1e-14 && (values[0] - 1.0).abs() < 1e-14, "{values}");
+    }
     // Columns whose squares underflow are put in order, too.
     let faint = Matrix6::from_diagonal(&Vector6::new(1e-200, 1.0, 1e-190, 1e-195, 1e-170, 1e-180));
     assert_eq!(singular_values(&faint).as_slice(), [1.0, 1e-170, 1e-180, 1e-190, 1e-195, 1e-200]);

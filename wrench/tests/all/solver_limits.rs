@@ -162,7 +162,12 @@ fn what_leaves_the_range_is_refused() {
         assert_eq!(Refined::new(&sensor).err(), Some(SingularMatrix::OutOfRange));
         assert!(Inverse::new(&sensor).is_err());
     }
-    // Newtons per signal alone beyond the range.
+    // Newtons per signal alone beyond the range, of a gauge that is faint.
+    let mut faint = Matrix6::identity();
+    (faint[(0, 5)], faint[(5, 5)]) = (1.0, 1e-200);
+    let faint = SensorMatrix::new(faint, Vector6::repeat(1e150)).expect("proper");
+    assert!(GaussianElimination::new(&faint).is_ok());
+    assert_eq!(Inverse::new(&faint).err(), Some(SingularMatrix::OutOfRange));
     assert_eq!(Inverse::new(&of(1e-200, 1e150)).err(), Some(SingularMatrix::OutOfRange));
     assert_eq!(LeastSquares::new(&of(1e-200, 1e150)).err(), Some(LeastSquaresError::OutOfRange));
     assert!(Inverse::new(&of(1e-200, 1e50)).is_ok() && LeastSquares::new(&of(1e-200, 1e50)).is_ok());
