@@ -97,8 +97,12 @@ impl<T: Real> UncertainCoulomb<T> {
     pub fn least_normal_force(&self, force: &ContactForce<T>, probability: f64) -> T {
         let z = T::literal(-normal_quantile(probability));
         let tangential = force.tangential_magnitude();
-        if !z.is_number() || !tangential.is_number() {
-            return if z < T::zero() { T::zero() } else { T::GREATEST };
+        if !tangential.is_number() || z > T::GREATEST {
+            return T::GREATEST;
+        }
+        if z < -T::GREATEST {
+            // Slip is certain to be borne.
+            return T::zero();
         }
         let noise = self.noise.map_or(T::zero(), |noise| {
             let (a, b) = (noise.tangential, self.coefficient * noise.normal);

@@ -51,7 +51,8 @@ impl<T: Real, const W: usize> LikelihoodRatio<T, W> {
         }
         let first = (threshold + threshold).root();
         let last = first * T::literal(window as f64).root();
-        let slope = (last - first) / T::literal(window as f64 - 1.0);
+        let steps = T::literal(window as f64 - 1.0);
+        let slope = (last - first) / steps;
         // Lowered by far more than what the rounding of sums of that size comes to.
         let intercept = (first - slope) - last * (T::EPSILON * T::literal(window as f64)).root();
         let samples = [T::zero(); W];

@@ -117,9 +117,6 @@ pub fn likelihood_ratio_threshold(window: usize, run_length: f64) -> Result<f64,
 
 /// ν: the mean of `e^{−μR}` over the overshoot R, by Siegmund & Yakir (2007).
 fn overshoot(x: f64) -> f64 {
-    if x < 1e-8 {
-        return 1.0;
-    }
     let half = 0.5 * x;
     let share = normal_distribution(half);
     let density = libm::exp(-0.5 * half * half) / libm::sqrt(core::f64::consts::TAU);

@@ -110,6 +110,12 @@ fn slip_is_against_the_gradient() {
         assert!((found.velocity + slope.normalize()).norm() < 1e-6, "{f:?} {found:?}");
         assert_eq!(found.spin, 0.0);
     }
+    // Along a direction, of which the other component is zero.
+    let straight = AnisotropicCoulomb::new([Vector3::x(), Vector3::y()], COEFFICIENTS).unwrap();
+    for along in [Vector3::x(), -Vector3::y()] {
+        let found = straight.slip_direction(&ContactForce::new(1.0, along * 3.0, 0.0)).unwrap();
+        assert_eq!(found.velocity, -along);
+    }
     let none = ContactForce::new(1.0, Vector3::zeros(), 0.0);
     assert_eq!(model().slip_direction(&none), None);
     for size in [1e-300, 1e300] {
@@ -160,6 +166,8 @@ fn the_lower_coefficient_comes_first() {
         let model = AnisotropicCoulomb::new(given, coefficients).unwrap();
         assert_eq!((model.coefficients(), model.directions()), ([0.3, 0.9], [two, one]));
     }
+    let round = AnisotropicCoulomb::new([two, one], [0.5, 0.5]).unwrap();
+    assert_eq!(round.directions(), [two, one]);
     for bad in [0.0, -0.1, f64::INFINITY] {
         assert!(AnisotropicCoulomb::new(directions(), [bad, 0.3]).is_err());
         assert!(AnisotropicCoulomb::new(directions(), [0.3, bad]).is_err());

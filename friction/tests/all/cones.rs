@@ -251,7 +251,8 @@ fn a_model_behind_a_reference_is_the_model() {
     }
     let model = SoftFingerLimit::new(0.5, ARM).unwrap();
     for f in [force(1.0, 2.0, 0.5, 1e-3), force(9.0, 2.0, 0.5, 1e-3)] {
-        assert_eq!(through(&model, &f), through(model, &f));
+        let reference: &dyn FrictionLimit<f64> = &model;
+        assert_eq!(through(reference, &f), through(model, &f));
     }
 }
 
@@ -280,6 +281,19 @@ fn the_conservative_ellipse_lies_inside_the_exact_limit() {
         assert!(PowerLimit::new(0.5, ARM, bad).is_err());
     }
     assert!(PowerLimit::new(0.5, ARM, 0.99).is_err() && PowerLimit::new(0.5, ARM, 2.01).is_err());
+}
+
+/// On the limit itself it holds, and is projected to itself.
+#[test]
+fn the_limit_is_included() {
+    let model = Coulomb::new(0.75).unwrap();
+    let edge = force(4.0, 3.0, 0.0, 0.0);
+    assert!(model.holds(&edge) && model.slip_margin(&edge).newtons == 0.0);
+    assert_eq!(model.project(&edge), edge);
+    // On a rhombus, a tangential force alone slides without spin.
+    let rhombus = PowerLimit::new(0.75, ARM, 1.0).unwrap();
+    let found = rhombus.slip_direction(&edge).unwrap();
+    assert_eq!((found.velocity, found.spin), (-Vector3::x(), 0.0));
 }
 
 #[test]

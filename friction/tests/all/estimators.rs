@@ -186,6 +186,12 @@ fn slip_probability_is_first_order() {
     assert_eq!(model.slip_probability(&ContactForce::new(4.0, Vector3::zeros(), f64::NAN)), 1.0);
     // No load, or one that is no number; a sure slip is asked for; a probability that is none.
     let least = |load: f64, probability: f64| model.least_normal_force(&force(1.0, load), probability);
+    assert_eq!(
+        (least(f64::NAN, 0.5), least(f64::NAN, 0.9), least(f64::INFINITY, 1.0)),
+        (f64::MAX, f64::MAX, f64::MAX)
+    );
+    let sure = UncertainCoulomb::new(0.5, 0.0, None).unwrap();
+    assert_eq!(sure.slip_probability(&ContactForce::new(2.0, Vector3::x(), 0.0)), 0.0);
     assert_eq!((least(f64::NAN, 0.1), least(1.0, 0.0), least(1.0, 1.0)), (f64::MAX, f64::MAX, 0.0));
     assert_eq!(UncertainCoulomb::new(0.5, 0.0, None).unwrap().least_normal_force(&force(1.0, 0.0), 0.1), 0.0);
     // A quarter of the coefficient is not known, so that four deviations are too many.

@@ -103,6 +103,23 @@ fn a_drop_counts_by_the_ratio_of_the_day() {
     }
 }
 
+/// Against a forecast that goes on along a line, over a step of any length.
+#[test]
+fn a_drop_counts_from_the_line_that_was_followed() {
+    let mut detector = detector();
+    for index in 0..100_i32 {
+        detector.update(&force(4.0, 2.0 + 0.01 * f64::from(index - 99)), PERIOD);
+    }
+    for s in [0.7, 1.0, 3.0, 8.0] {
+        let found = critical(1.0, |drop| {
+            let sample = force(4.0, 2.0 + 0.01 * s - drop);
+            detector.clone().update(&sample, s * PERIOD) == SlipVerdict::Slipping
+        });
+        let wanted = THRESHOLD * innovation_deviation() * across(0.5 + 0.0025 * s);
+        assert!((found.unwrap() / wanted - 1.0).abs() < 1.0 / 32.0, "{s}: {found:?} {wanted}");
+    }
+}
+
 /// Also after a step of the normal force, with which the ratio jumps, once its roughness is forgotten.
 #[test]
 fn a_drop_counts_by_the_ratio_after_a_jump() {

@@ -161,6 +161,21 @@ fn elasto_plastic_contact_is_elastic_when_loaded_a_little_and_when_unloaded() {
     }
 }
 
+/// Motion across the deflection does not unload it: the contact slides.
+#[test]
+fn a_motion_across_the_deflection_slides() {
+    let law = ElastoPlastic::new(LuGre::new(2e3, 0.0, 0.0, curve()).unwrap(), 0.5).unwrap();
+    let mut bristle = Bristle::<f64, _, 2>::new(law);
+    for _ in 0..1000 {
+        bristle.step(&SVector::<f64, 2>::new(1e-2, 0.0), 1e-3);
+    }
+    let before = bristle.deflection().x;
+    bristle.step(&SVector::<f64, 2>::new(0.0, 1e-2), 1e-3);
+    // Nearly at steady sliding, the share is one.
+    let wanted = before * (-1e-5 * 2e3 / curve().at(1e-2)).exp();
+    assert!((bristle.deflection().x / wanted - 1.0).abs() < 1e-3, "{before} {wanted} {bristle:?}");
+}
+
 #[test]
 fn load_scales_force_and_energy_and_its_loss_releases() {
     let law = LuGre::new(2e3, 3.0, 0.5, curve()).unwrap();

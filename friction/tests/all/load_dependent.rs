@@ -142,6 +142,10 @@ fn grip_forces_are_just_enough() {
             }
         }
     }
+    // No load needs no force.
+    let none = ContactForce::new(1.0, Vector3::zeros(), 0.0);
+    assert_eq!(model(0.3).least_normal_force(&none, 1.5), 0.0);
+    assert_eq!(model(0.3).normal_force_keeping(&none, 0.0), 0.0);
     // A spin that no force of the type holds.
     let greatest = ContactForce::new(1.0, Vector3::zeros(), f64::MAX);
     assert_eq!(model(0.0).least_normal_force(&greatest, 1.0), f64::MAX);

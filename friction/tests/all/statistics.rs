@@ -23,6 +23,9 @@ fn a_sum_passes_above_its_threshold_and_comes_back_from_anything() {
     assert!(!sum.add(-6.5) && sum.sum() == 3.0);
     assert!(!sum.add(-100.0) && sum.sum() == 0.0);
     assert!(!sum.add(0.25) && sum.sum() == 0.0);
+    // A sample of zero lies below the allowance.
+    assert!(!sum.add(2.0) && !sum.add(0.0) && sum.sum() == 1.0);
+    sum.reset();
     assert!(!sum.add(f64::NEG_INFINITY) && sum.sum() == 0.0);
     for bad in [-0.1, f64::NAN, f64::INFINITY] {
         assert!(Cusum::new(bad, 5.0).is_err() && Cusum::new(0.5, bad).is_err());
@@ -96,6 +99,12 @@ fn likelihood_ratio_is_its_definition_on_changes_of_all_sizes() {
         LikelihoodRatio::<f64, 2>::new(3.0).is_ok()
             && LikelihoodRatio::<f64, 16>::with_window(16, 3.0).is_ok()
     );
+}
+
+#[test]
+fn a_likelihood_ratio_passes_above_its_threshold() {
+    let mut ratio = LikelihoodRatio::<f64, 16>::new(2.0).unwrap();
+    assert!(!ratio.add(2.0) && ratio.add(1.0));
 }
 
 /// Samples near the end of the range, which overflow sums and squares, come out as a change.

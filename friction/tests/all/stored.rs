@@ -123,7 +123,7 @@ fn states<T: Real + Serialize + DeserializeOwned>() {
     assert_eq!(again(&friction).estimate(), friction.estimate());
     assert!(again(&friction).estimate().is_some());
     // What no onset can have taught is refused: a coefficient out of range, a variance below zero.
-    let json = serde_json::to_value(&friction).unwrap();
+    let json: Value = serde_json::from_str(&serde_json::to_string(&friction).unwrap()).unwrap();
     for (place, bad) in [(0, 1e9), (1, -1e-3)] {
         let mut broken = json.clone();
         broken["log_coefficient_and_variance"][place] = bad.into();
@@ -148,6 +148,15 @@ fn dynamics<T: Real + Serialize + DeserializeOwned>() {
     bristle.set_load(l(3.0));
     bristle.step(&SVector::<T, 2>::new(l(1e-3), l(2e-3)), l(1e-3));
     kept(&bristle);
+    // With the greatest deflection, and without load.
+    for _ in 0..100 {
+        bristle.step(&SVector::<T, 2>::new(l(-3e-6), l(4e-6)), l(1.0));
+    }
+    assert!(bristle.deflection().norm() > l(1.4999e-5));
+    kept(&bristle);
+    let mut unloaded = bristle;
+    unloaded.set_load(T::zero());
+    assert_eq!(again(&unloaded), unloaded);
     // A break-away below the kinetic friction, and an elastic share beyond it.
     for (kinetic, share) in [("2.0", "0.5"), ("1.0", "0.7")] {
         let json = format!(

@@ -178,6 +178,20 @@ fn jitter_is_borne() {
     assert!(worst.get() < 4e-3, "{}", worst.get());
 }
 
+/// A rate that is off by 1 % is taken for regular, and learnt.
+#[test]
+fn a_slightly_different_rate_is_learnt() {
+    for share in [1.01, 0.99] {
+        let mut detector = settled(0.0);
+        for _ in 0..300 {
+            feed(&mut detector, 4.0, 0.5, share * PERIOD);
+            feed(&mut detector, 4.0, 0.5 + 1e-12, share * PERIOD);
+        }
+        let found = feed(&mut detector, 4.0, 0.6, 3.7 * PERIOD);
+        assert!((found - (0.5 + 0.1 * gain(3.7 / share))).abs() < 1e-9, "{share}: {found}");
+    }
+}
+
 #[test]
 fn time_of_unusable_samples_counts() {
     let mut detector = settled(0.0);
