@@ -213,6 +213,20 @@ mod tests {
                 assert!(!is_said_to_drift(samples, sign * 0.999 * least), "{samples} {sign}");
             }
         }
+        // A step of one deviation to the last bit is not more: numbers whose squares make it 22.
+        let mut exact = vec![0.0];
+        exact.extend((0..120).map(|i| if i % 2 == 0 { 19.0 } else { -19.0 }));
+        exact.extend([-41.0, 4.0, 10.0, 12.0, 15.0].map(|noise| 22.0 + noise));
+        exact.extend((0..116).map(|i| if i % 2 == 0 { 41.0 } else { 3.0 }));
+        let readings =
+            |last: f64| {
+                DMatrix::from_fn(242, 6, |i, j| {
+                    if j == 0 { exact[i] + if i == 241 { last } else { 0.0 } } else { 0.0 }
+                })
+            };
+        let tared = file().tared_by(&readings(0.0)).unwrap();
+        assert_eq!((tared.file.noise.as_ref().unwrap()[0], tared.warnings.len()), (22.0, 0));
+        assert_eq!(file().tared_by(&readings(1.0)).unwrap().warnings.len(), 1);
         // A ramp, up and down.
         for slope in [1e-2, -1e-2] {
             let ramp = DMatrix::from_fn(1000, 6, |i, j| if j == 4 { slope * i as f64 } else { 0.0 });

@@ -170,6 +170,19 @@ mod tests {
         }
     }
 
+    /// A quarter bridge of gauges of factor 2 gives half the strain times its supply.
+    #[test]
+    fn gain_is_that_of_a_bridge() {
+        let excitation = super::Excitation { supply: 3.0, gauge_factor: 2.0, amplifier_gain: 400.0 };
+        assert_eq!(excitation.gain(), 600.0);
+        assert!(excitation.validate().is_ok());
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(super::Excitation { supply: bad, ..excitation }.validate().is_err());
+            assert!(super::Excitation { gauge_factor: bad, ..excitation }.validate().is_err());
+            assert!(super::Excitation { amplifier_gain: bad, ..excitation }.validate().is_err());
+        }
+    }
+
     #[test]
     fn quarter_bridge_has_its_known_curve() {
         let (k, strain) = (2.0, 5e-3);

@@ -351,6 +351,35 @@ mod tests {
         assert_eq!((file.quality.rms, file.quality.warnings), (fit.rms, fit.warnings.clone()));
     }
 
+    /// Four readings, given in the base frame by mistake, may look like a weight. They fit exactly if they are
+    /// taken for what they are.
+    #[test]
+    fn mixed_frames_are_recognised() {
+        let (g, c) = (Vector3::new(0.0, 0.0, -3.0), Vector3::new(0.01, -0.02, 0.03));
+        let options = PayloadOptions { down: None, ..PayloadOptions::default() };
+        let mut fitted = 0;
+        for seed in 0..400 {
+            let random = &mut Pcg64Mcg::seed_from_u64(seed);
+            let bias = vector(random);
+            let bias = Vector6::new(bias.x, bias.y, bias.z, 0.0, 0.0, 0.0);
+            let mixed: Vec<Pose> = poses(random, 4, g, c, bias)
+                .iter()
+                .map(|pose| {
+                    let f = pose.base_from_sensor * pose.wrench.fixed_rows::<3>(0);
+                    Pose { wrench: Vector6::new(f.x, f.y, f.z, 0.0, 0.0, 0.0), ..*pose }
+                })
+                .collect();
+            let Ok(fit) = fit_payload(&mixed, &options) else { continue };
+            fitted += 1;
+            assert!(fit.rms_if_in_base < 1e-12, "{}", fit.rms_if_in_base);
+            assert!(
+                fit.warnings.iter().any(|warning| warning.contains("frames seem to be mixed")),
+                "{fit:?}"
+            );
+        }
+        assert!(fitted >= 5, "{fitted}");
+    }
+
     #[test]
     fn what_is_badly_known_is_warned_of() {
         let random = &mut Pcg64Mcg::seed_from_u64(22);

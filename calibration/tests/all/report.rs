@@ -137,6 +137,21 @@ fn every_method_finds_the_sensor() {
     assert!((found.matrix - plain.to_file().unwrap().matrix).largest() < 0.05);
 }
 
+/// A zero may move as it likes: only the matrix is believed.
+#[test]
+fn a_prior_leaves_the_zero_free() {
+    let table = table();
+    let prior = calibrate(&table, &Options::default()).unwrap().to_file().unwrap();
+    let mut moved = table;
+    moved.signals.add_scalar_mut(0.5);
+    let method = Method::Prior { prior: Box::new(prior.clone()), relative: 1e-3 };
+    let found = calibrate(&moved, &Options { method, ..Options::default() }).unwrap().to_file().unwrap();
+    for (zero, before) in found.zero.iter().zip(&prior.zero) {
+        assert!((zero - before - 0.5).abs() < 1e-3, "{zero} {before}");
+    }
+    assert!((found.matrix - prior.matrix).largest() < 1e-3);
+}
+
 #[test]
 fn quadratic_terms_are_kept_where_they_help_and_refused_where_not() {
     // A sensor of three axes, truly quadratic, and its linear twin with noise.
