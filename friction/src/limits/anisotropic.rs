@@ -154,9 +154,6 @@ impl<T: Real> FrictionModel<T> for AnisotropicCoulomb<T> {
     fn slip_margin(&self, force: &ContactForce<T>) -> SlipMargin<T> {
         let components = self.split(force);
         let gauge = self.gauge(components);
-        if !(gauge.is_number() && force.normal.is_number()) {
-            return SlipMargin::unknown();
-        }
         let newtons = self.distance(components, force.normal);
         let utilisation = if gauge <= T::zero() && force.normal >= T::zero() {
             T::zero()

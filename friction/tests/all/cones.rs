@@ -290,6 +290,12 @@ fn the_limit_is_included() {
     let edge = force(4.0, 3.0, 0.0, 0.0);
     assert!(model.holds(&edge) && model.slip_margin(&edge).newtons == 0.0);
     assert_eq!(model.project(&edge), edge);
+    // What holds is left as it is, to the last digit.
+    for normal in [0.1, 0.7, 1.3, 5.9, 11.1] {
+        let model = Coulomb::new(0.6).unwrap();
+        let edge = force(normal, 0.6 * normal, 0.0, 0.0);
+        assert_eq!(model.project(&edge), edge);
+    }
     // On a rhombus, a tangential force alone slides without spin.
     let rhombus = PowerLimit::new(0.75, ARM, 1.0).unwrap();
     let found = rhombus.slip_direction(&edge).unwrap();
