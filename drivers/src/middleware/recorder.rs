@@ -16,7 +16,8 @@ use crate::{AsyncSignalSource, AsyncWrenchSource, ErrorType, Sample, SignalSourc
 ///
 /// ```
 /// use fingertip_drivers::middleware::Recorder;
-/// use fingertip_recordings::{RecordingReader, RecordingWriter, Schema, WrenchPlayback};
+/// use fingertip_drivers::playback::WrenchPlayback;
+/// use fingertip_recordings::{RecordingReader, RecordingWriter, Schema};
 /// use fingertip_drivers::{Sample, WrenchSource};
 /// use fingertip_wrench::Wrench;
 ///
