@@ -1,8 +1,8 @@
 //! Bytes from converters.
 #![no_main]
 
-use fingertip_drivers::converters::ads1256;
 use fingertip_drivers::converters::ads131m::{Answer, Request};
+use fingertip_drivers::converters::ads1256;
 use fingertip_drivers::converters::hx711::Shift;
 use fingertip_drivers::converters::mcp3564::{Data, Request as ScanRequest};
 use fingertip_drivers::converters::nau7802;

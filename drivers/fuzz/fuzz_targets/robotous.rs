@@ -1,10 +1,10 @@
 //! Bytes of a line with a Robotous sensor.
 #![no_main]
 
-use fingertip_drivers::sensors::line::LineDecoder;
-use fingertip_drivers::sensors::robotous::RobotousDecoder;
 use fingertip_drivers::Sample;
 use fingertip_drivers::sensors::AxisCounts;
+use fingertip_drivers::sensors::line::LineDecoder;
+use fingertip_drivers::sensors::robotous::RobotousDecoder;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

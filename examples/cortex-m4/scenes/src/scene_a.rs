@@ -1,7 +1,7 @@
 //! A: decoupled solver, sphere, Coulomb friction, ratio threshold.
 
-use fingertip::friction::{Coulomb, NormalForceGate, RatioThreshold};
 use fingertip::contact::PointContact;
+use fingertip::friction::{Coulomb, NormalForceGate, RatioThreshold};
 use fingertip::surfaces::Sphere;
 use fingertip::wrench::{BicchiDario, Decoupled, SensorMatrix, Tare};
 use fingertip::{Fingertip, Present};

@@ -1,7 +1,7 @@
 //! B: Gaussian elimination, ellipsoid, soft finger, limit surface, ratio threshold.
 
-use fingertip::friction::{NormalForceGate, RatioThreshold, SoftFingerLimit};
 use fingertip::contact::SoftFinger;
+use fingertip::friction::{NormalForceGate, RatioThreshold, SoftFingerLimit};
 use fingertip::surfaces::Ellipsoid;
 use fingertip::wrench::{GaussianElimination, SensorMatrix, Tare};
 use fingertip::{Fingertip, Present};

@@ -1,7 +1,7 @@
 //! C: eight gauges, capsule, covariance of the contact, cumulative sum of the drop.
 
-use fingertip::friction::{Coulomb, DropDetector};
 use fingertip::contact::{ContactCovariance, PointContact};
+use fingertip::friction::{Coulomb, DropDetector};
 use fingertip::surfaces::Capsule;
 use fingertip::wrench::{LeastSquares, SensorMatrix, Tare, WrenchCovariance};
 use fingertip::{Fingertip, Present};

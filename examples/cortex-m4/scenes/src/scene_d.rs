@@ -1,8 +1,8 @@
 //! D: everything: eight gauges that watch each other, a mesh, memory of the last contact, a power-law
 //! limit surface, the likelihood ratio of a drop, the covariance of the contact.
 
-use fingertip::friction::{LikelihoodRatioDetector, PowerLimit, PressureDistribution};
 use fingertip::contact::{ContactCovariance, PointContact};
+use fingertip::friction::{LikelihoodRatioDetector, PowerLimit, PressureDistribution};
 use fingertip::wrench::{
     Compensation, ConsistencyCheck, LeastSquares, SensorMatrix, Tare, Verdict, WrenchCovariance, WrenchSolver,
 };
