@@ -3,7 +3,7 @@
 use fingertip_wrench::Real;
 use nalgebra::{Matrix3x6, Matrix6, Vector2, Vector3, Vector6};
 
-use super::skin::Sinking;
+use super::sinking::Sinking;
 use super::{ContactJacobian, GeometrySensitivity};
 
 impl<T: Real> ContactJacobian<T> {

@@ -6,7 +6,7 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix2, Matrix3, Vector3, Vector6};
 
 use super::WrenchSpread;
-use super::skin::Sinking;
+use super::sinking::Sinking;
 use crate::Contact;
 
 /// The first derivatives of a contact with respect to the wrench `(f, m)` \[N, N·m\] about the

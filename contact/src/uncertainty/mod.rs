@@ -19,6 +19,8 @@ mod is_covariance;
 mod jacobian;
 mod paper;
 mod sensor;
+mod sinking;
+#[cfg(feature = "skin")]
 mod skin;
 mod spread;
 mod worst_case;

@@ -3,34 +3,11 @@
 use fingertip_surfaces::SmoothSurface;
 use fingertip_surfaces::numeric::vectors::tangents;
 use fingertip_wrench::{Real, Wrench};
-use nalgebra::{Matrix2, Matrix6, Vector2, Vector3, Vector6};
+use nalgebra::{Matrix2, Vector2, Vector3, Vector6};
 
+use super::sinking::Sinking;
 use super::{ContactJacobian, GeometrySensitivity};
 use crate::{CompliantContact, CompliantPointContact, CompliantSoftFinger, IndentationSlope, SkinLaw};
-
-/// How the surface under a contact sinks with it.
-///
-/// A contact through a skin lies on the parallel surface at the depth `δ` below the undeformed one, and
-/// there it is a rigid one, of which the derivatives `L` of the six local numbers by the wrench are known,
-/// and the answer `a` to a surface that moves outward ([`GeometrySensitivity::offset`]). But the depth
-/// follows the contact: `dδ = r·y` for the six local numbers `y`, with `r` from the skin's law. So
-/// `dy = L dw − a dδ`, which is solved by `dδ = r·L dw/(1 + r·a)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Sinking<T: Real> {
-    /// `a`.
-    pub(super) answer: Vector6<T>,
-    /// `r/(1 + r·a)`.
-    pub(super) feedback: Vector6<T>,
-    depth: T,
-}
-
-impl<T: Real> Sinking<T> {
-    /// How fast the depth grows with the wrench, from what a rigid contact would do.
-    #[inline]
-    pub(super) fn deeper(&self, rigid: &Matrix6<T>) -> Vector6<T> {
-        rigid.tr_mul(&self.feedback)
-    }
-}
 
 /// The parallel surface that a skin deforms to, at the contact.
 struct Deformed<T: Real> {
@@ -111,21 +88,5 @@ impl<T: Real, L> CompliantPointContact<T, L> {
             + (e1 * bend.m12 + e2 * bend.m22) * e2.transpose();
         let rigid = ContactJacobian::of_point_contact(&found.contact, wrench, &shape_operator)?;
         deformed.sinking(rigid, &self.slope(found, surface))
-    }
-}
-
-impl<T: Real> ContactJacobian<T> {
-    /// The change of the surface on which the contact lies, from that of the undeformed surface: through a
-    /// skin these are not the same, as a turn `t` of the normal moves the parallel surface at the depth `δ`
-    /// by `−δ t` along itself. Without a skin they are. (Moving and turning as a whole, taken at the
-    /// contact, are changes of the deformed surface already.)
-    ///
-    /// A law that differs from place to place is supposed to keep its place in space.
-    #[must_use]
-    pub fn of_deformed(&self, change: &GeometrySensitivity<T>) -> GeometrySensitivity<T> {
-        let Some(sinking) = &self.sinking else { return *change };
-        let [e1, e2] = &self.tangents;
-        let turned = self.bend * Vector2::new(e1.dot(&change.tilt), e2.dot(&change.tilt)) * sinking.depth;
-        GeometrySensitivity { tilt: change.tilt + e1 * turned.x + e2 * turned.y, ..*change }
     }
 }
