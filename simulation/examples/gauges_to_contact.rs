@@ -1,5 +1,5 @@
 //! From the gauges of a fingertip to the contact, on the host, without hardware:
-//! `cargo run --release -p fingertip-drivers --features ads131m,simulators --example gauges_to_contact`
+//! `cargo run --release -p fingertip-simulation --example gauges_to_contact`
 //!
 //! A simulated ADS131M08 converts six quarter bridges and, at the same moment, their excitation, which sags
 //! when a load is switched on. Its frames go through the driver, the bridges' front end, the tare and
