@@ -1,6 +1,6 @@
 //! A copy of the workspace, with the switches of the faults in it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -22,6 +22,7 @@ pub fn write(
     faults: &BTreeMap<u32, Fault>,
 ) -> Result<Places, Failure> {
     let mut places = Places::new();
+    remove_others(copy, copy, &files.iter().map(PathBuf::from).collect())?;
     for file in files {
         let to = copy.join(file);
         let bytes = std::fs::read(root.join(file))?;
@@ -49,6 +50,20 @@ pub fn write(
         }
     }
     Ok(places)
+}
+
+/// Removes what an earlier state of the workspace has left in the copy: cargo would find tests there.
+fn remove_others(copy: &Path, folder: &Path, files: &BTreeSet<PathBuf>) -> Result<(), Failure> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
+    for entry in entries {
+        let path = entry?.path();
+        if path.is_dir() {
+            remove_others(copy, &path, files)?;
+        } else if !path.ends_with("__mutation.rs") && !files.contains(path.strip_prefix(copy)?) {
+            std::fs::remove_file(path)?;
+        }
+    }
+    Ok(())
 }
 
 /// The first file of a crate in which faults may stand.
