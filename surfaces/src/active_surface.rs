@@ -73,8 +73,7 @@ impl<T: Real> Entry<T> {
     /// The same; none if it lies beyond the range of the type. That is said within the answer, since to
     /// take an answer back costs more than to find it.
     #[inline(always)]
-    #[doc(hidden)]
-    pub fn within_range(self) -> Self {
+    pub(crate) fn within_range(self) -> Self {
         let incidence_squared = if in_range(&self.point) { self.incidence_squared } else { T::zero() };
         Self { incidence_squared, ..self }
     }

@@ -11,7 +11,7 @@ use crate::{ClosestApproach, Distance};
 /// signed distance of a point, `reach` bounds the solid around `centre`.
 ///
 /// `active` tells which points may touch.
-pub fn to_convex<T: Real>(
+pub(crate) fn to_convex<T: Real>(
     line: &Line<T>,
     centre: &Vector3<T>,
     reach: T,
@@ -36,7 +36,7 @@ pub fn to_convex<T: Real>(
 }
 
 /// The foot of a point on the surface, told its distance.
-pub fn from_distance<T: Real>(point: &Vector3<T>, found: Distance<T>) -> ClosestApproach<T> {
+pub(crate) fn from_distance<T: Real>(point: &Vector3<T>, found: Distance<T>) -> ClosestApproach<T> {
     let on_surface = point - found.normal * found.distance;
     ClosestApproach {
         gap: found.distance.max(T::zero()).min(T::GREATEST),
@@ -61,7 +61,7 @@ const FIRST: u8 = 16;
 /// much the gap is too large, if `distance` is one from the nearest point of the solid, and the number
 /// of steps: by 256, and by some dozens unless the line runs along the surface. For a line with a single
 /// nearest place the gap is exact but for rounding.
-pub fn by_search<T: Real>(
+pub(crate) fn by_search<T: Real>(
     line: &Line<T>,
     centre: &Vector3<T>,
     reach: T,

@@ -11,7 +11,7 @@ use super::roots::first_of_convex;
 /// The closest point is `xᵢ = rᵢ·yᵢ/(s + rᵢ)` with `rᵢ = (aᵢ/a_min)²` and `s` the largest root of
 /// `Σ(rᵢ·zᵢ/(s + rᵢ))² = 1`, `zᵢ = yᵢ/aᵢ`: a falling convex function, so that Newton's method cannot
 /// overstep the root. Total for finite points and positive semi-axes.
-pub fn closest_point<T: Real, const N: usize>(semi_axes: &[T; N], point: &[T; N]) -> [T; N] {
+pub(crate) fn closest_point<T: Real, const N: usize>(semi_axes: &[T; N], point: &[T; N]) -> [T; N] {
     let least = semi_axes.iter().fold(T::GREATEST, |least, a| least.min(*a));
     let mut squared = [T::one(); N];
     let mut scaled = [T::zero(); N];

@@ -7,24 +7,31 @@ use crate::Crossing;
 
 /// One end of the part of a line inside a convex solid.
 #[derive(Clone, Copy)]
-pub struct End<T: Real> {
-    pub along: T,
-    pub normal: Vector3<T>,
-    pub active: bool,
+pub(crate) struct End<T: Real> {
+    pub(crate) along: T,
+    pub(crate) normal: Vector3<T>,
+    pub(crate) active: bool,
 }
 
 /// The part of a line inside a convex solid.
 #[derive(Clone, Copy)]
-pub struct Inside<T: Real> {
-    pub entry: End<T>,
-    pub exit: End<T>,
+pub(crate) struct Inside<T: Real> {
+    pub(crate) entry: End<T>,
+    pub(crate) exit: End<T>,
 }
 
 impl<T: Real> Inside<T> {
     /// What is left inside the half-space below the plane at `level` along the unit vector
     /// `normal`, for a line that starts at `height` over the origin; `None` if nothing is.
     #[inline]
-    pub fn below(self, level: T, height: T, slope: T, normal: Vector3<T>, active: bool) -> Option<Self> {
+    pub(crate) fn below(
+        self,
+        level: T,
+        height: T,
+        slope: T,
+        normal: Vector3<T>,
+        active: bool,
+    ) -> Option<Self> {
         let along = (level - height) / slope;
         let end = End { along, normal, active };
         let clipped = if slope > T::zero() && along < T::GREATEST {
@@ -42,7 +49,13 @@ impl<T: Real> Inside<T> {
     /// Reports both ends, `offset` being the position along the line of the point that the
     /// distances count from, `start`.
     #[inline]
-    pub fn report(self, line: &Line<T>, start: &Vector3<T>, offset: T, mut visit: impl FnMut(Crossing<T>)) {
+    pub(crate) fn report(
+        self,
+        line: &Line<T>,
+        start: &Vector3<T>,
+        offset: T,
+        mut visit: impl FnMut(Crossing<T>),
+    ) {
         for end in [self.entry, self.exit] {
             if end.along.abs() < T::GREATEST {
                 visit(Crossing {

@@ -1,10 +1,10 @@
 //! Numerical tools that several shapes share.
 
-pub mod closest;
-pub mod ellipse;
-pub mod interval;
+pub(crate) mod closest;
+pub(crate) mod ellipse;
+pub(crate) mod interval;
 pub mod quadratic;
 pub mod roots;
-pub mod support;
+pub(crate) mod support;
 pub mod twofold;
 pub mod vectors;

@@ -17,7 +17,7 @@ use crate::ClosestApproach;
 /// that is: it separates the line from the solid, so from `s`, and either `n` separates too, where
 /// `n·p − h(n)` has one summit only, or the line passes beside `s` on the side of the best. So bisection
 /// finds it for certain, however thin the solid.
-pub fn closest_approach<T: Real>(
+pub(crate) fn closest_approach<T: Real>(
     line: &Line<T>,
     support: impl Fn(&Vector3<T>) -> (T, Vector3<T>),
 ) -> ClosestApproach<T> {

@@ -94,8 +94,7 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
     }
 
     /// Squared radius at a height, with its first and second derivative; straight beyond the ends.
-    #[doc(hidden)]
-    pub fn profile(&self, z: T) -> [T; 3] {
+    pub(crate) fn profile(&self, z: T) -> [T; 3] {
         let mut found = None;
         for piece in pieces(self.knots()) {
             if z < piece.low && found.is_some() {
@@ -112,8 +111,7 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
 
     /// `true` if the radius is a concave function of the height: on each piece,
     /// `2ρ²(ρ²)″ ≤ ((ρ²)′)²`, of which both sides differ by a constant.
-    #[doc(hidden)]
-    pub fn is_convex(&self) -> bool {
+    pub(crate) fn is_convex(&self) -> bool {
         pieces(self.knots()).all(|piece| {
             let four = T::literal(4.0);
             let (rise, bend) = (piece.slope * piece.slope, four * piece.squared * piece.curvature);
@@ -121,8 +119,7 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
         })
     }
 
-    #[doc(hidden)]
-    pub fn bounds(&self) -> (Vector3<T>, T) {
+    pub(crate) fn bounds(&self) -> (Vector3<T>, T) {
         let (low, high) = self.ends().map_or((T::zero(), T::zero()), |(a, b)| (a.z, b.z));
         let half = (high - low) * T::literal(0.5);
         // The spline may bulge over its knots: by its slope, at most.
