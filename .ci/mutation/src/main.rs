@@ -120,7 +120,7 @@ fn build_tests(
     faults: &mut BTreeMap<u32, Fault>,
 ) -> Result<Vec<(PathBuf, PathBuf)>, Failure> {
     let copy = root.join("target/mutants");
-    let asked: Vec<String> = if options.packages.is_empty() {
+    let mut asked: Vec<String> = if options.packages.is_empty() {
         let mut names: Vec<String> = faults
             .values()
             .filter_map(|fault| workspace::package_of(root, packages, &fault.file))
@@ -132,6 +132,7 @@ fn build_tests(
     } else {
         options.packages.clone()
     };
+    asked.extend(options.judges.iter().cloned());
     for _ in 0..12 {
         let places = tree::write(root, &copy, files, faults)?;
         match build::tests(&copy, &asked, &places)? {

@@ -5,8 +5,9 @@ Puts faults into the code, one at a time, and lists those that no test notices.
 
 usage: .ci/mutants [options]
 
-  --package NAME    faults in this package, judged by its own tests alone; may be repeated
+  --package NAME    faults in this package, judged by its own tests; may be repeated
                     (default: faults in the hot files, judged by the tests of all packages that hold some)
+  --with NAME       judged by the tests of this package too; may be repeated
   --in PATH         only files whose path starts so; may be repeated
   --count N         how many faults are drawn (default 60)
   --all             every fault
@@ -17,6 +18,8 @@ usage: .ci/mutants [options]
 #[derive(Debug)]
 pub struct Options {
     pub packages: Vec<String>,
+    /// Packages in which no faults are put, and whose tests judge.
+    pub judges: Vec<String>,
     pub paths: Vec<String>,
     /// `None`: all.
     pub count: Option<usize>,
@@ -30,6 +33,7 @@ impl Options {
         let clock = std::time::UNIX_EPOCH.elapsed().map_or(0, |since| since.as_secs());
         let mut options = Self {
             packages: Vec::new(),
+            judges: Vec::new(),
             paths: Vec::new(),
             count: Some(60),
             seed: clock % 1_000_000,
@@ -40,6 +44,7 @@ impl Options {
             let mut value = || arguments.next().ok_or(format!("{argument} needs a value\n\n{USAGE}"));
             match argument.as_str() {
                 "--package" | "-p" => options.packages.push(value()?),
+                "--with" => options.judges.push(value()?),
                 "--in" => options.paths.push(value()?),
                 "--count" => options.count = Some(number(&value()?)?),
                 "--all" => options.count = None,

@@ -10,9 +10,6 @@ use crate::Failure;
 /// Where a sample's time or a sensor's bytes go through. What is off line has faults drawn by `--package`.
 const HOT: &[&str] = &[
     "wrench/src/",
-    "surfaces/src/batch/",
-    "surfaces/src/contact/",
-    "surfaces/src/soft_finger/",
     "surfaces/src/shapes/",
     "surfaces/src/numeric/",
     "contact/src/",
