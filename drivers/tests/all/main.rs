@@ -13,6 +13,7 @@ mod middleware;
 mod pace;
 mod patience;
 mod playback;
+mod restart;
 mod schunk_answers;
 mod schunk_fts;
 mod simulated_chips;

@@ -112,6 +112,28 @@ fn signals_can_be_reordered_spiked_and_made_not_a_number() {
 }
 
 #[test]
+fn each_component_of_a_wrench_can_be_spiked_and_made_not_a_number() {
+    let faults =
+        SampleFaults { not_a_number: 0.2, spike: 0.2, spike_size: 1e6, seed: 5, ..SampleFaults::default() };
+    let mut source = FaultInjector::new(Counting { number: 0, end: 3000 }, faults);
+    let (mut not_a_number, mut spikes) = ([0; 6], [0; 6]);
+    let mut number = 0.0;
+    while let Some(sample) = WrenchSource::<f64>::next_wrench(&mut source).unwrap() {
+        number += 1.0;
+        let sound = [number, 1.0, 2.0, 3.0, 4.0, 5.0];
+        let components = sample.value.components();
+        for (axis, (component, sound)) in components.iter().zip(sound).enumerate() {
+            not_a_number[axis] += u64::from(component.is_nan());
+            spikes[axis] += u64::from(*component == sound + 1e6);
+            assert!(component.is_nan() || *component == sound || *component == sound + 1e6);
+        }
+    }
+    let injected = source.injections();
+    assert!(not_a_number.iter().chain(&spikes).all(|count| *count > 50), "{not_a_number:?} {spikes:?}");
+    assert_eq!((not_a_number.iter().sum(), spikes.iter().sum()), (injected.not_a_number, injected.spikes));
+}
+
+#[test]
 fn a_record_that_fails_does_not_stop_the_source() {
     let mut log = Vec::new();
     let mut source = Recorder::new(Counting { number: 0, end: 10 }, |sample: &Sample<f64, Wrench<f64>>| {
