@@ -35,6 +35,24 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    #[test]
+    fn only_the_two_ends_of_the_range_are_saturated() {
+        for (counts, saturated) in [
+            (-8_388_608, true),
+            (-8_388_607, false),
+            (-1, false),
+            (0, false),
+            (1, false),
+            (8_388_606, false),
+            (8_388_607, true),
+        ] {
+            assert_eq!(
+                Reading { counts }.conversion(),
+                Conversion { counts: [counts], saturated: [saturated] }
+            );
+        }
+    }
+
     proptest! {
         #[test]
         fn any_bytes_are_a_reading_and_are_written_as_they_were_read(bytes in any::<[u8; 3]>()) {

@@ -71,6 +71,27 @@ fn whole_cycles_come_in_order_whichever_way_the_list_runs() {
 }
 
 #[test]
+fn only_the_two_ends_of_the_range_are_saturated() {
+    for (counts, saturated) in [
+        (-8_388_608, true),
+        (-8_388_607, false),
+        (-1, false),
+        (1, false),
+        (8_388_606, false),
+        (8_388_607, true),
+    ] {
+        // Gain 8.
+        let chip = SimulatedMcp3564::new(false, move |_, _| f64::from(counts) / 8_388_608.0 / 8.0);
+        let bench = SimulatedBench::new(chip, WireFaults::default());
+        let mut chip: Mcp3564<_, _, _, 5> = Mcp3564::new(bench.spi(), bench.ready(), bench.delay(), PATIENCE);
+        chip.configure(&configuration()).unwrap();
+        let conversion = chip.read().unwrap();
+        assert_eq!((conversion.counts, conversion.saturated), ([counts; 5], [saturated; 5]));
+        assert_eq!(chip.statistics().saturated, u64::from(saturated));
+    }
+}
+
+#[test]
 fn the_other_faces_give_the_same_without_the_pin_as_well() {
     let one = bench(false, WireFaults::default());
     let mut awaited: AsyncMcp3564<_, _, _, 5> =

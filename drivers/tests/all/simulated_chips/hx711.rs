@@ -62,6 +62,30 @@ fn it_settles_for_three_conversions_and_each_chip_has_its_own_rate() {
 }
 
 #[test]
+fn a_level_that_stays_is_no_pulse() {
+    let bench = still();
+    bench.advance(60_000_000);
+    let mut clock = bench.clock();
+    for _ in 0..3 {
+        clock.set_low().unwrap();
+        bench.advance(1000);
+    }
+    let mut words = [0; 2];
+    for _ in 0..25 {
+        clock.set_high().unwrap();
+        clock.set_high().unwrap();
+        bench.advance(1000);
+        for (word, pin) in words.iter_mut().zip(&mut bench.data()) {
+            *word = *word << 1 | u32::from(pin.is_high().unwrap());
+        }
+        clock.set_low().unwrap();
+        clock.set_low().unwrap();
+        bench.advance(1000);
+    }
+    assert_eq!(words.map(|bits| bits >> 1), [word(1e-3, 128.0), word(-2e-3, 128.0)]);
+}
+
+#[test]
 fn the_pulses_say_what_the_next_conversion_is_of() {
     let bench = still();
     bench.advance(60_000_000);
