@@ -59,8 +59,11 @@ pub fn is_inside_along<T: Real>(
     let mut nearest: Option<(T, bool)> = None;
     shape.crossings(line, |c| {
         let distance = (c.along - along).abs();
-        if nearest.is_none_or(|(least, _)| distance < least) {
-            let leaves = c.normal.dot(&line.direction) > T::zero();
+        let slope = c.normal.dot(&line.direction);
+        // One where the line is tangent tells nothing: on both sides of it the line is outside, or inside.
+        let tells = slope.abs() > T::EPSILON * T::literal(16.0);
+        if tells && nearest.is_none_or(|(least, _)| distance < least) {
+            let leaves = slope > T::zero();
             let inside = if c.along > along {
                 leaves
             } else if c.along < along {

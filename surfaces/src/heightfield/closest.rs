@@ -117,8 +117,7 @@ impl<T: Real> Cell<T> {
         let turns = roots(three * slope[3], slope[2], slope[1]).unwrap_or([-half; 2]);
         let [one, other] = turns.map(|x| smaller(larger(x, -half), half));
         for (low, high) in [(-half, one), (one, other), (other, half)] {
-            let rises = low < high && bend(low + (high - low) * T::literal(0.5)) >= T::zero();
-            if rises && slope_at(low).0 < T::zero() && slope_at(high).0 >= T::zero() {
+            if slope_at(low).0 < T::zero() && slope_at(high).0 >= T::zero() {
                 let start = low + (high - low) * T::literal(0.5);
                 nearest.keep(place(bracketed_from(start, low, high, noise, slope_at)));
             }

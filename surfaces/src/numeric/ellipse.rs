@@ -31,9 +31,9 @@ pub(crate) fn closest_point<T: Real, const N: usize>(semi_axes: &[T; N], point: 
         }
         (value, slope)
     };
-    let on_shortest = squared.iter().zip(&scaled).any(|(r, z)| *r <= T::one() && *z > T::zero());
     let low = -T::one();
-    let s = if !on_shortest && f(low).0 <= T::zero() {
+    // Infinite there for a point off the plane across the shortest axis.
+    let s = if f(low).0 <= T::zero() {
         // Near the middle, in the plane across the shortest axis: the closest point lies off it.
         low
     } else {

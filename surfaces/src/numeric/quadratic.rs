@@ -15,11 +15,11 @@ pub fn difference_of_products<T: Real>(a: T, d: T, b: T, c: T) -> T {
 ///
 /// The discriminant is formed exactly enough that nearly equal roots keep half their digits, and
 /// the roots without cancellation: `q = −(b + sign(b)·√(b² − a·c))`, `q/a`, `c/q`. A root beyond
-/// the range of the type is infinite or NaN; the caller shall test.
+/// the range of the type is infinite or NaN; the caller shall test. A constant has none, unless it is zero.
 #[inline]
 pub fn roots<T: Real>(a: T, b: T, c: T) -> Option<[T; 2]> {
     let discriminant = difference_of_products(b, b, a, c);
-    if !(discriminant >= T::zero()) {
+    if !(discriminant >= T::zero()) || (a.is_zero() && b.is_zero() && !c.is_zero()) {
         return None;
     }
     let root = discriminant.root();

@@ -177,7 +177,7 @@ impl<T: Real> ActiveSurface<T> for Cone<T> {
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {
         let (height, across) = self.axis.split_point(point);
-        height > T::zero() && self.is_active(height) && length(&across) * self.cosine < height * self.sine
+        self.is_active(height) && length(&across) * self.cosine < height * self.sine
     }
 }
 

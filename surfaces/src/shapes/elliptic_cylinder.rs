@@ -169,8 +169,11 @@ impl<T: Real> ActiveSurface<T> for EllipticCylinder<T> {
         let across = Vector3::new(line.direction.y, -line.direction.x, T::zero());
         let least = T::EPSILON * T::literal(4.0);
         if across.norm_squared() <= least * least {
-            let found = from_distance(&start, self.side_distance(&start));
-            return ClosestApproach { active: self.is_active(found.point.z), ..found };
+            let side = self.side_distance(&start);
+            let found = from_distance(&start, side);
+            // Within the side too it never meets it.
+            let gap = side.distance.abs().min(T::GREATEST);
+            return ClosestApproach { gap, active: self.is_active(found.point.z), ..found };
         }
         let outward = unit_or(&across, Vector3::x);
         let normal = if outward.dot(&start) < T::zero() { -outward } else { outward };
@@ -197,17 +200,18 @@ impl<T: Real> ActiveSurface<T> for EllipticCylinder<T> {
         }
     }
 
-    /// Of the side, `(x²/a² + y²/b² − 1)` over the length of its gradient.
+    /// Of the side, `(x²/a² + y²/b² − 1)` over the length of its gradient; or outside the end, if that is nearer.
     fn outside_by(&self, point: &Vector3<T>) -> T {
-        if let CylinderEnds::Capped(half) = self.ends
-            && point.z.abs() >= half
-        {
-            return point.z.abs() - half;
-        }
         let ([a, b], [ca, cb]) = (self.semi_axes, self.curvatures);
         let (x, y) = (Twofold::new(point.x).over(a), Twofold::new(point.y).over(b));
         let excess = x.squared().plus(y.squared()).minus(Twofold::new(T::one())).value();
-        excess / (hypotenuse(x.value() * ca, y.value() * cb) * T::literal(2.0))
+        let side = excess / (hypotenuse(x.value() * ca, y.value() * cb) * T::literal(2.0));
+        match self.ends {
+            CylinderEnds::Capped(half) if !((point.z.abs() - half).abs() > side.abs()) => {
+                point.z.abs() - half
+            }
+            _ => side,
+        }
     }
 
     #[inline]

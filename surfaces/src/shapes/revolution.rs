@@ -208,19 +208,23 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
             let c = m.x * m.x + m.y * m.y - piece.squared_at(m.z);
             let ends = roots(a, b, c).map(|ends| ends.map(|t| t + middle));
             let within = |t: &T| *t > low.0 && *t < high.0;
-            if outside(low) != outside(high) {
+            let starts_outside = outside(low);
+            if starts_outside != outside(high) {
                 // Exactly one: the root within, or what rounding left of it.
+                let off = |t: &T| (*t - middle).abs();
+                let nearer = |a: &T, b: &T| off(a).partial_cmp(&off(b)).unwrap_or(core::cmp::Ordering::Equal);
                 let t = ends
                     .and_then(|ends| ends.into_iter().find(within))
-                    .or(ends.and_then(|ends| ends.into_iter().find(|t| t.is_number())))
+                    .or(ends.and_then(|ends| ends.into_iter().filter(|t| t.is_number()).min_by(nearer)))
                     .unwrap_or(middle);
                 report(t.max(low.0).min(high.0), None);
             } else if let Some([first, second]) = ends
-                && within(&first)
-                && within(&second)
+                && (a > T::zero()) == starts_outside
+                && within(&((first + second) * T::literal(0.5)))
             {
-                report(first, None);
-                report(second, None);
+                // Both within, or one at a knot, where rounding may have put it beyond.
+                report(first.max(low.0), None);
+                report(second.min(high.0), None);
             }
         }
         if let (Some((bottom, top)), true) = (self.ends(), direction.z != T::zero()) {
@@ -263,11 +267,10 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
         let [squared, slope, _] = self.profile(point.z);
         let from_side = ((radius * radius - squared) / hypotenuse(radius + radius, slope)).abs();
         let on = |end: &Knot<T>| radius < end.radius && (point.z - end.z).abs() < from_side;
-        match self.ends() {
-            Some((bottom, _)) if on(&bottom) => -Vector3::z(),
-            Some((_, top)) if on(&top) => Vector3::z(),
-            _ => self.side_normal(point.x, point.y, point.z),
-        }
+        let Some((bottom, top)) = self.ends() else { return Vector3::z() };
+        let is_lower = (point.z - bottom.z).abs() < (point.z - top.z).abs();
+        let (end, outward) = if is_lower { (bottom, -Vector3::z()) } else { (top, Vector3::z()) };
+        if on(&end) { outward } else { self.side_normal(point.x, point.y, point.z) }
     }
 
     /// Outside the side, on which the active part lies.

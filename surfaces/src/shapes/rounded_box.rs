@@ -140,6 +140,11 @@ impl<T: Real> ActiveSurface<T> for RoundedBox<T> {
             [(x, true), (_, false), (_, false)]
             | [(_, false), (x, true), (_, false)]
             | [(_, false), (_, false), (x, true)] => x.minus(rounding).value() / scale,
+            [(x, false), (y, false), (z, false)] => {
+                // Within them all, as it may be within a sharp box: under the nearest face.
+                let nearer = |a: Twofold<T>, b: Twofold<T>| if b.value() > a.value() { b } else { a };
+                nearer(nearer(x, y), z).minus(rounding).value() / scale
+            }
             three => {
                 let part = |(x, out): (Twofold<T>, bool)| if out { x } else { Twofold::new(T::zero()) };
                 let outside = outside_ball(three.map(part), rounding.value()) / scale;

@@ -230,16 +230,27 @@ impl<T: Real> SmoothSurface<T> for Superquadric<T> {
         let [outer, inner] = self.exponents().map(|e| two / e);
         let plane = Norm::new(v.x, v.y, inner);
         let whole = Norm::new(plane.value, v.z, outer);
+        let gradient =
+            Vector3::new(whole.first[0] * plane.first[0], whole.first[0] * plane.first[1], whole.first[1])
+                .component_mul(&curvatures);
+        let value = whole.value - T::one();
+        let (plane, whole) = if plane.value.is_zero() {
+            // On the z axis one part of the second derivatives is zero and the other infinite: their limit.
+            let beside = Norm::new(v.z * T::EPSILON, T::zero(), inner);
+            let whole = Norm::new(beside.value, v.z, outer);
+            (beside, whole)
+        } else {
+            (plane, whole)
+        };
         let [px, py] = plane.first;
-        let [wp, wz] = whole.first;
+        let [wp, _] = whole.first;
         let [wpp, wpz, wzz] = whole.second;
         let [pxx, pxy, pyy] = plane.second;
-        let gradient = Vector3::new(wp * px, wp * py, wz).component_mul(&curvatures);
         let (xx, xy, yy) = (wpp * px * px + wp * pxx, wpp * px * py + wp * pxy, wpp * py * py + wp * pyy);
         let (xz, yz) = (wpz * px, wpz * py);
         let scale = Matrix3::from_diagonal(&curvatures);
         let hessian = scale * Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, wzz) * scale;
-        Level { value: whole.value - T::one(), gradient, hessian }
+        Level { value, gradient, hessian }
     }
 
     fn extent(&self) -> Extent<T> {

@@ -90,3 +90,29 @@ fn fixed_profiles_survive_a_file() {
     assert_eq!(toml::from_str::<Revolution<f64, [Knot<f64>; 3]>>(&written).unwrap(), tip);
     assert!(toml::from_str::<Revolution<f64, [Knot<f64>; 4]>>(&written).is_err());
 }
+
+/// Angles in files are in degrees.
+#[test]
+fn angles_are_degrees() {
+    let read = |text: &str| toml::from_str::<DynSurface<f64>>(text).unwrap();
+    let DynSurface::Cone(cone) = read("shape = 'cone'\nhalf_angle_deg = 60.0") else { panic!() };
+    assert!((cone.half_angle() - core::f64::consts::FRAC_PI_3).abs() < 1e-15);
+    let DynSurface::SphericalCap(cap) =
+        read("shape = 'spherical_cap'\nradius_m = 0.5\nactive_half_angle_deg = 120.0")
+    else {
+        panic!()
+    };
+    assert!((cap.active_fraction() - 0.75).abs() < 1e-15);
+    let turned = "shape = 'posed'\nrotation_deg = [0.0, 90.0, 0.0]\n[surface]\nshape = 'plane'";
+    assert!((read(turned).normal(&Vector3::zeros()) - Vector3::x()).norm() < 1e-15);
+    for (shape, key, degrees) in [
+        (DynSurface::Cone(cone), "half_angle_deg = ", 60.0),
+        (DynSurface::SphericalCap(cap), "active_half_angle_deg = ", 120.0),
+        (read(turned), "rotation_deg = [0.0, ", 90.0),
+    ] {
+        let written = toml::to_string(&shape).unwrap();
+        let (_, rest) = written.split_once(key).unwrap_or_else(|| panic!("{written}"));
+        let number: String = rest.chars().take_while(|c| c.is_ascii_digit() || *c == '.').collect();
+        assert!((number.parse::<f64>().unwrap() - degrees).abs() < 1e-13, "{written}");
+    }
+}

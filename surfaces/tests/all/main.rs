@@ -2,10 +2,20 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod construction;
+mod corners;
 mod dyn_surface;
+mod every_shape;
+mod extents;
+mod far_lines;
 mod heightfield;
 mod hostile_files;
 mod laws;
 mod laws_bite;
 mod mesh;
+mod nearest_facet;
+mod on_the_surface;
+mod residual;
 mod smooth;
+mod special_lines;
+mod superquadric;

@@ -245,3 +245,25 @@ fn malformed_files_are_refused_with_the_line() {
     assert_eq!(Mesh::<f64>::from_obj("v 0 zero 0\n", 1.0), Err(MeshError::Malformed { line: 1 }));
     assert!(matches!(Mesh::<f64>::from_file("/no/such/file.stl", 1.0), Err(MeshError::Unreadable(_))));
 }
+
+/// The name tells how a file is read.
+#[test]
+fn files_are_told_apart_by_their_names() {
+    let (vertices, triangles) = tetrahedron();
+    let folder = std::env::temp_dir().join(format!("fingertip-mesh-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+    let [text, binary] = [stl_text(&vertices, &triangles).into_bytes(), stl_binary(&vertices, &triangles)];
+    let files = [("a.obj", obj.as_bytes()), ("b.OBJ", obj.as_bytes()), ("c.stl", &text), ("d.STL", &binary)];
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        std::fs::write(&path, bytes).unwrap();
+        let mesh = Mesh::<f64>::from_file(&path, 0.001).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(mesh.triangle_count(), 4, "{name}");
+        assert!(mesh.contains(&Vector3::repeat(1e-4)), "{name}");
+    }
+    let path = folder.join("e.obj");
+    std::fs::write(&path, [0xff; 90]).unwrap();
+    assert_eq!(Mesh::<f64>::from_file(&path, 0.001), Err(MeshError::NotText));
+    std::fs::remove_dir_all(&folder).unwrap();
+}
