@@ -37,7 +37,7 @@ impl<S: ActiveSurface<f64>> ActiveSurface<f64> for ByNewton<S> {
         self.0.crossings(line, visit);
     }
 
-    fn closest_approach(&self, line: &Line<f64>) -> fingertip_surfaces::ClosestApproach<f64> {
+    fn closest_approach(&self, line: &Line<f64>) -> Option<fingertip_surfaces::ClosestApproach<f64>> {
         self.0.closest_approach(line)
     }
 

@@ -7,8 +7,8 @@ use crate::numeric::closest::by_search;
 use crate::numeric::roots::all_of_lipschitz;
 use crate::numeric::vectors::{foot, is_finite, length, unit_or};
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Extent, Level, SmoothSurface, Topology,
-    hessian_by_differences,
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Extent, Level, Shortcuts, SmoothSurface,
+    Topology, hessian_by_differences,
 };
 
 /// Where an implicit surface lies and how steep its function is: what makes the search for
@@ -180,23 +180,30 @@ impl<T: Real, S: ImplicitSurface<T>> ActiveSurface<T> for Implicit<S> {
     /// is no nearer to the surface than its value over `steepest`. To rule out more, as far as to a part x of
     /// the gap, takes values all over the tube around the line, of the order of 1/x of them times the cube
     /// of `steepest` over the gradient: too many for one call.
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let bounds = self.0.bounds();
-        by_search(line, &bounds.centre, bounds.radius, |point| self.distance(point))
+        Some(by_search(line, &bounds.centre, bounds.radius, |point| self.distance(point)))
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         self.unit_gradient(point)
     }
 
-    fn outside_by(&self, point: &Vector3<T>) -> T {
-        let left = self.0.value_left(point);
-        if left.is_zero() { left } else { left / length(&self.0.gradient(point)) }
-    }
-
     fn contains(&self, point: &Vector3<T>) -> bool {
         let bounds = self.0.bounds();
         length(&(point - bounds.centre)) <= bounds.radius && self.0.value(point) < T::zero()
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real, S: ImplicitSurface<T>> Shortcuts<T> for Implicit<S> {
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        let left = self.0.value_left(point);
+        if left.is_zero() { left } else { left / length(&self.0.gradient(point)) }
     }
 }
 

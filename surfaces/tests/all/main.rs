@@ -9,3 +9,4 @@ mod laws;
 mod laws_bite;
 mod mesh;
 mod smooth;
+mod wrappers;
