@@ -176,16 +176,12 @@ impl<T: Real> Few for SurfaceLaws<T> {
 struct Pillow<T>(T);
 
 impl<T: Real> ImplicitSurface<T> for Pillow<T> {
-    fn value(&self, p: &Vector3<T>) -> T {
-        p.map(|x| (x / self.0) * (x / self.0) * (x / self.0) * (x / self.0)).sum() - T::one()
+    fn formula(&self, [x, y, z]: [Term<T>; 3]) -> Term<T> {
+        (x / self.0).powi(4) + (y / self.0).powi(4) + (z / self.0).powi(4) - T::one()
     }
 
-    fn gradient(&self, p: &Vector3<T>) -> Vector3<T> {
-        p.map(|x| l::<T>(4.0) * (x / self.0) * (x / self.0) * (x / self.0) / self.0)
-    }
-
-    fn bounds(&self) -> ImplicitBounds<T> {
-        ImplicitBounds { centre: Vector3::zeros(), radius: self.0 * l(1.32), steepest: l::<T>(9.3) / self.0 }
+    fn ball(&self) -> (Vector3<T>, T) {
+        (Vector3::zeros(), self.0 * l(1.32))
     }
 }
 

@@ -5,6 +5,7 @@
 mod dyn_surface;
 mod heightfield;
 mod hostile_files;
+mod implicit;
 mod laws;
 mod laws_bite;
 mod mesh;

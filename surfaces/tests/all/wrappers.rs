@@ -176,13 +176,14 @@ fn the_law_fails_for_a_wrapper_that_forgets() {
     let unaware = Forwards { inner: &sphere, closest: true, normal: Vector3::zeros() };
     let and_entry = Some(Law::WrapperKeepsEntry);
     assert_eq!(laws_broken!(unaware), [None, lost, and_entry, and_entry]);
-    let changed = [Some(Law::WrapperKeepsAnswers); 4];
+    // Whatever it keeps beside: where it forgets that as well, either may be seen first.
+    let changed = Some(Law::WrapperKeepsAnswers);
     let no_closest = Forwards { inner: &sphere, closest: false, normal: Vector3::zeros() };
-    assert_eq!(laws_broken!(no_closest), changed);
+    assert_eq!(laws_broken!(no_closest)[0], changed);
     let other_normal = Forwards { inner: &sphere, closest: true, normal: v(1e-3, 0.0, 0.0) };
-    assert_eq!(laws_broken!(other_normal), changed);
+    assert_eq!(laws_broken!(other_normal)[0], changed);
     let elsewhere = Sphere::new(v(0.1, -0.2, 0.1 + 1e-9), 0.9).unwrap();
-    assert_eq!(laws_broken!(elsewhere), changed);
+    assert_eq!(laws_broken!(elsewhere), [changed; 4]);
     let half = Trimmed::new(&sphere, |p: &Vector3<f64>| p.z > 0.0);
-    assert_eq!(laws_broken!(half), changed);
+    assert_eq!(laws_broken!(half)[0], changed);
 }
