@@ -1,12 +1,12 @@
 //! A fingertip of one's own: a moulded gel tip, round like a barrel below and flattened on top,
-//! given by its equation. Three short methods make it a surface; the laws check them; point
-//! contact then works as on any other shape.
+//! given by its equation and a ball around it. The laws check the surface; point contact then works as
+//! on any other shape.
 //!
 //! `cargo run --example custom_surface`
 
 use fingertip::contact::{ContactModel, PointContact};
 use fingertip::surfaces::testing::SurfaceLaws;
-use fingertip::surfaces::{Implicit, ImplicitBounds, ImplicitSurface};
+use fingertip::surfaces::{Implicit, ImplicitSurface, Term};
 use fingertip::wrench::Wrench;
 use nalgebra::Vector3;
 
@@ -17,20 +17,13 @@ struct GelTip {
 }
 
 impl ImplicitSurface<f64> for GelTip {
-    fn value(&self, p: &Vector3<f64>) -> f64 {
-        p.xy().norm_squared() / self.radius.powi(2) + (p.z / self.height).powi(4) - 1.0
+    fn formula(&self, [x, y, z]: [Term<f64>; 3]) -> Term<f64> {
+        (x / self.radius).square() + (y / self.radius).square() + (z / self.height).powi(4) - 1.0
     }
 
-    fn gradient(&self, p: &Vector3<f64>) -> Vector3<f64> {
-        let across = p.xy() * (2.0 / self.radius.powi(2));
-        Vector3::new(across.x, across.y, 4.0 * p.z.powi(3) / self.height.powi(4))
-    }
-
-    fn bounds(&self) -> ImplicitBounds<f64> {
+    fn ball(&self) -> (Vector3<f64>, f64) {
         // On the surface x² + y² and z are greatest at the mount and on top.
-        let radius = self.radius.hypot(self.height);
-        let steepest = 2.0 * radius / self.radius.powi(2) + 4.0 * radius.powi(3) / self.height.powi(4);
-        ImplicitBounds { centre: Vector3::zeros(), radius, steepest }
+        (Vector3::zeros(), self.radius.hypot(self.height))
     }
 }
 

@@ -37,7 +37,7 @@ impl<S: ActiveSurface<f64>> ActiveSurface<f64> for ByNewton<S> {
         self.0.crossings(line, visit);
     }
 
-    fn closest_approach(&self, line: &Line<f64>) -> fingertip_surfaces::ClosestApproach<f64> {
+    fn closest_approach(&self, line: &Line<f64>) -> Option<fingertip_surfaces::ClosestApproach<f64>> {
         self.0.closest_approach(line)
     }
 
@@ -121,7 +121,7 @@ fn resolution(c: &mut Criterion) {
         -(x * x / 0.010 + y * y / 0.015) / 2.0
     });
     let Ok(field) = Heightfield::new([-0.008; 2], [5e-4; 2], 33, heights.collect()) else { return };
-    let Ok(pillow) = Implicit::new::<f64>(Pillow) else { return };
+    let Ok(pillow) = Implicit::<f64, _>::new(Pillow) else { return };
     shape(c, "sphere", &sphere);
     shape(c, "ellipsoid", &ellipsoid);
     shape(c, "cylinder", &cylinder);
@@ -263,7 +263,7 @@ fn fastest(_: &mut Criterion) {
         Sphere::centred(0.013),
         Ellipsoid::new(Vector3::new(0.008, 0.011, 0.017)),
         Torus::new(0.010, 0.0035),
-        Implicit::new::<f64>(Pillow),
+        Implicit::<f64, _>::new(Pillow),
         SoftFinger::new(0.0),
     ) else {
         return;

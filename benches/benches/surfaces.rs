@@ -253,7 +253,7 @@ type First<T> = (Vector3<T>, Vector3<T>, T);
 #[inline(always)]
 fn first<T: Real>(surface: &impl ActiveSurface<T>, (push, line): &(ForceLine<T>, Line<T>)) -> First<T> {
     let keep = |entry: Entry<T>| (entry.point, entry.normal, entry.incidence_squared);
-    if let Some(entry) = surface.sole_entry(push) {
+    if let Some(entry) = surface.shortcuts().sole_entry(push) {
         return keep(entry);
     }
     let mut first: Option<Crossing<T>> = None;

@@ -3,8 +3,8 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use crate::ForceLine;
 use crate::numeric::vectors::in_range;
+use crate::{NoShortcuts, Shortcuts};
 
 /// Where a line passes through a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,55 +99,67 @@ pub struct ClosestApproach<T: Real> {
 /// finite line with unit direction.
 ///
 /// # For implementers
-/// Three methods, each short for most shapes:
+/// [`crossings`](Self::crossings) is enough. It shall report *every* point where the line passes through the
+/// surface, in any order, those outside the active region too (marked `active: false`). A tangent line may
+/// report its point of tangency once, twice or not at all.
 ///
-/// * [`crossings`](Self::crossings) shall report *every* point where the line passes through the
-///   surface, in any order, those outside the active region too (marked `active: false`). A
-///   tangent line may report its point of tangency once, twice or not at all.
-/// * [`closest_approach`](Self::closest_approach) is asked only for lines that `crossings`
-///   reported nothing for, but shall answer sensibly for any.
-/// * [`normal`](Self::normal) is the outward unit normal at a point on (or within rounding of) the
-///   surface.
+/// Everything else has a default that is right, and can be given to make it faster or more certain. A shape
+/// with an equation `f(x) = 0` gets all from [`Implicit`](crate::Implicit). The module
+/// [`testing`](crate::testing) checks an implementation.
 ///
-/// A shape with an equation `f(x) = 0` gets all three from [`Implicit`](crate::Implicit). The
-/// module [`testing`](crate::testing) checks an implementation.
+/// ```
+/// use fingertip_surfaces::testing::SurfaceLaws;
+/// use fingertip_surfaces::{ActiveSurface, Crossing};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// /// The unit ball.
+/// struct Ball;
+///
+/// impl ActiveSurface<f64> for Ball {
+///     fn crossings(&self, line: &Line<f64>, mut visit: impl FnMut(Crossing<f64>)) {
+///         let middle = -line.point.dot(&line.direction);
+///         let squared = 1.0 - line.at(middle).norm_squared();
+///         if squared >= 0.0 {
+///             for along in [middle - squared.sqrt(), middle + squared.sqrt()] {
+///                 let point = line.at(along);
+///                 visit(Crossing { along, point, normal: point.normalize(), active: true });
+///             }
+///         }
+///     }
+/// }
+///
+/// SurfaceLaws::around(Vector3::zeros(), 1.0).check(&Ball)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait ActiveSurface<T: Real> {
-    /// `true` promises that the surface bounds a convex body and may touch everywhere: a line that
-    /// passes through it enters once, at an active point, and leaves once, and
-    /// [`crossings`](Self::crossings) reports where it enters first. Point contact then compiles without
-    /// what other shapes need, such as a choice between entries. The default promises nothing.
-    const CLOSED_CONVEX: bool = false;
-
     /// Calls `visit` for every point where the line passes through the surface.
     fn crossings(&self, line: &Line<T>, visit: impl FnMut(Crossing<T>));
 
-    /// The point of the surface closest to a line that misses it.
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T>;
-
-    /// The outward unit normal at a point of the surface.
-    fn normal(&self, point: &Vector3<T>) -> Vector3<T>;
-
-    /// Where a force enters, for shapes that no line enters twice: a shortcut past
-    /// [`crossings`](Self::crossings) that point contact takes first.
+    /// The point of the surface closest to a line that misses it; `None`, as the default answers, if that is
+    /// not known.
     ///
-    /// `None`, as the default answers, says nothing. An answer with a positive square of the
-    /// incidence shall be finite and agree, but for rounding, with the one crossing that has a normal
-    /// against the force; one without says that there is none, but for rounding.
-    #[inline]
-    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        let _ = push;
+    /// Asked only for lines that [`crossings`](Self::crossings) reported nothing for, but an answer shall make
+    /// sense for any. Without it a line that misses is no contact, however near it passes.
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
+        let _ = line;
         None
     }
 
-    /// How far a point that should be on the surface is outside it by rounding \[m\], to first order
-    /// and with twice the digits of the type.
+    /// The outward unit normal at a point on the surface, or within rounding of it.
     ///
-    /// Point contact asks for it where a force meets the surface at a flat angle, and such errors
-    /// grow. The default, zero, takes crossings at their word.
-    #[inline]
-    fn outside_by(&self, point: &Vector3<T>) -> T {
-        let _ = point;
-        T::zero()
+    /// The default looks along seven fixed lines through the point, which cannot all be tangent, and then
+    /// along the normal of the crossing that is nearest.
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        normal_by_crossings(self, point)
+    }
+
+    /// What the shape knows sooner, or to more digits, than its crossings tell.
+    ///
+    /// The default has none. A wrapper passes on those of the shape inside: see [`Shortcuts`].
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        NoShortcuts
     }
 
     /// `true` if the point is inside the fingertip.
@@ -159,6 +171,29 @@ pub trait ActiveSurface<T: Real> {
         let nearest = nearest_crossing(self, &Line { point: *point, direction });
         nearest.is_some_and(|c| c.along * c.normal.dot(&direction) > T::zero())
     }
+}
+
+/// The axes and diagonals of a cube that is turned such that each is well away from the planes between the
+/// axes, in which shapes are likely to have tangents. No plane holds more than three of them.
+const ASKEW: [[f64; 3]; 7] = [
+    [0.9237732946279373, -0.22722975601436946, -0.3082361726240063],
+    [0.3045483315074231, 0.9239051118304394, 0.23162395841023875],
+    [0.23214911998172819, -0.3078408392582658, 0.9226813121422129],
+    [0.8432031784142748, 0.22449371280486635, 0.48847822144201186],
+    [0.5751404645871039, 0.5799576956315066, -0.5769423864410758],
+    [0.4915410560601505, -0.842340017237085, 0.22102191196417575],
+    [-0.2234783422329795, 0.4868760344104448, 0.8443986959189119],
+];
+
+/// The normal at the crossing nearest to a point, of lines through it along fixed directions and then along
+/// the normal that these have found. A line that meets the surface at a flat angle meets it farther away, and
+/// so does not count.
+fn normal_by_crossings<T: Real, S: ActiveSurface<T> + ?Sized>(surface: &S, point: &Vector3<T>) -> Vector3<T> {
+    let look = |direction: Vector3<T>| nearest_crossing(surface, &Line { point: *point, direction });
+    let nearer = |a: Crossing<T>, b: Crossing<T>| if b.along.abs() < a.along.abs() { b } else { a };
+    let askew = ASKEW.iter().filter_map(|direction| look(Vector3::from(direction.map(T::literal))));
+    let Some(found) = askew.reduce(nearer) else { return Vector3::z() };
+    look(found.normal).map_or(found, |straight| nearer(found, straight)).normal
 }
 
 /// The crossing of a line that is nearest to its point.
@@ -177,15 +212,13 @@ pub fn nearest_crossing<T: Real, S: ActiveSurface<T> + ?Sized>(
 }
 
 impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for &S {
-    const CLOSED_CONVEX: bool = S::CLOSED_CONVEX;
-
     #[inline]
     fn crossings(&self, line: &Line<T>, visit: impl FnMut(Crossing<T>)) {
         (**self).crossings(line, visit);
     }
 
     #[inline]
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         (**self).closest_approach(line)
     }
 
@@ -194,14 +227,9 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for &S {
         (**self).normal(point)
     }
 
-    #[inline]
-    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        (**self).sole_entry(push)
-    }
-
-    #[inline]
-    fn outside_by(&self, point: &Vector3<T>) -> T {
-        (**self).outside_by(point)
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        (**self).shortcuts()
     }
 
     #[inline]

@@ -10,9 +10,9 @@ use crate::active_surface::nearest_crossing;
 use crate::combinators::{around_both, closest_of, is_inside_along};
 use crate::{
     ActiveSurface, CappedCylinder, Capsule, ClosestApproach, Cone, Corner, Crossing, Cylinder, Disk,
-    Ellipsoid, EllipticCylinder, Extent, Frustum, HalfSpace, Heightfield, Knot, Level, Mesh, Paraboloid,
-    Plane, Posed, Rectangle, Revolution, RoundedBox, SmoothSurface, Sphere, SphericalCap, Superquadric,
-    Topology, Torus, Trimmed,
+    Ellipsoid, EllipticCylinder, Entry, Extent, ForceLine, Frustum, HalfSpace, Heightfield, Knot, Level,
+    Mesh, Paraboloid, Plane, Posed, Rectangle, Revolution, RoundedBox, Shortcuts, SmoothSurface, Sphere,
+    SphericalCap, Superquadric, Topology, Torus, Trimmed,
 };
 
 /// Any of the shapes: for files and programs that learn the shape at run time. On a hot path use
@@ -53,10 +53,9 @@ pub enum DynSurface<T: Real> {
     Disk(Disk<T>),
     /// [`Rectangle`].
     Rectangle(Rectangle<T>),
-    /// [`Sphere`].
-    Sphere(Sphere<T>),
-    /// [`SphericalCap`].
-    SphericalCap(SphericalCap<T>),
+    /// [`SphericalCap`], of which the whole sphere is one: in a file it may be called `spherical_cap`, too.
+    #[cfg_attr(feature = "serde", serde(alias = "spherical_cap"))]
+    Sphere(SphericalCap<T>),
     /// [`Ellipsoid`].
     Ellipsoid(Ellipsoid<T>),
     /// [`Cylinder`].
@@ -118,7 +117,6 @@ macro_rules! each_surface {
             $crate::DynSurface::Disk($shape) => $call,
             $crate::DynSurface::Rectangle($shape) => $call,
             $crate::DynSurface::Sphere($shape) => $call,
-            $crate::DynSurface::SphericalCap($shape) => $call,
             $crate::DynSurface::Ellipsoid($shape) => $call,
             $crate::DynSurface::Cylinder($shape) => $call,
             $crate::DynSurface::CappedCylinder($shape) => $call,
@@ -147,7 +145,7 @@ impl<T: Real> ActiveSurface<T> for DynSurface<T> {
         each_surface!(self, shape => shape.crossings(line, visit));
     }
 
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         each_surface!(self, shape => shape.closest_approach(line))
     }
 
@@ -155,12 +153,24 @@ impl<T: Real> ActiveSurface<T> for DynSurface<T> {
         each_surface!(self, shape => shape.normal(point))
     }
 
-    fn outside_by(&self, point: &Vector3<T>) -> T {
-        each_surface!(self, shape => shape.outside_by(point))
-    }
-
     fn contains(&self, point: &Vector3<T>) -> bool {
         each_surface!(self, shape => shape.contains(point))
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+/// Those of whichever shape it is, but for what is promised of a type.
+impl<T: Real> Shortcuts<T> for DynSurface<T> {
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        each_surface!(self, shape => shape.shortcuts().sole_entry(push))
+    }
+
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        each_surface!(self, shape => shape.shortcuts().surface_residual(point))
     }
 }
 
@@ -194,14 +204,14 @@ impl<T: Real> ActiveSurface<T> for Parts<T> {
         }
     }
 
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let nothing = ClosestApproach {
             gap: T::GREATEST,
             point: Vector3::zeros(),
             normal: Vector3::z(),
             active: false,
         };
-        self.parts.iter().fold(nothing, |best, part| closest_of(best, part.closest_approach(line)))
+        self.parts.iter().try_fold(nothing, |best, part| Some(closest_of(best, part.closest_approach(line)?)))
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
@@ -210,6 +220,17 @@ impl<T: Real> ActiveSurface<T> for Parts<T> {
 
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.parts.iter().any(|part| part.contains(point))
+    }
+
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+/// The residual of the part whose surface is nearest.
+impl<T: Real> Shortcuts<T> for Parts<T> {
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        self.nearest(point, None).map_or_else(T::zero, |part| part.shortcuts().surface_residual(point))
     }
 }
 
@@ -265,6 +286,18 @@ impl<T: Real> SmoothSurface<T> for Parts<T> {
     }
 }
 
+impl<T: Real> From<Sphere<T>> for DynSurface<T> {
+    fn from(sphere: Sphere<T>) -> Self {
+        Self::Sphere(sphere.into())
+    }
+}
+
+impl<T: Real> From<SphericalCap<T>> for DynSurface<T> {
+    fn from(cap: SphericalCap<T>) -> Self {
+        Self::Sphere(cap)
+    }
+}
+
 macro_rules! from {
     ($($shape:ident),+ $(,)?) => {
         $(impl<T: Real> From<$shape<T>> for DynSurface<T> {
@@ -279,8 +312,6 @@ from!(
     Plane,
     Disk,
     Rectangle,
-    Sphere,
-    SphericalCap,
     Ellipsoid,
     Cylinder,
     CappedCylinder,

@@ -19,6 +19,7 @@ mod mesh;
 #[allow(missing_docs, reason = "shared with the crate of the contact, and no part of the interface")]
 pub mod numeric;
 mod shapes;
+mod shortcuts;
 mod signed_distance;
 mod smooth;
 pub mod testing;
@@ -39,6 +40,9 @@ pub use local_surface::LocalSurface;
 #[cfg(feature = "alloc")]
 pub use mesh::{Mesh, MeshError};
 pub use shapes::*;
+#[doc(hidden)]
+pub use shortcuts::is_closed_convex;
+pub use shortcuts::{NoShortcuts, Shortcuts};
 pub use signed_distance::{Distance, SignedDistance};
 pub use smooth::{
     Corner, Extent, Level, SmoothSurface, Topology, hessian_by_differences, shape_operator_by_differences,

@@ -4,7 +4,7 @@
 
 use fingertip_contact::{ContactModel, NoContact, PointContact, Resolution, SoftFingerSurface};
 use fingertip_surfaces::testing::ball_of_triangles;
-use fingertip_surfaces::{ActiveSurface, Mesh, SmoothSurface};
+use fingertip_surfaces::{ActiveSurface, ClosestApproach, Mesh, SmoothSurface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
@@ -54,9 +54,9 @@ pub(crate) fn sound<T: Real>(answer: &Resolution<T>) -> bool {
         Resolution::Contact(c) => {
             good(&c.point) && good(&c.normal) && c.spin_torque.is_number() && c.gap.is_number()
         }
-        Resolution::NoContact(NoContact::Misses { gap, closest, normal }) => {
-            gap.is_number() && good(closest) && good(normal)
-        }
+        Resolution::NoContact(NoContact::Misses {
+            closest: Some(ClosestApproach { gap, point: closest, normal, .. }),
+        }) => gap.is_number() && good(closest) && good(normal),
         Resolution::NoContact(NoContact::OnlyPulling { point }) => good(point),
         Resolution::NoContact(NoContact::Ambiguous { first, second }) => good(first) && good(second),
         Resolution::NoContact(_) => true,
@@ -130,7 +130,9 @@ impl<T: Real> Visitor<T> for Contacts<'_> {
             let place = match &found {
                 Resolution::Contact(contact) => contact.point,
                 // Rounding alone lifts a grazing line off the surface, and off the rim of a pancake.
-                Resolution::NoContact(NoContact::Misses { closest, .. }) => *closest,
+                Resolution::NoContact(NoContact::Misses {
+                    closest: Some(ClosestApproach { point: closest, .. }),
+                }) => *closest,
                 Resolution::NoContact(NoContact::OnlyPulling { point }) if self.cosine[0] < 1e-3 => *point,
                 Resolution::NoContact(_) => {
                     row.expect(false, || format!("{wrench:?}: {found:?}"));

@@ -34,7 +34,7 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Newton<'_, S> {
         self.surface.crossings(line, visit);
     }
 
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         self.surface.closest_approach(line)
     }
 

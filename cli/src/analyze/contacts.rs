@@ -62,9 +62,9 @@ impl ContactWriter {
                 self.cell(touch.grip.flatten().map_or(f64::NAN, |margin| margin.newtons));
                 self.cell(contact.gap);
             }
-            (Resolution::NoContact(NoContact::Misses { gap, .. }), _) => {
+            (Resolution::NoContact(NoContact::Misses { closest: Some(closest) }), _) => {
                 self.empty(CONTACT_CELLS - 1);
-                self.cell(*gap);
+                self.cell(closest.gap);
             }
             _ => self.empty(CONTACT_CELLS),
         }

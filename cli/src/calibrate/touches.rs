@@ -69,7 +69,7 @@ fn on(shape: &Shape, force: f64) -> Result<Vec<Touch>, DesignError> {
     }
     match shape {
         Shape::Plane(plane) => all(plane, plane.point(), REACH, force),
-        Shape::Sphere(capped) => all(capped, capped.inner().centre(), capped.inner().radius(), force),
+        Shape::Sphere(cap) => all(cap, cap.sphere().centre(), cap.sphere().radius(), force),
         Shape::Cylinder(cylinder) => {
             let reach = cylinder.radius().hypot(cylinder.half_length().unwrap_or(REACH));
             all(cylinder, cylinder.centre(), reach, force)

@@ -10,6 +10,7 @@ mod rest;
 use fingertip::Fingertip;
 use fingertip::contact::PointContact;
 use fingertip::friction::{Coulomb, DropDetector, ForceNoise, SlipVerdict};
+use fingertip::surfaces::SphericalCap;
 use fingertip::wrench::GaussianElimination;
 use fingertip_simulation::{Options, SessionReport, SessionScore, SimulatedFingertip, standard_session};
 use nalgebra::Vector3;
@@ -19,7 +20,7 @@ use crate::observe::{Observations, Reservoir, Status};
 use crate::output::{self, print, write};
 use crate::report;
 use crate::scene::{Friction, SlipWatch, least_static_coefficient};
-use crate::shape::{Capped, Projection};
+use crate::shape::Projection;
 use args::DemoArguments;
 use export::VoltsFile;
 use rest::Rest;
@@ -102,7 +103,10 @@ fn play(arguments: &DemoArguments) -> Result<Outcome, CliError> {
     let mut fingertip = Fingertip::builder()
         .zero(rest.zero)
         .solver(solver)
-        .contact(Capped::within(sphere, pole, rim), PointContact::new(least_force).map_err(fault)?)
+        .contact(
+            SphericalCap::new(sphere, pole, rim.cos()).map_err(fault)?,
+            PointContact::new(least_force).map_err(fault)?,
+        )
         .friction_stage(Friction::known(Coulomb::new(coefficient).map_err(fault)?))
         .slip_stage(SlipWatch::Drop(DropDetector::new(noise).map_err(fault)?))
         .build();

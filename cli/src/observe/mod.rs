@@ -7,6 +7,7 @@ mod status;
 mod trace;
 
 use fingertip::Touch;
+use fingertip::contact::{NoContact, Resolution};
 use fingertip::friction::{SlipMargin, SlipVerdict};
 
 pub(crate) use quantiles::Quantiles;
@@ -112,11 +113,8 @@ impl Observations {
         if let Some(ratio) = ratio {
             self.ratio.add(ratio);
         }
-        if let fingertip::contact::Resolution::NoContact(fingertip::contact::NoContact::Misses {
-            gap, ..
-        }) = touch.resolution
-        {
-            self.gap.add(gap);
+        if let Resolution::NoContact(NoContact::Misses { closest: Some(closest) }) = touch.resolution {
+            self.gap.add(closest.gap);
         }
         if touch.grip.flatten().is_some_and(|margin| margin.newtons < 0.0) {
             self.beyond_limit += 1;

@@ -106,7 +106,7 @@ fn spoiled(random: &mut Pcg64Mcg) -> String {
 fn numbers(scene: &Scene) -> Vec<f64> {
     fn of<S: ActiveSurface<f64>>(surface: &S, scene: &Scene) -> Vec<f64> {
         let line = Line { point: Vector3::new(0.001, 0.002, 0.003), direction: Vector3::x() };
-        let approach = surface.closest_approach(&line);
+        let approach = surface.closest_approach(&line).unwrap();
         let (u, v) = scene.projection.project(&line.point);
         let mut all = vec![u, v];
         // A surface as large as the world has no nearest point in numbers: what it gives then is no contact.

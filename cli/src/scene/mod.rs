@@ -23,7 +23,7 @@ pub(crate) use stages::{Friction, SlipWatch};
 use crate::error::{CliError, Place};
 use crate::shape::{Projection, Shape};
 use stages::{ContactSection, FrictionSection, SlipSection};
-use surface::{MapSection, MeshSection, PoseSection, Surface, SurfaceSection};
+use surface::{MapSection, MeshSection, PoseSection, SurfaceSection, place};
 
 /// The version of the format that this program reads.
 const VERSION: u32 = 1;
@@ -134,13 +134,12 @@ type Fault = (Option<usize>, String);
 /// A scene of which the file is called `name`, in a folder that relative paths start from.
 fn parse(text: &str, name: &str, folder: &Path) -> Result<Scene, Fault> {
     let Kind { version, surface } =
-        toml::from_str(text).map_err(|error| explain::<SurfaceSection>(text, &error))?;
+        toml::from_str(text).map_err(|error| explain::<DynSurface<f64>>(text, &error))?;
     let word = |key| surface.as_ref().and_then(|surface| surface.get(key)).and_then(toml::Value::as_str);
     match version {
         Some(VERSION) => match word("shape") {
             Some("mesh") if word("file").is_some() => parse_with::<MeshSection>(text, name, folder),
-            Some(shape) if !SurfaceSection::knows(shape) => parse_with::<DynSurface<f64>>(text, name, folder),
-            _ => parse_with::<SurfaceSection>(text, name, folder),
+            _ => parse_with::<DynSurface<f64>>(text, name, folder),
         },
         Some(other) => Err((
             None,
@@ -154,7 +153,11 @@ fn parse(text: &str, name: &str, folder: &Path) -> Result<Scene, Fault> {
     }
 }
 
-fn parse_with<S: Surface + DeserializeOwned>(text: &str, name: &str, folder: &Path) -> Result<Scene, Fault> {
+fn parse_with<S: SurfaceSection + DeserializeOwned>(
+    text: &str,
+    name: &str,
+    folder: &Path,
+) -> Result<Scene, Fault> {
     let file: SceneFile<S> = toml::from_str(text).map_err(|error| explain::<S>(text, &error))?;
     file.check(name, folder).map_err(|message| (None, message))
 }
@@ -199,7 +202,7 @@ fn culprit<S: DeserializeOwned>(text: &str, message: &str) -> Option<String> {
     None
 }
 
-impl<S: Surface> SceneFile<S> {
+impl<S: SurfaceSection> SceneFile<S> {
     fn check(self, name: &str, folder: &Path) -> Result<Scene, String> {
         let positive = |what: &str, value: Option<f64>| match value {
             Some(value) if !(value > 0.0 && value.is_finite()) => {
@@ -209,7 +212,7 @@ impl<S: Surface> SceneFile<S> {
         };
         let sample_rate = positive("sample_rate_Hz", self.input.sample_rate)?;
         let rest = positive("rest_s", self.input.rest.filter(|rest| *rest != 0.0))?;
-        let (shape, projection) = self.surface.place(&self.pose, self.map.as_ref(), folder)?;
+        let (shape, projection) = place(self.surface.shape(folder)?, &self.pose, self.map.as_ref())?;
         let friction = Friction::from_section(self.friction.as_ref())?;
         Ok(Scene {
             name: self.name.unwrap_or_else(|| name.to_owned()),
@@ -297,7 +300,6 @@ mod tests {
         let shapes = [
             "shape = 'disk'\nradius_m = 0.01",
             "shape = 'rectangle'\nfirst_half_edge_m = [0.01, 0.0, 0.0]\nsecond_half_edge_m = [0.0, 0.02, 0.0]",
-            "shape = 'spherical_cap'\nradius_m = 0.01\nactive_half_angle_deg = 90.0",
             "shape = 'ellipsoid'\nsemi_axes_m = [0.01, 0.02, 0.03]",
             "shape = 'capped_cylinder'\nradius_m = 0.01\nhalf_length_m = 0.02",
             "shape = 'elliptic_cylinder'\nsemi_axes_m = [0.01, 0.02]\nends_m = 'unbounded'",

@@ -2,12 +2,13 @@
 
 use fingertip::contact::PointContact;
 use fingertip::friction::{Coulomb, DropDetector, ForceNoise};
+use fingertip::surfaces::SphericalCap;
 use fingertip_simulation::{Options, Segment, SimulatedFingertip, standard_session};
 use nalgebra::Vector3;
 
 use super::{Convention, Friction, Scene, SlipWatch};
 use crate::error::CliError;
-use crate::shape::{Capped, Projection, Shape};
+use crate::shape::{Projection, Shape};
 
 /// The paper's threshold of contact \[N\].
 const LEAST_FORCE: f64 = 0.1;
@@ -32,7 +33,7 @@ fn build() -> Result<Scene, String> {
         sensor: None,
         sample_rate: None,
         rest: None,
-        shape: Shape::Sphere(Capped::within(sphere, pole, rim)),
+        shape: Shape::Sphere(SphericalCap::new(sphere, pole, rim.cos()).map_err(text)?),
         projection: Projection::sphere(sphere.centre(), pole, Some(rim), &frame),
         model: PointContact::new(LEAST_FORCE).map_err(text)?,
         friction: Friction::known(Coulomb::new(coefficient).map_err(text)?),

@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use fingertip::surfaces::{Cylinder, DynSurface, Mesh, Plane, Posed, Sphere};
+use fingertip::surfaces::{
+    ActiveSurface, BadShape, Cylinder, DynSurface, Mesh, Plane, Posed, Sphere, SphericalCap,
+};
 use fingertip::wrench::RigidTransform;
 use nalgebra::Vector3;
 use serde::Deserialize;
 
-use crate::shape::{Capped, Projection, Shape};
+use crate::shape::{Projection, Shape};
 
 type Triple = [f64; 3];
 
@@ -17,50 +19,6 @@ const fn origin() -> Triple {
 }
 const fn along_z() -> Triple {
     [0.0, 0.0, 1.0]
-}
-
-/// A surface in coordinates of its own frame, as a scene states it.
-pub(super) trait Surface {
-    /// The shape in the sensor frame, and its map, whose directions are those of the surface's own
-    /// frame. Files are looked for in `folder`.
-    fn place(
-        &self,
-        pose: &PoseSection,
-        map: Option<&MapSection>,
-        folder: &Path,
-    ) -> Result<(Shape, Projection), String>;
-}
-
-/// The shapes that have types and maps of their own here. All others are [`DynSurface`]s.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
-pub(super) enum SurfaceSection {
-    Plane {
-        #[serde(rename = "point_m", default = "origin")]
-        point: Triple,
-        #[serde(default = "along_z")]
-        normal: Triple,
-    },
-    Sphere {
-        #[serde(rename = "radius_m")]
-        radius: f64,
-        #[serde(rename = "centre_m", default = "origin")]
-        centre: Triple,
-        #[serde(default = "along_z")]
-        pole: Triple,
-        #[serde(rename = "active_half_angle_deg")]
-        active_half_angle: Option<f64>,
-    },
-    Cylinder {
-        #[serde(rename = "radius_m")]
-        radius: f64,
-        #[serde(rename = "centre_m", default = "origin")]
-        centre: Triple,
-        #[serde(default = "along_z")]
-        axis: Triple,
-        #[serde(rename = "half_length_m")]
-        half_length: Option<f64>,
-    },
 }
 
 /// How the surface's own frame lies in the sensor frame.
@@ -82,67 +40,6 @@ impl PoseSection {
     }
 }
 
-impl SurfaceSection {
-    /// Whether this is a shape of [`SurfaceSection`].
-    pub(super) fn knows(shape: &str) -> bool {
-        matches!(shape, "plane" | "sphere" | "cylinder")
-    }
-}
-
-impl Surface for SurfaceSection {
-    fn place(
-        &self,
-        pose: &PoseSection,
-        map: Option<&MapSection>,
-        _: &Path,
-    ) -> Result<(Shape, Projection), String> {
-        if map.is_some() {
-            return Err(
-                "[map] is for other shapes than plane, sphere and cylinder, whose maps need none".to_owned()
-            );
-        }
-        let pose = pose.sensor_from_surface()?;
-        let point = |p: &Triple| pose.transform_point(&Vector3::from(*p));
-        let direction = |d: &Triple| pose.rotate(&Vector3::from(*d));
-        let frame = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| pose.rotate(&axis));
-        match self {
-            Self::Plane { point: through, normal } => {
-                let plane =
-                    Plane::new(point(through), direction(normal)).map_err(|fault| fault.to_string())?;
-                let normal = unit("normal", direction(normal))?;
-                let map = Projection::plane(plane.point(), normal, &frame);
-                Ok((Shape::Plane(plane), map))
-            }
-            Self::Sphere { radius, centre, pole, active_half_angle } => {
-                let sphere = Sphere::new(point(centre), *radius).map_err(|fault| fault.to_string())?;
-                let pole = unit("pole", direction(pole))?;
-                let rim = active_half_angle.map(f64::to_radians);
-                let capped = match rim {
-                    None => Capped::whole(sphere, pole),
-                    Some(angle) if angle > 0.0 && angle <= core::f64::consts::PI => {
-                        Capped::within(sphere, pole, angle)
-                    }
-                    Some(_) => {
-                        return Err("`active_half_angle_deg` must be above 0 and at most 180".to_owned());
-                    }
-                };
-                let map = Projection::sphere(sphere.centre(), pole, rim, &frame);
-                Ok((Shape::Sphere(capped), map))
-            }
-            Self::Cylinder { radius, centre, axis, half_length } => {
-                let mut cylinder = Cylinder::new(point(centre), direction(axis), *radius)
-                    .map_err(|fault| fault.to_string())?;
-                if let Some(half_length) = half_length {
-                    cylinder = cylinder.with_half_length(*half_length).map_err(|fault| fault.to_string())?;
-                }
-                let map =
-                    Projection::cylinder(cylinder.centre(), cylinder.axis(), *radius, *half_length, &frame);
-                Ok((Shape::Cylinder(cylinder), map))
-            }
-        }
-    }
-}
-
 /// The middle of the map of a shape that has none of its own, in the surface's frame.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -151,6 +48,18 @@ pub(super) struct MapSection {
     centre: Triple,
     #[serde(default = "along_z")]
     pole: Triple,
+}
+
+/// What the section `[surface]` may be: a shape, or the file of one.
+pub(super) trait SurfaceSection {
+    /// The shape, in the surface's own frame. Files are looked for in `folder`.
+    fn shape(self, folder: &Path) -> Result<DynSurface<f64>, String>;
+}
+
+impl SurfaceSection for DynSurface<f64> {
+    fn shape(self, _: &Path) -> Result<Self, String> {
+        Ok(self)
+    }
 }
 
 /// A triangle mesh in a file beside the scene.
@@ -163,44 +72,78 @@ pub(super) struct MeshSection {
     metres_per_unit: f64,
 }
 
-impl Surface for MeshSection {
-    fn place(
-        &self,
-        pose: &PoseSection,
-        map: Option<&MapSection>,
-        folder: &Path,
-    ) -> Result<(Shape, Projection), String> {
+impl SurfaceSection for MeshSection {
+    fn shape(self, folder: &Path) -> Result<DynSurface<f64>, String> {
         let path = folder.join(&self.file);
         let mesh = Mesh::from_file(&path, self.metres_per_unit)
             .map_err(|fault| format!("mesh {}: {fault}", path.display()))?;
-        DynSurface::Mesh(mesh).place(pose, map, folder)
+        Ok(DynSurface::Mesh(mesh))
     }
 }
 
-impl Surface for DynSurface<f64> {
-    fn place(
-        &self,
-        pose: &PoseSection,
-        map: Option<&MapSection>,
-        _: &Path,
-    ) -> Result<(Shape, Projection), String> {
-        let placed = pose.sensor_from_surface()?;
-        let MapSection { centre, pole } =
-            map.copied().unwrap_or(MapSection { centre: ORIGIN, pole: along_z() });
-        let centre = placed.transform_point(&Vector3::from(centre));
-        if !centre.iter().all(|x| x.is_finite()) {
-            return Err("`centre_m` of [map] must be finite numbers".to_owned());
+/// The shape in the sensor frame, and its map, whose directions are those of the surface's own frame.
+pub(super) fn place(
+    surface: DynSurface<f64>,
+    pose: &PoseSection,
+    map: Option<&MapSection>,
+) -> Result<(Shape, Projection), String> {
+    let pose = pose.sensor_from_surface()?;
+    let frame = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| pose.rotate(&axis));
+    let placed = match surface {
+        DynSurface::Plane(plane) => {
+            let normal = pose.rotate(&plane.normal(&plane.point()));
+            let plane = Plane::new(pose.transform_point(&plane.point()), normal).map_err(text)?;
+            let map = Projection::plane(plane.point(), plane.normal(&plane.point()), &frame);
+            (Shape::Plane(plane), map)
         }
-        let pole = unit("pole", placed.rotate(&Vector3::from(pole)))?;
-        let frame = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| placed.rotate(&axis));
-        let map = Projection::sphere(centre, pole, None, &frame);
-        Ok((Shape::Other(Box::new(Posed::new(self.clone(), placed))), map))
+        DynSurface::Sphere(cap) => {
+            let centre = pose.transform_point(&cap.sphere().centre());
+            let sphere = Sphere::new(centre, cap.sphere().radius()).map_err(text)?;
+            let least_cosine = cap.least_cosine();
+            let cap = SphericalCap::new(sphere, pose.rotate(&cap.pole()), least_cosine).map_err(text)?;
+            let rim = (least_cosine > -1.0).then(|| least_cosine.acos());
+            (Shape::Sphere(cap), Projection::sphere(centre, cap.pole(), rim, &frame))
+        }
+        DynSurface::Cylinder(cylinder) => {
+            let (centre, axis) = (pose.transform_point(&cylinder.centre()), pose.rotate(&cylinder.axis()));
+            let (radius, half_length) = (cylinder.radius(), cylinder.half_length());
+            let whole = Cylinder::new(centre, axis, radius).map_err(text)?;
+            let cylinder =
+                half_length.map_or(Ok(whole), |half| whole.with_half_length(half)).map_err(text)?;
+            let map = Projection::cylinder(centre, cylinder.axis(), radius, half_length, &frame);
+            (Shape::Cylinder(cylinder), map)
+        }
+        other => return place_other(other, pose, map, &frame),
+    };
+    match map {
+        None => Ok(placed),
+        Some(_) => {
+            Err("[map] is for other shapes than plane, sphere and cylinder, whose maps need none".to_owned())
+        }
     }
 }
 
-fn unit(what: &str, direction: Vector3<f64>) -> Result<Vector3<f64>, String> {
-    direction
+/// One that has no map of its own: seen from a centre, by default that of the surface's frame.
+fn place_other(
+    surface: DynSurface<f64>,
+    pose: RigidTransform<f64>,
+    map: Option<&MapSection>,
+    frame: &[Vector3<f64>; 3],
+) -> Result<(Shape, Projection), String> {
+    let MapSection { centre, pole } = map.copied().unwrap_or(MapSection { centre: ORIGIN, pole: along_z() });
+    let centre = pose.transform_point(&Vector3::from(centre));
+    if !centre.iter().all(|x| x.is_finite()) {
+        return Err("`centre_m` of [map] must be finite numbers".to_owned());
+    }
+    let pole = pose
+        .rotate(&Vector3::from(pole))
         .try_normalize(0.0)
         .filter(|unit| unit.iter().all(|x| x.is_finite()))
-        .ok_or_else(|| format!("the `{what}` of the surface must be a direction: finite and not zero"))
+        .ok_or("`pole` of [map] must be a direction: finite and not zero")?;
+    let map = Projection::sphere(centre, pole, None, frame);
+    Ok((Shape::Other(Box::new(Posed::new(surface, pose))), map))
+}
+
+fn text(fault: BadShape) -> String {
+    fault.to_string()
 }

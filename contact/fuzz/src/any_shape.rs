@@ -48,7 +48,9 @@ fn check<T: Real, S: ActiveSurface<T> + core::fmt::Debug>(surface: &S, numbers: 
                 assert!(contact.incidence() >= T::zero() && contact.incidence() <= T::one());
                 assert!(contact.gap >= T::zero() && contact.gap.is_number());
             }
-            Resolution::NoContact(NoContact::Misses { gap, closest, normal }) => {
+            Resolution::NoContact(NoContact::Misses {
+                closest: Some(ClosestApproach { gap, point: closest, normal, .. }),
+            }) => {
                 assert!(gap >= T::zero() && gap.is_number(), "{surface:?} {wrench:?} {gap}");
                 assert!(
                     is_finite(&closest) && is_finite(&normal),

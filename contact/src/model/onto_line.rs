@@ -1,8 +1,8 @@
 //! What rounding did to a contact that the force meets at a flat angle, undone.
 
-use fingertip_surfaces::ActiveSurface;
 use fingertip_surfaces::numeric::twofold::Twofold;
 use fingertip_surfaces::numeric::vectors::largest;
+use fingertip_surfaces::{ActiveSurface, Shortcuts};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 /// by `e`. To first order the two meet at `x + r − f·(e + n·r)/(n·f)`: whatever `r` and `e` are is
 /// multiplied by the reciprocal cosine of incidence, which is why a rounding error of the foot point
 /// is one of twenty at a cosine of 0.05. Both are found here with twice the digits
-/// ([`ActiveSurface::outside_by`] for `e`), so that of the step's own error that factor is all that is
+/// ([`Shortcuts::surface_residual`] for `e`), so that of the step's own error that factor is all that is
 /// left. A step that is longer than rounding explains, as on a surface that is not smooth there, is
 /// not taken.
 #[cold]
@@ -36,7 +36,7 @@ pub(super) fn onto_line<T: Real, S: ActiveSurface<T>>(
     let squared = f.norm_squared();
     let off =
         Vector3::new(across(f.y, tz, f.z, ty), across(f.z, tx, f.x, tz), across(f.x, ty, f.y, tx)) / squared;
-    let outside = surface.outside_by(&point);
+    let outside = surface.shortcuts().surface_residual(&point);
     let step = off - f * ((outside + normal.dot(&off)) / normal.dot(&f));
     // The line is no farther away than that: the force is 1 or more in its own unit.
     let size = largest(&point) + largest(&m);

@@ -1,5 +1,8 @@
 //! What a contact model answers.
 
+use core::fmt;
+
+use fingertip_surfaces::ClosestApproach;
 use fingertip_wrench::{ContactForce, Real};
 use nalgebra::Vector3;
 use thiserror::Error;
@@ -72,14 +75,12 @@ pub enum NoContact<T: Real> {
         force: T,
     },
     /// The line of action passes the surface by.
-    #[error("the line of action misses the surface by {gap} m")]
+    #[error("the line of action misses the surface{}", by_how_much(closest))]
     Misses {
-        /// Distance between line and surface \[m\].
-        gap: T,
-        /// The point of the surface closest to the line \[m\].
-        closest: Vector3<T>,
-        /// Outward unit normal there.
-        normal: Vector3<T>,
+        /// The place of the surface closest to the line, and by how much the line misses it; `None` if the
+        /// surface does not know
+        /// ([`ActiveSurface::closest_approach`](fingertip_surfaces::ActiveSurface::closest_approach)).
+        closest: Option<ClosestApproach<T>>,
     },
     /// The line meets the active surface only where the force would pull it outward.
     #[error("the force pulls where its line meets the active surface")]
@@ -128,6 +129,15 @@ pub enum NoContact<T: Real> {
         /// By how many standard deviations its magnitude exceeds what one contact can give.
         excess: T,
     },
+}
+
+/// Says how far a line passes, if that is known.
+fn by_how_much<T: Real>(closest: &Option<ClosestApproach<T>>) -> impl fmt::Display {
+    let gap = closest.map(|closest| closest.gap);
+    fmt::from_fn(move |f| match gap {
+        Some(gap) => write!(f, " by {gap} m"),
+        None => f.write_str("; by how much the surface does not tell"),
+    })
 }
 
 /// Contact, or the reason why there is none.

@@ -1,7 +1,9 @@
 //! Contact in a point, without local torque.
 
 use fingertip_surfaces::numeric::vectors::{hypotenuse, in_range, larger, smaller};
-use fingertip_surfaces::{ActiveSurface, BadShape, Crossing, ForceLine, ForceParts};
+use fingertip_surfaces::{
+    ActiveSurface, BadShape, Crossing, ForceLine, ForceParts, Shortcuts, is_closed_convex,
+};
 use fingertip_wrench::{
     ContactForce, Line, LineOfAction, NoLineOfAction, Real, TangentialForce, Wrench, stored,
 };
@@ -57,7 +59,8 @@ impl<T: Real> PointContact<T> {
     }
 
     /// Accepts a line of action that misses the surface by at most `greatest_gap` \[m\], as noise
-    /// makes it do near grazing: the contact is then the closest point of the surface.
+    /// makes it do near grazing: the contact is then the closest point of the surface. A surface that does
+    /// not know its closest point (see [`ActiveSurface::closest_approach`]) has none.
     ///
     /// # Errors
     /// [`BadShape`] unless the gap is finite and not negative.
@@ -266,7 +269,7 @@ impl<T: Real> PointContact<T> {
     ) -> Option<(Contact<T>, Option<ForceParts<T>>)> {
         let [least_squared, least_steepness] = self.short_way;
         let push = ForceLine::new(wrench, least_squared)?;
-        let entry = surface.sole_entry(&push)?;
+        let entry = surface.shortcuts().sole_entry(&push)?;
         (entry.active && entry.incidence_squared >= least_steepness)
             .then(|| (contact_at(wrench, entry.point, entry.normal), entry.parts))
     }
@@ -283,7 +286,7 @@ impl<T: Real> PointContact<T> {
             Ok(axis) => axis,
             Err(reason) => return Resolution::NoContact(reason),
         };
-        let found = if S::CLOSED_CONVEX {
+        let found = if is_closed_convex(&surface.shortcuts()) {
             self.only_entry(wrench, surface, &axis.line)
         } else {
             self.best_entry(wrench, surface, &axis.line, last)
@@ -367,7 +370,9 @@ impl<T: Real> PointContact<T> {
         surface: &S,
         line: &Line<T>,
     ) -> Resolution<T> {
-        let approach = surface.closest_approach(line);
+        let Some(approach) = surface.closest_approach(line) else {
+            return Resolution::NoContact(NoContact::Misses { closest: None });
+        };
         if !(in_range(&approach.point) && approach.gap.is_number()) {
             return Resolution::NoContact(NoContact::NotFinite);
         }
@@ -376,11 +381,7 @@ impl<T: Real> PointContact<T> {
             let contact = contact_at(wrench, approach.point, approach.normal);
             return Resolution::Contact(Contact { gap: approach.gap, ..contact });
         }
-        Resolution::NoContact(NoContact::Misses {
-            gap: approach.gap,
-            closest: approach.point,
-            normal: approach.normal,
-        })
+        Resolution::NoContact(NoContact::Misses { closest: Some(approach) })
     }
 }
 

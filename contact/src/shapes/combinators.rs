@@ -12,6 +12,7 @@ use crate::{
     GeometrySensitivity, Search, ShapeParameters, SoftContact, SoftFingerSurface, newton_soft_contacts,
 };
 
+/// Without the [`patch`](SoftFingerSurface::patch) of the shape inside: turned, it would not be exact.
 impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
     #[inline]
     fn soft_contacts(

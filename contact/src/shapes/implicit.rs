@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use crate::{Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
 
-impl<T: Real, S: ImplicitSurface<T>> SoftFingerSurface<T> for Implicit<S> {
+impl<T: Real, S: ImplicitSurface<T>> SoftFingerSurface<T> for Implicit<T, S> {
     #[inline]
     fn soft_contacts(
         &self,

@@ -65,6 +65,11 @@ macro_rules! part_of {
                     });
                 })
             },
+            sole | shape,
+            push | shape.$whole().sole_soft_contact(push).map(|contact| $crate::SoftContact {
+                active: $crate::soft_finger::closed_form::is_active(shape, &contact),
+                ..contact
+            }),
             patch | shape,
             point | shape.$whole().patch(point)
         );

@@ -1,9 +1,9 @@
 //! What rounding did to a soft contact that the force meets at a flat angle, undone.
 
-use fingertip_surfaces::ActiveSurface;
 use fingertip_surfaces::numeric::twofold::Twofold;
 use fingertip_surfaces::numeric::vectors::larger;
 use fingertip_surfaces::numeric::vectors::tangents;
+use fingertip_surfaces::{ActiveSurface, Shortcuts};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -15,7 +15,7 @@ use crate::model::{flat, torque_left};
 /// Rounding of the closed forms, and of Newton's last step, leaves a torque `r = m − c × f − τ n` and a
 /// height `e` above the surface. Where the force is nearly square to the normal the contact answers to
 /// them with up to the reciprocal cosine of incidence: a rounding error at a cosine of 0.05 is one of
-/// twenty. Both are found here with twice the digits ([`ActiveSurface::outside_by`] for `e`), and a step
+/// twenty. Both are found here with twice the digits ([`Shortcuts::surface_residual`] for `e`), and a step
 /// of Newton's method takes them away, so that of the step's own error that factor is all that is left.
 /// The step need not be exact: the curvature comes from differences of the normal.
 ///
@@ -30,7 +30,12 @@ pub(crate) fn mended<T: Real, S: ActiveSurface<T>>(
     surface: &S,
     contact: &SoftContact<T>,
 ) -> SoftContact<T> {
-    mended_on(wrench, &|point| surface.normal(point), &|point| surface.outside_by(point), contact)
+    mended_on(
+        wrench,
+        &|point| surface.normal(point),
+        &|point| surface.shortcuts().surface_residual(point),
+        contact,
+    )
 }
 
 /// The same. Compiled once for all surfaces: what differs is only what they answer.
@@ -38,7 +43,7 @@ pub(crate) fn mended<T: Real, S: ActiveSurface<T>>(
 fn mended_on<T: Real>(
     wrench: &Wrench<T>,
     normal: &dyn Fn(&Vector3<T>) -> Vector3<T>,
-    outside_by: &dyn Fn(&Vector3<T>) -> T,
+    residual: &dyn Fn(&Vector3<T>) -> T,
     contact: &SoftContact<T>,
 ) -> SoftContact<T> {
     let scale = wrench.force().amax().normalising_factor();
@@ -73,7 +78,7 @@ fn mended_on<T: Real>(
         left(m.y, c.z, f.x, c.x, f.z, n.y),
         left(m.z, c.x, f.y, c.y, f.x, n.z),
     );
-    let outside = outside_by(&c);
+    let outside = residual(&c);
     let turned = rest + n.cross(&f) * outside;
     let (r1, r2) = (e1.dot(&turned), e2.dot(&turned));
     let determinant = w11 * w22 - w12 * w12 + pressing * pressing;

@@ -225,8 +225,7 @@ fn why_none<T: Real, S: SoftFingerSurface<T>>(wrench: &Wrench<T>, surface: &S) -
     if let Some(point) = pulling {
         return NoContact::OnlyPulling { point };
     }
-    let approach = surface.closest_approach(&axis.line);
-    NoContact::Misses { gap: approach.gap, closest: approach.point, normal: approach.normal }
+    NoContact::Misses { closest: surface.closest_approach(&axis.line) }
 }
 
 stored! {

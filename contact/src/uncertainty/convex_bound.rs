@@ -121,7 +121,7 @@ impl<T: Real> ConvexBound<T> {
             Met::Through(chord) => (chord.entry, chord.entry, T::zero()),
             Met::Outward => return None,
             Met::Not => {
-                let approach = surface.closest_approach(&axis.line);
+                let approach = surface.closest_approach(&axis.line)?;
                 if !(approach.gap <= epsilon + shape) {
                     return None;
                 }

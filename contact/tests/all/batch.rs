@@ -59,7 +59,9 @@ fn agrees<T: Real, S: ActiveSurface<T> + BatchSurface<T>>(surface: &S, exact_mis
                     near(&normal, &contact.normal, contact.incidence());
                 }
             }
-            Resolution::NoContact(NoContact::Misses { gap: expected, closest, .. }) => {
+            Resolution::NoContact(NoContact::Misses {
+                closest: Some(ClosestApproach { gap: expected, point: closest, .. }),
+            }) => {
                 missed += 1;
                 if exact_misses && expected > T::literal(1e-3) {
                     assert!(

@@ -1,7 +1,7 @@
 //! Forces that press squarely, and shapes of extreme size.
 
 use fingertip_contact::{ContactModel, PointContact};
-use fingertip_surfaces::{ActiveSurface, Ellipsoid, ForceLine, Sphere};
+use fingertip_surfaces::{Ellipsoid, ForceLine, Shortcuts, Sphere};
 use fingertip_wrench::Wrench;
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};

@@ -72,7 +72,9 @@ fn bound_holds<T: Real>(trials: usize) -> Trials {
                 seen.met += 1;
                 contact.point
             }
-            Resolution::NoContact(NoContact::Misses { closest, .. }) => {
+            Resolution::NoContact(NoContact::Misses {
+                closest: Some(ClosestApproach { point: closest, .. }),
+            }) => {
                 seen.missed += 1;
                 closest
             }
@@ -128,7 +130,9 @@ fn continuous_through_tangency() {
             let force = Vector3::new(T::zero(), T::zero(), -T::one());
             match model.resolve(&Wrench::from_force_at(&line, force), &sphere) {
                 Resolution::Contact(contact) => contact.point,
-                Resolution::NoContact(NoContact::Misses { closest, .. }) => closest,
+                Resolution::NoContact(NoContact::Misses {
+                    closest: Some(ClosestApproach { point: closest, .. }),
+                }) => closest,
                 other => panic!("{other:?}"),
             }
         };

@@ -12,5 +12,7 @@ mod extremes;
 mod fusion;
 mod grazing;
 mod point_contact;
+mod spherical_cap;
 mod stored;
 mod worst_case;
+mod wrappers;

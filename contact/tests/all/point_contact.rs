@@ -97,7 +97,9 @@ fn line_parallel_to_a_cylinders_axis() {
     let open = Cylinder::new(Vector3::zeros(), Vector3::z(), 0.01).unwrap().with_half_length(0.02).unwrap();
     for x in [0.0, 0.004, 0.0099, 0.015] {
         let wrench = Wrench::from_force_at(&v(x, 0.0, 0.0), v(0.0, 0.0, -1.0));
-        let Resolution::NoContact(NoContact::Misses { gap, closest, .. }) = model().resolve(&wrench, &open)
+        let Resolution::NoContact(NoContact::Misses {
+            closest: Some(ClosestApproach { gap, point: closest, .. }),
+        }) = model().resolve(&wrench, &open)
         else {
             panic!("a parallel line crosses nothing");
         };
@@ -122,7 +124,9 @@ fn sphere_given_as_an_ellipsoid() {
     }
     // Missing lines too, where all axes of the shadow are equal.
     let wrench = Wrench::from_force_at(&v(0.02, 0.0, 0.0), v(0.0, 0.0, -1.0));
-    let Resolution::NoContact(NoContact::Misses { gap, .. }) = model().resolve(&wrench, &ball) else {
+    let Resolution::NoContact(NoContact::Misses { closest: Some(ClosestApproach { gap, .. }) }) =
+        model().resolve(&wrench, &ball)
+    else {
         panic!("the line misses");
     };
     assert!((gap - 0.007).abs() < 1e-16);
@@ -150,7 +154,9 @@ fn outside_the_active_region() {
 #[test]
 fn near_miss_gives_point_and_gap() {
     let wrench = Wrench::from_force_at(&v(0.0131, 0.0, 0.005), v(0.0, 0.0, -1.0));
-    let Resolution::NoContact(NoContact::Misses { gap, closest, normal }) = model().resolve(&wrench, &tip())
+    let Resolution::NoContact(NoContact::Misses {
+        closest: Some(ClosestApproach { gap, point: closest, normal, .. }),
+    }) = model().resolve(&wrench, &tip())
     else {
         panic!("the line misses");
     };
@@ -174,7 +180,9 @@ fn a_miss_by_one_ulp_is_not_nan() {
             );
             let point = match model.resolve(&wrench, &sphere) {
                 Resolution::Contact(contact) => contact.point,
-                Resolution::NoContact(NoContact::Misses { closest, .. }) => closest,
+                Resolution::NoContact(NoContact::Misses {
+                    closest: Some(ClosestApproach { point: closest, .. }),
+                }) => closest,
                 other => panic!("{other:?}"),
             };
             let error = (point - Vector3::x()).amax();
@@ -221,7 +229,9 @@ fn an_edge_is_pressed_or_missed_by_a_hair() {
                     }
                     pressed += 1;
                 }
-                Resolution::NoContact(NoContact::Misses { gap, closest, .. }) => {
+                Resolution::NoContact(NoContact::Misses {
+                    closest: Some(ClosestApproach { gap, point: closest, .. }),
+                }) => {
                     // The torque rounds the line by a few of its last places at size 1.5.
                     let hair = T::EPSILON * T::literal(32.0);
                     assert!(gap <= hair && (closest - edge).norm() <= hair.root(), "{wrench:?} {found:?}");
@@ -249,7 +259,10 @@ fn newton_millimetres_given_as_newton_metres_are_not_guessed() {
     let force = v(-1.0, 0.2, 0.0);
     let torque = v(0.013, 0.0, 0.0).cross(&force) + v(0.0, 0.01, 0.0).cross(&force);
     let found = model().resolve(&Wrench::on_fingertip(force, torque * 1000.0), &tip());
-    let Resolution::NoContact(NoContact::Misses { gap, .. }) = found else { panic!("{found:?}") };
+    let Resolution::NoContact(NoContact::Misses { closest: Some(ClosestApproach { gap, .. }) }) = found
+    else {
+        panic!("{found:?}")
+    };
     assert!(gap > 1.0, "{gap}");
 }
 
@@ -361,15 +374,13 @@ impl ActiveSurface<f64> for Telling {
         tip().crossings(line, visit);
     }
 
-    fn closest_approach(&self, line: &Line<f64>) -> ClosestApproach<f64> {
-        tip().closest_approach(line)
+    fn shortcuts(&self) -> impl Shortcuts<f64> {
+        self
     }
+}
 
-    fn normal(&self, point: &Vector3<f64>) -> Vector3<f64> {
-        tip().normal(point)
-    }
-
-    fn outside_by(&self, _: &Vector3<f64>) -> f64 {
+impl Shortcuts<f64> for Telling {
+    fn surface_residual(&self, _: &Vector3<f64>) -> f64 {
         self.0
     }
 }

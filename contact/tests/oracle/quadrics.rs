@@ -95,7 +95,9 @@ pub(crate) fn worst<T: Real, S: ActiveSurface<T>>(
         let point = match found {
             Resolution::Contact(contact) if contact.incidence().to_f64() < 0.05 => continue,
             Resolution::Contact(contact) => contact.point,
-            Resolution::NoContact(NoContact::Misses { closest, .. }) => closest,
+            Resolution::NoContact(NoContact::Misses {
+                closest: Some(ClosestApproach { point: closest, .. }),
+            }) => closest,
             Resolution::NoContact(reason) => panic!("{wrench:?}: {reason:?}"),
         };
         met += 1;

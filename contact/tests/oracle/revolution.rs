@@ -173,7 +173,7 @@ fn none_is_nearer<T: Real>(trials: usize, size: f64) {
             let mut crosses = false;
             exact.crossings(&aim, |_| crosses = true);
             solid.crossings(&given, |_| crosses = true);
-            let found = solid.closest_approach(&given);
+            let found = solid.closest_approach(&given).unwrap();
             if crosses {
                 // A place of the outline all the same, and the normal out of the solid.
                 let step = found.normal * T::literal(size * 1e-3);

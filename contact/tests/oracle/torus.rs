@@ -83,7 +83,7 @@ fn none_is_missed(lines: usize) {
             // Allowed only if a line a hair aside has the other count.
             let closest = found.iter().map(|c| c.normal.dot(&direction).abs()).fold(1.0_f64, f64::min);
             let gap = if found.is_empty() {
-                torus.closest_approach(&Line { point, direction }).gap
+                torus.closest_approach(&Line { point, direction }).unwrap().gap
             } else {
                 closest
             };

@@ -88,8 +88,8 @@ pub(crate) fn paraboloid<T: Real>() -> Paraboloid<T> {
     Paraboloid::new([T::literal(0.010), T::literal(0.015)]).unwrap()
 }
 
-pub(crate) fn pillow<T: Real>() -> Implicit<Pillow> {
-    Implicit::new::<T>(Pillow).unwrap()
+pub(crate) fn pillow<T: Real>() -> Implicit<T, Pillow> {
+    Implicit::new(Pillow).unwrap()
 }
 
 fn vector<T: Real>(x: f64, y: f64, z: f64) -> Vector3<T> {
@@ -236,10 +236,10 @@ impl Widen for Superquadric<f32> {
     }
 }
 
-impl Widen for Implicit<Pillow> {
-    type Double = Self;
-    fn widened(&self) -> Self {
-        *self
+impl Widen for Implicit<f32, Pillow> {
+    type Double = Implicit<f64, Pillow>;
+    fn widened(&self) -> Implicit<f64, Pillow> {
+        Implicit::new(*self.inner()).unwrap()
     }
 }
 

@@ -2,7 +2,7 @@
 //! explains the wrench, or that none could be found for certain; no reason that is not true.
 
 use fingertip_contact::{Contact, ContactModel, NoContact, Resolution, SoftFinger};
-use fingertip_surfaces::{ActiveSurface, Cone, Frustum};
+use fingertip_surfaces::{ActiveSurface, Cone, Frustum, Shortcuts};
 use fingertip_test_support::Worst;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
@@ -58,7 +58,7 @@ fn backward_errors<T: Real>(exact: &Cone<f64>, wrench: &Wrench<T>, contact: &Con
         (exact.normal(&c) - n).norm()
     };
     let rest = m - c.cross(&f) - n * spin;
-    let height = if at_tip { 0.0 } else { exact.outside_by(&c).abs() / (hair * arm) };
+    let height = if at_tip { 0.0 } else { exact.surface_residual(&c).abs() / (hair * arm) };
     [rest.norm() / (hair * (arm * f.norm() + spin.abs() * turn)), height, slant / (hair * turn)]
 }
 

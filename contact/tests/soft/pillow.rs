@@ -1,6 +1,6 @@
 //! A general implicit surface, with analytic second derivatives. The benches share this file.
 
-use fingertip_surfaces::{ImplicitBounds, ImplicitSurface, Topology};
+use fingertip_surfaces::{ImplicitSurface, Term, Topology};
 use fingertip_wrench::Real;
 use nalgebra::{Matrix3, Vector3};
 
@@ -9,6 +9,20 @@ use nalgebra::{Matrix3, Vector3};
 pub(crate) struct Pillow;
 
 impl<T: Real> ImplicitSurface<T> for Pillow {
+    fn formula(&self, point: [Term<T>; 3]) -> Term<T> {
+        let [x, y, z] = point.map(|x| (x * T::literal(100.0)).square());
+        let quartic = x.square() + y.square() + z.square();
+        (quartic + (x + y + z) * T::literal(0.5) - T::one()) * T::literal(0.5)
+    }
+
+    fn ball(&self) -> (Vector3<T>, T) {
+        (Vector3::zeros(), T::literal(0.0121))
+    }
+
+    fn steepest(&self) -> Option<T> {
+        Some(T::literal(420.0))
+    }
+
     fn value(&self, p: &Vector3<T>) -> T {
         let q = p.component_mul(p) * T::literal(1e4);
         (q.norm_squared() + q.sum() * T::literal(0.5) - T::one()) * T::literal(0.5)
@@ -25,10 +39,6 @@ impl<T: Real> ImplicitSurface<T> for Pillow {
             return T::zero();
         }
         T::literal(ImplicitSurface::<f64>::value(self, &p.map(Real::to_f64)))
-    }
-
-    fn bounds(&self) -> ImplicitBounds<T> {
-        ImplicitBounds { centre: Vector3::zeros(), radius: T::literal(0.0121), steepest: T::literal(420.0) }
     }
 
     fn hessian(&self, p: &Vector3<T>) -> Matrix3<T> {

@@ -20,7 +20,7 @@ pub(crate) fn check_mesh<T: Real>(mesh: &Mesh<T>) {
             finite &= crossing.normal.iter().all(|x| x.is_number());
         });
         assert!(count % 2 == 0 && finite, "{mesh:?} {line:?}");
-        let approach = mesh.closest_approach(&line);
+        let approach = mesh.closest_approach(&line).unwrap();
         assert!(
             approach.gap.is_number() && approach.point.iter().all(|x| x.is_number()),
             "{mesh:?} {line:?}"

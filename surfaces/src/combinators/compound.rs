@@ -5,7 +5,7 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::active_surface::nearest_crossing;
-use crate::{ActiveSurface, ClosestApproach, Corner, Crossing, Extent, Level, SmoothSurface};
+use crate::{ActiveSurface, ClosestApproach, Corner, Crossing, Extent, Level, Shortcuts, SmoothSurface};
 
 /// Two shapes, possibly overlapping, as one: what lies inside the other is no surface. Nest it for
 /// more than two.
@@ -116,8 +116,9 @@ impl<T: Real, A: ActiveSurface<T>, B: ActiveSurface<T>> ActiveSurface<T> for Com
         });
     }
 
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
-        closest_of(self.first.closest_approach(line), self.second.closest_approach(line))
+    /// Not known unless that of both is.
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
+        Some(closest_of(self.first.closest_approach(line)?, self.second.closest_approach(line)?))
     }
 
     /// Of the part on whose surface the point is, told by which of the two a step along its normal
@@ -129,6 +130,23 @@ impl<T: Real, A: ActiveSurface<T>, B: ActiveSurface<T>> ActiveSurface<T> for Com
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.first.contains(point) || self.second.contains(point)
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+/// The residual is that of the part on whose surface the point is. A line that enters each part once may
+/// enter both: there is no sole entry.
+impl<T: Real, A: ActiveSurface<T>, B: ActiveSurface<T>> Shortcuts<T> for Compound<A, B> {
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        if self.is_of_first(point, None) {
+            self.first.shortcuts().surface_residual(point)
+        } else {
+            self.second.shortcuts().surface_residual(point)
+        }
     }
 }
 

@@ -8,8 +8,8 @@ use crate::numeric::roots::{all_of_lipschitz, first_of_convex};
 use crate::numeric::twofold::{Twofold, difference, dot_with};
 use crate::numeric::vectors::{foot, tangents};
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Extent, Level, SignedDistance,
-    SmoothSurface, Topology, hessian_by_differences,
+    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Extent, Level, Shortcuts,
+    SignedDistance, SmoothSurface, Topology, hessian_by_differences,
 };
 
 /// All points at one distance from a shape: outside it (a skin put over a fingertip), or inside
@@ -53,8 +53,6 @@ impl<T: Real, S> Offset<T, S> {
 }
 
 impl<T: Real, S: SignedDistance<T>> ActiveSurface<T> for Offset<T, S> {
-    const CLOSED_CONVEX: bool = S::CONVEX;
-
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let (centre, radius) = self.bounds();
         let (offset, along) = foot(line, &centre);
@@ -88,16 +86,16 @@ impl<T: Real, S: SignedDistance<T>> ActiveSurface<T> for Offset<T, S> {
     /// Outside a shape as exact as that of the shape itself, which has the same place nearest to the line;
     /// inside a convex one exact but for rounding. Inside another one by a bounded search along the line,
     /// in which a place that is nearer by at most 1/256 of the bounds' radius may be missed.
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let (centre, reach) = self.bounds();
         if S::CONVEX {
-            to_convex(line, &centre, reach, |point| self.signed_distance(point))
+            Some(to_convex(line, &centre, reach, |point| self.signed_distance(point)))
         } else if self.distance >= T::zero() {
-            let nearest = self.surface.closest_approach(line).point - line.point;
+            let nearest = self.surface.closest_approach(line)?.point - line.point;
             let place = line.at(nearest.dot(&line.direction));
-            from_distance(&place, self.signed_distance(&place))
+            Some(from_distance(&place, self.signed_distance(&place)))
         } else {
-            by_search(line, &centre, reach, |point| self.signed_distance(point))
+            Some(by_search(line, &centre, reach, |point| self.signed_distance(point)))
         }
     }
 
@@ -105,16 +103,26 @@ impl<T: Real, S: SignedDistance<T>> ActiveSurface<T> for Offset<T, S> {
         self.surface.signed_distance(point).normal
     }
 
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.signed_distance(point).distance < T::zero()
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+/// A parallel surface has no entry in closed form, whatever the inner one has.
+impl<T: Real, S: SignedDistance<T>> Shortcuts<T> for Offset<T, S> {
+    const CLOSED_CONVEX: bool = S::CONVEX;
+
     /// How far it is from the distance to a point of the inner surface, and that point from where it should be.
-    fn outside_by(&self, point: &Vector3<T>) -> T {
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
         let normal = self.normal(point);
         let foot = point - normal * self.distance;
         let apart = dot_with(difference(point, &foot), &normal);
-        apart.minus(Twofold::new(self.distance)).value() + self.surface.outside_by(&foot)
-    }
-
-    fn contains(&self, point: &Vector3<T>) -> bool {
-        self.signed_distance(point).distance < T::zero()
+        apart.minus(Twofold::new(self.distance)).value() + self.surface.shortcuts().surface_residual(&foot)
     }
 }
 
@@ -235,7 +243,8 @@ mod tests {
         for _ in 0..2000 {
             let mut any = || Vector3::from_fn(|_, _| random.random_range(-1.5..1.5));
             let line = Line { point: any(), direction: any().normalize() };
-            let (found, expected) = (parallel.closest_approach(&line), thick.closest_approach(&line));
+            let (found, expected) =
+                (parallel.closest_approach(&line).unwrap(), thick.closest_approach(&line).unwrap());
             assert!(
                 (found.gap - expected.gap).abs() <= 8.0 * f64::EPSILON,
                 "{line:?} {found:?} {expected:?}"

@@ -4,8 +4,8 @@ use fingertip_wrench::{Line, Real, RigidTransform};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::{
-    ActiveSurface, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Level,
-    SignedDistance, SmoothSurface, Topology,
+    ActiveSurface, ClosestApproach, Corner, Crossing, Distance, Extent, Level, Shortcuts, SignedDistance,
+    SmoothSurface, Topology,
 };
 
 /// A shape somewhere else in the sensor frame, turned.
@@ -69,8 +69,6 @@ impl<T: Real, S> Posed<T, S> {
 }
 
 impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
-    const CLOSED_CONVEX: bool = S::CLOSED_CONVEX;
-
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let pose = &self.sensor_from_shape;
@@ -79,24 +77,14 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
         });
     }
 
-    #[inline]
-    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
+        let found = self.surface.closest_approach(&self.line_in_shape(line))?;
         let pose = &self.sensor_from_shape;
-        // The frame of a shape may lie so far away that the shape leaves the range of the type.
-        self.surface.sole_entry(&push.seen_from(pose)).map(|e| {
-            Entry { point: pose.transform_point(&e.point), normal: pose.rotate(&e.normal), ..e }
-                .within_range()
-        })
-    }
-
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
-        let found = self.surface.closest_approach(&self.line_in_shape(line));
-        let pose = &self.sensor_from_shape;
-        ClosestApproach {
+        Some(ClosestApproach {
             point: pose.transform_point(&found.point),
             normal: pose.rotate(&found.normal),
             ..found
-        }
+        })
     }
 
     #[inline]
@@ -104,9 +92,9 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
         self.sensor_from_shape.rotate(&self.surface.normal(&self.in_shape(point)))
     }
 
-    /// Moving a point rounds it, which this does not undo.
-    fn outside_by(&self, point: &Vector3<T>) -> T {
-        self.surface.outside_by(&self.in_shape(point))
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self.surface.shortcuts().posed(&self.sensor_from_shape)
     }
 
     #[inline]

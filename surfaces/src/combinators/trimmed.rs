@@ -4,8 +4,8 @@ use fingertip_wrench::{Line, Real, stored};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Entry, Extent, ForceLine, Level,
-    SmoothSurface, Topology,
+    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Extent, Level, Shortcuts, SmoothSurface,
+    Topology,
 };
 
 /// A part of space. Closures `Fn(&Vector3<T>) -> bool` are regions too.
@@ -138,15 +138,9 @@ impl<T: Real, S: ActiveSurface<T>, R: Region<T>> ActiveSurface<T> for Trimmed<S,
         });
     }
 
-    #[inline]
-    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        let active = |e: &Entry<T>| e.active && self.region.includes(&e.point);
-        self.surface.sole_entry(push).map(|e| Entry { active: active(&e), ..e })
-    }
-
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
-        let found = self.surface.closest_approach(line);
-        ClosestApproach { active: found.active && self.region.includes(&found.point), ..found }
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
+        let found = self.surface.closest_approach(line)?;
+        Some(ClosestApproach { active: found.active && self.region.includes(&found.point), ..found })
     }
 
     #[inline]
@@ -154,8 +148,9 @@ impl<T: Real, S: ActiveSurface<T>, R: Region<T>> ActiveSurface<T> for Trimmed<S,
         self.surface.normal(point)
     }
 
-    fn outside_by(&self, point: &Vector3<T>) -> T {
-        self.surface.outside_by(point)
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self.surface.shortcuts().within(|entry| self.region.includes(&entry.point))
     }
 
     #[inline]

@@ -251,7 +251,7 @@ mod tests {
                 continue;
             }
             missing += 1;
-            let found = field.closest_approach(&given);
+            let found = field.closest_approach(&given).unwrap();
             let (gap, place) = (found.gap.to_f64() / size, back(&found.point) / size);
             let allowed = 64.0 * T::EPSILON.to_f64();
             assert!(

@@ -216,7 +216,7 @@ impl<T: Real> ActiveSurface<T> for Heightfield<T> {
     /// normal is across the line, which is a root of a cubic. Of a line
     /// that crosses, a crossing. Takes a time that grows with the size of the
     /// grid, some steps per node and more for the cells near the line.
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let (nearest, distance) = self.nearest_to(line);
         let mut crossing: Option<Crossing<T>> = None;
         let from_nearest = |c: &Crossing<T>| length(&(c.point - nearest));
@@ -226,7 +226,7 @@ impl<T: Real> ActiveSurface<T> for Heightfield<T> {
             }
         });
         let (point, gap) = crossing.map_or((nearest, distance), |c| (c.point, T::zero()));
-        ClosestApproach { gap, point, normal: self.upward(point.x, point.y), active: true }
+        Some(ClosestApproach { gap, point, normal: self.upward(point.x, point.y), active: true })
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {

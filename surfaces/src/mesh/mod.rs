@@ -213,13 +213,13 @@ impl<T: Real> ActiveSurface<T> for Mesh<T> {
         });
     }
 
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let (start, _) = foot(line, &self.centre);
         let start = if is_finite(&start) { start * self.scale } else { Vector3::zeros() };
         let near = Line { point: start, direction: line.direction };
         let found = closest::to_line(self, &near);
         let point = found.point / self.scale + self.centre;
-        ClosestApproach { gap: (found.gap / self.scale).min(T::GREATEST), point, ..found }
+        Some(ClosestApproach { gap: (found.gap / self.scale).min(T::GREATEST), point, ..found })
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {

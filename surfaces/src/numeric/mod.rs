@@ -4,6 +4,7 @@ pub(crate) mod closest;
 pub(crate) mod ellipse;
 pub(crate) mod interval;
 pub mod quadratic;
+pub(crate) mod range;
 pub mod roots;
 pub(crate) mod support;
 pub mod twofold;

@@ -69,7 +69,8 @@ mod tests {
         let along = normal.cross(&direction(random)).normalize();
         let gap = T::literal(10_f64.powf(random.random_range(-6.0..0.0)));
         let aside = along * T::literal(random.random_range(-1.0..1.0));
-        let found = surface.closest_approach(&Line { point: point + normal * gap + aside, direction: along });
+        let line = Line { point: point + normal * gap + aside, direction: along };
+        let found = surface.closest_approach(&line).unwrap();
         let off = (found.gap - gap).abs();
         assert!(off <= T::EPSILON * T::literal(64.0), "{gap:?} above {point:?}: {found:?}");
     }

@@ -4,8 +4,8 @@ use fingertip_wrench::{Line, Real, stored};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Frustum,
-    Level, SignedDistance, SmoothSurface, Topology,
+    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Extent, Frustum, Level, Shortcuts,
+    SignedDistance, SmoothSurface, Topology,
 };
 
 /// A circular cylinder with flat ends, all of it active: a [`Frustum`] with equal radii.
@@ -71,19 +71,12 @@ impl<T: Real> CappedCylinder<T> {
 }
 
 impl<T: Real> ActiveSurface<T> for CappedCylinder<T> {
-    const CLOSED_CONVEX: bool = true;
-
     #[inline]
     fn crossings(&self, line: &Line<T>, visit: impl FnMut(Crossing<T>)) {
         self.solid.crossings(line, visit);
     }
 
-    #[inline(always)]
-    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        self.solid.sole_entry(push)
-    }
-
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         self.solid.closest_approach(line)
     }
 
@@ -91,12 +84,13 @@ impl<T: Real> ActiveSurface<T> for CappedCylinder<T> {
         self.solid.normal(point)
     }
 
-    fn outside_by(&self, point: &Vector3<T>) -> T {
-        self.solid.outside_by(point)
-    }
-
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.solid.contains(point)
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self.solid.shortcuts()
     }
 }
 

@@ -9,7 +9,7 @@ use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
 use crate::numeric::vectors::{any_perpendicular, length, unit_or};
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level,
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level, Shortcuts,
     SignedDistance, SmoothSurface, Topology,
 };
 
@@ -114,8 +114,6 @@ impl<T: Real> Capsule<T> {
 }
 
 impl<T: Real> ActiveSurface<T> for Capsule<T> {
-    const CLOSED_CONVEX: bool = true;
-
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let centre = self.axis.origin;
@@ -123,16 +121,9 @@ impl<T: Real> ActiveSurface<T> for Capsule<T> {
         self.axis.both_ends::<true>(&local, &centre, |line| self.entry(line), |_, crossing| visit(crossing));
     }
 
-    #[inline(always)]
-    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        let centre = self.axis.origin;
-        let local = self.axis.localise_push(push, &centre);
-        Some(self.axis.entered(&local, &centre, &self.entry(&local), true))
-    }
-
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let (centre, reach) = self.bounds();
-        to_convex(line, &centre, reach, |point| self.signed_distance(point))
+        Some(to_convex(line, &centre, reach, |point| self.signed_distance(point)))
     }
 
     #[inline]
@@ -141,18 +132,34 @@ impl<T: Real> ActiveSurface<T> for Capsule<T> {
         unit_or(&outward, || self.axis.outward(&Vector3::zeros()))
     }
 
-    fn outside_by(&self, point: &Vector3<T>) -> T {
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        length(&self.off_segment(&(point - self.axis.origin))) < self.radius
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real> Shortcuts<T> for Capsule<T> {
+    const CLOSED_CONVEX: bool = true;
+
+    #[inline(always)]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let centre = self.axis.origin;
+        let local = self.axis.localise_push(push, &centre);
+        Some(self.axis.entered(&local, &centre, &self.entry(&local), true))
+    }
+
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
         let height = (point - self.axis.origin).dot(&self.axis.direction);
         if height.abs() <= self.half_length {
             return self.axis.outside_by(point, self.radius);
         }
         let end = self.half_length.copysign(height);
         self.axis.outside_ball_by(point, end, self.radius)
-    }
-
-    #[inline]
-    fn contains(&self, point: &Vector3<T>) -> bool {
-        length(&self.off_segment(&(point - self.axis.origin))) < self.radius
     }
 }
 

@@ -11,7 +11,7 @@ use crate::numeric::vectors::{any_perpendicular, foot, is_finite, length, unit_o
 use crate::numeric::vectors::{from_degrees, to_degrees};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Level,
-    SmoothSurface, Topology,
+    Shortcuts, SmoothSurface, Topology,
 };
 
 /// The side of a circular cone, unbounded or active down to a depth.
@@ -147,6 +147,33 @@ impl<T: Real> ActiveSurface<T> for Cone<T> {
         );
     }
 
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
+        let (from_apex, _) = foot(line, &self.axis.origin);
+        let distance = length(&from_apex);
+        let reach = if is_finite(&from_apex) && distance > T::zero() { distance } else { T::one() };
+        let far = reach * T::literal(f64::from(1 << 20));
+        let approach = to_convex(line, &self.axis.origin, far.min(T::GREATEST.root()), |p| self.distance(p));
+        let depth = self.axis.split_point(&approach.point).0;
+        Some(ClosestApproach { active: self.is_active(depth), ..approach })
+    }
+
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.side_normal(&self.axis.split_point(point).1)
+    }
+
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        let (height, across) = self.axis.split_point(point);
+        self.is_active(height) && length(&across) * self.cosine < height * self.sine
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real> Shortcuts<T> for Cone<T> {
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         let apex = self.axis.origin;
@@ -155,29 +182,9 @@ impl<T: Real> ActiveSurface<T> for Cone<T> {
         Some(self.axis.entered(&local, &apex, &entry, self.is_active(entry.height)))
     }
 
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
-        let (from_apex, _) = foot(line, &self.axis.origin);
-        let distance = length(&from_apex);
-        let reach = if is_finite(&from_apex) && distance > T::zero() { distance } else { T::one() };
-        let far = reach * T::literal(f64::from(1 << 20));
-        let approach = to_convex(line, &self.axis.origin, far.min(T::GREATEST.root()), |p| self.distance(p));
-        let depth = self.axis.split_point(&approach.point).0;
-        ClosestApproach { active: self.is_active(depth), ..approach }
-    }
-
-    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
-        self.side_normal(&self.axis.split_point(point).1)
-    }
-
-    fn outside_by(&self, point: &Vector3<T>) -> T {
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
         let taper = Twofold::difference(-self.tangent, self.tangent_rest);
         self.axis.outside_cone_by(point, T::zero(), taper, self.cosine)
-    }
-
-    #[inline]
-    fn contains(&self, point: &Vector3<T>) -> bool {
-        let (height, across) = self.axis.split_point(point);
-        self.is_active(height) && length(&across) * self.cosine < height * self.sine
     }
 }
 

@@ -6,8 +6,8 @@ use nalgebra::{Matrix3, Vector3};
 use super::axis::Axis;
 use crate::numeric::vectors::{hypotenuse, is_finite, length};
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, Extent, ForceLine, Level, SmoothSurface,
-    Topology,
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, Extent, ForceLine, Level, Shortcuts,
+    SmoothSurface, Topology,
 };
 
 /// The lateral surface of a circular cylinder, unbounded or with an active part of finite length.
@@ -129,21 +129,7 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
         }
     }
 
-    #[inline(always)]
-    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        let line = push.line();
-        let (along, foot, across, squared) = self.foot(&line)?;
-        let remainder = T::one() - foot.norm_squared();
-        (remainder >= T::zero()).then(|| {
-            let half_chord = (remainder / squared).root();
-            let entry = self.crossing(&line, along - half_chord * self.radius, foot - across * half_chord);
-            let Crossing { point, normal, active, .. } = entry;
-            Entry { point, normal, incidence_squared: remainder * squared, parts: None, active }
-                .within_range()
-        })
-    }
-
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let (along, foot) = self.foot(line).map_or_else(
             || {
                 // Parallel to the axis: of all its points, the one nearest to the middle.
@@ -158,7 +144,7 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
         let gap = ((length(&foot) - T::one()).abs() * self.radius).min(T::GREATEST);
         let point =
             if is_finite(&crossing.point) { crossing.point } else { self.centre + normal * self.radius };
-        ClosestApproach { gap, point, normal, active: crossing.active }
+        Some(ClosestApproach { gap, point, normal, active: crossing.active })
     }
 
     #[inline]
@@ -166,15 +152,36 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
         self.around().outward(&self.around().split_point(point).1)
     }
 
-    fn outside_by(&self, point: &Vector3<T>) -> T {
-        self.around().outside_by(point, self.radius)
-    }
-
     /// Between the ends, and closer to the axis than the radius.
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {
         let (height, across) = self.around().split_point(point);
         self.is_active(height) && (across * self.curvature).norm_squared() < T::one()
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real> Shortcuts<T> for Cylinder<T> {
+    #[inline(always)]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let line = push.line();
+        let (along, foot, across, squared) = self.foot(&line)?;
+        let remainder = T::one() - foot.norm_squared();
+        (remainder >= T::zero()).then(|| {
+            let half_chord = (remainder / squared).root();
+            let entry = self.crossing(&line, along - half_chord * self.radius, foot - across * half_chord);
+            let Crossing { point, normal, active, .. } = entry;
+            Entry { point, normal, incidence_squared: remainder * squared, parts: None, active }
+                .within_range()
+        })
+    }
+
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        self.around().outside_by(point, self.radius)
     }
 }
 

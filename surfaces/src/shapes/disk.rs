@@ -5,7 +5,8 @@ use nalgebra::Vector3;
 
 use crate::numeric::vectors::length;
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, Plane, SmoothSurface, Topology,
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, Plane, Shortcuts, SmoothSurface,
+    Topology,
 };
 
 /// A plane of which only a disk is active.
@@ -52,7 +53,7 @@ impl<T: Real> ActiveSurface<T> for Disk<T> {
         self.plane.crossings(line, |c| visit(Crossing { active: self.is_active(&c.point), ..c }));
     }
 
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         self.plane.closest_to_part(line, |point| self.is_active(point))
     }
 
@@ -61,13 +62,20 @@ impl<T: Real> ActiveSurface<T> for Disk<T> {
         self.plane.normal(point)
     }
 
-    fn outside_by(&self, point: &Vector3<T>) -> T {
-        self.plane.outside_by(point)
-    }
-
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.plane.contains(point)
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real> Shortcuts<T> for Disk<T> {
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        self.plane.surface_residual(point)
     }
 }
 

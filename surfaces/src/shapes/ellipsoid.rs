@@ -7,7 +7,7 @@ use crate::numeric::ellipse::closest_point;
 use crate::numeric::twofold::{Twofold, dot};
 use crate::numeric::vectors::{any_perpendicular, foot, hypotenuse, is_finite, length, unit_or};
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level,
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level, Shortcuts,
     SignedDistance, SmoothSurface, Topology,
 };
 
@@ -111,8 +111,6 @@ impl<T: Real> Ellipsoid<T> {
 }
 
 impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
-    const CLOSED_CONVEX: bool = true;
-
     /// Scaled to the unit sphere, the line is a line still, and `along` is kept (Bicchi, Salisbury
     /// & Brock 1993 for the case without local torque; `docs/theory/surfaces.md#ellipsoid`).
     #[inline]
@@ -123,34 +121,9 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
         }
     }
 
-    /// The same, without a branch: in units near the size of the ellipsoid no square leaves the range
-    /// that the force's own is in by more than the aspect allows.
-    #[inline]
-    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        let force = push.force();
-        let direction = force.component_mul(&self.relative);
-        let squared = direction.norm_squared();
-        let (inverse_force, inverse) = (T::one() / push.squared(), T::one() / squared);
-        let [_, per_unit] = self.unit;
-        let point = force.cross(&(push.torque() * per_unit)).component_mul(&self.relative) * inverse_force;
-        let foot = point - direction * (point.dot(&direction) * inverse);
-        let remainder = T::one() - foot.norm_squared();
-        let scaled = foot - direction * (remainder * inverse).root();
-        let gradient = scaled.component_mul(&self.relative);
-        let flatness = T::one() / gradient.norm_squared().root();
-        Some(Entry {
-            point: scaled.component_mul(&self.semi_axes),
-            normal: gradient * flatness,
-            // f·n = direction·scaled·flatness, and the foot is square to the direction.
-            incidence_squared: remainder * (flatness * flatness) * (squared * inverse_force),
-            parts: None,
-            active: true,
-        })
-    }
-
     /// In the shadow along the line, the ellipsoid is an ellipse, the line a point
     /// (`docs/theory/surfaces.md#ellipses-and-ellipsoids`).
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let (p, _) = foot(line, &Vector3::zeros());
         let p = if is_finite(&p) { p } else { Vector3::zeros() };
         let scale = self.semi_axes.max();
@@ -182,7 +155,7 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
         let deepest = over + line.direction * along;
         let point = if is_finite(&deepest) { deepest } else { over };
         let gap = hypotenuse(p.dot(&u) - x, p.dot(&v) - y).min(T::GREATEST);
-        ClosestApproach { gap, point, normal, active: true }
+        Some(ClosestApproach { gap, point, normal, active: true })
     }
 
     #[inline]
@@ -190,18 +163,52 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
         self.normal_at(&point.component_mul(&self.curvatures))
     }
 
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        point.component_mul(&self.curvatures).norm_squared() < T::one()
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real> Shortcuts<T> for Ellipsoid<T> {
+    const CLOSED_CONVEX: bool = true;
+
+    /// As the crossings, without a branch: in units near the size of the ellipsoid no square leaves the range
+    /// that the force's own is in by more than the aspect allows.
+    #[inline]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let force = push.force();
+        let direction = force.component_mul(&self.relative);
+        let squared = direction.norm_squared();
+        let (inverse_force, inverse) = (T::one() / push.squared(), T::one() / squared);
+        let [_, per_unit] = self.unit;
+        let point = force.cross(&(push.torque() * per_unit)).component_mul(&self.relative) * inverse_force;
+        let foot = point - direction * (point.dot(&direction) * inverse);
+        let remainder = T::one() - foot.norm_squared();
+        let scaled = foot - direction * (remainder * inverse).root();
+        let gradient = scaled.component_mul(&self.relative);
+        let flatness = T::one() / gradient.norm_squared().root();
+        Some(Entry {
+            point: scaled.component_mul(&self.semi_axes),
+            normal: gradient * flatness,
+            // f·n = direction·scaled·flatness, and the foot is square to the direction.
+            incidence_squared: remainder * (flatness * flatness) * (squared * inverse_force),
+            parts: None,
+            active: true,
+        })
+    }
+
     /// `(Σ xᵢ²/aᵢ² − 1)` over the length of its gradient.
-    fn outside_by(&self, point: &Vector3<T>) -> T {
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
         let scaled = |k: usize| Twofold::new(point[k]).over(self.semi_axes[k]);
         let scaled = [scaled(0), scaled(1), scaled(2)];
         let excess = dot(scaled, scaled).minus(Twofold::new(T::one())).value();
         let gradient = point.component_mul(&self.curvatures).component_mul(&self.curvatures);
         excess / (length(&gradient) * T::literal(2.0))
-    }
-
-    #[inline]
-    fn contains(&self, point: &Vector3<T>) -> bool {
-        point.component_mul(&self.curvatures).norm_squared() < T::one()
     }
 }
 
@@ -289,7 +296,8 @@ mod tests {
                 if meets {
                     continue;
                 }
-                let (found, expected) = (narrow.closest_approach(&line), wide.closest_approach(&exact));
+                let (found, expected) =
+                    (narrow.closest_approach(&line).unwrap(), wide.closest_approach(&exact).unwrap());
                 let sliding = 1.0 / (line.direction.component_div(&axes).norm() * axes.z);
                 let allowed = 16.0 * f32::EPSILON;
                 let error = (found.point.cast::<f64>() - expected.point).norm();

@@ -11,8 +11,8 @@ use crate::numeric::interval::{End, Inside};
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, hypotenuse, is_finite, length, unit_or, within_range};
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Extent, Level, SmoothSurface,
-    Topology,
+    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Extent, Level, Shortcuts,
+    SmoothSurface, Topology,
 };
 
 /// How an elliptic cylinder ends.
@@ -157,11 +157,11 @@ impl<T: Real> ActiveSurface<T> for EllipticCylinder<T> {
         inside.report(line, &start, along, visit);
     }
 
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let [a, b] = self.semi_axes;
         if let CylinderEnds::Capped(half) = self.ends {
             let reach = hypotenuse(half, a.max(b));
-            return to_convex(line, &Vector3::zeros(), reach, |point| self.distance(point));
+            return Some(to_convex(line, &Vector3::zeros(), reach, |point| self.distance(point)));
         }
         let (start, _) = foot(line, &Vector3::zeros());
         let start = if is_finite(&start) { start } else { Vector3::zeros() };
@@ -173,7 +173,7 @@ impl<T: Real> ActiveSurface<T> for EllipticCylinder<T> {
             let found = from_distance(&start, side);
             // Within the side too it never meets it.
             let gap = side.distance.abs().min(T::GREATEST);
-            return ClosestApproach { gap, active: self.is_active(found.point.z), ..found };
+            return Some(ClosestApproach { gap, active: self.is_active(found.point.z), ..found });
         }
         let outward = unit_or(&across, Vector3::x);
         let normal = if outward.dot(&start) < T::zero() { -outward } else { outward };
@@ -185,32 +185,18 @@ impl<T: Real> ActiveSurface<T> for EllipticCylinder<T> {
             / across.norm_squared();
         let z = start.z + along * line.direction.z;
         let z = if z.is_number() { z } else { T::zero() };
-        ClosestApproach {
+        Some(ClosestApproach {
             gap: (normal.dot(&start) - height).max(T::zero()).min(T::GREATEST),
             point: Vector3::new(side.x, side.y, z),
             normal,
             active: self.is_active(z),
-        }
+        })
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         match self.ends {
             CylinderEnds::Capped(_) => self.distance(point).normal,
             _ => self.side_normal(point.x * self.curvatures[0], point.y * self.curvatures[1]),
-        }
-    }
-
-    /// Of the side, `(x²/a² + y²/b² − 1)` over the length of its gradient; or outside the end, if that is nearer.
-    fn outside_by(&self, point: &Vector3<T>) -> T {
-        let ([a, b], [ca, cb]) = (self.semi_axes, self.curvatures);
-        let (x, y) = (Twofold::new(point.x).over(a), Twofold::new(point.y).over(b));
-        let excess = x.squared().plus(y.squared()).minus(Twofold::new(T::one())).value();
-        let side = excess / (hypotenuse(x.value() * ca, y.value() * cb) * T::literal(2.0));
-        match self.ends {
-            CylinderEnds::Capped(half) if !((point.z.abs() - half).abs() > side.abs()) => {
-                point.z.abs() - half
-            }
-            _ => side,
         }
     }
 
@@ -223,6 +209,27 @@ impl<T: Real> ActiveSurface<T> for EllipticCylinder<T> {
             CylinderEnds::Open(half) | CylinderEnds::Capped(half) => point.z.abs() < half,
         };
         within && x * x + y * y < T::one()
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real> Shortcuts<T> for EllipticCylinder<T> {
+    /// Of the side, `(x²/a² + y²/b² − 1)` over the length of its gradient; or outside the end, if that is nearer.
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        let ([a, b], [ca, cb]) = (self.semi_axes, self.curvatures);
+        let (x, y) = (Twofold::new(point.x).over(a), Twofold::new(point.y).over(b));
+        let excess = x.squared().plus(y.squared()).minus(Twofold::new(T::one())).value();
+        let side = excess / (hypotenuse(x.value() * ca, y.value() * cb) * T::literal(2.0));
+        match self.ends {
+            CylinderEnds::Capped(half) if !((point.z.abs() - half).abs() > side.abs()) => {
+                point.z.abs() - half
+            }
+            _ => side,
+        }
     }
 }
 

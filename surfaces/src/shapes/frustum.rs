@@ -12,7 +12,7 @@ use crate::numeric::twofold::{Twofold, difference, dot_with};
 use crate::numeric::vectors::{any_perpendicular, hypotenuse, length, unit_or};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Level,
-    SignedDistance, SmoothSurface, Topology,
+    Shortcuts, SignedDistance, SmoothSurface, Topology,
 };
 
 /// A truncated circular cone with flat ends, all of it active; with one radius zero, a closed
@@ -180,8 +180,6 @@ impl<T: Real> Frustum<T> {
 }
 
 impl<T: Real> ActiveSurface<T> for Frustum<T> {
-    const CLOSED_CONVEX: bool = true;
-
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let local = self.axis.localise(line, &self.middle);
@@ -193,30 +191,13 @@ impl<T: Real> ActiveSurface<T> for Frustum<T> {
         );
     }
 
-    #[inline(always)]
-    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        let local = self.axis.localise_push(push, &self.middle);
-        Some(self.axis.entered(&local, &self.middle, &self.entry(&local), true))
-    }
-
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let (centre, reach) = self.bounds();
-        to_convex(line, &centre, reach, |point| self.signed_distance(point))
+        Some(to_convex(line, &centre, reach, |point| self.signed_distance(point)))
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         self.signed_distance(point).normal
-    }
-
-    /// Outside the side or the nearer end, whichever it is on.
-    fn outside_by(&self, point: &Vector3<T>) -> T {
-        let taper = Twofold::difference(self.base_radius, self.top_radius).over(self.height);
-        let side = self.axis.outside_cone_by(point, self.base_radius, taper, self.side_cosine);
-        let from_base = difference(point, &self.axis.origin);
-        let height = dot_with(from_base, &self.axis.direction);
-        let over_top = height.minus(Twofold::new(self.height)).value();
-        let end = over_top.max(-height.value());
-        if end.abs() < side.abs() { end } else { side }
     }
 
     #[inline]
@@ -227,6 +208,32 @@ impl<T: Real> ActiveSurface<T> for Frustum<T> {
             && height < self.height
             && radius > T::zero()
             && across.norm_squared() < radius * radius
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real> Shortcuts<T> for Frustum<T> {
+    const CLOSED_CONVEX: bool = true;
+
+    #[inline(always)]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let local = self.axis.localise_push(push, &self.middle);
+        Some(self.axis.entered(&local, &self.middle, &self.entry(&local), true))
+    }
+
+    /// Outside the side or the nearer end, whichever it is on.
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        let taper = Twofold::difference(self.base_radius, self.top_radius).over(self.height);
+        let side = self.axis.outside_cone_by(point, self.base_radius, taper, self.side_cosine);
+        let from_base = difference(point, &self.axis.origin);
+        let height = dot_with(from_base, &self.axis.direction);
+        let over_top = height.minus(Twofold::new(self.height)).value();
+        let end = over_top.max(-height.value());
+        if end.abs() < side.abs() { end } else { side }
     }
 }
 

@@ -7,7 +7,9 @@ use crate::numeric::quadratic::roots;
 use crate::numeric::support;
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, length, unit_or};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, SmoothSurface, Topology};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, Shortcuts, SmoothSurface, Topology,
+};
 
 /// A dome whose top is the origin, with the z axis pointing out of it:
 /// `z = −x²/(2·R_x) − y²/(2·R_y)`; [`Posed`](crate::Posed) puts it elsewhere.
@@ -96,7 +98,7 @@ impl<T: Real> ActiveSurface<T> for Paraboloid<T> {
         }
     }
 
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let approach = support::closest_approach(line, |normal| {
             let [ra, rb] = self.radii;
             // Where the slope is so steep that the point lies beyond the range, as if it were vertical.
@@ -110,7 +112,7 @@ impl<T: Real> ActiveSurface<T> for Paraboloid<T> {
             let far = !(x + y + z).is_number() || !height.is_number();
             if far { below } else { (height, Vector3::new(x, y, z)) }
         });
-        ClosestApproach { active: self.is_active(approach.point.z), ..approach }
+        Some(ClosestApproach { active: self.is_active(approach.point.z), ..approach })
     }
 
     #[inline]
@@ -118,21 +120,28 @@ impl<T: Real> ActiveSurface<T> for Paraboloid<T> {
         self.normal_at(point)
     }
 
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        let [a, b] = self.curvatures;
+        point.x * point.x * a + point.y * point.y * b + point.z + point.z < T::zero()
+            && self.is_active(point.z)
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real> Shortcuts<T> for Paraboloid<T> {
     /// `(x²/a + y²/b + 2z)` over the length of its gradient.
-    fn outside_by(&self, point: &Vector3<T>) -> T {
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
         let [a, b] = self.radii;
         let part = |x: T, radius: T| Twofold::new(x).over(radius).times(Twofold::new(x));
         let excess = part(point.x, a).plus(part(point.y, b)).plus(Twofold::new(point.z + point.z)).value();
         let [ca, cb] = self.curvatures;
         let slope = Vector3::new(point.x * ca, point.y * cb, T::one());
         excess / (length(&slope) * T::literal(2.0))
-    }
-
-    #[inline]
-    fn contains(&self, point: &Vector3<T>) -> bool {
-        let [a, b] = self.curvatures;
-        point.x * point.x * a + point.y * point.y * b + point.z + point.z < T::zero()
-            && self.is_active(point.z)
     }
 }
 

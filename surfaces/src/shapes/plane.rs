@@ -6,8 +6,8 @@ use nalgebra::{Matrix3, Vector3};
 use crate::numeric::twofold::{difference, dot_with};
 use crate::numeric::vectors::{foot, is_finite};
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, Extent, ForceLine, Level, SmoothSurface,
-    Topology,
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, Extent, ForceLine, Level, Shortcuts,
+    SmoothSurface, Topology,
 };
 
 /// A plane; the fingertip is on the side away from the normal.
@@ -58,11 +58,11 @@ impl<T: Real> Plane<T> {
         &self,
         line: &Line<T>,
         is_active: impl FnOnce(&Vector3<T>) -> bool,
-    ) -> ClosestApproach<T> {
+    ) -> Option<ClosestApproach<T>> {
         let (offset, _) = foot(line, &self.point);
         let nearest = Line { point: self.point + offset, direction: line.direction };
-        let approach = self.closest_approach(&nearest);
-        ClosestApproach { active: is_active(&approach.point), ..approach }
+        let approach = self.closest_approach(&nearest)?;
+        Some(ClosestApproach { active: is_active(&approach.point), ..approach })
     }
 }
 
@@ -78,6 +78,34 @@ impl<T: Real> ActiveSurface<T> for Plane<T> {
         }
     }
 
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
+        let height = self.height(&line.point);
+        let below = line.point - self.normal * height;
+        Some(ClosestApproach {
+            gap: height.abs().min(T::GREATEST),
+            point: if is_finite(&below) { below } else { self.point },
+            normal: self.normal,
+            active: true,
+        })
+    }
+
+    #[inline]
+    fn normal(&self, _point: &Vector3<T>) -> Vector3<T> {
+        self.normal
+    }
+
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.height(point) < T::zero()
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real> Shortcuts<T> for Plane<T> {
     #[inline]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         let slope = push.force().dot(&self.normal);
@@ -98,29 +126,8 @@ impl<T: Real> ActiveSurface<T> for Plane<T> {
         })
     }
 
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
-        let height = self.height(&line.point);
-        let below = line.point - self.normal * height;
-        ClosestApproach {
-            gap: height.abs().min(T::GREATEST),
-            point: if is_finite(&below) { below } else { self.point },
-            normal: self.normal,
-            active: true,
-        }
-    }
-
-    #[inline]
-    fn normal(&self, _point: &Vector3<T>) -> Vector3<T> {
-        self.normal
-    }
-
-    fn outside_by(&self, point: &Vector3<T>) -> T {
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
         dot_with(difference(point, &self.point), &self.normal).value()
-    }
-
-    #[inline]
-    fn contains(&self, point: &Vector3<T>) -> bool {
-        self.height(point) < T::zero()
     }
 }
 

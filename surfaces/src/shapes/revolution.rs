@@ -13,7 +13,8 @@ use crate::numeric::quadratic::roots;
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, hypotenuse, is_finite, length, unit_or};
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, LocalSurface, SmoothSurface, Topology,
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, LocalSurface, Shortcuts,
+    SmoothSurface, Topology,
 };
 
 /// A solid of revolution around the z axis; [`Posed`](crate::Posed) puts it elsewhere.
@@ -243,7 +244,7 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
     /// of the profile five steps of Newton's method on average, and at most 59 for any of 270 000 lines tried.
     ///
     /// Of a line that crosses the surface, the gap is zero and the point the nearest one of its outline.
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let (centre, reach) = self.bounds();
         let mut sight = Sight::new(line, &centre, reach);
         let mut all = pieces(self.knots()).map(|piece| sight.seen(&piece));
@@ -259,7 +260,12 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
         let mut crosses = false;
         self.crossings(line, |_| crosses = true);
         let gap = if crosses { T::zero() } else { gap.max(T::zero()).min(T::GREATEST) };
-        ClosestApproach { gap, point: if is_finite(&point) { point } else { centre }, normal, active: true }
+        Some(ClosestApproach {
+            gap,
+            point: if is_finite(&point) { point } else { centre },
+            normal,
+            active: true,
+        })
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
@@ -273,18 +279,25 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
         if on(&end) { outward } else { self.side_normal(point.x, point.y, point.z) }
     }
 
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.inside(hypotenuse(point.x, point.y), point.z)
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real, K: AsRef<[Knot<T>]>> Shortcuts<T> for Revolution<T, K> {
     /// Outside the side, on which the active part lies.
-    fn outside_by(&self, point: &Vector3<T>) -> T {
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
         let Some([squared, slope]) = exactly_at(self.knots(), point.z) else { return T::zero() };
         let [x, y] = [point.x, point.y].map(Twofold::new);
         let excess = x.squared().plus(y.squared()).minus(squared).value();
         let outside = excess / length(&Vector3::new(point.x + point.x, point.y + point.y, slope.value()));
         // At a tip there is no telling.
         if outside.is_number() { outside } else { T::zero() }
-    }
-
-    fn contains(&self, point: &Vector3<T>) -> bool {
-        self.inside(hypotenuse(point.x, point.y), point.z)
     }
 }
 

@@ -8,7 +8,7 @@ use crate::numeric::roots::first_of_convex;
 use crate::numeric::twofold::{Twofold, outside_ball};
 use crate::numeric::vectors::{foot, length, unit_or};
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level,
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level, Shortcuts,
     SignedDistance, SmoothSurface, Topology,
 };
 
@@ -97,8 +97,6 @@ impl<T: Real> RoundedBox<T> {
 }
 
 impl<T: Real> ActiveSurface<T> for RoundedBox<T> {
-    const CLOSED_CONVEX: bool = true;
-
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let (start, along) = foot(line, &Vector3::zeros());
         let (forth, back) = (line.direction, -line.direction);
@@ -110,6 +108,28 @@ impl<T: Real> ActiveSurface<T> for RoundedBox<T> {
         }
     }
 
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
+        let (centre, reach) = self.bounds();
+        Some(to_convex(line, &centre, reach, |point| self.signed_distance(point)))
+    }
+
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.signed_distance(point).normal
+    }
+
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.signed_distance(point).distance < T::zero()
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real> Shortcuts<T> for RoundedBox<T> {
+    const CLOSED_CONVEX: bool = true;
+
     #[inline]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         let line = push.line();
@@ -117,17 +137,8 @@ impl<T: Real> ActiveSurface<T> for RoundedBox<T> {
         Some(Entry::at(&self.crossing(&line.point, &line.direction, t, t), &line.direction))
     }
 
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
-        let (centre, reach) = self.bounds();
-        to_convex(line, &centre, reach, |point| self.signed_distance(point))
-    }
-
-    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
-        self.signed_distance(point).normal
-    }
-
     /// From the nearest point of the sharp box within: a plane's, a cylinder's or a ball's distance.
-    fn outside_by(&self, point: &Vector3<T>) -> T {
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
         let scale = self.half_extents.max().normalising_factor();
         let rounding = Twofold::new(self.rounding * scale);
         // What a coordinate exceeds the inner box by, and whether it is beyond at all.
@@ -151,10 +162,6 @@ impl<T: Real> ActiveSurface<T> for RoundedBox<T> {
                 if outside.is_number() { outside } else { T::zero() }
             }
         }
-    }
-
-    fn contains(&self, point: &Vector3<T>) -> bool {
-        self.signed_distance(point).distance < T::zero()
     }
 }
 

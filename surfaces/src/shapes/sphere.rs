@@ -7,7 +7,7 @@ use crate::numeric::twofold::{difference, outside_ball};
 use crate::numeric::vectors::{larger, largest, length, smaller, unit_or};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, ForceParts,
-    Level, SignedDistance, SmoothSurface, Topology,
+    Level, Shortcuts, SignedDistance, SmoothSurface, Topology,
 };
 
 /// A sphere, its inside being the fingertip.
@@ -74,8 +74,6 @@ impl<T: Real> Sphere<T> {
 }
 
 impl<T: Real> ActiveSurface<T> for Sphere<T> {
-    const CLOSED_CONVEX: bool = true;
-
     /// Equation (2) of Bicchi & Dario 1987 with its signs mended (`docs/theory/surfaces.md#sphere`), in
     /// radii, so that nothing over- or underflows.
     #[inline]
@@ -95,6 +93,39 @@ impl<T: Real> ActiveSurface<T> for Sphere<T> {
             }
         }
     }
+
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
+        let (foot, _) = self.foot(line);
+        // Of a line that misses, the foot is a radius away or more: only overflow must be minded.
+        let scale = largest(&foot).normalising_factor();
+        let scaled = foot * scale;
+        let distance = scaled.norm_squared().root();
+        // A line through the centre is asked about only by mistake: it meets the surface here. One at
+        // the end of the range is a guess.
+        let unit = scaled / distance;
+        let normal = if (unit.x + unit.y + unit.z).is_number() { unit } else { line.direction };
+        let gap = smaller(larger((distance / scale - T::one()) * self.radius, T::zero()), T::GREATEST);
+        Some(ClosestApproach { gap, point: self.centre + normal * self.radius, normal, active: true })
+    }
+
+    #[inline]
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        unit_or(&(point - self.centre), Vector3::z)
+    }
+
+    #[inline]
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        ((point - self.centre) * self.curvature).norm_squared() < T::one()
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real> Shortcuts<T> for Sphere<T> {
+    const CLOSED_CONVEX: bool = true;
 
     /// In radii, too: the foot of the line seen from the centre, `f × m_c/(R·|f|²)`, and from there
     /// back against the force by half a chord. The foot's length is the sine of incidence: it gives the
@@ -121,33 +152,9 @@ impl<T: Real> ActiveSurface<T> for Sphere<T> {
         })
     }
 
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
-        let (foot, _) = self.foot(line);
-        // Of a line that misses, the foot is a radius away or more: only overflow must be minded.
-        let scale = largest(&foot).normalising_factor();
-        let scaled = foot * scale;
-        let distance = scaled.norm_squared().root();
-        // A line through the centre is asked about only by mistake: it meets the surface here. One at
-        // the end of the range is a guess.
-        let unit = scaled / distance;
-        let normal = if (unit.x + unit.y + unit.z).is_number() { unit } else { line.direction };
-        let gap = smaller(larger((distance / scale - T::one()) * self.radius, T::zero()), T::GREATEST);
-        ClosestApproach { gap, point: self.centre + normal * self.radius, normal, active: true }
-    }
-
-    #[inline]
-    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
-        unit_or(&(point - self.centre), Vector3::z)
-    }
-
-    fn outside_by(&self, point: &Vector3<T>) -> T {
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
         let from_centre = difference(&(point * self.scale), &(self.centre * self.scale));
         outside_ball(from_centre, self.radius * self.scale) / self.scale
-    }
-
-    #[inline]
-    fn contains(&self, point: &Vector3<T>) -> bool {
-        ((point - self.centre) * self.curvature).norm_squared() < T::one()
     }
 }
 

@@ -6,9 +6,12 @@ use nalgebra::{Matrix3, Vector3};
 #[cfg(feature = "serde")]
 use crate::numeric::vectors::{from_degrees, to_degrees};
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, Extent, ForceLine, Level, SmoothSurface,
-    Sphere, Topology,
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, Shortcuts, SmoothSurface, Sphere,
+    Topology,
 };
+
+/// Below every cosine, rounding included: the whole sphere has no rim.
+const EVERYWHERE: f64 = -2.0;
 
 /// A sphere that is active around a pole only: a dome, or, if the active part is more than half,
 /// a sphere with an opening for its support.
@@ -40,12 +43,13 @@ impl<T: Real> SphericalCap<T> {
     /// [`BadShape`] unless the pole has a direction and the cosine lies within [−1, 1).
     pub fn new(sphere: Sphere<T>, pole: Vector3<T>, least_cosine: T) -> Result<Self, BadShape> {
         BadShape::check(
-            "spherical cap",
-            "least cosine",
+            "sphere",
+            "least cosine of its active part",
             "at least -1 and below 1",
             least_cosine >= -T::one() && least_cosine < T::one(),
         )?;
-        let pole = BadShape::check_direction("spherical cap", "pole", pole)?;
+        let pole = BadShape::check_direction("sphere", "pole", pole)?;
+        let least_cosine = if least_cosine > -T::one() { least_cosine } else { T::literal(EVERYWHERE) };
         Ok(Self { sphere, pole, least_cosine })
     }
 
@@ -57,7 +61,7 @@ impl<T: Real> SphericalCap<T> {
     pub fn with_opening(sphere: Sphere<T>, pole: Vector3<T>, opening: T) -> Result<Self, BadShape> {
         let ratio = opening / sphere.radius();
         BadShape::check(
-            "spherical cap",
+            "sphere",
             "opening",
             "between zero and the sphere's radius",
             ratio >= T::zero() && ratio <= T::one(),
@@ -72,11 +76,25 @@ impl<T: Real> SphericalCap<T> {
         &self.sphere
     }
 
+    /// The unit vector from the centre to the middle of the active part.
+    #[inline]
+    #[must_use]
+    pub const fn pole(&self) -> Vector3<T> {
+        self.pole
+    }
+
+    /// The cosine of the greatest angle between the pole and an active normal: −1 if all of the sphere is active.
+    #[inline]
+    #[must_use]
+    pub fn least_cosine(&self) -> T {
+        self.least_cosine.max(-T::one())
+    }
+
     /// The part of the sphere that is active, between 0 and 1.
     #[inline]
     #[must_use]
     pub fn active_fraction(&self) -> T {
-        (T::one() - self.least_cosine) * T::literal(0.5)
+        (T::one() - self.least_cosine()) * T::literal(0.5)
     }
 
     #[inline]
@@ -91,14 +109,9 @@ impl<T: Real> ActiveSurface<T> for SphericalCap<T> {
         self.sphere.crossings(line, |c| visit(Crossing { active: self.is_active(&c.normal), ..c }));
     }
 
-    #[inline]
-    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        self.sphere.sole_entry(push).map(|e| Entry { active: self.is_active(&e.normal), ..e })
-    }
-
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
-        let approach = self.sphere.closest_approach(line);
-        ClosestApproach { active: self.is_active(&approach.normal), ..approach }
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
+        let approach = self.sphere.closest_approach(line)?;
+        Some(ClosestApproach { active: self.is_active(&approach.normal), ..approach })
     }
 
     #[inline]
@@ -106,13 +119,14 @@ impl<T: Real> ActiveSurface<T> for SphericalCap<T> {
         self.sphere.normal(point)
     }
 
-    fn outside_by(&self, point: &Vector3<T>) -> T {
-        self.sphere.outside_by(point)
-    }
-
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.sphere.contains(point)
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self.sphere.shortcuts().within(|entry| self.is_active(&entry.normal))
     }
 }
 
@@ -135,6 +149,19 @@ impl<T: Real> SmoothSurface<T> for SphericalCap<T> {
     }
 }
 
+/// All of it.
+impl<T: Real> From<Sphere<T>> for SphericalCap<T> {
+    fn from(sphere: Sphere<T>) -> Self {
+        Self { sphere, pole: Vector3::z(), least_cosine: T::literal(EVERYWHERE) }
+    }
+}
+
+/// In degrees.
+#[cfg(feature = "serde")]
+fn half_a_turn<T: Real>() -> T {
+    T::literal(180.0)
+}
+
 stored! {
     SphericalCap<T>, [T: Real],
     |cap| {
@@ -142,10 +169,13 @@ stored! {
         centre_m: Vector3<T> = cap.sphere.centre(),
         radius_m: T = cap.sphere.radius(),
         #[serde(default = "Vector3::z")] pole: Vector3<T> = cap.pole,
-        active_half_angle_deg: T = to_degrees(cap.least_cosine.acos()),
+        #[serde(default = "half_a_turn")]
+        active_half_angle_deg: T = to_degrees(cap.least_cosine().acos()),
     },
     Sphere::new(centre_m, radius_m).and_then(|sphere| {
-        let cosine = from_degrees(active_half_angle_deg).cos();
-        SphericalCap::new(sphere, pole, cosine)
+        let angle = active_half_angle_deg;
+        let good = angle > T::zero() && angle <= half_a_turn();
+        BadShape::check("sphere", "active_half_angle_deg", "above 0 and at most 180", good)?;
+        SphericalCap::new(sphere, pole, from_degrees(angle).cos())
     })
 }

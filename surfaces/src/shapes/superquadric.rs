@@ -6,7 +6,9 @@ use nalgebra::{Matrix3, Vector3};
 use crate::numeric::roots::{bisected, first_of_convex};
 use crate::numeric::support;
 use crate::numeric::vectors::{length, unit_or, wide};
-use crate::{ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, SmoothSurface, Topology};
+use crate::{
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, Shortcuts, SmoothSurface, Topology,
+};
 
 /// A superellipsoid about the origin, its axes along x, y and z:
 /// `((|x/a|^(2/e₂) + |y/b|^(2/e₂))^(e₂/e₁) + |z/c|^(2/e₁)) = 1` (Barr 1981);
@@ -110,8 +112,6 @@ impl<T: Real> Superquadric<T> {
 }
 
 impl<T: Real> ActiveSurface<T> for Superquadric<T> {
-    const CLOSED_CONVEX: bool = true;
-
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         let point = line.point.component_mul(&self.curvatures);
         let direction = line.direction.component_mul(&self.curvatures);
@@ -142,7 +142,7 @@ impl<T: Real> ActiveSurface<T> for Superquadric<T> {
     }
 
     /// By the support function, which is the dual norm of the scaled normal.
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let found = support::closest_approach(line, |normal| {
             let (height, gradient) = Self::nested(&normal.component_mul(&self.semi_axes), self.duals);
             (height, gradient.component_mul(&self.semi_axes))
@@ -155,7 +155,7 @@ impl<T: Real> ActiveSurface<T> for Superquadric<T> {
             let point = (found.point + line.direction * t).component_mul(&self.curvatures);
             self.gauge(&point).1.dot(&direction) < T::zero()
         });
-        ClosestApproach { point: found.point + line.direction * slide, ..found }
+        Some(ClosestApproach { point: found.point + line.direction * slide, ..found })
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
@@ -163,8 +163,21 @@ impl<T: Real> ActiveSurface<T> for Superquadric<T> {
         unit_or(&gradient.component_mul(&self.curvatures), Vector3::z)
     }
 
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.gauge(&point.component_mul(&self.curvatures)).0 < T::one()
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real> Shortcuts<T> for Superquadric<T> {
+    const CLOSED_CONVEX: bool = true;
+
     /// In double precision, for a type that is narrower; of `f64` there is no more to be had.
-    fn outside_by(&self, point: &Vector3<T>) -> T {
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
         if T::EPSILON.to_f64() <= f64::EPSILON {
             return T::zero();
         }
@@ -173,10 +186,6 @@ impl<T: Real> ActiveSurface<T> for Superquadric<T> {
         let (gauge, gradient) = Superquadric::nested(&scaled, norms);
         let steepness = length(&gradient.component_div(&wide(&self.semi_axes)));
         T::literal((gauge - 1.0) / steepness)
-    }
-
-    fn contains(&self, point: &Vector3<T>) -> bool {
-        self.gauge(&point.component_mul(&self.curvatures)).0 < T::one()
     }
 }
 

@@ -69,7 +69,7 @@ impl<T: Real> ActiveSurface<T> for Torus<T> {
     }
 
     /// The nearer of the two places at most where the distance from the ring is least.
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let (seen, _) = self.seen(line);
         // From farther away the ring is a point but for rounding.
         let near = seen.start.amax() < T::one() / T::EPSILON;
@@ -82,7 +82,7 @@ impl<T: Real> ActiveSurface<T> for Torus<T> {
         };
         let point = seen.at(along) * self.ring_radius;
         let point = if is_finite(&point) { point } else { Vector3::zeros() };
-        from_distance(&point, self.signed_distance(&point))
+        Some(from_distance(&point, self.signed_distance(&point)))
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
@@ -153,7 +153,7 @@ mod tests {
     /// By dense samples: none is nearer than the closest approach, and one nearly as near.
     fn nothing_is_nearer(line: &Line<f64>) {
         let torus = Torus::new(1.0, 0.01).unwrap();
-        let found = torus.closest_approach(line);
+        let found = torus.closest_approach(line).unwrap();
         let at_foot = -line.point.dot(&line.direction);
         let least = (-2000..=2000)
             .map(|k| torus.signed_distance(&line.at(at_foot + f64::from(k) * 1e-3)).distance)

@@ -9,7 +9,7 @@ use super::laws::SurfaceLaws;
 use super::random::Random;
 use super::tried::Tried;
 use crate::numeric::vectors::{any_perpendicular, length};
-use crate::{ActiveSurface, Crossing, ForceLine, Posed};
+use crate::{ActiveSurface, Crossing, ForceLine, Posed, Shortcuts};
 
 impl<T: Real> SurfaceLaws<T> {
     pub(super) fn check_sole_entry(
@@ -18,7 +18,7 @@ impl<T: Real> SurfaceLaws<T> {
         line: &Line<T>,
         crossings: &Crossings<T>,
     ) -> Result<(), Violation<T>> {
-        let Some(entry) = surface.sole_entry(&ForceLine::along(line)) else { return Ok(()) };
+        let Some(entry) = surface.shortcuts().sole_entry(&ForceLine::along(line)) else { return Ok(()) };
         if !(entry.incidence_squared > T::zero()) {
             return Ok(());
         }

@@ -15,7 +15,7 @@ pub enum Law {
     SoleEntry,
     /// What `sole_entry` says of the force's parts is what its normal says of them.
     ForceParts,
-    /// A surface that is [`CLOSED_CONVEX`](crate::ActiveSurface::CLOSED_CONVEX) is entered once and left once,
+    /// A surface that is [`CLOSED_CONVEX`](crate::Shortcuts::CLOSED_CONVEX) is entered once and left once,
     /// both at active points, and reports where it is entered first.
     EnteredOnce,
     /// Normals have length 1.
@@ -41,6 +41,14 @@ pub enum Law {
     NothingIsCloser,
     /// No NaN comes out of a finite line.
     NoNan,
+    /// A wrapper answers as the shape inside does.
+    WrapperKeepsAnswers,
+    /// A wrapper passes on [`surface_residual`](crate::Shortcuts::surface_residual).
+    WrapperKeepsResidual,
+    /// A wrapper passes on [`sole_entry`](crate::Shortcuts::sole_entry).
+    WrapperKeepsEntry,
+    /// A wrapper passes on [`CLOSED_CONVEX`](crate::Shortcuts::CLOSED_CONVEX).
+    WrapperKeepsPromise,
 }
 
 /// A law that a surface breaks, and the line on which it does.

@@ -16,7 +16,7 @@ pub struct SurfaceLaws<T: Real> {
     pub(super) centre: Vector3<T>,
     pub(super) radius: T,
     pub(super) lines: u32,
-    seed: u64,
+    pub(super) seed: u64,
     pub(super) roundings: T,
     pub(super) gap_tolerance: T,
     closed: bool,

@@ -21,8 +21,10 @@ mod law;
 mod laws;
 mod random;
 mod tried;
+mod wrapper;
 
 #[cfg(feature = "alloc")]
 pub use ball::ball_of_triangles;
 pub use law::{Law, Violation};
 pub use laws::SurfaceLaws;
+pub use wrapper::Kept;

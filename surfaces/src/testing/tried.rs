@@ -3,16 +3,16 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use crate::{ActiveSurface, ClosestApproach, Crossing, Entry, ForceLine};
+use crate::{ActiveSurface, ClosestApproach, Crossing, Entry, ForceLine, Shortcuts, is_closed_convex};
 
 /// What the laws ask of a surface, so that they are compiled once for all of them rather than once for
 /// each: compilation is most of what trying a surface costs.
 trait Answers<T: Real> {
     fn crossings(&self, line: &Line<T>, visit: &mut dyn FnMut(Crossing<T>));
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T>;
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>>;
     fn normal(&self, point: &Vector3<T>) -> Vector3<T>;
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>>;
-    fn outside_by(&self, point: &Vector3<T>) -> T;
+    fn surface_residual(&self, point: &Vector3<T>) -> T;
     fn contains(&self, point: &Vector3<T>) -> bool;
 }
 
@@ -21,7 +21,7 @@ impl<T: Real, S: ActiveSurface<T>> Answers<T> for S {
         ActiveSurface::crossings(self, line, visit);
     }
 
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         ActiveSurface::closest_approach(self, line)
     }
 
@@ -30,11 +30,11 @@ impl<T: Real, S: ActiveSurface<T>> Answers<T> for S {
     }
 
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        ActiveSurface::sole_entry(self, push)
+        self.shortcuts().sole_entry(push)
     }
 
-    fn outside_by(&self, point: &Vector3<T>) -> T {
-        ActiveSurface::outside_by(self, point)
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        self.shortcuts().surface_residual(point)
     }
 
     fn contains(&self, point: &Vector3<T>) -> bool {
@@ -46,13 +46,13 @@ impl<T: Real, S: ActiveSurface<T>> Answers<T> for S {
 #[derive(Clone, Copy)]
 pub(super) struct Tried<'a, T: Real> {
     surface: &'a dyn Answers<T>,
-    /// What [`ActiveSurface::CLOSED_CONVEX`] promises.
+    /// What [`Shortcuts::CLOSED_CONVEX`] promises.
     pub(super) closed_convex: bool,
 }
 
 impl<'a, T: Real> Tried<'a, T> {
     pub(super) fn new<S: ActiveSurface<T>>(surface: &'a S) -> Self {
-        Self { surface, closed_convex: S::CLOSED_CONVEX }
+        Self { surface, closed_convex: is_closed_convex(&surface.shortcuts()) }
     }
 }
 
@@ -61,7 +61,7 @@ impl<T: Real> ActiveSurface<T> for Tried<'_, T> {
         self.surface.crossings(line, &mut visit);
     }
 
-    fn closest_approach(&self, line: &Line<T>) -> ClosestApproach<T> {
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         self.surface.closest_approach(line)
     }
 
@@ -69,15 +69,21 @@ impl<T: Real> ActiveSurface<T> for Tried<'_, T> {
         self.surface.normal(point)
     }
 
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.surface.contains(point)
+    }
+
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real> Shortcuts<T> for Tried<'_, T> {
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         self.surface.sole_entry(push)
     }
 
-    fn outside_by(&self, point: &Vector3<T>) -> T {
-        self.surface.outside_by(point)
-    }
-
-    fn contains(&self, point: &Vector3<T>) -> bool {
-        self.surface.contains(point)
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        self.surface.surface_residual(point)
     }
 }

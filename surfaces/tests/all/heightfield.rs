@@ -193,7 +193,7 @@ fn nothing_is_nearer_than_the_closest_approach() {
             continue;
         }
         missed += 1;
-        let found = surface.closest_approach(&line);
+        let found = surface.closest_approach(&line).unwrap();
         let away = found.point - line.point;
         let distance = (away - direction * away.dot(&direction)).norm();
         assert!((distance - found.gap).abs() < 1e-14, "{line:?} {found:?}");

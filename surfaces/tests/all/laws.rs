@@ -1,8 +1,8 @@
-//! Every shape obeys the laws, in both precisions.
+//! Every shape obeys the laws, in both precisions; so does what knows only where a line crosses it.
 
 use fingertip_surfaces::testing::SurfaceLaws;
 use fingertip_surfaces::*;
-use fingertip_wrench::{Real, RigidTransform};
+use fingertip_wrench::{Line, Real, RigidTransform};
 use nalgebra::Vector3;
 
 fn v<T: Real>(x: f64, y: f64, z: f64) -> Vector3<T> {
@@ -11,6 +11,15 @@ fn v<T: Real>(x: f64, y: f64, z: f64) -> Vector3<T> {
 
 fn l<T: Real>(x: f64) -> T {
     T::literal(x)
+}
+
+/// A shape that tells its crossings and nothing else.
+struct OnlyCrossings<S>(S);
+
+impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for OnlyCrossings<S> {
+    fn crossings(&self, line: &Line<T>, visit: impl FnMut(Crossing<T>)) {
+        self.0.crossings(line, visit);
+    }
 }
 
 /// Defines one test per scalar that checks the laws of a shape, and their scaling.
@@ -23,6 +32,7 @@ macro_rules! laws {
                 let make = |$scale: T| $shape.ok();
                 let laws: SurfaceLaws<T> = $laws;
                 laws.check(&make(T::one()).unwrap()).unwrap();
+                laws.lines(200).check(&OnlyCrossings(make(T::one()).unwrap())).unwrap();
                 laws.check_scaling(make).unwrap();
             }
 
@@ -166,16 +176,12 @@ impl<T: Real> Few for SurfaceLaws<T> {
 struct Pillow<T>(T);
 
 impl<T: Real> ImplicitSurface<T> for Pillow<T> {
-    fn value(&self, p: &Vector3<T>) -> T {
-        p.map(|x| (x / self.0) * (x / self.0) * (x / self.0) * (x / self.0)).sum() - T::one()
+    fn formula(&self, [x, y, z]: [Term<T>; 3]) -> Term<T> {
+        (x / self.0).powi(4) + (y / self.0).powi(4) + (z / self.0).powi(4) - T::one()
     }
 
-    fn gradient(&self, p: &Vector3<T>) -> Vector3<T> {
-        p.map(|x| l::<T>(4.0) * (x / self.0) * (x / self.0) * (x / self.0) / self.0)
-    }
-
-    fn bounds(&self) -> ImplicitBounds<T> {
-        ImplicitBounds { centre: Vector3::zeros(), radius: self.0 * l(1.32), steepest: l::<T>(9.3) / self.0 }
+    fn ball(&self) -> (Vector3<T>, T) {
+        (Vector3::zeros(), self.0 * l(1.32))
     }
 }
 

@@ -65,20 +65,29 @@ where
         });
     }
 
-    fn closest_approach(&self, line: &Line<f64>) -> ClosestApproach<f64> {
-        (self.approach)(line, ball().closest_approach(line))
+    fn closest_approach(&self, line: &Line<f64>) -> Option<ClosestApproach<f64>> {
+        ball().closest_approach(line).map(|approach| (self.approach)(line, approach))
     }
 
     fn normal(&self, point: &Vector3<f64>) -> Vector3<f64> {
         (self.normal)(ball().normal(point), point)
     }
 
-    fn sole_entry(&self, push: &ForceLine<f64>) -> Option<Entry<f64>> {
-        ball().sole_entry(push).and_then(|entry| (self.entry)(entry))
-    }
-
     fn contains(&self, point: &Vector3<f64>) -> bool {
         (self.inside)(ball().contains(point), point)
+    }
+
+    fn shortcuts(&self) -> impl Shortcuts<f64> {
+        self
+    }
+}
+
+impl<C, A, N, E, I> Shortcuts<f64> for Faulty<C, A, N, E, I>
+where
+    E: Fn(Entry<f64>) -> Option<Entry<f64>>,
+{
+    fn sole_entry(&self, push: &ForceLine<f64>) -> Option<Entry<f64>> {
+        ball().sole_entry(push).and_then(|entry| (self.entry)(entry))
     }
 }
 
@@ -262,21 +271,23 @@ fn entries() {
 struct Promises<F>(F);
 
 impl<F: Fn(Vec<Crossing<f64>>) -> Vec<Crossing<f64>>> ActiveSurface<f64> for Promises<F> {
-    const CLOSED_CONVEX: bool = true;
-
     fn crossings(&self, line: &Line<f64>, visit: impl FnMut(Crossing<f64>)) {
         let mut found = Vec::new();
         ball().crossings(line, |crossing| found.push(crossing));
         (self.0)(found).into_iter().for_each(visit);
     }
 
-    fn closest_approach(&self, line: &Line<f64>) -> ClosestApproach<f64> {
-        ball().closest_approach(line)
-    }
-
     fn normal(&self, point: &Vector3<f64>) -> Vector3<f64> {
         ball().normal(point)
     }
+
+    fn shortcuts(&self) -> impl Shortcuts<f64> {
+        self
+    }
+}
+
+impl<F> Shortcuts<f64> for Promises<F> {
+    const CLOSED_CONVEX: bool = true;
 }
 
 #[test]

@@ -1,0 +1,129 @@
+//! Intervals.
+
+use core::ops::{Add, Mul, Neg};
+
+use fingertip_wrench::Real;
+
+/// All numbers from `low` to `high`. Bounds are rounded to nearest, not outward: whoever relies on them leaves room
+/// for that.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Range<T: Real> {
+    pub(crate) low: T,
+    pub(crate) high: T,
+}
+
+impl<T: Real> Range<T> {
+    pub(crate) fn at(value: T) -> Self {
+        Self { low: value, high: value }
+    }
+
+    /// From one number to another; every number if one of them is none.
+    pub(crate) fn between(a: T, b: T) -> Self {
+        if a <= b {
+            Self { low: a, high: b }
+        } else if b < a {
+            Self { low: b, high: a }
+        } else {
+            let infinity = T::GREATEST * T::GREATEST;
+            Self { low: -infinity, high: infinity }
+        }
+    }
+
+    pub(crate) fn middle(self) -> T {
+        if self.low == self.high { self.low } else { (self.low + self.high) * T::literal(0.5) }
+    }
+
+    pub(crate) fn hull(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// All numbers that are the larger of one of each.
+    pub(crate) fn larger(self, other: Self) -> Self {
+        Self { low: self.low.max(other.low), high: self.high.max(other.high) }
+    }
+
+    fn contains_zero(self) -> bool {
+        !(self.low > T::zero() || self.high < T::zero())
+    }
+
+    /// Divided by a number.
+    pub(crate) fn over(self, divisor: T) -> Self {
+        Self::between(self.low / divisor, self.high / divisor)
+    }
+
+    pub(crate) fn reciprocal(self) -> Self {
+        if self.contains_zero() {
+            // Not a number: everything.
+            return Self::between(T::zero() / T::zero(), T::zero());
+        }
+        Self::between(T::one() / self.low, T::one() / self.high)
+    }
+
+    pub(crate) fn powi(self, exponent: i32) -> Self {
+        if exponent < 0 {
+            return self.powi(-exponent).reciprocal();
+        }
+        let ends = Self::between(self.low.powi(exponent), self.high.powi(exponent));
+        let turns = exponent > 0 && exponent % 2 == 0 && self.contains_zero();
+        if turns { Self { low: ends.low.min(T::zero()), ..ends } } else { ends }
+    }
+
+    /// Those that are neither above one nor below minus one.
+    pub(crate) fn within_one(self) -> Self {
+        let clip = |x: T| x.max(-T::one()).min(T::one());
+        Self { low: clip(self.low), high: clip(self.high) }
+    }
+
+    pub(crate) fn sqrt(self) -> Self {
+        Self::between(self.low.sqrt(), self.high.sqrt())
+    }
+
+    pub(crate) fn cos(self) -> Self {
+        let quarter = Self::at(T::frac_pi_2());
+        (self + quarter).sin()
+    }
+
+    pub(crate) fn sin(self) -> Self {
+        let ends = Self::between(self.low.sin(), self.high.sin());
+        if self.low == self.high {
+            return ends;
+        }
+        // So that rounding of an angle hides no turning point.
+        let hair = (self.low.abs() + self.high.abs()) * T::EPSILON * T::literal(4.0);
+        let [low, high] = [self.low - hair, self.high + hair];
+        // Whether one of the angles `first + 2πk` lies within.
+        let passes = |first: T| {
+            let turns = |angle: T| (angle - first) / T::two_pi();
+            !(turns(low).ceil() > turns(high).floor())
+        };
+        Self {
+            low: if passes(-T::frac_pi_2()) { -T::one() } else { ends.low },
+            high: if passes(T::frac_pi_2()) { T::one() } else { ends.high },
+        }
+    }
+}
+
+impl<T: Real> Neg for Range<T> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self { low: -self.high, high: -self.low }
+    }
+}
+
+impl<T: Real> Add for Range<T> {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self::between(self.low + other.low, self.high + other.high)
+    }
+}
+
+impl<T: Real> Mul for Range<T> {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        let of = |end: T| Self::between(end * other.low, end * other.high);
+        of(self.low).hull(of(self.high))
+    }
+}

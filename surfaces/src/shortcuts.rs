@@ -1,0 +1,151 @@
+//! What a shape knows sooner, or to more digits, than its crossings tell.
+
+use fingertip_wrench::{Real, RigidTransform};
+use nalgebra::Vector3;
+
+use crate::{Entry, ForceLine};
+
+/// What a shape knows sooner, or to more digits, than its crossings tell. Point contact asks here first.
+///
+/// A shape that has shortcuts returns itself from [`ActiveSurface::shortcuts`](crate::ActiveSurface::shortcuts).
+/// A wrapper passes on those of the shape inside, whole: as they are, [`within`](Self::within) a part of it, or
+/// [`posed`](Self::posed); or it drops them by returning [`NoShortcuts`].
+/// [`SurfaceLaws::check_wrapper`](crate::testing::SurfaceLaws::check_wrapper) fails for a wrapper that forgot
+/// them.
+///
+/// ```
+/// use fingertip_surfaces::testing::{Kept, SurfaceLaws};
+/// use fingertip_surfaces::{ActiveSurface, Crossing, Shortcuts, Sphere};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// /// Counts the lines that took the long way.
+/// struct Counted<S>(S, core::cell::Cell<u32>);
+///
+/// impl<S: ActiveSurface<f64>> ActiveSurface<f64> for Counted<S> {
+///     fn crossings(&self, line: &Line<f64>, visit: impl FnMut(Crossing<f64>)) {
+///         self.1.set(self.1.get() + 1);
+///         self.0.crossings(line, visit);
+///     }
+///     fn shortcuts(&self) -> impl Shortcuts<f64> {
+///         self.0.shortcuts()
+///     }
+/// }
+///
+/// let sphere = Sphere::centred(0.013)?;
+/// let counted = Counted(sphere, 0.into());
+/// SurfaceLaws::around(Vector3::zeros(), 0.013).check_wrapper(&sphere, &counted, Kept::Answers)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub trait Shortcuts<T: Real>: Sized {
+    /// `true` promises that the surface bounds a convex body and may touch everywhere: a line that
+    /// passes through it enters once, at an active point, and leaves once, and
+    /// [`crossings`](crate::ActiveSurface::crossings) reports where it enters first. Point contact then compiles
+    /// without what other shapes need, such as a choice between entries. The default promises nothing.
+    const CLOSED_CONVEX: bool = false;
+
+    /// Where a force enters, for shapes that no line enters twice.
+    ///
+    /// `None`, as the default answers, says nothing. An answer with a positive square of the
+    /// incidence shall be finite and agree, but for rounding, with the one crossing that has a normal
+    /// against the force; one without says that there is none, but for rounding.
+    #[inline(always)]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let _ = push;
+        None
+    }
+
+    /// How far a point that should be on the surface is outside it by rounding \[m\], to first order
+    /// and with twice the digits of the type.
+    ///
+    /// Point contact asks for it where a force meets the surface at a flat angle, and such errors
+    /// grow. The default, zero, takes crossings at their word.
+    #[inline(always)]
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        let _ = point;
+        T::zero()
+    }
+
+    /// The shortcuts of the part of this surface to which `is_part` says that an entry belongs. They no longer
+    /// promise that it may touch everywhere.
+    #[inline(always)]
+    fn within(self, is_part: impl Fn(&Entry<T>) -> bool) -> impl Shortcuts<T> {
+        Within { whole: self, is_part }
+    }
+
+    /// The shortcuts of this surface in another place. Moving a point rounds it, which the residual does not
+    /// undo.
+    #[inline(always)]
+    fn posed(self, pose: &RigidTransform<T>) -> impl Shortcuts<T> {
+        Moved { inner: self, pose }
+    }
+}
+
+/// No shortcuts: everything is told by crossings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoShortcuts;
+
+impl<T: Real> Shortcuts<T> for NoShortcuts {}
+
+impl<T: Real, S: Shortcuts<T>> Shortcuts<T> for &S {
+    const CLOSED_CONVEX: bool = S::CLOSED_CONVEX;
+
+    #[inline(always)]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        (**self).sole_entry(push)
+    }
+
+    #[inline(always)]
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        (**self).surface_residual(point)
+    }
+}
+
+struct Within<S, F> {
+    whole: S,
+    is_part: F,
+}
+
+impl<T: Real, S: Shortcuts<T>, F: Fn(&Entry<T>) -> bool> Shortcuts<T> for Within<S, F> {
+    #[inline(always)]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        self.whole
+            .sole_entry(push)
+            .map(|entry| Entry { active: entry.active && (self.is_part)(&entry), ..entry })
+    }
+
+    #[inline(always)]
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        self.whole.surface_residual(point)
+    }
+}
+
+struct Moved<'a, T: Real, S> {
+    inner: S,
+    pose: &'a RigidTransform<T>,
+}
+
+impl<T: Real, S: Shortcuts<T>> Shortcuts<T> for Moved<'_, T, S> {
+    const CLOSED_CONVEX: bool = S::CLOSED_CONVEX;
+
+    #[inline(always)]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        let pose = self.pose;
+        // The frame of a shape may lie so far away that the shape leaves the range of the type.
+        self.inner.sole_entry(&push.seen_from(pose)).map(|e| {
+            Entry { point: pose.transform_point(&e.point), normal: pose.rotate(&e.normal), ..e }
+                .within_range()
+        })
+    }
+
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        self.inner.surface_residual(&self.pose.rotation().tr_mul(&(point - self.pose.origin())))
+    }
+}
+
+/// [`Shortcuts::CLOSED_CONVEX`] of the shortcuts of a surface, whose type has no name.
+#[doc(hidden)]
+#[inline(always)]
+pub const fn is_closed_convex<T: Real, S: Shortcuts<T>>(_: &S) -> bool {
+    S::CLOSED_CONVEX
+}
