@@ -32,6 +32,6 @@ pub use solve::{
 };
 pub use zero::{
     BadPayload, BadTemperatureModel, Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy,
-    GaugesAndTemperature, NotAtRest, Payload, RestTest, Rested, Tare, TareAccumulator, TareError,
+    GaugesAndTemperature, Motion, NotAtRest, Payload, RestTest, Rested, Tare, TareAccumulator, TareError,
     TemperatureCompensation, Uncompensated,
 };

@@ -2,6 +2,7 @@
 
 mod compensation;
 mod dummy_gauge;
+mod motion;
 mod payload;
 mod rest;
 mod tare;
@@ -9,6 +10,7 @@ mod temperature;
 
 pub use compensation::{Compensation, Uncompensated};
 pub use dummy_gauge::{DummyGauge, DummyGaugeAccumulator, GaugesAndDummy};
+pub use motion::Motion;
 pub use payload::{BadPayload, Payload};
 pub use rest::{NotAtRest, RestTest, Rested};
 pub use tare::{Tare, TareAccumulator, TareError};
