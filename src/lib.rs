@@ -4,6 +4,8 @@
 #[cfg(all(feature = "batch", feature = "friction"))]
 mod batch;
 mod builder;
+#[cfg(all(feature = "batch", feature = "friction"))]
+mod columns;
 mod pipeline;
 mod stage;
 mod step;

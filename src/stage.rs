@@ -28,6 +28,14 @@ pub trait GripStage<T: Real> {
 
     /// Judges a contact force.
     fn judge(&self, force: &ContactForce<T>) -> Self::Reading;
+
+    /// The margin that a reading tells, for the columns of a batch; `None`, as the default answers, if none.
+    #[cfg(feature = "friction")]
+    #[inline]
+    fn margin(reading: &Self::Reading) -> Option<SlipMargin<T>> {
+        let _ = reading;
+        None
+    }
 }
 
 /// Follows the contact force from sample to sample. Every slip detector is one,
@@ -38,6 +46,14 @@ pub trait SlipStage<T: Real> {
 
     /// Takes the next sample, if there is a contact, and the time since the one before \[s\].
     fn follow(&mut self, force: Option<&ContactForce<T>>, time_step: T) -> Self::Verdict;
+
+    /// What a verdict says in the words of the column of a batch; `None`, as the default answers, if nothing.
+    #[cfg(feature = "friction")]
+    #[inline]
+    fn slip(verdict: &Self::Verdict) -> Option<SlipVerdict> {
+        let _ = verdict;
+        None
+    }
 }
 
 impl<T: Real> PayloadStage<T> for Absent {
@@ -80,6 +96,11 @@ impl<T: Real, M: FrictionModel<T>> GripStage<T> for Present<M> {
     fn judge(&self, force: &ContactForce<T>) -> SlipMargin<T> {
         self.0.slip_margin(force)
     }
+
+    #[inline]
+    fn margin(reading: &SlipMargin<T>) -> Option<SlipMargin<T>> {
+        Some(*reading)
+    }
 }
 
 #[cfg(feature = "friction")]
@@ -92,5 +113,10 @@ impl<T: Real, D: SlipDetector<T>> SlipStage<T> for Present<D> {
             Some(force) => self.0.update(force, time_step),
             None => self.0.update_open(time_step),
         }
+    }
+
+    #[inline]
+    fn slip(verdict: &SlipVerdict) -> Option<SlipVerdict> {
+        Some(*verdict)
     }
 }

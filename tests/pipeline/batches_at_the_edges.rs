@@ -42,8 +42,9 @@ fn sense(tip: &Tip, wrenches: &[Wrench<f64>], lengths: [usize; 16]) -> ([Vec<f64
     let mut columns: [Vec<f64>; 9] = core::array::from_fn(|k| vec![UNTOUCHED; lengths[6 + k]]);
     let mut slip = vec![SlipVerdict::Warning; lengths[15]];
     let [px, py, pz, normal, tx, ty, tz, margin, utilisation] = columns.each_mut().map(|c| &mut c[..]);
-    tip.sense_all(
+    { *tip }.sense_all(
         raw.each_ref().map(|column| &column[..]),
+        1e-3,
         Touches {
             point: [px, py, pz],
             normal_force: normal,
