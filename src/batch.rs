@@ -1,13 +1,15 @@
 //! Touches of many samples at once, for simulation, learning and replay.
 
-use fingertip_contact::PointContact;
-use fingertip_contact::batch::{BatchSurface, Entered, Lines};
-use fingertip_friction::{Coulomb, RatioThreshold, SlipVerdict};
-use fingertip_surfaces::ForceParts;
-use fingertip_wrench::{Compensation, Real, WrenchSolver};
-use nalgebra::SVector;
+use core::any::Any;
 
-use crate::{Fingertip, Present};
+use fingertip_contact::ContactModel;
+use fingertip_friction::{SlipMargin, SlipVerdict};
+use fingertip_surfaces::{Capsule, Cylinder, Ellipsoid, Plane, Sphere};
+use fingertip_wrench::{Compensation, Real, WrenchSolver};
+use nalgebra::{SVector, Vector3};
+
+use crate::columns::Vectorised;
+use crate::{Fingertip, GripStage, PayloadStage, SlipStage, Step};
 
 /// Where the touches are written: one slice per component.
 #[derive(Debug)]
@@ -15,287 +17,93 @@ pub struct Touches<'a, T> {
     /// Where the environment touches \[m\]; zero without contact.
     pub point: [&'a mut [T]; 3],
     /// Normal force \[N\]: positive in contact, zero without; zero, too, where a line that misses is
-    /// [accepted](PointContact::accepting_gap).
+    /// [accepted](fingertip_contact::PointContact::accepting_gap).
     pub normal_force: &'a mut [T],
     /// Tangential force on the fingertip \[N\].
     pub tangential_force: [&'a mut [T]; 3],
-    /// Signed distance to the friction limit \[N\].
+    /// Signed distance to the friction limit \[N\]; zero without contact or friction model.
     pub margin: &'a mut [T],
-    /// How much of the friction limit is used.
+    /// How much of the friction limit is used; zero without contact or friction model.
     pub utilisation: &'a mut [T],
-    /// What the detector says.
+    /// What the detector says; [`SlipVerdict::NotPressing`] without one.
     pub slip: &'a mut [SlipVerdict],
 }
 
 impl<T> Touches<'_, T> {
-    fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         let columns = self.point.iter().chain(&self.tangential_force).map(|column| column.len());
         let rest = [self.normal_force.len(), self.margin.len(), self.utilisation.len(), self.slip.len()];
         columns.chain(rest).min().unwrap_or(0)
     }
 }
 
-/// So many samples are done over if one of them is no contact.
-const BLOCK: usize = 256;
-
-/// At least as many samples as the widest vectors hold.
-const VECTOR: usize = 16;
-
-impl<Solver, Surface, T, Zero>
-    Fingertip<Solver, Surface, PointContact<T>, Present<Coulomb<T>>, Present<RatioThreshold<T>>, Zero>
-where
-    T: Real,
+impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
+    Fingertip<Solver, Surface, Model, Friction, Detector, Zero, Payload>
 {
-    /// [`sense`](Self::sense) of many samples: `raw` has a column for each gauge. Of columns of
-    /// different lengths, the shortest counts; the rest is left as it was.
+    /// [`sense`](Self::sense) of many samples, one after the other in time: `raw` has a column for each gauge,
+    /// and each sample's last contact is that of the sample before. Of columns of different lengths, the
+    /// shortest counts; the rest is left as it was.
     ///
-    /// All stages are one loop without a branch that the compiler vectorises, with the widest vectors of
-    /// the processor at hand if the feature `simd` is on; nothing is allocated. The answers are those of
-    /// `sense`, but for three things. Rounding at a flat angle of incidence is not undone, and errors of
-    /// the point grow there as the reciprocal cosine. Why there is no contact is not said. And of a
-    /// [`BatchSurface`] whose ends are not looked at, the side is unbounded.
-    pub fn sense_all<const N: usize>(&self, raw: [&[T]; N], touches: Touches<'_, T>)
+    /// Any scene can. A point contact on a sphere, ellipsoid, cylinder, capsule or plane with Coulomb friction
+    /// and a ratio threshold is one loop without a branch that the compiler vectorises, with the widest vectors
+    /// of the processor at hand if the feature `simd` is on; nothing is allocated. The answers are those of
+    /// `sense`, but for three things. Rounding at a flat angle of incidence is not undone, and errors of the
+    /// point grow there as the reciprocal cosine. Why there is no contact is not said. And the side of a
+    /// cylinder is unbounded.
+    pub fn sense_all<T, const N: usize>(&mut self, raw: [&[T]; N], time_step: T, touches: Touches<'_, T>)
     where
-        Zero: Compensation<T, N, Raw = SVector<T, N>>,
-        Solver: WrenchSolver<T, N>,
-        Surface: BatchSurface<T>,
+        T: Real,
+        Zero: Compensation<T, N, Raw = SVector<T, N>> + 'static,
+        Solver: WrenchSolver<T, N> + 'static,
+        Payload: PayloadStage<T, Motion = ()> + 'static,
+        Surface: 'static,
+        Model: ContactModel<T, Surface> + 'static,
+        Friction: GripStage<T> + 'static,
+        Detector: SlipStage<T> + 'static,
     {
-        #[cfg(feature = "simd")]
-        pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || self.sweep(raw, touches),
-        );
-        #[cfg(not(feature = "simd"))]
-        self.sweep(raw, touches);
+        // The types are known when this is compiled, and so one of these is left, or none.
+        macro_rules! vectorised {
+            ($($shape:ident),+) => {
+                $(if let Some(scene) = (self as &dyn Any).downcast_ref::<Vectorised<T, $shape<T>, Solver, Zero, Payload>>() {
+                    return scene.in_columns(raw, touches);
+                })+
+            };
+        }
+        vectorised!(Sphere, Ellipsoid, Cylinder, Capsule, Plane);
+        self.one_by_one(raw, time_step, touches);
     }
 
-    #[inline(always)]
-    fn sweep<const N: usize>(&self, raw: [&[T]; N], touches: Touches<'_, T>)
+    fn one_by_one<T, const N: usize>(&mut self, raw: [&[T]; N], time_step: T, touches: Touches<'_, T>)
     where
+        T: Real,
         Zero: Compensation<T, N, Raw = SVector<T, N>>,
         Solver: WrenchSolver<T, N>,
-        Surface: BatchSurface<T>,
+        Payload: PayloadStage<T, Motion = ()>,
+        Model: ContactModel<T, Surface>,
+        Friction: GripStage<T>,
+        Detector: SlipStage<T>,
     {
         let count = raw.iter().map(|column| column.len()).fold(touches.len(), usize::min);
-        let Touches { mut point, normal_force, mut tangential_force, margin, utilisation, slip } = touches;
-        let (mut start, mut all_press) = (0, true);
-        while start < count {
-            let end = count.min(start + BLOCK);
-            // Whole vectors: a few samples of the block before are done twice, which costs less than the
-            // rest of a vector would one by one.
-            let block = end.saturating_sub((end - start).next_multiple_of(VECTOR))..end;
-            start = end;
-            all_press = self.block(
-                all_press,
-                raw.map(|column| &column[block.clone()]),
-                Touches {
-                    point: point.each_mut().map(|column| &mut column[block.clone()]),
-                    normal_force: &mut normal_force[block.clone()],
-                    tangential_force: tangential_force.each_mut().map(|column| &mut column[block.clone()]),
-                    margin: &mut margin[block.clone()],
-                    utilisation: &mut utilisation[block.clone()],
-                    slip: &mut slip[block],
-                },
-            );
-        }
-    }
-
-    /// At most [`BLOCK`] samples, every column of `raw` and `touches` having as many, and whether they are
-    /// all contacts: what is tried first with the next.
-    #[inline(always)]
-    fn block<const N: usize>(&self, all_press: bool, raw: [&[T]; N], touches: Touches<'_, T>) -> bool
-    where
-        Zero: Compensation<T, N, Raw = SVector<T, N>>,
-        Solver: WrenchSolver<T, N>,
-        Surface: BatchSurface<T>,
-    {
         let Touches { point, normal_force, tangential_force, margin, utilisation, slip } = touches;
-        let ([px, py, pz], [sx, sy, sz]) = (point, tangential_force);
-        let accepted = Accepted::by(&self.model);
-        if all_press
-            && if self.surface.is_at_origin() {
-                self.all_press(
-                    accepted,
-                    raw,
-                    px,
-                    py,
-                    pz,
-                    sx,
-                    sy,
-                    sz,
-                    normal_force,
-                    margin,
-                    utilisation,
-                    slip,
-                    true,
-                )
-            } else {
-                self.all_press(
-                    accepted,
-                    raw,
-                    px,
-                    py,
-                    pz,
-                    sx,
-                    sy,
-                    sz,
-                    normal_force,
-                    margin,
-                    utilisation,
-                    slip,
-                    false,
-                )
+        let mut last = None;
+        for k in 0..count {
+            let sample = SVector::from_fn(|gauge, _| raw[gauge][k]);
+            let touch = self.sense(&sample, Step::of(time_step).with_last(last));
+            last = touch.point();
+            let at = last.unwrap_or_else(Vector3::zeros);
+            let (normal, tangential) = match touch.force {
+                Some(force) => (force.normal, force.tangential.vector()),
+                None => (T::zero(), Vector3::zeros()),
+            };
+            for axis in 0..3 {
+                point[axis][k] = at[axis];
+                tangential_force[axis][k] = tangential[axis];
             }
-        {
-            return true;
-        }
-        self.any(accepted, raw, px, py, pz, sx, sy, sz, normal_force, margin, utilisation, slip);
-        normal_force.iter().fold(true, |all, &normal| all & (normal > T::zero()))
-    }
-
-    /// The first two stages of one sample.
-    #[inline(always)]
-    fn load<const N: usize>(&self, raw: [&[T]; N], sample: usize) -> ([T; 3], [T; 3])
-    where
-        Zero: Compensation<T, N, Raw = SVector<T, N>>,
-        Solver: WrenchSolver<T, N>,
-    {
-        let signals = self.zero.compensate(&SVector::from_fn(|gauge, _| raw[gauge][sample]));
-        let wrench = self.solver.solve(&signals);
-        (wrench.force().into(), wrench.torque().into())
-    }
-
-    /// Samples that all are contacts: `false` if one may not be, and then what is written means nothing.
-    /// The same operations as of any samples, without the choices.
-    ///
-    /// Columns that are arguments of their own are known not to overlap, which the compiler would have to
-    /// test otherwise, and would rather not vectorise.
-    #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
-    fn all_press<const N: usize>(
-        &self,
-        accepted: Accepted<T>,
-        raw: [&[T]; N],
-        px: &mut [T],
-        py: &mut [T],
-        pz: &mut [T],
-        sx: &mut [T],
-        sy: &mut [T],
-        sz: &mut [T],
-        pressing: &mut [T],
-        margin: &mut [T],
-        utilisation: &mut [T],
-        slip: &mut [SlipVerdict],
-        at_origin: bool,
-    ) -> bool
-    where
-        Zero: Compensation<T, N, Raw = SVector<T, N>>,
-        Solver: WrenchSolver<T, N>,
-        Surface: BatchSurface<T>,
-    {
-        let count = pressing.len();
-        let raw = raw.map(|column| &column[..count]);
-        let (px, py, pz) = (&mut px[..count], &mut py[..count], &mut pz[..count]);
-        let (sx, sy, sz) = (&mut sx[..count], &mut sy[..count], &mut sz[..count]);
-        let (margin, utilisation, slip) =
-            (&mut margin[..count], &mut utilisation[..count], &mut slip[..count]);
-        let mut all = true;
-        for k in 0..count {
-            let (f, torque) = self.load(raw, k);
-            let Entered { point, normal: n, parts, certain, .. } =
-                self.surface.enter(f, torque, Lines::Meeting, at_origin);
-            let ForceParts { normal, tangential: load } = parts;
-            all &= certain & accepted.touches(dot(f, f), parts, T::zero());
-            [px[k], py[k], pz[k]] = point;
-            [sx[k], sy[k], sz[k]] = [f[0] + n[0] * normal, f[1] + n[1] * normal, f[2] + n[2] * normal];
-            let (newtons, used, ordinary) = self.friction.0.margin_in_contact(normal, load);
-            (pressing[k], margin[k], utilisation[k]) = (normal, newtons, used);
-            all &= ordinary;
-            slip[k] = self.detector.0.verdict_in_contact(normal, load);
-        }
-        all
-    }
-
-    /// Any samples.
-    #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
-    fn any<const N: usize>(
-        &self,
-        accepted: Accepted<T>,
-        raw: [&[T]; N],
-        px: &mut [T],
-        py: &mut [T],
-        pz: &mut [T],
-        sx: &mut [T],
-        sy: &mut [T],
-        sz: &mut [T],
-        pressing: &mut [T],
-        margin: &mut [T],
-        utilisation: &mut [T],
-        slip: &mut [SlipVerdict],
-    ) where
-        Zero: Compensation<T, N, Raw = SVector<T, N>>,
-        Solver: WrenchSolver<T, N>,
-        Surface: BatchSurface<T>,
-    {
-        let count = pressing.len();
-        let raw = raw.map(|column| &column[..count]);
-        let (px, py, pz) = (&mut px[..count], &mut py[..count], &mut pz[..count]);
-        let (sx, sy, sz) = (&mut sx[..count], &mut sy[..count], &mut sz[..count]);
-        let (margin, utilisation, slip) =
-            (&mut margin[..count], &mut utilisation[..count], &mut slip[..count]);
-        for k in 0..count {
-            let (f, torque) = self.load(raw, k);
-            let Entered { point, normal: n, parts, gap, .. } =
-                self.surface.enter(f, torque, Lines::Any, false);
-            // Without what is no number, of which nothing times zero makes one.
-            let f = f.map(|x| if x.abs() <= T::GREATEST { x } else { T::zero() });
-            // A factor, since the compiler makes branches of eight choices by one condition.
-            let keep = if accepted.touches(dot(f, f), parts, gap) { T::one() } else { T::zero() };
-            // Of a line that misses, rounding gives it either sign.
-            let normal = if parts.normal > T::zero() { parts.normal * keep } else { T::zero() };
-            let load = parts.tangential * keep;
-            [px[k], py[k], pz[k]] = point.map(|x| x * keep);
-            let along = |axis: usize| f[axis] * keep + n[axis] * normal;
-            [sx[k], sy[k], sz[k]] = [along(0), along(1), along(2)];
-            pressing[k] = normal;
-            (margin[k], utilisation[k]) = self.friction.0.margin_of(normal, load);
-            slip[k] = self.detector.0.verdict_of(normal, load);
+            normal_force[k] = normal;
+            let grip = touch.grip.and_then(|reading| Friction::margin(&reading));
+            let none = SlipMargin { newtons: T::zero(), utilisation: T::zero() };
+            SlipMargin { newtons: margin[k], utilisation: utilisation[k] } = grip.unwrap_or(none);
+            slip[k] = Detector::slip(&touch.slip).unwrap_or(SlipVerdict::NotPressing);
         }
     }
-}
-
-/// What a point contact asks of a wrench before it believes the contact.
-#[derive(Clone, Copy)]
-struct Accepted<T> {
-    least_squared: T,
-    /// Zero if friction is limited: a line that misses asks for infinite friction.
-    greatest_gap: T,
-    greatest_ratio: T,
-}
-
-impl<T: Real> Accepted<T> {
-    fn by(model: &PointContact<T>) -> Self {
-        Self {
-            least_squared: model.least_force() * model.least_force(),
-            greatest_gap: if model.greatest_friction().is_some() { T::zero() } else { model.greatest_gap() },
-            greatest_ratio: model.greatest_friction().unwrap_or(T::GREATEST),
-        }
-    }
-
-    /// Whether it is a contact: square of the force, its parts, and the gap.
-    #[inline(always)]
-    fn touches(&self, squared: T, parts: ForceParts<T>, gap: T) -> bool {
-        let enters = (gap <= T::zero())
-            & (parts.normal > T::zero())
-            & (parts.tangential <= self.greatest_ratio * parts.normal);
-        // The greatest number is no gap: it stands for no answer.
-        let misses = (gap > T::zero()) & (gap <= self.greatest_gap) & (gap < T::GREATEST);
-        (squared >= self.least_squared) & (enters | misses)
-    }
-}
-
-#[inline(always)]
-fn dot<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3]) -> T {
-    a * x + b * y + c * z
 }

@@ -7,16 +7,17 @@ use crate::{Absent, Fingertip, Present};
 /// Chooses the stages of a [`Fingertip`]; what is not chosen is left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
-pub struct FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero> {
-    fingertip: Fingertip<Solver, Surface, Model, Friction, Detector, Zero>,
+pub struct FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Payload> {
+    fingertip: Fingertip<Solver, Surface, Model, Friction, Detector, Zero, Payload>,
 }
 
-impl FingertipBuilder<Absent, Absent, Absent, Absent, Absent, Uncompensated> {
+impl FingertipBuilder<Absent, Absent, Absent, Absent, Absent, Uncompensated, Absent> {
     pub(crate) const fn new() -> Self {
         Self {
             fingertip: Fingertip {
                 zero: Uncompensated,
                 solver: Absent,
+                payload: Absent,
                 surface: Absent,
                 model: Absent,
                 friction: Absent,
@@ -26,25 +27,50 @@ impl FingertipBuilder<Absent, Absent, Absent, Absent, Absent, Uncompensated> {
     }
 }
 
-impl<Solver, Surface, Model, Friction, Detector, Zero>
-    FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero>
+impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
+    FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Payload>
 {
     /// What takes the zero and the temperature off the readings.
     pub fn zero<Next>(
         self,
         zero: Next,
-    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Detector, Next> {
-        let Fingertip { solver, surface, model, friction, detector, .. } = self.fingertip;
-        FingertipBuilder { fingertip: Fingertip { zero, solver, surface, model, friction, detector } }
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Detector, Next, Payload> {
+        let Fingertip { solver, payload, surface, model, friction, detector, .. } = self.fingertip;
+        FingertipBuilder {
+            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector },
+        }
     }
 
     /// What turns signals into a wrench.
     pub fn solver<Next>(
         self,
         solver: Next,
-    ) -> FingertipBuilder<Next, Surface, Model, Friction, Detector, Zero> {
-        let Fingertip { zero, surface, model, friction, detector, .. } = self.fingertip;
-        FingertipBuilder { fingertip: Fingertip { zero, solver, surface, model, friction, detector } }
+    ) -> FingertipBuilder<Next, Surface, Model, Friction, Detector, Zero, Payload> {
+        let Fingertip { zero, payload, surface, model, friction, detector, .. } = self.fingertip;
+        FingertipBuilder {
+            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector },
+        }
+    }
+
+    /// What the sensor carries all the time, whose weight and inertia are no contact: a
+    /// [`Payload`](fingertip_wrench::Payload). Every sample then takes the motion of the sensor with it, by
+    /// [`Step::with_motion`](crate::Step::with_motion).
+    pub fn payload<Next>(
+        self,
+        payload: Next,
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Present<Next>> {
+        let Fingertip { zero, solver, surface, model, friction, detector, .. } = self.fingertip;
+        FingertipBuilder {
+            fingertip: Fingertip {
+                zero,
+                solver,
+                payload: Present(payload),
+                surface,
+                model,
+                friction,
+                detector,
+            },
+        }
     }
 
     /// The shape that may touch, and the assumption under which the contact is found on it.
@@ -52,19 +78,29 @@ impl<Solver, Surface, Model, Friction, Detector, Zero>
         self,
         surface: Shape,
         model: Assumption,
-    ) -> FingertipBuilder<Solver, Shape, Assumption, Friction, Detector, Zero> {
-        let Fingertip { zero, solver, friction, detector, .. } = self.fingertip;
-        FingertipBuilder { fingertip: Fingertip { zero, solver, surface, model, friction, detector } }
+    ) -> FingertipBuilder<Solver, Shape, Assumption, Friction, Detector, Zero, Payload> {
+        let Fingertip { zero, solver, payload, friction, detector, .. } = self.fingertip;
+        FingertipBuilder {
+            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector },
+        }
     }
 
     /// What says how far the contact is from slipping.
     pub fn friction<Next>(
         self,
         friction: Next,
-    ) -> FingertipBuilder<Solver, Surface, Model, Present<Next>, Detector, Zero> {
-        let Fingertip { zero, solver, surface, model, detector, .. } = self.fingertip;
+    ) -> FingertipBuilder<Solver, Surface, Model, Present<Next>, Detector, Zero, Payload> {
+        let Fingertip { zero, solver, payload, surface, model, detector, .. } = self.fingertip;
         FingertipBuilder {
-            fingertip: Fingertip { zero, solver, surface, model, friction: Present(friction), detector },
+            fingertip: Fingertip {
+                zero,
+                solver,
+                payload,
+                surface,
+                model,
+                friction: Present(friction),
+                detector,
+            },
         }
     }
 
@@ -72,10 +108,30 @@ impl<Solver, Surface, Model, Friction, Detector, Zero>
     pub fn slip_detector<Next>(
         self,
         detector: Next,
-    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Present<Next>, Zero> {
-        let Fingertip { zero, solver, surface, model, friction, .. } = self.fingertip;
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Present<Next>, Zero, Payload> {
+        let Fingertip { zero, solver, payload, surface, model, friction, .. } = self.fingertip;
         FingertipBuilder {
-            fingertip: Fingertip { zero, solver, surface, model, friction, detector: Present(detector) },
+            fingertip: Fingertip {
+                zero,
+                solver,
+                payload,
+                surface,
+                model,
+                friction,
+                detector: Present(detector),
+            },
+        }
+    }
+
+    /// A stage of your own in the place of [`payload`](Self::payload): any
+    /// [`PayloadStage`](crate::PayloadStage).
+    pub fn payload_stage<Next>(
+        self,
+        payload: Next,
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Next> {
+        let Fingertip { zero, solver, surface, model, friction, detector, .. } = self.fingertip;
+        FingertipBuilder {
+            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector },
         }
     }
 
@@ -84,9 +140,11 @@ impl<Solver, Surface, Model, Friction, Detector, Zero>
     pub fn friction_stage<Next>(
         self,
         friction: Next,
-    ) -> FingertipBuilder<Solver, Surface, Model, Next, Detector, Zero> {
-        let Fingertip { zero, solver, surface, model, detector, .. } = self.fingertip;
-        FingertipBuilder { fingertip: Fingertip { zero, solver, surface, model, friction, detector } }
+    ) -> FingertipBuilder<Solver, Surface, Model, Next, Detector, Zero, Payload> {
+        let Fingertip { zero, solver, payload, surface, model, detector, .. } = self.fingertip;
+        FingertipBuilder {
+            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector },
+        }
     }
 
     /// A stage of your own in the place of [`slip_detector`](Self::slip_detector): any
@@ -94,15 +152,17 @@ impl<Solver, Surface, Model, Friction, Detector, Zero>
     pub fn slip_stage<Next>(
         self,
         detector: Next,
-    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Next, Zero> {
-        let Fingertip { zero, solver, surface, model, friction, .. } = self.fingertip;
-        FingertipBuilder { fingertip: Fingertip { zero, solver, surface, model, friction, detector } }
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Next, Zero, Payload> {
+        let Fingertip { zero, solver, payload, surface, model, friction, .. } = self.fingertip;
+        FingertipBuilder {
+            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector },
+        }
     }
 
     /// The pipeline. It runs as soon as it has a surface and a contact model (for wrenches), and a
     /// solver (for signals).
     #[must_use]
-    pub fn build(self) -> Fingertip<Solver, Surface, Model, Friction, Detector, Zero> {
+    pub fn build(self) -> Fingertip<Solver, Surface, Model, Friction, Detector, Zero, Payload> {
         self.fingertip
     }
 }

@@ -4,8 +4,11 @@
 #[cfg(all(feature = "batch", feature = "friction"))]
 mod batch;
 mod builder;
+#[cfg(all(feature = "batch", feature = "friction"))]
+mod columns;
 mod pipeline;
 mod stage;
+mod step;
 
 pub use fingertip_contact as contact;
 #[cfg(feature = "friction")]
@@ -17,4 +20,5 @@ pub use fingertip_wrench as wrench;
 pub use batch::Touches;
 pub use builder::FingertipBuilder;
 pub use pipeline::{Fingertip, Touch};
-pub use stage::{Absent, GripStage, Present, SlipStage};
+pub use stage::{Absent, GripStage, PayloadStage, Present, SlipStage};
+pub use step::Step;

@@ -4,16 +4,25 @@ use fingertip_contact::{ContactModel, Resolution};
 use fingertip_wrench::{Compensation, ContactForce, Real, Uncompensated, Wrench, WrenchSolver};
 use nalgebra::Vector3;
 
-use crate::{Absent, FingertipBuilder, GripStage, SlipStage};
+use crate::{Absent, FingertipBuilder, GripStage, PayloadStage, SlipStage, Step};
 
 /// One fingertip: from raw readings to touch.
 ///
 /// The stages are types, so that a scene compiles and runs only what it needs: an [`Absent`] stage
 /// takes no memory and no time. Made by [`Fingertip::builder`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fingertip<Solver, Surface, Model, Friction = Absent, Detector = Absent, Zero = Uncompensated> {
+pub struct Fingertip<
+    Solver,
+    Surface,
+    Model,
+    Friction = Absent,
+    Detector = Absent,
+    Zero = Uncompensated,
+    Payload = Absent,
+> {
     pub(crate) zero: Zero,
     pub(crate) solver: Solver,
+    pub(crate) payload: Payload,
     pub(crate) surface: Surface,
     pub(crate) model: Model,
     pub(crate) friction: Friction,
@@ -23,7 +32,7 @@ pub struct Fingertip<Solver, Surface, Model, Friction = Absent, Detector = Absen
 /// What one sample says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch<T: Real, Reading = (), Verdict = ()> {
-    /// The load on the fingertip.
+    /// The load on the fingertip, without that of its payload.
     pub wrench: Wrench<T>,
     /// Where it touches, or why nowhere.
     pub resolution: Resolution<T>,
@@ -35,56 +44,68 @@ pub struct Touch<T: Real, Reading = (), Verdict = ()> {
     pub slip: Verdict,
 }
 
+impl<T: Real, Reading, Verdict> Touch<T, Reading, Verdict> {
+    /// Where it touches \[m\]; `None` without a contact.
+    #[inline(always)]
+    pub fn point(&self) -> Option<Vector3<T>> {
+        self.resolution.contact().map(|contact| contact.point)
+    }
+}
+
 impl Fingertip<Absent, Absent, Absent> {
     /// Starts a pipeline with every optional stage left out.
-    pub const fn builder() -> FingertipBuilder<Absent, Absent, Absent, Absent, Absent, Uncompensated> {
+    pub const fn builder() -> FingertipBuilder<Absent, Absent, Absent, Absent, Absent, Uncompensated, Absent>
+    {
         FingertipBuilder::new()
     }
 }
 
-impl<Solver, Surface, Model, Friction, Detector, Zero>
-    Fingertip<Solver, Surface, Model, Friction, Detector, Zero>
+impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
+    Fingertip<Solver, Surface, Model, Friction, Detector, Zero, Payload>
 {
-    /// One raw reading, and the time since the one before \[s\].
+    /// One raw reading, and the time since the one before \[s\] or a whole [`Step`].
     // Always in line: an answer that goes through memory is written in small pieces and read in large
     // ones, which costs more than a sample of a small scene.
     #[inline(always)]
     pub fn sense<T, const N: usize>(
         &mut self,
         raw: &Zero::Raw,
-        time_step: T,
+        step: impl Into<Step<T, Payload::Motion>>,
     ) -> Touch<T, Friction::Reading, Detector::Verdict>
     where
         T: Real,
         Zero: Compensation<T, N>,
         Solver: WrenchSolver<T, N>,
+        Payload: PayloadStage<T>,
         Model: ContactModel<T, Surface>,
         Friction: GripStage<T>,
         Detector: SlipStage<T>,
     {
-        let wrench = self.solver.solve(&self.zero.compensate(raw));
-        self.feel(wrench, time_step, None)
+        let measured = self.solver.solve(&self.zero.compensate(raw));
+        self.sense_wrench(measured, step)
     }
 
-    /// One wrench, from a sensor that reports wrenches, and the time since the one before \[s\].
-    /// `last` is the contact point of the sample before, for shapes that are not convex.
+    /// One wrench, from a sensor that reports wrenches, and the time since the one before \[s\] or a whole
+    /// [`Step`].
     #[inline(always)]
-    pub fn feel<T>(
+    pub fn sense_wrench<T>(
         &mut self,
-        wrench: Wrench<T>,
-        time_step: T,
-        last: Option<&Vector3<T>>,
+        measured: Wrench<T>,
+        step: impl Into<Step<T, Payload::Motion>>,
     ) -> Touch<T, Friction::Reading, Detector::Verdict>
     where
         T: Real,
+        Payload: PayloadStage<T>,
         Model: ContactModel<T, Surface>,
         Friction: GripStage<T>,
         Detector: SlipStage<T>,
     {
-        let (resolution, force) = self.model.feel_near(&wrench, &self.surface, last);
+        let Step { time, last, motion } = step.into();
+        let wrench = self.payload.take_off(measured, &motion);
+        let (resolution, force) = self.model.feel_near(&wrench, &self.surface, last.as_ref());
         let (grip, slip) = match &force {
-            Some(force) => (Some(self.friction.judge(force)), self.detector.follow(Some(force), time_step)),
-            None => (None, self.detector.follow(None, time_step)),
+            Some(force) => (Some(self.friction.judge(force)), self.detector.follow(Some(force), time)),
+            None => (None, self.detector.follow(None, time)),
         };
         Touch { wrench, resolution, force, grip, slip }
     }

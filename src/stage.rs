@@ -2,7 +2,7 @@
 
 #[cfg(feature = "friction")]
 use fingertip_friction::{FrictionModel, SlipDetector, SlipMargin, SlipVerdict};
-use fingertip_wrench::{ContactForce, Real};
+use fingertip_wrench::{ContactForce, Motion, Payload, Real, Wrench};
 
 /// A stage that is left out: zero-sized, and its calls vanish.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -12,6 +12,15 @@ pub struct Absent;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Present<Stage>(pub Stage);
 
+/// Takes the load of what the sensor carries off a wrench. A [`Payload`] is one, wrapped in [`Present`].
+pub trait PayloadStage<T: Real> {
+    /// What it has to know of the sensor's motion at each sample.
+    type Motion;
+
+    /// What is left of a measured wrench: contact.
+    fn take_off(&self, measured: Wrench<T>, motion: &Self::Motion) -> Wrench<T>;
+}
+
 /// Judges the contact force of one sample. Every friction model is one, wrapped in [`Present`].
 pub trait GripStage<T: Real> {
     /// What it says of a contact.
@@ -19,6 +28,14 @@ pub trait GripStage<T: Real> {
 
     /// Judges a contact force.
     fn judge(&self, force: &ContactForce<T>) -> Self::Reading;
+
+    /// The margin that a reading tells, for the columns of a batch; `None`, as the default answers, if none.
+    #[cfg(feature = "friction")]
+    #[inline]
+    fn margin(reading: &Self::Reading) -> Option<SlipMargin<T>> {
+        let _ = reading;
+        None
+    }
 }
 
 /// Follows the contact force from sample to sample. Every slip detector is one,
@@ -29,6 +46,32 @@ pub trait SlipStage<T: Real> {
 
     /// Takes the next sample, if there is a contact, and the time since the one before \[s\].
     fn follow(&mut self, force: Option<&ContactForce<T>>, time_step: T) -> Self::Verdict;
+
+    /// What a verdict says in the words of the column of a batch; `None`, as the default answers, if nothing.
+    #[cfg(feature = "friction")]
+    #[inline]
+    fn slip(verdict: &Self::Verdict) -> Option<SlipVerdict> {
+        let _ = verdict;
+        None
+    }
+}
+
+impl<T: Real> PayloadStage<T> for Absent {
+    type Motion = ();
+
+    #[inline(always)]
+    fn take_off(&self, measured: Wrench<T>, _motion: &()) -> Wrench<T> {
+        measured
+    }
+}
+
+impl<T: Real> PayloadStage<T> for Present<Payload<T>> {
+    type Motion = Motion<T>;
+
+    #[inline(always)]
+    fn take_off(&self, measured: Wrench<T>, motion: &Motion<T>) -> Wrench<T> {
+        measured - self.0.load(motion)
+    }
 }
 
 impl<T: Real> GripStage<T> for Absent {
@@ -53,6 +96,11 @@ impl<T: Real, M: FrictionModel<T>> GripStage<T> for Present<M> {
     fn judge(&self, force: &ContactForce<T>) -> SlipMargin<T> {
         self.0.slip_margin(force)
     }
+
+    #[inline]
+    fn margin(reading: &SlipMargin<T>) -> Option<SlipMargin<T>> {
+        Some(*reading)
+    }
 }
 
 #[cfg(feature = "friction")]
@@ -65,5 +113,10 @@ impl<T: Real, D: SlipDetector<T>> SlipStage<T> for Present<D> {
             Some(force) => self.0.update(force, time_step),
             None => self.0.update_open(time_step),
         }
+    }
+
+    #[inline]
+    fn slip(verdict: &SlipVerdict) -> Option<SlipVerdict> {
+        Some(*verdict)
     }
 }

@@ -7,8 +7,8 @@ use core::hint::black_box;
 
 use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main, measurement::WallTime};
 use fingertip_friction::{
-    AnisotropicCoulomb, Bristle, Coulomb, Drive, DropDetector, DynamicFriction, ElastoPlastic, Exponential,
-    ForceNoise, FrictionModel, Implicit, KineticFriction, LikelihoodRatioDetector, LoadDependentLimit, LuGre,
+    AnisotropicCoulomb, Bristle, Coulomb, Drive, DropDetector, ElastoPlastic, Exponential, ForceNoise,
+    FrictionModel, Implicit, KineticFriction, LikelihoodRatioDetector, LoadDependentLimit, LuGre,
     NormalForceGate, PowerLimit, RatioThreshold, ReturnMap, SlipDetector, SoftFingerLimit, StaticFriction,
     UncertainCoulomb,
 };

@@ -91,8 +91,10 @@ fn scenes(c: &mut Criterion) {
         run(&mut group, "a, by hand", hand, &volts, |hand, volts| -> Felt { hand.sense(volts) });
         batch_of_scene_a(&mut group, "a, batch by hand", |raw, touches| hand.sense_all(raw, touches));
     }
-    if let Some(scene) = SceneA::new() {
-        batch_of_scene_a(&mut group, "a, batch", |raw, touches| scene.fingertip.sense_all(raw, touches));
+    if let Some(mut scene) = SceneA::new() {
+        batch_of_scene_a(&mut group, "a, batch", |raw, touches| {
+            scene.fingertip.sense_all(raw, 1e-3, touches);
+        });
     }
     scene::<SceneB, 6>(&mut group);
     if let Some(hand) = HandB::new() {

@@ -51,7 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             let before = now();
             sensor.send(&record(number).emit())?;
             let wrench = client.next_wrench()?.ok_or("the sensor is gone")?.value;
-            let touch = fingertip.feel(wrench, 1.0 / RATE, None);
+            let touch = fingertip.sense_wrench(wrench, 1.0 / RATE);
             touch.resolution.into_result().map_err(|reason| format!("no contact: {reason:?}"))?;
             latencies.push(now().saturating_sub(before));
         }
@@ -92,7 +92,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             Err(ClientError::Timeout { .. }) | Ok(None) => break,
             Err(error) => return Err(error.into()),
         };
-        let touch = fingertip.feel(wrench, 1.0 / RATE, None);
+        let touch = fingertip.sense_wrench(wrench, 1.0 / RATE);
         contacts += u32::from(touch.resolution.into_result().is_ok());
         let index = usize::try_from(client.statistics().received + client.statistics().lost - 1)?;
         if let Some(time) = sent.get(index) {

@@ -1,6 +1,7 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![doc = include_str!("../README.md")]
 
+mod bad_parameter;
 mod dynamics;
 mod estimate;
 mod grip;
@@ -9,21 +10,21 @@ mod slip;
 #[cfg(feature = "testing")]
 pub mod testing;
 
+pub use bad_parameter::BadParameter;
 pub use dynamics::{
-    Bristle, BristleLaw, Coupled, Dahl, Drive, DynamicFriction, ElastoPlastic, Exponential, Implicit,
-    Integrator, LuGre, ReturnMap, Stribeck, StribeckFriction,
+    Bristle, BristleLaw, Coupled, Dahl, Drive, ElastoPlastic, Exponential, Implicit, Integrator, LuGre,
+    ReturnMap, Stribeck, StribeckFriction,
 };
 pub use estimate::{FrictionEstimate, KineticFriction, StaticFriction};
 pub use grip::{GripController, GripSettings};
 pub use limits::{
-    AnisotropicCoulomb, BadFriction, Coulomb, FrictionLimit, FrictionModel, LoadDependentLimit, PowerLimit,
+    AnisotropicCoulomb, Coulomb, FrictionLimit, FrictionModel, LoadDependentLimit, PowerLimit,
     PressureDistribution, SlipDirection, SlipMargin, SoftFingerLimit, UncertainCoulomb,
 };
 #[cfg(feature = "std")]
 pub use limits::{LimitCurve, LimitPoint};
 pub use slip::run_length;
 pub use slip::{
-    BadDetector, BadNoise, Cusum, DropDetector, ForceNoise, IncipientSlip, LikelihoodRatio,
-    LikelihoodRatioDetector, NormalForceGate, RatioThreshold, SlipDetector, SlipVerdict, StickSlip,
-    StickSlipDetector,
+    Cusum, DropDetector, ForceNoise, IncipientSlip, LikelihoodRatio, LikelihoodRatioDetector,
+    NormalForceGate, RatioThreshold, SlipDetector, SlipVerdict, StickSlip, StickSlipDetector,
 };

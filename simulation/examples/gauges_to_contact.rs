@@ -163,7 +163,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         if time < 0.5 || (time - 0.5).rem_euclid(0.2) < 3.0 * step {
             continue;
         }
-        let touch = fingertip.feel(wrench, step, None);
+        let touch = fingertip.sense_wrench(wrench, step);
         let Ok(contact) = touch.resolution.into_result() else { continue };
         if presses.last().is_none_or(|press| press.at != point) {
             presses.push(Press { at: point, ..Press::default() });

@@ -1,11 +1,13 @@
 //! Many samples at once against one at a time.
 
 use fingertip::contact::PointContact;
-use fingertip::contact::batch::BatchSurface;
-use fingertip::friction::{Coulomb, ForceNoise, NormalForceGate, RatioThreshold, SlipMargin, SlipVerdict};
-use fingertip::surfaces::{ActiveSurface, Ellipsoid, Sphere};
+use fingertip::friction::{
+    Coulomb, DropDetector, ForceNoise, NormalForceGate, PowerLimit, PressureDistribution, RatioThreshold,
+    SlipMargin, SlipVerdict,
+};
+use fingertip::surfaces::{ActiveSurface, Ellipsoid, Sphere, Torus};
 use fingertip::wrench::{GaussianElimination, Real, SensorMatrix, Tare, Wrench};
-use fingertip::{Fingertip, Touches};
+use fingertip::{Fingertip, GripStage, PayloadStage, SlipStage, Step, Touches};
 use nalgebra::{Vector3, Vector6};
 
 use crate::paper_sensor;
@@ -29,7 +31,7 @@ fn signals_of_all_kinds<T: Real>(sensor: &SensorMatrix<T, 6>, seed: u64) -> Vec<
 
 fn many_at_once_are_as_one_at_a_time<T: Real, S>(surface: S, model: PointContact<T>)
 where
-    S: ActiveSurface<T> + BatchSurface<T>,
+    S: ActiveSurface<T> + 'static,
 {
     let sensor = paper_sensor::<T>();
     let zero = Vector6::from_fn(|gauge, _| T::literal(0.01) * T::literal(f64::from(gauge as u32)));
@@ -42,13 +44,14 @@ where
         .slip_detector(RatioThreshold::new(gate, T::literal(0.6), T::literal(0.75)).unwrap())
         .build();
     let samples: Vec<_> = signals_of_all_kinds(&sensor, 5).into_iter().map(|s| s + zero).collect();
-    let sense_all = |samples: &[Vector6<T>]| {
+    let mut sense_all = |samples: &[Vector6<T>]| {
         let raw: [Vec<T>; 6] = core::array::from_fn(|gauge| samples.iter().map(|s| s[gauge]).collect());
         let mut columns: [Vec<T>; 9] = core::array::from_fn(|_| vec![T::one(); samples.len()]);
         let mut slip = vec![SlipVerdict::Warning; samples.len()];
         let [px, py, pz, normal, tx, ty, tz, margin, utilisation] = columns.each_mut().map(|c| &mut c[..]);
         fingertip.sense_all(
             raw.each_ref().map(|column| &column[..]),
+            T::literal(1e-3),
             Touches {
                 point: [px, py, pz],
                 normal_force: normal,
@@ -118,4 +121,136 @@ fn batches_are_as_single_samples() {
     }
     on::<f32>();
     on::<f64>();
+}
+
+/// Takes a share of every wrench off, without being told a motion.
+#[derive(Clone, Copy)]
+struct Share(f64);
+
+impl PayloadStage<f64> for Share {
+    type Motion = ();
+
+    fn take_off(&self, measured: Wrench<f64>, (): &()) -> Wrench<f64> {
+        measured * self.0
+    }
+}
+
+/// Columns that a batch wrote, by what was in them before.
+fn batch<Payload, Surface, Friction, Detector>(
+    mut fingertip: Batched<Payload, Surface, Friction, Detector>,
+    samples: &[Vector6<f64>],
+) -> ([Vec<f64>; 9], Vec<SlipVerdict>)
+where
+    Payload: PayloadStage<f64, Motion = ()> + 'static,
+    Surface: ActiveSurface<f64> + 'static,
+    Friction: GripStage<f64> + 'static,
+    Detector: SlipStage<f64> + 'static,
+{
+    let raw: [Vec<f64>; 6] = core::array::from_fn(|gauge| samples.iter().map(|s| s[gauge]).collect());
+    // The last of the columns is shorter by one.
+    let mut columns: [Vec<f64>; 9] = core::array::from_fn(|_| vec![7.0; samples.len()]);
+    let mut slip = vec![SlipVerdict::Warning; samples.len() - 1];
+    let [px, py, pz, normal_force, tx, ty, tz, margin, utilisation] = columns.each_mut().map(|c| &mut c[..]);
+    fingertip.sense_all(
+        raw.each_ref().map(|column| &column[..]),
+        1e-3,
+        Touches {
+            point: [px, py, pz],
+            normal_force,
+            tangential_force: [tx, ty, tz],
+            margin,
+            utilisation,
+            slip: &mut slip,
+        },
+    );
+    (columns, slip)
+}
+
+type Batched<Payload, Surface, Friction, Detector> = Fingertip<
+    GaussianElimination<f64>,
+    Surface,
+    PointContact<f64>,
+    Friction,
+    Detector,
+    Tare<f64, 6>,
+    Payload,
+>;
+
+/// What a scene without a branchless loop answers is what it answers one by one, each knowing the last contact.
+#[test]
+fn any_scene_senses_many() {
+    let sensor = paper_sensor::<f64>();
+    let mut samples = signals_of_all_kinds(&sensor, 6);
+    // Along −x through the middle of the ring: which side is meant depends on the sample before.
+    let at = |point: Vector3<f64>, force: Vector3<f64>| sensor.signals(&Wrench::from_force_at(&point, force));
+    for _ in 0..20 {
+        samples.push(at(Vector3::new(0.0, 0.0, 4e-3), Vector3::new(-1.0, 0.0, -0.7)));
+        samples.push(at(Vector3::zeros(), Vector3::new(-2.0, 0.0, 0.0)));
+    }
+    let zero = Vector6::repeat(0.01);
+    let samples: Vec<_> = samples.into_iter().map(|s| s + zero).collect();
+    let noise = ForceNoise::isotropic(0.01).unwrap();
+    let base = Fingertip::builder()
+        .zero(Tare::new(zero))
+        .solver(GaussianElimination::new(&sensor).unwrap())
+        .payload_stage(Share(0.5))
+        .contact(Torus::new(10e-3, 3e-3).unwrap(), PointContact::new(0.1).unwrap());
+    let full = base
+        .friction(PowerLimit::for_patch(0.6, 2e-3, PressureDistribution::Hertz).unwrap())
+        .slip_detector(DropDetector::new(noise).unwrap())
+        .build();
+    let (columns, slip) = batch(full, &samples);
+    let (bare_columns, bare_slip) = batch(base.build(), &samples);
+    let (mut one, mut last, mut through) = (full, None, 0);
+    for k in 0..samples.len() - 1 {
+        let touch = one.sense(&samples[k], Step::of(1e-3).with_last(last));
+        if touch.point().is_some_and(|point| point.x < -0.005) && last.is_some_and(|last| last.x < -0.005) {
+            through += 1;
+        }
+        last = touch.point();
+        let found: [f64; 9] = core::array::from_fn(|column| columns[column][k]);
+        let expected = match (touch.point(), touch.force, touch.grip) {
+            (Some(p), Some(force), Some(grip)) => {
+                let t = force.tangential.vector();
+                [p.x, p.y, p.z, force.normal, t.x, t.y, t.z, grip.newtons, grip.utilisation]
+            }
+            _ => [0.0; 9],
+        };
+        assert_eq!((found, slip[k]), (expected, touch.slip), "{k}: {touch:?}");
+        let found: [f64; 9] = core::array::from_fn(|column| bare_columns[column][k]);
+        assert_eq!(found[..7], expected[..7]);
+        assert_eq!((found[7], found[8], bare_slip[k]), (0.0, 0.0, SlipVerdict::NotPressing));
+    }
+    assert!(through >= 19 && slip.iter().any(|verdict| *verdict != SlipVerdict::NotPressing), "{through}");
+    for column in columns.iter().chain(&bare_columns) {
+        assert_eq!(*column.last().unwrap(), 7.0);
+    }
+}
+
+/// A payload that needs no motion is taken off in the branchless loop, too.
+#[test]
+fn a_payload_is_taken_off_every_sample_of_a_batch() {
+    let sensor = paper_sensor::<f64>();
+    let samples = signals_of_all_kinds(&sensor, 7);
+    let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.01).unwrap());
+    let with = |share: f64| {
+        let fingertip = Fingertip::builder()
+            .zero(Tare::new(Vector6::zeros()))
+            .solver(GaussianElimination::new(&sensor).unwrap())
+            .payload_stage(Share(share))
+            .contact(Sphere::centred(0.009).unwrap(), PointContact::new(0.1).unwrap())
+            .friction(Coulomb::new(0.6).unwrap())
+            .slip_detector(RatioThreshold::new(gate, 0.6, 0.75).unwrap())
+            .build();
+        batch(fingertip, &samples).0
+    };
+    let (all, half) = (with(1.0), with(0.5));
+    let mut contacts = 0;
+    for k in 0..samples.len() - 1 {
+        if all[3][k] > 0.3 && all[3][k] < 100.0 {
+            contacts += 1;
+            assert_eq!(half[3][k], 0.5 * all[3][k]);
+        }
+    }
+    assert!(contacts > 50, "{contacts}");
 }

@@ -42,8 +42,9 @@ fn sense(tip: &Tip, wrenches: &[Wrench<f64>], lengths: [usize; 16]) -> ([Vec<f64
     let mut columns: [Vec<f64>; 9] = core::array::from_fn(|k| vec![UNTOUCHED; lengths[6 + k]]);
     let mut slip = vec![SlipVerdict::Warning; lengths[15]];
     let [px, py, pz, normal, tx, ty, tz, margin, utilisation] = columns.each_mut().map(|c| &mut c[..]);
-    tip.sense_all(
+    { *tip }.sense_all(
         raw.each_ref().map(|column| &column[..]),
+        1e-3,
         Touches {
             point: [px, py, pz],
             normal_force: normal,
@@ -85,7 +86,7 @@ fn batches_of_any_length_are_sensed_whole() {
     let wrenches = presses(531);
     let (all, verdicts) = sense_all(&tip, &wrenches);
     for (k, wrench) in wrenches.iter().enumerate() {
-        let touch = { tip }.feel(*wrench, 1e-3, None);
+        let touch = { tip }.sense_wrench(*wrench, 1e-3);
         let contact = touch.resolution.contact().unwrap();
         for axis in 0..3 {
             assert!((all[axis][k] - contact.point[axis]).abs() < 1e-14, "{k}");
@@ -151,7 +152,7 @@ fn the_shortest_column_counts_and_the_rest_is_left() {
 
 /// Whether one sample and a batch of it agree on a contact, and what they say.
 fn touches(tip: &Tip, wrench: Wrench<f64>) -> bool {
-    let one = { *tip }.feel(wrench, 1e-3, None).resolution.contact().is_some();
+    let one = { *tip }.sense_wrench(wrench, 1e-3).resolution.contact().is_some();
     // Among others that press, and among others that do not.
     for others in [vec![], presses(20), vec![Wrench::zero(); 20]] {
         let mut batch = others;
@@ -222,7 +223,7 @@ fn lines_that_miss_by_little_are_taken_alike() {
                 let up = Vector3::new(turn.sin(), turn.cos(), (2.0 * turn).sin()).normalize();
                 let along = up.cross(&Vector3::new(0.3, turn.cos(), 0.7)).normalize();
                 let wrench = Wrench::from_force_at(&(centre + up * height), along * 2.0);
-                let touch = { tip }.feel(wrench, 1e-3, None);
+                let touch = { tip }.sense_wrench(wrench, 1e-3);
                 let mut batch = presses(20);
                 batch.push(wrench);
                 let (columns, slip) = sense_all(&tip, &batch);
@@ -264,7 +265,7 @@ fn gaps_end_where_they_are_said_to() {
     let past = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 1.25), Vector3::new(-2.0, 0.0, 0.0));
     for (gap, taken) in [(0.25, true), (0.25 - 1e-9, false), (0.25 + 1e-9, true)] {
         let tip = accepting(gap);
-        assert_eq!({ tip }.feel(past, 1e-3, None).resolution.contact().is_some(), taken, "{gap}");
+        assert_eq!({ tip }.sense_wrench(past, 1e-3).resolution.contact().is_some(), taken, "{gap}");
         let (columns, _) = sense_all(&tip, &[past]);
         assert_eq!(columns[2][0], if taken { 1.0 } else { 0.0 }, "{gap}");
     }
@@ -294,7 +295,7 @@ fn frictions_out_of_range_are_answered_alike() {
         let wrenches: Vec<_> = presses(40).into_iter().map(|wrench| wrench * size).collect();
         let (columns, _) = sense_all(&tip, &wrenches);
         for (k, wrench) in wrenches.iter().enumerate() {
-            let grip = { tip }.feel(*wrench, 1e-3, None).grip.unwrap();
+            let grip = { tip }.sense_wrench(*wrench, 1e-3).grip.unwrap();
             let close = |found: f64, wanted: f64| found == wanted || (found / wanted - 1.0).abs() < 1e-9;
             assert!(
                 close(columns[7][k], grip.newtons),

@@ -9,9 +9,10 @@ use fingertip::friction::{
 };
 use fingertip::surfaces::{Sphere, Torus};
 use fingertip::wrench::{
-    Compensation, ContactForce, GaussianElimination, Tare, Uncompensated, Wrench, WrenchSolver,
+    Compensation, ContactForce, GaussianElimination, Motion, Payload, Tare, Uncompensated, Wrench,
+    WrenchSolver,
 };
-use fingertip::{Absent, Fingertip, GripStage, SlipStage};
+use fingertip::{Absent, Fingertip, GripStage, PayloadStage, SlipStage, Step};
 use nalgebra::{SVector, Vector3};
 
 use crate::paper_sensor;
@@ -40,10 +41,10 @@ fn no_load_is_no_contact_and_resets_the_detector() {
         .contact(Sphere::centred(RADIUS).unwrap(), PointContact::new(0.1).unwrap())
         .slip_detector(DropDetector::new(noise).unwrap())
         .build();
-    let touch = fingertip.feel(Wrench::<f64>::zero(), 1e-3, None);
+    let touch = fingertip.sense_wrench(Wrench::<f64>::zero(), 1e-3);
     assert!(matches!(touch.resolution, Resolution::NoContact(NoContact::BelowThreshold { .. })));
     assert_eq!(touch.slip, SlipVerdict::NotPressing);
-    assert!(touch.grip.is_none());
+    assert!(touch.grip.is_none() && touch.point().is_none());
 }
 
 #[test]
@@ -134,14 +135,17 @@ fn the_model_is_handed_the_wrench_and_the_last_point() {
     let handed = Handed::default();
     let mut fingertip = Fingertip::builder().solver(Direct).contact(sphere(), Noted(&handed)).build();
     let last = Vector3::new(1.0, 2.0, 3.0);
-    let felt = fingertip.feel(pressed(), 1e-3, Some(&last));
-    let again = fingertip.feel(pressed(), 1e-3, None);
-    let sensed = fingertip.sense(&(-pressed()).components(), 1e-3);
+    let felt = fingertip.sense_wrench(pressed(), Step::of(1e-3).with_last(Some(last)));
+    let again = fingertip.sense_wrench(pressed(), 1e-3);
+    let sensed = fingertip.sense(&(-pressed()).components(), Step::of(1e-3).with_last(Some(2.0 * last)));
     // The touch reports the load on the fingertip, as it was handed in or solved.
     assert_eq!((felt.wrench, again.wrench, sensed.wrench), (pressed(), pressed(), -pressed()));
     assert_eq!((felt.force, felt.grip, felt.slip), (Some(split()), Some(()), ()));
     assert_eq!(felt.resolution.contact().unwrap().force, pressed().force());
-    assert_eq!(*handed.borrow(), [(pressed(), Some(last)), (pressed(), None), (-pressed(), None)]);
+    assert_eq!(
+        *handed.borrow(),
+        [(pressed(), Some(last)), (pressed(), None), (-pressed(), Some(2.0 * last))]
+    );
 }
 
 /// A line through both sides of a ring enters it twice: the last point decides which entry is meant.
@@ -154,10 +158,51 @@ fn the_last_point_chooses_between_two_entries() {
     let wrench = Wrench::from_force_at(&Vector3::zeros(), Vector3::new(-1.0, 0.0, 0.0));
     for x in [13e-3, -7e-3] {
         let last = Vector3::new(x, 1e-3, 0.0);
-        let touch = fingertip.feel(wrench, 1e-3, Some(&last));
-        let point = touch.resolution.contact().unwrap().point;
+        let touch = fingertip.sense_wrench(wrench, Step::of(1e-3).with_last(Some(last)));
+        let point = touch.point().unwrap();
         assert!((point - Vector3::new(x, 0.0, 0.0)).norm() < 1e-15, "{point}");
     }
+}
+
+/// A payload stage of one's own, told a factor at each sample.
+struct Share;
+
+impl PayloadStage<f64> for Share {
+    type Motion = f64;
+
+    fn take_off(&self, measured: Wrench<f64>, share: &f64) -> Wrench<f64> {
+        measured * *share
+    }
+}
+
+#[test]
+fn the_load_of_the_payload_is_taken_off_before_the_contact_is_sought() {
+    let tip = Payload::new(0.5, Vector3::new(0.01, 0.02, 0.03)).unwrap();
+    let moves = Motion {
+        gravity: Vector3::new(1.0, -2.0, 9.0),
+        angular_velocity: Vector3::new(3.0, 1.0, -2.0),
+        angular_acceleration: Vector3::new(-20.0, 30.0, 10.0),
+    };
+    let measured = pressed() + tip.load(&moves);
+    let step = Step::of(0.5).with_motion(moves).with_last(Some(Vector3::x()));
+    assert_eq!((step.time, step.motion, step.last), (0.5, moves, Some(Vector3::x())));
+    let (handed, followed) = (Handed::default(), Followed::default());
+    let mut carrying = Fingertip::builder()
+        .payload(tip)
+        .solver(Direct)
+        .contact(sphere(), Noted(&handed))
+        .slip_detector(Witness(&followed))
+        .build();
+    for touch in [carrying.sense_wrench(measured, step), carrying.sense(&measured.components(), step)] {
+        assert_eq!(touch.wrench, measured - tip.load(&moves));
+        assert!((touch.wrench.components() - pressed().components()).norm() < 1e-14);
+    }
+    let mut of_ones_own = Fingertip::builder().payload_stage(Share).contact(sphere(), Noted(&handed)).build();
+    let touch = of_ones_own.sense_wrench(pressed(), Step::of(0.5).with_motion(0.25));
+    assert_eq!(touch.wrench, pressed() * 0.25);
+    let less = (measured - tip.load(&moves), Some(Vector3::x()));
+    assert_eq!(*handed.borrow(), [less, less, (pressed() * 0.25, None)]);
+    assert!(followed.borrow().iter().all(|(_, time)| *time == 0.5));
 }
 
 /// What a detector was handed: the force, if there was one, and the time step.
@@ -201,7 +246,7 @@ fn friction_and_detector_are_handed_force_and_time() {
         .friction(Witness(&followed))
         .slip_detector(Witness(&followed))
         .build();
-    let held = fingertip.feel(pressed(), 0.5, None);
+    let held = fingertip.sense_wrench(pressed(), 0.5);
     assert_eq!(held.grip, Some(SlipMargin { newtons: 10.0, utilisation: 0.25 }));
     assert_eq!(held.slip, SlipVerdict::Warning);
     let sensed = fingertip.sense(&pressed().components(), 0.25);
@@ -241,9 +286,9 @@ fn stages_of_ones_own_answer_in_their_own_words() {
     let handed = Handed::default();
     let mut fingertip =
         Fingertip::builder().friction_stage(Own).slip_stage(Own).contact(sphere(), Noted(&handed)).build();
-    let held = fingertip.feel(pressed(), 0.5, None);
+    let held = fingertip.sense_wrench(pressed(), 0.5);
     assert_eq!((held.grip, held.slip), (Some(10.0), (Some(10.0), 0.5)));
-    let open = fingertip.feel(Wrench::zero(), 0.25, None);
+    let open = fingertip.sense_wrench(Wrench::zero(), 0.25);
     assert_eq!((open.grip, open.slip), (None, (None, 0.25)));
     assert_eq!((*fingertip.friction(), *fingertip.detector_mut()), (Own, Own));
 }
@@ -271,6 +316,7 @@ fn stages_are_chosen_in_any_order() {
         .contact(sphere(), model)
         .solver(Direct)
         .solver(solver)
+        .payload_stage(Absent)
         .zero(Uncompensated)
         .zero(zero)
         .build();
@@ -304,11 +350,11 @@ fn a_lost_contact_starts_a_detector_anew() {
         Wrench::from_force_at(&point, Vector3::new(5.0 * ratio, 0.0, -5.0))
     };
     let mut slips = |lift: bool| {
-        (0..200).for_each(|_| _ = fingertip.feel(at(0.6), 1e-3, None));
+        (0..200).for_each(|_| _ = fingertip.sense_wrench(at(0.6), 1e-3));
         if lift {
-            (0..50).for_each(|_| _ = fingertip.feel(Wrench::zero(), 1e-3, None));
+            (0..50).for_each(|_| _ = fingertip.sense_wrench(Wrench::zero(), 1e-3));
         }
-        (0..200).any(|_| fingertip.feel(at(0.3), 1e-3, None).slip == SlipVerdict::Slipping)
+        (0..200).any(|_| fingertip.sense_wrench(at(0.3), 1e-3).slip == SlipVerdict::Slipping)
     };
     // The ratio halves while pressed: slip. Lifted in between: another grasp.
     assert_eq!([slips(false), slips(true)], [true, false]);

@@ -1,8 +1,8 @@
 //! Friction limits against 220 bits, and dynamic friction against its invariants.
 
 use fingertip_friction::{
-    Bristle, BristleLaw, Coulomb, Dahl, Drive, DynamicFriction, ElastoPlastic, Exponential, FrictionModel,
-    Implicit, Integrator, LuGre, PowerLimit, ReturnMap, SoftFingerLimit, Stribeck, StribeckFriction,
+    Bristle, BristleLaw, Coulomb, Dahl, Drive, ElastoPlastic, Exponential, FrictionModel, Implicit,
+    Integrator, LuGre, PowerLimit, ReturnMap, SoftFingerLimit, Stribeck, StribeckFriction,
 };
 use fingertip_wrench::{ContactForce, Real};
 use nalgebra::{SVector, Vector1, Vector3};
@@ -191,7 +191,7 @@ fn dynamics<T: Real>(trials: usize, rows: &mut Vec<Row>) {
                 rows.push(row);
             };
         }
-        let known = Ok::<_, fingertip_friction::BadFriction>(lugre);
+        let known = Ok::<_, fingertip_friction::BadParameter>(lugre);
         run!("LuGre, exponential", known, Exponential);
         run!("LuGre, implicit", known, Implicit);
         run!("LuGre, return map", known, ReturnMap);

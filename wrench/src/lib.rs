@@ -8,6 +8,8 @@ compile_error!("fingertip-wrench needs one of the features `std` and `libm` for 
 mod array_in_file;
 mod gauges;
 mod load;
+#[doc(hidden)]
+pub mod numeric;
 mod scalar;
 mod solve;
 mod stored;
@@ -23,15 +25,16 @@ pub use load::{
     BadNormal, ContactForce, ContactFrame, ContactLoad, Frame, Line, LineOfAction, NoLineOfAction,
     RigidTransform, Sensor, TangentialForce, TransformError, Wrench, scaled_length, tangents,
 };
+pub use numeric::singular_values;
 pub use scalar::Real;
 pub use solve::{
     BadCovariance, BadInverse, BeyondBound, BicchiDario, Combination, Conditioning, Decoupled, ErrorBound,
     FourRosettes, GaussianElimination, Inverse, LeastSquares, LeastSquaresError, LinearSolver, NoErrorBound,
     NotDecoupled, OwnError, Refined, SingularMatrix, ThreeRosettes, Uncertainty, WrenchCovariance,
-    WrenchSolver, diagonal_pattern, singular_values,
+    WrenchSolver, diagonal_pattern,
 };
 pub use zero::{
     BadPayload, BadTemperatureModel, Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy,
-    GaugesAndTemperature, NotAtRest, Payload, RestTest, Rested, Tare, TareAccumulator, TareError,
+    GaugesAndTemperature, Motion, NotAtRest, Payload, RestTest, Rested, Tare, TareAccumulator, TareError,
     TemperatureCompensation, Uncompensated,
 };

@@ -1,12 +1,13 @@
 //! Singular values and vectors of matrices of any size.
 
+use fingertip_wrench::Real;
+use fingertip_wrench::numeric::jacobi::{column_norm, orthogonalise};
 use nalgebra::{DMatrix, DVector};
 
 /// `A = U diag(σ) Vᵀ`, thin, σ from the largest to the smallest.
 ///
-/// By one-sided Jacobi rotations (Hestenes 1958; Demmel & Veselić 1992): columns of A are rotated
-/// against each other until they are orthogonal, which finds small singular values of matrices
-/// with badly scaled columns to high relative accuracy. We do not use nalgebra's `svd`, which gives
+/// By [one-sided Jacobi rotations](fingertip_wrench::numeric::jacobi), which find small singular values of
+/// matrices with badly scaled columns to high relative accuracy. We do not use nalgebra's `svd`, which gives
 /// wrong vectors for some matrices (its issue 1172).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Singular {
@@ -17,9 +18,6 @@ pub struct Singular {
     /// Right singular vectors, n × k, orthonormal if n ≤ m.
     pub right: DMatrix<f64>,
 }
-
-/// More than any matrix was ever seen to need (about 6 to 10 for a few dozen columns).
-const MOST_SWEEPS: usize = 60;
 
 impl Singular {
     /// Decomposes a matrix; `None` if it is empty or has an entry that is not finite.
@@ -32,27 +30,15 @@ impl Singular {
             let Self { left, values, right } = Self::new(&matrix.transpose())?;
             return Some(Self { left: right, values, right: left });
         }
-        let largest = matrix.amax();
-        let scale = if largest > 0.0 { largest } else { 1.0 };
-        // Dividing twice: the reciprocal of a subnormal scale is infinite.
-        let mut left = matrix.map(|x| x / scale);
+        let scale = matrix.amax().normalising_factor();
+        let mut left = matrix * scale;
         let columns = left.ncols();
         let mut right = DMatrix::identity(columns, columns);
-        for _ in 0..MOST_SWEEPS {
-            let mut rotated = false;
-            for p in 0..columns {
-                for q in p + 1..columns {
-                    rotated |= rotate(&mut left, &mut right, p, q);
-                }
-            }
-            if !rotated {
-                break;
-            }
-        }
-        let norms: Vec<f64> = left.column_iter().map(|column| column.norm()).collect();
+        orthogonalise(&mut left, |turn, p, q| turn.apply(&mut right, p, q));
+        let norms: Vec<f64> = (0..columns).map(|j| column_norm(&left, j)).collect();
         let mut order: Vec<usize> = (0..columns).collect();
         order.sort_by(|a, b| norms[*b].total_cmp(&norms[*a]));
-        let values = DVector::from_iterator(columns, order.iter().map(|i| norms[*i] * scale));
+        let values = DVector::from_iterator(columns, order.iter().map(|i| norms[*i] / scale));
         let left = DMatrix::from_fn(left.nrows(), columns, |i, j| {
             let norm = norms[order[j]];
             if norm > 0.0 { left[(i, order[j])] / norm } else { 0.0 }
@@ -74,28 +60,6 @@ impl Singular {
     pub fn condition_number(&self) -> f64 {
         if self.rank() < self.values.len() { f64::INFINITY } else { self.values.max() / self.values.min() }
     }
-}
-
-/// Makes columns p and q orthogonal; `false` if they were already.
-fn rotate(left: &mut DMatrix<f64>, right: &mut DMatrix<f64>, p: usize, q: usize) -> bool {
-    let (a, b) = (left.column(p).norm_squared(), left.column(q).norm_squared());
-    let product = left.column(p).dot(&left.column(q));
-    // `a·b` may underflow where its root does not matter any more.
-    if product.abs() <= f64::EPSILON * a.sqrt() * b.sqrt() || product.abs() < f64::MIN_POSITIVE {
-        return false;
-    }
-    let zeta = (b - a) / (2.0 * product);
-    let tangent = zeta.signum() / (zeta.abs() + zeta.hypot(1.0));
-    let cosine = 1.0 / tangent.hypot(1.0);
-    let sine = cosine * tangent;
-    for matrix in [left, right] {
-        for i in 0..matrix.nrows() {
-            let (x, y) = (matrix[(i, p)], matrix[(i, q)]);
-            matrix[(i, p)] = cosine * x - sine * y;
-            matrix[(i, q)] = sine * x + cosine * y;
-        }
-    }
-    true
 }
 
 /// The Moore-Penrose inverse of a matrix of full rank; `None` if its rank is deficient or it has

@@ -12,8 +12,8 @@ mod wrenches;
 
 use std::path::Path;
 
-use fingertip::Fingertip;
 use fingertip::surfaces::ActiveSurface;
+use fingertip::{Fingertip, Step};
 use fingertip_recordings::Quality;
 
 use crate::error::CliError;
@@ -87,6 +87,7 @@ struct Pass<'a> {
 impl Pass<'_> {
     fn over<S: ActiveSurface<f64>>(&mut self, surface: S) -> Result<Observations, CliError> {
         let mut fingertip = Fingertip::builder()
+            .payload(self.source.payload())
             .contact(surface, self.scene.model)
             .friction_stage(self.scene.friction)
             .slip_stage(self.scene.slip)
@@ -100,9 +101,10 @@ impl Pass<'_> {
                 last_point = None;
             }
             match self.source.read(&row, time)? {
-                Reading::Wrench(wrench) => {
-                    let touch = fingertip.feel(wrench, time_step, last_point.as_ref());
-                    last_point = touch.resolution.contact().map(|contact| contact.point);
+                Reading::Wrench(wrench, motion) => {
+                    let step = Step::of(time_step).with_last(last_point).with_motion(motion);
+                    let touch = fingertip.sense_wrench(wrench, step);
+                    last_point = touch.point();
                     observations.add(time, &touch);
                     self.contacts.write(time, &touch)?;
                 }

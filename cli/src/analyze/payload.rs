@@ -1,4 +1,4 @@
-//! The weight of what hangs on the sensor, taken off as the hand turns.
+//! What hangs on the sensor, and how it hangs at each row.
 
 use std::path::Path;
 
@@ -60,12 +60,19 @@ impl Carried {
         self.at_tare = Some(self.resting.0 / f64::from(self.resting.1.max(1)));
     }
 
-    /// What is left of a load; `None` if the row has no orientation.
-    pub(super) fn taken_off(&self, row: &Row<'_>, load: &Wrench<f64>) -> Option<Wrench<f64>> {
-        let gravity = self.gravity(row)?;
-        Some(match self.at_tare {
-            Some(at_tare) => *load - self.body.weight_change(&gravity, &at_tare),
-            None => *load - self.body.weight(&gravity) - self.file.bias(),
-        })
+    /// The body.
+    pub(super) const fn payload(&self) -> Payload<f64> {
+        self.body
+    }
+
+    /// What the sensor reads without load and without the body; zero if the rest has taken it off.
+    pub(super) fn bias(&self) -> Wrench<f64> {
+        if self.at_tare.is_some() { Wrench::zero() } else { self.file.bias() }
+    }
+
+    /// Gravity in the sensor frame \[m/s²\], less that under which the zero was taken with the body on; `None`
+    /// if the row has no orientation.
+    pub(super) fn gravity_since_zero(&self, row: &Row<'_>) -> Option<Vector3<f64>> {
+        Some(self.gravity(row)? - self.at_tare.unwrap_or_else(Vector3::zeros))
     }
 }

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use fingertip::wrench::Wrench;
+use fingertip::wrench::{Motion, Payload, Wrench};
 use fingertip_recordings::{HeaderProblem, Row};
+use nalgebra::Vector3;
 
 use super::args::AnalyzeArguments;
 use super::files::Rows;
@@ -18,7 +19,8 @@ use crate::scene::{Convention, Scene};
 
 /// What one row gives.
 pub(super) enum Reading {
-    Wrench(Wrench<f64>),
+    /// The load on the fingertip, that of what the sensor carries included, and how the sensor lies.
+    Wrench(Wrench<f64>, Motion<f64>),
     Without(Status),
 }
 
@@ -106,6 +108,11 @@ impl Source {
         self.recorded.sensor()
     }
 
+    /// What the sensor carries: a body without mass if nothing is told of it.
+    pub(super) fn payload(&self) -> Payload<f64> {
+        self.carried.as_ref().map_or_else(Payload::none, Carried::payload)
+    }
+
     /// What the reader of the results should know.
     pub(super) fn notes(&self) -> &[String] {
         &self.notes
@@ -137,17 +144,16 @@ impl Source {
 
     #[inline]
     fn read_load(&self, row: &Row<'_>) -> Reading {
-        match self.recorded.read(row) {
-            Ok(load) => {
-                let load = self.convention.wrench(load.force(), load.torque());
-                match &self.carried {
-                    None => Reading::Wrench(load),
-                    Some(carried) => carried
-                        .taken_off(row, &load)
-                        .map_or(Reading::Without(Status::UnusableRow), Reading::Wrench),
-                }
-            }
-            Err(status) => Reading::Without(status),
+        let load = match self.recorded.read(row) {
+            Ok(load) => self.convention.wrench(load.force(), load.torque()),
+            Err(status) => return Reading::Without(status),
+        };
+        let Some(carried) = &self.carried else {
+            return Reading::Wrench(load, Motion::resting(Vector3::zeros()));
+        };
+        match carried.gravity_since_zero(row) {
+            Some(gravity) => Reading::Wrench(load - carried.bias(), Motion::resting(gravity)),
+            None => Reading::Without(Status::UnusableRow),
         }
     }
 

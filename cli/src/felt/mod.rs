@@ -2,10 +2,10 @@
 
 mod noise;
 
-use fingertip::Fingertip;
-use fingertip::contact::{ConfidenceEllipse, Contact, ContactCovariance, ContactJacobian, Resolution};
+use fingertip::contact::{ConfidenceEllipse, ContactCovariance, ContactJacobian, Resolution};
 use fingertip::surfaces::ActiveSurface;
 use fingertip::wrench::{TareAccumulator, Wrench};
+use fingertip::{Fingertip, Step};
 use nalgebra::{Matrix3, Vector6};
 
 use crate::observe::SceneTouch;
@@ -105,8 +105,8 @@ fn over<S: ActiveSurface<f64> + Send + 'static>(surface: S, scene: &Scene) -> Fe
             fingertip.detector_mut().reset();
             last = None;
         }
-        let touch = fingertip.feel(wrench, step, last.as_ref());
-        last = touch.resolution.contact().map(|contact: &Contact<f64>| contact.point);
+        let touch = fingertip.sense_wrench(wrench, Step::of(step).with_last(last));
+        last = touch.point();
         touch
     })
 }

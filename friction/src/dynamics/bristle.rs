@@ -3,96 +3,12 @@
 use fingertip_wrench::Real;
 use nalgebra::SVector;
 
-use crate::BristleLaw;
+use crate::{BristleLaw, Exponential, Integrator};
 
-/// Friction with a memory, stepped by a prescribed motion.
+/// A friction law with its state: the deflection z \[m\].
 ///
 /// `D` is the number of dimensions: 1, 2 in the tangent plane, or 3 with spin, whose third
 /// components are the spin rate times the torque arm, and the spin torque over the arm.
-pub trait DynamicFriction<T: Real, const D: usize> {
-    /// Moves by `velocity` over `time_step` and returns the friction force at its end, along the
-    /// motion that it opposes: a body that moves over the other feels minus this.
-    ///
-    /// A motion or time that is not finite (or a negative time) changes nothing; the elastic force
-    /// is returned.
-    fn step(&mut self, velocity: &SVector<T, D>, time_step: T) -> SVector<T, D>;
-
-    /// Releases all deflection.
-    fn reset(&mut self);
-}
-
-/// How the deflection is carried over one step of constant velocity.
-///
-/// All three keep `|z| ≤ F_s/σ₀`, do not let two states of the same law part (for α = 1), and are
-/// passive, for every step length (`docs/theory/friction.md#integrators`).
-pub trait Integrator: Copy {
-    /// The new deflection. `step` is `hv`, `slide` is `hλ` with
-    /// `λ = α σ₀|v|/g`, and `limit` is `g/σ₀`.
-    fn advance<T: Real, const D: usize>(
-        deflection: &SVector<T, D>,
-        step: &SVector<T, D>,
-        slide: T,
-        limit: T,
-    ) -> SVector<T, D>;
-}
-
-/// Exact for a constant velocity: `z⁺ = z e^{−λh} + v h φ₁(λh)`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Exponential;
-
-/// Backward Euler: `z⁺ = (z + hv)/(1 + hλ)`. First order, without an exponential.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Implicit;
-
-/// The rate-independent limit: elastic up to `g/σ₀`, then slides along (radial return).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct ReturnMap;
-
-impl Integrator for Exponential {
-    #[inline]
-    fn advance<T: Real, const D: usize>(
-        deflection: &SVector<T, D>,
-        step: &SVector<T, D>,
-        slide: T,
-        _limit: T,
-    ) -> SVector<T, D> {
-        // 1 − e^{−x}, and φ₁(x) = (1 − e^{−x})/x.
-        let fall = -(-slide).exp_m1();
-        let mean = if slide > T::LEAST_NORMAL { fall / slide } else { T::one() };
-        let decay = T::one() - fall;
-        deflection * decay + step * mean
-    }
-}
-
-impl Integrator for Implicit {
-    #[inline]
-    fn advance<T: Real, const D: usize>(
-        deflection: &SVector<T, D>,
-        step: &SVector<T, D>,
-        slide: T,
-        _limit: T,
-    ) -> SVector<T, D> {
-        (deflection + step) / (T::one() + slide)
-    }
-}
-
-impl Integrator for ReturnMap {
-    #[inline]
-    fn advance<T: Real, const D: usize>(
-        deflection: &SVector<T, D>,
-        step: &SVector<T, D>,
-        _slide: T,
-        limit: T,
-    ) -> SVector<T, D> {
-        let (moved, _) = clamped(deflection + step, limit);
-        moved
-    }
-}
-
-/// A friction law with its state: the deflection z \[m\].
 ///
 /// # Bounded and passive
 /// `|z| ≤ F_s/σ₀` for every step, by the integrator and a radial clamp. The damping term `σ₁ż` is
@@ -182,6 +98,54 @@ impl<T: Real, Law: BristleLaw<T>, const D: usize, Method: Integrator> Bristle<T,
         ((share * speed / limit).min(T::GREATEST), limit)
     }
 
+    /// Moves by `velocity` over `time_step` and returns the friction force at its end, along the
+    /// motion that it opposes: a body that moves over the other feels minus this.
+    ///
+    /// A motion or time that is not finite (or a negative time) changes nothing; the elastic force
+    /// is returned.
+    #[inline]
+    pub fn step(&mut self, velocity: &SVector<T, D>, time_step: T) -> SVector<T, D> {
+        let path = velocity * time_step;
+        let good = time_step >= T::zero()
+            && time_step.is_number()
+            && velocity.iter().chain(path.iter()).all(|x| x.is_number());
+        if !good {
+            return self.elastic_force();
+        }
+        if !(self.load > T::zero()) {
+            self.deflection = SVector::zeros();
+            return SVector::zeros();
+        }
+        let before = self.deflection;
+        let (rate, limit) = self.slide(length(velocity), before.dot(velocity) < T::zero());
+        let slide = (rate * time_step).min(T::GREATEST);
+        let after = Method::advance(&before, &path, slide, limit);
+        let after = clamped(after, self.greatest_deflection()).0;
+        self.deflection = after;
+
+        // The mean damping force over the step, no greater than passivity allows.
+        let change = after - before;
+        let stiffness = self.law.stiffness();
+        let mut damping = self.law.damping() / (stiffness * time_step);
+        let power = change.dot(&path);
+        if power < T::zero() {
+            let half = T::literal(0.5);
+            let spare = after.dot(&path) - half * change.dot(&(after + before));
+            damping = damping.min(spare.max(T::zero()) / -power);
+        }
+        // A step of no time, or of next to none.
+        if !damping.is_number() {
+            damping = T::zero();
+        }
+        ((after + change * damping) * stiffness + velocity * self.law.viscous()) * self.load
+    }
+
+    /// Releases all deflection.
+    #[inline]
+    pub fn reset(&mut self) {
+        self.deflection = SVector::zeros();
+    }
+
     /// One step of a body of some mass under a drive, held by this friction: one linear solve, no
     /// iteration, passive for every step length: the energy `½mv² + ½σ₀z²` grows by no more than
     /// the work of the drive (`docs/theory/friction.md#a-body-held-by-friction`), thanks to `σ₁ ≤ 4σ₀/λ`. The
@@ -258,52 +222,6 @@ impl<T: Real, Law: BristleLaw<T>, const D: usize, Method: Integrator> Bristle<T,
     }
 }
 
-impl<T: Real, Law: BristleLaw<T>, const D: usize, Method: Integrator> DynamicFriction<T, D>
-    for Bristle<T, Law, D, Method>
-{
-    #[inline]
-    fn step(&mut self, velocity: &SVector<T, D>, time_step: T) -> SVector<T, D> {
-        let path = velocity * time_step;
-        let good = time_step >= T::zero()
-            && time_step.is_number()
-            && velocity.iter().chain(path.iter()).all(|x| x.is_number());
-        if !good {
-            return self.elastic_force();
-        }
-        if !(self.load > T::zero()) {
-            self.deflection = SVector::zeros();
-            return SVector::zeros();
-        }
-        let before = self.deflection;
-        let (rate, limit) = self.slide(length(velocity), before.dot(velocity) < T::zero());
-        let slide = (rate * time_step).min(T::GREATEST);
-        let after = Method::advance(&before, &path, slide, limit);
-        let after = clamped(after, self.greatest_deflection()).0;
-        self.deflection = after;
-
-        // The mean damping force over the step, no greater than passivity allows.
-        let change = after - before;
-        let stiffness = self.law.stiffness();
-        let mut damping = self.law.damping() / (stiffness * time_step);
-        let power = change.dot(&path);
-        if power < T::zero() {
-            let half = T::literal(0.5);
-            let spare = after.dot(&path) - half * change.dot(&(after + before));
-            damping = damping.min(spare.max(T::zero()) / -power);
-        }
-        // A step of no time, or of next to none.
-        if !damping.is_number() {
-            damping = T::zero();
-        }
-        ((after + change * damping) * stiffness + velocity * self.law.viscous()) * self.load
-    }
-
-    #[inline]
-    fn reset(&mut self) {
-        self.deflection = SVector::zeros();
-    }
-}
-
 /// Euclidean length without over- or underflow.
 #[inline]
 fn length<T: Real, const D: usize>(v: &SVector<T, D>) -> T {
@@ -313,7 +231,7 @@ fn length<T: Real, const D: usize>(v: &SVector<T, D>) -> T {
 
 /// The vector, shortened to `limit` where it is longer, and whether it was.
 #[inline]
-fn clamped<T: Real, const D: usize>(v: SVector<T, D>, limit: T) -> (SVector<T, D>, bool) {
+pub(super) fn clamped<T: Real, const D: usize>(v: SVector<T, D>, limit: T) -> (SVector<T, D>, bool) {
     let length = length(&v);
     if length <= limit {
         (v, false)

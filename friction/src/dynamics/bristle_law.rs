@@ -2,8 +2,8 @@
 
 use fingertip_wrench::{Real, stored};
 
-use crate::limits::cone::{not_negative, positive};
-use crate::{BadFriction, Stribeck};
+use crate::bad_parameter::{not_negative, positive};
+use crate::{BadParameter, Stribeck};
 
 /// A friction law `F = σ₀z + σ₁ż + σ₂v`, `ż = v − α(z, v) σ₀|v|z/g(|v|)`
 /// (`docs/theory/friction.md#bristle-laws`).
@@ -99,8 +99,8 @@ impl<T: Real> Dahl<T> {
     /// From the stiffness σ₀ \[N/m\] and the friction F_c \[N\].
     ///
     /// # Errors
-    /// [`BadFriction`] unless both are positive and finite.
-    pub fn new(stiffness: T, friction: T) -> Result<Self, BadFriction> {
+    /// [`BadParameter`] unless both are positive and finite.
+    pub fn new(stiffness: T, friction: T) -> Result<Self, BadParameter> {
         let curve = Stribeck::constant(friction)?;
         Ok(Self { sliding: LuGre::new(stiffness, T::zero(), T::zero(), curve)? })
     }
@@ -114,8 +114,8 @@ impl<T: Real> LuGre<T> {
     /// From σ₀ \[N/m\], σ₁ \[N·s/m\], σ₂ \[N·s/m\] and the Stribeck curve.
     ///
     /// # Errors
-    /// [`BadFriction`] unless σ₀ is positive and σ₁, σ₂ not negative, all finite.
-    pub fn new(stiffness: T, damping: T, viscous: T, curve: Stribeck<T>) -> Result<Self, BadFriction> {
+    /// [`BadParameter`] unless σ₀ is positive and σ₁, σ₂ not negative, all finite.
+    pub fn new(stiffness: T, damping: T, viscous: T, curve: Stribeck<T>) -> Result<Self, BadParameter> {
         Ok(Self {
             stiffness: positive(stiffness, "stiffness")?,
             damping: not_negative(damping, "damping")?,
@@ -129,7 +129,7 @@ impl<T: Real> LuGre<T> {
     ///
     /// # Errors
     /// Never, for a type that holds these numbers.
-    pub fn reference() -> Result<Self, BadFriction> {
+    pub fn reference() -> Result<Self, BadParameter> {
         let curve = Stribeck::new(T::one(), T::literal(1.5), T::literal(1e-3))?;
         Self::new(T::literal(1e5), T::literal(1e5).root(), T::literal(0.4), curve)
     }
@@ -174,12 +174,12 @@ impl<T: Real> ElastoPlastic<T> {
     /// contact is purely elastic (`z_ba σ₀/F_s`).
     ///
     /// # Errors
-    /// [`BadFriction`] unless the share is between 0 and the ratio of kinetic to static friction,
+    /// [`BadParameter`] unless the share is between 0 and the ratio of kinetic to static friction,
     /// beyond which steady sliding would be elastic.
-    pub fn new(sliding: LuGre<T>, elastic_share: T) -> Result<Self, BadFriction> {
+    pub fn new(sliding: LuGre<T>, elastic_share: T) -> Result<Self, BadParameter> {
         let greatest = sliding.curve.kinetic() / sliding.curve.breakaway();
         if !(elastic_share >= T::zero() && elastic_share < greatest) {
-            return Err(BadFriction {
+            return Err(BadParameter {
                 parameter: "elastic share",
                 requirement: "from 0 to below the ratio of kinetic to static friction",
             });
@@ -218,8 +218,8 @@ impl<T: Real> StribeckFriction<T> {
     /// From the stiffness of the stuck contact \[N/m\], σ₂ \[N·s/m\] and the curve.
     ///
     /// # Errors
-    /// [`BadFriction`] unless the stiffness is positive and σ₂ not negative, both finite.
-    pub fn new(stiffness: T, viscous: T, curve: Stribeck<T>) -> Result<Self, BadFriction> {
+    /// [`BadParameter`] unless the stiffness is positive and σ₂ not negative, both finite.
+    pub fn new(stiffness: T, viscous: T, curve: Stribeck<T>) -> Result<Self, BadParameter> {
         Ok(Self { sliding: LuGre::new(stiffness, T::zero(), viscous, curve)? })
     }
 }

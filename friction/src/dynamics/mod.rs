@@ -2,8 +2,10 @@
 
 mod bristle;
 mod bristle_law;
+mod integrator;
 mod stribeck;
 
-pub use bristle::{Bristle, Coupled, Drive, DynamicFriction, Exponential, Implicit, Integrator, ReturnMap};
+pub use bristle::{Bristle, Coupled, Drive};
 pub use bristle_law::{BristleLaw, Dahl, ElastoPlastic, LuGre, StribeckFriction};
+pub use integrator::{Exponential, Implicit, Integrator, ReturnMap};
 pub use stribeck::Stribeck;

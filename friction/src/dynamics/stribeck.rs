@@ -2,8 +2,8 @@
 
 use fingertip_wrench::{Real, stored};
 
-use crate::BadFriction;
-use crate::limits::cone::positive;
+use crate::BadParameter;
+use crate::bad_parameter::positive;
 
 /// Stribeck's curve `g(v) = F_c + (F_s − F_c) e^{−(v/v_s)²}`: the friction force of steady sliding
 /// without its viscous part (`docs/theory/friction.md#bristle-laws`).
@@ -19,12 +19,12 @@ impl<T: Real> Stribeck<T> {
     /// law is loaded by a normal force), and the Stribeck speed v_s \[m/s\].
     ///
     /// # Errors
-    /// [`BadFriction`] unless all are positive and finite and F_s ≥ F_c.
-    pub fn new(kinetic: T, breakaway: T, speed: T) -> Result<Self, BadFriction> {
+    /// [`BadParameter`] unless all are positive and finite and F_s ≥ F_c.
+    pub fn new(kinetic: T, breakaway: T, speed: T) -> Result<Self, BadParameter> {
         let kinetic = positive(kinetic, "kinetic friction")?;
         let breakaway = positive(breakaway, "static friction")?;
         if breakaway < kinetic {
-            return Err(BadFriction {
+            return Err(BadParameter {
                 parameter: "static friction",
                 requirement: "at least the kinetic friction",
             });
@@ -35,8 +35,8 @@ impl<T: Real> Stribeck<T> {
     /// The same friction at every speed.
     ///
     /// # Errors
-    /// [`BadFriction`] unless it is positive and finite.
-    pub fn constant(friction: T) -> Result<Self, BadFriction> {
+    /// [`BadParameter`] unless it is positive and finite.
+    pub fn constant(friction: T) -> Result<Self, BadParameter> {
         Self::new(friction, friction, T::one())
     }
 

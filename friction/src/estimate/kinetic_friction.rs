@@ -2,7 +2,8 @@
 
 use fingertip_wrench::{ContactForce, Real, stored};
 
-use crate::{BadNoise, Cusum, ForceNoise, FrictionEstimate, NormalForceGate};
+use crate::bad_parameter::positive;
+use crate::{BadParameter, Cusum, ForceNoise, FrictionEstimate, NormalForceGate};
 
 /// Fits `|f_t| = μ f_n` to the samples of a slide, with noise on both (Deming's regression through
 /// the origin) and exponential forgetting (`docs/theory/friction.md#kinetic-friction`):
@@ -32,14 +33,11 @@ impl<T: Real> KineticFriction<T> {
     /// From the noise of the contact force and the time over which samples are forgotten \[s\].
     ///
     /// # Errors
-    /// [`BadNoise`] unless all are positive and finite.
-    pub fn new(noise: ForceNoise<T>, memory: T) -> Result<Self, BadNoise> {
+    /// [`BadParameter`] unless all are positive and finite.
+    pub fn new(noise: ForceNoise<T>, memory: T) -> Result<Self, BadParameter> {
         let noise = noise.checked()?;
-        if !(memory > T::zero() && memory.is_number()) {
-            return Err(BadNoise { component: "memory of the" });
-        }
-        let sum =
-            Cusum::new(T::one(), T::literal(8.0)).map_err(|_| BadNoise { component: "residual of the" })?;
+        let memory = positive(memory, "memory")?;
+        let sum = Cusum::new(T::one(), T::literal(8.0))?;
         Ok(Self {
             noise,
             gate: NormalForceGate::from_noise(&noise),

@@ -1,9 +1,10 @@
 //! The static friction coefficient, learnt at each onset of slip.
 
+use fingertip_wrench::numeric::normal::normal_quantile;
 use fingertip_wrench::{ContactForce, Real, stored};
 
-use crate::limits::normal::normal_quantile;
-use crate::{BadDetector, BadNoise, ForceNoise, NormalForceGate};
+use crate::bad_parameter::not_negative;
+use crate::{BadParameter, ForceNoise, NormalForceGate};
 
 /// Half the width of the moving mean over the ratios.
 const HALF: usize = 2;
@@ -64,17 +65,14 @@ impl<T: Real, const N: usize> StaticFriction<T, N> {
     /// as 0.01).
     ///
     /// # Errors
-    /// [`BadNoise`] unless the noise is positive and finite and scatter and wander finite and not
+    /// [`BadParameter`] unless the noise is positive and finite and scatter and wander finite and not
     /// negative, or where N is below 5.
-    pub fn new(noise: ForceNoise<T>, scatter: T, wander: T) -> Result<Self, BadNoise> {
+    pub fn new(noise: ForceNoise<T>, scatter: T, wander: T) -> Result<Self, BadParameter> {
         let noise = noise.checked()?;
-        for part in [scatter, wander] {
-            if !(part >= T::zero() && part.is_number()) {
-                return Err(BadNoise { component: "relative scatter of the" });
-            }
-        }
+        not_negative(scatter, "relative scatter of break-away")?;
+        not_negative(wander, "relative change from slip to slip")?;
         if N < MEAN {
-            return Err(BadNoise { component: "window of the" });
+            return Err(BadParameter { parameter: "number of samples kept", requirement: "at least 5" });
         }
         Ok(Self {
             noise,
@@ -90,12 +88,15 @@ impl<T: Real, const N: usize> StaticFriction<T, N> {
 
     /// With what is known of the surface: log μ and its variance.
     #[cfg(feature = "serde")]
-    fn knowing(self, known: Option<(T, T)>) -> Result<Self, BadNoise> {
+    fn knowing(self, known: Option<(T, T)>) -> Result<Self, BadParameter> {
         match known {
             Some((log, variance))
                 if !(log.exp().is_number() && variance >= T::zero() && variance.is_number()) =>
             {
-                Err(BadNoise { component: "known friction and the" })
+                Err(BadParameter {
+                    parameter: "known friction",
+                    requirement: "finite, and its variance not negative",
+                })
             }
             _ => Ok(Self { known, ..self }),
         }
@@ -209,10 +210,9 @@ impl<T: Real> StaticFriction<T, 64> {
     /// With a window of 64 samples, a scatter of 5 % and a wander of 1 %.
     ///
     /// # Errors
-    /// [`BadDetector`] unless the noise is positive and finite.
-    pub fn with_noise(noise: ForceNoise<T>) -> Result<Self, BadDetector> {
+    /// [`BadParameter`] unless the noise is positive and finite.
+    pub fn with_noise(noise: ForceNoise<T>) -> Result<Self, BadParameter> {
         Self::new(noise, T::literal(0.05), T::literal(0.01))
-            .map_err(|_| BadDetector { parameter: "noise", requirement: "positive and finite" })
     }
 }
 

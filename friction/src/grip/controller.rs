@@ -2,8 +2,8 @@
 
 use fingertip_wrench::{ContactForce, Real, stored};
 
-use crate::limits::cone::{not_negative, positive};
-use crate::{BadFriction, FrictionModel, SlipVerdict};
+use crate::bad_parameter::{not_negative, positive};
+use crate::{BadParameter, FrictionModel, SlipVerdict};
 
 /// Limits and habits of a gripping finger; [`GripController::new`] validates them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,14 +40,14 @@ impl<T: Real> GripController<T> {
     /// Starts at the least normal force.
     ///
     /// # Errors
-    /// [`BadFriction`] unless all settings are finite, the factors at least 1, the rates positive,
+    /// [`BadParameter`] unless all settings are finite, the factors at least 1, the rates positive,
     /// and the least force not negative and not above the greatest.
-    pub fn new(settings: GripSettings<T>) -> Result<Self, BadFriction> {
+    pub fn new(settings: GripSettings<T>) -> Result<Self, BadParameter> {
         let factor = |value: T, parameter| {
             if value >= T::one() && value.is_number() {
                 Ok(())
             } else {
-                Err(BadFriction { parameter, requirement: "at least 1 and finite" })
+                Err(BadParameter { parameter, requirement: "at least 1 and finite" })
             }
         };
         factor(settings.safety, "factor of safety")?;
@@ -56,7 +56,10 @@ impl<T: Real> GripController<T> {
         positive(settings.fall, "rate of fall")?;
         let least = not_negative(settings.least, "least grip force")?;
         if positive(settings.greatest, "greatest grip force")? < least {
-            return Err(BadFriction { parameter: "greatest grip force", requirement: "at least the least" });
+            return Err(BadParameter {
+                parameter: "greatest grip force",
+                requirement: "at least the least grip force",
+            });
         }
         Ok(Self { settings, command: least, boosted: least })
     }

@@ -3,8 +3,9 @@
 use fingertip_wrench::{ContactForce, Real, stored};
 use nalgebra::Vector3;
 
-use crate::limits::cone::{hypot, positive, saturated};
-use crate::{BadFriction, FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
+use crate::bad_parameter::positive;
+use crate::limits::cone::{hypot, saturated};
+use crate::{BadParameter, FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
 
 /// The elliptic cone `(f₁/μ₁)² + (f₂/μ₂)² ≤ f_n²` (`docs/theory/friction.md#anisotropic-limit`), with
 /// coefficients along two perpendicular directions of the tangent plane.
@@ -33,14 +34,14 @@ impl<T: Real> AnisotropicCoulomb<T> {
     /// force, and the coefficient along each.
     ///
     /// # Errors
-    /// [`BadFriction`] unless the directions are orthonormal to rounding and the coefficients
+    /// [`BadParameter`] unless the directions are orthonormal to rounding and the coefficients
     /// positive and finite.
-    pub fn new(directions: [Vector3<T>; 2], coefficients: [T; 2]) -> Result<Self, BadFriction> {
+    pub fn new(directions: [Vector3<T>; 2], coefficients: [T; 2]) -> Result<Self, BadParameter> {
         let rounding = T::literal(16.0) * T::EPSILON;
         let unit = |v: &Vector3<T>| (v.norm_squared() - T::one()).abs() <= rounding;
         let [first, second] = directions;
         if !(unit(&first) && unit(&second) && first.dot(&second).abs() <= rounding) {
-            return Err(BadFriction { parameter: "directions", requirement: "perpendicular unit vectors" });
+            return Err(BadParameter { parameter: "directions", requirement: "perpendicular unit vectors" });
         }
         let [one, two] = coefficients;
         let (one, two) = (positive(one, "friction coefficient")?, positive(two, "friction coefficient")?);

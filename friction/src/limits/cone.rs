@@ -6,7 +6,8 @@
 
 use fingertip_wrench::{ContactForce, Real, scaled_length};
 
-use crate::{BadFriction, SlipMargin};
+use crate::bad_parameter::positive;
+use crate::{BadParameter, SlipMargin};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cone<T> {
@@ -17,7 +18,7 @@ pub(crate) struct Cone<T> {
 }
 
 impl<T: Real> Cone<T> {
-    pub(crate) fn new(coefficient: T) -> Result<Self, BadFriction> {
+    pub(crate) fn new(coefficient: T) -> Result<Self, BadParameter> {
         let coefficient = positive(coefficient, "friction coefficient")?;
         // 1/hypot(1, μ), without overflow for a large μ.
         let cosine = if coefficient <= T::one() {
@@ -84,24 +85,6 @@ impl<T: Real> Cone<T> {
         let nearest = (self.coefficient * load + normal) * self.cosine * self.cosine;
         let factor = self.coefficient * (nearest / load);
         (nearest.is_number() && factor.is_number()).then_some((factor.min(T::one()), nearest))
-    }
-}
-
-/// The value if it is positive and finite.
-pub(crate) fn positive<T: Real>(value: T, parameter: &'static str) -> Result<T, BadFriction> {
-    if value > T::zero() && value.is_number() {
-        Ok(value)
-    } else {
-        Err(BadFriction { parameter, requirement: "positive and finite" })
-    }
-}
-
-/// The value if it is finite and not negative.
-pub(crate) fn not_negative<T: Real>(value: T, parameter: &'static str) -> Result<T, BadFriction> {
-    if value >= T::zero() && value.is_number() {
-        Ok(value)
-    } else {
-        Err(BadFriction { parameter, requirement: "finite and not negative" })
     }
 }
 

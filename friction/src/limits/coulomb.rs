@@ -1,10 +1,9 @@
 //! Dry friction of a point contact.
 
 use fingertip_wrench::{ContactForce, Real, stored};
-use thiserror::Error;
 
 use crate::limits::cone::{Cone, rescaled};
-use crate::{FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
+use crate::{BadParameter, FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
 
 /// Coulomb's cone `|f_t| ≤ μ f_n` (`docs/theory/friction.md#coulombs-cone`). The spin torque is not limited:
 /// a point contact carries none.
@@ -16,22 +15,12 @@ pub struct Coulomb<T: Real> {
     cone: Cone<T>,
 }
 
-/// A parameter of a friction model is out of range.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("the {parameter} of a friction model must be {requirement}")]
-pub struct BadFriction {
-    /// Which parameter.
-    pub parameter: &'static str,
-    /// What it must be.
-    pub requirement: &'static str,
-}
-
 impl<T: Real> Coulomb<T> {
     /// From the friction coefficient μ.
     ///
     /// # Errors
-    /// [`BadFriction`] unless μ is positive and finite.
-    pub fn new(coefficient: T) -> Result<Self, BadFriction> {
+    /// [`BadParameter`] unless μ is positive and finite.
+    pub fn new(coefficient: T) -> Result<Self, BadParameter> {
         Ok(Self { cone: Cone::new(coefficient)? })
     }
 

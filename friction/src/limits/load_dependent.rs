@@ -2,9 +2,10 @@
 
 use fingertip_wrench::{ContactForce, Real, stored};
 
-use crate::limits::cone::{Cone, hypot, not_negative, positive, rescaled, saturated};
+use crate::bad_parameter::{not_negative, positive};
+use crate::limits::cone::{Cone, hypot, rescaled, saturated};
 use crate::limits::soft_finger::direction;
-use crate::{BadFriction, FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
+use crate::{BadParameter, FrictionLimit, FrictionModel, SlipDirection, SlipMargin};
 
 /// The elliptic soft-finger limit `|f_t|² + (τ/e(f_n))² ≤ (μ f_n)²` whose torque arm grows with
 /// the normal force as the patch does, `e = e₀ (f_n/N₀)^γ` (a = c·N^γ; Hertz γ = 1/3, rubber less:
@@ -28,10 +29,10 @@ impl<T: Real> LoadDependentLimit<T> {
     /// the growth exponent γ of the patch.
     ///
     /// # Errors
-    /// [`BadFriction`] unless the first three are positive and finite and 0 ≤ γ ≤ 1.
-    pub fn new(coefficient: T, arm: T, reference: T, growth: T) -> Result<Self, BadFriction> {
+    /// [`BadParameter`] unless the first three are positive and finite and 0 ≤ γ ≤ 1.
+    pub fn new(coefficient: T, arm: T, reference: T, growth: T) -> Result<Self, BadParameter> {
         if !(not_negative(growth, "growth exponent")? <= T::one()) {
-            return Err(BadFriction { parameter: "growth exponent", requirement: "at most 1" });
+            return Err(BadParameter { parameter: "growth exponent", requirement: "at most 1" });
         }
         Ok(Self {
             cone: Cone::new(coefficient)?,

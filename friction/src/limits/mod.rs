@@ -7,13 +7,12 @@ mod coulomb;
 mod limit_curve;
 mod load_dependent;
 mod model;
-pub(crate) mod normal;
 mod pressure;
 pub(crate) mod soft_finger;
 mod uncertain;
 
 pub use anisotropic::AnisotropicCoulomb;
-pub use coulomb::{BadFriction, Coulomb};
+pub use coulomb::Coulomb;
 #[cfg(feature = "std")]
 pub use limit_curve::{LimitCurve, LimitPoint};
 pub use load_dependent::LoadDependentLimit;

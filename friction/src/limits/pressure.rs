@@ -1,6 +1,6 @@
 //! How the normal force is spread over a circular contact patch.
 
-use crate::BadFriction;
+use crate::BadParameter;
 
 /// An axially symmetric pressure on a circular patch; `x` is the radius over that of the patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,12 +23,13 @@ impl PressureDistribution {
     /// The distribution, if its exponent is in range.
     ///
     /// # Errors
-    /// [`BadFriction`] unless the exponent of a power law is between 1.5 and 100.
-    pub fn checked(self) -> Result<Self, BadFriction> {
+    /// [`BadParameter`] unless the exponent of a power law is between 1.5 and 100.
+    pub fn checked(self) -> Result<Self, BadParameter> {
         match self {
-            Self::PowerLaw(exponent) if !(1.5..=100.0).contains(&exponent) => {
-                Err(BadFriction { parameter: "exponent of the pressure", requirement: "between 1.5 and 100" })
-            }
+            Self::PowerLaw(exponent) if !(1.5..=100.0).contains(&exponent) => Err(BadParameter {
+                parameter: "exponent of the pressure",
+                requirement: "between 1.5 and 100",
+            }),
             good => Ok(good),
         }
     }

@@ -2,8 +2,9 @@
 
 use fingertip_wrench::{ContactForce, Real, stored};
 
-use crate::limits::cone::{Cone, hypot, positive, rescaled};
-use crate::{BadFriction, FrictionLimit, FrictionModel, PressureDistribution, SlipDirection, SlipMargin};
+use crate::bad_parameter::positive;
+use crate::limits::cone::{Cone, hypot, rescaled};
+use crate::{BadParameter, FrictionLimit, FrictionModel, PressureDistribution, SlipDirection, SlipMargin};
 
 /// The elliptic soft-finger limit `|f_t|² + (τ/e)² ≤ (μ f_n)²` (Howe & Cutkosky 1996;
 /// `docs/theory/friction.md#soft-finger-limit`).
@@ -37,8 +38,8 @@ impl<T: Real> SoftFingerLimit<T> {
     /// From the friction coefficient and the torque arm \[m\].
     ///
     /// # Errors
-    /// [`BadFriction`] unless both are positive and finite.
-    pub fn new(coefficient: T, arm: T) -> Result<Self, BadFriction> {
+    /// [`BadParameter`] unless both are positive and finite.
+    pub fn new(coefficient: T, arm: T) -> Result<Self, BadParameter> {
         Ok(Self { cone: Cone::new(coefficient)?, arm: positive(arm, "torque arm")? })
     }
 
@@ -46,8 +47,8 @@ impl<T: Real> SoftFingerLimit<T> {
     /// between uniform and Winkler: by 0.934 (`docs/theory/friction.md#soft-finger-limit`).
     ///
     /// # Errors
-    /// [`BadFriction`] unless both are positive and finite.
-    pub fn conservative(coefficient: T, arm: T) -> Result<Self, BadFriction> {
+    /// [`BadParameter`] unless both are positive and finite.
+    pub fn conservative(coefficient: T, arm: T) -> Result<Self, BadParameter> {
         Self::new(coefficient * T::literal(0.934), arm)
     }
 
@@ -82,10 +83,10 @@ impl<T: Real> PowerLimit<T> {
     /// to 2 (the ellipse).
     ///
     /// # Errors
-    /// [`BadFriction`] unless coefficient and arm are positive and finite and 1 ≤ q ≤ 2.
-    pub fn new(coefficient: T, arm: T, exponent: T) -> Result<Self, BadFriction> {
+    /// [`BadParameter`] unless coefficient and arm are positive and finite and 1 ≤ q ≤ 2.
+    pub fn new(coefficient: T, arm: T, exponent: T) -> Result<Self, BadParameter> {
         if !(exponent >= T::one() && exponent <= T::literal(2.0)) {
-            return Err(BadFriction { parameter: "limit exponent", requirement: "between 1 and 2" });
+            return Err(BadParameter { parameter: "limit exponent", requirement: "between 1 and 2" });
         }
         Ok(Self { cone: Cone::new(coefficient)?, arm: positive(arm, "torque arm")?, exponent })
     }
@@ -93,9 +94,13 @@ impl<T: Real> PowerLimit<T> {
     /// From the pressure distribution and the radius of the contact patch \[m\].
     ///
     /// # Errors
-    /// [`BadFriction`] unless coefficient and radius are positive and finite, or where the
+    /// [`BadParameter`] unless coefficient and radius are positive and finite, or where the
     /// distribution's exponent is out of range.
-    pub fn for_patch(coefficient: T, radius: T, pressure: PressureDistribution) -> Result<Self, BadFriction> {
+    pub fn for_patch(
+        coefficient: T,
+        radius: T,
+        pressure: PressureDistribution,
+    ) -> Result<Self, BadParameter> {
         let radius = positive(radius, "patch radius")?;
         let pressure = pressure.checked()?;
         let arm = T::literal(pressure.relative_arm()) * radius;

@@ -1,10 +1,11 @@
 //! Friction that is known only with an uncertainty.
 
+use fingertip_wrench::numeric::normal::{normal_distribution, normal_quantile};
 use fingertip_wrench::{ContactForce, Real, stored};
 
-use crate::limits::cone::{not_negative, positive, saturated};
-use crate::limits::normal::{normal_distribution, normal_quantile};
-use crate::{BadFriction, ForceNoise};
+use crate::bad_parameter::{not_negative, positive};
+use crate::limits::cone::saturated;
+use crate::{BadParameter, ForceNoise};
 
 /// Coulomb friction with a standard deviation on its coefficient and noise on the force: how
 /// probable is slip, and how hard to press for a wanted probability
@@ -23,12 +24,10 @@ impl<T: Real> UncertainCoulomb<T> {
     /// for a force known exactly.
     ///
     /// # Errors
-    /// [`BadFriction`] unless the coefficient is positive and finite, its deviation finite and not
+    /// [`BadParameter`] unless the coefficient is positive and finite, its deviation finite and not
     /// negative, and the noise positive and finite.
-    pub fn new(coefficient: T, deviation: T, noise: Option<ForceNoise<T>>) -> Result<Self, BadFriction> {
-        if noise.is_some_and(|noise| noise.checked().is_err()) {
-            return Err(BadFriction { parameter: "noise", requirement: "positive and finite" });
-        }
+    pub fn new(coefficient: T, deviation: T, noise: Option<ForceNoise<T>>) -> Result<Self, BadParameter> {
+        let noise = noise.map(ForceNoise::checked).transpose()?;
         Ok(Self {
             coefficient: positive(coefficient, "friction coefficient")?,
             deviation: not_negative(deviation, "deviation of the coefficient")?,

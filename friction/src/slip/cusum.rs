@@ -1,9 +1,10 @@
 //! Page's cumulative sum.
 
 use fingertip_wrench::{Real, stored};
-use thiserror::Error;
 
-use crate::slip::ratio_tracker::ChangeTest;
+use super::change_test::ChangeTest;
+use crate::BadParameter;
+use crate::bad_parameter::{not_negative, positive};
 
 /// A one-sided cumulative sum `S ← max(0, S + x − k)` that passes at `S > h` (Page 1954). The
 /// Page-Hinkley test is the same statistic.
@@ -19,30 +20,15 @@ pub struct Cusum<T> {
     sum: T,
 }
 
-/// A parameter of a change detector is out of range.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("the {parameter} of a change detector must be {requirement}")]
-pub struct BadDetector {
-    /// Which parameter.
-    pub parameter: &'static str,
-    /// What it must be.
-    pub requirement: &'static str,
-}
-
 impl<T: Real> Cusum<T> {
     /// From the allowance and the threshold, both in standard deviations.
     ///
     /// # Errors
-    /// [`BadDetector`] unless the allowance is finite and not negative and the threshold positive
+    /// [`BadParameter`] unless the allowance is finite and not negative and the threshold positive
     /// and finite.
-    pub fn new(allowance: T, threshold: T) -> Result<Self, BadDetector> {
-        if !(allowance >= T::zero() && allowance.is_number()) {
-            return Err(BadDetector { parameter: "allowance", requirement: "finite and not negative" });
-        }
-        if !(threshold > T::zero() && threshold.is_number()) {
-            return Err(BadDetector { parameter: "threshold", requirement: "positive and finite" });
-        }
-        Ok(Self { allowance, threshold, sum: T::zero() })
+    pub fn new(allowance: T, threshold: T) -> Result<Self, BadParameter> {
+        let allowance = not_negative(allowance, "allowance")?;
+        Ok(Self { allowance, threshold: positive(threshold, "threshold")?, sum: T::zero() })
     }
 
     /// With the threshold for a wanted rate of false alarms, were the samples independent
@@ -50,13 +36,13 @@ impl<T: Real> Cusum<T> {
     /// library).
     ///
     /// # Errors
-    /// [`BadDetector`] unless the allowance is from 0.125 to 1.5 and the rates positive, finite and
+    /// [`BadParameter`] unless the allowance is from 0.125 to 1.5 and the rates positive, finite and
     /// not too wild for it.
     pub fn for_false_alarms(
         allowance: T,
         false_alarms_per_minute: f64,
         sample_rate: f64,
-    ) -> Result<Self, BadDetector> {
+    ) -> Result<Self, BadParameter> {
         let length = crate::slip::run_length::run_length_for(false_alarms_per_minute, sample_rate);
         let threshold = crate::slip::run_length::cusum_threshold(allowance.to_f64(), length)?;
         Self::new(allowance, T::literal(threshold))

@@ -2,8 +2,8 @@
 
 use fingertip_wrench::{ContactForce, Real, stored};
 
-use crate::slip::ratio_tracker::RatioTracker;
-use crate::{BadNoise, Cusum, ForceNoise, SlipDetector, SlipVerdict};
+use super::ratio_tracker::RatioTracker;
+use crate::{BadParameter, Cusum, ForceNoise, SlipDetector, SlipVerdict};
 
 /// Finds the fall of the friction ratio from its static peak to its kinetic level, without knowing
 /// either.
@@ -50,16 +50,16 @@ impl<T: Real> DropDetector<T> {
     /// (`docs/theory/friction.md#drop-of-the-ratio`).
     ///
     /// # Errors
-    /// [`BadNoise`] unless both deviations, and their squares, are positive and finite.
-    pub fn new(noise: ForceNoise<T>) -> Result<Self, BadNoise> {
+    /// [`BadParameter`] unless both deviations, and their squares, are positive and finite.
+    pub fn new(noise: ForceNoise<T>) -> Result<Self, BadParameter> {
         Self::with_sum(noise, Cusum::drop_default())
     }
 
     /// With another cumulative sum, as from [`Cusum::for_false_alarms`].
     ///
     /// # Errors
-    /// [`BadNoise`] unless both deviations, and their squares, are positive and finite.
-    pub fn with_sum(noise: ForceNoise<T>, sum: Cusum<T>) -> Result<Self, BadNoise> {
+    /// [`BadParameter`] unless both deviations, and their squares, are positive and finite.
+    pub fn with_sum(noise: ForceNoise<T>, sum: Cusum<T>) -> Result<Self, BadParameter> {
         Ok(Self { tracker: RatioTracker::new(noise)?, sum })
     }
 

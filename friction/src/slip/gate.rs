@@ -1,10 +1,10 @@
 //! When the friction ratio means anything.
 
 use fingertip_wrench::{ContactForce, Real, stored};
-use thiserror::Error;
 
-#[cfg(feature = "serde")]
-use crate::limits::cone::positive;
+use crate::BadParameter;
+use crate::bad_parameter::positive;
+
 /// Standard deviations of the noise of a contact force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceNoise<T> {
@@ -14,31 +14,18 @@ pub struct ForceNoise<T> {
     pub tangential: T,
 }
 
-/// A noise figure is not positive and finite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("the noise of the {component} force must be positive and finite")]
-pub struct BadNoise {
-    /// Which component.
-    pub component: &'static str,
-}
-
 impl<T: Real> ForceNoise<T> {
     /// The same noise on every component \[N\].
     ///
     /// # Errors
-    /// [`BadNoise`] unless it is positive and finite.
-    pub fn isotropic(deviation: T) -> Result<Self, BadNoise> {
+    /// [`BadParameter`] unless it is positive and finite.
+    pub fn isotropic(deviation: T) -> Result<Self, BadParameter> {
         Self { normal: deviation, tangential: deviation }.checked()
     }
 
-    pub(crate) fn checked(self) -> Result<Self, BadNoise> {
-        let good = |x: T| x > T::zero() && x.is_number();
-        if !good(self.normal) {
-            return Err(BadNoise { component: "normal" });
-        }
-        if !good(self.tangential) {
-            return Err(BadNoise { component: "tangential" });
-        }
+    pub(crate) fn checked(self) -> Result<Self, BadParameter> {
+        positive(self.normal, "noise of the normal force")?;
+        positive(self.tangential, "noise of the tangential force")?;
         Ok(self)
     }
 

@@ -3,7 +3,7 @@
 use fingertip_wrench::{ContactForce, Real, stored};
 use nalgebra::Vector3;
 
-use crate::{BadDetector, NormalForceGate, SlipVerdict};
+use crate::{BadParameter, NormalForceGate, SlipVerdict};
 
 /// How many places divide the window.
 const PLACES: usize = 4;
@@ -105,17 +105,17 @@ impl<T: Real> IncipientSlip<T> {
     /// encoder.
     ///
     /// # Errors
-    /// [`BadDetector`] unless the stretch is positive and finite and the share between 0.2 and 1.
-    pub fn new(gate: NormalForceGate<T>, window: T, warning_share: T) -> Result<Self, BadDetector> {
+    /// [`BadParameter`] unless the stretch is positive and finite and the share between 0.2 and 1.
+    pub fn new(gate: NormalForceGate<T>, window: T, warning_share: T) -> Result<Self, BadParameter> {
         if !(window > T::zero() && window.is_number()) {
-            return Err(BadDetector { parameter: "window", requirement: "positive and finite" });
+            return Err(BadParameter { parameter: "window", requirement: "positive and finite" });
         }
         let scale = T::literal(PLACES as f64) / window;
         if !scale.is_number() {
-            return Err(BadDetector { parameter: "window", requirement: "no subnormal number" });
+            return Err(BadParameter { parameter: "window", requirement: "no subnormal number" });
         }
         if !(warning_share > T::literal(0.2) && warning_share < T::one()) {
-            return Err(BadDetector { parameter: "warning share", requirement: "between 0.2 and 1" });
+            return Err(BadParameter { parameter: "warning share", requirement: "between 0.2 and 1" });
         }
         Ok(Self { gate, window, scale, warning_share, state: None })
     }

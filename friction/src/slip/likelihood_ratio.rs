@@ -2,9 +2,10 @@
 
 use fingertip_wrench::{ContactForce, Real, stored};
 
-use crate::slip::ratio_tracker::{ChangeTest, RatioTracker};
+use super::change_test::ChangeTest;
+use super::ratio_tracker::RatioTracker;
 use crate::slip::run_length::{likelihood_ratio_threshold, run_length_for};
-use crate::{BadDetector, BadNoise, ForceNoise, SlipDetector, SlipVerdict};
+use crate::{BadParameter, ForceNoise, SlipDetector, SlipVerdict};
 
 /// `max_j S_j²/(2j) > threshold` over the sums `S_j > 0` of the last `j ≤ W` standardised samples:
 /// it needs no guess of the size of the change, as the cumulative sum does.
@@ -33,21 +34,21 @@ impl<T: Real, const W: usize> LikelihoodRatio<T, W> {
     /// With a threshold and the full window.
     ///
     /// # Errors
-    /// [`BadDetector`] unless W is at least 2 and the threshold positive and finite.
-    pub fn new(threshold: T) -> Result<Self, BadDetector> {
+    /// [`BadParameter`] unless W is at least 2 and the threshold positive and finite.
+    pub fn new(threshold: T) -> Result<Self, BadParameter> {
         Self::with_window(W, threshold)
     }
 
     /// With a window shorter than the room for it.
     ///
     /// # Errors
-    /// [`BadDetector`] unless the window is from 2 to W and the threshold positive and finite.
-    pub fn with_window(window: usize, threshold: T) -> Result<Self, BadDetector> {
+    /// [`BadParameter`] unless the window is from 2 to W and the threshold positive and finite.
+    pub fn with_window(window: usize, threshold: T) -> Result<Self, BadParameter> {
         if !(2..=W).contains(&window) {
-            return Err(BadDetector { parameter: "window", requirement: "at least 2, and within its room" });
+            return Err(BadParameter { parameter: "window", requirement: "at least 2, and within its room" });
         }
         if !(threshold > T::zero() && threshold.is_number()) {
-            return Err(BadDetector { parameter: "threshold", requirement: "positive and finite" });
+            return Err(BadParameter { parameter: "threshold", requirement: "positive and finite" });
         }
         let first = (threshold + threshold).root();
         let last = first * T::literal(window as f64).root();
@@ -127,12 +128,12 @@ impl<T: Real, const W: usize> LikelihoodRatioDetector<T, W> {
     /// sample rate \[Hz\].
     ///
     /// # Errors
-    /// [`BadDetector`] unless noise, rates and window are usable.
+    /// [`BadParameter`] unless noise, rates and window are usable.
     pub fn new(
         noise: ForceNoise<T>,
         false_alarms_per_minute: f64,
         sample_rate: f64,
-    ) -> Result<Self, BadDetector> {
+    ) -> Result<Self, BadParameter> {
         let length = run_length_for(false_alarms_per_minute, sample_rate);
         let threshold = T::literal(likelihood_ratio_threshold(W, length)?);
         Self::with_ratio(noise, LikelihoodRatio::new(threshold)?)
@@ -141,13 +142,9 @@ impl<T: Real, const W: usize> LikelihoodRatioDetector<T, W> {
     /// With another likelihood ratio.
     ///
     /// # Errors
-    /// [`BadDetector`] unless both deviations, and their squares, are positive and finite.
-    pub fn with_ratio(noise: ForceNoise<T>, ratio: LikelihoodRatio<T, W>) -> Result<Self, BadDetector> {
-        let tracker = RatioTracker::new(noise).map_err(|BadNoise { .. }| BadDetector {
-            parameter: "noise",
-            requirement: "positive and finite",
-        })?;
-        Ok(Self { tracker, ratio })
+    /// [`BadParameter`] unless both deviations, and their squares, are positive and finite.
+    pub fn with_ratio(noise: ForceNoise<T>, ratio: LikelihoodRatio<T, W>) -> Result<Self, BadParameter> {
+        Ok(Self { tracker: RatioTracker::new(noise)?, ratio })
     }
 }
 

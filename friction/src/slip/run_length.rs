@@ -1,7 +1,8 @@
 //! How long a change detector runs between false alarms, and the threshold for a wanted rate.
 
-use crate::BadDetector;
-use crate::limits::normal::normal_distribution;
+use fingertip_wrench::numeric::normal::normal_distribution;
+
+use crate::BadParameter;
 
 /// Siegmund's correction for the overshoot over both boundaries: `2 · 0.583`.
 const OVERSHOOT: f64 = 1.166;
@@ -34,14 +35,14 @@ pub fn siegmund_run_length(allowance: f64, threshold: f64, mean: f64) -> f64 {
 /// 1e3 with allowances up to 1.5. Needs no standard library.
 ///
 /// # Errors
-/// [`BadDetector`] unless the allowance is in that range and the run length at least 10.
-pub fn cusum_threshold(allowance: f64, run_length: f64) -> Result<f64, BadDetector> {
+/// [`BadParameter`] unless the allowance is in that range and the run length at least 10.
+pub fn cusum_threshold(allowance: f64, run_length: f64) -> Result<f64, BadParameter> {
     let (first, last) = (CORRECTION[0].0, CORRECTION[CORRECTION.len() - 1].0);
     if !(first..=last).contains(&allowance) {
-        return Err(BadDetector { parameter: "allowance", requirement: "between 0.125 and 1.5" });
+        return Err(BadParameter { parameter: "allowance", requirement: "between 0.125 and 1.5" });
     }
     if !(run_length >= 10.0 && run_length.is_finite()) {
-        return Err(BadDetector { parameter: "average run length", requirement: "at least 10 and finite" });
+        return Err(BadParameter { parameter: "average run length", requirement: "at least 10 and finite" });
     }
     // e^x − x − 1 = 2k²·ARL, by Newton from above: the left side is convex.
     let target = 2.0 * allowance * allowance * run_length;
@@ -94,13 +95,13 @@ pub fn likelihood_ratio_run_length(window: usize, threshold: f64) -> f64 {
 /// The threshold that gives the likelihood ratio a wanted average run length.
 ///
 /// # Errors
-/// [`BadDetector`] unless the window is at least 2 and the run length at least 100 and finite.
-pub fn likelihood_ratio_threshold(window: usize, run_length: f64) -> Result<f64, BadDetector> {
+/// [`BadParameter`] unless the window is at least 2 and the run length at least 100 and finite.
+pub fn likelihood_ratio_threshold(window: usize, run_length: f64) -> Result<f64, BadParameter> {
     if window < 2 {
-        return Err(BadDetector { parameter: "window", requirement: "at least 2" });
+        return Err(BadParameter { parameter: "window", requirement: "at least 2" });
     }
     if !(run_length >= 100.0 && run_length.is_finite()) {
-        return Err(BadDetector { parameter: "average run length", requirement: "at least 100 and finite" });
+        return Err(BadParameter { parameter: "average run length", requirement: "at least 100 and finite" });
     }
     // The run length grows with the threshold from 2 on.
     let (mut low, mut high) = (2.0, 700.0);

@@ -103,5 +103,5 @@ impl<T: Real> StickSlipDetector<T> {
 stored! {
     StickSlipDetector<T>, [T: Real],
     |detector| { drops: DropDetector<T> = detector.drops },
-    Ok::<_, crate::BadNoise>(Self::new(drops))
+    Ok::<_, crate::BadParameter>(Self::new(drops))
 }

@@ -2,7 +2,8 @@
 
 use fingertip_wrench::{ContactForce, Real, stored};
 
-use crate::{BadFriction, NormalForceGate, SlipDetector, SlipVerdict};
+use crate::bad_parameter::positive;
+use crate::{BadParameter, NormalForceGate, SlipDetector, SlipVerdict};
 
 /// Warns when the friction ratio passes a safe share of the static coefficient, and says slip at
 /// the coefficient itself.
@@ -18,27 +19,17 @@ impl<T: Real> RatioThreshold<T> {
     /// From the static friction coefficient and the share of it, between 0 and 1, at which to warn.
     ///
     /// # Errors
-    /// [`BadFriction`] unless the coefficient is positive and finite and the share in (0, 1].
+    /// [`BadParameter`] unless the coefficient is positive and finite and the share in (0, 1].
     pub fn new(
         gate: NormalForceGate<T>,
         static_coefficient: T,
         warning_share: T,
-    ) -> Result<Self, BadFriction> {
-        if !(static_coefficient > T::zero() && static_coefficient.is_number()) {
-            return Err(BadFriction {
-                parameter: "friction coefficient",
-                requirement: "positive and finite",
-            });
-        }
+    ) -> Result<Self, BadParameter> {
+        let limit = positive(static_coefficient, "friction coefficient")?;
         if !(warning_share > T::zero() && warning_share <= T::one()) {
-            return Err(BadFriction { parameter: "warning share", requirement: "between 0 and 1" });
+            return Err(BadParameter { parameter: "warning share", requirement: "between 0 and 1" });
         }
-        Ok(Self {
-            gate,
-            warning: static_coefficient * warning_share,
-            limit: static_coefficient,
-            share: warning_share,
-        })
+        Ok(Self { gate, warning: limit * warning_share, limit, share: warning_share })
     }
 }
 

@@ -1,7 +1,7 @@
 //! A body held by friction: its balance of momentum, its steps solved another way, its steady states.
 
 use fingertip_friction::testing::Draws;
-use fingertip_friction::{Bristle, BristleLaw, Drive, DynamicFriction, ElastoPlastic, LuGre, Stribeck};
+use fingertip_friction::{Bristle, BristleLaw, Drive, ElastoPlastic, LuGre, Stribeck};
 use nalgebra::{SVector, Vector1, Vector3};
 
 const STIFFNESS: f64 = 2e3;

@@ -2,8 +2,7 @@
 
 use fingertip_friction::testing::Draws;
 use fingertip_friction::{
-    Bristle, BristleLaw, DynamicFriction, ElastoPlastic, Exponential, Implicit, Integrator, LuGre, ReturnMap,
-    Stribeck,
+    Bristle, BristleLaw, ElastoPlastic, Exponential, Implicit, Integrator, LuGre, ReturnMap, Stribeck,
 };
 use fingertip_test_support::Worst;
 use fingertip_wrench::Real;

@@ -2,8 +2,8 @@
 
 use fingertip_friction::testing::Draws;
 use fingertip_friction::{
-    Bristle, BristleLaw, Dahl, Drive, DynamicFriction, ElastoPlastic, Exponential, Implicit, Integrator,
-    LuGre, ReturnMap, Stribeck, StribeckFriction,
+    Bristle, BristleLaw, Dahl, Drive, ElastoPlastic, Exponential, Implicit, Integrator, LuGre, ReturnMap,
+    Stribeck, StribeckFriction,
 };
 use fingertip_test_support::Worst;
 use fingertip_wrench::Real;

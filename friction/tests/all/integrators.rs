@@ -2,8 +2,8 @@
 
 use fingertip_friction::testing::Draws;
 use fingertip_friction::{
-    Bristle, BristleLaw, Dahl, DynamicFriction, ElastoPlastic, Implicit, Integrator, LuGre, ReturnMap,
-    Stribeck, StribeckFriction,
+    Bristle, BristleLaw, Dahl, ElastoPlastic, Implicit, Integrator, LuGre, ReturnMap, Stribeck,
+    StribeckFriction,
 };
 use nalgebra::{SVector, Vector1, Vector3};
 

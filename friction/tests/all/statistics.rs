@@ -127,15 +127,15 @@ fn detectors_refuse_what_they_cannot_use() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-200, 1e200] {
         for bad in [ForceNoise { normal: bad, ..noise }, ForceNoise { tangential: bad, ..noise }] {
             let refused = new(bad, 1.0, 1000.0).unwrap_err();
-            assert_eq!(refused.parameter, "noise");
+            assert!(refused.parameter.starts_with("noise of the "), "{refused}");
             assert!(fingertip_friction::DropDetector::new(bad).is_err());
         }
     }
-    let refused = |bad| fingertip_friction::DropDetector::new(bad).unwrap_err().component;
-    assert_eq!(refused(ForceNoise { normal: 1e-200, ..noise }), "normal");
-    assert_eq!(refused(ForceNoise { tangential: 1e200, ..noise }), "tangential");
-    assert_eq!(refused(ForceNoise { normal: 0.0, ..noise }), "normal");
-    assert_eq!(refused(ForceNoise { tangential: f64::NAN, ..noise }), "tangential");
+    let refused = |bad| fingertip_friction::DropDetector::new(bad).unwrap_err().parameter;
+    assert_eq!(refused(ForceNoise { normal: 1e-200, ..noise }), "noise of the normal force");
+    assert_eq!(refused(ForceNoise { tangential: 1e200, ..noise }), "noise of the tangential force");
+    assert_eq!(refused(ForceNoise { normal: 0.0, ..noise }), "noise of the normal force");
+    assert_eq!(refused(ForceNoise { tangential: f64::NAN, ..noise }), "noise of the tangential force");
 }
 
 #[test]

@@ -4,8 +4,8 @@
 use core::fmt::Debug;
 
 use fingertip_friction::{
-    AnisotropicCoulomb, Bristle, Coulomb, Cusum, Dahl, DropDetector, DynamicFriction, ElastoPlastic,
-    ForceNoise, GripController, GripSettings, Implicit, IncipientSlip, KineticFriction, LikelihoodRatio,
+    AnisotropicCoulomb, Bristle, Coulomb, Cusum, Dahl, DropDetector, ElastoPlastic, ForceNoise,
+    GripController, GripSettings, Implicit, IncipientSlip, KineticFriction, LikelihoodRatio,
     LikelihoodRatioDetector, LoadDependentLimit, LuGre, NormalForceGate, PowerLimit, PressureDistribution,
     RatioThreshold, SlipDetector, SoftFingerLimit, StaticFriction, StickSlipDetector, Stribeck,
     StribeckFriction, UncertainCoulomb,

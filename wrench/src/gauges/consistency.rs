@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 use thiserror::Error;
 
-use crate::gauges::false_alarm::normal_quantile;
+use crate::gauges::false_alarm::normal_threshold;
 use crate::{LeastSquares, Real};
 
 /// Watches the redundant gauges of an extended sensor: is there a load that explains all signals,
@@ -114,7 +114,7 @@ impl<T: Real, const N: usize> ConsistencyCheck<T, N> {
         if !(false_alarm_rate > 0.0 && false_alarm_rate < 1.0) {
             return Err(BadCheck::BadRate);
         }
-        let deviations = T::literal(normal_quantile(false_alarm_rate / (2.0 * N as f64)));
+        let deviations = T::literal(normal_threshold(false_alarm_rate / (2.0 * N as f64)));
         let scale = noise.amax().normalising_factor();
         let matrix = solver.residual_matrix();
         let residual_limit = SVector::from_fn(|gauge, _| {

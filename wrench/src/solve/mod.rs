@@ -14,7 +14,6 @@ pub(crate) mod nonnegative;
 pub(crate) mod orthogonal;
 mod refined;
 pub(crate) mod singular;
-mod singular_values;
 mod solver;
 
 pub use combination::{BicchiDario, Combination, FourRosettes, ThreeRosettes, diagonal_pattern};
@@ -27,5 +26,4 @@ pub use inverse::{BadInverse, Inverse};
 pub use least_squares::{LeastSquares, LeastSquaresError};
 pub use refined::Refined;
 pub use singular::SingularMatrix;
-pub use singular_values::singular_values;
 pub use solver::{LinearSolver, OwnError, WrenchSolver};

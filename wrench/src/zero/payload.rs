@@ -1,18 +1,18 @@
-//! The weight of what the sensor carries.
+//! The weight and the inertia of what the sensor carries.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use thiserror::Error;
 
 use crate::stored;
-use crate::{Frame, Real, RigidTransform, Wrench};
+use crate::{Motion, Real, Wrench};
 
 /// A rigid body that hangs on the sensor all the time: the fingertip itself, a tool, a payload.
 ///
-/// Its weight is a load on the fingertip side that turns with the hand; what is left of a wrench once
-/// it is subtracted is contact.
+/// It loads the sensor by its weight, which turns with the hand, and by its inertia where the hand
+/// accelerates. What is left of a wrench without this load is contact.
 ///
 /// ```
-/// use fingertip_wrench::{Frame, Payload, RigidTransform, Sensor, Wrench};
+/// use fingertip_wrench::{Frame, Motion, Payload, RigidTransform, Sensor, Wrench};
 /// use nalgebra::Vector3;
 ///
 /// #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,12 +25,12 @@ use crate::{Frame, Real, RigidTransform, Wrench};
 /// let tip = Payload::new(0.020, Vector3::new(0.015, 0.0, 0.0))?;
 /// let upright = Vector3::new(0.0, -core::f64::consts::FRAC_PI_2, 0.0);
 /// let world_from_sensor = RigidTransform::<f64, World, Sensor>::from_axis_angle(upright, Vector3::zeros())?;
-/// let gravity = Vector3::new(0.0, 0.0, -9.80665);
-/// let weight = tip.weight(&world_from_sensor.inverse().rotate(&gravity));
-/// assert!((weight.force().x + 0.020 * 9.80665).abs() < 1e-15);
+/// let gravity = world_from_sensor.inverse().rotate(&Vector3::new(0.0, 0.0, -9.80665));
+/// let load = tip.load(&Motion::resting(gravity));
+/// assert!((load.force().x + 0.020 * 9.80665).abs() < 1e-15);
 ///
-/// let measured: Wrench<f64> = weight + Wrench::on_fingertip(Vector3::new(0.0, 1.0, 0.0), Vector3::zeros());
-/// let contact = tip.without_weight(&measured, &world_from_sensor.inverse(), &gravity);
+/// let measured: Wrench<f64> = load + Wrench::on_fingertip(Vector3::new(0.0, 1.0, 0.0), Vector3::zeros());
+/// let contact = measured - load;
 /// assert!((contact.force().y - 1.0).abs() < 1e-15);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
@@ -38,9 +38,10 @@ use crate::{Frame, Real, RigidTransform, Wrench};
 pub struct Payload<T: Real> {
     mass: T,
     centre_of_mass: Vector3<T>,
+    inertia: Matrix3<T>,
 }
 
-/// Why a mass cannot be one.
+/// Why numbers cannot be those of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum BadPayload {
@@ -50,10 +51,14 @@ pub enum BadPayload {
     /// A coordinate of the centre of mass is NaN or infinite.
     #[error("the centre of mass of the payload is not finite")]
     BadCentre,
+    /// The inertia is no matrix of a body.
+    #[error("the inertia of the payload is not finite, not symmetric, or negative about an axis")]
+    BadInertia,
 }
 
 impl<T: Real> Payload<T> {
-    /// From the mass \[kg\] and its centre in the sensor frame \[m\].
+    /// From the mass \[kg\] and its centre in the sensor frame \[m\], as a point without inertia of its own
+    /// about that centre.
     ///
     /// # Errors
     /// [`BadPayload`].
@@ -63,7 +68,27 @@ impl<T: Real> Payload<T> {
         } else if !centre_of_mass.iter().all(|x| x.is_number()) {
             Err(BadPayload::BadCentre)
         } else {
-            Ok(Self { mass, centre_of_mass })
+            Ok(Self { mass, centre_of_mass, inertia: Matrix3::zeros() })
+        }
+    }
+
+    /// Nothing: a body without mass.
+    #[must_use]
+    pub fn none() -> Self {
+        Self { mass: T::zero(), centre_of_mass: Vector3::zeros(), inertia: Matrix3::zeros() }
+    }
+
+    /// The same with its inertia about the centre of mass, along the axes of the sensor frame \[kg·m²\].
+    ///
+    /// # Errors
+    /// [`BadPayload::BadInertia`] for a matrix that is not finite or not symmetric, or has a negative diagonal
+    /// element.
+    pub fn with_inertia(self, inertia: Matrix3<T>) -> Result<Self, BadPayload> {
+        let finite = inertia.iter().all(|x| x.is_number());
+        if finite && inertia == inertia.transpose() && inertia.diagonal().iter().all(|x| *x >= T::zero()) {
+            Ok(Self { inertia, ..self })
+        } else {
+            Err(BadPayload::BadInertia)
         }
     }
 
@@ -81,45 +106,43 @@ impl<T: Real> Payload<T> {
         self.centre_of_mass
     }
 
-    /// The load of the payload on the sensor, given gravity in the sensor frame \[m/s²\]:
+    /// Inertia about the centre of mass, along the axes of the sensor frame \[kg·m²\].
+    #[inline]
+    #[must_use]
+    pub const fn inertia(&self) -> Matrix3<T> {
+        self.inertia
+    }
+
+    /// The load of the payload on a sensor at rest, given gravity in the sensor frame \[m/s²\]:
     /// `f = m g`, `m = c × f`.
-    ///
-    /// For a hand that accelerates, give gravity less the acceleration of the centre of mass: what
-    /// an accelerometer there reads, negated. The torque of angular acceleration is not included.
     #[inline]
     #[must_use]
-    pub fn weight(&self, gravity_in_sensor: &Vector3<T>) -> Wrench<T> {
-        Wrench::from_force_at(&self.centre_of_mass, gravity_in_sensor * self.mass)
+    pub fn weight(&self, gravity: &Vector3<T>) -> Wrench<T> {
+        Wrench::from_force_at(&self.centre_of_mass, gravity * self.mass)
     }
 
-    /// A measured wrench less the payload's weight, given the orientation of the sensor and gravity
-    /// in frame `World` \[m/s²\]. Only the rotation of the transform is used.
+    /// The load of the payload on a sensor in motion, by Newton and Euler (`docs/theory/wrench.md#payload`).
     ///
-    /// The wrench must not have been tared with the payload on in another orientation: a tare takes
-    /// the weight off with it, as it was then. [`weight_change`](Self::weight_change) is for that.
+    /// A tare that was taken with the payload on has taken off its weight in that orientation. The rest is the
+    /// load under the change of gravity since: subtract gravity at the tare, in the sensor frame then, from
+    /// that of the motion.
     #[inline]
     #[must_use]
-    pub fn without_weight<World: Frame>(
-        &self,
-        measured: &Wrench<T>,
-        sensor_from_world: &RigidTransform<T, crate::Sensor, World>,
-        gravity: &Vector3<T>,
-    ) -> Wrench<T> {
-        *measured - self.weight(&sensor_from_world.rotate(gravity))
-    }
-
-    /// By how much the weight differs from what it was at the tare, given gravity in the sensor
-    /// frame now and then \[m/s²\]: what to subtract from a wrench that was tared with the payload
-    /// on.
-    #[inline]
-    #[must_use]
-    pub fn weight_change(&self, gravity_now: &Vector3<T>, gravity_at_tare: &Vector3<T>) -> Wrench<T> {
-        self.weight(&(gravity_now - gravity_at_tare))
+    pub fn load(&self, motion: &Motion<T>) -> Wrench<T> {
+        let Motion { gravity, angular_velocity: turning, angular_acceleration } = motion;
+        let centre = &self.centre_of_mass;
+        let acceleration = angular_acceleration.cross(centre) + turning.cross(&turning.cross(centre));
+        let inertial = self.inertia * angular_acceleration + turning.cross(&(self.inertia * turning));
+        self.weight(&(gravity - acceleration)) - Wrench::on_fingertip(Vector3::zeros(), inertial)
     }
 }
 
 stored! {
     Payload<T>, [T: Real],
-    |payload| { mass: T = payload.mass, centre_of_mass: Vector3<T> = payload.centre_of_mass },
-    Self::new(mass, centre_of_mass)
+    |payload| {
+        mass: T = payload.mass,
+        centre_of_mass: Vector3<T> = payload.centre_of_mass,
+        #[serde(default = "Matrix3::zeros")] inertia: Matrix3<T> = payload.inertia,
+    },
+    Self::new(mass, centre_of_mass).and_then(|payload| payload.with_inertia(inertia))
 }

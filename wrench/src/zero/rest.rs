@@ -1,10 +1,8 @@
 //! Was the sensor really at rest?
 
+use super::rest_limits::Limits;
+use crate::{NotAtRest, Real, Tare, TareAccumulator, TareError};
 use nalgebra::SVector;
-use thiserror::Error;
-
-use crate::gauges::false_alarm::{normal_quantile, student_quantile};
-use crate::{Real, Tare, TareAccumulator, TareError};
 
 /// Tares only a sensor that was at rest: collects readings, then gives the tare *with its error*, or
 /// says which gauge moved, and how.
@@ -52,6 +50,8 @@ pub struct RestTest<T: Real, const N: usize> {
     least: SVector<T, N>,
     greatest: SVector<T, N>,
     resolution: SVector<T, N>,
+    /// The reading before, if the resolution is to be found.
+    before: Option<Option<SVector<T, N>>>,
     tolerance: SVector<T, N>,
     known_noise: Option<SVector<T, N>>,
     rejected: u32,
@@ -80,59 +80,6 @@ pub struct Rested<T: Real, const N: usize> {
     pub samples: u32,
 }
 
-/// Why there is no tare. Gauges count from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum NotAtRest {
-    /// Too few readings for the tests to mean anything.
-    #[error("at least {needed} readings at rest are needed, not {samples}")]
-    TooFewSamples {
-        /// How many finite readings there were.
-        samples: u32,
-        /// How many are needed.
-        needed: u32,
-    },
-    /// Readings that were NaN or infinite.
-    #[error("{rejected} of the readings were not finite numbers")]
-    NotFinite {
-        /// How many.
-        rejected: u32,
-    },
-    /// A gauge moved steadily.
-    #[error("gauge {gauge} drifted by {over_noise:.2} times its noise during the readings")]
-    Drifts {
-        /// Which one.
-        gauge: usize,
-        /// How far the fitted line moved over all readings, in standard deviations of one reading.
-        over_noise: f64,
-    },
-    /// A gauge's readings hang together more than noise does, or spread more than its noise is known
-    /// to.
-    #[error("gauge {gauge} is unsteady: its readings are not independent noise of the usual size")]
-    Unsteady {
-        /// Which one.
-        gauge: usize,
-    },
-    /// A reading far from the others.
-    #[error("gauge {gauge} has a reading {over_noise:.1} times its noise away from the mean")]
-    Outlier {
-        /// Which one.
-        gauge: usize,
-        /// How far, in standard deviations of one reading.
-        over_noise: f64,
-    },
-    /// Readings so large that their spread cannot be represented.
-    #[error("the readings of gauge {gauge} are too large for the scalar type")]
-    OutOfRange {
-        /// Which one.
-        gauge: usize,
-    },
-    /// The rate of false alarms is not between 0 and 1, both excluded, or a noise or resolution is
-    /// negative or not finite.
-    #[error("the rate of false alarms must be between 0 and 1, and noise and resolution not negative")]
-    BadParameter,
-}
-
 impl<T: Real, const N: usize> RestTest<T, N> {
     /// The fewest readings that are judged.
     pub const LEAST_SAMPLES: u32 = 32;
@@ -154,6 +101,7 @@ impl<T: Real, const N: usize> RestTest<T, N> {
             least: SVector::repeat(T::GREATEST),
             greatest: SVector::repeat(-T::GREATEST),
             resolution: SVector::zeros(),
+            before: None,
             tolerance: SVector::zeros(),
             known_noise: None,
             rejected: 0,
@@ -172,6 +120,13 @@ impl<T: Real, const N: usize> RestTest<T, N> {
         } else {
             Err(NotAtRest::BadParameter)
         }
+    }
+
+    /// The same, taking the smallest change of each gauge from reading to reading for the step of its
+    /// converter. That is the step if it shows in the noise, and next to nothing if it does not.
+    #[must_use]
+    pub fn finding_resolution(self) -> Self {
+        Self { before: Some(None), ..self }
     }
 
     /// The same, putting up with a motion this large, in the unit of the readings: of the fitted line
@@ -202,11 +157,26 @@ impl<T: Real, const N: usize> RestTest<T, N> {
 
     /// Takes one reading; one that is not finite is counted, and `false` returned.
     pub fn add(&mut self, raw: &SVector<T, N>) -> bool {
+        self.add_compensated(raw, raw)
+    }
+
+    /// Takes one reading of which known drift has been taken off. What came from the converter tells its
+    /// resolution.
+    pub fn add_compensated(&mut self, converted: &SVector<T, N>, raw: &SVector<T, N>) -> bool {
         let before = *self.moments.mean();
         let samples = self.moments.samples();
         if !self.moments.add(raw) {
             self.rejected = self.rejected.saturating_add(1);
             return false;
+        }
+        if let Some(last) = &mut self.before {
+            if let Some(last) = last {
+                self.resolution = self.resolution.zip_map(&(converted - *last).abs(), |least, change| {
+                    let smaller = !(least > T::zero() && least <= change);
+                    if change > T::zero() && change.is_number() && smaller { change } else { least }
+                });
+            }
+            *last = Some(*converted);
         }
         // Welford's recurrence for the product with the number of the reading.
         let time = T::literal((f64::from(samples) + 1.0) * 0.5);
@@ -277,12 +247,20 @@ impl<T: Real, const N: usize> RestTest<T, N> {
         for gauge in 0..N {
             self.judge(gauge, noise[gauge], &limits)?;
         }
-        let tare = self.moments.finish().map_err(refused)?;
+        let tare = self.tare().map_err(refused)?;
         let tare_noise = SVector::from_fn(|gauge, _| {
             let by_stretches = T::literal(self.variance_by_stretches(gauge).0).root();
             noise[gauge].max(by_stretches) / self.count().root()
         });
         Ok(Rested { tare, noise, tare_noise, samples })
+    }
+
+    /// The mean readings, at rest or not.
+    ///
+    /// # Errors
+    /// [`TareError`] if there are none, or they are too large.
+    pub fn tare(&self) -> Result<Tare<T, N>, TareError> {
+        self.moments.finish()
     }
 
     fn judge(&self, gauge: usize, noise: T, limits: &Limits) -> Result<(), NotAtRest> {
@@ -319,33 +297,5 @@ impl<T: Real, const N: usize> RestTest<T, N> {
             spread * spread > limits.variance(n - 1.0) * (known * known + step * step / 12.0)
         });
         if unsteady || too_wide { Err(NotAtRest::Unsteady { gauge }) } else { Ok(()) }
-    }
-}
-
-/// The thresholds for a number of readings.
-struct Limits {
-    /// Of the slope over its standard error.
-    slope: f64,
-    /// Of the distance from the mean over the standard deviation.
-    outlier: f64,
-    /// Normal deviation for half the share of one test.
-    deviations: f64,
-}
-
-impl Limits {
-    fn new(n: f64, tail: f64) -> Self {
-        use nalgebra::ComplexField;
-        let slope = student_quantile(tail / 2.0, n - 2.0);
-        // Grubbs: (n−1)/√n · √(t²/(n−2+t²)), t at tail/2n.
-        let t = student_quantile(tail / (2.0 * n), n - 2.0);
-        let outlier = (n - 1.0) / ComplexField::sqrt(n) * ComplexField::sqrt(t * t / (n - 2.0 + t * t));
-        Self { slope, outlier, deviations: normal_quantile(tail / 2.0) }
-    }
-
-    /// Of a variance with these degrees of freedom over a known one: χ² by Wilson & Hilferty's cube.
-    fn variance(&self, degrees: f64) -> f64 {
-        let ninth = 2.0 / (9.0 * degrees);
-        let root = 1.0 - ninth + self.deviations * nalgebra::ComplexField::sqrt(ninth);
-        root * root * root
     }
 }

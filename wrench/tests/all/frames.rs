@@ -2,7 +2,7 @@
 
 use crate::support::{generator, greatest, normal};
 use fingertip_wrench::{
-    BadNormal, BadPayload, ContactForce, ContactFrame, Frame, Payload, Real, RigidTransform, Sensor,
+    BadNormal, BadPayload, ContactForce, ContactFrame, Frame, Motion, Payload, Real, RigidTransform, Sensor,
     TransformError, Wrench,
 };
 use nalgebra::{Matrix3, Vector3, Vector6};
@@ -261,16 +261,51 @@ fn weight_is_taken_off_in_any_orientation() {
             Wrench::<f64, World>::from_force_at(&world_from_sensor.transform_point(&centre), gravity * 0.05);
         let contact = Wrench::on_fingertip(vector(&mut random), vector(&mut random));
         let measured = weight.expressed_in(&sensor_from_world) + contact;
-        close_wrench(&tip.without_weight(&measured, &sensor_from_world, &gravity), &contact, 50.0);
+        let now = sensor_from_world.rotate(&gravity);
+        close_wrench(&(measured - tip.load(&Motion::resting(now))), &contact, 50.0);
         // Tared with the tip on, in another orientation.
-        let (then, now) =
-            (motion::<f64, Sensor, World>(&mut random).rotate(&gravity), sensor_from_world.rotate(&gravity));
+        let then = motion::<f64, Sensor, World>(&mut random).rotate(&gravity);
         let tared = tip.weight(&now) + contact - tip.weight(&then);
-        close_wrench(&(tared - tip.weight_change(&now, &then)), &contact, 50.0);
+        close_wrench(&(tared - tip.load(&Motion::resting(now - then))), &contact, 50.0);
     }
     for mass in [-1.0, f64::NAN, f64::INFINITY] {
         assert_eq!(Payload::new(mass, Vector3::zeros()), Err(BadPayload::BadMass));
     }
     assert_eq!(Payload::new(1.0, Vector3::repeat(f64::NAN)), Err(BadPayload::BadCentre));
-    assert_eq!(Payload::new(0.0, Vector3::zeros()).expect("no tip").weight(&gravity), Wrench::zero());
+    assert_eq!(Payload::new(0.0, Vector3::zeros()), Ok(Payload::none()));
+    assert_eq!(Payload::none().weight(&gravity), Wrench::zero());
+}
+
+/// The load of a body in motion against the forces that its points need, one by one.
+#[test]
+fn inertia_loads_the_sensor_as_the_points_of_the_body_do() {
+    let mut random = generator(106);
+    for _ in 0..200 {
+        let points: Vec<(f64, Vector3<f64>)> =
+            (0..8).map(|_| (0.1 + normal(&mut random).abs(), vector(&mut random))).collect();
+        let mass = points.iter().map(|(mass, _)| mass).sum();
+        let centre = points.iter().map(|(mass, at)| at * *mass).sum::<Vector3<f64>>() / mass;
+        let inertia = points.iter().fold(Matrix3::zeros(), |sum, (mass, at)| {
+            let arm: Vector3<f64> = at - centre;
+            sum + (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose()) * *mass
+        });
+        // Symmetric to the last bit.
+        let inertia = (inertia + inertia.transpose()) * 0.5;
+        let body = Payload::new(mass, centre).and_then(|body| body.with_inertia(inertia)).expect("a body");
+        assert_eq!((body.mass(), body.centre_of_mass(), body.inertia()), (mass, centre, inertia));
+        let [reading, turning, turning_faster] = core::array::from_fn(|_| vector::<f64>(&mut random));
+        let moves = Motion::from_inertial_unit(reading, turning, turning_faster);
+        let load = points.iter().fold(Wrench::zero(), |sum, (mass, at)| {
+            let acceleration = reading + turning_faster.cross(at) + turning.cross(&turning.cross(at));
+            sum + Wrench::from_force_at(at, -acceleration * *mass)
+        });
+        close_wrench(&body.load(&moves), &load, 2e3);
+        close_wrench(&body.load(&Motion::resting(-reading)), &body.weight(&-reading), 1e-9);
+    }
+    let tip = Payload::new(0.05, Vector3::x()).expect("a mass");
+    let lopsided = Matrix3::new(1.0, 0.1, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+    for bad in [Matrix3::repeat(f64::NAN), lopsided, Matrix3::from_diagonal(&Vector3::new(1.0, -1e-9, 1.0))] {
+        assert_eq!(tip.with_inertia(bad), Err(BadPayload::BadInertia));
+    }
+    assert!(tip.with_inertia(Matrix3::zeros()).is_ok());
 }

@@ -54,6 +54,52 @@ fn a_resting_sensor_is_refused_as_seldom_as_stated() {
     }
 }
 
+/// The step that is found is the smallest change of each gauge, by the verdicts of one that is told it.
+#[test]
+fn the_resolution_is_found_in_the_readings() {
+    let mut random = generator(20);
+    let new = || RestTest::<f64, 6>::new(RATE).expect("valid");
+    let (mut finding, mut compensated, mut plain) =
+        (new().finding_resolution(), new().finding_resolution(), new());
+    let (mut readings, mut steps) = (Vec::<Vector6<f64>>::new(), Vector6::repeat(f64::INFINITY));
+    for i in 0..200 {
+        // Gauge g in steps of g + 1 or more, gauge 5 without any change; gauge 2 drifts.
+        let reading = Vector6::from_fn(|gauge, _| {
+            let size = (gauge + 1) as f64;
+            let noise = if gauge == 5 { 0.0 } else { normal(&mut random).round() };
+            (noise + if gauge == 2 { (f64::from(i) / 10.0).round() } else { 0.0 }) * size
+        });
+        if let Some(before) = readings.last() {
+            let change: Vector6<f64> = (reading - before).abs();
+            steps =
+                steps.zip_map(&change, |least, change| if change > 0.0 { least.min(change) } else { least });
+        }
+        assert!(finding.add(&reading) && plain.add(&reading));
+        // Of a reading with drift taken off, what came from the converter counts.
+        assert!(compensated.add_compensated(&reading, &(reading * 1e-3)));
+        readings.push(reading);
+    }
+    // What is not finite is no step.
+    for test in [&mut finding, &mut compensated] {
+        assert!(!test.clone().add(&Vector6::repeat(f64::INFINITY)));
+    }
+    assert_eq!(steps.fixed_rows::<5>(0), Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 0.0).fixed_rows::<5>(0));
+    steps[5] = 0.0;
+    let told = |steps: &Vector6<f64>, size: f64| {
+        let mut told = new().with_resolution(*steps).expect("valid");
+        readings.iter().for_each(|reading| assert!(told.add(&(reading * size))));
+        told.finish()
+    };
+    assert!(matches!(finding.finish(), Err(NotAtRest::Drifts { gauge: 2, .. })));
+    assert_eq!(finding.finish(), told(&steps, 1.0));
+    assert_ne!(finding.finish(), plain.finish());
+    assert_eq!(compensated.finish(), told(&steps, 1e-3));
+    // The mean is there, at rest or not.
+    let mean = readings.iter().sum::<Vector6<f64>>() / 200.0;
+    assert!((finding.tare().expect("readings").zero() - mean).amax() < 1e-12);
+    assert!(new().tare().is_err());
+}
+
 #[test]
 fn a_tremble_within_the_tolerance_is_forgiven() {
     let mut random = generator(19);

@@ -8,7 +8,7 @@ use fingertip_wrench::{
     ChannelLimits, Conditioning, ContactForce, DummyGauge, Payload, RigidTransform, Sensor, SensorMatrix,
     Tare, TemperatureCompensation, Uncertainty, Wrench,
 };
-use nalgebra::{Matrix6, SVector, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, SVector, Vector3, Vector6};
 use serde_json::{from_str, to_string};
 
 fn survives<V: serde::Serialize + serde::de::DeserializeOwned + PartialEq + Debug>(value: &V) {
@@ -41,7 +41,9 @@ fn plain_data_survives() {
     survives(&Tare::new(Vector6::repeat(0.125_f32)));
     survives(&DummyGauge::new(Tare::new(Vector6::repeat(0.125)), 0.5).with_ratios(Vector6::repeat(0.9)));
     survives(&ChannelLimits::new(Vector6::repeat(-1.0), Vector6::repeat(1.0)).expect("a range"));
-    survives(&Payload::new(0.02, Vector3::new(0.015, 0.0, 0.0)).expect("a mass"));
+    let tip = Payload::new(0.02, Vector3::new(0.015, 0.0, 0.0)).expect("a mass");
+    survives(&tip);
+    survives(&tip.with_inertia(Matrix3::identity() * 1e-6).expect("an inertia"));
     let coefficients = [SVector::<f64, 6>::repeat(0.5), SVector::repeat(1e-3)];
     let none = [SVector::zeros(); 2];
     survives(&TemperatureCompensation::new(20.0, (0.0, 60.0), coefficients, none).expect("a model"));

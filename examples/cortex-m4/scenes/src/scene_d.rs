@@ -6,7 +6,7 @@ use fingertip::friction::{LikelihoodRatioDetector, PowerLimit, PressureDistribut
 use fingertip::wrench::{
     Compensation, ConsistencyCheck, LeastSquares, SensorMatrix, Tare, Verdict, WrenchCovariance, WrenchSolver,
 };
-use fingertip::{Fingertip, Present};
+use fingertip::{Fingertip, Present, Step};
 use fingertip_surfaces::Mesh;
 use nalgebra::{SMatrix, SVector, Vector3};
 
@@ -129,8 +129,8 @@ impl Scene<8> for SceneD {
         let signals = self.fingertip.zero().compensate(volts);
         let consistent = matches!(self.check.verdict(&self.gauges, &signals), Verdict::Consistent);
         let wrench = self.gauges.solve(&signals);
-        let touch = self.fingertip.feel(wrench, STEP, self.last.as_ref());
-        self.last = touch.resolution.contact().map(|contact| contact.point);
+        let touch = self.fingertip.sense_wrench(wrench, Step::of(STEP).with_last(self.last));
+        self.last = touch.point();
         let spread = touch.resolution.contact().and_then(|contact| {
             let covariance =
                 ContactCovariance::point_contact_position(contact, &wrench, &self.noise.at(&wrench))?;

@@ -2,9 +2,7 @@
 
 use core::hint::black_box;
 
-use fingertip_friction::{
-    Bristle, Drive, DynamicFriction, Exponential, Implicit, Integrator, LuGre, ReturnMap,
-};
+use fingertip_friction::{Bristle, Drive, Exponential, Implicit, Integrator, LuGre, ReturnMap};
 use nalgebra::Vector1;
 
 use super::Part;
