@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use fingertip_recordings::RecordingError;
 use thiserror::Error;
 
+use crate::sensor::SensorError;
+
 /// Why a run stopped.
 #[derive(Debug, Error)]
 pub(crate) enum CliError {
@@ -86,8 +88,11 @@ pub(crate) enum CliError {
     #[error("cannot convert {path}: {message}", path = .path.display())]
     Convert { path: PathBuf, message: String },
     /// A sensor cannot be reached, or was lost.
-    #[error("{address}: {message}")]
-    Sensor { address: String, message: String },
+    #[error("{address}: {source}")]
+    Sensor { address: String, source: SensorError },
+    /// An option of the command line has a value that it cannot have.
+    #[error("{option} {problem}")]
+    Option { option: String, problem: &'static str },
     /// The simulated sensor cannot be served.
     #[error("cannot simulate: {message}")]
     Simulate { message: String },
@@ -122,6 +127,16 @@ impl CliError {
 
     pub(crate) fn write(what: &'static str, path: &Path, source: io::Error) -> Self {
         Self::Write { what, path: path.to_owned(), source }
+    }
+
+    /// What is wrong with a sensor or the recording in its place.
+    pub(crate) fn sensor(address: impl ToString, source: impl Into<SensorError>) -> Self {
+        Self::Sensor { address: address.to_string(), source: source.into() }
+    }
+
+    /// An option of the command line, as it was written, and what it must be.
+    pub(crate) fn option(name: &str, value: impl core::fmt::Display, problem: &'static str) -> Self {
+        Self::Option { option: format!("{name} {value}"), problem }
     }
 
     /// What went wrong with the standard output.

@@ -18,6 +18,8 @@ pub mod bridge;
     allow(dead_code, reason = "without a converter there is nobody to use it")
 )]
 pub mod converters;
+#[cfg(feature = "devices")]
+pub mod devices;
 pub mod middleware;
 #[cfg(feature = "recordings")]
 pub mod playback;

@@ -1,6 +1,8 @@
 #![doc = include_str!("../README.md")]
 
 mod design;
+#[cfg(feature = "devices")]
+mod device;
 mod electronics;
 mod error;
 mod fingertip;
@@ -13,6 +15,8 @@ mod thermal_drift;
 mod timeline;
 
 pub use design::Design;
+#[cfg(feature = "devices")]
+pub use device::DEVICE;
 pub use electronics::Electronics;
 pub use error::{ScriptProblem, SimulationError};
 pub use fingertip::{Options, SimulatedFingertip, SimulatedSample, Truth};

@@ -4,9 +4,10 @@ mod noise;
 
 use fingertip::contact::{ConfidenceEllipse, ContactCovariance, ContactJacobian, Resolution};
 use fingertip::surfaces::ActiveSurface;
-use fingertip::wrench::{TareAccumulator, Wrench};
+use fingertip::wrench::{TareAccumulator, TareError, Wrench};
 use fingertip::{Fingertip, Step};
 use nalgebra::{Matrix3, Vector6};
+use thiserror::Error;
 
 use crate::observe::SceneTouch;
 use crate::scene::Scene;
@@ -27,6 +28,14 @@ pub(crate) struct SceneFeel {
     last: Option<f64>,
 }
 
+/// The first seconds give no zero.
+#[derive(Clone, Copy, Debug, Error)]
+#[error("no zero from {seconds} s at rest: {source}; rest longer, or check the sensor")]
+pub(crate) struct NoZero {
+    seconds: f64,
+    source: TareError,
+}
+
 /// The mean of the first seconds.
 #[derive(Clone, Debug)]
 pub(crate) struct Rest {
@@ -44,7 +53,7 @@ impl Rest {
     }
 
     /// The wrench less the zero; `None` while it rests.
-    pub(crate) fn take(&mut self, time: f64, wrench: &Wrench<f64>) -> Result<Option<Wrench<f64>>, String> {
+    pub(crate) fn take(&mut self, time: f64, wrench: &Wrench<f64>) -> Result<Option<Wrench<f64>>, NoZero> {
         let components = wrench.components();
         if let Some(seconds) = self.left {
             if time - *self.first.get_or_insert(time) < seconds {
@@ -52,9 +61,7 @@ impl Rest {
                 return Ok(None);
             }
             self.left = None;
-            let tare = self.resting.finish().map_err(|error| {
-                format!("no zero from {seconds} s at rest: {error}; rest longer, or check the sensor")
-            })?;
+            let tare = self.resting.finish().map_err(|source| NoZero { seconds, source })?;
             self.zero = *tare.zero();
         }
         Ok(Some(Wrench::from_components(&(components - self.zero))))
@@ -85,7 +92,7 @@ impl SceneFeel {
     }
 
     /// What a sample means; `None` while the zero is taken.
-    pub(crate) fn feel(&mut self, time: f64, reported: &Wrench<f64>) -> Result<Option<SceneTouch>, String> {
+    pub(crate) fn feel(&mut self, time: f64, reported: &Wrench<f64>) -> Result<Option<SceneTouch>, NoZero> {
         let Some(tared) = self.rest.take(time, reported)? else { return Ok(None) };
         let wrench = self.scene.convention.wrench(tared.force(), tared.torque());
         let step = self.last.replace(time).map_or(0.0, |last| time - last);
@@ -149,7 +156,7 @@ mod tests {
         assert_eq!(Rest::new(None).take(0.0, &uniform(7.0)).unwrap(), Some(uniform(7.0)));
         let mut short = Rest::new(Some(0.5));
         assert_eq!(short.take(0.0, &uniform(f64::NAN)).unwrap(), None);
-        let error = short.take(1.0, &uniform(1.0)).unwrap_err();
+        let error = short.take(1.0, &uniform(1.0)).unwrap_err().to_string();
         assert!(
             error.starts_with("no zero from 0.5 s at rest: ") && error.contains("rest longer"),
             "{error}"

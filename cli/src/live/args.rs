@@ -4,17 +4,17 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::sensor::{Address, EXAMPLES};
+use crate::sensor::{self, Address};
 
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = sensor::help())]
 #[command(
     long_about = "Watch a sensor, a simulation or a recording in the terminal.\n\nKeys: q or Esc ends, space \
     holds the picture, t takes a new zero over the next second, r forgets the trail and the scale."
 )]
 pub(crate) struct LiveArguments {
     /// Which sensor: see below; without it the simulated fingertip
-    #[arg(value_name = "ADDRESS", default_value = "sim", conflicts_with = "replay")]
+    #[arg(value_name = "ADDRESS", default_value = "sim", value_parser = sensor::address, conflicts_with = "replay")]
     pub(crate) address: Address,
     /// Play a recording instead, CSV or MCAP
     #[arg(long, value_name = "FILE")]

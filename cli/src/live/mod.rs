@@ -24,7 +24,7 @@ use state::{Health, State};
 use crate::error::CliError;
 use crate::felt::{Rest, SceneFeel};
 use crate::scene::Scene;
-use crate::sensor::{self, Calibrating, Event, GaugesOf, Stream, StreamOptions};
+use crate::sensor::{self, Calibrating, Event, GaugesOf, SensorError, Stream, StreamOptions};
 use crate::stop::Stop;
 
 /// How long a zero takes that is asked for by a key \[s\].
@@ -52,14 +52,14 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
         Some(path) => path.display().to_string(),
         None => arguments.address.to_string(),
     };
-    let fault = |message: String| CliError::Sensor { address: source.clone(), message };
+    let fault = |error: SensorError| CliError::sensor(&source, error);
     if !(arguments.frames > 0.0 && arguments.frames <= 1000.0) {
-        return Err(fault(format!("--frames {} must be above 0, up to 1000", arguments.frames)));
+        return Err(CliError::option("--frames", arguments.frames, "must be above 0, up to 1000"));
     }
     if let Some(tare) = arguments.tare.filter(|tare| !(*tare > 0.0 && tare.is_finite())) {
-        return Err(fault(format!("--tare {tare} must be a number of seconds above 0")));
+        return Err(CliError::option("--tare", tare, "must be a number of seconds above 0"));
     }
-    let simulated = arguments.replay.is_none() && arguments.address.is_simulated();
+    let simulated = arguments.replay.is_none() && sensor::is_simulated(&arguments.address);
     let scene = arguments.scene.clone().or_else(|| simulated.then(|| PathBuf::from("sim")));
     let scene = scene.as_deref().map(Scene::load_or_simulated).transpose()?;
 
@@ -87,13 +87,12 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
         }
         read
     });
-    let reader = reader.map_err(|error| fault(format!("no thread for its samples: {error}")))?;
+    let reader = reader.map_err(|error| fault(SensorError::Thread(error)))?;
 
     let shown = ratatui::try_init().and_then(|terminal| show(terminal, &shared, arguments.frames));
     ratatui::restore();
     shared.stop.ask();
-    let read =
-        reader.join().unwrap_or_else(|_| Err("the reader of samples died; please report it".to_owned()));
+    let read = reader.join().unwrap_or(Err(SensorError::Died));
     shown.map_err(CliError::Terminal)?;
     read.map_err(fault)
 }
@@ -103,7 +102,7 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
 fn open(arguments: &LiveArguments, rest: Option<f64>, named: Option<&str>) -> Result<Stream, CliError> {
     let LiveArguments { address, replay, speed, sensor, .. } = arguments;
     let place = replay.as_ref().map_or_else(|| address.to_string(), |path| path.display().to_string());
-    let fault = |message| CliError::Sensor { address: place.clone(), message };
+    let fault = |error: SensorError| CliError::sensor(&place, error);
     let mut options = StreamOptions { silence: Duration::from_secs(2), reconnect: false };
     let once = match (&arguments.calibration, replay) {
         (None, None) => {
@@ -117,12 +116,9 @@ fn open(arguments: &LiveArguments, rest: Option<f64>, named: Option<&str>) -> Re
                 Some(path) => {
                     GaugesOf::Recording { path, sensor: sensor.as_deref().or(named), speed: *speed }
                 }
-                None if address.is_simulated() => GaugesOf::Simulated(address),
+                None if sensor::is_simulated(address) => GaugesOf::Simulated(address),
                 None => {
-                    return Err(fault(
-                        "this sensor gives wrenches; --calibration is for readings of gauges, those of --replay or sim"
-                            .to_owned(),
-                    ));
+                    return Err(fault(SensorError::NotGauges));
                 }
             };
             let mut notes = Vec::new();
@@ -133,7 +129,7 @@ fn open(arguments: &LiveArguments, rest: Option<f64>, named: Option<&str>) -> Re
         }
     };
     let mut first = Some(once);
-    let again = move || first.take().ok_or_else(|| "the recording is over".to_owned());
+    let again = move || first.take().ok_or(SensorError::Over);
     Stream::new(Box::new(again), options).map_err(fault)
 }
 
@@ -143,7 +139,7 @@ fn read(
     mut stream: Stream,
     mut rest: Rest,
     mut feel: Option<SceneFeel>,
-) -> Result<(), String> {
+) -> Result<(), SensorError> {
     while !shared.stop.is_asked() {
         if shared.tare.swap(false, Ordering::Relaxed) {
             rest = Rest::new(Some(ZERO));
@@ -230,7 +226,7 @@ mod tests {
     use super::{Health, Rest, Shared, State, Stop, Stream, StreamOptions, read};
     use crate::felt::SceneFeel;
     use crate::scene::Scene;
-    use crate::sensor::{Feed, Losses, Next, Reading};
+    use crate::sensor::{Feed, Losses, Next, Reading, SensorError};
 
     /// Gives what it is told to, and asks for something at one of its samples.
     struct Told {
@@ -241,7 +237,7 @@ mod tests {
     }
 
     impl Feed for Told {
-        fn next(&mut self) -> Result<Next, String> {
+        fn next(&mut self) -> Result<Next, SensorError> {
             if self.given == self.tare_at {
                 self.shared.tare.store(true, Ordering::Relaxed);
             }
@@ -268,7 +264,7 @@ mod tests {
         let mut feed =
             Some(Box::new(Told { samples, given: 0, shared: Arc::clone(&shared), tare_at }) as Box<dyn Feed>);
         let options = StreamOptions { silence: Duration::from_secs(3600), reconnect: false };
-        let stream = Stream::new(Box::new(move || feed.take().ok_or_else(String::new)), options).unwrap();
+        let stream = Stream::new(Box::new(move || feed.take().ok_or(SensorError::Over)), options).unwrap();
         read(&shared, stream, Rest::new(rest), feel).unwrap();
         shared.state().clone()
     }

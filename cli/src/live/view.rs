@@ -8,6 +8,7 @@ use ratatui::widgets::Paragraph;
 
 use super::state::{Health, State};
 use super::{forces, map, slip};
+use crate::sensor::losses_said;
 use crate::table::{count, short};
 
 /// Below this the picture is one line.
@@ -98,7 +99,7 @@ fn statistics(state: &State) -> Line<'_> {
         "{} samples/s, {} s, {}",
         short(state.rate.round()),
         short(state.time),
-        state.losses
+        losses_said(&state.losses)
     ))];
     if state.losses.lost.is_some_and(|lost| lost > 0) {
         spans = spans.into_iter().map(Stylize::yellow).collect();

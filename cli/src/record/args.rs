@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::sensor::{Address, EXAMPLES};
+use crate::sensor::{self, Address};
 
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = sensor::help())]
 pub(crate) struct RecordArguments {
     /// Which sensor: see below; without it the simulated fingertip
-    #[arg(value_name = "ADDRESS", default_value = "sim")]
+    #[arg(value_name = "ADDRESS", default_value = "sim", value_parser = sensor::address)]
     pub(crate) address: Address,
     /// The file to write; its ending says what: .csv or .mcap (ROS 2 messages, for Foxglove and PlotJuggler)
     #[arg(short, long, value_name = "FILE", default_value = "recording.csv")]

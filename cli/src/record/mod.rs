@@ -12,11 +12,11 @@ use args::RecordArguments;
 use output::{Output, Row};
 
 use crate::error::CliError;
-use crate::felt::{Rest, SceneFeel};
+use crate::felt::{NoZero, Rest, SceneFeel};
 use crate::output::{print, written};
 use crate::recording_file::Kind;
 use crate::scene::Scene;
-use crate::sensor::{self, Event, Reading, Stream, StreamOptions};
+use crate::sensor::{self, Event, Reading, SensorError, Stream, StreamOptions};
 use crate::stop::Stop;
 use crate::table::{count, number, short};
 
@@ -26,13 +26,14 @@ const NEWS: Duration = Duration::from_millis(500);
 const FAULTS_SHOWN: u64 = 3;
 
 pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
-    let fault = |message: String| CliError::Sensor { address: arguments.address.to_string(), message };
+    let fault = |error: SensorError| CliError::sensor(&arguments.address, error);
     Kind::of(&arguments.output)?;
     let limits =
         [("duration", arguments.duration), ("tare", arguments.tare), ("silence", Some(arguments.silence))];
     for (name, limit) in limits {
         if limit.is_some_and(|limit| !(limit > 0.0 && limit < 1e9)) {
-            return Err(fault(format!("--{name} must be a number of seconds above 0")));
+            let option = format!("--{name}");
+            return Err(CliError::Option { option, problem: "must be a number of seconds above 0" });
         }
     }
     let scene = arguments.scene.as_deref().map(Scene::load_or_simulated).transpose()?;
@@ -77,9 +78,7 @@ pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
             }
             ended
         }
-        (Ok(()), None) => {
-            Err(fault("no sample came, so nothing was written; is the sensor on and streaming?".into()))
-        }
+        (Ok(()), None) => Err(fault(SensorError::NoSample)),
         (ended, None) => ended,
     }
 }
@@ -136,7 +135,7 @@ impl<'a> Recording<'a> {
             self.not_finite += 1;
             return Ok(());
         }
-        let fault = |message| CliError::Sensor { address: self.arguments.address.to_string(), message };
+        let fault = |error: NoZero| CliError::sensor(&self.arguments.address, error);
         let Some(wrench) = self.rest.take(time, &reading.wrench).map_err(fault)? else { return Ok(()) };
         if time <= self.last {
             // Two samples that arrive at once where only the arrival tells the time: both are kept.
@@ -211,7 +210,7 @@ impl<'a> Recording<'a> {
         if self.arguments.scene.is_some() {
             text.push_str(&format!(", {} with a contact", count(self.contacts)));
         }
-        text.push_str(&format!("\nLink: {}\n", stream.losses()));
+        text.push_str(&format!("\nLink: {}\n", sensor::losses_said(&stream.losses())));
         let mut note = |happened: bool, what: String| {
             if happened {
                 text.push_str(&what);
@@ -258,13 +257,13 @@ mod tests {
     use crate::args::{Arguments, Command};
     use crate::felt::SceneFeel;
     use crate::scene::Scene;
-    use crate::sensor::{Feed, Losses, Next};
+    use crate::sensor::{Feed, Losses, Next, SensorError};
 
     /// A sensor that has nothing more to say, and has lost seven samples.
     struct Over;
 
     impl Feed for Over {
-        fn next(&mut self) -> Result<Next, String> {
+        fn next(&mut self) -> Result<Next, SensorError> {
             Ok(Next::End)
         }
         fn losses(&self) -> Losses {

@@ -7,11 +7,9 @@ use fingertip_drivers::middleware::Paced;
 use fingertip_drivers::{ErrorType, Sample, WrenchSource};
 use fingertip_recordings::{HeaderProblem, RecordingReader, SignalUnit};
 
-use super::address::Address;
 use super::gauge_sources::{CsvGauges, GaugeFault, GaugeSource, McapGauges, SimulatedGauges};
-use super::losses::Losses;
 use super::simulated::{self, Rounds};
-use super::{Feed, SourceFeed};
+use super::{Address, Feed, Losses, SourceFeed};
 use crate::calibrated::{Calibrated, Calibration, Readings};
 use crate::error::CliError;
 use crate::gauge_rows::{GaugeRows, KnownTemperature};
@@ -61,7 +59,7 @@ pub(crate) fn calibrated(
             }
         },
         GaugesOf::Simulated(address) => {
-            let fault = |message| CliError::Sensor { address: address.to_string(), message };
+            let fault = |source| CliError::sensor(address, source);
             let rounds = Rounds::new(simulated::fresh(address).map_err(fault)?);
             let readings = Readings {
                 unit: SignalUnit::Volts,
@@ -237,7 +235,7 @@ mod tests {
         let calibration = folder.calibration();
         let mut notes = Vec::new();
         let how = Calibrating { calibration: &calibration, rest: None, celsius: None };
-        let address = "sim".parse().unwrap();
+        let address = super::super::address("sim").unwrap();
         let mut feed = calibrated(GaugesOf::Simulated(&address), &how, &mut notes).unwrap();
         let Next::Reading(reading) = feed.next().unwrap() else { unreachable!() };
         assert!(reading.wrench.is_finite() && reading.time == Some(0.0));

@@ -1,26 +1,23 @@
 //! Where live samples come from: sensors on a wire, the simulated fingertip, a recording that plays.
 
-mod address;
-#[cfg(target_os = "linux")]
-mod can;
-mod connect;
+mod devices;
+mod error;
 mod gauge_sources;
 mod gauges;
-mod line;
 mod losses;
 mod replay;
 mod simulated;
 mod stream;
-mod timed;
 
 use fingertip::wrench::Wrench;
 use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
 use nalgebra::SVector;
 
-pub(crate) use address::{Address, EXAMPLES};
-pub(crate) use connect::open;
+pub(crate) use devices::{address, help, is_simulated, open};
+pub(crate) use error::SensorError;
+pub(crate) use fingertip_drivers::devices::{Address, Losses};
 pub(crate) use gauges::{Calibrating, GaugesOf, calibrated};
-pub(crate) use losses::Losses;
+pub(crate) use losses::said as losses_said;
 pub(crate) use replay::open as replay;
 pub(crate) use stream::{Event, Stream, StreamOptions};
 
@@ -53,7 +50,7 @@ pub(crate) enum Next {
 /// A source of samples. A call waits for a fraction of a second at most, so that the user is heard.
 pub(crate) trait Feed: Send {
     /// The next sample; an error is one after which the source is of no more use.
-    fn next(&mut self) -> Result<Next, String>;
+    fn next(&mut self) -> Result<Next, SensorError>;
 
     /// What went missing so far.
     fn losses(&self) -> Losses;
@@ -68,10 +65,10 @@ struct SourceFeed<S, L> {
 impl<S, L> Feed for SourceFeed<S, L>
 where
     S: WrenchSource<f64> + Send,
-    S::Error: core::fmt::Display,
+    S::Error: core::error::Error + Send + Sync + 'static,
     L: Fn(&S) -> Losses + Send,
 {
-    fn next(&mut self) -> Result<Next, String> {
+    fn next(&mut self) -> Result<Next, SensorError> {
         match self.source.next_wrench() {
             Ok(Some(sample)) => {
                 Ok(Next::Reading(Reading { time: sample.time, wrench: sample.value, volts: None }))
@@ -82,7 +79,7 @@ where
                 SourceErrorKind::Corrupt | SourceErrorKind::Overload | SourceErrorKind::DeviceFault => {
                     Ok(Next::Fault(error.to_string()))
                 }
-                _ => Err(error.to_string()),
+                _ => Err(SensorError::Source(Box::new(error))),
             },
         }
     }

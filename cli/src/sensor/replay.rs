@@ -6,8 +6,7 @@ use fingertip_drivers::middleware::Paced;
 use fingertip_drivers::playback::{McapPlayback, WrenchPlayback};
 use fingertip_recordings::RecordingReader;
 
-use super::losses::Losses;
-use super::{Feed, SourceFeed};
+use super::{Feed, Losses, SourceFeed};
 use crate::error::CliError;
 use crate::recording_file::{Kind, bytes, mcap};
 

@@ -10,9 +10,7 @@ use fingertip_drivers::{ErrorType, Sample, SignalSource};
 use fingertip_simulation::{Options, SimulatedFingertip, standard_session};
 use nalgebra::Vector6;
 
-use super::address::Address;
-use super::losses::Losses;
-use super::{Feed, Next, Reading, Volts};
+use super::{Address, Feed, Losses, Next, Reading, SensorError, Volts};
 
 /// A session that is played again and again, its time going on.
 pub(super) struct Rounds {
@@ -50,30 +48,30 @@ struct Simulated {
 }
 
 /// The fingertip of an address.
-pub(super) fn fresh(address: &Address) -> Result<SimulatedFingertip, String> {
+pub(super) fn fresh(address: &Address) -> Result<SimulatedFingertip, SensorError> {
     let options = Options {
         seed: address.whole("seed")?.unwrap_or(1),
         sample_rate: address.positive("rate_Hz")?.unwrap_or(1000.0),
         ..Options::default()
     };
-    SimulatedFingertip::new(&standard_session(), options).map_err(|error| format!("simulation: {error}"))
+    Ok(SimulatedFingertip::new(&standard_session(), options)?)
 }
 
-pub(super) fn open(address: &Address) -> Result<Box<dyn Feed>, String> {
+pub(super) fn open(address: &Address) -> Result<Box<dyn Feed>, SensorError> {
     let fresh = fresh(address)?;
-    let solver = GaussianElimination::new(fresh.calibrated_matrix()).map_err(|error| error.to_string())?;
+    let solver = GaussianElimination::new(fresh.calibrated_matrix())?;
     // The session begins with a rest: it gives the zero, as on a bench before the work begins.
     let mut rest = DummyGaugeAccumulator::default();
     for sample in fresh.clone().take_while(|sample| sample.truth.phase == 0) {
         rest.add(&sample.reading());
     }
-    let zero = rest.finish().map_err(|error| error.to_string())?;
+    let zero = rest.finish()?;
     let source = Paced::new(Rounds::new(fresh), 1.0);
     Ok(Box::new(Simulated { source, solver, zero }))
 }
 
 impl Feed for Simulated {
-    fn next(&mut self) -> Result<Next, String> {
+    fn next(&mut self) -> Result<Next, SensorError> {
         let Ok(sample) = self.source.next_signals();
         let Some(Sample { time, value: volts }) = sample else { return Ok(Next::End) };
         let [v1, v2, v3, v4, v5, v6, dummy] = volts.into();
@@ -92,6 +90,7 @@ mod tests {
     use fingertip_drivers::SignalSource;
     use fingertip_simulation::{Options, Script, SimulatedFingertip};
 
+    use super::super::address;
     use super::{Rounds, fresh};
 
     #[test]
@@ -110,7 +109,7 @@ mod tests {
 
     #[test]
     fn an_address_sets_the_rate_and_the_seed() {
-        let options = |text: &str| *fresh(&text.parse().unwrap()).unwrap().options();
+        let options = |text: &str| *fresh(&address(text).unwrap()).unwrap().options();
         assert_eq!((options("sim").sample_rate, options("sim").seed), (1000.0, 1));
         assert_eq!((options("sim?rate_Hz=250").sample_rate, options("sim?seed=9").seed), (250.0, 9));
     }

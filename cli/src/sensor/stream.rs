@@ -3,11 +3,10 @@
 use core::time::Duration;
 use std::time::Instant;
 
-use super::losses::Losses;
-use super::{Feed, Next, Reading};
+use super::{Feed, Losses, Next, Reading, SensorError};
 
 /// Opens the sensor, the first time and after it was lost.
-pub(crate) type Open = Box<dyn FnMut() -> Result<Box<dyn Feed>, String> + Send>;
+pub(crate) type Open = Box<dyn FnMut() -> Result<Box<dyn Feed>, SensorError> + Send>;
 
 /// What to do when nothing comes.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +59,7 @@ const TOGETHER: f64 = 1e-6;
 
 impl Stream {
     /// Opens the sensor; its first sample is expected within the silence that is allowed.
-    pub(crate) fn new(mut open: Open, options: StreamOptions) -> Result<Self, String> {
+    pub(crate) fn new(mut open: Open, options: StreamOptions) -> Result<Self, SensorError> {
         let feed = open()?;
         let now = Instant::now();
         Ok(Self {
@@ -101,7 +100,7 @@ impl Stream {
     ///
     /// # Errors
     /// If the sensor is lost and is not to be connected anew.
-    pub(crate) fn next(&mut self) -> Result<Event, String> {
+    pub(crate) fn next(&mut self) -> Result<Event, SensorError> {
         let Some(feed) = &mut self.feed else { return self.reopen() };
         match feed.next() {
             Ok(Next::Reading(reading)) => {
@@ -113,28 +112,27 @@ impl Stream {
                 Ok(Event::Fault(why))
             }
             Ok(Next::Silence) if self.heard.elapsed() > self.options.silence => {
-                let what = if self.any { "fell silent" } else { "sends nothing" };
                 let seconds = self.options.silence.as_secs_f64();
-                self.lose(format!("the sensor {what}: no sample for {seconds} s"))
+                self.lose(SensorError::Silent { ever: self.any, seconds })
             }
             Ok(Next::Silence) => Ok(Event::Nothing),
             // A line that ends is a sensor that was unplugged; a recording has no connection to lose.
-            Ok(Next::End) if self.options.reconnect => self.lose("the line was closed".to_owned()),
+            Ok(Next::End) if self.options.reconnect => self.lose(SensorError::Closed),
             Ok(Next::End) => Ok(Event::End),
-            Err(why) => self.lose(format!("{why}; is the sensor on, and can it be reached?")),
+            Err(why) => self.lose(SensorError::Lost(Box::new(why))),
         }
     }
 
-    fn lose(&mut self, why: String) -> Result<Event, String> {
+    fn lose(&mut self, why: SensorError) -> Result<Event, SensorError> {
         if !self.options.reconnect {
             return Err(why);
         }
         self.before = self.losses();
         self.feed = None;
-        Ok(Event::Lost(why))
+        Ok(Event::Lost(why.to_string()))
     }
 
-    fn reopen(&mut self) -> Result<Event, String> {
+    fn reopen(&mut self) -> Result<Event, SensorError> {
         std::thread::sleep(RETRY);
         if let Ok(feed) = (self.open)() {
             self.feed = Some(feed);
@@ -173,14 +171,14 @@ mod tests {
 
     use fingertip::wrench::Wrench;
 
-    use super::super::{Feed, Losses, Next, Reading};
+    use super::super::{Feed, Losses, Next, Reading, SensorError};
     use super::{Event, Stream, StreamOptions};
 
     /// Gives what it is told to, then silence.
-    struct Told(Vec<Result<Next, String>>);
+    struct Told(Vec<Result<Next, SensorError>>);
 
     impl Feed for Told {
-        fn next(&mut self) -> Result<Next, String> {
+        fn next(&mut self) -> Result<Next, SensorError> {
             if self.0.is_empty() { Ok(Next::Silence) } else { self.0.remove(0) }
         }
         fn losses(&self) -> Losses {
@@ -188,10 +186,10 @@ mod tests {
         }
     }
 
-    fn told(silence: Duration, reconnect: bool, connections: Vec<Vec<Result<Next, String>>>) -> Stream {
+    fn told(silence: Duration, reconnect: bool, connections: Vec<Vec<Result<Next, SensorError>>>) -> Stream {
         let mut connections = connections.into_iter();
         let open = move || {
-            let told = connections.next().ok_or_else(|| "not there".to_owned())?;
+            let told = connections.next().ok_or(SensorError::Over)?;
             Ok(Box::new(Told(told)) as Box<dyn Feed>)
         };
         Stream::new(Box::new(open), StreamOptions { silence, reconnect }).unwrap()
@@ -199,7 +197,7 @@ mod tests {
 
     const HOUR: Duration = Duration::from_secs(3600);
 
-    fn reading(time: Option<f64>) -> Result<Next, String> {
+    fn reading(time: Option<f64>) -> Result<Next, SensorError> {
         Ok(Next::Reading(Reading { time, wrench: Wrench::zero(), volts: None }))
     }
 
@@ -207,8 +205,8 @@ mod tests {
     struct Short(Vec<f64>);
 
     impl Feed for Short {
-        fn next(&mut self) -> Result<Next, String> {
-            let time = self.0.pop().ok_or("unplugged")?;
+        fn next(&mut self) -> Result<Next, SensorError> {
+            let time = self.0.pop().ok_or_else(|| SensorError::Source("unplugged".into()))?;
             Ok(Next::Reading(Reading { time: Some(time), wrench: Wrench::zero(), volts: None }))
         }
         fn losses(&self) -> Losses {
@@ -227,7 +225,7 @@ mod tests {
         for expected in [0.0, 1.0, 2.0] {
             assert!(matches!(stream.next(), Ok(Event::Sample(time, _)) if time == expected));
         }
-        assert!(stream.next().unwrap_err().starts_with("unplugged; is the sensor on"));
+        assert!(stream.next().unwrap_err().to_string().starts_with("unplugged; is the sensor on"));
     }
 
     #[test]
@@ -252,12 +250,12 @@ mod tests {
         let mut patient = told(HOUR, false, vec![vec![]]);
         assert!(matches!(patient.next(), Ok(Event::Nothing)));
         let mut hasty = told(Duration::ZERO, false, vec![vec![]]);
-        assert_eq!(hasty.next().unwrap_err(), "the sensor sends nothing: no sample for 0 s");
+        assert_eq!(hasty.next().unwrap_err().to_string(), "the sensor sends nothing: no sample for 0 s");
         let brief = Duration::from_micros(1);
         let mut hasty = told(brief, false, vec![vec![reading(None)]]);
         assert!(matches!(hasty.next(), Ok(Event::Sample(..))));
         std::thread::sleep(2 * brief);
-        assert_eq!(hasty.next().unwrap_err(), "the sensor fell silent: no sample for 0.000001 s");
+        assert_eq!(hasty.next().unwrap_err().to_string(), "the sensor fell silent: no sample for 0.000001 s");
     }
 
     #[test]
@@ -298,7 +296,8 @@ mod tests {
 
     #[test]
     fn what_is_lost_is_connected_anew_only_if_that_is_wanted() {
-        let connections = || vec![vec![Ok(Next::End)], vec![reading(Some(7.0)), Err("pulled".to_owned())]];
+        let connections =
+            || vec![vec![Ok(Next::End)], vec![reading(Some(7.0)), Err(SensorError::Source("pulled".into()))]];
         let mut once = told(HOUR, false, connections());
         assert!(matches!(once.next(), Ok(Event::End)));
         let mut again = told(HOUR, true, connections());
@@ -313,8 +312,8 @@ mod tests {
         // There is no third connection: it goes on trying.
         assert!(matches!(again.next(), Ok(Event::Nothing)));
         assert_eq!((again.losses().lost, again.reconnections()), (Some(2), 1));
-        let none = || Err::<Box<dyn Feed>, _>("not there".to_owned());
+        let none = || Err::<Box<dyn Feed>, _>(SensorError::Over);
         let options = StreamOptions { silence: HOUR, reconnect: true };
-        assert_eq!(Stream::new(Box::new(none), options).err().unwrap(), "not there");
+        assert!(matches!(Stream::new(Box::new(none), options), Err(SensorError::Over)));
     }
 }

@@ -3,26 +3,26 @@
 use core::net::IpAddr;
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
+use fingertip_drivers::devices::{Device, Simulator, devices};
 use fingertip_drivers::sensors::FaultPlan;
+use fingertip_drivers::sensors::line::LineFaults;
 
-/// The device that is simulated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Device {
-    /// ATI Net F/T: RDT over UDP, its page over HTTP
-    Ati,
-    /// SCHUNK FTS: commands over TCP, samples over UDP
-    Schunk,
-    /// Bota Systems serial
-    Bota,
-    /// Robotous RFT serial
-    Robotous,
-    /// WACOH DynPick: one reading for each request
-    Dynpick,
-    /// OptoForce USB serial
-    Optoforce,
-    /// Resense HEX serial
-    Resense,
+use crate::error::CliError;
+
+/// The devices of the list that can be served.
+fn served() -> impl Iterator<Item = &'static Device> {
+    let can =
+        |device: &&Device| matches!(device.simulator, Some(Simulator::Serial(_) | Simulator::Network(_)));
+    devices().iter().copied().filter(can)
+}
+
+/// Chooses a device by its name.
+fn device() -> impl TypedValueParser<Value = &'static Device> {
+    let names = served().map(|device| PossibleValue::new(device.name).help(device.title));
+    PossibleValuesParser::new(names)
+        .try_map(|name| served().find(|device| device.name == name).ok_or("it cannot be served"))
 }
 
 /// What touches the fingertip.
@@ -57,8 +57,8 @@ pub(crate) enum Carrier {
 )]
 pub(crate) struct SimulateArguments {
     /// The device whose protocol is served
-    #[arg(long, value_enum, value_name = "DEVICE")]
-    pub(crate) serve: Device,
+    #[arg(long, value_parser = device(), value_name = "DEVICE")]
+    pub(crate) serve: &'static Device,
     /// What touches the fingertip
     #[arg(long, value_enum, default_value_t = Scenario::Session, conflicts_with = "script")]
     pub(crate) scenario: Scenario,
@@ -131,25 +131,31 @@ impl FaultArguments {
         FaultPlan { loss, duplication, reorder, truncation, seed }
     }
 
+    /// What happens to frames.
+    pub(super) const fn of_frames(&self, seed: u64) -> LineFaults {
+        let Self { loss: lost_frame, bit_flip, lost_byte, garbage: noise, .. } = *self;
+        LineFaults { bit_flip, lost_byte, lost_frame, noise, seed }
+    }
+
     /// Refuses what is no probability, and faults that the device's link does not have.
-    pub(super) fn check(&self, device: Device) -> Result<(), String> {
+    pub(super) fn check(&self, device: &Device) -> Result<(), CliError> {
         let datagrams =
             [("--duplicate", self.duplicate), ("--reorder", self.reorder), ("--truncate", self.truncate)];
         let serial =
             [("--bit-flip", self.bit_flip), ("--lost-byte", self.lost_byte), ("--garbage", self.garbage)];
-        let foreign: &[(&str, f64)] = match device {
-            Device::Ati | Device::Schunk => &serial,
-            _ => &datagrams,
-        };
+        let foreign =
+            if matches!(device.simulator, Some(Simulator::Network(_))) { &serial } else { &datagrams };
         for (name, chance) in [("--loss", self.loss)].iter().chain(&datagrams).chain(&serial) {
             if !(0.0..=1.0).contains(chance) {
-                return Err(format!("{name} {chance} is no probability; give one from 0 to 1"));
+                return Err(CliError::option(name, chance, "is no probability; give one from 0 to 1"));
             }
         }
         match foreign.iter().find(|(_, chance)| *chance > 0.0) {
-            Some((name, _)) => {
-                Err(format!("{name} is a fault that the link of this device does not have; see --help"))
-            }
+            Some((name, chance)) => Err(CliError::option(
+                name,
+                chance,
+                "is a fault that the link of this device does not have; see --help",
+            )),
             None => Ok(()),
         }
     }
@@ -157,7 +163,9 @@ impl FaultArguments {
 
 #[cfg(test)]
 mod tests {
-    use super::{Device, FaultArguments};
+    use fingertip_drivers::devices::Simulator;
+
+    use super::{FaultArguments, served};
 
     const NONE: FaultArguments = FaultArguments {
         loss: 0.0,
@@ -171,8 +179,6 @@ mod tests {
 
     #[test]
     fn a_link_has_its_own_faults_each_with_a_probability() {
-        let datagrams = [Device::Ati, Device::Schunk];
-        let serial = [Device::Bota, Device::Robotous, Device::Dynpick, Device::Optoforce, Device::Resense];
         type Set = fn(&mut FaultArguments) -> &mut f64;
         let all: [(&str, Set, bool, bool); 7] = [
             ("--loss", |faults| &mut faults.loss, true, true),
@@ -184,19 +190,20 @@ mod tests {
             ("--garbage", |faults| &mut faults.garbage, false, true),
         ];
         for (name, set, of_datagrams, of_serial) in all {
-            for device in datagrams.into_iter().chain(serial) {
+            for device in served() {
                 let check = |chance: f64| {
                     let mut faults = NONE;
                     *set(&mut faults) = chance;
                     faults.check(device)
                 };
-                let has = if datagrams.contains(&device) { of_datagrams } else { of_serial };
-                assert_eq!(check(0.0), Ok(()));
+                let on_network = matches!(device.simulator, Some(Simulator::Network(_)));
+                let has = if on_network { of_datagrams } else { of_serial };
+                assert!(check(0.0).is_ok());
                 for chance in [1e-9, 1.0] {
-                    assert_eq!(check(chance).is_ok(), has, "{name} {chance} of {device:?}");
+                    assert_eq!(check(chance).is_ok(), has, "{name} {chance} of {}", device.name);
                 }
                 for chance in [-1e-9, 1.000_001, f64::NAN] {
-                    let error = check(chance).unwrap_err();
+                    let error = check(chance).unwrap_err().to_string();
                     assert!(error.contains(name) && error.contains("is no probability"), "{error}");
                 }
             }
@@ -205,5 +212,9 @@ mod tests {
         let plan = some.of_datagrams(7);
         let parts = [plan.loss, plan.duplication, plan.reorder, plan.truncation];
         assert_eq!((parts, plan.seed), ([0.1, 0.2, 0.3, 0.4], 7));
+        let some = FaultArguments { loss: 0.1, bit_flip: 0.2, lost_byte: 0.3, garbage: 0.4, ..NONE };
+        let faults = some.of_frames(7);
+        let parts = [faults.lost_frame, faults.bit_flip, faults.lost_byte, faults.noise];
+        assert_eq!((parts, faults.seed), ([0.1, 0.2, 0.3, 0.4], 7));
     }
 }

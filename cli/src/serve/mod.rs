@@ -1,20 +1,15 @@
 //! `fingertip simulate`: a simulated fingertip behind the protocol of a real sensor.
 
 pub(crate) mod args;
-mod ati;
 mod load;
-mod schunk;
+mod network;
 mod serial;
 
-use alloc::sync::Arc;
-use core::sync::atomic::{AtomicU64, Ordering};
 use core::time::Duration;
-use std::io;
 use std::time::Instant;
 
-use args::{Device, SimulateArguments};
-use clap::ValueEnum;
-use fingertip_drivers::sensors::SimulatedSensor;
+use args::SimulateArguments;
+use fingertip_drivers::devices::{ServeError, Simulator};
 use load::Load;
 
 use crate::error::CliError;
@@ -34,67 +29,35 @@ impl End {
     }
 }
 
-/// How often a server that answers in a thread of its own looks whether it is to end.
-const NAP: Duration = Duration::from_millis(5);
-
-/// The load as a server in a thread of its own takes it; how many samples it took can be asked from outside.
-struct Played {
-    load: Load,
-    samples: Arc<AtomicU64>,
-}
-
-impl Played {
-    fn new(load: Load) -> (Self, Arc<AtomicU64>) {
-        let samples = Arc::default();
-        (Self { load, samples: Arc::clone(&samples) }, samples)
-    }
-
-    /// The components of a sample by its number; 0 begins the scenario anew.
-    fn next(&mut self, number: u64) -> [f64; 6] {
-        if number == 0 {
-            self.load.restart();
-        }
-        let wrench = self.load.next();
-        self.samples.store(self.load.samples(), Ordering::Relaxed);
-        wrench.components().into()
-    }
-}
-
 /// Whatever cannot be served.
 fn fault(message: impl ToString) -> CliError {
     CliError::Simulate { message: message.to_string() }
 }
 
 pub(crate) fn run(arguments: &SimulateArguments) -> Result<(), CliError> {
-    arguments.faults.check(arguments.serve).map_err(fault)?;
-    let period = Some(arguments.rate).filter(|rate| *rate > 0.0 && *rate <= 1e5);
-    let period =
-        period.ok_or_else(|| fault(format!("--rate {} must be above 0, up to 100000", arguments.rate)))?;
-    let period = Duration::from_secs_f64(1.0 / period);
+    arguments.faults.check(arguments.serve)?;
+    let rate = arguments.rate;
+    if !(rate > 0.0 && rate <= 1e5) {
+        return Err(CliError::option("--rate", rate, "must be above 0, up to 100000"));
+    }
     let load = Load::new(arguments)?;
     let at = match arguments.duration.map(Duration::try_from_secs_f64).transpose() {
         Ok(duration) => duration.and_then(|duration| Instant::now().checked_add(duration)),
         Err(error) => return Err(fault(format!("--duration: {error}"))),
     };
     let end = End { stop: Stop::listen(), at };
-    let said = match arguments.serve {
-        Device::Ati => ati::serve(arguments, period, load, &end),
-        Device::Schunk => schunk::serve(arguments, period, load, &end),
-        _ => serial::serve(arguments, period, load, &end),
+    let said = match arguments.serve.simulator {
+        Some(Simulator::Network(start)) => network::serve(start, arguments, load, &end),
+        Some(Simulator::Serial(make)) => serial::serve(make(rate), arguments, load, &end),
+        _ => Err(fault(format!("{} has no simulator that can be served", arguments.serve.name))),
     }?;
     print(&format!("\n{said}\n"))
 }
 
-fn cannot_bind(transport: &str, port: u16) -> impl Fn(io::Error) -> CliError {
-    move |error| {
-        fault(format!(
-            "cannot serve on {transport} port {port}: {error}; choose another --port, 0 for any free one"
-        ))
+impl From<ServeError> for CliError {
+    fn from(error: ServeError) -> Self {
+        fault(error)
     }
-}
-
-fn died() -> CliError {
-    fault("the server died; this is a fault of ours, please report it")
 }
 
 /// Says where the sensor can be found, as soon as it can be.
@@ -103,8 +66,7 @@ fn announce(arguments: &SimulateArguments, load: &Load, address: &str) -> Result
         Some(path) => path.display().to_string(),
         None => format!("{:?}", arguments.scenario).to_lowercase(),
     };
-    let name =
-        arguments.serve.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());
+    let name = arguments.serve.name;
     print(&format!(
         "Simulated sensor {name}: {} samples/s, {what} ({} s, begun anew by each client, then repeated)\nAddress: \
          {address}\nTry: fingertip live --scene sim '{address}'\nCtrl-C ends it.\n",
@@ -116,16 +78,4 @@ fn announce(arguments: &SimulateArguments, load: &Load, address: &str) -> Result
 /// What was done to frames or datagrams.
 fn tally(samples: u64, sent: u64, faults: &str) -> String {
     format!("{} samples, {} sent; {faults}", count(samples), count(sent))
-}
-
-fn tally_datagrams<Device>(samples: &AtomicU64, sensor: &SimulatedSensor<Device>) -> String {
-    let injected = sensor.injected();
-    tally(
-        samples.load(Ordering::Relaxed),
-        sensor.sent(),
-        &format!(
-            "{} lost on purpose, {} repeated, {} late, {} cut",
-            injected.lost, injected.duplicates, injected.late, injected.corrupt
-        ),
-    )
 }

@@ -5,17 +5,13 @@ use std::io::{self, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::thread;
 
-use fingertip_drivers::sensors::bota_serial::SimulatedBota;
-use fingertip_drivers::sensors::dynpick::SimulatedDynPick;
-use fingertip_drivers::sensors::line::{LineFaults, SerialDevice, SimulatedSerial};
-use fingertip_drivers::sensors::optoforce::SimulatedOptoForce;
-use fingertip_drivers::sensors::resense::SimulatedResense;
-use fingertip_drivers::sensors::robotous::SimulatedRft;
-use fingertip_drivers::sensors::{AxisCounts, Pace};
+use fingertip_drivers::devices::{SerialSimulator, ServeError};
+use fingertip_drivers::sensors::Pace;
+use fingertip_drivers::sensors::line::SimulatedSerial;
 
-use super::args::{Carrier, Device, SimulateArguments};
+use super::args::{Carrier, SimulateArguments};
 use super::load::Load;
-use super::{End, announce, cannot_bind, fault, tally};
+use super::{End, announce, fault, tally};
 use crate::error::CliError;
 
 /// The sensor's end of the line.
@@ -26,48 +22,14 @@ trait Outlet {
     fn send(&mut self, bytes: &[u8]);
 }
 
-/// Counts per newton and newton metre of the devices that send counts: those of the Robotous RFT60, a
-/// DynPick WEF-6A200, and an OptoForce HEX.
-const ROBOTOUS: [f64; 2] = [50.0, 2000.0];
-const DYNPICK: [f64; 2] = [40.0, 1640.0];
-const OPTOFORCE: [f64; 2] = [100.0, 10_000.0];
-/// Range of the Resense sensor \[N, N·m\].
-const RESENSE: [f64; 2] = [200.0, 10.0];
-
-/// A device, and what its address must say behind its question mark.
-fn simulated(device: Device, rate: f64) -> Result<(Box<dyn SerialDevice>, String), CliError> {
-    let counts = |[force, torque]: [f64; 2]| AxisCounts::uniform(force, torque).map_err(fault);
-    Ok(match device {
-        Device::Bota => (Box::new(SimulatedBota::new(rate)), format!("?rate_Hz={rate}")),
-        Device::Robotous => (Box::new(SimulatedRft::new(counts(ROBOTOUS)?)), String::new()),
-        Device::Dynpick => (Box::new(SimulatedDynPick::new(counts(DYNPICK)?)), String::new()),
-        Device::Optoforce => {
-            let [force, torque] = OPTOFORCE;
-            let options = format!("?counts_per_N={force}&counts_per_Nm={torque}");
-            (Box::new(SimulatedOptoForce::new(counts(OPTOFORCE)?)), options)
-        }
-        Device::Resense => {
-            let [force, torque] = RESENSE;
-            let options = format!("?greatest_N={force}&greatest_Nm={torque}");
-            (Box::new(SimulatedResense::streaming()), options)
-        }
-        Device::Ati | Device::Schunk => return Err(fault("this device has no serial line")),
-    })
-}
-
-pub(super) fn serve(
-    arguments: &SimulateArguments,
-    period: Duration,
-    mut load: Load,
-    end: &End,
-) -> Result<String, CliError> {
-    let device = arguments.serve;
-    let name = format!("{device:?}").to_lowercase();
-    let (simulated, options) = simulated(device, arguments.rate)?;
-    let (mut outlet, address): (Box<dyn Outlet>, String) = match arguments.over {
+/// Opens the sensor's end of the line, and says the address of the other one.
+fn outlet(arguments: &SimulateArguments, options: &str) -> Result<(Box<dyn Outlet>, String), CliError> {
+    let name = arguments.serve.name;
+    Ok(match arguments.over {
         Carrier::Tcp => {
             let port = arguments.port.unwrap_or(0);
-            let listener = TcpListener::bind((arguments.listen, port)).map_err(cannot_bind("TCP", port))?;
+            let listener = TcpListener::bind((arguments.listen, port))
+                .map_err(|source| ServeError::Port { transport: "TCP", port, source })?;
             listener.set_nonblocking(true).map_err(fault)?;
             let address = format!("{name}+tcp://{}{options}", listener.local_addr().map_err(fault)?);
             (Box::new(Tcp { listener, client: None }), address)
@@ -76,18 +38,20 @@ pub(super) fn serve(
             let (pty, path) = pseudo_terminal()?;
             (pty, format!("{name}://{path}{options}"))
         }
-    };
+    })
+}
+
+pub(super) fn serve(
+    simulated: SerialSimulator,
+    arguments: &SimulateArguments,
+    mut load: Load,
+    end: &End,
+) -> Result<String, CliError> {
+    let (mut outlet, address) = outlet(arguments, &simulated.options)?;
     announce(arguments, &load, &address)?;
-    let faults = &arguments.faults;
-    let faults = LineFaults {
-        bit_flip: faults.bit_flip,
-        lost_byte: faults.lost_byte,
-        lost_frame: faults.loss,
-        noise: faults.garbage,
-        seed: arguments.seed,
-    };
-    let mut sensor = SimulatedSerial::new(simulated, faults);
-    let mut pace = Pace::new(period);
+    let faults = arguments.faults.of_frames(arguments.seed);
+    let mut sensor = SimulatedSerial::new(simulated.device, faults);
+    let mut pace = Pace::new(Duration::from_secs_f64(arguments.rate.recip()));
     let mut has_client = false;
     let (mut heard, mut said) = ([0; 256], Vec::new());
     while !end.has_come() {

@@ -43,6 +43,13 @@ impl AxisCounts {
         Self::new([f, f, f, t, t, t])
     }
 
+    /// Those of a data sheet, which are known to be finite and not zero.
+    #[cfg(feature = "devices")]
+    pub(crate) const fn of_data_sheet(per_newton: f64, per_newton_metre: f64) -> Self {
+        let (f, t) = (1.0 / per_newton, 1.0 / per_newton_metre);
+        Self { per_count: [f, f, f, t, t, t] }
+    }
+
     /// The wrench of a reading, signs as the sensor has them.
     #[must_use]
     pub fn wrench<T: Real>(&self, counts: [i32; 6]) -> Wrench<T> {

@@ -7,6 +7,7 @@ mod ati_rdt;
 mod bota_serial;
 mod bridge_bounds;
 mod converters;
+mod devices;
 mod faulty_links;
 mod line_sensors;
 mod middleware;

@@ -68,3 +68,11 @@ pub use wire::{Calibration, Command, Configuration, Gain, Input, Pin, Rate, Regi
 
 #[cfg(feature = "simulators")]
 pub use simulator::SimulatedAds1256;
+
+/// Its entry among the devices.
+#[cfg(feature = "devices")]
+pub(crate) const DEVICE: crate::devices::Device = crate::devices::Device::converter(
+    "ads1256",
+    "Texas Instruments ADS1255 and ADS1256",
+    crate::devices::Link::Spi,
+);

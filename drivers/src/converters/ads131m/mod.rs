@@ -82,3 +82,11 @@ pub use wire::{Answer, Register, Request, Status};
 
 #[cfg(feature = "simulators")]
 pub use simulator::SimulatedAds131m;
+
+/// Its entry among the devices.
+#[cfg(feature = "devices")]
+pub(crate) const DEVICE: crate::devices::Device = crate::devices::Device::converter(
+    "ads131m",
+    "Texas Instruments ADS131M02 to ADS131M08",
+    crate::devices::Link::Spi,
+);

@@ -53,3 +53,8 @@ pub use wire::{Mode, Shift};
 
 #[cfg(feature = "simulators")]
 pub use simulator::{SimulatedClock, SimulatedHx711s};
+
+/// Its entry among the devices.
+#[cfg(feature = "devices")]
+pub(crate) const DEVICE: crate::devices::Device =
+    crate::devices::Device::converter("hx711", "Avia HX711", crate::devices::Link::Pins);

@@ -74,3 +74,11 @@ pub use wire::{Data, FastCommand, Register, Request, Status};
 
 #[cfg(feature = "simulators")]
 pub use simulator::SimulatedMcp3564;
+
+/// Its entry among the devices.
+#[cfg(feature = "devices")]
+pub(crate) const DEVICE: crate::devices::Device = crate::devices::Device::converter(
+    "mcp3564",
+    "Microchip MCP3561, MCP3562 and MCP3564",
+    crate::devices::Link::Spi,
+);

@@ -53,3 +53,8 @@ pub use wire::{ADDRESS, Calibration, Configuration, Control, Gain, Input, Rate, 
 
 #[cfg(feature = "simulators")]
 pub use simulator::{SimulatedI2c, SimulatedNau7802};
+
+/// Its entry among the devices.
+#[cfg(feature = "devices")]
+pub(crate) const DEVICE: crate::devices::Device =
+    crate::devices::Device::converter("nau7802", "Nuvoton NAU7802", crate::devices::Link::I2c);

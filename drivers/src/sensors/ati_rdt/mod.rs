@@ -11,6 +11,10 @@
 //! `std`), or ask for it with `RdtClient::configuration`. Not here: setting the configuration, CAN and
 //! EtherNet/IP.
 
+#[cfg(feature = "devices")]
+pub(crate) mod device;
+#[cfg(feature = "devices")]
+mod page_server;
 mod receiver;
 mod wire;
 

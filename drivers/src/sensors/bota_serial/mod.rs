@@ -10,6 +10,8 @@
 //! is not touched, and its zero is never set.
 
 mod decoder;
+#[cfg(feature = "devices")]
+pub(crate) mod device;
 #[cfg(feature = "simulators")]
 mod simulator;
 mod wire;

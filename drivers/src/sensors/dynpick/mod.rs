@@ -14,6 +14,8 @@
 //! offered; what a sensor sends by itself is decoded all the same.
 
 mod decoder;
+#[cfg(feature = "devices")]
+pub(crate) mod device;
 mod sensitivities;
 #[cfg(feature = "simulators")]
 mod simulator;

@@ -10,6 +10,8 @@
 //! report.
 
 mod decoder;
+#[cfg(feature = "devices")]
+pub(crate) mod device;
 #[cfg(feature = "simulators")]
 mod simulator;
 mod wire;

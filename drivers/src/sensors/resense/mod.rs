@@ -21,6 +21,8 @@
 //! from a public source; it is left to the user.
 
 mod decoder;
+#[cfg(feature = "devices")]
+pub(crate) mod device;
 #[cfg(feature = "simulators")]
 mod simulator;
 mod wire;

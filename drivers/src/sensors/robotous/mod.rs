@@ -17,10 +17,14 @@
 mod can;
 mod can_sensor;
 mod decoder;
+#[cfg(feature = "devices")]
+pub(crate) mod device;
 #[cfg(feature = "simulators")]
 mod simulated_can;
 #[cfg(feature = "simulators")]
 mod simulator;
+#[cfg(all(feature = "devices", target_os = "linux"))]
+mod socketcan;
 mod wire;
 
 pub use can::{CanAssembler, CanStatistics};

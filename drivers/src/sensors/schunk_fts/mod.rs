@@ -12,6 +12,8 @@
 
 #[cfg(feature = "std")]
 mod client;
+#[cfg(feature = "devices")]
+pub(crate) mod device;
 mod receiver;
 #[cfg(feature = "simulators")]
 mod simulator;

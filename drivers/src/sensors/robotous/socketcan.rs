@@ -1,48 +1,46 @@
-//! Sensors on a CAN interface of Linux.
+//! A sensor on a CAN interface of Linux.
 
-use fingertip_drivers::polled::NbWrenchSource;
-use fingertip_drivers::sensors::AxisCounts;
-use fingertip_drivers::sensors::robotous::{CanAssembler, CanSensor, CanSensorError, Request};
+use fingertip_wrench::Wrench;
 use socketcan::embedded_can::{ExtendedId, Id, StandardId};
 use socketcan::{CanFilter, CanSocket, Socket, SocketOptions};
 
-use super::address::Address;
-use super::line::WAIT;
-use super::losses::Losses;
-use super::{Feed, Next, Reading};
+use super::device::stated_counts;
+use super::{CanAssembler, CanSensor, CanSensorError, Request};
+use crate::devices::{
+    Address, AddressError, ConnectError, Losses, OpenSensor, Opened, SensorFault, WAIT, wrong,
+};
+use crate::polled::NbWrenchSource;
+use crate::{Sample, SourceError, SourceErrorKind};
 
-/// Opens a Robotous sensor and lets it stream.
-pub(super) fn robotous(address: &Address, counts: AxisCounts) -> Result<Box<dyn Feed>, String> {
+/// Opens a sensor and lets it stream.
+pub(super) fn open(address: &Address) -> Result<OpenSensor, ConnectError> {
+    let counts = stated_counts(address)?;
     let [first, second, requests] = ["first", "second", "request"].map(|key| identifier(address, key));
     let (first, second, requests) = (first?, second?, requests?);
-    let name = &address.place;
+    let place = address.place();
     let open = || {
-        let socket = CanSocket::open(name)?;
+        let socket = CanSocket::open(place)?;
         // Others that talk on the bus must not keep the user from being heard.
         socket.set_filters(&[first, second].map(exactly))?;
         socket.set_read_timeout(WAIT)?;
         socket.set_write_timeout(WAIT)?;
         Ok(socket)
     };
-    let socket = open().map_err(|error: std::io::Error| {
-        format!("cannot open {name}: {error}; is the interface there and up (ip link set {name} up)?")
-    })?;
+    let socket = open().map_err(|source| ConnectError::Can { place: place.to_owned(), source })?;
     let mut sensor = CanSensor::new(socket, CanAssembler::new(counts, first, second), requests);
-    sensor.request(Request::Stream).map_err(|error| format!("cannot tell the sensor to start: {error}"))?;
-    Ok(Box::new(CanFeed(sensor)))
+    sensor.request(Request::Stream).map_err(|error| ConnectError::Start(error.to_string()))?;
+    Ok(OpenSensor::new(OnSocket(sensor)))
 }
 
 /// An identifier of the address, hexadecimal: of 11 bits with up to three digits, of 29 with more.
-fn identifier(address: &Address, key: &str) -> Result<Id, String> {
-    let digits = address
-        .option(key)
-        .ok_or_else(|| format!("{key} is needed: the identifier as the sensor is set, such as ?{key}=64"))?;
+fn identifier(address: &Address, key: &'static str) -> Result<Id, AddressError> {
+    let digits = address.option(key).ok_or_else(|| address.missing(key))?;
     let number = u32::from_str_radix(digits, 16).ok();
     let id = number.and_then(|number| match u16::try_from(number).ok().filter(|_| digits.len() <= 3) {
         Some(number) => StandardId::new(number).map(Id::Standard),
         None => ExtendedId::new(number).map(Id::Extended),
     });
-    id.ok_or_else(|| format!("{key}={digits} is no CAN identifier in hexadecimal digits"))
+    id.ok_or_else(|| wrong(key, digits, "is no CAN identifier in hexadecimal digits"))
 }
 
 /// A filter that lets one identifier pass, in its own format.
@@ -56,19 +54,15 @@ fn exactly(id: Id) -> CanFilter {
     CanFilter::new(number, EXTENDED | ExtendedId::MAX.as_raw())
 }
 
-struct CanFeed(CanSensor<CanSocket, f64>);
+struct OnSocket(CanSensor<CanSocket, f64>);
 
-impl Feed for CanFeed {
-    fn next(&mut self) -> Result<Next, String> {
-        match self.0.poll_wrench() {
-            Ok(Some(sample)) => {
-                Ok(Next::Reading(Reading { time: sample.time, wrench: sample.value, volts: None }))
-            }
-            Ok(None) => Ok(Next::End),
-            Err(nb::Error::WouldBlock) => Ok(Next::Silence),
-            Err(nb::Error::Other(CanSensorError::Sensor(fault))) => Ok(Next::Fault(fault.to_string())),
-            Err(nb::Error::Other(error)) => Err(error.to_string()),
-        }
+impl Opened for OnSocket {
+    fn next(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, SensorFault> {
+        self.0.poll_wrench().map_err(|error| match error {
+            nb::Error::WouldBlock => SensorFault::of_kind(SourceErrorKind::Timeout, "no frame came in time"),
+            nb::Error::Other(CanSensorError::Sensor(fault)) => SensorFault::new(fault),
+            nb::Error::Other(error) => SensorFault::of_kind(error.kind(), error.to_string()),
+        })
     }
 
     /// The sensor does not number its readings: what is known is only which came in part.
@@ -80,9 +74,12 @@ impl Feed for CanFeed {
 
 #[cfg(test)]
 mod tests {
-    use super::super::address::Address;
-    use super::super::open;
     use super::{Id, exactly, identifier};
+    use crate::devices::{Address, devices};
+
+    fn parse(text: &str) -> Address {
+        Address::parse(text, devices()).unwrap()
+    }
 
     #[test]
     fn what_is_wrong_is_named() {
@@ -92,7 +89,7 @@ mod tests {
             ("robotous+can://can0?first=20000000&second=2&request=64", "no CAN identifier"),
             ("robotous+can://no-such-bus?first=1&second=2&request=64", "cannot open no-such-bus"),
         ] {
-            let error = open(&address.parse::<Address>().unwrap()).map(|_| ()).unwrap_err();
+            let error = parse(address).open().unwrap_err().to_string();
             assert!(error.contains(expected), "{error}");
         }
     }
@@ -100,8 +97,7 @@ mod tests {
     #[test]
     fn three_digits_are_eleven_bits_and_more_are_twenty_nine() {
         let of = |digits: &str| {
-            let address: Address = format!("robotous+can://can0?first={digits}").parse().unwrap();
-            identifier(&address, "first").map(|id| match id {
+            identifier(&parse(&format!("robotous+can://can0?first={digits}")), "first").map(|id| match id {
                 Id::Standard(id) => (u32::from(id.as_raw()), false),
                 Id::Extended(id) => (id.as_raw(), true),
             })
@@ -111,7 +107,7 @@ mod tests {
         assert!(of("800").is_err() && of("20000000").is_err() && of("xyz").is_err());
         // A filter compares all bits, and the mark of the longer format.
         for (digits, number) in [("64", 0x64_u32), ("0064", 0x8000_0064)] {
-            let address: Address = format!("robotous+can://can0?first={digits}").parse().unwrap();
+            let address = parse(&format!("robotous+can://can0?first={digits}"));
             let filter = format!("{:?}", exactly(identifier(&address, "first").unwrap()));
             let expected = format!("{:?}", socketcan::CanFilter::new(number, 0x9fff_ffff));
             assert_eq!(filter, expected);

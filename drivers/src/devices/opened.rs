@@ -1,0 +1,120 @@
+//! A sensor that was opened by its address, whatever it is.
+
+use core::error::Error;
+use core::fmt;
+
+use fingertip_wrench::Wrench;
+
+use super::Losses;
+use crate::{ErrorType, Sample, SourceError, SourceErrorKind, WrenchSource};
+
+/// Why an open sensor has no sample to give.
+#[derive(Debug)]
+pub struct SensorFault {
+    kind: SourceErrorKind,
+    error: Box<dyn Error + Send + Sync>,
+}
+
+impl SensorFault {
+    pub(crate) fn new(error: impl SourceError + Error + Send + Sync + 'static) -> Self {
+        Self::of_kind(error.kind(), error)
+    }
+
+    pub(crate) fn of_kind(kind: SourceErrorKind, error: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
+        Self { kind, error: error.into() }
+    }
+}
+
+impl fmt::Display for SensorFault {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.error.fmt(out)
+    }
+}
+
+impl Error for SensorFault {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        self.error.source()
+    }
+}
+
+impl SourceError for SensorFault {
+    fn kind(&self) -> SourceErrorKind {
+        self.kind
+    }
+}
+
+/// A sensor that streams, or is asked for each reading. A call waits for a fraction of a second at most: silence is
+/// an error of the kind [`Timeout`](SourceErrorKind::Timeout), after which the next call goes on.
+pub struct OpenSensor(Box<dyn Opened>);
+
+impl fmt::Debug for OpenSensor {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.debug_tuple("OpenSensor").field(&self.losses()).finish()
+    }
+}
+
+impl OpenSensor {
+    pub(crate) fn new(opened: impl Opened + 'static) -> Self {
+        Self(Box::new(opened))
+    }
+
+    /// What went missing so far.
+    #[must_use]
+    pub fn losses(&self) -> Losses {
+        self.0.losses()
+    }
+}
+
+impl ErrorType for OpenSensor {
+    type Error = SensorFault;
+}
+
+impl WrenchSource<f64> for OpenSensor {
+    fn next_wrench(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, SensorFault> {
+        self.0.next()
+    }
+}
+
+/// What is behind it.
+pub(crate) trait Opened: Send {
+    fn next(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, SensorFault>;
+    fn losses(&self) -> Losses;
+}
+
+impl Opened for OpenSensor {
+    fn next(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, SensorFault> {
+        self.0.next()
+    }
+    fn losses(&self) -> Losses {
+        self.0.losses()
+    }
+}
+
+/// A source and what it says of its losses.
+struct Source<S, L> {
+    source: S,
+    losses: L,
+}
+
+/// A source as an open sensor.
+pub(crate) fn source<S>(source: S, losses: impl Fn(&S) -> Losses + Send + 'static) -> OpenSensor
+where
+    S: WrenchSource<f64> + Send + 'static,
+    S::Error: Error + Send + Sync + 'static,
+{
+    OpenSensor::new(Source { source, losses })
+}
+
+impl<S, L> Opened for Source<S, L>
+where
+    S: WrenchSource<f64> + Send,
+    S::Error: Error + Send + Sync + 'static,
+    L: Fn(&S) -> Losses + Send,
+{
+    fn next(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, SensorFault> {
+        self.source.next_wrench().map_err(SensorFault::new)
+    }
+    fn losses(&self) -> Losses {
+        (self.losses)(&self.source)
+    }
+}
