@@ -283,7 +283,7 @@ mod tests {
     #[test]
     fn the_style_is_for_light_dark_and_paper() {
         let page = Page::new("").finish("");
-        for part in ["@media (prefers-color-scheme: dark)", "@media print", "--ground"] {
+        for part in ["(prefers-color-scheme: dark)", "@media print", "--ground"] {
             assert!(page.contains(part), "{part}");
         }
         assert!(!page.contains("http") && !page.contains("<script"));

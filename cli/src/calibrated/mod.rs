@@ -6,7 +6,7 @@ mod tests;
 use std::path::Path;
 
 use fingertip::wrench::{GaussianElimination, LeastSquares, TareError, Wrench};
-use fingertip_calibration::file::{CalibrationFile, SignalUnit as CalibratedUnit, Verdict};
+use fingertip_calibration::file::{CalibrationFile, Verdict};
 use fingertip_recordings::SignalUnit;
 
 use crate::error::CliError;
@@ -145,11 +145,6 @@ fn redundant<const N: usize>(
 
 /// Whether a calibration is in the unit of a recording. Columns that do not state theirs are taken
 /// at their user's word.
-const fn agree(recorded: SignalUnit, calibrated: CalibratedUnit) -> bool {
-    matches!(
-        (recorded, calibrated),
-        (SignalUnit::Volts, CalibratedUnit::Volt)
-            | (SignalUnit::Counts, CalibratedUnit::Count)
-            | (SignalUnit::Unstated, _)
-    )
+fn agree(recorded: SignalUnit, calibrated: SignalUnit) -> bool {
+    recorded == SignalUnit::Unstated || recorded == calibrated
 }
