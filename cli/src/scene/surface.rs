@@ -7,6 +7,7 @@ use fingertip::wrench::RigidTransform;
 use nalgebra::Vector3;
 use serde::Deserialize;
 
+use super::fault::SceneProblem;
 use crate::shape::{Capped, Projection, Shape};
 
 type Triple = [f64; 3];
@@ -28,7 +29,7 @@ pub(super) trait Surface {
         pose: &PoseSection,
         map: Option<&MapSection>,
         folder: &Path,
-    ) -> Result<(Shape, Projection), String>;
+    ) -> Result<(Shape, Projection), SceneProblem>;
 }
 
 /// The shapes that have types and maps of their own here. All others are [`DynSurface`]s.
@@ -75,10 +76,10 @@ pub(super) struct PoseSection {
 }
 
 impl PoseSection {
-    fn sensor_from_surface(&self) -> Result<RigidTransform<f64>, String> {
+    fn sensor_from_surface(&self) -> Result<RigidTransform<f64>, SceneProblem> {
         let rotation = Vector3::from(self.rotation).map(f64::to_radians);
         RigidTransform::from_axis_angle(rotation, Vector3::from(self.translation))
-            .map_err(|_| "`translation_m` and `rotation_deg` of the pose must be finite numbers".to_owned())
+            .map_err(|_| SceneProblem::Pose)
     }
 }
 
@@ -95,11 +96,9 @@ impl Surface for SurfaceSection {
         pose: &PoseSection,
         map: Option<&MapSection>,
         _: &Path,
-    ) -> Result<(Shape, Projection), String> {
+    ) -> Result<(Shape, Projection), SceneProblem> {
         if map.is_some() {
-            return Err(
-                "[map] is for other shapes than plane, sphere and cylinder, whose maps need none".to_owned()
-            );
+            return Err(SceneProblem::NeedlessMap);
         }
         let pose = pose.sensor_from_surface()?;
         let point = |p: &Triple| pose.transform_point(&Vector3::from(*p));
@@ -107,14 +106,13 @@ impl Surface for SurfaceSection {
         let frame = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| pose.rotate(&axis));
         match self {
             Self::Plane { point: through, normal } => {
-                let plane =
-                    Plane::new(point(through), direction(normal)).map_err(|fault| fault.to_string())?;
+                let plane = Plane::new(point(through), direction(normal))?;
                 let normal = unit("normal", direction(normal))?;
                 let map = Projection::plane(plane.point(), normal, &frame);
                 Ok((Shape::Plane(plane), map))
             }
             Self::Sphere { radius, centre, pole, active_half_angle } => {
-                let sphere = Sphere::new(point(centre), *radius).map_err(|fault| fault.to_string())?;
+                let sphere = Sphere::new(point(centre), *radius)?;
                 let pole = unit("pole", direction(pole))?;
                 let rim = active_half_angle.map(f64::to_radians);
                 let capped = match rim {
@@ -122,18 +120,15 @@ impl Surface for SurfaceSection {
                     Some(angle) if angle > 0.0 && angle <= core::f64::consts::PI => {
                         Capped::within(sphere, pole, angle)
                     }
-                    Some(_) => {
-                        return Err("`active_half_angle_deg` must be above 0 and at most 180".to_owned());
-                    }
+                    Some(_) => return Err(SceneProblem::HalfAngle),
                 };
                 let map = Projection::sphere(sphere.centre(), pole, rim, &frame);
                 Ok((Shape::Sphere(capped), map))
             }
             Self::Cylinder { radius, centre, axis, half_length } => {
-                let mut cylinder = Cylinder::new(point(centre), direction(axis), *radius)
-                    .map_err(|fault| fault.to_string())?;
+                let mut cylinder = Cylinder::new(point(centre), direction(axis), *radius)?;
                 if let Some(half_length) = half_length {
-                    cylinder = cylinder.with_half_length(*half_length).map_err(|fault| fault.to_string())?;
+                    cylinder = cylinder.with_half_length(*half_length)?;
                 }
                 let map =
                     Projection::cylinder(cylinder.centre(), cylinder.axis(), *radius, *half_length, &frame);
@@ -169,10 +164,10 @@ impl Surface for MeshSection {
         pose: &PoseSection,
         map: Option<&MapSection>,
         folder: &Path,
-    ) -> Result<(Shape, Projection), String> {
+    ) -> Result<(Shape, Projection), SceneProblem> {
         let path = folder.join(&self.file);
         let mesh = Mesh::from_file(&path, self.metres_per_unit)
-            .map_err(|fault| format!("mesh {}: {fault}", path.display()))?;
+            .map_err(|source| SceneProblem::Mesh { path, source })?;
         DynSurface::Mesh(mesh).place(pose, map, folder)
     }
 }
@@ -183,13 +178,13 @@ impl Surface for DynSurface<f64> {
         pose: &PoseSection,
         map: Option<&MapSection>,
         _: &Path,
-    ) -> Result<(Shape, Projection), String> {
+    ) -> Result<(Shape, Projection), SceneProblem> {
         let placed = pose.sensor_from_surface()?;
         let MapSection { centre, pole } =
             map.copied().unwrap_or(MapSection { centre: ORIGIN, pole: along_z() });
         let centre = placed.transform_point(&Vector3::from(centre));
         if !centre.iter().all(|x| x.is_finite()) {
-            return Err("`centre_m` of [map] must be finite numbers".to_owned());
+            return Err(SceneProblem::MapCentre);
         }
         let pole = unit("pole", placed.rotate(&Vector3::from(pole)))?;
         let frame = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| placed.rotate(&axis));
@@ -198,9 +193,9 @@ impl Surface for DynSurface<f64> {
     }
 }
 
-fn unit(what: &str, direction: Vector3<f64>) -> Result<Vector3<f64>, String> {
+fn unit(key: &'static str, direction: Vector3<f64>) -> Result<Vector3<f64>, SceneProblem> {
     direction
         .try_normalize(0.0)
         .filter(|unit| unit.iter().all(|x| x.is_finite()))
-        .ok_or_else(|| format!("the `{what}` of the surface must be a direction: finite and not zero"))
+        .ok_or(SceneProblem::NoDirection { key })
 }
