@@ -15,6 +15,7 @@ pub mod linear;
 pub mod loads;
 pub mod model;
 pub mod motion;
+pub mod page;
 pub mod report;
 pub mod tare;
 #[cfg(test)]

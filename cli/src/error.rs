@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use fingertip_recordings::RecordingError;
 use thiserror::Error;
 
+use crate::scene::SceneProblem;
 use crate::sensor::SensorError;
 
 /// Why a run stopped.
@@ -24,8 +25,8 @@ pub(crate) enum CliError {
     #[error("{what} {path} is also an input of this run and would be overwritten; give another path", path = .path.display())]
     WouldOverwrite { what: &'static str, path: PathBuf },
     /// The scene does not say what it must.
-    #[error("scene {path}{place}: {message}", path = .path.display())]
-    Scene { path: PathBuf, place: Place, message: String },
+    #[error("scene {path}{place}: {problem}", path = .path.display())]
+    Scene { path: PathBuf, place: Place, problem: SceneProblem },
     /// The recording cannot be used; the message names the file.
     #[error(transparent)]
     Recording(#[from] RecordingError),

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use fingertip_calibration::file::{CalibrationFile, Quality, SignalUnit, Verdict};
+use fingertip_calibration::file::{CalibrationFile, FileError, Quality, SignalUnit, Verdict};
 use fingertip_calibration::loads::{Columns, LoadTable, Rest, signals_from_csv};
 use fingertip_calibration::motion::{LeverArm, constant_force, lever_arms};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -191,14 +191,13 @@ fn zero(zero: &DVector<f64>, deviations: &DVector<f64>, noise: f64) -> String {
     format!("zero {} (± {})\nnoise of one reading {noise:.2e}\n", list(zero), list(deviations))
 }
 
-fn to_file(found: &Found, unit: SignalUnit, source: &Path, samples: usize) -> Result<String, String> {
+fn to_file(found: &Found, unit: SignalUnit, source: &Path, samples: usize) -> Result<String, FileError> {
     let mut matrix = found.sensitivities.clone();
     for (mut column, nominal) in matrix.column_iter_mut().zip(&found.nominal) {
         column *= *nominal;
     }
     let zero = found.zero.as_slice().to_vec();
-    let mut file =
-        CalibrationFile::new(matrix, found.nominal.clone(), zero, unit).map_err(|error| error.to_string())?;
+    let mut file = CalibrationFile::new(matrix, found.nominal.clone(), zero, unit)?;
     file.noise = found.noise.is_finite().then(|| vec![found.noise; file.gauges()]);
     file.provenance.method = "shape from motion".to_owned();
     file.provenance.source = source.display().to_string();
@@ -208,5 +207,5 @@ fn to_file(found: &Found, unit: SignalUnit, source: &Path, samples: usize) -> Re
         samples: Some(samples as u64),
         ..Quality::default()
     };
-    file.to_toml().map_err(|error| error.to_string())
+    file.to_toml()
 }

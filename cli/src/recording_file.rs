@@ -55,11 +55,9 @@ pub(crate) fn open(path: &Path) -> Result<McapReader<BufReader<File>>, CliError>
 
 /// The unit that a message of signals states.
 pub(crate) fn unit(name: &str) -> SignalUnit {
-    match name {
-        "V" => SignalUnit::Volts,
-        "counts" => SignalUnit::Counts,
-        _ => SignalUnit::Unstated,
-    }
+    SignalUnit::from_name(name)
+        .filter(|(_, size)| *size == 1.0)
+        .map_or(SignalUnit::Unstated, |(unit, _)| unit)
 }
 
 /// An error of a CSV file that is written, with its name.

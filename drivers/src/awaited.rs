@@ -1,44 +1,24 @@
 //! Sources for a task of an asynchronous executor.
 
-use fingertip_wrench::{Real, Wrench};
-use nalgebra::SVector;
-
 use crate::{ErrorType, Sample};
 
-/// Gives wrenches in a task.
+/// Gives samples of `V` (a [`Wrench`](fingertip_wrench::Wrench), or the raw signals of `N` channels) in a task.
 ///
 /// # For implementers
-/// The contract of [`WrenchSource`](crate::WrenchSource). A call that is dropped before it is done
-/// shall lose no sample that a later call could give.
+/// The contract of [`WrenchSource`](crate::WrenchSource) and [`SignalSource`](crate::SignalSource). A call that is
+/// dropped before it is done shall lose no sample that a later call could give.
 #[allow(async_fn_in_trait, reason = "as in embedded-hal-async: executors of microcontrollers need no Send")]
-pub trait AsyncWrenchSource<T: Real>: ErrorType {
+pub trait AsyncSource<T, V>: ErrorType {
     /// The next sample, or `None` at the end.
     ///
     /// # Errors
     /// Whatever keeps the source from giving a sound sample.
-    async fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error>;
+    async fn next_sample(&mut self) -> Result<Option<Sample<T, V>>, Self::Error>;
 }
 
-/// Gives the raw signals of `N` channels in a task: see [`AsyncWrenchSource`].
-#[allow(async_fn_in_trait, reason = "as in embedded-hal-async: executors of microcontrollers need no Send")]
-pub trait AsyncSignalSource<T: Real, const N: usize>: ErrorType {
-    /// The next sample, or `None` at the end.
-    ///
-    /// # Errors
-    /// Whatever keeps the source from giving a sound sample.
-    async fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error>;
-}
-
-impl<T: Real, S: AsyncWrenchSource<T> + ?Sized> AsyncWrenchSource<T> for &mut S {
+impl<T, V, S: AsyncSource<T, V> + ?Sized> AsyncSource<T, V> for &mut S {
     #[inline]
-    async fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
-        (**self).next_wrench().await
-    }
-}
-
-impl<T: Real, const N: usize, S: AsyncSignalSource<T, N> + ?Sized> AsyncSignalSource<T, N> for &mut S {
-    #[inline]
-    async fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
-        (**self).next_signals().await
+    async fn next_sample(&mut self) -> Result<Option<Sample<T, V>>, Self::Error> {
+        (**self).next_sample().await
     }
 }

@@ -27,5 +27,5 @@ pub mod polled;
 pub mod sensors;
 mod source;
 
-pub use awaited::{AsyncSignalSource, AsyncWrenchSource};
+pub use awaited::AsyncSource;
 pub use source::{ErrorType, Sample, SignalSource, SourceError, SourceErrorKind, WrenchSource};

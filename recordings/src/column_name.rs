@@ -1,19 +1,29 @@
-//! What the name of a column says.
+//! What the name of a column says: the one grammar of recordings and of tables of loads.
 
 use fingertip_wrench::units::{ForceUnit, TorqueUnit};
 
 use crate::unit::{SignalUnit, seconds};
 
-/// A column, as far as its name tells.
+/// A column, as far as its name tells: a quantity, its unit, and what tells sensors apart, in any order of words.
+///
+/// ```
+/// use fingertip_recordings::{ColumnMeaning, ColumnName, ForceUnit};
+///
+/// let name = ColumnName::parse("S1_Fx (mN)");
+/// assert_eq!(name.sensor, "s1");
+/// assert_eq!(name.meaning, ColumnMeaning::Force(0, Some(ForceUnit::Millinewton)));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct ColumnName {
+pub struct ColumnName {
     /// What tells sensors apart, lower case; empty if nothing does.
-    pub(super) sensor: String,
-    pub(super) meaning: Meaning,
+    pub sensor: String,
+    /// The quantity.
+    pub meaning: ColumnMeaning,
 }
 
+/// The quantity of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Meaning {
+pub enum ColumnMeaning {
     /// Time; seconds per unit, if the unit is known.
     Time(Option<f64>),
     /// Axis 0..3 of the force.
@@ -24,19 +34,21 @@ pub(super) enum Meaning {
     Signal(u32, SignalUnit, f64),
     /// The dummy gauge.
     Dummy(SignalUnit, f64),
-    /// Not one of ours.
+    /// Another quantity, which this grammar does not know.
     Other,
 }
 
 impl ColumnName {
     /// Whether it is a force, torque, signal or dummy gauge.
-    pub(super) const fn is_of_sensor(&self) -> bool {
-        !matches!(self.meaning, Meaning::Time(_) | Meaning::Other)
+    pub(crate) const fn is_of_sensor(&self) -> bool {
+        !matches!(self.meaning, ColumnMeaning::Time(_) | ColumnMeaning::Other)
     }
 
-    pub(super) fn parse(name: &str) -> Self {
+    /// Takes a name apart.
+    #[must_use]
+    pub fn parse(name: &str) -> Self {
         let words = words(name);
-        let other = || Self { sensor: String::new(), meaning: Meaning::Other };
+        let other = || Self { sensor: String::new(), meaning: ColumnMeaning::Other };
         if let Some((at, length, axis, torque)) = find_axis(&words) {
             // The unit stands behind the axis, last.
             let mut end = words.len();
@@ -44,15 +56,15 @@ impl ColumnName {
             let meaning = match (torque, behind.last()) {
                 (false, Some(last)) if ForceUnit::from_name(last).is_some() => {
                     end -= 1;
-                    Meaning::Force(axis, ForceUnit::from_name(last))
+                    ColumnMeaning::Force(axis, ForceUnit::from_name(last))
                 }
-                (false, _) => Meaning::Force(axis, None),
+                (false, _) => ColumnMeaning::Force(axis, None),
                 (true, Some(_)) => {
                     let (unit, used) = torque_unit(behind);
                     end -= used;
-                    Meaning::Torque(axis, unit)
+                    ColumnMeaning::Torque(axis, unit)
                 }
-                (true, None) => Meaning::Torque(axis, None),
+                (true, None) => ColumnMeaning::Torque(axis, None),
             };
             return Self { sensor: join(&words, at, length, end), meaning };
         }
@@ -60,30 +72,24 @@ impl ColumnName {
             && matches!(word.as_str(), "t" | "time" | "timestamp" | "stamp")
         {
             return match rest {
-                [] => Self { sensor: String::new(), meaning: Meaning::Time(None) },
+                [] => Self { sensor: String::new(), meaning: ColumnMeaning::Time(None) },
                 [unit] if seconds(unit).is_some() => {
-                    Self { sensor: String::new(), meaning: Meaning::Time(seconds(unit)) }
+                    Self { sensor: String::new(), meaning: ColumnMeaning::Time(seconds(unit)) }
                 }
                 _ => other(),
             };
         }
-        let mut end = words.len();
-        let (unit, scale) = match words.last().and_then(|word| SignalUnit::from_name(word)) {
-            Some(known) if words.len() > 1 => {
-                end -= 1;
-                known
-            }
-            _ => (SignalUnit::Unstated, 1.0),
-        };
+        let (unit, scale, used) = signal_unit(&words);
+        let end = words.len() - used;
         let named = words.get(..end).unwrap_or_default();
         if let Some(at) = named.iter().position(|word| word == "dummy") {
-            return Self { sensor: join(&words, at, 1, end), meaning: Meaning::Dummy(unit, scale) };
+            return Self { sensor: join(&words, at, 1, end), meaning: ColumnMeaning::Dummy(unit, scale) };
         }
         // The last one that fits, so that `s1_v0` is signal 0 of sensor `s1`.
         let found = named.iter().enumerate().rev().find_map(|(at, word)| Some((at, signal_number(word)?)));
         match found {
             Some((at, number)) => {
-                Self { sensor: join(&words, at, 1, end), meaning: Meaning::Signal(number, unit, scale) }
+                Self { sensor: join(&words, at, 1, end), meaning: ColumnMeaning::Signal(number, unit, scale) }
             }
             None => other(),
         }
@@ -137,6 +143,19 @@ fn torque_unit(behind: &[String]) -> (Option<TorqueUnit>, usize) {
         Some(unit) => (Some(unit), 1),
         None => (None, 0),
     }
+}
+
+/// A unit of signals at the end of the words, and how many words it takes (`mv v`: two).
+fn signal_unit(words: &[String]) -> (SignalUnit, f64, usize) {
+    let known = match words {
+        [_, .., first, second] => SignalUnit::from_name(&format!("{first}/{second}")).map(|known| (known, 2)),
+        _ => None,
+    };
+    let last = || match words {
+        [_, .., last] => SignalUnit::from_name(last).map(|known| (known, 1)),
+        _ => None,
+    };
+    known.or_else(last).map_or((SignalUnit::Unstated, 1.0, 0), |((unit, scale), used)| (unit, scale, used))
 }
 
 /// The number of `v3`, `s0`, `ch12`, `gauge1`, `sg6`.

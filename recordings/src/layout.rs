@@ -2,7 +2,7 @@
 
 use fingertip_wrench::units::{ForceUnit, TorqueUnit};
 
-use crate::column_name::{ColumnName, Meaning};
+use crate::column_name::{ColumnMeaning, ColumnName};
 use crate::columns::{CONTACT_COLUMNS, ContactColumns, SignalColumns, WrenchColumns, of_sensor};
 use crate::error::HeaderProblem;
 use crate::unit::SignalUnit;
@@ -96,7 +96,7 @@ impl Layout {
 
     fn find_time(&mut self, parsed: &[ColumnName]) -> Result<(), HeaderProblem> {
         for (column, name) in parsed.iter().enumerate() {
-            if let Meaning::Time(unit) = name.meaning {
+            if let ColumnMeaning::Time(unit) = name.meaning {
                 let Some(scale) = unit else {
                     let example = format!("{}_s", self.name(column));
                     return Err(HeaderProblem::MissingUnit { column: self.name(column), example });
@@ -131,8 +131,10 @@ impl Layout {
         let mut problem = None;
         for (column, name) in parsed.iter().enumerate().filter(|(_, name)| name.sensor == sensor) {
             let (axis, scale, unit) = match name.meaning {
-                Meaning::Force(axis, unit) => (axis, unit.or(assumed.force).map(ForceUnit::in_newtons), "N"),
-                Meaning::Torque(axis, unit) => {
+                ColumnMeaning::Force(axis, unit) => {
+                    (axis, unit.or(assumed.force).map(ForceUnit::in_newtons), "N")
+                }
+                ColumnMeaning::Torque(axis, unit) => {
                     (axis + 3, unit.or(assumed.torque).map(TorqueUnit::in_newton_metres), "Nm")
                 }
                 _ => continue,
@@ -178,13 +180,13 @@ impl Layout {
         let mut dummy: Option<(SignalUnit, UsedColumn)> = None;
         for (column, name) in parsed.iter().enumerate().filter(|(_, name)| name.sensor == sensor) {
             match name.meaning {
-                Meaning::Signal(number, unit, scale) => {
+                ColumnMeaning::Signal(number, unit, scale) => {
                     if let Some((.., first)) = found.iter().find(|(known, ..)| *known == number) {
                         return Err(self.duplicate(first.column, column));
                     }
                     found.push((number, unit, UsedColumn { column, scale, optional: false }));
                 }
-                Meaning::Dummy(unit, scale) => {
+                ColumnMeaning::Dummy(unit, scale) => {
                     if let Some((_, first)) =
                         dummy.replace((unit, UsedColumn { column, scale, optional: false }))
                     {

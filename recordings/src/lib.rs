@@ -19,6 +19,7 @@ mod time_watch;
 mod unit;
 mod writer;
 
+pub use column_name::{ColumnMeaning, ColumnName};
 pub use columns::{ContactCells, ContactColumns, NumberColumn, SignalColumns, WrenchColumns};
 pub use error::{HeaderProblem, RecordingError};
 pub use fingertip_wrench::units::{ForceUnit, TorqueUnit};

@@ -14,7 +14,7 @@ use crate::unit::SignalUnit;
 /// ```
 /// use fingertip_recordings::{Schema, SignalUnit};
 ///
-/// let schema = Schema::default().time().signals("", 6, SignalUnit::Volts).dummy("", SignalUnit::Volts);
+/// let schema = Schema::default().time().signals("", 6, SignalUnit::Volt).dummy("", SignalUnit::Volt);
 /// assert_eq!(schema.names().join(","), "t_s,v1_V,v2_V,v3_V,v4_V,v5_V,v6_V,dummy_V");
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -4,7 +4,7 @@ use fingertip_wrench::{Real, SensorMatrix, Tare};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector6};
 use serde::{Deserialize, Serialize};
 
-use super::{FileError, Temperature, rows};
+use super::{FileError, SignalUnit, Temperature, rows};
 use crate::Axis;
 
 /// Everything that is known of a calibrated sensor: what turns its readings into a wrench, how
@@ -71,27 +71,6 @@ pub struct CalibrationFile {
     pub provenance: Provenance,
     /// How good it is.
     pub quality: Quality,
-}
-
-/// Unit of a sensor's readings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SignalUnit {
-    /// Volts.
-    #[serde(rename = "V")]
-    Volt,
-    /// Millivolts per volt of bridge supply.
-    #[serde(rename = "mV/V")]
-    MillivoltPerVolt,
-    /// Counts of a converter.
-    #[serde(rename = "count")]
-    Count,
-    /// Strain, as a ratio.
-    #[serde(rename = "strain")]
-    Strain,
-    /// The readings are newtons and newton metres already: the calibration mends a sensor that has
-    /// one.
-    #[serde(rename = "N, N·m")]
-    Wrench,
 }
 
 /// Covariance of the normalised matrix, as a Kronecker product: the covariance of entries

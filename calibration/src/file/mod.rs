@@ -14,9 +14,10 @@ mod text;
 mod validate;
 
 pub use ati::{AtiAxis, AtiCalibration, AtiError};
-pub use calibration_file::{CalibrationFile, Covariance, Provenance, Quality, SignalUnit, Verdict};
+pub use calibration_file::{CalibrationFile, Covariance, Provenance, Quality, Verdict};
 pub use document::VERSION;
 pub use error::FileError;
+pub use fingertip_recordings::SignalUnit;
 pub use payload_file::{PayloadFile, PayloadQuality};
 pub use rust_constants::Scalar;
 pub use temperature::Temperature;

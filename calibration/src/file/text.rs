@@ -2,7 +2,6 @@
 
 use std::{fs, path::Path};
 
-use nalgebra::DMatrix;
 use toml::{Table, Value};
 
 use super::document::{checksum_of, compare, malformed, open, write};
@@ -63,28 +62,14 @@ impl CalibrationFile {
     }
 }
 
-/// Deserialises, and names the field if that fails: serde alone tells only of line and type.
+/// Deserialises, and names the field if that fails: serde alone tells only of the type.
 fn field_by_field(table: Table) -> Result<CalibrationFile, FileError> {
-    match Value::Table(table.clone()).try_into() {
-        Ok(file) => Ok(file),
-        Err(error) => {
-            let template = CalibrationFile::new(
-                DMatrix::identity(6, 6),
-                vec![1.0; 6],
-                vec![0.0; 6],
-                super::SignalUnit::Volt,
-            )?;
-            let Ok(Value::Table(good)) = Value::try_from(template) else { return Err(malformed(error)) };
-            for (key, value) in table {
-                let mut one = good.clone();
-                one.insert(key.clone(), value);
-                if let Err(error) = Value::Table(one).try_into::<CalibrationFile>() {
-                    return Err(malformed(format!("field `{key}`: {error}")));
-                }
-            }
-            Err(malformed(error))
-        }
-    }
+    serde_path_to_error::deserialize(Value::Table(table)).map_err(|error| {
+        let field = error.path().to_string();
+        let message = error.into_inner();
+        // A field that is missing has no path; the message names it.
+        if field == "." { malformed(message) } else { malformed(format!("field `{field}`: {message}")) }
+    })
 }
 
 #[cfg(test)]

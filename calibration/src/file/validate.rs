@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::{CalibrationFile, FileError};
+use super::{CalibrationFile, FileError, SignalUnit};
 
 impl CalibrationFile {
     /// Checks shapes, ranges and that every number is finite. [`read`](Self::read) and
@@ -24,6 +24,9 @@ impl CalibrationFile {
         }
         if !self.axes.is_sorted_by(|a, b| a < b) {
             return Err(out_of_range("axes", "in the order fx, fy, fz, tx, ty, tz, each once"));
+        }
+        if self.signal_unit == SignalUnit::Unstated {
+            return Err(out_of_range("signal_unit", "stated"));
         }
         finite_matrix("matrix", &self.matrix)?;
         finite_list("nominal", &self.nominal, axes)?;

@@ -1,5 +1,8 @@
 //! What the columns of a table of loads mean, by their names.
 
+use fingertip_recordings::{ColumnMeaning, ColumnName, ForceUnit, TorqueUnit};
+use thiserror::Error;
+
 use super::LoadError;
 use crate::Axis;
 use crate::file::SignalUnit;
@@ -14,7 +17,8 @@ pub(super) enum Column {
     Case,
     Group,
     Name,
-    Time,
+    /// The size of its unit in seconds.
+    Time(f64),
     Temperature,
     Weight,
     /// Part of the orientation: x, y, z, w.
@@ -22,12 +26,24 @@ pub(super) enum Column {
     Ignored,
 }
 
-pub(super) fn parse_name(name: &str) -> Result<Column, String> {
+/// Why a column cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub(super) enum NameProblem {
+    #[error("it states no unit of {quantity} that is known; write such as `fx_N` or `tx_Nm`")]
+    LoadUnit { quantity: &'static str },
+    #[error("it states no unit of signals that is known; write such as `v1_V`, `v1_count`")]
+    SignalUnit,
+    #[error("gauges are numbered from 1")]
+    Number,
+}
+
+/// What a column means: by the grammar of recordings, but for what only tables of loads have. Columns of other sensors,
+/// whose name stands in front, are ignored.
+pub(super) fn parse_name(name: &str) -> Result<Column, NameProblem> {
     match name {
         "case" | "level" => return Ok(Column::Case),
         "group" => return Ok(Column::Group),
         "name" => return Ok(Column::Name),
-        "t_s" => return Ok(Column::Time),
         "temperature_C" => return Ok(Column::Temperature),
         "weight" => return Ok(Column::Weight),
         "qx" => return Ok(Column::Quaternion(0)),
@@ -36,33 +52,28 @@ pub(super) fn parse_name(name: &str) -> Result<Column, String> {
         "qw" => return Ok(Column::Quaternion(3)),
         _ => {}
     }
-    let (stem, unit) = name.rsplit_once('_').unwrap_or((name, ""));
-    if let Some(axis) = Axis::from_name(stem) {
-        let size = axis.unit_size(unit).ok_or_else(|| {
-            let quantity = if axis.is_torque() { "torque" } else { "force" };
-            format!("{unit:?} is not a unit of {quantity}; write such as `fx_N` or `tx_Nm`")
-        })?;
-        return Ok(Column::Load(axis, size));
+    let ColumnName { sensor, meaning } = ColumnName::parse(name);
+    if !sensor.is_empty() && name.to_lowercase().starts_with(&sensor) {
+        return Ok(Column::Ignored);
     }
-    let number = stem.strip_prefix('v').and_then(|digits| digits.parse::<usize>().ok());
-    let Some(number) = number else { return Ok(Column::Ignored) };
-    if number == 0 || number > 1000 {
-        return Err("gauges are numbered from 1".to_owned());
-    }
-    let (unit, size) = match unit {
-        "V" => (SignalUnit::Volt, 1.0),
-        "mV" => (SignalUnit::Volt, 1e-3),
-        "count" | "counts" => (SignalUnit::Count, 1.0),
-        "mVpV" | "mV/V" => (SignalUnit::MillivoltPerVolt, 1.0),
-        "strain" => (SignalUnit::Strain, 1.0),
-        _ => match Axis::Fx.unit_size(unit).or_else(|| Axis::Tx.unit_size(unit)) {
-            Some(size) => (SignalUnit::Wrench, size),
-            None => {
-                return Err(format!("{unit:?} is not a unit of signals; write such as `v1_V`, `v1_count`"));
-            }
-        },
+    // What stands behind the quantity and is no unit of it would be the name of a sensor in a recording.
+    let is_of_this_sensor = sensor.is_empty();
+    let load = |axis: usize, size: Option<f64>, quantity| {
+        let axis = Axis::ALL.get(axis).copied().zip(size.filter(|_| is_of_this_sensor));
+        axis.map(|(axis, size)| Column::Load(axis, size)).ok_or(NameProblem::LoadUnit { quantity })
     };
-    Ok(Column::Signal(number - 1, unit, size))
+    match meaning {
+        ColumnMeaning::Time(Some(seconds)) => Ok(Column::Time(seconds)),
+        ColumnMeaning::Force(axis, unit) => load(axis, unit.map(ForceUnit::in_newtons), "force"),
+        ColumnMeaning::Torque(axis, unit) => load(3 + axis, unit.map(TorqueUnit::in_newton_metres), "torque"),
+        ColumnMeaning::Signal(number, ..) if number == 0 || number > 1000 => Err(NameProblem::Number),
+        ColumnMeaning::Signal(_, SignalUnit::Unstated, _) => Err(NameProblem::SignalUnit),
+        ColumnMeaning::Signal(number, unit, size) if is_of_this_sensor => {
+            Ok(Column::Signal(number as usize - 1, unit, size))
+        }
+        ColumnMeaning::Signal(..) => Err(NameProblem::SignalUnit),
+        _ => Ok(Column::Ignored),
+    }
 }
 
 pub(super) type Layout = Result<(Vec<Axis>, usize, SignalUnit), (String, String)>;
@@ -111,8 +122,8 @@ pub(super) fn signal_layout(columns: &[Column]) -> Layout {
 }
 
 /// What is wrong, where.
-pub(super) fn bad(line: u64, column: &str, message: String) -> LoadError {
-    LoadError::BadText { line, column: column.to_owned(), message }
+pub(super) fn bad(line: u64, column: &str, message: impl ToString) -> LoadError {
+    LoadError::BadText { line, column: column.to_owned(), message: message.to_string() }
 }
 
 /// The number that a cell says, in a unit of this size; or what it is not. A finite number may be infinite in

@@ -126,7 +126,7 @@ impl<R: Read> LoadReader<R> {
                     }
                 }
                 Column::Signal(gauge, _, size) => row.signals[gauge] = number(size)?,
-                Column::Time => row.time = Some(number(1.0)?),
+                Column::Time(seconds) => row.time = Some(number(seconds)?),
                 Column::Temperature => row.temperature = Some(number(1.0)?),
                 Column::Weight => row.weight = Some(number(1.0)?),
                 Column::Quaternion(part) => {

@@ -5,7 +5,7 @@ use std::io::Read;
 use nalgebra::DMatrix;
 
 use super::LoadError;
-use super::header::{Column, bad, number_in, parse_name, signal_layout};
+use super::header::{Column, NameProblem, bad, number_in, parse_name, signal_layout};
 use crate::file::SignalUnit;
 
 /// Readings without load.
@@ -31,9 +31,8 @@ pub fn signals_from_csv(reader: impl Read) -> Result<Rest, LoadError> {
     for name in &header {
         // A load in an unknown unit does not matter here.
         columns.push(match parse_name(name) {
-            Ok(Column::Load(..)) => Column::Ignored,
+            Ok(Column::Load(..)) | Err(NameProblem::LoadUnit { .. }) => Column::Ignored,
             Ok(column) => column,
-            Err(_) if name.starts_with(['f', 't', 'm', 'F', 'T', 'M']) => Column::Ignored,
             Err(message) => return Err(bad(1, name, message)),
         });
     }

@@ -11,7 +11,8 @@ impl LoadTable {
     /// Reads CSV with a header, and the names of the columns that it ignored.
     ///
     /// # The header
-    /// Names carry their unit after the last underscore, as in recordings.
+    /// Names are those of recordings ([`ColumnName`](fingertip_recordings::ColumnName)), with a unit; columns with the
+    /// name of another sensor in front are ignored.
     ///
     /// | column | meaning |
     /// |---|---|
@@ -20,7 +21,7 @@ impl LoadTable {
     /// | `case` | any text; samples with the same text are one load case, left out together in cross-validation (without this column: samples with the same load) |
     /// | `group` | any text; samples of one mounting, which share a zero |
     /// | `name` | what reports call the sample |
-    /// | `t_s`, `temperature_C`, `weight` | time, temperature, weight |
+    /// | `t_s` (or `t_ms` …), `temperature_C`, `weight` | time, temperature, weight |
     /// | `qx`, `qy`, `qz`, `qw` | orientation of the sensor (or its flange) in the base frame, for what hangs on it: see [`carrying`](Self::carrying) |
     ///
     /// An axis without column is taken as not measured, unless `axes` asks for it, which then is an

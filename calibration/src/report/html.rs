@@ -1,18 +1,10 @@
 //! A report as a web page with tables and plots.
 
-use core::fmt::Write as _;
+use maud::{Markup, html};
 
 use super::plot::{FITTED, LEFT_OUT};
 use super::{AxisReport, Report};
-
-const STYLE: &str = "body{font-family:sans-serif;max-width:66em;margin:2em auto;padding:0 1em;color:#1f2328}\
-    table{border-collapse:collapse;margin:.8em 0}td,th{padding:.25em .7em;text-align:right;\
-    border-bottom:1px solid #d0d7de}td:first-child,th:first-child{text-align:left}\
-    .text td,.text th{text-align:left}thead th{border-bottom:2px solid #8c959f}tr.first td{font-weight:bold}\
-    .wide{overflow-x:auto}.verdict{font-weight:bold}.good{color:#1a7f37}.bad{color:#cf222e}\
-    .unchecked,.suspect{color:#9a6700}figure{display:inline-block;margin:.5em}figcaption{text-align:center}\
-    .legend span{display:inline-block;width:.7em;height:.7em;border-radius:50%;margin:0 .4em 0 1em}\
-    p.small{color:#57606a;font-size:90%}svg{max-width:100%;height:auto}";
+use crate::page::{Figure, Page, Table};
 
 type Column = fn(&AxisReport) -> Option<f64>;
 
@@ -34,191 +26,157 @@ impl Report {
     /// As one HTML page without scripts or outside files, plots as SVG within.
     #[must_use]
     pub fn to_html(&self, title: &str) -> String {
-        let title = escape(title);
+        let mut page = Page::new(title);
         let word = self.verdict.name();
-        let mut page = format!(
-            "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" \
-             content=\"width=device-width,initial-scale=1\">\n<title>{title}</title>\n<style>{STYLE}</style></head>\
-             <body>\n<h1>{title}</h1>\n<p>This calibration is <span class=\"verdict {word}\">{word}</span>.</p>\n"
-        );
-        for (heading, items) in [("Why", &self.reasons), ("Mind", &self.notes)] {
-            if !items.is_empty() {
-                let items: String = items.iter().map(|item| format!("<li>{}</li>", escape(item))).collect();
-                // Writing to a String cannot fail.
-                let _ = writeln!(page, "<h2>{heading}</h2>\n<ul>{items}</ul>");
-            }
-        }
-        self.summary(&mut page);
+        page.push(&html! { p.lead { "This calibration is " b class=(word) { (word) } "." } });
+        page.list("Why", &self.reasons);
+        page.list("Mind", &self.notes);
+        page.push(&self.summary());
         self.errors(&mut page);
         self.cross_talk(&mut page);
         self.places(&mut page);
         self.deviations(&mut page);
         if !self.excluded.is_empty() {
-            page.push_str(
-                "<h2>Samples left out</h2>\n<table class=\"text\"><thead><tr><th>sample</th><th>why</th></tr></thead>\n",
-            );
-            for excluded in &self.excluded {
-                let (sample, reason) = (escape(&excluded.sample), escape(&excluded.reason));
-                let _ = writeln!(page, "<tr><td>{sample}</td><td>{reason}</td></tr>");
-            }
-            page.push_str("</table>\n");
+            page.heading("Samples left out");
+            let rows: Vec<Vec<String>> =
+                self.excluded.iter().map(|one| vec![one.sample.clone(), one.reason.clone()]).collect();
+            let head = ["sample".to_owned(), "why".to_owned()];
+            page.table(&Table { title: "", head: &head, rows: &rows, words: true });
         }
         self.plots(&mut page);
-        page.push_str("</body></html>\n");
-        page
+        page.finish("")
     }
 
-    fn summary(&self, page: &mut String) {
+    fn summary(&self) -> Markup {
         let number = self.condition_number.map_or("infinite (singular)".to_owned(), |n| format!("{n:.2}"));
-        let _ = write!(
-            page,
-            "<p>Method: {}; {} samples in {} load cases",
-            escape(&self.method),
-            self.samples,
-            self.cases
-        );
-        if self.coefficients > 0 {
-            let _ = write!(page, ", {} coefficients each", self.coefficients);
-        }
-        let _ = writeln!(page, "; condition number N<sub>c</sub> = {number}.</p>");
-    }
-
-    fn errors(&self, page: &mut String) {
-        page.push_str("<h2>Errors, % of full scale</h2>\n<div class=\"wide\"><table><thead><tr><th></th>");
-        for axis in &self.axes {
-            let _ = write!(page, "<th>{}</th>", axis.axis);
-        }
-        page.push_str("</tr></thead>\n<tr><td>full scale</td>");
-        for axis in &self.axes {
-            let _ = write!(page, "<td>{} {}</td>", short(axis.full_scale), axis.axis.unit());
-        }
-        page.push_str("</tr>\n");
-        for (name, meaning, value) in ROWS {
-            if self.axes.iter().any(|axis| value(axis).is_some()) {
-                let first = if name == "RMS" { " class=\"first\"" } else { "" };
-                let _ = write!(page, "<tr{first} title=\"{meaning}\"><td>{name}</td>");
-                for axis in &self.axes {
-                    let _ = write!(page, "<td>{}</td>", cell(value(axis)));
-                }
-                page.push_str("</tr>\n");
+        html! {
+            p {
+                "Method: " (self.method) "; " (self.samples) " samples in " (self.cases) " load cases"
+                @if self.coefficients > 0 { ", " (self.coefficients) " coefficients each" }
+                "; condition number N" sub { "c" } " = " (number) "."
             }
         }
-        page.push_str("</table></div>\n<p class=\"small\">");
-        for (name, meaning, value) in ROWS {
-            if self.axes.iter().any(|axis| value(axis).is_some()) {
-                let _ = write!(page, "<b>{name}</b>: {meaning}. ");
-            }
-        }
-        page.push_str("A dash: these loads do not tell.</p>\n");
     }
 
-    fn cross_talk(&self, page: &mut String) {
+    /// An empty head, and one for each axis.
+    fn head(&self) -> Vec<String> {
+        core::iter::once(String::new()).chain(self.axes.iter().map(|axis| axis.axis.to_string())).collect()
+    }
+
+    fn errors(&self, page: &mut Page) {
+        page.heading("Errors, % of full scale");
+        let row = |name: &str, cell: &dyn Fn(&AxisReport) -> String| {
+            core::iter::once(name.to_owned()).chain(self.axes.iter().map(cell)).collect::<Vec<_>>()
+        };
+        let told = || ROWS.iter().filter(|(.., value)| self.axes.iter().any(|axis| value(axis).is_some()));
+        let mut rows =
+            vec![row("full scale", &|axis| format!("{} {}", short(axis.full_scale), axis.axis.unit()))];
+        rows.extend(told().map(|(name, _, value)| row(name, &|axis| cell(value(axis)))));
+        page.table(&Table { title: "", head: &self.head(), rows: &rows, words: false });
+        page.push(&html! {
+            p.small {
+                @for (name, meaning, _) in told() { b { (name) } ": " (meaning) ". " }
+                "A dash: these loads do not tell."
+            }
+        });
+    }
+
+    fn cross_talk(&self, page: &mut Page) {
         let all: Vec<f64> = self.cross_talk_percent.iter().flatten().flatten().copied().collect();
         let most = all.iter().copied().fold(0.0, f64::max);
         if all.is_empty() {
             return;
         }
-        page.push_str(
-            "<h2>Cross-talk, % of full scale</h2>\n<p class=\"small\">Greatest false reading of an axis (row) under \
-             loads of another one alone (column).</p>\n<table><thead><tr><th></th>",
-        );
-        for axis in &self.axes {
-            let _ = write!(page, "<th>{}</th>", axis.axis);
-        }
-        page.push_str("</tr></thead>\n");
-        for (axis, row) in self.axes.iter().zip(&self.cross_talk_percent) {
-            let _ = write!(page, "<tr><td>{}</td>", axis.axis);
-            for value in row {
-                let shade = value.map_or(0.0, |value| 0.35 * value / most.max(f64::MIN_POSITIVE));
-                let _ =
-                    write!(page, "<td style=\"background:rgba(207,34,46,{shade:.2})\">{}</td>", cell(*value));
-            }
-            page.push_str("</tr>\n");
-        }
-        page.push_str("</table>\n");
+        let shade = |value: Option<f64>| {
+            let shade = value.map_or(0.0, |value| 0.35 * value / most.max(f64::MIN_POSITIVE));
+            format!("background:rgba(207,34,46,{shade:.2})")
+        };
+        page.heading("Cross-talk, % of full scale");
+        page.small("Greatest false reading of an axis (row) under loads of another one alone (column).");
+        page.push(&html! {
+            section { table {
+                thead { tr { @for head in self.head() { th scope="col" { (head) } } } }
+                tbody { @for (axis, row) in self.axes.iter().zip(&self.cross_talk_percent) { tr {
+                    th scope="row" { (axis.axis.to_string()) }
+                    @for value in row { td style=(shade(*value)) { (cell(*value)) } }
+                } } }
+            } }
+        });
     }
 
     /// Lines of action and contact points.
-    fn places(&self, page: &mut String) {
+    fn places(&self, page: &mut Page) {
         if self.lines.is_some() || self.contacts.is_some() {
-            page.push_str("<h2>Where touches are found</h2>\n");
+            page.heading("Where touches are found");
         }
+        let mm = |value: f64| format!("{value:.3}\u{a0}mm");
         if let Some(lines) = &self.lines {
-            let expected = lines
-                .expected_mm
-                .map_or(String::new(), |mm| format!(" ({mm:.3} mm expected of the covariance)"));
-            let _ = writeln!(
-                page,
-                "<p>Lines of action of the {} pure forces of these loads: off by <b>{:.3} mm</b> in the median{expected}, \
-                 {:.3} mm at most.</p>",
-                lines.lines, lines.median_mm, lines.greatest_mm
-            );
+            page.push(&html! {
+                p {
+                    "Lines of action of the " (lines.lines) " pure forces of these loads: off by "
+                    b { (mm(lines.median_mm)) } " in the median"
+                    @if let Some(expected) = lines.expected_mm {
+                        " (" (mm(expected)) " expected of the covariance)"
+                    }
+                    ", " (mm(lines.greatest_mm)) " at most."
+                }
+            });
         }
         if let Some(contacts) = &self.contacts {
-            let _ = writeln!(
-                page,
-                "<p>Contact points on {} under {:.3} N, expected of the covariance ({} touches all over it): off by \
-                 <b>{:.3} mm</b> (root mean square), {:.3} mm where it is worst. Of that, {:.3} mm come of the matrix, \
-                 which no averaging mends, and {:.3} mm of the noise of one reading.</p>",
-                escape(&contacts.surface),
-                contacts.force,
-                contacts.touches,
-                contacts.together_mm,
-                contacts.worst_mm,
-                contacts.calibration_mm,
-                contacts.reading_mm
-            );
+            page.push(&html! {
+                p {
+                    "Contact points on " (contacts.surface) " under " (format!("{:.3}", contacts.force))
+                    "\u{a0}N, expected of the covariance (" (contacts.touches) " touches all over it): off by "
+                    b { (mm(contacts.together_mm)) } " (root mean square), " (mm(contacts.worst_mm))
+                    " where it is worst. Of that, " (mm(contacts.calibration_mm))
+                    " come of the matrix, which no averaging mends, and " (mm(contacts.reading_mm))
+                    " of the noise of one reading."
+                }
+            });
         }
     }
 
-    fn deviations(&self, page: &mut String) {
+    fn deviations(&self, page: &mut Page) {
         let (Some(matrix), Some(deviations)) = (&self.matrix, &self.matrix_deviations) else { return };
-        page.push_str(
-            "<h2>The matrix</h2>\n<p class=\"small\">Signal of each gauge (row) under the full scale of each axis \
-             (column), and its standard deviation.</p>\n<div class=\"wide\"><table><thead><tr><th></th>",
+        page.heading("The matrix");
+        page.small(
+            "Signal of each gauge (row) under the full scale of each axis (column), and its standard deviation.",
         );
-        for axis in &self.axes {
-            let _ = write!(page, "<th>{}</th>", axis.axis);
-        }
-        page.push_str("</tr></thead>\n");
-        for (gauge, (row, spread)) in matrix.iter().zip(deviations).enumerate() {
-            let _ = write!(page, "<tr><td>gauge {}</td>", gauge + 1);
-            for (value, deviation) in row.iter().zip(spread) {
+        let row = |(gauge, (row, spread)): (usize, (&Vec<f64>, &Vec<f64>))| {
+            let cell = |(value, deviation): (&f64, &f64)| {
                 let digits = digits(*deviation, 2);
-                let _ = write!(page, "<td>{value:.digits$} ± {deviation:.digits$}</td>");
-            }
-            page.push_str("</tr>\n");
-        }
-        page.push_str("</table></div>\n");
+                format!("{value:.digits$} ± {deviation:.digits$}")
+            };
+            let cells = row.iter().zip(spread).map(cell);
+            core::iter::once(format!("gauge {}", gauge + 1)).chain(cells).collect::<Vec<_>>()
+        };
+        let rows: Vec<_> = matrix.iter().zip(deviations).enumerate().map(row).collect();
+        page.table(&Table { title: "", head: &self.head(), rows: &rows, words: false });
     }
 
-    fn plots(&self, page: &mut String) {
+    fn plots(&self, page: &mut Page) {
         let colour = |c: plotters::style::RGBColor| format!("rgb({},{},{})", c.0, c.1, c.2);
-        let _ = write!(
-            page,
-            "<h2>Plots</h2>\n<p class=\"legend\"><span style=\"background:{}\"></span>{}",
-            colour(FITTED),
-            if self.coefficients > 0 { "loads of the fit" } else { "these loads" }
-        );
-        if self.details.iter().any(|sample| sample.left_out.is_some()) {
-            let _ = write!(
-                page,
-                "<span style=\"border:1.5px solid {}\"></span>the same loads, left out of the fit",
-                colour(LEFT_OUT)
-            );
-        }
-        page.push_str("</p>\n");
-        for (index, axis) in self.axes.iter().enumerate() {
-            for (caption, svg) in [
-                (format!("{}: error over load", axis.axis), self.error_over_load(index)),
-                (format!("{}: error, sample after sample", axis.axis), self.error_over_samples(index)),
-            ] {
-                if let Some(svg) = svg {
-                    let caption = escape(&caption);
-                    let _ = writeln!(page, "<figure>{svg}<figcaption>{caption}</figcaption></figure>");
+        let left_out = self.details.iter().any(|sample| sample.left_out.is_some());
+        page.heading("Plots");
+        page.push(&html! {
+            p {
+                span.spot-key style={ "background:" (colour(FITTED)) } {}
+                @if self.coefficients > 0 { "loads of the fit" } @else { "these loads" }
+                @if left_out {
+                    span.spot-key style={ "border:1.5px solid " (colour(LEFT_OUT)) } {}
+                    "the same loads, left out of the fit"
                 }
             }
-        }
+        });
+        let figure = |title: String, svg: Option<String>| {
+            Some(Figure { title, svg: svg?, on_white: true, ..Figure::default() })
+        };
+        page.figures(self.axes.iter().enumerate().flat_map(|(index, axis)| {
+            let over_load = figure(format!("{}: error over load", axis.axis), self.error_over_load(index));
+            let over_samples =
+                figure(format!("{}: error, sample after sample", axis.axis), self.error_over_samples(index));
+            over_load.into_iter().chain(over_samples)
+        }));
     }
 }
 
@@ -238,8 +196,4 @@ fn digits(value: f64, significant: u8) -> usize {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let digits = digits.clamp(0.0, 12.0) as usize;
     digits
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -164,7 +164,7 @@ fn json_has_every_field() {
 /// The page without its plots.
 fn page(report: &Report) -> String {
     let html = report.to_html("Tip <7> & \"co\"");
-    let body = html.split_once("<body>\n").unwrap().1;
+    let body = html.split_once("<main>").unwrap().1;
     let mut text = String::new();
     for (index, part) in body.split("<svg").enumerate() {
         text.push_str(if index == 0 { part } else { part.split_once("</svg>").unwrap().1 });
@@ -175,24 +175,20 @@ fn page(report: &Report) -> String {
 #[test]
 fn page_says_all_of_it() {
     let expected = "\
-<h1>Tip &lt;7&gt; &amp; &quot;co&quot;</h1>
-<p>This calibration is <span class=\"verdict suspect\">suspect</span>.</p>
-<h2>Why</h2>
-<ul><li>one &lt;reason&gt;</li><li>another</li></ul>
-<h2>Mind</h2>
-<ul><li>mind</li></ul>
+<h1>Tip &lt;7&gt; &amp; &quot;co&quot;</h1><p class=\"lead\">This calibration is <b class=\"suspect\">suspect</b>.</p>
+<h2>Why</h2><ul><li>one &lt;reason&gt;</li><li>another</li></ul>
+<h2>Mind</h2><ul><li>mind</li></ul>
 <p>Method: a &amp; b; 3 samples in 2 load cases, 4 coefficients each; condition number N<sub>c</sub> = 3.46.</p>
-<h2>Errors, % of full scale</h2>
-<div class=\"wide\"><table><thead><tr><th></th><th>Fx</th><th>Tz</th></tr></thead>
-<tr><td>full scale</td><td>8.000 N</td><td>0.01235 N·m</td></tr>
-<tr class=\"first\" title=\"root mean square of the error on these loads\"><td>RMS</td><td>1.000</td><td>1.000</td></tr>
-<tr title=\"greatest error on these loads\"><td>greatest</td><td>2.500</td><td>2.500</td></tr>
-<tr title=\"each load case predicted by a fit without it\"><td>left out, RMS</td><td>1.500</td><td>–</td></tr>
-<tr title=\"the same, greatest\"><td>left out, greatest</td><td>3.000</td><td>–</td></tr>
-<tr title=\"standard deviation of one reading, from what the fit leaves\"><td>one reading</td><td>0.125</td><td>0.125</td></tr>
-<tr title=\"greatest difference between rising and falling load\"><td>hysteresis</td><td>4.500</td><td>–</td></tr>
-<tr title=\"greatest change of the reading while a load is held\"><td>creep</td><td>0.062</td><td>0.062</td></tr>
-</table></div>
+<h2 id=\"Errorsoffullscale\">Errors, % of full scale</h2>
+<section><table><thead><tr><th scope=\"col\"></th><th scope=\"col\">Fx</th><th scope=\"col\">Tz</th></tr></thead><tbody>\
+<tr><th scope=\"row\">full scale</th><td>8.000\u{a0}N</td><td>0.01235 N·m</td></tr>\
+<tr><th scope=\"row\">RMS</th><td>1.000</td><td>1.000</td></tr>\
+<tr><th scope=\"row\">greatest</th><td>2.500</td><td>2.500</td></tr>\
+<tr><th scope=\"row\">left out, RMS</th><td>1.500</td><td>–</td></tr>\
+<tr><th scope=\"row\">left out, greatest</th><td>3.000</td><td>–</td></tr>\
+<tr><th scope=\"row\">one reading</th><td>0.125</td><td>0.125</td></tr>\
+<tr><th scope=\"row\">hysteresis</th><td>4.500</td><td>–</td></tr>\
+<tr><th scope=\"row\">creep</th><td>0.062</td><td>0.062</td></tr></tbody></table></section>
 <p class=\"small\"><b>RMS</b>: root mean square of the error on these loads. \
 <b>greatest</b>: greatest error on these loads. \
 <b>left out, RMS</b>: each load case predicted by a fit without it. \
@@ -201,36 +197,36 @@ fn page_says_all_of_it() {
 <b>hysteresis</b>: greatest difference between rising and falling load. \
 <b>creep</b>: greatest change of the reading while a load is held. \
 A dash: these loads do not tell.</p>
-<h2>Cross-talk, % of full scale</h2>
+<h2 id=\"Crosstalkoffullscale\">Cross-talk, % of full scale</h2>
 <p class=\"small\">Greatest false reading of an axis (row) under loads of another one alone (column).</p>
-<table><thead><tr><th></th><th>Fx</th><th>Tz</th></tr></thead>
-<tr><td>Fx</td><td style=\"background:rgba(207,34,46,0.00)\">–</td><td style=\"background:rgba(207,34,46,0.17)\">0.500</td></tr>
-<tr><td>Tz</td><td style=\"background:rgba(207,34,46,0.35)\">1.000</td><td style=\"background:rgba(207,34,46,0.00)\">–</td></tr>
-</table>
-<h2>Where touches are found</h2>
-<p>Lines of action of the 5 pure forces of these loads: off by <b>0.250 mm</b> in the median \
-(0.375 mm expected of the covariance), 1.500 mm at most.</p>
-<p>Contact points on a &quot;ball&quot; under 2.000 N, expected of the covariance (7 touches all over it): off by \
-<b>0.750 mm</b> (root mean square), 1.250 mm where it is worst. Of that, 0.500 mm come of the matrix, \
-which no averaging mends, and 0.250 mm of the noise of one reading.</p>
-<h2>The matrix</h2>
+<section><table><thead><tr><th scope=\"col\"></th><th scope=\"col\">Fx</th><th scope=\"col\">Tz</th></tr></thead><tbody>\
+<tr><th scope=\"row\">Fx</th><td style=\"background:rgba(207,34,46,0.00)\">–</td>\
+<td style=\"background:rgba(207,34,46,0.17)\">0.500</td></tr>\
+<tr><th scope=\"row\">Tz</th><td style=\"background:rgba(207,34,46,0.35)\">1.000</td>\
+<td style=\"background:rgba(207,34,46,0.00)\">–</td></tr></tbody></table></section>
+<h2 id=\"Wheretouchesarefound\">Where touches are found</h2>
+<p>Lines of action of the 5 pure forces of these loads: off by <b>0.250\u{a0}mm</b> in the median \
+(0.375\u{a0}mm expected of the covariance), 1.500\u{a0}mm at most.</p>
+<p>Contact points on a &quot;ball&quot; under 2.000\u{a0}N, expected of the covariance (7 touches all over it): off by \
+<b>0.750\u{a0}mm</b> (root mean square), 1.250\u{a0}mm where it is worst. Of that, 0.500\u{a0}mm come of the matrix, \
+which no averaging mends, and 0.250\u{a0}mm of the noise of one reading.</p>
+<h2 id=\"Thematrix\">The matrix</h2>
 <p class=\"small\">Signal of each gauge (row) under the full scale of each axis (column), and its standard deviation.</p>
-<div class=\"wide\"><table><thead><tr><th></th><th>Fx</th><th>Tz</th></tr></thead>
-<tr><td>gauge 1</td><td>1.235 ± 0.012</td><td>-0.50 ± 0.50</td></tr>
-<tr><td>gauge 2</td><td>0.000000 ± 0.000015</td><td>123 ± 12</td></tr>
-</table></div>
-<h2>Samples left out</h2>
-<table class=\"text\"><thead><tr><th>sample</th><th>why</th></tr></thead>
-<tr><td>d&lt;</td><td>saturated</td></tr>
-</table>
-<h2>Plots</h2>
-<p class=\"legend\"><span style=\"background:rgb(9,105,218)\"></span>loads of the fit\
-<span style=\"border:1.5px solid rgb(207,34,46)\"></span>the same loads, left out of the fit</p>
-<figure>\n<figcaption>Fx: error over load</figcaption></figure>
-<figure>\n<figcaption>Fx: error, sample after sample</figcaption></figure>
-<figure>\n<figcaption>Tz: error over load</figcaption></figure>
-<figure>\n<figcaption>Tz: error, sample after sample</figcaption></figure>
-</body></html>
+<section><table><thead><tr><th scope=\"col\"></th><th scope=\"col\">Fx</th><th scope=\"col\">Tz</th></tr></thead><tbody>\
+<tr><th scope=\"row\">gauge 1</th><td>1.235 ± 0.012</td><td>-0.50 ± 0.50</td></tr>\
+<tr><th scope=\"row\">gauge 2</th><td>0.000000 ± 0.000015</td><td>123 ± 12</td></tr></tbody></table></section>
+<h2 id=\"Samplesleftout\">Samples left out</h2>
+<section><table><thead><tr><th scope=\"col\">sample</th><th scope=\"col\">why</th></tr></thead><tbody>\
+<tr><th scope=\"row\">d&lt;</th><td class=\"word\">saturated</td></tr></tbody></table></section>
+<h2 id=\"Plots\">Plots</h2>
+<p><span class=\"spot-key\" style=\"background:rgb(9,105,218)\"></span>loads of the fit\
+<span class=\"spot-key\" style=\"border:1.5px solid rgb(207,34,46)\"></span>the same loads, left out of the fit</p>
+<div class=\"columns\">\
+<figure class=\"on-white\"><h2>Fx: error over load</h2>\n</figure>\
+<figure class=\"on-white\"><h2>Fx: error, sample after sample</h2>\n</figure>\
+<figure class=\"on-white\"><h2>Tz: error over load</h2>\n</figure>\
+<figure class=\"on-white\"><h2>Tz: error, sample after sample</h2>\n</figure></div>
+</main></body></html>
 ";
     assert_eq!(page(&report()), expected);
 }
@@ -259,11 +255,11 @@ fn page_leaves_out_what_there_is_not() {
     for absent in
         ["Why", "Mind", "Cross-talk", "Where touches", "The matrix", "Samples left out", "left out of"]
     {
-        assert!(!text.contains(&format!("<h2>{absent}")) && !text.contains("the same loads"), "{absent}");
+        assert!(!text.contains(&format!(">{absent}</h2>")) && !text.contains("the same loads"), "{absent}");
     }
     let lines = report().lines.map(|lines| LineReport { expected_mm: None, ..lines });
     let text = page(&Report { lines, contacts: None, ..report() });
-    assert!(text.contains("<b>0.250 mm</b> in the median, 1.500 mm at most."), "{text}");
+    assert!(text.contains("<b>0.250\u{a0}mm</b> in the median, 1.500\u{a0}mm at most."), "{text}");
     let text = page(&Report { lines: None, ..report() });
     assert!(text.contains("Where touches are found") && !text.contains("Lines of action"));
 }

@@ -4,7 +4,7 @@ use fingertip::wrench::{
     Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy, GaugesAndTemperature, Tare,
     TareAccumulator, TareError, TemperatureCompensation, Wrench, WrenchSolver,
 };
-use fingertip_calibration::file::CalibrationFile;
+use fingertip_calibration::file::{CalibrationFile, FileError};
 use nalgebra::SVector;
 
 use super::{Calibrated, GaugeReading};
@@ -39,15 +39,15 @@ impl<S: WrenchSolver<f64, N> + Send + 'static, const N: usize> Gauges<S, N> {
         solver: S,
         file: &CalibrationFile,
         uses_dummy: bool,
-    ) -> Result<Box<dyn Calibrated>, String> {
-        let drift = file.temperature_compensation::<f64, N>().map_err(|error| error.to_string())?;
+    ) -> Result<Box<dyn Calibrated>, FileError> {
+        let drift = file.temperature_compensation::<f64, N>()?;
         let zero = match drift {
             Some(drift) => {
                 let (resting, tare) = (TareAccumulator::default(), Tare::new(SVector::zeros()));
                 Zero::Warm { drift: Box::new(drift), resting, tare }
             }
             None => {
-                let tare = file.zero::<N>().map_err(|error| error.to_string())?;
+                let tare = file.zero::<N>()?;
                 if uses_dummy {
                     let zero = DummyGauge::new(tare, 0.0);
                     Zero::Dummy { resting: DummyGaugeAccumulator::default(), zero }

@@ -5,9 +5,12 @@ mod tests;
 
 use std::path::Path;
 
-use fingertip::wrench::{GaussianElimination, LeastSquares, TareError, Wrench};
-use fingertip_calibration::file::{CalibrationFile, SignalUnit as CalibratedUnit, Verdict};
+use fingertip::wrench::{
+    GaussianElimination, LeastSquares, LeastSquaresError, SingularMatrix, TareError, Wrench,
+};
+use fingertip_calibration::file::{CalibrationFile, FileError, Verdict};
 use fingertip_recordings::SignalUnit;
+use thiserror::Error;
 
 use crate::error::CliError;
 use crate::observe::Status;
@@ -114,10 +117,7 @@ impl<'a> Calibration<'a> {
         // Six gauges give the wrench exactly, more by least squares. The number is part of the type, so
         // that the loop over the gauges is unrolled.
         let solved = match file.gauges() {
-            6 => file.sensor_matrix::<6>().map_err(|error| error.to_string()).and_then(|matrix| {
-                let solver = GaussianElimination::new(&matrix).map_err(|error| error.to_string())?;
-                Gauges::<_, 6>::boxed(solver, file, uses_dummy)
-            }),
+            6 => exact(file, uses_dummy),
             7 => redundant::<7>(file, uses_dummy),
             8 => redundant::<8>(file, uses_dummy),
             9 => redundant::<9>(file, uses_dummy),
@@ -128,28 +128,40 @@ impl<'a> Calibration<'a> {
             14 => redundant::<14>(file, uses_dummy),
             15 => redundant::<15>(file, uses_dummy),
             MOST_GAUGES => redundant::<MOST_GAUGES>(file, uses_dummy),
-            other => Err(format!("it has {other} gauges, but this program reads 6 to 16; leave some out")),
+            other => Err(Unsolvable::Gauges(other)),
         };
-        solved.map_err(fault)
+        solved.map_err(|error| fault(error.to_string()))
     }
+}
+
+/// Why no wrench comes of a calibration.
+#[derive(Debug, Error)]
+pub(crate) enum Unsolvable {
+    #[error(transparent)]
+    File(#[from] FileError),
+    #[error(transparent)]
+    Singular(#[from] SingularMatrix),
+    #[error(transparent)]
+    LeastSquares(#[from] LeastSquaresError),
+    #[error("it has {0} gauges, but this program reads 6 to {MOST_GAUGES}; leave some out")]
+    Gauges(usize),
+}
+
+fn exact(file: &CalibrationFile, uses_dummy: bool) -> Result<Box<dyn Calibrated>, Unsolvable> {
+    let solver = GaussianElimination::new(&file.sensor_matrix::<6>()?)?;
+    Ok(Gauges::<_, 6>::boxed(solver, file, uses_dummy)?)
 }
 
 fn redundant<const N: usize>(
     file: &CalibrationFile,
     uses_dummy: bool,
-) -> Result<Box<dyn Calibrated>, String> {
-    let matrix = file.sensor_matrix::<N>().map_err(|error| error.to_string())?;
-    let solver = LeastSquares::new(&matrix).map_err(|error| error.to_string())?;
-    Gauges::<_, N>::boxed(solver, file, uses_dummy)
+) -> Result<Box<dyn Calibrated>, Unsolvable> {
+    let solver = LeastSquares::new(&file.sensor_matrix::<N>()?)?;
+    Ok(Gauges::<_, N>::boxed(solver, file, uses_dummy)?)
 }
 
 /// Whether a calibration is in the unit of a recording. Columns that do not state theirs are taken
 /// at their user's word.
-const fn agree(recorded: SignalUnit, calibrated: CalibratedUnit) -> bool {
-    matches!(
-        (recorded, calibrated),
-        (SignalUnit::Volts, CalibratedUnit::Volt)
-            | (SignalUnit::Counts, CalibratedUnit::Count)
-            | (SignalUnit::Unstated, _)
-    )
+fn agree(recorded: SignalUnit, calibrated: SignalUnit) -> bool {
+    recorded == SignalUnit::Unstated || recorded == calibrated
 }

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fingertip::wrench::{Wrench, WrenchSolver as _};
-use fingertip_calibration::file::{CalibrationFile, Quality, SignalUnit as CalibratedUnit, Verdict};
+use fingertip_calibration::file::{CalibrationFile, Quality, Verdict};
 use nalgebra::{DMatrix, DVector, Vector6};
 
 use super::{Calibrated, Calibration, GaugeReading, MOST_GAUGES, Readings, SignalUnit};
@@ -14,7 +14,7 @@ use crate::observe::Status;
 const NOMINAL: [f64; 6] = [10.0, 10.0, 10.0, 0.1, 0.1, 0.1];
 
 const READINGS: Readings =
-    Readings { unit: SignalUnit::Volts, has_dummy: false, has_rest: false, has_temperature: false };
+    Readings { unit: SignalUnit::Volt, has_dummy: false, has_rest: false, has_temperature: false };
 
 /// A sensor of so many gauges, well conditioned, with zeros of 0.1 V, 0.2 V and so on.
 fn file(gauges: usize) -> CalibrationFile {
@@ -23,7 +23,7 @@ fn file(gauges: usize) -> CalibrationFile {
         same + 0.3 * (1.0 + 1.7 * gauge as f64 + 2.9 * axis as f64).sin()
     });
     let zero = (1..=gauges).map(|gauge| 0.1 * gauge as f64).collect();
-    CalibrationFile::new(matrix, NOMINAL.to_vec(), zero, CalibratedUnit::Volt).unwrap()
+    CalibrationFile::new(matrix, NOMINAL.to_vec(), zero, SignalUnit::Volt).unwrap()
 }
 
 /// What the gauges read under a load.
@@ -163,11 +163,11 @@ fn what_is_to_be_minded_is_noted_and_what_does_not_fit_is_refused() {
     let (_, notes) = read(&file(6), &Readings { has_temperature: true, ..READINGS });
     assert_eq!(notes, ["the temperature is known, but the calibration has no terms for it"]);
     for (unit, fits) in [
-        (SignalUnit::Volts, [true, false]),
-        (SignalUnit::Counts, [false, true]),
+        (SignalUnit::Volt, [true, false]),
+        (SignalUnit::Count, [false, true]),
         (SignalUnit::Unstated, [true, true]),
     ] {
-        for (calibrated, fits) in [CalibratedUnit::Volt, CalibratedUnit::Count].into_iter().zip(fits) {
+        for (calibrated, fits) in [SignalUnit::Volt, SignalUnit::Count].into_iter().zip(fits) {
             let file = CalibrationFile { signal_unit: calibrated, ..file(6) };
             let found = read(&file, &Readings { unit, ..READINGS }).0;
             assert_eq!(found.is_ok(), fits, "{unit:?} {calibrated:?}");

@@ -4,7 +4,7 @@ use std::io;
 
 use fingertip::wrench::Wrench;
 use fingertip_recordings::mcap::{Header, McapError, McapWriter, RecordedContact, RecordedSignals, Topic};
-use fingertip_recordings::{ContactCells, RecordingReader, SignalColumns, SignalUnit, WrenchColumns};
+use fingertip_recordings::{ContactCells, RecordingReader, SignalColumns, WrenchColumns};
 
 use super::{Account, ConvertArguments, fault, topic};
 use crate::error::CliError;
@@ -80,7 +80,7 @@ pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError>
                 incomplete += 1;
                 continue;
             }
-            let unit = unit(columns.unit()).to_owned();
+            let unit = columns.unit().name().to_owned();
             if let Some((dummy, value)) = dummy.zip(values.pop_if(|_| columns.has_dummy())) {
                 let signals = RecordedSignals { unit: unit.clone(), values: vec![value] };
                 writer.write_signals(dummy, time, signals).map_err(failed)?;
@@ -122,12 +122,4 @@ pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError>
         account.lost.push(left_out.problem.to_string());
     }
     Ok(account)
-}
-
-const fn unit(unit: SignalUnit) -> &'static str {
-    match unit {
-        SignalUnit::Volts => "V",
-        SignalUnit::Counts => "counts",
-        _ => "",
-    }
 }

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-use fingertip_calibration::file::{CalibrationFile, FileError, Provenance, SignalUnit as CalibratedUnit};
+use fingertip_calibration::file::{CalibrationFile, FileError, Provenance};
 use fingertip_recordings::{RecordingError, RecordingWriter, Schema, SignalUnit};
 use fingertip_simulation::{SimulatedFingertip, SimulatedSample};
 use nalgebra::DMatrix;
@@ -18,7 +18,7 @@ impl VoltsFile {
     pub(super) fn create(path: Option<&Path>) -> Result<Self, CliError> {
         let Some(path) = path else { return Ok(Self(None)) };
         let file = File::create(path).map_err(|source| CliError::write("recording", path, source))?;
-        let schema = Schema::default().time().signals("", 6, SignalUnit::Volts).dummy("", SignalUnit::Volts);
+        let schema = Schema::default().time().signals("", 6, SignalUnit::Volt).dummy("", SignalUnit::Volt);
         let writer =
             RecordingWriter::new(BufWriter::new(file), &schema).map_err(|fault| failed(path, fault))?;
         Ok(Self(Some((writer, path.to_owned()))))
@@ -51,7 +51,7 @@ pub(super) fn calibration(path: &Path, simulated: &SimulatedFingertip) -> Result
     let (matrix, electronics) = (simulated.calibrated_matrix(), &simulated.options().electronics);
     let normalised = DMatrix::from_iterator(6, 6, matrix.normalised().iter().copied());
     let nominal = matrix.nominal().iter().copied().collect();
-    let file = CalibrationFile::new(normalised, nominal, vec![0.0; 6], CalibratedUnit::Volt).map(|file| {
+    let file = CalibrationFile::new(normalised, nominal, vec![0.0; 6], SignalUnit::Volt).map(|file| {
         CalibrationFile {
             provenance: Provenance {
                 method: "simulated".to_owned(),

@@ -64,5 +64,6 @@ fn position_error(outcome: &Outcome) -> Figure {
         caption: "Distance of the contact point from the true one. The curve is 0.167 N·mm/|f| + 0.033 mm, fitted to \
                   what Bicchi & Dario measured at 1 and 10 N. Errors below the lower edge are cut."
             .to_owned(),
+        on_white: false,
     }
 }

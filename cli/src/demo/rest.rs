@@ -1,7 +1,8 @@
 //! What the readings at rest tell: the zero and the noise.
 
 use fingertip::wrench::{
-    Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy, GaussianElimination, WrenchSolver,
+    Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy, GaussianElimination, TareError,
+    WrenchSolver,
 };
 use nalgebra::Vector3;
 
@@ -17,12 +18,12 @@ impl Rest {
     pub(super) fn of(
         readings: &[GaugesAndDummy<f64, 6>],
         solver: &GaussianElimination<f64>,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, TareError> {
         let mut accumulator = DummyGaugeAccumulator::default();
         for reading in readings {
             accumulator.add(reading);
         }
-        let zero = accumulator.finish().map_err(|fault| fault.to_string())?;
+        let zero = accumulator.finish()?;
         let squares: Vector3<f64> = readings
             .iter()
             .map(|reading| solver.solve(&zero.compensate(reading)).force())

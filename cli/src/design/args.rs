@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use fingertip_calibration::design::Material;
+use thiserror::Error;
 
 /// Families of layouts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -104,9 +105,11 @@ pub(crate) struct DesignArguments {
     pub(crate) report: PathBuf,
 }
 
-fn material(name: &str) -> Result<Material, String> {
-    Material::from_name(name).ok_or_else(|| {
-        let known: Vec<&str> = Material::NAMED.iter().map(|(name, _)| *name).collect();
-        format!("known are {}", known.join(", "))
-    })
+fn material(name: &str) -> Result<Material, UnknownMaterial> {
+    Material::from_name(name).ok_or(UnknownMaterial)
 }
+
+/// A material without a name here.
+#[derive(Debug, Error)]
+#[error("known are {}", Material::NAMED.map(|(name, _)| name).join(", "))]
+struct UnknownMaterial;

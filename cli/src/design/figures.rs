@@ -16,6 +16,7 @@ pub(super) fn of(outcome: &Outcome) -> Result<Vec<Figure>, DesignError> {
         caption: "The tip is above; the solid line is the origin of the loads, the dashed one the clamped end. Angles run \
                   from the second axis towards the third. Gauges that cross are stacked."
             .to_owned(),
+        on_white: false,
     }];
     let count = outcome.task.space.parameters().len();
     figures.push(landscape(outcome, [0, 1])?);
@@ -73,5 +74,5 @@ fn landscape(outcome: &Outcome, axes: [usize; 2]) -> Result<Figure, DesignError>
              which lie elsewhere in those."
         }
     };
-    Ok(Figure { title, svg, keys, caption: caption.to_owned() })
+    Ok(Figure { title, svg, keys, caption: caption.to_owned(), on_white: false })
 }

@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &DesignArguments) -> Result<(), CliError> {
         write("calibration", path, &file.to_toml().map_err(fault)?)?;
         written.push(path);
     }
-    write("report", &arguments.report, &report::of_design(&findings, &figures))?;
+    write("report", &arguments.report, &report::of_design(&findings, figures))?;
     written.push(&arguments.report);
     print(&format!("{findings}\n{}", output::written(&written)))
 }

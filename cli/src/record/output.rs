@@ -63,7 +63,7 @@ impl Output {
             Kind::Csv => {
                 let mut schema = Schema::default().time();
                 if has_volts {
-                    schema = schema.signals("", 6, SignalUnit::Volts).dummy("", SignalUnit::Volts);
+                    schema = schema.signals("", 6, SignalUnit::Volt).dummy("", SignalUnit::Volt);
                 }
                 schema = schema.wrench("");
                 if has_contacts {

@@ -47,6 +47,7 @@ fn contact_map(observations: &Observations) -> Figure {
         svg: drawn.svg,
         keys: Vec::new(),
         caption: format!("{}{share} Colour: normal force.", drawn.remark),
+        on_white: false,
     }
 }
 
@@ -64,6 +65,7 @@ fn components(observations: &Observations) -> Figure {
         svg: chart.finish(),
         keys: [("a", "fx"), ("b", "fy"), ("c", "fz")].map(|(class, name)| (class, name.to_owned())).to_vec(),
         caption: "Components in the sensor frame.".to_owned(),
+        on_white: false,
     }
 }
 
@@ -83,6 +85,7 @@ fn split(observations: &Observations) -> Figure {
         svg: chart.finish(),
         keys: vec![("a", "normal f_n".to_owned()), ("b", "tangential |f_t|".to_owned())],
         caption: "Only where there is a contact.".to_owned(),
+        on_white: false,
     }
 }
 
@@ -119,5 +122,6 @@ fn ratio(observations: &Observations, coefficient: Option<f64>) -> Figure {
         svg: chart.finish(),
         keys,
         caption: format!("Only where there is a contact.{}{more}", cut.unwrap_or_default()),
+        on_white: false,
     }
 }

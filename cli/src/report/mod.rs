@@ -6,32 +6,23 @@ mod colours;
 pub(crate) mod contours;
 mod figures;
 mod map;
-mod page;
 mod read_back;
 mod svg;
 pub(crate) mod unrolled_tube;
 
 pub(crate) use axis::Axis;
 pub(crate) use chart::Chart;
+pub(crate) use fingertip_calibration::page::Figure;
+
+use fingertip_calibration::page::{self, Page};
 
 use crate::observe::Observations;
 use crate::scene::Scene;
 use crate::summary::Findings;
 
-/// A drawing with its legend.
-#[derive(Clone, Debug)]
-pub(crate) struct Figure {
-    pub(crate) title: String,
-    pub(crate) svg: String,
-    /// Class of the style sheet, and what is drawn so.
-    pub(crate) keys: Vec<(&'static str, String)>,
-    pub(crate) caption: String,
-}
-
 /// The report of a recording.
 pub(crate) fn of_recording(findings: &Findings, observations: &Observations, scene: &Scene) -> String {
-    let figures = figures::of(observations, scene.friction.coefficient());
-    page::render(findings, &figures)
+    page(findings, figures::of(observations, scene.friction.coefficient()))
 }
 
 /// The report of a run with figures of its own before the usual ones.
@@ -42,10 +33,62 @@ pub(crate) fn with_figures(
     coefficient: Option<f64>,
 ) -> String {
     figures.extend(figures::of(observations, coefficient));
-    page::render(findings, &figures)
+    page(findings, figures)
 }
 
 /// The report of something else than a recording.
-pub(crate) fn of_design(findings: &Findings, figures: &[Figure]) -> String {
-    page::render(findings, figures)
+pub(crate) fn of_design(findings: &Findings, figures: Vec<Figure>) -> String {
+    page(findings, figures)
+}
+
+fn page(findings: &Findings, figures: Vec<Figure>) -> String {
+    let mut page = Page::new(&findings.title);
+    findings.lead.iter().for_each(|sentence| page.lead(sentence));
+    page.tables(findings.tables.iter().map(|table| page::Table {
+        title: &table.title,
+        head: &table.head,
+        rows: &table.rows,
+        words: false,
+    }));
+    page.figures(figures);
+    let notes: Vec<String> = findings.notes.iter().map(|note| format!("{note}.")).collect();
+    page.list("To be minded", &notes);
+    page.finish(&format!(
+        "Forces and torques are loads on the fingertip, in the sensor frame. Curves are thinned so that their peaks are \
+         kept; quantiles are right to 0.4 %. Made by fingertip {}.",
+        env!("CARGO_PKG_VERSION")
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Figure, Findings, page};
+    use crate::table::Table;
+
+    #[test]
+    fn the_page_holds_everything_that_was_found() {
+        let mut table = Table::new("T<1>", ["", "a & b"]);
+        table.row(["first".to_owned(), "1 N".to_owned()]);
+        let findings = Findings {
+            title: "A < B".to_owned(),
+            lead: vec!["Lead 1 N.".to_owned()],
+            tables: vec![table],
+            notes: vec!["mind > this".to_owned()],
+        };
+        let html = page(&findings, vec![Figure { title: "F&G".to_owned(), ..Figure::default() }]);
+        let places: Vec<usize> = [
+            "<h1>A &lt; B</h1>",
+            "Lead 1\u{a0}N.",
+            "<h2>T&lt;1&gt;</h2>",
+            "<td>1\u{a0}N</td>",
+            "<h2>F&amp;G</h2>",
+            "<h2>To be minded</h2><ul><li>mind &gt; this.</li></ul>",
+            "<footer>Forces",
+        ]
+        .iter()
+        .map(|part| html.find(part).unwrap_or_else(|| panic!("{part} is not in {html}")))
+        .collect();
+        assert!(places.is_sorted(), "{places:?}");
+        assert!(!page(&Findings::default(), Vec::new()).contains("To be minded"));
+    }
 }

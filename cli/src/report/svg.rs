@@ -119,7 +119,7 @@ impl Svg {
 }
 
 /// Text that may stand in HTML.
-pub(crate) fn escape(text: &str) -> String {
+fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

@@ -133,7 +133,8 @@ fn a_spoiled_scene_is_refused_in_a_sentence_or_has_finite_numbers() {
     for _ in 0..6000 {
         let text = spoiled(random);
         match parse(&text, "test", Path::new("")) {
-            Err((line, message)) => {
+            Err(fault) => {
+                let (line, message) = (fault.line, fault.problem.to_string());
                 refused += 1;
                 assert!(message.len() > 10 && !message.contains('\n'), "{message:?} for\n{text}");
                 assert!(

@@ -2,6 +2,7 @@
 //!
 //! Format, units and defaults are documented in `examples/scenes/README.md`, and nowhere else.
 
+mod fault;
 mod hostile;
 mod simulated;
 mod stages;
@@ -17,11 +18,13 @@ use nalgebra::Vector3;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
+pub(crate) use fault::SceneProblem;
 pub(crate) use simulated::least_static_coefficient;
 pub(crate) use stages::{Friction, SlipWatch};
 
 use crate::error::{CliError, Place};
 use crate::shape::{Projection, Shape};
+use fault::SceneFault;
 use stages::{ContactSection, FrictionSection, SlipSection};
 use surface::{MapSection, MeshSection, PoseSection, SurfaceSection, place};
 
@@ -113,26 +116,26 @@ impl Scene {
     /// Reads and checks a scene.
     pub(crate) fn load(path: &Path) -> Result<Self, CliError> {
         let text = fs::read_to_string(path).map_err(|source| CliError::read("scene", path, source))?;
-        let fault = |line, message| CliError::Scene { path: path.to_owned(), place: Place(line), message };
         let name = path.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
         let folder = path.parent().unwrap_or(Path::new(""));
-        parse(&text, &name, folder).map_err(|(line, message)| fault(line, message))
+        parse(&text, &name, folder).map_err(|fault| CliError::Scene {
+            path: path.to_owned(),
+            place: Place(fault.line),
+            problem: fault.problem,
+        })
     }
 }
 
 #[cfg(test)]
 impl Scene {
     /// A scene of this text.
-    pub(crate) fn read(text: &str, name: &str, folder: &Path) -> Result<Self, String> {
-        parse(text, name, folder).map_err(|(_, message)| message)
+    pub(crate) fn read(text: &str, name: &str, folder: &Path) -> Result<Self, SceneProblem> {
+        parse(text, name, folder).map_err(|fault| fault.problem)
     }
 }
 
-/// Line, if it is known, and sentence.
-type Fault = (Option<usize>, String);
-
 /// A scene of which the file is called `name`, in a folder that relative paths start from.
-fn parse(text: &str, name: &str, folder: &Path) -> Result<Scene, Fault> {
+fn parse(text: &str, name: &str, folder: &Path) -> Result<Scene, SceneFault> {
     let Kind { version, surface } =
         toml::from_str(text).map_err(|error| explain::<DynSurface<f64>>(text, &error))?;
     let word = |key| surface.as_ref().and_then(|surface| surface.get(key)).and_then(toml::Value::as_str);
@@ -141,15 +144,8 @@ fn parse(text: &str, name: &str, folder: &Path) -> Result<Scene, Fault> {
             Some("mesh") if word("file").is_some() => parse_with::<MeshSection>(text, name, folder),
             _ => parse_with::<DynSurface<f64>>(text, name, folder),
         },
-        Some(other) => Err((
-            None,
-            format!(
-                "it has version {other}, but this program reads version {VERSION}; install the fingertip that fits"
-            ),
-        )),
-        None => {
-            Err((None, format!("it does not state its version; put `version = {VERSION}` on its first line")))
-        }
+        Some(other) => Err(SceneProblem::OtherVersion(other).into()),
+        None => Err(SceneProblem::NoVersion.into()),
     }
 }
 
@@ -157,19 +153,19 @@ fn parse_with<S: SurfaceSection + DeserializeOwned>(
     text: &str,
     name: &str,
     folder: &Path,
-) -> Result<Scene, Fault> {
+) -> Result<Scene, SceneFault> {
     let file: SceneFile<S> = toml::from_str(text).map_err(|error| explain::<S>(text, &error))?;
-    file.check(name, folder).map_err(|message| (None, message))
+    Ok(file.check(name, folder)?)
 }
 
 /// Line and sentence for an error of the parser.
-fn explain<S: DeserializeOwned>(text: &str, error: &toml::de::Error) -> Fault {
+fn explain<S: DeserializeOwned>(text: &str, error: &toml::de::Error) -> SceneFault {
     let before = error.span().and_then(|span| text.get(..span.start));
     let line = before.map(|before| before.matches('\n').count() + 1);
     let message = error.message().replace('\n', " ");
     let key = if message.starts_with("invalid") { culprit::<S>(text, error.message()) } else { None };
     let key = key.map_or_else(String::new, |key| format!("key `{key}`: "));
-    (line, format!("{key}{message} (the keys are explained in examples/scenes/README.md)"))
+    SceneFault { line, problem: SceneProblem::Key { key, message } }
 }
 
 /// The key whose value is wrong, which serde does not tell: the one without which the complaint is
@@ -203,10 +199,10 @@ fn culprit<S: DeserializeOwned>(text: &str, message: &str) -> Option<String> {
 }
 
 impl<S: SurfaceSection> SceneFile<S> {
-    fn check(self, name: &str, folder: &Path) -> Result<Scene, String> {
-        let positive = |what: &str, value: Option<f64>| match value {
-            Some(value) if !(value > 0.0 && value.is_finite()) => {
-                Err(format!("`{what}` must be a positive number, not {value}"))
+    fn check(self, name: &str, folder: &Path) -> Result<Scene, SceneProblem> {
+        let positive = |key: &'static str, value: Option<f64>| match value {
+            Some(found) if !(found > 0.0 && found.is_finite()) => {
+                Err(SceneProblem::NotPositive { key, found })
             }
             other => Ok(other),
         };
@@ -233,13 +229,13 @@ impl<S: SurfaceSection> SceneFile<S> {
 mod tests {
     use std::path::Path;
 
-    use super::{Convention, Scene, parse};
+    use super::{Convention, Scene, SceneProblem, parse};
     use crate::shape::Shape;
 
     const GOOD: &str =
         "version = 1\n[input]\nconvention = \"reaction\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
 
-    fn check(text: &str) -> Result<Scene, String> {
+    fn check(text: &str) -> Result<Scene, SceneProblem> {
         Scene::read(text, "test", Path::new(""))
     }
 
@@ -281,16 +277,18 @@ mod tests {
         for (text, expected) in cases {
             match check(&text) {
                 Ok(_) => panic!("accepted, but should complain of {expected}:\n{text}"),
-                Err(message) => assert!(message.contains(expected), "{message:?} lacks {expected:?}"),
+                Err(problem) => {
+                    assert!(problem.to_string().contains(expected), "{problem} lacks {expected:?}");
+                }
             }
         }
     }
 
     #[test]
     fn an_unknown_key_is_answered_with_the_known_ones_and_its_line() {
-        let (line, message) =
-            parse(&GOOD.replace("convention", "convection"), "test", Path::new("")).unwrap_err();
-        assert_eq!(line, Some(3));
+        let fault = parse(&GOOD.replace("convention", "convection"), "test", Path::new("")).unwrap_err();
+        let message = fault.problem.to_string();
+        assert_eq!(fault.line, Some(3));
         assert!(message.contains("unknown field `convection`"), "{message}");
         assert!(message.contains("`convention`") && message.contains("`sample_rate_Hz`"), "{message}");
     }
@@ -323,7 +321,7 @@ mod tests {
             }
             assert!(check(&format!("{head}{shape}\nradius_mm = 1.0\n")).is_err(), "{shape}");
         }
-        let error = check(&format!("{GOOD}[map]\n")).unwrap_err();
+        let error = check(&format!("{GOOD}[map]\n")).unwrap_err().to_string();
         assert!(error.contains("[map]"), "{error}");
     }
 }

@@ -1,5 +1,7 @@
 //! The scene of the simulated fingertip.
 
+use core::error::Error;
+
 use fingertip::contact::PointContact;
 use fingertip::friction::{Coulomb, DropDetector, ForceNoise};
 use fingertip::surfaces::SphericalCap;
@@ -17,16 +19,16 @@ const NOISE: f64 = 0.02;
 
 /// The sphere on its beam, with the friction that is safe for every drag of the session.
 pub(super) fn scene() -> Result<Scene, CliError> {
-    build().map_err(|message| CliError::Simulate { message })
+    build().map_err(|error| CliError::Simulate { message: error.to_string() })
 }
 
-fn build() -> Result<Scene, String> {
-    let simulated = SimulatedFingertip::new(&standard_session(), Options::default()).map_err(text)?;
+fn build() -> Result<Scene, Box<dyn Error>> {
+    let simulated = SimulatedFingertip::new(&standard_session(), Options::default())?;
     let (sphere, pole) = (simulated.sphere(), Vector3::x());
     let rim = simulated.options().design.greatest_angle();
     let frame = [Vector3::x(), Vector3::y(), Vector3::z()];
     let coefficient = least_static_coefficient(&simulated).ok_or("the session has no drag")?;
-    let noise = ForceNoise::isotropic(NOISE).map_err(text)?;
+    let noise = ForceNoise::isotropic(NOISE)?;
     Ok(Scene {
         name: "simulated fingertip".to_owned(),
         convention: Convention::OnFingertip,
@@ -35,9 +37,9 @@ fn build() -> Result<Scene, String> {
         rest: None,
         shape: Shape::Sphere(SphericalCap::new(sphere, pole, rim.cos()).map_err(text)?),
         projection: Projection::sphere(sphere.centre(), pole, Some(rim), &frame),
-        model: PointContact::new(LEAST_FORCE).map_err(text)?,
-        friction: Friction::known(Coulomb::new(coefficient).map_err(text)?),
-        slip: SlipWatch::falls(DropDetector::new(noise).map_err(text)?),
+        model: PointContact::new(LEAST_FORCE)?,
+        friction: Friction::known(Coulomb::new(coefficient)?),
+        slip: SlipWatch::falls(DropDetector::new(noise)?),
     })
 }
 
@@ -48,8 +50,4 @@ pub(crate) fn least_static_coefficient(simulated: &SimulatedFingertip) -> Option
         _ => None,
     });
     drags.min_by(f64::total_cmp)
-}
-
-fn text(error: impl ToString) -> String {
-    error.to_string()
 }

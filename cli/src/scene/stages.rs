@@ -2,12 +2,15 @@
 
 use fingertip::contact::PointContact;
 use fingertip::friction::{
-    Coulomb, DropDetector, ForceNoise, FrictionModel, NormalForceGate, RatioThreshold, SlipDetector,
-    SlipMargin, SlipVerdict,
+    BadFriction, Coulomb, DropDetector, ForceNoise, FrictionModel, NormalForceGate, RatioThreshold,
+    SlipDetector, SlipMargin, SlipVerdict,
 };
+use fingertip::surfaces::BadShape;
 use fingertip::wrench::ContactForce;
 use fingertip::{GripStage, SlipStage};
 use serde::Deserialize;
+
+use super::fault::SceneProblem;
 
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -28,15 +31,14 @@ pub(super) struct ContactSection {
 }
 
 impl ContactSection {
-    pub(super) fn model(&self) -> Result<PointContact<f64>, String> {
+    pub(super) fn model(&self) -> Result<PointContact<f64>, BadShape> {
         match self.model {
             Model::Point => PointContact::new(self.least_force)
                 .and_then(|model| model.accepting_gap(self.greatest_gap))
                 .and_then(|model| match self.greatest_friction_ratio {
                     Some(ratio) => model.with_greatest_friction(ratio),
                     None => Ok(model),
-                })
-                .map_err(|fault| fault.to_string()),
+                }),
         }
     }
 }
@@ -56,9 +58,9 @@ impl Friction {
         Self(Some(model))
     }
 
-    pub(super) fn from_section(section: Option<&FrictionSection>) -> Result<Self, String> {
+    pub(super) fn from_section(section: Option<&FrictionSection>) -> Result<Self, BadFriction> {
         let model = section.map(|section| Coulomb::new(section.static_coefficient));
-        Ok(Self(model.transpose().map_err(|fault| fault.to_string())?))
+        Ok(Self(model.transpose()?))
     }
 
     pub(crate) fn coefficient(&self) -> Option<f64> {
@@ -104,24 +106,21 @@ pub(crate) enum SlipWatch {
 }
 
 impl SlipWatch {
-    pub(super) fn from_section(section: Option<&SlipSection>, friction: Friction) -> Result<Self, String> {
-        let noise = |deviation: f64| ForceNoise::isotropic(deviation).map_err(|fault| fault.to_string());
-        match section {
-            None => Ok(Self::Off),
-            Some(SlipSection::Drop { noise: deviation }) => {
-                DropDetector::new(noise(*deviation)?).map(Self::Drop).map_err(|fault| fault.to_string())
+    pub(super) fn from_section(
+        section: Option<&SlipSection>,
+        friction: Friction,
+    ) -> Result<Self, SceneProblem> {
+        Ok(match section {
+            None => Self::Off,
+            Some(SlipSection::Drop { noise }) => {
+                Self::Drop(DropDetector::new(ForceNoise::isotropic(*noise)?)?)
             }
-            Some(SlipSection::Threshold { noise: deviation, warning_share }) => {
-                let coefficient = friction.coefficient().ok_or_else(|| {
-                    "the `threshold` detector needs the section [friction] with `static_coefficient`"
-                        .to_owned()
-                })?;
-                let gate = NormalForceGate::from_noise(&noise(*deviation)?);
-                RatioThreshold::new(gate, coefficient, *warning_share)
-                    .map(Self::Threshold)
-                    .map_err(|fault| fault.to_string())
+            Some(SlipSection::Threshold { noise, warning_share }) => {
+                let coefficient = friction.coefficient().ok_or(SceneProblem::NoFriction)?;
+                let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(*noise)?);
+                Self::Threshold(RatioThreshold::new(gate, coefficient, *warning_share)?)
             }
-        }
+        })
     }
 }
 

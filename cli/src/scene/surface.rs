@@ -2,13 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use fingertip::surfaces::{
-    ActiveSurface, BadShape, Cylinder, DynSurface, Mesh, Plane, Posed, Sphere, SphericalCap,
-};
+use fingertip::surfaces::{ActiveSurface, Cylinder, DynSurface, Mesh, Plane, Posed, Sphere, SphericalCap};
 use fingertip::wrench::RigidTransform;
 use nalgebra::Vector3;
 use serde::Deserialize;
 
+use super::fault::SceneProblem;
 use crate::shape::{Projection, Shape};
 
 type Triple = [f64; 3];
@@ -33,10 +32,10 @@ pub(super) struct PoseSection {
 }
 
 impl PoseSection {
-    fn sensor_from_surface(&self) -> Result<RigidTransform<f64>, String> {
+    fn sensor_from_surface(&self) -> Result<RigidTransform<f64>, SceneProblem> {
         let rotation = Vector3::from(self.rotation).map(f64::to_radians);
         RigidTransform::from_axis_angle(rotation, Vector3::from(self.translation))
-            .map_err(|_| "`translation_m` and `rotation_deg` of the pose must be finite numbers".to_owned())
+            .map_err(|_| SceneProblem::Pose)
     }
 }
 
@@ -53,11 +52,11 @@ pub(super) struct MapSection {
 /// What the section `[surface]` may be: a shape, or the file of one.
 pub(super) trait SurfaceSection {
     /// The shape, in the surface's own frame. Files are looked for in `folder`.
-    fn shape(self, folder: &Path) -> Result<DynSurface<f64>, String>;
+    fn shape(self, folder: &Path) -> Result<DynSurface<f64>, SceneProblem>;
 }
 
 impl SurfaceSection for DynSurface<f64> {
-    fn shape(self, _: &Path) -> Result<Self, String> {
+    fn shape(self, _: &Path) -> Result<Self, SceneProblem> {
         Ok(self)
     }
 }
@@ -73,10 +72,10 @@ pub(super) struct MeshSection {
 }
 
 impl SurfaceSection for MeshSection {
-    fn shape(self, folder: &Path) -> Result<DynSurface<f64>, String> {
+    fn shape(self, folder: &Path) -> Result<DynSurface<f64>, SceneProblem> {
         let path = folder.join(&self.file);
         let mesh = Mesh::from_file(&path, self.metres_per_unit)
-            .map_err(|fault| format!("mesh {}: {fault}", path.display()))?;
+            .map_err(|source| SceneProblem::Mesh { path, source })?;
         Ok(DynSurface::Mesh(mesh))
     }
 }
@@ -86,30 +85,29 @@ pub(super) fn place(
     surface: DynSurface<f64>,
     pose: &PoseSection,
     map: Option<&MapSection>,
-) -> Result<(Shape, Projection), String> {
+) -> Result<(Shape, Projection), SceneProblem> {
     let pose = pose.sensor_from_surface()?;
     let frame = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| pose.rotate(&axis));
     let placed = match surface {
         DynSurface::Plane(plane) => {
             let normal = pose.rotate(&plane.normal(&plane.point()));
-            let plane = Plane::new(pose.transform_point(&plane.point()), normal).map_err(text)?;
+            let plane = Plane::new(pose.transform_point(&plane.point()), normal)?;
             let map = Projection::plane(plane.point(), plane.normal(&plane.point()), &frame);
             (Shape::Plane(plane), map)
         }
         DynSurface::Sphere(cap) => {
             let centre = pose.transform_point(&cap.sphere().centre());
-            let sphere = Sphere::new(centre, cap.sphere().radius()).map_err(text)?;
+            let sphere = Sphere::new(centre, cap.sphere().radius())?;
             let least_cosine = cap.least_cosine();
-            let cap = SphericalCap::new(sphere, pose.rotate(&cap.pole()), least_cosine).map_err(text)?;
+            let cap = SphericalCap::new(sphere, pose.rotate(&cap.pole()), least_cosine)?;
             let rim = (least_cosine > -1.0).then(|| least_cosine.acos());
             (Shape::Sphere(cap), Projection::sphere(centre, cap.pole(), rim, &frame))
         }
         DynSurface::Cylinder(cylinder) => {
             let (centre, axis) = (pose.transform_point(&cylinder.centre()), pose.rotate(&cylinder.axis()));
             let (radius, half_length) = (cylinder.radius(), cylinder.half_length());
-            let whole = Cylinder::new(centre, axis, radius).map_err(text)?;
-            let cylinder =
-                half_length.map_or(Ok(whole), |half| whole.with_half_length(half)).map_err(text)?;
+            let whole = Cylinder::new(centre, axis, radius)?;
+            let cylinder = half_length.map_or(Ok(whole), |half| whole.with_half_length(half))?;
             let map = Projection::cylinder(centre, cylinder.axis(), radius, half_length, &frame);
             (Shape::Cylinder(cylinder), map)
         }
@@ -117,9 +115,7 @@ pub(super) fn place(
     };
     match map {
         None => Ok(placed),
-        Some(_) => {
-            Err("[map] is for other shapes than plane, sphere and cylinder, whose maps need none".to_owned())
-        }
+        Some(_) => Err(SceneProblem::NeedlessMap),
     }
 }
 
@@ -129,21 +125,17 @@ fn place_other(
     pose: RigidTransform<f64>,
     map: Option<&MapSection>,
     frame: &[Vector3<f64>; 3],
-) -> Result<(Shape, Projection), String> {
+) -> Result<(Shape, Projection), SceneProblem> {
     let MapSection { centre, pole } = map.copied().unwrap_or(MapSection { centre: ORIGIN, pole: along_z() });
     let centre = pose.transform_point(&Vector3::from(centre));
     if !centre.iter().all(|x| x.is_finite()) {
-        return Err("`centre_m` of [map] must be finite numbers".to_owned());
+        return Err(SceneProblem::MapCentre);
     }
     let pole = pose
         .rotate(&Vector3::from(pole))
         .try_normalize(0.0)
         .filter(|unit| unit.iter().all(|x| x.is_finite()))
-        .ok_or("`pole` of [map] must be a direction: finite and not zero")?;
+        .ok_or(SceneProblem::MapPole)?;
     let map = Projection::sphere(centre, pole, None, frame);
     Ok((Shape::Other(Box::new(Posed::new(surface, pose))), map))
-}
-
-fn text(fault: BadShape) -> String {
-    fault.to_string()
 }

@@ -62,7 +62,7 @@ pub(crate) fn calibrated(
             let fault = |source| CliError::sensor(address, source);
             let rounds = Rounds::new(simulated::fresh(address).map_err(fault)?);
             let readings = Readings {
-                unit: SignalUnit::Volts,
+                unit: SignalUnit::Volt,
                 has_dummy: true,
                 has_rest: false,
                 has_temperature: how.celsius.is_some(),
@@ -125,12 +125,12 @@ mod tests {
     use std::io::Cursor;
     use std::path::PathBuf;
 
-    use fingertip_calibration::file::{CalibrationFile, SignalUnit as CalibratedUnit};
+    use fingertip_calibration::file::CalibrationFile;
     use fingertip_recordings::mcap::{McapWriter, RecordedSignals};
     use nalgebra::DMatrix;
 
     use super::super::{Feed, Next};
-    use super::{Calibrating, GaugesOf, calibrated};
+    use super::{Calibrating, GaugesOf, SignalUnit, calibrated};
 
     /// A folder that is removed with the test.
     struct Folder(PathBuf);
@@ -146,8 +146,7 @@ mod tests {
         fn calibration(&self) -> PathBuf {
             let path = self.0.join("cal.toml");
             let matrix = DMatrix::from_diagonal_element(6, 6, 2.0);
-            let file =
-                CalibrationFile::new(matrix, vec![1.0; 6], vec![0.5; 6], CalibratedUnit::Volt).unwrap();
+            let file = CalibrationFile::new(matrix, vec![1.0; 6], vec![0.5; 6], SignalUnit::Volt).unwrap();
             CalibrationFile { range: Some([-10.0, 10.0]), ..file }.write(&path).unwrap();
             path
         }

@@ -7,8 +7,8 @@ use nalgebra::SVector;
 use thiserror::Error;
 
 use super::front_end::{BridgeFault, BridgeFrontEnd};
-use crate::polled::NbSignalSource;
-use crate::{AsyncSignalSource, ErrorType, Sample, SignalSource, SourceError, SourceErrorKind};
+use crate::polled::NbSource;
+use crate::{AsyncSource, ErrorType, Sample, SignalSource, SourceError, SourceErrorKind};
 
 /// Why there is no strain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -79,20 +79,20 @@ impl<T: Real, S: SignalSource<T, M>, const N: usize, const M: usize> SignalSourc
     }
 }
 
-impl<T: Real, S: NbSignalSource<T, M>, const N: usize, const M: usize> NbSignalSource<T, N>
+impl<T: Real, S: NbSource<T, SVector<T, M>>, const N: usize, const M: usize> NbSource<T, SVector<T, N>>
     for Bridged<S, T, N, M>
 {
-    fn poll_signals(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
-        let sample = self.source.poll_signals().map_err(|error| error.map(BridgedError::Source))?;
+    fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
+        let sample = self.source.poll_sample().map_err(|error| error.map(BridgedError::Source))?;
         self.strained(sample).map_err(nb::Error::Other)
     }
 }
 
-impl<T: Real, S: AsyncSignalSource<T, M>, const N: usize, const M: usize> AsyncSignalSource<T, N>
+impl<T: Real, S: AsyncSource<T, SVector<T, M>>, const N: usize, const M: usize> AsyncSource<T, SVector<T, N>>
     for Bridged<S, T, N, M>
 {
-    async fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
-        let sample = self.source.next_signals().await.map_err(BridgedError::Source)?;
+    async fn next_sample(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
+        let sample = self.source.next_sample().await.map_err(BridgedError::Source)?;
         self.strained(sample)
     }
 }

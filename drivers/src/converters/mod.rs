@@ -49,8 +49,7 @@ pub use ready::{Patience, Unwired};
 
 #[cfg(feature = "simulators")]
 pub use simulator::{
-    Level, SimulatedBench, SimulatedConverter, SimulatedDelay, SimulatedDevice, SimulatedLine, SimulatedSpi,
-    WireFaults,
+    Level, SimulatedBench, SimulatedDelay, SimulatedDevice, SimulatedLine, SimulatedSpi, WireFaults,
 };
 
 #[cfg(feature = "simulators")]

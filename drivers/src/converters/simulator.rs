@@ -39,24 +39,27 @@ pub struct WireFaults {
     pub seed: u64,
 }
 
-/// A device that can be put on a [`SimulatedBench`].
+/// A device that can be put on a [`SimulatedBench`]. One that is on SPI, with a "ready" line, says the rest, too.
 pub trait SimulatedDevice {
     /// Time goes on by so much \[ns\].
     fn advance(&mut self, nanoseconds: u64);
-}
 
-/// A device on SPI with a "ready" line.
-pub trait SimulatedConverter: SimulatedDevice {
-    /// A transaction begins.
-    fn select(&mut self);
-    /// A byte comes, and one goes at the same time.
-    fn shift(&mut self, byte: u8) -> u8;
+    /// A transaction on SPI begins.
+    fn select(&mut self) {}
+    /// A byte comes on SPI, and one goes at the same time; a line that nobody drives is high.
+    fn shift(&mut self, _: u8) -> u8 {
+        0xFF
+    }
     /// The transaction ends.
-    fn deselect(&mut self);
+    fn deselect(&mut self) {}
     /// Whether the device drives its "ready" line low.
-    fn is_ready(&self) -> bool;
+    fn is_ready(&self) -> bool {
+        false
+    }
     /// How many conversions are done.
-    fn conversions(&self) -> u64;
+    fn conversions(&self) -> u64 {
+        0
+    }
 }
 
 #[derive(Debug)]
@@ -84,9 +87,7 @@ impl<D: SimulatedDevice> Inner<D> {
         self.flips += u64::from(hit);
         hit.then(|| self.random.random_range(0..bytes * 8))
     }
-}
 
-impl<D: SimulatedConverter> Inner<D> {
     fn is_low(&mut self) -> bool {
         if let Some(level) = self.faults.stuck_ready {
             return level == Level::Low;
@@ -224,9 +225,7 @@ impl<D: SimulatedDevice> SimulatedBench<D> {
     pub fn with<R>(&self, look: impl FnOnce(&mut D) -> R) -> R {
         look(&mut self.lock().device)
     }
-}
 
-impl<D: SimulatedConverter> SimulatedBench<D> {
     /// The SPI device.
     #[must_use]
     pub fn spi(&self) -> SimulatedSpi<D> {
@@ -248,14 +247,14 @@ impl<D> spi::ErrorType for SimulatedSpi<D> {
     type Error = Infallible;
 }
 
-impl<D: SimulatedConverter> SpiDevice for SimulatedSpi<D> {
+impl<D: SimulatedDevice> SpiDevice for SimulatedSpi<D> {
     fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), Infallible> {
         self.0.lock().transaction(operations);
         Ok(())
     }
 }
 
-impl<D: SimulatedConverter> embedded_hal_async::spi::SpiDevice for SimulatedSpi<D> {
+impl<D: SimulatedDevice> embedded_hal_async::spi::SpiDevice for SimulatedSpi<D> {
     async fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), Infallible> {
         self.0.lock().transaction(operations);
         Ok(())

@@ -20,14 +20,14 @@ macro_rules! sources {
             }
         }
 
-        impl<T: fingertip_wrench::Real, S, P, D, const N: usize> $crate::AsyncSignalSource<T, N>
-            for $awaited<S, P, D, N>
+        impl<T: fingertip_wrench::Real, S, P, D, const N: usize>
+            $crate::AsyncSource<T, nalgebra::SVector<T, N>> for $awaited<S, P, D, N>
         where
             S: embedded_hal_async::spi::SpiDevice,
             P: embedded_hal_async::digital::Wait,
             D: embedded_hal_async::delay::DelayNs,
         {
-            async fn next_signals(
+            async fn next_sample(
                 &mut self,
             ) -> Result<Option<$crate::Sample<T, nalgebra::SVector<T, N>>>, Self::Error> {
                 let value = self.read().await?.signals()?;

@@ -3,8 +3,8 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::SVector;
 
-use crate::polled::{NbSignalSource, NbWrenchSource};
-use crate::{AsyncSignalSource, AsyncWrenchSource, ErrorType, Sample, SignalSource, WrenchSource};
+use crate::polled::NbSource;
+use crate::{AsyncSource, ErrorType, Sample, SignalSource, WrenchSource};
 
 /// A source whose samples are written down before they are given: to a CSV or MCAP file or a ring buffer, by a
 /// closure.
@@ -94,28 +94,6 @@ where
     }
 }
 
-impl<T: Real, S, R, E> NbWrenchSource<T> for Recorder<S, R, E>
-where
-    S: NbWrenchSource<T>,
-    R: FnMut(&Sample<T, Wrench<T>>) -> Result<(), E>,
-{
-    fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, S::Error> {
-        let sample = self.source.poll_wrench()?;
-        Ok(self.recorded(sample))
-    }
-}
-
-impl<T: Real, S, R, E> AsyncWrenchSource<T> for Recorder<S, R, E>
-where
-    S: AsyncWrenchSource<T>,
-    R: FnMut(&Sample<T, Wrench<T>>) -> Result<(), E>,
-{
-    async fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, S::Error> {
-        let sample = self.source.next_wrench().await?;
-        Ok(self.recorded(sample))
-    }
-}
-
 impl<T: Real, const N: usize, S, R, E> SignalSource<T, N> for Recorder<S, R, E>
 where
     S: SignalSource<T, N>,
@@ -127,24 +105,24 @@ where
     }
 }
 
-impl<T: Real, const N: usize, S, R, E> NbSignalSource<T, N> for Recorder<S, R, E>
+impl<T, V, S, R, E> NbSource<T, V> for Recorder<S, R, E>
 where
-    S: NbSignalSource<T, N>,
-    R: FnMut(&Sample<T, SVector<T, N>>) -> Result<(), E>,
+    S: NbSource<T, V>,
+    R: FnMut(&Sample<T, V>) -> Result<(), E>,
 {
-    fn poll_signals(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, S::Error> {
-        let sample = self.source.poll_signals()?;
+    fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, V>>, S::Error> {
+        let sample = self.source.poll_sample()?;
         Ok(self.recorded(sample))
     }
 }
 
-impl<T: Real, const N: usize, S, R, E> AsyncSignalSource<T, N> for Recorder<S, R, E>
+impl<T, V, S, R, E> AsyncSource<T, V> for Recorder<S, R, E>
 where
-    S: AsyncSignalSource<T, N>,
-    R: FnMut(&Sample<T, SVector<T, N>>) -> Result<(), E>,
+    S: AsyncSource<T, V>,
+    R: FnMut(&Sample<T, V>) -> Result<(), E>,
 {
-    async fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, S::Error> {
-        let sample = self.source.next_signals().await?;
+    async fn next_sample(&mut self) -> Result<Option<Sample<T, V>>, S::Error> {
+        let sample = self.source.next_sample().await?;
         Ok(self.recorded(sample))
     }
 }

@@ -3,8 +3,8 @@
 use fingertip_wrench::{Compensation, Real, Wrench, WrenchSolver};
 use nalgebra::SVector;
 
-use crate::polled::{NbSignalSource, NbWrenchSource};
-use crate::{AsyncSignalSource, AsyncWrenchSource, ErrorType, Sample, SignalSource, WrenchSource};
+use crate::polled::NbSource;
+use crate::{AsyncSource, ErrorType, Sample, SignalSource, WrenchSource};
 
 /// Wrenches from the signals of `N` gauges: tare (or another compensation) and solver around any source of
 /// signals, so that a converter with a calibration is a force/torque sensor like any other.
@@ -67,26 +67,26 @@ where
     }
 }
 
-impl<T: Real, S, Z, W, const N: usize> NbWrenchSource<T> for Solved<S, Z, W, N>
+impl<T: Real, S, Z, W, const N: usize> NbSource<T, Wrench<T>> for Solved<S, Z, W, N>
 where
-    S: NbSignalSource<T, N>,
+    S: NbSource<T, SVector<T, N>>,
     Z: Compensation<T, N, Raw = SVector<T, N>>,
     W: WrenchSolver<T, N>,
 {
-    fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, S::Error> {
-        let sample = self.source.poll_signals()?;
+    fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, S::Error> {
+        let sample = self.source.poll_sample()?;
         Ok(self.solved(sample))
     }
 }
 
-impl<T: Real, S, Z, W, const N: usize> AsyncWrenchSource<T> for Solved<S, Z, W, N>
+impl<T: Real, S, Z, W, const N: usize> AsyncSource<T, Wrench<T>> for Solved<S, Z, W, N>
 where
-    S: AsyncSignalSource<T, N>,
+    S: AsyncSource<T, SVector<T, N>>,
     Z: Compensation<T, N, Raw = SVector<T, N>>,
     W: WrenchSolver<T, N>,
 {
-    async fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, S::Error> {
-        let sample = self.source.next_signals().await?;
+    async fn next_sample(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, S::Error> {
+        let sample = self.source.next_sample().await?;
         Ok(self.solved(sample))
     }
 }

@@ -3,7 +3,7 @@
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::SVector;
 
-use crate::polled::{NbSignalSource, NbWrenchSource};
+use crate::polled::NbSource;
 use crate::{ErrorType, Sample, SignalSource, WrenchSource};
 
 /// A sample, and how fresh it is.
@@ -164,16 +164,19 @@ impl<S, T: Real, V: Copy + PartialEq> Watched<S, T, V> {
         }
     }
 
-    /// Reads on until nothing is there, and gives the last one.
-    fn drain<E>(
-        &mut self,
-        now: T,
-        mut poll: impl FnMut(&mut S) -> nb::Result<Option<Sample<T, V>>, E>,
-    ) -> nb::Result<Option<Fresh<T, V>>, E> {
+    /// The newest sample that is there, passing over older ones: for control that must not lag.
+    ///
+    /// # Errors
+    /// `WouldBlock` if none has come since the last call, otherwise those of the source. After an
+    /// error what was read before it is gone, since it would be old by the next call.
+    pub fn latest(&mut self, now: T) -> nb::Result<Option<Fresh<T, V>>, S::Error>
+    where
+        S: NbSource<T, V>,
+    {
         let mut latest: Option<Fresh<T, V>> = None;
         let mut missing = 0_u64;
         for _ in 0..=Self::MOST_PASSED_OVER {
-            match poll(&mut self.source) {
+            match self.source.poll_sample() {
                 Ok(Some(sample)) => {
                     if latest.is_some() {
                         self.watch.pass_over();
@@ -211,18 +214,6 @@ impl<S: ErrorType, T: Real> Watched<S, T, Wrench<T>> {
         let next = self.source.next_wrench();
         self.note(next, now)
     }
-
-    /// The newest wrench that is there, passing over older ones: for control that must not lag.
-    ///
-    /// # Errors
-    /// `WouldBlock` if none has come since the last call, otherwise those of the source. After an
-    /// error what was read before it is gone, since it would be old by the next call.
-    pub fn latest(&mut self, now: T) -> nb::Result<Option<Fresh<T, Wrench<T>>>, S::Error>
-    where
-        S: NbWrenchSource<T>,
-    {
-        self.drain(now, S::poll_wrench)
-    }
 }
 
 impl<S: ErrorType, T: Real, const N: usize> Watched<S, T, SVector<T, N>> {
@@ -236,17 +227,6 @@ impl<S: ErrorType, T: Real, const N: usize> Watched<S, T, SVector<T, N>> {
     {
         let next = self.source.next_signals();
         self.note(next, now)
-    }
-
-    /// The newest signals that are there, passing over older ones: for control that must not lag.
-    ///
-    /// # Errors
-    /// As [`latest`](Watched::latest).
-    pub fn latest_signals(&mut self, now: T) -> nb::Result<Option<Fresh<T, SVector<T, N>>>, S::Error>
-    where
-        S: NbSignalSource<T, N>,
-    {
-        self.drain(now, S::poll_signals)
     }
 }
 
@@ -304,8 +284,8 @@ mod tests {
     impl ErrorType for Queue {
         type Error = Infallible;
     }
-    impl NbWrenchSource<f64> for Queue {
-        fn poll_wrench(&mut self) -> nb::Result<Option<Sample<f64, Wrench<f64>>>, Infallible> {
+    impl NbSource<f64, Wrench<f64>> for Queue {
+        fn poll_sample(&mut self) -> nb::Result<Option<Sample<f64, Wrench<f64>>>, Infallible> {
             match self.0.next() {
                 Some(Some(number)) => {
                     let value = Wrench::on_fingertip(Vector3::new(number, 0.0, 0.0), Vector3::zeros());

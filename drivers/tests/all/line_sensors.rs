@@ -12,7 +12,7 @@ use core::future::Future;
 use core::pin::pin;
 use core::task::{Context, Poll, Waker};
 
-use fingertip_drivers::polled::NbWrenchSource;
+use fingertip_drivers::polled::NbSource;
 use fingertip_drivers::sensors::AxisCounts;
 use fingertip_drivers::sensors::dynpick::{self, DynPickDecoder, DynPickFault};
 use fingertip_drivers::sensors::line::{
@@ -22,7 +22,7 @@ use fingertip_drivers::sensors::line::{
 use fingertip_drivers::sensors::optoforce::{self, OptoForceDecoder, OptoForceFault};
 use fingertip_drivers::sensors::resense::{self, Limits, ResenseDecoder, ResenseFault};
 use fingertip_drivers::sensors::robotous::{self, RobotousDecoder, RobotousFault};
-use fingertip_drivers::{AsyncWrenchSource, SourceError, SourceErrorKind, WrenchSource};
+use fingertip_drivers::{AsyncSource, SourceError, SourceErrorKind, WrenchSource};
 use fingertip_wrench::Wrench;
 
 const FRAMES: u64 = 1_000_000;
@@ -282,7 +282,7 @@ fn all_faces_give_the_same() {
         let expected = blocking.next_wrench().map_err(|error| error.kind());
         assert_eq!(embedded.next_wrench().map_err(|error| error.kind()), expected);
         assert_eq!(ready(awaited.next_wrench()).map_err(|error| error.kind()), expected);
-        let polled = polled.poll_wrench();
+        let polled = polled.poll_sample();
         if expected == Ok(None) {
             // The line is still open for one that polls.
             assert!(matches!(polled, Err(nb::Error::WouldBlock)));

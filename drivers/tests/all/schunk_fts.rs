@@ -7,7 +7,7 @@ use core::time::Duration;
 use std::io;
 
 use fingertip_drivers::middleware::{OnLoss, Supervised, SupervisedError};
-use fingertip_drivers::polled::NbWrenchSource;
+use fingertip_drivers::polled::NbSource;
 use fingertip_drivers::sensors::FaultPlan;
 use fingertip_drivers::sensors::schunk_fts::{
     FtsClient, FtsClientError, FtsReceiver, FtsSample, FtsServer, Packet, SimulatedFts, emit_packet,
@@ -140,7 +140,7 @@ fn over_sockets_nothing_is_lost_and_the_sensor_is_stopped_at_the_end() {
     let mut last = next(&mut client).force().x;
     let mut polled = 0;
     while polled < 20 || blocked == 0 {
-        match NbWrenchSource::<f64>::poll_wrench(&mut client) {
+        match NbSource::<f64>::poll_sample(&mut client) {
             Ok(sample) => {
                 let x = sample.unwrap().value.force().x;
                 assert_eq!(x, last + 1.0);

@@ -301,7 +301,7 @@ proptest! {
     fn what_is_written_is_read_back_exactly(
         rows in prop::collection::vec((prop::array::uniform6(number()), prop::array::uniform7(number())), 0..20),
     ) {
-        let schema = Schema::default().time().wrench("S1").signals("", 6, SignalUnit::Volts).dummy("", SignalUnit::Volts);
+        let schema = Schema::default().time().wrench("S1").signals("", 6, SignalUnit::Volt).dummy("", SignalUnit::Volt);
         let mut writer = RecordingWriter::new(Vec::new(), &schema).unwrap();
         for (index, (wrench, volts)) in rows.iter().enumerate() {
             writer.write([index as f64].into_iter().chain(*wrench).chain(*volts)).unwrap();

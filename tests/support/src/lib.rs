@@ -1,6 +1,7 @@
 //! What the tests of several crates share. Not published.
 #![allow(clippy::panic, clippy::expect_used)]
 
+pub mod mcap;
 mod recordings;
 mod worst;
 

@@ -31,7 +31,6 @@ use core::error::Error;
 use std::path::PathBuf;
 
 use page::Page;
-use table::escaped;
 use timing::Effort;
 
 type Failure = Box<dyn Error>;
@@ -71,7 +70,7 @@ fn main() -> Result<(), Failure> {
     for (title, said) in parts {
         text += &format!("\n## {title}\n\n{said}");
     }
-    page.write(&folder, &format!("<p>{}</p>", escaped(&introduction)))?;
+    page.write(&folder, &introduction)?;
     std::fs::write(folder.join("report.md"), &text)?;
     println!("{text}");
     println!("Wrote {}", folder.join("report.html").display());

@@ -1,7 +1,5 @@
 //! A table that can be read by people and by programs.
 
-use core::fmt::Write as _;
-
 /// Headings and rows of cells.
 #[derive(Clone, Debug)]
 pub(crate) struct Table {
@@ -47,28 +45,10 @@ impl Table {
         self.rows.iter().fold(line(&self.head), |text, row| text + &line(row))
     }
 
-    pub(crate) fn html(&self) -> String {
-        let mut text = String::from("<div class='wide'><table><tr>");
-        for cell in &self.head {
-            let _ = write!(text, "<th>{}</th>", escaped(cell));
-        }
-        text += "</tr>\n";
-        for row in &self.rows {
-            text += "<tr>";
-            for cell in row {
-                let number = cell.trim_end_matches('%').trim().parse::<f64>().is_ok() || cell == "-";
-                let class = if number { "" } else { " class='name'" };
-                let _ = write!(text, "<td{class}>{}</td>", escaped(cell));
-            }
-            text += "</tr>\n";
-        }
-        text + "</table></div>\n"
+    /// As a page shows it.
+    pub(crate) fn on_page(&self) -> fingertip_calibration::page::Table<'_> {
+        fingertip_calibration::page::Table { title: "", head: &self.head, rows: &self.rows, words: true }
     }
-}
-
-/// Text that stands for itself in HTML.
-pub(crate) fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 /// A figure in as many digits as it is worth.

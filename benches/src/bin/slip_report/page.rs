@@ -7,12 +7,11 @@ use plotters::prelude::{
     LineSeries, MAGENTA, PathElement, RED, RGBColor, SVGBackend, SeriesLabelPosition, Text, WHITE,
 };
 
+use fingertip_calibration::page::{self, Figure};
+
 use crate::Failure;
 
 const COLOURS: [RGBColor; 5] = [RED, BLUE, GREEN, MAGENTA, BLACK];
-
-/// Headings of the columns that hold names.
-const HEADS_OF_NAMES: [&str; 2] = ["detector", "figure"];
 
 /// The ranges of a plot; x is logarithmic, y where wanted.
 pub(crate) struct Scale {
@@ -124,67 +123,40 @@ impl Page {
     }
 
     /// A plot with its title, for a line `![title](file)`.
-    fn figure(&self, line: &str) -> Option<String> {
+    fn figure(&self, line: &str) -> Option<Figure> {
         let (title, rest) = line.strip_prefix("![")?.split_once("](")?;
         let (_, svg) = self.plots.iter().find(|(name, _)| Some(name.as_str()) == rest.strip_suffix(')'))?;
-        Some(format!("<figure><figcaption>{title}</figcaption>{svg}</figure>\n"))
+        Some(Figure { title: title.to_owned(), svg: svg.clone(), on_white: true, ..Figure::default() })
     }
 
-    /// Markdown tables and headings as HTML.
+    /// Markdown tables, headings, plots and paragraphs as a page.
     fn html(&self) -> String {
-        let mut body = String::new();
-        let mut inside = false;
-        for line in self.markdown.lines() {
+        let mut page = page::Page::new("Slip detectors");
+        let mut rows: Vec<Vec<String>> = Vec::new();
+        // The empty line at the end closes a table that the text ends with.
+        for line in self.markdown.lines().chain([""]) {
+            if let Some(cells) = line.strip_prefix("| ") {
+                rows.push(
+                    cells.trim_end_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect(),
+                );
+                continue;
+            }
             if line.starts_with("|---") {
                 continue;
             }
-            if let Some(cells) = line.strip_prefix("| ") {
-                let inside_head = !inside;
-                let tag = if inside_head { "th" } else { "td" };
-                if !inside {
-                    body += "<div style='overflow-x:auto'><table>";
-                }
-                inside = true;
-                body += "<tr>";
-                for cell in cells.trim_end_matches('|').split('|') {
-                    let cell = cell.trim();
-                    // Names to the left, numbers to the right.
-                    let name = if inside_head {
-                        HEADS_OF_NAMES.contains(&cell)
-                    } else {
-                        cell.parse::<f64>().is_err() && !["-", "diverges"].contains(&cell)
-                    };
-                    let class = if name { " class='name'" } else { "" };
-                    body += &format!("<{tag}{class}>{}</{tag}>", cell.replace('<', "&lt;"));
-                }
-                body += "</tr>\n";
-                continue;
+            if let Some((head, rows)) = rows.split_first() {
+                page.table(&page::Table { title: "", head, rows, words: true });
             }
-            if inside {
-                body += "</table></div>\n";
-                inside = false;
-            }
+            rows.clear();
             if let Some(title) = line.strip_prefix("## ") {
-                body += &format!("<h2>{title}</h2>\n");
-            } else if let Some(title) = line.strip_prefix("# ") {
-                body += &format!("<h1>{title}</h1>\n");
+                page.heading(title);
             } else if let Some(figure) = self.figure(line) {
-                body += &figure;
-            } else if !line.is_empty() {
-                body += &format!("<p>{line}</p>\n");
+                page.figure(&figure);
+            } else if !line.is_empty() && !line.starts_with("# ") {
+                page.paragraph(line);
             }
         }
-        if inside {
-            body += "</table></div>\n";
-        }
-        format!(
-            "<!doctype html><html lang='en'><meta charset='utf-8'>\
-             <meta name='viewport' content='width=device-width'><title>Slip detectors</title>\
-             <style>body{{font-family:sans-serif;margin:1em auto;padding:0 1em;max-width:60em;line-height:1.4}}\
-             table{{border-collapse:collapse}}td,th{{border:1px solid #999;padding:.2em .5em;text-align:right}}\
-             th{{background:#eee;vertical-align:bottom}}.name{{text-align:left;white-space:nowrap}}figure{{margin:1em 0}}\
-             figcaption{{font-weight:bold}}svg{{max-width:100%;height:auto}}</style>{body}</html>"
-        )
+        page.finish("")
     }
 }
 

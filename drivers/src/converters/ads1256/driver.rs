@@ -11,7 +11,7 @@ use crate::converters::{
     Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, Reading, parts, ready_in_time,
     ready_in_time_async, sources,
 };
-use crate::polled::NbSignalSource;
+use crate::polled::NbSource;
 
 type Failure<S, P> = ConverterError<<S as BusErrorType>::Error, <P as PinErrorType>::Error>;
 
@@ -319,13 +319,13 @@ face! {
 
 sources!(Ads1256, AsyncAds1256);
 
-impl<T: Real, S, P, D, const N: usize> NbSignalSource<T, N> for Ads1256<S, P, D, N>
+impl<T: Real, S, P, D, const N: usize> NbSource<T, SVector<T, N>> for Ads1256<S, P, D, N>
 where
     S: embedded_hal::spi::SpiDevice,
     P: InputPin,
     D: embedded_hal::delay::DelayNs,
 {
-    fn poll_signals(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
+    fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
         self.state.configuration().map_err(ConverterError::from)?;
         if !self.ready.is_low().map_err(ConverterError::Pin)? {
             return Err(nb::Error::WouldBlock);

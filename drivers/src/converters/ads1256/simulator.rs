@@ -5,7 +5,7 @@ use alloc::collections::VecDeque;
 use core::fmt;
 
 use super::wire::{Command, Rate, Register};
-use crate::converters::{Reading, SimulatedConverter, SimulatedDevice};
+use crate::converters::{Reading, SimulatedDevice};
 
 /// What the next bytes of a command are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -143,9 +143,7 @@ impl SimulatedDevice for SimulatedAds1256 {
             self.next += self.settling();
         }
     }
-}
 
-impl SimulatedConverter for SimulatedAds1256 {
     fn select(&mut self) {
         self.rest = Rest::None;
         self.answer.clear();

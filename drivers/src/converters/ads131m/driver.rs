@@ -12,7 +12,7 @@ use crate::Sample;
 use crate::converters::{
     Conversion, ConverterError, ConverterFault, Patience, parts, ready_in_time, ready_in_time_async, sources,
 };
-use crate::polled::NbSignalSource;
+use crate::polled::NbSource;
 
 type Failure<S, P> = ConverterError<<S as BusErrorType>::Error, <P as PinErrorType>::Error>;
 
@@ -225,13 +225,13 @@ where
 
 sources!(Ads131m, AsyncAds131m);
 
-impl<T: Real, S, P, D, const N: usize> NbSignalSource<T, N> for Ads131m<S, P, D, N>
+impl<T: Real, S, P, D, const N: usize> NbSource<T, SVector<T, N>> for Ads131m<S, P, D, N>
 where
     S: embedded_hal::spi::SpiDevice,
     P: InputPin,
     D: embedded_hal::delay::DelayNs,
 {
-    fn poll_signals(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
+    fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
         let value = self.poll()?.signals().map_err(ConverterError::from)?;
         Ok(Some(Sample { time: None, value }))
     }

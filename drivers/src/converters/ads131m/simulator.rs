@@ -6,7 +6,7 @@ use core::fmt;
 
 use super::configuration::{Configuration, Gain};
 use super::wire::{Answer, LONGEST, Register, Request, Status};
-use crate::converters::{SimulatedConverter, SimulatedDevice};
+use crate::converters::SimulatedDevice;
 
 /// An ADS131M with `N` channels, clocked at 8.192 MHz, to be put on a
 /// [`SimulatedBench`](crate::converters::SimulatedBench).
@@ -214,9 +214,7 @@ impl<const N: usize> SimulatedDevice for SimulatedAds131m<N> {
             self.next += self.period().max(1);
         }
     }
-}
 
-impl<const N: usize> SimulatedConverter for SimulatedAds131m<N> {
     fn select(&mut self) {
         self.shifted = 0;
         let status = self.response.is_none();

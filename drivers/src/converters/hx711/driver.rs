@@ -9,8 +9,8 @@ use crate::converters::{
     Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, ready_in_time,
     ready_in_time_async,
 };
-use crate::polled::NbSignalSource;
-use crate::{AsyncSignalSource, ErrorType, Sample, SignalSource};
+use crate::polled::NbSource;
+use crate::{AsyncSource, ErrorType, Sample, SignalSource};
 
 type Failure<C, P> = ConverterError<<C as PinErrorType>::Error, <P as PinErrorType>::Error>;
 
@@ -238,10 +238,10 @@ impl<T: Real, C: OutputPin, P: InputPin, D: embedded_hal::delay::DelayNs, const 
     }
 }
 
-impl<T: Real, C: OutputPin, P: InputPin, D: embedded_hal::delay::DelayNs, const N: usize> NbSignalSource<T, N>
-    for Hx711<C, P, D, N>
+impl<T: Real, C: OutputPin, P: InputPin, D: embedded_hal::delay::DelayNs, const N: usize>
+    NbSource<T, SVector<T, N>> for Hx711<C, P, D, N>
 {
-    fn poll_signals(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
+    fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
         self.state.ready_to_read().map_err(ConverterError::from)?;
         let conversion = self.poll_once()?.ok_or(nb::Error::WouldBlock)?;
         let value = conversion.signals().map_err(ConverterError::from)?;
@@ -249,7 +249,7 @@ impl<T: Real, C: OutputPin, P: InputPin, D: embedded_hal::delay::DelayNs, const 
     }
 }
 
-impl<T, C, P, D, B, const N: usize> AsyncSignalSource<T, N> for AsyncHx711<C, P, D, B, N>
+impl<T, C, P, D, B, const N: usize> AsyncSource<T, SVector<T, N>> for AsyncHx711<C, P, D, B, N>
 where
     T: Real,
     C: OutputPin,
@@ -257,7 +257,7 @@ where
     D: embedded_hal_async::delay::DelayNs,
     B: embedded_hal::delay::DelayNs,
 {
-    async fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
+    async fn next_sample(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
         let value = self.read().await?.signals()?;
         Ok(Some(Sample { time: None, value }))
     }

@@ -6,7 +6,7 @@ use core::fmt;
 
 use super::configuration::Gain;
 use super::wire::{Data, FastCommand, Register, Request, Status, checksum};
-use crate::converters::{SimulatedConverter, SimulatedDevice};
+use crate::converters::SimulatedDevice;
 
 /// An MCP3564 of device address 1 with its clock of 4.9152 MHz, to be put on a
 /// [`SimulatedBench`](crate::converters::SimulatedBench).
@@ -216,9 +216,7 @@ impl SimulatedDevice for SimulatedMcp3564 {
             self.next += self.period();
         }
     }
-}
 
-impl SimulatedConverter for SimulatedMcp3564 {
     fn select(&mut self) {
         self.answer.clear();
         (self.begun, self.command, self.written, self.writing) = (false, None, 0, 0);

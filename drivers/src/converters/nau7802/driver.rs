@@ -12,8 +12,8 @@ use crate::converters::{
     Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, Reading, parts, ready_in_time,
     ready_in_time_async,
 };
-use crate::polled::NbSignalSource;
-use crate::{AsyncSignalSource, Sample, SignalSource};
+use crate::polled::NbSource;
+use crate::{AsyncSource, Sample, SignalSource};
 
 type Failure<B, P> = ConverterError<<B as BusErrorType>::Error, <P as PinErrorType>::Error>;
 
@@ -238,13 +238,13 @@ where
     }
 }
 
-impl<T: Real, B, P, D> NbSignalSource<T, 1> for Nau7802<B, P, D>
+impl<T: Real, B, P, D> NbSource<T, SVector<T, 1>> for Nau7802<B, P, D>
 where
     B: embedded_hal::i2c::I2c,
     P: InputPin,
     D: embedded_hal::delay::DelayNs,
 {
-    fn poll_signals(&mut self) -> nb::Result<Option<Sample<T, SVector<T, 1>>>, Self::Error> {
+    fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, SVector<T, 1>>>, Self::Error> {
         self.state.configuration().map_err(ConverterError::from)?;
         if !self.ready.is_low().map_err(ConverterError::Pin)? {
             return Err(nb::Error::WouldBlock);
@@ -255,13 +255,13 @@ where
     }
 }
 
-impl<T: Real, B, P, D> AsyncSignalSource<T, 1> for AsyncNau7802<B, P, D>
+impl<T: Real, B, P, D> AsyncSource<T, SVector<T, 1>> for AsyncNau7802<B, P, D>
 where
     B: embedded_hal_async::i2c::I2c,
     P: embedded_hal_async::digital::Wait,
     D: embedded_hal_async::delay::DelayNs,
 {
-    async fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, 1>>>, Self::Error> {
+    async fn next_sample(&mut self) -> Result<Option<Sample<T, SVector<T, 1>>>, Self::Error> {
         let value = self.read().await?.signals()?;
         Ok(Some(Sample { time: None, value }))
     }

@@ -10,7 +10,7 @@ use thiserror::Error;
 use super::configuration::{Configuration, ConfigurationError};
 use super::receiver::{CountsPerUnit, RdtError, Receiver};
 use super::wire::{Command, Record, Request, WireError, records};
-use crate::polled::NbWrenchSource;
+use crate::polled::NbSource;
 use crate::sensors::LinkStatistics;
 use crate::sensors::datagram_socket::DatagramSocket;
 use crate::{ErrorType, Sample, SourceError, SourceErrorKind, WrenchSource};
@@ -209,8 +209,8 @@ impl<T: Real> WrenchSource<T> for RdtClient<T> {
 
 /// For control that must not lag, put it into a [`Watched`](crate::middleware::Watched) and read the
 /// latest.
-impl<T: Real> NbWrenchSource<T> for RdtClient<T> {
-    fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, ClientError> {
+impl<T: Real> NbSource<T, Wrench<T>> for RdtClient<T> {
+    fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, ClientError> {
         self.socket.wait(false).map_err(ClientError::from)?;
         match self.next_sample() {
             Ok(sample) => Ok(Some(sample)),

@@ -8,8 +8,8 @@ use fingertip_wrench::{Real, Wrench};
 use super::decoder::LineDecoder;
 use super::error::LineError;
 use super::pump::{Pump, Step, pumping};
-use crate::polled::NbWrenchSource;
-use crate::{AsyncWrenchSource, ErrorType, Sample, WrenchSource};
+use crate::polled::NbSource;
+use crate::{AsyncSource, ErrorType, Sample, WrenchSource};
 
 /// A sensor on any `embedded_io::Read`, blocking; polled, too, if the line can say whether bytes are
 /// there (`ReadReady`).
@@ -71,11 +71,11 @@ where
     }
 }
 
-impl<L: Read + ReadReady, T: Real, D: LineDecoder<T>> NbWrenchSource<T> for EmbeddedLine<L, T, D>
+impl<L: Read + ReadReady, T: Real, D: LineDecoder<T>> NbSource<T, Wrench<T>> for EmbeddedLine<L, T, D>
 where
     D::Fault: Display,
 {
-    fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
+    fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
         pumped!(self, {
             match self.line.read_ready() {
                 Ok(true) => self.line.read(self.pump.buffer()),
@@ -86,11 +86,11 @@ where
     }
 }
 
-impl<L: embedded_io_async::Read, T: Real, D: LineDecoder<T>> AsyncWrenchSource<T> for AsyncLine<L, T, D>
+impl<L: embedded_io_async::Read, T: Real, D: LineDecoder<T>> AsyncSource<T, Wrench<T>> for AsyncLine<L, T, D>
 where
     D::Fault: Display,
 {
-    async fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
+    async fn next_sample(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
         pumped!(self, self.line.read(self.pump.buffer()).await)
     }
 }

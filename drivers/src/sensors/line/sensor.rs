@@ -7,13 +7,13 @@ use fingertip_wrench::{Real, Wrench};
 use super::decoder::LineDecoder;
 use super::error::LineError;
 use super::pump::{Pump, Step, pumping};
-use crate::polled::NbWrenchSource;
+use crate::polled::NbSource;
 use crate::{ErrorType, Sample, WrenchSource};
 
 /// A sensor on anything that can be read, such as an open serial port. Set the read timeout of a
 /// port to some periods of the sensor.
 ///
-/// It blocks as a [`WrenchSource`]. As an [`NbWrenchSource`] it takes the timeout of the line (`TimedOut` or
+/// It blocks as a [`WrenchSource`]. As an [`NbSource`] it takes the timeout of the line (`TimedOut` or
 /// `WouldBlock`) for "nothing yet": open the line as non-blocking, or with a timeout of zero.
 #[derive(Debug)]
 pub struct LineSensor<L, T, D> {
@@ -55,11 +55,11 @@ where
     }
 }
 
-impl<L: Read, T: Real, D: LineDecoder<T>> NbWrenchSource<T> for LineSensor<L, T, D>
+impl<L: Read, T: Real, D: LineDecoder<T>> NbSource<T, Wrench<T>> for LineSensor<L, T, D>
 where
     D::Fault: core::fmt::Display,
 {
-    fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
+    fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
         match self.next_wrench() {
             Ok(sample) => Ok(sample),
             Err(LineError::Timeout) => Err(nb::Error::WouldBlock),

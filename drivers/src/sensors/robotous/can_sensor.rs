@@ -10,7 +10,7 @@ use thiserror::Error;
 use super::can::{CanAssembler, CanStatistics};
 use super::decoder::RobotousFault;
 use super::wire::Request;
-use crate::polled::NbWrenchSource;
+use crate::polled::NbSource;
 use crate::{ErrorType, Sample, SourceError, SourceErrorKind, WrenchSource};
 
 /// Why there is no sample.
@@ -121,11 +121,11 @@ impl<C: blocking::Can, T: Real> WrenchSource<T> for CanSensor<C, T> {
 }
 
 /// For a bus that can both wait and be asked. Takes all frames that are there, up to the next reading.
-impl<C, T: Real> NbWrenchSource<T> for CanSensor<C, T>
+impl<C, T: Real> NbSource<T, Wrench<T>> for CanSensor<C, T>
 where
     C: blocking::Can + embedded_can::nb::Can<Error = <C as blocking::Can>::Error>,
 {
-    fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
+    fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
         loop {
             let frame =
                 embedded_can::nb::Can::receive(&mut self.bus).map_err(|e| e.map(CanSensorError::Bus))?;
@@ -158,21 +158,21 @@ mod tests {
     #[test]
     fn it_streams_when_asked_and_sets_its_zero_only_on_request() {
         let mut sensor = sensor(0.0, |number| [50 * (number as i16 + 1), 0, 0, 0, 0, 2000]);
-        assert_eq!(sensor.poll_wrench().unwrap_err(), nb::Error::WouldBlock);
+        assert_eq!(sensor.poll_sample().unwrap_err(), nb::Error::WouldBlock);
         assert!(matches!(sensor.next_wrench(), Err(CanSensorError::Bus(_))), "nothing would ever come");
         sensor.request(Request::Single).unwrap();
         assert_eq!(sensor.next_wrench().unwrap().unwrap().value.force().x, 1.0);
-        assert_eq!(sensor.poll_wrench().unwrap_err(), nb::Error::WouldBlock);
+        assert_eq!(sensor.poll_sample().unwrap_err(), nb::Error::WouldBlock);
         sensor.request(Request::Stream).unwrap();
         for number in 2..20 {
-            let value = sensor.poll_wrench().unwrap().unwrap().value;
+            let value = sensor.poll_sample().unwrap().unwrap().value;
             assert_eq!((value.force().x, value.torque().z), (f64::from(number), 1.0));
         }
         sensor.request(Request::Bias { set: true }).unwrap();
         let value = sensor.next_wrench().unwrap().unwrap().value;
         assert_eq!((value.force().x, value.torque().z), (1.0, 0.0));
         sensor.request(Request::Stop).unwrap();
-        assert_eq!(sensor.poll_wrench().unwrap_err(), nb::Error::WouldBlock);
+        assert_eq!(sensor.poll_sample().unwrap_err(), nb::Error::WouldBlock);
         assert_eq!((sensor.statistics().readings, sensor.statistics().halves), (20, 0));
     }
 

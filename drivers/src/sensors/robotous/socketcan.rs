@@ -9,7 +9,7 @@ use super::{CanAssembler, CanSensor, CanSensorError, Request};
 use crate::devices::{
     Address, AddressError, ConnectError, Losses, OpenSensor, Opened, SensorFault, WAIT, wrong,
 };
-use crate::polled::NbWrenchSource;
+use crate::polled::NbSource;
 use crate::{Sample, SourceError, SourceErrorKind};
 
 /// Opens a sensor and lets it stream.
@@ -58,7 +58,7 @@ struct OnSocket(CanSensor<CanSocket, f64>);
 
 impl Opened for OnSocket {
     fn next(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, SensorFault> {
-        self.0.poll_wrench().map_err(|error| match error {
+        self.0.poll_sample().map_err(|error| match error {
             nb::Error::WouldBlock => SensorFault::of_kind(SourceErrorKind::Timeout, "no frame came in time"),
             nb::Error::Other(CanSensorError::Sensor(fault)) => SensorFault::new(fault),
             nb::Error::Other(error) => SensorFault::of_kind(error.kind(), error.to_string()),

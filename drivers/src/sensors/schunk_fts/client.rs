@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use super::receiver::{FtsFault, FtsReceiver};
 use super::wire::{Command, CommandAnswer, FtsSample, FtsWireError, Packet};
-use crate::polled::NbWrenchSource;
+use crate::polled::NbSource;
 use crate::sensors::LinkStatistics;
 use crate::sensors::datagram_socket::DatagramSocket;
 use crate::{ErrorType, Sample, SourceError, SourceErrorKind, WrenchSource};
@@ -229,8 +229,8 @@ impl<T: Real> WrenchSource<T> for FtsClient {
 
 /// For control that must not lag, put it into a [`Watched`](crate::middleware::Watched) and read the
 /// latest.
-impl<T: Real> NbWrenchSource<T> for FtsClient {
-    fn poll_wrench(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, FtsClientError> {
+impl<T: Real> NbSource<T, Wrench<T>> for FtsClient {
+    fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, FtsClientError> {
         self.socket.wait(false).map_err(FtsClientError::from)?;
         match self.next_sample() {
             Ok(sample) => Ok(Some(sample)),

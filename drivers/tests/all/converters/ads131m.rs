@@ -11,8 +11,8 @@ use fingertip_drivers::converters::{
     ConverterError, ConverterFault, Level, Patience, SimulatedBench, SimulatedDelay, SimulatedLine,
     SimulatedSpi, Unwired, WireFaults,
 };
-use fingertip_drivers::polled::NbSignalSource;
-use fingertip_drivers::{AsyncSignalSource, SignalSource, SourceError, SourceErrorKind};
+use fingertip_drivers::polled::NbSource;
+use fingertip_drivers::{AsyncSource, SignalSource, SourceError, SourceErrorKind};
 
 use super::block_on;
 
@@ -74,7 +74,7 @@ fn conversions_come_in_order_without_a_gap() {
     // After a pause the two that are held are old, and not given.
     bench.advance(1_000_000_000);
     chip.restart();
-    let before = bench.with(|chip| fingertip_drivers::converters::SimulatedConverter::conversions(chip));
+    let before = bench.with(|chip| fingertip_drivers::converters::SimulatedDevice::conversions(chip));
     let number = chip.read().unwrap().counts[0] / 8;
     assert!(i64::from(number) > before as i64);
 }
@@ -90,7 +90,7 @@ fn both_faces_send_the_same_and_give_the_same() {
     let mut last = [0.0; 2];
     for number in 0..500 {
         let a = first(&mut blocking);
-        let b = block_on(AsyncSignalSource::<f32, 8>::next_signals(&mut awaited)).unwrap().unwrap().value;
+        let b = block_on(AsyncSource::<f32, 8>::next_signals(&mut awaited)).unwrap().unwrap().value;
         // The tasks' clock ticks otherwise, so that the first one may be another.
         if number > 0 {
             assert_eq!((a[0] - last[0], b[0] - last[1]), (8.0, 8.0));
@@ -113,7 +113,7 @@ fn polling_never_gives_a_conversion_twice_and_never_waits() {
     let mut last = -1.0;
     let (mut given, mut blocked) = (0, 0);
     for _ in 0..20_000 {
-        let next = NbSignalSource::<f64, 8>::poll_signals(&mut unwired);
+        let next = NbSource::<f64, 8>::poll_sample(&mut unwired);
         match next {
             Ok(sample) => {
                 let number = sample.unwrap().value[0] / 8.0;
@@ -126,9 +126,9 @@ fn polling_never_gives_a_conversion_twice_and_never_waits() {
     }
     assert!(given > 5000 && blocked > 5000, "{given} {blocked}");
     chip.configure(&configuration()).unwrap();
-    assert_eq!(NbSignalSource::<f64, 8>::poll_signals(&mut chip), Err(nb::Error::WouldBlock));
+    assert_eq!(NbSource::<f64, 8>::poll_sample(&mut chip), Err(nb::Error::WouldBlock));
     bench.advance(70_000);
-    assert!(NbSignalSource::<f64, 8>::poll_signals(&mut chip).is_ok());
+    assert!(NbSource::<f64, 8>::poll_sample(&mut chip).is_ok());
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn stuck_lines_and_a_silent_pin_end_in_an_error() {
         }
         // And it goes on when the wire does; what was held meanwhile is not given.
         bench.set_faults(WireFaults::default());
-        let old = bench.with(|chip| fingertip_drivers::converters::SimulatedConverter::conversions(chip));
+        let old = bench.with(|chip| fingertip_drivers::converters::SimulatedDevice::conversions(chip));
         let next = chip.read().unwrap().counts[0] / 8;
         assert!(kind == SourceErrorKind::Corrupt || i64::from(next) > old as i64, "{next} {old}");
     }

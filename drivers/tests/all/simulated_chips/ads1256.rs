@@ -1,7 +1,7 @@
 //! The ADS1256 at 7.68 MHz, after its data sheet.
 
+use fingertip_drivers::converters::SimulatedDevice;
 use fingertip_drivers::converters::ads1256::{Rate, SimulatedAds1256};
-use fingertip_drivers::converters::{SimulatedConverter, SimulatedDevice};
 
 /// Sends bytes, waits as long as a read must (t6), and reads.
 fn ask(chip: &mut SimulatedAds1256, command: &[u8], length: usize) -> Vec<u8> {

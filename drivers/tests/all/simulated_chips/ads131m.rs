@@ -1,7 +1,7 @@
 //! The ADS131M04, after its data sheet: frames of six words of 24 bits.
 
+use fingertip_drivers::converters::SimulatedDevice;
 use fingertip_drivers::converters::ads131m::SimulatedAds131m;
-use fingertip_drivers::converters::{SimulatedConverter, SimulatedDevice};
 
 use super::{crc16, exchange};
 

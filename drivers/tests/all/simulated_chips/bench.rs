@@ -3,7 +3,7 @@
 use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::InputPin;
 use embedded_hal::spi::{Operation, SpiDevice};
-use fingertip_drivers::converters::{Level, SimulatedBench, SimulatedConverter, SimulatedDevice, WireFaults};
+use fingertip_drivers::converters::{Level, SimulatedBench, SimulatedDevice, WireFaults};
 
 /// Answers each byte with what it counts, and keeps what it is sent. It converts every 10 µs.
 #[derive(Debug, Default)]
@@ -20,9 +20,7 @@ impl SimulatedDevice for Echo {
         self.ready |= (self.now + nanoseconds) / 10_000 > self.now / 10_000;
         self.now += nanoseconds;
     }
-}
 
-impl SimulatedConverter for Echo {
     fn select(&mut self) {
         self.selected += 1;
         self.heard.clear();

@@ -1,7 +1,7 @@
 //! The MCP3564 at device address 1, after its data sheet.
 
+use fingertip_drivers::converters::SimulatedDevice;
 use fingertip_drivers::converters::mcp3564::SimulatedMcp3564;
-use fingertip_drivers::converters::{SimulatedConverter, SimulatedDevice};
 
 use super::{crc16, exchange};
 

@@ -15,10 +15,10 @@ mod hx711;
 mod mcp3564;
 mod nau7802;
 
-use fingertip_drivers::converters::SimulatedConverter;
+use fingertip_drivers::converters::SimulatedDevice;
 
 /// One transaction: bytes there and back.
-fn exchange(chip: &mut impl SimulatedConverter, bytes: &[u8]) -> Vec<u8> {
+fn exchange(chip: &mut impl SimulatedDevice, bytes: &[u8]) -> Vec<u8> {
     chip.select();
     let answer = bytes.iter().map(|byte| chip.shift(*byte)).collect();
     chip.deselect();

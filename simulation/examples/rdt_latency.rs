@@ -1,5 +1,5 @@
 //! Records at 100 000 a second over the loopback interface, each followed from the datagram to the
-//! contact: `cargo run --release -p fingertip-drivers --features ati-rdt --example rdt_latency`
+//! contact: `cargo run --release -p fingertip-simulation --example rdt_latency`
 //!
 //! One thread sends and notes when; the other receives through the client, resolves the contact on a
 //! sphere with a friction margin, and notes when that is done. On a machine with one free core the two
@@ -20,7 +20,7 @@ use fingertip::contact::PointContact;
 use fingertip::friction::Coulomb;
 use fingertip::surfaces::Sphere;
 use fingertip_drivers::WrenchSource;
-use fingertip_drivers::polled::NbWrenchSource;
+use fingertip_drivers::polled::NbSource;
 use fingertip_drivers::sensors::LinkStatistics;
 use fingertip_drivers::sensors::ati_rdt::{ClientError, CountsPerUnit, RdtClient, Record};
 
@@ -78,7 +78,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut contacts = 0_u32;
     while client.statistics().received < u64::from(RECORDS) {
         let next = if polled {
-            match client.poll_wrench() {
+            match client.poll_sample() {
                 Ok(sample) => Ok(sample),
                 Err(nb::Error::WouldBlock) if sender.is_finished() => break,
                 Err(nb::Error::WouldBlock) => continue,
