@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use fingertip::wrench::{NotAtRest, RestTest, Wrench};
+use fingertip::wrench::{NotAtRest, RestTest, Tare, TareError, Wrench};
 use nalgebra::{SVector, Vector3};
 
 /// The fraction of good rests that are called into question. Small, since the noise of converters
@@ -34,10 +34,6 @@ impl fmt::Display for Doubt {
 pub(crate) struct RestWatch<const N: usize> {
     /// Nothing only if the rate above were none.
     test: Option<RestTest<f64, N>>,
-    /// The smallest change of each channel, which is the step of its converter if that shows in
-    /// the noise, and otherwise next to nothing; 0 while there was no change.
-    step: SVector<f64, N>,
-    before: Option<SVector<f64, N>>,
     least: Vector3<f64>,
     greatest: Vector3<f64>,
 }
@@ -45,9 +41,7 @@ pub(crate) struct RestWatch<const N: usize> {
 impl<const N: usize> Default for RestWatch<N> {
     fn default() -> Self {
         Self {
-            test: RestTest::new(FALSE_ALARM_RATE).ok(),
-            step: SVector::zeros(),
-            before: None,
+            test: RestTest::new(FALSE_ALARM_RATE).ok().map(RestTest::finding_resolution),
             least: Vector3::repeat(f64::INFINITY),
             greatest: Vector3::repeat(f64::NEG_INFINITY),
         }
@@ -56,29 +50,32 @@ impl<const N: usize> Default for RestWatch<N> {
 
 impl<const N: usize> RestWatch<N> {
     /// Takes a reading as recorded, the same with known drift taken off, and the wrench that it
-    /// stands for, up to a constant.
-    pub(crate) fn add(&mut self, raw: &SVector<f64, N>, reading: &SVector<f64, N>, wrench: &Wrench<f64>) {
+    /// stands for, up to a constant; `false` for a reading that is not finite, which is passed over.
+    pub(crate) fn add(
+        &mut self,
+        raw: &SVector<f64, N>,
+        reading: &SVector<f64, N>,
+        wrench: &Wrench<f64>,
+    ) -> bool {
+        if !reading.iter().all(|x| x.is_finite()) {
+            return false;
+        }
         if let Some(test) = &mut self.test {
-            test.add(reading);
+            test.add_compensated(raw, reading);
         }
-        if let Some(before) = self.before {
-            self.step = self.step.zip_map(&(raw - before).abs(), |step, change| {
-                if change > 0.0 && change.is_finite() && !(step > 0.0 && step <= change) {
-                    change
-                } else {
-                    step
-                }
-            });
-        }
-        self.before = Some(*raw);
         self.least = self.least.inf(&wrench.force());
         self.greatest = self.greatest.sup(&wrench.force());
+        true
+    }
+
+    /// The mean of the readings.
+    pub(crate) fn tare(&self) -> Result<Tare<f64, N>, TareError> {
+        self.test.map_or(Err(TareError::TooFewSamples { samples: 0 }), |test| test.tare())
     }
 
     /// Why it may not have been a rest; `name` names a channel.
     pub(crate) fn doubt(&self, name: impl Fn(usize) -> String) -> Option<Doubt> {
-        let test = self.test?.with_resolution(self.step).ok()?;
-        let seen = match test.finish().err()? {
+        let seen = match self.test?.finish().err()? {
             NotAtRest::TooFewSamples { samples, needed } => {
                 format!("{samples} samples are too few to tell a rest, which takes {needed}")
             }
@@ -141,34 +138,6 @@ mod tests {
     fn add(watch: &mut RestWatch<6>, reading: Vector6<f64>) {
         let wrench = Wrench::on_fingertip(reading.fixed_rows::<3>(0).into(), Vector3::zeros());
         watch.add(&reading, &reading, &wrench);
-    }
-
-    #[test]
-    fn the_step_of_a_converter_is_the_smallest_change_of_each_channel() {
-        let mut random = Pcg64Mcg::seed_from_u64(9);
-        let mut watch = RestWatch::default();
-        let mut readings = Vec::new();
-        for _ in 0..200 {
-            // Channel i in steps of i + 1, channel 5 without any change.
-            let reading = Vector6::from_fn(|channel, _| {
-                let steps = if channel == 5 { 0 } else { random.random_range(-9..9) };
-                f64::from(steps) * (channel + 1) as f64
-            });
-            add(&mut watch, reading);
-            readings.push(reading);
-        }
-        for channel in 0..6 {
-            let changes = readings.windows(2).map(|pair| (pair[1][channel] - pair[0][channel]).abs());
-            let smallest = changes.filter(|change| *change > 0.0).fold(f64::INFINITY, f64::min);
-            let expected = if smallest.is_finite() { smallest } else { 0.0 };
-            assert_eq!(watch.step[channel], expected, "channel {channel}");
-        }
-        // What is not finite is no step.
-        let before = watch.step;
-        for value in [f64::INFINITY, 0.0, f64::NAN] {
-            add(&mut watch, Vector6::repeat(value));
-        }
-        assert_eq!(watch.step, before);
     }
 
     /// 400 readings with a noise of about one, of which channel 3 is changed by `more`.

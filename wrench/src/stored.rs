@@ -1,8 +1,8 @@
 //! How types that a constructor validates are written to a file and read from it.
 
 /// Implements serde's traits for a type by way of the arguments of its constructor, so that what is read is
-/// validated as what is built, and a key that is none is refused. What a type has seen since it was built is not
-/// written: one that is read starts anew.
+/// validated like what is built, and an unknown key is refused. What a value has seen since it was built is not
+/// written: it starts anew when it is read.
 ///
 /// `Type, [generics], |value| { key: Type = how to get it, … }, the constructor on the keys`. Generics are `T: Real`,
 /// then numbers (`, const N: usize`), then frames (`; F: Frame`). The crate that uses it has serde by a feature of

@@ -40,7 +40,7 @@ impl Bridge {
         Self { arm0: Some(gauge), arm1: None, arm2: None, arm3: None }
     }
 
-    /// Two gauges of which the second subtracts.
+    /// Two gauges: the second is subtracted from the first.
     #[must_use]
     pub const fn half(plus: usize, minus: usize) -> Self {
         Self { arm0: Some(plus), arm1: Some(minus), arm2: None, arm3: None }
@@ -89,7 +89,7 @@ impl Bridge {
     }
 
     /// # Errors
-    /// As [`response`](Self::response), for a sensor of so many gauges.
+    /// As [`response`](Self::response), for a sensor with this number of gauges.
     pub fn validate(&self, gauges: usize) -> Result<(), DesignError> {
         let used = self.arms().into_iter().flatten();
         if let Some(index) = used.clone().find(|index| *index >= gauges) {

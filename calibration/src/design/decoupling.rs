@@ -200,7 +200,7 @@ mod tests {
     fn paper_has_its_own() {
         let found = check(&matrix(&paper(), &[5e-3, 0.25, 10e-3]));
         assert_eq!(found.rows[0], [1, 1, 1, 1, 0, 0]);
-        // The paper's M couples two rows to one load each; there is none without couplings.
+        // The paper's M couples two rows to one load each; no combination avoids that.
         assert_eq!(found.couplings(), 2);
         assert!(found.combined[(4, 1)] != 0.0 && found.combined[(5, 2)] != 0.0);
     }

@@ -24,8 +24,8 @@ pub(super) struct Limits {
 /// Local minimum by the method of Broyden, Fletcher, Goldfarb & Shanno (1970) with a bisecting
 /// weak-Wolfe line search, which also behaves on functions with creases (Lewis & Overton 2013).
 ///
-/// `f` gives value and slope, or `None` where there is none; there the search does not go. Returns
-/// the place and its value, never worse than the start; `None` if the start has no value.
+/// `f` gives value and slope, or `None` where it is not defined; the search keeps out of there. Returns
+/// the place and its value, never worse than the start, or `None` if `f` is not defined at the start.
 pub(super) fn quasi_newton(
     mut f: impl FnMut(&DVector<f64>) -> Option<(f64, DVector<f64>)>,
     start: &DVector<f64>,

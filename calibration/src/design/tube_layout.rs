@@ -100,8 +100,8 @@ impl TubeLayout {
         }
     }
 
-    /// The normalised sensor matrix for so many volts (or counts) per unit strain: one row per
-    /// channel, signal per nominal load.
+    /// The normalised sensor matrix, one row per channel, signal per nominal load. `gain` is in volts (or
+    /// counts) per unit strain.
     ///
     /// # Errors
     /// As [`validate`](Self::validate), and for bad loads or a bad gain.

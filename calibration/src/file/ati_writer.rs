@@ -178,7 +178,7 @@ mod tests {
             let named = [element, attribute, &value.to_string()].iter().all(|part| error.contains(*part));
             assert!(named, "{error}");
         }
-        // Nor does a calibration whose inverse is none give one.
+        // A calibration whose inverse overflows cannot be written either.
         let mut file = AtiCalibration::from_xml(NEW).unwrap().to_calibration().unwrap();
         file.matrix = DMatrix::from_diagonal_element(6, 6, 1e-100);
         file.nominal = vec![1e300; 6];

@@ -1,6 +1,8 @@
 //! Calibration and payload files: our versioned TOML, ATI's `.cal`, and Rust constants for firmware.
 
 mod ati;
+mod ati_error;
+mod ati_reader;
 mod ati_writer;
 mod calibration_file;
 mod checksum;
@@ -13,7 +15,8 @@ mod temperature;
 mod text;
 mod validate;
 
-pub use ati::{AtiAxis, AtiCalibration, AtiError};
+pub use ati::{AtiAxis, AtiCalibration};
+pub use ati_error::AtiError;
 pub use calibration_file::{CalibrationFile, Covariance, Provenance, Quality, Verdict};
 pub use document::VERSION;
 pub use error::FileError;

@@ -39,28 +39,7 @@ impl CalibrationFile {
             }
             Ok(format!("[{}]", text.join(", ")))
         };
-        let mut text = String::new();
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "// Calibration {}, written by {}.", self.checksum()?, crate::TOOL);
-        for (label, value) in [
-            ("Sensor", &self.provenance.serial),
-            ("Calibrated", &self.provenance.date),
-            ("Method", &self.provenance.method),
-        ] {
-            if !value.is_empty() {
-                let _ = writeln!(text, "// {label}: {}", value.replace(['\n', '\r'], " "));
-            }
-        }
-        let verdict = match self.quality.verdict {
-            Verdict::Good => "good",
-            Verdict::Suspect => "SUSPECT",
-            Verdict::Bad => "BAD",
-            Verdict::Unchecked => "unchecked",
-        };
-        let _ = writeln!(text, "// Quality: {verdict}");
-        for reason in &self.quality.reasons {
-            let _ = writeln!(text, "// - {}", reason.replace(['\n', '\r'], " "));
-        }
+        let mut text = self.origin_in_rust()?;
         let _ = writeln!(
             text,
             "\n/// Number of gauges.\npub const GAUGES: usize = {gauges};\n\n\
@@ -91,6 +70,33 @@ impl CalibrationFile {
         );
         if let Some(drift) = &self.temperature {
             text.push_str(&drift_in_rust(drift, name, &list)?);
+        }
+        Ok(text)
+    }
+
+    /// Where the calibration comes from and how good it is, as comments.
+    fn origin_in_rust(&self) -> Result<String, FileError> {
+        let mut text = String::new();
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "// Calibration {}, written by {}.", self.checksum()?, crate::TOOL);
+        for (label, value) in [
+            ("Sensor", &self.provenance.serial),
+            ("Calibrated", &self.provenance.date),
+            ("Method", &self.provenance.method),
+        ] {
+            if !value.is_empty() {
+                let _ = writeln!(text, "// {label}: {}", value.replace(['\n', '\r'], " "));
+            }
+        }
+        let verdict = match self.quality.verdict {
+            Verdict::Good => "good",
+            Verdict::Suspect => "SUSPECT",
+            Verdict::Bad => "BAD",
+            Verdict::Unchecked => "unchecked",
+        };
+        let _ = writeln!(text, "// Quality: {verdict}");
+        for reason in &self.quality.reasons {
+            let _ = writeln!(text, "// - {}", reason.replace(['\n', '\r'], " "));
         }
         Ok(text)
     }

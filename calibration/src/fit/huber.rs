@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::regression::{accumulate, check};
 use super::{Fit, FitError, least_squares};
 
-/// Residuals beyond so many standard deviations count linearly instead of squared: 95 % efficiency
+/// Residuals beyond this number of standard deviations count linearly instead of squared: 95 % efficiency
 /// for Gaussian noise (Huber 1964).
 pub const HUBER_THRESHOLD: f64 = 1.345;
 

@@ -48,22 +48,7 @@ pub fn fit_temperature(
         return Err(FitError::BadInput { what: "the list of temperatures" });
     }
     let difference: Vec<f64> = celsius.iter().map(|t| t - reference_celsius).collect();
-    let mut result = TemperatureFit {
-        matrix: DMatrix::zeros(gauges, k),
-        zero: DVector::zeros(gauges),
-        temperature: Temperature {
-            reference_celsius,
-            range_celsius: [
-                celsius.iter().fold(reference_celsius, |least, t| least.min(*t)),
-                celsius.iter().fold(reference_celsius, |most, t| most.max(*t)),
-            ],
-            zero_drift: vec![0.0; gauges],
-            zero_curvature: vec![0.0; gauges],
-            gain_drift: vec![0.0; gauges],
-        },
-        residual_deviation: DVector::zeros(gauges),
-        covariances: Vec::with_capacity(gauges),
-    };
+    let mut result = unfitted(gauges, k, celsius, reference_celsius);
     let mut design = DMatrix::zeros(samples, k + 3);
     for i in 0..samples {
         design[(i, k)] = 1.0;
@@ -117,6 +102,26 @@ pub fn fit_temperature(
         result.covariances.push(covariance);
     }
     Ok(result)
+}
+
+/// Room for what is to be fitted.
+fn unfitted(gauges: usize, k: usize, celsius: &[f64], reference_celsius: f64) -> TemperatureFit {
+    TemperatureFit {
+        matrix: DMatrix::zeros(gauges, k),
+        zero: DVector::zeros(gauges),
+        temperature: Temperature {
+            reference_celsius,
+            range_celsius: [
+                celsius.iter().fold(reference_celsius, |least, t| least.min(*t)),
+                celsius.iter().fold(reference_celsius, |most, t| most.max(*t)),
+            ],
+            zero_drift: vec![0.0; gauges],
+            zero_curvature: vec![0.0; gauges],
+            gain_drift: vec![0.0; gauges],
+        },
+        residual_deviation: DVector::zeros(gauges),
+        covariances: Vec::with_capacity(gauges),
+    }
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 mod error;
 mod orientation;
 mod payload;
+mod payload_parts;
 mod poses;
 
 pub use error::PayloadError;

@@ -38,7 +38,7 @@ pub struct Form {
 }
 
 impl PointContactForm {
-    /// For a sensor of so many gauges.
+    /// For a sensor with this number of gauges.
     #[must_use]
     pub fn new(gauges: usize) -> Self {
         Self { gauges, triangular: Triangular::new(0, gauges * (gauges + 1) / 2) }

@@ -56,16 +56,88 @@ pub fn refine(
     if !(pitch_deviation > 0.0 && load_deviation > 0.0) {
         return Err(FitError::BadInput { what: "the standard deviations" });
     }
-    // Each touch is weighted by the size that the start gives it, once and for all, so that the target is
-    // polynomial.
-    let sizes: Vec<f64> = touches
-        .row_iter()
-        .map(|row| {
-            let load = start * row.transpose();
-            (load.rows(0, 3).norm() * load.rows(3, 3).norm()).max(f64::MIN_POSITIVE)
-        })
-        .collect();
-    let evaluate = |b: &DMatrix<f64>| -> (DVector<f64>, DMatrix<f64>) {
+    let target = Target::new(start, (touches, pitch_deviation), (signals, loads, load_deviation));
+    let mut map = start.clone();
+    let (mut residual, mut jacobian) = target.at(&map);
+    let mut iterations = 0;
+    let mut unobserved = 0;
+    while iterations < MOST_ITERATIONS {
+        iterations += 1;
+        // The step of least norm, so that what is not observed does not move.
+        let (singular, projected) = reduced(&jacobian, &residual)?;
+        let threshold = 1e-9 * singular.values.max();
+        unobserved = 6 * gauges - singular.values.iter().filter(|value| **value > threshold).count();
+        let mut damping = 0.0;
+        let mut better = false;
+        for _ in 0..30 {
+            let mut step = DVector::zeros(6 * gauges);
+            for (k, value) in singular.values.iter().enumerate() {
+                if *value > threshold {
+                    let along = singular.left.column(k).dot(&projected);
+                    step -= singular.right.column(k) * (along * value / (value * value + damping));
+                }
+            }
+            let trial = &map + DMatrix::from_row_slice(6, gauges, step.as_slice());
+            let (next, slope) = target.at(&trial);
+            if next.norm() < residual.norm() {
+                let gain = 1.0 - next.norm() / residual.norm();
+                (map, residual, jacobian) = (trial, next, slope);
+                better = gain > 1e-12;
+                break;
+            }
+            damping = (damping * 10.0_f64).max(1e-6 * singular.values.max().powi(2));
+        }
+        if !better {
+            break;
+        }
+    }
+    let (singular, _) = reduced(&jacobian, &residual)?;
+    let threshold = 1e-9 * singular.values.max();
+    let mut variances = DVector::zeros(6 * gauges);
+    for (k, value) in singular.values.iter().enumerate().filter(|(_, value)| **value > threshold) {
+        variances += singular.right.column(k).map(|x| (x / value).powi(2));
+    }
+    let deviations = DMatrix::from_row_slice(6, gauges, variances.map(f64::sqrt).as_slice());
+    Ok(Refined {
+        deviations,
+        pitch: (pitch(touches, start), pitch(touches, &map)),
+        loads_per_signal: map,
+        unobserved,
+        iterations,
+    })
+}
+
+/// What is to vanish: the pitches of the touches, and what the known loads are off by.
+struct Target<'a> {
+    touches: &'a DMatrix<f64>,
+    pitch_deviation: f64,
+    /// `|f||m|` of each touch by the start. The weights stay those of the start, so that the target is polynomial.
+    sizes: Vec<f64>,
+    signals: &'a DMatrix<f64>,
+    loads: &'a DMatrix<f64>,
+    load_deviation: f64,
+}
+
+impl<'a> Target<'a> {
+    fn new(
+        start: &DMatrix<f64>,
+        (touches, pitch_deviation): (&'a DMatrix<f64>, f64),
+        (signals, loads, load_deviation): (&'a DMatrix<f64>, &'a DMatrix<f64>, f64),
+    ) -> Self {
+        let sizes = touches
+            .row_iter()
+            .map(|row| {
+                let load = start * row.transpose();
+                (load.rows(0, 3).norm() * load.rows(3, 3).norm()).max(f64::MIN_POSITIVE)
+            })
+            .collect();
+        Self { touches, pitch_deviation, sizes, signals, loads, load_deviation }
+    }
+
+    /// Residuals, and their derivatives by the entries of the map, row by row.
+    fn at(&self, b: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
+        let &Self { touches, pitch_deviation, ref sizes, signals, loads, load_deviation } = self;
+        let gauges = b.ncols();
         let (t, p) = (touches.nrows(), loads.nrows());
         let mut residual = DVector::zeros(t + 6 * p);
         let mut jacobian = DMatrix::zeros(t + 6 * p, 6 * gauges);
@@ -94,66 +166,20 @@ pub fn refine(
             }
         }
         (residual, jacobian)
-    };
-    let pitch = |b: &DMatrix<f64>| {
-        let sum: f64 = touches
-            .row_iter()
-            .map(|row| {
-                let load = b * row.transpose();
-                let (f, m) = (load.rows(0, 3), load.rows(3, 3));
-                (f.dot(&m) / (f.norm() * m.norm()).max(f64::MIN_POSITIVE)).powi(2)
-            })
-            .sum();
-        (sum / touches.nrows().max(1) as f64).sqrt()
-    };
-    let mut map = start.clone();
-    let (mut residual, mut jacobian) = evaluate(&map);
-    let mut iterations = 0;
-    let mut unobserved = 0;
-    while iterations < MOST_ITERATIONS {
-        iterations += 1;
-        // The step of least norm, so that what is not observed does not move.
-        let (singular, target) = reduced(&jacobian, &residual)?;
-        let threshold = 1e-9 * singular.values.max();
-        unobserved = 6 * gauges - singular.values.iter().filter(|value| **value > threshold).count();
-        let mut damping = 0.0;
-        let mut better = false;
-        for _ in 0..30 {
-            let mut step = DVector::zeros(6 * gauges);
-            for (k, value) in singular.values.iter().enumerate() {
-                if *value > threshold {
-                    let along = singular.left.column(k).dot(&target);
-                    step -= singular.right.column(k) * (along * value / (value * value + damping));
-                }
-            }
-            let trial = &map + DMatrix::from_row_slice(6, gauges, step.as_slice());
-            let (next, slope) = evaluate(&trial);
-            if next.norm() < residual.norm() {
-                let gain = 1.0 - next.norm() / residual.norm();
-                (map, residual, jacobian) = (trial, next, slope);
-                better = gain > 1e-12;
-                break;
-            }
-            damping = (damping * 10.0_f64).max(1e-6 * singular.values.max().powi(2));
-        }
-        if !better {
-            break;
-        }
     }
-    let (singular, _) = reduced(&jacobian, &residual)?;
-    let threshold = 1e-9 * singular.values.max();
-    let mut variances = DVector::zeros(6 * gauges);
-    for (k, value) in singular.values.iter().enumerate().filter(|(_, value)| **value > threshold) {
-        variances += singular.right.column(k).map(|x| (x / value).powi(2));
-    }
-    let deviations = DMatrix::from_row_slice(6, gauges, variances.map(f64::sqrt).as_slice());
-    Ok(Refined {
-        deviations,
-        pitch: (pitch(start), pitch(&map)),
-        loads_per_signal: map,
-        unobserved,
-        iterations,
-    })
+}
+
+/// RMS of the pitch of the touches, `f·m / (|f||m|)`.
+fn pitch(touches: &DMatrix<f64>, b: &DMatrix<f64>) -> f64 {
+    let sum: f64 = touches
+        .row_iter()
+        .map(|row| {
+            let load = b * row.transpose();
+            let (f, m) = (load.rows(0, 3), load.rows(3, 3));
+            (f.dot(&m) / (f.norm() * m.norm()).max(f64::MIN_POSITIVE)).powi(2)
+        })
+        .sum();
+    (sum / touches.nrows().max(1) as f64).sqrt()
 }
 
 /// The singular values of a tall matrix and the right side that belongs to them, by way of its triangle: the

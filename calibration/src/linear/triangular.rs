@@ -31,7 +31,7 @@ pub struct Triangular {
 }
 
 impl Triangular {
-    /// For rows of so many regressors and responses.
+    /// For rows with these numbers of regressors and responses.
     #[must_use]
     pub fn new(regressors: usize, responses: usize) -> Self {
         let columns = regressors + responses;

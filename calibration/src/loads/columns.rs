@@ -8,7 +8,7 @@ use super::LoadError;
 use super::header::number_in;
 use crate::Axis;
 
-/// A CSV with a header, of which columns are taken by name; other columns do not matter. Blanks around
+/// A CSV with a header, whose columns are taken by name; columns nobody asks for do not matter. Blanks around
 /// cells are passed over, as are lines that start with `#`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Columns {
@@ -74,7 +74,7 @@ impl Columns {
     /// The numbers of a column.
     ///
     /// # Errors
-    /// [`LoadError::BadText`], naming line and column, if there is none or a cell is not a finite number.
+    /// [`LoadError::BadText`], naming line and column, if there is no such column or a cell is not a finite number.
     pub fn numbers(&self, name: &str) -> Result<Vec<f64>, LoadError> {
         self.numbers_at(self.position(name)?, 1.0)
     }

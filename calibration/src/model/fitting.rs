@@ -104,7 +104,7 @@ fn fit(table: &LoadTable, options: &Options, nominal: &[f64]) -> Result<Fit, Fit
     }
 }
 
-/// Residuals of agreeing samples are less than so many standard deviations.
+/// Samples agree whose residuals are below this number of standard deviations.
 const AGREEING: f64 = 3.5;
 
 /// RANSAC whose thresholds come from the data: first the least multiple of the bulk's deviation at which as

@@ -39,7 +39,7 @@ pub struct StreamedFit {
 }
 
 impl StreamedFit {
-    /// For a sensor with these axes and so many gauges.
+    /// For a sensor with these axes and this number of gauges.
     #[must_use]
     pub fn new(axes: &[Axis], gauges: usize, signal_unit: SignalUnit, bias: bool) -> Self {
         let regressors = axes.len() + usize::from(bias);
@@ -80,7 +80,7 @@ impl StreamedFit {
     ///
     /// # Errors
     /// [`CalibrationError::Fit`] with the unobserved directions, or too few samples;
-    /// [`CalibrationError::BadOption`] for a full scale that is none.
+    /// [`CalibrationError::BadOption`] for a full scale that is not positive and finite.
     pub fn finish(mut self, full_scale: Option<&[f64]>) -> Result<SensorModel, CalibrationError> {
         let axes = self.axes.len();
         let nominal: Vec<f64> = match full_scale {

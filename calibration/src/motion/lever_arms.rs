@@ -87,25 +87,7 @@ pub fn lever_arms(
         .ok_or(FitError::BadInput { what: "the list of lever arms (they lie in a plane)" })?;
     let annihilator = DMatrix::identity(3 * count, 3 * count) - &inverse * &g;
     let size = blocks.iter().map(|block| block.signals_from_force.norm_squared()).sum::<f64>().sqrt();
-    let mut random = Pcg64Mcg::seed_from_u64(seed);
-    let mut best: Option<(f64, DMatrix<f64>)> = None;
-    let mut residuals = Vec::with_capacity(starts);
-    for _ in 0..starts {
-        let mut map = DMatrix::zeros(gauges, 3 * count);
-        for (k, block) in blocks.iter().enumerate() {
-            let mut draw = || random.random_range(-1.0..1.0);
-            let q = nalgebra::Quaternion::new(draw(), draw(), draw(), draw());
-            let rotation = UnitQuaternion::from_quaternion(q).to_rotation_matrix();
-            // Each block's handedness is unknown; one sign for all is not observable.
-            let sign = if k > 0 && random.random_bool(0.5) { -1.0 } else { 1.0 };
-            set_block(&mut map, k, &(&block.signals_from_force * dynamic(&(rotation.matrix() * sign))));
-        }
-        let residual = refine(&mut map, &annihilator) / size;
-        residuals.push(residual);
-        if best.as_ref().is_none_or(|(least, _)| residual < *least) {
-            best = Some((residual, map));
-        }
-    }
+    let (best, residuals) = search(&blocks, &annihilator, size, starts, seed);
     let Some((residual, map)) = best.filter(|(residual, _)| *residual <= tolerance) else {
         let residual = residuals.iter().copied().fold(f64::INFINITY, f64::min);
         return Err(MotionError::NoSolution { starts, residual });
@@ -144,6 +126,38 @@ pub fn lever_arms(
         starts,
         misfit: blocks.iter().map(|block| block.misfit).fold(0.0, f64::max),
     })
+}
+
+/// The map that the annihilator leaves least of, relative to `size`, among those found from random starts; and
+/// what it leaves of each of them.
+fn search(
+    blocks: &[ConstantForce],
+    annihilator: &DMatrix<f64>,
+    size: f64,
+    starts: usize,
+    seed: u64,
+) -> (Option<(f64, DMatrix<f64>)>, Vec<f64>) {
+    let gauges = blocks.first().map_or(0, |block| block.signals_from_force.nrows());
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let mut best: Option<(f64, DMatrix<f64>)> = None;
+    let mut residuals = Vec::with_capacity(starts);
+    for _ in 0..starts {
+        let mut map = DMatrix::zeros(gauges, 3 * blocks.len());
+        for (k, block) in blocks.iter().enumerate() {
+            let mut draw = || random.random_range(-1.0..1.0);
+            let q = nalgebra::Quaternion::new(draw(), draw(), draw(), draw());
+            let rotation = UnitQuaternion::from_quaternion(q).to_rotation_matrix();
+            // Each block's handedness is unknown; one sign for all is not observable.
+            let sign = if k > 0 && random.random_bool(0.5) { -1.0 } else { 1.0 };
+            set_block(&mut map, k, &(&block.signals_from_force * dynamic(&(rotation.matrix() * sign))));
+        }
+        let residual = refine(&mut map, annihilator) / size;
+        residuals.push(residual);
+        if best.as_ref().is_none_or(|(least, _)| residual < *least) {
+            best = Some((residual, map));
+        }
+    }
+    (best, residuals)
 }
 
 impl LeverArmFit {

@@ -190,7 +190,7 @@ fn short(value: f64) -> String {
     format!("{value:.digits$}")
 }
 
-/// Digits behind the point that make so many significant ones.
+/// How many digits behind the point a number of significant digits takes.
 fn digits(value: f64, significant: u8) -> usize {
     let digits = f64::from(significant) - 1.0 - value.abs().max(1e-12).log10().floor();
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]

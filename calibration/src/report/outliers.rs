@@ -38,7 +38,7 @@ impl fmt::Display for Outlier {
 /// Chance of naming any sample of a table of pure Gaussian noise.
 const LEVEL: f64 = 0.01;
 
-/// At most so many outliers are looked for, and at most a fifth of the samples.
+/// The most outliers that are looked for, within a fifth of the samples.
 const MOST: usize = 30;
 
 /// Rosner's generalised test (1983) with externally studentised residuals of a least-squares fit:

@@ -28,6 +28,18 @@ impl fmt::Display for Report {
             Some(number) => writeln!(f, "; condition number N_c = {number:.2}")?,
             None => writeln!(f, "; singular")?,
         }
+        self.write_axes(f)?;
+        self.write_contact(f)?;
+        for excluded in &self.excluded {
+            writeln!(f, "left out: {}: {}", excluded.sample, excluded.reason)?;
+        }
+        Ok(())
+    }
+}
+
+impl Report {
+    /// The errors axis by axis, and the cross-talk.
+    fn write_axes(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "\nErrors, % of full scale (– where these loads do not tell):")?;
         write!(f, "{:>14}", "")?;
         for axis in &self.axes {
@@ -71,6 +83,11 @@ impl fmt::Display for Report {
                 writeln!(f)?;
             }
         }
+        Ok(())
+    }
+
+    /// What the errors make of lines of action and contact points.
+    fn write_contact(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(lines) = &self.lines {
             write!(
                 f,
@@ -96,9 +113,6 @@ impl fmt::Display for Report {
                 contacts.together_mm,
                 contacts.worst_mm
             )?;
-        }
-        for excluded in &self.excluded {
-            writeln!(f, "left out: {}: {}", excluded.sample, excluded.reason)?;
         }
         Ok(())
     }

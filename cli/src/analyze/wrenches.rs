@@ -1,6 +1,6 @@
 //! Recordings of wrenches.
 
-use fingertip::wrench::{TareAccumulator, TareError, Wrench};
+use fingertip::wrench::{TareError, Wrench};
 use fingertip_recordings::{HeaderProblem, Layout, Row, WrenchColumns};
 use nalgebra::Vector6;
 
@@ -11,7 +11,6 @@ use crate::rest_watch::{Doubt, RestWatch};
 /// The wrench of one sensor, tared.
 pub(super) struct Wrenches {
     columns: WrenchColumns,
-    resting: TareAccumulator<f64, 6>,
     watch: RestWatch<6>,
     zero: Vector6<f64>,
 }
@@ -22,12 +21,7 @@ impl Wrenches {
             Some(sensor) => layout.wrench(sensor),
             None => layout.only_wrench(),
         }?;
-        Ok(Self {
-            columns: columns.clone(),
-            resting: TareAccumulator::default(),
-            watch: RestWatch::default(),
-            zero: Vector6::zeros(),
-        })
+        Ok(Self { columns: columns.clone(), watch: RestWatch::default(), zero: Vector6::zeros() })
     }
 }
 
@@ -45,15 +39,11 @@ impl Recorded for Wrenches {
     fn rest(&mut self, row: &Row<'_>) -> Status {
         let Some(wrench) = row.wrench(&self.columns) else { return Status::UnusableRow };
         let components = wrench.components();
-        if !self.resting.add(&components) {
-            return Status::UnusableRow;
-        }
-        self.watch.add(&components, &components, &wrench);
-        Status::Rest
+        if self.watch.add(&components, &components, &wrench) { Status::Rest } else { Status::UnusableRow }
     }
 
     fn end_rest(&mut self) -> Result<(), TareError> {
-        self.zero = *self.resting.finish()?.zero();
+        self.zero = *self.watch.tare()?.zero();
         Ok(())
     }
 

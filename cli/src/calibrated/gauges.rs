@@ -113,11 +113,8 @@ impl<S: WrenchSolver<f64, N> + Send, const N: usize> Calibrated for Gauges<S, N>
                 (resting.add(&reading), zero.compensate(&reading))
             }
         };
-        if !taken {
-            return Status::UnusableRow;
-        }
-        self.watch.add(&gauges, &signals, &self.solver.solve(&signals));
-        Status::Rest
+        let sound = taken && self.watch.add(&gauges, &signals, &self.solver.solve(&signals));
+        if sound { Status::Rest } else { Status::UnusableRow }
     }
 
     fn end_rest(&mut self) -> Result<(), TareError> {

@@ -76,7 +76,7 @@ impl<T: Real, Law: BristleLaw<T>, const D: usize, Method: Integrator> Bristle<T,
     }
 
     /// Sets the normal force \[N\] that multiplies all forces, for a law whose parameters are per
-    /// newton of it. One that does not press (or NaN) is none: nothing then holds the deflection.
+    /// newton of it. A force that does not press, or NaN, counts as zero: nothing then holds the deflection.
     #[inline]
     pub fn set_load(&mut self, normal_force: T) {
         self.load =

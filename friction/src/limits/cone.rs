@@ -49,7 +49,7 @@ impl<T: Real> Cone<T> {
     #[inline(never)]
     fn margin_out_of_contact(&self, load: T, normal: T) -> SlipMargin<T> {
         if self.coefficient * normal > T::zero() {
-            // A ratio that is not a number belongs to a margin that is none either.
+            // Where the ratio is not a number, the margin is not one either.
             return SlipMargin::unknown();
         }
         let newtons = if self.coefficient * load <= -normal {

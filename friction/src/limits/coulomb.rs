@@ -56,8 +56,8 @@ impl<T: Real> Coulomb<T> {
     /// [`slip_margin`](FrictionModel::slip_margin) without a branch, for loops over many contacts: from
     /// normal force \[N\] and magnitude of the tangential force \[N\], margin \[N\] and utilisation.
     ///
-    /// The answers are the same, but that a normal force below zero, which no contact has, gets what a
-    /// force that is not finite gets.
+    /// The answers are the same, except for a negative normal force, which no contact has: it is answered
+    /// like a force that is not finite.
     #[inline(always)]
     #[must_use]
     pub fn margin_of(&self, normal: T, load: T) -> (T, T) {
@@ -68,16 +68,16 @@ impl<T: Real> Coulomb<T> {
         (if known { margin } else { -T::GREATEST }, if idle { T::zero() } else { used })
     }
 
-    /// Margin \[N\] and utilisation of an ordinary contact, of which the normal force is positive, and
-    /// whether it is one: `false` where friction holds nothing or a number is out of range, which
-    /// [`margin_of`](Self::margin_of) knows to answer. Of an ordinary contact the load is a number.
+    /// Margin \[N\] and utilisation of a contact with a positive normal force, and whether they can be
+    /// used: `false` where friction holds nothing or a number is out of range.
+    /// [`margin_of`](Self::margin_of) answers those cases too.
     #[inline(always)]
     #[must_use]
     pub fn margin_in_contact(&self, normal: T, load: T) -> (T, T, bool) {
         let Cone { coefficient, cosine } = self.cone;
         let holding = coefficient * normal;
         let used = load / holding;
-        // Nothing, or no number, above or below the line leaves no number that is less.
+        // False for a quotient with zero, NaN or infinity in it, as NaN and infinity are not less.
         let ordinary = (holding <= T::GREATEST) & (used < T::GREATEST);
         ((holding - load) * cosine, used, ordinary)
     }

@@ -72,8 +72,8 @@ impl<T: Real> Stiffness<T> {
 }
 
 impl<T: Real> Place<T> {
-    /// Square of the distance to a displacement in steps of which `scale` make a metre: it
-    /// underflows only far below a step, and where it overflows it is far.
+    /// Square of the distance to a displacement, in units of `1/scale` metres. It underflows only far
+    /// below a unit, and overflows only far away.
     #[inline]
     fn square_to(&self, displacement: &Vector3<T>, scale: T) -> T {
         ((displacement - self.displacement) * scale).norm_squared()

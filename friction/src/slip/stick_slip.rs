@@ -74,7 +74,7 @@ impl<T: Real> SlipDetector<T> for StickSlipDetector<T> {
 }
 
 impl<T: Real> StickSlipDetector<T> {
-    /// Time goes on; not by a step that is none.
+    /// Adds to the time; a step that is not positive and finite adds nothing.
     #[inline]
     fn pass(&mut self, time_step: T) {
         if time_step > T::zero() && time_step.is_number() {

@@ -124,7 +124,7 @@ impl<T: Real, F: Frame> Wrench<T, F> {
     #[inline]
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        // Zero times what is no number is none; a sum of the components themselves might overflow.
+        // Zero times NaN or infinity is NaN. A sum of the components themselves might overflow.
         let (f, m) = (self.force * T::zero(), self.torque * T::zero());
         (f.x + f.y + f.z + m.x + m.y + m.z).is_number()
     }

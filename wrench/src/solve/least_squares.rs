@@ -60,7 +60,7 @@ impl<T: Real, const N: usize> LeastSquares<T, N> {
     }
 
     /// Every gauge trusted as its noise deserves: `deviations` are standard deviations of the
-    /// signals, of which only the ratios matter. With the true ones the answer has the least
+    /// signals; only their ratios matter. With the true ones the answer has the least
     /// variance that any unbiased one can have.
     ///
     /// # Errors
@@ -164,9 +164,9 @@ impl<T: Real, const N: usize> LeastSquares<T, N> {
     }
 }
 
-/// The axis of which no digit would mean anything, if there is one: where Skeel's condition number of the
-/// matrix with its columns equilibrated exceeds `1/(8ε)`. What is left of a column by the factorisation only bounds
-/// this from one side.
+/// An axis whose answer would have no correct digit, if there is one: Skeel's condition number of the matrix
+/// with its columns equilibrated exceeds `1/(8ε)` there. The remainder of a column in the factorisation would
+/// bound this from one side only.
 fn indistinct_axis<T: Real, const N: usize>(
     matrix: &SMatrix<T, N, 6>,
     inverse: &SMatrix<T, 6, N>,
