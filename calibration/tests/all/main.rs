@@ -18,6 +18,7 @@ mod residuals;
 mod rust_constants;
 mod shapes;
 mod spread;
+mod structures;
 mod tables;
 #[path = "../../src/testing.rs"]
 mod testing;
