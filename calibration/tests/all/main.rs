@@ -16,6 +16,7 @@ mod report;
 mod report_forms;
 mod residuals;
 mod rust_constants;
+mod searches;
 mod shapes;
 mod spread;
 mod structures;
