@@ -23,4 +23,5 @@ mod structures;
 mod tables;
 #[path = "../../src/testing.rs"]
 mod testing;
+mod touched;
 mod verdict;
