@@ -186,3 +186,22 @@ fn slip_table(observations: &Observations) -> Table {
     }
     table
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::distributions;
+    use crate::observe::Observations;
+    use crate::shape::Projection;
+
+    #[test]
+    fn what_was_not_seen_has_no_distribution() {
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let mut observations = Observations::new(Projection::plane(Vector3::zeros(), Vector3::z(), &axes));
+        assert!(distributions(&observations).rows.is_empty());
+        observations.gap.add(0.002);
+        let rows = distributions(&observations).rows;
+        assert_eq!(rows, [["line misses by / mm", "2.00", "2.00", "2.00", "2.00"]]);
+    }
+}

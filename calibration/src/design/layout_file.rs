@@ -233,7 +233,7 @@ fn rounded(value: f64, parts: f64) -> f64 {
 mod tests {
     use super::LayoutFile;
     use crate::design::test_spaces::{paper, rosettes};
-    use crate::design::{Bridge, Excitation, LoadedTube, Material, NominalLoads};
+    use crate::design::{Assessment, Bridge, Excitation, LoadedTube, Material, NominalLoads};
     use crate::testing::Largest as _;
 
     fn excitation() -> Excitation {
@@ -261,6 +261,12 @@ mod tests {
             let predicted = again.predicted_calibration().unwrap();
             let off = predicted.sensor_matrix::<6>().unwrap().normalised() - sensor.normalised();
             assert_eq!(off.largest(), 0.0);
+            let number = predicted.quality.condition_number.unwrap();
+            let judged =
+                Assessment::new(&again.layout().normalised(1.0, &again.loads).unwrap(), None).unwrap();
+            assert!((number / judged.condition_number - 1.0).abs() < 1e-12, "{number}");
+            assert_eq!(predicted.quality.reasons, ["this is the design, not a calibration"]);
+            assert!(predicted.provenance.method.contains("not measured"));
         }
     }
 

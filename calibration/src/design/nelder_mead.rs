@@ -170,4 +170,86 @@ mod tests {
         assert!(value <= 1.0 && place[0].is_finite() && used <= 10);
         assert_eq!(nelder_mead(|_| 2.0, &[], 0.1, LIMITS).1, 2.0);
     }
+
+    /// What is asked of a function that answers so, one after another.
+    fn asked(answers: &[f64], start: &[f64], size: f64, limits: Limits) -> (Vec<Vec<f64>>, (Vec<f64>, f64)) {
+        let mut places = Vec::new();
+        let mut answer = answers.iter();
+        let f = |x: &[f64]| {
+            places.push(x.to_vec());
+            *answer.next().unwrap()
+        };
+        let (place, value, used) = nelder_mead(f, start, size, limits);
+        assert_eq!((used, answer.next()), (places.len(), None));
+        (places, (place, value))
+    }
+
+    /// Every way to go on, one after another, in four dimensions: expansion by 3/2, contraction by 5/8, shrinking
+    /// to 3/4 (Gao & Han 2012). `beyond` is on the line from the worst corner through the middle of the others.
+    #[test]
+    fn the_simplex_goes_where_the_method_says() {
+        let corner = |i: usize| (0..4).map(|j| if i == j { 1.0 } else { 0.0 }).collect::<Vec<f64>>();
+        let beyond = |others: [&Vec<f64>; 4], worst: &[f64], factor: f64| -> Vec<f64> {
+            let middle = |j: usize| others.iter().map(|other| other[j]).sum::<f64>() / 4.0;
+            (0..4).map(|j| middle(j) + factor * (middle(j) - worst[j])).collect()
+        };
+        let origin = vec![0.0; 4];
+        let [a, b, c, d] = [0, 1, 2, 3].map(corner);
+        let mut expected = vec![origin.clone(), a.clone(), b.clone(), c.clone(), d.clone()];
+        let mut answers = vec![0.0, 1.0, 2.0, 3.0, 4.0];
+        let mut next = |place: Vec<f64>, answer: f64| {
+            expected.push(place.clone());
+            answers.push(answer);
+            place
+        };
+        // Better than the best: further.
+        next(beyond([&origin, &a, &b, &c], &d, 1.0), -1.0);
+        let far = next(beyond([&origin, &a, &b, &c], &d, 1.5), -2.0);
+        // Better than the second worst: taken.
+        let taken = next(beyond([&far, &origin, &a, &b], &c, 1.0), 1.5);
+        // Better than the worst only: half way back, on this side.
+        next(beyond([&far, &origin, &a, &taken], &b, 1.0), 1.75);
+        let near = next(beyond([&far, &origin, &a, &taken], &b, 0.625), 1.6);
+        // Worse than all: on the side of the worst; and as that is worse, too, all draw near to the best.
+        next(beyond([&far, &origin, &a, &taken], &near, 1.0), 5.0);
+        next(beyond([&far, &origin, &a, &taken], &near, -0.625), 7.0);
+        for (corner, answer) in [(&origin, -1.5), (&a, 2.0), (&taken, 3.0), (&near, 4.0)] {
+            next(far.iter().zip(corner).map(|(best, x)| best + 0.75 * (x - best)).collect(), answer);
+        }
+        let limits = Limits { evaluations: answers.len() - 1, value: 0.0, place: 0.0 };
+        let (found, best) = asked(&answers, &origin, 1.0, limits);
+        for (found, expected) in found.iter().zip(&expected) {
+            let near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15);
+            assert!(near, "{found:?} instead of {expected:?}");
+        }
+        assert_eq!((found.len(), best), (expected.len(), (far, -2.0)));
+    }
+
+    #[test]
+    fn a_simplex_of_one_dimension_doubles_and_halves() {
+        let mut places = Vec::new();
+        let f = |x: &[f64]| {
+            places.push(x[0]);
+            x[0] * x[0]
+        };
+        nelder_mead(f, &[1.0], 0.5, LIMITS);
+        assert_eq!(places[..8], [1.0, 1.5, 0.5, 0.0, -1.0, 0.5, -0.5, 0.25]);
+    }
+
+    /// Nothing gets better: from the start again, the other way round and half as large, twice in all.
+    #[test]
+    fn it_begins_anew_as_long_as_that_helps() {
+        let limits = Limits { evaluations: 100, value: 0.0, place: 0.2 };
+        let (places, best) = asked(&[1.0; 12], &[0.0], 0.5, limits);
+        let first = [0.0, 0.5, -0.5, 0.25, 0.25, -0.25, 0.125, 0.125];
+        let places: Vec<f64> = places.concat();
+        assert_eq!(places, [&first[..], &[-0.25, 0.25, -0.125, -0.125]].concat());
+        assert_eq!(best, (vec![0.0], 1.0));
+        // The second finds something better, by more than counts: two more follow it.
+        let limits = Limits { value: 1.0, ..limits };
+        let answers = [&[1.0; 8][..], &[-0.5, 1.0, 1.0, 0.4], &[0.0, 0.0]].concat();
+        let (places, best) = asked(&answers, &[0.0], 0.5, limits);
+        assert_eq!(best, (vec![-0.25], -0.5));
+        assert_eq!(places[8..].concat(), [-0.25, -0.5, -0.125, -0.125, -0.125, -0.3125]);
+    }
 }

@@ -147,4 +147,73 @@ mod tests {
         let broken = |_: &DVector<f64>| Some((f64::NAN, DVector::zeros(1)));
         assert!(quasi_newton(broken, &DVector::zeros(1), LIMITS).is_none());
     }
+
+    /// Places where (x − 8.9)² is asked for, and where the search ends.
+    fn parabola(limits: Limits) -> (Vec<f64>, f64) {
+        let mut places = Vec::new();
+        let f = |x: &DVector<f64>| {
+            places.push(x[0]);
+            Some(((x[0] - 8.9).powi(2), DVector::repeat(1, 2.0 * (x[0] - 8.9))))
+        };
+        let (place, _) = quasi_newton(f, &DVector::zeros(1), limits).unwrap();
+        (places, place[0])
+    }
+
+    /// A quarter at first, twice that as long as it is not flat enough: the slope falls to nine tenths. Near the end a
+    /// step of the method is shorter.
+    #[test]
+    fn the_line_search_goes_where_the_method_says() {
+        let (places, place) = parabola(LIMITS);
+        let mut expected = vec![0.0];
+        (0..4).for_each(|from| expected.extend([0.25, 0.5, 1.0].map(|step| f64::from(from) + step)));
+        expected.extend((17..36).map(|quarters| 0.25 * f64::from(quarters)));
+        expected.push(8.9);
+        assert_eq!(places.len(), expected.len(), "{places:?}");
+        assert!(places.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-12), "{places:?}");
+        assert!((place - 8.9).abs() < 1e-12);
+        // A step too far is halved.
+        let mut places = Vec::new();
+        let f = |x: &DVector<f64>| {
+            places.push(x[0]);
+            Some((x[0] * x[0], x * 2.0))
+        };
+        quasi_newton(f, &DVector::repeat(1, 0.1), LIMITS);
+        assert_eq!(places, [0.1, -0.1, 0.0]);
+    }
+
+    #[test]
+    fn it_ends_at_each_of_its_limits() {
+        for (limits, end) in [
+            (Limits { iterations: 0, ..LIMITS }, 0.0),
+            (Limits { iterations: 3, ..LIMITS }, 3.0),
+            // The slope is 2 (8.9 − x); it goes to 6.5, 6.75, 7.
+            (Limits { slope: 3.9, ..LIMITS }, 7.0),
+            (Limits { slope: 4.5, ..LIMITS }, 6.75),
+            // By way of 5, 5.5 and 6 to 6.5 it falls by 9.45, from 5.5 to 6.75 by 6.94.
+            (Limits { value: 10.0, ..LIMITS }, 6.5),
+            (Limits { value: 9.0, ..LIMITS }, 6.75),
+        ] {
+            let (_, place) = parabola(limits);
+            assert!((place - end).abs() < 1e-12, "{limits:?}: {place}");
+        }
+    }
+
+    /// A method that learns the curvature needs a few steps a dimension where steepest descent needs hundreds.
+    #[test]
+    fn curvature_is_learnt() {
+        let mut calls = 0;
+        let sizes = DVector::from_fn(6, |i, _| 4.0_f64.powi(i as i32));
+        let f = |x: &DVector<f64>| {
+            calls += 1;
+            // Turned, so that no axis is that of a coordinate.
+            let turned = DVector::from_fn(6, |i, _| x[i] + 0.3 * x[(i + 1) % 6]);
+            let slope = turned.component_mul(&sizes);
+            let back = DVector::from_fn(6, |i, _| slope[i] + 0.3 * slope[(i + 5) % 6]);
+            Some((0.5 * turned.dot(&slope), back))
+        };
+        let (place, value) =
+            quasi_newton(f, &DVector::from_fn(6, |i, _| 0.1 + 0.05 * i as f64), LIMITS).unwrap();
+        println!("{calls} calls, {value:e}");
+        assert!(place.amax() < 1e-9 && calls < 60, "{calls} {place}");
+    }
 }

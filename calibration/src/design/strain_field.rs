@@ -301,4 +301,40 @@ mod tests {
         assert!(choose_sites(&same, 6, &Criterion::Trace, &loads).is_err());
         assert!(choose_sites(&same, 5, &Criterion::Trace, &loads).is_err());
     }
+
+    /// Of all choices none is better that differs in one gauge only.
+    #[test]
+    fn no_exchange_of_one_gauge_improves_a_choice() {
+        let loads = NominalLoads { force: [10.0, 20.0, 20.0], torque: [0.1, 0.3, 0.2] };
+        let candidates: Vec<_> = (0..7)
+            .flat_map(|place| {
+                let site = tube_site(0.9 * f64::from(place));
+                [-25.0, 10.0, 40.0_f64].map(|angle| site.gauge((angle + f64::from(place)).to_radians()))
+            })
+            .collect();
+        for (count, criterion) in [(6, Criterion::Trace), (8, Criterion::ConditionNumber)] {
+            let chosen = choose_sites(&candidates, count, &criterion, &loads).unwrap();
+            assert_eq!(chosen.len(), count);
+            assert!(chosen.is_sorted_by(|a, b| a < b) && chosen[count - 1] < candidates.len(), "{chosen:?}");
+            let value_of = |chosen: &[usize]| {
+                let rows: Vec<_> = chosen.iter().map(|i| candidates[*i]).collect();
+                criterion.of(&gram(&rows, &loads.components()))
+            };
+            let value = value_of(&chosen);
+            for place in 0..count {
+                for other in (0..candidates.len()).filter(|other| !chosen.contains(other)) {
+                    let mut exchanged = chosen.clone();
+                    exchanged[place] = other;
+                    assert!(value_of(&exchanged) >= value * (1.0 - 1e-8), "{place} {other}");
+                }
+            }
+        }
+        // All of them, where there are no more.
+        let all = choose_sites(&candidates[..9], 9, &Criterion::Trace, &loads).unwrap();
+        assert_eq!(all, [0, 1, 2, 3, 4, 5, 6, 7, 8]);
+        for (few, count) in [(5, 6), (8, 9)] {
+            assert!(choose_sites(&candidates[..few], count, &Criterion::Trace, &loads).is_err());
+        }
+        assert!(choose_sites(&[Vector6::zeros(); 8], 6, &Criterion::Trace, &loads).is_err());
+    }
 }

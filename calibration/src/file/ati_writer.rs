@@ -151,6 +151,12 @@ mod tests {
             assert!(names.iter().all(|name| error.contains(name)), "{error}");
         }
         assert!(matches!(AtiCalibration::from_xml("<FTSensor"), Err(AtiError::NotXml(_))));
+        // Something else, though all that is asked for stands in it.
+        let other = NEW.replace("FTSensor", "Sensor");
+        assert!(matches!(
+            AtiCalibration::from_xml(&other),
+            Err(AtiError::MissingElement { element }) if element == "FTSensor"
+        ));
         assert!(matches!(AtiCalibration::from_xml("<a/>"), Err(AtiError::MissingElement { .. })));
         let turned = AtiCalibration::from_xml(&NEW.replace("Rz=\"0\"", "Rz=\"30\"")).unwrap();
         assert!(matches!(turned.to_calibration(), Err(AtiError::Turned)));

@@ -258,6 +258,7 @@ pub fn least_radius(centre: &Vector3<f64>, wrenches: &[Wrench<f64>], friction: f
 #[cfg(test)]
 mod tests {
     use super::{GeometryError, Touch, fit_meeting_point, fit_plane, fit_sphere, least_radius};
+    use crate::fit::FitError;
     use crate::fit::testing::gaussian;
     use crate::testing::Largest as _;
     use fingertip_wrench::Wrench;
@@ -328,5 +329,30 @@ mod tests {
         let mut bad = frictionless;
         bad[3].normal = Vector3::zeros();
         assert!(matches!(fit_sphere(&bad), Err(GeometryError::BadTouch { touch: 3, .. })));
+    }
+
+    #[test]
+    fn a_plane_takes_three_pivots_that_are_not_in_a_line() {
+        let random = &mut Pcg64Mcg::seed_from_u64(7);
+        let mut pivot = |x: f64, y: f64| -> Vec<Wrench<f64>> {
+            (0..5).map(|_| touch(random, Vector3::new(x, y, 0.01), Vector3::z(), 0.4).wrench).collect()
+        };
+        let [a, b, c] = [pivot(0.0, 0.0), pivot(0.01, 0.0), pivot(0.0, 0.01)];
+        let plane = |pivots: &[&Vec<Wrench<f64>>]| {
+            fit_plane(&pivots.iter().map(|pivot| (*pivot).clone()).collect::<Vec<_>>(), &Vector3::z())
+        };
+        assert!((plane(&[&a, &b, &c]).unwrap().shape.offset - 0.01).abs() < 1e-9);
+        assert_eq!(
+            plane(&[&a, &b]).unwrap_err(),
+            FitError::TooFewSamples { samples: 2, coefficients: 3 }.into()
+        );
+        for in_a_line in [[&a, &b, &a], [&a, &a, &a]] {
+            assert!(
+                matches!(plane(&in_a_line), Err(GeometryError::BadTouch { what, .. }) if what.contains("line"))
+            );
+        }
+        // The side is that of `outward`.
+        let below = fit_plane(&[a, b, c], &-Vector3::z()).unwrap().shape;
+        assert!((below.normal.z + 1.0).abs() < 1e-9 && (below.offset + 0.01).abs() < 1e-9);
     }
 }

@@ -41,7 +41,7 @@ impl PointContactForm {
     /// For a sensor with this number of gauges.
     #[must_use]
     pub fn new(gauges: usize) -> Self {
-        Self { gauges, triangular: Triangular::new(0, gauges * (gauges + 1) / 2) }
+        Self { gauges, triangular: Triangular::new(0, numbers(gauges)) }
     }
 
     /// Takes the signals (tared) of one touch; `false` if they are not finite or of the wrong number. The size of
@@ -54,7 +54,7 @@ impl PointContactForm {
         if !(norm > 0.0 && norm.is_finite()) {
             return false;
         }
-        let mut row = Vec::with_capacity(self.gauges * (self.gauges + 1) / 2);
+        let mut row = Vec::with_capacity(numbers(self.gauges));
         for i in 0..self.gauges {
             for j in i..self.gauges {
                 // √2 off the diagonal makes the norm of the coefficients that of the matrix.
@@ -70,7 +70,7 @@ impl PointContactForm {
     /// # Errors
     /// [`FitError::TooFewSamples`] with fewer touches than numbers to find.
     pub fn solve(&mut self) -> Result<Form, FitError> {
-        let unknowns = self.gauges * (self.gauges + 1) / 2;
+        let unknowns = numbers(self.gauges);
         let contacts = self.triangular.samples();
         if contacts < unknowns as u64 {
             return Err(FitError::TooFewSamples {
@@ -101,6 +101,11 @@ impl PointContactForm {
         let deviation = (sum / (contacts as f64 - last as f64)).sqrt();
         Ok(Form { matrix, contacts, deviation, ambiguity, signature })
     }
+}
+
+/// How many numbers a symmetric form of so many gauges has.
+const fn numbers(gauges: usize) -> usize {
+    gauges * (gauges + 1) / 2
 }
 
 /// Fixes norm and sign, and counts the signs of the eigenvalues.

@@ -128,3 +128,12 @@ fn touches_do_not_mind_units_order_and_frames() {
     }
     assert!(gathered(&DMatrix::zeros(0, 6)).solve().is_err());
 }
+
+#[test]
+fn what_nothing_asks_for_is_not_changed() {
+    let start = DMatrix::from_fn(6, 6, |i, j| if i == j { 2.0 } else { 0.1 * (i + 2 * j) as f64 });
+    let none = DMatrix::zeros(0, 6);
+    let same = refine(&start, &none, 1e-2, &none, &none, 1e-2).unwrap();
+    assert_eq!((same.unobserved, &same.loads_per_signal), (36, &start));
+    assert_eq!((same.deviations, same.pitch), (DMatrix::zeros(6, 6), (0.0, 0.0)));
+}

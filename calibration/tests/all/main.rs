@@ -1,6 +1,7 @@
 //! The tests of the crate from outside, as one program: each program more is linked again.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, which may fail so")]
 
+mod consensus;
 mod covariance;
 mod design_end_to_end;
 mod design_optimum;
@@ -16,9 +17,13 @@ mod report;
 mod report_forms;
 mod residuals;
 mod rust_constants;
+mod searches;
 mod shapes;
 mod spread;
+mod structures;
 mod tables;
+mod tares;
 #[path = "../../src/testing.rs"]
 mod testing;
+mod touched;
 mod verdict;

@@ -138,3 +138,26 @@ fn payload_and_mounting_do_not_mind_units_order_and_frames() {
         close(two.force_bias / newton, sensor * one.force_bias, 3.0);
     }
 }
+
+/// What is left of the readings, in the sensor frame and in the base frame, pose by pose.
+#[test]
+fn the_residuals_are_those_of_the_readings() {
+    let random = &mut Pcg64Mcg::seed_from_u64(34);
+    let weight = Vector3::new(0.0, 0.0, -3.0);
+    let poses: Vec<Pose> = (0..7).map(|_| reading(&turn(random), &weight, random)).collect();
+    let fit = fit_payload(&poses, &PayloadOptions::default()).unwrap();
+    let (mut here, mut there) = (Vector6::zeros(), Vector6::zeros());
+    for pose in &poses {
+        let left = pose.wrench - fit.reading(&pose.base_from_sensor);
+        let (force, torque) = (left.fixed_rows::<3>(0).into_owned(), left.fixed_rows::<3>(3).into_owned());
+        let base = wrench(pose.base_from_sensor * force, pose.base_from_sensor * torque);
+        here += left.component_mul(&left) / 7.0;
+        there += base.component_mul(&base) / 7.0;
+    }
+    for i in 0..6 {
+        assert!((fit.rms[i] / here[i].sqrt() - 1.0).abs() < 1e-9, "{i}");
+        assert!((fit.rms_in_base[i] / there[i].sqrt() - 1.0).abs() < 1e-9, "{i}");
+    }
+    // The size of the mass and its error are those of the weight.
+    assert!((fit.mass * 9.806_65 / fit.weight.norm() - 1.0).abs() < 1e-12);
+}

@@ -197,6 +197,9 @@ fn of_plans() {
         plan(&candidates, false, 1.0, 2),
         Err(FitError::TooFewSamples { samples: 2, coefficients: 3 })
     );
+    assert!(matches!(plan(&candidates, true, 1e-3, 7), Err(FitError::Unobserved(_))));
+    let both_ways = DMatrix::from_fn(6, 3, |i, j| if i / 2 == j { 1.0 - 2.0 * (i % 2) as f64 } else { 0.0 });
+    assert_eq!(plan(&both_ways, true, 1e-3, 7), Err(FitError::TooFewSamples { samples: 7, coefficients: 4 }));
     let three = plan(&candidates, false, 1.0, 3).unwrap();
     assert_eq!(three.order.len(), 3);
     assert!(three.deviation[1].is_infinite() && (three.deviation[2] - 1.0).abs() < 1e-5, "{three:?}");
@@ -252,8 +255,14 @@ fn of_options() {
     fewer.zero.truncate(3);
     error(with(&fewer, 0.1));
     // Only signals on loads.
-    for method in [total(3, 4), with(&prior, 0.1).method] {
-        error(Options { method, direction: Direction::LoadsFromSignals, ..plain.clone() });
+    let helmert = Method::GaussHelmert {
+        load_deviations: vec![1e-3; 3],
+        relative: 0.0,
+        signal_deviations: vec![1e-3; 4],
+    };
+    for method in [total(3, 4), helmert, with(&prior, 0.1).method] {
+        let said = error(Options { method, direction: Direction::LoadsFromSignals, ..plain.clone() });
+        assert!(said.contains("the method fits signals from loads only"), "{said}");
     }
     error(Options { quadratic: true, ..plain.clone() });
 }

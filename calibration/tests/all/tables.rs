@@ -243,3 +243,21 @@ fn streamed_fits_do_not_mind_units_order_and_frames() {
     assert!((other * frame.transpose() * 1e4 - matrix).largest() < 1e-12);
     assert!((offset * 1e4 - zero).largest() < 1e-13);
 }
+
+/// Readings of two groups that take turns: each has its own zero, and its own mean.
+#[test]
+fn groups_may_take_turns() {
+    let loads = DMatrix::from_column_slice(6, 1, &[0.0, 0.0, 2.0, 3.0, 0.0, 6.0]);
+    let signals = DMatrix::from_column_slice(6, 1, &[1.0, 10.0, 5.0, 16.0, 2.0, 22.0]);
+    let mut table = LoadTable::new(&[Axis::Fz], loads, signals, SignalUnit::Volt).unwrap();
+    table.groups = vec![7, 2, 7, 2, 7, 2];
+    // At rest the one reads 1 V and 2 V, the other 10 V.
+    let tared = table.tared_by_group().unwrap();
+    assert_eq!(tared.signals.as_slice(), [-0.5, 0.0, 3.5, 6.0, 0.5, 12.0]);
+    assert_eq!(tared.loads, table.loads);
+    table.weights = Some(vec![1.0, 1.0, 2.0, 1.0, 1.0, 2.0]);
+    let centred = table.centred_by_group();
+    // Weighted means: 3.25 V and 1 N, 17.5 V and 3.75 N.
+    assert_eq!(centred.signals.as_slice(), [-2.25, -7.5, 1.75, -1.5, -1.25, 4.5]);
+    assert_eq!(centred.loads.as_slice(), [-1.0, -3.75, 1.0, -0.75, -1.0, 2.25]);
+}

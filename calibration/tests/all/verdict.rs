@@ -6,7 +6,7 @@ use fingertip_calibration::file::{SignalUnit, Verdict};
 use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{Direction, Limits, Method, Options};
 use fingertip_calibration::nalgebra::DMatrix;
-use fingertip_calibration::report::Report;
+use fingertip_calibration::report::{Mistake, Report};
 use rand::SeedableRng as _;
 use rand_pcg::Pcg64Mcg;
 
@@ -92,6 +92,44 @@ fn a_check_says_what_it_cannot_do() {
     let report = Report::of_check(&stamped, &table(&samples(8.0)), &Limits::default(), None).unwrap();
     assert_eq!(report.notes, ["the file itself is stamped as bad: a; b"]);
     assert_eq!(report.verdict, Verdict::Good);
+}
+
+/// Fx and Fy exchanged, Fz never loaded: of what the sensor says there no sign is known.
+#[test]
+fn an_axis_without_load_has_no_sign() {
+    let random = &mut Pcg64Mcg::seed_from_u64(94);
+    let samples: Vec<Sample<3>> = (0..12)
+        .map(|i| {
+            let load = [f64::from(i % 4) - 1.5, f64::from(i % 3) - 1.0, 0.0];
+            (load, [load[1], load[0], 1e-6 * gaussian(random)])
+        })
+        .collect();
+    let report = check(&samples, &Limits::default());
+    let reads = report.suspicions.iter().find_map(|suspicion| match &suspicion.mistake {
+        Mistake::Axes { reads } => Some(reads.clone()),
+        _ => None,
+    });
+    assert_eq!(reads.unwrap(), [(Axis::Fy, false), (Axis::Fx, false), (Axis::Fz, false)], "{report}");
+}
+
+/// Forty loads that are read within a thousandth of full scale, and one that is not.
+#[test]
+fn a_check_names_the_sample_that_stands_out() {
+    let random = &mut Pcg64Mcg::seed_from_u64(93);
+    let mut samples: Vec<Sample<3>> = (0..40)
+        .map(|i| {
+            let load = 8.0 * (f64::from(i % 9) / 4.0 - 1.0);
+            x(load, load + 8e-3 * gaussian(random))
+        })
+        .collect();
+    samples.extend([y(-16.0, -16.0), ([0.0, 0.0, 32.0], [0.0, 0.0, 32.0])]);
+    assert_eq!(check(&samples, &Limits::default()).outliers, []);
+    samples[17].1[0] += 0.5;
+    let report = check(&samples, &Limits::default());
+    let [outlier] = &report.outliers[..] else { panic!("{report}") };
+    assert_eq!((outlier.index, outlier.sample.as_str(), outlier.response.as_str()), (17, "sample 18", "Fx"));
+    assert!(report.reasons.iter().any(|reason| reason.starts_with("sample 18: outlier: Fx is off by")));
+    assert_eq!(report.verdict, Verdict::Suspect, "{report}");
 }
 
 /// Readings of one gauge under −1, 0 and 1 N: the line leaves `e·(1, −2, 1)`, and each sample is off by

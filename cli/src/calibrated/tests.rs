@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fingertip::wrench::{Wrench, WrenchSolver as _};
-use fingertip_calibration::file::{CalibrationFile, Quality, Verdict};
+use fingertip_calibration::file::{CalibrationFile, Quality, Temperature, Verdict};
 use nalgebra::{DMatrix, DVector, Vector6};
 
 use super::{Calibrated, Calibration, GaugeReading, MOST_GAUGES, Readings, SignalUnit};
@@ -175,4 +175,25 @@ fn what_is_to_be_minded_is_noted_and_what_does_not_fit_is_refused() {
         }
     }
     assert!(Calibration::read(Path::new("/no/such.toml")).is_err());
+}
+
+/// A calibration with terms for the temperature takes its drift from these.
+#[test]
+fn the_dummy_gauge_is_not_used_beside_temperature_terms() {
+    let temperature = Some(Temperature {
+        reference_celsius: 20.0,
+        range_celsius: [10.0, 30.0],
+        zero_drift: vec![0.01; 6],
+        zero_curvature: vec![0.0; 6],
+        gain_drift: vec![0.0; 6],
+    });
+    let warm = CalibrationFile { temperature, ..file(6) };
+    let readings = Readings { has_dummy: true, has_rest: true, has_temperature: true, ..READINGS };
+    let (calibrated, notes) = read(&warm, &readings);
+    assert!(calibrated.is_ok());
+    assert_eq!(notes, ["the dummy gauge is not used: the temperature terms of the calibration are"]);
+    let (calibrated, notes) = read(&warm, &Readings { has_dummy: false, ..readings });
+    assert!(calibrated.is_ok() && notes.is_empty(), "{notes:?}");
+    let error = read(&warm, &Readings { has_temperature: false, ..readings }).0.err().unwrap();
+    assert!(error.contains("reference 20 °C") && error.contains("--celsius"), "{error}");
 }

@@ -63,3 +63,93 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         .unfilled_style(Style::new().fg(Color::DarkGray));
     frame.render_widget(gauge_line, gauge);
 }
+
+#[cfg(test)]
+mod tests {
+    use fingertip::contact::{NoContact, Resolution};
+    use fingertip::friction::{SlipMargin, SlipVerdict};
+    use fingertip::wrench::{ContactForce, Wrench};
+    use nalgebra::Vector3;
+    use ratatui::Terminal;
+    use ratatui::backend::TestBackend;
+    use ratatui::style::Color;
+    use std::time::Instant;
+
+    use super::super::state::State;
+    use super::draw;
+    use crate::observe::SceneTouch;
+
+    const WIDTH: u16 = 60;
+
+    /// The lines of the picture, and the colours of the light and of the filled part of the gauge.
+    fn shown(state: &State) -> (Vec<String>, Color, Option<Color>) {
+        let mut terminal = Terminal::new(TestBackend::new(WIDTH, 5)).unwrap();
+        terminal.draw(|frame| draw(frame, frame.area(), state)).unwrap();
+        let buffer = terminal.backend().buffer();
+        let row = |row: u16| (1..WIDTH - 1).map(|column| buffer[(column, row)].symbol()).collect::<String>();
+        let filled = (0..WIDTH).find(|column| buffer[(*column, 3)].symbol() == "█");
+        let lines = (1..4).map(|line| row(line).trim_end().to_owned()).collect();
+        (lines, buffer[(2, 1)].bg, filled.map(|column| buffer[(column, 3)].fg))
+    }
+
+    /// A contact with 2 N across it, so that it is pressed with 2 N over the ratio.
+    fn touched(ratio: f64, verdict: Option<SlipVerdict>) -> State {
+        let mut state = State::new(String::new());
+        (state.coefficient, state.watches_slip) = (Some(0.5), true);
+        let touch = SceneTouch {
+            wrench: Wrench::zero(),
+            resolution: Resolution::NoContact(NoContact::NotFinite),
+            force: Some(ContactForce::new(2.0 / ratio, Vector3::new(0.0, 2.0, 0.0), 0.0)),
+            grip: Some(Some(SlipMargin { newtons: 0.25, utilisation: 0.5 })),
+            slip: verdict,
+        };
+        state.sample(0.0, &Wrench::zero(), Some(touch), Instant::now());
+        state
+    }
+
+    #[test]
+    fn the_light_has_the_colour_of_the_verdict() {
+        for (verdict, word, colour) in [
+            (Some(SlipVerdict::Slipping), "SLIPPING", Color::Red),
+            (Some(SlipVerdict::Warning), "warning", Color::Yellow),
+            (Some(SlipVerdict::Holding), "holding", Color::Green),
+            (Some(SlipVerdict::NotPressing), "not pressing", Color::Gray),
+            (None, "no verdict", Color::Gray),
+        ] {
+            let (lines, found, _) = shown(&touched(0.1, verdict));
+            assert!(lines[0].starts_with(&format!(" ■ {word} ")) && found == colour, "{lines:?} {found:?}");
+        }
+        let mut state = touched(0.1, None);
+        state.watches_slip = false;
+        assert!(shown(&state).0[0].starts_with(" ■ no [slip] in the scene "));
+    }
+
+    #[test]
+    fn the_gauge_is_filled_as_far_as_friction_is_used() {
+        for (share, colour) in [
+            (0.5, Color::Green),
+            (0.79, Color::Green),
+            (0.81, Color::Yellow),
+            (0.99, Color::Yellow),
+            (1.0, Color::Red),
+            (3.0, Color::Red),
+        ] {
+            let (lines, _, found) = shown(&touched(share * 0.5, None));
+            assert_eq!(found, Some(colour), "{share}: {lines:?}");
+            let (full, left) = (lines[2].matches('█').count(), lines[2].matches('░').count());
+            let expected = f64::min(share, 1.0) * (full + left) as f64;
+            assert!((full as f64 - expected).abs() <= 1.0, "{share}: {lines:?}");
+        }
+        let (lines, ..) = shown(&touched(0.4, None));
+        assert_eq!(lines[1], "fn 5.00, ft 2.00, margin 0.250 N");
+        assert!(lines[2].starts_with("ratio 0.400 of µ 0.5 █"), "{lines:?}");
+        // Without a coefficient there is a ratio, and without a contact force nothing.
+        let mut state = touched(0.4, None);
+        state.coefficient = None;
+        assert_eq!(shown(&state).0[2], "ratio 0.400");
+        state.touch = None;
+        assert_eq!(shown(&state).0[1..], ["", ""]);
+        // What presses with nothing has no ratio.
+        assert_eq!(shown(&touched(f64::INFINITY, None)).0[2], "");
+    }
+}

@@ -123,6 +123,7 @@ mod tests {
     use nalgebra::{Vector3, Vector6};
     use ratatui::Terminal;
     use ratatui::backend::TestBackend;
+    use ratatui::style::Color;
 
     use super::{Health, State, draw};
     use crate::felt::SceneFeel;
@@ -296,5 +297,54 @@ mod tests {
         assert!(first(&state, (28, 8)).starts_with(" live "));
         state.health = Health::Resting;
         assert_eq!(first(&state, (50, 3)), "taking the zero: do not touch");
+    }
+
+    /// The colours of a row's letters, each once.
+    fn colours(state: &State, held: bool, row: u16) -> Vec<Color> {
+        let mut terminal = Terminal::new(TestBackend::new(120, 24)).unwrap();
+        terminal.draw(|frame| draw(frame, state, held)).unwrap();
+        let buffer = terminal.backend().buffer();
+        let letters = (0..120).map(|column| &buffer[(column, row)]).filter(|cell| cell.symbol() != " ");
+        let mut found: Vec<Color> =
+            letters.map(|cell| if row == 0 && cell.bg != Color::Reset { cell.bg } else { cell.fg }).collect();
+        found.dedup();
+        found
+    }
+
+    #[test]
+    fn what_is_to_be_minded_has_a_colour() {
+        let mut state = State::new("test".to_owned());
+        for (health, colour) in [
+            (Health::Waiting, Color::Yellow),
+            (Health::Running, Color::Green),
+            (Health::Resting, Color::Yellow),
+            (Health::Ended, Color::Cyan),
+        ] {
+            state.health = health;
+            assert_eq!(colours(&state, false, 0), [colour, Color::Reset], "{:?}", state.health);
+            assert_eq!(colours(&state, true, 0), [Color::Yellow, Color::Reset]);
+        }
+        state.health = Health::Lost("unplugged".to_owned());
+        assert_eq!(colours(&state, false, 0), [Color::Red, Color::Reset, Color::Red]);
+        // The line of the link: plain, as long as nothing is missing.
+        assert_eq!(colours(&state, false, 22), [Color::Reset]);
+        state.losses.lost = Some(0);
+        assert_eq!(colours(&state, false, 22), [Color::Reset]);
+        (state.losses.lost, state.reconnections, state.faults) = (Some(1), 1, 1);
+        assert_eq!(colours(&state, false, 22), [Color::Yellow, Color::Red]);
+        assert_eq!(colours(&state, false, 23), [Color::DarkGray]);
+    }
+
+    #[test]
+    fn one_line_says_how_it_is() {
+        let mut state = State::new("test".to_owned());
+        let line = |state: &State| picture(state, (50, 1)).trim_end().to_owned();
+        assert_eq!(line(&state), "waiting for the first sample");
+        state.sample(0.0, &Wrench::on_fingertip(Vector3::y() * 3.0, Vector3::zeros()), None, Instant::now());
+        assert_eq!(line(&state), "3 N no scene");
+        state.health = Health::Ended;
+        assert_eq!(line(&state), "3 N no scene");
+        state.health = Health::Lost(String::new());
+        assert_eq!(line(&state), "lost, connecting anew");
     }
 }
