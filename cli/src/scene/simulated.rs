@@ -35,7 +35,7 @@ fn build() -> Result<Scene, Box<dyn Error>> {
         sensor: None,
         sample_rate: None,
         rest: None,
-        shape: Shape::Sphere(SphericalCap::new(sphere, pole, rim.cos()).map_err(text)?),
+        shape: Shape::Sphere(SphericalCap::new(sphere, pole, rim.cos())?),
         projection: Projection::sphere(sphere.centre(), pole, Some(rim), &frame),
         model: PointContact::new(LEAST_FORCE)?,
         friction: Friction::known(Coulomb::new(coefficient)?),

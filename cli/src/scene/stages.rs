@@ -2,7 +2,7 @@
 
 use fingertip::contact::PointContact;
 use fingertip::friction::{
-    BadFriction, Coulomb, DropDetector, ForceNoise, FrictionModel, NormalForceGate, RatioThreshold,
+    BadParameter, Coulomb, DropDetector, ForceNoise, FrictionModel, NormalForceGate, RatioThreshold,
     SlipDetector, SlipMargin, SlipVerdict,
 };
 use fingertip::surfaces::BadShape;
@@ -58,7 +58,7 @@ impl Friction {
         Self(Some(model))
     }
 
-    pub(super) fn from_section(section: Option<&FrictionSection>) -> Result<Self, BadFriction> {
+    pub(super) fn from_section(section: Option<&FrictionSection>) -> Result<Self, BadParameter> {
         let model = section.map(|section| Coulomb::new(section.static_coefficient));
         Ok(Self(model.transpose()?))
     }
