@@ -1,6 +1,7 @@
 //! Calibration and payload files: our versioned TOML, ATI's `.cal`, and Rust constants for firmware.
 
 mod ati;
+mod ati_reader;
 mod ati_writer;
 mod calibration_file;
 mod checksum;
