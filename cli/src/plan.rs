@@ -34,21 +34,30 @@ pub(crate) struct PlanArguments {
     most: usize,
 }
 
+/// Full scale of each axis: as it is stated, or the greatest loads.
+fn full_scale(
+    arguments: &PlanArguments,
+    axes: usize,
+    candidates: &DMatrix<f64>,
+) -> Result<Vec<f64>, CliError> {
+    match &arguments.full_scale {
+        Some(list) if list.len() == axes && list.iter().all(|x| *x > 0.0) => Ok(list.clone()),
+        Some(_) => {
+            let message = format!("--full-scale needs one positive number for each of {axes} axes");
+            Err(bad(&arguments.candidates, &message))
+        }
+        None => {
+            let sizes = candidates.column_iter().map(|column| column.amax());
+            Ok(sizes.map(|size| if size > 0.0 { size } else { 1.0 }).collect())
+        }
+    }
+}
+
 pub(crate) fn run(arguments: &PlanArguments) -> Result<(), CliError> {
     let path = &arguments.candidates;
     let columns = read_columns("list of loads", path)?;
     let (axes, candidates) = columns.loads().map_err(|error| bad(path, &error))?;
-    let full_scale = match &arguments.full_scale {
-        Some(list) if list.len() == axes.len() && list.iter().all(|x| *x > 0.0) => list.clone(),
-        Some(_) => {
-            let message = format!("--full-scale needs one positive number for each of {} axes", axes.len());
-            return Err(bad(path, &message));
-        }
-        None => {
-            let sizes = candidates.column_iter().map(|column| column.amax());
-            sizes.map(|size| if size > 0.0 { size } else { 1.0 }).collect()
-        }
-    };
+    let full_scale = full_scale(arguments, axes.len(), &candidates)?;
     let normalised = |mut loads: DMatrix<f64>| {
         for (mut column, size) in loads.column_iter_mut().zip(&full_scale) {
             column /= *size;

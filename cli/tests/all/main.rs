@@ -5,6 +5,7 @@
 mod analyze;
 mod analyze_rows;
 mod calibrate;
+mod calibrate_options;
 #[path = "../common/mod.rs"]
 mod common;
 mod conversions;

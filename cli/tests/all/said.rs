@@ -8,7 +8,7 @@ use crate::calibrate::{loads, payload, surface};
 use crate::common::{Folder, assert_accepted};
 
 /// Something like noise of so many units in the columns whose names start so.
-fn noisy(table: &str, starts: &[&str], size: f64) -> String {
+pub(crate) fn noisy(table: &str, starts: &[&str], size: f64) -> String {
     let mut lines = table.lines();
     let header = lines.next().unwrap();
     let chosen: Vec<bool> =
@@ -29,11 +29,11 @@ fn noisy(table: &str, starts: &[&str], size: f64) -> String {
     text
 }
 
-fn noisy_loads() -> String {
+pub(crate) fn noisy_loads() -> String {
     noisy(&loads(1.0), &["v"], 2e-3)
 }
 
-const FULL: [&str; 2] = ["--full-scale", "10,10,10,0.1,0.1,0.1"];
+pub(crate) const FULL: [&str; 2] = ["--full-scale", "10,10,10,0.1,0.1,0.1"];
 
 #[test]
 fn of_a_calibration_and_its_check() {
@@ -352,97 +352,4 @@ fn of_a_calibration_that_is_mended() {
     folder.succeed(&["calibrate", "forces.csv", "-o", "forces.toml"]);
     let error = folder.fail(1, &["refine", "forces.toml", "touches.csv"]);
     assert!(error.contains("only a linear calibration of six components"), "{error}");
-}
-
-#[test]
-fn of_uncertain_loads_and_of_what_a_calibration_is_told() {
-    let folder = Folder::new();
-    folder.write("loads.csv", &noisy_loads());
-    let run = |more: &[&str]| {
-        let all = [&["calibrate", "loads.csv", "-o", "cal.toml"][..], &FULL, more].concat();
-        let output = folder.run(&all);
-        let said = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap()).concat();
-        (output.status.code().unwrap(), said)
-    };
-    let total = |loads: &str, readings: &str| {
-        run(&["--method", "total", "--load-error", loads, "--reading-error", readings])
-    };
-    let fitted = |loads: &str, readings: &str| {
-        let (code, said) = total(loads, readings);
-        assert_eq!(code, 0, "{said}");
-        folder.read("cal.toml")
-    };
-    let good = fitted("0.01,0.0001", "0.002");
-    // One for each axis and gauge is the same, if they are the same.
-    assert_eq!(fitted("0.01,0.01,0.01,0.0001,0.0001,0.0001", "0.002,0.002,0.002,0.002,0.002,0.002"), good);
-    assert_ne!(fitted("0.5,0.0001", "0.002"), good);
-    assert_ne!(fitted("0.01,0.01", "0.002"), good);
-    for loads in ["1", "1,2,3", "0,1", "1,-1", "nan,1", "1,1,1,1,1,0"] {
-        let (code, said) = total(loads, "1");
-        assert!(
-            code == 1
-                && said.contains("--load-error must have 2 numbers (forces, torques) or 6, all positive"),
-            "{loads}: {said}"
-        );
-    }
-    for readings in ["0", "1,2", "1,1,1,1,1,0"] {
-        let (code, said) = total("1,1", readings);
-        assert!(
-            code == 1 && said.contains("--reading-error must have 1 number or 6, all positive"),
-            "{readings}: {said}"
-        );
-    }
-    // Of forces alone one number is enough.
-    let forces = "fx_N,fy_N,fz_N,v1_V,v2_V,v3_V\n1,0,0,1,0,0\n0,1,0,0,1,0\n0,0,1,0,0,1\n0,0,0,0,0,0\n-1,0,0,-1,0,0\n0,-1,0,0,-1,0\n0,0,-1,0,0,-1\n";
-    folder.write("forces.csv", &noisy(forces, &["v"], 1e-3));
-    let total = [
-        "calibrate",
-        "forces.csv",
-        "-o",
-        "f.toml",
-        "--method",
-        "total",
-        "--reading-error",
-        "0.001",
-        "--load-error",
-    ];
-    let one = folder.succeed(&[&total[..], &["0.001"]].concat());
-    assert_eq!(folder.succeed(&[&total[..], &["0.001,0.001,0.001"]].concat()), one);
-    // An earlier calibration must be of the same sensor, and its method that of a prior.
-    let (code, said) = run(&["--prior", "f.toml"]);
-    assert!(code == 1 && said.contains("the earlier calibration has other axes, gauges or units"), "{said}");
-    let (code, said) = run(&["--prior", "f.toml", "--method", "huber"]);
-    assert!(code == 1 && said.contains("--prior is for --method prior alone"), "{said}");
-    // What is told is written down.
-    let told = [
-        "--serial",
-        "T7",
-        "--date",
-        "2026-11-21",
-        "--range",
-        "-4",
-        "4.5",
-        "--html",
-        "r.html",
-        "--cal",
-        "x.cal",
-    ];
-    let (code, said) = run(&told);
-    assert!(code == 0 && said.contains("Written: cal.toml, x.cal, r.html\n"), "{said}");
-    let text = folder.read("cal.toml");
-    for expected in
-        ["serial = \"T7\"", "date = \"2026-11-21\"", "source = \"loads.csv\"", "range = [-4.0, 4.5]"]
-    {
-        assert!(text.contains(expected), "{expected} is not in {text}");
-    }
-    assert!(folder.read("r.html").contains("<title>T7</title>"), "{}", &folder.read("r.html")[..500]);
-    // Without a zero, and of loads from signals.
-    run(&["--no-bias"]);
-    assert!(
-        folder.read("cal.toml").contains("zero = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]"),
-        "{}",
-        folder.read("cal.toml")
-    );
-    let (code, said) = run(&["--inverse"]);
-    assert!(code == 0 && folder.read("cal.toml").contains("of loads"), "{said}");
 }
