@@ -313,6 +313,20 @@ fn a_zero_is_taken_off_only_on_request() {
     assert!(!said.contains("Zero") && (plain + 0.866).abs() < 0.2, "{plain}");
 }
 
+/// A client that goes without having asked for anything makes room for the next.
+#[test]
+fn one_client_after_another_is_served() {
+    let folder = Folder::new();
+    folder.write("script.toml", SCRIPT);
+    let server = Server::start(&folder, &["--serve", "dynpick", "--over", "tcp", "--script", "script.toml"]);
+    let place = server.address.split("://").nth(1).unwrap().split('?').next().unwrap();
+    for _ in 0..2 {
+        drop(TcpStream::connect(place).unwrap());
+        let said = record(&folder, &server, &["-o", "some.csv", "--samples", "20", "--force"]);
+        assert!(said.starts_with("20 samples in "), "{said}");
+    }
+}
+
 #[test]
 fn what_cannot_be_done_is_said() {
     let folder = Folder::new();

@@ -176,6 +176,17 @@ impl CalibrationFile {
         signal_unit: SignalUnit,
     ) -> Result<Self, FileError> {
         let axes = if normalised.ncols() == 3 { Axis::FORCES.to_vec() } else { Axis::ALL.to_vec() };
+        Self::of_axes(axes, normalised, nominal, zero, signal_unit)
+    }
+
+    /// As [`new`](Self::new), of any axes.
+    pub(crate) fn of_axes(
+        axes: Vec<Axis>,
+        normalised: DMatrix<f64>,
+        nominal: Vec<f64>,
+        zero: Vec<f64>,
+        signal_unit: SignalUnit,
+    ) -> Result<Self, FileError> {
         let file = Self {
             axes,
             signal_unit,

@@ -233,9 +233,8 @@ impl SensorModel {
     /// [`FileError`] if the matrix has no inverse or a number is not finite.
     pub fn to_file(&self, method: &str) -> Result<CalibrationFile, FileError> {
         let (matrix, zero) = self.matrix_and_zero()?;
-        let mut file =
-            CalibrationFile::new(matrix, self.nominal.clone(), zero.as_slice().to_vec(), self.signal_unit)?;
-        file.axes.clone_from(&self.axes);
+        let (axes, nominal, zero) = (self.axes.clone(), self.nominal.clone(), zero.as_slice().to_vec());
+        let mut file = CalibrationFile::of_axes(axes, matrix, nominal, zero, self.signal_unit)?;
         file.quadratic = self.second_order();
         file.covariance = self.covariance();
         file.provenance =

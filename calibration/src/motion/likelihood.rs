@@ -180,3 +180,40 @@ fn direction_of(signal: &DMatrix<f64>, reading: &DVector<f64>) -> Option<(Vector
     second -= &first * along;
     Some((direction, [first, second.try_normalize(0.0)?]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::direction_of;
+    use crate::fit::testing::{gaussian_matrix, sensor};
+    use nalgebra::{DMatrix, Vector3};
+    use rand::SeedableRng as _;
+
+    /// The nearest direction leaves nothing along its two turns, and no other one leaves less.
+    #[test]
+    fn a_direction_is_the_one_whose_signals_are_nearest() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(17);
+        for _ in 0..50 {
+            let signal = sensor(&mut random, 3, 5).transpose();
+            let truth = Vector3::from_fn(|_, _| gaussian_matrix(&mut random, 1, 1)[(0, 0)]).normalize();
+            let reading = &signal * truth + gaussian_matrix(&mut random, 5, 1).column(0) * 0.02;
+            let (direction, [first, second]) = direction_of(&signal, &reading).unwrap();
+            assert!((direction.norm() - 1.0).abs() < 1e-14);
+            let left = &reading - &signal * direction;
+            assert!(left.dot(&first).abs() < 1e-12 && left.dot(&second).abs() < 1e-12, "{left}");
+            assert!((first.norm() - 1.0).abs() < 1e-14 && (second.norm() - 1.0).abs() < 1e-14);
+            assert!(first.dot(&second).abs() < 1e-13);
+            for _ in 0..20 {
+                let other =
+                    direction + Vector3::from_fn(|_, _| 0.3 * gaussian_matrix(&mut random, 1, 1)[(0, 0)]);
+                assert!((&reading - &signal * other.normalize()).norm() >= left.norm());
+                // Signals of a turn are of these two.
+                let turned = &signal * direction.cross(&other);
+                let rest = &turned - &first * first.dot(&turned) - &second * second.dot(&turned);
+                assert!(rest.norm() < 1e-12);
+            }
+        }
+        // Gauges that see two directions only do not tell the third.
+        let flat = DMatrix::from_row_slice(3, 3, &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0]);
+        assert!(direction_of(&flat, &flat.column(0).into_owned()).is_none());
+    }
+}

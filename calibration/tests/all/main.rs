@@ -26,4 +26,5 @@ mod tares;
 #[path = "../../src/testing.rs"]
 mod testing;
 mod touched;
+mod untangling;
 mod verdict;

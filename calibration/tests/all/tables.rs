@@ -3,7 +3,7 @@
 
 use fingertip_calibration::Axis;
 use fingertip_calibration::calibrate;
-use fingertip_calibration::file::SignalUnit;
+use fingertip_calibration::file::{CalibrationFile, SignalUnit};
 use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{Direction, Method, Options, StreamedFit};
 use fingertip_calibration::nalgebra::{DMatrix, DVector};
@@ -260,4 +260,25 @@ fn groups_may_take_turns() {
     // Weighted means: 3.25 V and 1 N, 17.5 V and 3.75 N.
     assert_eq!(centred.signals.as_slice(), [-2.25, -7.5, 1.75, -1.5, -1.25, 4.5]);
     assert_eq!(centred.loads.as_slice(), [-1.0, -3.75, 1.0, -0.75, -1.0, 2.25]);
+}
+
+/// A load cell of one axis, and any other choice of axes.
+#[test]
+fn sensors_of_any_axes_are_written() {
+    let random = &mut Pcg64Mcg::seed_from_u64(101);
+    for axes in [
+        &[Axis::Fz][..],
+        &[Axis::Fx, Axis::Fy],
+        &[Axis::Fx, Axis::Fy, Axis::Tz],
+        &[Axis::Fz, Axis::Tx, Axis::Ty, Axis::Tz],
+        &Axis::ALL[..5],
+    ] {
+        let loads = gaussians(random, 30, axes.len());
+        let signals =
+            &loads * sensor(random, axes.len(), axes.len()) + gaussians(random, 30, axes.len()) * 0.001;
+        let table = LoadTable::new(axes, loads, signals, SignalUnit::Volt).unwrap();
+        let file = calibrate(&table, &Options::default()).unwrap().to_file().unwrap();
+        assert_eq!(file.axes, axes);
+        assert_eq!(CalibrationFile::from_toml(&file.to_toml().unwrap()).unwrap(), file);
+    }
 }

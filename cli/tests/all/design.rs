@@ -44,11 +44,21 @@ fn the_seed_decides() {
 #[test]
 fn every_family_and_criterion_works() {
     let folder = Folder::new();
-    for criterion in ["contact-error", "worst-axis", "log-determinant"] {
+    for criterion in ["condition-number", "contact-error", "worst-axis", "trace", "log-determinant"] {
         let text =
             folder.succeed(&["design", "--layout", "paper", "--starts", "1", "--criterion", criterion]);
         assert!(text.contains("three pairs at"), "{text}");
         assert!(!text.contains("NaN"), "{text}");
+        // The innermost contour of the landscape is 2 % over its least value, which is that of the best design, in the
+        // unit of the table, but for the grid.
+        let (_, table) = text.split_once("Local minima").unwrap();
+        let best = table.lines().find_map(|line| line.trim().strip_prefix("1  ")).unwrap();
+        let best: f64 = best.split_whitespace().next().unwrap().parse().unwrap();
+        let page = folder.read("design.html");
+        let landscape = page.split("<figure>").nth(2).unwrap();
+        let (_, key) = landscape.split_once("<i class=\"q0\"></i>").unwrap();
+        let least: f64 = key.split('<').next().unwrap().parse().unwrap();
+        assert!((1.0..1.1).contains(&(least / best)), "{criterion}: {least} {best}");
     }
     let text = folder.succeed(&["design", "--gauges", "8", "--starts", "2", "--wall-mm", "0.3"]);
     assert!(text.contains("wall of 0.300 mm"), "{text}");
