@@ -8,6 +8,7 @@ mod bad_uncertainty;
 mod batch;
 mod convex_bound;
 mod covariance;
+mod entries;
 mod extremes;
 mod fusion;
 mod grazing;

@@ -8,6 +8,7 @@ mod hostile_files;
 mod implicit;
 mod laws;
 mod laws_bite;
+mod laws_bite_promises;
 mod mesh;
 mod smooth;
 mod wrappers;
