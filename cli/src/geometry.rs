@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use fingertip::wrench::Wrench;
+use fingertip::wrench::{RigidTransform, Wrench};
 use fingertip_calibration::geometry::{
     Fitted, Touch, fit_aligned_ellipsoid, fit_cylinder, fit_cylinder_along, fit_ellipsoid, fit_meeting_point,
     fit_plane, fit_pose, fit_sphere,
@@ -96,174 +96,179 @@ pub(crate) fn run(arguments: &GeometryArguments) -> Result<(), CliError> {
 }
 
 fn find(arguments: &GeometryArguments, columns: &Columns) -> Result<Found, String> {
-    let say = |error: &dyn core::fmt::Display| error.to_string();
-    let wrenches: Vec<Wrench<f64>> = columns
-        .wrenches()
-        .map_err(|error| say(&error))?
-        .iter()
-        .map(|load| Wrench::from_components(&if arguments.reaction { -load } else { *load }))
-        .collect();
+    let loads = columns.wrenches().map_err(text)?;
+    let sign = if arguments.reaction { -1.0 } else { 1.0 };
+    let wrenches: Vec<Wrench<f64>> =
+        loads.iter().map(|load| Wrench::from_components(&(load * sign))).collect();
     let touches = || -> Result<Vec<Touch>, String> {
-        let normals = columns.vectors(["nx", "ny", "nz"]).map_err(|error| say(&error))?;
+        let normals = columns.vectors(["nx", "ny", "nz"]).map_err(text)?;
         Ok(wrenches.iter().zip(normals).map(|(wrench, normal)| Touch { wrench: *wrench, normal }).collect())
     };
     match arguments.shape {
-        FittedShape::Sphere => {
-            let fit = fit_sphere(&touches()?).map_err(|error| say(&error))?;
-            let (radius, centre) = (fit.shape.radius(), fit.shape.centre());
-            Ok(Found::of(
-                &fit,
-                vec![
-                    length("radius", radius, fit.deviations.first()),
-                    point("centre", &centre, fit.deviations.get(1..4)),
-                ],
-                format!(
-                    "[surface]\nshape = \"sphere\"\nradius_m = {radius:?}\ncentre_m = {}\n",
-                    list(&centre)
-                ),
-            ))
-        }
-        FittedShape::Ellipsoid => {
-            let fit = fit_ellipsoid(&touches()?).map_err(|error| say(&error))?;
-            let (axes, pose) = (fit.shape.semi_axes, fit.shape.sensor_from_ellipsoid);
-            let turn = Rotation3::from_matrix_unchecked(pose.rotation()).scaled_axis();
-            let turn = turn.map(f64::to_degrees);
-            let spread = fit.deviations.get(6..9).unwrap_or_default();
-            let spread: Vec<String> = spread.iter().map(|s| format!("{:.2}", s.to_degrees())).collect();
-            Ok(Found::of(
-                &fit,
-                vec![
-                    point("semi-axes", &axes, fit.deviations.get(..3)),
-                    point("centre", &pose.origin(), fit.deviations.get(3..6)),
-                    format!(
-                        "orientation     {:+.3} {:+.3} {:+.3}° (rotation vector; ± {}° about the principal axes)",
-                        turn.x,
-                        turn.y,
-                        turn.z,
-                        spread.join(" ")
-                    ),
-                ],
-                format!(
-                    "[surface]\nshape = \"ellipsoid\"\nsemi_axes_m = {}\n\n[pose]\ntranslation_m = {}\nrotation_deg = {}\n",
-                    list(&axes),
-                    list(&pose.origin()),
-                    list(&turn)
-                ),
-            ))
-        }
-        FittedShape::AlignedEllipsoid => {
-            let fit = fit_aligned_ellipsoid(&touches()?).map_err(|error| say(&error))?;
-            let (axes, centre) = (fit.shape.semi_axes, fit.shape.centre);
-            Ok(Found::of(
-                &fit,
-                vec![
-                    point("semi-axes", &axes, fit.deviations.get(..3)),
-                    point("centre", &centre, fit.deviations.get(3..6)),
-                ],
-                format!(
-                    "[surface]\nshape = \"ellipsoid\"\nsemi_axes_m = {}\n\n[pose]\ntranslation_m = {}\n",
-                    list(&axes),
-                    list(&centre)
-                ),
-            ))
-        }
-        FittedShape::Cylinder => {
-            let fit = match &arguments.axis {
-                Some(axis) => fit_cylinder_along(&touches()?, &direction("--axis", axis)?),
-                None => fit_cylinder(&touches()?),
-            };
-            let fit = fit.map_err(|error| say(&error))?;
-            let (centre, axis, radius) = (fit.shape.centre(), fit.shape.axis(), fit.shape.radius());
-            let tilt = match fit.deviations.get(3..5) {
-                Some([a, b]) => format!(" (± {:.3} {:.3}°)", a.to_degrees(), b.to_degrees()),
-                _ => " (given)".to_owned(),
-            };
-            Ok(Found::of(
-                &fit,
-                vec![
-                    length("radius", radius, fit.deviations.first()),
-                    point("point of axis", &centre, None),
-                    format!("axis            {:+.5} {:+.5} {:+.5}{tilt}", axis.x, axis.y, axis.z),
-                ],
-                format!(
-                    "[surface]\nshape = \"cylinder\"\nradius_m = {radius:?}\ncentre_m = {}\naxis = {}\n",
-                    list(&centre),
-                    list(&axis)
-                ),
-            ))
-        }
-        FittedShape::Plane => {
-            let names = columns.texts("pivot").map_err(|error| say(&error))?;
-            let mut pivots: Vec<(&str, Vec<Wrench<f64>>)> = Vec::new();
-            for (name, wrench) in names.iter().zip(&wrenches) {
-                match pivots.iter_mut().find(|(known, _)| known == name) {
-                    Some((_, list)) => list.push(*wrench),
-                    None => pivots.push((name, vec![*wrench])),
-                }
-            }
-            let pivots: Vec<Vec<Wrench<f64>>> = pivots.into_iter().map(|(_, list)| list).collect();
-            let fit = fit_plane(&pivots, &direction("--outward", &arguments.outward)?)
-                .map_err(|error| say(&error))?;
-            let (normal, offset) = (fit.shape.normal, fit.shape.offset);
-            let tilt = match fit.deviations.get(1..3) {
-                Some([a, b]) => format!(" (± {:.3} {:.3}°)", a.to_degrees(), b.to_degrees()),
-                _ => String::new(),
-            };
-            let mut found = Found::of(
-                &fit,
-                vec![
-                    length("offset", offset, fit.deviations.first()),
-                    format!("normal          {:+.5} {:+.5} {:+.5}{tilt}", normal.x, normal.y, normal.z),
-                    format!("pivots lie within {:.4} mm of it (RMS)", 1e3 * fit.rms),
-                ],
-                format!(
-                    "[surface]\nshape = \"plane\"\npoint_m = {}\nnormal = {}\n",
-                    list(&(normal * offset)),
-                    list(&normal)
-                ),
-            );
-            // What is left of the torques is asked of each pivot.
-            found.rms = 0.0;
-            for pivot in &pivots {
-                let rms = fit_meeting_point(pivot).map_err(|error| say(&error))?.rms;
-                found.rms = found.rms.hypot(rms / (pivots.len() as f64).sqrt());
-            }
-            Ok(found)
-        }
-        FittedShape::Pivot => {
-            let fit = fit_meeting_point(&wrenches).map_err(|error| say(&error))?;
-            let lines = vec![point("pivot", &fit.shape, fit.deviations.get(..3))];
-            let scene = format!("# pivot_m = {}\n", list(&fit.shape));
-            Ok(Found::of(&fit, lines, scene))
-        }
+        FittedShape::Sphere => sphere(&touches()?),
+        FittedShape::Ellipsoid => ellipsoid(&touches()?),
+        FittedShape::AlignedEllipsoid => aligned_ellipsoid(&touches()?),
+        FittedShape::Cylinder => cylinder(&touches()?, arguments.axis.as_deref()),
+        FittedShape::Plane => plane(&by_pivot(columns, &wrenches)?, &arguments.outward),
+        FittedShape::Pivot => pivot(&wrenches),
         FittedShape::Pose => {
-            let points = columns.vectors(["px_m", "py_m", "pz_m"]).map_err(|error| say(&error))?;
-            let touches: Vec<_> = wrenches.iter().copied().zip(points).collect();
-            let fit = fit_pose(&touches).map_err(|error| say(&error))?;
-            let turn = Rotation3::from_matrix_unchecked(fit.shape.rotation()).scaled_axis();
-            let turn = turn.map(f64::to_degrees);
-            let spread = fit.deviations.get(..3).unwrap_or_default();
-            let spread: Vec<String> = spread.iter().map(|s| format!("{:.3}", s.to_degrees())).collect();
-            Ok(Found::of(
-                &fit,
-                vec![
-                    format!(
-                        "rotation        {:+.4} {:+.4} {:+.4}° (rotation vector; ± {})",
-                        turn.x,
-                        turn.y,
-                        turn.z,
-                        spread.join(" ")
-                    ),
-                    point("origin", &fit.shape.origin(), fit.deviations.get(3..6)),
-                ],
-                format!(
-                    "[pose]\ntranslation_m = {}\nrotation_deg = {}\n",
-                    list(&fit.shape.origin()),
-                    list(&turn)
-                ),
-            ))
+            let points = columns.vectors(["px_m", "py_m", "pz_m"]).map_err(text)?;
+            pose(&wrenches.iter().copied().zip(points).collect::<Vec<_>>())
         }
     }
+}
+
+fn text(error: impl core::fmt::Display) -> String {
+    error.to_string()
+}
+
+fn sphere(touches: &[Touch]) -> Result<Found, String> {
+    let fit = fit_sphere(touches).map_err(text)?;
+    let (radius, centre) = (fit.shape.radius(), fit.shape.centre());
+    let lines = vec![
+        length("radius", radius, fit.deviations.first()),
+        point("centre", &centre, fit.deviations.get(1..4)),
+    ];
+    let centre = list(&centre);
+    let scene = format!("[surface]\nshape = \"sphere\"\nradius_m = {radius:?}\ncentre_m = {centre}\n");
+    Ok(Found::of(&fit, lines, scene))
+}
+
+fn ellipsoid(touches: &[Touch]) -> Result<Found, String> {
+    let fit = fit_ellipsoid(touches).map_err(text)?;
+    let (axes, pose) = (fit.shape.semi_axes, fit.shape.sensor_from_ellipsoid);
+    let turn = rotation_vector(&pose);
+    let spread = fit.deviations.get(6..9).unwrap_or_default();
+    let spread: Vec<String> = spread.iter().map(|s| format!("{:.2}", s.to_degrees())).collect();
+    let lines = vec![
+        point("semi-axes", &axes, fit.deviations.get(..3)),
+        point("centre", &pose.origin(), fit.deviations.get(3..6)),
+        format!(
+            "orientation     {:+.3} {:+.3} {:+.3}° (rotation vector; ± {}° about the principal axes)",
+            turn.x,
+            turn.y,
+            turn.z,
+            spread.join(" ")
+        ),
+    ];
+    let scene = format!(
+        "[surface]\nshape = \"ellipsoid\"\nsemi_axes_m = {}\n\n[pose]\ntranslation_m = {}\nrotation_deg = {}\n",
+        list(&axes),
+        list(&pose.origin()),
+        list(&turn)
+    );
+    Ok(Found::of(&fit, lines, scene))
+}
+
+fn aligned_ellipsoid(touches: &[Touch]) -> Result<Found, String> {
+    let fit = fit_aligned_ellipsoid(touches).map_err(text)?;
+    let (axes, centre) = (fit.shape.semi_axes, fit.shape.centre);
+    let lines = vec![
+        point("semi-axes", &axes, fit.deviations.get(..3)),
+        point("centre", &centre, fit.deviations.get(3..6)),
+    ];
+    let scene = format!(
+        "[surface]\nshape = \"ellipsoid\"\nsemi_axes_m = {}\n\n[pose]\ntranslation_m = {}\n",
+        list(&axes),
+        list(&centre)
+    );
+    Ok(Found::of(&fit, lines, scene))
+}
+
+fn cylinder(touches: &[Touch], axis: Option<&[f64]>) -> Result<Found, String> {
+    let fit = match axis {
+        Some(axis) => fit_cylinder_along(touches, &direction("--axis", axis)?),
+        None => fit_cylinder(touches),
+    };
+    let fit = fit.map_err(text)?;
+    let (centre, axis, radius) = (fit.shape.centre(), fit.shape.axis(), fit.shape.radius());
+    let tilt = tilt(fit.deviations.get(3..5)).unwrap_or_else(|| " (given)".to_owned());
+    let lines = vec![
+        length("radius", radius, fit.deviations.first()),
+        point("point of axis", &centre, None),
+        format!("axis            {:+.5} {:+.5} {:+.5}{tilt}", axis.x, axis.y, axis.z),
+    ];
+    let scene = format!(
+        "[surface]\nshape = \"cylinder\"\nradius_m = {radius:?}\ncentre_m = {}\naxis = {}\n",
+        list(&centre),
+        list(&axis)
+    );
+    Ok(Found::of(&fit, lines, scene))
+}
+
+/// The wrenches of each point that was held still.
+fn by_pivot(columns: &Columns, wrenches: &[Wrench<f64>]) -> Result<Vec<Vec<Wrench<f64>>>, String> {
+    let names = columns.texts("pivot").map_err(text)?;
+    let mut pivots: Vec<(&str, Vec<Wrench<f64>>)> = Vec::new();
+    for (name, wrench) in names.iter().zip(wrenches) {
+        match pivots.iter_mut().find(|(known, _)| known == name) {
+            Some((_, list)) => list.push(*wrench),
+            None => pivots.push((name, vec![*wrench])),
+        }
+    }
+    Ok(pivots.into_iter().map(|(_, list)| list).collect())
+}
+
+fn plane(pivots: &[Vec<Wrench<f64>>], outward: &[f64]) -> Result<Found, String> {
+    let fit = fit_plane(pivots, &direction("--outward", outward)?).map_err(text)?;
+    let (normal, offset) = (fit.shape.normal, fit.shape.offset);
+    let tilt = tilt(fit.deviations.get(1..3)).unwrap_or_default();
+    let lines = vec![
+        length("offset", offset, fit.deviations.first()),
+        format!("normal          {:+.5} {:+.5} {:+.5}{tilt}", normal.x, normal.y, normal.z),
+        format!("pivots lie within {:.4} mm of it (RMS)", 1e3 * fit.rms),
+    ];
+    let scene = format!(
+        "[surface]\nshape = \"plane\"\npoint_m = {}\nnormal = {}\n",
+        list(&(normal * offset)),
+        list(&normal)
+    );
+    let mut found = Found::of(&fit, lines, scene);
+    // What is left of the torques is asked of each pivot.
+    found.rms = 0.0;
+    for pivot in pivots {
+        let rms = fit_meeting_point(pivot).map_err(text)?.rms;
+        found.rms = found.rms.hypot(rms / (pivots.len() as f64).sqrt());
+    }
+    Ok(found)
+}
+
+fn pivot(wrenches: &[Wrench<f64>]) -> Result<Found, String> {
+    let fit = fit_meeting_point(wrenches).map_err(text)?;
+    let lines = vec![point("pivot", &fit.shape, fit.deviations.get(..3))];
+    let scene = format!("# pivot_m = {}\n", list(&fit.shape));
+    Ok(Found::of(&fit, lines, scene))
+}
+
+fn pose(touches: &[(Wrench<f64>, Vector3<f64>)]) -> Result<Found, String> {
+    let fit = fit_pose(touches).map_err(text)?;
+    let turn = rotation_vector(&fit.shape);
+    let spread = fit.deviations.get(..3).unwrap_or_default();
+    let spread: Vec<String> = spread.iter().map(|s| format!("{:.3}", s.to_degrees())).collect();
+    let lines = vec![
+        format!(
+            "rotation        {:+.4} {:+.4} {:+.4}° (rotation vector; ± {})",
+            turn.x,
+            turn.y,
+            turn.z,
+            spread.join(" ")
+        ),
+        point("origin", &fit.shape.origin(), fit.deviations.get(3..6)),
+    ];
+    let scene =
+        format!("[pose]\ntranslation_m = {}\nrotation_deg = {}\n", list(&fit.shape.origin()), list(&turn));
+    Ok(Found::of(&fit, lines, scene))
+}
+
+/// Axis times angle, in degrees.
+fn rotation_vector(pose: &RigidTransform<f64>) -> Vector3<f64> {
+    Rotation3::from_matrix_unchecked(pose.rotation()).scaled_axis().map(f64::to_degrees)
+}
+
+/// How well a direction is known, about two axes \[rad\].
+fn tilt(deviations: Option<&[f64]>) -> Option<String> {
+    let [a, b] = *deviations? else { return None };
+    Some(format!(" (± {:.3} {:.3}°)", a.to_degrees(), b.to_degrees()))
 }
 
 impl Found {

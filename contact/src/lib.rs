@@ -21,8 +21,7 @@ pub use model::{
 #[cfg(feature = "skin")]
 pub use skin::{
     Compliant, CompliantContact, CompliantPointContact, CompliantSoftFinger, Hertz, Indentation,
-    IndentationSlope, LinearStiffness, LocalHertz, PowerLaw, SkinLaw, StiffnessLaw, Tabulated,
-    contact_modulus,
+    IndentationSlope, LinearStiffness, LocalHertz, PowerLaw, SkinLaw, Tabulated, contact_modulus,
 };
 pub use soft_finger::{Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};
 pub use uncertainty::{

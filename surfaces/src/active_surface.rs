@@ -119,10 +119,11 @@ pub struct ClosestApproach<T: Real> {
 /// impl ActiveSurface<f64> for Ball {
 ///     fn crossings(&self, line: &Line<f64>, mut visit: impl FnMut(Crossing<f64>)) {
 ///         let middle = -line.point.dot(&line.direction);
-///         let squared = 1.0 - line.at(middle).norm_squared();
+///         let foot = line.at(middle);
+///         let squared = 1.0 - foot.norm_squared();
 ///         if squared >= 0.0 {
-///             for along in [middle - squared.sqrt(), middle + squared.sqrt()] {
-///                 let point = line.at(along);
+///             for half_chord in [-squared.sqrt(), squared.sqrt()] {
+///                 let (along, point) = (middle + half_chord, foot + line.direction * half_chord);
 ///                 visit(Crossing { along, point, normal: point.normalize(), active: true });
 ///             }
 ///         }

@@ -6,13 +6,11 @@ use alloc::vec::Vec;
 use fingertip_wrench::{Line, Real};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
-use crate::active_surface::nearest_crossing;
-use crate::combinators::{around_both, closest_of, is_inside_along};
 use crate::{
-    ActiveSurface, CappedCylinder, Capsule, ClosestApproach, Cone, Corner, Crossing, Cylinder, Disk,
-    Ellipsoid, EllipticCylinder, Entry, Extent, ForceLine, Frustum, HalfSpace, Heightfield, Knot, Level,
-    Mesh, Paraboloid, Plane, Posed, Rectangle, Revolution, RoundedBox, Shortcuts, SmoothSurface, Sphere,
-    SphericalCap, Superquadric, Topology, Torus, Trimmed,
+    ActiveSurface, CappedCylinder, Capsule, ClosestApproach, Compound, Cone, Corner, Crossing, Cylinder,
+    Disk, Ellipsoid, EllipticCylinder, Entry, Extent, ForceLine, Frustum, HalfSpace, Heightfield, Knot,
+    Level, Mesh, Paraboloid, Plane, Posed, Rectangle, Revolution, RoundedBox, Shortcuts, SmoothSurface,
+    Sphere, SphericalCap, Superquadric, Topology, Torus, Trimmed,
 };
 
 /// Any of the shapes: for files and programs that learn the shape at run time. On a hot path use
@@ -88,23 +86,32 @@ pub enum DynSurface<T: Real> {
     Posed(Box<Posed<T, Self>>),
     /// [`Trimmed`] to a half-space.
     Trimmed(Box<Trimmed<Self, HalfSpace<T>>>),
-    /// The union of any number of shapes, as [`Compound`](crate::Compound) is of two.
-    Compound(Parts<T>),
+    /// [`Compound`], of two parts or more ([`DynSurface::union`]); in files a list, `parts`.
+    #[cfg_attr(feature = "serde", serde(with = "parts"))]
+    Compound(Box<Compound<Self, Self>>),
 }
 
-/// The members of a union.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        deny_unknown_fields,
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
-pub struct Parts<T: Real> {
-    /// The shapes; one at least, or nothing is ever met.
-    pub parts: Vec<DynSurface<T>>,
+impl<T: Real> DynSurface<T> {
+    /// The union of any number of shapes: each of two halves is the union of its halves. `None` of no shape.
+    ///
+    /// ```
+    /// use fingertip_surfaces::{ActiveSurface, DynSurface, Sphere};
+    /// use nalgebra::Vector3;
+    ///
+    /// let ball = |x| Sphere::new(Vector3::new(x, 0.0, 0.0), 0.006).map(DynSurface::from);
+    /// let row = DynSurface::union(vec![ball(-0.008)?, ball(0.0)?, ball(0.008)?]);
+    /// assert!(row.is_some_and(|row| row.contains(&Vector3::new(0.013, 0.0, 0.0))));
+    /// # Ok::<(), fingertip_surfaces::BadShape>(())
+    /// ```
+    #[must_use]
+    pub fn union(mut parts: Vec<Self>) -> Option<Self> {
+        if parts.len() < 2 {
+            return parts.pop();
+        }
+        let rest = parts.split_off(parts.len() / 2);
+        let (first, second) = (Self::union(parts)?, Self::union(rest)?);
+        Some(Self::Compound(Box::new(Compound::new(first, second))))
+    }
 }
 
 /// Calls a method of whichever shape it is.
@@ -174,66 +181,6 @@ impl<T: Real> Shortcuts<T> for DynSurface<T> {
     }
 }
 
-impl<T: Real> Parts<T> {
-    /// The part whose surface is nearest to a point along a normal, or without one, along its own, which on
-    /// an edge of it may lead past it; none if no line meets any.
-    fn nearest(&self, point: &Vector3<T>, normal: Option<&Vector3<T>>) -> Option<&DynSurface<T>> {
-        let mut best = (T::GREATEST, None);
-        for part in &self.parts {
-            let direction = normal.copied().unwrap_or_else(|| part.normal(point));
-            if let Some(crossing) = nearest_crossing(part, &Line { point: *point, direction })
-                && crossing.along.abs() < best.0
-            {
-                best = (crossing.along.abs(), Some(part));
-            }
-        }
-        best.1
-    }
-}
-
-impl<T: Real> ActiveSurface<T> for Parts<T> {
-    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
-        for (k, part) in self.parts.iter().enumerate() {
-            part.crossings(line, |c| {
-                // Of two that cross in the same place, the later one owns it.
-                let mut others = self.parts.iter().enumerate().filter(|(other, _)| *other != k);
-                if !others.any(|(other, s)| is_inside_along(s, line, c.along, &c.point, other > k)) {
-                    visit(c);
-                }
-            });
-        }
-    }
-
-    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
-        let nothing = ClosestApproach {
-            gap: T::GREATEST,
-            point: Vector3::zeros(),
-            normal: Vector3::z(),
-            active: false,
-        };
-        self.parts.iter().try_fold(nothing, |best, part| Some(closest_of(best, part.closest_approach(line)?)))
-    }
-
-    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
-        self.nearest(point, None).map_or_else(Vector3::z, |part| part.normal(point))
-    }
-
-    fn contains(&self, point: &Vector3<T>) -> bool {
-        self.parts.iter().any(|part| part.contains(point))
-    }
-
-    fn shortcuts(&self) -> impl Shortcuts<T> {
-        self
-    }
-}
-
-/// The residual of the part whose surface is nearest.
-impl<T: Real> Shortcuts<T> for Parts<T> {
-    fn surface_residual(&self, point: &Vector3<T>) -> T {
-        self.nearest(point, None).map_or_else(T::zero, |part| part.shortcuts().surface_residual(point))
-    }
-}
-
 impl<T: Real> SmoothSurface<T> for DynSurface<T> {
     fn level(&self, point: &Vector3<T>) -> Level<T> {
         each_surface!(self, shape => shape.level(point))
@@ -257,32 +204,6 @@ impl<T: Real> SmoothSurface<T> for DynSurface<T> {
 
     fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
         each_surface!(self, shape => shape.corner(point, normal))
-    }
-}
-
-/// That of the part whose surface is nearest; of no parts, a plane far away.
-impl<T: Real> SmoothSurface<T> for Parts<T> {
-    fn level(&self, point: &Vector3<T>) -> Level<T> {
-        let nothing = || Level { value: T::GREATEST, gradient: Vector3::z(), hessian: Matrix3::zeros() };
-        self.nearest(point, None).map_or_else(nothing, |part| part.level(point))
-    }
-
-    fn extent(&self) -> Extent<T> {
-        let whole = self.parts.iter().map(SmoothSurface::extent).reduce(|a, b| around_both(&a, &b));
-        whole.unwrap_or(Extent { centre: Vector3::zeros(), radius: T::zero() })
-    }
-
-    fn shape_operator(&self, point: &Vector3<T>) -> Matrix3<T> {
-        self.nearest(point, None).map_or_else(Matrix3::zeros, |part| part.shape_operator(point))
-    }
-
-    fn bend(&self, point: &Vector3<T>, normal: &Vector3<T>, tangents: [&Vector3<T>; 2]) -> Matrix2<T> {
-        self.nearest(point, Some(normal))
-            .map_or_else(Matrix2::zeros, |part| part.bend(point, normal, tangents))
-    }
-
-    fn corner(&self, point: &Vector3<T>, normal: &Vector3<T>) -> Option<Corner<T>> {
-        self.nearest(point, Some(normal))?.corner(point, normal)
     }
 }
 
@@ -326,3 +247,57 @@ from!(
     Heightfield,
     Mesh,
 );
+
+/// In files, the parts of a union in one list.
+#[cfg(feature = "serde")]
+mod parts {
+    use alloc::vec::Vec;
+
+    use fingertip_wrench::Real;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+
+    use super::{Box, Compound, DynSurface};
+
+    type Union<T> = Compound<DynSurface<T>, DynSurface<T>>;
+
+    #[derive(Serialize)]
+    struct Written<'a, T> {
+        parts: Vec<&'a T>,
+    }
+
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Read<T> {
+        parts: Vec<T>,
+    }
+
+    fn collect<'a, T: Real>(union: &'a Union<T>, parts: &mut Vec<&'a DynSurface<T>>) {
+        let (first, second) = union.parts();
+        for part in [first, second] {
+            match part {
+                DynSurface::Compound(inner) => collect(inner, parts),
+                other => parts.push(other),
+            }
+        }
+    }
+
+    pub(super) fn serialize<T: Real + Serialize, S: Serializer>(
+        union: &Union<T>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let mut parts = Vec::new();
+        collect(union, &mut parts);
+        Written { parts }.serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, T: Real + Deserialize<'de>, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Box<Union<T>>, D::Error> {
+        let Read { parts } = Read::<DynSurface<T>>::deserialize(deserializer)?;
+        let enough = parts.len() >= 2;
+        match DynSurface::union(parts) {
+            Some(DynSurface::Compound(union)) if enough => Ok(union),
+            _ => Err(Error::custom("a compound needs two `parts` or more")),
+        }
+    }
+}

@@ -32,7 +32,7 @@ pub use bad_shape::BadShape;
 pub use combinators::is_inside_along;
 pub use combinators::{Compound, HalfSpace, Offset, Posed, Region, Trimmed};
 #[cfg(feature = "alloc")]
-pub use dyn_surface::{DynSurface, Parts};
+pub use dyn_surface::DynSurface;
 pub use force_line::ForceLine;
 #[cfg(feature = "alloc")]
 pub use heightfield::Heightfield;

@@ -15,7 +15,7 @@ use crate::{Entry, ForceLine};
 ///
 /// ```
 /// use fingertip_surfaces::testing::{Kept, SurfaceLaws};
-/// use fingertip_surfaces::{ActiveSurface, Crossing, Shortcuts, Sphere};
+/// use fingertip_surfaces::{ActiveSurface, ClosestApproach, Crossing, Shortcuts, Sphere};
 /// use fingertip_wrench::Line;
 /// use nalgebra::Vector3;
 ///
@@ -27,6 +27,9 @@ use crate::{Entry, ForceLine};
 ///         self.1.set(self.1.get() + 1);
 ///         self.0.crossings(line, visit);
 ///     }
+///     fn closest_approach(&self, line: &Line<f64>) -> Option<ClosestApproach<f64>> {
+///         self.0.closest_approach(line)
+///     }
 ///     fn shortcuts(&self) -> impl Shortcuts<f64> {
 ///         self.0.shortcuts()
 ///     }
@@ -34,7 +37,7 @@ use crate::{Entry, ForceLine};
 ///
 /// let sphere = Sphere::centred(0.013)?;
 /// let counted = Counted(sphere, 0.into());
-/// SurfaceLaws::around(Vector3::zeros(), 0.013).check_wrapper(&sphere, &counted, Kept::Answers)?;
+/// SurfaceLaws::around(Vector3::zeros(), 0.013).check_wrapper(&sphere, &counted, Kept::All)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Shortcuts<T: Real>: Sized {

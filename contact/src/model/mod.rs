@@ -7,6 +7,7 @@ mod long_way;
 mod onto_line;
 mod outcome;
 mod point_contact;
+mod seen;
 
 pub use auto::{Auto, Choice, PitchTest};
 pub use bound::{ContactBound, WorstErrors};

@@ -1,6 +1,6 @@
 //! Contact in a point, without local torque.
 
-use fingertip_surfaces::numeric::vectors::{hypotenuse, in_range, larger, smaller};
+use fingertip_surfaces::numeric::vectors::{hypotenuse, in_range, larger};
 use fingertip_surfaces::{
     ActiveSurface, BadShape, Crossing, ForceLine, ForceParts, Shortcuts, is_closed_convex,
 };
@@ -11,6 +11,7 @@ use nalgebra::Vector3;
 
 use super::long_way::long_way;
 use super::onto_line::onto_line;
+use super::seen::{Seen, too_flat};
 use super::{Contact, ContactModel, NoContact, Resolution};
 
 /// A contact that transmits a force and no torque of its own: it lies where the wrench's line of
@@ -161,12 +162,6 @@ fn entered<T: Real, S: ActiveSurface<T>>(
     contact_at(wrench, point, normal)
 }
 
-/// Friction can't hold a force at this cosine of incidence.
-fn too_flat<T: Real>(point: Vector3<T>, incidence: T) -> NoContact<T> {
-    let sine = larger((T::one() - incidence) * (T::one() + incidence), T::zero()).root();
-    NoContact::BeyondFriction { point, friction_ratio: smaller(sine / incidence, T::GREATEST) }
-}
-
 fn check<T: Real>(parameter: &'static str, value: T) -> Result<T, BadShape> {
     BadShape::check(
         "point contact",
@@ -175,48 +170,6 @@ fn check<T: Real>(parameter: &'static str, value: T) -> Result<T, BadShape> {
         value >= T::zero() && value.is_number(),
     )
     .map(|()| value)
-}
-
-/// What has been seen of the crossings so far.
-struct Seen<T: Real> {
-    best: Option<(Crossing<T>, T)>,
-    candidates: u8,
-    too_flat: Option<(Vector3<T>, T)>,
-    tangent: Option<Crossing<T>>,
-    pulling: Option<Vector3<T>>,
-    outside: Option<Vector3<T>>,
-}
-
-impl<T: Real> Seen<T> {
-    /// Takes note of why a crossing is no contact.
-    #[inline(never)]
-    fn refuse(&mut self, crossing: &Crossing<T>, incidence: T) {
-        if !in_range(&crossing.point) {
-            return;
-        }
-        if !crossing.active {
-            self.outside = Some(crossing.point);
-        } else if !(incidence > T::zero()) {
-            if incidence >= -T::EPSILON * T::literal(64.0) {
-                self.tangent = Some(*crossing);
-            }
-            self.pulling = Some(crossing.point);
-        } else if self.too_flat.is_none_or(|(_, best)| incidence > best) {
-            self.too_flat = Some((crossing.point, incidence));
-        }
-    }
-
-    /// Why none of the crossings is a contact; `None` if there was none at all.
-    #[cold]
-    fn reason(&self) -> Option<NoContact<T>> {
-        if let Some((point, incidence)) = self.too_flat {
-            return Some(too_flat(point, incidence));
-        }
-        if let Some(point) = self.pulling {
-            return Some(NoContact::OnlyPulling { point });
-        }
-        self.outside.map(|point| NoContact::OutsideActiveRegion { point })
-    }
 }
 
 impl<T: Real, S: ActiveSurface<T>> ContactModel<T, S> for PointContact<T> {

@@ -82,13 +82,13 @@ impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Tr
 }
 
 /// `true` if a contact of one part lies inside another part, or on the seam and is not its own.
-pub(crate) fn is_covered<T: Real>(part: &impl ActiveSurface<T>, contact: &SoftContact<T>, tie: bool) -> bool {
+fn is_covered<T: Real>(part: &impl ActiveSurface<T>, contact: &SoftContact<T>, tie: bool) -> bool {
     let line = Line { point: contact.point, direction: contact.normal };
     is_inside_along(part, &line, T::zero(), &contact.point, tie)
 }
 
 /// What is known of a union from what is known of two parts; `seen` if there was a contact.
-pub(crate) fn of_both<T: Real>(first: Search<T>, second: Search<T>, seen: bool) -> Search<T> {
+fn of_both<T: Real>(first: Search<T>, second: Search<T>, seen: bool) -> Search<T> {
     match (first, second) {
         (Search::Incomplete, _) | (_, Search::Incomplete) => Search::Incomplete,
         (Search::Grazing(pair), _) | (_, Search::Grazing(pair)) if !seen => Search::Grazing(pair),

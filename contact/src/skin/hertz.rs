@@ -3,8 +3,8 @@
 use fingertip_surfaces::BadShape;
 use fingertip_wrench::Real;
 
+use super::Indentation;
 use super::carlson::{r_d, r_f};
-use super::{Indentation, StiffnessLaw};
 
 /// The contact modulus `E*` \[Pa\] of two bodies: `1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂`, from their
 /// Young's moduli \[Pa\] and Poisson's ratios. An infinite modulus is a rigid body.
@@ -112,16 +112,19 @@ impl<T: Real> Hertz<T> {
     }
 }
 
-impl<T: Real> StiffnessLaw<T> for Hertz<T> {
+impl<T: Real> Hertz<T> {
+    /// The indentation under a normal force \[N\].
     #[inline]
-    fn indentation(&self, normal_force: T) -> Indentation<T> {
+    #[must_use]
+    pub fn indentation(&self, normal_force: T) -> Indentation<T> {
         let root = normal_force.max(T::zero()).cbrt();
         let a = self.patch * root;
         Indentation { depth: self.depth * root * root, patch: [a, a * self.ratio] }
     }
 
-    /// Two thirds of `δ/F`; at no force without bound.
-    fn compliance(&self, normal_force: T) -> T {
+    /// How fast the depth grows with the normal force \[m/N\]: two thirds of `δ/F`; at no force without bound.
+    #[must_use]
+    pub fn compliance(&self, normal_force: T) -> T {
         self.depth * T::literal(2.0 / 3.0) / normal_force.max(T::zero()).cbrt()
     }
 }

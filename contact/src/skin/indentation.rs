@@ -15,22 +15,6 @@ pub struct Indentation<T: Real> {
     pub patch: [T; 2],
 }
 
-/// Depth and patch as functions of the normal force alone.
-///
-/// # For implementers
-/// Depth and patch shall be finite, not negative and not falling with the force, and the depth
-/// zero at a force of zero. The force given is finite and not negative.
-pub trait StiffnessLaw<T: Real> {
-    /// The indentation under a normal force \[N\].
-    fn indentation(&self, normal_force: T) -> Indentation<T>;
-
-    /// How fast the depth grows with the normal force \[m/N\]; what the covariance of a contact needs. The
-    /// default takes differences, which leaves two thirds of the digits.
-    fn compliance(&self, normal_force: T) -> T {
-        slope(normal_force, |force| self.indentation(force).depth)
-    }
-}
-
 /// The derivative at a positive number, from central differences.
 fn slope<T: Real>(at: T, of: impl Fn(T) -> T) -> T {
     let step = at * T::EPSILON.cbrt();
@@ -47,8 +31,12 @@ pub struct IndentationSlope<T: Real> {
     pub along: Vector3<T>,
 }
 
-/// Depth and patch where they also depend on the place: on the curvature, or on a skin that is
-/// thicker here than there. What [`Compliant`](crate::Compliant) takes; every law of ours is one.
+/// Depth and patch under a normal force, which may also depend on the place: on the curvature, or on a skin
+/// that is thicker here than there. What [`Compliant`](crate::Compliant) takes.
+///
+/// # For implementers
+/// Depth and patch shall be finite, not negative and not falling with the force, and the depth
+/// zero at a force of zero. The force given is finite and not negative.
 pub trait SkinLaw<T: Real, S> {
     /// The indentation under a contact on the undeformed surface that presses with a normal force
     /// \[N\].

@@ -6,7 +6,7 @@ use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 use super::hertz::Hertz;
-use super::{Indentation, IndentationSlope, SkinLaw, StiffnessLaw};
+use super::{Indentation, IndentationSlope, SkinLaw};
 use crate::Contact;
 
 /// [`Hertz`] for a fingertip whose curvature changes from place to place, on flat objects or on

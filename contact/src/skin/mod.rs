@@ -9,7 +9,7 @@ mod simple_laws;
 mod tabulated;
 
 pub use hertz::{Hertz, contact_modulus};
-pub use indentation::{Indentation, IndentationSlope, SkinLaw, StiffnessLaw};
+pub use indentation::{Indentation, IndentationSlope, SkinLaw};
 pub use local_hertz::LocalHertz;
 pub use model::{Compliant, CompliantContact, CompliantPointContact, CompliantSoftFinger};
 pub use simple_laws::{LinearStiffness, PowerLaw};

@@ -3,7 +3,7 @@
 use fingertip_surfaces::BadShape;
 use fingertip_wrench::Real;
 
-use super::{Indentation, StiffnessLaw};
+use super::Indentation;
 
 /// Depth in proportion to the force, `δ = N/k`, with a patch as a rigid flat cuts it out of a
 /// sphere, `a = √(2Rδ)`: a soft layer of springs (Winkler) in the small.
@@ -27,15 +27,19 @@ impl<T: Real> LinearStiffness<T> {
     }
 }
 
-impl<T: Real> StiffnessLaw<T> for LinearStiffness<T> {
+impl<T: Real> LinearStiffness<T> {
+    /// The indentation under a normal force \[N\].
     #[inline]
-    fn indentation(&self, normal_force: T) -> Indentation<T> {
+    #[must_use]
+    pub fn indentation(&self, normal_force: T) -> Indentation<T> {
         let depth = normal_force / self.stiffness;
         let radius = (self.radius * (depth + depth)).root();
         Indentation { depth, patch: [radius; 2] }
     }
 
-    fn compliance(&self, _normal_force: T) -> T {
+    /// How fast the depth grows with the normal force \[m/N\].
+    #[must_use]
+    pub fn compliance(&self, _normal_force: T) -> T {
         T::one() / self.stiffness
     }
 }
@@ -76,9 +80,11 @@ impl<T: Real> PowerLaw<T> {
     }
 }
 
-impl<T: Real> StiffnessLaw<T> for PowerLaw<T> {
+impl<T: Real> PowerLaw<T> {
+    /// The indentation under a normal force \[N\].
     #[inline]
-    fn indentation(&self, normal_force: T) -> Indentation<T> {
+    #[must_use]
+    pub fn indentation(&self, normal_force: T) -> Indentation<T> {
         if !(normal_force > T::zero()) {
             return Indentation { depth: T::zero(), patch: [T::zero(); 2] };
         }
@@ -87,8 +93,10 @@ impl<T: Real> StiffnessLaw<T> for PowerLaw<T> {
         Indentation { depth: depth.min(T::GREATEST), patch: [radius.min(T::GREATEST); 2] }
     }
 
-    /// `γ_δ δ/N`; at no force without bound, but for an exponent of 1.
-    fn compliance(&self, normal_force: T) -> T {
+    /// How fast the depth grows with the normal force \[m/N\]: `γ_δ δ/N`; at no force without bound, but for an
+    /// exponent of 1.
+    #[must_use]
+    pub fn compliance(&self, normal_force: T) -> T {
         self.depth * self.depth_exponent * normal_force.max(T::zero()).powf(self.depth_exponent - T::one())
     }
 }

@@ -3,7 +3,7 @@
 use fingertip_surfaces::BadShape;
 use fingertip_wrench::Real;
 
-use super::{Indentation, StiffnessLaw};
+use super::Indentation;
 
 /// `N` measured points of depth and patch radius over force, with straight lines between them, from
 /// zero to the first, and beyond the last with the slope before it.
@@ -48,8 +48,10 @@ impl<T: Real, const N: usize> Tabulated<T, N> {
     }
 }
 
-impl<T: Real, const N: usize> StiffnessLaw<T> for Tabulated<T, N> {
-    fn indentation(&self, normal_force: T) -> Indentation<T> {
+impl<T: Real, const N: usize> Tabulated<T, N> {
+    /// The indentation under a normal force \[N\].
+    #[must_use]
+    pub fn indentation(&self, normal_force: T) -> Indentation<T> {
         let [lower, upper] = self.stretch(normal_force);
         let share = (normal_force - lower[0]) / (upper[0] - lower[0]);
         let between =
@@ -57,8 +59,10 @@ impl<T: Real, const N: usize> StiffnessLaw<T> for Tabulated<T, N> {
         Indentation { depth: between(1), patch: [between(2); 2] }
     }
 
-    /// The slope of the straight line that the force is on; at a point of the table, of the one below.
-    fn compliance(&self, normal_force: T) -> T {
+    /// How fast the depth grows with the normal force \[m/N\]: the slope of the straight line that the force is
+    /// on; at a point of the table, of the one below.
+    #[must_use]
+    pub fn compliance(&self, normal_force: T) -> T {
         let [lower, upper] = self.stretch(normal_force);
         (upper[1] - lower[1]) / (upper[0] - lower[0])
     }
@@ -66,7 +70,7 @@ impl<T: Real, const N: usize> StiffnessLaw<T> for Tabulated<T, N> {
 
 #[cfg(test)]
 mod tests {
-    use super::{StiffnessLaw, Tabulated};
+    use super::Tabulated;
 
     #[test]
     fn meets_its_points_and_lines_between_and_beyond() {

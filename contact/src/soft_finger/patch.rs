@@ -2,7 +2,7 @@
 
 use fingertip_surfaces::numeric::twofold::Wide;
 use fingertip_surfaces::numeric::vectors::tangents;
-use fingertip_surfaces::{LocalSurface, SmoothSurface};
+use fingertip_surfaces::{LocalSurface, SmoothSurface, Superquadric};
 use fingertip_wrench::Real;
 use nalgebra::{ComplexField, RealField, Vector3};
 
@@ -93,29 +93,8 @@ impl Digits for LocalSurface {
                     curvatures: [cosine / distance.rounded(), 0.0],
                 }
             }
-            Self::Turned { origin, radius, slope, turn: [before, after], width: [low, high], .. } => {
-                let exactly = W::exactly;
-                let [x, y, z] = point;
-                let (way, radius) = (z.minus(exactly(*origin)), exactly(*radius));
-                let turns = exactly(*after).minus(exactly(*before)).over(exactly(*high).minus(exactly(*low)));
-                let (slope, bend) = (exactly(*slope), turns.times(way));
-                let squared = radius.times(radius).plus(way.times(slope.plus(bend)));
-                // The gradient of half of x² + y² − ρ².
-                let rise = slope.plus(bend).plus(bend).times(exactly(0.5));
-                let (steepness, normal) = unit([x, y, zero.minus(rise)]);
-                let excess = x.times(x).plus(y.times(y)).minus(squared);
-                let (x, y, steep) = (x.rounded(), y.rounded(), steepness.rounded());
-                let distance = Real::root(x * x + y * y);
-                let rise = rise.rounded();
-                // κ = (ρ′² − (ρ²)″/2)/(ρ (1 + ρ′²)^{3/2}), ρ′ = (ρ²)′/2ρ, of which ρ (1 + ρ′²)^{1/2} is the steepness.
-                let leaning = rise / distance;
-                let straight = leaning * leaning - turns.rounded();
-                Seen {
-                    height: excess.over(steepness.plus(steepness)),
-                    normal,
-                    around: Vector3::new(-y, x, 0.0) / distance,
-                    curvatures: [1.0 / steep, straight / (steep * (1.0 + leaning * leaning))],
-                }
+            Self::Turned { origin, radius, slope, turn, width, .. } => {
+                turned(point, *origin, *radius, *slope, *turn, *width)
             }
             Self::EllipticCylinder { semi_axes: [a, b] } => {
                 let (a, b) = (W::exactly(*a), W::exactly(*b));
@@ -145,43 +124,9 @@ impl Digits for LocalSurface {
                 }
             }
             Self::RoundedBox { half_extents, rounding, beyond } => {
-                let distance = W::exactly(*rounding);
-                let outside = [0, 1, 2].map(|k| {
-                    let (half, side) = (W::exactly(half_extents[k]), side_of(point[k]));
-                    let over = point[k].times(side).minus(half).plus(distance);
-                    if beyond[k] { over.times(side) } else { zero }
-                });
-                let (length, normal) = unit(outside);
-                let curvature = 1.0 / rounding;
-                let n = rounded(normal);
-                let along = |k: usize| Vector3::ith(k, 1.0).cross(&n);
-                let (around, curvatures) = match beyond {
-                    [true, true, true] => (any(normal), [curvature; 2]),
-                    [false, true, true] => (along(0), [curvature, 0.0]),
-                    [true, false, true] => (along(1), [curvature, 0.0]),
-                    [true, true, false] => (along(2), [curvature, 0.0]),
-                    _ => (any(normal), [0.0; 2]),
-                };
-                Seen { height: length.minus(distance), normal, around, curvatures }
+                rounded_box(point, half_extents, *rounding, *beyond)
             }
-            Self::Superquadric(shape) => {
-                let level = shape.level(&rounded(point));
-                let (normal, steepness) = level.normal().unwrap_or((Vector3::z(), 1.0));
-                let (e1, e2) = tangents(&normal);
-                let bend = shape.bend(&rounded(point), &normal, [&e1, &e2]);
-                // Turned into the lines of curvature.
-                let angle = RealField::atan2(bend.m12 + bend.m21, bend.m11 - bend.m22) * 0.5;
-                let (sine, cosine) = ComplexField::sin_cos(angle);
-                let around = e1 * cosine + e2 * sine;
-                let [c, s] = [cosine * cosine, sine * sine];
-                let mixed = (bend.m12 + bend.m21) * cosine * sine;
-                Seen {
-                    height: W::exactly(level.value / steepness),
-                    normal: exactly(&normal),
-                    around,
-                    curvatures: [c * bend.m11 + s * bend.m22 + mixed, s * bend.m11 + c * bend.m22 - mixed],
-                }
-            }
+            Self::Superquadric(shape) => superquadric(point, shape),
         }
     }
 
@@ -244,4 +189,83 @@ pub(crate) enum Behind {
 /// The sign of a coordinate.
 fn side_of<W: Wide>(x: W) -> W {
     W::exactly(1.0_f64.copysign(x.rounded()))
+}
+
+/// A part of a surface of revolution, by the numbers of [`LocalSurface::Turned`].
+fn turned<W: Wide>(
+    [x, y, z]: Three<W>,
+    origin: f64,
+    radius: f64,
+    slope: f64,
+    [before, after]: [f64; 2],
+    [low, high]: [f64; 2],
+) -> Seen<W> {
+    let exactly = W::exactly;
+    let (way, radius) = (z.minus(exactly(origin)), exactly(radius));
+    let turns = exactly(after).minus(exactly(before)).over(exactly(high).minus(exactly(low)));
+    let (slope, bend) = (exactly(slope), turns.times(way));
+    let squared = radius.times(radius).plus(way.times(slope.plus(bend)));
+    // The gradient of half of x² + y² − ρ².
+    let rise = slope.plus(bend).plus(bend).times(exactly(0.5));
+    let (steepness, normal) = unit([x, y, exactly(0.0).minus(rise)]);
+    let excess = x.times(x).plus(y.times(y)).minus(squared);
+    let (x, y, steep) = (x.rounded(), y.rounded(), steepness.rounded());
+    let distance = Real::root(x * x + y * y);
+    let rise = rise.rounded();
+    // κ = (ρ′² − (ρ²)″/2)/(ρ (1 + ρ′²)^{3/2}), ρ′ = (ρ²)′/2ρ, of which ρ (1 + ρ′²)^{1/2} is the steepness.
+    let leaning = rise / distance;
+    let straight = leaning * leaning - turns.rounded();
+    Seen {
+        height: excess.over(steepness.plus(steepness)),
+        normal,
+        around: Vector3::new(-y, x, 0.0) / distance,
+        curvatures: [1.0 / steep, straight / (steep * (1.0 + leaning * leaning))],
+    }
+}
+
+/// A face, an edge or a corner of a rounded box.
+fn rounded_box<W: Wide>(
+    point: Three<W>,
+    half_extents: &Vector3<f64>,
+    rounding: f64,
+    beyond: [bool; 3],
+) -> Seen<W> {
+    let distance = W::exactly(rounding);
+    let outside = [0, 1, 2].map(|k| {
+        let (half, side) = (W::exactly(half_extents[k]), side_of(point[k]));
+        let over = point[k].times(side).minus(half).plus(distance);
+        if beyond[k] { over.times(side) } else { W::exactly(0.0) }
+    });
+    let (length, normal) = unit(outside);
+    let curvature = 1.0 / rounding;
+    let n = rounded(normal);
+    let along = |k: usize| Vector3::ith(k, 1.0).cross(&n);
+    let (around, curvatures) = match beyond {
+        [true, true, true] => (tangents(&n).0, [curvature; 2]),
+        [false, true, true] => (along(0), [curvature, 0.0]),
+        [true, false, true] => (along(1), [curvature, 0.0]),
+        [true, true, false] => (along(2), [curvature, 0.0]),
+        _ => (tangents(&n).0, [0.0; 2]),
+    };
+    Seen { height: length.minus(distance), normal, around, curvatures }
+}
+
+/// A superquadric, which is known to the digits of a double only.
+fn superquadric<W: Wide>(point: Three<W>, shape: &Superquadric<f64>) -> Seen<W> {
+    let level = shape.level(&rounded(point));
+    let (normal, steepness) = level.normal().unwrap_or((Vector3::z(), 1.0));
+    let (e1, e2) = tangents(&normal);
+    let bend = shape.bend(&rounded(point), &normal, [&e1, &e2]);
+    // Turned into the lines of curvature.
+    let angle = RealField::atan2(bend.m12 + bend.m21, bend.m11 - bend.m22) * 0.5;
+    let (sine, cosine) = ComplexField::sin_cos(angle);
+    let around = e1 * cosine + e2 * sine;
+    let [c, s] = [cosine * cosine, sine * sine];
+    let mixed = (bend.m12 + bend.m21) * cosine * sine;
+    Seen {
+        height: W::exactly(level.value / steepness),
+        normal: exactly(&normal),
+        around,
+        curvatures: [c * bend.m11 + s * bend.m22 + mixed, s * bend.m11 + c * bend.m22 - mixed],
+    }
 }

@@ -9,6 +9,7 @@ mod batch;
 mod choice;
 mod convex_bound;
 mod covariance;
+mod entries;
 mod extremes;
 mod fusion;
 mod grazing;

@@ -3,7 +3,7 @@
 use fingertip_contact::{ContactModel, Search, SoftContact, SoftFinger, SoftFingerSurface};
 use fingertip_surfaces::{
     ActiveSurface, CappedCylinder, Compound, CylinderEnds, DynSurface, EllipticCylinder, Frustum,
-    Heightfield, Mesh, Offset, Paraboloid, Parts, Revolution, Sphere,
+    Heightfield, Mesh, Offset, Paraboloid, Revolution, Sphere,
 };
 use fingertip_test_support::Worst;
 use fingertip_wrench::{Real, Wrench};
@@ -343,8 +343,7 @@ fn surfaces_of_revolution() {
 #[test]
 fn a_shape_chosen_at_run_time() {
     let mut random = Random::new(70);
-    let parts = Parts { parts: vec![capped().into(), common::sphere::<f64>().into()] };
-    let union = DynSurface::Compound(parts);
+    let union = DynSurface::union(vec![capped().into(), common::sphere::<f64>().into()]).unwrap();
     let plain = Compound::new(capped(), common::sphere::<f64>());
     for _ in 0..500 {
         let wrench = any_wrench(&mut random, 0.015);

@@ -3,8 +3,8 @@
 use fingertip_surfaces::testing::ball_of_triangles;
 use fingertip_surfaces::{
     CappedCylinder, Capsule, Compound, Cone, Cylinder, CylinderEnds, Disk, DynSurface, Ellipsoid,
-    EllipticCylinder, Frustum, HalfSpace, Heightfield, Implicit, Knot, Mesh, Offset, Paraboloid, Parts,
-    Plane, Posed, Rectangle, Revolution, RoundedBox, Sphere, SphericalCap, Superquadric, Torus, Trimmed,
+    EllipticCylinder, Frustum, HalfSpace, Heightfield, Implicit, Knot, Mesh, Offset, Paraboloid, Plane,
+    Posed, Rectangle, Revolution, RoundedBox, Sphere, SphericalCap, Superquadric, Torus, Trimmed,
 };
 use fingertip_wrench::{Real, RigidTransform};
 use nalgebra::Vector3;
@@ -194,7 +194,7 @@ pub(crate) fn dyn_surface<T: Real>() -> DynSurface<T> {
     let (tip, ball) = (capped_cylinder::<T>(), sphere::<T>());
     let ball =
         Sphere::new(tip.centre() + tip.axis() * T::literal(0.010), ball.radius() * T::literal(0.7)).unwrap();
-    let whole = DynSurface::Compound(Parts { parts: vec![tip.into(), ball.into()] });
+    let whole = DynSurface::union(vec![tip.into(), ball.into()]).unwrap();
     DynSurface::Posed(Box::new(Posed::new(whole, pose())))
 }
 

@@ -1,6 +1,6 @@
 //! Reference solutions computed with 40 to 50 digits.
 
-use fingertip_contact::{ContactModel, Hertz, SoftFinger, SoftFingerSurface, StiffnessLaw};
+use fingertip_contact::{ContactModel, Hertz, SoftFinger, SoftFingerSurface};
 use fingertip_surfaces::{Ellipsoid, SmoothSurface, Sphere};
 use fingertip_test_support::Worst;
 use fingertip_wrench::{Real, Wrench};

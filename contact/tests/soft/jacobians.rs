@@ -1,23 +1,19 @@
 //! Every analytic Jacobian against dual numbers.
 
 use fingertip_contact::{
-    Contact, ContactCovariance, ContactJacobian, ContactModel, GeometrySensitivity, PointContact,
-    ShapeParameters, SoftFinger, SoftFingerSurface,
+    Contact, ContactCovariance, ContactJacobian, ContactModel, GeometrySensitivity, PointContact, SoftFinger,
+    SoftFingerSurface,
 };
-use fingertip_surfaces::{
-    ActiveSurface, CappedCylinder, Capsule, Cone, Corner, Cylinder, CylinderEnds, Disk, DynSurface,
-    Ellipsoid, EllipticCylinder, Frustum, HalfSpace, Offset, Paraboloid, Plane, Posed, RoundedBox,
-    SmoothSurface, Sphere, SphericalCap, Superquadric, Torus, Trimmed,
-};
+use fingertip_surfaces::{ActiveSurface, Corner, DynSurface, SmoothSurface};
 use fingertip_test_support::Worst;
-use fingertip_wrench::{Real, RigidTransform, Wrench};
+use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix6, Vector3, Vector6};
 use num_dual::Dual64;
 
 use crate::common;
 use crate::wrenches::{Case, Random};
 
-type Dual = Dual64;
+pub(crate) type Dual = Dual64;
 
 pub(crate) fn lift(v: &Vector3<f64>) -> Vector3<Dual> {
     v.map(Dual::from_re)
@@ -51,12 +47,12 @@ pub(crate) fn local(contact: &Contact<Dual>, tangents: &[Vector3<f64>; 2]) -> Ve
 }
 
 #[derive(Clone, Copy)]
-enum Model {
+pub(crate) enum Model {
     Point,
     Soft,
 }
 
-fn dual_contact<S: SoftFingerSurface<Dual> + SmoothSurface<Dual>>(
+pub(crate) fn dual_contact<S: SoftFingerSurface<Dual> + SmoothSurface<Dual>>(
     model: Model,
     surface: &S,
     wrench: &Wrench<Dual>,
@@ -84,7 +80,7 @@ fn dual_contact<S: SoftFingerSurface<Dual> + SmoothSurface<Dual>>(
     Contact { point, normal: surface.level(&point).gradient.normalize(), ..contact }
 }
 
-fn contact_and_jacobian<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
+pub(crate) fn contact_and_jacobian<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
     model: Model,
     surface: &S,
     case: &Case,
@@ -108,7 +104,7 @@ fn contact_and_jacobian<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
 /// A case with a moderate spin torque: none for a point contact on a surface that the line hits.
 /// Not near the apex of a cone, where the curvature has no bound and takes digits with it, nor near a
 /// fold, where two contacts merge and all derivatives grow without bound.
-fn case<S: ActiveSurface<f64> + SmoothSurface<f64>>(
+pub(crate) fn case<S: ActiveSurface<f64> + SmoothSurface<f64>>(
     random: &mut Random,
     surface: &S,
     size: f64,
@@ -226,7 +222,7 @@ by_wrench!(dyn_surface, 0.020);
 
 /// Under any wrench, on faces, edges and tips. Edges and tips have no shape operator: the point moves along
 /// the edge or stays, and the normal turns.
-fn wherever_it_touches<S, D>(name: &str, surface: &S, dual: &D, size: f64)
+pub(crate) fn wherever_it_touches<S, D>(name: &str, surface: &S, dual: &D, size: f64)
 where
     S: SoftFingerSurface<f64> + SmoothSurface<f64>,
     D: SoftFingerSurface<Dual> + SmoothSurface<Dual>,
@@ -339,196 +335,6 @@ fn motions_are_changes_of_the_surface() {
             }
         }
     }
-}
-
-/// A surface with one parameter switched on, at the value it has.
-fn by_parameter<S, D, const P: usize>(
-    name: &str,
-    surface: &S,
-    size: f64,
-    sensitivities: impl Fn(&Vector3<f64>) -> [GeometrySensitivity<f64>; P],
-    dual: impl Fn(usize) -> D,
-) where
-    S: SoftFingerSurface<f64> + SmoothSurface<f64>,
-    D: SoftFingerSurface<Dual> + SmoothSurface<Dual>,
-{
-    for model in [Model::Point, Model::Soft] {
-        let mut random = Random::new(29);
-        let mut worst = Worst::new();
-        for _ in 0..200 {
-            let case = case(&mut random, surface, size, model);
-            let (contact, jacobian) = contact_and_jacobian(model, surface, &case);
-            for (index, change) in sensitivities(&contact.point).iter().enumerate() {
-                let found = dual_contact(model, &dual(index), &seeded(&case.wrench, None), &contact.point);
-                let reference = local(&found, &jacobian.tangents());
-                let ours = jacobian.answer_to(change);
-                let scale = Vector6::new(1.0, 1.0, 200.0, 200.0, 200.0, 2.0);
-                let point = jacobian.point_answer_to(change) - found.point.map(|x| x.eps);
-                let off = (ours - reference).component_div(&scale).norm().hypot(point.norm());
-                assert!(off <= 1e-12, "{name} {off:e}");
-                worst.see(off);
-            }
-        }
-        let worst = worst.get();
-        println!("{name:16} ∂/∂θ against dual numbers: {worst:.1e}");
-        assert!(worst <= 1e-12, "{name} {worst:e}");
-    }
-}
-
-pub(crate) fn on(value: f64, switched: bool) -> Dual {
-    Dual::new(value, f64::from(u8::from(switched)))
-}
-
-#[test]
-fn parameters_of_the_sphere() {
-    let surface = common::sphere::<f64>();
-    let (centre, radius) = (surface.centre(), surface.radius());
-    by_parameter(
-        "sphere",
-        &surface,
-        0.017,
-        |point| {
-            let moved = GeometrySensitivity::rigid_motions(&surface, point, &Vector3::zeros());
-            [ShapeParameters::<f64, 1>::sensitivities(&surface, point)[0], moved[0], moved[1], moved[2]]
-        },
-        |index| {
-            let moved =
-                Vector3::new(on(centre.x, index == 1), on(centre.y, index == 2), on(centre.z, index == 3));
-            Sphere::new(moved, on(radius, index == 0)).unwrap()
-        },
-    );
-}
-
-#[test]
-fn parameters_of_the_ellipsoid() {
-    let surface = common::ellipsoid::<f64>();
-    let axes = surface.semi_axes();
-    by_parameter(
-        "ellipsoid",
-        &surface,
-        0.017,
-        |point| surface.sensitivities(point),
-        |index| {
-            Ellipsoid::new(Vector3::new(
-                on(axes.x, index == 0),
-                on(axes.y, index == 1),
-                on(axes.z, index == 2),
-            ))
-            .unwrap()
-        },
-    );
-}
-
-/// Sizes of a shape against the shape made from dual numbers.
-macro_rules! by_sizes {
-    ($name:ident, $size:literal, $sizes:expr, |$list:ident| $make:expr) => {
-        #[test]
-        fn $name() {
-            fn make<T: Real>(
-                $list: [T; SIZES.len()],
-            ) -> impl SoftFingerSurface<T> + SmoothSurface<T> + ShapeParameters<T, { SIZES.len() }> {
-                $make.unwrap()
-            }
-            const SIZES: &[f64] = &$sizes;
-            let surface = make(core::array::from_fn(|k| SIZES[k]));
-            by_parameter(
-                stringify!($name),
-                &surface,
-                $size,
-                |point| surface.sensitivities(point),
-                |index| make(core::array::from_fn(|k| on(SIZES[k], k == index))),
-            );
-        }
-    };
-}
-
-fn tilted<T: Real>() -> Vector3<T> {
-    Vector3::new(T::literal(0.3), T::literal(0.1), T::one())
-}
-
-by_sizes!(sizes_of_the_cone, 0.017, [0.5], |s| Cone::new(Vector3::zeros(), -tilted(), s[0]));
-by_sizes!(sizes_of_the_capsule, 0.017, [0.006, 0.007], |s| Capsule::new(
-    Vector3::zeros(),
-    tilted(),
-    s[0],
-    s[1]
-));
-by_sizes!(sizes_of_the_elliptic_cylinder, 0.017, [0.007, 0.012], |s| EllipticCylinder::new(
-    s,
-    CylinderEnds::Unbounded
-));
-by_sizes!(sizes_of_the_torus, 0.0135, [0.010, 0.0035], |s| Torus::new(s[0], s[1]));
-by_sizes!(sizes_of_the_plane, 0.017, [0.005], |s| {
-    let normal = tilted::<T>().normalize();
-    Plane::new(normal * s[0], normal)
-});
-by_sizes!(sizes_of_the_superquadric, 0.017, [0.008, 0.010, 0.013], |s| Superquadric::new(
-    Vector3::from(s),
-    [T::literal(0.7), T::literal(0.8)]
-));
-by_sizes!(sizes_of_the_paraboloid, 0.02, [0.010, 0.015], |s| Paraboloid::new(s));
-by_sizes!(sizes_of_the_rounded_box, 0.017, [0.008, 0.010, 0.013, 0.004], |s| RoundedBox::new(
-    Vector3::new(s[0], s[1], s[2]),
-    s[3]
-));
-
-// On the side and on the ends alike.
-by_sizes!(sizes_of_the_capped_cylinder, 0.013, [0.011, 0.007], |s| CappedCylinder::new(
-    Vector3::zeros(),
-    tilted(),
-    s[1],
-    s[0]
-));
-by_sizes!(sizes_of_the_closed_elliptic_cylinder, 0.014, [0.007, 0.012], |s| EllipticCylinder::new(
-    s,
-    CylinderEnds::Capped(T::literal(0.010))
-));
-by_sizes!(sizes_of_the_frustum, 0.013, [0.016, 0.009, 0.005], |s| Frustum::new(
-    Vector3::new(T::literal(0.001), T::zero(), T::literal(-0.008)),
-    tilted(),
-    s[0],
-    s[1],
-    s[2]
-));
-by_sizes!(sizes_of_the_cylinder, 0.017, [0.009], |s| Cylinder::new(Vector3::zeros(), tilted(), s[0]));
-by_sizes!(sizes_of_the_spherical_cap, 0.017, [0.013], |s| Sphere::centred(s[0])
-    .and_then(|sphere| SphericalCap::new(sphere, tilted(), T::literal(-0.2))));
-by_sizes!(sizes_of_the_disk, 0.013, [0.005], |s| Disk::new(
-    tilted::<T>().normalize() * s[0],
-    tilted(),
-    T::literal(0.012)
-));
-by_sizes!(sizes_of_the_grown_ellipsoid, 0.019, [0.002], |s| Offset::new(common::ellipsoid::<T>(), s[0]));
-by_sizes!(sizes_of_a_posed_and_trimmed_cone, 0.015, [0.5], |s| {
-    let pose = RigidTransform::from_axis_angle(tilted(), tilted::<T>() * T::literal(0.002)).unwrap();
-    let half_space = HalfSpace::new(tilted::<T>() * T::literal(-0.02), tilted());
-    Cone::new(Vector3::zeros(), -tilted(), s[0])
-        .and_then(|cone| half_space.map(|region| Posed::new(Trimmed::new(cone, region), pose)))
-});
-
-/// Turning a cylinder about an axis through the origin turns its axis and its centre.
-#[test]
-fn attitude_of_the_cylinder() {
-    let surface = common::cylinder::<f64>();
-    by_parameter(
-        "cylinder",
-        &surface,
-        0.017,
-        |point| {
-            let moved = GeometrySensitivity::rigid_motions(&surface, point, &Vector3::zeros());
-            [moved[3], moved[4], moved[5], ShapeParameters::<f64, 1>::sensitivities(&surface, point)[0]]
-        },
-        |index| {
-            let turned = |v: Vector3<f64>| {
-                let rate = [Vector3::x(), Vector3::y(), Vector3::z()]
-                    .get(index)
-                    .map_or(Vector3::zeros(), |axis: &Vector3<f64>| axis.cross(&v));
-                v.zip_map(&rate, Dual::new)
-            };
-            Cylinder::new(turned(surface.centre()), turned(surface.axis()), on(surface.radius(), index == 3))
-                .unwrap()
-        },
-    );
 }
 
 #[test]

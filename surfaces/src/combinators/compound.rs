@@ -8,7 +8,7 @@ use crate::active_surface::nearest_crossing;
 use crate::{ActiveSurface, ClosestApproach, Corner, Crossing, Extent, Level, Shortcuts, SmoothSurface};
 
 /// Two shapes, possibly overlapping, as one: what lies inside the other is no surface. Nest it for
-/// more than two.
+/// more than two, halves of halves rather than one after the other: each level of nesting multiplies the work.
 ///
 /// ```
 /// use fingertip_surfaces::{CappedCylinder, Compound, Sphere};
@@ -78,7 +78,7 @@ pub fn is_inside_along<T: Real>(
 }
 
 /// The nearer of two approaches.
-pub(crate) fn closest_of<T: Real>(a: ClosestApproach<T>, b: ClosestApproach<T>) -> ClosestApproach<T> {
+fn closest_of<T: Real>(a: ClosestApproach<T>, b: ClosestApproach<T>) -> ClosestApproach<T> {
     if b.gap < a.gap { b } else { a }
 }
 
@@ -187,7 +187,7 @@ impl<T: Real, A: SmoothSurface<T>, B: SmoothSurface<T>> SmoothSurface<T> for Com
 }
 
 /// The least ball around two balls.
-pub(crate) fn around_both<T: Real>(one: &Extent<T>, other: &Extent<T>) -> Extent<T> {
+fn around_both<T: Real>(one: &Extent<T>, other: &Extent<T>) -> Extent<T> {
     let apart = other.centre - one.centre;
     let distance = length(&apart);
     if distance + other.radius <= one.radius {

@@ -8,8 +8,6 @@ mod trimmed;
 pub use compound::Compound;
 #[doc(hidden)]
 pub use compound::is_inside_along;
-#[cfg(feature = "alloc")]
-pub(crate) use compound::{around_both, closest_of};
 pub use offset::Offset;
 pub use posed::Posed;
 pub use trimmed::{HalfSpace, Region, Trimmed};

@@ -260,12 +260,8 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
         let mut crosses = false;
         self.crossings(line, |_| crosses = true);
         let gap = if crosses { T::zero() } else { gap.max(T::zero()).min(T::GREATEST) };
-        Some(ClosestApproach {
-            gap,
-            point: if is_finite(&point) { point } else { centre },
-            normal,
-            active: true,
-        })
+        let point = if is_finite(&point) { point } else { centre };
+        Some(ClosestApproach { gap, point, normal, active: true })
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {

@@ -23,7 +23,7 @@ use crate::numeric::range::Range;
 /// let [low, high] = flattened(Term::at([0.0, 0.0, 0.011])).range();
 /// assert!(low == high && (low - 0.001).abs() < 1e-15);
 /// let [low, high] = flattened(Term::over([[0.0, 0.002], [0.0, 0.002], [0.009, 0.011]])).range();
-/// assert!(low <= -0.001 && 0.001 <= high);
+/// assert!(low < 0.0 && 0.0 < high);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Term<T: Real> {

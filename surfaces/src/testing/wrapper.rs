@@ -30,7 +30,8 @@ impl<T: Real> SurfaceLaws<T> {
     /// ```
     /// use fingertip_surfaces::testing::{Kept, SurfaceLaws};
     /// use fingertip_surfaces::{Sphere, Trimmed};
-    ///     ///
+    /// use nalgebra::Vector3;
+    ///
     /// let sphere = Sphere::centred(0.013)?;
     /// // What may touch only in part no longer promises to touch everywhere.
     /// let all_of_it = Trimmed::new(sphere, |_: &Vector3<f64>| true);

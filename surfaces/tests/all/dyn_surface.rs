@@ -34,6 +34,9 @@ const SHAPES: &[&str] = &[
      [region]\npoint_m = [0.0, 0.0, 0.0]\ninward = [0.0, 0.0, 1.0]",
     "shape = 'compound'\n[[parts]]\nshape = 'capped_cylinder'\nradius_m = 0.2\nhalf_length_m = 0.4\n\
      [[parts]]\nshape = 'sphere'\ncentre_m = [0.0, 0.0, 0.4]\nradius_m = 0.3",
+    "shape = 'compound'\n[[parts]]\nshape = 'sphere'\nradius_m = 0.3\n\
+     [[parts]]\nshape = 'sphere'\ncentre_m = [0.0, 0.0, 0.4]\nradius_m = 0.2\n\
+     [[parts]]\nshape = 'disk'\nradius_m = 0.1",
 ];
 
 fn crossings(surface: &DynSurface<f64>) -> Vec<Crossing<f64>> {
@@ -63,6 +66,9 @@ fn nonsense_is_refused_with_a_reason() {
         ("shape = 'sphere'\nradius_m = -1.0", "the radius of a sphere must be a positive finite length"),
         ("shape = 'sphere'\nradius = 0.1", "unknown field `radius`"),
         ("shape = 'cube'\nradius_m = 0.1", "unknown variant `cube`"),
+        ("shape = 'sphere'\nradius_m = 0.1\nactive_half_angle_deg = 190.0", "above 0 and at most 180"),
+        ("shape = 'compound'\n[[parts]]\nshape = 'sphere'\nradius_m = 0.1", "two `parts` or more"),
+        ("shape = 'compound'\nparts = []", "two `parts` or more"),
         ("shape = 'torus'\nring_radius_m = 0.1\ntube_radius_m = 0.2", "less than the ring radius"),
         (
             "shape = 'superquadric'\nsemi_axes_m = [1.0, 1.0, 1.0]\nexponents = [3.0, 1.0]",

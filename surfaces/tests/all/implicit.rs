@@ -6,7 +6,6 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 
 /// A formula, in a ball about the origin.
-
 struct Written<F> {
     formula: F,
     radius: f64,

@@ -13,6 +13,7 @@ mod hostile_files;
 mod implicit;
 mod laws;
 mod laws_bite;
+mod laws_bite_promises;
 mod mesh;
 mod nearest_facet;
 mod on_the_surface;

@@ -35,8 +35,10 @@ fn check_named<T: Real, S: ActiveSurface<T> + Into<DynSurface<T>> + Clone>(laws:
     let any: DynSurface<T> = shape.clone().into();
     laws.check_wrapper(&shape, &any, Kept::Entry).unwrap();
     let far = Sphere::new(v(0.0, 0.0, 50.0), T::one()).unwrap();
-    for parts in [vec![any.clone()], vec![any.clone(), far.into()], vec![far.into(), any]] {
-        laws.check_wrapper(&shape, &DynSurface::Compound(Parts { parts }), Kept::Residual).unwrap();
+    laws.check_wrapper(&shape, &DynSurface::union(vec![any.clone()]).unwrap(), Kept::Entry).unwrap();
+    let farther = Sphere::new(v(0.0, 90.0, 0.0), T::one()).unwrap();
+    for parts in [vec![any.clone(), far.into()], vec![far.into(), any.clone(), farther.into()]] {
+        laws.check_wrapper(&shape, &DynSurface::union(parts).unwrap(), Kept::Residual).unwrap();
     }
 }
 
