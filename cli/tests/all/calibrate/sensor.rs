@@ -44,6 +44,28 @@ fn every_method_can_be_asked_for() {
     assert!(said.contains("surface of scene.toml under 2.000 N"), "{said}");
 }
 
+/// Two errors are those of forces and torques, but of a sensor of two forces those of each.
+#[test]
+fn two_errors_of_two_forces_are_one_for_each() {
+    let folder = Folder::new();
+    let rows = [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0], [-1.0, 0.0], [0.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let mut table = String::from("fx_N,fy_N,v1_V,v2_V\n");
+    for (i, [x, y]) in rows.into_iter().enumerate() {
+        let noise = |j: usize| 0.01 * (12.9 * (3 * i + j) as f64).sin();
+        table += &format!("{x},{y},{},{}\n", x + noise(0), y + noise(1));
+    }
+    folder.write("loads.csv", &table);
+    let fitted = |errors: &str| {
+        let options = ["--method", "total", "--reading-error", "0.01", "--load-error", errors];
+        folder.succeed(&[&["calibrate", "loads.csv", "-o", "cal.toml"][..], &options].concat());
+        folder.read("cal.toml")
+    };
+    let same = fitted("0.01");
+    assert_eq!(fitted("0.01,0.01"), same);
+    assert_ne!(fitted("0.01,0.2"), same);
+    folder.succeed(&["check", "cal.toml", "loads.csv"]);
+}
+
 #[test]
 fn a_stream_gives_the_same_matrix() {
     let folder = Folder::new();
