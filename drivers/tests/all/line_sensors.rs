@@ -281,7 +281,7 @@ fn all_faces_give_the_same() {
     loop {
         let expected = blocking.next_wrench().map_err(|error| error.kind());
         assert_eq!(embedded.next_wrench().map_err(|error| error.kind()), expected);
-        assert_eq!(ready(awaited.next_wrench()).map_err(|error| error.kind()), expected);
+        assert_eq!(ready(awaited.next_sample()).map_err(|error| error.kind()), expected);
         let polled = polled.poll_sample();
         if expected == Ok(None) {
             // The line is still open for one that polls.

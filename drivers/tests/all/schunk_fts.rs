@@ -140,7 +140,7 @@ fn over_sockets_nothing_is_lost_and_the_sensor_is_stopped_at_the_end() {
     let mut last = next(&mut client).force().x;
     let mut polled = 0;
     while polled < 20 || blocked == 0 {
-        match NbSource::<f64>::poll_sample(&mut client) {
+        match NbSource::<f64, Wrench<f64>>::poll_sample(&mut client) {
             Ok(sample) => {
                 let x = sample.unwrap().value.force().x;
                 assert_eq!(x, last + 1.0);

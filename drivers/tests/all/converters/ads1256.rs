@@ -83,14 +83,15 @@ fn the_other_faces_give_the_same_without_the_pin_as_well() {
     let mut awaited: AsyncAds1256<_, _, _, 3> =
         AsyncAds1256::new(one.spi(), one.ready(), one.delay(), PATIENCE);
     block_on(awaited.configure(&Configuration::new(INPUTS))).unwrap();
-    let sample = block_on(AsyncSource::<f32, 3>::next_signals(&mut awaited)).unwrap().unwrap();
+    let sample =
+        block_on(AsyncSource::<f32, nalgebra::SVector<f32, 3>>::next_sample(&mut awaited)).unwrap().unwrap();
     assert_eq!(sample.value, nalgebra::Vector3::from(EXPECTED.map(|count| count as f32)));
     let two = bench(WireFaults::default());
     let mut polled: Ads1256<_, _, _, 3> = Ads1256::new(two.spi(), Unwired, two.delay(), PATIENCE);
     polled.configure(&Configuration::new(INPUTS)).unwrap();
     let (mut given, mut blocked) = (0, 0);
     for _ in 0..2000 {
-        match NbSource::<f64, 3>::poll_sample(&mut polled) {
+        match NbSource::<f64, nalgebra::SVector<f64, 3>>::poll_sample(&mut polled) {
             Ok(sample) => {
                 assert_eq!(sample.unwrap().value, nalgebra::Vector3::from(EXPECTED.map(f64::from)));
                 given += 1;

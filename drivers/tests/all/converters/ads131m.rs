@@ -90,7 +90,10 @@ fn both_faces_send_the_same_and_give_the_same() {
     let mut last = [0.0; 2];
     for number in 0..500 {
         let a = first(&mut blocking);
-        let b = block_on(AsyncSource::<f32, 8>::next_signals(&mut awaited)).unwrap().unwrap().value;
+        let b = block_on(AsyncSource::<f32, nalgebra::SVector<f32, 8>>::next_sample(&mut awaited))
+            .unwrap()
+            .unwrap()
+            .value;
         // The tasks' clock ticks otherwise, so that the first one may be another.
         if number > 0 {
             assert_eq!((a[0] - last[0], b[0] - last[1]), (8.0, 8.0));
@@ -113,7 +116,7 @@ fn polling_never_gives_a_conversion_twice_and_never_waits() {
     let mut last = -1.0;
     let (mut given, mut blocked) = (0, 0);
     for _ in 0..20_000 {
-        let next = NbSource::<f64, 8>::poll_sample(&mut unwired);
+        let next = NbSource::<f64, nalgebra::SVector<f64, 8>>::poll_sample(&mut unwired);
         match next {
             Ok(sample) => {
                 let number = sample.unwrap().value[0] / 8.0;
@@ -126,9 +129,12 @@ fn polling_never_gives_a_conversion_twice_and_never_waits() {
     }
     assert!(given > 5000 && blocked > 5000, "{given} {blocked}");
     chip.configure(&configuration()).unwrap();
-    assert_eq!(NbSource::<f64, 8>::poll_sample(&mut chip), Err(nb::Error::WouldBlock));
+    assert_eq!(
+        NbSource::<f64, nalgebra::SVector<f64, 8>>::poll_sample(&mut chip),
+        Err(nb::Error::WouldBlock)
+    );
     bench.advance(70_000);
-    assert!(NbSource::<f64, 8>::poll_sample(&mut chip).is_ok());
+    assert!(NbSource::<f64, nalgebra::SVector<f64, 8>>::poll_sample(&mut chip).is_ok());
 }
 
 #[test]

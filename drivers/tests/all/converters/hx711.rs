@@ -50,14 +50,15 @@ fn the_other_faces_give_the_same() {
     let mut chips =
         AsyncHx711::new(bench.clock(), bench.data(), bench.delay(), bench.delay(), Mode::A64, PATIENCE);
     block_on(chips.start()).unwrap();
-    let sample = block_on(AsyncSource::<f32, 3>::next_signals(&mut chips)).unwrap().unwrap();
+    let sample =
+        block_on(AsyncSource::<f32, nalgebra::SVector<f32, 3>>::next_sample(&mut chips)).unwrap().unwrap();
     assert_eq!(sample.value, expected(Mode::A64).cast::<f32>());
     let (clock, data, (delay, _)) = chips.release();
     let mut polled = Hx711::new(clock, data, delay, Mode::A128, PATIENCE);
     polled.start().unwrap();
     let (mut given, mut blocked) = (0, 0);
     for _ in 0..3000 {
-        match NbSource::<f64, 3>::poll_sample(&mut polled) {
+        match NbSource::<f64, nalgebra::SVector<f64, 3>>::poll_sample(&mut polled) {
             Ok(sample) => {
                 assert_eq!(sample.unwrap().value, expected(Mode::A128));
                 given += 1;

@@ -97,14 +97,15 @@ fn the_other_faces_give_the_same_without_the_pin_as_well() {
     let mut awaited: AsyncMcp3564<_, _, _, 5> =
         AsyncMcp3564::new(one.spi(), one.ready(), one.delay(), PATIENCE);
     block_on(awaited.configure(&configuration())).unwrap();
-    let sample = block_on(AsyncSource::<f32, 5>::next_signals(&mut awaited)).unwrap().unwrap();
+    let sample =
+        block_on(AsyncSource::<f32, nalgebra::SVector<f32, 5>>::next_sample(&mut awaited)).unwrap().unwrap();
     cycle(core::array::from_fn(|channel| sample.value[channel] as i32));
     let two = bench(true, WireFaults::default());
     let mut polled: Mcp3564<_, _, _, 5> = Mcp3564::new(two.spi(), Unwired, two.delay(), PATIENCE);
     polled.configure(&configuration()).unwrap();
     let (mut given, mut blocked) = (0, 0);
     for _ in 0..5000 {
-        match NbSource::<f64, 5>::poll_sample(&mut polled) {
+        match NbSource::<f64, nalgebra::SVector<f64, 5>>::poll_sample(&mut polled) {
             Ok(sample) => {
                 let value = sample.unwrap().value;
                 cycle(core::array::from_fn(|channel| value[channel] as i32));

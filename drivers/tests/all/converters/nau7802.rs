@@ -59,14 +59,15 @@ fn the_other_faces_give_the_same_without_the_pin_as_well() {
     let one = bench(WireFaults::default());
     let mut awaited = AsyncNau7802::new(one.i2c(), one.data_ready(), one.delay(), PATIENCE);
     block_on(awaited.configure(&configuration())).unwrap();
-    let sample = block_on(AsyncSource::<f64, 1>::next_signals(&mut awaited)).unwrap().unwrap();
+    let sample =
+        block_on(AsyncSource::<f64, nalgebra::SVector<f64, 1>>::next_sample(&mut awaited)).unwrap().unwrap();
     assert_eq!(sample.value[0], f64::from(expected(2e-3, Gain::X128)));
     let two = bench(WireFaults::default());
     let mut polled = Nau7802::new(two.i2c(), Unwired, two.delay(), PATIENCE);
     polled.configure(&configuration()).unwrap();
     let (mut given, mut blocked) = (0, 0);
     for _ in 0..2000 {
-        match NbSource::<f64, 1>::poll_sample(&mut polled) {
+        match NbSource::<f64, nalgebra::SVector<f64, 1>>::poll_sample(&mut polled) {
             Ok(sample) => {
                 assert_eq!(sample.unwrap().value[0], f64::from(expected(2e-3, Gain::X128)));
                 given += 1;
