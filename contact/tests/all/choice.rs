@@ -27,8 +27,8 @@ impl ActiveSurface<f64> for Told {
         self.crossings.iter().copied().for_each(visit);
     }
 
-    fn closest_approach(&self, _: &Line<f64>) -> ClosestApproach<f64> {
-        self.nearest()
+    fn closest_approach(&self, _: &Line<f64>) -> Option<ClosestApproach<f64>> {
+        Some(self.nearest())
     }
 
     fn normal(&self, point: &Vector3<f64>) -> Vector3<f64> {
@@ -75,7 +75,7 @@ fn expected(told: &Told, friction: Option<f64>, gap: f64, last: Option<f64>) -> 
         if away <= gap && active && told.leans.max(0.0) >= least {
             return Resolution::Contact(Contact { gap: away, ..contact(point, normal) });
         }
-        NoContact::Misses { gap: away, closest: point, normal }
+        NoContact::Misses { closest: Some(told.nearest()) }
     })
 }
 

@@ -9,16 +9,16 @@ fn near(found: f64, expected: f64) -> bool {
 }
 
 /// `compliance` is the slope of the depth, by differences.
-fn slopes<L: StiffnessLaw<f64>>(name: &str, law: &L) {
+fn slopes(name: &str, indentation: impl Fn(f64) -> Indentation<f64>, compliance: impl Fn(f64) -> f64) {
     for force in [0.03, 0.4, 1.7, 6.0, 25.0] {
         let step = force * 1e-5;
-        let depth = |force| law.indentation(force).depth;
+        let depth = |force| indentation(force).depth;
         let slope = (depth(force + step) - depth(force - step)) / (2.0 * step);
-        assert!((law.compliance(force) / slope - 1.0).abs() < 1e-8, "{name} {force}: {slope}");
-        let [a, b] = law.indentation(force).patch;
+        assert!((compliance(force) / slope - 1.0).abs() < 1e-8, "{name} {force}: {slope}");
+        let [a, b] = indentation(force).patch;
         assert!(a >= b && b > 0.0, "{name}");
     }
-    let nothing = law.indentation(0.0);
+    let nothing = indentation(0.0);
     assert_eq!((nothing.depth, nothing.patch), (0.0, [0.0; 2]), "{name}");
 }
 
@@ -34,10 +34,10 @@ fn laws_are_what_they_say() {
     assert_eq!(power.indentation(-1.0).depth, 0.0);
     let hertz = Hertz::new([0.01, 0.03], 2e6).unwrap();
     let table = Tabulated::new([[1.0, 0.1, 0.2], [4.0, 0.3, 0.3], [9.0, 0.9, 0.5]]).unwrap();
-    slopes("spring", &spring);
-    slopes("power", &power);
-    slopes("hertz", &hertz);
-    slopes("table", &table);
+    slopes("spring", |force| spring.indentation(force), |force| spring.compliance(force));
+    slopes("power", |force| power.indentation(force), |force| power.compliance(force));
+    slopes("hertz", |force| hertz.indentation(force), |force| hertz.compliance(force));
+    slopes("table", |force| table.indentation(force), |force| table.compliance(force));
     // Beyond a table, and in the range of the type.
     let beyond = table.indentation(f64::MAX);
     assert!(beyond.depth <= f64::MAX && beyond.depth > 1e300 && beyond.patch[1] > 1e300);

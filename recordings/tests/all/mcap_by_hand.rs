@@ -1,10 +1,8 @@
 //! MCAP files whose every byte is written here, after the specification of the format.
 
-use std::io::Cursor;
-
 use fingertip_recordings::mcap::{Entry, McapError, McapReader, Recorded};
 use fingertip_test_support::mcap::{
-    MAGIC, WRENCH, channel, data_end, definitions, file, message, record, schema, string, wrench,
+    channel, data_end, definitions, file, message, record, schema, string, wrench,
 };
 use fingertip_wrench::Wrench;
 

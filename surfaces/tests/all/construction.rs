@@ -188,30 +188,32 @@ fn grids_are_full() {
     assert_eq!(corner.unwrap_err().parameter, "corner and heights");
 }
 
-struct Ball {
+/// A plane that slopes every way.
+struct Slope {
     radius: f64,
     steepest: f64,
 }
 
-impl ImplicitSurface<f64> for Ball {
-    fn value(&self, p: &Vector3<f64>) -> f64 {
-        p.norm() - 1.0
+impl ImplicitSurface<f64> for Slope {
+    fn formula(&self, [x, y, z]: [Term<f64>; 3]) -> Term<f64> {
+        x * 0.6 + y * 0.64 + z * 0.48
     }
 
-    fn gradient(&self, p: &Vector3<f64>) -> Vector3<f64> {
-        p.normalize()
+    fn ball(&self) -> (Vector3<f64>, f64) {
+        (o(), self.radius)
     }
 
-    fn bounds(&self) -> ImplicitBounds<f64> {
-        ImplicitBounds { centre: o(), radius: self.radius, steepest: self.steepest }
+    fn steepest(&self) -> Option<f64> {
+        Some(self.steepest)
     }
 }
 
 #[test]
 fn equations_come_with_bounds() {
-    takes_lengths(|radius| Implicit::new(Ball { radius, steepest: 1.0 }), "radius");
-    let steep = |steepest| Implicit::new(Ball { radius: 1.0, steepest });
-    takes(steep, &[5e-324, 1.0, f64::MAX], &[0.0, -1.0, f64::NAN, f64::INFINITY], "steepness");
+    takes_lengths(|radius| Implicit::new(Slope { radius, steepest: 2.0 }), "radius");
+    let steep = |steepest| Implicit::new(Slope { radius: 1.0, steepest });
+    // The plane's own is one.
+    takes(steep, &[1.0 + 1e-9, 2.0, f64::MAX], &[0.99, 0.0, -1.0, f64::NAN, f64::INFINITY], "steepness");
 }
 
 /// A tetrahedron, its corners so far apart.

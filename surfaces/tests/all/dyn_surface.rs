@@ -103,7 +103,7 @@ fn angles_are_degrees() {
     let read = |text: &str| toml::from_str::<DynSurface<f64>>(text).unwrap();
     let DynSurface::Cone(cone) = read("shape = 'cone'\nhalf_angle_deg = 60.0") else { panic!() };
     assert!((cone.half_angle() - core::f64::consts::FRAC_PI_3).abs() < 1e-15);
-    let DynSurface::SphericalCap(cap) =
+    let DynSurface::Sphere(cap) =
         read("shape = 'spherical_cap'\nradius_m = 0.5\nactive_half_angle_deg = 120.0")
     else {
         panic!()
@@ -113,7 +113,7 @@ fn angles_are_degrees() {
     assert!((read(turned).normal(&Vector3::zeros()) - Vector3::x()).norm() < 1e-15);
     for (shape, key, degrees) in [
         (DynSurface::Cone(cone), "half_angle_deg = ", 60.0),
-        (DynSurface::SphericalCap(cap), "active_half_angle_deg = ", 120.0),
+        (DynSurface::Sphere(cap), "active_half_angle_deg = ", 120.0),
         (read(turned), "rotation_deg = [0.0, ", 90.0),
     ] {
         let written = toml::to_string(&shape).unwrap();

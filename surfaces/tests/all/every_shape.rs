@@ -15,7 +15,7 @@ pub(crate) fn v<T: Real>(x: f64, y: f64, z: f64) -> Vector3<T> {
 
 /// What is told of a line that misses.
 pub(crate) fn approach<T: Real>(surface: &impl ActiveSurface<T>, line: &Line<T>) -> ClosestApproach<T> {
-    surface.closest_approach(line)
+    surface.closest_approach(line).unwrap()
 }
 
 /// All crossings, in ascending order.
@@ -155,6 +155,6 @@ pub(crate) fn every_shape<T: Real>(k: T) -> Vec<Shape<T>> {
             ))),
             CLOSED,
         ),
-        shape("compound", DynSurface::Compound(Parts { parts: vec![shaft().into(), tip.into()] }), CLOSED),
+        shape("compound", DynSurface::union(vec![shaft().into(), tip.into()]).unwrap(), CLOSED),
     ]
 }

@@ -62,7 +62,7 @@ fn two_balls_are_held_by_the_least() {
             let (first, second) = (ball(one.0, one.1), ball(other.0, other.1));
             let found = [
                 Compound::new(first, second).extent(),
-                DynSurface::Compound(Parts { parts: vec![first.into(), second.into()] }).extent(),
+                DynSurface::union(vec![first.into(), second.into()]).unwrap().extent(),
             ];
             for Extent { centre: at, radius: found } in found {
                 assert!((at - v(centre, 1.0, 0.0)).norm() < 1e-15 && (found - radius).abs() < 1e-15);

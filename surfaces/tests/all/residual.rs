@@ -9,7 +9,7 @@ use rand_pcg::Pcg64Mcg;
 use crate::every_shape::{approach, crossings, l};
 
 fn residual<T: Real>(surface: &impl ActiveSurface<T>, point: &Vector3<T>) -> T {
-    surface.outside_by(point)
+    surface.shortcuts().surface_residual(point)
 }
 
 /// Of a point beside the surface, rounded to single precision, against where a line through it in double

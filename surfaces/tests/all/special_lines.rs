@@ -1,6 +1,6 @@
 //! Lines along axes, through centres and edges, in planes of symmetry: where cases are told apart.
 
-use fingertip_surfaces::{ActiveSurface, Crossing, ForceLine, each_surface};
+use fingertip_surfaces::{ActiveSurface, Crossing, ForceLine, Shortcuts, each_surface};
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
@@ -107,7 +107,7 @@ fn check_sole_entry<T: Real>(
     let push = Wrench::from_force_at(&line.point, line.direction * strength);
     let push = ForceLine::new(&push, ForceLine::least_squared()).unwrap();
     let (entry, closed_convex) =
-        each_surface!(&shape.surface, s => (s.sole_entry(&push), s.is_closed_convex()));
+        each_surface!(&shape.surface, s => (s.shortcuts().sole_entry(&push), s.is_closed_convex()));
     let name = shape.name;
     if closed_convex && let Some(first) = seen.crossings.first() {
         assert_eq!(seen.crossings.len(), 2, "{name} {line:?}");
@@ -140,7 +140,10 @@ trait Promise<T: Real> {
 
 impl<T: Real, S: ActiveSurface<T>> Promise<T> for S {
     fn is_closed_convex(&self) -> bool {
-        S::CLOSED_CONVEX
+        fn promised<T: Real, K: Shortcuts<T>>(_: &K) -> bool {
+            K::CLOSED_CONVEX
+        }
+        promised::<T, _>(&self.shortcuts())
     }
 }
 
