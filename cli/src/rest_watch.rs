@@ -178,7 +178,8 @@ mod tests {
         let wrench = |force: f64| Wrench::on_fingertip(Vector3::repeat(force), Vector3::zeros());
         [0.0, f64::INFINITY]
             .iter()
-            .for_each(|force| _ = watch.add(&Vector6::zeros(), &Vector6::zeros(), &wrench(*force)));
+            .for_each(|force| assert!(watch.add(&Vector6::zeros(), &Vector6::zeros(), &wrench(*force))));
+        assert!(!watch.add(&Vector6::zeros(), &Vector6::repeat(f64::NAN), &wrench(1.0)));
         assert_eq!(watch.doubt(|channel| channel.to_string()).unwrap().force_range, 0.0);
     }
 }
