@@ -116,8 +116,11 @@ pub struct Device {
     /// How it is simulated.
     pub simulator: Option<Simulator>,
     /// Opens it; nothing for what is opened elsewhere.
-    pub(crate) open: Option<fn(&Address) -> Result<OpenSensor, ConnectError>>,
+    pub(crate) open: Option<Open>,
 }
+
+/// What opens a device at an address.
+pub(crate) type Open = fn(&Address) -> Result<OpenSensor, ConnectError>;
 
 impl Device {
     /// A device that the one who lists it opens, at an address that is its name.

@@ -1,12 +1,12 @@
 //! The list of devices: each entry's address, its simulator, its lines in the documentation.
 
+use alloc::collections::BTreeSet;
+use alloc::sync::Arc;
 use core::net::{IpAddr, Ipv4Addr};
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
-use std::collections::BTreeSet;
 use std::io::{Read, Write};
 use std::net::{TcpListener, UdpSocket};
-use std::sync::Arc;
 
 use fingertip_drivers::WrenchSource;
 use fingertip_drivers::devices::{Address, Device, Link, OpenSensor, Serving, Simulator, devices};
