@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 /// use nalgebra::Vector3;
 ///
 /// let ring = Torus::new(10e-3, 3e-3)?;
-/// let push = Wrench::on_fingertip(Vector3::new(-1.0, 0.0, 0.0), Vector3::zeros());
+/// let push: Wrench<f64> = Wrench::on_fingertip(Vector3::new(-1.0, 0.0, 0.0), Vector3::zeros());
 /// let mut fingertip = Fingertip::builder().contact(ring, PointContact::new(0.1)?).build();
 /// let touch = fingertip.sense_wrench(push, 1e-3);
 /// // A line through both sides of a ring enters twice; the contact before tells which entry is meant.

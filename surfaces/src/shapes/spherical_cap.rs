@@ -43,8 +43,8 @@ impl<T: Real> SphericalCap<T> {
     /// [`BadShape`] unless the pole has a direction and the cosine lies within [−1, 1).
     pub fn new(sphere: Sphere<T>, pole: Vector3<T>, least_cosine: T) -> Result<Self, BadShape> {
         BadShape::check(
-            "sphere",
-            "least cosine of its active part",
+            "spherical cap",
+            "least cosine",
             "at least -1 and below 1",
             least_cosine >= -T::one() && least_cosine < T::one(),
         )?;

@@ -107,7 +107,7 @@ fn a_plan_says_which_loads_and_how_many() {
     assert!(said.contains("6 loads beside the 6"), "{said}");
     folder.write("flat.csv", "fx_N,fy_N,fz_N\n1,0,0\n0,1,0\n");
     let error = folder.fail(1, &["plan", "flat.csv", "--most", "50"]);
-    assert!(error.contains("flat.csv") && error.contains("unobserved: Fz"), "{error}");
+    assert!(error.contains("flat.csv") && error.contains("unobserved: ") && error.contains("Fz"), "{error}");
 }
 
 fn direction(random: &mut Pcg64Mcg) -> Vector3<f64> {
