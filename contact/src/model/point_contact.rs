@@ -133,7 +133,8 @@ impl<T: Real> PointContact<T> {
             let pressing = incidence > T::zero() && incidence >= self.least_incidence;
             if crossing.active && pressing && in_range(&crossing.point) {
                 any = true;
-                visit(entered(wrench, surface, &crossing, incidence));
+                let place = entered(wrench, surface, &crossing, incidence);
+                visit(contact_at(wrench, place.point, place.normal));
             }
         });
         if any {
@@ -148,18 +149,32 @@ fn contact_at<T: Real>(wrench: &Wrench<T>, point: Vector3<T>, normal: Vector3<T>
     Contact { point, normal, force: wrench.force(), spin_torque: T::zero(), gap: T::zero(), alternatives: 0 }
 }
 
-/// The contact at a crossing; where the force meets the surface at a flat angle, without the rounding
+/// Where the contact is.
+struct Place<T: Real> {
+    point: Vector3<T>,
+    normal: Vector3<T>,
+    gap: T,
+    alternatives: u8,
+}
+
+impl<T: Real> Place<T> {
+    fn at(point: Vector3<T>, normal: Vector3<T>) -> Self {
+        Self { point, normal, gap: T::zero(), alternatives: 0 }
+    }
+}
+
+/// The place of a crossing; where the force meets the surface at a flat angle, without the rounding
 /// errors that grow there.
 fn entered<T: Real, S: ActiveSurface<T>>(
     wrench: &Wrench<T>,
     surface: &S,
     crossing: &Crossing<T>,
     incidence: T,
-) -> Contact<T> {
+) -> Place<T> {
     let Crossing { point, normal, .. } = *crossing;
     let point =
         if incidence < flat() { onto_line(wrench, surface, point, &normal, incidence) } else { point };
-    contact_at(wrench, point, normal)
+    Place::at(point, normal)
 }
 
 fn check<T: Real>(parameter: &'static str, value: T) -> Result<T, BadShape> {
@@ -244,7 +259,13 @@ impl<T: Real> PointContact<T> {
         } else {
             self.best_entry(wrench, surface, &axis.line, last)
         };
-        found.unwrap_or_else(|| self.near_miss(wrench, surface, &axis.line))
+        // One place writes the contact, whichever way it was found: that keeps the code small.
+        match found.unwrap_or_else(|| self.near_miss(surface, &axis.line)) {
+            Ok(Place { point, normal, gap, alternatives }) => {
+                Resolution::Contact(Contact { gap, alternatives, ..contact_at(wrench, point, normal) })
+            }
+            Err(reason) => Resolution::NoContact(reason),
+        }
     }
 
     /// Where the line enters a surface that no line enters twice; `None` if it misses.
@@ -254,7 +275,7 @@ impl<T: Real> PointContact<T> {
         wrench: &Wrench<T>,
         surface: &S,
         line: &Line<T>,
-    ) -> Option<Resolution<T>> {
+    ) -> Option<Result<Place<T>, NoContact<T>>> {
         let mut entry = None;
         surface.crossings(line, |crossing| {
             if entry.is_none() {
@@ -263,14 +284,14 @@ impl<T: Real> PointContact<T> {
         });
         let crossing: Crossing<T> = entry?;
         if !in_range(&crossing.point) {
-            return Some(Resolution::NoContact(NoContact::NotFinite));
+            return Some(Err(NoContact::NotFinite));
         }
         // A line that is tangent within rounding neither presses nor pulls, but touches.
         let incidence = larger(-line.direction.dot(&crossing.normal), T::zero());
         Some(if incidence >= self.least_incidence {
-            Resolution::Contact(entered(wrench, surface, &crossing, incidence))
+            Ok(entered(wrench, surface, &crossing, incidence))
         } else {
-            Resolution::NoContact(too_flat(crossing.point, incidence))
+            Err(too_flat(crossing.point, incidence))
         })
     }
 
@@ -282,7 +303,7 @@ impl<T: Real> PointContact<T> {
         surface: &S,
         line: &Line<T>,
         last: Option<&Vector3<T>>,
-    ) -> Option<Resolution<T>> {
+    ) -> Option<Result<Place<T>, NoContact<T>>> {
         let mut seen =
             Seen { best: None, candidates: 0, too_flat: None, tangent: None, pulling: None, outside: None };
         surface.crossings(line, |crossing| {
@@ -305,36 +326,30 @@ impl<T: Real> PointContact<T> {
             }
         });
         if let Some((crossing, incidence)) = seen.best {
-            let contact = entered(wrench, surface, &crossing, incidence);
-            return Some(Resolution::Contact(Contact { alternatives: seen.candidates - 1, ..contact }));
+            let place = entered(wrench, surface, &crossing, incidence);
+            return Some(Ok(Place { alternatives: seen.candidates - 1, ..place }));
         }
         // A line that is tangent within rounding neither presses nor pulls, but touches.
         if let (Some(crossing), true) = (seen.tangent, self.least_incidence <= T::zero()) {
-            return Some(Resolution::Contact(contact_at(wrench, crossing.point, crossing.normal)));
+            return Some(Ok(Place::at(crossing.point, crossing.normal)));
         }
-        seen.reason().map(Resolution::NoContact)
+        seen.reason().map(Err)
     }
 
     /// What to make of a line that misses.
     #[inline(always)]
-    fn near_miss<S: ActiveSurface<T>>(
-        &self,
-        wrench: &Wrench<T>,
-        surface: &S,
-        line: &Line<T>,
-    ) -> Resolution<T> {
+    fn near_miss<S: ActiveSurface<T>>(&self, surface: &S, line: &Line<T>) -> Result<Place<T>, NoContact<T>> {
         let Some(approach) = surface.closest_approach(line) else {
-            return Resolution::NoContact(NoContact::Misses { closest: None });
+            return Err(NoContact::Misses { closest: None });
         };
         if !(in_range(&approach.point) && approach.gap.is_number()) {
-            return Resolution::NoContact(NoContact::NotFinite);
+            return Err(NoContact::NotFinite);
         }
         let incidence = larger(-line.direction.dot(&approach.normal), T::zero());
         if approach.gap <= self.greatest_gap && approach.active && incidence >= self.least_incidence {
-            let contact = contact_at(wrench, approach.point, approach.normal);
-            return Resolution::Contact(Contact { gap: approach.gap, ..contact });
+            return Ok(Place { gap: approach.gap, ..Place::at(approach.point, approach.normal) });
         }
-        Resolution::NoContact(NoContact::Misses { closest: Some(approach) })
+        Err(NoContact::Misses { closest: Some(approach) })
     }
 }
 
