@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use fingertip_recordings::RecordingError;
 use thiserror::Error;
 
-use crate::scene::SceneProblem;
+use crate::scene::fault::SceneProblem;
 use crate::sensor::SensorError;
 
 /// Why a run stopped.

@@ -68,7 +68,9 @@ impl Touch {
 
     /// Touches all over the active part of any surface: lines of all directions through a ball
     /// about `centre` of radius `reach` \[m\] are crossed with it, which meets every part of the
-    /// surface in proportion to its area (Cauchy). Deterministic; none if no line meets it.
+    /// surface in proportion to its area (Cauchy). Of a surface that reaches farther than the ball, the part within
+    /// it: lines that are nearly parallel to a plane would cross it far away, where nothing touches.
+    /// Deterministic; none if no line meets it.
     ///
     /// # Errors
     /// [`DesignError::OutOfRange`] for bad numbers.
@@ -100,7 +102,8 @@ impl Touch {
             let (sin, cos) = (TAU * d).sin_cos();
             let point = centre + (first * cos + second * sin) * (reach * c.sqrt());
             surface.crossings(&Line { point, direction }, |crossing| {
-                if crossing.active {
+                // The ball may be the surface itself, and rounding put a point beyond it.
+                if crossing.active && (crossing.point - centre).norm() <= reach * (1.0 + 1e-9) {
                     touches.extend(forces(crossing.normal, friction, force).map(|force| Self {
                         point: crossing.point,
                         normal: crossing.normal,

@@ -1,8 +1,8 @@
 //! ATI's calibration files (`FTxxxxx.cal`), both layouts.
 
+use fingertip_wrench::units::LengthUnit;
 use nalgebra::{DMatrix, Vector3};
 
-use super::ati_reader::length;
 use super::{AtiError, CalibrationFile, FileError, Provenance, Quality, SignalUnit, Verdict};
 use crate::linear::pseudo_inverse;
 use crate::{Axis, TOOL};
@@ -237,3 +237,8 @@ impl AtiCalibration {
 }
 
 pub(super) const FINITE_IN_SI: &str = "must be finite, over the scale and in N or N·m";
+
+/// Metres of a unit of length.
+pub(super) fn length(name: &str) -> Option<f64> {
+    LengthUnit::from_name(name).map(LengthUnit::in_metres)
+}

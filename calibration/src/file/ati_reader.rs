@@ -1,9 +1,8 @@
 //! Reads ATI's calibration files.
 
-use fingertip_wrench::units::LengthUnit;
 use roxmltree::{Document, Node};
 
-use super::ati::FINITE_IN_SI;
+use super::ati::{FINITE_IN_SI, length};
 use super::{AtiAxis, AtiCalibration, AtiError};
 use crate::Axis;
 
@@ -100,11 +99,6 @@ fn number(node: Node<'_, '_>, name: &str) -> Result<f64, AtiError> {
     let text = attribute(node, name)?;
     let number: f64 = text.trim().parse().map_err(|_| bad(node, name, text, "must be a number"))?;
     if number.is_finite() { Ok(number) } else { Err(bad(node, name, text, "must be finite")) }
-}
-
-/// Metres of a unit of length.
-pub(super) fn length(name: &str) -> Option<f64> {
-    LengthUnit::from_name(name).map(LengthUnit::in_metres)
 }
 
 fn unit(node: Node<'_, '_>, name: &str, size: impl Fn(&str) -> Option<f64>) -> Result<String, AtiError> {

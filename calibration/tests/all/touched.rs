@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, Placement, Touch, TubeSpace, Wall};
 use fingertip_calibration::nalgebra::{Vector3, Vector6};
-use fingertip_surfaces::Sphere;
+use fingertip_surfaces::{Plane, Sphere};
 use rand::SeedableRng as _;
 use rand_pcg::Pcg64Mcg;
 
@@ -97,6 +97,22 @@ fn touches_of_a_surface_are_spread_by_its_area() {
     let with_friction = Touch::on_surface(&sphere, centre, 14e-3, 0.4, 3.0).unwrap();
     assert!(with_friction.len().is_multiple_of(8) && with_friction.iter().all(|touch| ratio(touch) <= 0.4));
     assert!(Touch::on_surface(&sphere, centre, 0.0, 0.4, 3.0).is_err());
+}
+
+#[test]
+fn of_an_unbounded_surface_the_part_within_the_ball_is_touched() {
+    let plane = Plane::new(Vector3::new(0.0, 0.0, 5e-3), Vector3::z()).unwrap();
+    let (about, reach) = (Vector3::new(1e-3, 0.0, 5e-3), 20e-3);
+    let touches = Touch::on_surface(&plane, about, reach, 0.0, 1.0).unwrap();
+    let share = |r: f64| {
+        let within = touches.iter().filter(|touch| (touch.point - about).norm() <= r);
+        within.count() as f64 / touches.len() as f64
+    };
+    assert!(
+        share(reach * (1.0 + 1e-9)) == 1.0 && (share(reach / 2.0) - 0.25).abs() < 0.02,
+        "{}",
+        share(0.01)
+    );
 }
 
 #[test]

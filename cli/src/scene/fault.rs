@@ -6,7 +6,8 @@ use fingertip::friction::BadParameter;
 use fingertip::surfaces::{BadShape, MeshError};
 use thiserror::Error;
 
-use super::VERSION;
+/// The version of the format that this program reads.
+pub(super) const VERSION: u32 = 1;
 
 /// What is wrong, and on which line, if that is known.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 //!
 //! Format, units and defaults are documented in `examples/scenes/README.md`, and nowhere else.
 
-mod fault;
+pub(crate) mod fault;
 mod hostile;
 mod simulated;
 mod stages;
@@ -24,12 +24,9 @@ pub(crate) use stages::{Friction, SlipWatch};
 
 use crate::error::{CliError, Place};
 use crate::shape::{Projection, Shape};
-use fault::SceneFault;
+use fault::{SceneFault, VERSION};
 use stages::{ContactSection, FrictionSection, SlipSection};
 use surface::{MapSection, MeshSection, PoseSection, SurfaceSection, place};
-
-/// The version of the format that this program reads.
-const VERSION: u32 = 1;
 
 /// Which of the two opposite loads of a contact the recording holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]

@@ -7,7 +7,7 @@ use fingertip_drivers::devices::{AddressError, ConnectError};
 use fingertip_simulation::SimulationError;
 use thiserror::Error;
 
-use crate::felt::NoZero;
+use crate::felt::rest::NoZero;
 
 /// Why there are no samples, or no more.
 #[derive(Debug, Error)]

@@ -153,3 +153,66 @@ fn a_steepness_without_a_bound_on_the_surface_and_one_that_is_exceeded_are_refus
     assert!(Implicit::new(written(|[x, y, z]| x + y + z, f64::NAN)).is_err());
     assert!(Implicit::new(written(|[x, _, _]| x * 0.0, 1.0)).is_err());
 }
+
+/// A term at a point is the number that the formula gives there, and its derivatives by hand.
+#[test]
+fn terms_at_a_point_are_numbers_and_their_slopes() {
+    let (a, b, c) = (0.7_f64, -0.4_f64, 1.3_f64);
+    let at = |formula: &dyn Fn([Term<f64>; 3]) -> Term<f64>| {
+        let surface = written(formula, 2.0);
+        let point = Vector3::new(a, b, c);
+        (surface.value(&point), surface.gradient(&point))
+    };
+    type Formula = fn([Term<f64>; 3]) -> Term<f64>;
+    let length = (a * a + b * b).sqrt();
+    let cases: [(&str, Formula, f64, [f64; 3]); 14] = [
+        ("negative", |[x, _, _]| -x, -a, [-1.0, 0.0, 0.0]),
+        ("sum", |[x, y, z]| x + y + z + 2.0, a + b + c + 2.0, [1.0, 1.0, 1.0]),
+        ("difference", |[x, y, _]| x - y - 2.0, a - b - 2.0, [1.0, -1.0, 0.0]),
+        ("from a number", |[x, _, _]| 2.0 - x, 2.0 - a, [-1.0, 0.0, 0.0]),
+        ("product", |[x, y, _]| x * y * 3.0, a * b * 3.0, [3.0 * b, 3.0 * a, 0.0]),
+        ("quotient", |[x, y, _]| x / y, a / b, [1.0 / b, -a / (b * b), 0.0]),
+        ("by a number", |[x, _, _]| x / 4.0, a / 4.0, [0.25, 0.0, 0.0]),
+        ("power", |[_, y, _]| y.powi(3), b.powi(3), [0.0, 3.0 * b * b, 0.0]),
+        ("absolute", |[_, y, _]| y.abs(), -b, [0.0, -1.0, 0.0]),
+        ("larger", |[x, y, _]| x.max(y), a, [1.0, 0.0, 0.0]),
+        ("smaller", |[x, y, _]| x.min(y), b, [0.0, 1.0, 0.0]),
+        ("waves", |[x, y, _]| x.sin() + y.cos(), a.sin() + b.cos(), [a.cos(), -b.sin(), 0.0]),
+        ("growth", |[_, _, z]| z.exp() + z.sqrt(), c.exp() + c.sqrt(), [0.0, 0.0, c.exp() + 0.5 / c.sqrt()]),
+        ("length", |[x, y, _]| Term::length([x, y]), length, [a / length, b / length, 0.0]),
+    ];
+    for (name, formula, value, slopes) in cases {
+        let (found, gradient) = at(&formula);
+        assert!((found - value).abs() < 1e-14, "{name}: {found}, not {value}");
+        assert!((gradient - Vector3::from(slopes)).amax() < 1e-14, "{name}: {gradient}, not {slopes:?}");
+    }
+    // On an edge it is the mean of both sides.
+    let edge = written(|[x, y, _]: [Term<f64>; 3]| x.max(y * 3.0), 1.0);
+    assert_eq!(edge.gradient(&Vector3::zeros()), Vector3::new(0.5, 1.5, 0.0));
+}
+
+/// Of monotone stretches a range has the values at the ends, and reaches one where it passes a crest.
+#[test]
+fn ranges_of_waves_end_where_the_waves_do() {
+    let crests = |low: f64, high: f64, crest: f64| {
+        let turn = core::f64::consts::TAU;
+        ((low - crest) / turn).ceil() <= ((high - crest) / turn).floor()
+    };
+    for k in 0..400 {
+        let low = f64::from(k) * 0.06 - 12.0;
+        for width in [0.01, 0.3, 1.0, 2.5] {
+            let high = low + width;
+            let [x, ..] = Term::over([[low, high], [0.0; 2], [0.0; 2]]);
+            for (found, ends, top) in [
+                (x.sin().range(), [low.sin(), high.sin()], core::f64::consts::FRAC_PI_2),
+                (x.cos().range(), [low.cos(), high.cos()], 0.0),
+            ] {
+                let greatest = if crests(low, high, top) { 1.0 } else { ends[0].max(ends[1]) };
+                let least =
+                    if crests(low, high, top + core::f64::consts::PI) { -1.0 } else { ends[0].min(ends[1]) };
+                assert!((found[0] - least).abs() < 1e-12, "{low} to {high}: {found:?}, not {least}");
+                assert!((found[1] - greatest).abs() < 1e-12, "{low} to {high}: {found:?}, not {greatest}");
+            }
+        }
+    }
+}
