@@ -59,18 +59,7 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
         self,
         payload: Next,
     ) -> FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Present<Next>> {
-        let Fingertip { zero, solver, surface, model, friction, detector, .. } = self.fingertip;
-        FingertipBuilder {
-            fingertip: Fingertip {
-                zero,
-                solver,
-                payload: Present(payload),
-                surface,
-                model,
-                friction,
-                detector,
-            },
-        }
+        self.payload_stage(Present(payload))
     }
 
     /// The shape that may touch, and the assumption under which the contact is found on it.
@@ -90,18 +79,7 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
         self,
         friction: Next,
     ) -> FingertipBuilder<Solver, Surface, Model, Present<Next>, Detector, Zero, Payload> {
-        let Fingertip { zero, solver, payload, surface, model, detector, .. } = self.fingertip;
-        FingertipBuilder {
-            fingertip: Fingertip {
-                zero,
-                solver,
-                payload,
-                surface,
-                model,
-                friction: Present(friction),
-                detector,
-            },
-        }
+        self.friction_stage(Present(friction))
     }
 
     /// What watches for slip from sample to sample.
@@ -109,18 +87,7 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
         self,
         detector: Next,
     ) -> FingertipBuilder<Solver, Surface, Model, Friction, Present<Next>, Zero, Payload> {
-        let Fingertip { zero, solver, payload, surface, model, friction, .. } = self.fingertip;
-        FingertipBuilder {
-            fingertip: Fingertip {
-                zero,
-                solver,
-                payload,
-                surface,
-                model,
-                friction,
-                detector: Present(detector),
-            },
-        }
+        self.slip_stage(Present(detector))
     }
 
     /// A stage of your own in the place of [`payload`](Self::payload): any
