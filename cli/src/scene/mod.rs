@@ -18,13 +18,12 @@ use nalgebra::Vector3;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-pub(crate) use fault::SceneProblem;
 pub(crate) use simulated::least_static_coefficient;
 pub(crate) use stages::{Friction, SlipWatch};
 
 use crate::error::{CliError, Place};
 use crate::shape::{Projection, Shape};
-use fault::{SceneFault, VERSION};
+use fault::{SceneFault, SceneProblem, VERSION};
 use stages::{ContactSection, FrictionSection, SlipSection};
 use surface::{MapSection, MeshSection, PoseSection, SurfaceSection, place};
 
