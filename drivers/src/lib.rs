@@ -28,4 +28,4 @@ pub mod sensors;
 mod source;
 
 pub use awaited::AsyncSource;
-pub use source::{ErrorType, Sample, SignalSource, SourceError, SourceErrorKind, WrenchSource};
+pub use source::{Sample, Source, SourceError, SourceErrorKind};

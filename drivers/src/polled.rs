@@ -1,6 +1,6 @@
 //! Sources for a control loop that must not wait.
 
-use crate::{ErrorType, Sample};
+use crate::{Sample, SourceError};
 
 /// Gives samples of `V` (a [`Wrench`](fingertip_wrench::Wrench), or the raw signals of `N` channels) without waiting.
 ///
@@ -9,9 +9,12 @@ use crate::{ErrorType, Sample};
 /// by asking often.
 ///
 /// # For implementers
-/// The contract of [`WrenchSource`](crate::WrenchSource) and [`SignalSource`](crate::SignalSource), except that a call
+/// The contract of [`Source`](crate::Source), except that a call
 /// shall return at once. A device implements it if its transport allows it, over the same core, which does no I/O.
-pub trait NbSource<T, V>: ErrorType {
+pub trait NbSource<T, V> {
+    /// What can go wrong.
+    type Error: SourceError;
+
     /// The next sample that is there already, or `None` at the end.
     ///
     /// # Errors
@@ -20,6 +23,8 @@ pub trait NbSource<T, V>: ErrorType {
 }
 
 impl<T, V, S: NbSource<T, V> + ?Sized> NbSource<T, V> for &mut S {
+    type Error = S::Error;
+
     #[inline]
     fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, V>>, Self::Error> {
         (**self).poll_sample()

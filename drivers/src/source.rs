@@ -2,9 +2,6 @@
 
 use core::fmt::Debug;
 
-use fingertip_wrench::{Real, Wrench};
-use nalgebra::SVector;
-
 /// What kind of thing went wrong, common to all sources.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -38,17 +35,6 @@ impl SourceError for core::convert::Infallible {
     }
 }
 
-/// The error of a source, apart from the traits so that one type can be a source of several
-/// things with one error.
-pub trait ErrorType {
-    /// What can go wrong.
-    type Error: SourceError;
-}
-
-impl<S: ErrorType + ?Sized> ErrorType for &mut S {
-    type Error = S::Error;
-}
-
 /// One sample and when it was taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample<T, V> {
@@ -59,48 +45,35 @@ pub struct Sample<T, V> {
     pub value: V,
 }
 
-/// Gives the raw signals of `N` channels, one sample at a time: converters, recordings of volts,
-/// the simulated fingertip.
+/// Gives samples of `V`, one at a time: the raw signals of `N` channels (an `SVector<T, N>`: converters, recordings
+/// of volts, the simulated fingertip) or wrenches (a [`Wrench`](fingertip_wrench::Wrench): force/torque sensors and
+/// recordings of them).
 ///
 /// # For users
-/// `while let Some(sample) = source.next_signals()? { … }`. A sample that comes is sound: a source
+/// `while let Some(sample) = source.next_sample()? { … }`. A sample that comes is sound: a source
 /// answers a corrupt one with an error, never with old or made-up numbers. After an error the next
-/// call tries the next sample.
+/// call tries the next sample. Wrenches are the load on the fingertip \[N, N·m\] in the sensor frame; channels are in
+/// the unit that the source documents (volts or counts), without tare.
 ///
 /// # For implementers
-/// `next_signals` shall return every sample once, in the order in which they were taken, and
-/// `Ok(None)` only when there will never be another one. Channels are in the unit that the source
-/// documents (volts or counts), without tare.
-pub trait SignalSource<T: Real, const N: usize>: ErrorType {
+/// `next_sample` shall return every sample once, in the order in which they were taken, and
+/// `Ok(None)` only when there will never be another one.
+pub trait Source<T, V> {
+    /// What can go wrong.
+    type Error: SourceError;
+
     /// The next sample, or `None` at the end.
     ///
     /// # Errors
     /// Whatever keeps the source from giving a sound sample.
-    fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error>;
+    fn next_sample(&mut self) -> Result<Option<Sample<T, V>>, Self::Error>;
 }
 
-/// Gives wrenches, one sample at a time: force/torque sensors and recordings of them.
-///
-/// The same contract as [`SignalSource`]; the wrench is the load on the fingertip \[N, N·m\] in
-/// the sensor frame.
-pub trait WrenchSource<T: Real>: ErrorType {
-    /// The next sample, or `None` at the end.
-    ///
-    /// # Errors
-    /// Whatever keeps the source from giving a sound sample.
-    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error>;
-}
+impl<T, V, S: Source<T, V> + ?Sized> Source<T, V> for &mut S {
+    type Error = S::Error;
 
-impl<T: Real, const N: usize, S: SignalSource<T, N> + ?Sized> SignalSource<T, N> for &mut S {
     #[inline]
-    fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
-        (**self).next_signals()
-    }
-}
-
-impl<T: Real, S: WrenchSource<T> + ?Sized> WrenchSource<T> for &mut S {
-    #[inline]
-    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
-        (**self).next_wrench()
+    fn next_sample(&mut self) -> Result<Option<Sample<T, V>>, Self::Error> {
+        (**self).next_sample()
     }
 }

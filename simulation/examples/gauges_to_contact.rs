@@ -20,7 +20,7 @@ use fingertip_drivers::converters::ads131m::{
 };
 use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
 use fingertip_drivers::middleware::Solved;
-use fingertip_drivers::{SignalSource, SourceError, SourceErrorKind, WrenchSource};
+use fingertip_drivers::{Source, SourceError, SourceErrorKind};
 use fingertip_simulation::{Design, SurfacePoint};
 use nalgebra::{SMatrix, Vector3};
 use rand::SeedableRng;
@@ -113,7 +113,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let excitation =
         Excitation::Measured { channel: 6, volts_per_count: DIVIDER * full_scale(6)? / 8_388_608.0 };
     let front_end = BridgeFrontEnd::<f64, 6, 8>::new(bridges, excitation)?;
-    let counts = SignalSource::<f64, 8>::next_signals(&mut converter)?.ok_or("the converter has ended")?;
+    let counts =
+        Source::<f64, SVector<f64, 8>>::next_sample(&mut converter)?.ok_or("the converter has ended")?;
     let at_rest = front_end.strain_with_bounds(&counts.value)?;
     println!(
         "strain: resolution {:.4} µm/m, noise {:.3} µm/m",
@@ -126,7 +127,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut tare = TareAccumulator::<f64, 6>::default();
     let mut damaged = 0;
     for _ in 0..200 {
-        match strains.next_signals() {
+        match strains.next_sample() {
             Ok(Some(sample)) => drop(tare.add(&sample.value)),
             Ok(None) => break,
             Err(error) if error.kind() == SourceErrorKind::Corrupt => damaged += 1,
@@ -146,7 +147,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut time = bench.now() as f64 * 1e-9;
     let mut presses: Vec<Press> = Vec::new();
     while time < 1.1 {
-        let wrench = match wrenches.next_wrench() {
+        let wrench = match wrenches.next_sample() {
             Ok(Some(sample)) => sample.value,
             Ok(None) => break,
             Err(error) if error.kind() == SourceErrorKind::Corrupt => {

@@ -19,7 +19,7 @@ use fingertip::Fingertip;
 use fingertip::contact::PointContact;
 use fingertip::friction::Coulomb;
 use fingertip::surfaces::Sphere;
-use fingertip_drivers::WrenchSource;
+use fingertip_drivers::Source;
 use fingertip_drivers::polled::NbSource;
 use fingertip_drivers::sensors::LinkStatistics;
 use fingertip_drivers::sensors::ati_rdt::{ClientError, CountsPerUnit, RdtClient, Record};
@@ -50,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
             let before = now();
             sensor.send(&record(number).emit())?;
-            let wrench = client.next_wrench()?.ok_or("the sensor is gone")?.value;
+            let wrench = client.next_sample()?.ok_or("the sensor is gone")?.value;
             let touch = fingertip.sense_wrench(wrench, 1.0 / RATE);
             touch.resolution.into_result().map_err(|reason| format!("no contact: {reason:?}"))?;
             latencies.push(now().saturating_sub(before));
@@ -85,7 +85,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 Err(nb::Error::Other(error)) => Err(error),
             }
         } else {
-            client.next_wrench()
+            client.next_sample()
         };
         let wrench = match next {
             Ok(Some(sample)) => sample.value,

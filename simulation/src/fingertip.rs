@@ -15,7 +15,7 @@ use crate::imperfections::{BuiltSensor, Imperfections};
 use crate::script::Script;
 use crate::thermal_drift::{Temperature, ThermalDrift};
 use crate::timeline::{Phase, Timeline, TrueContact};
-use fingertip_drivers::{ErrorType, Sample, SignalSource};
+use fingertip_drivers::{Sample, Source};
 
 /// Everything that can be chosen about a simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +86,7 @@ impl SimulatedSample {
 }
 
 /// Plays a [`Script`] on the paper's sensor: an iterator of [`SimulatedSample`]s, and a
-/// [`SignalSource`] of seven channels (six gauges and the dummy gauge).
+/// [`Source`] of seven channels (six gauges and the dummy gauge).
 #[derive(Clone, Debug)]
 pub struct SimulatedFingertip {
     options: Options,
@@ -235,12 +235,10 @@ impl Iterator for SimulatedFingertip {
     }
 }
 
-impl ErrorType for SimulatedFingertip {
+impl Source<f64, SVector<f64, 7>> for SimulatedFingertip {
     type Error = Infallible;
-}
 
-impl SignalSource<f64, 7> for SimulatedFingertip {
-    fn next_signals(&mut self) -> Result<Option<Sample<f64, SVector<f64, 7>>>, Infallible> {
+    fn next_sample(&mut self) -> Result<Option<Sample<f64, SVector<f64, 7>>>, Infallible> {
         Ok(self.next_sample().map(|sample| Sample { time: Some(sample.time), value: sample.raw }))
     }
 }

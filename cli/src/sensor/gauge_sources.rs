@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-use fingertip_drivers::{Sample, SignalSource, SourceError, SourceErrorKind};
+use fingertip_drivers::{Sample, Source, SourceError, SourceErrorKind};
 use fingertip_recordings::mcap::{McapReader, Recorded};
 use fingertip_recordings::{RecordingError, RecordingReader};
 use thiserror::Error;
@@ -171,7 +171,7 @@ pub(super) struct SimulatedGauges {
 
 impl GaugeSource for SimulatedGauges {
     fn next(&mut self) -> Result<Option<Owned>, GaugeFault> {
-        let Ok(sample) = self.rounds.next_signals();
+        let Ok(sample) = self.rounds.next_sample();
         Ok(sample.and_then(|Sample { time, value }| {
             let (dummy, gauges) = value.as_slice().split_last()?;
             Some(Owned { time, gauges: gauges.to_vec(), dummy: Some(*dummy), celsius: self.celsius })

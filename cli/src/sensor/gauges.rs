@@ -4,7 +4,7 @@ use std::path::Path;
 
 use fingertip::wrench::Wrench;
 use fingertip_drivers::middleware::Paced;
-use fingertip_drivers::{ErrorType, Sample, WrenchSource};
+use fingertip_drivers::{Sample, Source};
 use fingertip_recordings::{HeaderProblem, RecordingReader, SignalUnit};
 
 use super::gauge_sources::{CsvGauges, GaugeFault, GaugeSource, McapGauges, SimulatedGauges};
@@ -85,12 +85,10 @@ struct CalibratedWrenches {
     first: Option<f64>,
 }
 
-impl ErrorType for CalibratedWrenches {
+impl Source<f64, Wrench<f64>> for CalibratedWrenches {
     type Error = GaugeFault;
-}
 
-impl WrenchSource<f64> for CalibratedWrenches {
-    fn next_wrench(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, GaugeFault> {
+    fn next_sample(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, GaugeFault> {
         while let Some(reading) = self.source.next()? {
             if let Some(rest) = self.rest {
                 let time = reading.time.ok_or_else(|| {

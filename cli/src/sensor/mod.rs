@@ -10,7 +10,7 @@ mod simulated;
 mod stream;
 
 use fingertip::wrench::Wrench;
-use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
+use fingertip_drivers::{Source, SourceError, SourceErrorKind};
 use nalgebra::SVector;
 
 pub(crate) use devices::{address, help, is_simulated, open};
@@ -64,12 +64,12 @@ struct SourceFeed<S, L> {
 
 impl<S, L> Feed for SourceFeed<S, L>
 where
-    S: WrenchSource<f64> + Send,
+    S: Source<f64, Wrench<f64>> + Send,
     S::Error: core::error::Error + Send + Sync + 'static,
     L: Fn(&S) -> Losses + Send,
 {
     fn next(&mut self) -> Result<Next, SensorError> {
-        match self.source.next_wrench() {
+        match self.source.next_sample() {
             Ok(Some(sample)) => {
                 Ok(Next::Reading(Reading { time: sample.time, wrench: sample.value, volts: None }))
             }

@@ -6,9 +6,9 @@ use fingertip::wrench::{
     Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy, GaussianElimination, WrenchSolver,
 };
 use fingertip_drivers::middleware::Paced;
-use fingertip_drivers::{ErrorType, Sample, SignalSource};
+use fingertip_drivers::{Sample, Source};
 use fingertip_simulation::{Options, SimulatedFingertip, standard_session};
-use nalgebra::Vector6;
+use nalgebra::{SVector, Vector6};
 
 use super::{Address, Feed, Losses, Next, Reading, SensorError, Volts};
 
@@ -26,12 +26,10 @@ impl Rounds {
     }
 }
 
-impl ErrorType for Rounds {
+impl Source<f64, SVector<f64, 7>> for Rounds {
     type Error = Infallible;
-}
 
-impl SignalSource<f64, 7> for Rounds {
-    fn next_signals(&mut self) -> Result<Option<Sample<f64, Volts>>, Infallible> {
+    fn next_sample(&mut self) -> Result<Option<Sample<f64, Volts>>, Infallible> {
         let next = self.fingertip.next_sample().or_else(|| {
             self.before += self.fresh.duration();
             self.fingertip = self.fresh.clone();
@@ -72,7 +70,7 @@ pub(super) fn open(address: &Address) -> Result<Box<dyn Feed>, SensorError> {
 
 impl Feed for Simulated {
     fn next(&mut self) -> Result<Next, SensorError> {
-        let Ok(sample) = self.source.next_signals();
+        let Ok(sample) = self.source.next_sample();
         let Some(Sample { time, value: volts }) = sample else { return Ok(Next::End) };
         let [v1, v2, v3, v4, v5, v6, dummy] = volts.into();
         let reading = GaugesAndDummy { gauges: Vector6::new(v1, v2, v3, v4, v5, v6), dummy };
@@ -87,7 +85,7 @@ impl Feed for Simulated {
 
 #[cfg(test)]
 mod tests {
-    use fingertip_drivers::SignalSource;
+    use fingertip_drivers::Source;
     use fingertip_simulation::{Options, Script, SimulatedFingertip};
 
     use super::super::address;
@@ -100,7 +98,7 @@ mod tests {
         let round: Vec<_> = session.clone().collect();
         let mut rounds = Rounds::new(session);
         for number in 0..3 * round.len() {
-            let Ok(Some(sample)) = rounds.next_signals() else { panic!("no sample") };
+            let Ok(Some(sample)) = rounds.next_sample() else { panic!("no sample") };
             let expected = number as f64 * 0.01;
             assert!((sample.time.unwrap() - expected).abs() < 1e-9, "{:?} for {expected}", sample.time);
             assert_eq!(sample.value, round[number % round.len()].raw);

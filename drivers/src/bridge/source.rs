@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use super::front_end::{BridgeFault, BridgeFrontEnd};
 use crate::polled::NbSource;
-use crate::{AsyncSource, ErrorType, Sample, SignalSource, SourceError, SourceErrorKind};
+use crate::{AsyncSource, Sample, Source, SourceError, SourceErrorKind};
 
 /// Why there is no strain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -66,15 +66,13 @@ impl<S, T: Real, const N: usize, const M: usize> Bridged<S, T, N, M> {
     }
 }
 
-impl<S: ErrorType, T, const N: usize, const M: usize> ErrorType for Bridged<S, T, N, M> {
-    type Error = BridgedError<S::Error>;
-}
-
-impl<T: Real, S: SignalSource<T, M>, const N: usize, const M: usize> SignalSource<T, N>
+impl<T: Real, S: Source<T, SVector<T, M>>, const N: usize, const M: usize> Source<T, SVector<T, N>>
     for Bridged<S, T, N, M>
 {
-    fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
-        let sample = self.source.next_signals().map_err(BridgedError::Source)?;
+    type Error = BridgedError<S::Error>;
+
+    fn next_sample(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
+        let sample = self.source.next_sample().map_err(BridgedError::Source)?;
         self.strained(sample)
     }
 }
@@ -82,6 +80,8 @@ impl<T: Real, S: SignalSource<T, M>, const N: usize, const M: usize> SignalSourc
 impl<T: Real, S: NbSource<T, SVector<T, M>>, const N: usize, const M: usize> NbSource<T, SVector<T, N>>
     for Bridged<S, T, N, M>
 {
+    type Error = BridgedError<S::Error>;
+
     fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
         let sample = self.source.poll_sample().map_err(|error| error.map(BridgedError::Source))?;
         self.strained(sample).map_err(nb::Error::Other)
@@ -91,6 +91,8 @@ impl<T: Real, S: NbSource<T, SVector<T, M>>, const N: usize, const M: usize> NbS
 impl<T: Real, S: AsyncSource<T, SVector<T, M>>, const N: usize, const M: usize> AsyncSource<T, SVector<T, N>>
     for Bridged<S, T, N, M>
 {
+    type Error = BridgedError<S::Error>;
+
     async fn next_sample(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
         let sample = self.source.next_sample().await.map_err(BridgedError::Source)?;
         self.strained(sample)

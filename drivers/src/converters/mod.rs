@@ -9,7 +9,7 @@
 //! * a **simulator** (feature `simulation`) that implements the `embedded-hal` traits, speaks the same
 //!   bytes back, keeps its own time and injects faults; see `SimulatedBench`.
 //!
-//! A converter is a [`SignalSource`](crate::SignalSource) of counts, one number for each channel. Counts
+//! A converter is a [`Source`](crate::Source) of counts, one number for each channel. Counts
 //! become strain in the module [`bridge`](crate::bridge).
 //!
 //! # What is promised

@@ -4,7 +4,7 @@
 /// `state`.
 #[allow(unused_macros, reason = "without such a converter there is nobody to use it")]
 macro_rules! parts {
-    ($name:ident, $bus:path, $pin:path, $delay:path, $bus_error:path $(, $size:ident)?) => {
+    ($name:ident, $bus:path, $pin:path, $delay:path $(, $size:ident)?) => {
         impl<B: $bus, P: $pin, D: $delay $(, const $size: usize)?> $name<B, P, D $(, $size)?> {
             /// The parts.
             #[must_use]
@@ -17,12 +17,6 @@ macro_rules! parts {
             pub const fn statistics(&self) -> &$crate::converters::ConverterStatistics {
                 &self.state.statistics
             }
-        }
-
-        impl<B: $bus_error, P: embedded_hal::digital::ErrorType, D $(, const $size: usize)?> $crate::ErrorType
-            for $name<B, P, D $(, $size)?>
-        {
-            type Error = $crate::converters::ConverterError<B::Error, P::Error>;
         }
     };
 }

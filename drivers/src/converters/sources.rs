@@ -5,14 +5,16 @@
 #[allow(unused_macros, reason = "without such a converter there is nobody to use it")]
 macro_rules! sources {
     ($blocking:ident, $awaited:ident) => {
-        impl<T: fingertip_wrench::Real, S, P, D, const N: usize> $crate::SignalSource<T, N>
+        impl<T: fingertip_wrench::Real, S, P, D, const N: usize> $crate::Source<T, nalgebra::SVector<T, N>>
             for $blocking<S, P, D, N>
         where
             S: embedded_hal::spi::SpiDevice,
             P: embedded_hal::digital::InputPin,
             D: embedded_hal::delay::DelayNs,
         {
-            fn next_signals(
+            type Error = $crate::converters::ConverterError<S::Error, P::Error>;
+
+            fn next_sample(
                 &mut self,
             ) -> Result<Option<$crate::Sample<T, nalgebra::SVector<T, N>>>, Self::Error> {
                 let value = self.read()?.signals()?;
@@ -27,6 +29,8 @@ macro_rules! sources {
             P: embedded_hal_async::digital::Wait,
             D: embedded_hal_async::delay::DelayNs,
         {
+            type Error = $crate::converters::ConverterError<S::Error, P::Error>;
+
             async fn next_sample(
                 &mut self,
             ) -> Result<Option<$crate::Sample<T, nalgebra::SVector<T, N>>>, Self::Error> {

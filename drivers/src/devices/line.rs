@@ -8,7 +8,7 @@ use fingertip_wrench::Wrench;
 
 use super::{Address, ConnectError, Link, Losses, OpenSensor, Opened, REPLY, SensorFault, WAIT, source};
 use crate::sensors::line::{LineDecoder, LineSensor};
-use crate::{Sample, SourceError, SourceErrorKind, WrenchSource};
+use crate::{Sample, Source, SourceError, SourceErrorKind};
 
 /// A serial port or a TCP connection.
 pub(crate) trait Line: Read + Write + Send {}
@@ -97,7 +97,7 @@ where
         self.sensor.line_mut().write_all(&self.request).map_err(|error| {
             SensorFault::of_kind(SourceErrorKind::Transport, format!("cannot ask the sensor: {error}"))
         })?;
-        let next = self.sensor.next_wrench().map_err(SensorFault::new);
+        let next = self.sensor.next_sample().map_err(SensorFault::new);
         self.silent += u64::from(next.as_ref().is_err_and(|fault| fault.kind() == SourceErrorKind::Timeout));
         next
     }
@@ -148,11 +148,11 @@ pub(crate) mod tests {
         let mut sensor = asked(line(io::ErrorKind::TimedOut), decoder(), b"R".to_vec(), |_| Some(1));
         assert_eq!(sensor.losses().lost, Some(1));
         for expected in 1..5 {
-            assert_eq!(sensor.next_wrench().unwrap_err().kind(), SourceErrorKind::Timeout);
+            assert_eq!(sensor.next_sample().unwrap_err().kind(), SourceErrorKind::Timeout);
             assert_eq!(sensor.losses().lost, Some(expected));
         }
         let mut gone = asked(line(io::ErrorKind::BrokenPipe), decoder(), b"R".to_vec(), |_| None);
-        let fault = gone.next_wrench().unwrap_err();
+        let fault = gone.next_sample().unwrap_err();
         assert_eq!(fault.kind(), SourceErrorKind::Transport);
         assert!(fault.to_string().starts_with("cannot ask the sensor"));
         assert_eq!(gone.losses().lost, Some(0));

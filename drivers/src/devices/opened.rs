@@ -6,7 +6,7 @@ use core::fmt;
 use fingertip_wrench::Wrench;
 
 use super::Losses;
-use crate::{ErrorType, Sample, SourceError, SourceErrorKind, WrenchSource};
+use crate::{Sample, Source, SourceError, SourceErrorKind};
 
 /// Why an open sensor has no sample to give.
 #[derive(Debug)]
@@ -65,12 +65,10 @@ impl OpenSensor {
     }
 }
 
-impl ErrorType for OpenSensor {
+impl Source<f64, Wrench<f64>> for OpenSensor {
     type Error = SensorFault;
-}
 
-impl WrenchSource<f64> for OpenSensor {
-    fn next_wrench(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, SensorFault> {
+    fn next_sample(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, SensorFault> {
         self.0.next()
     }
 }
@@ -91,7 +89,7 @@ impl Opened for OpenSensor {
 }
 
 /// A source and what it says of its losses.
-struct Source<S, L> {
+struct Counted<S, L> {
     source: S,
     losses: L,
 }
@@ -99,20 +97,20 @@ struct Source<S, L> {
 /// A source as an open sensor.
 pub(crate) fn source<S>(source: S, losses: impl Fn(&S) -> Losses + Send + 'static) -> OpenSensor
 where
-    S: WrenchSource<f64> + Send + 'static,
+    S: Source<f64, Wrench<f64>> + Send + 'static,
     S::Error: Error + Send + Sync + 'static,
 {
-    OpenSensor::new(Source { source, losses })
+    OpenSensor::new(Counted { source, losses })
 }
 
-impl<S, L> Opened for Source<S, L>
+impl<S, L> Opened for Counted<S, L>
 where
-    S: WrenchSource<f64> + Send,
+    S: Source<f64, Wrench<f64>> + Send,
     S::Error: Error + Send + Sync + 'static,
     L: Fn(&S) -> Losses + Send,
 {
     fn next(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, SensorFault> {
-        self.source.next_wrench().map_err(SensorFault::new)
+        self.source.next_sample().map_err(SensorFault::new)
     }
     fn losses(&self) -> Losses {
         (self.losses)(&self.source)

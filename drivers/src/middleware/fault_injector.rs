@@ -6,7 +6,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use thiserror::Error;
 
-use crate::{ErrorType, Sample, SignalSource, SourceError, SourceErrorKind, WrenchSource};
+use crate::{Sample, Source, SourceError, SourceErrorKind};
 
 /// What happens to samples: probabilities between 0 and 1, taken in this order; at most one happens
 /// to a sample.
@@ -209,20 +209,10 @@ impl<S, T: Real, V: Copy> FaultInjector<S, T, V> {
     }
 }
 
-impl<S: ErrorType, T, V> ErrorType for FaultInjector<S, T, V> {
+impl<T: Real, V: Copy + Components<T>, S: Source<T, V>> Source<T, V> for FaultInjector<S, T, V> {
     type Error = InjectedError<S::Error>;
-}
 
-impl<T: Real, S: WrenchSource<T>> WrenchSource<T> for FaultInjector<S, T, Wrench<T>> {
-    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
-        self.inject(S::next_wrench)
-    }
-}
-
-impl<T: Real, const N: usize, S: SignalSource<T, N>> SignalSource<T, N>
-    for FaultInjector<S, T, SVector<T, N>>
-{
-    fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
-        self.inject(S::next_signals)
+    fn next_sample(&mut self) -> Result<Option<Sample<T, V>>, Self::Error> {
+        self.inject(S::next_sample)
     }
 }

@@ -4,10 +4,9 @@ use core::time::Duration;
 use std::thread;
 use std::time::Instant;
 
-use fingertip_wrench::{Real, Wrench};
-use nalgebra::SVector;
+use fingertip_wrench::Real;
 
-use crate::{ErrorType, Sample, SignalSource, WrenchSource};
+use crate::{Sample, Source};
 
 /// Gives each sample no sooner than its time says, counted from the first: a recording that plays.
 ///
@@ -66,20 +65,11 @@ impl<S> Paced<S> {
     }
 }
 
-impl<S: ErrorType> ErrorType for Paced<S> {
+impl<T: Real, V, S: Source<T, V>> Source<T, V> for Paced<S> {
     type Error = S::Error;
-}
 
-impl<T: Real, S: WrenchSource<T>> WrenchSource<T> for Paced<S> {
-    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, S::Error> {
-        let sample = self.source.next_wrench()?;
-        Ok(self.paced(sample))
-    }
-}
-
-impl<T: Real, const N: usize, S: SignalSource<T, N>> SignalSource<T, N> for Paced<S> {
-    fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, S::Error> {
-        let sample = self.source.next_signals()?;
+    fn next_sample(&mut self) -> Result<Option<Sample<T, V>>, S::Error> {
+        let sample = self.source.next_sample()?;
         Ok(self.paced(sample))
     }
 }

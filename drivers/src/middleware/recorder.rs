@@ -1,10 +1,7 @@
 //! Writes down what passes through.
 
-use fingertip_wrench::{Real, Wrench};
-use nalgebra::SVector;
-
 use crate::polled::NbSource;
-use crate::{AsyncSource, ErrorType, Sample, SignalSource, WrenchSource};
+use crate::{AsyncSource, Sample, Source};
 
 /// A source whose samples are written down before they are given: to a CSV or MCAP file or a ring buffer, by a
 /// closure.
@@ -18,7 +15,7 @@ use crate::{AsyncSource, ErrorType, Sample, SignalSource, WrenchSource};
 /// use fingertip_drivers::middleware::Recorder;
 /// use fingertip_drivers::playback::WrenchPlayback;
 /// use fingertip_recordings::{RecordingReader, RecordingWriter, Schema};
-/// use fingertip_drivers::{Sample, WrenchSource};
+/// use fingertip_drivers::{Sample, Source};
 /// use fingertip_wrench::Wrench;
 ///
 /// let file = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0.5,0.0,0.0,-1.0,0.0,0.0,0.0\n";
@@ -27,7 +24,7 @@ use crate::{AsyncSource, ErrorType, Sample, SignalSource, WrenchSource};
 /// let mut source = Recorder::new(source, |sample: &Sample<f64, Wrench<f64>>| {
 ///     copy.write_wrench(sample.time.unwrap_or(f64::NAN), &sample.value)
 /// });
-/// while let Some(_) = source.next_wrench()? {}
+/// while let Some(_) = source.next_sample()? {}
 /// assert!(source.failure().is_none());
 /// assert_eq!(copy.finish()?, file.as_bytes());
 /// # Ok::<(), fingertip_recordings::RecordingError>(())
@@ -79,28 +76,15 @@ impl<S, R, E> Recorder<S, R, E> {
     }
 }
 
-impl<S: ErrorType, R, E> ErrorType for Recorder<S, R, E> {
+impl<T, V, S, R, E> Source<T, V> for Recorder<S, R, E>
+where
+    S: Source<T, V>,
+    R: FnMut(&Sample<T, V>) -> Result<(), E>,
+{
     type Error = S::Error;
-}
 
-impl<T: Real, S, R, E> WrenchSource<T> for Recorder<S, R, E>
-where
-    S: WrenchSource<T>,
-    R: FnMut(&Sample<T, Wrench<T>>) -> Result<(), E>,
-{
-    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, S::Error> {
-        let sample = self.source.next_wrench()?;
-        Ok(self.recorded(sample))
-    }
-}
-
-impl<T: Real, const N: usize, S, R, E> SignalSource<T, N> for Recorder<S, R, E>
-where
-    S: SignalSource<T, N>,
-    R: FnMut(&Sample<T, SVector<T, N>>) -> Result<(), E>,
-{
-    fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, S::Error> {
-        let sample = self.source.next_signals()?;
+    fn next_sample(&mut self) -> Result<Option<Sample<T, V>>, S::Error> {
+        let sample = self.source.next_sample()?;
         Ok(self.recorded(sample))
     }
 }
@@ -110,6 +94,8 @@ where
     S: NbSource<T, V>,
     R: FnMut(&Sample<T, V>) -> Result<(), E>,
 {
+    type Error = S::Error;
+
     fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, V>>, S::Error> {
         let sample = self.source.poll_sample()?;
         Ok(self.recorded(sample))
@@ -121,6 +107,8 @@ where
     S: AsyncSource<T, V>,
     R: FnMut(&Sample<T, V>) -> Result<(), E>,
 {
+    type Error = S::Error;
+
     async fn next_sample(&mut self) -> Result<Option<Sample<T, V>>, S::Error> {
         let sample = self.source.next_sample().await?;
         Ok(self.recorded(sample))

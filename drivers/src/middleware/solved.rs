@@ -4,7 +4,7 @@ use fingertip_wrench::{Compensation, Real, Wrench, WrenchSolver};
 use nalgebra::SVector;
 
 use crate::polled::NbSource;
-use crate::{AsyncSource, ErrorType, Sample, SignalSource, WrenchSource};
+use crate::{AsyncSource, Sample, Source};
 
 /// Wrenches from the signals of `N` gauges: tare (or another compensation) and solver around any source of
 /// signals, so that a converter with a calibration is a force/torque sensor like any other.
@@ -51,18 +51,16 @@ impl<S, Z, W, const N: usize> Solved<S, Z, W, N> {
     }
 }
 
-impl<S: ErrorType, Z, W, const N: usize> ErrorType for Solved<S, Z, W, N> {
-    type Error = S::Error;
-}
-
-impl<T: Real, S, Z, W, const N: usize> WrenchSource<T> for Solved<S, Z, W, N>
+impl<T: Real, S, Z, W, const N: usize> Source<T, Wrench<T>> for Solved<S, Z, W, N>
 where
-    S: SignalSource<T, N>,
+    S: Source<T, SVector<T, N>>,
     Z: Compensation<T, N, Raw = SVector<T, N>>,
     W: WrenchSolver<T, N>,
 {
-    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, S::Error> {
-        let sample = self.source.next_signals()?;
+    type Error = S::Error;
+
+    fn next_sample(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, S::Error> {
+        let sample = self.source.next_sample()?;
         Ok(self.solved(sample))
     }
 }
@@ -73,6 +71,8 @@ where
     Z: Compensation<T, N, Raw = SVector<T, N>>,
     W: WrenchSolver<T, N>,
 {
+    type Error = S::Error;
+
     fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, S::Error> {
         let sample = self.source.poll_sample()?;
         Ok(self.solved(sample))
@@ -85,6 +85,8 @@ where
     Z: Compensation<T, N, Raw = SVector<T, N>>,
     W: WrenchSolver<T, N>,
 {
+    type Error = S::Error;
+
     async fn next_sample(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, S::Error> {
         let sample = self.source.next_sample().await?;
         Ok(self.solved(sample))

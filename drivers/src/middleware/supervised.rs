@@ -2,11 +2,9 @@
 
 use core::fmt::Debug;
 
-use fingertip_wrench::{Real, Wrench};
-use nalgebra::SVector;
 use thiserror::Error;
 
-use crate::{ErrorType, Sample, SignalSource, SourceError, SourceErrorKind, WrenchSource};
+use crate::{Sample, Source, SourceError, SourceErrorKind};
 
 /// What to do when a link is lost. There is no default: whether a hand goes on after a gap is for its maker to
 /// say.
@@ -81,12 +79,12 @@ pub struct Supervised<S, C> {
     losses: u64,
 }
 
-impl<S: ErrorType, C: FnMut(u32) -> Result<S, S::Error>> Supervised<S, C> {
+impl<S, E: SourceError, C: FnMut(u32) -> Result<S, E>> Supervised<S, C> {
     /// Connects for the first time, with as many attempts as after a loss.
     ///
     /// # Errors
     /// [`SupervisedError::Lost`] with the last error of `connect`.
-    pub fn new(connect: C, on_loss: OnLoss) -> Result<Self, SupervisedError<S::Error>> {
+    pub fn new(connect: C, on_loss: OnLoss) -> Result<Self, SupervisedError<E>> {
         let mut supervised =
             Self { connect, source: None, on_loss, stopped: false, reconnections: 0, losses: 0 };
         supervised.connect(&mut 0)?;
@@ -115,7 +113,7 @@ impl<S: ErrorType, C: FnMut(u32) -> Result<S, S::Error>> Supervised<S, C> {
     ///
     /// # Errors
     /// [`SupervisedError::Lost`] if that fails; it stays stopped then.
-    pub fn resume(&mut self) -> Result<(), SupervisedError<S::Error>> {
+    pub fn resume(&mut self) -> Result<(), SupervisedError<E>> {
         self.source = None;
         self.connect(&mut 0)?;
         self.reconnections += 1;
@@ -131,7 +129,7 @@ impl<S: ErrorType, C: FnMut(u32) -> Result<S, S::Error>> Supervised<S, C> {
     }
 
     /// Connects, and counts the attempts that failed.
-    fn connect(&mut self, tried: &mut u32) -> Result<(), SupervisedError<S::Error>> {
+    fn connect(&mut self, tried: &mut u32) -> Result<(), SupervisedError<E>> {
         loop {
             match (self.connect)(*tried) {
                 Ok(source) => {
@@ -151,8 +149,8 @@ impl<S: ErrorType, C: FnMut(u32) -> Result<S, S::Error>> Supervised<S, C> {
     /// The next of a source, over losses of its link.
     fn next<V>(
         &mut self,
-        mut next: impl FnMut(&mut S) -> Result<Option<V>, S::Error>,
-    ) -> Result<Option<V>, SupervisedError<S::Error>> {
+        mut next: impl FnMut(&mut S) -> Result<Option<V>, E>,
+    ) -> Result<Option<V>, SupervisedError<E>> {
         let (mut tried, mut lost) = (0, false);
         loop {
             if self.stopped {
@@ -185,21 +183,11 @@ impl<S: ErrorType, C: FnMut(u32) -> Result<S, S::Error>> Supervised<S, C> {
     }
 }
 
-impl<S: ErrorType, C> ErrorType for Supervised<S, C> {
+impl<T, V, S: Source<T, V>, C: FnMut(u32) -> Result<S, S::Error>> Source<T, V> for Supervised<S, C> {
     type Error = SupervisedError<S::Error>;
-}
 
-impl<T: Real, S: WrenchSource<T>, C: FnMut(u32) -> Result<S, S::Error>> WrenchSource<T> for Supervised<S, C> {
-    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
-        self.next(S::next_wrench)
-    }
-}
-
-impl<T: Real, const N: usize, S: SignalSource<T, N>, C: FnMut(u32) -> Result<S, S::Error>> SignalSource<T, N>
-    for Supervised<S, C>
-{
-    fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
-        self.next(S::next_signals)
+    fn next_sample(&mut self) -> Result<Option<Sample<T, V>>, Self::Error> {
+        self.next(S::next_sample)
     }
 }
 
@@ -221,11 +209,10 @@ mod tests {
             self.0
         }
     }
-    impl ErrorType for Numbers {
+    impl Source<f64, Vector1<f64>> for Numbers {
         type Error = Failure;
-    }
-    impl SignalSource<f64, 1> for Numbers {
-        fn next_signals(&mut self) -> Result<Option<Sample<f64, Vector1<f64>>>, Failure> {
+
+        fn next_sample(&mut self) -> Result<Option<Sample<f64, Vector1<f64>>>, Failure> {
             self.next += 1;
             match self.next {
                 number if number == self.lost_at => Err(Failure(SourceErrorKind::Timeout)),
@@ -241,7 +228,7 @@ mod tests {
         let connect = |_| Ok(Numbers { next: 0, lost_at: 20 });
         let mut source = Supervised::new(connect, OnLoss::FailStop).unwrap();
         for number in 1..20 {
-            let next = source.next_signals();
+            let next = source.next_sample();
             if number == 13 {
                 // Not of the link: the next one is tried.
                 assert_eq!(next, Err(SupervisedError::Source(Failure(SourceErrorKind::Corrupt))));
@@ -249,12 +236,12 @@ mod tests {
                 assert_eq!(next.unwrap().unwrap().value.x, f64::from(number));
             }
         }
-        assert!(matches!(source.next_signals(), Err(SupervisedError::Lost(_))));
+        assert!(matches!(source.next_sample(), Err(SupervisedError::Lost(_))));
         for _ in 0..5 {
-            assert_eq!(source.next_signals(), Err(SupervisedError::Stopped));
+            assert_eq!(source.next_sample(), Err(SupervisedError::Stopped));
         }
         source.resume().unwrap();
-        assert_eq!(source.next_signals().unwrap().unwrap().value.x, 1.0);
+        assert_eq!(source.next_sample().unwrap().unwrap().value.x, 1.0);
         assert_eq!((source.losses(), source.reconnections()), (1, 1));
     }
 
@@ -272,7 +259,7 @@ mod tests {
             Ok(Numbers { next: 0, lost_at: if calls == 1 { 3 } else { u32::MAX } })
         };
         let mut source = Supervised::new(connect, OnLoss::Reconnect { attempts: 3 }).unwrap();
-        let seen: Vec<f64> = (0..4).map(|_| source.next_signals().unwrap().unwrap().value.x).collect();
+        let seen: Vec<f64> = (0..4).map(|_| source.next_sample().unwrap().unwrap().value.x).collect();
         assert_eq!(seen, [1.0, 2.0, 1.0, 2.0]);
         assert_eq!((source.losses(), source.reconnections()), (1, 1));
         assert_eq!(*attempts.borrow(), [0, 0, 1, 2]);
@@ -284,9 +271,9 @@ mod tests {
         assert!(Supervised::new(never, OnLoss::Reconnect { attempts: 100 }).is_err());
         let at_once = |_| Ok(Numbers { next: 0, lost_at: 1 });
         let mut source = Supervised::new(at_once, OnLoss::Reconnect { attempts: 5 }).unwrap();
-        assert!(matches!(source.next_signals(), Err(SupervisedError::Lost(_))));
+        assert!(matches!(source.next_sample(), Err(SupervisedError::Lost(_))));
         assert_eq!(source.losses(), 6);
         // And it tries again when it is asked again.
-        assert!(matches!(source.next_signals(), Err(SupervisedError::Lost(_))));
+        assert!(matches!(source.next_sample(), Err(SupervisedError::Lost(_))));
     }
 }

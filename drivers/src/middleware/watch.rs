@@ -1,10 +1,9 @@
 //! How old samples are, how many are missing, and which are repeated.
 
-use fingertip_wrench::{Real, Wrench};
-use nalgebra::SVector;
+use fingertip_wrench::Real;
 
 use crate::polled::NbSource;
-use crate::{ErrorType, Sample, SignalSource, WrenchSource};
+use crate::{Sample, Source};
 
 /// A sample, and how fresh it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -164,6 +163,18 @@ impl<S, T: Real, V: Copy + PartialEq> Watched<S, T, V> {
         }
     }
 
+    /// The next sample, each one in turn: for records.
+    ///
+    /// # Errors
+    /// Those of the source.
+    pub fn next_fresh(&mut self, now: T) -> Result<Option<Fresh<T, V>>, S::Error>
+    where
+        S: Source<T, V>,
+    {
+        let next = self.source.next_sample();
+        self.note(next, now)
+    }
+
     /// The newest sample that is there, passing over older ones: for control that must not lag.
     ///
     /// # Errors
@@ -202,38 +213,11 @@ impl<S, T: Real, V: Copy + PartialEq> Watched<S, T, V> {
     }
 }
 
-impl<S: ErrorType, T: Real> Watched<S, T, Wrench<T>> {
-    /// The next wrench, each one in turn: for records.
-    ///
-    /// # Errors
-    /// Those of the source.
-    pub fn next_fresh(&mut self, now: T) -> Result<Option<Fresh<T, Wrench<T>>>, S::Error>
-    where
-        S: WrenchSource<T>,
-    {
-        let next = self.source.next_wrench();
-        self.note(next, now)
-    }
-}
-
-impl<S: ErrorType, T: Real, const N: usize> Watched<S, T, SVector<T, N>> {
-    /// The next signals, each in turn: for records.
-    ///
-    /// # Errors
-    /// Those of the source.
-    pub fn next_fresh_signals(&mut self, now: T) -> Result<Option<Fresh<T, SVector<T, N>>>, S::Error>
-    where
-        S: SignalSource<T, N>,
-    {
-        let next = self.source.next_signals();
-        self.note(next, now)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use core::convert::Infallible;
+    use fingertip_wrench::Wrench;
     use nalgebra::{Vector1, Vector3};
 
     fn sample(time: f64, value: f64) -> Sample<f64, Vector1<f64>> {
@@ -281,10 +265,9 @@ mod tests {
 
     /// Gives some numbers, with pauses for `None`.
     struct Queue(core::array::IntoIter<Option<f64>, 6>);
-    impl ErrorType for Queue {
-        type Error = Infallible;
-    }
     impl NbSource<f64, Wrench<f64>> for Queue {
+        type Error = Infallible;
+
         fn poll_sample(&mut self) -> nb::Result<Option<Sample<f64, Wrench<f64>>>, Infallible> {
             match self.0.next() {
                 Some(Some(number)) => {

@@ -8,22 +8,22 @@ use fingertip_recordings::{
 use fingertip_wrench::Wrench;
 use nalgebra::SVector;
 
-use crate::{ErrorType, Sample, SignalSource, WrenchSource};
+use crate::{Sample, Source};
 
-/// The wrenches of one sensor of a recording, as a [`WrenchSource`].
+/// The wrenches of one sensor of a recording, as a [`Source`].
 ///
 /// Rows without a sound wrench are passed over: ask [`quality`](Self::quality) how many there were.
 /// Read row by row to see each.
 ///
 /// ```
-/// use fingertip_drivers::WrenchSource;
+/// use fingertip_drivers::Source;
 /// use fingertip_drivers::playback::WrenchPlayback;
 /// use fingertip_recordings::RecordingReader;
 ///
 /// let file = "fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0,0,-1,0,0,0\n0,0,nan,0,0,0\n0,0,-3,0,0,0\n";
 /// let mut playback = WrenchPlayback::new(RecordingReader::new("example.csv", file.as_bytes())?, "")?;
 /// let mut forces = Vec::new();
-/// while let Some(sample) = playback.next_wrench()? {
+/// while let Some(sample) = playback.next_sample()? {
 ///     forces.push(sample.value.force().z);
 /// }
 /// assert_eq!(forces, [-1.0, -3.0]);
@@ -36,7 +36,7 @@ pub struct WrenchPlayback<R> {
     sensor: WrenchColumns,
 }
 
-/// The signals of one sensor with `N` gauges of a recording, as a [`SignalSource`]; without the
+/// The signals of one sensor with `N` gauges of a recording, as a [`Source`]; without the
 /// dummy gauge. Rows are passed over as by [`WrenchPlayback`].
 #[derive(Debug)]
 pub struct SignalPlayback<R, const N: usize> {
@@ -94,16 +94,10 @@ fn only<T>(
     if sensor.is_empty() { only() } else { Err(problem) }
 }
 
-impl<R> ErrorType for WrenchPlayback<R> {
+impl<R: Read> Source<f64, Wrench<f64>> for WrenchPlayback<R> {
     type Error = RecordingError;
-}
 
-impl<R, const N: usize> ErrorType for SignalPlayback<R, N> {
-    type Error = RecordingError;
-}
-
-impl<R: Read> WrenchSource<f64> for WrenchPlayback<R> {
-    fn next_wrench(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, RecordingError> {
+    fn next_sample(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, RecordingError> {
         while let Some(row) = self.reader.next_row()? {
             if let Some(value) = row.wrench(&self.sensor) {
                 return Ok(Some(Sample { time: row.time(), value }));
@@ -113,8 +107,10 @@ impl<R: Read> WrenchSource<f64> for WrenchPlayback<R> {
     }
 }
 
-impl<R: Read, const N: usize> SignalSource<f64, N> for SignalPlayback<R, N> {
-    fn next_signals(&mut self) -> Result<Option<Sample<f64, SVector<f64, N>>>, RecordingError> {
+impl<R: Read, const N: usize> Source<f64, SVector<f64, N>> for SignalPlayback<R, N> {
+    type Error = RecordingError;
+
+    fn next_sample(&mut self) -> Result<Option<Sample<f64, SVector<f64, N>>>, RecordingError> {
         while let Some(row) = self.reader.next_row()? {
             if let Some(value) = row.signals(&self.sensor) {
                 return Ok(Some(Sample { time: row.time(), value }));
@@ -139,7 +135,7 @@ mod tests {
         for (sensor, expected) in [("A", vec![(0.0, 1.0), (0.1, 5.0)]), ("b", vec![(0.0, 3.0)])] {
             let mut playback = signals(sensor).unwrap();
             let mut seen = Vec::new();
-            while let Some(sample) = playback.next_signals().unwrap() {
+            while let Some(sample) = playback.next_sample().unwrap() {
                 seen.push((sample.time.unwrap(), sample.value.x));
             }
             assert_eq!(seen, expected);

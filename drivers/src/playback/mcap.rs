@@ -5,7 +5,7 @@ use std::io::{Read, Seek, SeekFrom};
 use fingertip_recordings::mcap::{Entry, McapError, McapReader, Recorded};
 use fingertip_wrench::Wrench;
 
-use crate::{ErrorType, Sample, WrenchSource};
+use crate::{Sample, Source};
 
 /// The wrenches of one topic. Those that are not finite are passed over and counted.
 #[derive(Debug)]
@@ -57,12 +57,10 @@ impl<R> McapPlayback<R> {
     }
 }
 
-impl<R> ErrorType for McapPlayback<R> {
+impl<R: Read> Source<f64, Wrench<f64>> for McapPlayback<R> {
     type Error = McapError;
-}
 
-impl<R: Read> WrenchSource<f64> for McapPlayback<R> {
-    fn next_wrench(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, McapError> {
+    fn next_sample(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, McapError> {
         while let Some(entry) = self.reader.next_entry()? {
             if let (Recorded::Wrench(value), true) = (entry.recorded, entry.topic == self.topic) {
                 if value.is_finite() {

@@ -12,7 +12,7 @@ use fingertip_drivers::sensors::ati_rdt::{
     ClientError, Command, CountsPerUnit, FaultPlan, RdtClient, RdtError, RdtServer, Receiver, Record,
     Request, SimulatedNetFt, records,
 };
-use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
+use fingertip_drivers::{Source, SourceError, SourceErrorKind};
 
 use super::patience::{PATIENCE, SILENCE, patiently};
 
@@ -80,7 +80,7 @@ fn over_a_socket_nothing_is_lost_and_the_sensor_is_stopped_at_the_end() {
     let mut client = RdtClient::connect(server.address(), counts(), PATIENCE).unwrap().timed_by(200.0);
     let mut last: Option<(f64, f64)> = None;
     for _ in 0..60 {
-        let sample = client.next_wrench().unwrap().unwrap();
+        let sample = client.next_sample().unwrap().unwrap();
         let (time, number) = (sample.time.unwrap(), (sample.value.force().x * 1e6).round());
         if let Some((last_time, last_number)) = last {
             assert_eq!(number, last_number + 1.0);
@@ -115,13 +115,13 @@ fn faults_of_the_sensor_and_silence_are_errors_of_their_kinds() {
     sensor.set_status(0x8000_0001);
     let server = RdtServer::start("127.0.0.1:0", sensor, Duration::from_millis(1), |_| [0; 6]).unwrap();
     let mut client = RdtClient::connect(server.address(), counts(), PATIENCE).unwrap();
-    let error = client.next_wrench().unwrap_err();
+    let error = client.next_sample().unwrap_err();
     assert!(matches!(error, ClientError::Rdt(RdtError::Status { status: 0x8000_0001, .. })), "{error}");
     assert_eq!(error.kind(), SourceErrorKind::DeviceFault);
     // A port where nobody serves: bound, so that nobody else can have it, but never answered.
     let silent = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
     let mut client = RdtClient::connect(silent.local_addr().unwrap(), counts(), SILENCE).unwrap();
-    let error = client.next_wrench().unwrap_err();
+    let error = client.next_sample().unwrap_err();
     assert_eq!(error.kind(), SourceErrorKind::Timeout, "{error}");
     assert!(CountsPerUnit::new(0.0, 1.0).is_err() && CountsPerUnit::new(1.0, f64::NAN).is_err());
 }
@@ -186,15 +186,15 @@ fn a_sensor_that_falls_silent_is_asked_again_or_given_up_by_choice() {
     // The sensor serves whoever asked last.
     assert_eq!(patiently(&mut stops).value.force().x, 7e-6);
     *silence.borrow_mut() = Some(speech.lock().unwrap());
-    while stops.next_wrench().is_ok() {}
-    assert!(matches!(stops.next_wrench(), Err(SupervisedError::Stopped)));
+    while stops.next_sample().is_ok() {}
+    assert!(matches!(stops.next_sample(), Err(SupervisedError::Stopped)));
     // What reached its socket before the other one asked is given first.
     while again.losses() == 0 {
-        assert_eq!(again.next_wrench().unwrap().unwrap().value.force().x, 7e-6);
+        assert_eq!(again.next_sample().unwrap().unwrap().value.force().x, 7e-6);
     }
     assert!(again.losses() > 3 && again.reconnections() == again.losses());
     // It stays stopped until it is told to go on, though the sensor speaks again.
-    assert!(matches!(stops.next_wrench(), Err(SupervisedError::Stopped)));
+    assert!(matches!(stops.next_sample(), Err(SupervisedError::Stopped)));
     stops.resume().unwrap();
     assert_eq!(patiently(&mut stops).value.force().x, 7e-6);
 }

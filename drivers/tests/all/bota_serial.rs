@@ -4,7 +4,7 @@
 use fingertip_drivers::middleware::Watch;
 use fingertip_drivers::sensors::bota_serial::{BotaDecoder, BotaFault, Frame};
 use fingertip_drivers::sensors::line::{LineDecoder, LineError, LineFaults, LineSensor, SimulatedLine};
-use fingertip_drivers::{Sample, SourceError, SourceErrorKind, WrenchSource};
+use fingertip_drivers::{Sample, Source, SourceError, SourceErrorKind};
 use fingertip_wrench::Wrench;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -33,7 +33,7 @@ fn a_bad_line_costs_the_damaged_frames_and_no_other() {
     let mut sensor = LineSensor::new(line, BotaDecoder::new());
     let (mut given, mut last, mut start) = (0, -1.0, None);
     while let Some(sample) = {
-        let next: Next = sensor.next_wrench();
+        let next: Next = sensor.next_sample();
         next.unwrap()
     } {
         let (number, time) = (sample.value.force().x, sample.time.unwrap());
@@ -63,20 +63,20 @@ fn what_the_sensor_says_of_itself_is_an_error() {
     line.send(&frame(4).emit());
     let mut sensor = LineSensor::new(line, BotaDecoder::new());
     for kind in [SourceErrorKind::Overload, SourceErrorKind::DeviceFault, SourceErrorKind::DeviceFault] {
-        let next: Next = sensor.next_wrench();
+        let next: Next = sensor.next_sample();
         assert_eq!(next.unwrap_err().kind(), kind);
     }
-    let next: Next = sensor.next_wrench();
+    let next: Next = sensor.next_sample();
     // Time runs on over the samples that were not given.
     assert!((next.unwrap().unwrap().time.unwrap() - 3.75e-3).abs() < 1e-12);
-    let next: Next = sensor.next_wrench();
+    let next: Next = sensor.next_sample();
     assert!(next.unwrap().is_none());
 }
 
 #[test]
 fn a_wrong_baud_rate_and_a_silent_line_are_told() {
     let mut sensor = LineSensor::new(std::io::repeat(0x55), BotaDecoder::new());
-    let next: Next = sensor.next_wrench();
+    let next: Next = sensor.next_sample();
     assert!(matches!(next, Err(LineError::NoFrame { .. })));
     struct Silent;
     impl std::io::Read for Silent {
@@ -84,7 +84,7 @@ fn a_wrong_baud_rate_and_a_silent_line_are_told() {
             Err(std::io::ErrorKind::TimedOut.into())
         }
     }
-    let next: Next = LineSensor::new(Silent, BotaDecoder::new()).next_wrench();
+    let next: Next = LineSensor::new(Silent, BotaDecoder::new()).next_sample();
     assert_eq!(next.unwrap_err().kind(), SourceErrorKind::Timeout);
 }
 

@@ -22,7 +22,7 @@ use fingertip_drivers::sensors::line::{
 use fingertip_drivers::sensors::optoforce::{self, OptoForceDecoder, OptoForceFault};
 use fingertip_drivers::sensors::resense::{self, Limits, ResenseDecoder, ResenseFault};
 use fingertip_drivers::sensors::robotous::{self, RobotousDecoder, RobotousFault};
-use fingertip_drivers::{AsyncSource, SourceError, SourceErrorKind, WrenchSource};
+use fingertip_drivers::{AsyncSource, Source, SourceError, SourceErrorKind};
 use fingertip_wrench::Wrench;
 
 const FRAMES: u64 = 1_000_000;
@@ -160,21 +160,21 @@ fn what_the_sensors_say_of_themselves_is_an_error() {
         line.send(&optoforce::Reading { status, ..optoforce::Reading::default() }.emit());
     }
     let mut sensor: LineSensor<_, f64, _> = LineSensor::new(line, OptoForceDecoder::new(ones()));
-    let error = sensor.next_wrench().unwrap_err();
+    let error = sensor.next_sample().unwrap_err();
     assert!(matches!(error, LineError::Device(OptoForceFault::Overload { status: 0x0200 })), "{error}");
-    assert_eq!(sensor.next_wrench().unwrap_err().kind(), SourceErrorKind::DeviceFault);
-    assert_eq!(sensor.next_wrench().unwrap_err().kind(), SourceErrorKind::DeviceFault);
+    assert_eq!(sensor.next_sample().unwrap_err().kind(), SourceErrorKind::DeviceFault);
+    assert_eq!(sensor.next_sample().unwrap_err().kind(), SourceErrorKind::DeviceFault);
 
     let mut line = SimulatedLine::new(LineFaults::default());
     line.send(&robotous::Reading { streamed: true, overload: 4, counts: [0; 6] }.emit_serial());
     let mut sensor: LineSensor<_, f64, _> = LineSensor::new(line, RobotousDecoder::rft60().unwrap());
-    let error = sensor.next_wrench().unwrap_err();
+    let error = sensor.next_sample().unwrap_err();
     assert!(matches!(error, LineError::Device(RobotousFault::Overload { bits: 4 })), "{error}");
 
     let mut line = SimulatedLine::new(LineFaults::default());
     line.send(&dynpick::Reading { tick: 0, raw: [8192, 16383, 8192, 8192, 8192, 8192] }.emit());
     let mut sensor: LineSensor<_, f64, _> = LineSensor::new(line, DynPickDecoder::new(ones()));
-    let error = sensor.next_wrench().unwrap_err();
+    let error = sensor.next_sample().unwrap_err();
     assert!(matches!(error, LineError::Device(DynPickFault::Saturated { axis: 1 })), "{error}");
 }
 
@@ -195,7 +195,7 @@ where
         std::io::Write::write_all(sensor.line_mut(), &request(number)).unwrap();
         sensor.line_mut().sample([f64::from(number), -2.0, 0.0, 0.5, 0.0, 1.0]);
         // The line is empty for the moment, if nothing came.
-        if let Ok(Some(sample)) = sensor.next_wrench() {
+        if let Ok(Some(sample)) = sensor.next_sample() {
             wrenches.push(sample.value);
         }
     }
@@ -279,8 +279,8 @@ fn all_faces_give_the_same() {
     );
     let mut given = 0;
     loop {
-        let expected = blocking.next_wrench().map_err(|error| error.kind());
-        assert_eq!(embedded.next_wrench().map_err(|error| error.kind()), expected);
+        let expected = blocking.next_sample().map_err(|error| error.kind());
+        assert_eq!(embedded.next_sample().map_err(|error| error.kind()), expected);
         assert_eq!(ready(awaited.next_sample()).map_err(|error| error.kind()), expected);
         let polled = polled.poll_sample();
         if expected == Ok(None) {

@@ -4,7 +4,7 @@
 use core::convert::Infallible;
 
 use fingertip_drivers::middleware::{FaultInjector, Recorder, SampleFaults, Watched};
-use fingertip_drivers::{ErrorType, Sample, SignalSource, SourceError, SourceErrorKind, WrenchSource};
+use fingertip_drivers::{Sample, Source, SourceError, SourceErrorKind};
 use fingertip_wrench::Wrench;
 use nalgebra::{SVector, Vector3};
 
@@ -22,12 +22,10 @@ impl Counting {
     }
 }
 
-impl ErrorType for Counting {
+impl Source<f64, Wrench<f64>> for Counting {
     type Error = Infallible;
-}
 
-impl WrenchSource<f64> for Counting {
-    fn next_wrench(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, Infallible> {
+    fn next_sample(&mut self) -> Result<Option<Sample<f64, Wrench<f64>>>, Infallible> {
         Ok(self.next().map(|(number, time)| {
             let value = Wrench::on_fingertip(Vector3::new(number, 1.0, 2.0), Vector3::new(3.0, 4.0, 5.0));
             Sample { time: Some(time), value }
@@ -35,8 +33,10 @@ impl WrenchSource<f64> for Counting {
     }
 }
 
-impl SignalSource<f64, 2> for Counting {
-    fn next_signals(&mut self) -> Result<Option<Sample<f64, SVector<f64, 2>>>, Infallible> {
+impl Source<f64, SVector<f64, 2>> for Counting {
+    type Error = Infallible;
+
+    fn next_sample(&mut self) -> Result<Option<Sample<f64, SVector<f64, 2>>>, Infallible> {
         Ok(self
             .next()
             .map(|(number, time)| Sample { time: Some(time), value: SVector::from([number, -number]) }))
@@ -97,7 +97,8 @@ fn signals_can_be_reordered_spiked_and_made_not_a_number() {
     };
     let mut source = FaultInjector::new(Counting { number: 0, end: 10_000 }, faults);
     let (mut backward, mut not_a_number, mut spikes, mut last) = (0, 0, 0, 0.0);
-    while let Some(Sample { time, value }) = SignalSource::<f64, 2>::next_signals(&mut source).unwrap() {
+    while let Some(Sample { time, value }) = Source::<f64, SVector<f64, 2>>::next_sample(&mut source).unwrap()
+    {
         backward += u64::from(time.unwrap() < last);
         last = time.unwrap();
         not_a_number += u64::from(value.iter().any(|number| number.is_nan()));
@@ -118,7 +119,7 @@ fn each_component_of_a_wrench_can_be_spiked_and_made_not_a_number() {
     let mut source = FaultInjector::new(Counting { number: 0, end: 3000 }, faults);
     let (mut not_a_number, mut spikes) = ([0; 6], [0; 6]);
     let mut number = 0.0;
-    while let Some(sample) = WrenchSource::<f64>::next_wrench(&mut source).unwrap() {
+    while let Some(sample) = Source::<f64, Wrench<f64>>::next_sample(&mut source).unwrap() {
         number += 1.0;
         let sound = [number, 1.0, 2.0, 3.0, 4.0, 5.0];
         let components = sample.value.components();
@@ -144,7 +145,7 @@ fn a_record_that_fails_does_not_stop_the_source() {
         Ok(())
     });
     let mut given = 0;
-    while WrenchSource::<f64>::next_wrench(&mut source).unwrap().is_some() {
+    while Source::<f64, Wrench<f64>>::next_sample(&mut source).unwrap().is_some() {
         given += 1;
     }
     assert_eq!((given, source.unrecorded(), source.failure()), (10, 6, Some(&"the disk is full")));

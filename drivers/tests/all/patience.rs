@@ -1,13 +1,12 @@
 //! What lets tests over sockets pass on a machine of any speed.
 #![cfg(all(feature = "ati-rdt", feature = "schunk-fts", feature = "simulators"))]
 
-use core::fmt::Debug;
 use core::sync::atomic::{AtomicU32, Ordering};
 use core::time::Duration;
 use std::net::UdpSocket;
 
 use fingertip_drivers::middleware::{Supervised, SupervisedError};
-use fingertip_drivers::{ErrorType, Sample, SourceError, SourceErrorKind, WrenchSource};
+use fingertip_drivers::{Sample, Source, SourceError, SourceErrorKind};
 use fingertip_wrench::Wrench;
 
 /// How long to wait for what must come.
@@ -30,12 +29,12 @@ pub(crate) fn unused_port() -> u16 {
 /// The next sample of a source that stops where it is lost: it is resumed where only the machine was too slow.
 pub(crate) fn patiently<S, C>(source: &mut Supervised<S, C>) -> Sample<f64, Wrench<f64>>
 where
-    S: WrenchSource<f64> + ErrorType<Error: Debug>,
+    S: Source<f64, Wrench<f64>>,
     C: FnMut(u32) -> Result<S, S::Error>,
 {
     let mut last = None;
     for _ in 0..PATIENCE.as_millis() / SILENCE.as_millis() {
-        match source.next_wrench() {
+        match source.next_sample() {
             Ok(sample) => return sample.unwrap(),
             // Nothing else is tried again.
             Err(error) if !is_late(&error) => panic!("{error:?}"),

@@ -4,7 +4,7 @@
 use std::io::Cursor;
 
 use fingertip_drivers::playback::McapPlayback;
-use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
+use fingertip_drivers::{Source, SourceError, SourceErrorKind};
 use fingertip_recordings::mcap::{McapError, McapWriter};
 use fingertip_test_support::mcap::{channel, data_end, definitions, file, message, wrench};
 use fingertip_wrench::Wrench;
@@ -30,7 +30,7 @@ fn the_wrenches_of_a_topic_are_played() {
     let file = recording(2000);
     let mut playback = McapPlayback::new(Cursor::new(&file), "").unwrap();
     let mut played = 0;
-    while let Some(sample) = playback.next_wrench().unwrap() {
+    while let Some(sample) = playback.next_sample().unwrap() {
         assert_eq!(sample.value, load(played));
         played += 1;
     }
@@ -47,7 +47,7 @@ fn what_is_whole_of_a_file_that_was_cut_is_played() {
     let mut playback = McapPlayback::new(Cursor::new(&file[..file.len() / 2]), "").unwrap();
     let mut played = 0;
     let error = loop {
-        match playback.next_wrench() {
+        match playback.next_sample() {
             Ok(sample) => assert_eq!(sample.unwrap().value, load(played)),
             Err(error) => break error,
         }
@@ -71,7 +71,7 @@ fn a_topic_is_chosen_by_name_or_by_being_the_only_one_with_wrenches() {
     let played = |topic| {
         let mut playback = McapPlayback::new(Cursor::new(&both), topic)?;
         let mut played = 0;
-        while playback.next_wrench()?.is_some() {
+        while playback.next_sample()?.is_some() {
             played += 1;
         }
         Ok::<_, McapError>(played)
@@ -87,15 +87,15 @@ fn a_topic_is_chosen_by_name_or_by_being_the_only_one_with_wrenches() {
     assert!(matches!(McapPlayback::new(Cursor::new(&hidden), ""), Err(McapError::File(_))));
     let behind = file(&[definitions(), message(1, 0, &wrench()), vec![5]]);
     let mut playback = McapPlayback::new(Cursor::new(&behind), "").unwrap();
-    assert!(playback.next_wrench().unwrap().is_some());
-    assert!(playback.next_wrench().is_err());
+    assert!(playback.next_sample().unwrap().is_some());
+    assert!(playback.next_sample().is_err());
 }
 
 #[test]
 fn a_damaged_message_is_met_in_its_place() {
     let file = file(&[definitions(), message(1, 0, &wrench()[..30]), message(1, 0, &wrench()), data_end()]);
     let mut playback = McapPlayback::new(Cursor::new(&file), "/tip").unwrap();
-    let error = playback.next_wrench().unwrap_err();
+    let error = playback.next_sample().unwrap_err();
     assert!(matches!(error, McapError::Message { .. }) && error.kind() == SourceErrorKind::Corrupt);
-    assert!(playback.next_wrench().unwrap().is_some() && playback.next_wrench().unwrap().is_none());
+    assert!(playback.next_sample().unwrap().is_some() && playback.next_sample().unwrap().is_none());
 }

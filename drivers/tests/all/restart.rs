@@ -7,7 +7,7 @@
     feature = "robotous"
 ))]
 
-use fingertip_drivers::WrenchSource;
+use fingertip_drivers::Source;
 use fingertip_drivers::sensors::AxisCounts;
 use fingertip_drivers::sensors::bota_serial::{BotaDecoder, Frame};
 use fingertip_drivers::sensors::dynpick::{self, DynPickDecoder};
@@ -60,7 +60,7 @@ where
 {
     let mut sensor = LineSensor::<_, f64, _>::new(std::io::repeat(0), decoder);
     for _ in 0..3 {
-        match sensor.next_wrench() {
+        match sensor.next_sample() {
             Err(LineError::NoFrame { bytes }) => assert_eq!(bytes, D::PATIENCE),
             other => panic!("{other:?}"),
         }
@@ -84,16 +84,16 @@ fn a_frame_renews_the_patience() {
     bytes.extend(sound);
     bytes.extend(vec![b'?'; patience - 1]);
     let mut sensor = LineSensor::<_, f64, _>::new(bytes.as_slice(), DynPickDecoder::new(counts()));
-    assert!(matches!(sensor.next_wrench(), Ok(Some(_))));
-    assert!(matches!(sensor.next_wrench(), Ok(None)), "the line ends before patience does");
+    assert!(matches!(sensor.next_sample(), Ok(Some(_))));
+    assert!(matches!(sensor.next_sample(), Ok(None)), "the line ends before patience does");
     // A fault is a frame, too: the device is there.
     let mut bytes = vec![b'?'; patience - sound.len()];
     bytes.extend(b"0000020002000200020002000\r\n");
     bytes.extend(vec![b'?'; patience - 1]);
     let mut sensor = LineSensor::<_, f64, _>::new(bytes.as_slice(), DynPickDecoder::new(counts()));
     assert!(matches!(
-        sensor.next_wrench(),
+        sensor.next_sample(),
         Err(LineError::Device(dynpick::DynPickFault::Saturated { axis: 0 }))
     ));
-    assert!(matches!(sensor.next_wrench(), Ok(None)));
+    assert!(matches!(sensor.next_sample(), Ok(None)));
 }

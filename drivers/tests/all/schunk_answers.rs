@@ -7,7 +7,8 @@ use std::net::{TcpListener, UdpSocket};
 use std::thread::JoinHandle;
 
 use fingertip_drivers::sensors::schunk_fts::{Command, FtsClient, FtsClientError, FtsWireError};
-use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
+use fingertip_drivers::{Source, SourceError, SourceErrorKind};
+use fingertip_wrench::Wrench;
 
 use super::patience::{PATIENCE, unused_port};
 
@@ -86,7 +87,7 @@ fn samples_are_given_in_turn_at_the_times_of_their_count() {
     let mut client = FtsClient::connect(address, ("127.0.0.1", port), PATIENCE).unwrap().timed_by(2000.0);
     for (number, halves) in [(1.0, 0), (2.0, 1), (3.0, 2), (4.0, 3), (7.0, 6), (8.0, 7), (9.0, 8), (10.0, 9)]
     {
-        let sample = WrenchSource::<f64>::next_wrench(&mut client).unwrap().unwrap();
+        let sample = Source::<f64, Wrench<f64>>::next_sample(&mut client).unwrap().unwrap();
         assert_eq!((sample.value.force().x, sample.time), (number, Some(f64::from(halves) * 0.5e-3)));
     }
     let statistics = *client.statistics();
@@ -104,6 +105,6 @@ fn samples_are_given_in_turn_at_the_times_of_their_count() {
         let port = unused_port();
         let (address, _) = serve(vec![0xFF, 0xFF, 1, 0, 2, 0, 0x40, 0], port, datagrams());
         let mut client = FtsClient::connect(address, ("127.0.0.1", port), PATIENCE).unwrap().timed_by(rate);
-        assert_eq!(WrenchSource::<f64>::next_wrench(&mut client).unwrap().unwrap().time, None);
+        assert_eq!(Source::<f64, Wrench<f64>>::next_sample(&mut client).unwrap().unwrap().time, None);
     }
 }

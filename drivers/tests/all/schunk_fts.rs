@@ -12,7 +12,7 @@ use fingertip_drivers::sensors::FaultPlan;
 use fingertip_drivers::sensors::schunk_fts::{
     FtsClient, FtsClientError, FtsReceiver, FtsSample, FtsServer, Packet, SimulatedFts, emit_packet,
 };
-use fingertip_drivers::{SourceError, SourceErrorKind, WrenchSource};
+use fingertip_drivers::{Source, SourceError, SourceErrorKind};
 use fingertip_wrench::Wrench;
 use rand::{RngExt, SeedableRng};
 
@@ -122,7 +122,8 @@ fn over_sockets_nothing_is_lost_and_the_sensor_is_stopped_at_the_end() {
     // The datagrams' count wraps around on the way.
     let (server, local) = served(SimulatedFts::new(FaultPlan::default()).counting_from(65_500));
     let mut client = FtsClient::connect(server.address(), local, PATIENCE).unwrap();
-    let next = |client: &mut FtsClient| WrenchSource::<f64>::next_wrench(client).unwrap().unwrap().value;
+    let next =
+        |client: &mut FtsClient| Source::<f64, Wrench<f64>>::next_sample(client).unwrap().unwrap().value;
     let first = next(&mut client).force().x;
     for number in 1..60 {
         assert_eq!(next(&mut client).force().x, first + f64::from(number));
@@ -163,7 +164,7 @@ fn faults_silence_and_strangers_are_told_apart() {
     sensor.set_status(0x10);
     let (server, local) = served(sensor);
     let mut client = FtsClient::connect(server.address(), local, PATIENCE).unwrap();
-    let kind = |client: &mut FtsClient| WrenchSource::<f64>::next_wrench(client).unwrap_err().kind();
+    let kind = |client: &mut FtsClient| Source::<f64, Wrench<f64>>::next_sample(client).unwrap_err().kind();
     assert_eq!(kind(&mut client), SourceErrorKind::Corrupt);
     assert!(client.statistics().corrupt > 0);
     drop((client, server));
@@ -198,8 +199,8 @@ fn a_sensor_that_goes_away_is_found_again_or_the_end_by_choice() {
         connected
     };
     let mut source = Supervised::new(connect, OnLoss::Reconnect { attempts }).unwrap();
-    let next = |source: &mut dyn WrenchSource<f64, Error = SupervisedError<FtsClientError>>| {
-        source.next_wrench().map(|sample| sample.unwrap().value.force().z)
+    let next = |source: &mut dyn Source<f64, Wrench<f64>, Error = SupervisedError<FtsClientError>>| {
+        source.next_sample().map(|sample| sample.unwrap().value.force().z)
     };
     assert_eq!(next(&mut source).unwrap(), 1.0);
     drop(server);

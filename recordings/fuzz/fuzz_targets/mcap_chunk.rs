@@ -4,7 +4,7 @@
 use std::io::Cursor;
 
 use crc::{CRC_32_ISO_HDLC, Crc};
-use fingertip_drivers::WrenchSource;
+use fingertip_drivers::Source;
 use fingertip_drivers::playback::McapPlayback;
 use fingertip_recordings::mcap::McapReader;
 use libfuzzer_sys::fuzz_target;
@@ -43,7 +43,7 @@ fn read(records: &[u8]) {
     let results = (0..=file.len()).take_while(|_| !matches!(reader.next_entry(), Ok(None))).count();
     assert!(results <= file.len() / 9);
     let Ok(mut playback) = McapPlayback::new(Cursor::new(&file), "") else { return };
-    while let Ok(Some(sample)) = playback.next_wrench() {
+    while let Ok(Some(sample)) = playback.next_sample() {
         assert!(sample.value.is_finite());
     }
 }

@@ -1,6 +1,6 @@
 //! The simulated fingertip keeps to its script, and says the truth about it.
 
-use fingertip_drivers::SignalSource;
+use fingertip_drivers::Source;
 use fingertip_simulation::{
     Options, Script, ScriptProblem, Segment, SessionScore, SimulatedFingertip, SimulationError, SurfacePoint,
     standard_session,
@@ -104,10 +104,10 @@ fn the_same_seed_gives_the_same_samples_and_another_one_others() {
     // As a source it gives the same numbers, and then ends for good.
     let mut source = made(&script, 7);
     for expected in samples(7) {
-        let sample = source.next_signals().unwrap().unwrap();
+        let sample = source.next_sample().unwrap().unwrap();
         assert_eq!((sample.time, sample.value), (Some(expected.time), expected.raw));
     }
-    assert!(source.next_signals().unwrap().is_none() && source.next_signals().unwrap().is_none());
+    assert!(source.next_sample().unwrap().is_none() && source.next_sample().unwrap().is_none());
 }
 
 #[test]

@@ -301,7 +301,7 @@ macro_rules! face {
             }
         }
 
-        parts!($name, $bus, $pin, $delay, BusErrorType, N);
+        parts!($name, $bus, $pin, $delay, N);
     };
 }
 
@@ -325,6 +325,8 @@ where
     P: InputPin,
     D: embedded_hal::delay::DelayNs,
 {
+    type Error = Failure<S, P>;
+
     fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
         self.state.configuration().map_err(ConverterError::from)?;
         if !self.ready.is_low().map_err(ConverterError::Pin)? {

@@ -174,7 +174,7 @@ macro_rules! face {
             }
         }
 
-        parts!($name, $bus, $pin, $delay, BusErrorType, N);
+        parts!($name, $bus, $pin, $delay, N);
     };
 }
 
@@ -231,6 +231,8 @@ where
     P: InputPin,
     D: embedded_hal::delay::DelayNs,
 {
+    type Error = Failure<S, P>;
+
     fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
         let value = self.poll()?.signals().map_err(ConverterError::from)?;
         Ok(Some(Sample { time: None, value }))

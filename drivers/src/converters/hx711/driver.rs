@@ -10,7 +10,7 @@ use crate::converters::{
     ready_in_time_async,
 };
 use crate::polled::NbSource;
-use crate::{AsyncSource, ErrorType, Sample, SignalSource};
+use crate::{AsyncSource, Sample, Source};
 
 type Failure<C, P> = ConverterError<<C as PinErrorType>::Error, <P as PinErrorType>::Error>;
 
@@ -206,12 +206,6 @@ macro_rules! face {
             }
         }
 
-        impl<$($generic),*, const N: usize> ErrorType for $name<$($generic),*, N>
-        where
-            C: PinErrorType, P: PinErrorType,
-        {
-            type Error = Failure<C, P>;
-        }
     };
 }
 
@@ -229,10 +223,12 @@ face! {
     { delay: D, "For waits.", pulses: B, "For pulses." }, [async], [.await]
 }
 
-impl<T: Real, C: OutputPin, P: InputPin, D: embedded_hal::delay::DelayNs, const N: usize> SignalSource<T, N>
-    for Hx711<C, P, D, N>
+impl<T: Real, C: OutputPin, P: InputPin, D: embedded_hal::delay::DelayNs, const N: usize>
+    Source<T, SVector<T, N>> for Hx711<C, P, D, N>
 {
-    fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
+    type Error = Failure<C, P>;
+
+    fn next_sample(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
         let value = self.read()?.signals()?;
         Ok(Some(Sample { time: None, value }))
     }
@@ -241,6 +237,8 @@ impl<T: Real, C: OutputPin, P: InputPin, D: embedded_hal::delay::DelayNs, const 
 impl<T: Real, C: OutputPin, P: InputPin, D: embedded_hal::delay::DelayNs, const N: usize>
     NbSource<T, SVector<T, N>> for Hx711<C, P, D, N>
 {
+    type Error = Failure<C, P>;
+
     fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
         self.state.ready_to_read().map_err(ConverterError::from)?;
         let conversion = self.poll_once()?.ok_or(nb::Error::WouldBlock)?;
@@ -257,6 +255,8 @@ where
     D: embedded_hal_async::delay::DelayNs,
     B: embedded_hal::delay::DelayNs,
 {
+    type Error = Failure<C, P>;
+
     async fn next_sample(&mut self) -> Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
         let value = self.read().await?.signals()?;
         Ok(Some(Sample { time: None, value }))

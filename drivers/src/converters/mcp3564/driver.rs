@@ -211,7 +211,7 @@ macro_rules! face {
             }
         }
 
-        parts!($name, $bus, $pin, $delay, BusErrorType, N);
+        parts!($name, $bus, $pin, $delay, N);
     };
 }
 
@@ -234,6 +234,8 @@ where
     P: InputPin,
     D: embedded_hal::delay::DelayNs,
 {
+    type Error = Failure<S, P>;
+
     fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, SVector<T, N>>>, Self::Error> {
         self.state.ready_to_read().map_err(ConverterError::from)?;
         if !self.ready.is_low().map_err(ConverterError::Pin)? {

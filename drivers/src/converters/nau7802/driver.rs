@@ -13,7 +13,7 @@ use crate::converters::{
     ready_in_time_async,
 };
 use crate::polled::NbSource;
-use crate::{AsyncSource, Sample, SignalSource};
+use crate::{AsyncSource, Sample, Source};
 
 type Failure<B, P> = ConverterError<<B as BusErrorType>::Error, <P as PinErrorType>::Error>;
 
@@ -211,7 +211,7 @@ macro_rules! face {
             }
         }
 
-        parts!($name, $bus, $pin, $delay, BusErrorType);
+        parts!($name, $bus, $pin, $delay);
     };
 }
 
@@ -226,13 +226,15 @@ face! {
     embedded_hal_async::delay::DelayNs, ready_in_time_async, [async], [.await]
 }
 
-impl<T: Real, B, P, D> SignalSource<T, 1> for Nau7802<B, P, D>
+impl<T: Real, B, P, D> Source<T, SVector<T, 1>> for Nau7802<B, P, D>
 where
     B: embedded_hal::i2c::I2c,
     P: InputPin,
     D: embedded_hal::delay::DelayNs,
 {
-    fn next_signals(&mut self) -> Result<Option<Sample<T, SVector<T, 1>>>, Self::Error> {
+    type Error = Failure<B, P>;
+
+    fn next_sample(&mut self) -> Result<Option<Sample<T, SVector<T, 1>>>, Self::Error> {
         let value = self.read()?.signals()?;
         Ok(Some(Sample { time: None, value }))
     }
@@ -244,6 +246,8 @@ where
     P: InputPin,
     D: embedded_hal::delay::DelayNs,
 {
+    type Error = Failure<B, P>;
+
     fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, SVector<T, 1>>>, Self::Error> {
         self.state.configuration().map_err(ConverterError::from)?;
         if !self.ready.is_low().map_err(ConverterError::Pin)? {
@@ -261,6 +265,8 @@ where
     P: embedded_hal_async::digital::Wait,
     D: embedded_hal_async::delay::DelayNs,
 {
+    type Error = Failure<B, P>;
+
     async fn next_sample(&mut self) -> Result<Option<Sample<T, SVector<T, 1>>>, Self::Error> {
         let value = self.read().await?.signals()?;
         Ok(Some(Sample { time: None, value }))

@@ -13,7 +13,7 @@ use super::wire::{Command, Record, Request, WireError, records};
 use crate::polled::NbSource;
 use crate::sensors::LinkStatistics;
 use crate::sensors::datagram_socket::DatagramSocket;
-use crate::{ErrorType, Sample, SourceError, SourceErrorKind, WrenchSource};
+use crate::{Sample, Source, SourceError, SourceErrorKind};
 
 /// Why a client has no wrench to give.
 #[derive(Debug, Error)]
@@ -196,12 +196,10 @@ impl<T: Real> Drop for RdtClient<T> {
     }
 }
 
-impl<T: Real> ErrorType for RdtClient<T> {
+impl<T: Real> Source<T, Wrench<T>> for RdtClient<T> {
     type Error = ClientError;
-}
 
-impl<T: Real> WrenchSource<T> for RdtClient<T> {
-    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, ClientError> {
+    fn next_sample(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, ClientError> {
         self.socket.wait(true)?;
         self.next_sample().map(Some)
     }
@@ -210,6 +208,8 @@ impl<T: Real> WrenchSource<T> for RdtClient<T> {
 /// For control that must not lag, put it into a [`Watched`](crate::middleware::Watched) and read the
 /// latest.
 impl<T: Real> NbSource<T, Wrench<T>> for RdtClient<T> {
+    type Error = ClientError;
+
     fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, ClientError> {
         self.socket.wait(false).map_err(ClientError::from)?;
         match self.next_sample() {

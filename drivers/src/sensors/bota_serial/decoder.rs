@@ -3,7 +3,7 @@
 use fingertip_wrench::{Real, Wrench};
 use thiserror::Error;
 
-use super::wire::{Format, Frame};
+use super::wire::{FORMAT, Frame};
 use crate::sensors::line::{Deframer, LineDecoder, LineStatistics, finite_wrench};
 use crate::{Sample, SourceError, SourceErrorKind};
 
@@ -45,7 +45,7 @@ impl SourceError for BotaFault {
 /// off and on, and time goes on from there.
 #[derive(Clone, Copy, Debug)]
 pub struct BotaDecoder {
-    deframer: Deframer<Format, { Frame::LENGTH }>,
+    deframer: Deframer<Frame, { Frame::LENGTH }>,
     last_microseconds: Option<u32>,
     elapsed: u64,
     /// Time of the last frame that was not news, and how many of them follow on each other.
@@ -65,7 +65,7 @@ impl BotaDecoder {
     #[must_use]
     pub const fn new() -> Self {
         Self {
-            deframer: Deframer::new(Format),
+            deframer: Deframer::new(FORMAT),
             last_microseconds: None,
             elapsed: 0,
             behind: (0, 0),

@@ -19,4 +19,4 @@ mod wire;
 pub use decoder::{BotaDecoder, BotaFault};
 #[cfg(feature = "simulators")]
 pub use simulator::SimulatedBota;
-pub use wire::{Format, Frame, FrameError};
+pub use wire::{FORMAT, Frame, FrameError};

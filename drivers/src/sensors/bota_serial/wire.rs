@@ -115,20 +115,10 @@ impl Frame {
 }
 
 /// How frames look, for a [`Deframer`](crate::sensors::line::Deframer).
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Format;
-
-impl FrameFormat<{ Frame::LENGTH }> for Format {
-    type Frame = Frame;
-
-    fn may_begin(&self, start: &[u8]) -> bool {
-        start.first().is_none_or(|first| *first == Frame::HEADER)
-    }
-
-    fn frame(&self, bytes: &[u8; Frame::LENGTH]) -> Option<Frame> {
-        Frame::parse(bytes).ok()
-    }
-}
+pub const FORMAT: FrameFormat<Frame, { Frame::LENGTH }> = FrameFormat {
+    may_begin: |start| start.first().is_none_or(|first| *first == Frame::HEADER),
+    frame: |bytes| Frame::parse(bytes).ok(),
+};
 
 #[cfg(test)]
 mod tests {

@@ -3,7 +3,7 @@
 use fingertip_wrench::{Real, Wrench};
 use thiserror::Error;
 
-use super::wire::{Format, Reading};
+use super::wire::{FORMAT, Reading};
 use crate::sensors::axis_counts::AxisCounts;
 use crate::sensors::line::{Deframer, LineDecoder, LineStatistics};
 use crate::{Sample, SourceError, SourceErrorKind};
@@ -30,7 +30,7 @@ impl SourceError for DynPickFault {
 #[derive(Clone, Copy, Debug)]
 pub struct DynPickDecoder {
     counts: AxisCounts,
-    deframer: Deframer<Format, { Reading::LENGTH }>,
+    deframer: Deframer<Reading, { Reading::LENGTH }>,
     tick: Option<u8>,
     missing: u64,
 }
@@ -40,7 +40,7 @@ impl DynPickDecoder {
     /// [`Sensitivities`](super::Sensitivities).
     #[must_use]
     pub const fn new(counts: AxisCounts) -> Self {
-        Self { counts, deframer: Deframer::new(Format), tick: None, missing: 0 }
+        Self { counts, deframer: Deframer::new(FORMAT), tick: None, missing: 0 }
     }
 
     /// Readings that are missing by the digit that counts them. Ten in a row that are missing cannot be

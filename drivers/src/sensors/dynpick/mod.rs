@@ -25,4 +25,4 @@ pub use decoder::{DynPickDecoder, DynPickFault};
 pub use sensitivities::{Sensitivities, SensitivitiesError};
 #[cfg(feature = "simulators")]
 pub use simulator::SimulatedDynPick;
-pub use wire::{Format, REQUEST, REQUEST_SENSITIVITIES, REQUEST_ZERO, Reading};
+pub use wire::{FORMAT, REQUEST, REQUEST_SENSITIVITIES, REQUEST_ZERO, Reading};

@@ -68,25 +68,17 @@ impl Reading {
 }
 
 /// How readings look, for a [`Deframer`](crate::sensors::line::Deframer).
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Format;
-
-impl FrameFormat<{ Reading::LENGTH }> for Format {
-    type Frame = Reading;
-
-    fn may_begin(&self, start: &[u8]) -> bool {
+pub const FORMAT: FrameFormat<Reading, { Reading::LENGTH }> = FrameFormat {
+    may_begin: |start| {
         start.iter().enumerate().all(|(at, byte)| match at {
             0 => byte.is_ascii_digit(),
             25 => *byte == b'\r',
             26 => *byte == b'\n',
             _ => byte.is_ascii_hexdigit(),
         })
-    }
-
-    fn frame(&self, bytes: &[u8; Reading::LENGTH]) -> Option<Reading> {
-        Reading::parse(bytes)
-    }
-}
+    },
+    frame: |bytes| Reading::parse(bytes),
+};
 
 #[cfg(test)]
 mod tests {

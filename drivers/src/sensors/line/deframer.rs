@@ -1,17 +1,14 @@
 //! Finds frames in a stream of bytes.
 
-/// How the frames of a device look.
-pub trait FrameFormat<const LENGTH: usize> {
-    /// A frame that was read.
-    type Frame;
-
+/// How the frames of a device look: `LENGTH` bytes that are an `F`.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameFormat<F, const LENGTH: usize> {
     /// Whether a frame can begin with these bytes (at most `LENGTH`): its header, as far as it is
     /// there. The more is asked here, the sooner noise is dropped; a format without a header says
     /// `true`.
-    fn may_begin(&self, start: &[u8]) -> bool;
-
+    pub may_begin: fn(&[u8]) -> bool,
     /// The frame, if all that can be checked about it is right: above all its checksum.
-    fn frame(&self, bytes: &[u8; LENGTH]) -> Option<Self::Frame>;
+    pub frame: fn(&[u8; LENGTH]) -> Option<F>,
 }
 
 /// How a line has behaved so far. What was lost on the way is not among it: only formats that number their
@@ -35,34 +32,34 @@ pub struct LineStatistics {
 /// never takes a sound one with it that begins inside its bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct Deframer<F, const LENGTH: usize> {
-    format: F,
+    format: FrameFormat<F, LENGTH>,
     bytes: [u8; LENGTH],
     length: usize,
     statistics: LineStatistics,
 }
 
-impl<F: FrameFormat<LENGTH>, const LENGTH: usize> Deframer<F, LENGTH> {
+impl<F, const LENGTH: usize> Deframer<F, LENGTH> {
     /// Nothing seen yet.
     #[must_use]
-    pub const fn new(format: F) -> Self {
+    pub const fn new(format: FrameFormat<F, LENGTH>) -> Self {
         let statistics = LineStatistics { frames: 0, failed: 0, skipped: 0 };
         Self { format, bytes: [0; LENGTH], length: 0, statistics }
     }
 
     /// Takes the next byte; a frame if it completes one.
     #[inline]
-    pub fn push(&mut self, byte: u8) -> Option<F::Frame> {
+    pub fn push(&mut self, byte: u8) -> Option<F> {
         if let Some(place) = self.bytes.get_mut(self.length) {
             *place = byte;
             self.length += 1;
         }
-        if !self.format.may_begin(self.held()) {
+        if !(self.format.may_begin)(self.held()) {
             self.drop_to_header();
         }
         if self.length < LENGTH {
             return None;
         }
-        let frame = self.format.frame(&self.bytes);
+        let frame = (self.format.frame)(&self.bytes);
         if frame.is_some() {
             self.length = 0;
             self.statistics.frames += 1;
@@ -83,7 +80,7 @@ impl<F: FrameFormat<LENGTH>, const LENGTH: usize> Deframer<F, LENGTH> {
         let starts = 1..self.length;
         let dropped = starts
             .into_iter()
-            .find(|start| self.format.may_begin(held.get(*start..).unwrap_or_default()))
+            .find(|start| (self.format.may_begin)(held.get(*start..).unwrap_or_default()))
             .unwrap_or(self.length);
         self.statistics.skipped += dropped as u64;
         self.bytes.copy_within(dropped..self.length, 0);
@@ -95,12 +92,6 @@ impl<F: FrameFormat<LENGTH>, const LENGTH: usize> Deframer<F, LENGTH> {
     pub fn clear(&mut self) {
         self.statistics.skipped += self.length as u64;
         self.length = 0;
-    }
-
-    /// The format.
-    #[must_use]
-    pub const fn format(&self) -> &F {
-        &self.format
     }
 
     /// How the line has behaved so far.
@@ -122,26 +113,19 @@ mod tests {
     use proptest::prelude::*;
 
     /// Two bytes of header, four of which one is their sum.
-    struct Sum;
-
-    impl FrameFormat<6> for Sum {
-        type Frame = [u8; 3];
-
-        fn may_begin(&self, start: &[u8]) -> bool {
-            start.iter().zip([1, 2]).all(|(byte, header)| *byte == header)
-        }
-
-        fn frame(&self, bytes: &[u8; 6]) -> Option<[u8; 3]> {
+    const SUM: FrameFormat<[u8; 3], 6> = FrameFormat {
+        may_begin: |start| start.iter().zip([1, 2]).all(|(byte, header)| *byte == header),
+        frame: |bytes| {
             let [1, 2, a, b, c, sum] = *bytes else { return None };
             (sum == a.wrapping_add(b).wrapping_add(c)).then_some([a, b, c])
-        }
-    }
+        },
+    };
 
     /// What the stream holds by trying every place, with all of it at hand.
     fn searched(stream: &[u8]) -> Vec<[u8; 3]> {
         let (mut found, mut at) = (Vec::new(), 0);
         while let Some(bytes) = stream.get(at..at + 6) {
-            match Sum.frame(bytes.try_into().unwrap()) {
+            match (SUM.frame)(bytes.try_into().unwrap()) {
                 Some(frame) => {
                     found.push(frame);
                     at += 6;
@@ -158,7 +142,7 @@ mod tests {
             // Few different bytes, so that headers and frames come by chance and overlap.
             noise in prop::collection::vec(0_u8..4, 0..400),
         ) {
-            let mut deframer = Deframer::new(Sum);
+            let mut deframer = Deframer::new(SUM);
             let found: Vec<[u8; 3]> = noise.iter().filter_map(|byte| deframer.push(*byte)).collect();
             let statistics = deframer.statistics();
             let accounted = statistics.skipped + deframer.waiting() as u64 + 6 * statistics.frames;
@@ -170,7 +154,7 @@ mod tests {
 
     #[test]
     fn a_line_that_fell_silent_can_be_begun_anew() {
-        let mut deframer = Deframer::new(Sum);
+        let mut deframer = Deframer::new(SUM);
         assert!([1, 2, 3].iter().all(|byte| deframer.push(*byte).is_none()));
         deframer.clear();
         assert_eq!((deframer.waiting(), deframer.statistics().skipped), (0, 3));

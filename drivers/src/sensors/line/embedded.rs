@@ -2,14 +2,14 @@
 
 use core::fmt::Display;
 
-use embedded_io::{ErrorType as LineErrorType, Read, ReadReady};
+use embedded_io::{Read, ReadReady};
 use fingertip_wrench::{Real, Wrench};
 
 use super::decoder::LineDecoder;
 use super::error::LineError;
 use super::pump::{Pump, Step, pumping};
 use crate::polled::NbSource;
-use crate::{AsyncSource, ErrorType, Sample, WrenchSource};
+use crate::{AsyncSource, Sample, Source};
 
 /// A sensor on any `embedded_io::Read`, blocking; polled, too, if the line can say whether bytes are
 /// there (`ReadReady`).
@@ -27,19 +27,6 @@ pub struct AsyncLine<L, T, D> {
     pump: Pump<T, D>,
 }
 
-macro_rules! line_error {
-    ($name:ident) => {
-        impl<L: LineErrorType, T: Real, D: LineDecoder<T>> ErrorType for $name<L, T, D>
-        where
-            D::Fault: Display,
-        {
-            type Error = LineError<L::Error, D::Fault>;
-        }
-    };
-}
-
-line_error!(EmbeddedLine);
-line_error!(AsyncLine);
 pumping!(EmbeddedLine);
 pumping!(AsyncLine);
 
@@ -62,11 +49,13 @@ macro_rules! pumped {
     };
 }
 
-impl<L: Read, T: Real, D: LineDecoder<T>> WrenchSource<T> for EmbeddedLine<L, T, D>
+impl<L: Read, T: Real, D: LineDecoder<T>> Source<T, Wrench<T>> for EmbeddedLine<L, T, D>
 where
     D::Fault: Display,
 {
-    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
+    type Error = LineError<L::Error, D::Fault>;
+
+    fn next_sample(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
         pumped!(self, self.line.read(self.pump.buffer()))
     }
 }
@@ -75,6 +64,8 @@ impl<L: Read + ReadReady, T: Real, D: LineDecoder<T>> NbSource<T, Wrench<T>> for
 where
     D::Fault: Display,
 {
+    type Error = LineError<L::Error, D::Fault>;
+
     fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
         pumped!(self, {
             match self.line.read_ready() {
@@ -90,6 +81,8 @@ impl<L: embedded_io_async::Read, T: Real, D: LineDecoder<T>> AsyncSource<T, Wren
 where
     D::Fault: Display,
 {
+    type Error = LineError<L::Error, D::Fault>;
+
     async fn next_sample(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
         pumped!(self, self.line.read(self.pump.buffer()).await)
     }

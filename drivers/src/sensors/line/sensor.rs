@@ -8,12 +8,12 @@ use super::decoder::LineDecoder;
 use super::error::LineError;
 use super::pump::{Pump, Step, pumping};
 use crate::polled::NbSource;
-use crate::{ErrorType, Sample, WrenchSource};
+use crate::{Sample, Source};
 
 /// A sensor on anything that can be read, such as an open serial port. Set the read timeout of a
 /// port to some periods of the sensor.
 ///
-/// It blocks as a [`WrenchSource`]. As an [`NbSource`] it takes the timeout of the line (`TimedOut` or
+/// It blocks as a [`Source`]. As an [`NbSource`] it takes the timeout of the line (`TimedOut` or
 /// `WouldBlock`) for "nothing yet": open the line as non-blocking, or with a timeout of zero.
 #[derive(Debug)]
 pub struct LineSensor<L, T, D> {
@@ -23,18 +23,13 @@ pub struct LineSensor<L, T, D> {
 
 pumping!(LineSensor);
 
-impl<L, T: Real, D: LineDecoder<T>> ErrorType for LineSensor<L, T, D>
+impl<L: Read, T: Real, D: LineDecoder<T>> Source<T, Wrench<T>> for LineSensor<L, T, D>
 where
     D::Fault: core::fmt::Display,
 {
     type Error = LineError<io::Error, D::Fault>;
-}
 
-impl<L: Read, T: Real, D: LineDecoder<T>> WrenchSource<T> for LineSensor<L, T, D>
-where
-    D::Fault: core::fmt::Display,
-{
-    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
+    fn next_sample(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
         loop {
             match self.pump.step() {
                 Step::Sample(sample) => return Ok(Some(sample)),
@@ -59,8 +54,10 @@ impl<L: Read, T: Real, D: LineDecoder<T>> NbSource<T, Wrench<T>> for LineSensor<
 where
     D::Fault: core::fmt::Display,
 {
+    type Error = LineError<io::Error, D::Fault>;
+
     fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
-        match self.next_wrench() {
+        match self.next_sample() {
             Ok(sample) => Ok(sample),
             Err(LineError::Timeout) => Err(nb::Error::WouldBlock),
             Err(error) => Err(nb::Error::Other(error)),

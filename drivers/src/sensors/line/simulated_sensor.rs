@@ -65,7 +65,7 @@ const LONGEST_REQUEST: usize = 64;
 /// use std::io::Write;
 /// use fingertip_drivers::sensors::line::{LineFaults, LineSensor, SimulatedSerial};
 /// use fingertip_drivers::sensors::robotous::{Request, RobotousDecoder, SimulatedRft};
-/// use fingertip_drivers::WrenchSource;
+/// use fingertip_drivers::Source;
 /// use fingertip_drivers::sensors::AxisCounts;
 ///
 /// let counts = AxisCounts::uniform(50.0, 2000.0)?;
@@ -73,7 +73,7 @@ const LONGEST_REQUEST: usize = 64;
 /// let mut sensor = LineSensor::new(port, RobotousDecoder::new(counts));
 /// sensor.line_mut().write_all(&Request::Stream.emit_serial())?;
 /// sensor.line_mut().sample([1.0, 0.0, -2.0, 0.0, 0.0, 0.0]);
-/// let sample = sensor.next_wrench()?.unwrap();
+/// let sample = sensor.next_sample()?.unwrap();
 /// let force: f64 = sample.value.force().z;
 /// assert_eq!(force, -2.0);
 /// # }

@@ -3,7 +3,7 @@
 use fingertip_wrench::{Real, Wrench};
 use thiserror::Error;
 
-use super::wire::{Format, Reading};
+use super::wire::{FORMAT, Reading};
 use crate::sensors::axis_counts::AxisCounts;
 use crate::sensors::line::{Deframer, LineDecoder, LineStatistics};
 use crate::{Sample, SourceError, SourceErrorKind};
@@ -40,7 +40,7 @@ impl SourceError for OptoForceFault {
 #[derive(Clone, Copy, Debug)]
 pub struct OptoForceDecoder {
     counts: AxisCounts,
-    deframer: Deframer<Format, { Reading::LENGTH }>,
+    deframer: Deframer<Reading, { Reading::LENGTH }>,
     last: Option<u16>,
     missing: u64,
 }
@@ -49,7 +49,7 @@ impl OptoForceDecoder {
     /// For a sensor whose counts are these.
     #[must_use]
     pub const fn new(counts: AxisCounts) -> Self {
-        Self { counts, deframer: Deframer::new(Format), last: None, missing: 0 }
+        Self { counts, deframer: Deframer::new(FORMAT), last: None, missing: 0 }
     }
 
     /// Readings that are missing by their numbers.

@@ -19,4 +19,4 @@ mod wire;
 pub use decoder::{OptoForceDecoder, OptoForceFault};
 #[cfg(feature = "simulators")]
 pub use simulator::SimulatedOptoForce;
-pub use wire::{Configuration, Filter, Format, Rate, Reading};
+pub use wire::{Configuration, FORMAT, Filter, Rate, Reading};

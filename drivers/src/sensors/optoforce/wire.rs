@@ -172,20 +172,10 @@ impl Configuration {
 }
 
 /// How readings look, for a [`Deframer`](crate::sensors::line::Deframer).
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Format;
-
-impl FrameFormat<{ Reading::LENGTH }> for Format {
-    type Frame = Reading;
-
-    fn may_begin(&self, start: &[u8]) -> bool {
-        start.iter().zip(HEADER).all(|(byte, header)| *byte == header)
-    }
-
-    fn frame(&self, bytes: &[u8; Reading::LENGTH]) -> Option<Reading> {
-        Reading::parse(bytes)
-    }
-}
+pub const FORMAT: FrameFormat<Reading, { Reading::LENGTH }> = FrameFormat {
+    may_begin: |start| start.iter().zip(HEADER).all(|(byte, header)| *byte == header),
+    frame: |bytes| Reading::parse(bytes),
+};
 
 #[cfg(test)]
 mod tests {

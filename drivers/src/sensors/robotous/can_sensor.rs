@@ -11,7 +11,7 @@ use super::can::{CanAssembler, CanStatistics};
 use super::decoder::RobotousFault;
 use super::wire::Request;
 use crate::polled::NbSource;
-use crate::{ErrorType, Sample, SourceError, SourceErrorKind, WrenchSource};
+use crate::{Sample, Source, SourceError, SourceErrorKind};
 
 /// Why there is no sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -45,7 +45,7 @@ impl<E: Debug> SourceError for CanSensorError<E> {
 /// # #[cfg(feature = "simulators")] {
 /// use embedded_can::StandardId;
 /// use fingertip_drivers::sensors::robotous::{CanAssembler, CanSensor, Request, SimulatedCan};
-/// use fingertip_drivers::WrenchSource;
+/// use fingertip_drivers::Source;
 /// use fingertip_drivers::sensors::AxisCounts;
 ///
 /// let [first, second, request] = [1, 2, 0x64].map(|number| StandardId::new(number).unwrap());
@@ -54,7 +54,7 @@ impl<E: Debug> SourceError for CanSensorError<E> {
 /// let counts = AxisCounts::uniform(50.0, 2000.0)?;
 /// let mut sensor = CanSensor::new(bus, CanAssembler::new(counts, first, second), request);
 /// sensor.request(Request::Stream)?;
-/// let sample = sensor.next_wrench()?.unwrap();
+/// let sample = sensor.next_sample()?.unwrap();
 /// let force: f64 = sample.value.force().x;
 /// assert_eq!(force, 1.0);
 /// # }
@@ -104,13 +104,11 @@ impl<C: blocking::Can, T> CanSensor<C, T> {
     }
 }
 
-impl<C: blocking::Can, T> ErrorType for CanSensor<C, T> {
-    type Error = CanSensorError<C::Error>;
-}
-
 /// Waits as long as the bus does.
-impl<C: blocking::Can, T: Real> WrenchSource<T> for CanSensor<C, T> {
-    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
+impl<C: blocking::Can, T: Real> Source<T, Wrench<T>> for CanSensor<C, T> {
+    type Error = CanSensorError<C::Error>;
+
+    fn next_sample(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
         loop {
             let frame = self.bus.receive().map_err(CanSensorError::Bus)?;
             if let Some(wrench) = self.assembler.push_wrench(&frame) {
@@ -125,6 +123,8 @@ impl<C, T: Real> NbSource<T, Wrench<T>> for CanSensor<C, T>
 where
     C: blocking::Can + embedded_can::nb::Can<Error = <C as blocking::Can>::Error>,
 {
+    type Error = CanSensorError<<C as blocking::Can>::Error>;
+
     fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, Self::Error> {
         loop {
             let frame =
@@ -159,9 +159,9 @@ mod tests {
     fn it_streams_when_asked_and_sets_its_zero_only_on_request() {
         let mut sensor = sensor(0.0, |number| [50 * (number as i16 + 1), 0, 0, 0, 0, 2000]);
         assert_eq!(sensor.poll_sample().unwrap_err(), nb::Error::WouldBlock);
-        assert!(matches!(sensor.next_wrench(), Err(CanSensorError::Bus(_))), "nothing would ever come");
+        assert!(matches!(sensor.next_sample(), Err(CanSensorError::Bus(_))), "nothing would ever come");
         sensor.request(Request::Single).unwrap();
-        assert_eq!(sensor.next_wrench().unwrap().unwrap().value.force().x, 1.0);
+        assert_eq!(sensor.next_sample().unwrap().unwrap().value.force().x, 1.0);
         assert_eq!(sensor.poll_sample().unwrap_err(), nb::Error::WouldBlock);
         sensor.request(Request::Stream).unwrap();
         for number in 2..20 {
@@ -169,7 +169,7 @@ mod tests {
             assert_eq!((value.force().x, value.torque().z), (f64::from(number), 1.0));
         }
         sensor.request(Request::Bias { set: true }).unwrap();
-        let value = sensor.next_wrench().unwrap().unwrap().value;
+        let value = sensor.next_sample().unwrap().unwrap().value;
         assert_eq!((value.force().x, value.torque().z), (1.0, 0.0));
         sensor.request(Request::Stop).unwrap();
         assert_eq!(sensor.poll_sample().unwrap_err(), nb::Error::WouldBlock);
@@ -181,10 +181,10 @@ mod tests {
         let mut sensor = sensor(0.01, |number| [number as i16, 0, 0, 0, 0, number as i16]);
         sensor.bus_mut().overload = 4;
         sensor.request(Request::Stream).unwrap();
-        assert_eq!(sensor.next_wrench().unwrap_err().kind(), SourceErrorKind::Overload);
+        assert_eq!(sensor.next_sample().unwrap_err().kind(), SourceErrorKind::Overload);
         sensor.bus_mut().overload = 0;
         for _ in 0..5000 {
-            sensor.next_wrench().unwrap();
+            sensor.next_sample().unwrap();
         }
         let (statistics, lost) = (*sensor.statistics(), sensor.bus_mut().lost());
         // Each frame that is lost leaves its other half, unless both are or the halves of two readings join.

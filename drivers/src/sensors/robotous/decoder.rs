@@ -3,7 +3,7 @@
 use fingertip_wrench::{Real, Wrench};
 use thiserror::Error;
 
-use super::wire::{Format, Reading};
+use super::wire::{FORMAT, Reading};
 use crate::sensors::axis_counts::{AxisCounts, BadAxisCounts};
 use crate::sensors::line::{Deframer, LineDecoder, LineStatistics};
 use crate::{Sample, SourceError, SourceErrorKind};
@@ -34,14 +34,14 @@ impl SourceError for RobotousFault {
 #[derive(Clone, Copy, Debug)]
 pub struct RobotousDecoder {
     counts: AxisCounts,
-    deframer: Deframer<Format, { Reading::SERIAL_LENGTH }>,
+    deframer: Deframer<Reading, { Reading::SERIAL_LENGTH }>,
 }
 
 impl RobotousDecoder {
     /// For a sensor whose counts are these.
     #[must_use]
     pub const fn new(counts: AxisCounts) -> Self {
-        Self { counts, deframer: Deframer::new(Format) }
+        Self { counts, deframer: Deframer::new(FORMAT) }
     }
 
     /// For a sensor with force divider 50 and torque divider 2000, such as the RFT60.

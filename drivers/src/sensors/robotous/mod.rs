@@ -34,4 +34,4 @@ pub use decoder::{RobotousDecoder, RobotousFault};
 pub use simulated_can::{Silent, SimulatedCan, SimulatedFrame};
 #[cfg(feature = "simulators")]
 pub use simulator::SimulatedRft;
-pub use wire::{Format, Reading, Request};
+pub use wire::{FORMAT, Reading, Request};

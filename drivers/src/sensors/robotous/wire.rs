@@ -146,26 +146,20 @@ impl Request {
 }
 
 /// How readings look on a serial line, for a [`Deframer`](crate::sensors::line::Deframer).
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Format;
-
-impl FrameFormat<{ Reading::SERIAL_LENGTH }> for Format {
-    type Frame = Reading;
-
-    fn may_begin(&self, start: &[u8]) -> bool {
+pub const FORMAT: FrameFormat<Reading, { Reading::SERIAL_LENGTH }> = FrameFormat {
+    may_begin: |start| {
         match start {
             [] => true,
             [first] => *first == START,
             // Answers to other requests are passed over as bytes of no frame.
             [first, id, ..] => *first == START && matches!(*id, Request::SINGLE | Request::STREAM),
         }
-    }
-
-    fn frame(&self, bytes: &[u8; Reading::SERIAL_LENGTH]) -> Option<Reading> {
+    },
+    frame: |bytes| {
         let [START, data @ .., checksum, END] = bytes else { return None };
         (sum(data) == *checksum).then(|| Reading::parse(data)).flatten()
-    }
-}
+    },
+};
 
 #[cfg(test)]
 mod tests {
@@ -194,12 +188,12 @@ mod tests {
         fn a_reading_is_read_as_it_was_written(streamed in any::<bool>(), counts in any::<[i16; 6]>(), overload in any::<u8>()) {
             let reading = Reading { streamed, counts, overload };
             prop_assert_eq!(Reading::parse(&reading.emit()), Some(reading));
-            prop_assert_eq!(Format.frame(&reading.emit_serial()), Some(reading));
+            prop_assert_eq!((FORMAT.frame)(&reading.emit_serial()), Some(reading));
         }
 
         #[test]
         fn any_bytes_are_a_reading_or_none(bytes in any::<[u8; 19]>(), request in any::<[u8; 8]>()) {
-            if let Some(reading) = Format.frame(&bytes) {
+            if let Some(reading) = (FORMAT.frame)(&bytes) {
                 prop_assert_eq!(&reading.emit_serial()[..15], &bytes[..15]);
             }
             if let Some(request) = Request::parse(&request) {
@@ -211,7 +205,7 @@ mod tests {
         fn any_one_damaged_byte_is_noticed(counts in any::<[i16; 6]>(), at in 0_usize..19, change in 1_u8..) {
             let mut bytes = Reading { streamed: true, counts, overload: 0 }.emit_serial();
             bytes[at] ^= change;
-            prop_assert_eq!(Format.frame(&bytes), None);
+            prop_assert_eq!((FORMAT.frame)(&bytes), None);
         }
     }
 }

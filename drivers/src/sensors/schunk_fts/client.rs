@@ -13,7 +13,7 @@ use super::wire::{Command, CommandAnswer, FtsSample, FtsWireError, Packet};
 use crate::polled::NbSource;
 use crate::sensors::LinkStatistics;
 use crate::sensors::datagram_socket::DatagramSocket;
-use crate::{ErrorType, Sample, SourceError, SourceErrorKind, WrenchSource};
+use crate::{Sample, Source, SourceError, SourceErrorKind};
 
 /// Why a client has no wrench to give.
 #[derive(Debug, Error)]
@@ -215,13 +215,11 @@ impl Drop for FtsClient {
     }
 }
 
-impl ErrorType for FtsClient {
-    type Error = FtsClientError;
-}
-
 /// The sensor sends no time: samples have one only if its rate is stated, by [`timed_by`](FtsClient::timed_by).
-impl<T: Real> WrenchSource<T> for FtsClient {
-    fn next_wrench(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, FtsClientError> {
+impl<T: Real> Source<T, Wrench<T>> for FtsClient {
+    type Error = FtsClientError;
+
+    fn next_sample(&mut self) -> Result<Option<Sample<T, Wrench<T>>>, FtsClientError> {
         self.socket.wait(true)?;
         self.next_sample().map(Some)
     }
@@ -230,6 +228,8 @@ impl<T: Real> WrenchSource<T> for FtsClient {
 /// For control that must not lag, put it into a [`Watched`](crate::middleware::Watched) and read the
 /// latest.
 impl<T: Real> NbSource<T, Wrench<T>> for FtsClient {
+    type Error = FtsClientError;
+
     fn poll_sample(&mut self) -> nb::Result<Option<Sample<T, Wrench<T>>>, FtsClientError> {
         self.socket.wait(false).map_err(FtsClientError::from)?;
         match self.next_sample() {

@@ -10,7 +10,8 @@ use fingertip_drivers::converters::{
     WireFaults,
 };
 use fingertip_drivers::polled::NbSource;
-use fingertip_drivers::{AsyncSource, SignalSource, SourceError, SourceErrorKind};
+use fingertip_drivers::{AsyncSource, Source, SourceError, SourceErrorKind};
+use nalgebra::SVector;
 
 use super::block_on;
 
@@ -83,15 +84,14 @@ fn the_other_faces_give_the_same_without_the_pin_as_well() {
     let mut awaited: AsyncAds1256<_, _, _, 3> =
         AsyncAds1256::new(one.spi(), one.ready(), one.delay(), PATIENCE);
     block_on(awaited.configure(&Configuration::new(INPUTS))).unwrap();
-    let sample =
-        block_on(AsyncSource::<f32, nalgebra::SVector<f32, 3>>::next_sample(&mut awaited)).unwrap().unwrap();
+    let sample = block_on(AsyncSource::<f32, SVector<f32, 3>>::next_sample(&mut awaited)).unwrap().unwrap();
     assert_eq!(sample.value, nalgebra::Vector3::from(EXPECTED.map(|count| count as f32)));
     let two = bench(WireFaults::default());
     let mut polled: Ads1256<_, _, _, 3> = Ads1256::new(two.spi(), Unwired, two.delay(), PATIENCE);
     polled.configure(&Configuration::new(INPUTS)).unwrap();
     let (mut given, mut blocked) = (0, 0);
     for _ in 0..2000 {
-        match NbSource::<f64, nalgebra::SVector<f64, 3>>::poll_sample(&mut polled) {
+        match NbSource::<f64, SVector<f64, 3>>::poll_sample(&mut polled) {
             Ok(sample) => {
                 assert_eq!(sample.unwrap().value, nalgebra::Vector3::from(EXPECTED.map(f64::from)));
                 given += 1;
@@ -170,7 +170,7 @@ fn an_end_of_the_range_is_an_error() {
     );
     let mut chip: Ads1256<_, _, _, 3> = Ads1256::new(bench.spi(), bench.ready(), bench.delay(), PATIENCE);
     chip.configure(&Configuration::new(INPUTS)).unwrap();
-    let error = SignalSource::<f64, 3>::next_signals(&mut chip).unwrap_err();
+    let error = Source::<f64, SVector<f64, 3>>::next_sample(&mut chip).unwrap_err();
     assert_eq!(
         (error, error.kind()),
         (ConverterFault::Saturated { channel: 0 }.into(), SourceErrorKind::Overload)

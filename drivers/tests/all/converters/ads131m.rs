@@ -12,7 +12,8 @@ use fingertip_drivers::converters::{
     SimulatedSpi, Unwired, WireFaults,
 };
 use fingertip_drivers::polled::NbSource;
-use fingertip_drivers::{AsyncSource, SignalSource, SourceError, SourceErrorKind};
+use fingertip_drivers::{AsyncSource, Source, SourceError, SourceErrorKind};
+use nalgebra::SVector;
 
 use super::block_on;
 
@@ -86,14 +87,13 @@ fn both_faces_send_the_same_and_give_the_same() {
     let mut awaited: AsyncAds131m<_, _, _, 8> =
         AsyncAds131m::new(two.spi(), two.ready(), two.delay(), PATIENCE);
     block_on(awaited.configure(&configuration())).unwrap();
-    let first = |source: &mut Chip| SignalSource::<f32, 8>::next_signals(source).unwrap().unwrap().value;
+    let first =
+        |source: &mut Chip| Source::<f32, SVector<f32, 8>>::next_sample(source).unwrap().unwrap().value;
     let mut last = [0.0; 2];
     for number in 0..500 {
         let a = first(&mut blocking);
-        let b = block_on(AsyncSource::<f32, nalgebra::SVector<f32, 8>>::next_sample(&mut awaited))
-            .unwrap()
-            .unwrap()
-            .value;
+        let b =
+            block_on(AsyncSource::<f32, SVector<f32, 8>>::next_sample(&mut awaited)).unwrap().unwrap().value;
         // The tasks' clock ticks otherwise, so that the first one may be another.
         if number > 0 {
             assert_eq!((a[0] - last[0], b[0] - last[1]), (8.0, 8.0));
@@ -116,7 +116,7 @@ fn polling_never_gives_a_conversion_twice_and_never_waits() {
     let mut last = -1.0;
     let (mut given, mut blocked) = (0, 0);
     for _ in 0..20_000 {
-        let next = NbSource::<f64, nalgebra::SVector<f64, 8>>::poll_sample(&mut unwired);
+        let next = NbSource::<f64, SVector<f64, 8>>::poll_sample(&mut unwired);
         match next {
             Ok(sample) => {
                 let number = sample.unwrap().value[0] / 8.0;
@@ -129,12 +129,9 @@ fn polling_never_gives_a_conversion_twice_and_never_waits() {
     }
     assert!(given > 5000 && blocked > 5000, "{given} {blocked}");
     chip.configure(&configuration()).unwrap();
-    assert_eq!(
-        NbSource::<f64, nalgebra::SVector<f64, 8>>::poll_sample(&mut chip),
-        Err(nb::Error::WouldBlock)
-    );
+    assert_eq!(NbSource::<f64, SVector<f64, 8>>::poll_sample(&mut chip), Err(nb::Error::WouldBlock));
     bench.advance(70_000);
-    assert!(NbSource::<f64, nalgebra::SVector<f64, 8>>::poll_sample(&mut chip).is_ok());
+    assert!(NbSource::<f64, SVector<f64, 8>>::poll_sample(&mut chip).is_ok());
 }
 
 #[test]
@@ -260,7 +257,7 @@ fn clipped_channels_are_refused_and_those_that_are_off_are_not_asked() {
     assert_eq!((conversion.counts[5], conversion.counts[6]), (-8_388_608, 0));
     // 160 mV over the gain against 1.2 V over the gain.
     assert_eq!(conversion.counts[3], (0.16 / 1.2 * 8_388_608.0_f64).round() as i32);
-    let error = SignalSource::<f64, 8>::next_signals(&mut chip).unwrap_err();
+    let error = Source::<f64, SVector<f64, 8>>::next_sample(&mut chip).unwrap_err();
     assert_eq!(
         (error.kind(), error),
         (SourceErrorKind::Overload, ConverterFault::Saturated { channel: 4 }.into())
@@ -269,7 +266,7 @@ fn clipped_channels_are_refused_and_those_that_are_off_are_not_asked() {
     configuration.channels[5] =
         ChannelSetup { offset: -100, gain_correction: 0x40_0000, ..ChannelSetup::default() };
     chip.configure(&configuration).unwrap();
-    let value = SignalSource::<f64, 8>::next_signals(&mut chip).unwrap().unwrap().value;
+    let value = Source::<f64, SVector<f64, 8>>::next_sample(&mut chip).unwrap().unwrap().value;
     assert_eq!(value[0], (0.1 / 1.2 * 8_388_608.0_f64).round());
     // Halved and moved by the device itself: −2 V is no longer at the end of the range.
     assert_eq!(value[5], ((-2.0 / 1.2 * 8_388_608.0 + 100.0) / 2.0_f64).round());

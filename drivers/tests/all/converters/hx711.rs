@@ -5,8 +5,8 @@ use embedded_hal_mock::eh1::digital::{Mock as PinMock, State, Transaction as Pin
 use fingertip_drivers::converters::hx711::{AsyncHx711, Hx711, Mode, SimulatedHx711s};
 use fingertip_drivers::converters::{ConverterFault, Level, Patience, SimulatedBench, WireFaults};
 use fingertip_drivers::polled::NbSource;
-use fingertip_drivers::{AsyncSource, SignalSource, SourceError, SourceErrorKind};
-use nalgebra::Vector3;
+use fingertip_drivers::{AsyncSource, Source, SourceError, SourceErrorKind};
+use nalgebra::{SVector, Vector3};
 
 use super::block_on;
 
@@ -31,7 +31,7 @@ fn gains_and_inputs_are_set_by_the_pulses_and_nothing_unsettled_is_given() {
     for mode in [Mode::B32, Mode::A128, Mode::A64, Mode::B32] {
         chips.set_mode(mode);
         for _ in 0..20 {
-            let sample = SignalSource::<f64, 3>::next_signals(&mut chips).unwrap().unwrap();
+            let sample = Source::<f64, SVector<f64, 3>>::next_sample(&mut chips).unwrap().unwrap();
             assert_eq!(sample.value, expected(mode), "{mode:?}");
         }
     }
@@ -41,7 +41,10 @@ fn gains_and_inputs_are_set_by_the_pulses_and_nothing_unsettled_is_given() {
     let resets = bench.with(|chips| chips.resets());
     chips.start().unwrap();
     assert!(bench.with(|chips| chips.resets()) > resets);
-    assert_eq!(SignalSource::<f64, 3>::next_signals(&mut chips).unwrap().unwrap().value, expected(Mode::B32));
+    assert_eq!(
+        Source::<f64, SVector<f64, 3>>::next_sample(&mut chips).unwrap().unwrap().value,
+        expected(Mode::B32)
+    );
 }
 
 #[test]
@@ -50,15 +53,14 @@ fn the_other_faces_give_the_same() {
     let mut chips =
         AsyncHx711::new(bench.clock(), bench.data(), bench.delay(), bench.delay(), Mode::A64, PATIENCE);
     block_on(chips.start()).unwrap();
-    let sample =
-        block_on(AsyncSource::<f32, nalgebra::SVector<f32, 3>>::next_sample(&mut chips)).unwrap().unwrap();
+    let sample = block_on(AsyncSource::<f32, SVector<f32, 3>>::next_sample(&mut chips)).unwrap().unwrap();
     assert_eq!(sample.value, expected(Mode::A64).cast::<f32>());
     let (clock, data, (delay, _)) = chips.release();
     let mut polled = Hx711::new(clock, data, delay, Mode::A128, PATIENCE);
     polled.start().unwrap();
     let (mut given, mut blocked) = (0, 0);
     for _ in 0..3000 {
-        match NbSource::<f64, nalgebra::SVector<f64, 3>>::poll_sample(&mut polled) {
+        match NbSource::<f64, SVector<f64, 3>>::poll_sample(&mut polled) {
             Ok(sample) => {
                 assert_eq!(sample.unwrap().value, expected(Mode::A128));
                 given += 1;
@@ -92,7 +94,7 @@ fn stuck_lines_and_ends_of_the_range_are_errors() {
         SimulatedBench::new(SimulatedHx711s::new(|_| [(1e-3, 0.0), (5e-3, 0.0)]), WireFaults::default());
     let mut chips = Hx711::new(wide.clock(), wide.data(), wide.delay(), Mode::A128, PATIENCE);
     chips.start().unwrap();
-    let error = SignalSource::<f64, 2>::next_signals(&mut chips).unwrap_err();
+    let error = Source::<f64, SVector<f64, 2>>::next_sample(&mut chips).unwrap_err();
     assert_eq!(
         (error, error.kind()),
         (ConverterFault::Saturated { channel: 1 }.into(), SourceErrorKind::Overload)

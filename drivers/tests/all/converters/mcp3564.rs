@@ -10,7 +10,8 @@ use fingertip_drivers::converters::{
     ConverterError, ConverterFault, Level, Patience, SimulatedBench, Unwired, WireFaults,
 };
 use fingertip_drivers::polled::NbSource;
-use fingertip_drivers::{AsyncSource, SignalSource, SourceError, SourceErrorKind};
+use fingertip_drivers::{AsyncSource, Source, SourceError, SourceErrorKind};
+use nalgebra::SVector;
 
 use super::block_on;
 
@@ -97,15 +98,14 @@ fn the_other_faces_give_the_same_without_the_pin_as_well() {
     let mut awaited: AsyncMcp3564<_, _, _, 5> =
         AsyncMcp3564::new(one.spi(), one.ready(), one.delay(), PATIENCE);
     block_on(awaited.configure(&configuration())).unwrap();
-    let sample =
-        block_on(AsyncSource::<f32, nalgebra::SVector<f32, 5>>::next_sample(&mut awaited)).unwrap().unwrap();
+    let sample = block_on(AsyncSource::<f32, SVector<f32, 5>>::next_sample(&mut awaited)).unwrap().unwrap();
     cycle(core::array::from_fn(|channel| sample.value[channel] as i32));
     let two = bench(true, WireFaults::default());
     let mut polled: Mcp3564<_, _, _, 5> = Mcp3564::new(two.spi(), Unwired, two.delay(), PATIENCE);
     polled.configure(&configuration()).unwrap();
     let (mut given, mut blocked) = (0, 0);
     for _ in 0..5000 {
-        match NbSource::<f64, nalgebra::SVector<f64, 5>>::poll_sample(&mut polled) {
+        match NbSource::<f64, SVector<f64, 5>>::poll_sample(&mut polled) {
             Ok(sample) => {
                 let value = sample.unwrap().value;
                 cycle(core::array::from_fn(|channel| value[channel] as i32));
@@ -191,7 +191,7 @@ fn a_count_beyond_the_range_is_an_error() {
     let bench = SimulatedBench::new(chip, WireFaults::default());
     let mut chip: Mcp3564<_, _, _, 2> = Mcp3564::new(bench.spi(), bench.ready(), bench.delay(), PATIENCE);
     chip.configure(&Configuration::new([Channel::PairA, Channel::PairB])).unwrap();
-    let error = SignalSource::<f64, 2>::next_signals(&mut chip).unwrap_err();
+    let error = Source::<f64, SVector<f64, 2>>::next_sample(&mut chip).unwrap_err();
     assert_eq!(error, ConverterFault::Saturated { channel: 1 }.into());
     // The number is there all the same, beyond 24 bits.
     assert_eq!(chip.read().unwrap().counts, [-4_194_304, 9_227_469]);

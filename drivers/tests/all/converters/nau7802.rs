@@ -11,7 +11,8 @@ use fingertip_drivers::converters::{
     ConverterError, ConverterFault, Level, Patience, SimulatedBench, Unwired, WireFaults,
 };
 use fingertip_drivers::polled::NbSource;
-use fingertip_drivers::{AsyncSource, SignalSource, SourceError, SourceErrorKind};
+use fingertip_drivers::{AsyncSource, Source, SourceError, SourceErrorKind};
+use nalgebra::SVector;
 
 use super::block_on;
 
@@ -47,7 +48,7 @@ fn it_starts_calibrates_and_changes_inputs() {
     let error = chip.calibrate(Calibration::SystemGain).unwrap_err();
     assert_eq!((error, error.kind()), (ConverterFault::Calibration.into(), SourceErrorKind::DeviceFault));
     chip.configure(&Configuration { gain: Gain::X32, ..configuration() }).unwrap();
-    let sample = SignalSource::<f32, 1>::next_signals(&mut chip).unwrap().unwrap();
+    let sample = Source::<f32, SVector<f32, 1>>::next_sample(&mut chip).unwrap().unwrap();
     assert_eq!(sample.value[0], expected(2e-3, Gain::X32) as f32);
     // Each conversion once: as many as were made, but for those in calibrations and those thrown away.
     let (given, made) = (chip.statistics().conversions, bench.with(|chip| chip.conversions()));
@@ -59,15 +60,14 @@ fn the_other_faces_give_the_same_without_the_pin_as_well() {
     let one = bench(WireFaults::default());
     let mut awaited = AsyncNau7802::new(one.i2c(), one.data_ready(), one.delay(), PATIENCE);
     block_on(awaited.configure(&configuration())).unwrap();
-    let sample =
-        block_on(AsyncSource::<f64, nalgebra::SVector<f64, 1>>::next_sample(&mut awaited)).unwrap().unwrap();
+    let sample = block_on(AsyncSource::<f64, SVector<f64, 1>>::next_sample(&mut awaited)).unwrap().unwrap();
     assert_eq!(sample.value[0], f64::from(expected(2e-3, Gain::X128)));
     let two = bench(WireFaults::default());
     let mut polled = Nau7802::new(two.i2c(), Unwired, two.delay(), PATIENCE);
     polled.configure(&configuration()).unwrap();
     let (mut given, mut blocked) = (0, 0);
     for _ in 0..2000 {
-        match NbSource::<f64, nalgebra::SVector<f64, 1>>::poll_sample(&mut polled) {
+        match NbSource::<f64, SVector<f64, 1>>::poll_sample(&mut polled) {
             Ok(sample) => {
                 assert_eq!(sample.unwrap().value[0], f64::from(expected(2e-3, Gain::X128)));
                 given += 1;
@@ -116,7 +116,7 @@ fn an_end_of_the_range_is_an_error() {
     let bench = SimulatedBench::new(SimulatedNau7802::new(|_, _| 0.1), WireFaults::default());
     let mut chip = Nau7802::new(bench.i2c(), bench.data_ready(), bench.delay(), PATIENCE);
     chip.configure(&configuration()).unwrap();
-    let error = SignalSource::<f64, 1>::next_signals(&mut chip).unwrap_err();
+    let error = Source::<f64, SVector<f64, 1>>::next_sample(&mut chip).unwrap_err();
     assert_eq!(error, ConverterFault::Saturated { channel: 0 }.into());
     // And it cannot be tared away.
     assert_eq!(chip.calibrate(Calibration::SystemOffset), Err(ConverterFault::Calibration.into()));

@@ -1,8 +1,8 @@
 //! Robotous' serial frames, numbers big-endian: 55, data, the sum of the data, AA.
 
 use fingertip_drivers::sensors::AxisCounts;
-use fingertip_drivers::sensors::line::{FrameFormat, LineDecoder};
-use fingertip_drivers::sensors::robotous::{Format, Reading, Request, RobotousDecoder, RobotousFault};
+use fingertip_drivers::sensors::line::LineDecoder;
+use fingertip_drivers::sensors::robotous::{FORMAT, Reading, Request, RobotousDecoder, RobotousFault};
 use fingertip_drivers::{SourceError, SourceErrorKind};
 
 use super::{Decoded, components, decoded, sum};
@@ -20,7 +20,7 @@ fn a_reading_has_its_fields_in_their_places() {
     let counts = [50, -100, 25, 2000, -1000, 256];
     for (id, streamed) in [(0x0A, false), (0x0B, true)] {
         let expected = Reading { streamed, counts, overload: 0x21 };
-        assert_eq!(Format.frame(&frame(id, 0x21)), Some(expected));
+        assert_eq!((FORMAT.frame)(&frame(id, 0x21)), Some(expected));
         let mut emitted = frame(id, 0x21);
         // What is reserved is sent as zero.
         [emitted[15], emitted[16]] = [0, 0];
@@ -50,10 +50,10 @@ fn marks_sum_and_answer_must_be_right() {
     for at in [0, 17, 18] {
         let mut bytes = frame(0x0B, 0);
         bytes[at] ^= 1;
-        assert_eq!(Format.frame(&bytes), None, "{at}");
+        assert_eq!((FORMAT.frame)(&bytes), None, "{at}");
     }
     for id in [0, 0x09, 0x0C, 0x11, 0xFF] {
-        assert_eq!(Format.frame(&frame(id, 0)), None, "{id}");
+        assert_eq!((FORMAT.frame)(&frame(id, 0)), None, "{id}");
         // The decoder passes over them, and goes on.
         let mut decoder = RobotousDecoder::rft60().unwrap();
         assert!(decoded(&mut decoder, &frame(id, 0)).is_none());
@@ -64,7 +64,7 @@ fn marks_sum_and_answer_must_be_right() {
 
 #[test]
 fn a_frame_begins_with_its_mark_and_a_reading() {
-    let may_begin = |start: &[u8]| FrameFormat::<19>::may_begin(&Format, start);
+    let may_begin = FORMAT.may_begin;
     assert!(may_begin(&[]) && may_begin(&[0x55]) && may_begin(&[0x55, 0x0A, 3]) && may_begin(&[0x55, 0x0B]));
     assert!(!may_begin(&[0xAA]) && !may_begin(&[0x54, 0x0B]) && !may_begin(&[0x55, 0x0C]));
 }
