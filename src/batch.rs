@@ -5,11 +5,11 @@ use core::any::Any;
 use fingertip_contact::ContactModel;
 use fingertip_friction::{SlipMargin, SlipVerdict};
 use fingertip_surfaces::{Capsule, Cylinder, Ellipsoid, Plane, Sphere};
-use fingertip_wrench::{Compensation, Real, WrenchSolver};
+use fingertip_wrench::{Compensation, Real, Wrench, WrenchSolver};
 use nalgebra::{SVector, Vector3};
 
 use crate::columns::Vectorised;
-use crate::{Fingertip, GripStage, PayloadStage, SlipStage, Step};
+use crate::{Fingertip, GripStage, SlipStage, Step};
 
 /// Where the touches are written: one slice per component.
 #[derive(Debug)]
@@ -53,9 +53,9 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     pub fn sense_all<T, const N: usize>(&mut self, raw: [&[T]; N], time_step: T, touches: Touches<'_, T>)
     where
         T: Real,
-        Zero: Compensation<T, N, Raw = SVector<T, N>> + 'static,
+        Zero: Compensation<SVector<T, N>, Raw = SVector<T, N>> + 'static,
         Solver: WrenchSolver<T, N> + 'static,
-        Payload: PayloadStage<T, Motion = ()> + 'static,
+        Payload: Compensation<Wrench<T>, Raw = (Wrench<T>, ())> + 'static,
         Surface: 'static,
         Model: ContactModel<T, Surface> + 'static,
         Friction: GripStage<T> + 'static,
@@ -76,9 +76,9 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     fn one_by_one<T, const N: usize>(&mut self, raw: [&[T]; N], time_step: T, touches: Touches<'_, T>)
     where
         T: Real,
-        Zero: Compensation<T, N, Raw = SVector<T, N>>,
+        Zero: Compensation<SVector<T, N>, Raw = SVector<T, N>>,
         Solver: WrenchSolver<T, N>,
-        Payload: PayloadStage<T, Motion = ()>,
+        Payload: Compensation<Wrench<T>, Raw = (Wrench<T>, ())>,
         Model: ContactModel<T, Surface>,
         Friction: GripStage<T>,
         Detector: SlipStage<T>,

@@ -53,13 +53,17 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     }
 
     /// What the sensor carries all the time, whose weight and inertia are no contact: a
-    /// [`Payload`](fingertip_wrench::Payload). Every sample then takes the motion of the sensor with it, by
+    /// [`Payload`](fingertip_wrench::Payload), or any [`Compensation`](fingertip_wrench::Compensation) of a wrench and
+    /// something beside it. Every sample takes that, a payload's the motion of the sensor, with it by
     /// [`Step::with_motion`](crate::Step::with_motion).
     pub fn payload<Next>(
         self,
         payload: Next,
-    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Present<Next>> {
-        self.payload_stage(Present(payload))
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Next> {
+        let Fingertip { zero, solver, surface, model, friction, detector, .. } = self.fingertip;
+        FingertipBuilder {
+            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector },
+        }
     }
 
     /// The shape that may touch, and the assumption under which the contact is found on it.
@@ -88,18 +92,6 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
         detector: Next,
     ) -> FingertipBuilder<Solver, Surface, Model, Friction, Present<Next>, Zero, Payload> {
         self.slip_stage(Present(detector))
-    }
-
-    /// A stage of your own in the place of [`payload`](Self::payload): any
-    /// [`PayloadStage`](crate::PayloadStage).
-    pub fn payload_stage<Next>(
-        self,
-        payload: Next,
-    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Next> {
-        let Fingertip { zero, solver, surface, model, friction, detector, .. } = self.fingertip;
-        FingertipBuilder {
-            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector },
-        }
     }
 
     /// A stage of your own in the place of [`friction`](Self::friction): any

@@ -4,10 +4,10 @@ use fingertip_contact::PointContact;
 use fingertip_contact::batch::{BatchSurface, Entered, Lines};
 use fingertip_friction::{Coulomb, RatioThreshold, SlipVerdict};
 use fingertip_surfaces::ForceParts;
-use fingertip_wrench::{Compensation, Real, WrenchSolver};
+use fingertip_wrench::{Compensation, Real, Wrench, WrenchSolver};
 use nalgebra::SVector;
 
-use crate::{Fingertip, PayloadStage, Present, Touches};
+use crate::{Fingertip, Present, Touches};
 
 /// How many samples are taken together: if one of them is no contact, all of them are done again, by the
 /// loop that expects any sample.
@@ -30,13 +30,13 @@ pub(crate) type Vectorised<T, Surface, Solver, Zero, Payload> = Fingertip<
 impl<T, Surface, Solver, Zero, Payload> Vectorised<T, Surface, Solver, Zero, Payload>
 where
     T: Real,
-    Payload: PayloadStage<T, Motion = ()>,
+    Payload: Compensation<Wrench<T>, Raw = (Wrench<T>, ())>,
     Surface: BatchSurface<T>,
 {
     /// All samples, with the widest vectors of the processor at hand if the feature `simd` is on.
     pub(crate) fn in_columns<const N: usize>(&self, raw: [&[T]; N], touches: Touches<'_, T>)
     where
-        Zero: Compensation<T, N, Raw = SVector<T, N>>,
+        Zero: Compensation<SVector<T, N>, Raw = SVector<T, N>>,
         Solver: WrenchSolver<T, N>,
     {
         #[cfg(feature = "simd")]
@@ -51,7 +51,7 @@ where
     #[inline(always)]
     fn in_blocks<const N: usize>(&self, raw: [&[T]; N], touches: Touches<'_, T>)
     where
-        Zero: Compensation<T, N, Raw = SVector<T, N>>,
+        Zero: Compensation<SVector<T, N>, Raw = SVector<T, N>>,
         Solver: WrenchSolver<T, N>,
     {
         let count = raw.iter().map(|column| column.len()).fold(touches.len(), usize::min);
@@ -83,7 +83,7 @@ where
     #[inline(always)]
     fn block<const N: usize>(&self, all_press: bool, raw: [&[T]; N], touches: Touches<'_, T>) -> bool
     where
-        Zero: Compensation<T, N, Raw = SVector<T, N>>,
+        Zero: Compensation<SVector<T, N>, Raw = SVector<T, N>>,
         Solver: WrenchSolver<T, N>,
     {
         let Touches { point, normal_force, tangential_force, margin, utilisation, slip } = touches;
@@ -130,7 +130,7 @@ where
         at_origin: bool,
     ) -> bool
     where
-        Zero: Compensation<T, N, Raw = SVector<T, N>>,
+        Zero: Compensation<SVector<T, N>, Raw = SVector<T, N>>,
         Solver: WrenchSolver<T, N>,
     {
         let accepted = Accepted::by(&self.model);
@@ -144,7 +144,7 @@ where
         let mut all = true;
         for k in 0..count {
             let signals = self.zero.compensate(&SVector::from_fn(|gauge, _| raw[gauge][k]));
-            let wrench = self.payload.take_off(self.solver.solve(&signals), &());
+            let wrench = self.payload.compensate(&(self.solver.solve(&signals), ()));
             let (f, torque): ([T; 3], [T; 3]) = (wrench.force().into(), wrench.torque().into());
             let Entered { point, normal: n, parts, certain, .. } =
                 self.surface.enter(f, torque, Lines::Meeting, at_origin);
@@ -177,7 +177,7 @@ where
         utilisation: &mut [T],
         slip: &mut [SlipVerdict],
     ) where
-        Zero: Compensation<T, N, Raw = SVector<T, N>>,
+        Zero: Compensation<SVector<T, N>, Raw = SVector<T, N>>,
         Solver: WrenchSolver<T, N>,
     {
         let accepted = Accepted::by(&self.model);
@@ -190,7 +190,7 @@ where
             (&mut margin[..count], &mut utilisation[..count], &mut slip[..count]);
         for k in 0..count {
             let signals = self.zero.compensate(&SVector::from_fn(|gauge, _| raw[gauge][k]));
-            let wrench = self.payload.take_off(self.solver.solve(&signals), &());
+            let wrench = self.payload.compensate(&(self.solver.solve(&signals), ()));
             let (f, torque): ([T; 3], [T; 3]) = (wrench.force().into(), wrench.torque().into());
             let Entered { point, normal: n, parts, gap, .. } =
                 self.surface.enter(f, torque, Lines::Any, false);

@@ -20,5 +20,5 @@ pub use fingertip_wrench as wrench;
 pub use batch::Touches;
 pub use builder::FingertipBuilder;
 pub use pipeline::{Fingertip, Touch};
-pub use stage::{Absent, GripStage, PayloadStage, Present, SlipStage};
+pub use stage::{Absent, GripStage, Present, SlipStage};
 pub use step::Step;

@@ -2,9 +2,9 @@
 
 use fingertip_contact::{ContactModel, Resolution};
 use fingertip_wrench::{Compensation, ContactForce, Real, Uncompensated, Wrench, WrenchSolver};
-use nalgebra::Vector3;
+use nalgebra::{SVector, Vector3};
 
-use crate::{Absent, FingertipBuilder, GripStage, PayloadStage, SlipStage, Step};
+use crate::{Absent, FingertipBuilder, GripStage, SlipStage, Step};
 
 /// One fingertip: from raw readings to touch.
 ///
@@ -67,16 +67,16 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     // Always in line: an answer that goes through memory is written in small pieces and read in large
     // ones, which costs more than a sample of a small scene.
     #[inline(always)]
-    pub fn sense<T, const N: usize>(
+    pub fn sense<T, M, const N: usize>(
         &mut self,
         raw: &Zero::Raw,
-        step: impl Into<Step<T, Payload::Motion>>,
+        step: impl Into<Step<T, M>>,
     ) -> Touch<T, Friction::Reading, Detector::Verdict>
     where
         T: Real,
-        Zero: Compensation<T, N>,
+        Zero: Compensation<SVector<T, N>>,
         Solver: WrenchSolver<T, N>,
-        Payload: PayloadStage<T>,
+        Payload: Compensation<Wrench<T>, Raw = (Wrench<T>, M)>,
         Model: ContactModel<T, Surface>,
         Friction: GripStage<T>,
         Detector: SlipStage<T>,
@@ -88,20 +88,20 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     /// One wrench, from a sensor that reports wrenches, and the time since the one before \[s\] or a whole
     /// [`Step`].
     #[inline(always)]
-    pub fn sense_wrench<T>(
+    pub fn sense_wrench<T, M>(
         &mut self,
         measured: Wrench<T>,
-        step: impl Into<Step<T, Payload::Motion>>,
+        step: impl Into<Step<T, M>>,
     ) -> Touch<T, Friction::Reading, Detector::Verdict>
     where
         T: Real,
-        Payload: PayloadStage<T>,
+        Payload: Compensation<Wrench<T>, Raw = (Wrench<T>, M)>,
         Model: ContactModel<T, Surface>,
         Friction: GripStage<T>,
         Detector: SlipStage<T>,
     {
         let Step { time, last, motion } = step.into();
-        let wrench = self.payload.take_off(measured, &motion);
+        let wrench = self.payload.compensate(&(measured, motion));
         let (resolution, force) = self.model.feel_near(&wrench, &self.surface, last.as_ref());
         let (grip, slip) = match &force {
             Some(force) => (Some(self.friction.judge(force)), self.detector.follow(Some(force), time)),

@@ -2,7 +2,7 @@
 
 #[cfg(feature = "friction")]
 use fingertip_friction::{FrictionModel, SlipDetector, SlipMargin, SlipVerdict};
-use fingertip_wrench::{ContactForce, Motion, Payload, Real, Wrench};
+use fingertip_wrench::{Compensation, ContactForce, Real, Wrench};
 
 /// A stage that is left out: zero-sized, and its calls vanish.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -11,15 +11,6 @@ pub struct Absent;
 /// A stage that is there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Present<Stage>(pub Stage);
-
-/// Takes the load of what the sensor carries off a wrench. A [`Payload`] is one, wrapped in [`Present`].
-pub trait PayloadStage<T: Real> {
-    /// What it has to know of the sensor's motion at each sample.
-    type Motion;
-
-    /// What is left of a measured wrench: contact.
-    fn take_off(&self, measured: Wrench<T>, motion: &Self::Motion) -> Wrench<T>;
-}
 
 /// Judges the contact force of one sample. Every friction model is one, wrapped in [`Present`].
 pub trait GripStage<T: Real> {
@@ -56,21 +47,13 @@ pub trait SlipStage<T: Real> {
     }
 }
 
-impl<T: Real> PayloadStage<T> for Absent {
-    type Motion = ();
+/// Nothing hangs on the sensor.
+impl<T: Real> Compensation<Wrench<T>> for Absent {
+    type Raw = (Wrench<T>, ());
 
     #[inline(always)]
-    fn take_off(&self, measured: Wrench<T>, _motion: &()) -> Wrench<T> {
-        measured
-    }
-}
-
-impl<T: Real> PayloadStage<T> for Present<Payload<T>> {
-    type Motion = Motion<T>;
-
-    #[inline(always)]
-    fn take_off(&self, measured: Wrench<T>, motion: &Motion<T>) -> Wrench<T> {
-        measured - self.0.load(motion)
+    fn compensate(&self, (measured, ()): &(Wrench<T>, ())) -> Wrench<T> {
+        *measured
     }
 }
 

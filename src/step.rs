@@ -39,7 +39,8 @@ pub struct Step<T: Real, M = ()> {
     pub time: T,
     /// The contact point of the sample before \[m\], for shapes that are not convex.
     pub last: Option<Vector3<T>>,
-    /// How the sensor moves, as the [payload stage](crate::PayloadStage) wants to know it.
+    /// How the sensor moves: what the payload, a [`Compensation`](fingertip_wrench::Compensation) of the wrench,
+    /// takes beside it.
     pub motion: M,
 }
 

@@ -13,8 +13,8 @@ use std::time::Instant;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fingertip_contact::{
     Auto, CompliantSoftFinger, ContactCovariance, ContactJacobian, ContactModel, ConvexBound, Hertz,
-    IndependentNoise, IsotropicNoise, PointContact, Resolution, Search, SoftContact, SoftFinger,
-    SoftFingerSurface, WorstErrors, newton_soft_contacts,
+    PointContact, Resolution, Search, SoftContact, SoftFinger, SoftFingerSurface, WorstErrors, WrenchSpread,
+    newton_soft_contacts,
 };
 use fingertip_surfaces::{
     ActiveSurface, CappedCylinder, Capsule, Cone, Cylinder, Ellipsoid, Heightfield, Implicit, Plane,
@@ -280,16 +280,16 @@ fn fastest(_: &mut Criterion) {
         Some(contact.point)
     });
     over_a_recording(&soft, &ellipsoid, &on_ellipsoid, &noise);
-    let independent = IndependentNoise(noise.diagonal());
+    let independent = WrenchSpread::Independent(noise.diagonal());
     row("ellipsoid, independent noise", &on_ellipsoid, |case| {
         let contact = *soft.resolve(&case.wrench, &ellipsoid).contact()?;
-        black_box(ContactCovariance::soft_finger_position(&contact, &ellipsoid, &independent)?);
+        black_box(ContactCovariance::soft_finger_position(&contact, &ellipsoid, independent)?);
         Some(contact.point)
     });
-    let isotropic = IsotropicNoise { force: noise.m11, torque: noise.m44 };
+    let isotropic = WrenchSpread::Isotropic { force: noise.m11, torque: noise.m44 };
     row("ellipsoid, isotropic noise", &on_ellipsoid, |case| {
         let contact = *soft.resolve(&case.wrench, &ellipsoid).contact()?;
-        black_box(ContactCovariance::soft_finger_position(&contact, &ellipsoid, &isotropic)?);
+        black_box(ContactCovariance::soft_finger_position(&contact, &ellipsoid, isotropic)?);
         Some(contact.point)
     });
     let on_pillow = samples(&pillow, 0.3);

@@ -26,6 +26,5 @@ pub use skin::{
 pub use soft_finger::{Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};
 pub use uncertainty::{
     ConfidenceEllipse, ContactCovariance, ContactJacobian, ConvexBound, GeometrySensitivity,
-    GeometryUncertainty, IndependentNoise, IsotropicNoise, PaperBounds, SensorUncertainty, ShapeParameters,
-    WorstCase, WrenchNoise, WrenchSpread,
+    GeometryUncertainty, PaperBounds, SensorUncertainty, WorstCase, WrenchNoise, WrenchSpread,
 };

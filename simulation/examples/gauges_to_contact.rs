@@ -22,7 +22,7 @@ use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
 use fingertip_drivers::middleware::Solved;
 use fingertip_drivers::{Source, SourceError, SourceErrorKind};
 use fingertip_simulation::{Design, SurfacePoint};
-use nalgebra::{SMatrix, Vector3};
+use nalgebra::{SMatrix, SVector, Vector3};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;

@@ -7,7 +7,7 @@ use fingertip::friction::{
 };
 use fingertip::surfaces::{ActiveSurface, Ellipsoid, Sphere, Torus};
 use fingertip::wrench::{GaussianElimination, Real, SensorMatrix, Tare, Wrench};
-use fingertip::{Fingertip, GripStage, PayloadStage, SlipStage, Step, Touches};
+use fingertip::{Fingertip, GripStage, SlipStage, Step, Touches};
 use nalgebra::{Vector3, Vector6};
 
 use crate::paper_sensor;
@@ -127,11 +127,11 @@ fn batches_are_as_single_samples() {
 #[derive(Clone, Copy)]
 struct Share(f64);
 
-impl PayloadStage<f64> for Share {
-    type Motion = ();
+impl Compensation<Wrench<f64>> for Share {
+    type Raw = (Wrench<f64>, ());
 
-    fn take_off(&self, measured: Wrench<f64>, (): &()) -> Wrench<f64> {
-        measured * self.0
+    fn compensate(&self, (measured, ()): &(Wrench<f64>, ())) -> Wrench<f64> {
+        *measured * self.0
     }
 }
 
@@ -141,7 +141,7 @@ fn batch<Payload, Surface, Friction, Detector>(
     samples: &[Vector6<f64>],
 ) -> ([Vec<f64>; 9], Vec<SlipVerdict>)
 where
-    Payload: PayloadStage<f64, Motion = ()> + 'static,
+    Payload: Compensation<Wrench<f64>, Raw = (Wrench<f64>, ())> + 'static,
     Surface: ActiveSurface<f64> + 'static,
     Friction: GripStage<f64> + 'static,
     Detector: SlipStage<f64> + 'static,
@@ -193,7 +193,7 @@ fn any_scene_senses_many() {
     let base = Fingertip::builder()
         .zero(Tare::new(zero))
         .solver(GaussianElimination::new(&sensor).unwrap())
-        .payload_stage(Share(0.5))
+        .payload(Share(0.5))
         .contact(Torus::new(10e-3, 3e-3).unwrap(), PointContact::new(0.1).unwrap());
     let full = base
         .friction(PowerLimit::for_patch(0.6, 2e-3, PressureDistribution::Hertz).unwrap())
@@ -237,7 +237,7 @@ fn a_payload_is_taken_off_every_sample_of_a_batch() {
         let fingertip = Fingertip::builder()
             .zero(Tare::new(Vector6::zeros()))
             .solver(GaussianElimination::new(&sensor).unwrap())
-            .payload_stage(Share(share))
+            .payload(Share(share))
             .contact(Sphere::centred(0.009).unwrap(), PointContact::new(0.1).unwrap())
             .friction(Coulomb::new(0.6).unwrap())
             .slip_detector(RatioThreshold::new(gate, 0.6, 0.75).unwrap())

@@ -12,7 +12,7 @@ use fingertip::wrench::{
     Compensation, ContactForce, GaussianElimination, Motion, Payload, Tare, Uncompensated, Wrench,
     WrenchSolver,
 };
-use fingertip::{Absent, Fingertip, GripStage, PayloadStage, SlipStage, Step};
+use fingertip::{Absent, Fingertip, GripStage, SlipStage, Step};
 use nalgebra::{SVector, Vector3};
 
 use crate::paper_sensor;
@@ -61,7 +61,7 @@ fn an_absent_stage_takes_no_memory() {
 #[test]
 fn own_stages_plug_in() {
     struct Counts;
-    impl Compensation<f64, 6> for Counts {
+    impl Compensation<SVector<f64, 6>> for Counts {
         type Raw = [i16; 6];
         fn compensate(&self, raw: &[i16; 6]) -> SVector<f64, 6> {
             SVector::from(raw.map(|count| f64::from(count) * 1e-3))
@@ -167,11 +167,11 @@ fn the_last_point_chooses_between_two_entries() {
 /// A payload stage of one's own, told a factor at each sample.
 struct Share;
 
-impl PayloadStage<f64> for Share {
-    type Motion = f64;
+impl Compensation<Wrench<f64>> for Share {
+    type Raw = (Wrench<f64>, f64);
 
-    fn take_off(&self, measured: Wrench<f64>, share: &f64) -> Wrench<f64> {
-        measured * *share
+    fn compensate(&self, (measured, share): &(Wrench<f64>, f64)) -> Wrench<f64> {
+        *measured * *share
     }
 }
 
@@ -197,7 +197,7 @@ fn the_load_of_the_payload_is_taken_off_before_the_contact_is_sought() {
         assert_eq!(touch.wrench, measured - tip.load(&moves));
         assert!((touch.wrench.components() - pressed().components()).norm() < 1e-14);
     }
-    let mut of_ones_own = Fingertip::builder().payload_stage(Share).contact(sphere(), Noted(&handed)).build();
+    let mut of_ones_own = Fingertip::builder().payload(Share).contact(sphere(), Noted(&handed)).build();
     let touch = of_ones_own.sense_wrench(pressed(), Step::of(0.5).with_motion(0.25));
     assert_eq!(touch.wrench, pressed() * 0.25);
     let less = (measured - tip.load(&moves), Some(Vector3::x()));
@@ -316,7 +316,7 @@ fn stages_are_chosen_in_any_order() {
         .contact(sphere(), model)
         .solver(Direct)
         .solver(solver)
-        .payload_stage(Absent)
+        .payload(Absent)
         .zero(Uncompensated)
         .zero(zero)
         .build();

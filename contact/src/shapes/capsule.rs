@@ -14,7 +14,7 @@ use crate::batch::kernel::{Answer, Kernel, Push, Versions, add, dot, pick, scale
 use crate::soft_finger::closed_form::{soft_finger, sole, told};
 use crate::soft_finger::double::{finely, is_steady, spins_little};
 use crate::soft_finger::refined::refined;
-use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
+use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact on a capsule: of the side, or of the round ends, each by its closed form where
 /// it applies.
@@ -81,22 +81,21 @@ soft_finger!(
         } else {
             LocalSurface::Ball { origin, axis, height: half.copysign(height).to_f64(), radius }
         })
-    }
+    },
+    sizes | shape, size, point | of_capsule(shape, point).get(size).copied()
 );
 
 /// Half length, then radius. A longer capsule moves its ends and leaves its side.
-impl<T: Real> ShapeParameters<T, 2> for Capsule<T> {
-    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 2] {
-        let axis = self.axis();
-        let height = (point - self.centre()).dot(&axis);
-        let longer = if height.abs() > self.half_length() {
-            let outward = axis * T::one().copysign(height);
-            GeometrySensitivity::translation(&outward, &self.normal(point), &self.shape_operator(point))
-        } else {
-            GeometrySensitivity::none()
-        };
-        [longer, GeometrySensitivity::offset()]
-    }
+fn of_capsule<T: Real>(shape: &Capsule<T>, point: &Vector3<T>) -> [GeometrySensitivity<T>; 2] {
+    let axis = shape.axis();
+    let height = (point - shape.centre()).dot(&axis);
+    let longer = if height.abs() > shape.half_length() {
+        let outward = axis * T::one().copysign(height);
+        GeometrySensitivity::translation(&outward, &shape.normal(point), &shape.shape_operator(point))
+    } else {
+        GeometrySensitivity::none()
+    };
+    [longer, GeometrySensitivity::offset()]
 }
 
 #[cfg(feature = "batch")]

@@ -8,9 +8,7 @@ use fingertip_surfaces::{
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::{
-    GeometrySensitivity, Search, ShapeParameters, SoftContact, SoftFingerSurface, newton_soft_contacts,
-};
+use crate::{GeometrySensitivity, Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
 
 /// Without the [`patch`](SoftFingerSurface::patch) of the shape inside: turned, it would not be exact.
 impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
@@ -50,6 +48,15 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
             ..contact
         })
     }
+
+    /// That of the shape, wherever it is. (How well its place is known is a matter of
+    /// [`GeometryUncertainty`](crate::GeometryUncertainty).)
+    fn sensitivity(&self, size: usize, point: &Vector3<T>) -> Option<GeometrySensitivity<T>> {
+        let pose = self.sensor_from_shape();
+        let inside = pose.rotation().tr_mul(&(point - pose.origin()));
+        let change = self.inner().sensitivity(size, &inside)?;
+        Some(GeometrySensitivity { tilt: pose.rotation() * change.tilt, ..change })
+    }
 }
 
 impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Trimmed<S, R> {
@@ -78,6 +85,11 @@ impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Tr
             active: contact.active && self.region().includes(&contact.point),
             ..contact
         })
+    }
+
+    /// That of the whole shape.
+    fn sensitivity(&self, size: usize, point: &Vector3<T>) -> Option<GeometrySensitivity<T>> {
+        self.inner().sensitivity(size, point)
     }
 }
 
@@ -132,30 +144,9 @@ impl<T: Real, S: SmoothSurface<T> + SignedDistance<T>> SoftFingerSurface<T> for 
     ) -> Search<T> {
         newton_soft_contacts(self, wrench, last, visit)
     }
-}
 
-/// The distance.
-impl<T: Real, S: SignedDistance<T>> ShapeParameters<T, 1> for Offset<T, S> {
-    fn sensitivities(&self, _point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
-        [GeometrySensitivity::offset()]
-    }
-}
-
-/// Those of the whole shape.
-impl<T: Real, S: ShapeParameters<T, P>, R, const P: usize> ShapeParameters<T, P> for Trimmed<S, R> {
-    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; P] {
-        self.inner().sensitivities(point)
-    }
-}
-
-/// Those of the shape, wherever it is. (How well its place is known is a matter of
-/// [`GeometryUncertainty`](crate::GeometryUncertainty).)
-impl<T: Real, S: ShapeParameters<T, P>, const P: usize> ShapeParameters<T, P> for Posed<T, S> {
-    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; P] {
-        let pose = self.sensor_from_shape();
-        let inside = pose.rotation().tr_mul(&(point - pose.origin()));
-        self.inner()
-            .sensitivities(&inside)
-            .map(|change| GeometrySensitivity { tilt: pose.rotation() * change.tilt, ..change })
+    /// The distance, which is its only size.
+    fn sensitivity(&self, size: usize, _: &Vector3<T>) -> Option<GeometrySensitivity<T>> {
+        (size == 0).then(GeometrySensitivity::offset)
     }
 }

@@ -12,7 +12,7 @@ use crate::soft_finger::double::finely;
 use crate::soft_finger::newton::Problem;
 use crate::soft_finger::refined::settled;
 use crate::soft_finger::rim::on_rim;
-use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
+use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact on the unbounded cone: the closed form of
 /// `docs/theory/contact.md#central-quadrics` for `D = diag(1, 1, −tan² α)`, `s = 0`, in which the quadratic
@@ -173,21 +173,20 @@ soft_finger!(
         axis: wide(&shape.axis()),
         radius: 0.0,
         taper: [-ComplexField::tan(shape.half_angle().to_f64()), 1.0],
-    })
+    }),
+    sizes | shape, size, point | of_cone(shape, point).get(size).copied()
 );
 
 /// The half angle, per radian. With the level function `S = r cos α − h sin α` of the distance `r`
 /// from the axis and the depth `h` under the apex.
-impl<T: Real> ShapeParameters<T, 1> for Cone<T> {
-    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
-        let level = self.level(point);
-        let (sine, cosine) = self.half_angle().sin_cos();
-        let from_apex = point - self.apex();
-        let depth = from_apex.dot(&self.axis());
-        // ρ = (g + a sin α)/cos α.
-        let outward = (level.gradient + self.axis() * sine) / cosine;
-        let value = -(from_apex.dot(&outward) * sine + depth * cosine);
-        let turned = -(outward * sine + self.axis() * cosine);
-        [GeometrySensitivity::of_level(value, &turned, &level.gradient, &level.hessian)]
-    }
+fn of_cone<T: Real>(shape: &Cone<T>, point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
+    let level = shape.level(point);
+    let (sine, cosine) = shape.half_angle().sin_cos();
+    let from_apex = point - shape.apex();
+    let depth = from_apex.dot(&shape.axis());
+    // ρ = (g + a sin α)/cos α.
+    let outward = (level.gradient + shape.axis() * sine) / cosine;
+    let value = -(from_apex.dot(&outward) * sine + depth * cosine);
+    let turned = -(outward * sine + shape.axis() * cosine);
+    [GeometrySensitivity::of_level(value, &turned, &level.gradient, &level.hessian)]
 }

@@ -11,7 +11,7 @@ use crate::batch::Lines;
 use crate::batch::kernel::{Answer, Chord, Kernel, Push, Versions, add, dot, scale};
 use crate::soft_finger::closed_form::{is_steady, soft_finger, told};
 use crate::soft_finger::double::{finely, spins_little};
-use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
+use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact on the unbounded cylinder around the third axis with semi-axes `a` (and
 /// their reciprocals) along the first two, for a wrench in the same frame.
@@ -131,15 +131,11 @@ soft_finger!(
         axis: wide(&shape.axis()),
         radius: shape.radius().to_f64(),
         taper: [0.0, 1.0],
-    })
+    }),
+    sizes | _,
+    size,
+    _ | (size == 0).then(GeometrySensitivity::offset)
 );
-
-/// The radius.
-impl<T: Real> ShapeParameters<T, 1> for Cylinder<T> {
-    fn sensitivities(&self, _point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
-        [GeometrySensitivity::offset()]
-    }
-}
 
 #[cfg(feature = "batch")]
 impl<T: Real> Kernel<T> for Cylinder<T> {

@@ -4,7 +4,7 @@ use fingertip_surfaces::{DynSurface, ForceLine, each_surface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::{Search, SoftContact, SoftFingerSurface};
+use crate::{GeometrySensitivity, Search, SoftContact, SoftFingerSurface};
 
 impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
     fn soft_contacts(
@@ -24,5 +24,9 @@ impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
     #[inline]
     fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
         each_surface!(self, shape => shape.sole_soft_contact(push))
+    }
+
+    fn sensitivity(&self, size: usize, point: &Vector3<T>) -> Option<GeometrySensitivity<T>> {
+        each_surface!(self, shape => shape.sensitivity(size, point))
     }
 }

@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 
 use crate::soft_finger::closed_form::{soft_finger, told};
 use crate::soft_finger::unit_sphere::OnUnitSphere;
-use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
+use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact on an ellipsoid.
 ///
@@ -90,14 +90,15 @@ soft_finger!(
     Ellipsoid,
     |shape, wrench, _, visit| told(on_ellipsoid(shape, wrench).map_err(Search::Grazing), visit),
     sole | shape,
-    push | steeply_on_ellipsoid(shape, push)
+    push | steeply_on_ellipsoid(shape, push),
+    sizes | shape,
+    size,
+    point | of_ellipsoid(shape, point).get(size).copied()
 );
 
 /// The three semi-axes.
-impl<T: Real> ShapeParameters<T, 3> for Ellipsoid<T> {
-    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 3] {
-        [0, 1, 2].map(|i| stretched(&self.level(point), point, i, self.semi_axes()[i]))
-    }
+fn of_ellipsoid<T: Real>(shape: &Ellipsoid<T>, point: &Vector3<T>) -> [GeometrySensitivity<T>; 3] {
+    [0, 1, 2].map(|i| stretched(&shape.level(point), point, i, shape.semi_axes()[i]))
 }
 
 #[cfg(feature = "batch")]

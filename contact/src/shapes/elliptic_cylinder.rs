@@ -11,7 +11,7 @@ use super::plane::on_plane;
 use crate::soft_finger::closed_form::{soft_finger, sole, told};
 use crate::soft_finger::double::{finely, is_steady};
 use crate::soft_finger::rim::on_elliptic_rim;
-use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
+use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact on the side by the closed form; on flat ends as on planes, within their outline;
 /// and on the edges between them, with a normal between those of the faces that meet. A closed one is convex
@@ -101,15 +101,19 @@ soft_finger!(
                 LocalSurface::Plane { point: end * half.to_f64(), normal: end }
             }
             _ => LocalSurface::EllipticCylinder { semi_axes: shape.semi_axes().map(Real::to_f64) },
-        })
+        }),
+    sizes | shape,
+    size,
+    point | of_elliptic_cylinder(shape, point).get(size).copied()
 );
 
 /// The two semi-axes; on a flat end they change nothing.
-impl<T: Real> ShapeParameters<T, 2> for EllipticCylinder<T> {
-    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 2] {
-        if self.normal(point).z.abs() > T::literal(0.5) {
-            return [GeometrySensitivity::none(); 2];
-        }
-        [0, 1].map(|i| stretched(&self.level(point), point, i, self.semi_axes()[i]))
+fn of_elliptic_cylinder<T: Real>(
+    shape: &EllipticCylinder<T>,
+    point: &Vector3<T>,
+) -> [GeometrySensitivity<T>; 2] {
+    if shape.normal(point).z.abs() > T::literal(0.5) {
+        return [GeometrySensitivity::none(); 2];
     }
+    [0, 1].map(|i| stretched(&shape.level(point), point, i, shape.semi_axes()[i]))
 }

@@ -13,7 +13,7 @@ use crate::soft_finger::double::{finely, is_steady};
 use crate::soft_finger::newton::Problem;
 use crate::soft_finger::refined::settled;
 use crate::soft_finger::rim::on_rim;
-use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
+use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact on a frustum: of the side, by the closed form of its cone or cylinder; of
 /// the flat ends, by that of the plane; of the edges between them and of a tip, with a normal between
@@ -136,7 +136,10 @@ soft_finger!(
         visit
     ),
     patch | shape,
-    point | Some(solid_patch(shape, point, &shape.base_centre(), [0.0, shape.height().to_f64()]))
+    point | Some(solid_patch(shape, point, &shape.base_centre(), [0.0, shape.height().to_f64()])),
+    sizes | shape,
+    size,
+    point | of_frustum(shape, point).get(size).copied()
 );
 
 soft_finger!(
@@ -153,42 +156,40 @@ soft_finger!(
     point | {
         let half = shape.half_length().to_f64();
         Some(solid_patch(shape.solid(), point, &shape.centre(), [-half, half]))
-    }
+    },
+    sizes | shape,
+    size,
+    point | of_capped_cylinder(shape, point).get(size).copied()
 );
 
 /// Height, base radius, top radius. With the level function `S = r − R + (R − R′) z/h` of the
 /// distance `r` from the axis and the height `z` over the base.
-impl<T: Real> ShapeParameters<T, 3> for Frustum<T> {
-    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 3] {
-        let (axis, taper, height) = (self.axis(), self.taper(), self.height());
-        let above = (point - self.base_centre()).dot(&axis);
-        let level = self.level(point);
-        // Which of the three faces is the outermost here.
-        if above - height > level.value || -above > level.value {
-            let top = if above > height * T::literal(0.5) {
-                GeometrySensitivity::offset()
-            } else {
-                GeometrySensitivity::none()
-            };
-            return [top, GeometrySensitivity::none(), GeometrySensitivity::none()];
-        }
-        let steep = T::one() / self.side_cosine();
-        let (gradient, hessian) = (level.gradient * steep, level.hessian * steep);
-        let share = above / height;
-        let of =
-            |value: T, slope: T| GeometrySensitivity::of_level(value, &(axis * slope), &gradient, &hessian);
-        let one = T::one();
-        [of(-taper * share, -taper / height), of(share - one, one / height), of(-share, -one / height)]
+fn of_frustum<T: Real>(shape: &Frustum<T>, point: &Vector3<T>) -> [GeometrySensitivity<T>; 3] {
+    let (axis, taper, height) = (shape.axis(), shape.taper(), shape.height());
+    let above = (point - shape.base_centre()).dot(&axis);
+    let level = shape.level(point);
+    // Which of the three faces is the outermost here.
+    if above - height > level.value || -above > level.value {
+        let top = if above > height * T::literal(0.5) {
+            GeometrySensitivity::offset()
+        } else {
+            GeometrySensitivity::none()
+        };
+        return [top, GeometrySensitivity::none(), GeometrySensitivity::none()];
     }
+    let steep = T::one() / shape.side_cosine();
+    let (gradient, hessian) = (level.gradient * steep, level.hessian * steep);
+    let share = above / height;
+    let of = |value: T, slope: T| GeometrySensitivity::of_level(value, &(axis * slope), &gradient, &hessian);
+    let one = T::one();
+    [of(-taper * share, -taper / height), of(share - one, one / height), of(-share, -one / height)]
 }
 
-/// Half length, then radius; each moves the faces that it bounds.
-impl<T: Real> ShapeParameters<T, 2> for CappedCylinder<T> {
-    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 2] {
-        if self.normal(point).dot(&self.axis()).abs() > T::literal(0.5) {
-            [GeometrySensitivity::offset(), GeometrySensitivity::none()]
-        } else {
-            [GeometrySensitivity::none(), GeometrySensitivity::offset()]
-        }
+/// Radius, then half length; each moves the faces that it bounds.
+fn of_capped_cylinder<T: Real>(shape: &CappedCylinder<T>, point: &Vector3<T>) -> [GeometrySensitivity<T>; 2] {
+    if shape.normal(point).dot(&shape.axis()).abs() > T::literal(0.5) {
+        [GeometrySensitivity::none(), GeometrySensitivity::offset()]
+    } else {
+        [GeometrySensitivity::offset(), GeometrySensitivity::none()]
     }
 }

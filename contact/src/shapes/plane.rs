@@ -10,7 +10,7 @@ use crate::batch::Lines;
 #[cfg(feature = "batch")]
 use crate::batch::kernel::{Answer, Kernel, Push, Versions, add, dot, pick, zip};
 use crate::soft_finger::closed_form::{is_steady, part_of, soft_finger, told};
-use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
+use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact on the plane through the origin, for a wrench about the origin:
 /// `τ = f·m/f·n`, `c = n × m/f·n` (`docs/theory/contact.md#central-quadrics`). It is the centre of pressure
@@ -63,18 +63,14 @@ soft_finger!(
         largest(&contact.point)
     )),
     patch | shape,
-    _ | Some(LocalSurface::Plane { point: wide(&shape.point()), normal: wide(&shape.outward()) })
+    _ | Some(LocalSurface::Plane { point: wide(&shape.point()), normal: wide(&shape.outward()) }),
+    sizes | _,
+    size,
+    _ | (size == 0).then(GeometrySensitivity::offset)
 );
 
 part_of!(Disk, plane);
 part_of!(Rectangle, plane);
-
-/// Its height along its normal.
-impl<T: Real> ShapeParameters<T, 1> for Plane<T> {
-    fn sensitivities(&self, _point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
-        [GeometrySensitivity::offset()]
-    }
-}
 
 #[cfg(feature = "batch")]
 impl<T: Real> Kernel<T> for Plane<T> {
@@ -88,19 +84,5 @@ impl<T: Real> Kernel<T> for Plane<T> {
         let across = add(foot, push.force, -dot(foot, normal) / slope);
         let gap = pick(slope < T::zero(), T::zero(), T::one() / T::zero());
         Answer::new(zip(origin, across, |o, a| o + a), normal, gap)
-    }
-}
-
-/// Its height along its normal.
-impl<T: Real> ShapeParameters<T, 1> for Disk<T> {
-    fn sensitivities(&self, _point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
-        [GeometrySensitivity::offset()]
-    }
-}
-
-/// Its height along its normal.
-impl<T: Real> ShapeParameters<T, 1> for Rectangle<T> {
-    fn sensitivities(&self, _point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
-        [GeometrySensitivity::offset()]
     }
 }

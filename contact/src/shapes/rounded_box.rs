@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use crate::soft_finger::closed_form::{soft_finger, told};
 use crate::soft_finger::double::{finely, spins_little};
-use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact, newton_soft_contacts};
+use crate::{GeometrySensitivity, Search, SoftContact, newton_soft_contacts};
 
 /// By Newton's method; in double precision if the type is narrower and the spin torque rules: then rounding
 /// decides between faces, edges and corners.
@@ -35,23 +35,23 @@ soft_finger!(
         let point = wide(point);
         let beyond = core::array::from_fn(|k| point[k].abs() - half_extents[k] + rounding > 0.0);
         Some(LocalSurface::RoundedBox { half_extents, rounding, beyond })
-    }
+    },
+    sizes | shape,
+    size,
+    point | of_rounded_box(shape, point).get(size).copied()
 );
 
 /// The three half extents, then the rounding: a half extent moves a face with the edges and corners at
 /// its rim; a rounding moves edges and corners inward as it grows.
-impl<T: Real> ShapeParameters<T, 4> for RoundedBox<T> {
-    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 4] {
-        let level = self.level(point);
-        let sign = point.map(|x| T::one().copysign(x));
-        let n = level.gradient;
-        let of =
-            |value: T, turned: Vector3<T>| GeometrySensitivity::of_level(value, &turned, &n, &level.hessian);
-        let wider = |i: usize| {
-            let mut moved = Vector3::zeros();
-            moved[i] = sign[i];
-            of(-n.dot(&moved), -(level.hessian * moved))
-        };
-        [wider(0), wider(1), wider(2), of(n.dot(&sign) - T::one(), level.hessian * sign)]
-    }
+fn of_rounded_box<T: Real>(shape: &RoundedBox<T>, point: &Vector3<T>) -> [GeometrySensitivity<T>; 4] {
+    let level = shape.level(point);
+    let sign = point.map(|x| T::one().copysign(x));
+    let n = level.gradient;
+    let of = |value: T, turned: Vector3<T>| GeometrySensitivity::of_level(value, &turned, &n, &level.hessian);
+    let wider = |i: usize| {
+        let mut moved = Vector3::zeros();
+        moved[i] = sign[i];
+        of(-n.dot(&moved), -(level.hessian * moved))
+    };
+    [wider(0), wider(1), wider(2), of(n.dot(&sign) - T::one(), level.hessian * sign)]
 }

@@ -13,7 +13,7 @@ use crate::batch::Lines;
 use crate::batch::kernel::{Answer, Chord, Kernel, Push, Versions, add, dot, pick, scale, split};
 use crate::soft_finger::closed_form::{part_of, soft_finger, told};
 use crate::soft_finger::unit_sphere::OnUnitSphere;
-use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
+use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact on a sphere.
 ///
@@ -63,17 +63,13 @@ soft_finger!(
     Sphere,
     |shape, wrench, _, visit| told(on_sphere(shape, wrench).map_err(Search::Grazing), visit),
     sole | shape,
-    push | steeply_on_sphere(shape, push)
+    push | steeply_on_sphere(shape, push),
+    sizes | _,
+    size,
+    _ | (size == 0).then(GeometrySensitivity::offset)
 );
 
 part_of!(SphericalCap, sphere);
-
-/// The radius.
-impl<T: Real> ShapeParameters<T, 1> for Sphere<T> {
-    fn sensitivities(&self, _point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
-        [GeometrySensitivity::offset()]
-    }
-}
 
 #[cfg(feature = "batch")]
 impl<T: Real> Kernel<T> for Sphere<T> {
@@ -106,12 +102,5 @@ impl<T: Real> Kernel<T> for Sphere<T> {
             parts: Some(ForceParts { normal: pressing, tangential: across.root() }),
             certain: chord.meets & has_room,
         }
-    }
-}
-
-/// The radius.
-impl<T: Real> ShapeParameters<T, 1> for SphericalCap<T> {
-    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
-        self.sphere().sensitivities(point)
     }
 }

@@ -10,7 +10,7 @@ use crate::soft_finger::closed_form::soft_finger;
 use crate::soft_finger::double::{in_type, narrow};
 use crate::soft_finger::newton::Problem;
 use crate::soft_finger::unit_sphere::OnUnitSphere;
-use crate::{GeometrySensitivity, Search, ShapeParameters, SoftContact};
+use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// Cells that the circle is cut into to begin with.
 const CELLS: u8 = 24;
@@ -294,21 +294,22 @@ soft_finger!(
     Torus,
     |shape, wrench, _, visit| on_torus(shape, wrench, visit),
     patch | shape,
-    _ | Some(LocalSurface::Torus { ring: shape.ring_radius().to_f64(), tube: shape.tube_radius().to_f64() })
+    _ | Some(LocalSurface::Torus { ring: shape.ring_radius().to_f64(), tube: shape.tube_radius().to_f64() }),
+    sizes | shape,
+    size,
+    point | of_torus(shape, point).get(size).copied()
 );
 
 /// The radius of the ring, then that of the tube. A larger ring moves each section of the tube
 /// outward.
-impl<T: Real> ShapeParameters<T, 2> for Torus<T> {
-    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; 2] {
-        let normal = self.normal(point);
-        let outward = unit_or(&Vector3::new(point.x, point.y, T::zero()), Vector3::x);
-        let level = self.level(point);
-        // The derivative across the tube; that around the ring stays out.
-        let around = Vector3::new(-outward.y, outward.x, T::zero());
-        let along = around.cross(&normal);
-        let turned = -along * (along.dot(&outward) / self.tube_radius());
-        let ring = GeometrySensitivity::of_level(-normal.dot(&outward), &turned, &normal, &level.hessian);
-        [ring, GeometrySensitivity::offset()]
-    }
+fn of_torus<T: Real>(shape: &Torus<T>, point: &Vector3<T>) -> [GeometrySensitivity<T>; 2] {
+    let normal = shape.normal(point);
+    let outward = unit_or(&Vector3::new(point.x, point.y, T::zero()), Vector3::x);
+    let level = shape.level(point);
+    // The derivative across the tube; that around the ring stays out.
+    let around = Vector3::new(-outward.y, outward.x, T::zero());
+    let along = around.cross(&normal);
+    let turned = -along * (along.dot(&outward) / shape.tube_radius());
+    let ring = GeometrySensitivity::of_level(-normal.dot(&outward), &turned, &normal, &level.hessian);
+    [ring, GeometrySensitivity::offset()]
 }

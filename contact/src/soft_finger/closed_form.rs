@@ -21,7 +21,8 @@ pub(crate) fn is_active<T: Real, S: ActiveSurface<T>>(surface: &S, contact: &Sof
 macro_rules! soft_finger {
     ($(#[$doc:meta])* $shape:ident, |$this:ident, $wrench:ident, $last:pat_param, $visit:ident| $search:expr
         $(, sole |$only:ident, $load:ident| $sole:expr)?
-        $(, patch |$part:pat_param, $point:pat_param| $patch:expr)?) => {
+        $(, patch |$part:pat_param, $point:pat_param| $patch:expr)?
+        $(, sizes |$sized:pat_param, $size:ident, $place:pat_param| $change:expr)?) => {
         $(#[$doc])*
         impl<T: fingertip_wrench::Real> $crate::SoftFingerSurface<T> for $shape<T> {
             #[inline]
@@ -45,6 +46,15 @@ macro_rules! soft_finger {
             $(fn patch(&self, $point: &nalgebra::Vector3<T>) -> Option<fingertip_surfaces::LocalSurface> {
                 let $part = self;
                 $patch
+            })?
+
+            $(fn sensitivity(
+                &self,
+                $size: usize,
+                $place: &nalgebra::Vector3<T>,
+            ) -> Option<$crate::GeometrySensitivity<T>> {
+                let $sized = self;
+                $change
             })?
         }
     };
@@ -71,7 +81,10 @@ macro_rules! part_of {
                 ..contact
             }),
             patch | shape,
-            point | shape.$whole().patch(point)
+            point | shape.$whole().patch(point),
+            sizes | shape,
+            size,
+            point | shape.$whole().sensitivity(size, point)
         );
     };
 }

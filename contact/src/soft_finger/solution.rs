@@ -4,6 +4,8 @@ use fingertip_surfaces::{ActiveSurface, ForceLine, LocalSurface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
+use crate::GeometrySensitivity;
+
 /// One solution of the soft-finger equations `m = c × f + τ n(c)` with `f·n ≤ 0` and `c` on the
 /// surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,6 +79,28 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
         let _ = push;
         None
     }
+
+    /// How the surface changes at one of its points, per unit of the shape's size of this number: its radii,
+    /// semi-axes and lengths, counted from 0 in the order of its constructor. `None`, as the default answers, if
+    /// there is no such size. (Moving and turning need no such knowledge:
+    /// [`GeometrySensitivity::translation`], [`GeometrySensitivity::rotation`].)
+    ///
+    /// ```
+    /// use fingertip_contact::{GeometrySensitivity, SoftFingerSurface};
+    /// use fingertip_surfaces::Sphere;
+    /// use nalgebra::Vector3;
+    ///
+    /// let sphere = Sphere::centred(0.013)?;
+    /// // A larger radius moves every point outward by as much.
+    /// let change = sphere.sensitivity(0, &Vector3::new(0.0, 0.0, 0.013));
+    /// assert_eq!(change, Some(GeometrySensitivity::offset()));
+    /// assert_eq!(sphere.sensitivity(1, &Vector3::z()), None);
+    /// # Ok::<(), fingertip_surfaces::BadShape>(())
+    /// ```
+    fn sensitivity(&self, size: usize, point: &Vector3<T>) -> Option<GeometrySensitivity<T>> {
+        let _ = (size, point);
+        None
+    }
 }
 
 impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
@@ -98,5 +122,8 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
     #[inline]
     fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
         (**self).sole_soft_contact(push)
+    }
+    fn sensitivity(&self, size: usize, point: &Vector3<T>) -> Option<GeometrySensitivity<T>> {
+        (**self).sensitivity(size, point)
     }
 }

@@ -45,20 +45,23 @@ impl<T: Real> ContactCovariance<T> {
     /// each, costs less again than a full covariance.
     #[inline]
     #[must_use]
-    pub fn position_only(jacobian: &ContactJacobian<T>, wrench: &impl WrenchSpread<T>) -> Matrix2<T> {
-        jacobian.position_covariance(wrench)
+    pub fn position_only<'a>(
+        jacobian: &ContactJacobian<T>,
+        wrench: impl Into<WrenchSpread<'a, T>>,
+    ) -> Matrix2<T> {
+        jacobian.position_covariance(wrench.into())
     }
 
     /// The same, straight from a contact that [`PointContact`](crate::PointContact) found in a wrench, on
     /// whatever surface: its curvature does not matter. `None` where the force grazes.
     #[inline]
     #[must_use]
-    pub fn point_contact_position(
+    pub fn point_contact_position<'a>(
         contact: &Contact<T>,
         wrench: &Wrench<T>,
-        spread: &impl WrenchSpread<T>,
+        spread: impl Into<WrenchSpread<'a, T>>,
     ) -> Option<Matrix2<T>> {
-        ContactJacobian::point_position_covariance(contact, wrench, spread)
+        ContactJacobian::point_position_covariance(contact, wrench, spread.into())
     }
 
     /// The same, straight from a contact that [`SoftFinger`](crate::SoftFinger) found on a surface: the
@@ -66,12 +69,12 @@ impl<T: Real> ContactCovariance<T> {
     /// [`ContactJacobian::of_soft_finger_on`] says.
     #[inline]
     #[must_use]
-    pub fn soft_finger_position<S: SmoothSurface<T>>(
+    pub fn soft_finger_position<'a, S: SmoothSurface<T>>(
         contact: &Contact<T>,
         surface: &S,
-        wrench: &impl WrenchSpread<T>,
+        wrench: impl Into<WrenchSpread<'a, T>>,
     ) -> Option<Matrix2<T>> {
-        ContactJacobian::soft_position_covariance(contact, surface, wrench)
+        ContactJacobian::soft_position_covariance(contact, surface, wrench.into())
     }
 
     /// Adds an uncertain geometry, independent of the wrench.

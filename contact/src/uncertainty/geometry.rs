@@ -65,14 +65,6 @@ impl<T: Real> GeometrySensitivity<T> {
     }
 }
 
-/// A shape that knows how its surface changes with its `P` parameters: radii, semi-axes. (Moving
-/// and turning need no such knowledge: [`GeometrySensitivity::translation`],
-/// [`GeometrySensitivity::rotation`].)
-pub trait ShapeParameters<T: Real, const P: usize> {
-    /// The change of the surface at one of its points, per unit of each parameter.
-    fn sensitivities(&self, point: &Vector3<T>) -> [GeometrySensitivity<T>; P];
-}
-
 /// How well the place and the size of a surface are known, as a covariance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GeometryUncertainty<T: Real> {

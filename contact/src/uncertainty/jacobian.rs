@@ -164,7 +164,7 @@ impl<T: Real> ContactJacobian<T> {
     pub(super) fn soft_position_covariance<S: SmoothSurface<T>>(
         contact: &Contact<T>,
         surface: &S,
-        wrench: &impl WrenchSpread<T>,
+        wrench: WrenchSpread<'_, T>,
     ) -> Option<Matrix2<T>> {
         let bend = |e1: &_, e2: &_| surface.bend(&contact.point, &contact.normal, [e1, e2]);
         let (jacobian, in_range) = Self::unchecked(contact, bend);
@@ -183,7 +183,7 @@ impl<T: Real> ContactJacobian<T> {
     fn extreme_covariance<S: SmoothSurface<T>>(
         contact: &Contact<T>,
         surface: &S,
-        wrench: &impl WrenchSpread<T>,
+        wrench: WrenchSpread<'_, T>,
     ) -> Option<[T; 4]> {
         let c = Self::of_soft_finger_on(contact, surface)?.position_covariance(wrench);
         Some([c.m11, c.m12, c.m21, c.m22])
@@ -207,7 +207,7 @@ impl<T: Real> ContactJacobian<T> {
     pub(super) fn point_position_covariance(
         contact: &Contact<T>,
         wrench: &Wrench<T>,
-        spread: &impl WrenchSpread<T>,
+        spread: WrenchSpread<'_, T>,
     ) -> Option<Matrix2<T>> {
         let (jacobian, in_range) = Self::unchecked_of_point(contact, wrench, |_, _| Matrix2::zeros());
         let covariance = jacobian.position_covariance(spread);
@@ -263,7 +263,7 @@ impl<T: Real> ContactJacobian<T> {
     /// First that of the right-hand sides of the two equations in the plane, which waits for neither
     /// curvature nor load; then of their solution, by a congruence.
     #[inline(always)]
-    pub(super) fn position_covariance(&self, wrench: &impl WrenchSpread<T>) -> Matrix2<T> {
+    pub(super) fn position_covariance(&self, wrench: WrenchSpread<'_, T>) -> Matrix2<T> {
         if self.sinking.is_some() {
             let [first, second] = self.position_rows();
             let [c11, c12, c22] = wrench.combined(&first, &second);

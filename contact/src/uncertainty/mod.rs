@@ -27,10 +27,10 @@ mod worst_case;
 
 pub use convex_bound::ConvexBound;
 pub use covariance::{ConfidenceEllipse, ContactCovariance};
-pub use geometry::{GeometrySensitivity, GeometryUncertainty, ShapeParameters};
+pub use geometry::{GeometrySensitivity, GeometryUncertainty};
 pub(crate) use is_covariance::is_covariance;
 pub use jacobian::ContactJacobian;
 pub use paper::PaperBounds;
 pub use sensor::{SensorUncertainty, WrenchNoise};
-pub use spread::{IndependentNoise, IsotropicNoise, WrenchSpread};
+pub use spread::WrenchSpread;
 pub use worst_case::WorstCase;

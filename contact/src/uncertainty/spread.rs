@@ -4,117 +4,125 @@ use fingertip_wrench::Real;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 /// How noise spreads a wrench about the origin of the sensor frame, as far as the covariance of a
-/// contact's position asks: a full `Matrix6` (symmetric, as [`SensorUncertainty`] and a solver's
-/// covariance are), or the cheaper [`IndependentNoise`] and [`IsotropicNoise`].
+/// contact's position asks. The less is said, the less it costs.
 ///
-/// [`SensorUncertainty`]: crate::SensorUncertainty
-pub trait WrenchSpread<T: Real> {
+/// ```
+/// use fingertip_contact::WrenchSpread;
+/// use nalgebra::Matrix6;
+///
+/// let covariance = Matrix6::<f64>::identity() * 1e-6;
+/// let all: WrenchSpread<'_, f64> = (&covariance).into();
+/// // A sensor of 1 mN and 10 µN·m on every axis.
+/// let alike = WrenchSpread::Isotropic { force: 1e-6_f64, torque: 1e-10 };
+/// # let _ = (all, alike);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum WrenchSpread<'a, T: Real> {
+    /// Any covariance `[Fx … Tz]` \[N², N·N·m, (N·m)²\], symmetric, as
+    /// [`SensorUncertainty`](crate::SensorUncertainty) and a solver's covariance are.
+    Full(&'a Matrix6<T>),
+    /// The six components are noisy independently of one another: their variances \[N², (N·m)²\].
+    Independent(Vector6<T>),
+    /// All forces are equally noisy, and so are all torques, independently of one another.
+    Isotropic {
+        /// Variance of each component of the force \[N²\].
+        force: T,
+        /// Variance of each component of the torque \[(N·m)²\].
+        torque: T,
+    },
+}
+
+impl<'a, T: Real> From<&'a Matrix6<T>> for WrenchSpread<'a, T> {
+    #[inline(always)]
+    fn from(covariance: &'a Matrix6<T>) -> Self {
+        Self::Full(covariance)
+    }
+}
+
+impl<T: Real> WrenchSpread<'_, T> {
     /// The covariance `xx, xy, xz, yy, yz, zz` \[(N·m)²\] of the torque about another point,
     /// `m − c × f`: `Σ_mm − [c]Σ_fm − ([c]Σ_fm)ᵀ + [c]Σ_ff[c]ᵀ`.
-    fn torque_about(&self, point: &Vector3<T>) -> [T; 6];
+    #[inline(always)]
+    pub(super) fn torque_about(&self, c: &Vector3<T>) -> [T; 6] {
+        match self {
+            Self::Full(full) => full_torque_about(full, c),
+            Self::Independent(v) => {
+                let (x, y, z) = (c * v[0], c * v[1], c * v[2]);
+                [
+                    v[3] + (z.y * c.y + y.z * c.z),
+                    -(z.x * c.y),
+                    -(y.x * c.z),
+                    v[4] + (z.x * c.x + x.z * c.z),
+                    -(x.y * c.z),
+                    v[5] + (y.x * c.x + x.y * c.y),
+                ]
+            }
+            Self::Isotropic { force, torque } => {
+                let arm = c * *force;
+                let (x, y, z) = (arm.x * c.x, arm.y * c.y, arm.z * c.z);
+                [
+                    *torque + (y + z),
+                    -(arm.x * c.y),
+                    -(arm.x * c.z),
+                    *torque + (x + z),
+                    -(arm.y * c.z),
+                    *torque + (x + y),
+                ]
+            }
+        }
+    }
 
     /// The covariances of two linear combinations of `Fx … Tz`: first with first, first with second,
     /// second with second.
-    fn combined(&self, first: &Vector6<T>, second: &Vector6<T>) -> [T; 3];
-}
-
-impl<T: Real> WrenchSpread<T> for Matrix6<T> {
     #[inline(always)]
-    fn torque_about(&self, c: &Vector3<T>) -> [T; 6] {
-        // Both halves of [c]Σ_ff[c]ᵀ go to the two mixed terms: Σ_mm − [c]H − ([c]H)ᵀ with
-        // H = Σ_fm − Σ_ff[c]ᵀ/2, row i of which is that of Σ_fm, and half of c × that of Σ_ff less.
-        let half = c * T::literal(0.5);
-        let [x, y, z, mx, my, mz] = &self.data.0;
-        let row = |v: &[T; 6]| {
-            Vector3::new(
-                v[3] + (half.z * v[1] - half.y * v[2]),
-                v[4] + (half.x * v[2] - half.z * v[0]),
-                v[5] + (half.y * v[0] - half.x * v[1]),
-            )
+    pub(super) fn combined(&self, first: &Vector6<T>, second: &Vector6<T>) -> [T; 3] {
+        let (with_first, with_second) = match self {
+            Self::Full(full) => {
+                // Column by column, in sums that do not wait for one another.
+                let [c0, c1, c2, c3, c4, c5] = full.data.0.map(Vector6::from);
+                let times = |v: &Vector6<T>| {
+                    ((c0 * v[0] + c1 * v[1]) + (c2 * v[2] + c3 * v[3])) + (c4 * v[4] + c5 * v[5])
+                };
+                (times(first), times(second))
+            }
+            Self::Independent(v) => (first.component_mul(v), second.component_mul(v)),
+            Self::Isotropic { force: f, torque: t } => {
+                let v = Vector6::new(*f, *f, *f, *t, *t, *t);
+                (first.component_mul(&v), second.component_mul(&v))
+            }
         };
-        let (x, y, z) = (row(x), row(y), row(z));
-        let (xx, yy, zz) = (z.x * c.y - y.x * c.z, x.y * c.z - z.y * c.x, y.z * c.x - x.z * c.y);
-        let xy = (z.y * c.y - y.y * c.z) + (x.x * c.z - z.x * c.x);
-        let xz = (z.z * c.y - y.z * c.z) + (y.x * c.x - x.x * c.y);
-        let yz = (x.z * c.z - z.z * c.x) + (y.y * c.x - x.y * c.y);
-        [mx[3] - (xx + xx), my[3] - xy, mz[3] - xz, my[4] - (yy + yy), mz[4] - yz, mz[5] - (zz + zz)]
-    }
-
-    #[inline(always)]
-    fn combined(&self, first: &Vector6<T>, second: &Vector6<T>) -> [T; 3] {
-        // Column by column, in sums that do not wait for one another.
-        let [c0, c1, c2, c3, c4, c5] = self.data.0.map(Vector6::from);
-        let times =
-            |v: &Vector6<T>| ((c0 * v[0] + c1 * v[1]) + (c2 * v[2] + c3 * v[3])) + (c4 * v[4] + c5 * v[5]);
-        let (with_first, with_second) = (times(first), times(second));
         [first.dot(&with_first), first.dot(&with_second), second.dot(&with_second)]
     }
 }
 
-/// The six components are noisy independently of one another: their variances \[N², (N·m)²\].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct IndependentNoise<T: Real>(pub Vector6<T>);
-
-impl<T: Real> WrenchSpread<T> for IndependentNoise<T> {
-    #[inline(always)]
-    fn torque_about(&self, c: &Vector3<T>) -> [T; 6] {
-        let v = &self.0;
-        let (x, y, z) = (c * v[0], c * v[1], c * v[2]);
-        [
-            v[3] + (z.y * c.y + y.z * c.z),
-            -(z.x * c.y),
-            -(y.x * c.z),
-            v[4] + (z.x * c.x + x.z * c.z),
-            -(x.y * c.z),
-            v[5] + (y.x * c.x + x.y * c.y),
-        ]
-    }
-
-    #[inline(always)]
-    fn combined(&self, first: &Vector6<T>, second: &Vector6<T>) -> [T; 3] {
-        let (with_first, with_second) = (first.component_mul(&self.0), second.component_mul(&self.0));
-        [first.dot(&with_first), first.dot(&with_second), second.dot(&with_second)]
-    }
-}
-
-/// All forces are equally noisy, and so are all torques, independently of one another.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct IsotropicNoise<T: Real> {
-    /// Variance of each component of the force \[N²\].
-    pub force: T,
-    /// Variance of each component of the torque \[(N·m)²\].
-    pub torque: T,
-}
-
-impl<T: Real> WrenchSpread<T> for IsotropicNoise<T> {
-    #[inline(always)]
-    fn torque_about(&self, c: &Vector3<T>) -> [T; 6] {
-        let arm = c * self.force;
-        let (x, y, z) = (arm.x * c.x, arm.y * c.y, arm.z * c.z);
-        [
-            self.torque + (y + z),
-            -(arm.x * c.y),
-            -(arm.x * c.z),
-            self.torque + (x + z),
-            -(arm.y * c.z),
-            self.torque + (x + y),
-        ]
-    }
-
-    #[inline(always)]
-    fn combined(&self, first: &Vector6<T>, second: &Vector6<T>) -> [T; 3] {
-        let (f, t) = (self.force, self.torque);
-        IndependentNoise(Vector6::new(f, f, f, t, t, t)).combined(first, second)
-    }
+#[inline(always)]
+fn full_torque_about<T: Real>(full: &Matrix6<T>, c: &Vector3<T>) -> [T; 6] {
+    // Both halves of [c]Σ_ff[c]ᵀ go to the two mixed terms: Σ_mm − [c]H − ([c]H)ᵀ with
+    // H = Σ_fm − Σ_ff[c]ᵀ/2, row i of which is that of Σ_fm, and half of c × that of Σ_ff less.
+    let half = c * T::literal(0.5);
+    let [x, y, z, mx, my, mz] = &full.data.0;
+    let row = |v: &[T; 6]| {
+        Vector3::new(
+            v[3] + (half.z * v[1] - half.y * v[2]),
+            v[4] + (half.x * v[2] - half.z * v[0]),
+            v[5] + (half.y * v[0] - half.x * v[1]),
+        )
+    };
+    let (x, y, z) = (row(x), row(y), row(z));
+    let (xx, yy, zz) = (z.x * c.y - y.x * c.z, x.y * c.z - z.y * c.x, y.z * c.x - x.z * c.y);
+    let xy = (z.y * c.y - y.y * c.z) + (x.x * c.z - z.x * c.x);
+    let xz = (z.z * c.y - y.z * c.z) + (y.x * c.x - x.x * c.y);
+    let yz = (x.z * c.z - z.z * c.x) + (y.y * c.x - x.y * c.y);
+    [mx[3] - (xx + xx), my[3] - xy, mz[3] - xz, my[4] - (yy + yy), mz[4] - yz, mz[5] - (zz + zz)]
 }
 
 #[cfg(test)]
 mod tests {
     use nalgebra::{Matrix6, Vector3, Vector6};
 
-    use super::{IndependentNoise, IsotropicNoise, WrenchSpread};
+    use super::WrenchSpread;
 
-    fn agree(some: &impl WrenchSpread<f64>, full: &Matrix6<f64>) {
+    fn agree(some: WrenchSpread<'_, f64>, full: &Matrix6<f64>) {
         let c = Vector3::new(0.3, -0.7, 1.1);
         // The torque about the point is `m − c × f`: three combinations.
         let row = |k: usize| {
@@ -137,10 +145,10 @@ mod tests {
     fn every_kind_agrees_with_the_full_matrix() {
         let root = Matrix6::from_fn(|i, j| ((7 * i + 3 * j) % 5) as f64 - 1.7 + 0.1 * i as f64);
         let full = root * root.transpose();
-        agree(&full, &full);
+        agree((&full).into(), &full);
         let variances = Vector6::new(1.0, 2.0, 3.0, 0.4, 0.5, 0.6);
-        agree(&IndependentNoise(variances), &Matrix6::from_diagonal(&variances));
+        agree(WrenchSpread::Independent(variances), &Matrix6::from_diagonal(&variances));
         let isotropic = Vector6::new(2.0, 2.0, 2.0, 0.7, 0.7, 0.7);
-        agree(&IsotropicNoise { force: 2.0, torque: 0.7 }, &Matrix6::from_diagonal(&isotropic));
+        agree(WrenchSpread::Isotropic { force: 2.0, torque: 0.7 }, &Matrix6::from_diagonal(&isotropic));
     }
 }

@@ -1,6 +1,6 @@
 //! How a contact moves with the sizes and the place of its shape.
 
-use fingertip_contact::{GeometrySensitivity, ShapeParameters, SoftFingerSurface};
+use fingertip_contact::{GeometrySensitivity, SoftFingerSurface};
 use fingertip_surfaces::{
     CappedCylinder, Capsule, Cone, Cylinder, CylinderEnds, Disk, Ellipsoid, EllipticCylinder, Frustum,
     HalfSpace, Offset, Paraboloid, Plane, Posed, RoundedBox, SmoothSurface, Sphere, SphericalCap,
@@ -48,6 +48,15 @@ fn by_parameter<S, D, const P: usize>(
     }
 }
 
+/// What a surface says of all its sizes.
+pub(crate) fn sizes<const P: usize>(
+    surface: &impl SoftFingerSurface<f64>,
+    point: &Vector3<f64>,
+) -> [GeometrySensitivity<f64>; P] {
+    assert_eq!(surface.sensitivity(P, point), None);
+    core::array::from_fn(|size| surface.sensitivity(size, point).unwrap())
+}
+
 pub(crate) fn on(value: f64, switched: bool) -> Dual {
     Dual::new(value, f64::from(u8::from(switched)))
 }
@@ -62,7 +71,7 @@ fn parameters_of_the_sphere() {
         0.017,
         |point| {
             let moved = GeometrySensitivity::rigid_motions(&surface, point, &Vector3::zeros());
-            [ShapeParameters::<f64, 1>::sensitivities(&surface, point)[0], moved[0], moved[1], moved[2]]
+            [surface.sensitivity(0, point).unwrap(), moved[0], moved[1], moved[2]]
         },
         |index| {
             let moved =
@@ -80,7 +89,7 @@ fn parameters_of_the_ellipsoid() {
         "ellipsoid",
         &surface,
         0.017,
-        |point| surface.sensitivities(point),
+        |point| sizes::<3>(&surface, point),
         |index| {
             Ellipsoid::new(Vector3::new(
                 on(axes.x, index == 0),
@@ -97,9 +106,7 @@ macro_rules! by_sizes {
     ($name:ident, $size:literal, $sizes:expr, |$list:ident| $make:expr) => {
         #[test]
         fn $name() {
-            fn make<T: Real>(
-                $list: [T; SIZES.len()],
-            ) -> impl SoftFingerSurface<T> + SmoothSurface<T> + ShapeParameters<T, { SIZES.len() }> {
+            fn make<T: Real>($list: [T; SIZES.len()]) -> impl SoftFingerSurface<T> + SmoothSurface<T> {
                 $make.unwrap()
             }
             const SIZES: &[f64] = &$sizes;
@@ -108,7 +115,7 @@ macro_rules! by_sizes {
                 stringify!($name),
                 &surface,
                 $size,
-                |point| surface.sensitivities(point),
+                |point| sizes::<{ SIZES.len() }>(&surface, point),
                 |index| make(core::array::from_fn(|k| on(SIZES[k], k == index))),
             );
         }
@@ -146,11 +153,11 @@ by_sizes!(sizes_of_the_rounded_box, 0.017, [0.008, 0.010, 0.013, 0.004], |s| Rou
 ));
 
 // On the side and on the ends alike.
-by_sizes!(sizes_of_the_capped_cylinder, 0.013, [0.011, 0.007], |s| CappedCylinder::new(
+by_sizes!(sizes_of_the_capped_cylinder, 0.013, [0.007, 0.011], |s| CappedCylinder::new(
     Vector3::zeros(),
     tilted(),
-    s[1],
-    s[0]
+    s[0],
+    s[1]
 ));
 by_sizes!(sizes_of_the_closed_elliptic_cylinder, 0.014, [0.007, 0.012], |s| EllipticCylinder::new(
     s,
@@ -189,7 +196,7 @@ fn attitude_of_the_cylinder() {
         0.017,
         |point| {
             let moved = GeometrySensitivity::rigid_motions(&surface, point, &Vector3::zeros());
-            [moved[3], moved[4], moved[5], ShapeParameters::<f64, 1>::sensitivities(&surface, point)[0]]
+            [moved[3], moved[4], moved[5], surface.sensitivity(0, point).unwrap()]
         },
         |index| {
             let turned = |v: Vector3<f64>| {

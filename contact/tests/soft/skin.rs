@@ -3,7 +3,7 @@
 use fingertip_contact::{
     Compliant, CompliantContact, CompliantPointContact, CompliantSoftFinger, Contact, ContactJacobian,
     ContactModel, GeometrySensitivity, Hertz, Indentation, LinearStiffness, LocalHertz, PointContact,
-    PowerLaw, ShapeParameters, SkinLaw, SoftFinger, SoftFingerSurface, Tabulated,
+    PowerLaw, SkinLaw, SoftFinger, SoftFingerSurface, Tabulated,
 };
 use fingertip_surfaces::{DynSurface, Ellipsoid, SmoothSurface, Sphere};
 use fingertip_test_support::Worst;
@@ -12,7 +12,7 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::common;
 use crate::jacobians::{Dual, deviation, lift, local, seeded};
-use crate::parameters::on;
+use crate::parameters::{on, sizes};
 use crate::wrenches::Random;
 
 /// A wrench of a contact at the place where a skin touches under it.
@@ -334,7 +334,7 @@ fn by_geometry() {
         &sphere,
         |point| {
             let moved = GeometrySensitivity::rigid_motions(&sphere, point, &Vector3::zeros());
-            [ShapeParameters::<f64, 1>::sensitivities(&sphere, point)[0], moved[0], moved[1], moved[2]]
+            [sphere.sensitivity(0, point).unwrap(), moved[0], moved[1], moved[2]]
         },
         |index| {
             let moved =
@@ -347,7 +347,7 @@ fn by_geometry() {
     by_parameter(
         "ellipsoid",
         &ellipsoid,
-        |point| ellipsoid.sensitivities(point),
+        |point| sizes::<3>(&ellipsoid, point),
         |index| {
             let axes = Vector3::from_fn(|k, _| on(axes[k], k == index));
             Ellipsoid::new(axes).unwrap()

@@ -41,7 +41,7 @@ impl<S, Z, W, const N: usize> Solved<S, Z, W, N> {
 
     fn solved<T: Real>(&self, sample: Option<Sample<T, SVector<T, N>>>) -> Option<Sample<T, Wrench<T>>>
     where
-        Z: Compensation<T, N, Raw = SVector<T, N>>,
+        Z: Compensation<SVector<T, N>, Raw = SVector<T, N>>,
         W: WrenchSolver<T, N>,
     {
         sample.map(|Sample { time, value }| Sample {
@@ -54,7 +54,7 @@ impl<S, Z, W, const N: usize> Solved<S, Z, W, N> {
 impl<T: Real, S, Z, W, const N: usize> Source<T, Wrench<T>> for Solved<S, Z, W, N>
 where
     S: Source<T, SVector<T, N>>,
-    Z: Compensation<T, N, Raw = SVector<T, N>>,
+    Z: Compensation<SVector<T, N>, Raw = SVector<T, N>>,
     W: WrenchSolver<T, N>,
 {
     type Error = S::Error;
@@ -68,7 +68,7 @@ where
 impl<T: Real, S, Z, W, const N: usize> NbSource<T, Wrench<T>> for Solved<S, Z, W, N>
 where
     S: NbSource<T, SVector<T, N>>,
-    Z: Compensation<T, N, Raw = SVector<T, N>>,
+    Z: Compensation<SVector<T, N>, Raw = SVector<T, N>>,
     W: WrenchSolver<T, N>,
 {
     type Error = S::Error;
@@ -82,7 +82,7 @@ where
 impl<T: Real, S, Z, W, const N: usize> AsyncSource<T, Wrench<T>> for Solved<S, Z, W, N>
 where
     S: AsyncSource<T, SVector<T, N>>,
-    Z: Compensation<T, N, Raw = SVector<T, N>>,
+    Z: Compensation<SVector<T, N>, Raw = SVector<T, N>>,
     W: WrenchSolver<T, N>,
 {
     type Error = S::Error;

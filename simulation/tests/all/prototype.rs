@@ -46,7 +46,7 @@ fn run<Zero>(
     raw: impl Fn(&SimulatedSample) -> Zero::Raw,
 ) -> SessionReport
 where
-    Zero: Compensation<f64, 6>,
+    Zero: Compensation<SVector<f64, 6>>,
 {
     let fingertip = SimulatedFingertip::new(&standard_session(), options).unwrap();
     let solver = GaussianElimination::new(fingertip.calibrated_matrix()).unwrap();

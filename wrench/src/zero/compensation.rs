@@ -1,26 +1,27 @@
-//! What is taken off the readings before they are signals.
-
-use nalgebra::SVector;
+//! What is taken off readings and wrenches since it is no load of a contact.
 
 use crate::Real;
+use nalgebra::SVector;
 
-/// Turns raw readings into the signals of `N` gauges: takes off what is not load.
+/// Takes off what is not load: of the readings of `N` gauges zero and drift, which leaves signals
+/// (`V` is an `SVector<T, N>`); of a wrench what hangs on the sensor all the time, which leaves contact (`V` is a
+/// [`Wrench`](crate::Wrench)).
 ///
-/// The raw reading is a type of its own, since some compensations take more than the gauges (a
-/// dummy gauge, a temperature).
-pub trait Compensation<T: Real, const N: usize> {
+/// The raw reading is a type of its own, since some compensations take more than what they correct: a
+/// dummy gauge, a temperature, the motion of the sensor.
+pub trait Compensation<V> {
     /// One raw reading.
     type Raw;
 
-    /// The signals of the gauges, from one raw reading.
-    fn compensate(&self, raw: &Self::Raw) -> SVector<T, N>;
+    /// What is left of one raw reading.
+    fn compensate(&self, raw: &Self::Raw) -> V;
 }
 
 /// Readings that are signals already. Costs nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Uncompensated;
 
-impl<T: Real, const N: usize> Compensation<T, N> for Uncompensated {
+impl<T: Real, const N: usize> Compensation<SVector<T, N>> for Uncompensated {
     type Raw = SVector<T, N>;
 
     #[inline]

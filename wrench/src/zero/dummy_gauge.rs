@@ -48,7 +48,7 @@ impl<T: Real, const N: usize> DummyGauge<T, N> {
     }
 }
 
-impl<T: Real, const N: usize> Compensation<T, N> for DummyGauge<T, N> {
+impl<T: Real, const N: usize> Compensation<SVector<T, N>> for DummyGauge<T, N> {
     type Raw = GaugesAndDummy<T, N>;
 
     #[inline]

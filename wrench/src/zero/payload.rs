@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use thiserror::Error;
 
 use crate::stored;
-use crate::{Motion, Real, Wrench};
+use crate::{Compensation, Motion, Real, Wrench};
 
 /// A rigid body that hangs on the sensor all the time: the fingertip itself, a tool, a payload.
 ///
@@ -134,6 +134,16 @@ impl<T: Real> Payload<T> {
         let acceleration = angular_acceleration.cross(centre) + turning.cross(&turning.cross(centre));
         let inertial = self.inertia * angular_acceleration + turning.cross(&(self.inertia * turning));
         self.weight(&(gravity - acceleration)) - Wrench::on_fingertip(Vector3::zeros(), inertial)
+    }
+}
+
+/// A measured wrench and the motion of the sensor become the wrench of the contact.
+impl<T: Real> Compensation<Wrench<T>> for Payload<T> {
+    type Raw = (Wrench<T>, Motion<T>);
+
+    #[inline(always)]
+    fn compensate(&self, (measured, motion): &(Wrench<T>, Motion<T>)) -> Wrench<T> {
+        *measured - self.load(motion)
     }
 }
 

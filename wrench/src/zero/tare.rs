@@ -36,7 +36,7 @@ impl<T: Real, const N: usize> Tare<T, N> {
     }
 }
 
-impl<T: Real, const N: usize> Compensation<T, N> for Tare<T, N> {
+impl<T: Real, const N: usize> Compensation<SVector<T, N>> for Tare<T, N> {
     type Raw = SVector<T, N>;
 
     #[inline]

@@ -106,7 +106,7 @@ impl<T: Real, const N: usize, const TERMS: usize> TemperatureCompensation<T, N, 
     }
 }
 
-impl<T: Real, const N: usize, const TERMS: usize> Compensation<T, N>
+impl<T: Real, const N: usize, const TERMS: usize> Compensation<SVector<T, N>>
     for TemperatureCompensation<T, N, TERMS>
 {
     type Raw = GaugesAndTemperature<T, N>;
