@@ -108,7 +108,7 @@ fn play(design: Design) -> Result<SessionReport, Box<dyn Error>> {
     let mut score = SessionScore::new(&simulated);
     let mut zero = DummyGaugeAccumulator::default();
     let first = loop {
-        match simulated.next_sample() {
+        match simulated.next() {
             Some(sample) if sample.truth.phase == 0 => {
                 zero.add(&sample.reading());
             }

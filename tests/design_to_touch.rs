@@ -54,7 +54,7 @@ fn errors(design: Design, imperfections: Imperfections, seed: u64) -> [f64; 3] {
     let mut score = SessionScore::new(&simulated);
     let mut zero = DummyGaugeAccumulator::default();
     let first = loop {
-        match simulated.next_sample() {
+        match simulated.next() {
             Some(sample) if sample.truth.phase == 0 => {
                 zero.add(&sample.reading());
             }

@@ -180,27 +180,6 @@ impl SimulatedFingertip {
         self.timeline.end()
     }
 
-    /// The next sample, or `None` at the end of the script.
-    pub fn next_sample(&mut self) -> Option<SimulatedSample> {
-        #[allow(clippy::cast_precision_loss, reason = "exact for 10^15 samples")]
-        let time = self.samples as f64 / self.options.sample_rate;
-        let phase = loop {
-            let phase = self.timeline.phases.get(self.phase)?;
-            if time < phase.end {
-                break phase;
-            }
-            self.phase += 1;
-        };
-        self.samples += 1;
-        let (load, slipping) = phase.load(time);
-        let contact = load.contact(self.options.design.sphere_radius);
-        let wrench = contact.map_or_else(Wrench::zero, |contact| contact.wrench());
-        let temperature = self.temperature.next(time, &mut self.random);
-        let (raw, saturated) = self.read(&wrench, temperature);
-        let truth = Truth { wrench, contact, temperature, slipping, phase: self.phase, saturated };
-        Some(SimulatedSample { time, raw, truth })
-    }
-
     /// What the electronics make of a load and a temperature, and whether a channel saturates.
     fn read(&mut self, wrench: &Wrench<f64>, temperature: f64) -> (SVector<f64, 7>, bool) {
         let electronics = &self.options.electronics;
@@ -230,8 +209,25 @@ impl SimulatedFingertip {
 impl Iterator for SimulatedFingertip {
     type Item = SimulatedSample;
 
+    /// The next sample, or `None` at the end of the script.
     fn next(&mut self) -> Option<SimulatedSample> {
-        self.next_sample()
+        #[allow(clippy::cast_precision_loss, reason = "exact for 10^15 samples")]
+        let time = self.samples as f64 / self.options.sample_rate;
+        let phase = loop {
+            let phase = self.timeline.phases.get(self.phase)?;
+            if time < phase.end {
+                break phase;
+            }
+            self.phase += 1;
+        };
+        self.samples += 1;
+        let (load, slipping) = phase.load(time);
+        let contact = load.contact(self.options.design.sphere_radius);
+        let wrench = contact.map_or_else(Wrench::zero, |contact| contact.wrench());
+        let temperature = self.temperature.next(time, &mut self.random);
+        let (raw, saturated) = self.read(&wrench, temperature);
+        let truth = Truth { wrench, contact, temperature, slipping, phase: self.phase, saturated };
+        Some(SimulatedSample { time, raw, truth })
     }
 }
 
@@ -239,6 +235,6 @@ impl Source<f64, SVector<f64, 7>> for SimulatedFingertip {
     type Error = Infallible;
 
     fn next_sample(&mut self) -> Result<Option<Sample<f64, SVector<f64, 7>>>, Infallible> {
-        Ok(self.next_sample().map(|sample| Sample { time: Some(sample.time), value: sample.raw }))
+        Ok(self.next().map(|sample| Sample { time: Some(sample.time), value: sample.raw }))
     }
 }

@@ -6,7 +6,7 @@ use fingertip::friction::{
     SlipMargin, SlipVerdict,
 };
 use fingertip::surfaces::{ActiveSurface, Ellipsoid, Sphere, Torus};
-use fingertip::wrench::{GaussianElimination, Real, SensorMatrix, Tare, Wrench};
+use fingertip::wrench::{Compensation, GaussianElimination, Real, SensorMatrix, Tare, Wrench};
 use fingertip::{Fingertip, GripStage, SlipStage, Step, Touches};
 use nalgebra::{Vector3, Vector6};
 

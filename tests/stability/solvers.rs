@@ -2,8 +2,8 @@
 
 use fingertip_wrench::gauge_layout::{GaugeLayout, ThinWalledBeam};
 use fingertip_wrench::{
-    BicchiDario, Decoupled, ErrorBound, GaussianElimination, Inverse, LeastSquares, LinearSolver, Real,
-    Refined, SensorMatrix, Uncertainty, Wrench, WrenchSolver,
+    BicchiDario, Decoupled, ErrorBound, GaussianElimination, Inverse, LeastSquares, Real, Refined,
+    SensorMatrix, Uncertainty, Wrench, WrenchSolver,
 };
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 use rand::RngExt;
@@ -137,7 +137,7 @@ fn bad_signals<T: Real, const N: usize, S: WrenchSolver<T, N>>(name: &str, solve
 }
 
 /// Errors against the bound that the solver itself states.
-fn own_bound<T: Real, const N: usize, S: LinearSolver<T, N>>(
+fn own_bound<T: Real, const N: usize, S: WrenchSolver<T, N>>(
     name: &str,
     case: &str,
     sensor: &SensorMatrix<T, N>,

@@ -29,7 +29,7 @@ pub use numeric::singular_values;
 pub use scalar::Real;
 pub use solve::{
     BadCovariance, BadInverse, BeyondBound, BicchiDario, Combination, Conditioning, Decoupled, ErrorBound,
-    FourRosettes, GaussianElimination, Inverse, LeastSquares, LeastSquaresError, LinearSolver, NoErrorBound,
+    FourRosettes, GaussianElimination, Inverse, LeastSquares, LeastSquaresError, LinearMap, NoErrorBound,
     NotDecoupled, OwnError, Refined, SingularMatrix, ThreeRosettes, Uncertainty, WrenchCovariance,
     WrenchSolver, diagonal_pattern,
 };

@@ -86,7 +86,7 @@ fn play(arguments: &DemoArguments) -> Result<Outcome, CliError> {
     // The first phase is rest: its readings give the zero, and their spread the noise.
     let mut readings = Vec::new();
     let first_touch = loop {
-        match simulated.next_sample() {
+        match simulated.next() {
             Some(sample) if sample.truth.phase == 0 => {
                 observations.add_without_wrench(sample.time, Status::Rest);
                 volts.write(&sample)?;

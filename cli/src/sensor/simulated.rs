@@ -30,10 +30,10 @@ impl Source<f64, SVector<f64, 7>> for Rounds {
     type Error = Infallible;
 
     fn next_sample(&mut self) -> Result<Option<Sample<f64, Volts>>, Infallible> {
-        let next = self.fingertip.next_sample().or_else(|| {
+        let next = self.fingertip.next().or_else(|| {
             self.before += self.fresh.duration();
             self.fingertip = self.fresh.clone();
-            self.fingertip.next_sample()
+            self.fingertip.next()
         });
         Ok(next.map(|sample| Sample { time: Some(self.before + sample.time), value: sample.raw }))
     }

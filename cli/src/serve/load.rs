@@ -63,9 +63,9 @@ impl Load {
 
     /// The next load; behind the end the scenario begins anew.
     pub(super) fn next(&mut self) -> Wrench<f64> {
-        let sample = self.playing.next_sample().or_else(|| {
+        let sample = self.playing.next().or_else(|| {
             self.restart();
-            self.playing.next_sample()
+            self.playing.next()
         });
         self.samples += 1;
         let truth = sample.map_or_else(Wrench::zero, |sample| sample.truth.wrench);

@@ -11,7 +11,7 @@ use fingertip_simulation::{
     ThermalDrift, standard_session,
 };
 use fingertip_test_support::Worst;
-use nalgebra::Vector3;
+use nalgebra::{SVector, Vector3};
 
 /// What the rest before the session says of the sensor.
 struct Rest {

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix6, SMatrix, SVector};
 use thiserror::Error;
 
-use crate::{LinearSolver, Real, SensorMatrix, Wrench};
+use crate::{Real, SensorMatrix, Wrench, WrenchSolver};
 
 /// The covariance of the wrench, to first order.
 ///
@@ -35,6 +35,9 @@ pub enum BadCovariance {
     /// The result leaves the range of the scalar type.
     #[error("the covariance of the wrench is too large or too small for the scalar type")]
     OutOfRange,
+    /// The solver does not say what [linear map](WrenchSolver::linear_map) it is.
+    #[error("the solver does not say what linear map it is")]
+    NotLinear,
 }
 
 impl<T: Real, const N: usize> WrenchCovariance<T, N> {
@@ -44,7 +47,7 @@ impl<T: Real, const N: usize> WrenchCovariance<T, N> {
     /// [`BadCovariance`].
     pub fn from_noise(
         sensor: &SensorMatrix<T, N>,
-        solver: &impl LinearSolver<T, N>,
+        solver: &impl WrenchSolver<T, N>,
         deviations: &SVector<T, N>,
     ) -> Result<Self, BadCovariance> {
         if let Some(gauge) = deviations.iter().position(|x| !(*x >= T::zero() && x.is_number())) {
@@ -59,7 +62,7 @@ impl<T: Real, const N: usize> WrenchCovariance<T, N> {
     /// [`BadCovariance`].
     pub fn new(
         sensor: &SensorMatrix<T, N>,
-        solver: &impl LinearSolver<T, N>,
+        solver: &impl WrenchSolver<T, N>,
         signals: &SMatrix<T, N, N>,
     ) -> Result<Self, BadCovariance> {
         let valid = |gauge: usize| {
@@ -72,7 +75,7 @@ impl<T: Real, const N: usize> WrenchCovariance<T, N> {
         if let Some(gauge) = (0..N).position(|gauge| !valid(gauge)) {
             return Err(BadCovariance::BadNoise { gauge });
         }
-        let normalised = solver.gain(sensor);
+        let normalised = solver.linear_map(sensor).ok_or(BadCovariance::NotLinear)?.gain;
         let gain = SMatrix::from_fn(|axis, gauge| normalised[(axis, gauge)] * sensor.nominal()[axis]);
         let constant = symmetric(&(gain * signals * gain.transpose()));
         if !constant.iter().all(|x| x.is_number()) {

@@ -9,7 +9,7 @@ use crate::scalar::rounding::relative_rounding;
 use crate::solve::compensated::matrix_residual;
 use crate::solve::nonnegative::neumann;
 use crate::{
-    Combination, GaussianElimination, LinearSolver, OwnError, Real, SensorMatrix, SensorMatrixError,
+    Combination, GaussianElimination, LinearMap, OwnError, Real, SensorMatrix, SensorMatrixError,
     SingularMatrix, Wrench, WrenchSolver,
 };
 
@@ -157,9 +157,13 @@ impl<T: Real, K: Combination<N>, const N: usize> WrenchSolver<T, N> for Decouple
         }
         Wrench::from_components(&wrench)
     }
+
+    fn linear_map(&self, sensor: &SensorMatrix<T, N>) -> Option<LinearMap<T, N>> {
+        Some(LinearMap { gain: self.gain(sensor), own_error: self.own_error(sensor) })
+    }
 }
 
-impl<T: Real, K: Combination<N>, const N: usize> LinearSolver<T, N> for Decoupled<T, K, N> {
+impl<T: Real, K: Combination<N>, const N: usize> Decoupled<T, K, N> {
     fn gain(&self, sensor: &SensorMatrix<T, N>) -> SMatrix<T, 6, N> {
         let normalised = Matrix6::from_fn(|i, j| self.inverse[i][j] / sensor.nominal()[i]);
         normalised * matrix_of::<T, K, N>()

@@ -4,7 +4,7 @@ use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 use thiserror::Error;
 
 use crate::solve::nonnegative::neumann;
-use crate::{LinearSolver, Real, SensorMatrix, Wrench};
+use crate::{Real, SensorMatrix, Wrench, WrenchSolver};
 
 /// What is not known of a sensor, as worst cases. Plain data; all zero means that only the solver's
 /// own error counts.
@@ -93,6 +93,9 @@ pub enum NoErrorBound {
          of this sensor"
     )]
     Unbounded,
+    /// The solver does not say what [linear map](WrenchSolver::linear_map) it is.
+    #[error("no bound: the solver does not say what linear map it is")]
+    NotLinear,
 }
 
 impl<T: Real, const N: usize> ErrorBound<T, N> {
@@ -102,7 +105,7 @@ impl<T: Real, const N: usize> ErrorBound<T, N> {
     /// [`NoErrorBound`].
     pub fn new(
         sensor: &SensorMatrix<T, N>,
-        solver: &impl LinearSolver<T, N>,
+        solver: &impl WrenchSolver<T, N>,
         uncertainty: &Uncertainty<T, N>,
     ) -> Result<Self, NoErrorBound> {
         let valid = |x: &T| *x >= T::zero() && x.is_number();
@@ -111,7 +114,7 @@ impl<T: Real, const N: usize> ErrorBound<T, N> {
         }) {
             return Err(NoErrorBound::BadUncertainty { gauge });
         }
-        let own = solver.own_error(sensor);
+        let own = solver.linear_map(sensor).ok_or(NoErrorBound::NotLinear)?.own_error;
         let relative = own.per_load + own.magnitude * uncertainty.matrix;
         let amplified = neumann(&relative).ok_or(NoErrorBound::Unbounded)?;
         // The bound itself is computed with rounding: some sixty operations on positive numbers.

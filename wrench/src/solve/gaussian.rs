@@ -7,7 +7,7 @@ use crate::solve::compensated::{matrix_residual, residual};
 use crate::solve::equilibration::Equilibrated;
 use crate::solve::nonnegative::neumann;
 use crate::solve::singular::{SingularMatrix, dependent_gauge};
-use crate::{LinearSolver, OwnError, Real, SensorMatrix, Wrench, WrenchSolver};
+use crate::{LinearMap, OwnError, Real, SensorMatrix, Wrench, WrenchSolver};
 
 /// The general solver for minimal sensors: triangular factors of the sensor matrix with row
 /// equilibration and partial pivoting, computed once (Bicchi & Dario 1987 recommend it; Wilkinson
@@ -140,16 +140,20 @@ impl<T: Real> WrenchSolver<T, 6> for GaussianElimination<T> {
     fn solve(&self, signals: &Vector6<T>) -> Wrench<T> {
         Wrench::from_components(&self.substitute(signals).component_mul(&self.nominal))
     }
+
+    fn linear_map(&self, sensor: &SensorMatrix<T, 6>) -> Option<LinearMap<T, 6>> {
+        Some(LinearMap { gain: self.gain(sensor), own_error: self.own_error(sensor) })
+    }
 }
 
 /// Steps of refinement of an inverse: each divides its error by `1/(ε·condition)`, which the
 /// constructor keeps well above 1.
 const INVERSE_STEPS: usize = 6;
 
-impl<T: Real> LinearSolver<T, 6> for GaussianElimination<T> {
+impl<T: Real> GaussianElimination<T> {
     /// The inverse of the sensor matrix, refined until it is the true one to the last digit or
     /// two.
-    fn gain(&self, sensor: &SensorMatrix<T, 6>) -> Matrix6<T> {
+    pub(super) fn gain(&self, sensor: &SensorMatrix<T, 6>) -> Matrix6<T> {
         let scaled = Equilibrated::new(sensor.normalised());
         let mut inverse = Matrix6::zeros();
         for _ in 0..=INVERSE_STEPS {
@@ -166,7 +170,7 @@ impl<T: Real> LinearSolver<T, 6> for GaussianElimination<T> {
 
     /// From the rounding errors of the two substitutions, counted (Higham 2002, section 8.1), and
     /// the defect of the factors, computed.
-    fn own_error(&self, sensor: &SensorMatrix<T, 6>) -> OwnError<T, 6> {
+    pub(super) fn own_error(&self, sensor: &SensorMatrix<T, 6>) -> OwnError<T, 6> {
         let scaled = Equilibrated::new(sensor.normalised());
         let magnitude = inverse_magnitude(sensor, &self.gain(sensor));
         let row = |i: usize| usize::from(self.order[i]).min(5);

@@ -6,8 +6,8 @@ use thiserror::Error;
 use crate::scalar::rounding::relative_rounding;
 use crate::solve::compensated::matrix_residual;
 use crate::{
-    GaussianElimination, LinearSolver, OwnError, Real, SensorMatrix, SensorMatrixError, SingularMatrix,
-    Wrench, WrenchSolver,
+    GaussianElimination, LinearMap, OwnError, Real, SensorMatrix, SensorMatrixError, SingularMatrix, Wrench,
+    WrenchSolver,
 };
 
 /// The inverse of the sensor matrix, multiplied with each reading: the fastest general solver.
@@ -62,9 +62,13 @@ impl<T: Real> WrenchSolver<T, 6> for Inverse<T> {
     fn solve(&self, signals: &Vector6<T>) -> Wrench<T> {
         Wrench::from_components(&(self.matrix * signals))
     }
+
+    fn linear_map(&self, sensor: &SensorMatrix<T, 6>) -> Option<LinearMap<T, 6>> {
+        Some(LinearMap { gain: self.gain(sensor), own_error: self.own_error(sensor) })
+    }
 }
 
-impl<T: Real> LinearSolver<T, 6> for Inverse<T> {
+impl<T: Real> Inverse<T> {
     fn gain(&self, sensor: &SensorMatrix<T, 6>) -> Matrix6<T> {
         Matrix6::from_fn(|axis, gauge| self.matrix[(axis, gauge)] / sensor.nominal()[axis])
     }

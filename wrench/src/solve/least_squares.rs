@@ -6,7 +6,7 @@ use thiserror::Error;
 use crate::scalar::rounding::relative_rounding;
 use crate::solve::compensated::matrix_residual;
 use crate::solve::orthogonal::{DependentColumn, Orthogonal};
-use crate::{LinearSolver, OwnError, Real, SensorMatrix, Wrench, WrenchSolver};
+use crate::{LinearMap, OwnError, Real, SensorMatrix, Wrench, WrenchSolver};
 
 /// The solver for extended sensors (N > 6 gauges; 6 work too): least squares, weighted or not.
 ///
@@ -184,16 +184,20 @@ impl<T: Real, const N: usize> WrenchSolver<T, N> for LeastSquares<T, N> {
     fn solve(&self, signals: &SVector<T, N>) -> Wrench<T> {
         Wrench::from_components(&(self.gain * signals))
     }
+
+    fn linear_map(&self, sensor: &SensorMatrix<T, N>) -> Option<LinearMap<T, N>> {
+        Some(LinearMap { gain: self.gain(sensor), own_error: self.own_error(sensor) })
+    }
 }
 
-impl<T: Real, const N: usize> LinearSolver<T, N> for LeastSquares<T, N> {
+impl<T: Real, const N: usize> LeastSquares<T, N> {
     fn gain(&self, sensor: &SensorMatrix<T, N>) -> SMatrix<T, 6, N> {
         SMatrix::from_fn(|axis, gauge| self.gain[(axis, gauge)] / sensor.nominal()[axis])
     }
 
     /// `N` roundings of a product of `N` terms, one of the division in [`gain`](Self::gain).
     fn own_error(&self, sensor: &SensorMatrix<T, N>) -> OwnError<T, N> {
-        let gain = LinearSolver::gain(self, sensor);
+        let gain = self.gain(sensor);
         let per_load = matrix_residual(&Matrix6::identity(), &gain, sensor.normalised()).abs();
         OwnError { per_load, per_signal: gain.abs() * relative_rounding::<T>(N + 1), magnitude: gain.abs() }
     }

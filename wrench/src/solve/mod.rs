@@ -26,4 +26,4 @@ pub use inverse::{BadInverse, Inverse};
 pub use least_squares::{LeastSquares, LeastSquaresError};
 pub use refined::Refined;
 pub use singular::SingularMatrix;
-pub use solver::{LinearSolver, OwnError, WrenchSolver};
+pub use solver::{LinearMap, OwnError, WrenchSolver};

@@ -6,8 +6,8 @@ use crate::scalar::rounding::relative_rounding;
 use crate::solve::compensated;
 use crate::solve::equilibration::Equilibrated;
 use crate::{
-    GaussianElimination, LinearSolver, OwnError, Real, SensorMatrix, SensorMatrixError, SingularMatrix,
-    Wrench, WrenchSolver,
+    GaussianElimination, LinearMap, OwnError, Real, SensorMatrix, SensorMatrixError, SingularMatrix, Wrench,
+    WrenchSolver,
 };
 
 /// [`GaussianElimination`] with iterative refinement: the answer is the true one to the last digit
@@ -85,9 +85,13 @@ impl<T: Real> WrenchSolver<T, 6> for Refined<T> {
         }
         Wrench::from_components(&(loads / scale).component_mul(self.equilibrated.nominal()))
     }
+
+    fn linear_map(&self, sensor: &SensorMatrix<T, 6>) -> Option<LinearMap<T, 6>> {
+        Some(LinearMap { gain: self.gain(sensor), own_error: self.own_error(sensor) })
+    }
 }
 
-impl<T: Real> LinearSolver<T, 6> for Refined<T> {
+impl<T: Real> Refined<T> {
     fn gain(&self, sensor: &SensorMatrix<T, 6>) -> Matrix6<T> {
         self.solver.gain(&self.equilibrated).map_with_location(|axis, gauge, gain| {
             // The ratio of nominal loads is the column scale, a power of two.

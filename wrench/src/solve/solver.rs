@@ -18,6 +18,14 @@ pub trait WrenchSolver<T: Real, const N: usize> {
     /// The wrench \[N, N·m\] about the origin of the sensor frame, from the signals after tare and
     /// thermal compensation (same unit as the sensor matrix).
     fn solve(&self, signals: &SVector<T, N>) -> Wrench<T>;
+
+    /// What linear map this is, for the sensor that the solver was built for. `None`, as the default answers, if it
+    /// is none, or is not known: then its error has no bound. Not for the hot path: it may do the work of a
+    /// factorisation.
+    fn linear_map(&self, sensor: &SensorMatrix<T, N>) -> Option<LinearMap<T, N>> {
+        let _ = sensor;
+        None
+    }
 }
 
 impl<T: Real, const N: usize, S: WrenchSolver<T, N> + ?Sized> WrenchSolver<T, N> for &S {
@@ -25,20 +33,21 @@ impl<T: Real, const N: usize, S: WrenchSolver<T, N> + ?Sized> WrenchSolver<T, N>
     fn solve(&self, signals: &SVector<T, N>) -> Wrench<T> {
         (**self).solve(signals)
     }
+
+    fn linear_map(&self, sensor: &SensorMatrix<T, N>) -> Option<LinearMap<T, N>> {
+        (**self).linear_map(sensor)
+    }
 }
 
-/// A solver that is a linear map, and knows what map and how far it is from the truth.
-///
-/// These two say all that [`ErrorBound`](crate::ErrorBound) and
-/// [`WrenchCovariance`](crate::WrenchCovariance) need. Neither is for the hot path: both may do
-/// the work of a factorisation, for which they take the sensor that the solver was built for.
-pub trait LinearSolver<T: Real, const N: usize>: WrenchSolver<T, N> {
-    /// The 6×N matrix `S` of the map `wrench / nominal loads = S · signals`, but for rounding.
-    fn gain(&self, sensor: &SensorMatrix<T, N>) -> SMatrix<T, 6, N>;
-
+/// What linear map a solver is, and how far it is from the truth: all that [`ErrorBound`](crate::ErrorBound) and
+/// [`WrenchCovariance`](crate::WrenchCovariance) need.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearMap<T: Real, const N: usize> {
+    /// The matrix `S` of the map `wrench / nominal loads = S · signals`, but for rounding.
+    pub gain: SMatrix<T, 6, N>,
     /// How far [`solve`](WrenchSolver::solve) may be from the load, were the sensor exactly as
     /// given: couplings neglected, and all rounding.
-    fn own_error(&self, sensor: &SensorMatrix<T, N>) -> OwnError<T, N>;
+    pub own_error: OwnError<T, N>,
 }
 
 /// A bound on the error that a solver makes itself, component by component and in units of the
@@ -54,14 +63,4 @@ pub struct OwnError<T: Real, const N: usize> {
     pub per_signal: SMatrix<T, 6, N>,
     /// What becomes of an error of the signals: magnitudes of the entries of the map.
     pub magnitude: SMatrix<T, 6, N>,
-}
-
-impl<T: Real, const N: usize, S: LinearSolver<T, N> + ?Sized> LinearSolver<T, N> for &S {
-    fn gain(&self, sensor: &SensorMatrix<T, N>) -> SMatrix<T, 6, N> {
-        (**self).gain(sensor)
-    }
-
-    fn own_error(&self, sensor: &SensorMatrix<T, N>) -> OwnError<T, N> {
-        (**self).own_error(sensor)
-    }
 }

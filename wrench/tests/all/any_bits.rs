@@ -2,8 +2,8 @@
 
 use fingertip_wrench::{
     BicchiDario, Compensation, Conditioning, ConsistencyCheck, Decoupled, ErrorBound, GaussianElimination,
-    Inverse, LeastSquares, LinearSolver, Real, Refined, RestTest, SensorMatrix, ThreeRosettes, Uncertainty,
-    Wrench, WrenchCovariance, singular_values,
+    Inverse, LeastSquares, Real, Refined, RestTest, SensorMatrix, ThreeRosettes, Uncertainty, Wrench,
+    WrenchCovariance, WrenchSolver, singular_values,
 };
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 use proptest::prelude::*;
@@ -34,7 +34,7 @@ fn entries<const COUNT: usize>() -> impl Strategy<Value = [f64; COUNT]> {
 
 fn check_solver<T: Real, const N: usize>(
     sensor: &SensorMatrix<T, N>,
-    solver: &impl LinearSolver<T, N>,
+    solver: &impl WrenchSolver<T, N>,
     signals: &SVector<T, N>,
 ) {
     assert_eq!(solver.solve(&SVector::zeros()).components(), Vector6::zeros());

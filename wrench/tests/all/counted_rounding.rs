@@ -3,8 +3,8 @@
 
 use crate::support::{generator, greatest, of_condition, random_vector};
 use fingertip_wrench::{
-    BicchiDario, Combination, Decoupled, ErrorBound, GaussianElimination, Inverse, LeastSquares,
-    LinearSolver, Refined, SensorMatrix, Uncertainty,
+    BicchiDario, Combination, Decoupled, ErrorBound, GaussianElimination, Inverse, LeastSquares, Refined,
+    SensorMatrix, Uncertainty, WrenchSolver,
 };
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 
@@ -30,7 +30,7 @@ fn substitutions_are_counted() {
     let identity = Matrix6::identity();
     let own = |matrix| {
         let sensor = unit_loads(matrix);
-        GaussianElimination::new(&sensor).expect("regular").own_error(&sensor)
+        GaussianElimination::new(&sensor).expect("regular").linear_map(&sensor).expect("linear").own_error
     };
     let found = own(identity);
     same(&found.per_load, &(identity * (rounded(6) + rounded(1))));
@@ -57,14 +57,17 @@ fn products_are_counted() {
     let mut random = generator(170);
     let sensor = unit_loads(of_condition::<6>(&mut random, 5.0));
     let inverse = Inverse::new(&sensor).expect("regular");
-    let (own, gain) = (inverse.own_error(&sensor), inverse.gain(&sensor).abs());
+    let (own, gain) = (
+        inverse.linear_map(&sensor).expect("linear").own_error,
+        inverse.linear_map(&sensor).expect("linear").gain.abs(),
+    );
     assert_eq!(own.magnitude, gain);
     same(&own.per_signal, &(gain * rounded(7)));
     assert!(greatest(&own.per_load) < 10.0 * f64::EPSILON * 5.0);
     let wide = SensorMatrix::new(of_condition::<9>(&mut random, 5.0), Vector6::repeat(1.0)).expect("proper");
     let solver = LeastSquares::new(&wide).expect("regular");
-    let own = solver.own_error(&wide);
-    let gain = LinearSolver::gain(&solver, &wide).abs();
+    let own = solver.linear_map(&wide).expect("linear").own_error;
+    let gain = solver.linear_map(&wide).expect("linear").gain.abs();
     assert_eq!(own.magnitude, gain);
     let off = own.per_signal - gain * rounded(10);
     assert!(greatest(&off) < 1e-13 * greatest(&own.per_signal));
@@ -72,10 +75,13 @@ fn products_are_counted() {
     let combination = Matrix6::from_fn(|i, j| BicchiDario::MATRIX[i][j]);
     let sensor = unit_loads(combination.try_inverse().expect("independent"));
     let decoupled = Decoupled::<f64, BicchiDario, 6>::new(&sensor).expect("decoupled");
-    let own = decoupled.own_error(&sensor);
+    let own = decoupled.linear_map(&sensor).expect("linear").own_error;
     let off = own.per_signal - combination.abs() * rounded(6 + 17);
     assert!(greatest(&off) < 1e-13 * greatest(&own.per_signal));
-    assert_eq!((own.magnitude, own.per_load), (decoupled.gain(&sensor).abs(), *decoupled.neglected()));
+    assert_eq!(
+        (own.magnitude, own.per_load),
+        (decoupled.linear_map(&sensor).expect("linear").gain.abs(), *decoupled.neglected())
+    );
 }
 
 /// A refined answer is off by the rounding of its last sum and of its last scaling, and of no more.
@@ -84,7 +90,7 @@ fn a_refined_answer_rounds_twice() {
     let mut random = generator(171);
     for condition in [1.0, 1e3, 1e6] {
         let sensor = unit_loads(of_condition::<6>(&mut random, condition));
-        let own = Refined::new(&sensor).expect("regular").own_error(&sensor);
+        let own = Refined::new(&sensor).expect("regular").linear_map(&sensor).expect("linear").own_error;
         for i in 0..6 {
             assert!((own.per_load[(i, i)] / f64::EPSILON - 1.0).abs() < 1e-3, "{}", own.per_load[(i, i)]);
             for j in (0..6).filter(|j| *j != i) {
@@ -104,9 +110,14 @@ fn what_refinement_leaves_of_the_first_error_is_stated() {
         (matrix[(1, 4)], matrix[(4, 1)]) = (1.0, 1.0);
         matrix[(4, 4)] += f64::EPSILON * f64::from(units);
         let sensor = unit_loads(matrix);
-        let one = GaussianElimination::new(&sensor).expect("regular").own_error(&sensor).per_load;
+        let one = GaussianElimination::new(&sensor)
+            .expect("regular")
+            .linear_map(&sensor)
+            .unwrap()
+            .own_error
+            .per_load;
         let refined = Refined::new(&sensor).expect("regular");
-        let stated = refined.own_error(&sensor).per_load;
+        let stated = refined.linear_map(&sensor).expect("linear").own_error.per_load;
         let mut left = one;
         for _ in 0..refined.steps() {
             left = one * (Matrix6::identity() + one) * left;
@@ -117,7 +128,7 @@ fn what_refinement_leaves_of_the_first_error_is_stated() {
 }
 
 /// Other units of load and of signal: the same bound, but for the rounding of the bound itself.
-fn in_any_unit<const N: usize, S: LinearSolver<f64, N>>(build: impl Fn(&SensorMatrix<f64, N>) -> S) {
+fn in_any_unit<const N: usize, S: WrenchSolver<f64, N>>(build: impl Fn(&SensorMatrix<f64, N>) -> S) {
     let mut random = generator(172);
     let loads = Vector6::new(1024.0, 1.0, 0.125, 16.0, 0.5, 4096.0);
     for _ in 0..20 {
@@ -148,14 +159,15 @@ fn in_any_unit<const N: usize, S: LinearSolver<f64, N>>(build: impl Fn(&SensorMa
             assert!((0..6).all(|k| bound[k] > 0.0));
         }
         // The gain is that of the other unit.
-        let (gain, again) = (one.gain(&plain), other.gain(&scaled));
+        let (gain, again) =
+            (one.linear_map(&plain).expect("linear").gain, other.linear_map(&scaled).expect("linear").gain);
         let off = SMatrix::<f64, 6, N>::from_fn(|i, j| again[(i, j)] * loads[i] * 8.0 - gain[(i, j)]);
         assert!(greatest(&off) < 1e-13 * greatest(&gain), "{off}");
     }
 }
 
 /// The gain of every solver inverts the matrix, whatever the units of gauges and loads.
-fn inverts<S: LinearSolver<f64, 6>>(build: impl Fn(&SensorMatrix<f64, 6>) -> S) {
+fn inverts<S: WrenchSolver<f64, 6>>(build: impl Fn(&SensorMatrix<f64, 6>) -> S) {
     let mut random = generator(173);
     for _ in 0..20 {
         let matrix = of_condition::<6>(&mut random, 10.0);
@@ -163,7 +175,7 @@ fn inverts<S: LinearSolver<f64, 6>>(build: impl Fn(&SensorMatrix<f64, 6>) -> S) 
         let nominal = Vector6::from_fn(|i, _| 3.0_f64.powi(i as i32 - 3));
         let sensor = SensorMatrix::new(scaled, nominal).expect("proper");
         let solver = build(&sensor);
-        let gain = solver.gain(&sensor);
+        let gain = solver.linear_map(&sensor).expect("linear").gain;
         let signals = random_vector::<6>(&mut random);
         let found = solver.solve(&signals).components();
         for i in 0..6 {
@@ -178,7 +190,7 @@ fn inverts<S: LinearSolver<f64, 6>>(build: impl Fn(&SensorMatrix<f64, 6>) -> S) 
                 assert!((product - wanted).abs() < 1e3 * f64::EPSILON * size, "{i} {j}: {product}");
             }
         }
-        let magnitude = solver.own_error(&sensor).magnitude;
+        let magnitude = solver.linear_map(&sensor).expect("linear").own_error.magnitude;
         assert!((0..36).all(|k| (magnitude[k] / gain[k].abs() - 1.0).abs() < 1e-9));
     }
 }

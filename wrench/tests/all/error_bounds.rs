@@ -5,8 +5,8 @@ use crate::support::double_double::{difference, solve};
 use crate::support::{cast, generator, median, normal, of_condition, random_vector, sensor, symmetric, wide};
 use fingertip_wrench::{
     BicchiDario, Combination, Conditioning, Decoupled, ErrorBound, FourRosettes, GaussianElimination,
-    Inverse, LeastSquares, LinearSolver, Real, Refined, SensorMatrix, ThreeRosettes, Uncertainty, Wrench,
-    WrenchCovariance,
+    Inverse, LeastSquares, Real, Refined, SensorMatrix, ThreeRosettes, Uncertainty, Wrench, WrenchCovariance,
+    WrenchSolver,
 };
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 use rand::RngExt;
@@ -19,7 +19,7 @@ const LOADS: usize = 1_000;
 ///
 /// `typical` is what the median of bound over error was measured to be, and a tenth: a worst case is that
 /// much above errors of random sign.
-fn never_violated<T: Real, const N: usize, S: LinearSolver<T, N>>(
+fn never_violated<T: Real, const N: usize, S: WrenchSolver<T, N>>(
     (seed, typical): (u128, f64),
     sensors: usize,
     loads: usize,
@@ -146,7 +146,7 @@ fn bound_of_least_squares_holds() {
 
 /// With nothing uncertain, the bound is about rounding alone. `typical` as above: rounding errors cancel
 /// the more, the more of them are counted.
-fn rounding_alone<T: Real, S: LinearSolver<T, 6>>(
+fn rounding_alone<T: Real, S: WrenchSolver<T, 6>>(
     (seed, condition, typical): (u128, f64, f64),
     build: impl Fn(&SensorMatrix<T, 6>) -> S,
 ) {
@@ -229,7 +229,7 @@ fn equation_14_holds() {
             let deviation = across * (signal_error * signals.norm());
             let perturbed = SensorMatrix::new(truth, *sensor.nominal()).expect("proper");
             let solver = GaussianElimination::new(&perturbed).expect("regular");
-            let found = fingertip_wrench::WrenchSolver::solve(&solver, &(signals + deviation));
+            let found = WrenchSolver::solve(&solver, &(signals + deviation));
             let off = (found.components().component_div(sensor.nominal()) - load).norm();
             let rounding = 10.0 * f64::EPSILON * condition / (1.0 - condition * matrix_error);
             assert!(off <= bound * (1.0 + 1e-9) + rounding, "{off} > {bound}");
@@ -260,7 +260,7 @@ fn covariance_is_that_of_many_readings() {
     for _ in 0..READINGS {
         let truth = sensor.normalised() + entry_noise.map(|deviation| deviation * normal(&mut random));
         let signals = truth * normalised + noise.map(|deviation| deviation * normal(&mut random));
-        let off = (fingertip_wrench::WrenchSolver::solve(&solver, &signals) - load).components();
+        let off = (WrenchSolver::solve(&solver, &signals) - load).components();
         spread += off * off.transpose() / READINGS as f64;
     }
     let expected = model.at(&load);

@@ -2,8 +2,8 @@
 
 use crate::support::{generator, greatest, of_condition, sensor, wide};
 use fingertip_wrench::{
-    BicchiDario, Combination, Decoupled, ErrorBound, GaussianElimination, Inverse, LeastSquares,
-    LinearSolver, Refined, SensorMatrix, Uncertainty, Wrench,
+    BicchiDario, Combination, Decoupled, ErrorBound, GaussianElimination, Inverse, LeastSquares, Refined,
+    SensorMatrix, Uncertainty, Wrench, WrenchSolver,
 };
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 
@@ -12,7 +12,7 @@ use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 /// `noise` and `fraction` are relative to the largest entry of the matrix and of its columns. With
 /// `S = C⁻¹` and the true sensor `C + dC`, the error is `S (dC P + dV)`: on axis `i` it is greatest where
 /// every `dC` and `dV` has the sign of `S[i, ·]` and of its load.
-fn reached<const N: usize, S: LinearSolver<f64, N>>(
+fn reached<const N: usize, S: WrenchSolver<f64, N>>(
     noise: f64,
     fraction: f64,
     build: impl Fn(&SensorMatrix<f64, N>) -> S,
@@ -23,7 +23,7 @@ fn reached<const N: usize, S: LinearSolver<f64, N>>(
         let sensor = sensor::<f64, N>(&of_condition::<N>(&mut random, 10.0));
         let solver = build(&sensor);
         let matrix = wide(sensor.normalised());
-        let inverse = solver.gain(&sensor);
+        let inverse = solver.linear_map(&sensor).expect("linear").gain;
         let noise = noise * matrix.amax();
         let uncertainty =
             Uncertainty::of_signals(SVector::repeat(noise)).with_relative_matrix_error(&sensor, fraction);
@@ -47,7 +47,7 @@ fn reached<const N: usize, S: LinearSolver<f64, N>>(
     (least, greatest)
 }
 
-fn check<const N: usize, S: LinearSolver<f64, N>>(build: impl Fn(&SensorMatrix<f64, N>) -> S) {
+fn check<const N: usize, S: WrenchSolver<f64, N>>(build: impl Fn(&SensorMatrix<f64, N>) -> S) {
     // The noise of signals: rounding is ten orders of magnitude less.
     let (least, _) = reached(1e-3, 0.0, &build);
     assert!(least > 1.0 - 1e-9, "noise reaches {least} of the bound");
@@ -90,7 +90,7 @@ fn neglected_couplings_reach_the_bound() {
                 let mut load = Vector6::zeros();
                 load[j] = nominal[j];
                 let signals = sensor.signals(&Wrench::from_components(&load));
-                let found = fingertip_wrench::WrenchSolver::solve(&solver, &signals);
+                let found = WrenchSolver::solve(&solver, &signals);
                 let off = (found.components() - load)[i];
                 assert!((off / (coupling * nominal[i]) - 1.0).abs() < 1e-10, "{off}");
                 let share = off.abs() / bound.at(&signals, &found)[i];
@@ -107,7 +107,7 @@ fn bounds_grow_in_proportion() {
     for _ in 0..20 {
         let sensor = sensor::<f64, 6>(&of_condition::<6>(&mut random, 10.0));
         let solver = Inverse::new(&sensor).expect("regular");
-        let magnitude = solver.gain(&sensor).abs();
+        let magnitude = solver.linear_map(&sensor).expect("linear").gain.abs();
         let deviations = Vector6::from_fn(|i, _| 1e-3 * (1 + i) as f64);
         let bound = ErrorBound::new(&sensor, &solver, &Uncertainty::of_signals(deviations)).expect("bounded");
         let wanted = (magnitude * deviations).component_mul(sensor.nominal());

@@ -2,9 +2,9 @@
 
 use crate::support::{cast, generator, greatest, of_condition};
 use fingertip_wrench::{
-    BadInverse, BicchiDario, Combination, Conditioning, Decoupled, GaussianElimination, Inverse,
-    LeastSquares, LeastSquaresError, LinearSolver, NotDecoupled, Real, Refined, SensorMatrix,
-    SensorMatrixError, SingularMatrix, WrenchSolver,
+    BadCovariance, BadInverse, BicchiDario, Combination, Conditioning, Decoupled, ErrorBound,
+    GaussianElimination, Inverse, LeastSquares, LeastSquaresError, NoErrorBound, NotDecoupled, Real, Refined,
+    SensorMatrix, SensorMatrixError, SingularMatrix, Uncertainty, Wrench, WrenchCovariance, WrenchSolver,
 };
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 
@@ -110,7 +110,12 @@ fn steps<T: Real>(conditions: &[f64]) -> Vec<u8> {
                 continue;
             }
             let sensor = SensorMatrix::new(matrix, Vector6::repeat(T::one())).expect("proper");
-            let left = GaussianElimination::new(&sensor).expect("regular").own_error(&sensor).per_load;
+            let left = GaussianElimination::new(&sensor)
+                .expect("regular")
+                .linear_map(&sensor)
+                .unwrap()
+                .own_error
+                .per_load;
             let left = greatest(&left.column_sum());
             let enough = (1..=8).find(|steps| left.powi(*steps) <= T::EPSILON.to_f64() / 8.0).unwrap_or(8);
             let steps = Refined::new(&sensor).expect("regular").steps();
@@ -246,4 +251,19 @@ fn published_inverses_that_are_none() {
     let mut negative = nominal;
     negative[4] = -0.3;
     assert_eq!(SensorMatrix::from_inverse(&good, negative), Err(refused));
+}
+
+/// A solver of which nothing is known but what it answers: it works, and its error has no bound.
+#[test]
+fn a_solver_that_says_no_linear_map_has_no_bound() {
+    struct Cubed;
+    impl WrenchSolver<f64, 6> for Cubed {
+        fn solve(&self, signals: &Vector6<f64>) -> Wrench<f64> {
+            Wrench::from_components(&signals.map(|signal| signal.powi(3)))
+        }
+    }
+    let sensor = SensorMatrix::new(Matrix6::identity(), Vector6::repeat(1.0)).expect("proper");
+    assert_eq!(Cubed.solve(&Vector6::repeat(2.0)).components(), Vector6::repeat(8.0));
+    assert_eq!(ErrorBound::new(&sensor, &Cubed, &Uncertainty::none()), Err(NoErrorBound::NotLinear));
+    assert_eq!(WrenchCovariance::new(&sensor, &&Cubed, &Matrix6::identity()), Err(BadCovariance::NotLinear));
 }
