@@ -25,7 +25,7 @@ pub(crate) fn open(address: &Address) -> Result<Box<dyn Feed>, SensorError> {
         return simulated::open(address);
     }
     let losses = |sensor: &fingertip_drivers::devices::OpenSensor| sensor.losses();
-    Ok(Box::new(SourceFeed { source: address.open()?, losses }))
+    Ok(Box::new(SourceFeed { source: fingertip_drivers::devices::open(address)?, losses }))
 }
 
 /// What addresses look like, for the help.

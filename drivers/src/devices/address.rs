@@ -5,7 +5,7 @@ use core::str::FromStr;
 
 use thiserror::Error;
 
-use super::{ConnectError, Device, Link, OpenSensor};
+use super::device::{Device, Link};
 
 /// What is wrong with an address. Each message names what the user wrote.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -123,17 +123,6 @@ impl Address {
             return Err(AddressError::NoPlace { example: format!("{name}{example}") });
         }
         Ok(Self { text: text.to_owned(), device, over_tcp, place: place.to_owned(), options })
-    }
-
-    /// Opens the sensor and lets it stream. No zero is set in any sensor.
-    ///
-    /// # Errors
-    /// [`ConnectError`].
-    pub fn open(&self) -> Result<OpenSensor, ConnectError> {
-        match self.device.open {
-            Some(open) => open(self),
-            None => Err(ConnectError::NotHere { name: self.device.name }),
-        }
     }
 
     /// Which device it names.

@@ -130,7 +130,7 @@ pub(crate) fn counts(address: &Address) -> Result<Option<AxisCounts>, ConnectErr
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Address, devices};
+    use super::super::{Address, devices, open};
     use super::counts;
     use crate::sensors::AxisCounts;
 
@@ -156,7 +156,7 @@ mod tests {
             ("resense:///no/such?greatest_N=5&greatest_Nm=1", "at 2000000 baud"),
             ("bota+tcp://127.0.0.1:1", "cannot connect to 127.0.0.1:1"),
         ] {
-            let error = parse(address).open().err().unwrap().to_string();
+            let error = open(&parse(address)).err().unwrap().to_string();
             assert!(error.contains(expected), "{address}: {error}");
         }
         let both = parse("robotous:///x?counts_per_N=5&counts_per_Nm=7");

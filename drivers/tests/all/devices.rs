@@ -9,7 +9,7 @@ use std::io::{Read, Write};
 use std::net::{TcpListener, UdpSocket};
 
 use fingertip_drivers::Source;
-use fingertip_drivers::devices::{Address, Device, Link, OpenSensor, Serving, Simulator, devices};
+use fingertip_drivers::devices::{Address, Device, Link, OpenSensor, Serving, Simulator, devices, open};
 use fingertip_drivers::sensors::line::{LineFaults, SimulatedSerial};
 use fingertip_drivers::sensors::{FaultPlan, Pace};
 
@@ -22,7 +22,7 @@ fn named(name: &str) -> Option<&'static Device> {
 
 /// An open sensor of an address gives the load.
 fn feels_the_load(address: &str) {
-    let mut sensor: OpenSensor = Address::parse(address, devices()).unwrap().open().unwrap();
+    let mut sensor: OpenSensor = open(&Address::parse(address, devices()).unwrap()).unwrap();
     let wrench = (0..50).find_map(|_| sensor.next_sample().ok().flatten()).expect(address).value;
     for (found, expected) in wrench.components().iter().zip(LOAD) {
         assert!((found - expected).abs() < 0.02, "{address}: {wrench:?}");

@@ -113,7 +113,7 @@ fn what_refinement_leaves_of_the_first_error_is_stated() {
         let one = GaussianElimination::new(&sensor)
             .expect("regular")
             .linear_map(&sensor)
-            .unwrap()
+            .expect("linear")
             .own_error
             .per_load;
         let refined = Refined::new(&sensor).expect("regular");

@@ -113,7 +113,7 @@ fn steps<T: Real>(conditions: &[f64]) -> Vec<u8> {
             let left = GaussianElimination::new(&sensor)
                 .expect("regular")
                 .linear_map(&sensor)
-                .unwrap()
+                .expect("linear")
                 .own_error
                 .per_load;
             let left = greatest(&left.column_sum());
@@ -227,7 +227,7 @@ fn what_a_sensor_matrix_must_be() {
         // One newton or newton metre gives the column of sensitivities.
         let mut load = Vector6::zeros();
         load[axis] = 1.0;
-        let signals = sensor.signals(&fingertip_wrench::Wrench::from_components(&load));
+        let signals = sensor.signals(&Wrench::from_components(&load));
         assert_eq!(signals, matrix.column(axis));
     }
 }

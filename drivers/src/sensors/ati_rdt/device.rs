@@ -3,37 +3,41 @@
 use super::page_server::serve_page;
 use super::{Configuration, CountsPerUnit, RdtClient, RdtServer, SimulatedNetFt};
 use crate::devices::{
-    Address, ConnectError, Device, DeviceOption, Link, Losses, NetworkSimulator, OpenSensor, REPLY,
+    Address, ConnectError, Device, DeviceOption, Entry, Link, Losses, NetworkSimulator, OpenSensor, REPLY,
     ServeError, Served, Serving, Simulator, WAIT, counts_per_unit, source,
 };
 
-pub(crate) const NET_FT: Device = Device {
-    name: "ati",
-    title: "ATI Net F/T, Axia",
-    link: Link::Ethernet,
-    place: Some("192.168.1.1"),
-    options: &[
-        DeviceOption::new("counts_per_N", "1e6", "without it the sensor's page is asked over HTTP"),
-        DeviceOption::new("counts_per_Nm", "1e6", "as counts_per_N"),
-        DeviceOption::new(
-            "rate_Hz",
-            "7000",
-            "gives samples a time; without it that of the page, if it is asked",
-        ),
-        DeviceOption::new("http", "80", "port of the page"),
-    ],
-    simulator: Some(Simulator::Network(serve)),
-    open: Some(open),
+pub(crate) const NET_FT: Entry = Entry {
+    device: Device {
+        name: "ati",
+        title: "ATI Net F/T, Axia",
+        link: Link::Ethernet,
+        place: Some("192.168.1.1"),
+        options: &[
+            DeviceOption::new("counts_per_N", "1e6", "without it the sensor's page is asked over HTTP"),
+            DeviceOption::new("counts_per_Nm", "1e6", "as counts_per_N"),
+            DeviceOption::new(
+                "rate_Hz",
+                "7000",
+                "gives samples a time; without it that of the page, if it is asked",
+            ),
+            DeviceOption::new("http", "80", "port of the page"),
+        ],
+        simulator: Some(Simulator::Network(serve)),
+    },
+    open,
 };
 
-pub(crate) const ONROBOT: Device = Device {
-    name: "onrobot",
-    title: "OnRobot (OptoForce) EtherDAQ",
-    link: Link::Ethernet,
-    place: Some("192.168.1.1"),
-    options: &[DeviceOption::new("rate_Hz", "500", "gives samples a time")],
-    simulator: None,
-    open: Some(|address| connect(address, CountsPerUnit::onrobot()?, address.positive("rate_Hz")?)),
+pub(crate) const ONROBOT: Entry = Entry {
+    device: Device {
+        name: "onrobot",
+        title: "OnRobot (OptoForce) EtherDAQ",
+        link: Link::Ethernet,
+        place: Some("192.168.1.1"),
+        options: &[DeviceOption::new("rate_Hz", "500", "gives samples a time")],
+        simulator: None,
+    },
+    open: |address| connect(address, CountsPerUnit::onrobot()?, address.positive("rate_Hz")?),
 };
 
 /// Counts per newton and per newton metre, as most sensors are delivered.

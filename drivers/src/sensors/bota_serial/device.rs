@@ -2,21 +2,27 @@
 
 use super::{BotaDecoder, SimulatedBota};
 use crate::devices::{
-    Address, ConnectError, Device, DeviceOption, Link, OpenSensor, SerialSimulator, Simulator, Timed,
+    Address, ConnectError, Device, DeviceOption, Entry, Link, OpenSensor, SerialSimulator, Simulator, Timed,
     open_line, streaming,
 };
 
-pub(crate) const DEVICE: Device = Device {
-    name: "bota",
-    title: "Bota Systems serial",
-    link: Link::Serial { baud: 460_800 },
-    place: Some("/dev/ttyUSB0"),
-    options: &[DeviceOption::new("rate_Hz", "800", "as it is set: lost samples are counted by their times")],
-    simulator: Some(Simulator::Serial(|rate| SerialSimulator {
-        device: Box::new(SimulatedBota::new(rate)),
-        options: format!("?rate_Hz={rate}"),
-    })),
-    open: Some(open),
+pub(crate) const ENTRY: Entry = Entry {
+    device: Device {
+        name: "bota",
+        title: "Bota Systems serial",
+        link: Link::Serial { baud: 460_800 },
+        place: Some("/dev/ttyUSB0"),
+        options: &[DeviceOption::new(
+            "rate_Hz",
+            "800",
+            "as it is set: lost samples are counted by their times",
+        )],
+        simulator: Some(Simulator::Serial(|rate| SerialSimulator {
+            device: Box::new(SimulatedBota::new(rate)),
+            options: format!("?rate_Hz={rate}"),
+        })),
+    },
+    open,
 };
 
 fn open(address: &Address) -> Result<OpenSensor, ConnectError> {

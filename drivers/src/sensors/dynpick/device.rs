@@ -4,25 +4,27 @@ use std::io;
 
 use super::{DynPickDecoder, REQUEST, REQUEST_SENSITIVITIES, Sensitivities, SimulatedDynPick};
 use crate::devices::{
-    Address, ConnectError, Device, DeviceOption, Line, Link, OpenSensor, SerialSimulator, Simulator, asked,
-    counts, open_line,
+    Address, ConnectError, Device, DeviceOption, Entry, Line, Link, OpenSensor, SerialSimulator, Simulator,
+    asked, counts, open_line,
 };
 use crate::sensors::AxisCounts;
 
-pub(crate) const DEVICE: Device = Device {
-    name: "dynpick",
-    title: "WACOH DynPick",
-    link: Link::Serial { baud: 921_600 },
-    place: Some("/dev/ttyUSB0"),
-    options: &[
-        DeviceOption::new("counts_per_N", "24.9", "without it the sensor is asked"),
-        DeviceOption::new("counts_per_Nm", "1664", "as counts_per_N"),
-    ],
-    simulator: Some(Simulator::Serial(|_| SerialSimulator {
-        device: Box::new(SimulatedDynPick::new(WEF_6A200)),
-        options: String::new(),
-    })),
-    open: Some(open),
+pub(crate) const ENTRY: Entry = Entry {
+    device: Device {
+        name: "dynpick",
+        title: "WACOH DynPick",
+        link: Link::Serial { baud: 921_600 },
+        place: Some("/dev/ttyUSB0"),
+        options: &[
+            DeviceOption::new("counts_per_N", "24.9", "without it the sensor is asked"),
+            DeviceOption::new("counts_per_Nm", "1664", "as counts_per_N"),
+        ],
+        simulator: Some(Simulator::Serial(|_| SerialSimulator {
+            device: Box::new(SimulatedDynPick::new(WEF_6A200)),
+            options: String::new(),
+        })),
+    },
+    open,
 };
 
 /// Those of the WEF-6A200.

@@ -2,29 +2,31 @@
 
 use super::{Configuration, Filter, OptoForceDecoder, Rate, SimulatedOptoForce};
 use crate::devices::{
-    Address, ConnectError, Device, DeviceOption, Link, OpenSensor, SerialSimulator, Simulator, open_line,
-    streaming, wrong,
+    Address, ConnectError, Device, DeviceOption, Entry, Link, OpenSensor, SerialSimulator, Simulator,
+    open_line, streaming, wrong,
 };
 use crate::sensors::AxisCounts;
 
 /// Where its counts per unit are to be had.
 const REPORT: &str = "it stands in the sensor's sensitivity report";
 
-pub(crate) const DEVICE: Device = Device {
-    name: "optoforce",
-    title: "OptoForce USB",
-    link: Link::Serial { baud: 1_000_000 },
-    place: Some("/dev/ttyACM0"),
-    options: &[
-        DeviceOption::needed("counts_per_N", "100", REPORT),
-        DeviceOption::needed("counts_per_Nm", "10000", REPORT),
-        DeviceOption::new("rate_Hz", "1000", "sets its rate: 1000, 333, 100, 30 or 10"),
-    ],
-    simulator: Some(Simulator::Serial(|_| SerialSimulator {
-        device: Box::new(SimulatedOptoForce::new(HEX)),
-        options: "?counts_per_N=100&counts_per_Nm=10000".to_owned(),
-    })),
-    open: Some(open),
+pub(crate) const ENTRY: Entry = Entry {
+    device: Device {
+        name: "optoforce",
+        title: "OptoForce USB",
+        link: Link::Serial { baud: 1_000_000 },
+        place: Some("/dev/ttyACM0"),
+        options: &[
+            DeviceOption::needed("counts_per_N", "100", REPORT),
+            DeviceOption::needed("counts_per_Nm", "10000", REPORT),
+            DeviceOption::new("rate_Hz", "1000", "sets its rate: 1000, 333, 100, 30 or 10"),
+        ],
+        simulator: Some(Simulator::Serial(|_| SerialSimulator {
+            device: Box::new(SimulatedOptoForce::new(HEX)),
+            options: "?counts_per_N=100&counts_per_Nm=10000".to_owned(),
+        })),
+    },
+    open,
 };
 
 /// Those of a HEX.

@@ -2,33 +2,35 @@
 
 use super::{Limits, ResenseDecoder, SimulatedResense};
 use crate::devices::{
-    Address, AddressError, ConnectError, Device, DeviceOption, Link, OpenSensor, SerialSimulator, Simulator,
-    asked, open_line, streaming, wrong,
+    Address, AddressError, ConnectError, Device, DeviceOption, Entry, Link, OpenSensor, SerialSimulator,
+    Simulator, asked, open_line, streaming, wrong,
 };
 
 /// What the range is for.
 const RANGE: &str =
     "readings beyond it show that the line is out of step; take the sensor's range with reserve";
 
-pub(crate) const DEVICE: Device = Device {
-    name: "resense",
-    title: "Resense HEX",
-    link: Link::Serial { baud: 2_000_000 },
-    place: Some("/dev/ttyUSB0"),
-    options: &[
-        DeviceOption::needed("greatest_N", "200", RANGE),
-        DeviceOption::needed("greatest_Nm", "10", RANGE),
-        DeviceOption::new(
-            "request",
-            "3A0A",
-            "asks for each reading with these bytes; without it lost readings cannot be noticed",
-        ),
-    ],
-    simulator: Some(Simulator::Serial(|_| SerialSimulator {
-        device: Box::new(SimulatedResense::streaming()),
-        options: "?greatest_N=200&greatest_Nm=10".to_owned(),
-    })),
-    open: Some(open),
+pub(crate) const ENTRY: Entry = Entry {
+    device: Device {
+        name: "resense",
+        title: "Resense HEX",
+        link: Link::Serial { baud: 2_000_000 },
+        place: Some("/dev/ttyUSB0"),
+        options: &[
+            DeviceOption::needed("greatest_N", "200", RANGE),
+            DeviceOption::needed("greatest_Nm", "10", RANGE),
+            DeviceOption::new(
+                "request",
+                "3A0A",
+                "asks for each reading with these bytes; without it lost readings cannot be noticed",
+            ),
+        ],
+        simulator: Some(Simulator::Serial(|_| SerialSimulator {
+            device: Box::new(SimulatedResense::streaming()),
+            options: "?greatest_N=200&greatest_Nm=10".to_owned(),
+        })),
+    },
+    open,
 };
 
 fn open(address: &Address) -> Result<OpenSensor, ConnectError> {

@@ -4,17 +4,16 @@ use fingertip_wrench::Wrench;
 use socketcan::embedded_can::{ExtendedId, Id, StandardId};
 use socketcan::{CanFilter, CanSocket, Socket, SocketOptions};
 
-use super::device::stated_counts;
 use super::{CanAssembler, CanSensor, CanSensorError, Request};
 use crate::devices::{
     Address, AddressError, ConnectError, Losses, OpenSensor, Opened, SensorFault, WAIT, wrong,
 };
 use crate::polled::NbSource;
+use crate::sensors::AxisCounts;
 use crate::{Sample, SourceError, SourceErrorKind};
 
 /// Opens a sensor and lets it stream.
-pub(super) fn open(address: &Address) -> Result<OpenSensor, ConnectError> {
-    let counts = stated_counts(address)?;
+pub(super) fn open(address: &Address, counts: AxisCounts) -> Result<OpenSensor, ConnectError> {
     let [first, second, requests] = ["first", "second", "request"].map(|key| identifier(address, key));
     let (first, second, requests) = (first?, second?, requests?);
     let place = address.place();
@@ -75,7 +74,7 @@ impl Opened for OnSocket {
 #[cfg(test)]
 mod tests {
     use super::{Id, exactly, identifier};
-    use crate::devices::{Address, devices};
+    use crate::devices::{Address, devices, open};
 
     fn parse(text: &str) -> Address {
         Address::parse(text, devices()).unwrap()
@@ -89,7 +88,7 @@ mod tests {
             ("robotous+can://can0?first=20000000&second=2&request=64", "no CAN identifier"),
             ("robotous+can://no-such-bus?first=1&second=2&request=64", "cannot open no-such-bus"),
         ] {
-            let error = parse(address).open().unwrap_err().to_string();
+            let error = open(&parse(address)).unwrap_err().to_string();
             assert!(error.contains(expected), "{error}");
         }
     }

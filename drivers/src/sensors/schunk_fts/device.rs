@@ -2,21 +2,23 @@
 
 use super::{FtsClient, FtsServer, SimulatedFts, TCP_PORT, UDP_PORT};
 use crate::devices::{
-    Address, ConnectError, Device, DeviceOption, Link, Losses, NetworkSimulator, OpenSensor, REPLY,
+    Address, ConnectError, Device, DeviceOption, Entry, Link, Losses, NetworkSimulator, OpenSensor, REPLY,
     ServeError, Served, Serving, Simulator, source,
 };
 
-pub(crate) const DEVICE: Device = Device {
-    name: "schunk",
-    title: "SCHUNK FTS",
-    link: Link::Ethernet,
-    place: Some("192.168.0.100"),
-    options: &[
-        DeviceOption::new("rate_Hz", "8000", "gives samples a time"),
-        DeviceOption::new("udp", "54843", "local port that samples come to"),
-    ],
-    simulator: Some(Simulator::Network(serve)),
-    open: Some(open),
+pub(crate) const ENTRY: Entry = Entry {
+    device: Device {
+        name: "schunk",
+        title: "SCHUNK FTS",
+        link: Link::Ethernet,
+        place: Some("192.168.0.100"),
+        options: &[
+            DeviceOption::new("rate_Hz", "8000", "gives samples a time"),
+            DeviceOption::new("udp", "54843", "local port that samples come to"),
+        ],
+        simulator: Some(Simulator::Network(serve)),
+    },
+    open,
 };
 
 fn open(address: &Address) -> Result<OpenSensor, ConnectError> {
@@ -40,7 +42,7 @@ fn serve(serving: Serving) -> Result<NetworkSimulator, ServeError> {
     })
     .map_err(|source| ServeError::Port { transport: "TCP", port, source })?;
     let options = format!("?udp={}&rate_Hz={}", serving.udp_port, serving.rate);
-    Ok(NetworkSimulator::new(server.address(), (DEVICE.name, options), move || {
+    Ok(NetworkSimulator::new(server.address(), (ENTRY.device.name, options), move || {
         let sensor = server.stop()?;
         Some(Served { sent: sensor.sent(), injected: *sensor.injected() })
     }))
