@@ -180,6 +180,9 @@ struct Search<'a, T: Real, const K: usize> {
 /// Covariance of a contact before the wrench, and the derivatives of its wrench.
 type Linear<T> = (Matrix5<T>, Matrix6x5<T>);
 
+/// Of all contacts these, their means and the walls that their cones are; and the innovation.
+type Linearised<T, const K: usize> = ([Linear<T>; K], [Vector5<T>; K], [Wall<T>; K], Vector6<T>);
+
 impl<T: Real, const K: usize> Search<'_, T, K> {
     /// The inverse covariance of the innovation at the present states, with each contact's
     /// covariance and Jacobian.
@@ -200,9 +203,9 @@ impl<T: Real, const K: usize> Search<'_, T, K> {
         Some(total.cholesky()?.inverse())
     }
 
-    /// One step of Gauss and Newton; `true` if it changed nothing that matters. Also the square
-    /// of the innovation.
-    fn step<S: ActiveSurface<T>>(&mut self, surface: &S) -> Option<(bool, T)> {
+    /// The priors about the present states, with the cones' bends in them, the walls that the cones are, and
+    /// what the wrench has beyond them all. `None` without a prior or a state.
+    fn linearised<S: ActiveSurface<T>>(&self, surface: &S) -> Option<Linearised<T, K>> {
         let mu = self.fusion.friction;
         let mut linear = [(Matrix5::zeros(), Matrix6x5::zeros()); K];
         let mut means = [Vector5::zeros(); K];
@@ -232,6 +235,13 @@ impl<T: Real, const K: usize> Search<'_, T, K> {
             linear[i] = (covariance, jacobian);
             means[i] = mean;
         }
+        Some((linear, means, walls, innovation))
+    }
+
+    /// One step of Gauss and Newton; `true` if it changed nothing that matters. Also the square
+    /// of the innovation.
+    fn step<S: ActiveSurface<T>>(&mut self, surface: &S) -> Option<(bool, T)> {
+        let (linear, means, walls, innovation) = self.linearised(surface)?;
         let gain = self.gain(&linear)?;
         let weighted = gain * innovation;
         // Without the cones; then what they add.
@@ -263,49 +273,65 @@ impl<T: Real, const K: usize> Search<'_, T, K> {
         let loads = self.priors.iter().flatten().map(|prior| prior.force.amax());
         let loads = loads.fold(self.wrench.fixed_rows::<3>(0).amax(), T::max);
         for i in 0..K {
-            let (prior, state) = (self.priors[i].as_ref()?, self.states[i].as_ref()?);
             let (covariance, jacobian) = &linear[i];
             let update =
                 next[i] - through[i].0 * multipliers[i] + covariance * (jacobian.transpose() * answer);
-            let force = Vector3::new(update[2], update[3], update[4]);
-            let mut shift = Vector2::new(update[0], update[1]);
-            if !(force.sum() + shift.sum()).is_number() {
-                return None;
-            }
-            // Not beyond the edge of the shape as seen from the prior.
-            let mut found = prior.state(surface, shift, force);
-            for _ in 0..12 {
-                if found.is_some() {
-                    break;
-                }
-                shift = (shift + state.shift) * T::literal(0.5);
-                found = prior.state(surface, shift, force);
-            }
-            let mut found = found?;
             // What the rest of the world asks of this contact: the slope of the cost by its force.
             let asked = jacobian.transpose() * (weighted + answer);
             let asked = Vector3::new(asked[2], asked[3], asked[4]);
-            let held = Held::after(&self.grips[i], &asked, prior, &found, multipliers[i], mu);
-            found.force = match (self.grips[i].kind, held.kind) {
-                // Off the tip along the side that gains most, so that the next step knows where to.
-                (Grip::Lifted, Grip::Slides) => prior.lightest_on(&found, &asked, mu),
-                (_, Grip::Sticks) => force,
-                (_, kind) => project(&found, mu, kind),
-            };
-            // Far less than what is uncertain, but no less than what rounding leaves.
-            let small = T::EPSILON.root() * T::literal(1e-3);
-            let rounding = T::EPSILON * T::literal(64.0);
-            let whole = prior.covariance();
-            let deviation = |k: usize| whole[(k, k)].root();
-            let shifts = deviation(0).max(deviation(1)) * small + found.point.amax() * rounding;
-            let forces = deviation(2).max(deviation(3)).max(deviation(4)) * small + loads * rounding;
-            calm &= (found.shift - state.shift).amax() <= shifts
-                && (found.force - state.force).amax() <= forces
-                && held.kind == self.grips[i].kind;
-            self.grips[i] = held;
-            self.states[i] = Some(found);
+            calm &= self.take(i, surface, &update, &asked, multipliers[i], loads)?;
         }
         Some((calm, innovation.dot(&weighted)))
+    }
+
+    /// Takes the update of one contact; `true` if it changes nothing that matters against what is uncertain and
+    /// what rounds under these loads. `None` where it leaves the range or the shape.
+    fn take<S: ActiveSurface<T>>(
+        &mut self,
+        i: usize,
+        surface: &S,
+        update: &Vector5<T>,
+        asked: &Vector3<T>,
+        multiplier: T,
+        loads: T,
+    ) -> Option<bool> {
+        let mu = self.fusion.friction;
+        let (prior, state) = (self.priors[i].as_ref()?, self.states[i].as_ref()?);
+        let force = Vector3::new(update[2], update[3], update[4]);
+        let mut shift = Vector2::new(update[0], update[1]);
+        if !(force.sum() + shift.sum()).is_number() {
+            return None;
+        }
+        // Not beyond the edge of the shape as seen from the prior.
+        let mut found = prior.state(surface, shift, force);
+        for _ in 0..12 {
+            if found.is_some() {
+                break;
+            }
+            shift = (shift + state.shift) * T::literal(0.5);
+            found = prior.state(surface, shift, force);
+        }
+        let mut found = found?;
+        let held = Held::after(&self.grips[i], asked, prior, &found, multiplier, mu);
+        found.force = match (self.grips[i].kind, held.kind) {
+            // Off the tip along the side that gains most, so that the next step knows where to.
+            (Grip::Lifted, Grip::Slides) => prior.lightest_on(&found, asked, mu),
+            (_, Grip::Sticks) => force,
+            (_, kind) => project(&found, mu, kind),
+        };
+        // Far less than what is uncertain, but no less than what rounding leaves.
+        let small = T::EPSILON.root() * T::literal(1e-3);
+        let rounding = T::EPSILON * T::literal(64.0);
+        let whole = prior.covariance();
+        let deviation = |k: usize| whole[(k, k)].root();
+        let shifts = deviation(0).max(deviation(1)) * small + found.point.amax() * rounding;
+        let forces = deviation(2).max(deviation(3)).max(deviation(4)) * small + loads * rounding;
+        let calm = (found.shift - state.shift).amax() <= shifts
+            && (found.force - state.force).amax() <= forces
+            && held.kind == self.grips[i].kind;
+        self.grips[i] = held;
+        self.states[i] = Some(found);
+        Some(calm)
     }
 }
 

@@ -43,28 +43,14 @@ pub(super) fn on_cone<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<Sof
     let reach = if reach > T::LEAST_NORMAL { reach } else { T::one() };
     let extent = Extent { centre: Vector3::zeros(), radius: reach };
     let problem = Problem::with_extent(&upright, &extent, &inward(&force), &inward(&torque));
-    let (f, m) = (problem.force, problem.torque);
-    let (sine, cosine) = (cone.half_angle().sin(), cone.half_angle().cos());
-    // D times cos² α, which stays in range: (cos², cos², −sin²).
-    let (d1, d3) = (cosine * cosine, -(sine * sine));
-    let adjugate = Vector3::new(d1 * d3 * m.x, d1 * d3 * m.y, d1 * d1 * m.z);
-    let along = -m.dot(&adjugate);
-    let eight = T::literal(8.0) * T::EPSILON;
-    // Rounding of the torque about the apex, of `f·m`, and of what follows.
-    let loose = eight * (m.amax() + f.amax() * (apex.amax() / reach) * problem.reach);
-    let loose_power = loose * f.abs().sum();
-    let loose_along = (adjugate.abs().sum() * T::literal(2.0) + loose * T::literal(3.0)) * loose;
+    let side = SideOfACone::new(&problem, cone, reach);
     // A pure force either hits or misses.
-    let pure = problem.power.abs() <= loose_power;
+    let pure = problem.power.abs() <= side.loose_power;
     let ended = |certain: bool| if certain || pure { Search::Complete } else { Search::Incomplete };
-    if !(along > T::zero()) {
-        return Err(ended(along < -loose_along));
+    if !(side.along > T::zero()) {
+        return Err(ended(side.along < -side.loose_along));
     }
-    let h = -along.root();
-    let k = problem.power / h;
-    let df = Vector3::new(d1 * f.x, d1 * f.y, d3 * f.z);
-    let denominator = k * k * d1 * d1 * d3 + f.dot(&df);
-    let closed = (adjugate * k + df.cross(&m) + f * h) / denominator;
+    let closed = side.closed();
     let to_sensor = |contact: &SoftContact<T>| SoftContact {
         point: outward(&contact.point) + apex,
         normal: outward(&contact.normal),
@@ -81,8 +67,9 @@ pub(super) fn on_cone<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<Sof
             return Ok(contact);
         }
         // Under a large spin torque the torque tells better on which side the contact is.
-        let rest = (m - closed.cross(&f)) * -problem.power;
-        let across = unit_or(&Vector3::new(rest.x, rest.y, T::zero()), Vector3::x) * (sine / cosine);
+        let rest = (problem.torque - closed.cross(&problem.force)) * -problem.power;
+        let slope = cone.half_angle().sin() / cone.half_angle().cos();
+        let across = unit_or(&Vector3::new(rest.x, rest.y, T::zero()), Vector3::x) * slope;
         let turned = (across + Vector3::z()) * closed.z;
         if let Some(contact) = finish(turned) {
             return Ok(contact);
@@ -106,20 +93,86 @@ pub(super) fn on_cone<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<Sof
             }
         });
     }
-    found.ok_or_else(|| {
-        // `c·a > 0` asks whether `(adj(D) m f·m + h (Df) × m − f mᵀadj(D) m)·a` and the denominator
-        // times `h²` differ in sign.
-        let aside = df.cross(&m).z;
-        let over = adjugate.z * problem.power + h * aside + f.z * along;
-        let under = problem.power * problem.power * d1 * d1 * d3 + f.dot(&df) * along;
-        let (size, twice) = (f.amax(), problem.power.abs() * T::literal(2.0));
+    found.ok_or_else(|| ended(side.has_none()))
+}
+
+/// The closed form of the contact on the infinite cone with its apex at the origin and its axis along z
+/// (`docs/theory/contact.md#central-quadrics`), `D` times cos² α being diagonal: (cos², cos², −sin²).
+struct SideOfACone<T: Real> {
+    force: Vector3<T>,
+    torque: Vector3<T>,
+    /// `f·m`.
+    power: T,
+    d1: T,
+    d3: T,
+    /// `adj(D) m`.
+    adjugate: Vector3<T>,
+    /// `−mᵀ adj(D) m`, the square of `h`.
+    along: T,
+    h: T,
+    /// `D f`.
+    df: Vector3<T>,
+    /// Rounding of the torque about the apex, of `f·m`, and of `along`.
+    loose: T,
+    loose_power: T,
+    loose_along: T,
+}
+
+impl<T: Real> SideOfACone<T> {
+    /// In the units of a problem, of which a length is the wrench's reach \[m\].
+    fn new(problem: &Problem<'_, T, Cone<T>>, cone: &Cone<T>, reach: T) -> Self {
+        let (f, m) = (problem.force, problem.torque);
+        let (sine, cosine) = (cone.half_angle().sin(), cone.half_angle().cos());
+        // This stays in range.
+        let (d1, d3) = (cosine * cosine, -(sine * sine));
+        let adjugate = Vector3::new(d1 * d3 * m.x, d1 * d3 * m.y, d1 * d1 * m.z);
+        let along = -m.dot(&adjugate);
+        let eight = T::literal(8.0) * T::EPSILON;
+        let loose = eight * (m.amax() + f.amax() * (cone.apex().amax() / reach) * problem.reach);
+        Self {
+            force: f,
+            torque: m,
+            power: problem.power,
+            d1,
+            d3,
+            adjugate,
+            along,
+            h: -along.root(),
+            df: Vector3::new(d1 * f.x, d1 * f.y, d3 * f.z),
+            loose,
+            loose_power: loose * f.abs().sum(),
+            loose_along: (adjugate.abs().sum() * T::literal(2.0) + loose * T::literal(3.0)) * loose,
+        }
+    }
+
+    /// The contact; on the half behind the apex, where z is negative, it is none.
+    fn closed(&self) -> Vector3<T> {
+        let (f, m, h, df) = (&self.force, &self.torque, self.h, &self.df);
+        let k = self.power / h;
+        let denominator = k * k * self.d1 * self.d1 * self.d3 + f.dot(df);
+        (self.adjugate * k + df.cross(m) + f * h) / denominator
+    }
+
+    /// `true` if it is certain, beyond all rounding, that the contact lies behind the apex.
+    ///
+    /// `c·a > 0` asks whether `(adj(D) m f·m + h (Df) × m − f mᵀadj(D) m)·a` and the denominator
+    /// times `h²` differ in sign.
+    fn has_none(&self) -> bool {
+        let &Self {
+            force: f, power, d1, d3, adjugate, along, h, df, loose, loose_power, loose_along, ..
+        } = self;
+        let eight = T::literal(8.0) * T::EPSILON;
+        let aside = df.cross(&self.torque).z;
+        let over = adjugate.z * power + h * aside + f.z * along;
+        let under = power * power * d1 * d1 * d3 + f.dot(&df) * along;
+        let (size, twice) = (f.amax(), power.abs() * T::literal(2.0));
         let loose_over = adjugate.z.abs() * loose_power
-            + loose * (problem.power.abs() + (h.abs() + h.abs()) * size)
+            + loose * (power.abs() + (h.abs() + h.abs()) * size)
             + ((aside / h).abs() + f.z.abs()) * loose_along;
         let loose_under = twice * loose_power + size * size * (loose_along + eight * along) * T::literal(3.0);
         let decided = along > loose_along && over.abs() > loose_over && under.abs() > loose_under;
-        ended(decided && (over > T::zero()) == (under > T::zero()))
-    })
+        decided && (over > T::zero()) == (under > T::zero())
+    }
 }
 
 /// The same, or the contact at the tip, on which any normal will do that is steeper than the side's.
