@@ -137,3 +137,29 @@ fn what_nothing_asks_for_is_not_changed() {
     assert_eq!((same.unobserved, &same.loads_per_signal), (36, &start));
     assert_eq!((same.deviations, same.pitch), (DMatrix::zeros(6, 6), (0.0, 0.0)));
 }
+
+/// Two known loads tell of two directions of the readings, in whatever units these are.
+#[test]
+fn what_is_not_observed_is_counted_in_any_units() {
+    let random = &mut Pcg64Mcg::seed_from_u64(55);
+    let truth = sensor(random, 6, 6);
+    let drifted = &truth + gaussians(random, 6, 6) * 0.05;
+    let (none, known) = (DMatrix::zeros(0, 6), gaussians(random, 2, 6));
+    let loads = &known * truth.transpose();
+    let plain = refine(&drifted, &none, 1e-3, &known, &loads, 1e-3).unwrap();
+    assert_eq!(plain.unobserved, 24);
+    assert!((&known * plain.loads_per_signal.transpose() - &loads).largest() < 1e-12);
+    for unit in [1e-9, 1e-5, 1e5, 1e9] {
+        let other = refine(&(&drifted / unit), &none, 1e-3, &(&known * unit), &loads, 1e-3).unwrap();
+        assert_eq!(other.unobserved, 24, "{unit:e}");
+        let change = (&other.loads_per_signal * unit - &plain.loads_per_signal).largest();
+        assert!(change < 1e-12, "{unit:e}: {change:e}");
+        let change = (&other.deviations * unit - &plain.deviations).largest();
+        assert!(change < 1e-12, "{unit:e}: {change:e}");
+    }
+    // Of a known load in one direction only: its size over that of the reading.
+    let lone = DMatrix::from_fn(1, 6, |_, j| if j == 2 { 0.25 } else { 0.0 });
+    let one = refine(&drifted, &none, 1e-3, &lone, &(&lone * truth.transpose()), 1e-3).unwrap();
+    let expected = DMatrix::from_fn(6, 6, |_, j| if j == 2 { 1e-3 / 0.25 } else { 0.0 });
+    assert!((one.deviations - expected).largest() < 1e-15 && one.unobserved == 30);
+}

@@ -92,7 +92,13 @@ fn touches_of_a_surface_are_spread_by_its_area() {
     }
     // Lines through a disc of 12 mm meet a sphere of 7 mm in the share of their areas, twice each.
     let share = touches.len() as f64 / 2.0 / 20_000.0;
-    let concentric = Touch::on_surface(&sphere, centre, 14e-3, 0.0, 3.0).unwrap().len() as f64 / 40_000.0;
+    let around = Touch::on_surface(&sphere, centre, 14e-3, 0.0, 3.0).unwrap();
+    for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)] {
+        let expected = if i == j { 1.0 / 3.0 } else { 0.0 };
+        assert!((mean(&around, |t| t.normal[i] * t.normal[j]) - expected).abs() < 1e-3, "{i} {j}");
+    }
+    assert!((0..3).all(|i| mean(&around, |t| t.normal[i]).abs() < 5e-3));
+    let concentric = around.len() as f64 / 40_000.0;
     assert!((share - 49.0 / 144.0).abs() < 0.01 && (concentric - 0.25).abs() < 2e-3, "{share} {concentric}");
     let with_friction = Touch::on_surface(&sphere, centre, 14e-3, 0.4, 3.0).unwrap();
     assert!(with_friction.len().is_multiple_of(8) && with_friction.iter().all(|touch| ratio(touch) <= 0.4));
