@@ -102,6 +102,7 @@ fn of_gauss_helmert() {
     assert!((same.coefficients - &plain.coefficients).iter().all(|off| off.abs() < 1e-12));
     assert!((same.residual_covariance - plain.residual_covariance).iter().all(|off| off.abs() < 1e-12));
     assert!((same.inverse_gram - plain.inverse_gram).iter().all(|off| off.abs() < 1e-12));
+    assert!(same.iterations <= 3, "{}", same.iterations);
     for wrong in spoilt(&exact).chain([DMatrix::from_element(6, 2, -1e-9), DMatrix::zeros(5, 2)]) {
         assert!(is_bad_input(fit(&wrong, &noise)));
     }

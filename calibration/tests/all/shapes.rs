@@ -334,3 +334,18 @@ fn a_pose_far_away_comes_back() {
         }
     }
 }
+
+/// Under a force along the axis, the line of action tells nothing of where the axis lies.
+#[test]
+fn forces_along_the_axis_tell_nothing_of_a_cylinder() {
+    let random = &mut Pcg64Mcg::seed_from_u64(69);
+    let mut touches = touches(random, 12, Some(Vector3::z()), |n| CENTRE + n * 0.008);
+    let without = fit_cylinder_along(&touches, &Vector3::z()).unwrap().shape;
+    touches.push(Touch {
+        wrench: Wrench::from_force_at(&(CENTRE + Vector3::y() * 0.05), -Vector3::z()),
+        normal: Vector3::y(),
+    });
+    let with = fit_cylinder_along(&touches, &Vector3::z()).unwrap().shape;
+    assert!((with.radius() - without.radius()).abs() < 1e-14 && (with.radius() - 0.008).abs() < 1e-12);
+    assert!((with.centre() - without.centre()).largest() < 1e-14);
+}
