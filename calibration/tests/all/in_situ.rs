@@ -138,6 +138,58 @@ fn what_nothing_asks_for_is_not_changed() {
     assert_eq!((same.deviations, same.pitch), (DMatrix::zeros(6, 6), (0.0, 0.0)));
 }
 
+/// What is to vanish, by the statement of `refine`: `Σ (fᵀm / (|f||m|) / σ)² + Σ |B V − P|² / σ²`, with the sizes
+/// of the start.
+fn target(
+    start: &DMatrix<f64>,
+    map: &DMatrix<f64>,
+    touches: &DMatrix<f64>,
+    known: &DMatrix<f64>,
+    loads: &DMatrix<f64>,
+) -> f64 {
+    let of_touches: f64 = touches
+        .row_iter()
+        .map(|row| {
+            let (first, now) = (start * row.transpose(), map * row.transpose());
+            let size = first.rows(0, 3).norm() * first.rows(3, 3).norm();
+            (now.rows(0, 3).dot(&now.rows(3, 3)) / size / 1e-3).powi(2)
+        })
+        .sum();
+    of_touches + (known * map.transpose() - loads).norm_squared() / 1e-6
+}
+
+/// From calibrations that are far off, where a whole step of Gauss and Newton goes too far: no change near by
+/// makes it better still.
+#[test]
+fn far_off_calibrations_are_mended_as_well_as_can_be() {
+    let random = &mut Pcg64Mcg::seed_from_u64(56);
+    for round in 0..24 {
+        let truth = sensor(random, 6, 6);
+        let (wrong, count) = ([0.5, 2.0, 10.0][round / 8], [5, 4, 3][round % 3]);
+        let start = &truth + gaussians(random, 6, 6) * wrong;
+        let signals = signals(&touches(random, 60, 1e-3), &truth);
+        let known = gaussians(random, count, 6);
+        let loads = &known * truth.transpose() + gaussians(random, count, 6) * 1e-3;
+        let found = refine(&start, &signals, 1e-3, &known, &loads, 1e-3).unwrap();
+        let cost = |map: &DMatrix<f64>| target(&start, map, &signals, &known, &loads);
+        let (before, least) = (cost(&start), cost(&found.loads_per_signal));
+        // There are a thousandth of noise and sixty touches.
+        assert!(least < 1e3 && before > 1e6, "{round}: {before:e} {least:e}");
+        for k in 0..36 {
+            // A hundredth of a deviation is worth 1e-4 where it is least.
+            let mut change = DMatrix::zeros(6, 6);
+            change[k] = 0.01 * found.deviations[k];
+            for map in [&found.loads_per_signal + &change, &found.loads_per_signal - &change] {
+                assert!(
+                    cost(&map) > least - 1e-5 * (1.0 + least * 1e-6),
+                    "{round} {k}: {:e}",
+                    cost(&map) - least
+                );
+            }
+        }
+    }
+}
+
 /// Two known loads tell of two directions of the readings, in whatever units these are.
 #[test]
 fn what_is_not_observed_is_counted_in_any_units() {

@@ -172,6 +172,11 @@ fn the_closest_gauges_are_measured_around_the_wall() {
     let around = 5e-3 * (0.1 + 2.0 * PI - 6.2);
     assert!((distance - around.hypot(3e-3)).abs() < 1e-12, "{distance}");
     assert_eq!((first, second), (0, 1));
+    // And in the other order.
+    let values: Vec<f64> = places.iter().rev().flat_map(|(z, theta)| [*z, *theta, 0.3]).collect();
+    let (distance, first, second) = space.layout(&values).unwrap().closest_gauges().unwrap();
+    assert!((distance - around.hypot(3e-3)).abs() < 1e-12, "{distance}");
+    assert_eq!((first, second), (3, 4));
     let stacked: Vec<f64> = (0..6).flat_map(|_| [1e-3, 0.2, 0.3]).collect();
     assert_eq!(space.layout(&stacked).unwrap().closest_gauges(), None);
     let strains = layout.normalised(2.0, &loads).unwrap();
