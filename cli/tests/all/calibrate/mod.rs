@@ -134,4 +134,8 @@ fn gravity() {
     );
     assert!(said.contains("2.00000 ±") && said.contains("+30.00000 mm"), "{said}");
     assert!(said.contains("+1.00000 +2.00000 +3.00000 N"), "{said}");
+    folder.succeed(&["calibrate", "--gravity", "poses.csv", "--serial", "T7", "--date", "2026-11-21"]);
+    for expected in ["serial = \"T7\"", "date = \"2026-11-21\"", "source = \"poses.csv\""] {
+        assert!(folder.read("payload.toml").contains(expected), "{expected} is not in it");
+    }
 }
