@@ -50,6 +50,7 @@ fn calibrate_check_tare() {
         "--full-scale",
         "10,10,10,0.1,0.1,0.1",
     ]);
+    assert!(!text.contains("columns not used"), "{text}");
     assert!(text.contains("Calibration: GOOD") && text.contains("Written: tip.toml, tip.cal"), "{text}");
     assert!(
         folder.read("r.html").contains("<svg") && folder.read("r.json").contains("\"verdict\": \"good\"")
@@ -75,6 +76,14 @@ fn mistakes_are_explained() {
     let table = loads(1.0);
     folder.write("loads.csv", &table);
     folder.write("unit.csv", &table.replace("fx_N", "fx_stone"));
+    let moody: String = table
+        .lines()
+        .enumerate()
+        .map(|(row, line)| format!("{line},{}\n", if row == 0 { "mood".to_owned() } else { row.to_string() }))
+        .collect();
+    folder.write("moody.csv", &moody);
+    let said = folder.succeed(&["calibrate", "moody.csv", "-o", "moody.toml"]);
+    assert!(said.contains("moody.csv: columns not used: mood"), "{said}");
     let error = folder.fail(1, &["calibrate", "unit.csv"]);
     assert!(error.contains("fx_stone") && error.contains("line 1"), "{error}");
     let error = folder.fail(1, &["calibrate", "loads.csv", "-o", "loads.csv"]);
