@@ -171,7 +171,7 @@ fn a_delay_of_a_task_wakes_it() {
     use core::sync::atomic::{AtomicU32, Ordering};
     use core::task::{Context, Poll};
     struct Count(AtomicU32);
-    impl std::task::Wake for Count {
+    impl alloc::task::Wake for Count {
         fn wake(self: Arc<Self>) {
             self.0.fetch_add(1, Ordering::Relaxed);
         }
