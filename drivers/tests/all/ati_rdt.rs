@@ -223,3 +223,13 @@ fn datagrams_that_are_cut_are_errors_and_counted() {
         assert_eq!((client.statistics().corrupt, client.statistics().received), (count, 0));
     }
 }
+
+#[test]
+fn a_rate_that_cannot_be_gives_no_times() {
+    let sensor = SimulatedNetFt::new(FaultPlan::default());
+    let server = RdtServer::start("127.0.0.1:0", sensor, Duration::from_millis(1), |_| [0; 6]).unwrap();
+    for rate in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let mut client = RdtClient::connect(server.address(), counts(), PATIENCE).unwrap().timed_by(rate);
+        assert_eq!(client.next_wrench().unwrap().unwrap().time, None, "{rate}");
+    }
+}
