@@ -85,6 +85,13 @@ fn recorded(device: &str, more: &[&str], tolerance: f64) -> String {
     assert!(said.starts_with("600 samples in "), "{device}: {said}");
     let rows = Contacts::parse(&folder.read("out.csv"));
     assert_eq!(rows.len(), 600, "{device}");
+    // The script begins anew with each client that asks.
+    if !more.contains(&"pty") {
+        record(&folder, &server, &["-o", "again.csv", "--samples", "5"]);
+        let again = Contacts::parse(&folder.read("again.csv"));
+        let forces = ["fx_N", "fy_N", "fz_N"].map(|name| again.numbers(name)[0]);
+        assert!(forces.iter().all(|force| force.abs() <= tolerance), "{device}: {forces:?}");
+    }
     let times = rows.numbers("t_s");
     assert_eq!(times[0], 0.0);
     assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{device}");

@@ -114,6 +114,10 @@ mod tests {
         assert!((matrix[(4, 0)] + 0.5 * pound_inch).abs() < 1e-16);
         let file = ati.to_calibration().unwrap();
         assert_eq!(file.range, Some([-10.0, 10.0]));
+        let from = &file.provenance;
+        assert_eq!((from.serial.as_str(), from.date.as_str()), ("FT1", "1/2/2003"));
+        assert_eq!((from.method.as_str(), from.tool.as_str()), ("ATI Nano & \"Co\" US-1-2", crate::TOOL));
+        assert_eq!(from.source, "ATI .cal file");
         assert!((file.nominal[5] - 15.0 * pound_inch).abs() < 1e-15);
         // Forward and back: the load that one volt on gauge 1 tells of.
         let load = file.load(&[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]).unwrap();

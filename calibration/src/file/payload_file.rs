@@ -228,6 +228,8 @@ mod tests {
             ("mass_kg = 0.02", "mass_kg = nan", "mass_kg"),
             ("mass_kg = 0.02", "mass_g = 20.0", "mass_g"),
             ("[1.0, 0.0, 0.0]", "[2.0, 0.0, 0.0]", "sensor_from_flange"),
+            ("[1.0, 0.0, 0.0]", "[-1.0, 0.0, 0.0]", "sensor_from_flange"),
+            ("[1.0, 0.0, 0.0]", "[1.0, 1e-5, 0.0]", "sensor_from_flange"),
             ("version = 1", "version = 7", "version 7"),
         ] {
             let broken = text.replacen(from, to, 1);

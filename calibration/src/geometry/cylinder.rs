@@ -167,7 +167,7 @@ mod tests {
             touch.normal = Vector3::x();
         }
         let error = fit_cylinder(&touches).unwrap_err();
-        assert!(error.to_string().contains("axis"), "{error}");
+        assert!(error.to_string().contains("axis y") && error.to_string().contains("axis z"), "{error}");
         assert!(fit_cylinder(&touches[..2]).is_err() && fit_cylinder(&[]).is_err());
         touches[4].normal.x = f64::NAN;
         assert!(matches!(fit_cylinder(&touches), Err(GeometryError::BadTouch { touch: 4, .. })));

@@ -51,7 +51,7 @@ pub fn fit_aligned_ellipsoid(touches: &[Touch]) -> Result<Fitted<EllipsoidParame
             semi_axes[j] = (semi_axes[j] + step[j]).max(0.1 * semi_axes[j]);
             centre[j] += step[3 + j];
         }
-        if !(semi_axes.amax() + centre.amax()).is_finite() {
+        if !semi_axes.iter().chain(&centre).all(|length| length.is_finite()) {
             break;
         }
         if step.amax() <= 1e-12 * semi_axes.amax() {
@@ -151,7 +151,7 @@ pub fn fit_ellipsoid(touches: &[Touch]) -> Result<Fitted<PosedEllipsoid>, Geomet
         }
         shape += change * share;
         centre += Vector3::new(step[6], step[7], step[8]) * share;
-        if !(shape.amax() + centre.amax()).is_finite() {
+        if !shape.iter().chain(&centre).all(|length| length.is_finite()) {
             break;
         }
         if share == 1.0 && step.amax() <= 1e-12 * shape.amax() {

@@ -184,3 +184,14 @@ fn mistakes_are_named() {
     let options = PayloadOptions { down: Some(Vector3::zeros()), ..PayloadOptions::default() };
     assert_eq!(fit_payload(&good, &options).unwrap_err(), PayloadError::NoDirection("direction of gravity"));
 }
+
+#[test]
+fn readings_of_nothing_at_all_are_no_weight() {
+    let random = &mut Pcg64Mcg::seed_from_u64(29);
+    let poses = poses(random, 8, Vector3::zeros(), Vector3::zeros(), Vector6::zeros());
+    for down in [None, Some(-Vector3::z())] {
+        let options = PayloadOptions { down, ..PayloadOptions::default() };
+        let error = fit_payload(&poses, &options).unwrap_err();
+        assert!(matches!(error, PayloadError::NoWeight { weight: 0.0, .. }), "{error}");
+    }
+}

@@ -167,6 +167,26 @@ mod tests {
         assert_eq!(found.values.as_slice(), [3.0, 0.5]);
     }
 
+    /// Of a thousand rows, rounding leaves so much of a column that the others make up.
+    #[test]
+    fn the_rank_allows_for_the_longer_side() {
+        for (rows, columns, second, rank) in [
+            (1000, 2, 990.0, 1),
+            (1000, 2, 1010.0, 2),
+            (2, 1000, 990.0, 1),
+            (2, 1000, 1010.0, 2),
+            (2, 2, 3.0, 2),
+        ] {
+            let entry = |i, j| match (i, j) {
+                (0, 0) => 4.0,
+                (1, 1) => 4.0 * second * f64::EPSILON,
+                _ => 0.0,
+            };
+            let found = Singular::new(&DMatrix::from_fn(rows, columns, entry)).unwrap();
+            assert_eq!(found.rank(), rank, "{rows} × {columns}");
+        }
+    }
+
     #[test]
     fn refuses_what_has_no_inverse() {
         assert!(pseudo_inverse(&DMatrix::from_element(6, 6, 1.0)).is_none());

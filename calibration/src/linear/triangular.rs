@@ -271,6 +271,21 @@ mod tests {
     }
 
     #[test]
+    fn refusals_of_sessions_add_up_and_asking_changes_nothing() {
+        let mut sessions = [Triangular::new(2, 1), Triangular::new(2, 1)];
+        for (session, refused) in sessions.iter_mut().zip([2, 3]) {
+            push_all(session, &random(7, 5, 2), &random(8, 5, 1));
+            (0..refused).for_each(|_| assert!(!session.push(&[f64::NAN, 0.0], &[0.0])));
+        }
+        let [mut first, second] = sessions;
+        assert!(first.merge(&second) && !first.merge(&Triangular::new(1, 1)));
+        assert_eq!((first.samples(), first.refused()), (10, 5));
+        let factors = first.factors();
+        assert_eq!(factors.regressors, first.factors().regressors);
+        assert_eq!(factors.projected, first.factors().projected);
+    }
+
+    #[test]
     fn extremes_are_refused_or_survived() {
         let mut triangular = Triangular::new(2, 1);
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {

@@ -169,7 +169,7 @@ fn fit_with_prior(
         }
     }
     let residuals = y - x * &center;
-    let mut variance = residuals.norm_squared() / residuals.len().max(1) as f64;
+    let mut variance = residuals.norm_squared() / residuals.len() as f64;
     let mut fit = None;
     for _ in 0..20 {
         let mut precision =

@@ -183,10 +183,34 @@ fn direction_of(signal: &DMatrix<f64>, reading: &DVector<f64>) -> Option<(Vector
 
 #[cfg(test)]
 mod tests {
-    use super::direction_of;
+    use super::{Hung, direction_of, most_likely};
     use crate::fit::testing::{gaussian_matrix, sensor};
-    use nalgebra::{DMatrix, Vector3};
+    use nalgebra::{DMatrix, DVector, Vector3};
     use rand::SeedableRng as _;
+
+    /// What a turn of all forces changes has no variance: nothing tells of it.
+    #[test]
+    fn the_covariance_is_without_what_cannot_be_observed() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(18);
+        let truth = sensor(&mut random, 3, 4).transpose();
+        let zero = gaussian_matrix(&mut random, 4, 1).column(0).into_owned();
+        let mut signals = gaussian_matrix(&mut random, 20, 4) * 0.01;
+        for mut row in signals.row_iter_mut() {
+            let force = Vector3::from_fn(|_, _| gaussian_matrix(&mut random, 1, 1)[(0, 0)]).normalize();
+            row += (&truth * force + &zero).transpose();
+        }
+        let hung = [Hung { load: DMatrix::identity(3, 3), signals: &signals }];
+        let found = most_likely(&hung, &truth, &zero, true).unwrap();
+        let most = found.covariance.amax();
+        for axis in 0..3 {
+            let turned = &found.map * Vector3::ith(axis, 1.0).cross_matrix();
+            let turn = DVector::from_fn(16, |k, _| if k < 12 { turned[(k / 3, k % 3)] } else { 0.0 });
+            assert!((&found.covariance * turn).amax() < 1e-9 * most, "{axis}");
+        }
+        let eigenvalues = found.covariance.symmetric_eigenvalues();
+        assert!(eigenvalues.min() > -1e-12 * most, "{eigenvalues}");
+        assert_eq!(eigenvalues.iter().filter(|value| **value > 1e-9 * most).count(), 13);
+    }
 
     /// The nearest direction leaves nothing along its two turns, and no other one leaves less.
     #[test]

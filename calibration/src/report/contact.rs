@@ -112,6 +112,9 @@ mod tests {
             let covariance =
                 Covariance { signals: fit.residual_covariance.clone(), loads: fit.inverse_gram.clone() };
             let report = contact_report(&Axis::ALL, &matrix, &nominal, &covariance, &set).unwrap();
+            assert!((report.force - 5.0).abs() < 1e-12 && report.touches == touches.len());
+            let both = report.calibration_mm.hypot(report.reading_mm);
+            assert!((report.together_mm / both - 1.0).abs() < 1e-12);
             stated += report.together_mm.powi(2) / f64::from(trials);
             by_matrix += report.calibration_mm.powi(2) / f64::from(trials);
             let inverse = crate::linear::pseudo_inverse(&matrix).unwrap();

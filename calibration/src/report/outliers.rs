@@ -158,6 +158,26 @@ mod tests {
         }
     }
 
+    /// Five readings on a line through zero and a constant: the least that can tell one of them apart.
+    #[test]
+    fn five_samples_can_tell_an_outlier_of_a_line() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(4);
+        let mut loads = gaussian_matrix(&mut random, 5, 3);
+        loads.column_mut(1).fill(1.0);
+        let mut signals =
+            loads.columns(0, 2) * sensor(&mut random, 2, 1) + gaussian_matrix(&mut random, 5, 1) * 1e-6;
+        signals[(3, 0)] += 1.0;
+        let found =
+            |columns| outliers(&loads.columns(0, columns).into_owned(), &signals, None, &names(5), &names(1));
+        let line = found(2);
+        assert_eq!(line.iter().map(|outlier| outlier.index).collect::<Vec<_>>(), [3]);
+        // Two degrees of freedom less one, of the other four: Student's tail is 1/(2 t²) there, of either side, and
+        // five readings were tried.
+        let expected = 5.0 / line[0].deviations.powi(2);
+        assert!(line[0].deviations > 1e3 && line[0].chance < 3.0 * expected, "{:?}", line[0]);
+        assert!(found(3).is_empty());
+    }
+
     #[test]
     fn exact_data_have_none() {
         let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(3);

@@ -6,7 +6,7 @@ use fingertip_calibration::report::outliers;
 use rand::SeedableRng as _;
 use rand_pcg::Pcg64Mcg;
 
-use super::random::gaussians;
+use super::random::{gaussian, gaussians};
 use super::testing::Largest as _;
 
 /// Readings `2 x + 1` of loads from 0 on, of which the first are wrong by something of its own each.
@@ -91,4 +91,48 @@ fn a_dead_gauge_is_no_trouble() {
     let found = outliers(&design, &readings, None, &[], &[]);
     assert_eq!(found.iter().map(|outlier| outlier.index).collect::<Vec<_>>(), [4]);
     assert_eq!((found[0].sample.as_str(), found[0].response.as_str()), ("sample 5", "response 0"));
+}
+
+/// Loads of which one is in other units: the same samples are believed.
+#[test]
+fn consensus_does_not_mind_units() {
+    let random = &mut Pcg64Mcg::seed_from_u64(97);
+    let design = gaussians(random, 40, 3);
+    let mut readings = &design * gaussians(random, 3, 2) + gaussians(random, 40, 2) * 0.01;
+    (0..6).for_each(|i| readings[(5 * i + 2, i % 2)] += 3.0);
+    let options = Ransac { outliers: 0.2, ..Ransac::new(vec![0.05; 2]) };
+    let one = ransac(&design, &readings, None, &options).unwrap();
+    assert!((0..40).all(|i| (one.trust[(i, 0)] == 0.0) == (i % 5 == 2 && i < 30)));
+    for unit in [1e-6, 1e6] {
+        let mut scaled = design.clone();
+        scaled.column_mut(1).scale_mut(unit);
+        let mut other = ransac(&scaled, &readings, None, &options).unwrap();
+        other.coefficients.row_mut(1).scale_mut(unit);
+        assert!((other.coefficients - &one.coefficients).largest() < 1e-12);
+        assert_eq!(other.trust, one.trust);
+    }
+}
+
+/// A weight is as many samples: the same outliers as of rows and readings times its root.
+#[test]
+fn weights_of_outliers_are_those_of_scaled_rows() {
+    let random = &mut Pcg64Mcg::seed_from_u64(96);
+    let design = gaussians(random, 40, 3);
+    let mut readings = &design * gaussians(random, 3, 2) + gaussians(random, 40, 2) * 0.01;
+    [(4, 0), (11, 1), (30, 0)].into_iter().for_each(|place| readings[place] += 0.3);
+    let weights: Vec<f64> = (0..40).map(|_| (0.5 * gaussian(random)).exp()).collect();
+    let scaled = |matrix: &DMatrix<f64>| {
+        DMatrix::from_fn(40, matrix.ncols(), |i, j| matrix[(i, j)] * weights[i].sqrt())
+    };
+    let weighted = outliers(&design, &readings, Some(&weights), &[], &[]);
+    let plain = outliers(&scaled(&design), &scaled(&readings), None, &[], &[]);
+    assert_eq!((weighted.len(), plain.len()), (3, 3));
+    for (one, other) in weighted.iter().zip(&plain) {
+        assert_eq!((one.index, &one.response), (other.index, &other.response));
+        assert!((one.deviations / other.deviations - 1.0).abs() < 1e-9);
+    }
+    // One that counts for nothing is none.
+    let without: Vec<f64> = (0..40).map(|i| if i == 11 { 0.0 } else { weights[i] }).collect();
+    let found = outliers(&design, &readings, Some(&without), &[], &[]);
+    assert!(found.len() == 2 && found.iter().all(|outlier| outlier.index != 11));
 }

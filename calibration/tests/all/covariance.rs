@@ -9,6 +9,7 @@ use rand_pcg::Pcg64Mcg;
 
 use super::random::{gaussian, gaussians, sensor};
 use super::spread::Spread;
+use super::testing::Largest as _;
 
 /// Errors and variances of all coefficients of a fit.
 fn judged(fit: &Fit, truth: &DMatrix<f64>) -> (Vec<f64>, Vec<f64>) {
@@ -129,4 +130,28 @@ fn temperature_terms() {
         (errors, fit.covariances[0].diagonal().as_slice().to_vec())
     });
     spread.agrees("temperature");
+}
+
+/// A weight is as many samples: the same as rows and readings times its root.
+#[test]
+fn weights_of_huber_are_those_of_scaled_rows() {
+    let random = &mut Pcg64Mcg::seed_from_u64(17);
+    for _ in 0..20 {
+        let (truth, design) = (sensor(random, 3, 2), gaussians(random, 30, 3));
+        let mut signals = &design * &truth + gaussians(random, 30, 2) * 0.1;
+        (0..4).for_each(|i| signals[(7 * i, i % 2)] += 5.0);
+        let weights: Vec<f64> = (0..30).map(|_| gaussian(random).exp()).collect();
+        let scaled = |matrix: &DMatrix<f64>| {
+            DMatrix::from_fn(30, matrix.ncols(), |i, j| matrix[(i, j)] * weights[i].sqrt())
+        };
+        let weighted = huber(&design, &signals, Some(&weights)).unwrap();
+        let plain = huber(&scaled(&design), &scaled(&signals), None).unwrap();
+        assert!((weighted.coefficients - plain.coefficients).largest() < 1e-9);
+        assert!((weighted.trust - plain.trust).largest() < 1e-8);
+        let change = &weighted.residual_covariance - &plain.residual_covariance;
+        assert!(change.largest() < 1e-8 * plain.residual_covariance.largest());
+        assert!(
+            (weighted.inverse_gram - &plain.inverse_gram).largest() < 1e-12 * plain.inverse_gram.largest()
+        );
+    }
 }

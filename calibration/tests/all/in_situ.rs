@@ -137,3 +137,81 @@ fn what_nothing_asks_for_is_not_changed() {
     assert_eq!((same.unobserved, &same.loads_per_signal), (36, &start));
     assert_eq!((same.deviations, same.pitch), (DMatrix::zeros(6, 6), (0.0, 0.0)));
 }
+
+/// What is to vanish, by the statement of `refine`: `Σ (fᵀm / (|f||m|) / σ)² + Σ |B V − P|² / σ²`, with the sizes
+/// of the start.
+fn target(
+    start: &DMatrix<f64>,
+    map: &DMatrix<f64>,
+    touches: &DMatrix<f64>,
+    known: &DMatrix<f64>,
+    loads: &DMatrix<f64>,
+) -> f64 {
+    let of_touches: f64 = touches
+        .row_iter()
+        .map(|row| {
+            let (first, now) = (start * row.transpose(), map * row.transpose());
+            let size = first.rows(0, 3).norm() * first.rows(3, 3).norm();
+            (now.rows(0, 3).dot(&now.rows(3, 3)) / size / 1e-3).powi(2)
+        })
+        .sum();
+    of_touches + (known * map.transpose() - loads).norm_squared() / 1e-6
+}
+
+/// From calibrations that are far off, where a whole step of Gauss and Newton goes too far: no change near by
+/// makes it better still.
+#[test]
+fn far_off_calibrations_are_mended_as_well_as_can_be() {
+    let random = &mut Pcg64Mcg::seed_from_u64(56);
+    for round in 0..24 {
+        let truth = sensor(random, 6, 6);
+        let (wrong, count) = ([0.5, 2.0, 10.0][round / 8], [5, 4, 3][round % 3]);
+        let start = &truth + gaussians(random, 6, 6) * wrong;
+        let signals = signals(&touches(random, 60, 1e-3), &truth);
+        let known = gaussians(random, count, 6);
+        let loads = &known * truth.transpose() + gaussians(random, count, 6) * 1e-3;
+        let found = refine(&start, &signals, 1e-3, &known, &loads, 1e-3).unwrap();
+        let cost = |map: &DMatrix<f64>| target(&start, map, &signals, &known, &loads);
+        let (before, least) = (cost(&start), cost(&found.loads_per_signal));
+        // There are a thousandth of noise and sixty touches.
+        assert!(least < 1e3 && before > 1e6, "{round}: {before:e} {least:e}");
+        for k in 0..36 {
+            // A hundredth of a deviation is worth 1e-4 where it is least.
+            let mut change = DMatrix::zeros(6, 6);
+            change[k] = 0.01 * found.deviations[k];
+            for map in [&found.loads_per_signal + &change, &found.loads_per_signal - &change] {
+                assert!(
+                    cost(&map) > least - 1e-5 * (1.0 + least * 1e-6),
+                    "{round} {k}: {:e}",
+                    cost(&map) - least
+                );
+            }
+        }
+    }
+}
+
+/// Two known loads tell of two directions of the readings, in whatever units these are.
+#[test]
+fn what_is_not_observed_is_counted_in_any_units() {
+    let random = &mut Pcg64Mcg::seed_from_u64(55);
+    let truth = sensor(random, 6, 6);
+    let drifted = &truth + gaussians(random, 6, 6) * 0.05;
+    let (none, known) = (DMatrix::zeros(0, 6), gaussians(random, 2, 6));
+    let loads = &known * truth.transpose();
+    let plain = refine(&drifted, &none, 1e-3, &known, &loads, 1e-3).unwrap();
+    assert_eq!(plain.unobserved, 24);
+    assert!((&known * plain.loads_per_signal.transpose() - &loads).largest() < 1e-12);
+    for unit in [1e-9, 1e-5, 1e5, 1e9] {
+        let other = refine(&(&drifted / unit), &none, 1e-3, &(&known * unit), &loads, 1e-3).unwrap();
+        assert_eq!(other.unobserved, 24, "{unit:e}");
+        let change = (&other.loads_per_signal * unit - &plain.loads_per_signal).largest();
+        assert!(change < 1e-12, "{unit:e}: {change:e}");
+        let change = (&other.deviations * unit - &plain.deviations).largest();
+        assert!(change < 1e-12, "{unit:e}: {change:e}");
+    }
+    // Of a known load in one direction only: its size over that of the reading.
+    let lone = DMatrix::from_fn(1, 6, |_, j| if j == 2 { 0.25 } else { 0.0 });
+    let one = refine(&drifted, &none, 1e-3, &lone, &(&lone * truth.transpose()), 1e-3).unwrap();
+    let expected = DMatrix::from_fn(6, 6, |_, j| if j == 2 { 1e-3 / 0.25 } else { 0.0 });
+    assert!((one.deviations - expected).largest() < 1e-15 && one.unobserved == 30);
+}

@@ -1,6 +1,7 @@
 //! Shape from motion: errors as stated, and the same sensor in any units, order and frame.
 
-use fingertip_calibration::motion::{LeverArm, constant_force, lever_arms};
+use fingertip_calibration::fit::FitError;
+use fingertip_calibration::motion::{LeverArm, MotionError, constant_force, lever_arms};
 use fingertip_calibration::nalgebra::{DMatrix, DVector, Vector3};
 use rand::SeedableRng as _;
 use rand_pcg::Pcg64Mcg;
@@ -162,5 +163,20 @@ fn shape_from_motion_does_not_mind_units_order_and_frames() {
         assert!(change < allowed, "{change:e}");
         assert!(((&two.zero / volt - &one.zero).component_div(&one.zero_deviation)).largest() < allowed);
         assert!((two.noise / volt / one.noise - 1.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn too_few_directions_or_gauges_are_refused() {
+    let random = &mut Pcg64Mcg::seed_from_u64(44);
+    let signals = directions(random, 10) * sensor(random, 3, 4);
+    assert!(constant_force(&signals, 5.0).is_ok());
+    for few in [signals.rows(0, 9).into_owned(), signals.columns(0, 2).into_owned()] {
+        let error = constant_force(&few, 5.0).unwrap_err();
+        let expected = FitError::TooFewSamples { samples: few.nrows(), coefficients: 9 };
+        assert_eq!(error.to_string(), MotionError::Fit(expected).to_string());
+    }
+    for force in [0.0, -5.0, f64::NAN, f64::INFINITY] {
+        assert!(constant_force(&signals, force).is_err(), "{force}");
     }
 }

@@ -102,6 +102,7 @@ fn of_gauss_helmert() {
     assert!((same.coefficients - &plain.coefficients).iter().all(|off| off.abs() < 1e-12));
     assert!((same.residual_covariance - plain.residual_covariance).iter().all(|off| off.abs() < 1e-12));
     assert!((same.inverse_gram - plain.inverse_gram).iter().all(|off| off.abs() < 1e-12));
+    assert!(same.iterations <= 3, "{}", same.iterations);
     for wrong in spoilt(&exact).chain([DMatrix::from_element(6, 2, -1e-9), DMatrix::zeros(5, 2)]) {
         assert!(is_bad_input(fit(&wrong, &noise)));
     }
@@ -265,4 +266,38 @@ fn of_options() {
         assert!(said.contains("the method fits signals from loads only"), "{said}");
     }
     error(Options { quadratic: true, ..plain.clone() });
+}
+
+/// A gauge that tells nothing of the load: what drift is a share of nothing, no fit may be made to say.
+#[test]
+fn of_a_gain_that_cannot_be_told() {
+    let random = &mut Pcg64Mcg::seed_from_u64(98);
+    let celsius: Vec<f64> = (0..40).map(|i| 2.0 + f64::from(i)).collect();
+    let mut refused = 0;
+    for _ in 0..30 {
+        let (loads, signals) = (gaussians(random, 40, 6), gaussians(random, 40, 1));
+        let found = match fit_temperature(&loads, &signals, &celsius, 22.0) {
+            Ok(found) => found,
+            Err(error) => {
+                assert!(matches!(error, FitError::NoConvergence { .. }), "{error}");
+                refused += 1;
+                continue;
+            }
+        };
+        // Where it is found, no change of the drift makes the sum of squares less.
+        let (drift, temperature) = (found.temperature.gain_drift[0], &found.temperature);
+        let slope: Vec<[f64; 2]> = (0..40)
+            .map(|i| {
+                let t = celsius[i] - 22.0;
+                let load = (found.matrix.row(0) * loads.row(i).transpose())[(0, 0)];
+                let zero =
+                    found.zero[0] + temperature.zero_drift[0] * t + temperature.zero_curvature[0] * t * t;
+                [signals[(i, 0)] - zero - (1.0 + drift * t) * load, t * load]
+            })
+            .collect();
+        let product: f64 = slope.iter().map(|[left, change]| left * change).sum();
+        let size: f64 = slope.iter().map(|[left, change]| (left * change).abs()).sum();
+        assert!(product.abs() < 1e-9 * size, "{product:e} of {size:e}");
+    }
+    assert!(refused > 0);
 }

@@ -4,9 +4,15 @@ use core::f64::consts::{PI, TAU};
 use core::sync::atomic::{AtomicU64, Ordering};
 
 use fingertip_calibration::design::{
-    Criterion, DesignError, DesignSpace, Findings, NominalLoads, Parameter, ParameterUnit, Search, search,
+    Criterion, DesignError, DesignSpace, Findings, NominalLoads, Parameter, ParameterUnit, Search,
+    choose_sites, search,
 };
-use fingertip_calibration::nalgebra::Vector6;
+use fingertip_calibration::linear::Singular;
+use fingertip_calibration::nalgebra::{DMatrix, Vector6};
+use rand::SeedableRng as _;
+use rand_pcg::Pcg64Mcg;
+
+use super::random::gaussian;
 
 /// Six gauges, one for each load, of which the first is so many times as sensitive as the others: the condition
 /// number is that, or its reciprocal.
@@ -129,4 +135,45 @@ fn starts_that_find_no_sensor_are_counted() {
     assert!((findings.minima[0].criterion - 1.5).abs() < 1e-4, "{:?}", findings.best());
     let share: f64 = findings.minima.iter().map(|minimum| minimum.share).sum();
     assert!((share - ended as f64 / 40.0).abs() < 1e-12);
+}
+
+/// A crease, which a smooth search only comes near; of one parameter as of more.
+#[test]
+fn a_crease_is_met_sharply() {
+    for count in 1..=3 {
+        let names = ["p", "q", "r"];
+        let parameters = names[..count].iter().map(|name| ratio(name, 0.0, 1.0, 0.1)).collect();
+        let creased = space(parameters, |values| {
+            let off = values.iter().enumerate().map(|(i, value)| (value - 0.3 - 0.1 * i as f64).abs());
+            Some(1.2 + off.sum::<f64>())
+        });
+        for minimum in &found(&creased, 4).minima {
+            assert!((minimum.criterion - 1.2).abs() < 1e-6, "{count}: {minimum:?}");
+        }
+    }
+}
+
+/// What is chosen cannot be mended by the exchange of one gauge for any other.
+#[test]
+fn no_exchange_mends_the_chosen_gauges() {
+    let random = &mut Pcg64Mcg::seed_from_u64(23);
+    let loads = NominalLoads::equal(10.0, 0.1).unwrap();
+    let nominal = loads.components();
+    let criterion = Criterion::ConditionNumber;
+    for count in [6, 7, 9] {
+        let candidates: Vec<Vector6<f64>> =
+            (0..13).map(|_| Vector6::from_fn(|_, _| gaussian(random)).component_div(&nominal)).collect();
+        let number = |chosen: &[usize]| {
+            let rows = DMatrix::from_fn(chosen.len(), 6, |i, j| candidates[chosen[i]][j] * nominal[j]);
+            Singular::new(&rows).unwrap().condition_number()
+        };
+        let chosen = choose_sites(&candidates, count, &criterion, &loads).unwrap();
+        assert!(chosen.len() == count && chosen.windows(2).all(|pair| pair[0] < pair[1]), "{chosen:?}");
+        let own = number(&chosen);
+        for set in (0..1_u32 << 13).filter(|set| set.count_ones() as usize == count) {
+            let others: Vec<usize> = (0..13).filter(|i| set >> i & 1 == 1).collect();
+            let shared = others.iter().filter(|i| chosen.contains(i)).count();
+            assert!(shared + 1 < count || number(&others) > own * (1.0 - 1e-8), "{chosen:?} {others:?}");
+        }
+    }
 }

@@ -124,7 +124,10 @@ fn errors_of_a_plane_are_as_stated() {
             .collect();
         let clean: Vec<Vec<_>> = points
             .iter()
-            .map(|point| (0..5).map(|_| pressed(random, *point, Vector3::z()).wrench).collect())
+            .enumerate()
+            .map(|(i, point)| {
+                (0..5 + 4 * (i % 2)).map(|_| pressed(random, *point, Vector3::z()).wrench).collect()
+            })
             .collect();
         let spread = Spread::over(8_000, || {
             let pivots: Vec<Vec<_>> =
@@ -284,4 +287,68 @@ fn pivots_planes_and_poses_do_not_mind_units_order_and_frames() {
         change.close(&two.shape.origin(), &one.shape.origin(), 1e-10);
         assert!((change.point(&one.shape.origin()) - two.shape.origin()).largest() < 1e-10 * change.metre);
     }
+}
+
+/// From a sphere to shapes as flat as coins and as long as needles: the first steps would go far past them.
+#[test]
+fn flat_and_long_ellipsoids_come_back() {
+    let random = &mut Pcg64Mcg::seed_from_u64(67);
+    for axes in [[20.0, 18.0, 2.0], [20.0, 3.0, 2.0], [30.0, 12.0, 1.0], [15.0, 14.0, 13.0]] {
+        let axes = Vector3::from(axes) * 1e-3;
+        let squares = Matrix3::from_diagonal(&axes.component_mul(&axes));
+        for _ in 0..10 {
+            let turn = turn(random);
+            let shape = turn * squares * turn.transpose();
+            let point =
+                |n: &Vector3<f64>, shape: &Matrix3<f64>| CENTRE + shape * n / n.dot(&(shape * n)).sqrt();
+            let touched = touches(random, 40, None, |n| point(n, &shape));
+            let fit = fit_ellipsoid(&touched).unwrap();
+            assert!((fit.shape.semi_axes - axes).largest() < 1e-9, "{axes} {:?}", fit.shape);
+            let found = fit.shape.sensor_from_ellipsoid;
+            assert!((found.origin() - CENTRE).largest() < 1e-9 && fit.rms < 1e-12);
+            let found = found.rotation() * squares * found.rotation().transpose();
+            assert!((found - shape).largest() < 1e-9 * shape.largest());
+            let aligned = touches(random, 40, None, |n| point(n, &squares));
+            let fit = fit_aligned_ellipsoid(&aligned).unwrap();
+            assert!((fit.shape.semi_axes - axes).largest() < 1e-9, "{axes} {:?}", fit.shape);
+            assert!((fit.shape.centre - CENTRE).largest() < 1e-9 && fit.rms < 1e-12);
+        }
+    }
+}
+
+/// Rounding of a far origin is more than a step that is small: it ends all the same.
+#[test]
+fn a_pose_far_away_comes_back() {
+    let random = &mut Pcg64Mcg::seed_from_u64(68);
+    for distance in [1.0, 100.0, 1e4] {
+        for _ in 0..10 {
+            let rotation = turn(random);
+            let origin = vector(random).normalize() * distance;
+            let touches: Vec<_> = (0..10)
+                .map(|_| {
+                    let point = vector(random) * 0.02;
+                    (Wrench::from_force_at(&(rotation * point + origin), vector(random)), point)
+                })
+                .collect();
+            let fit = fit_pose(&touches).unwrap();
+            let rounding = 1e3 * f64::EPSILON * distance;
+            assert!((fit.shape.origin() - origin).largest() < rounding, "{distance}");
+            assert!((fit.shape.rotation() - rotation).largest() < rounding / 0.02, "{distance}");
+        }
+    }
+}
+
+/// Under a force along the axis, the line of action tells nothing of where the axis lies.
+#[test]
+fn forces_along_the_axis_tell_nothing_of_a_cylinder() {
+    let random = &mut Pcg64Mcg::seed_from_u64(69);
+    let mut touches = touches(random, 12, Some(Vector3::z()), |n| CENTRE + n * 0.008);
+    let without = fit_cylinder_along(&touches, &Vector3::z()).unwrap().shape;
+    touches.push(Touch {
+        wrench: Wrench::from_force_at(&(CENTRE + Vector3::y() * 0.05), -Vector3::z()),
+        normal: Vector3::y(),
+    });
+    let with = fit_cylinder_along(&touches, &Vector3::z()).unwrap().shape;
+    assert!((with.radius() - without.radius()).abs() < 1e-14 && (with.radius() - 0.008).abs() < 1e-12);
+    assert!((with.centre() - without.centre()).largest() < 1e-14);
 }

@@ -92,7 +92,13 @@ fn touches_of_a_surface_are_spread_by_its_area() {
     }
     // Lines through a disc of 12 mm meet a sphere of 7 mm in the share of their areas, twice each.
     let share = touches.len() as f64 / 2.0 / 20_000.0;
-    let concentric = Touch::on_surface(&sphere, centre, 14e-3, 0.0, 3.0).unwrap().len() as f64 / 40_000.0;
+    let around = Touch::on_surface(&sphere, centre, 14e-3, 0.0, 3.0).unwrap();
+    for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)] {
+        let expected = if i == j { 1.0 / 3.0 } else { 0.0 };
+        assert!((mean(&around, |t| t.normal[i] * t.normal[j]) - expected).abs() < 1e-3, "{i} {j}");
+    }
+    assert!((0..3).all(|i| mean(&around, |t| t.normal[i]).abs() < 5e-3));
+    let concentric = around.len() as f64 / 40_000.0;
     assert!((share - 49.0 / 144.0).abs() < 0.01 && (concentric - 0.25).abs() < 2e-3, "{share} {concentric}");
     let with_friction = Touch::on_surface(&sphere, centre, 14e-3, 0.4, 3.0).unwrap();
     assert!(with_friction.len().is_multiple_of(8) && with_friction.iter().all(|touch| ratio(touch) <= 0.4));
@@ -166,6 +172,11 @@ fn the_closest_gauges_are_measured_around_the_wall() {
     let around = 5e-3 * (0.1 + 2.0 * PI - 6.2);
     assert!((distance - around.hypot(3e-3)).abs() < 1e-12, "{distance}");
     assert_eq!((first, second), (0, 1));
+    // And in the other order.
+    let values: Vec<f64> = places.iter().rev().flat_map(|(z, theta)| [*z, *theta, 0.3]).collect();
+    let (distance, first, second) = space.layout(&values).unwrap().closest_gauges().unwrap();
+    assert!((distance - around.hypot(3e-3)).abs() < 1e-12, "{distance}");
+    assert_eq!((first, second), (3, 4));
     let stacked: Vec<f64> = (0..6).flat_map(|_| [1e-3, 0.2, 0.3]).collect();
     assert_eq!(space.layout(&stacked).unwrap().closest_gauges(), None);
     let strains = layout.normalised(2.0, &loads).unwrap();

@@ -11,7 +11,7 @@ use rand::SeedableRng as _;
 use rand_pcg::Pcg64Mcg;
 
 use super::metrics::{Sample, sensor, table, x, y};
-use super::random::gaussian;
+use super::random::{gaussian, gaussians};
 
 fn check(samples: &[Sample<3>], limits: &Limits) -> Report {
     Report::of_check(&sensor(3), &table(samples), limits, None).unwrap()
@@ -266,4 +266,35 @@ fn the_method_is_described() {
     );
     assert_eq!(report.coefficients, 1);
     assert!(!report.notes.iter().any(|note| note.contains("no drift was fitted")));
+}
+
+/// The sensor tells what the finger does to the object: every sign is reversed.
+#[test]
+fn a_reaction_is_suspected() {
+    let samples: Vec<Sample<3>> = samples(8.0).iter().map(|(load, said)| (*load, said.map(|x| -x))).collect();
+    let report = check(&samples, &Limits::default());
+    let reads = report.suspicions.iter().find_map(|suspicion| match &suspicion.mistake {
+        Mistake::Axes { reads } => Some(reads.clone()),
+        _ => None,
+    });
+    assert_eq!(reads.unwrap(), [(Axis::Fx, true), (Axis::Fy, true), (Axis::Fz, true)], "{report}");
+}
+
+/// A line through zero: the noise of a reading is what is left over one degree less, and so many of it are a load.
+#[test]
+fn the_deviation_of_one_reading_is_that_of_what_is_left() {
+    let random = &mut Pcg64Mcg::seed_from_u64(95);
+    let loads = gaussians(random, 9, 1);
+    let signals = &loads * 3.0 + gaussians(random, 9, 1) * 0.01;
+    let table = LoadTable::new(&[Axis::Fz], loads.clone(), signals.clone(), SignalUnit::Volt).unwrap();
+    let options = Options { bias: false, nominal: Some(vec![5.0]), ..Options::default() };
+    let report = calibrate(&table, &options).unwrap().report;
+    let slope = loads.dot(&signals) / loads.norm_squared();
+    let noise = ((signals - &loads * slope).norm_squared() / 8.0).sqrt();
+    let percent = report.axes[0].deviation_percent.unwrap();
+    assert!((percent / (100.0 * noise / slope / 5.0) - 1.0).abs() < 1e-9, "{report}");
+    // The matrix is that of full scale.
+    assert!((report.matrix.unwrap()[0][0] / (5.0 * slope) - 1.0).abs() < 1e-12);
+    let deviation = report.matrix_deviations.unwrap()[0][0];
+    assert!((deviation / (5.0 * noise / loads.norm()) - 1.0).abs() < 1e-9);
 }

@@ -1,14 +1,14 @@
 //! The files of a run, and what is said at its end.
 
-use alloc::rc::Rc;
-use core::cell::Cell;
 use std::fs::File;
 use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
 
 use fingertip_recordings::RecordingReader;
+use indicatif::ProgressBar;
 
 use super::args::AnalyzeArguments;
+use super::progress::bar;
 use crate::convert::McapAsCsv;
 use crate::error::CliError;
 use crate::output;
@@ -34,10 +34,8 @@ pub(super) type Rows = RecordingReader<Box<dyn Read>>;
 /// A recording that is read.
 pub(super) struct Opened {
     pub(super) rows: Rows,
-    /// Of the file \[bytes\], if it has one (a pipe has none).
-    pub(super) length: Option<u64>,
-    /// How much of the file was read.
-    pub(super) read: Rc<Cell<u64>>,
+    /// How much of the file was read; of a pipe that cannot be told.
+    pub(super) bar: ProgressBar,
 }
 
 /// Opens a recording. One of MCAP is read as what `convert` makes of it; what to know of that goes to `notes`.
@@ -48,28 +46,13 @@ pub(super) fn open(path: &Path, notes: &mut Vec<String>) -> Result<Opened, CliEr
     if meta.is_dir() {
         return Err(fault(io::ErrorKind::IsADirectory.into()));
     }
-    let length = meta.is_file().then_some(meta.len());
-    let read = Rc::new(Cell::new(0));
-    let file = Counted { file, read: Rc::clone(&read) };
+    let bar = bar(meta.is_file().then_some(meta.len()));
+    let file = bar.wrap_read(file);
     let text: Box<dyn Read> = match Kind::of(path) {
         Ok(Kind::Mcap) => Box::new(McapAsCsv::new(BufReader::new(file), path, notes)?),
         _ => Box::new(file),
     };
-    Ok(Opened { rows: Rows::new(path.display().to_string(), text)?, length, read })
-}
-
-/// Counts what is read of a file.
-struct Counted {
-    file: File,
-    read: Rc<Cell<u64>>,
-}
-
-impl Read for Counted {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let read = self.file.read(buffer)?;
-        self.read.set(self.read.get() + read as u64);
-        Ok(read)
-    }
+    Ok(Opened { rows: Rows::new(path.display().to_string(), text)?, bar })
 }
 
 /// Prints what was found and what was written.

@@ -25,7 +25,6 @@ use crate::shape::Shape;
 use crate::summary::{self, Run};
 use args::AnalyzeArguments;
 use contacts::ContactWriter;
-use progress::Progress;
 use source::{Reading, Source};
 
 pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
@@ -33,18 +32,10 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let recording = arguments.recording.as_path();
     files::guard(arguments)?;
     let mut notes = Vec::new();
-    let files::Opened { rows: mut reader, length, read } = files::open(recording, &mut notes)?;
+    let files::Opened { rows: mut reader, bar } = files::open(recording, &mut notes)?;
     let mut source = Source::new(&mut reader, &scene, arguments, notes)?;
     let mut contacts = ContactWriter::create(&arguments.output)?;
-    let mut progress = Progress::new(length, read);
-
-    let mut pass = Pass {
-        scene: &scene,
-        reader: &mut reader,
-        source: &mut source,
-        contacts: &mut contacts,
-        progress: &mut progress,
-    };
+    let mut pass = Pass { scene: &scene, reader: &mut reader, source: &mut source, contacts: &mut contacts };
     // The one place where a shape is chosen: the loop inside is compiled for each.
     let observations = match scene.shape {
         Shape::Plane(plane) => pass.over(plane),
@@ -52,7 +43,7 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
         Shape::Cylinder(cylinder) => pass.over(cylinder),
         Shape::Other(ref other) => pass.over(other.as_ref().clone()),
     }?;
-    progress.finish();
+    bar.finish_and_clear();
     contacts.finish()?;
 
     let quality: Quality = *reader.quality();
@@ -81,7 +72,6 @@ struct Pass<'a> {
     reader: &'a mut files::Rows,
     source: &'a mut Source,
     contacts: &'a mut ContactWriter,
-    progress: &'a mut Progress,
 }
 
 impl Pass<'_> {
@@ -112,9 +102,6 @@ impl Pass<'_> {
                     observations.add_without_wrench(time, status);
                     self.contacts.write_without_wrench(time, status)?;
                 }
-            }
-            if observations.rows().is_multiple_of(8192) {
-                self.progress.show();
             }
         }
         if let Some(rest) = self.source.unfinished_rest() {

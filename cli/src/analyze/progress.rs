@@ -1,43 +1,32 @@
 //! How far a long run has come.
 
-use alloc::rc::Rc;
-use core::cell::Cell;
-
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 
 /// Shorter files are done before a bar could be read.
 const WORTH_A_BAR: u64 = 16 << 20;
 
-/// A bar on the standard error, if that is a terminal and the recording is long.
-pub(super) struct Progress {
-    bar: Option<ProgressBar>,
-    read: Rc<Cell<u64>>,
+/// A bar on the standard error, if that is a terminal and the recording is long: of `length` bytes, if that is known.
+pub(super) fn bar(length: Option<u64>) -> ProgressBar {
+    let Some(length) = length.filter(|length| *length > WORTH_A_BAR) else { return ProgressBar::hidden() };
+    let bar = ProgressBar::new(length).with_finish(ProgressFinish::AndClear);
+    let style = "{wide_bar} {bytes} of {total_bytes}, {bytes_per_sec}, {eta} left";
+    match ProgressStyle::with_template(style) {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
 }
 
-impl Progress {
-    /// For a recording of `length` bytes, if that is known, of which so many as `read` tells were read.
-    pub(super) fn new(length: Option<u64>, read: Rc<Cell<u64>>) -> Self {
-        let bar = length.filter(|length| *length > WORTH_A_BAR).map(|length| {
-            let bar = ProgressBar::new(length);
-            let style = "{wide_bar} {bytes} of {total_bytes}, {bytes_per_sec}, {eta} left";
-            if let Ok(style) = ProgressStyle::with_template(style) {
-                bar.set_style(style);
-            }
-            bar
-        });
-        Self { bar, read }
-    }
+#[cfg(test)]
+mod tests {
+    use super::{WORTH_A_BAR, bar};
+    use std::io::Read as _;
 
-    /// Shows how far it is.
-    pub(super) fn show(&self) {
-        if let Some(bar) = &self.bar {
-            bar.set_position(self.read.get());
-        }
-    }
-
-    pub(super) fn finish(&self) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
-        }
+    #[test]
+    fn a_bar_is_as_long_as_a_file_that_is_worth_one() {
+        assert_eq!((bar(None).length(), bar(Some(WORTH_A_BAR)).length()), (None, None));
+        let long = bar(Some(WORTH_A_BAR + 1));
+        let mut bytes = [0; 1000];
+        long.wrap_read(std::io::repeat(0)).read_exact(&mut bytes).unwrap();
+        assert_eq!((long.length(), long.position()), (Some(WORTH_A_BAR + 1), 1000));
     }
 }

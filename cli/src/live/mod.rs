@@ -188,9 +188,9 @@ fn show(mut terminal: DefaultTerminal, shared: &Shared, frames: f64) -> io::Resu
             }
         };
         terminal.draw(|frame| view::draw(frame, &state, held.is_some()))?;
-        let next = Instant::now() + period;
+        let drawn = Instant::now();
         loop {
-            let left = next.saturating_duration_since(Instant::now());
+            let left = period.saturating_sub(drawn.elapsed());
             if !event::poll(left)? {
                 break;
             }

@@ -108,6 +108,19 @@ mod tests {
     }
 
     #[test]
+    fn where_there_is_no_room_nothing_is_drawn() {
+        let state = touched(0.1, Some(SlipVerdict::Holding));
+        for (width, height, drawn) in
+            [(8, 3, true), (7, 3, false), (8, 2, false), (7, 5, false), (60, 2, false), (60, 3, true)]
+        {
+            let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+            terminal.draw(|frame| draw(frame, frame.area(), &state)).unwrap();
+            let empty = terminal.backend().buffer().content().iter().all(|cell| cell.symbol() == " ");
+            assert_eq!(!empty, drawn, "{width} × {height}");
+        }
+    }
+
+    #[test]
     fn the_light_has_the_colour_of_the_verdict() {
         for (verdict, word, colour) in [
             (Some(SlipVerdict::Slipping), "SLIPPING", Color::Red),

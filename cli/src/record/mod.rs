@@ -204,7 +204,7 @@ impl<'a> Recording<'a> {
         let Some(output) = self.output.take() else { return Ok(None) };
         output.finish()?;
         let mut text = format!("{} samples in {} s", count(self.samples), short(self.length()));
-        if self.samples > 1 && self.length() > 0.0 {
+        if self.length() > 0.0 {
             text.push_str(&format!(" ({} samples/s)", short((self.samples - 1) as f64 / self.length())));
         }
         if self.arguments.scene.is_some() {

@@ -317,6 +317,13 @@ mod tests {
             }
             assert!(check(&format!("{head}{shape}\nradius_mm = 1.0\n")).is_err(), "{shape}");
         }
+        for (key, bad) in
+            [("centre_m", "[inf, 0.0, 0.0]"), ("centre_m", "[0.0, nan, 0.0]"), ("pole", "[0.0, 0.0, inf]")]
+        {
+            let error =
+                check(&format!("{head}{}\n[map]\n{key} = {bad}\n", shapes[2])).unwrap_err().to_string();
+            assert!(error.contains(&format!("`{key}` of [map]")), "{error}");
+        }
         let error = check(&format!("{GOOD}[map]\n")).unwrap_err().to_string();
         assert!(error.contains("[map]"), "{error}");
     }

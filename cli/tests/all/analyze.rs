@@ -252,6 +252,10 @@ fn a_rest_that_was_none_is_warned_of_or_refused() {
     assert!(error.starts_with("error: ") && error.trim_end().lines().count() == 1, "{error}");
     assert!(error.contains("not at rest") && error.contains("rest_s = 0"), "{error}");
 
+    // Where every force counts there is no threshold that it could be a multiple of.
+    let (code, _, errors, _) = run(60.0, &rest.replace("least_force_N = 0.5", "least_force_N = 0.0"));
+    assert!(code == Some(0) && errors.contains("may not have been at rest"), "{code:?} {errors}");
+
     // Without the tare the same recording is taken as it is.
     let (code, summary, errors, _) = run(60.0, &SCENE.replace("[input]", "[input]\nrest_s = 0"));
     assert_eq!((code, errors.as_str()), (Some(0), ""));

@@ -104,3 +104,26 @@ fn what_a_calibration_is_told_is_written_down() {
     let (code, said) = run(&["--inverse"]);
     assert!(code == 0 && folder.read("cal.toml").contains("of loads"), "{said}");
 }
+
+#[test]
+fn a_calibration_with_an_outlier_is_to_be_looked_at() {
+    let folder = Folder::new();
+    // One reading of one gauge, at an eighth of full scale off.
+    let off: String = noisy_loads()
+        .lines()
+        .enumerate()
+        .map(|(row, line)| match line.rsplit_once(',') {
+            Some((before, last)) if row == 5 => {
+                format!("{before},{}\n", last.parse::<f64>().unwrap() + 0.25)
+            }
+            _ => format!("{line}\n"),
+        })
+        .collect();
+    let advice = "suspect until somebody has looked: repeat the readings named above";
+    folder.write("loads.csv", &off);
+    let (code, said) = calibrate(&folder, &["--limit", "4"]);
+    assert!(code == 0 && said.contains("SUSPECT") && said.contains(advice), "{code} {said}");
+    folder.write("loads.csv", &noisy_loads());
+    let (code, said) = calibrate(&folder, &["--limit", "4"]);
+    assert!(code == 0 && !said.contains(advice), "{said}");
+}

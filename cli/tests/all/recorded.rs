@@ -129,6 +129,8 @@ fn what_is_asked_of_a_recording_is_done_or_refused() {
     ]);
     assert_eq!(said, "");
     let times = Contacts::parse(&folder.read("day.csv")).numbers("t_s");
+    let one = folder.succeed(&["record", FAST, "-o", "one.csv", "--samples", "1"]);
+    assert!(one.starts_with("1 samples in 0 s\n"), "{one}");
     assert!(times[0] >= before + 0.9 && times[0] <= now() + 1e-6, "{times:?}");
     assert!((times[19] - times[0] - 0.019).abs() < 1e-6);
     for (option, value) in [

@@ -350,6 +350,27 @@ mod tests {
     }
 
     #[test]
+    fn a_steady_excitation_is_as_one_that_is_measured() {
+        let made = |excitation| BridgeFrontEnd::<f64, 1, 2>::new([quarter(0.05)], excitation).unwrap();
+        let measured = made(Excitation::Measured { channel: 1, volts_per_count: 3.3e-6 });
+        let steady = made(Excitation::Steady { volts: 3.3 });
+        for count in [-4e6, -1.0, 0.0, 12_345.0, 8_388_606.0] {
+            let strain = steady.strain(&Vector2::new(count, 0.0)).unwrap().x;
+            let ratio = count / 8_388_608.0 * 0.05 / 3.3;
+            assert!((strain - 2.0 * ratio / (1.0 - 2.0 * ratio)).abs() < 1e-15, "{count}");
+            assert!((strain - measured.strain(&Vector2::new(count, 1e6)).unwrap().x).abs() < 1e-15);
+        }
+        // A thousand counts are an excitation, of either sign.
+        let at = |count| measured.strain(&Vector2::new(100.0, count));
+        assert!(at(1000.0).is_ok() && at(-1000.0).is_ok());
+        assert_eq!((at(999.0), at(-999.0)), (Err(BridgeFault::NoExcitation), Err(BridgeFault::NoExcitation)));
+        // What is taken for strain, and what is not any more.
+        let full = BridgeCircuit::<f64>::full();
+        assert_eq!((full.change(0.5), full.change(-0.5)), (Some(0.5), Some(-0.5)));
+        assert_eq!((full.change(0.5_f64.next_up()), full.change(f64::NAN)), (None, None));
+    }
+
+    #[test]
     fn numbers_that_cannot_be_are_refused() {
         let made = |bridge, excitation| BridgeFrontEnd::<f64, 1, 1>::new([bridge], excitation).map(|_| ());
         let good = quarter(0.02);

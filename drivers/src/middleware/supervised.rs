@@ -245,6 +245,38 @@ mod tests {
         assert_eq!((source.losses(), source.reconnections()), (1, 1));
     }
 
+    /// A port is open once at a time.
+    #[test]
+    fn what_was_open_is_closed_before_it_is_opened_again() {
+        use alloc::rc::Rc;
+        use core::cell::Cell;
+        struct Port(Rc<Cell<bool>>);
+        impl Drop for Port {
+            fn drop(&mut self) {
+                self.0.set(false);
+            }
+        }
+        impl ErrorType for Port {
+            type Error = Failure;
+        }
+        impl SignalSource<f64, 1> for Port {
+            fn next_signals(&mut self) -> Result<Option<Sample<f64, Vector1<f64>>>, Failure> {
+                Ok(None)
+            }
+        }
+        let (open, broken) = (Rc::new(Cell::new(false)), Cell::new(false));
+        let connect = |_| match open.replace(true) || broken.get() {
+            true => Err(Failure(SourceErrorKind::Transport)),
+            false => Ok(Port(Rc::clone(&open))),
+        };
+        let mut source = Supervised::new(connect, OnLoss::FailStop).unwrap();
+        source.resume().unwrap();
+        assert!(source.source().is_some() && open.get() && source.next_signals() == Ok(None));
+        broken.set(true);
+        assert!(matches!(source.resume(), Err(SupervisedError::Lost(_))) && source.source().is_none());
+        assert_eq!(source.reconnections(), 1);
+    }
+
     #[test]
     fn it_connects_anew_as_often_as_it_is_told() {
         let mut calls = 0;

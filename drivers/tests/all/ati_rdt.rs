@@ -9,8 +9,8 @@ use std::sync::{Mutex, MutexGuard};
 
 use fingertip_drivers::middleware::{OnLoss, Supervised, SupervisedError, Watched};
 use fingertip_drivers::sensors::ati_rdt::{
-    ClientError, Command, CountsPerUnit, FaultPlan, RdtClient, RdtError, RdtServer, Receiver, Record,
-    Request, SimulatedNetFt, records,
+    ClientError, Command, Configuration, CountsPerUnit, FaultPlan, RdtClient, RdtError, RdtServer, Receiver,
+    Record, Request, SimulatedNetFt, records,
 };
 use fingertip_drivers::{Source, SourceError, SourceErrorKind};
 
@@ -197,4 +197,39 @@ fn a_sensor_that_falls_silent_is_asked_again_or_given_up_by_choice() {
     assert!(matches!(stops.next_sample(), Err(SupervisedError::Stopped)));
     stops.resume().unwrap();
     assert_eq!(patiently(&mut stops).value.force().x, 7e-6);
+}
+
+#[test]
+fn a_rate_that_is_none_is_not_taken_for_one() {
+    let rate = |text: &str| {
+        let page = format!(
+            "<scfgfu>N</scfgfu><scfgtu>Nm</scfgtu><cfgcpf>1</cfgcpf><cfgcpt>1</cfgcpt><comrdtrate>{text}</comrdtrate>"
+        );
+        Configuration::parse(&page).unwrap().rate
+    };
+    assert_eq!((rate("0"), rate("-1"), rate("7000")), (None, None, Some(7000.0)));
+}
+
+#[test]
+fn datagrams_that_are_cut_are_errors_and_counted() {
+    let sensor = SimulatedNetFt::new(FaultPlan { truncation: 1.0, seed: 5, ..FaultPlan::default() });
+    let server =
+        RdtServer::start("127.0.0.1:0", sensor, Duration::from_millis(1), |number| load(number as i32))
+            .unwrap();
+    let mut client = RdtClient::connect(server.address(), counts(), PATIENCE).unwrap();
+    for count in 1..=3 {
+        let error = client.next_wrench().unwrap_err();
+        assert_eq!(error.kind(), SourceErrorKind::Corrupt, "{error}");
+        assert_eq!((client.statistics().corrupt, client.statistics().received), (count, 0));
+    }
+}
+
+#[test]
+fn a_rate_that_cannot_be_gives_no_times() {
+    let sensor = SimulatedNetFt::new(FaultPlan::default());
+    let server = RdtServer::start("127.0.0.1:0", sensor, Duration::from_millis(1), |_| [0; 6]).unwrap();
+    for rate in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let mut client = RdtClient::connect(server.address(), counts(), PATIENCE).unwrap().timed_by(rate);
+        assert_eq!(client.next_wrench().unwrap().unwrap().time, None, "{rate}");
+    }
 }

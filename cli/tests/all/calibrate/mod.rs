@@ -50,6 +50,7 @@ fn calibrate_check_tare() {
         "--full-scale",
         "10,10,10,0.1,0.1,0.1",
     ]);
+    assert!(!text.contains("columns not used"), "{text}");
     assert!(text.contains("Calibration: GOOD") && text.contains("Written: tip.toml, tip.cal"), "{text}");
     assert!(
         folder.read("r.html").contains("<svg") && folder.read("r.json").contains("\"verdict\": \"good\"")
@@ -75,6 +76,14 @@ fn mistakes_are_explained() {
     let table = loads(1.0);
     folder.write("loads.csv", &table);
     folder.write("unit.csv", &table.replace("fx_N", "fx_stone"));
+    let moody: String = table
+        .lines()
+        .enumerate()
+        .map(|(row, line)| format!("{line},{}\n", if row == 0 { "mood".to_owned() } else { row.to_string() }))
+        .collect();
+    folder.write("moody.csv", &moody);
+    let said = folder.succeed(&["calibrate", "moody.csv", "-o", "moody.toml"]);
+    assert!(said.contains("moody.csv: columns not used: mood"), "{said}");
     let error = folder.fail(1, &["calibrate", "unit.csv"]);
     assert!(error.contains("fx_stone") && error.contains("line 1"), "{error}");
     let error = folder.fail(1, &["calibrate", "loads.csv", "-o", "loads.csv"]);
@@ -134,4 +143,8 @@ fn gravity() {
     );
     assert!(said.contains("2.00000 ±") && said.contains("+30.00000 mm"), "{said}");
     assert!(said.contains("+1.00000 +2.00000 +3.00000 N"), "{said}");
+    folder.succeed(&["calibrate", "--gravity", "poses.csv", "--serial", "T7", "--date", "2026-11-21"]);
+    for expected in ["serial = \"T7\"", "date = \"2026-11-21\"", "source = \"poses.csv\""] {
+        assert!(folder.read("payload.toml").contains(expected), "{expected} is not in it");
+    }
 }

@@ -311,6 +311,26 @@ mod tests {
     }
 
     #[test]
+    fn a_frame_of_other_channels_is_none_though_its_checksum_is_right() {
+        let mut frame = [0; Answer::<4>::LENGTH];
+        Answer { response: 0x050F, counts: [1, -2, 3, -4] }.emit(&mut frame);
+        let (words, checksum) = frame.split_at(frame.len() - WORD);
+        assert!(Answer::<4>::parse(&frame).is_ok());
+        // The checksum stands at the end of what it is of, with words or bytes too many between.
+        for between in 1..=2 * WORD {
+            let longer = [words, &[0; 2 * WORD][..between], checksum].concat();
+            assert!(matches!(Answer::<4>::parse(&longer), Err(ConverterFault::Checksum { .. })), "{between}");
+        }
+        for behind in 1..=2 * WORD {
+            let longer = [&frame, &[0; 2 * WORD][..behind]].concat();
+            assert!(Answer::<4>::parse(&longer).is_err(), "{behind}");
+        }
+        for length in 0..frame.len() {
+            assert!(Answer::<4>::parse(&frame[..length]).is_err(), "{length}");
+        }
+    }
+
+    #[test]
     fn lines_that_are_stuck_give_no_frame() {
         assert!(Answer::<4>::parse(&[0; 18]).is_err() && Answer::<4>::parse(&[0xFF; 18]).is_err());
         assert!(Answer::<8>::parse(&[0; 30]).is_err() && Answer::<8>::parse(&[0xFF; 30]).is_err());

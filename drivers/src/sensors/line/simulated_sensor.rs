@@ -249,6 +249,7 @@ mod tests {
         assert_eq!(said(&mut sensor, b"o", 7.0), [3, 7, 1]);
         assert_eq!(said(&mut sensor, b"?z", 9.0), [b'm', b'e', 4, 2, 1]);
         assert_eq!(said(&mut sensor, b"noxx", 9.0), [5, 2, 0, 5, 2, 0]);
+        assert_eq!(said(&mut sensor, b"abxcxd", 9.0), [6, 2, 0, 6, 2, 0]);
         assert_eq!(said(&mut sensor, &[b'a'; 1000], 9.0), []);
         assert!(sensor.heard.len() <= LONGEST_REQUEST);
         sensor.switch_off_and_on();

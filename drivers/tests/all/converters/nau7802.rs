@@ -143,7 +143,9 @@ fn the_bytes_on_the_bus_are_those_of_the_data_sheet() {
     chip.configure(&Configuration::default()).unwrap();
     assert_eq!(chip.read().unwrap().counts, [-0x100 + 4]);
     // Not ready, and then ready.
+    assert_eq!(chip.statistics().stale, 0);
     assert_eq!(chip.read().unwrap().counts, [0x12_3456]);
+    assert_eq!(chip.statistics().stale, 1);
     assert_eq!(chip.read(), Err(ConverterFault::Reset.into()));
     let (mut i2c, ..) = chip.release();
     i2c.done();

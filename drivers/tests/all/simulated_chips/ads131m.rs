@@ -237,3 +237,21 @@ fn registers_that_change_are_told_if_they_are_watched() {
         (0x10, 0x2100, 0x0100)
     );
 }
+
+#[test]
+fn words_that_were_not_sent_are_zeros() {
+    let mut chip = still();
+    for value in [0x0712, 0x0510] {
+        frame(&mut chip, &write(4, 0x1234));
+        assert_eq!(read(&mut chip, 4), 0x1234);
+        exchange(&mut chip, &[0x62, 0, 0]);
+        assert_eq!(read(&mut chip, 4), 0);
+        assert_eq!(chip.rejected(), 0);
+        frame(&mut chip, &write(2, value));
+    }
+    // With a checksum, the one of the request before is none of this one.
+    frame(&mut chip, &write(2, 0x1510));
+    frame(&mut chip, &write(4, 0x1234));
+    exchange(&mut chip, &[0x62, 0, 0]);
+    assert_eq!((chip.register(4), chip.rejected()), (0x1234, 1));
+}

@@ -150,3 +150,41 @@ fn a_ready_that_is_lost_stays_so_until_the_next_conversion() {
     // A quarter of 2000, within five times the root of 375.
     assert!((404..=596).contains(&lost), "{lost}");
 }
+
+#[test]
+fn the_longer_side_of_a_transfer_may_be_hit() {
+    let bench = bench(WireFaults { request_flip: 1.0, answer_flip: 1.0, ..WireFaults::default() });
+    let mut read = [0; 3];
+    bench.spi().transfer(&mut read, &[]).unwrap();
+    let there: u32 = bench.with(|echo| echo.heard.iter().map(|byte| byte.count_ones()).sum());
+    let back: u32 = read.iter().zip(1..).map(|(got, sent): (&u8, u8)| (got ^ sent).count_ones()).sum();
+    assert_eq!((there, back, bench.flips()), (1, 1, 2));
+    bench.spi().transfer(&mut [], &[0; 3]).unwrap();
+    let there: u32 = bench.with(|echo| echo.heard.iter().map(|byte| byte.count_ones()).sum());
+    assert_eq!((there, bench.flips()), (1, 4));
+}
+
+/// Asks to be polled again whenever it is not done, as an executor has to be told.
+#[test]
+fn a_delay_of_a_task_wakes_it() {
+    use alloc::sync::Arc;
+    use core::sync::atomic::{AtomicU32, Ordering};
+    use core::task::{Context, Poll};
+    struct Count(AtomicU32);
+    impl alloc::task::Wake for Count {
+        fn wake(self: Arc<Self>) {
+            self.0.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+    let (bench, count) = (bench(WireFaults::default()), Arc::new(Count(AtomicU32::new(0))));
+    let waker = Arc::clone(&count).into();
+    let mut context = Context::from_waker(&waker);
+    let mut delay = bench.delay();
+    let mut waiting = core::pin::pin!(embedded_hal_async::delay::DelayNs::delay_ns(&mut delay, 2_500));
+    for (wakes, now) in [(1, 1000), (2, 2000), (3, 2500)] {
+        assert_eq!(waiting.as_mut().poll(&mut context), Poll::Pending);
+        assert_eq!((count.0.load(Ordering::Relaxed), bench.now()), (wakes, now));
+    }
+    assert_eq!(waiting.as_mut().poll(&mut context), Poll::Ready(()));
+    assert_eq!((count.0.load(Ordering::Relaxed), bench.now()), (3, 2500));
+}

@@ -176,3 +176,19 @@ fn pulses_without_a_conversion_give_ones_and_faults_are_as_stated() {
     }
     assert_eq!(seen, 0xFF_FFFF);
 }
+
+#[test]
+fn a_conversion_is_kept_back_until_the_clock_was_still_for_20_microseconds() {
+    let bench = still();
+    let conversions = || bench.with(|chips| chips.conversions());
+    // The next conversion of the first chip ends at 62.5 ms, 10 µs behind the pulse.
+    bench.advance(62_490_000);
+    let mut clock = bench.clock();
+    clock.set_high().unwrap();
+    bench.advance(1000);
+    clock.set_low().unwrap();
+    bench.advance(18_999);
+    assert_eq!(conversions(), 1);
+    bench.advance(1);
+    assert_eq!(conversions(), 2);
+}

@@ -54,6 +54,11 @@ fn after_power_up_registers_and_status_are_those_of_the_data_sheet() {
     ] {
         assert_eq!(read(&mut chip, address, length), (0x17, value), "{address}");
     }
+    // What was not fetched of one answer is not of the next.
+    exchange(&mut chip, &[0x41 | 11 << 2, 0]);
+    assert_eq!(read(&mut chip, 10, 3), (0x17, 0x80_0000));
+    exchange(&mut chip, &[0x41 | 11 << 2, 0]);
+    assert_eq!(exchange(&mut chip, &[0x40 | START << 2, 0]), [0x17, 0]);
     chip.power_cycle();
     assert_eq!(fast(&mut chip, 0b1100), 0x16);
     // Another device is not answered.

@@ -225,3 +225,26 @@ fn the_bus_takes_its_time_and_has_its_faults() {
     }
     assert!(bench.flips() >= 480);
 }
+
+#[test]
+fn any_bit_of_a_request_may_be_flipped() {
+    let (bench, mut bus) = bench(|_, _| 0.0);
+    let (mut values, mut strayed) = (0, 0);
+    for round in 1..=400 {
+        bench.set_faults(WireFaults::default());
+        write(&mut bus, &[0x15, 0]);
+        bench.set_faults(WireFaults { request_flip: 1.0, seed: round, ..WireFaults::default() });
+        let before = bench.flips();
+        write(&mut bus, &[0x15, 0x5A]);
+        assert_eq!(bench.flips() - before, 1);
+        match bench.with(|chip| chip.register(0x15)) {
+            0 => strayed += 1,
+            value => {
+                assert_eq!((value ^ 0x5A).count_ones(), 1);
+                values |= value ^ 0x5A;
+            }
+        }
+    }
+    // Half of the bits are those of the address.
+    assert!(values == 0xFF && (150..250).contains(&strayed), "{values:#x} {strayed}");
+}
