@@ -7,6 +7,7 @@
 #[allow(dead_code, reason = "another test uses the rest")]
 mod big;
 mod bodies;
+mod coarse;
 mod common;
 mod compliant;
 mod convex_bounds;
