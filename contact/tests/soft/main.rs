@@ -15,6 +15,7 @@ mod exact;
 mod fusion;
 mod gauge_noise;
 mod golden;
+mod hard_convex;
 mod heights;
 mod honesty;
 mod jacobians;
