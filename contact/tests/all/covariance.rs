@@ -157,8 +157,12 @@ fn an_uncertain_plane_moves_the_contact() {
 /// ellipse stay eigenvectors: `λ₁ + λ₂` and `λ₁ λ₂` are those of the covariance.
 #[test]
 fn the_ellipse_is_right_however_unequal_its_numbers() {
-    let (_, jacobian) = on_plane(v(0.3, -0.2, -1.5));
-    for size in [1e-140, 1e-10, 1.0, 1e140] {
+    // Pressed squarely, the covariance of the position is that of the torque, with every zero in it.
+    let squarely = on_plane(v(0.0, 0.0, -1.5)).1;
+    let askew = on_plane(v(0.3, -0.2, -1.5)).1;
+    for (size, jacobian) in
+        [1e-140, 1e-10, 1.0, 1e140].into_iter().flat_map(|size| [(size, squarely), (size, askew)])
+    {
         for mixed in [0.0, 1e-200, 1e-12, 0.5, -0.9] {
             for apart in [1.0, 1.0 + 1e-12, 4.0, 0.25_f64] {
                 let sigma = Matrix6::from_fn(|i, j| match (i, j) {
