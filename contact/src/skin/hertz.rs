@@ -87,7 +87,8 @@ impl<T: Real> Hertz<T> {
             "Hertz contact",
             "radii and modulus",
             "such that depth and patch can be represented",
-            patch > T::zero() && depth > T::zero() && (patch + depth).is_number(),
+            // Of a patch of zero the depth is infinite.
+            (patch + depth).is_number(),
         )?;
         Ok(Self { ratio, patch, depth })
     }

@@ -269,3 +269,152 @@ fn superquadric<W: Wide>(point: Three<W>, shape: &Superquadric<f64>) -> Seen<W> 
         curvatures: [c * bend.m11 + s * bend.m22 + mixed, s * bend.m11 + c * bend.m22 - mixed],
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use fingertip_surfaces::LocalSurface;
+    use fingertip_surfaces::numeric::twofold::Twofold;
+    use nalgebra::Vector3;
+
+    use fingertip_surfaces::numeric::twofold::Wide as _;
+
+    use super::{Behind, Digits, Way, dot, exactly, rounded};
+
+    type Wide = Twofold<f64>;
+
+    /// Between the heights 5 and 5.25, of which a way leads out above, out below, or not.
+    #[test]
+    fn a_way_leaves_a_turned_part_at_its_end() {
+        let part = |between| LocalSurface::Turned {
+            origin: 5.0,
+            radius: 2.0,
+            slope: 0.3,
+            turn: [0.1, -0.2],
+            width: [5.0, 5.25],
+            between,
+        };
+        let from = exactly::<Wide>(&Vector3::new(2.0, 0.0, 5.1));
+        for (rise, share, end, away) in [(0.6, 0.25, 5.25, 1.0), (-0.4, 0.25, 5.0, -1.0)] {
+            let Way::Leaves(found, Behind::Height(height)) =
+                part([5.0, 5.25]).left_by(from, &Vector3::new(0.3, 0.1, rise))
+            else {
+                panic!("{rise} stays")
+            };
+            assert!((found - share).abs() < 1e-14, "{found}");
+            // Behind the end, by less than any part is wide.
+            let beyond = (height - end) * away;
+            assert!(beyond > 0.0 && beyond < 1e-3, "{height}");
+        }
+        for rise in [0.15, 0.1499, -0.0999, 0.0, -0.0] {
+            let way = part([5.0, 5.25]).left_by(from, &Vector3::new(0.3, 0.1, rise * 0.999));
+            assert!(matches!(way, Way::Stays), "{rise}");
+        }
+        // Without an end it does not end.
+        let open = part([f64::NEG_INFINITY, f64::INFINITY]);
+        for rise in [1e3, -1e3] {
+            assert!(matches!(open.left_by(from, &Vector3::new(0.0, 0.0, rise)), Way::Stays));
+        }
+    }
+
+    /// On a box with round edges the first face plane that is crossed is the seam, and behind it that
+    /// coordinate reaches beyond the box or no more.
+    #[test]
+    fn a_way_leaves_a_part_of_a_box_at_the_first_seam() {
+        let half_extents = Vector3::new(3.0, 4.0, 5.0);
+        let part = |beyond| LocalSurface::RoundedBox { half_extents, rounding: 1.0, beyond };
+        // The box within is of half extents 2, 3 and 4.
+        for (beyond, from, way, expected) in [
+            ([true, false, false], [3.0, 1.0, 1.0], [0.0, 4.0, 4.0], Some((0.5, 1))),
+            ([true, false, false], [3.0, 1.0, 1.0], [0.0, -8.0, 4.0], Some((0.5, 1))),
+            ([true, false, false], [3.0, 1.0, 1.0], [0.0, 2.0, 6.0], Some((0.5, 2))),
+            ([true, false, false], [3.0, 1.0, 1.0], [-0.5, 1.9, -4.9], None),
+            ([true, false, false], [3.0, 1.0, 1.0], [-4.0, 0.0, 0.0], Some((0.25, 0))),
+            ([true, true, false], [-2.6, 3.8, 1.0], [2.4, -0.1, 0.0], Some((0.25, 0))),
+            ([true, true, false], [-2.6, 3.8, 1.0], [2.4, -8.0, 0.0], Some((0.1, 1))),
+            ([true, true, false], [-2.6, 3.8, 1.0], [-2.4, 8.0, 2.9], None),
+            ([true, true, true], [2.5, -3.5, -4.5], [-0.4, 0.4, 2.0], Some((0.25, 2))),
+            ([true, true, true], [2.5, -3.5, -4.5], [-0.4, 1.0, 2.0], Some((0.25, 2))),
+        ] {
+            let left = part(beyond).left_by(exactly::<Wide>(&from.into()), &way.into());
+            match (left, expected) {
+                (Way::Stays, None) => {}
+                (Way::Leaves(found, Behind::Part(behind)), Some((share, crossed))) => {
+                    assert!((found - share).abs() < 1e-14, "{found} {share} {from:?} {way:?}");
+                    let mut other = beyond;
+                    other[crossed] ^= true;
+                    assert_eq!(behind, part(other), "{from:?} {way:?}");
+                }
+                _ => panic!("{from:?} {way:?}"),
+            }
+        }
+    }
+
+    /// What a part says of a point: the height to first order, the normal as the slope of the height, and the
+    /// curvatures as its turn, against differences over the surroundings.
+    #[test]
+    fn heights_normals_and_curvatures_belong_together() {
+        let axis = Vector3::new(0.3, -0.2, 1.0);
+        let origin = Vector3::new(0.1, 0.2, -0.1);
+        let half_extents = Vector3::new(0.6, 0.7, 0.8);
+        let rounded_box = |beyond| LocalSurface::RoundedBox { half_extents, rounding: 0.25, beyond };
+        for (name, part, near) in [
+            ("plane", LocalSurface::Plane { point: origin, normal: axis }, [0.1, 0.5, -0.05]),
+            ("ball", LocalSurface::Ball { origin, axis, height: 0.2, radius: 0.7 }, [0.6, -0.3, 0.4]),
+            ("cone", LocalSurface::Cone { origin, axis, radius: 0.5, taper: [0.2, 0.7] }, [0.5, 0.5, 0.2]),
+            (
+                "cylinder",
+                LocalSurface::Cone { origin, axis, radius: 0.5, taper: [0.0, 1.0] },
+                [-0.4, 0.5, 0.2],
+            ),
+            (
+                "turned",
+                LocalSurface::Turned {
+                    origin: 0.3,
+                    radius: 0.6,
+                    slope: 0.25,
+                    turn: [0.2, -0.15],
+                    width: [0.1, 0.7],
+                    between: [0.1, 0.7],
+                },
+                [0.5, 0.4, 0.45],
+            ),
+            ("elliptic", LocalSurface::EllipticCylinder { semi_axes: [0.5, 0.8] }, [0.35, -0.55, 0.3]),
+            ("torus", LocalSurface::Torus { ring: 0.9, tube: 0.3 }, [0.5, 0.9, 0.2]),
+            ("inner torus", LocalSurface::Torus { ring: 0.9, tube: 0.3 }, [0.5, 0.4, 0.1]),
+            ("corner", rounded_box([true; 3]), [-0.5, 0.6, 0.7]),
+            ("edge along x", rounded_box([false, true, true]), [0.1, -0.6, 0.75]),
+            ("edge along y", rounded_box([true, false, true]), [0.5, 0.1, -0.7]),
+            ("edge along z", rounded_box([true, true, false]), [0.5, -0.6, 0.3]),
+            ("face", rounded_box([false, true, false]), [0.1, -0.8, 0.3]),
+        ] {
+            let seen = |point: Vector3<f64>| part.seen(exactly::<Wide>(&point));
+            // Onto it.
+            let mut point = Vector3::from(near);
+            for _ in 0..30 {
+                let here = seen(point);
+                point -= rounded(here.normal) * here.height.rounded();
+            }
+            let here = seen(point);
+            assert!(here.height.rounded().abs() < 1e-14, "{name}");
+            let normal = rounded(here.normal);
+            assert!((dot(here.normal, here.normal).rounded() - 1.0).abs() < 1e-14, "{name}");
+            assert!(
+                (here.around.norm() - 1.0).abs() < 1e-14 && here.around.dot(&normal).abs() < 1e-14,
+                "{name}"
+            );
+            let step = 1e-5;
+            for k in 0..3 {
+                let e = Vector3::ith(k, step);
+                let slope = seen(point + e).height.rounded() - seen(point - e).height.rounded();
+                assert!((slope / (step + step) - normal[k]).abs() < 1e-8, "{name} {k}");
+            }
+            let across = normal.cross(&here.around);
+            for (way, curvature) in [here.around, across].into_iter().zip(here.curvatures) {
+                let turned = |way: Vector3<f64>| rounded(seen(point + way * step).normal);
+                let turn = (turned(way) - turned(-way)) / (step + step);
+                let turn = turn - normal * turn.dot(&normal);
+                assert!((turn - way * curvature).norm() < 1e-7, "{name}: {turn} {curvature}");
+            }
+        }
+    }
+}

@@ -3,7 +3,7 @@
 use fingertip_contact::*;
 use fingertip_surfaces::*;
 use fingertip_test_support::Worst;
-use fingertip_wrench::Wrench;
+use fingertip_wrench::{Line, Wrench};
 use nalgebra::Vector3;
 
 /// The polygon's corners are this much farther from the axis than its sides: what the bound loses where the
@@ -116,6 +116,139 @@ fn errors_of_the_shape_attain_it() {
             // Sooner is against the force.
             assert!((bound.along[0] + attained[0]).abs() < 1e-3 * wrong, "{bound:?} {attained:?}");
             assert!((1.0..CORNER).contains(&(bound.along[1] / attained[1])), "{bound:?} {attained:?}");
+        }
+    }
+}
+
+/// The region of the theorem, written down again from its statement: where along the force the contact may be,
+/// counted from the entry of the line of action, and whether the silhouette may be passed.
+fn by_the_statement<S: ActiveSurface<f64>>(
+    surface: &S,
+    measured: &Wrench<f64>,
+    errors: &WorstErrors<f64>,
+    reach: f64,
+) -> ([f64; 2], bool) {
+    let axis = measured.line_of_action().unwrap().line;
+    let (u, force) = (axis.direction, measured.force().norm());
+    let epsilon = (errors.torque + reach * errors.force) / force;
+    let (shape, sigma) = (errors.radius + errors.centre, errors.force / force);
+    let chord = |offset: Vector3<f64>| {
+        let (mut entry, mut exit) = (None, None);
+        surface.crossings(&Line { point: axis.point + offset, direction: u }, |crossing| {
+            let end = if crossing.normal.dot(&u) < 0.0 { &mut entry } else { &mut exit };
+            *end = Some((crossing.point, crossing.normal));
+        });
+        entry.zip(exit)
+    };
+    let ((origin, _), _) = chord(Vector3::zeros()).unwrap();
+    let (mut low, mut high) = (-reach - origin.dot(&u), reach - origin.dot(&u));
+    let (mut latest, mut soonest, mut all) = (0.0_f64, f64::INFINITY, true);
+    let mut see = |offset: Vector3<f64>, high: &mut f64| {
+        let Some((entry, exit)) = chord(offset) else {
+            all = false;
+            return;
+        };
+        let slack =
+            |n: Vector3<f64>| (shape + epsilon * n.cross(&u).norm() + n.dot(&offset)) / n.dot(&u).abs();
+        let [a, e] = [entry, exit].map(|(point, _)| (point - origin).dot(&u));
+        low = low.max(a - slack(entry.1));
+        *high = high.min(e + slack(exit.1));
+        latest = latest.max(a);
+        soonest = soonest.min(e);
+    };
+    see(Vector3::zeros(), &mut high);
+    let cosine = (1.0 - sigma * sigma).sqrt();
+    // A sixteenth wider than the least that the third statement asks for.
+    let inner = (epsilon + shape + high * sigma / cosine) * 1.0625;
+    let (first, second) = numeric::vectors::tangents(&u);
+    let outer = inner / (core::f64::consts::PI / 8.0).cos();
+    for corner in 0..8 {
+        let (sine, cosine) = (core::f64::consts::FRAC_PI_4 * f64::from(corner)).sin_cos();
+        see((first * cosine + second * sine) * outer, &mut high);
+    }
+    let rise = epsilon / inner * latest + shape * (1.0 + (latest / inner).powi(2)).sqrt();
+    let deep = rise + shape < soonest && latest + 2.0 * shape < soonest;
+    let past = !(all && deep && (inner - shape - epsilon) * cosine > high * sigma);
+    ([low, if past { high } else { high.min(rise) }], past)
+}
+
+/// With errors of all kinds and sizes, up to such that the silhouette may be passed and lines beside the contact
+/// miss, the bound is what its statement says.
+#[test]
+fn it_says_what_the_theorem_states() {
+    let ball = Sphere::new(Vector3::new(0.001, -0.002, 0.003), 0.013).unwrap();
+    let egg = Ellipsoid::new(Vector3::new(0.008, 0.011, 0.017)).unwrap();
+    let tip = Capsule::new(Vector3::zeros(), Vector3::z(), 0.006, 0.007).unwrap();
+    let mut passed = [0; 2];
+    let mut check = |surface: &DynSurface<f64>, far: f64| {
+        for k in 1..=200 {
+            let at = |step: f64| (f64::from(k) * step).sin();
+            let through = Vector3::new(at(1.1), at(2.3), at(3.7)) * 0.007;
+            let force = Vector3::new(at(1.7), at(2.9), at(0.6)).normalize() * 1.5;
+            let measured = Wrench::from_force_at(&through, force);
+            let size = 10_f64.powf(-3.5 + 2.5 * at(4.1));
+            let errors = WorstErrors {
+                force: size * (1.0 + at(0.3)),
+                torque: 0.01 * size * (1.0 + at(0.7)),
+                radius: 0.002 * size * (1.0 + at(0.9)),
+                centre: 0.002 * size * (1.0 + at(5.3)),
+            };
+            let found = PointContact::new(0.0).unwrap().resolve(&measured, surface);
+            let Some(contact) = found.contact() else { continue };
+            let bound = ConvexBound::new(surface, &measured, &errors, far);
+            let bound = bound.unwrap_or_else(|| panic!("{measured:?} {errors:?}"));
+            let (mut along, mut past) = by_the_statement(surface, &measured, &errors, far);
+            let mut reach = far;
+            let across = |reach: f64| (errors.torque + reach * errors.force) / 1.5;
+            let distance =
+                |along: [f64; 2], reach: f64| along[0].abs().max(along[1].abs()).hypot(across(reach));
+            let nearer = contact.point.norm() + distance(along, reach);
+            if nearer < 0.9 * far {
+                let (again, again_past) = by_the_statement(surface, &measured, &errors, nearer);
+                if distance(again, nearer) < distance(along, reach) {
+                    (along, past, reach) = (again, again_past, nearer);
+                }
+            }
+            let hair = 1e-6 * distance(along, reach) + 1e-15;
+            let off = (bound.along[0] - along[0]).abs().max((bound.along[1] - along[1]).abs());
+            assert!(off < hair, "{bound:?} {along:?} {measured:?} {errors:?}");
+            assert!(
+                (bound.across - across(reach)).abs() < hair && bound.past_silhouette == past,
+                "{bound:?} {past}"
+            );
+            assert!((bound.distance - distance(along, reach)).abs() < hair, "{bound:?}");
+            passed[usize::from(past)] += 1;
+        }
+    };
+    check(&ball.into(), 0.02);
+    check(&egg.into(), 0.02);
+    check(&tip.into(), 0.02);
+    assert!(passed.iter().all(|count| *count > 20), "{passed:?}");
+}
+
+/// A line that misses by more than the errors explain is of no contact; by less, it is of one at the silhouette.
+#[test]
+fn a_miss_is_explained_or_not() {
+    let ball = Sphere::centred(0.013).unwrap();
+    let force = Vector3::new(0.0, 0.0, -1.5);
+    for (kind, errors) in [
+        WorstErrors::of_wrench(0.0, 1.5e-3),
+        WorstErrors { radius: 1e-3, ..WorstErrors::of_wrench(0.0, 0.0) },
+        WorstErrors { centre: 1e-3, ..WorstErrors::of_wrench(0.0, 0.0) },
+        WorstErrors { radius: 4e-4, centre: 3e-4, ..WorstErrors::of_wrench(0.0, 4.5e-4) },
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        for (gap, explained) in
+            [(9e-4, true), (9.99e-4, true), (1.001e-3, false), (1.1e-3, false), (0.1, false)]
+        {
+            let measured = Wrench::from_force_at(&Vector3::new(0.013 + gap, 0.0, 0.0), force);
+            let bound = ConvexBound::new(&ball, &measured, &errors, 0.02);
+            assert_eq!(bound.is_some(), explained, "{kind} {gap} {bound:?}");
+            if let Some(bound) = bound {
+                assert!(bound.past_silhouette && bound.distance >= gap, "{bound:?}");
+            }
         }
     }
 }

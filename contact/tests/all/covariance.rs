@@ -152,3 +152,40 @@ fn an_uncertain_plane_moves_the_contact() {
     assert_eq!(with_one, raised);
     assert_eq!(nothing.with_parameter(&jacobian, &GeometrySensitivity::none(), 1.0), nothing);
 }
+
+/// Where a tangent and the other hardly belong together, or hardly differ, and at any size, the axes of the
+/// ellipse stay eigenvectors: `λ₁ + λ₂` and `λ₁ λ₂` are those of the covariance.
+#[test]
+fn the_ellipse_is_right_however_unequal_its_numbers() {
+    // Pressed squarely, the covariance of the position is that of the torque, with every zero in it.
+    let squarely = on_plane(v(0.0, 0.0, -1.5)).1;
+    let askew = on_plane(v(0.3, -0.2, -1.5)).1;
+    for (size, jacobian) in
+        [1e-140, 1e-10, 1.0, 1e140].into_iter().flat_map(|size| [(size, squarely), (size, askew)])
+    {
+        for mixed in [0.0, 1e-200, 1e-12, 0.5, -0.9] {
+            for apart in [1.0, 1.0 + 1e-12, 4.0, 0.25_f64] {
+                let sigma = Matrix6::from_fn(|i, j| match (i, j) {
+                    (3, 3) => size,
+                    (4, 4) => size * apart,
+                    (3, 4) | (4, 3) => size * mixed * apart.min(1.0),
+                    _ => 0.0,
+                });
+                let covariance = ContactCovariance::new(&jacobian, &sigma);
+                let p = covariance.position();
+                let ellipse = covariance.ellipse(1.0 - (-0.5_f64).exp()).unwrap();
+                let [one, other] = ellipse.semi_axes.map(|axis| axis * axis / size);
+                let (trace, determinant) = ((p / size).trace(), (p / size).determinant());
+                assert!(
+                    (one + other - trace).abs() < 1e-13 * trace,
+                    "{size:e} {mixed:e} {apart} {ellipse:?}"
+                );
+                assert!((one * other - determinant).abs() < 1e-13 * trace * trace, "{ellipse:?} {p}");
+                let [e1, e2] = covariance.tangents();
+                let a = ellipse.directions[0];
+                let a = Vector2::new(a.dot(&e1), a.dot(&e2));
+                assert!((p / size * a - a * one).norm() < 1e-13 * trace, "{size:e} {mixed:e} {apart}");
+            }
+        }
+    }
+}

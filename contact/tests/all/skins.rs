@@ -62,39 +62,83 @@ fn hertz_of_spheres_is_in_closed_form() {
     }
 }
 
-/// The arithmetic-geometric mean: `K(m) = π/2·AGM(1, √(1−m))`, and `E(m)`, another way than Carlson's.
-fn complete_integrals(k: f64) -> [f64; 2] {
-    // Of the modulus² 1 − k².
-    let (mut a, mut g, mut sum, mut power) = (1.0, k, 0.5 * (1.0 - k * k), 1.0);
+/// `R_F(0, k², 1)`, `R_D(0, k², 1)/3` and `R_D(0, 1, k²)/3` by the arithmetic-geometric mean, another way than
+/// Carlson's: with `K` and `E` of the modulus² `m = 1 − k²` they are `K`, `(K − E)/m` and `(E/k² − K)/m`.
+/// `1 − E/K = Σ 2ⁿ⁻¹ cₙ²` begins with `m/2`, so that nothing cancels.
+fn complete_integrals(k: f64) -> [f64; 3] {
+    let m = (1.0 - k) * (1.0 + k);
+    let (mut a, mut g, mut rest, mut power) = (1.0, k, 0.0, 1.0);
     for _ in 0..40 {
         let c = (a - g) * 0.5;
         (a, g) = ((a + g) * 0.5, (a * g).sqrt());
-        sum += power * c * c;
+        rest += power * c * c;
         power *= 2.0;
     }
     let whole = core::f64::consts::FRAC_PI_2 / a;
-    [whole, whole * (1.0 - sum)]
+    let share = rest / m;
+    [whole, whole * (0.5 + share), whole * (0.5 - share) / (k * k)]
 }
 
-/// Johnson 1985, (4.28)-(4.32), with Legendre's integrals.
+/// Johnson 1985, (4.28)-(4.32), with Legendre's integrals, down to radii as unequal as may be.
 #[test]
 fn hertz_of_unequal_radii_obeys_its_equations() {
-    for ratio in [0.9, 0.5, 0.1, 0.01, 1e-4] {
+    for ratio in [0.999_999, 0.99, 0.9, 0.5, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1.6e-8] {
         let (long, short, modulus, force) = (0.02, 0.02 * ratio, 1.5e6, 3.0);
         for radii in [[long, short], [short, long]] {
             let law = Hertz::new(radii, modulus).unwrap();
             let Indentation { depth, patch: [a, b] } = law.indentation(force);
             let k = b / a;
-            let [whole, second] = complete_integrals(k);
-            let excess = 1.0 - k * k;
-            let (d, e) = ((whole - second) / excess, (second / (k * k) - whole) / excess);
-            assert!((e / d * ratio - 1.0).abs() < 1e-9, "{ratio}: {k}");
+            let [whole, d, e] = complete_integrals(k);
+            assert!((e / d * ratio - 1.0).abs() < 2e-14, "{ratio}: {k} {:e}", e / d * ratio - 1.0);
             let pressure = 1.5 * force / (core::f64::consts::PI * a * b);
+            assert!((law.peak_pressure(force) / pressure - 1.0).abs() < 1e-14);
             // 1/2R = p₀ b/(E* a²)·d
-            assert!((pressure * b / (modulus * a * a) * d * 2.0 * long - 1.0).abs() < 1e-9, "{ratio}");
-            assert!((pressure * b * whole / modulus / depth - 1.0).abs() < 1e-9, "{ratio}");
+            let width = pressure * b / (modulus * a * a) * d * 2.0 * long;
+            assert!((width - 1.0).abs() < 1e-14, "{ratio}: {:e}", width - 1.0);
+            let deep = pressure * b * whole / modulus / depth;
+            assert!((deep - 1.0).abs() < 1e-14, "{ratio}: {:e}", deep - 1.0);
         }
     }
+}
+
+/// The same in single precision, with the double's answer for the numbers it has.
+#[test]
+fn hertz_in_single_precision_is_that_of_double() {
+    for ratio in [1.0, 0.999, 0.7, 0.2, 0.03, 1e-3, 4e-4_f32] {
+        let law = Hertz::<f32>::new([0.02 * ratio, 0.02], 1.5e6).unwrap().indentation(3.0);
+        let exact =
+            Hertz::new([f64::from(0.02 * ratio), f64::from(0.02_f32)], 1.5e6).unwrap().indentation(3.0);
+        let near = |found: f32, exact: f64| (f64::from(found) / exact - 1.0).abs() < 2e-6;
+        assert!(near(law.depth, exact.depth), "{ratio} {law:?} {exact:?}");
+        assert!(
+            near(law.patch[0], exact.patch[0]) && near(law.patch[1], exact.patch[1]),
+            "{law:?} {exact:?}"
+        );
+    }
+}
+
+/// What cannot be represented is no law, and says of what.
+#[test]
+fn hertz_refuses_what_it_cannot_represent() {
+    let refused = |radii, modulus| Hertz::<f64>::new(radii, modulus).unwrap_err().to_string();
+    for radii in [[0.0, 1.0], [1.0, -1.0], [f64::NAN, 1.0], [1.0, f64::INFINITY]] {
+        assert!(refused(radii, 1e6).contains("radii of curvature"), "{radii:?}");
+    }
+    assert!(refused([1.0, 1e-9], 1e6).contains("comparable"));
+    for modulus in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(refused([0.01, 0.01], modulus).contains("contact modulus"), "{modulus}");
+    }
+    // The patch or the depth would be beyond all numbers, or the patch zero.
+    for (radius, modulus) in [(1e100, 1e-300), (0.01, 1e308)] {
+        assert!(refused([radius; 2], modulus).contains("represented"), "{radius:e} {modulus:e}");
+    }
+    for young in [[5e-324, 1e6], [0.0, 1e6], [1e6, -1.0], [f64::INFINITY; 2], [1e6, f64::NAN]] {
+        assert!(contact_modulus(young, [0.3, 0.3]).is_err(), "{young:?}");
+    }
+    for poisson in [[-1.0, 0.3], [0.3, 0.500_001], [f64::NAN, 0.3]] {
+        assert!(contact_modulus([1e6, 1e6], poisson).is_err(), "{poisson:?}");
+    }
+    assert_eq!(contact_modulus([f64::INFINITY, 3e6], [0.5, 0.5]).unwrap(), 4e6);
 }
 
 /// Where the fingertip is a sphere, a cylinder or flat, with the curvature of the object added.

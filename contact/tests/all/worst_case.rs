@@ -52,3 +52,41 @@ fn errors_without_sign_and_without_a_value() {
         assert!(jacobian.worst_case(&errors).distance.is_nan(), "{axis}");
     }
 }
+
+/// Pressed at an angle, with every number of the wrench at fault: the distance is that of the worst of the 64
+/// corners of the box, the coordinates are each that of their own worst corner.
+#[test]
+fn it_is_the_worst_corner_of_the_box() {
+    let egg = Ellipsoid::new(Vector3::new(0.008, 0.011, 0.017)).unwrap();
+    let skin = LinearStiffness::new(STIFFNESS, RADIUS).unwrap();
+    let model = CompliantSoftFinger::new(SoftFinger::new(0.0).unwrap(), skin);
+    for (force, torque) in [
+        (Vector3::new(0.4, -0.7, -1.5), Vector3::new(0.004, 0.003, -0.002)),
+        (Vector3::new(-1.2, 0.3, 0.8), Vector3::new(-0.001, 0.002, 0.004)),
+    ] {
+        let wrench = Wrench::on_fingertip(force, torque);
+        let found = model.resolve_indented(&wrench, &egg, None).unwrap();
+        let jacobian = model.jacobian(&found, &egg).unwrap();
+        for stressed in 0..7 {
+            let mut errors = Vector6::new(0.01, 0.02, 0.015, 1e-4, 2e-4, 3e-4);
+            // And with one error that is far greater than the others.
+            if stressed < 6 {
+                errors[stressed] *= 30.0;
+            }
+            let worst = jacobian.worst_case(&errors);
+            let (mut far, mut components, mut local) = (0.0_f64, Vector3::zeros(), Vector6::zeros());
+            for corner in 0..64_u8 {
+                let error =
+                    Vector6::from_fn(|i, _| if corner >> i & 1 == 1 { errors[i] } else { -errors[i] });
+                let moved: Vector3<f64> = jacobian.point() * error;
+                far = far.max(moved.norm());
+                components = components.sup(&moved);
+                local = local.sup(&(jacobian.local() * error));
+            }
+            assert!((worst.distance / far - 1.0).abs() < 1e-12, "{worst:?} {far}");
+            assert!((worst.components - components).norm() < 1e-12 * far, "{worst:?} {components}");
+            assert!((worst.normal_force / local[2] - 1.0).abs() < 1e-12);
+            assert!((worst.spin_torque / local[5] - 1.0).abs() < 1e-12);
+        }
+    }
+}

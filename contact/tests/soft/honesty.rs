@@ -162,3 +162,116 @@ fn closed_needles_never_deny_a_contact() {
     }
     println!("closed needle: {unresolved} of {COUNT} unresolved");
 }
+
+/// Wrenches of contacts at which the force runs along the side of a cone but for a little, straight in, along
+/// the normal, or anyhow: where the closed form loses digits, one of its next of kin finds the contact.
+fn hard_case(random: &mut Random, cone: &Cone<f64>, kind: usize, spin: f64) -> Wrench<f64> {
+    let (axis, angle) = (cone.axis(), cone.half_angle());
+    let any = random.direction();
+    let out = (any - axis * any.dot(&axis)).normalize();
+    let height = random.log_uniform(1e-3, 10.0);
+    let point = cone.apex() + (axis + out * angle.tan()) * height;
+    let normal = out * angle.cos() - axis * angle.sin();
+    let side = axis * angle.cos() + out * angle.sin();
+    let any = random.direction();
+    let across = any - normal * any.dot(&normal);
+    let force = match kind {
+        0 => side * random.sign() - normal * 1e-7,
+        1 => side * random.sign() - normal * 1e-3,
+        2 => across - normal * 1e-3,
+        3 => -normal,
+        _ => across - normal * random.uniform(0.0, 1.0),
+    };
+    let spin = random.sign() * spin * height * force.norm();
+    Wrench::on_fingertip(force, point.cross(&force) + normal * spin)
+}
+
+/// On a needle and on blunt cones, about the origin and aside. Of the contacts that are not found it is said that
+/// they are unresolved, and few are not found.
+#[test]
+fn hard_contacts_of_cones_are_found() {
+    let model = SoftFinger::new(0.0).unwrap();
+    let mut lost = [[0; 5]; 5];
+    for (k, angle) in [0.01, 0.1, 0.5, 1.0, 1.4].into_iter().enumerate() {
+        for aside in [0.0, 1.0] {
+            let axis = Vector3::new(0.1 * aside, 0.2 * aside, -1.0);
+            let cone = Cone::new(Vector3::new(0.1, -0.1, 0.2) * aside, axis, angle).unwrap();
+            let mut random = Random::new(95);
+            for spin in [0.1, 1.0, 100.0, 1e4] {
+                for (kind, lost) in lost[k].iter_mut().enumerate() {
+                    for _ in 0..300 {
+                        let wrench = hard_case(&mut random, &cone, kind, spin);
+                        match model.resolve(&wrench, &cone) {
+                            Resolution::Contact(contact) => {
+                                let errors = backward_errors(&cone, &wrench, &contact);
+                                assert!(
+                                    errors.iter().all(|&e| e <= 1.0),
+                                    "{errors:?} {wrench:?} {contact:?}"
+                                );
+                            }
+                            Resolution::NoContact(NoContact::Unresolved) => *lost += 1,
+                            Resolution::NoContact(reason) => {
+                                panic!("{reason:?} {angle} {kind} {spin} {wrench:?}")
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+    println!("unresolved of 2400 by half angle and kind: {lost:?}");
+    // Of forces all but along the side some; of the others next to none.
+    let along = lost.map(|lost| lost[0]);
+    assert!(along.iter().zip([95, 320, 275, 205, 115]).all(|(lost, most)| *lost < most), "{along:?}");
+    assert!(lost.iter().all(|lost| lost[1] < 15 && lost[2] < 15 && lost[3] + lost[4] == 0), "{lost:?}");
+}
+
+/// Single precision says of a wrench that it cannot tell only where rounding of the wrench decides: in double
+/// precision, some change of its numbers by a few units in the last place makes a contact, and some none.
+#[test]
+fn what_is_unresolved_hangs_by_the_last_digits() {
+    let (model, exact_model) = (SoftFinger::new(0.0_f32).unwrap(), SoftFinger::new(0.0_f64).unwrap());
+    let (mut unresolved, mut unexplained, mut none) = (0, 0, 0);
+    for cone in cones::<f32>() {
+        let exact = widened(&cone);
+        let mut random = Random::new(96);
+        for round in 0..6000 {
+            // Next to where a contact ceases to be: at the tip, far out along a side, or where the torque fails.
+            let wrench = if round % 2 == 0 {
+                let wrench = hard_case(&mut random, &exact, round % 5, 10_f64.powi(round as i32 % 4));
+                narrow::<f32>(&Wrench::on_fingertip(
+                    wrench.force(),
+                    wrench.torque() * (1.0 + random.log_uniform(1e-7, 1e-3) * random.sign()),
+                ))
+            } else {
+                let torque = random.direction() * random.log_uniform(1e-2, 1e4);
+                narrow::<f32>(&Wrench::on_fingertip(random.direction(), torque))
+            };
+            match model.resolve(&wrench, &cone) {
+                Resolution::Contact(_) => {}
+                Resolution::NoContact(NoContact::Unresolved) => {
+                    unresolved += 1;
+                    let mut seen = [false; 2];
+                    for _ in 0..200 {
+                        let size = random.log_uniform(1.0, 200.0) * f64::from(f32::EPSILON);
+                        let lever = wide(&wrench.torque()).norm() + exact.apex().norm();
+                        let near = Wrench::on_fingertip(
+                            wide(&wrench.force()) + random.direction() * size,
+                            wide(&wrench.torque()) + random.direction() * size * lever,
+                        );
+                        seen[usize::from(exact_model.resolve(&near, &exact).contact().is_some())] = true;
+                    }
+                    unexplained += usize::from(seen != [true; 2]);
+                }
+                Resolution::NoContact(reason) => {
+                    none += 1;
+                    let wrench = Wrench::on_fingertip(wide(&wrench.force()), wide(&wrench.torque()));
+                    let truth = exact_model.resolve(&wrench, &exact);
+                    assert!(truth.contact().is_none(), "{reason:?} {wrench:?} {truth:?}");
+                }
+            }
+        }
+    }
+    println!("{unresolved} unresolved, of which {unexplained} unexplained; {none} none");
+    assert!(unresolved < 130 && unexplained < 10, "{unresolved} {unexplained}");
+}

@@ -7,6 +7,7 @@
 #[allow(dead_code, reason = "another test uses the rest")]
 mod big;
 mod bodies;
+mod coarse;
 mod common;
 mod compliant;
 mod convex_bounds;
@@ -14,8 +15,11 @@ mod exact;
 mod fusion;
 mod gauge_noise;
 mod golden;
+mod hard_convex;
+mod heights;
 mod honesty;
 mod jacobians;
+mod moved;
 mod parameters;
 mod pillow;
 mod pitch;

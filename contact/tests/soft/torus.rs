@@ -1,7 +1,7 @@
 //! All solutions on a surface that is not convex.
 
 use fingertip_contact::{Search, SoftContact, SoftFingerSurface};
-use fingertip_surfaces::{SmoothSurface, Torus};
+use fingertip_surfaces::{ActiveSurface, SmoothSurface, Torus};
 use fingertip_wrench::Wrench;
 use nalgebra::Vector3;
 
@@ -96,4 +96,101 @@ fn nothing_is_missed() {
     println!("multi-start Newton, 0..8 contacts of 300 problems: {counts:?} from {STARTS:?} starts");
     let odd = counts.map(|counts| counts[1] + counts[3]);
     assert!(odd[0] > odd[1] && odd[1] > 0 && odd[2] == 0, "{odd:?}");
+}
+
+/// The wrench whose torque is on a straight way from one that has two contacts more to one that has two fewer,
+/// at a distance from where they merge.
+fn near_a_fold(torus: &Torus<f64>, random: &mut Random, beside: f64) -> Option<Wrench<f64>> {
+    let force = random.direction();
+    let ends = [0, 1].map(|_| random.direction() * random.log_uniform(0.2, 3.0));
+    let at = |share: f64| Wrench::on_fingertip(force, ends[0] * (1.0 - share) + ends[1] * share);
+    let count = |share: f64| all(torus, &at(share)).0.len();
+    let (mut low, mut high) = (0.0, 1.0);
+    let before = count(low);
+    if before == count(high) || force.dot(&ends[0]) * force.dot(&ends[1]) < 0.0 {
+        return None;
+    }
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        *if count(middle) == before { &mut low } else { &mut high } = middle;
+    }
+    let more = if before > count(high) { -1.0 } else { 1.0 };
+    Some(at(low + more * beside))
+}
+
+/// About to merge, the contacts that double precision finds are those of single precision, all round the ring.
+#[test]
+fn contacts_about_to_merge_are_found_in_single_precision() {
+    let (ring, tube) = (1.0_f32, 0.35_f32);
+    let single = Torus::new(ring, tube).unwrap();
+    let double = Torus::new(f64::from(ring), f64::from(tube)).unwrap();
+    let mut random = Random::new(7);
+    let mut tried = 0;
+    while tried < 400 {
+        let beside = random.log_uniform(1e-7, 1e-2);
+        let Some(wrench) = near_a_fold(&double, &mut random, beside) else { continue };
+        tried += 1;
+        let narrow = Wrench::on_fingertip(wrench.force().cast::<f32>(), wrench.torque().cast::<f32>());
+        let exact = Wrench::on_fingertip(narrow.force().cast::<f64>(), narrow.torque().cast::<f64>());
+        let (theirs, _) = all(&double, &exact);
+        let mut ours: Vec<Vector3<f64>> = Vec::new();
+        let search = single.soft_contacts(&narrow, None, |contact| ours.push(contact.point.cast()));
+        assert!(matches!(search, Search::Complete), "{beside:e} {narrow:?}");
+        // Nearer to a fold than single precision tells, two may be one, and one may be there still.
+        assert!(ours.len() == theirs.len() || beside < 1e-5, "{beside:e} {ours:?} {theirs:?}");
+        if ours.len() == theirs.len() {
+            for (point, contact) in ours.iter().zip(&theirs) {
+                let off = (point - contact.point).norm();
+                let apart = theirs.iter().map(|c| (c.point - contact.point).norm()).filter(|d| *d > 0.0);
+                let apart = apart.fold(1.0, f64::min);
+                // What rounding does is divided by how far they are apart, unless double precision was asked.
+                let most = if apart < 1e-3 { 2e-7 } else { 2e-5 / apart };
+                assert!(off < most, "{beside:e} {off:e} {apart:e} {narrow:?} {ours:?} {theirs:?}");
+            }
+        }
+    }
+}
+
+/// With next to no spin torque the contacts are where the line of action enters: all of them, however they lie to
+/// the angles at which the search begins, and also where the line hardly touches the ring.
+#[test]
+fn with_little_spin_torque_the_entries_are_all() {
+    let torus = Torus::new(1.0, 0.35).unwrap();
+    let mut random = Random::new(9);
+    let mut counts = [0; 4];
+    for round in 0..4000 {
+        let force = random.direction();
+        let through = if round % 2 == 0 {
+            random.direction() * random.uniform(0.0, 1.3)
+        } else {
+            // All but tangent.
+            let (point, normal) = random.place(&torus, 1.4);
+            let aside = force.cross(&normal).cross(&force).normalize();
+            let touching = if torus.normal(&point).dot(&aside) > 0.0 { 1.0 } else { -1.0 };
+            point + aside * touching * random.log_uniform(1e-6, 1e-2)
+        };
+        let spin = random.sign() * random.log_uniform(1e-12, 1e-9);
+        let wrench = Wrench::on_fingertip(force, through.cross(&force) + force * spin);
+        let mut entries = Vec::new();
+        torus.crossings(&wrench.line_of_action().unwrap().line, |crossing| {
+            if crossing.normal.dot(&force) < -1e-4 {
+                entries.push(crossing.point);
+            }
+        });
+        let (found, search) = all(&torus, &wrench);
+        assert!(matches!(search, Search::Complete), "{wrench:?}");
+        for entry in &entries {
+            let near = found.iter().map(|c| (c.point - entry).norm()).fold(f64::INFINITY, f64::min);
+            assert!(near < 1e-3, "{near:e} {wrench:?} {found:?} {entries:?}");
+        }
+        // The others are the grazing ones that complete the even number.
+        for contact in &found {
+            let near = entries.iter().any(|entry| (entry - contact.point).norm() < 1e-3);
+            assert!(near || -force.dot(&contact.normal) < 1e-3, "{contact:?} {wrench:?} {entries:?}");
+        }
+        assert!(found.len() % 2 == 0, "{wrench:?} {found:?}");
+        counts[entries.len().min(3)] += 1;
+    }
+    println!("entries 0..3: {counts:?}");
+    assert!(counts[..3].iter().all(|count| *count > 100), "{counts:?}");
 }

@@ -47,6 +47,7 @@ pub(super) struct LocalEntry<T: Real> {
     /// Unless it does, the rest means nothing.
     pub(super) enters: bool,
     pub(super) along: T,
+    /// Of a cone, which may be active in part; of other solids zero.
     pub(super) height: T,
     pub(super) normal: Vector3<T>,
 }

@@ -107,7 +107,7 @@ impl<T: Real> Capsule<T> {
         LocalEntry {
             enters,
             along: (foot - half_chord) * self.radius,
-            height: (height + lift) * self.radius,
+            height: T::zero(),
             normal: normal - axis * lean,
         }
     }

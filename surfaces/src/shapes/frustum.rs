@@ -173,7 +173,7 @@ impl<T: Real> Frustum<T> {
         LocalEntry {
             enters: height.abs() <= self.reach,
             along,
-            height,
+            height: T::zero(),
             normal: self.axis.slanted(&across, away, flat),
         }
     }

@@ -178,3 +178,12 @@ fn numbers(local: Option<LocalSurface>) -> Option<[f64; 9]> {
         _ => None,
     }
 }
+
+/// The formula of a superquadric has no more digits than double precision: nothing is told of one.
+#[test]
+fn of_a_superquadric_in_double_precision_nothing_is_known() {
+    let body = Superquadric::new(Vector3::new(1.0, 0.5, 0.75), [0.5, 0.75]).unwrap();
+    for point in [[0.7, 0.3, 0.4], [1.0, 0.0, 0.0], [0.2, -0.4, -0.5]] {
+        assert_eq!(residual(&body, &Vector3::<f64>::from(point)), 0.0);
+    }
+}
