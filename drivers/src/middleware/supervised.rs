@@ -256,11 +256,10 @@ mod tests {
                 self.0.set(false);
             }
         }
-        impl ErrorType for Port {
+        impl Source<f64, Vector1<f64>> for Port {
             type Error = Failure;
-        }
-        impl SignalSource<f64, 1> for Port {
-            fn next_signals(&mut self) -> Result<Option<Sample<f64, Vector1<f64>>>, Failure> {
+
+            fn next_sample(&mut self) -> Result<Option<Sample<f64, Vector1<f64>>>, Failure> {
                 Ok(None)
             }
         }
@@ -271,7 +270,7 @@ mod tests {
         };
         let mut source = Supervised::new(connect, OnLoss::FailStop).unwrap();
         source.resume().unwrap();
-        assert!(source.source().is_some() && open.get() && source.next_signals() == Ok(None));
+        assert!(source.source().is_some() && open.get() && source.next_sample() == Ok(None));
         broken.set(true);
         assert!(matches!(source.resume(), Err(SupervisedError::Lost(_))) && source.source().is_none());
         assert_eq!(source.reconnections(), 1);

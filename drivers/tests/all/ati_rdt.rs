@@ -218,7 +218,7 @@ fn datagrams_that_are_cut_are_errors_and_counted() {
             .unwrap();
     let mut client = RdtClient::connect(server.address(), counts(), PATIENCE).unwrap();
     for count in 1..=3 {
-        let error = client.next_wrench().unwrap_err();
+        let error = client.next_sample().unwrap_err();
         assert_eq!(error.kind(), SourceErrorKind::Corrupt, "{error}");
         assert_eq!((client.statistics().corrupt, client.statistics().received), (count, 0));
     }
@@ -230,6 +230,6 @@ fn a_rate_that_cannot_be_gives_no_times() {
     let server = RdtServer::start("127.0.0.1:0", sensor, Duration::from_millis(1), |_| [0; 6]).unwrap();
     for rate in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let mut client = RdtClient::connect(server.address(), counts(), PATIENCE).unwrap().timed_by(rate);
-        assert_eq!(client.next_wrench().unwrap().unwrap().time, None, "{rate}");
+        assert_eq!(client.next_sample().unwrap().unwrap().time, None, "{rate}");
     }
 }
