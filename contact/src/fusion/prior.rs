@@ -174,3 +174,49 @@ fn nearest<T: Real, S: ActiveSurface<T>>(
     });
     best.map(|(_, point, normal)| (point, normal))
 }
+
+#[cfg(test)]
+mod tests {
+    use fingertip_surfaces::Ellipsoid;
+    use nalgebra::{Matrix3, Vector2, Vector3, Vector6};
+
+    use super::{ArrayContact, Prior};
+
+    /// Far from the prior, where the surface has turned by a third of a radian: against central differences.
+    #[test]
+    fn the_jacobian_is_that_of_the_wrench_of_a_state() {
+        let surface = Ellipsoid::new(Vector3::new(0.010, 0.013, 0.016)).unwrap();
+        let normal = Vector3::new(0.3, -0.5, 0.8_f64).normalize();
+        let reading = ArrayContact {
+            centroid: normal * 0.012,
+            centroid_covariance: Matrix3::identity() * 1e-8,
+            normal_force: 2.0,
+            normal_deviation: 0.1,
+        };
+        let prior = Prior::new(&surface, &reading, 0.5).unwrap();
+        let wrench = |shift, force: Vector3<f64>| {
+            let state = prior.state(&surface, shift, force).unwrap();
+            let torque = state.point.cross(&force);
+            Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z)
+        };
+        let (shift, force) = (Vector2::new(0.005, -0.004), Vector3::new(0.4, 0.9, -1.7));
+        let state = prior.state(&surface, shift, force).unwrap();
+        assert!(state.normal.dot(&prior.normal) < 0.95);
+        let jacobian = prior.jacobian(&state);
+        let moved = prior.moved_tangents(&state);
+        let h = 1e-7;
+        for (column, tangent) in moved.iter().enumerate() {
+            let step = Vector2::ith(column, h);
+            let slope = (wrench(shift + step, force) - wrench(shift - step, force)) / (h + h);
+            assert!((slope - jacobian.column(column)).norm() < 1e-6, "{column}: {slope}");
+            let at = |shift| prior.state(&surface, shift, force).unwrap().point;
+            let way = (at(shift + step) - at(shift - step)) / (h + h);
+            assert!((way - tangent).norm() < 1e-6 && way.dot(&state.normal).abs() < 1e-6, "{way}");
+        }
+        for column in 0..3 {
+            let step = Vector3::ith(column, h);
+            let slope = (wrench(shift, force + step) - wrench(shift, force - step)) / (h + h);
+            assert!((slope - jacobian.column(column + 2)).norm() < 1e-6, "{column}: {slope}");
+        }
+    }
+}

@@ -272,8 +272,8 @@ fn superquadric<W: Wide>(point: Three<W>, shape: &Superquadric<f64>) -> Seen<W> 
 
 #[cfg(test)]
 mod tests {
-    use fingertip_surfaces::LocalSurface;
     use fingertip_surfaces::numeric::twofold::Twofold;
+    use fingertip_surfaces::{LocalSurface, Superquadric};
     use nalgebra::Vector3;
 
     use fingertip_surfaces::numeric::twofold::Wide as _;
@@ -357,6 +357,8 @@ mod tests {
         let origin = Vector3::new(0.1, 0.2, -0.1);
         let half_extents = Vector3::new(0.6, 0.7, 0.8);
         let rounded_box = |beyond| LocalSurface::RoundedBox { half_extents, rounding: 0.25, beyond };
+        let superquadric = Superquadric::new(Vector3::new(0.5, 0.8, 0.6), [0.7, 1.2]).unwrap();
+        let superquadric = LocalSurface::Superquadric(superquadric);
         for (name, part, near) in [
             ("plane", LocalSurface::Plane { point: origin, normal: axis }, [0.1, 0.5, -0.05]),
             ("ball", LocalSurface::Ball { origin, axis, height: 0.2, radius: 0.7 }, [0.6, -0.3, 0.4]),
@@ -386,6 +388,7 @@ mod tests {
             ("edge along y", rounded_box([true, false, true]), [0.5, 0.1, -0.7]),
             ("edge along z", rounded_box([true, true, false]), [0.5, -0.6, 0.3]),
             ("face", rounded_box([false, true, false]), [0.1, -0.8, 0.3]),
+            ("superquadric", superquadric, [0.35, 0.4, -0.3]),
         ] {
             let seen = |point: Vector3<f64>| part.seen(exactly::<Wide>(&point));
             // Onto it.

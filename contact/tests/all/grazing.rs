@@ -168,3 +168,27 @@ fn bound_follows_its_laws() {
     // An error as large as the force leaves nothing to be said.
     assert!(ContactBound::on_sphere(&sphere, &wrench, &WorstErrors::of_wrench(2.0, 0.0)).is_none());
 }
+
+/// It cannot be excluded that the contact grazes where the error that the tube is, seen along the surface, is a
+/// tenth of the radius of the square of the cosine of incidence.
+#[test]
+fn grazing_is_said_from_where_it_begins() {
+    let sphere = Sphere::centred(0.013_f64).unwrap();
+    let (mut grazes, mut does_not) = (0, 0);
+    for offset in [0.05, 0.3, 0.6, 0.85, 0.97_f64] {
+        let wrench =
+            Wrench::from_force_at(&Vector3::new(offset * 0.013, 0.0, 0.0), Vector3::new(0.0, 0.0, -1.0));
+        for step in -60..0 {
+            let torque = 0.013 * 10.0_f64.powf(0.1 * f64::from(step));
+            let bound =
+                ContactBound::on_sphere(&sphere, &wrench, &WorstErrors::of_wrench(0.0, torque)).unwrap();
+            let threshold = 0.1 * 0.013 * (1.0 - offset * offset) / offset;
+            if (torque / threshold - 1.0).abs() > 1e-6 {
+                assert_eq!(bound.grazing, torque > threshold, "{offset} {torque}");
+                (grazes, does_not) =
+                    (grazes + i32::from(bound.grazing), does_not + i32::from(!bound.grazing));
+            }
+        }
+    }
+    assert!(grazes > 40 && does_not > 100, "{grazes} {does_not}");
+}

@@ -6,7 +6,7 @@ use fingertip_surfaces::{
     Heightfield, Mesh, Offset, Paraboloid, Revolution, Sphere,
 };
 use fingertip_test_support::Worst;
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::common;
@@ -356,4 +356,45 @@ fn a_shape_chosen_at_run_time() {
         let torus = common::torus::<f64>();
         assert_eq!(all(&DynSurface::from(torus), &wrench), all(&torus, &wrench));
     }
+}
+
+/// A pure force that misses one part and meets the other has a contact; one that misses both grazes.
+#[test]
+fn a_contact_of_either_part_settles_what_the_other_cannot() {
+    let ball = |x: f64| Sphere::new(Vector3::new(x, 0.0, 0.0), 0.005).unwrap();
+    let down = |x: f64| Wrench::from_force_at(&Vector3::new(x, 0.001, 0.0), Vector3::new(0.0, 0.0, -1.0));
+    for (met, missed) in [(0.02, -0.02), (-0.02, 0.02)] {
+        let mut found = Vec::new();
+        let search =
+            Compound::new(ball(-0.02), ball(0.02)).soft_contacts(&down(met), None, |c| found.push(c));
+        assert!(matches!(search, Search::Complete), "{search:?}");
+        let [contact] = found.as_slice() else { panic!("{found:?}") };
+        assert!((contact.point.x - met).abs() < 1e-15 && contact.point.z > 0.0, "{contact:?}");
+        let alone = ball(missed).soft_contacts(&down(met), None, |c| panic!("{c:?}"));
+        assert!(matches!(alone, Search::Grazing(_)), "{alone:?}");
+    }
+    let search = Compound::new(ball(-0.02), ball(0.02)).soft_contacts(&down(0.0), None, |c| panic!("{c:?}"));
+    assert!(matches!(search, Search::Grazing(_)), "{search:?}");
+}
+
+/// A pure force that misses a convex mesh touches it nowhere, no corner either.
+#[test]
+fn a_pure_force_that_misses_a_mesh_has_no_contact() {
+    let (mut random, mut missed) = (Random::new(71), 0);
+    for body in [cube(0.01), ball(0.01, 6)] {
+        for turn in 0..6000 {
+            let point = random.direction() * 0.025;
+            // Along an axis, so that f·m is zero to the last bit.
+            let along = Vector3::ith(turn % 3, random.sign());
+            let mut meets = false;
+            body.crossings(&Line { point, direction: along }, |_| meets = true);
+            if !meets {
+                missed += 1;
+                let force = along * random.log_uniform(0.1, 10.0);
+                let wrench = Wrench::on_fingertip(force, point.cross(&force));
+                assert_eq!(all(&body, &wrench), [], "{wrench:?}");
+            }
+        }
+    }
+    assert!(missed > 1000, "{missed}");
 }

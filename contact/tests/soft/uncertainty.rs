@@ -305,7 +305,13 @@ fn the_bounds_of_the_first_paper() {
         let (components, distance) = corners(&Wrench::on_fingertip(force, Vector3::zeros()));
         let sharp = bounds.central_contact_sharp(&force);
         assert!((components - sharp).norm() < 1e-5 * bounds.central_distance());
-        assert!((0..3).all(|i| sharp[i] <= bounds.central_contact(&force)[i]));
+        let central = bounds.central_contact(&force);
+        assert!((0..3).all(|i| sharp[i] <= central[i]));
+        // Without the factor that vanishes along an axis.
+        let along = force.normalize().abs();
+        assert!(
+            (0..3).all(|i| (central[i] * (1.0 - along[i] * along[i]) - sharp[i]).abs() < 1e-12 * central[i])
+        );
         let sharp = bounds.central_distance_sharp(&force);
         assert!((distance / sharp - 1.0).abs() < 1e-4, "{distance:e} {sharp:e}");
         assert!(sharp <= bounds.central_distance() / 2.0 * (1.0 + 1e-12));
