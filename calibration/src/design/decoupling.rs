@@ -217,6 +217,23 @@ mod tests {
         }
     }
 
+    /// Factors are 2 at most. Signals 0 and 1 see loads x and y: the one as x + 2y, or x − 3y, the other y.
+    #[test]
+    fn factors_are_two_at_most() {
+        for (share, couplings) in [(2.0, 0), (-2.0, 0), (3.0, 1), (-3.0, 1)] {
+            let mut matrix = DMatrix::identity(6, 6);
+            matrix[(0, 1)] = share;
+            // The column of y then is of size 1 as that of x.
+            matrix.column_mut(1).scale_mut(1.0 / share);
+            let mut alike = DMatrix::identity(6, 6);
+            (alike[(0, 1)], alike[(1, 1)]) = (1.0, 1.0 / share);
+            assert!((&matrix - &alike).largest() < 1e-15);
+            let found = check(&matrix);
+            assert_eq!(found.couplings(), couplings, "{share}: {found:?}");
+            assert!(found.rows.iter().flatten().all(|factor| factor.abs() <= 2), "{found:?}");
+        }
+    }
+
     #[test]
     fn free_layouts_have_none() {
         let values: Vec<f64> = (0..18).map(|i| 0.01 * f64::from(i * i % 17) + 1e-3).collect();

@@ -56,14 +56,12 @@ pub fn fit_orientation(poses: &[Pose], down: &Vector3<f64>) -> Result<Orientatio
     let (u, v) =
         (Matrix3::from_fn(|i, j| singular.left[(i, j)]), Matrix3::from_fn(|i, j| singular.right[(i, j)]));
     let handed = (u * v.transpose()).determinant().signum();
-    let mut flip = Matrix3::identity();
-    flip[(2, 2)] = handed;
-    let sensor_from_flange = u * flip * v.transpose();
     let weight = (singular.values[0] + singular.values[1] + handed * singular.values[2]) / 3.0;
     if handed < 0.0 {
         // A reflection is a rotation of the opposite sign: the readings are those of the reaction.
         return Err(PayloadError::NegativeMass { mass: -weight / STANDARD_GRAVITY });
     }
+    let sensor_from_flange = u * v.transpose();
     let distortion = (map - sensor_from_flange * weight).norm() / map.norm().max(f64::MIN_POSITIVE);
     let mut bias = Vector3::zeros();
     let pull = |pose: &Pose| sensor_from_flange * (pose.base_from_sensor.transpose() * down) * weight;

@@ -71,6 +71,11 @@ mod tests {
         }
         // Tared with the body on, in the mean of rows 1 and 3: zero.
         assert!((table.carrying(&payload, true).unwrap().loads - loads).largest() < 1e-15);
+        // Loaded in the same pose twice: what the unloaded rows weigh is taken off, no more.
+        let upright =
+            LoadTable::from_csv(text.replace("1,0,0,1,1,0,0,0", "1,0,0,1,0,0,0,1").as_bytes()).unwrap().0;
+        let tared = upright.carrying(&payload, true).unwrap().loads;
+        assert!((tared - upright.carrying(&payload, false).unwrap().loads).largest() < 1e-15);
         let mut bare = table;
         bare.orientations = None;
         assert!(matches!(bare.carrying(&payload, false), Err(LoadError::Empty { .. })));

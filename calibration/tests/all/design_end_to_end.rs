@@ -64,6 +64,11 @@ fn rosette_gains_on_the_papers_sensor() {
     ] {
         let trial = trial(placement, matrix, 40);
         let (before, after) = (run(&paper, &trial), run(&rosette, &trial));
+        for Accuracy { position_rms, position_95, .. } in [before, after] {
+            // 1.73 if errors were alike in both directions and everywhere.
+            let ratio = position_95 / position_rms;
+            assert!(ratio > 1.3 && ratio < 2.5, "{name}: {ratio}");
+        }
         let gain = before.position_rms / after.position_rms;
         println!(
             "{name}: paper {:.3} mm, rosette {:.3} mm, gain {gain:.2}; force {:.2} % and {:.2} %",

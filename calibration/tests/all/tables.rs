@@ -282,3 +282,48 @@ fn sensors_of_any_axes_are_written() {
         assert_eq!(CalibrationFile::from_toml(&file.to_toml().unwrap()).unwrap(), file);
     }
 }
+
+/// A number that is none is named by its sample and its column, wherever it stands.
+#[test]
+fn numbers_that_are_none_are_named() {
+    let good = forces(&DMatrix::identity(4, 3), &DMatrix::identity(4, 5));
+    assert_eq!(good.validate(), Ok(()));
+    for bad in [f64::NAN, f64::INFINITY] {
+        for (axis, name) in ["fx", "fy", "fz"].into_iter().enumerate() {
+            let mut table = good.clone();
+            table.loads[(2, axis)] = bad;
+            let error = table.validate().unwrap_err().to_string().to_lowercase();
+            assert!(error.contains(&table.names[2]) && error.contains(name), "{error}");
+        }
+        let mut table = good.clone();
+        table.signals[(3, 4)] = bad;
+        let error = table.validate().unwrap_err().to_string();
+        assert!(error.contains(&table.names[3]) && error.contains("v5"), "{error}");
+    }
+}
+
+/// What a fit expects lines of action to be off by is what they are off by, in sessions like those that it was
+/// fitted to: pure forces on lines through the touch, gauges with noise.
+#[test]
+fn lines_are_off_by_what_is_expected() {
+    let random = &mut Pcg64Mcg::seed_from_u64(77);
+    let (mut found, mut expected) = (0.0, 0.0);
+    for _ in 0..40 {
+        let matrix = sensor(random, 6, 6);
+        let (points, pushes) = (gaussians(random, 60, 3), gaussians(random, 60, 3));
+        let loads = DMatrix::from_fn(60, 6, |i, j| {
+            let at = |k: usize| (points[(i, k % 3)], pushes[(i, k % 3)]);
+            if j < 3 { at(j).1 } else { at(j + 1).0 * at(j + 2).1 - at(j + 2).0 * at(j + 1).1 }
+        });
+        let signals = &loads * &matrix + gaussians(random, 60, 6) * 1e-3;
+        let table = LoadTable::new(&Axis::ALL, loads, signals, SignalUnit::Volt).unwrap();
+        let lines = calibrate(&table, &Options::default()).unwrap().report.lines.unwrap();
+        assert_eq!(lines.lines, 60);
+        found += lines.median_mm.ln() / 40.0;
+        expected += lines.expected_mm.unwrap().ln() / 40.0;
+    }
+    // Residuals of a fit are less than errors, medians less than root mean squares.
+    let ratio = (found - expected).exp();
+    println!("lines off by {ratio:.2} of what is expected");
+    assert!(ratio > 0.5 && ratio < 1.2, "{ratio}");
+}
