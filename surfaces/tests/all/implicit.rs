@@ -218,3 +218,20 @@ fn ranges_of_waves_end_where_the_waves_do() {
         }
     }
 }
+
+/// Where a formula has no gradient, the way from the middle of the ball is as good a normal as any.
+#[test]
+fn without_a_gradient_the_normal_leads_out_of_the_ball() {
+    struct Shifted;
+    impl ImplicitSurface<f64> for Shifted {
+        fn formula(&self, [x, y, z]: [Term<f64>; 3]) -> Term<f64> {
+            (x - 1.0).powi(4) + y.powi(4) + z.powi(4) - 1.0
+        }
+        fn ball(&self) -> (Vector3<f64>, f64) {
+            (Vector3::new(1.0, 0.1, 0.0), 1.5)
+        }
+    }
+    let surface = Implicit::new(Shifted).unwrap();
+    assert_eq!(surface.normal(&Vector3::new(1.0, 0.0, 0.0)), -Vector3::y());
+    assert_eq!(surface.normal(&Vector3::new(2.0, 0.0, 0.0)), Vector3::x());
+}
