@@ -182,6 +182,27 @@ mod tests {
 
     use super::{ArrayContact, Prior};
 
+    /// A place that is known exactly is a place; of a force something must be unknown.
+    #[test]
+    fn variances_may_be_zero_and_deviations_may_not() {
+        let reading = ArrayContact {
+            centroid: Vector3::new(0.0, 0.0, 0.010),
+            centroid_covariance: Matrix3::zeros(),
+            normal_force: 2.0,
+            normal_deviation: 0.1,
+        };
+        assert!(reading.is_valid());
+        for axis in 0..3 {
+            let mut bad = reading;
+            bad.centroid_covariance[(axis, axis)] = -1e-12;
+            assert!(!bad.is_valid());
+        }
+        for normal_deviation in [0.0, -0.1, f64::NAN, f64::INFINITY] {
+            assert!(!ArrayContact { normal_deviation, ..reading }.is_valid());
+        }
+        assert!(!ArrayContact { normal_force: f64::NAN, ..reading }.is_valid());
+    }
+
     /// Far from the prior, where the surface has turned by a third of a radian: against central differences.
     #[test]
     fn the_jacobian_is_that_of_the_wrench_of_a_state() {

@@ -252,3 +252,21 @@ fn a_miss_is_explained_or_not() {
         }
     }
 }
+
+/// Reaches and errors that cannot be have no bound, each alone.
+#[test]
+fn what_cannot_be_has_no_bound() {
+    let sphere = Sphere::centred(0.013).unwrap();
+    let measured = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -1.5), Vector3::zeros());
+    let bound = |errors: &WorstErrors<f64>, reach| ConvexBound::new(&sphere, &measured, errors, reach);
+    let errors = WorstErrors::of_wrench(1e-3, 1e-5);
+    assert!(bound(&errors, 0.013).is_some());
+    for reach in [-0.013, -1e-300, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(bound(&errors, reach).is_none(), "{reach}");
+    }
+    for bad in [-1e-6, f64::NAN, f64::INFINITY] {
+        assert!(bound(&WorstErrors::of_wrench(bad, 1e-5), 0.013).is_none(), "{bad}");
+        assert!(bound(&WorstErrors::of_wrench(1e-3, bad), 0.013).is_none(), "{bad}");
+    }
+    assert!(bound(&WorstErrors::of_wrench(1.5, 1e-5), 0.013).is_none());
+}

@@ -300,6 +300,13 @@ fn the_bounds_of_the_first_paper() {
         let wrench = Wrench::from_force_at(&(normal * 0.013), force);
         let (components, _) = corners(&wrench);
         let allowed = bounds.contact(&force, &wrench.torque());
+        // (4) to (6) as they stand, with lengths in radii.
+        let (f, m) = (force.map(f64::abs), wrench.torque().map(f64::abs) / 0.013);
+        let b = Vector3::new(f.y * m.z + f.z * m.y, f.z * m.x + f.x * m.z, f.x * m.y + f.y * m.x);
+        let (f2, c2) = (f.norm_squared(), force.cross(&wrench.torque()).norm_squared() / 0.013_f64.powi(2));
+        let share = (f2 * f2 + 2.0 * b.norm_squared()) / (f2.powf(1.5) * (1.0 - c2 / (f2 * f2)).sqrt());
+        let written = (b * 2.0 + f * share) * (bounds.central_distance() / f2);
+        assert!((allowed - written).norm() < 1e-12 * written.norm(), "{allowed} {written}");
         assert!((0..3).all(|i| components[i] <= allowed[i] * (1.0 + 1e-5)), "{components} {allowed}");
         // (7) and (8), for a force through the centre: sharp to first order.
         let (components, distance) = corners(&Wrench::on_fingertip(force, Vector3::zeros()));
