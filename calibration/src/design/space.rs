@@ -152,6 +152,10 @@ mod tests {
         }
         assert_eq!(length.admissible(1.5), 1.5);
         assert!((angle.admissible(7.5) - 1.5).abs() < 1e-15);
+        let from_one = Parameter { lower: 1.0, upper: 4.0, ..angle };
+        for (value, expected) in [(0.5, 3.5), (1.0, 1.0), (3.9, 3.9), (4.5, 1.5), (-2.25, 3.75)] {
+            assert!((from_one.admissible(value) - expected).abs() < 1e-15, "{value}");
+        }
         assert!(Parameter::length("d", 2.0, 2.0).validate().is_err());
         assert!(Parameter::angle("q", 0.0, f64::NAN).validate().is_err());
     }

@@ -171,6 +171,19 @@ mod tests {
         }
     }
 
+    /// Of more eigenvalues than six the others are none: they have no sign.
+    #[test]
+    fn signs_are_counted_apart() {
+        for (diagonal, signs) in [
+            (vec![1.0, 2.0, -1.0, 0.0, 0.0], (2, 1)),
+            (vec![-3.0, 1.0, 2.5, 1.0, 0.0, 1e-12], (3, 1)),
+            (vec![1.0, -1.0, -1.0, 3.0, 4.0], (3, 2)),
+        ] {
+            let (_, found) = super::canonical(DMatrix::from_diagonal(&DVector::from_vec(diagonal)));
+            assert_eq!(found, signs);
+        }
+    }
+
     #[test]
     fn angles_between_forms_are_those_of_their_entries() {
         let at = |angle: f64| DMatrix::from_row_slice(2, 2, &[angle.cos(), 0.0, 0.0, angle.sin()]) * 3.0;

@@ -352,3 +352,24 @@ fn forces_along_the_axis_tell_nothing_of_a_cylinder() {
     assert!((with.radius() - without.radius()).abs() < 1e-14 && (with.radius() - 0.008).abs() < 1e-12);
     assert!((with.centre() - without.centre()).largest() < 1e-14);
 }
+
+/// A touch with a number that is none is named, whether of its wrench or of its point.
+#[test]
+fn touches_of_a_pose_are_finite() {
+    let random = &mut Pcg64Mcg::seed_from_u64(70);
+    let good: Vec<_> = (0..6)
+        .map(|_| {
+            let point = vector(random) * 0.02;
+            (Wrench::from_force_at(&point, vector(random)), point)
+        })
+        .collect();
+    assert!(fit_pose(&good).is_ok());
+    for bad in [f64::NAN, f64::INFINITY] {
+        let mut touches = good.clone();
+        touches[2].1.y = bad;
+        assert!(fit_pose(&touches).unwrap_err().to_string().contains("not finite"));
+        let mut touches = good.clone();
+        touches[2].0 = Wrench::on_fingertip(Vector3::new(bad, 0.0, 0.0), Vector3::zeros());
+        assert!(fit_pose(&touches).unwrap_err().to_string().contains("not finite"));
+    }
+}

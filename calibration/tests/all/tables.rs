@@ -327,3 +327,40 @@ fn lines_are_off_by_what_is_expected() {
     println!("lines off by {ratio:.2} of what is expected");
     assert!(ratio > 0.5 && ratio < 1.2, "{ratio}");
 }
+
+/// Times, temperatures and orientations stay where all sessions have them; weights are 1 where none are said.
+#[test]
+fn merged_sessions_keep_what_all_of_them_say() {
+    let plain = forces(&DMatrix::identity(3, 3), &DMatrix::identity(3, 4));
+    let told = |first: f64| LoadTable {
+        times: Some(vec![first, first + 1.0, first + 2.0]),
+        temperatures: Some(vec![20.0 + first; 3]),
+        orientations: Some(vec![[0.0, 0.0, 0.0, 1.0 + first]; 3]),
+        weights: Some(vec![2.0 + first; 3]),
+        ..plain.clone()
+    };
+    let both = LoadTable::merged(&[told(0.0), told(5.0)]).unwrap();
+    assert_eq!(both.validate(), Ok(()));
+    assert_eq!(both.times.unwrap(), [0.0, 1.0, 2.0, 5.0, 6.0, 7.0]);
+    assert_eq!(both.temperatures.unwrap(), [20.0, 20.0, 20.0, 25.0, 25.0, 25.0]);
+    assert_eq!(both.orientations.unwrap().len(), 6);
+    assert_eq!(both.weights.unwrap(), [2.0, 2.0, 2.0, 7.0, 7.0, 7.0]);
+    for sessions in [[told(0.0), plain.clone()], [plain.clone(), told(0.0)]] {
+        let some = LoadTable::merged(&sessions).unwrap();
+        assert_eq!(some.validate(), Ok(()));
+        assert_eq!((some.times, some.temperatures, some.orientations), (None, None, None));
+        assert_eq!(some.weights.unwrap().iter().sum::<f64>(), 9.0);
+    }
+    assert_eq!(LoadTable::merged(&[plain.clone(), plain]).unwrap().weights, None);
+}
+
+/// A weight of zero leaves a sample out; a negative one is none.
+#[test]
+fn weights_may_be_zero() {
+    let weighed = |least| LoadTable {
+        weights: Some(vec![1.0, least, 1.0]),
+        ..forces(&DMatrix::identity(3, 3), &DMatrix::identity(3, 4))
+    };
+    assert_eq!(weighed(0.0).validate(), Ok(()));
+    assert!(weighed(-1e-12).validate().unwrap_err().to_string().contains("weight"));
+}

@@ -75,69 +75,8 @@ fn data(figures: &[Figure]) -> Table {
     table
 }
 
-pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
-    page.heading("Wrench to contact");
-    page.say(
-        "Touches all over shapes of 13 mm, forces of 2 N within 60° of the normal, and spin torques of up to \
-         0.03 of force times size. Without noise, errors are against the exact contact of the wrench as the \
-         scalar type has it, in 220 bits; with noise of 1 % (of a newton, and of a newton times the size), \
-         against the true contact. A point contact with spin is the wrench-axis method: its error is that of \
-         the assumption, and more digits do not help.",
-    );
-    let mut figures = Vec::new();
-    let mut study = Study { effort, scalar: "f32", figures: &mut figures };
-    each::<f32>(SCALE, &mut study);
-    beside_parry(&mut study)?;
-    study.scalar = "f64";
-    each::<f64>(SCALE, &mut study);
-    for shape in ["sphere", "ellipsoid", "cylinder", "capsule", "cone", "torus", "superquadric"] {
-        let these: Vec<&Figure> = figures
-            .iter()
-            .filter(|f| {
-                f.shape == shape && f.inputs == if f.method.starts_with("point") { "force" } else { "spin" }
-            })
-            .collect();
-        let title = format!("Contact, {shape}: error over run time, without noise");
-        page.diagram(&format!("contact_{shape}"), &diagram(title, &these))?;
-    }
-    let mut peers: Vec<Series> = Vec::new();
-    for f in figures.iter().filter(|f| f.inputs == "half-line") {
-        let Some(timed) = f.timed else { continue };
-        peers.push(Series {
-            name: format!("{}: {}", f.shape, f.method),
-            points: vec![(timed.median, f.worst)],
-            spread: vec![(timed.lower_quartile, timed.upper_quartile)],
-            joined: false,
-            single: f.method.starts_with("parry"),
-        });
-    }
-    page.diagram(
-        "contact_parry",
-        &Diagram {
-            title: "First crossing of a half-line beside parry3d, f32 (hollow: parry3d)".to_owned(),
-            x: "time per line, ns",
-            y: "greatest error along the line over the size",
-            series: peers,
-            front: false,
-        },
-    )?;
-    page.subheading("Where numerical error stops mattering");
-    page.say(
-        "On an ellipsoid, with noise from 1e-18 to 0.1 of the force: an error that does not rise with the \
-         noise is that of the arithmetic.",
-    );
-    page.diagram(
-        "contact_noise",
-        &Diagram {
-            title: "Error of the contact point over the noise of the wrench".to_owned(),
-            x: "noise of the wrench, relative to the force",
-            y: "median error of the point over the size",
-            series: over_noise(effort)?,
-            front: false,
-        },
-    )?;
-    page.data("contact", &data(&figures));
-
+/// A row for each shape: time and error of its contacts.
+fn in_short(figures: &[Figure]) -> Table {
     let mut short = Table::new(&[
         "shape",
         "point f32 ns",
@@ -173,6 +112,75 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
             middle(find("soft finger", "f64", "spin and noise of 1 %")),
         ]);
     }
+    short
+}
+
+/// First crossings, of both libraries.
+fn beside_parry_diagram(figures: &[Figure]) -> Diagram {
+    let mut peers: Vec<Series> = Vec::new();
+    for f in figures.iter().filter(|f| f.inputs == "half-line") {
+        let Some(timed) = f.timed else { continue };
+        peers.push(Series {
+            name: format!("{}: {}", f.shape, f.method),
+            points: vec![(timed.median, f.worst)],
+            spread: vec![(timed.lower_quartile, timed.upper_quartile)],
+            joined: false,
+            single: f.method.starts_with("parry"),
+        });
+    }
+    Diagram {
+        title: "First crossing of a half-line beside parry3d, f32 (hollow: parry3d)".to_owned(),
+        x: "time per line, ns",
+        y: "greatest error along the line over the size",
+        series: peers,
+        front: false,
+    }
+}
+
+pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
+    page.heading("Wrench to contact");
+    page.say(
+        "Touches all over shapes of 13 mm, forces of 2 N within 60° of the normal, and spin torques of up to \
+         0.03 of force times size. Without noise, errors are against the exact contact of the wrench as the \
+         scalar type has it, in 220 bits; with noise of 1 % (of a newton, and of a newton times the size), \
+         against the true contact. A point contact with spin is the wrench-axis method: its error is that of \
+         the assumption, and more digits do not help.",
+    );
+    let mut figures = Vec::new();
+    let mut study = Study { effort, scalar: "f32", figures: &mut figures };
+    each::<f32>(SCALE, &mut study);
+    beside_parry(&mut study)?;
+    study.scalar = "f64";
+    each::<f64>(SCALE, &mut study);
+    for shape in ["sphere", "ellipsoid", "cylinder", "capsule", "cone", "torus", "superquadric"] {
+        let these: Vec<&Figure> = figures
+            .iter()
+            .filter(|f| {
+                f.shape == shape && f.inputs == if f.method.starts_with("point") { "force" } else { "spin" }
+            })
+            .collect();
+        let title = format!("Contact, {shape}: error over run time, without noise");
+        page.diagram(&format!("contact_{shape}"), &diagram(title, &these))?;
+    }
+    page.diagram("contact_parry", &beside_parry_diagram(&figures))?;
+    page.subheading("Where numerical error stops mattering");
+    page.say(
+        "On an ellipsoid, with noise from 1e-18 to 0.1 of the force: an error that does not rise with the \
+         noise is that of the arithmetic.",
+    );
+    page.diagram(
+        "contact_noise",
+        &Diagram {
+            title: "Error of the contact point over the noise of the wrench".to_owned(),
+            x: "noise of the wrench, relative to the force",
+            y: "median error of the point over the size",
+            series: over_noise(effort)?,
+            front: false,
+        },
+    )?;
+    page.data("contact", &data(&figures));
+
+    let short = in_short(&figures);
     page.subheading("In short");
     page.table(&short);
     let said = format!(

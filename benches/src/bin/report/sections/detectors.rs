@@ -118,6 +118,31 @@ fn score(
     })
 }
 
+/// Of each family, the quickest that gives at most one false alarm a minute.
+fn quickest(scores: &[Score]) -> Table {
+    let mut short =
+        Table::new(&["detector", "noise", "delay median ms", "delay 95 % ms", "missed", "false alarms/min"]);
+    for (_, set) in NOISES {
+        for family in [Family::Sum(0.5), Family::Sum(0.75), Family::Sum(1.0), Family::Ratio] {
+            let best = scores
+                .iter()
+                .filter(|s| s.set == set && s.family == family.name() && s.false_alarms_per_minute <= 1.0)
+                .min_by(|a, b| a.late.total_cmp(&b.late));
+            if let Some(s) = best {
+                short.row([
+                    s.family.clone(),
+                    set.to_owned(),
+                    shown(s.delay),
+                    shown(s.late),
+                    format!("{:.1} %", 100.0 * s.missed),
+                    shown(s.false_alarms_per_minute),
+                ]);
+            }
+        }
+    }
+    short
+}
+
 pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
     page.heading("Slip detectors: delay against false alarms");
     let minutes = effort.choose(1.0, 30.0);
@@ -180,27 +205,7 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
     }
     page.table(&table);
     page.data("detectors", &table);
-    let mut short =
-        Table::new(&["detector", "noise", "delay median ms", "delay 95 % ms", "missed", "false alarms/min"]);
-    // Of each family, the quickest that gives at most one false alarm a minute.
-    for (_, set) in NOISES {
-        for family in [Family::Sum(0.5), Family::Sum(0.75), Family::Sum(1.0), Family::Ratio] {
-            let best = scores
-                .iter()
-                .filter(|s| s.set == set && s.family == family.name() && s.false_alarms_per_minute <= 1.0)
-                .min_by(|a, b| a.late.total_cmp(&b.late));
-            if let Some(s) = best {
-                short.row([
-                    s.family.clone(),
-                    set.to_owned(),
-                    shown(s.delay),
-                    shown(s.late),
-                    format!("{:.1} %", 100.0 * s.missed),
-                    shown(s.false_alarms_per_minute),
-                ]);
-            }
-        }
-    }
+    let short = quickest(&scores);
     let said = format!(
         "The quickest setting of each detector with at most one false alarm a minute, 1 kHz.\n\n{}",
         short.markdown()

@@ -182,6 +182,27 @@ fn data(courses: &[Course], unit: &str) -> Table {
     table
 }
 
+/// A row for each integrator: its cost, and its error at three steps.
+fn in_short(courses: &[Course], body: &[Course]) -> Table {
+    let mut short = Table::new(&["integrator", "ns per step", "error at 1e-2 s", "at 1e-3 s", "at 1e-4 s"]);
+    for course in courses.iter().chain(body) {
+        let at = |h: f64| {
+            let point = course.points.iter().find(|p| (p.0 / h - 1.0).abs() < 1e-6);
+            point.map_or_else(|| "-".to_owned(), |p| shown(if p.1 < DIVERGED { p.1 } else { f64::INFINITY }))
+        };
+        let mut costs: Vec<f64> = course.points.iter().map(|p| p.2).collect();
+        let motion =
+            if course.points.len() == body[0].points.len() && body.iter().any(|b| core::ptr::eq(b, course)) {
+                "stick-slip, m"
+            } else {
+                "prescribed"
+            };
+        let name = format!("{} ({motion})", course.name);
+        short.row([name, shown(crate::timing::median(&mut costs)), at(1e-2), at(1e-3), at(1e-4)]);
+    }
+    short
+}
+
 pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
     page.heading("Dynamic friction: the integrators");
     page.say(
@@ -247,22 +268,7 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
     )?;
     page.data("stick_slip", &data(&body, "greatest error of the position m"));
 
-    let mut short = Table::new(&["integrator", "ns per step", "error at 1e-2 s", "at 1e-3 s", "at 1e-4 s"]);
-    for course in courses.iter().chain(&body) {
-        let at = |h: f64| {
-            let point = course.points.iter().find(|p| (p.0 / h - 1.0).abs() < 1e-6);
-            point.map_or_else(|| "-".to_owned(), |p| shown(if p.1 < DIVERGED { p.1 } else { f64::INFINITY }))
-        };
-        let mut costs: Vec<f64> = course.points.iter().map(|p| p.2).collect();
-        let motion =
-            if course.points.len() == body[0].points.len() && body.iter().any(|b| core::ptr::eq(b, course)) {
-                "stick-slip, m"
-            } else {
-                "prescribed"
-            };
-        let name = format!("{} ({motion})", course.name);
-        short.row([name, shown(crate::timing::median(&mut costs)), at(1e-2), at(1e-3), at(1e-4)]);
-    }
+    let short = in_short(&courses, &body);
     Ok((
         "Dynamic friction".to_owned(),
         format!("Error of the force over break-away, or of the position.\n\n{}", short.markdown()),

@@ -13,16 +13,15 @@ fn room(row: &Row) -> &str {
     row.routine.split(',').next().unwrap_or(&row.routine)
 }
 
-pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
-    page.heading("Stability: every routine under every stress case");
-    page.say(
-        "The greatest error over its bound: what a backward stable routine keeps, a small multiple of the \
-         rounding unit times the conditioning of the case, or an invariant of the law; one or less is good. \
-         Failures are answers of the wrong kind: none where there is one, or one where there is none. The \
-         test `stability` of the root crate runs the same table with fewer draws.",
-    );
-    let rows = all(effort.choose(2, 60));
-    let mut table = Table::new(&[
+/// All rows, those beyond their bounds, and one row a routine.
+struct Tables {
+    all: Table,
+    bad: Table,
+    short: Table,
+}
+
+fn tables(rows: &[Row]) -> Tables {
+    let mut all = Table::new(&[
         "routine",
         "case",
         "scalar",
@@ -35,8 +34,8 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
     ]);
     let mut bad = Table::new(&["routine", "case", "scalar", "worst over bound", "failures", "of", "NaN"]);
     let mut rooms: Vec<(&str, [usize; 4], f64)> = Vec::new();
-    for row in &rows {
-        table.row([
+    for row in rows {
+        all.row([
             row.routine.clone(),
             row.case.clone(),
             row.scalar.to_owned(),
@@ -82,6 +81,19 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
         let [rows, trials, broken, nan] = counts.map(|n| n.to_string());
         short.row([room.to_owned(), rows, trials, broken, nan, shown(worst)]);
     }
+    Tables { all, bad, short }
+}
+
+pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
+    page.heading("Stability: every routine under every stress case");
+    page.say(
+        "The greatest error over its bound: what a backward stable routine keeps, a small multiple of the \
+         rounding unit times the conditioning of the case, or an invariant of the law; one or less is good. \
+         Failures are answers of the wrong kind: none where there is one, or one where there is none. The \
+         test `stability` of the root crate runs the same table with fewer draws.",
+    );
+    let rows = all(effort.choose(2, 60));
+    let Tables { all: table, bad, short } = tables(&rows);
     page.table(&short);
     let mut said = short.markdown();
     if bad.rows().is_empty() {
