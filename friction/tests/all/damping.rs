@@ -158,3 +158,16 @@ fn no_motion_and_no_time_give_the_elastic_force() {
     same::<f64>();
     same::<f32>();
 }
+
+/// At the ratio of kinetic to static friction steady sliding would be elastic.
+#[test]
+fn the_elastic_share_lies_below_the_ratio_of_the_coefficients() {
+    // A ratio that is exact: 0.6 / 1.2.
+    let law = LuGre::new(STIFFNESS, DAMPING, VISCOUS, Stribeck::new(0.6, 1.2, 1e-2).unwrap()).unwrap();
+    for good in [0.0, 0.25, 0.5_f64.next_down()] {
+        assert!(ElastoPlastic::new(law, good).is_ok(), "{good}");
+    }
+    for bad in [-1e-300, 0.5, 0.75, f64::NAN, f64::INFINITY] {
+        assert!(ElastoPlastic::new(law, bad).is_err(), "{bad}");
+    }
+}

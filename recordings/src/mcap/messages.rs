@@ -190,6 +190,19 @@ mod tests {
         }
     }
 
+    /// The time of a stamp is the number that its digits are nearest to, as long as nanoseconds can be told apart.
+    #[test]
+    fn times_of_stamps_are_right_to_the_last_digit() {
+        for k in 0..1000_u32 {
+            let (seconds, nanoseconds) =
+                (k.wrapping_mul(7919) % 9_000_000, k.wrapping_mul(2_654_435_761) % 1_000_000_000);
+            let header = Header { seconds: seconds as i32, nanoseconds, frame: String::new() };
+            assert_eq!(header.time(), format!("{seconds}.{nanoseconds:09}").parse::<f64>().unwrap());
+        }
+        let late = Header { seconds: i32::MAX, nanoseconds: 500_000_000, frame: String::new() };
+        assert_eq!(late.time(), 2_147_483_647.5);
+    }
+
     #[test]
     fn times_that_a_stamp_cannot_hold_are_refused() {
         for time in [-1e-9, f64::NAN, f64::INFINITY, 2_147_483_648.0, 2_147_483_647.999_999_9] {

@@ -41,6 +41,51 @@ fn with_time_a_row_is_repeated_at_the_same_time_and_held_at_a_later_one() {
     assert_eq!(marked(file), [vec![3], vec![4, 6], vec![5, 7]]);
 }
 
+/// What is held over a gap is held, and the step across the gap is known.
+#[test]
+fn a_gap_has_a_time_step_and_may_hold() {
+    let steady: String = (0..20).map(|k| format!("{k},{}\n", k % 7)).collect();
+    let file = format!("t_s,v1_V\n{steady}100,5\n101,6\n");
+    let mut reader = RecordingReader::new("test.csv", file.as_bytes()).unwrap();
+    let mut gaps = Vec::new();
+    while let Some(row) = reader.next_row().unwrap() {
+        if row.marks().gap {
+            gaps.push((row.line(), row.marks().held, row.time_step()));
+        }
+    }
+    assert_eq!(gaps, [(22, true, Some(81.0))]);
+}
+
+/// Columns of no sensor are watched by their names, several at a time.
+#[test]
+fn watched_columns_give_their_numbers() {
+    let file = "t_s,v1_V,temperature_C,note,qx\n0,0.5,21.5,a,1\n1,0.6,,b,0.25\n";
+    let mut reader = RecordingReader::new("test.csv", file.as_bytes()).unwrap();
+    let celsius = reader.watch("TEMPERATURE_c").unwrap();
+    let turn = reader.watch("qx").unwrap();
+    assert!(reader.watch("qy").is_none());
+    let mut rows = Vec::new();
+    while let Some(row) = reader.next_row().unwrap() {
+        rows.push((row.number(&celsius), row.number(&turn)));
+    }
+    assert_eq!(rows, [(Some(21.5), Some(1.0)), (None, Some(0.25))]);
+}
+
+/// The header says what parts columns, not what stands in the comments before it or in the rows behind.
+#[test]
+fn the_header_alone_says_what_parts_columns() {
+    for (file, expected) in [
+        ("# made by a, b and c\nt_s;v1_V\n0;1\n", [0.0, 1.0]),
+        ("# a; b\n\n# c, d\nt_s\tv1_V\n2\t3\n", [2.0, 3.0]),
+        ("t_s,v1_V,note\n4,5,x;y\n", [4.0, 5.0]),
+    ] {
+        let mut reader = RecordingReader::new("test.csv", file.as_bytes()).unwrap();
+        let sensor = reader.layout().only_signals().unwrap().clone();
+        let row = reader.next_row().unwrap().unwrap();
+        assert_eq!([row.time().unwrap(), row.signals::<1>(&sensor).unwrap().x], expected, "{file}");
+    }
+}
+
 #[test]
 fn behind_a_row_that_cannot_be_read_nothing_is_known_to_be_repeated() {
     // The numbers of the row before the one before, or of the one before, come again.

@@ -221,6 +221,48 @@ fn the_score_knows_perfect_late_and_false() {
     assert_eq!((early.slips_found(), early.false_alarms.len()), (0, 1));
 }
 
+/// A hold behind a drag, under a tangential force, is no press; one beside it, without, is.
+#[test]
+fn a_hold_after_a_drag_is_no_press() {
+    let at = SurfacePoint::degrees(40.0, 0.0);
+    let script = Script::default()
+        .press(at, 2.0, 0.1)
+        .hold(0.1)
+        .drag(0.0, (0.5, 0.3), 0.2, 0.1)
+        .hold(0.2)
+        .release(0.1)
+        .press(at, 5.0, 0.1)
+        .hold(0.1)
+        .release(0.1);
+    let fingertip = made(&script, 1);
+    let mut score = SessionScore::new(&fingertip);
+    for sample in fingertip {
+        let point = sample.truth.contact.map(|contact| contact.point);
+        score.add(&sample, &sample.truth.wrench, point.as_ref(), false);
+    }
+    let forces: Vec<f64> = score.report().presses.iter().map(|press| press.force).collect();
+    assert_eq!(forces.len(), 2, "{forces:?}");
+    assert!((forces[0] - 2.0).abs() < 1e-9 && (forces[1] - 5.0).abs() < 1e-9, "{forces:?}");
+}
+
+/// The standard session is what it says it is: its length, and a roll that goes down to the equator without slip.
+#[test]
+fn the_standard_session_shows_everything() {
+    let session = SimulatedFingertip::new(&standard_session(), Options::default()).unwrap();
+    assert!((session.duration() - 26.4).abs() < 1e-9, "{}", session.duration());
+    let radius = session.clone().find_map(|sample| sample.truth.contact).unwrap().point.norm();
+    // How far from the top, which is on the x axis, contacts of 3 N are: between the presses and the drags.
+    let rolled: Vec<f64> = session
+        .filter(|sample| !sample.truth.slipping)
+        .filter_map(|sample| sample.truth.contact)
+        .filter(|contact| (contact.contact_force().normal - 3.0).abs() < 1e-9)
+        .map(|contact| (contact.point.x / radius).acos().to_degrees())
+        .collect();
+    let (least, most) =
+        rolled.iter().fold((f64::MAX, f64::MIN), |(low, high), x| (low.min(*x), high.max(*x)));
+    assert!((least - 15.0).abs() < 0.1 && (most - 85.0).abs() < 0.1, "{least} {most}");
+}
+
 #[test]
 fn presses_of_one_force_are_one_level() {
     let at = SurfacePoint::degrees(30.0, 0.0);
