@@ -143,16 +143,14 @@ impl<T: Real> Prior<T> {
         let mut jacobian = Matrix6x5::zeros();
         jacobian.fixed_view_mut::<3, 3>(0, 2).copy_from(&Matrix3::identity());
         jacobian.fixed_view_mut::<3, 3>(3, 2).copy_from(&state.point.cross_matrix());
-        let rise = T::one() / state.normal.dot(&self.normal);
-        for (column, tangent) in self.tangents.iter().enumerate() {
-            // Along the tangent, then along the prior's normal back onto the surface.
-            let moved = tangent - self.normal * (state.normal.dot(tangent) * rise);
+        for (column, moved) in self.moved_tangents(state).iter().enumerate() {
             jacobian.fixed_view_mut::<3, 1>(3, column).copy_from(&moved.cross(&state.force));
         }
         jacobian
     }
 
-    /// The two tangents of the prior, carried to a state's tangent plane.
+    /// The two tangents of the prior, carried to a state's tangent plane: along the tangent, then along the
+    /// prior's normal back onto the surface.
     pub(super) fn moved_tangents(&self, state: &State<T>) -> [Vector3<T>; 2] {
         let rise = T::one() / state.normal.dot(&self.normal);
         self.tangents.map(|tangent| tangent - self.normal * (state.normal.dot(&tangent) * rise))

@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 
 use crate::soft_finger::closed_form::{soft_finger, told};
 use crate::soft_finger::unit_sphere::OnUnitSphere;
-use crate::{GeometrySensitivity, Search, SoftContact};
+use crate::{Search, SoftContact};
 
 /// The soft-finger contact on an ellipsoid.
 ///
@@ -91,15 +91,11 @@ soft_finger!(
     |shape, wrench, _, visit| told(on_ellipsoid(shape, wrench).map_err(Search::Grazing), visit),
     sole | shape,
     push | steeply_on_ellipsoid(shape, push),
+    // The three semi-axes.
     sizes | shape,
     size,
-    point | of_ellipsoid(shape, point).get(size).copied()
+    point | (size < 3).then(|| stretched(&shape.level(point), point, size, shape.semi_axes()[size]))
 );
-
-/// The three semi-axes.
-fn of_ellipsoid<T: Real>(shape: &Ellipsoid<T>, point: &Vector3<T>) -> [GeometrySensitivity<T>; 3] {
-    [0, 1, 2].map(|i| stretched(&shape.level(point), point, i, shape.semi_axes()[i]))
-}
 
 #[cfg(feature = "batch")]
 impl<T: Real> Kernel<T> for Ellipsoid<T> {

@@ -134,19 +134,17 @@ impl<S, T: Real, V: Copy> FaultInjector<S, T, V> {
     pub const fn source(&self) -> &S {
         &self.source
     }
+}
 
-    fn inject<E>(
-        &mut self,
-        mut next: impl FnMut(&mut S) -> Result<Option<Sample<T, V>>, E>,
-    ) -> Result<Option<Sample<T, V>>, InjectedError<E>>
-    where
-        V: Components<T>,
-    {
+impl<T: Real, V: Copy + Components<T>, S: Source<T, V>> Source<T, V> for FaultInjector<S, T, V> {
+    type Error = InjectedError<S::Error>;
+
+    fn next_sample(&mut self) -> Result<Option<Sample<T, V>>, Self::Error> {
         if let Some(sample) = self.waiting.take() {
             return Ok(Some(sample));
         }
         loop {
-            let Some(mut sample) = next(&mut self.source).map_err(InjectedError::Source)? else {
+            let Some(mut sample) = self.source.next_sample().map_err(InjectedError::Source)? else {
                 return Ok(None);
             };
             if let (true, Some(last)) = (self.freeze > 0, self.last) {
@@ -173,7 +171,7 @@ impl<S, T: Real, V: Copy> FaultInjector<S, T, V> {
                     self.waiting = Some(sample);
                 }
                 Some(2) => {
-                    if let Some(following) = next(&mut self.source).map_err(InjectedError::Source)? {
+                    if let Some(following) = self.source.next_sample().map_err(InjectedError::Source)? {
                         self.injections.reordered += 1;
                         self.waiting = Some(sample);
                         sample = following;
@@ -206,13 +204,5 @@ impl<S, T: Real, V: Copy> FaultInjector<S, T, V> {
             self.last = Some(sample);
             return Ok(Some(sample));
         }
-    }
-}
-
-impl<T: Real, V: Copy + Components<T>, S: Source<T, V>> Source<T, V> for FaultInjector<S, T, V> {
-    type Error = InjectedError<S::Error>;
-
-    fn next_sample(&mut self) -> Result<Option<Sample<T, V>>, Self::Error> {
-        self.inject(S::next_sample)
     }
 }

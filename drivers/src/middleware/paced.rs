@@ -53,16 +53,6 @@ impl<S> Paced<S> {
             }
         }
     }
-
-    fn paced<T: Real, V>(&mut self, sample: Option<Sample<T, V>>) -> Option<Sample<T, V>> {
-        if let Some(sample) = &sample {
-            let wait = self.wait(sample.time.map(Real::to_f64), Instant::now());
-            if !wait.is_zero() {
-                thread::sleep(wait);
-            }
-        }
-        sample
-    }
 }
 
 impl<T: Real, V, S: Source<T, V>> Source<T, V> for Paced<S> {
@@ -70,7 +60,13 @@ impl<T: Real, V, S: Source<T, V>> Source<T, V> for Paced<S> {
 
     fn next_sample(&mut self) -> Result<Option<Sample<T, V>>, S::Error> {
         let sample = self.source.next_sample()?;
-        Ok(self.paced(sample))
+        if let Some(sample) = &sample {
+            let wait = self.wait(sample.time.map(Real::to_f64), Instant::now());
+            if !wait.is_zero() {
+                thread::sleep(wait);
+            }
+        }
+        Ok(sample)
     }
 }
 

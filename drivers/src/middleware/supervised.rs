@@ -145,12 +145,13 @@ impl<S, E: SourceError, C: FnMut(u32) -> Result<S, E>> Supervised<S, C> {
             }
         }
     }
+}
 
-    /// The next of a source, over losses of its link.
-    fn next<V>(
-        &mut self,
-        mut next: impl FnMut(&mut S) -> Result<Option<V>, E>,
-    ) -> Result<Option<V>, SupervisedError<E>> {
+impl<T, V, S: Source<T, V>, C: FnMut(u32) -> Result<S, S::Error>> Source<T, V> for Supervised<S, C> {
+    type Error = SupervisedError<S::Error>;
+
+    /// Over losses of its link.
+    fn next_sample(&mut self) -> Result<Option<Sample<T, V>>, Self::Error> {
         let (mut tried, mut lost) = (0, false);
         loop {
             if self.stopped {
@@ -163,7 +164,7 @@ impl<S, E: SourceError, C: FnMut(u32) -> Result<S, E>> Supervised<S, C> {
                 lost = true;
                 continue;
             };
-            let error = match next(source) {
+            let error = match source.next_sample() {
                 Ok(value) => return Ok(value),
                 Err(error) => error,
             };
@@ -180,14 +181,6 @@ impl<S, E: SourceError, C: FnMut(u32) -> Result<S, E>> Supervised<S, C> {
                 return Err(SupervisedError::Lost(error));
             }
         }
-    }
-}
-
-impl<T, V, S: Source<T, V>, C: FnMut(u32) -> Result<S, S::Error>> Source<T, V> for Supervised<S, C> {
-    type Error = SupervisedError<S::Error>;
-
-    fn next_sample(&mut self) -> Result<Option<Sample<T, V>>, Self::Error> {
-        self.next(S::next_sample)
     }
 }
 

@@ -153,16 +153,6 @@ impl<S, T: Real, V: Copy + PartialEq> Watched<S, T, V> {
         self.source
     }
 
-    fn note<E>(&mut self, next: Result<Option<Sample<T, V>>, E>, now: T) -> Result<Option<Fresh<T, V>>, E> {
-        match next {
-            Ok(sample) => Ok(sample.map(|sample| self.watch.arrive(sample, now))),
-            Err(error) => {
-                self.watch.error();
-                Err(error)
-            }
-        }
-    }
-
     /// The next sample, each one in turn: for records.
     ///
     /// # Errors
@@ -171,8 +161,13 @@ impl<S, T: Real, V: Copy + PartialEq> Watched<S, T, V> {
     where
         S: Source<T, V>,
     {
-        let next = self.source.next_sample();
-        self.note(next, now)
+        match self.source.next_sample() {
+            Ok(sample) => Ok(sample.map(|sample| self.watch.arrive(sample, now))),
+            Err(error) => {
+                self.watch.error();
+                Err(error)
+            }
+        }
     }
 
     /// The newest sample that is there, passing over older ones: for control that must not lag.

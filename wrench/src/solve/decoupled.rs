@@ -159,7 +159,8 @@ impl<T: Real, K: Combination<N>, const N: usize> WrenchSolver<T, N> for Decouple
     }
 
     fn linear_map(&self, sensor: &SensorMatrix<T, N>) -> Option<LinearMap<T, N>> {
-        Some(LinearMap { gain: self.gain(sensor), own_error: self.own_error(sensor) })
+        let gain = self.gain(sensor);
+        Some(LinearMap { gain, own_error: self.own_error(sensor, &gain) })
     }
 }
 
@@ -171,9 +172,9 @@ impl<T: Real, K: Combination<N>, const N: usize> Decoupled<T, K, N> {
 
     /// `N + 1` roundings of the combination, up to seven of its solution; and nine of the product
     /// that [`gain`](Self::gain) is.
-    fn own_error(&self, sensor: &SensorMatrix<T, N>) -> OwnError<T, N> {
+    fn own_error(&self, sensor: &SensorMatrix<T, N>, gain: &SMatrix<T, 6, N>) -> OwnError<T, N> {
         let magnitudes = Matrix6::from_fn(|i, j| (self.inverse[i][j] / sensor.nominal()[i]).abs());
         let per_signal = magnitudes * matrix_of::<T, K, N>().abs() * relative_rounding::<T>(N + 17);
-        OwnError { per_load: self.neglected, per_signal, magnitude: self.gain(sensor).abs() }
+        OwnError { per_load: self.neglected, per_signal, magnitude: gain.abs() }
     }
 }

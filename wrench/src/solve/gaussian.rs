@@ -142,7 +142,8 @@ impl<T: Real> WrenchSolver<T, 6> for GaussianElimination<T> {
     }
 
     fn linear_map(&self, sensor: &SensorMatrix<T, 6>) -> Option<LinearMap<T, 6>> {
-        Some(LinearMap { gain: self.gain(sensor), own_error: self.own_error(sensor) })
+        let gain = self.gain(sensor);
+        Some(LinearMap { gain, own_error: self.own_error(sensor, &gain) })
     }
 }
 
@@ -170,9 +171,9 @@ impl<T: Real> GaussianElimination<T> {
 
     /// From the rounding errors of the two substitutions, counted (Higham 2002, section 8.1), and
     /// the defect of the factors, computed.
-    pub(super) fn own_error(&self, sensor: &SensorMatrix<T, 6>) -> OwnError<T, 6> {
+    pub(super) fn own_error(&self, sensor: &SensorMatrix<T, 6>, gain: &Matrix6<T>) -> OwnError<T, 6> {
         let scaled = Equilibrated::new(sensor.normalised());
-        let magnitude = inverse_magnitude(sensor, &self.gain(sensor));
+        let magnitude = inverse_magnitude(sensor, gain);
         let row = |i: usize| usize::from(self.order[i]).min(5);
         let triangle = |i: usize, j: usize, inside: core::cmp::Ordering| match i.cmp(&j) {
             core::cmp::Ordering::Equal => T::one(),

@@ -64,7 +64,8 @@ impl<T: Real> WrenchSolver<T, 6> for Inverse<T> {
     }
 
     fn linear_map(&self, sensor: &SensorMatrix<T, 6>) -> Option<LinearMap<T, 6>> {
-        Some(LinearMap { gain: self.gain(sensor), own_error: self.own_error(sensor) })
+        let gain = self.gain(sensor);
+        Some(LinearMap { gain, own_error: self.own_error(sensor, &gain) })
     }
 }
 
@@ -74,9 +75,8 @@ impl<T: Real> Inverse<T> {
     }
 
     /// Six roundings of a product of six terms, one of the division in [`gain`](Self::gain).
-    fn own_error(&self, sensor: &SensorMatrix<T, 6>) -> OwnError<T, 6> {
-        let gain = self.gain(sensor);
-        let per_load = matrix_residual(&Matrix6::identity(), &gain, sensor.normalised()).abs();
+    fn own_error(&self, sensor: &SensorMatrix<T, 6>, gain: &Matrix6<T>) -> OwnError<T, 6> {
+        let per_load = matrix_residual(&Matrix6::identity(), gain, sensor.normalised()).abs();
         OwnError { per_load, per_signal: gain.abs() * relative_rounding::<T>(7), magnitude: gain.abs() }
     }
 }

@@ -186,7 +186,8 @@ impl<T: Real, const N: usize> WrenchSolver<T, N> for LeastSquares<T, N> {
     }
 
     fn linear_map(&self, sensor: &SensorMatrix<T, N>) -> Option<LinearMap<T, N>> {
-        Some(LinearMap { gain: self.gain(sensor), own_error: self.own_error(sensor) })
+        let gain = self.gain(sensor);
+        Some(LinearMap { gain, own_error: self.own_error(sensor, &gain) })
     }
 }
 
@@ -196,9 +197,8 @@ impl<T: Real, const N: usize> LeastSquares<T, N> {
     }
 
     /// `N` roundings of a product of `N` terms, one of the division in [`gain`](Self::gain).
-    fn own_error(&self, sensor: &SensorMatrix<T, N>) -> OwnError<T, N> {
-        let gain = self.gain(sensor);
-        let per_load = matrix_residual(&Matrix6::identity(), &gain, sensor.normalised()).abs();
+    fn own_error(&self, sensor: &SensorMatrix<T, N>, gain: &SMatrix<T, 6, N>) -> OwnError<T, N> {
+        let per_load = matrix_residual(&Matrix6::identity(), gain, sensor.normalised()).abs();
         OwnError { per_load, per_signal: gain.abs() * relative_rounding::<T>(N + 1), magnitude: gain.abs() }
     }
 }

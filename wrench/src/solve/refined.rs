@@ -45,7 +45,8 @@ impl<T: Real> Refined<T> {
         let equilibrated = SensorMatrix::new(scaled.matrix, nominal).map_err(out_of_range)?;
         let solver = GaussianElimination::new(&equilibrated)?;
         // Each solve is off by at most this factor, so each step leaves that much of the error.
-        let contraction = solver.own_error(&equilibrated).per_load.column_sum().amax();
+        let contraction =
+            solver.own_error(&equilibrated, &solver.gain(&equilibrated)).per_load.column_sum().amax();
         let mut error = contraction;
         let mut steps = 1;
         while error > T::EPSILON * T::literal(0.125) && steps < Self::MAX_STEPS {
@@ -87,13 +88,18 @@ impl<T: Real> WrenchSolver<T, 6> for Refined<T> {
     }
 
     fn linear_map(&self, sensor: &SensorMatrix<T, 6>) -> Option<LinearMap<T, 6>> {
-        Some(LinearMap { gain: self.gain(sensor), own_error: self.own_error(sensor) })
+        let of_one_solve = self.solver.gain(&self.equilibrated);
+        let one_solve = self.solver.own_error(&self.equilibrated, &of_one_solve);
+        Some(LinearMap {
+            gain: self.gain(sensor, &of_one_solve),
+            own_error: self.own_error(sensor, &one_solve),
+        })
     }
 }
 
 impl<T: Real> Refined<T> {
-    fn gain(&self, sensor: &SensorMatrix<T, 6>) -> Matrix6<T> {
-        self.solver.gain(&self.equilibrated).map_with_location(|axis, gauge, gain| {
+    fn gain(&self, sensor: &SensorMatrix<T, 6>, of_one_solve: &Matrix6<T>) -> Matrix6<T> {
+        of_one_solve.map_with_location(|axis, gauge, gain| {
             // The ratio of nominal loads is the column scale, a power of two.
             gain * self.row[gauge] * (self.equilibrated.nominal()[axis] / sensor.nominal()[axis])
         })
@@ -101,9 +107,8 @@ impl<T: Real> Refined<T> {
 
     /// By recurrence over the steps: what a step leaves of the error before it, plus the error of
     /// the residual and the rounding of the sum.
-    fn own_error(&self, sensor: &SensorMatrix<T, 6>) -> OwnError<T, 6> {
+    fn own_error(&self, sensor: &SensorMatrix<T, 6>, one_solve: &OwnError<T, 6>) -> OwnError<T, 6> {
         let identity = Matrix6::<T>::identity();
-        let one_solve = self.solver.own_error(&self.equilibrated);
         // Dot2 of 7 terms: 49ε² of the sum of magnitudes.
         let of_residual = one_solve.magnitude
             * self.equilibrated.normalised().abs()
