@@ -173,3 +173,38 @@ pub(super) fn cone_multipliers<T: Real>(
     }
     best.1.map(|x| x.max(T::zero()))
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Vector2, Vector3};
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+
+    use super::{Grip, State, project};
+
+    /// The nearest point of a cone: what is left is across the projection, and in the polar cone.
+    #[test]
+    fn a_projection_is_the_nearest_point_of_the_cone() {
+        let mut random = Pcg64Mcg::seed_from_u64(51);
+        let mut kinds = [0; 3];
+        for _ in 0..2000 {
+            let friction: f64 = random.random_range(0.05..2.0);
+            let normal = Vector3::from_fn(|_, _| random.random_range(-1.0..1.0)).normalize();
+            let force: Vector3<f64> =
+                Vector3::from_fn(|_, _| random.random_range(-1.0..1.0)) * random.random_range(0.01..50.0);
+            let state = State { shift: Vector2::zeros(), force, point: Vector3::zeros(), normal };
+            let found = project(&state, friction, Grip::Slides);
+            let left = force - found;
+            let size = force.norm();
+            let parts = |v: &Vector3<f64>| (-v.dot(&normal), (v - normal * v.dot(&normal)).norm());
+            let (pressing, tangential) = parts(&found);
+            assert!(pressing >= 0.0 && tangential <= friction * pressing + 1e-14 * size);
+            let (asks, aside) = parts(&left);
+            assert!(friction * aside + asks <= 1e-13 * size, "{force} {found}");
+            assert!(left.dot(&found).abs() <= 1e-13 * size * size, "{force} {found}");
+            kinds[if found == force { 0 } else { 1 + usize::from(pressing.abs() <= 0.0) }] += 1;
+            assert_eq!(project(&state, friction, Grip::Lifted), Vector3::zeros());
+        }
+        assert!(kinds.iter().all(|&count| count > 100), "{kinds:?}");
+    }
+}

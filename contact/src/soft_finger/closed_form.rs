@@ -135,10 +135,14 @@ pub(crate) fn sole<T: Real>(
     wrench: &Wrench<T>,
 ) -> Result<SoftContact<T>, Search<T>> {
     found.ok_or_else(|| {
-        let power = wrench.force().dot(&wrench.torque()).abs();
-        let largest_product = largest(&wrench.force()) * largest(&wrench.torque());
-        // Half a unit in the last place of every number, and as much in three products and two sums.
-        let pure = !(power > largest_product * T::EPSILON * T::literal(8.0));
+        let pure = is_pure_force(&wrench.force(), &wrench.torque());
         if pure { Search::Complete } else { Search::Incomplete }
     })
+}
+
+/// Whether a wrench is a pure force, `f·m = 0`, for all that its numbers say.
+pub(crate) fn is_pure_force<T: Real>(force: &Vector3<T>, torque: &Vector3<T>) -> bool {
+    let power = force.dot(torque).abs();
+    // Half a unit in the last place of every number, and as much in three products and two sums.
+    !(power > largest(force) * largest(torque) * T::EPSILON * T::literal(8.0))
 }

@@ -304,10 +304,12 @@ impl<'a, T: Real, S: SmoothSurface<T>> Problem<'a, T, S> {
     pub(crate) fn presses(&self, state: &State<T>) -> bool {
         // Along the solution f·m = τ f·n holds exactly: the sign of τ tells as well as f·n does,
         // and better where the force grazes.
-        if self.power.abs() > T::EPSILON * T::literal(16.0) * self.force.amax() {
+        let hair = T::EPSILON * T::literal(16.0) * self.force.amax();
+        if self.power.abs() > hair {
             (state.spin > T::zero()) != (self.power > T::zero())
         } else {
-            self.force.dot(&state.place.normal) < T::zero()
+            // A pure force that misses solves the equations where it would only graze.
+            self.force.dot(&state.place.normal) < -hair
         }
     }
 }

@@ -3,6 +3,7 @@
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
+use super::closed_form::is_pure_force;
 use crate::SoftContact;
 
 /// The soft-finger contacts on a circular edge around the origin, for a wrench about the origin:
@@ -11,8 +12,8 @@ use crate::SoftContact;
 ///
 /// With `c = ϱ ρ(θ)` the equations `τ n + c × f = m` make `n` parallel to `M = m − c × f`, and it must
 /// be across the edge's tangent `t = a × ρ`: `M·t = m·t + ϱ f·a = 0`, which two angles fulfil. Pressing
-/// asks for `n = −sign(f·m) M/|M|`, `τ = −sign(f·m)|M|`. Without a spin torque, `f·m = 0`, a line
-/// would have to meet the edge exactly: that is left to the faces. A radius of zero makes it a tip.
+/// asks for `n = −sign(f·m) M/|M|`, `τ = −sign(f·m)|M|`. Without a spin torque, `f·m = 0` for all that the
+/// numbers say, a line would have to meet the edge exactly: that is left to the faces. A radius of zero makes it a tip.
 pub(crate) fn on_rim<T: Real>(
     radius: T,
     axis: &Vector3<T>,
@@ -26,7 +27,7 @@ pub(crate) fn on_rim<T: Real>(
         let contact = touching(outward * radius, force, torque, power);
         visit_on(contact, &outward, &on_edge, &mut visit);
     };
-    if power.is_zero() {
+    if is_pure_force(force, torque) {
         return;
     }
     if radius.is_zero() {
@@ -51,7 +52,7 @@ pub(crate) fn on_elliptic_rim<T: Real>(
     mut visit: impl FnMut(SoftContact<T>),
 ) {
     let power = force.dot(torque);
-    if power.is_zero() {
+    if is_pure_force(force, torque) {
         return;
     }
     let [a, b] = semi_axes;

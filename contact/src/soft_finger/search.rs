@@ -4,6 +4,7 @@ use fingertip_surfaces::{SmoothSurface, Topology};
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
+use super::closed_form::is_pure_force;
 use super::convex::direction_on_ball;
 use super::newton::{Place, Problem, State};
 use crate::{Search, SoftContact};
@@ -75,7 +76,8 @@ fn search<T: Real, S: SmoothSurface<T>>(
                 // A surface thinner than the grid has slipped through it.
                 complete = starts >= FEWEST_STARTS;
                 let Topology::Closed { euler_characteristic } = topology else { break };
-                complete &= !solutions.contradict(&problem, euler_characteristic);
+                complete &= is_pure_force(&wrench.force(), &wrench.torque())
+                    || !solutions.contradict(&problem, euler_characteristic);
                 if complete {
                     break;
                 }
@@ -120,7 +122,7 @@ fn starts_on_convex<T: Real, S: SmoothSurface<T>>(
         return Found::Contact(state);
     }
     let entry = line_entries(problem, surface, wrench).into_iter().flatten().next();
-    if problem.power.is_zero() && entry.is_none() {
+    if entry.is_none() && is_pure_force(&wrench.force(), &wrench.torque()) {
         return Found::Nothing;
     }
     // Where the spin torque is small the wrench's line of action enters near the contact; where it
@@ -247,11 +249,8 @@ impl<T: Real> Solutions<T> {
         }
     }
 
-    /// `true` if solutions must be missing.
+    /// `true` if solutions must be missing, under a wrench that is no pure force.
     fn contradict<S: SmoothSurface<T>>(&self, problem: &Problem<'_, T, S>, euler_characteristic: i8) -> bool {
-        if problem.power.is_zero() {
-            return false;
-        }
         let index: i8 = self
             .states
             .iter()

@@ -107,6 +107,9 @@ fn without_noise_every_pitch_is_certain() {
         let test = certain.with_greatest_pitch(greatest, 3.0).unwrap().test(&screw).unwrap();
         assert_eq!((test.pitch, test.excess), (0.005, excess));
     }
+    // Also if not one deviation is granted: the greatest pitch is still allowed.
+    let strict = certain.with_greatest_pitch(0.005, 0.0).unwrap().test(&screw).unwrap();
+    assert_eq!(strict.choice, Choice::SoftFinger);
     assert_eq!(certain.test(&Wrench::on_fingertip(Vector3::zeros(), Vector3::x())), None);
     assert_eq!(certain.test(&Wrench::on_fingertip(Vector3::x() * f64::NAN, Vector3::x())), None);
 }

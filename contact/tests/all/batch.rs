@@ -1,6 +1,6 @@
 //! Batches answer as one at a time.
 
-use fingertip_contact::batch::{BatchSurface, Contacts, Wrenches};
+use fingertip_contact::batch::{BatchSurface, Contacts, Lines, Wrenches};
 use fingertip_contact::*;
 use fingertip_surfaces::*;
 use fingertip_wrench::{Real, Wrench};
@@ -93,6 +93,27 @@ fn alone_or_together<T: Real, S: BatchSurface<T>>(surface: &S, given: [&[T]; 6],
         for (alone, together) in alone.iter().zip(together) {
             assert_eq!(alone[0], together[k], "{k}");
         }
+        splits_the_force(surface, given.map(|column| column[k]), alone[6][0]);
+    }
+}
+
+/// The parts of the force, in line: of a line that misses too, where it is nearest.
+fn splits_the_force<T: Real, S: BatchSurface<T>>(surface: &S, [fx, fy, fz, tx, ty, tz]: [T; 6], gap: T) {
+    let force = Vector3::new(fx, fy, fz);
+    for lines in [Lines::Any, Lines::Meeting] {
+        let entered = surface.enter([fx, fy, fz], [tx, ty, tz], lines, surface.is_at_origin());
+        if !entered.certain || gap > T::zero() && lines == Lines::Meeting {
+            continue;
+        }
+        let normal = Vector3::from(entered.normal);
+        let along = force.dot(&normal);
+        let allowed = T::EPSILON * T::literal(100.0) * force.amax();
+        // Squared, what rounding does is the root of it where there is nearly nothing.
+        let across = (force - normal * along).norm();
+        let parts = entered.parts;
+        assert!((parts.normal + along).abs() <= allowed, "{lines:?} {gap} {} {along}", parts.normal);
+        let off = (parts.tangential * parts.tangential - across * across).abs();
+        assert!(off <= allowed * force.amax(), "{lines:?} {gap} {} {across}", parts.tangential);
     }
 }
 

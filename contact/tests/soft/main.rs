@@ -19,6 +19,7 @@ mod hard_convex;
 mod heights;
 mod honesty;
 mod jacobians;
+mod limits;
 mod moved;
 mod parameters;
 mod pillow;
