@@ -117,6 +117,37 @@ fn splits_the_force<T: Real, S: BatchSurface<T>>(surface: &S, [fx, fy, fz, tx, t
     }
 }
 
+/// A surface that knows batches and nothing of single lines.
+struct Plain(Sphere<f64>);
+
+impl BatchSurface<f64> for Plain {
+    fn contacts_in_line(&self, wrenches: Wrenches<'_, f64>, contacts: Contacts<'_, f64>) {
+        self.0.contacts_in_line(wrenches, contacts);
+    }
+}
+
+/// A line by itself, of a surface that does it as a batch of one.
+#[test]
+fn a_single_line_may_be_a_batch_of_one() {
+    let sphere = Sphere::new(v(0.1, -0.2, 0.3), 1.0).unwrap();
+    let plain = Plain(sphere);
+    let force = [0.0, 0.5, -2.0];
+    for (aside, meets) in [(0.0, true), (0.9, true), (3.0, false), (f64::NAN, false)] {
+        let torque: [f64; 3] = Vector3::new(aside, 0.0, 0.0).cross(&Vector3::from(force)).into();
+        let any = plain.enter(force, torque, Lines::Any, false);
+        assert_eq!(any.certain, aside.is_finite());
+        let expected = sphere.enter(force, torque, Lines::Any, false);
+        assert_eq!((any.point, any.normal, any.gap), (expected.point, expected.normal, expected.gap));
+        let meeting = plain.enter(force, torque, Lines::Meeting, false);
+        assert_eq!(meeting.certain, meets, "{aside} {meeting:?}");
+        if meets {
+            let close = |a: f64, b: f64| (a - b).abs() < 1e-14;
+            assert!(close(meeting.parts.normal, expected.parts.normal));
+            assert!(close(meeting.parts.tangential, expected.parts.tangential));
+        }
+    }
+}
+
 fn v<T: Real>(x: f64, y: f64, z: f64) -> Vector3<T> {
     Vector3::new(x, y, z).map(T::literal)
 }

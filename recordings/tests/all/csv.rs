@@ -89,7 +89,25 @@ fn signals_and_times_are_converted_by_their_names() {
         assert_eq!(row.dummy(&sensor), Some(4.0 * volts));
         assert_eq!(row.signals::<3>(&sensor), None);
         assert!(sensor.expecting(3).is_err() && sensor.expecting_dummy().is_ok());
+        assert_eq!(sensor.expecting(2), Ok(&sensor));
     }
+}
+
+/// With blanks around it a cell is read as without, in its unit; what means nothing is no number.
+#[test]
+fn unusual_cells_are_read_in_their_unit() {
+    let file = "v1_mV,v2_mV\n 5 ,\t-8\nN/A,1\n2,None\n3,1e400\n4, 1e999 \n";
+    let mut reader = RecordingReader::new("test.csv", file.as_bytes()).unwrap();
+    let sensor = reader.layout().only_signals().unwrap().clone();
+    let row = reader.next_row().unwrap().unwrap();
+    assert_eq!(row.signals::<2>(&sensor).unwrap().as_slice(), [5e-3, -8e-3]);
+    for _ in 0..4 {
+        let row = reader.next_row().unwrap().unwrap();
+        assert_eq!(row.signals::<2>(&sensor), None);
+    }
+    assert!(reader.next_row().unwrap().is_none());
+    let quality = reader.quality();
+    assert_eq!((quality.empty_cells.count(), quality.not_finite_cells.count()), (2, 2));
 }
 
 #[test]

@@ -3,7 +3,8 @@
 use std::io::{Cursor, Read};
 
 use fingertip_recordings::mcap::{
-    McapError, McapReader, McapWriter, Recorded, RecordedContact, RecordedSignals,
+    CdrError, CdrReader, CdrWriter, McapError, McapReader, McapWriter, Recorded, RecordedContact,
+    RecordedSignals,
 };
 use fingertip_wrench::Wrench;
 use nalgebra::Vector3;
@@ -72,6 +73,45 @@ fn all_that_is_written_is_read() {
         }
     }
     assert_eq!((wrenches, signals, contacts), (2000, 2000, 200));
+}
+
+/// The time of a message is also the file's own, in nanoseconds, by which players sort.
+#[test]
+fn a_message_is_logged_at_its_time() {
+    let mut writer = McapWriter::new(Cursor::new(Vec::new())).unwrap();
+    let topic = writer.wrenches("/tip/wrench", "tip").unwrap();
+    // The last is rounded up to a whole second.
+    for time in [12.5, 1_700_000_000.25, 7.999_999_999_9] {
+        writer.write_wrench(topic, time, &wrench(1)).unwrap();
+    }
+    let file = writer.finish().unwrap().into_inner();
+    for nanoseconds in [12_500_000_000_u64, 1_700_000_000_250_000_000, 8_000_000_000] {
+        // Logged and published.
+        let twice = [nanoseconds.to_le_bytes(); 2].concat();
+        assert!(file.windows(16).any(|bytes| bytes == twice), "{nanoseconds}");
+    }
+}
+
+/// A sequence may fill a message to its end, and not go beyond it.
+#[test]
+fn a_sequence_ends_with_its_message_or_before() {
+    let mut writer = CdrWriter::default();
+    writer.f64_sequence(&[1.5, -2.0]);
+    let bytes = writer.into_message();
+    assert_eq!(CdrReader::new(&bytes).unwrap().f64_sequence(), Ok(vec![1.5, -2.0]));
+    let cut = CdrReader::new(&bytes[..bytes.len() - 1]).unwrap().f64_sequence();
+    assert!(matches!(cut, Err(CdrError::Short { .. })), "{cut:?}");
+    // A count for which there would be bytes, if those before it were still there.
+    let mut writer = CdrWriter::default();
+    writer.string("fourteen bytes");
+    writer.f64_sequence(&[1.5]);
+    let mut bytes = writer.into_message();
+    let count = 4 + 4 + 15 + 1;
+    assert_eq!(bytes[count..count + 4], 1_u32.to_le_bytes());
+    bytes[count] = 2;
+    let mut reader = CdrReader::new(&bytes).unwrap();
+    assert_eq!(reader.string(), Ok("fourteen bytes"));
+    assert_eq!(reader.f64_sequence(), Err(CdrError::Short { at: count + 4 - 4 }));
 }
 
 #[test]
