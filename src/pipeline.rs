@@ -130,6 +130,16 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
         &self.friction
     }
 
+    /// The assumption under which the contact is found.
+    pub const fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The slip detector.
+    pub const fn detector(&self) -> &Detector {
+        &self.detector
+    }
+
     /// The slip detector, to reset it after a change of grasp.
     pub const fn detector_mut(&mut self) -> &mut Detector {
         &mut self.detector

@@ -292,6 +292,10 @@ mod tests {
             let wrenches: Vec<_> = touches.iter().map(|touch| touch.wrench).collect();
             // All touches have friction 0.4, so the bound is sharp.
             prop_assert!((least_radius(&centre, &wrenches, 0.4).unwrap() - 0.013).abs() < 1e-12);
+            // Without friction, or with one that is no number, nothing is said.
+            for friction in [0.0, -0.4, f64::NAN] {
+                prop_assert_eq!(least_radius(&centre, &wrenches, friction), None);
+            }
         }
 
         #[test]

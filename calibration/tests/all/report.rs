@@ -3,6 +3,7 @@
 use super::testing::Largest as _;
 use fingertip_calibration::Axis;
 use fingertip_calibration::calibrate;
+use fingertip_calibration::design::{Touch, TouchSet};
 use fingertip_calibration::file::{SignalUnit, Verdict};
 use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{CalibrationError, Direction, Method, Options};
@@ -63,6 +64,19 @@ fn made_up_faults_are_measured() {
     }
     assert!(report.cross_talk_percent[0][1].unwrap() < 0.2);
     assert_eq!(report.verdict, Verdict::Good, "{report}");
+}
+
+/// Touches that are asked about are judged.
+#[test]
+fn touches_are_judged_where_they_are_asked_about() {
+    let touches = Touch::on_sphere(0.01, 1.2, 0.3, 5.0).unwrap();
+    let set = TouchSet { surface: "a sphere".to_owned(), touches };
+    assert!(calibrate(&table(), &Options::default()).unwrap().report.contacts.is_none());
+    let options = Options { touches: Some(set.clone()), ..Options::default() };
+    let calibration = calibrate(&table(), &options).unwrap();
+    let found = calibration.report.contacts.unwrap();
+    assert_eq!((found.touches, found.surface.as_str()), (set.touches.len(), "a sphere"));
+    assert!(found.calibration_mm > 0.0 && found.together_mm > found.reading_mm, "{found:?}");
 }
 
 #[test]

@@ -145,6 +145,10 @@ fn patch_ratio<T: Real>(radii: T) -> T {
     // The excess falls with the logarithm of the ratio: positive at R_y/R_x, negative at 1.
     let (mut low, mut high) = (radii.ln(), T::zero());
     let (mut at_low, mut at_high) = (excess(low), radii.ln());
+    // So nearly round that rounding hides which side of the zero this is on: the bracket is the answer.
+    if !(at_low > T::zero()) {
+        return radii;
+    }
     let mut guess = low * T::literal(2.0 / 3.0);
     for _ in 0..64 {
         let value = excess(guess);

@@ -53,8 +53,8 @@ pub trait SkinLaw<T: Real, S> {
 /// The same law everywhere. (A blanket implementation would shut out laws that depend on the
 /// place.)
 macro_rules! same_everywhere {
-    ($law:ident $(, $parameter:ident)?) => {
-        impl<T: Real, S $(, const $parameter: usize)?> SkinLaw<T, S> for $law<T $(, $parameter)?> {
+    ($law:ident $(, $points:ident)?) => {
+        impl<T: Real, S $(, $points: AsRef<[[T; 3]]>)?> SkinLaw<T, S> for $law<T $(, $points)?> {
             #[inline]
             fn indentation_at(&self, _surface: &S, _contact: &Contact<T>, normal_force: T) -> Indentation<T> {
                 self.indentation(normal_force)
@@ -76,4 +76,4 @@ macro_rules! same_everywhere {
 same_everywhere!(Hertz);
 same_everywhere!(LinearStiffness);
 same_everywhere!(PowerLaw);
-same_everywhere!(Tabulated, N);
+same_everywhere!(Tabulated, P);

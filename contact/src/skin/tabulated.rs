@@ -1,28 +1,32 @@
 //! A measured law.
 
+use core::marker::PhantomData;
+
 use fingertip_surfaces::BadShape;
 use fingertip_wrench::Real;
 
 use super::Indentation;
 
-/// `N` measured points of depth and patch radius over force, with straight lines between them, from
-/// zero to the first, and beyond the last with the slope before it.
+/// Measured points of depth and patch radius over force, with straight lines between them, from
+/// zero to the first, and beyond the last with the slope before it. `P` holds the points: an array, a list or a
+/// slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tabulated<T: Real, const N: usize> {
+pub struct Tabulated<T: Real, P: AsRef<[[T; 3]]>> {
     /// Force \[N\], depth \[m\], patch radius \[m\].
-    points: [[T; 3]; N],
+    points: P,
+    scalar: PhantomData<T>,
 }
 
-impl<T: Real, const N: usize> Tabulated<T, N> {
+impl<T: Real, P: AsRef<[[T; 3]]>> Tabulated<T, P> {
     /// From `[force (N), depth (m), patch radius (m)]` of each point.
     ///
     /// # Errors
     /// [`BadShape`] unless there is a point, all numbers are positive and finite, forces grow from
     /// point to point, and depths and radii do not fall.
-    pub fn new(points: [[T; 3]; N]) -> Result<Self, BadShape> {
-        let mut good = N > 0;
+    pub fn new(points: P) -> Result<Self, BadShape> {
+        let mut good = !points.as_ref().is_empty();
         let mut before = [T::zero(); 3];
-        for point in points {
+        for &point in points.as_ref() {
             let [force, depth, radius] = point;
             good &= force > before[0] && depth >= before[1] && radius >= before[2];
             good &= (force + depth + radius).is_number();
@@ -34,21 +38,19 @@ impl<T: Real, const N: usize> Tabulated<T, N> {
             "positive, finite and sorted by force, with depths and radii that do not fall",
             good,
         )
-        .map(|()| Self { points })
+        .map(|()| Self { points, scalar: PhantomData })
     }
-}
 
-impl<T: Real, const N: usize> Tabulated<T, N> {
     /// The two points between which a force lies, or the last two.
     fn stretch(&self, normal_force: T) -> [[T; 3]; 2] {
-        let after = self.points.partition_point(|point| point[0] < normal_force).min(N.saturating_sub(1));
+        let points = self.points.as_ref();
+        let last = points.len().saturating_sub(1);
+        let after = points.partition_point(|point| point[0] < normal_force).min(last);
         let point =
-            |index: Option<usize>| index.and_then(|i| self.points.get(i)).copied().unwrap_or([T::zero(); 3]);
+            |index: Option<usize>| index.and_then(|i| points.get(i)).copied().unwrap_or([T::zero(); 3]);
         [point(after.checked_sub(1)), point(Some(after))]
     }
-}
 
-impl<T: Real, const N: usize> Tabulated<T, N> {
     /// The indentation under a normal force \[N\].
     #[must_use]
     pub fn indentation(&self, normal_force: T) -> Indentation<T> {
@@ -90,7 +92,7 @@ mod tests {
             );
         }
         assert!(Tabulated::new([[1.0, 0.1, 1.0], [1.0, 0.2, 1.5]]).is_err());
-        assert!(Tabulated::<f64, 0>::new([]).is_err());
+        assert!(Tabulated::<f64, [[f64; 3]; 0]>::new([]).is_err());
         assert!(Tabulated::new([[1.0, f64::NAN, 1.0]]).is_err());
     }
 }

@@ -102,6 +102,24 @@ fn hertz_of_unequal_radii_obeys_its_equations() {
 }
 
 /// The same in single precision, with the double's answer for the numbers it has.
+/// From round to unequal without a step: to first order the law is that of the geometric mean of the radii.
+#[test]
+fn nearly_equal_radii_are_nearly_a_sphere() {
+    fn check<T: fingertip_wrench::Real>() {
+        for exponent in 1..60 {
+            let apart = 2.0_f64.powi(-exponent);
+            let radii = [T::literal(0.013), T::literal(0.013 * (1.0 - apart))];
+            let law = Hertz::new(radii, T::literal(2e6)).unwrap().indentation(T::one());
+            let mean = T::literal((0.013_f64 * 0.013 * (1.0 - apart)).sqrt());
+            let round = Hertz::sphere(mean, T::literal(2e6)).unwrap().indentation(T::one());
+            let off = (law.depth / round.depth).to_f64() - 1.0;
+            assert!(off.abs() <= 0.2 * apart * apart + 16.0 * T::EPSILON.to_f64(), "{exponent}: {off:e}");
+        }
+    }
+    check::<f64>();
+    check::<f32>();
+}
+
 #[test]
 fn hertz_in_single_precision_is_that_of_double() {
     for ratio in [1.0, 0.999, 0.7, 0.2, 0.03, 1e-3, 4e-4_f32] {

@@ -207,7 +207,7 @@ pub(crate) fn power<T: Real>() -> PowerLaw<T> {
     PowerLaw::new([0.003, 0.25].map(T::literal), [0.0005, 0.4].map(T::literal)).unwrap()
 }
 
-pub(crate) fn table<T: Real>() -> Tabulated<T, 3> {
+pub(crate) fn table<T: Real>() -> Tabulated<T, [[T; 3]; 3]> {
     Tabulated::new(
         [[1.0, 0.0004, 0.002], [5.0, 0.0009, 0.004], [20.0, 0.0016, 0.005]]
             .map(|point| point.map(T::literal)),

@@ -42,6 +42,13 @@ impl<T: Real> LoadDependentLimit<T> {
         })
     }
 
+    /// The friction coefficient μ.
+    #[inline]
+    #[must_use]
+    pub const fn coefficient(&self) -> T {
+        self.cone.coefficient
+    }
+
     /// The torque arm \[m\] at a normal force; the least normal number where it does not press.
     #[inline]
     #[must_use]

@@ -3,7 +3,7 @@
 use std::io::{Cursor, Read};
 
 use fingertip_recordings::mcap::{
-    CdrError, CdrReader, CdrWriter, McapError, McapReader, McapWriter, Recorded, RecordedContact,
+    CdrError, CdrReader, CdrWriter, Header, McapError, McapReader, McapWriter, Recorded, RecordedContact,
     RecordedSignals,
 };
 use fingertip_wrench::Wrench;
@@ -85,10 +85,27 @@ fn a_message_is_logged_at_its_time() {
         writer.write_wrench(topic, time, &wrench(1)).unwrap();
     }
     let file = writer.finish().unwrap().into_inner();
-    for nanoseconds in [12_500_000_000_u64, 1_700_000_000_250_000_000, 8_000_000_000] {
-        // Logged and published.
-        let twice = [nanoseconds.to_le_bytes(); 2].concat();
-        assert!(file.windows(16).any(|bytes| bytes == twice), "{nanoseconds}");
+    for (nanoseconds, number) in
+        [12_500_000_000_u64, 1_700_000_000_250_000_000, 8_000_000_000].into_iter().zip(0_u32..)
+    {
+        // In sequence; logged and published.
+        let head =
+            [&number.to_le_bytes()[..], &nanoseconds.to_le_bytes(), &nanoseconds.to_le_bytes()].concat();
+        assert!(file.windows(20).any(|bytes| bytes == head), "{nanoseconds}");
+    }
+}
+
+/// The time of a stamp is the number that is nearest to it, as reading its decimals gives.
+#[test]
+fn the_time_of_a_stamp_is_the_nearest_number() {
+    for seconds in [0, 1, 4, 9_007_198, 9_007_200, 1_763_800_000, i32::MAX] {
+        for nanoseconds in [0, 1, 3, 100_000_000, 123_456_789, 350_000_001, 999_999_999] {
+            let header = Header { seconds, nanoseconds, frame: String::new() };
+            let exact: f64 = format!("{seconds}.{nanoseconds:09}").parse().unwrap();
+            // Above 2^53 ns it is rounded twice.
+            let allowed = if seconds < 9_007_199 { 0.0 } else { 2.4e-7 };
+            assert!((header.time() - exact).abs() <= allowed, "{seconds}.{nanoseconds:09} {}", header.time());
+        }
     }
 }
 

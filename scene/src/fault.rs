@@ -1,0 +1,134 @@
+//! What can be wrong with a scene.
+
+use std::io;
+use std::path::PathBuf;
+
+use fingertip::friction::BadParameter;
+use fingertip::surfaces::{BadShape, MeshError};
+use thiserror::Error;
+
+/// The newest version of the format that is read; older ones are, too.
+pub const VERSION: u32 = 2;
+
+/// A scene that is not as it must be: in which file, on which line, what, and how to mend it.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The file cannot be read.
+    #[error("cannot read the scene {path}: {source}", path = .path.display())]
+    Unreadable {
+        /// Which file.
+        path: PathBuf,
+        /// Why not.
+        source: io::Error,
+    },
+    /// Something in it is wrong.
+    #[error("{path}{line}: {problem}", path = .path.display(), line = Line(.fault.line), problem = .fault.problem)]
+    Fault {
+        /// Which file.
+        path: PathBuf,
+        /// What, and where.
+        fault: SceneFault,
+    },
+}
+
+/// A line, if it is known, as a suffix of a path.
+struct Line(Option<usize>);
+
+impl core::fmt::Display for Line {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        self.0.map_or(Ok(()), |line| write!(f, ":{line}"))
+    }
+}
+
+/// What is wrong, and on which line, if that is known.
+#[derive(Debug)]
+pub struct SceneFault {
+    /// Counted from 1.
+    pub line: Option<usize>,
+    /// What is wrong.
+    pub problem: SceneProblem,
+}
+
+impl From<SceneProblem> for SceneFault {
+    fn from(problem: SceneProblem) -> Self {
+        Self { line: None, problem }
+    }
+}
+
+/// What is wrong. Each message names the key that the user wrote or has to write.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SceneProblem {
+    /// A key is wrong, missing or not known.
+    #[error("{key}{message} (the keys are explained in examples/scenes/README.md)")]
+    Key {
+        /// Which, with a colon, or nothing where the message names it.
+        key: String,
+        /// What the parser says.
+        message: String,
+    },
+    /// Another version than is read here.
+    #[error(
+        "it has version {0}, but this program reads versions 1 to {VERSION}; install the fingertip that fits"
+    )]
+    OtherVersion(u32),
+    /// No version is stated.
+    #[error("it does not state its version; put `version = {VERSION}` on its first line")]
+    NoVersion,
+    /// A number that must be positive is not.
+    #[error("`{key}` must be a positive number, not {found}")]
+    NotPositive {
+        /// Which key.
+        key: &'static str,
+        /// Its value.
+        found: f64,
+    },
+    /// The pose is none.
+    #[error("`translation_m` and `rotation_deg` of the pose must be finite numbers")]
+    Pose,
+    /// A map where none is needed.
+    #[error("[map] is for other shapes than plane, sphere and cylinder, whose maps need none")]
+    NeedlessMap,
+    /// The middle of the map is none.
+    #[error("`centre_m` of [map] must be finite numbers")]
+    MapCentre,
+    /// The pole of the map is none.
+    #[error("`pole` of [map] must be a direction: finite and not zero")]
+    MapPole,
+    /// The grain of a flat surface is none.
+    #[error("`grain` of [friction] must be a direction along the surface, in the surface's frame")]
+    Grain,
+    /// A shape, a contact model or an uncertainty whose numbers cannot be.
+    #[error(transparent)]
+    Shape(#[from] BadShape),
+    /// A mesh that cannot be read.
+    #[error("mesh {path}: {source}", path = .path.display())]
+    Mesh {
+        /// Its file.
+        path: PathBuf,
+        /// Why not.
+        source: MeshError,
+    },
+    /// A friction or a detector whose numbers cannot be.
+    #[error(transparent)]
+    Friction(#[from] BadParameter),
+    /// One part of the scene asks for another.
+    #[error("{what} needs {needed}")]
+    Needs {
+        /// Which part.
+        what: &'static str,
+        /// What is missing.
+        needed: &'static str,
+    },
+    /// A key that belongs to another choice.
+    #[error("`{key}` of [{section}] is for {belongs}; take it out, or choose that")]
+    Misplaced {
+        /// In which section.
+        section: &'static str,
+        /// Which key.
+        key: &'static str,
+        /// To what it belongs.
+        belongs: &'static str,
+    },
+}

@@ -1,0 +1,29 @@
+#![doc = include_str!("../README.md")]
+
+mod estimate;
+mod fault;
+mod friction;
+mod grip;
+mod input;
+mod model;
+mod pipeline;
+mod projection;
+pub mod registry;
+mod scene;
+mod skin;
+mod slip;
+mod surface;
+mod uncertainty;
+
+pub use estimate::{Estimate, Learnt};
+pub use fault::{SceneError, SceneFault, SceneProblem, VERSION};
+pub use friction::{Friction, Limit};
+pub use grip::Grip;
+pub use input::Convention;
+pub use model::Model;
+pub use pipeline::{Felt, Pipeline};
+pub use projection::{MapKind, Projection};
+pub use scene::Scene;
+pub use skin::Skin;
+pub use slip::{Detector, SlipWatch};
+pub use uncertainty::{Spread, Uncertainty};

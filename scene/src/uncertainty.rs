@@ -1,0 +1,108 @@
+//! `[uncertainty]`: how sure each contact is.
+
+use fingertip::contact::{
+    ConfidenceEllipse, ContactCovariance, ContactJacobian, GeometryUncertainty, WrenchNoise,
+};
+use fingertip::surfaces::BadShape;
+use fingertip::wrench::{Real, Wrench};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use serde::{Deserialize, Serialize};
+
+/// `[uncertainty]` of a scene: standard deviations.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct UncertaintySection {
+    /// Of a component of the force at rest.
+    #[serde(rename = "force_noise_N")]
+    force_noise: f64,
+    #[serde(rename = "torque_noise_Nm")]
+    torque_noise: f64,
+    /// Under load, of the load.
+    #[serde(default)]
+    relative: f64,
+    /// Of the surface's height: of a radius, or of its departure from the shape.
+    #[serde(default)]
+    offset_m: f64,
+    /// Of the surface's place, in each direction.
+    #[serde(default)]
+    position_m: f64,
+    /// Of the surface's attitude, about each axis through its origin.
+    #[serde(default)]
+    attitude_deg: f64,
+    /// That the contact lies within the ellipse.
+    #[serde(default = "usual_probability")]
+    probability: f64,
+}
+
+const fn usual_probability() -> f64 {
+    0.95
+}
+
+impl UncertaintySection {
+    /// `pivot` is the origin of the surface's frame, in that of the sensor.
+    pub(crate) fn build<T: Real>(&self, pivot: &Vector3<f64>) -> Result<Uncertainty<T>, BadShape> {
+        let number = T::literal;
+        let floor = Vector6::from_fn(|i, _| number(if i < 3 { self.force_noise } else { self.torque_noise }));
+        let same = |deviation: f64| Matrix3::identity() * number(deviation * deviation);
+        let deviations = [self.offset_m, self.position_m, self.attitude_deg];
+        let good = deviations.iter().all(|deviation| *deviation >= 0.0 && deviation.is_finite());
+        BadShape::check("uncertainty", "standard deviations", "finite and not negative", good)?;
+        let within = self.probability > 0.0 && self.probability < 1.0;
+        BadShape::check("uncertainty", "probability", "between 0 and 1", within)?;
+        let geometry = GeometryUncertainty {
+            offset: number(self.offset_m * self.offset_m),
+            position: same(self.position_m),
+            attitude: same(self.attitude_deg.to_radians()),
+            pivot: pivot.map(number),
+        };
+        Ok(Uncertainty {
+            noise: WrenchNoise::new(floor, number(self.relative))?,
+            geometry: geometry.checked()?,
+            exact: deviations == [0.0; 3],
+            probability: number(self.probability),
+        })
+    }
+}
+
+/// What is uncertain of a fingertip: its wrench, and where its surface is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Uncertainty<T: Real> {
+    noise: WrenchNoise<T>,
+    geometry: GeometryUncertainty<T>,
+    /// Whether the geometry is taken to be known exactly.
+    exact: bool,
+    probability: T,
+}
+
+/// How sure a contact is: standard deviations to first order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread<T: Real> {
+    /// The ellipse in the tangent plane in which the contact lies with the probability that the scene asks for.
+    pub ellipse: ConfidenceEllipse<T>,
+    /// Standard deviation of the normal force \[N\].
+    pub normal_force: T,
+    /// Standard deviation of the spin torque \[N·m\].
+    pub spin_torque: T,
+}
+
+impl<T: Real> Uncertainty<T> {
+    /// Covariance of a wrench at rest.
+    pub(crate) fn at_rest(&self) -> Matrix6<T> {
+        Matrix6::from_diagonal(&self.noise.floor.component_mul(&self.noise.floor))
+    }
+
+    /// How sure a contact with these derivatives is, under this wrench; `None` where that cannot be said.
+    pub(crate) fn of(&self, jacobian: &ContactJacobian<T>, wrench: &Wrench<T>) -> Option<Spread<T>> {
+        let mut covariance = ContactCovariance::new(jacobian, &self.noise.covariance(wrench));
+        if !self.exact {
+            covariance = covariance.with_geometry(jacobian, &self.geometry);
+        }
+        let root = |variance: T| variance.max(T::zero()).root();
+        let spread = Spread {
+            ellipse: covariance.ellipse(self.probability)?,
+            normal_force: root(covariance.normal_force_variance()),
+            spin_torque: root(covariance.spin_variance()),
+        };
+        (spread.normal_force + spread.spin_torque).is_number().then_some(spread)
+    }
+}

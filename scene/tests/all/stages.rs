@@ -1,0 +1,133 @@
+//! What the stages of a scene say, against what they are made of.
+
+use fingertip::contact::{ContactCovariance, ContactJacobian, WrenchNoise};
+use fingertip::friction::{ForceNoise, SlipVerdict, UncertainCoulomb};
+use fingertip::surfaces::{SmoothSurface, Sphere};
+use fingertip::wrench::Wrench;
+use fingertip_scene::Scene;
+use nalgebra::{Vector3, Vector6};
+
+use crate::{BALL, HEAD, NOISE, pushes};
+
+fn scene(rest: &str) -> Scene {
+    let text = format!("{HEAD}{BALL}{rest}");
+    Scene::from_text(&text).unwrap_or_else(|problem| panic!("{problem}\n{text}"))
+}
+
+#[test]
+fn the_ellipse_is_that_of_the_covariance() {
+    let sphere = Sphere::centred(0.013).unwrap();
+    let noise = WrenchNoise::new(Vector6::new(0.01, 0.01, 0.01, 1e-4, 1e-4, 1e-4), 0.0).unwrap();
+    for (model, soft) in [("point", false), ("soft_finger", true)] {
+        let mut pipeline =
+            scene(&format!("[contact]\nmodel = \"{model}\"\nleast_force_N = 0.1\n{NOISE}")).pipeline();
+        let mut seen = 0;
+        for push in pushes(5, 300) {
+            let felt = pipeline.sense(push, 1e-3);
+            let Some(contact) = felt.contact() else {
+                assert!(felt.spread.is_none());
+                continue;
+            };
+            let jacobian = if soft {
+                ContactJacobian::of_soft_finger_on(contact, &sphere)
+            } else {
+                ContactJacobian::of_point_contact(contact, &push, &sphere.shape_operator(&contact.point))
+            };
+            let covariance = ContactCovariance::new(&jacobian.unwrap(), &noise.covariance(&push));
+            let spread = felt.spread.unwrap();
+            // (Directions of a circle are any.)
+            let expected = covariance.ellipse(0.95).unwrap();
+            for (axis, expected) in spread.ellipse.semi_axes.iter().zip(expected.semi_axes) {
+                assert!((axis / expected - 1.0).abs() < 1e-9);
+            }
+            let deviation = covariance.normal_force_variance().sqrt();
+            assert!((spread.normal_force / deviation - 1.0).abs() < 1e-15);
+            seen += 1;
+        }
+        assert!(seen > 200);
+    }
+}
+
+/// What is uncertain of the shape's place adds to the ellipse; through a skin there is one, too.
+#[test]
+fn an_uncertain_place_and_a_skin_widen_the_ellipse() {
+    let push = Wrench::from_force_at(&Vector3::new(0.0, 0.004, 0.0123), Vector3::new(0.1, 0.0, -1.0));
+    let axis = |rest: &str| scene(rest).pipeline().sense(push, 1e-3).spread.unwrap().ellipse.semi_axes[0];
+    let exact = axis(NOISE);
+    let placed = axis(&format!("{NOISE}position_m = 0.001\n"));
+    // The line of action stays: a shift along the normal moves the contact by its slant.
+    assert!(placed > 1.5 * exact && placed < exact + 3.0 * 0.001, "{exact} {placed}");
+    for model in ["point", "soft_finger"] {
+        let skin = format!(
+            "[contact]\nmodel = \"{model}\"\n[contact.skin]\nlaw = \"linear\"\nstiffness_N_per_m = 4000.0\nradius_m = 0.013\n{NOISE}"
+        );
+        assert!(axis(&skin) > 0.0);
+    }
+}
+
+#[test]
+fn an_uncertain_friction_tells_its_probability() {
+    let mut pipeline = scene(
+        "[friction]\nlimit = \"uncertain\"\nstatic_coefficient = 0.5\ndeviation = 0.05\nnoise_N = 0.01\nprobability = 0.05\n",
+    )
+    .pipeline();
+    let model = UncertainCoulomb::new(0.5, 0.05, Some(ForceNoise::isotropic(0.01).unwrap())).unwrap();
+    for push in pushes(6, 200) {
+        let felt = pipeline.sense(push, 1e-3);
+        let expected = felt.force().map(|force| model.slip_probability(force));
+        assert_eq!(felt.slip_probability, expected);
+        if let Some(force) = felt.force() {
+            let cautious = model.quantile(0.05);
+            let used = force.tangential_magnitude() / (cautious * force.normal);
+            assert!((felt.margin().unwrap().utilisation / used - 1.0).abs() < 1e-12);
+        }
+    }
+}
+
+/// A load that grows until it slips at a ratio of 0.6, and slides at 0.4: both are learnt, and the grip follows.
+#[test]
+fn friction_is_learnt_and_the_grip_follows() {
+    let mut pipeline = scene(
+        "[friction]\nstatic_coefficient = 0.5\n[slip]\ndetector = \"drop\"\nnoise_N = 0.002\n\
+         [estimate]\nnoise_N = 0.002\n\
+         [grip]\nleast_N = 0.2\ngreatest_N = 20.0\nrise_N_per_s = 100.0\nfall_N_per_s = 2.0\n",
+    )
+    .pipeline();
+    let top = Vector3::new(0.0, 0.0, 0.013);
+    let (mut slipped, mut command) = (0, 0.0_f64);
+    let mut last = None;
+    for k in 0..900 {
+        let ratio = if k < 600 { 0.001 * f64::from(k) } else { 0.4 };
+        let felt = pipeline.sense(Wrench::from_force_at(&top, Vector3::new(2.0 * ratio, 0.0, -2.0)), 1e-3);
+        slipped += usize::from(felt.touch.slip == Some(SlipVerdict::Slipping));
+        let next = felt.grip_force.unwrap();
+        assert!((next - command).abs() <= 0.1 + 1e-12 || k == 0, "{next} after {command}");
+        command = next;
+        last = felt.friction;
+    }
+    let learnt = last.unwrap();
+    let at_rest = learnt.at_rest.unwrap().coefficient;
+    assert!(slipped > 0 && (at_rest - 0.6).abs() < 0.01, "{slipped} {learnt:?}");
+    let sliding = learnt.sliding.unwrap().coefficient;
+    assert!((sliding - 0.4).abs() < 0.02, "{learnt:?}");
+    // 0.8 N sideways at 0.5 with a safety of 1.5.
+    assert!(command >= 2.0 * 0.4 / 0.5 * 1.5 - 1e-9, "{command}");
+    pipeline.reset();
+    let fresh = pipeline.sense(Wrench::from_force_at(&top, Vector3::new(0.0, 0.0, -2.0)), 1e-3);
+    assert_eq!(fresh.friction.unwrap().at_rest, None);
+}
+
+/// After a pause the detector and the last contact are forgotten.
+#[test]
+fn a_pause_starts_anew() {
+    let ring = format!("{HEAD}[surface]\nshape = \"torus\"\nring_radius_m = 0.03\ntube_radius_m = 0.01\n");
+    let scene = Scene::from_text(&ring).unwrap();
+    let left = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 0.012), Vector3::new(-1.0, 0.0, -0.7));
+    let twice = Wrench::from_force_at(&Vector3::zeros(), -Vector3::x());
+    for (pause, expected) in [(0.01, -0.02), (0.5, -0.02), (0.51, 0.04)] {
+        let mut pipeline = scene.pipeline();
+        assert!(pipeline.sense(left, 0.0).contact().unwrap().point.x < -0.02);
+        let found = pipeline.sense(twice, pause).contact().unwrap().point.x;
+        assert!((found - expected).abs() < 1e-9, "{found} after {pause} s");
+    }
+}
