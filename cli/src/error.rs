@@ -4,9 +4,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use fingertip_recordings::RecordingError;
+use fingertip_scene::SceneError;
 use thiserror::Error;
 
-use crate::scene::fault::SceneProblem;
 use crate::sensor::SensorError;
 
 /// Why a run stopped.
@@ -25,8 +25,8 @@ pub(crate) enum CliError {
     #[error("{what} {path} is also an input of this run and would be overwritten; give another path", path = .path.display())]
     WouldOverwrite { what: &'static str, path: PathBuf },
     /// The scene does not say what it must.
-    #[error("scene {path}{place}: {problem}", path = .path.display())]
-    Scene { path: PathBuf, place: Place, problem: SceneProblem },
+    #[error(transparent)]
+    Scene(SceneError),
     /// The recording cannot be used; the message names the file.
     #[error(transparent)]
     Recording(#[from] RecordingError),
@@ -106,19 +106,6 @@ pub(crate) enum CliError {
     /// The standard output cannot be written for another reason.
     #[error("cannot write to the standard output: {0}; check where it is redirected to")]
     Stdout(io::Error),
-}
-
-/// A line of a text file, if it is known.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Place(pub(crate) Option<usize>);
-
-impl core::fmt::Display for Place {
-    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self.0 {
-            Some(line) => write!(formatter, ", line {line}"),
-            None => Ok(()),
-        }
-    }
 }
 
 impl CliError {

@@ -27,7 +27,6 @@ mod rest_watch;
 mod scene;
 mod sensor;
 mod serve;
-mod shape;
 mod stop;
 mod summary;
 mod table;

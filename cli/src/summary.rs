@@ -4,9 +4,9 @@ use core::fmt;
 use std::path::Path;
 
 use fingertip_recordings::Quality;
+use fingertip_scene::{Limit, Scene};
 
 use crate::observe::{Observations, Quantiles, Status};
-use crate::scene::Scene;
 use crate::table::{Table, count, number, number_or_dash, percent, short};
 
 /// The result of a run, to be read by a human.
@@ -61,14 +61,14 @@ pub(crate) fn of_recording(run: &Run<'_>) -> Findings {
     let sensor = if run.sensor.is_empty() { String::new() } else { format!(", sensor {}", run.sensor) };
     let mut findings = Findings {
         title: format!("Contacts in {name}{sensor}"),
-        lead: vec![overview(observations, &scene.name), forces(observations), slips(observations, scene)],
+        lead: vec![overview(observations, scene.name()), forces(observations), slips(observations, scene)],
         tables: vec![outcomes(observations), distributions(observations)],
         notes: run.notes.to_vec(),
     };
     let (contacts, pulling) =
         (observations.count_of(Status::Contact), observations.count_of(Status::OnlyPulling));
     if pulling > contacts {
-        let tare = if scene.rest.is_some() { ", and that nothing touched during rest_s" } else { "" };
+        let tare = if scene.rest().is_some() { ", and that nothing touched during rest_s" } else { "" };
         findings.notes.insert(
             0,
             format!(
@@ -120,13 +120,13 @@ fn forces(observations: &Observations) -> String {
 }
 
 fn slips(observations: &Observations, scene: &Scene) -> String {
-    let seen = match (scene.slip.is_on(), observations.slips.count()) {
+    let seen = match (scene.watches_for_slip(), observations.slips.count()) {
         (false, _) => String::new(),
         (true, 0) => "No slip was seen.".to_owned(),
         (true, 1) => "One slip was seen.".to_owned(),
         (true, slips) => format!("{} slips were seen.", count(slips)),
     };
-    let limit = match (scene.friction.coefficient(), observations.beyond_limit) {
+    let limit = match (scene.limit().map(Limit::coefficient), observations.beyond_limit) {
         (Some(coefficient), beyond) if beyond > 0 => {
             format!(
                 " The limit of the friction coefficient {} is passed in {} samples.",
@@ -193,7 +193,7 @@ mod tests {
 
     use super::distributions;
     use crate::observe::Observations;
-    use crate::shape::Projection;
+    use fingertip_scene::Projection;
 
     #[test]
     fn what_was_not_seen_has_no_distribution() {

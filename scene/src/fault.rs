@@ -23,7 +23,7 @@ pub enum SceneError {
         source: io::Error,
     },
     /// Something in it is wrong.
-    #[error("{path}{line}: {problem}", path = .path.display(), line = Line(.fault.line), problem = .fault.problem)]
+    #[error("scene {path}{line}: {problem}", path = .path.display(), line = Line(.fault.line), problem = .fault.problem)]
     Fault {
         /// Which file.
         path: PathBuf,
@@ -32,12 +32,12 @@ pub enum SceneError {
     },
 }
 
-/// A line, if it is known, as a suffix of a path.
+/// A line, if it is known, behind a path.
 struct Line(Option<usize>);
 
 impl core::fmt::Display for Line {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        self.0.map_or(Ok(()), |line| write!(f, ":{line}"))
+        self.0.map_or(Ok(()), |line| write!(f, ", line {line}"))
     }
 }
 

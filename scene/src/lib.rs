@@ -21,7 +21,7 @@ pub use friction::{Friction, Limit};
 pub use grip::Grip;
 pub use input::Convention;
 pub use model::Model;
-pub use pipeline::{Felt, Pipeline};
+pub use pipeline::{Felt, Pipeline, Tells};
 pub use projection::{MapKind, Projection};
 pub use scene::Scene;
 pub use skin::Skin;

@@ -191,6 +191,11 @@ impl<T: Real> ContactModel<T, DynSurface<T>> for Model<T> {
 }
 
 impl<T: Real> Model<T> {
+    /// Whether its contacts may have a spin torque.
+    pub(crate) const fn knows_spin(&self) -> bool {
+        !matches!(self, Self::Point(_) | Self::PointUnderSkin(_))
+    }
+
     /// The first derivatives of a contact that this model found in a wrench; `None` where they do not exist.
     pub(crate) fn jacobian(
         &self,

@@ -68,6 +68,21 @@ impl<T: Real> Felt<T> {
     }
 }
 
+/// What a scene tells of a sample beside contact, forces, margin and verdict.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tells {
+    /// A spin torque: the contact model knows one.
+    pub spin_torque: bool,
+    /// How sure the contact is: there is an `[uncertainty]`.
+    pub spread: bool,
+    /// The probability of slip: the friction has a deviation.
+    pub slip_probability: bool,
+    /// What was learnt of the friction: there is an `[estimate]`.
+    pub friction: bool,
+    /// The normal force to command: there is a `[grip]`.
+    pub grip_force: bool,
+}
+
 /// The parts that a scene builds.
 pub(crate) struct Parts<T: Real> {
     pub(crate) surface: DynSurface<T>,
@@ -152,9 +167,22 @@ impl<T: Real> Pipeline<T> {
         }
     }
 
-    fn start_anew(&mut self) {
+    /// Forgets the last contact and what the slip detector saw, as after a gap in a recording; what was learnt of
+    /// the friction stays.
+    pub fn start_anew(&mut self) {
         self.stages.detector_mut().reset();
         self.last = None;
+    }
+
+    /// What is told of each sample beside contact, forces, margin and verdict.
+    pub fn tells(&self) -> Tells {
+        Tells {
+            spin_torque: self.model().knows_spin(),
+            spread: self.uncertainty.is_some(),
+            slip_probability: matches!(self.limit(), Some(Limit::Uncertain { .. })),
+            friction: self.estimate.is_some(),
+            grip_force: self.grip.is_some(),
+        }
     }
 
     /// The surface, in the sensor frame.

@@ -15,7 +15,7 @@ use crate::friction::{Friction, FrictionSection, Limit};
 use crate::grip::GripSection;
 use crate::input::{Convention, InputSection};
 use crate::model::ContactSection;
-use crate::pipeline::{Parts, Pipeline};
+use crate::pipeline::{Parts, Pipeline, Tells};
 use crate::projection::Projection;
 use crate::slip::{SlipSection, SlipWatch};
 use crate::surface::{
@@ -206,6 +206,12 @@ impl Scene {
     #[must_use]
     pub const fn watches_for_slip(&self) -> bool {
         self.stages.slip.is_some()
+    }
+
+    /// What is told of each sample beside contact, forces, margin and verdict.
+    #[must_use]
+    pub fn tells(&self) -> Tells {
+        self.pipeline.tells()
     }
 
     /// The pipeline, in double precision.

@@ -6,13 +6,25 @@ use std::path::{Path, PathBuf};
 
 use fingertip::contact::{NoContact, Resolution};
 use fingertip::friction::SlipVerdict;
+use fingertip_scene::{Felt, Tells};
 
 use crate::error::CliError;
-use crate::observe::{SceneTouch, Status};
+use crate::observe::Status;
 
 /// The columns; units are in the names. Where a sample has no value, the cell is empty.
 const HEADER: &str = "t_s,status,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,x_m,y_m,z_m,nx,ny,nz,\
-                      normal_N,tangential_N,ratio,margin_N,gap_m,slip\n";
+                      normal_N,tangential_N,ratio,margin_N,gap_m,slip";
+/// What a scene that asks for more has behind it, in this order.
+const MORE: [(fn(&Tells) -> bool, &[&str]); 5] = [
+    (|tells| tells.spin_torque, &["spin_Nm"]),
+    (
+        |tells| tells.spread,
+        &["ellipse_a_m", "ellipse_b_m", "ellipse_x", "ellipse_y", "ellipse_z", "normal_deviation_N"],
+    ),
+    (|tells| tells.slip_probability, &["slip_probability"]),
+    (|tells| tells.friction, &["mu_static", "mu_static_deviation", "mu_kinetic", "mu_kinetic_deviation"]),
+    (|tells| tells.grip_force, &["grip_N"]),
+];
 /// Cells behind the wrench.
 const CONTACT_CELLS: usize = 11;
 /// Bytes that are collected before they are written.
@@ -26,6 +38,7 @@ pub(super) struct ContactWriter {
     out: Out,
     path: PathBuf,
     buffer: Vec<u8>,
+    tells: Tells,
 }
 
 enum Out {
@@ -35,7 +48,7 @@ enum Out {
 
 impl ContactWriter {
     /// `-` is the standard output.
-    pub(super) fn create(path: &Path) -> Result<Self, CliError> {
+    pub(super) fn create(path: &Path, tells: Tells) -> Result<Self, CliError> {
         let out = if path == Path::new("-") {
             Out::Stdout(io::stdout())
         } else {
@@ -43,11 +56,18 @@ impl ContactWriter {
         };
         let mut buffer = Vec::with_capacity(BUFFER);
         buffer.extend_from_slice(HEADER.as_bytes());
-        Ok(Self { out, path: path.to_owned(), buffer })
+        for (told, columns) in MORE.map(|(of, columns)| (of(&tells), columns)) {
+            if told {
+                columns.iter().for_each(|column| buffer.extend_from_slice(format!(",{column}").as_bytes()));
+            }
+        }
+        buffer.push(b'\n');
+        Ok(Self { out, path: path.to_owned(), buffer, tells })
     }
 
     #[inline]
-    pub(super) fn write(&mut self, time: f64, touch: &SceneTouch) -> Result<(), CliError> {
+    pub(super) fn write(&mut self, time: f64, felt: &Felt<f64>) -> Result<(), CliError> {
+        let touch = &felt.touch;
         self.time(time);
         self.word(Status::of(&touch.resolution).word());
         self.cells(touch.wrench.force().as_ref());
@@ -75,13 +95,48 @@ impl ContactWriter {
             Some(SlipVerdict::Warning) => "warning",
             Some(SlipVerdict::Slipping) => "slipping",
         });
+        self.more(felt);
         self.end_row()
+    }
+
+    /// What the scene asks for beside.
+    #[inline]
+    fn more(&mut self, felt: &Felt<f64>) {
+        let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
+        if self.tells.spin_torque {
+            self.cell(number(felt.contact().map(|contact| contact.spin_torque)));
+        }
+        if self.tells.spread {
+            match &felt.spread {
+                Some(spread) => {
+                    spread.ellipse.semi_axes.iter().for_each(|axis| self.cell(*axis));
+                    self.cells(spread.ellipse.directions[0].as_ref());
+                    self.cell(spread.normal_force);
+                }
+                None => self.empty(6),
+            }
+        }
+        if self.tells.slip_probability {
+            self.cell(number(felt.slip_probability));
+        }
+        if self.tells.friction {
+            let learnt = felt.friction.map(|learnt| [learnt.at_rest, learnt.sliding]);
+            for estimate in learnt.unwrap_or_default() {
+                self.cell(number(estimate.map(|estimate| estimate.coefficient)));
+                self.cell(number(estimate.map(|estimate| estimate.deviation)));
+            }
+        }
+        if self.tells.grip_force {
+            self.cell(number(felt.grip_force));
+        }
     }
 
     pub(super) fn write_without_wrench(&mut self, time: f64, status: Status) -> Result<(), CliError> {
         self.time(time);
         self.word(status.word());
-        self.empty(6 + CONTACT_CELLS + 1);
+        let more: usize =
+            MORE.iter().filter(|(of, _)| of(&self.tells)).map(|(_, columns)| columns.len()).sum();
+        self.empty(6 + CONTACT_CELLS + 1 + more);
         self.end_row()
     }
 

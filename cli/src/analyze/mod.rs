@@ -12,37 +12,30 @@ mod wrenches;
 
 use std::path::Path;
 
-use fingertip::surfaces::ActiveSurface;
-use fingertip::{Fingertip, Step};
+use fingertip::wrench::Compensation;
 use fingertip_recordings::Quality;
+use fingertip_scene::Scene;
 
 use crate::error::CliError;
 use crate::observe::{Observations, Status};
 use crate::output;
 use crate::report;
-use crate::scene::Scene;
-use crate::shape::Shape;
+use crate::scene;
 use crate::summary::{self, Run};
 use args::AnalyzeArguments;
 use contacts::ContactWriter;
 use source::{Reading, Source};
 
 pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
-    let scene = Scene::load(&arguments.scene)?;
+    let scene = scene::load(&arguments.scene)?;
     let recording = arguments.recording.as_path();
     files::guard(arguments)?;
     let mut notes = Vec::new();
     let files::Opened { rows: mut reader, bar } = files::open(recording, &mut notes)?;
     let mut source = Source::new(&mut reader, &scene, arguments, notes)?;
-    let mut contacts = ContactWriter::create(&arguments.output)?;
-    let mut pass = Pass { scene: &scene, reader: &mut reader, source: &mut source, contacts: &mut contacts };
-    // The one place where a shape is chosen: the loop inside is compiled for each.
-    let observations = match scene.shape {
-        Shape::Plane(plane) => pass.over(plane),
-        Shape::Sphere(sphere) => pass.over(sphere),
-        Shape::Cylinder(cylinder) => pass.over(cylinder),
-        Shape::Other(ref other) => pass.over(other.as_ref().clone()),
-    }?;
+    let mut contacts = ContactWriter::create(&arguments.output, scene.tells())?;
+    let pass = Pass { scene: &scene, reader: &mut reader, source: &mut source, contacts: &mut contacts };
+    let observations = pass.run()?;
     bar.finish_and_clear();
     contacts.finish()?;
 
@@ -75,28 +68,19 @@ struct Pass<'a> {
 }
 
 impl Pass<'_> {
-    fn over<S: ActiveSurface<f64>>(&mut self, surface: S) -> Result<Observations, CliError> {
-        let mut fingertip = Fingertip::builder()
-            .payload(self.source.payload())
-            .contact(surface, self.scene.model)
-            .friction_stage(self.scene.friction)
-            .slip_stage(self.scene.slip)
-            .build();
-        let mut observations = Observations::new(self.scene.projection);
-        let mut last_point = None;
+    fn run(self) -> Result<Observations, CliError> {
+        let (payload, mut pipeline) = (self.source.payload(), self.scene.pipeline());
+        let mut observations = Observations::new(*self.scene.projection());
         while let Some(row) = self.reader.next_row()? {
             let (time, time_step) = self.source.clock(&row);
             if row.marks().gap {
-                fingertip.detector_mut().reset();
-                last_point = None;
+                pipeline.start_anew();
             }
             match self.source.read(&row, time)? {
                 Reading::Wrench(wrench, motion) => {
-                    let step = Step::of(time_step).with_last(last_point).with_motion(motion);
-                    let touch = fingertip.sense_wrench(wrench, step);
-                    last_point = touch.point();
-                    observations.add(time, &touch);
-                    self.contacts.write(time, &touch)?;
+                    let felt = pipeline.sense(payload.compensate(&(wrench, motion)), time_step);
+                    observations.add(time, &felt.touch);
+                    self.contacts.write(time, &felt)?;
                 }
                 Reading::Without(status) => {
                     observations.add_without_wrench(time, status);

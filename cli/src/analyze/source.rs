@@ -15,7 +15,7 @@ use super::wrenches::Wrenches;
 use crate::error::CliError;
 use crate::gauge_rows::KnownTemperature;
 use crate::observe::Status;
-use crate::scene::{Convention, Scene};
+use fingertip_scene::{Convention, Scene};
 
 /// What one row gives.
 pub(super) enum Reading {
@@ -60,16 +60,16 @@ impl Source {
         };
         let layout = reader.layout();
         let has_time = layout.has_time();
-        if !has_time && scene.sample_rate.is_none() {
+        if !has_time && scene.sample_rate().is_none() {
             return Err(CliError::NoTime {
                 path: arguments.recording.clone(),
                 scene: arguments.scene.clone(),
             });
         }
         let header = |problem: HeaderProblem| CliError::Recording(reader.header_error(problem));
-        let sensor = arguments.sensor.as_deref().or(scene.sensor.as_deref());
+        let sensor = arguments.sensor.as_deref().or(scene.sensor());
         let recorded: Box<dyn Recorded> = if let Some(calibration) = &arguments.calibration {
-            let has_rest = scene.rest.is_some();
+            let has_rest = scene.rest().is_some();
             volts::open(layout, sensor, calibration, has_rest, temperature, &mut notes, header)?
         } else {
             if layout.wrenches().is_empty() && sensor.is_none() {
@@ -77,7 +77,7 @@ impl Source {
             }
             Box::new(Wrenches::new(layout, sensor).map_err(header)?)
         };
-        if scene.rest.is_none() {
+        if scene.rest().is_none() {
             let note = if arguments.calibration.is_some() {
                 "tare: the zero of the calibration, since the scene gives no rest_s"
             } else {
@@ -92,10 +92,10 @@ impl Source {
         Ok(Self {
             recorded,
             carried,
-            least_force: scene.model.least_force(),
-            convention: scene.convention,
-            rest: scene.rest,
-            sample_interval: if has_time { None } else { scene.sample_rate.map(f64::recip) },
+            least_force: scene.least_force(),
+            convention: scene.convention(),
+            rest: scene.rest(),
+            sample_interval: if has_time { None } else { scene.sample_rate().map(f64::recip) },
             recording: arguments.recording.clone(),
             rows: 0,
             first_time: None,

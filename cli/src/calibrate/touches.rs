@@ -3,14 +3,13 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use fingertip::surfaces::ActiveSurface;
+use fingertip::surfaces::{ActiveSurface, DynSurface};
 use fingertip_calibration::Axis;
 use fingertip_calibration::design::{DesignError, Touch, TouchSet};
 use nalgebra::Vector3;
 
 use crate::error::CliError;
-use crate::scene::Scene;
-use crate::shape::Shape;
+use crate::scene;
 
 /// A little more than what most fingers need to hold: the touches press with friction up to this.
 const FRICTION: f64 = 0.3;
@@ -48,8 +47,8 @@ impl TouchArguments {
                 (name, touches.map_err(fault)?)
             }
             Some(path) => {
-                let scene = Scene::load(path)?;
-                (format!("the surface of {}", path.display()), on(&scene.shape, force).map_err(fault)?)
+                let scene = scene::load(path)?;
+                (format!("the surface of {}", path.display()), on(scene.surface(), force).map_err(fault)?)
             }
         };
         let step = touches.len() / TOUCHES + 1;
@@ -58,7 +57,7 @@ impl TouchArguments {
     }
 }
 
-fn on(shape: &Shape, force: f64) -> Result<Vec<Touch>, DesignError> {
+fn on(surface: &DynSurface<f64>, force: f64) -> Result<Vec<Touch>, DesignError> {
     fn all<S: ActiveSurface<f64>>(
         surface: &S,
         centre: Vector3<f64>,
@@ -67,13 +66,14 @@ fn on(shape: &Shape, force: f64) -> Result<Vec<Touch>, DesignError> {
     ) -> Result<Vec<Touch>, DesignError> {
         Touch::on_surface(surface, centre, reach, FRICTION, force)
     }
-    match shape {
-        Shape::Plane(plane) => all(plane, plane.point(), REACH, force),
-        Shape::Sphere(cap) => all(cap, cap.sphere().centre(), cap.sphere().radius(), force),
-        Shape::Cylinder(cylinder) => {
+    match surface {
+        DynSurface::Plane(plane) => all(plane, plane.point(), REACH, force),
+        DynSurface::Sphere(cap) => all(cap, cap.sphere().centre(), cap.sphere().radius(), force),
+        DynSurface::Cylinder(cylinder) => {
             let reach = cylinder.radius().hypot(cylinder.half_length().unwrap_or(REACH));
             all(cylinder, cylinder.centre(), reach, force)
         }
-        Shape::Other(other) => all(other.as_ref(), other.sensor_from_shape().origin(), REACH, force),
+        DynSurface::Posed(other) => all(other.as_ref(), other.sensor_from_shape().origin(), REACH, force),
+        other => all(other, Vector3::zeros(), REACH, force),
     }
 }

@@ -19,10 +19,10 @@ use crate::error::CliError;
 use crate::observe::{Observations, Reservoir, Status};
 use crate::output::{self, print, write};
 use crate::report;
-use crate::scene::{Friction, SlipWatch, least_static_coefficient};
-use crate::shape::Projection;
+use crate::scene::least_static_coefficient;
 use args::DemoArguments;
 use export::VoltsFile;
+use fingertip_scene::{Detector, Friction, Limit, Projection, SlipWatch};
 use rest::Rest;
 
 /// Forces below so many standard deviations of the rest are no contact.
@@ -107,8 +107,8 @@ fn play(arguments: &DemoArguments) -> Result<Outcome, CliError> {
             SphericalCap::new(sphere, pole, rim.cos()).map_err(fault)?,
             PointContact::new(least_force).map_err(fault)?,
         )
-        .friction_stage(Friction::known(Coulomb::new(coefficient).map_err(fault)?))
-        .slip_stage(SlipWatch::Drop(DropDetector::new(noise).map_err(fault)?))
+        .friction_stage(Friction(Some(Limit::Coulomb(Coulomb::new(coefficient).map_err(fault)?))))
+        .slip_stage(SlipWatch(Some(Detector::Drop(DropDetector::new(noise).map_err(fault)?))))
         .build();
 
     let mut errors = Reservoir::new(ERROR_POINTS);

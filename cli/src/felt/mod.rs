@@ -4,69 +4,36 @@ mod noise;
 pub(crate) mod rest;
 
 use fingertip::contact::{ConfidenceEllipse, ContactCovariance, ContactJacobian, Resolution};
-use fingertip::surfaces::ActiveSurface;
 use fingertip::wrench::Wrench;
-use fingertip::{Fingertip, Step};
+use fingertip_scene::{Convention, Pipeline, Scene};
 use nalgebra::Matrix3;
 
 use crate::observe::SceneTouch;
-use crate::scene::Scene;
-use crate::shape::Shape;
 pub(crate) use noise::NoiseWatch;
 pub(crate) use rest::{NoZero, Rest};
 
-/// A longer step than this is a pause \[s\]: what follows from sample to sample starts anew.
-const PAUSE: f64 = 0.5;
-
-/// What the pipeline of a scene makes of a wrench.
-type Feel = Box<dyn FnMut(Wrench<f64>, f64) -> SceneTouch + Send>;
-
 /// The pipeline of a scene, with the tare that the scene asks for.
 pub(crate) struct SceneFeel {
-    scene: Scene,
-    feel: Feel,
+    convention: Convention,
+    pipeline: Pipeline<f64>,
     rest: Rest,
     last: Option<f64>,
 }
 
 impl SceneFeel {
     /// `tared` if the wrenches have their zero taken off already, so that the scene's rest does not count.
-    pub(crate) fn new(scene: Scene, tared: bool) -> Self {
-        let feel = match &scene.shape {
-            Shape::Plane(plane) => over(*plane, &scene),
-            Shape::Sphere(sphere) => over(*sphere, &scene),
-            Shape::Cylinder(cylinder) => over(*cylinder, &scene),
-            Shape::Other(other) => over(other.as_ref().clone(), &scene),
-        };
-        let rest = Rest::new(scene.rest.filter(|_| !tared));
-        Self { scene, feel, rest, last: None }
+    pub(crate) fn new(scene: &Scene, tared: bool) -> Self {
+        let rest = Rest::new(scene.rest().filter(|_| !tared));
+        Self { convention: scene.convention(), pipeline: scene.pipeline(), rest, last: None }
     }
 
     /// What a sample means; `None` while the zero is taken.
     pub(crate) fn feel(&mut self, time: f64, reported: &Wrench<f64>) -> Result<Option<SceneTouch>, NoZero> {
         let Some(tared) = self.rest.take(time, reported)? else { return Ok(None) };
-        let wrench = self.scene.convention.wrench(tared.force(), tared.torque());
+        let wrench = self.convention.wrench(tared.force(), tared.torque());
         let step = self.last.replace(time).map_or(0.0, |last| time - last);
-        Ok(Some((self.feel)(wrench, if step > 0.0 { step } else { 0.0 })))
+        Ok(Some(self.pipeline.sense(wrench, step).touch))
     }
-}
-
-fn over<S: ActiveSurface<f64> + Send + 'static>(surface: S, scene: &Scene) -> Feel {
-    let mut fingertip = Fingertip::builder()
-        .contact(surface, scene.model)
-        .friction_stage(scene.friction)
-        .slip_stage(scene.slip)
-        .build();
-    let mut last = None;
-    Box::new(move |wrench, step| {
-        if step > PAUSE {
-            fingertip.detector_mut().reset();
-            last = None;
-        }
-        let touch = fingertip.sense_wrench(wrench, Step::of(step).with_last(last));
-        last = touch.point();
-        touch
-    })
 }
 
 /// Where the contact lies with 95 %, by the noise of the wrench alone. A point contact's position does not
@@ -82,10 +49,9 @@ pub(crate) fn ellipse(touch: &SceneTouch, noise: &NoiseWatch) -> Option<Confiden
 mod tests {
     use fingertip::wrench::Wrench;
     use nalgebra::{Vector3, Vector6};
-    use std::path::Path;
 
     use super::{NoiseWatch, Rest, SceneFeel, ellipse};
-    use crate::scene::Scene;
+    use fingertip_scene::Scene;
 
     fn uniform(value: f64) -> Wrench<f64> {
         Wrench::from_components(&Vector6::repeat(value))
@@ -118,7 +84,7 @@ mod tests {
         [friction]\nstatic_coefficient = 0.5\n[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n";
 
     fn scene(shape: &str) -> Scene {
-        Scene::read(&SCENE.replace("SHAPE\"", shape), "test", Path::new("")).unwrap()
+        Scene::from_text(&SCENE.replace("SHAPE\"", shape)).unwrap()
     }
 
     #[test]
@@ -133,13 +99,13 @@ mod tests {
                 Wrench::from_force_at(&Vector3::new(0.0, 0.0, top), Vector3::new(0.1, 0.0, -1.0));
             let reaction = Wrench::from_components(&-push.components());
             // Behind its rest, or at once where the zero is taken off already.
-            let mut feel = SceneFeel::new(scene(shape), false);
+            let mut feel = SceneFeel::new(&scene(shape), false);
             for time in [0.0, 0.05] {
                 assert!(feel.feel(time, &uniform(0.3)).unwrap().is_none());
             }
             let biased = Wrench::from_components(&(reaction.components() + Vector6::repeat(0.3)));
             let behind = feel.feel(0.1, &biased).unwrap().unwrap();
-            let at_once = SceneFeel::new(scene(shape), true).feel(0.0, &reaction).unwrap().unwrap();
+            let at_once = SceneFeel::new(&scene(shape), true).feel(0.0, &reaction).unwrap().unwrap();
             for touch in [behind, at_once] {
                 let contact = touch.resolution.contact().unwrap();
                 assert!((contact.point - Vector3::new(0.0, 0.0, top)).norm() < 1e-12, "{shape}: {contact:?}");
@@ -164,10 +130,10 @@ mod tests {
             let touch = feel.feel(time, wrench).unwrap().unwrap();
             touch.resolution.contact().unwrap().point.x
         };
-        let fresh = met(&mut SceneFeel::new(scene(torus), true), 0.0, &twice);
+        let fresh = met(&mut SceneFeel::new(&scene(torus), true), 0.0, &twice);
         assert!((fresh - 0.04).abs() < 1e-9, "{fresh}");
         for (pause, expected) in [(0.01, -0.02), (0.5, -0.02), (0.51, 0.04)] {
-            let mut feel = SceneFeel::new(scene(torus), true);
+            let mut feel = SceneFeel::new(&scene(torus), true);
             assert!(met(&mut feel, 0.0, &left) < -0.02);
             let found = met(&mut feel, pause, &twice);
             assert!((found - expected).abs() < 1e-9, "{found} after {pause} s");
@@ -177,7 +143,7 @@ mod tests {
     #[test]
     fn the_ellipse_is_that_of_the_noise() {
         let mut noise = NoiseWatch::default();
-        let mut feel = SceneFeel::new(scene("plane\""), true);
+        let mut feel = SceneFeel::new(&scene("plane\""), true);
         let load = Wrench::from_force_at(&Vector3::zeros(), Vector3::new(0.0, 0.0, 1.0));
         let touch = feel.feel(0.0, &load).unwrap().unwrap();
         assert!(touch.resolution.contact().is_some() && ellipse(&touch, &noise).is_none());

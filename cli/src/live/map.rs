@@ -12,8 +12,8 @@ use ratatui::widgets::Block;
 use ratatui::widgets::canvas::{Canvas, Circle, Context, Line as Stroke, Points, Rectangle};
 
 use super::state::State;
-use crate::shape::{MapKind, Projection};
 use crate::table::number;
+use fingertip_scene::{MapKind, Projection};
 
 /// Fewer rows show nothing.
 pub(super) const LEAST_HEIGHT: u16 = 6;

@@ -23,9 +23,10 @@ use state::{Health, State};
 
 use crate::error::CliError;
 use crate::felt::{Rest, SceneFeel};
-use crate::scene::Scene;
+use crate::scene;
 use crate::sensor::{self, Calibrating, Event, GaugesOf, SensorError, Stream, StreamOptions};
 use crate::stop::Stop;
+use fingertip_scene::{Limit, Scene};
 
 /// How long a zero takes that is asked for by a key \[s\].
 const ZERO: f64 = 1.0;
@@ -61,19 +62,19 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
     }
     let simulated = arguments.replay.is_none() && sensor::is_simulated(&arguments.address);
     let scene = arguments.scene.clone().or_else(|| simulated.then(|| PathBuf::from("sim")));
-    let scene = scene.as_deref().map(Scene::load_or_simulated).transpose()?;
+    let scene = scene.as_deref().map(scene::load_or_simulated).transpose()?;
 
     let mut state = State::new(source.clone());
     if let Some(scene) = &scene {
-        state.projection = Some(scene.projection);
-        state.coefficient = scene.friction.coefficient();
-        state.watches_slip = scene.slip.is_on();
+        state.projection = Some(*scene.projection());
+        state.coefficient = scene.limit().map(Limit::coefficient);
+        state.watches_slip = scene.watches_for_slip();
     }
-    let named = scene.as_ref().and_then(|scene| scene.sensor.clone());
-    let seconds = arguments.tare.or_else(|| scene.as_ref().and_then(|scene| scene.rest));
+    let named = scene.as_ref().and_then(|scene| scene.sensor().map(str::to_owned));
+    let seconds = arguments.tare.or_else(|| scene.as_ref().and_then(Scene::rest));
     // The rest of gauges is taken of their readings.
     let rest = Rest::new(seconds.filter(|_| arguments.calibration.is_none()));
-    let feel = scene.map(|scene| SceneFeel::new(scene, true));
+    let feel = scene.map(|scene| SceneFeel::new(&scene, true));
     // Before the terminal is taken, so that what is wrong is said in plain lines.
     let stream = open(arguments, seconds, named.as_deref())?;
     let shared =
@@ -225,7 +226,6 @@ mod tests {
 
     use super::{Health, Rest, Shared, State, Stop, Stream, StreamOptions, read};
     use crate::felt::SceneFeel;
-    use crate::scene::Scene;
     use crate::sensor::{Feed, Losses, Next, Reading, SensorError};
 
     /// Gives what it is told to, and asks for something at one of its samples.
@@ -295,8 +295,8 @@ mod tests {
 
     #[test]
     fn a_scene_makes_a_touch_of_a_sample() {
-        let scene = Scene::load_or_simulated(Path::new("sim")).unwrap();
-        let state = shown(vec![sample(0.0, -1.0)], None, usize::MAX, Some(SceneFeel::new(scene, true)));
+        let scene = crate::scene::load_or_simulated(Path::new("sim")).unwrap();
+        let state = shown(vec![sample(0.0, -1.0)], None, usize::MAX, Some(SceneFeel::new(&scene, true)));
         assert!(state.touch.is_some());
         assert!(shown(vec![sample(0.0, -1.0)], None, usize::MAX, None).touch.is_none());
     }

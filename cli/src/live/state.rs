@@ -11,7 +11,7 @@ use fingertip::wrench::Wrench;
 use crate::felt::{NoiseWatch, ellipse};
 use crate::observe::{SceneTouch, Status};
 use crate::sensor::Losses;
-use crate::shape::Projection;
+use fingertip_scene::Projection;
 
 /// How long the view remembers a slip \[s\]: a slip of milliseconds would not be seen.
 const SLIP_SHOWN: f64 = 0.5;
@@ -174,7 +174,7 @@ mod tests {
 
     use super::{SceneTouch, State, TRAIL};
     use crate::felt::SceneFeel;
-    use crate::scene::Scene;
+    use crate::scene::load_or_simulated;
 
     fn touch(slip: Option<SlipVerdict>) -> Option<SceneTouch> {
         let resolution = Resolution::NoContact(NoContact::NotFinite);
@@ -245,11 +245,11 @@ mod tests {
 
     #[test]
     fn the_trail_has_the_last_places_and_no_place_twice() {
-        let scene = Scene::load_or_simulated(Path::new("sim")).unwrap();
+        let scene = load_or_simulated(Path::new("sim")).unwrap();
         let mut state = State::new(String::new());
-        let projection = scene.projection;
+        let projection = *scene.projection();
         state.projection = Some(projection);
-        let mut feel = SceneFeel::new(scene, true);
+        let mut feel = SceneFeel::new(&scene, true);
         let mut places = Vec::new();
         for step in 0..TRAIL + 10 {
             let angle = 1e-3 * step as f64;

@@ -127,7 +127,7 @@ mod tests {
 
     use super::{Health, State, draw};
     use crate::felt::SceneFeel;
-    use crate::scene::Scene;
+    use crate::scene::load_or_simulated;
 
     const SIZES: [(u16, u16); 12] = [
         (0, 0),
@@ -160,12 +160,12 @@ mod tests {
     }
 
     fn pressed(force: Vector3<f64>, samples: u32) -> State {
-        let scene = Scene::load_or_simulated(Path::new("sim")).unwrap();
+        let scene = load_or_simulated(Path::new("sim")).unwrap();
         let mut state = State::new("test".to_owned());
-        state.projection = Some(scene.projection);
-        state.coefficient = scene.friction.coefficient();
+        state.projection = Some(*scene.projection());
+        state.coefficient = scene.limit().map(fingertip_scene::Limit::coefficient);
         state.watches_slip = true;
-        let mut feel = SceneFeel::new(scene, true);
+        let mut feel = SceneFeel::new(&scene, true);
         for sample in 0..samples {
             let time = f64::from(sample) * 1e-3;
             // A point at 45° from the top, and something like noise.
@@ -250,10 +250,10 @@ mod tests {
     /// A scene of a surface, pressed here and there with something like noise of so many newtons.
     fn wandering(surface: &str, noise: f64, place: impl Fn(f64) -> (Vector3<f64>, Vector3<f64>)) -> State {
         let text = format!("version = 1\n[input]\nconvention = \"on_fingertip\"\n[surface]\n{surface}\n");
-        let scene = Scene::read(&text, "test", Path::new("")).unwrap();
+        let scene = fingertip_scene::Scene::from_text(&text).unwrap();
         let mut state = State::new("test".to_owned());
-        state.projection = Some(scene.projection);
-        let mut feel = SceneFeel::new(scene, true);
+        state.projection = Some(*scene.projection());
+        let mut feel = SceneFeel::new(&scene, true);
         for sample in 0..120_u32 {
             let (point, force) = place(0.05 * f64::from(sample));
             let noise = noise * (11.0 * f64::from(sample)).sin();

@@ -16,7 +16,7 @@ pub(crate) use slips::Slips;
 pub(crate) use status::Status;
 pub(crate) use trace::{Point, Trace};
 
-use crate::shape::Projection;
+use fingertip_scene::Projection;
 
 /// One sample as the pipeline of a scene leaves it.
 pub(crate) type SceneTouch = Touch<f64, Option<SlipMargin<f64>>, Option<SlipVerdict>>;

@@ -15,7 +15,7 @@ use crate::error::CliError;
 use crate::felt::{NoZero, Rest, SceneFeel};
 use crate::output::{print, written};
 use crate::recording_file::Kind;
-use crate::scene::Scene;
+use crate::scene::load_or_simulated;
 use crate::sensor::{self, Event, Reading, SensorError, Stream, StreamOptions};
 use crate::stop::Stop;
 use crate::table::{count, number, short};
@@ -36,8 +36,8 @@ pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
             return Err(CliError::Option { option, problem: "must be a number of seconds above 0" });
         }
     }
-    let scene = arguments.scene.as_deref().map(Scene::load_or_simulated).transpose()?;
-    let mut feel = scene.map(|scene| SceneFeel::new(scene, arguments.tare.is_some()));
+    let scene = arguments.scene.as_deref().map(load_or_simulated).transpose()?;
+    let mut feel = scene.map(|scene| SceneFeel::new(&scene, arguments.tare.is_some()));
     let stop = Stop::listen();
     let address = arguments.address.clone();
     let options =
@@ -256,7 +256,7 @@ mod tests {
     use super::{Reading, RecordArguments, Recording, Stream, StreamOptions};
     use crate::args::{Arguments, Command};
     use crate::felt::SceneFeel;
-    use crate::scene::Scene;
+    use crate::scene::load_or_simulated;
     use crate::sensor::{Feed, Losses, Next, SensorError};
 
     /// A sensor that has nothing more to say, and has lost seven samples.
@@ -352,8 +352,8 @@ mod tests {
     fn a_duration_counts_from_the_first_sample_that_is_recorded() {
         let arguments = arguments("duration", &["--duration", "0.5", "--tare", "1", "--scene", "sim"]);
         let mut recording = Recording::new(&arguments);
-        let scene = Scene::load_or_simulated("sim".as_ref()).unwrap();
-        let mut feel = SceneFeel::new(scene, true);
+        let scene = load_or_simulated("sim".as_ref()).unwrap();
+        let mut feel = SceneFeel::new(&scene, true);
         // A press of 2 N on the tip; its half is the zero of the rest, so that the other half is felt.
         let press = |share: f64| {
             let wrench = Wrench::on_fingertip(Vector3::new(-2.0 * share, 0.0, 0.0), Vector3::zeros());

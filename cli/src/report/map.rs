@@ -6,7 +6,7 @@ use super::axis::Axis;
 use super::colours::Classes;
 use super::svg::{Anchor, Svg};
 use crate::observe::MapPoint;
-use crate::shape::{MapKind, Projection};
+use fingertip_scene::{MapKind, Projection};
 
 const WIDTH: f64 = 340.0;
 const LEFT: f64 = 44.0;

@@ -17,12 +17,12 @@ pub(crate) use fingertip_calibration::page::Figure;
 use fingertip_calibration::page::{self, Page};
 
 use crate::observe::Observations;
-use crate::scene::Scene;
 use crate::summary::Findings;
+use fingertip_scene::{Limit, Scene};
 
 /// The report of a recording.
 pub(crate) fn of_recording(findings: &Findings, observations: &Observations, scene: &Scene) -> String {
-    page(findings, figures::of(observations, scene.friction.coefficient()))
+    page(findings, figures::of(observations, scene.limit().map(Limit::coefficient)))
 }
 
 /// The report of a run with figures of its own before the usual ones.

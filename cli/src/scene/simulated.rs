@@ -2,15 +2,10 @@
 
 use core::error::Error;
 
-use fingertip::contact::PointContact;
-use fingertip::friction::{Coulomb, DropDetector, ForceNoise};
-use fingertip::surfaces::SphericalCap;
+use fingertip_scene::Scene;
 use fingertip_simulation::{Options, Segment, SimulatedFingertip, standard_session};
-use nalgebra::Vector3;
 
-use super::{Convention, Friction, Scene, SlipWatch};
 use crate::error::CliError;
-use crate::shape::{Projection, Shape};
 
 /// The paper's threshold of contact \[N\].
 const LEAST_FORCE: f64 = 0.1;
@@ -24,23 +19,18 @@ pub(super) fn scene() -> Result<Scene, CliError> {
 
 fn build() -> Result<Scene, Box<dyn Error>> {
     let simulated = SimulatedFingertip::new(&standard_session(), Options::default())?;
-    let (sphere, pole) = (simulated.sphere(), Vector3::x());
-    let rim = simulated.options().design.greatest_angle();
-    let frame = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let (sphere, rim) = (simulated.sphere(), simulated.options().design.greatest_angle());
     let coefficient = least_static_coefficient(&simulated).ok_or("the session has no drag")?;
-    let noise = ForceNoise::isotropic(NOISE)?;
-    Ok(Scene {
-        name: "simulated fingertip".to_owned(),
-        convention: Convention::OnFingertip,
-        sensor: None,
-        sample_rate: None,
-        rest: None,
-        shape: Shape::Sphere(SphericalCap::new(sphere, pole, rim.cos())?),
-        projection: Projection::sphere(sphere.centre(), pole, Some(rim), &frame),
-        model: PointContact::new(LEAST_FORCE)?,
-        friction: Friction::known(Coulomb::new(coefficient)?),
-        slip: SlipWatch::falls(DropDetector::new(noise)?),
-    })
+    let [x, y, z]: [f64; 3] = sphere.centre().into();
+    let text = format!(
+        "version = 2\nname = \"simulated fingertip\"\n[input]\nconvention = \"on_fingertip\"\n\
+         [surface]\nshape = \"sphere\"\ncentre_m = [{x:?}, {y:?}, {z:?}]\nradius_m = {radius:?}\n\
+         pole = [1.0, 0.0, 0.0]\nactive_half_angle_deg = {rim:?}\n[contact]\nleast_force_N = {LEAST_FORCE:?}\n\
+         [friction]\nstatic_coefficient = {coefficient:?}\n[slip]\ndetector = \"drop\"\nnoise_N = {NOISE:?}\n",
+        radius = sphere.radius(),
+        rim = rim.to_degrees(),
+    );
+    Ok(Scene::from_text(&text)?)
 }
 
 /// The friction coefficient that is safe for every drag of the script.

@@ -10,7 +10,48 @@ fn faults_are_named() {
     let good = format!("{HEAD}{BALL}");
     assert_eq!(Scene::from_text(&good).unwrap().convention(), Convention::OnFingertip);
     let with = |rest: &str| format!("{good}{rest}");
+    let flaw = |text: &str, other: &str| good.replace(text, other);
     let cases = [
+        (flaw("convention = \"on_fingertip\"\n", ""), "missing field `convention`"),
+        (flaw("on_fingertip", "object"), "expected `on_fingertip` or `reaction`"),
+        (flaw("convention", "convection"), "unknown field `convection`"),
+        (with("radius_mm = 13.0\n"), "unknown field `radius_mm`"),
+        (with("[contacts]\n"), "unknown field `contacts`"),
+        (flaw("sphere", "cube"), "unknown variant `cube`"),
+        (flaw("radius_m = 0.013\n", ""), "missing field `radius_m`"),
+        (flaw("0.013", "-0.013"), "radius of a sphere"),
+        (flaw("0.013", "nan"), "radius of a sphere"),
+        (flaw("0.013", "\"13 mm\""), "key `surface.radius_m`: invalid type: string"),
+        (with("pole = [0.0, 1.0]\n"), "key `surface.pole`: invalid length 2"),
+        (flaw("[input]", "[input]\nsensor = 1"), "key `input.sensor`: invalid type: integer"),
+        (format!("name = 3\n{good}"), "key `name`: invalid type: integer"),
+        (with("[contact]\nleast_force_N = -1.0\n"), "least force"),
+        (with("[friction]\nstatic_coefficient = 0.0\n"), "friction coefficient"),
+        (with("[slip]\ndetector = \"drop\"\nnoise_N = 0.0\n"), "noise"),
+        (flaw("[input]", "[input]\nrest_s = -1"), "rest_s"),
+        (flaw("sample_rate_Hz = 1000.0", "sample_rate_Hz = -5.0"), "sample_rate_Hz"),
+        (with("active_half_angle_deg = 190.0\n"), "active_half_angle_deg"),
+        (with("pole = [0.0, 0.0, 0.0]\n"), "pole"),
+        (with("[pose]\nrotation_deg = [0.0, inf, 0.0]\n"), "rotation_deg"),
+        (with("[map]\n"), "[map]"),
+        (
+            flaw(
+                BALL,
+                "[surface]\nshape = \"torus\"\nring_radius_m = 0.02\ntube_radius_m = 0.01\n[map]\ncentre_m = [inf, 0.0, 0.0]\n",
+            ),
+            "`centre_m` of [map]",
+        ),
+        (
+            flaw(
+                BALL,
+                "[surface]\nshape = \"torus\"\nring_radius_m = 0.02\ntube_radius_m = 0.01\n[map]\npole = [0.0, 0.0, inf]\n",
+            ),
+            "`pole` of [map]",
+        ),
+        (
+            flaw(BALL, "[surface]\nshape = \"mesh\"\nfile = \"nowhere.stl\"\nmetres_per_unit = 0.001\n"),
+            "mesh nowhere.stl",
+        ),
         (good.replace("version = 2", "version = 3"), "version 3"),
         (good.replace("version = 2\n", ""), "version = 2"),
         (with("[contact]\nmodel = \"auto\"\n"), "[uncertainty]"),

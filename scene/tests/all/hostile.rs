@@ -1,25 +1,33 @@
 //! Scenes that nobody would write on purpose: each is refused in a sentence, or is one of finite numbers.
-#![cfg(test)]
-
 use std::path::Path;
 
 use fingertip::surfaces::ActiveSurface;
-use fingertip::wrench::Line;
+use fingertip::wrench::{Line, Wrench};
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use toml::{Table, Value};
 
-use super::{Scene, parse};
-use crate::shape::Shape;
+use fingertip_scene::Scene;
 
-const SCENES: [&str; 5] = [
+const SCENES: [&str; 6] = [
     include_str!("../../../examples/scenes/capsule.toml"),
     include_str!("../../../examples/scenes/ellipsoid.toml"),
     include_str!("../../../examples/scenes/nano17_cylinder.toml"),
     include_str!("../../../examples/scenes/paper_sphere.toml"),
     include_str!("../../../examples/scenes/plane.toml"),
+    EVERYTHING,
 ];
+
+/// One of each section.
+const EVERYTHING: &str = "version = 2\nname = 'all'\n[input]\nconvention = 'on_fingertip'\nsample_rate_Hz = 1000.0\n\
+    [surface]\nshape = 'capsule'\nradius_m = 0.008\nhalf_length_m = 0.01\n[pose]\nrotation_deg = [0.0, 90.0, 0.0]\n\
+    [contact]\nmodel = 'soft_finger'\nleast_force_N = 0.1\nskin_share = 0.9\n\
+    [contact.skin]\nlaw = 'local_hertz'\nlargest_radius_m = 0.1\nyoung_moduli_Pa = [2.0e6, inf]\npoisson_ratios = [0.49, 0.3]\n\
+    [uncertainty]\nforce_noise_N = 0.01\ntorque_noise_Nm = 0.0001\nposition_m = 0.0001\nattitude_deg = 0.5\n\
+    [friction]\nlimit = 'uncertain'\nstatic_coefficient = 0.5\ndeviation = 0.05\n\
+    [slip]\ndetector = 'likelihood_ratio'\nnoise_N = 0.01\n[estimate]\nnoise_N = 0.01\n\
+    [grip]\nleast_N = 0.2\ngreatest_N = 20.0\nrise_N_per_s = 100.0\nfall_N_per_s = 2.0\n";
 
 fn pick<'a, T>(random: &mut Pcg64Mcg, list: &'a [T]) -> &'a T {
     &list[random.random_range(0..list.len())]
@@ -74,7 +82,8 @@ fn spoil(random: &mut Pcg64Mcg, table: &mut Table) {
                 table.insert(format!("{key}x"), value);
             }
             2 => {
-                let others = ["radius_m", "shape", "axis", "pole", "file", "noise_N", "rest_s"];
+                let others =
+                    ["radius_m", "shape", "axis", "pole", "file", "noise_N", "rest_s", "law", "limit"];
                 table.insert((*pick(random, &others)).to_owned(), odd(random));
             }
             _ => drop(table.insert(key, odd(random))),
@@ -102,27 +111,27 @@ fn spoiled(random: &mut Pcg64Mcg) -> String {
     text
 }
 
-/// What is computed with a scene, for a line past its surface.
+/// What is computed with a scene, for a line past its surface and for a push.
 fn numbers(scene: &Scene) -> Vec<f64> {
-    fn of<S: ActiveSurface<f64>>(surface: &S, scene: &Scene) -> Vec<f64> {
-        let line = Line { point: Vector3::new(0.001, 0.002, 0.003), direction: Vector3::x() };
-        let approach = surface.closest_approach(&line).unwrap();
-        let (u, v) = scene.projection.project(&line.point);
-        let mut all = vec![u, v];
-        // A surface as large as the world has no nearest point in numbers: what it gives then is no contact.
-        if approach.point.iter().all(|x| x.is_finite()) {
-            all.extend(approach.normal.iter().copied());
-        }
-        all
+    let line = Line { point: Vector3::new(0.001, 0.002, 0.003), direction: Vector3::x() };
+    let (u, v) = scene.projection().project(&line.point);
+    let mut all = vec![u, v];
+    // A surface as large as the world has no nearest point in numbers: what it gives then is no contact.
+    if let Some(approach) = scene.surface().closest_approach(&line)
+        && approach.point.iter().all(|x| x.is_finite())
+    {
+        all.extend(approach.normal.iter().copied());
     }
-    let mut all = match &scene.shape {
-        Shape::Plane(plane) => of(plane, scene),
-        Shape::Sphere(sphere) => of(sphere, scene),
-        Shape::Cylinder(cylinder) => of(cylinder, scene),
-        Shape::Other(other) => of(other.as_ref(), scene),
-    };
-    all.extend([scene.sample_rate, scene.rest, scene.friction.coefficient()].into_iter().flatten());
-    all.push(scene.model.least_force());
+    let push = Wrench::from_force_at(&Vector3::new(0.001, 0.0, 0.002), Vector3::new(0.1, 0.2, -1.0));
+    let felt = scene.pipeline().sense(push, 1e-3);
+    if let Some(contact) = felt.contact() {
+        all.extend(contact.point.iter().chain(contact.normal.iter()).copied());
+    }
+    all.extend(felt.spread.iter().flat_map(|spread| spread.ellipse.semi_axes));
+    all.extend([felt.slip_probability, felt.grip_force].into_iter().flatten());
+    all.extend([scene.sample_rate(), scene.rest()].into_iter().flatten());
+    all.extend(scene.limit().map(fingertip_scene::Limit::coefficient));
+    all.push(scene.least_force());
     all
 }
 
@@ -132,7 +141,7 @@ fn a_spoiled_scene_is_refused_in_a_sentence_or_has_finite_numbers() {
     let (mut refused, mut taken) = (0, 0);
     for _ in 0..6000 {
         let text = spoiled(random);
-        match parse(&text, "test", Path::new("")) {
+        match Scene::parse(&text, "test", Path::new("")) {
             Err(fault) => {
                 let (line, message) = (fault.line, fault.problem.to_string());
                 refused += 1;
