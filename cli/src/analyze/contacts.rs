@@ -14,8 +14,10 @@ use crate::observe::Status;
 /// The columns; units are in the names. Where a sample has no value, the cell is empty.
 const HEADER: &str = "t_s,status,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,x_m,y_m,z_m,nx,ny,nz,\
                       normal_N,tangential_N,ratio,margin_N,gap_m,slip";
+/// Whether a scene asks for some columns.
+type IsTold = fn(&Tells) -> bool;
 /// What a scene that asks for more has behind it, in this order.
-const MORE: [(fn(&Tells) -> bool, &[&str]); 5] = [
+const MORE: [(IsTold, &[&str]); 5] = [
     (|tells| tells.spin_torque, &["spin_Nm"]),
     (
         |tells| tells.spread,
