@@ -7,6 +7,8 @@ use fingertip::friction::BadParameter;
 use fingertip::surfaces::{BadShape, MeshError};
 use thiserror::Error;
 
+use crate::formula::{BadFormula, FormulaFault};
+
 /// The newest version of the format that is read; older ones are, too.
 pub const VERSION: u32 = 2;
 
@@ -102,6 +104,9 @@ pub enum SceneProblem {
     /// A shape, a contact model or an uncertainty whose numbers cannot be.
     #[error(transparent)]
     Shape(#[from] BadShape),
+    /// A formula that cannot be.
+    #[error(transparent)]
+    Formula(#[from] BadFormula),
     /// A mesh that cannot be read.
     #[error("mesh {path}: {source}", path = .path.display())]
     Mesh {
@@ -131,4 +136,13 @@ pub enum SceneProblem {
         /// To what it belongs.
         belongs: &'static str,
     },
+}
+
+impl From<FormulaFault> for SceneProblem {
+    fn from(fault: FormulaFault) -> Self {
+        match fault {
+            FormulaFault::Formula(bad) => bad.into(),
+            FormulaFault::Shape(bad) => bad.into(),
+        }
+    }
 }

@@ -2,6 +2,7 @@
 
 mod estimate;
 mod fault;
+mod formula;
 mod friction;
 mod grip;
 mod input;
@@ -17,6 +18,7 @@ mod uncertainty;
 
 pub use estimate::{Estimate, Learnt};
 pub use fault::{SceneError, SceneFault, SceneProblem, VERSION};
+pub use formula::BadFormula;
 pub use friction::{Friction, Limit};
 pub use grip::Grip;
 pub use input::Convention;

@@ -62,6 +62,7 @@ entries!(SHAPES, "The shapes of `[surface]`.", "surface", "shape":
     "heightfield", "heights over a grid", "corner_m = [-0.01, -0.01]\nspacing_m = [0.02, 0.02]\ncolumns = 2\nheights_m = [0.01, 0.01, 0.01, 0.011]";
     "mesh", "a closed triangle mesh; or `file` (.stl, .obj) and `metres_per_unit`",
         "vertices_m = [[0.01, 0.0, 0.0], [-0.01, 0.01, 0.0], [-0.01, -0.01, 0.0], [0.0, 0.0, 0.01]]\ntriangles = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]";
+    "formula", "a shape of your own: where a formula of x, y and z is zero, within a ball", "outside = \"(x/a)^4 + (y/a)^4 + (z/b)^2 - 1\"\nparameters = { a = 0.010, b = 0.013 }\nreach_m = 0.018\nconvex = true";
     "posed", "another shape, turned and moved", "translation_m = [0.0, 0.0, 0.01]\nrotation_deg = [0.0, 90.0, 0.0]\nsurface = { shape = \"capsule\", radius_m = 0.008, half_length_m = 0.01 }";
     "trimmed", "the part of another shape on one side of a plane", "surface = { shape = \"sphere\", radius_m = 0.013 }\nregion = { point_m = [0.0, 0.0, 0.0], inward = [0.0, 0.0, 1.0] }";
     "compound", "the union of several shapes", "parts = [{ shape = \"sphere\", radius_m = 0.01 }, { shape = \"capsule\", radius_m = 0.006, half_length_m = 0.012 }]";

@@ -11,6 +11,7 @@ use serde::de::DeserializeOwned;
 
 use crate::estimate::EstimateSection;
 use crate::fault::{SceneError, SceneFault, SceneProblem, VERSION};
+use crate::formula::FormulaSection;
 use crate::friction::{Friction, FrictionSection, Limit};
 use crate::grip::GripSection;
 use crate::input::{Convention, InputSection};
@@ -139,13 +140,12 @@ impl Scene {
             None => return Err(SceneProblem::NoVersion.into()),
         }
         let surface = surface.unwrap_or(toml::Value::Boolean(false));
-        let is_file = surface.get("shape").and_then(toml::Value::as_str) == Some("mesh")
-            && surface.get("file").is_some();
-        if is_file {
-            parse_with::<MeshSection>(text, name, folder, surface)
-        } else {
-            parse_with::<DynSurface<f64>>(text, name, folder, surface)
-        }
+        let parse = match surface.get("shape").and_then(toml::Value::as_str) {
+            Some("mesh") if surface.get("file").is_some() => parse_with::<MeshSection>,
+            Some("formula") => parse_with::<FormulaSection>,
+            _ => parse_with::<DynSurface<f64>>,
+        };
+        parse(text, name, folder, surface)
     }
 
     /// What reports call it.

@@ -11,6 +11,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::fault::SceneProblem;
+use crate::formula::FormulaSection;
 use crate::projection::Projection;
 
 type Triple = [f64; 3];
@@ -66,6 +67,7 @@ pub(crate) struct MeshSection {
 pub(crate) enum ShapeSource {
     Here(toml::Value),
     MeshFile { path: PathBuf, metres_per_unit: f64 },
+    Formula(Box<FormulaSection>),
 }
 
 impl ShapeSource {
@@ -77,6 +79,7 @@ impl ShapeSource {
                 key: String::new(),
                 message: error.message().replace('\n', " "),
             }),
+            Self::Formula(section) => Ok(section.build()?),
             Self::MeshFile { path, metres_per_unit } => Mesh::from_file(path, T::literal(*metres_per_unit))
                 .map(DynSurface::Mesh)
                 .map_err(|source| SceneProblem::Mesh { path: path.clone(), source }),
@@ -99,6 +102,12 @@ impl SurfaceSection for DynSurface<f64> {
 impl SurfaceSection for MeshSection {
     fn source(self, folder: &Path, _: toml::Value) -> ShapeSource {
         ShapeSource::MeshFile { path: folder.join(self.file), metres_per_unit: self.metres_per_unit }
+    }
+}
+
+impl SurfaceSection for FormulaSection {
+    fn source(self, _: &Path, _: toml::Value) -> ShapeSource {
+        ShapeSource::Formula(Box::new(self))
     }
 }
 

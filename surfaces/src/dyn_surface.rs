@@ -8,9 +8,9 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::{
     ActiveSurface, CappedCylinder, Capsule, ClosestApproach, Compound, Cone, Corner, Crossing, Cylinder,
-    Disk, Ellipsoid, EllipticCylinder, Entry, Extent, ForceLine, Frustum, HalfSpace, Heightfield, Knot,
-    Level, Mesh, Paraboloid, Plane, Posed, Rectangle, Revolution, RoundedBox, Shortcuts, SmoothSurface,
-    Sphere, SphericalCap, Superquadric, Topology, Torus, Trimmed,
+    Disk, Ellipsoid, EllipticCylinder, Entry, Extent, ForceLine, Formula, Frustum, HalfSpace, Heightfield,
+    Implicit, Knot, Level, Mesh, Paraboloid, Plane, Posed, Rectangle, Revolution, RoundedBox, Shortcuts,
+    SmoothSurface, Sphere, SphericalCap, Superquadric, Topology, Torus, Trimmed,
 };
 
 /// Any of the shapes: for files and programs that learn the shape at run time. On a hot path use
@@ -82,6 +82,9 @@ pub enum DynSurface<T: Real> {
     Heightfield(Heightfield<T>),
     /// [`Mesh`].
     Mesh(Mesh<T>),
+    /// [`Implicit`] by a [`Formula`], which scenes read; it is not stored as part of another shape.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    Formula(Box<Implicit<T, Formula<T>>>),
     /// [`Posed`].
     Posed(Box<Posed<T, Self>>),
     /// [`Trimmed`] to a half-space.
@@ -138,6 +141,7 @@ macro_rules! each_surface {
             $crate::DynSurface::Revolution($shape) => $call,
             $crate::DynSurface::Heightfield($shape) => $call,
             $crate::DynSurface::Mesh($shape) => $call,
+            $crate::DynSurface::Formula($shape) => $call,
             $crate::DynSurface::Posed($shape) => $call,
             $crate::DynSurface::Trimmed($shape) => $call,
             $crate::DynSurface::Compound($shape) => $call,

@@ -139,7 +139,7 @@ fn numbers(scene: &Scene) -> Vec<f64> {
 fn a_spoiled_scene_is_refused_in_a_sentence_or_has_finite_numbers() {
     let random = &mut Pcg64Mcg::seed_from_u64(17);
     let (mut refused, mut taken) = (0, 0);
-    for _ in 0..6000 {
+    for _ in 0..2500 {
         let text = spoiled(random);
         match Scene::parse(&text, "test", Path::new("")) {
             Err(fault) => {
@@ -158,5 +158,5 @@ fn a_spoiled_scene_is_refused_in_a_sentence_or_has_finite_numbers() {
             }
         }
     }
-    assert!(refused > 1000 && taken > 200, "{refused} refused, {taken} taken");
+    assert!(refused > 400 && taken > 80, "{refused} refused, {taken} taken");
 }

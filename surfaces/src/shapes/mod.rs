@@ -8,6 +8,8 @@ mod cylinder;
 mod disk;
 mod ellipsoid;
 mod elliptic_cylinder;
+#[cfg(feature = "alloc")]
+mod formula;
 mod frustum;
 mod implicit;
 mod outline;
@@ -33,6 +35,8 @@ pub use cylinder::Cylinder;
 pub use disk::Disk;
 pub use ellipsoid::Ellipsoid;
 pub use elliptic_cylinder::{CylinderEnds, EllipticCylinder};
+#[cfg(feature = "alloc")]
+pub use formula::{Formula, FormulaStep};
 pub use frustum::Frustum;
 pub use implicit::{Implicit, ImplicitSurface};
 pub use paraboloid::Paraboloid;
