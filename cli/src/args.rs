@@ -13,6 +13,7 @@ use crate::motion::MotionArguments;
 use crate::plan::PlanArguments;
 use crate::record::args::RecordArguments;
 use crate::refine::RefineArguments;
+use crate::scene::command::SceneArguments;
 use crate::serve::args::SimulateArguments;
 
 /// From the strain gauges behind a fingertip to contact, force and slip.
@@ -36,6 +37,8 @@ pub(crate) enum Command {
     Record(RecordArguments),
     /// Watch a sensor, a simulation or a recording in the terminal: forces, contact, slip
     Live(LiveArguments),
+    /// Begin a scene, say what one means, or list what there is to choose
+    Scene(SceneArguments),
     /// Convert a recording from CSV to MCAP or back
     Convert(ConvertArguments),
     /// Serve a simulated fingertip over the protocol of a real sensor

@@ -44,6 +44,7 @@ fn main() -> ExitCode {
         Command::Analyze(arguments) => analyze::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),
         Command::Live(arguments) => live::run(&arguments),
+        Command::Scene(arguments) => scene::command::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Simulate(arguments) => serve::run(&arguments),
         Command::Design(arguments) => design::run(&arguments),

@@ -35,6 +35,13 @@ pub(crate) fn write(what: &'static str, path: &Path, text: &str) -> Result<(), C
     fs::write(path, text).map_err(|source| CliError::write(what, path, source))
 }
 
+/// Writes a file of text that is not there yet: what a user has written by hand is not lost.
+pub(crate) fn write_new(what: &'static str, path: &Path, text: &str) -> Result<(), CliError> {
+    let file = fs::File::create_new(path);
+    file.and_then(|mut file| file.write_all(text.as_bytes()))
+        .map_err(|source| CliError::write(what, path, source))
+}
+
 /// Refuses to write over what is read; `what` the outputs are is for the message.
 pub(crate) fn guard<'a>(
     what: &'static str,

@@ -1,11 +1,13 @@
 #![doc = include_str!("../README.md")]
 
+mod doubts;
 mod estimate;
 mod fault;
 mod formula;
 mod friction;
 mod grip;
 mod input;
+mod meaning;
 mod model;
 mod pipeline;
 mod projection;

@@ -23,6 +23,7 @@ use crate::surface::{
     MapSection, MeshSection, PoseSection, ShapeSource, SurfaceSection, flat_normal, map_of, placed,
 };
 use crate::uncertainty::{Uncertainty, UncertaintySection};
+use crate::{doubts, meaning};
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -85,6 +86,8 @@ struct Kind {
 #[derive(Clone, Debug)]
 pub struct Scene {
     name: String,
+    /// As it stands in the file.
+    document: toml::Table,
     input: InputSection,
     shape: ShapeSource,
     pose: PoseSection,
@@ -146,6 +149,18 @@ impl Scene {
             _ => parse_with::<DynSurface<f64>>,
         };
         parse(text, name, folder, surface)
+    }
+
+    /// What it says, in a line for each of its sections.
+    #[must_use]
+    pub fn meaning(&self) -> Vec<String> {
+        meaning::of(&self.document)
+    }
+
+    /// What in it can be and is hardly meant, such as a radius of 13 m: a sentence each, with the key.
+    #[must_use]
+    pub fn doubts(&self) -> Vec<String> {
+        doubts::of(&self.document)
     }
 
     /// What reports call it.
@@ -238,7 +253,9 @@ fn parse_with<S: SurfaceSection + DeserializeOwned>(
     table: toml::Value,
 ) -> Result<Scene, SceneFault> {
     let file: SceneFile<S> = toml::from_str(text).map_err(|error| explain::<S>(text, &error))?;
-    Ok(file.check(name, folder, table)?)
+    // It has been read already.
+    let document = toml::from_str(text).unwrap_or_default();
+    Ok(file.check(name, folder, table, document)?)
 }
 
 /// Line and sentence for an error of the parser.
@@ -282,7 +299,13 @@ fn culprit<S: DeserializeOwned>(text: &str, message: &str) -> Option<String> {
 }
 
 impl<S: SurfaceSection> SceneFile<S> {
-    fn check(self, name: &str, folder: &Path, table: toml::Value) -> Result<Scene, SceneProblem> {
+    fn check(
+        self,
+        name: &str,
+        folder: &Path,
+        table: toml::Value,
+        document: toml::Table,
+    ) -> Result<Scene, SceneProblem> {
         let positive = |key: &'static str, value: Option<f64>| match value {
             Some(found) if !(found > 0.0 && found.is_finite()) => {
                 Err(SceneProblem::NotPositive { key, found })
@@ -300,6 +323,7 @@ impl<S: SurfaceSection> SceneFile<S> {
         let pipeline = stages.build(surface.clone(), &surface, &self.pose, sample_rate)?;
         Ok(Scene {
             name: self.name.unwrap_or_else(|| name.to_owned()),
+            document,
             input: InputSection { sample_rate, rest, ..self.input },
             shape,
             pose: self.pose,

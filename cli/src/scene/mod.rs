@@ -1,5 +1,6 @@
 //! The scene that a command is given: a file, or that of the simulated fingertip.
 
+pub(crate) mod command;
 mod simulated;
 
 use std::path::Path;

@@ -16,5 +16,6 @@ mod nano17;
 mod recorded;
 mod reports;
 mod said;
+mod scenes;
 mod shapes;
 mod streams;

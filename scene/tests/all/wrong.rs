@@ -155,3 +155,36 @@ fn scenes_of_before_are_read() {
     assert_eq!((scene.name(), scene.rest(), scene.least_force()), ("old", None, 0.1));
     assert_eq!(scene.limit().unwrap().coefficient(), 0.5);
 }
+
+#[test]
+fn what_is_hardly_meant_is_doubted() {
+    let doubts = |text: &str| Scene::from_text(text).unwrap_or_else(|problem| panic!("{problem}")).doubts();
+    let good = format!("{HEAD}{BALL}[contact]\nleast_force_N = 0.1\n{NOISE}");
+    assert_eq!(doubts(&good), [""; 0]);
+    for (text, expected) in [
+        (good.replace("0.013", "13.0"), "`radius_m` of [surface] is 13 m"),
+        (format!("{good}[pose]\ntranslation_m = [0.0, 30.0, 0.0]\n"), "`translation_m` of [pose] is 30 m"),
+        (
+            format!("{good}[friction]\nstatic_coefficient = 20.0\n"),
+            "`static_coefficient` of [friction] is 20",
+        ),
+        (
+            good.replace("least_force_N = 0.1", "least_force_N = 0.02"),
+            "less than three times the `force_noise_N`",
+        ),
+        (format!("{good}[slip]\ndetector = \"drop\"\nnoise_N = 0.0001\n"), "both are of one sensor"),
+        (
+            format!("{good}[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n").replace("1000.0", "53.0"),
+            "`sample_rate_Hz` of [input] is 53",
+        ),
+        (
+            format!(
+                "{HEAD}[surface]\nshape = \"compound\"\nparts = [{{ shape = \"sphere\", radius_m = 8.0 }}, {{ shape = \"sphere\", radius_m = 0.01 }}]\n"
+            ),
+            "`radius_m` of [surface] is 8 m",
+        ),
+    ] {
+        let found = doubts(&text);
+        assert!(found.len() == 1 && found[0].contains(expected), "{found:?} lacks {expected}");
+    }
+}

@@ -1,0 +1,150 @@
+//! `fingertip scene`: scenes to begin with, what one means, and what there is to choose.
+
+use core::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand};
+use fingertip_scene::registry::{self, Entry};
+use fingertip_scene::{Scene, VERSION};
+
+use super::load;
+use crate::error::CliError;
+use crate::output;
+
+/// What to do with scenes.
+#[derive(Debug, Args)]
+pub(crate) struct SceneArguments {
+    #[command(subcommand)]
+    command: SceneCommand,
+}
+
+#[derive(Debug, Subcommand)]
+enum SceneCommand {
+    /// Write a scene to begin with: the choices, and their other keys with values to start from
+    Init(InitArguments),
+    /// Say what a scene means, and what in it is implausible
+    Check {
+        /// The scene
+        #[arg(value_name = "SCENE.toml")]
+        scene: PathBuf,
+    },
+    /// List all that a scene can choose
+    Choices {
+        /// Of this section alone, as `friction` or `contact.skin`
+        #[arg(value_name = "SECTION")]
+        section: Option<String>,
+    },
+}
+
+#[derive(Debug, Args)]
+struct InitArguments {
+    /// Where to write it
+    #[arg(value_name = "SCENE.toml")]
+    output: PathBuf,
+    /// The shape of the tip
+    #[arg(long, default_value = "sphere")]
+    shape: String,
+    /// The contact model
+    #[arg(long, default_value = "point")]
+    model: String,
+    /// The law of a skin
+    #[arg(long)]
+    skin: Option<String>,
+    /// The friction limit
+    #[arg(long)]
+    friction: Option<String>,
+    /// The slip detector
+    #[arg(long)]
+    slip: Option<String>,
+}
+
+pub(crate) fn run(arguments: &SceneArguments) -> Result<(), CliError> {
+    match &arguments.command {
+        SceneCommand::Init(init) => write_scene(init),
+        SceneCommand::Check { scene } => check(scene),
+        SceneCommand::Choices { section } => choices(section.as_deref()),
+    }
+}
+
+/// The entry of a choice.
+fn entry(section: &str, option: &str, name: &str) -> Result<&'static Entry, CliError> {
+    registry::entries().find(|entry| entry.section == section && entry.name == name).ok_or_else(|| {
+        CliError::option(option, name, "is not among the choices; `fingertip scene choices` lists them")
+    })
+}
+
+fn write_scene(init: &InitArguments) -> Result<(), CliError> {
+    let mut text = format!(
+        "# The keys are explained in examples/scenes/README.md of fingertip.\nversion = {VERSION}\n\n[input]\n\
+         # Whose load is recorded: \"on_fingertip\", what the environment does to the fingertip, or \"reaction\".\n\
+         convention = \"on_fingertip\"\n# Where the recording has no time.\nsample_rate_Hz = 1000.0\n"
+    );
+    let mut chosen =
+        vec![entry("surface", "--shape", &init.shape)?, entry("contact", "--model", &init.model)?];
+    for (section, option, name) in [
+        ("contact.skin", "--skin", &init.skin),
+        ("friction", "--friction", &init.friction),
+        ("slip", "--slip", &init.slip),
+    ] {
+        if let Some(name) = name {
+            chosen.push(entry(section, option, name)?);
+        }
+    }
+    if init.model == "auto" {
+        text.push_str("\n[uncertainty]\n# Standard deviations at rest.\nforce_noise_N = 0.01\ntorque_noise_Nm = 0.0001\n");
+    }
+    for entry in chosen {
+        let mut says = entry.says.chars();
+        let first = says.next().map_or_else(String::new, |first| first.to_uppercase().collect());
+        // Writing to a string cannot fail.
+        let _ = write!(text, "\n# {first}{}.\n{}", says.as_str(), entry.text());
+    }
+    let folder = init.output.parent().unwrap_or(Path::new(""));
+    Scene::parse(&text, "scene", folder).map_err(|fault| {
+        CliError::Scene(fingertip_scene::SceneError::Fault { path: init.output.clone(), fault })
+    })?;
+    output::write_new("scene", &init.output, &text)?;
+    output::print(&format!("Written: {}\n", init.output.display()))
+}
+
+fn check(path: &Path) -> Result<(), CliError> {
+    let scene = load(path)?;
+    let mut text = format!("{}: {}\n", path.display(), scene.name());
+    for line in scene.meaning() {
+        let _ = writeln!(text, "  {line}");
+    }
+    for doubt in scene.doubts() {
+        let _ = writeln!(text, "warning: {doubt}");
+    }
+    output::print(&text)
+}
+
+fn choices(section: Option<&str>) -> Result<(), CliError> {
+    let mut text = String::new();
+    let mut last = "";
+    for entry in registry::entries().filter(|entry| section.is_none_or(|section| entry.section == section)) {
+        if entry.section != last {
+            let _ = writeln!(
+                text,
+                "{}[{}] {} =",
+                if last.is_empty() { "" } else { "\n" },
+                entry.section,
+                entry.key
+            );
+            last = entry.section;
+        }
+        let _ = writeln!(text, "  {:<18} {}", format!("\"{}\"", entry.name), entry.says);
+        for line in entry.example.lines() {
+            let _ = writeln!(text, "      {line}");
+        }
+    }
+    if text.is_empty() {
+        let section = section.unwrap_or_default();
+        return Err(CliError::option(
+            "section",
+            section,
+            "has no choices; give surface, contact, contact.skin, friction or slip",
+        ));
+    }
+    output::print(&text)
+}

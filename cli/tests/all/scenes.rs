@@ -1,0 +1,112 @@
+//! Scenes: to begin with, said, chosen from, and what they tell of a recording.
+
+use std::fs;
+use std::path::Path;
+
+use fingertip_scene::registry::entries;
+
+use crate::common::{Contacts, Folder, scene};
+
+/// Pushes on the top of a ball of 13 mm, each a little more sideways, with a spin torque.
+fn pushes() -> String {
+    let mut text = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n".to_owned();
+    for k in 0..200 {
+        let (time, aside) = (f64::from(k) * 1e-3, f64::from(k) * 0.004);
+        text.push_str(&format!("{time},{aside},0,-2,0,{},0.0005\n", 0.013 * aside));
+    }
+    text
+}
+
+#[test]
+fn every_choice_can_be_begun_with_and_means_something() {
+    let folder = Folder::new();
+    for entry in entries() {
+        let option = match entry.section {
+            "surface" => "--shape",
+            "contact" => "--model",
+            "contact.skin" => "--skin",
+            "friction" => "--friction",
+            _ => "--slip",
+        };
+        let name = format!("{}.toml", entry.name);
+        let mut arguments = vec!["scene", "init", &name, option, entry.name];
+        match (entry.section, entry.name) {
+            ("friction", "anisotropic") => arguments.extend(["--shape", "plane"]),
+            ("slip", _) => arguments.extend(["--friction", "coulomb"]),
+            _ => {}
+        }
+        let path = folder.path(&name);
+        let _ = fs::remove_file(&path);
+        folder.succeed(&arguments);
+        let said = folder.succeed(&["scene", "check", &name]);
+        assert!(said.contains(&format!("{}, {}", entry.name, entry.says)), "{said}");
+    }
+    // What is there is not written over.
+    let error = folder.fail(1, &["scene", "init", "sphere.toml"]);
+    assert!(error.contains("sphere.toml"), "{error}");
+    let error = folder.fail(1, &["scene", "init", "new.toml", "--shape", "cube"]);
+    assert!(error.contains("--shape cube") && error.contains("scene choices"), "{error}");
+    assert!(!folder.path("new.toml").exists());
+}
+
+#[test]
+fn choices_are_listed_and_doubts_are_said() {
+    let folder = Folder::new();
+    let all = folder.succeed(&["scene", "choices"]);
+    for entry in entries() {
+        assert!(all.contains(&format!("\"{}\"", entry.name)) && all.contains(entry.says), "{}", entry.name);
+    }
+    let limits = folder.succeed(&["scene", "choices", "friction"]);
+    assert!(limits.contains("\"load_dependent\"") && !limits.contains("\"torus\""), "{limits}");
+    assert!(folder.fail(1, &["scene", "choices", "nothing"]).contains("contact.skin"));
+    let text = fs::read_to_string(scene("paper_sphere.toml")).unwrap();
+    folder.write("far.toml", &text.replace("radius_m = 0.013", "radius_m = 13.0"));
+    let said = folder.succeed(&["scene", "check", "far.toml"]);
+    assert!(said.contains("warning: `radius_m` of [surface] is 13 m"), "{said}");
+}
+
+/// All scenes that there are to copy can be read, mean something, and are not doubted.
+#[test]
+fn the_scenes_to_copy_are_sound() {
+    let folder = Folder::new();
+    let one = scene("plane.toml");
+    let mut seen = 0;
+    for file in fs::read_dir(Path::new(&one).parent().unwrap()).unwrap() {
+        let path = file.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            let said = folder.succeed(&["scene", "check", path.to_str().unwrap()]);
+            assert!(said.contains("surface") && !said.contains("warning: "), "{said}");
+            seen += 1;
+        }
+    }
+    assert!(seen >= 9, "{seen}");
+}
+
+/// What a scene asks for beside the contact stands in columns of its own.
+#[test]
+fn a_scene_that_asks_for_more_is_told_more() {
+    let folder = Folder::new();
+    folder.write("pushes.csv", &pushes());
+    folder.write(
+        "all.toml",
+        "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n\
+         [contact]\nmodel = \"soft_finger\"\nleast_force_N = 0.1\n\
+         [uncertainty]\nforce_noise_N = 0.01\ntorque_noise_Nm = 0.0001\n\
+         [friction]\nlimit = \"uncertain\"\nstatic_coefficient = 0.5\ndeviation = 0.05\n\
+         [slip]\ndetector = \"drop\"\nnoise_N = 0.01\n[estimate]\nnoise_N = 0.01\n\
+         [grip]\nleast_N = 0.2\ngreatest_N = 20.0\nrise_N_per_s = 100.0\nfall_N_per_s = 2.0\n",
+    );
+    folder.succeed(&["analyze", "pushes.csv", "--scene", "all.toml"]);
+    let contacts = Contacts::parse(&folder.read("contacts.csv"));
+    let last = |name: &str| *contacts.numbers(name).last().unwrap();
+    // 0.8 N sideways and 2 N down on a ball: pressed where both point to.
+    assert!((last("spin_Nm") - 0.0005).abs() < 1e-4, "{}", last("spin_Nm"));
+    assert!(last("ellipse_a_m") >= last("ellipse_b_m") && last("ellipse_b_m") > 0.0);
+    assert!((0.005..0.02).contains(&last("normal_deviation_N")), "{}", last("normal_deviation_N"));
+    assert!((0.0..=1.0).contains(&last("slip_probability")));
+    assert!(last("grip_N") > 0.2);
+    // A scene that asks for none has none of them.
+    folder.succeed(&["analyze", "pushes.csv", "--scene", &scene("plane.toml"), "--output", "plain.csv"]);
+    assert!(folder.read("plain.csv").starts_with("t_s,status,fx_N,"));
+    assert!(!folder.read("plain.csv").contains("spin_Nm"));
+}

@@ -1,0 +1,96 @@
+//! What a scene can say and hardly means.
+
+use toml::{Table, Value};
+
+/// Longer than any fingertip \[m\].
+const LONG: f64 = 0.5;
+/// Coefficients beyond these are of no skin or rubber.
+const COEFFICIENTS: [f64; 2] = [0.05, 2.5];
+/// Slower, a fall of the friction ratio passes between two samples \[Hz\].
+const SLOW: f64 = 200.0;
+
+/// Sentences about what is implausible in a scene that can be read, with the key.
+pub(crate) fn of(scene: &Table) -> Vec<String> {
+    let mut doubts = Vec::new();
+    for section in ["surface", "pose", "map"] {
+        if let Some(value) = scene.get(section) {
+            lengths(section, "", value, &mut doubts);
+        }
+    }
+    let number = |section: &str, key: &str| scene.get(section)?.get(key).and_then(as_number);
+    for key in ["static_coefficient", "coefficient_along", "coefficient_across"] {
+        if let Some(found) = number("friction", key)
+            && !(COEFFICIENTS[0]..=COEFFICIENTS[1]).contains(&found)
+        {
+            doubts.push(format!(
+                "`{key}` of [friction] is {found}: few materials hold so, most between 0.2 and 1"
+            ));
+        }
+    }
+    let noises = [("uncertainty", "force_noise_N"), ("slip", "noise_N"), ("estimate", "noise_N")]
+        .map(|(section, key)| Some((section, key, number(section, key)?)));
+    let least = number("contact", "least_force_N").unwrap_or(0.0);
+    let greatest = noises.iter().flatten().max_by(|a, b| a.2.total_cmp(&b.2));
+    if let Some((section, key, noise)) = greatest
+        && least < 3.0 * noise
+    {
+        doubts.push(format!(
+            "`least_force_N` of [contact] is {least}, less than three times the `{key}` of [{section}], {noise}: noise \
+             will pass for contacts"
+        ));
+    }
+    let smallest = noises.iter().flatten().min_by(|a, b| a.2.total_cmp(&b.2));
+    if let (Some(least), Some(most)) = (smallest, greatest)
+        && most.2 > 3.0 * least.2
+    {
+        doubts.push(format!(
+            "`{}` of [{}] is {} and `{}` of [{}] is {}, though both are of one sensor",
+            least.1, least.0, least.2, most.1, most.0, most.2
+        ));
+    }
+    let detector = scene.get("slip").and_then(|slip| slip.get("detector")).and_then(Value::as_str);
+    if let (Some("drop" | "likelihood_ratio" | "stick_slip"), Some(rate)) =
+        (detector, number("input", "sample_rate_Hz"))
+        && rate < SLOW
+    {
+        doubts.push(format!(
+            "`sample_rate_Hz` of [input] is {rate}: slips pass between two samples; the detector wants some hundred hertz"
+        ));
+    }
+    doubts
+}
+
+fn as_number(value: &Value) -> Option<f64> {
+    #[allow(clippy::cast_precision_loss, reason = "of lengths and forces")]
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+}
+
+/// Lengths that are those of a robot, not of its fingertip: by the unit in their key.
+fn lengths(section: &str, key: &str, value: &Value, doubts: &mut Vec<String>) {
+    match value {
+        Value::Table(table) => table.iter().for_each(|(key, value)| lengths(section, key, value, doubts)),
+        Value::Array(list) if key == "parts" || !key.ends_with("_m") => {
+            list.iter().for_each(|value| lengths(section, key, value, doubts));
+        }
+        Value::Array(list) => {
+            if let Some(value) = list.iter().find(|value| is_long(value)) {
+                lengths(section, key, value, doubts);
+            }
+        }
+        other if key.ends_with("_m") && is_long(other) => {
+            let found = as_number(other).unwrap_or(0.0);
+            let millimetres = found * 1e-3;
+            doubts.push(format!(
+                "`{key}` of [{section}] is {found} m, longer than any fingertip; of millimetres it is {millimetres}"
+            ));
+        }
+        _ => {}
+    }
+}
+
+fn is_long(value: &Value) -> bool {
+    match value {
+        Value::Array(list) => list.iter().any(is_long),
+        other => as_number(other).is_some_and(|number| number.abs() > LONG),
+    }
+}
