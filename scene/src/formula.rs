@@ -1,6 +1,6 @@
 //! `shape = "formula"`: a shape of one's own without a line of code.
 
-use std::collections::BTreeMap;
+use alloc::collections::BTreeMap;
 
 use exmex::{BinOp, Express, FlatEx, MakeOperators, MatchLiteral, Operator};
 use fingertip::surfaces::{BadShape, DynSurface, Formula, FormulaStep, Implicit, Topology};

@@ -1,5 +1,7 @@
 #![doc = include_str!("../README.md")]
 
+extern crate alloc;
+
 mod doubts;
 mod estimate;
 mod fault;
@@ -15,6 +17,7 @@ pub mod registry;
 mod scene;
 mod skin;
 mod slip;
+mod stages;
 mod surface;
 mod uncertainty;
 

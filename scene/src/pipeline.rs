@@ -1,24 +1,22 @@
 //! The pipeline of a scene, chosen at run time.
 
-use fingertip::contact::Contact;
+use fingertip::contact::{Contact, NoContact, Resolution};
 use fingertip::friction::{SlipMargin, SlipVerdict, StickSlip};
 use fingertip::surfaces::DynSurface;
-use fingertip::wrench::{ContactForce, Real, Uncompensated, Wrench};
-use fingertip::{Absent, Fingertip, Step, Touch};
+use fingertip::wrench::{ContactForce, Real, Wrench};
+use fingertip::{Step, Touch};
 use nalgebra::Vector3;
 
 use crate::estimate::{Estimate, Learnt};
 use crate::friction::{Friction, Limit};
 use crate::grip::Grip;
 use crate::model::Model;
-use crate::slip::SlipWatch;
+use crate::slip::{Detector, SlipWatch};
+use crate::stages::Stages;
 use crate::uncertainty::{Spread, Uncertainty};
 
 /// A longer step than this is a pause \[s\]: what follows from sample to sample starts anew.
 const PAUSE: f64 = 0.5;
-
-/// The typed pipeline over choices at run time: the same stages in the same order, so the same bits.
-type Stages<T> = Fingertip<Absent, DynSurface<T>, Model<T>, Friction<T>, SlipWatch<T>, Uncompensated, Absent>;
 
 /// A fingertip that a scene describes: every stage is chosen when it is made, once.
 ///
@@ -28,10 +26,15 @@ type Stages<T> = Fingertip<Absent, DynSurface<T>, Model<T>, Friction<T>, SlipWat
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pipeline<T: Real> {
     stages: Stages<T>,
+    surface: DynSurface<T>,
+    model: Model<T>,
     uncertainty: Option<Uncertainty<T>>,
     estimate: Option<Estimate<T>>,
     grip: Option<Grip<T>>,
+    /// Whether a stage beside those of every scene is there.
+    has_more: bool,
     last: Option<Vector3<T>>,
+    felt: Felt<T>,
 }
 
 /// What one sample says: of a stage that the scene has not, nothing.
@@ -52,6 +55,20 @@ pub struct Felt<T: Real> {
 }
 
 impl<T: Real> Felt<T> {
+    /// Before the first sample.
+    fn nothing() -> Self {
+        let (zero, force) = (Wrench::zero(), T::zero());
+        let resolution = Resolution::NoContact(NoContact::BelowThreshold { force });
+        Self {
+            touch: Touch { wrench: zero, resolution, force: None, grip: None, slip: None },
+            spread: None,
+            slip_probability: None,
+            stick_slip: None,
+            friction: None,
+            grip_force: None,
+        }
+    }
+
     /// Where it touches, and how.
     pub const fn contact(&self) -> Option<&Contact<T>> {
         self.touch.resolution.contact()
@@ -97,61 +114,53 @@ pub(crate) struct Parts<T: Real> {
 impl<T: Real> Pipeline<T> {
     pub(crate) fn new(parts: Parts<T>) -> Self {
         let Parts { surface, model, uncertainty, friction, slip, estimate, grip } = parts;
-        let stages =
-            Fingertip::builder().contact(surface, model).friction_stage(friction).slip_stage(slip).build();
-        Self { stages, uncertainty, estimate, grip, last: None }
+        let stages = Stages::new(surface.clone(), model.clone(), friction, slip);
+        let has_more = uncertainty.is_some()
+            || estimate.is_some()
+            || grip.is_some()
+            || matches!(stages.friction(), Friction(Some(Limit::Uncertain { .. })))
+            || matches!(stages.slip(), SlipWatch(Some(Detector::StickSlip(_))));
+        let felt = Felt::nothing();
+        Self { stages, surface, model, uncertainty, estimate, grip, has_more, last: None, felt }
     }
 
     /// Takes a wrench on the fingertip and the time since the one before \[s\]; a time that is not positive
-    /// counts as none.
+    /// counts as none. What the sample says stays here until the next one.
+    // By reference: to copy it costs as much as a sample of a small scene.
     #[inline]
-    pub fn sense(&mut self, wrench: Wrench<T>, time_step: T) -> Felt<T> {
+    pub fn sense(&mut self, wrench: Wrench<T>, time_step: T) -> &Felt<T> {
         let time_step = if time_step > T::zero() { time_step } else { T::zero() };
         if time_step > T::literal(PAUSE) {
             self.start_anew();
         }
         let before = self.last;
-        let touch = self.stages.sense_wrench(wrench, Step::of(time_step).with_last(before));
-        self.last = touch.point();
-        let mut felt = Felt {
-            touch,
-            spread: None,
-            slip_probability: None,
-            stick_slip: None,
-            friction: None,
-            grip_force: None,
-        };
-        if self.has_more() {
-            self.say_more(&mut felt, before, time_step);
+        self.felt.touch = self.stages.sense(wrench, Step::of(time_step).with_last(before));
+        self.last = self.felt.touch.point();
+        if self.has_more {
+            self.say_more(before, time_step);
         }
-        felt
+        &self.felt
     }
 
-    /// Whether a stage beside those of every scene is there.
-    #[inline]
-    fn has_more(&self) -> bool {
-        self.uncertainty.is_some()
-            || self.estimate.is_some()
-            || self.grip.is_some()
-            || matches!(self.limit(), Some(Limit::Uncertain { .. }))
-            || self.stages.detector().is_on()
-    }
-
-    fn say_more(&mut self, felt: &mut Felt<T>, before: Option<Vector3<T>>, time_step: T) {
+    /// What the stages beside those of every scene say.
+    #[inline(never)]
+    fn say_more(&mut self, before: Option<Vector3<T>>, time_step: T) {
+        let felt = &mut self.felt;
         let (force, slip) = (felt.touch.force, felt.touch.slip);
-        felt.stick_slip = self.stages.detector().stick_slip();
-        felt.slip_probability = force.as_ref().and_then(|force| self.limit()?.slip_probability(force));
-        if let (Some(uncertainty), Some(contact)) = (&self.uncertainty, felt.contact()) {
-            let surface = self.stages.surface();
-            let jacobian =
-                self.stages.model().jacobian(contact, &felt.touch.wrench, surface, before.as_ref());
-            felt.spread = jacobian.and_then(|jacobian| uncertainty.of(&jacobian, &felt.touch.wrench));
+        let limit = self.stages.friction().0.as_ref();
+        felt.stick_slip = self.stages.slip().stick_slip();
+        felt.slip_probability = force.as_ref().and_then(|force| limit?.slip_probability(force));
+        felt.spread = None;
+        if let (Some(uncertainty), Some(contact)) = (&self.uncertainty, felt.touch.resolution.contact()) {
+            let wrench = &felt.touch.wrench;
+            let jacobian = self.model.jacobian(contact, wrench, &self.surface, before.as_ref());
+            felt.spread = jacobian.and_then(|jacobian| uncertainty.of(&jacobian, wrench));
         }
         if let Some(estimate) = &mut self.estimate {
             estimate.follow(force.as_ref(), slip, time_step);
             felt.friction = Some(estimate.learnt());
         }
-        if let (Some(grip), Some(limit)) = (&mut self.grip, self.stages.friction().0.as_ref()) {
+        if let (Some(grip), Some(limit)) = (&mut self.grip, limit) {
             felt.grip_force = Some(grip.command(limit, force.as_ref(), slip, time_step));
         }
     }
@@ -170,7 +179,7 @@ impl<T: Real> Pipeline<T> {
     /// Forgets the last contact and what the slip detector saw, as after a gap in a recording; what was learnt of
     /// the friction stays.
     pub fn start_anew(&mut self) {
-        self.stages.detector_mut().reset();
+        self.stages.slip_mut().reset();
         self.last = None;
     }
 
@@ -187,12 +196,12 @@ impl<T: Real> Pipeline<T> {
 
     /// The surface, in the sensor frame.
     pub const fn surface(&self) -> &DynSurface<T> {
-        self.stages.surface()
+        &self.surface
     }
 
     /// The contact model.
     pub const fn model(&self) -> &Model<T> {
-        self.stages.model()
+        &self.model
     }
 
     /// The friction limit, if the scene has one.

@@ -240,8 +240,7 @@ impl Scene {
     /// # Errors
     /// [`SceneProblem`] where a number of the scene is out of the range of the type.
     pub fn pipeline_in<T: Real + DeserializeOwned>(&self) -> Result<Pipeline<T>, SceneProblem> {
-        let pose = self.pose.sensor_from_surface::<T>()?;
-        let surface = placed(self.shape.shape()?, pose)?;
+        let surface = placed(self.shape.shape()?, &self.pose)?;
         self.stages.build(surface, self.surface(), &self.pose, self.input.sample_rate)
     }
 }
@@ -316,7 +315,7 @@ impl<S: SurfaceSection> SceneFile<S> {
         let rest = positive("rest_s", self.input.rest.filter(|rest| *rest != 0.0))?;
         let shape = self.surface.source(folder, table);
         let pose = self.pose.sensor_from_surface::<f64>()?;
-        let surface = placed(shape.shape()?, pose)?;
+        let surface = placed(shape.shape()?, &self.pose)?;
         let projection = map_of(&surface, &pose, self.map.as_ref())?;
         let Self { contact, uncertainty, friction, slip, estimate, grip, .. } = self;
         let stages = Stages { contact, uncertainty, friction, slip, estimate, grip };

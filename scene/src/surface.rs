@@ -2,9 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use fingertip::surfaces::{
-    ActiveSurface, BadShape, Cylinder, DynSurface, Mesh, Plane, Posed, Sphere, SphericalCap,
-};
+use fingertip::surfaces::{ActiveSurface, Cylinder, DynSurface, Mesh, Plane, Posed, Sphere, SphericalCap};
 use fingertip::wrench::{Real, RigidTransform};
 use nalgebra::Vector3;
 use serde::de::DeserializeOwned;
@@ -111,12 +109,16 @@ impl SurfaceSection for FormulaSection {
     }
 }
 
-/// The shape in the sensor frame. Plane, sphere and cylinder are put there themselves, which costs nothing
+/// The shape in the sensor frame. Without a pose it is there already. Plane, sphere and cylinder are put there themselves, which costs nothing
 /// per sample; others are [`Posed`].
 pub(crate) fn placed<T: Real>(
     surface: DynSurface<T>,
-    pose: RigidTransform<T>,
-) -> Result<DynSurface<T>, BadShape> {
+    section: &PoseSection,
+) -> Result<DynSurface<T>, SceneProblem> {
+    let pose = section.sensor_from_surface()?;
+    if *section == PoseSection::default() {
+        return Ok(surface);
+    }
     Ok(match surface {
         DynSurface::Plane(plane) => {
             let normal = pose.rotate(&plane.normal(&plane.point()));

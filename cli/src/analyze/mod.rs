@@ -80,7 +80,7 @@ impl Pass<'_> {
                 Reading::Wrench(wrench, motion) => {
                     let felt = pipeline.sense(payload.compensate(&(wrench, motion)), time_step);
                     observations.add(time, &felt.touch);
-                    self.contacts.write(time, &felt)?;
+                    self.contacts.write(time, felt)?;
                 }
                 Reading::Without(status) => {
                     observations.add_without_wrench(time, status);

@@ -19,8 +19,7 @@ fn outside(formula: &str) -> String {
 /// The value of a formula at a place.
 fn value(formula: &str, place: &Vector3<f64>) -> f64 {
     let scene = scene_of(&outside(formula), "").unwrap_or_else(|error| panic!("{formula}: {error}"));
-    let DynSurface::Posed(posed) = scene.surface() else { panic!() };
-    let DynSurface::Formula(implicit) = posed.inner() else { panic!() };
+    let DynSurface::Formula(implicit) = scene.surface() else { panic!() };
     implicit.inner().value(place)
 }
 

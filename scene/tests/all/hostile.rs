@@ -123,7 +123,8 @@ fn numbers(scene: &Scene) -> Vec<f64> {
         all.extend(approach.normal.iter().copied());
     }
     let push = Wrench::from_force_at(&Vector3::new(0.001, 0.0, 0.002), Vector3::new(0.1, 0.2, -1.0));
-    let felt = scene.pipeline().sense(push, 1e-3);
+    let mut pipeline = scene.pipeline();
+    let felt = pipeline.sense(push, 1e-3);
     if let Some(contact) = felt.contact() {
         all.extend(contact.point.iter().chain(contact.normal.iter()).copied());
     }
