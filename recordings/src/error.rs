@@ -110,6 +110,14 @@ pub enum HeaderProblem {
         /// The columns that there are.
         columns: String,
     },
+    /// A column that was named is not there.
+    #[error("there is no column {column:?}; there are: {columns}")]
+    NoColumn {
+        /// As it was named.
+        column: String,
+        /// The columns that there are.
+        columns: String,
+    },
     /// A force, torque or time without a unit.
     #[error("column {column} has no unit that is known; rename it, for example to {example}")]
     MissingUnit {

@@ -25,7 +25,7 @@ pub use error::{HeaderProblem, RecordingError};
 pub use fingertip_wrench::units::{ForceUnit, TorqueUnit};
 pub use layout::{AssumedUnits, Layout, LeftOut};
 pub use quality::{FaultCount, Quality};
-pub use reader::{ReaderOptions, RecordingReader};
+pub use reader::{ReaderOptions, RecordingReader, RenamedColumn};
 pub use row::{Row, RowMarks};
 pub use unit::SignalUnit;
 pub use writer::{RecordingWriter, Schema};

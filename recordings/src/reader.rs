@@ -18,18 +18,31 @@ use crate::start::{delimiter, read_start};
 use crate::time_watch::{Step, TimeWatch};
 
 /// How a recording is read.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ReaderOptions {
     /// Units of columns whose names have none; none by default.
     pub assumed_units: AssumedUnits,
     /// A step of time above this many times the median of all steps before is a gap; 1.5 by
     /// default, so that one lost sample shows.
     pub gap_factor: f64,
+    /// Columns that have names of their own, and what to take them for; none by default.
+    pub renamed: Vec<RenamedColumn>,
+}
+
+/// A column whose name says nothing to this library.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RenamedColumn {
+    /// As the file has it.
+    pub from: String,
+    /// What to take it for, as `fx_N` or `t_ms`.
+    pub to: String,
+    /// Whether its numbers have the other sign.
+    pub negative: bool,
 }
 
 impl Default for ReaderOptions {
     fn default() -> Self {
-        Self { assumed_units: AssumedUnits::default(), gap_factor: 1.5 }
+        Self { assumed_units: AssumedUnits::default(), gap_factor: 1.5, renamed: Vec::new() }
     }
 }
 
@@ -58,6 +71,29 @@ impl<R> fmt::Debug for RecordingReader<R> {
             .field("quality", quality)
             .finish_non_exhaustive()
     }
+}
+
+/// Gives columns the names that they are to be taken for, and says which have the other sign.
+fn rename(names: &mut [String], renamed: &[RenamedColumn]) -> Result<Vec<usize>, HeaderProblem> {
+    let mut negative = Vec::new();
+    let mut places = Vec::new();
+    for column in renamed {
+        let place = names.iter().position(|name| name.trim_start_matches('\u{feff}').trim() == column.from);
+        let Some(place) = place else {
+            let columns = shortened(&names.join(", "), 120);
+            return Err(HeaderProblem::NoColumn { column: column.from.clone(), columns });
+        };
+        places.push((place, &column.to));
+        if column.negative {
+            negative.push(place);
+        }
+    }
+    for (place, to) in places {
+        if let Some(name) = names.get_mut(place) {
+            name.clone_from(to);
+        }
+    }
+    Ok(negative)
 }
 
 impl RecordingReader<File> {
@@ -124,11 +160,18 @@ impl<R: Read> RecordingReader<R> {
                 Err(error) => return Err(read_error(file, 0, csv.get_ref().reached(), error)),
             }
         };
-        let names: Vec<String> = names.collect();
-        let layout = match Layout::from_header(&names, options.assumed_units) {
+        let mut names: Vec<String> = names.collect();
+        let negative = match rename(&mut names, &options.renamed) {
+            Ok(negative) => negative,
+            Err(problem) => return Err(RecordingError::Header { file, problem }),
+        };
+        let mut layout = match Layout::from_header(&names, options.assumed_units) {
             Ok(layout) => layout,
             Err(problem) => return Err(RecordingError::Header { file, problem }),
         };
+        for used in layout.used.iter_mut().filter(|used| negative.contains(&used.column)) {
+            used.scale = -used.scale;
+        }
         let line = line_of_record(&csv);
         let values = vec![f64::NAN; layout.used.len()];
         Ok(Self {

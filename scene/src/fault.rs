@@ -86,6 +86,21 @@ pub enum SceneProblem {
         /// Its value.
         found: f64,
     },
+    /// A unit that is not known.
+    #[error(
+        "`{key}` of [input.units] is {unit:?}, which is no unit that is known; write it as N, N*mm, lbf, ms, mV, counts or the like"
+    )]
+    Unit {
+        /// Of which quantity.
+        key: &'static str,
+        /// As the user wrote it.
+        unit: String,
+    },
+    /// A column that means nothing.
+    #[error(
+        "`{0}` of [input.columns] is no quantity; there are time, fx, fy, fz, tx, ty, tz, v1 and so on, dummy and temperature_C, and a minus for all but time"
+    )]
+    Column(String),
     /// The pose is none.
     #[error("`translation_m` and `rotation_deg` of the pose must be finite numbers")]
     Pose,

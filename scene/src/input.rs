@@ -4,6 +4,8 @@ use fingertip::wrench::{Real, Wrench};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::columns::{ColumnsSection, UnitsSection};
+
 /// Which of the two opposite loads of a contact the recording holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -36,4 +38,8 @@ pub(crate) struct InputSection {
     pub(crate) sample_rate: Option<f64>,
     #[serde(rename = "rest_s", skip_serializing_if = "Option::is_none")]
     pub(crate) rest: Option<f64>,
+    #[serde(default)]
+    pub(crate) columns: ColumnsSection,
+    #[serde(default)]
+    pub(crate) units: UnitsSection,
 }

@@ -2,6 +2,7 @@
 
 extern crate alloc;
 
+mod columns;
 mod doubts;
 mod estimate;
 mod fault;

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use fingertip::surfaces::DynSurface;
 use fingertip::wrench::Real;
+use fingertip_recordings::RenamedColumn;
 use nalgebra::Vector3;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -89,6 +90,7 @@ pub struct Scene {
     /// As it stands in the file.
     document: toml::Table,
     input: InputSection,
+    renamed: Vec<RenamedColumn>,
     shape: ShapeSource,
     pose: PoseSection,
     projection: Projection,
@@ -179,6 +181,12 @@ impl Scene {
     #[must_use]
     pub fn sensor(&self) -> Option<&str> {
         self.input.sensor.as_deref()
+    }
+
+    /// Columns of the recording that have names of their own, and what they are to be taken for.
+    #[must_use]
+    pub fn renamed_columns(&self) -> &[RenamedColumn] {
+        &self.renamed
     }
 
     /// Samples per second where the recording has no time \[Hz\].
@@ -313,6 +321,7 @@ impl<S: SurfaceSection> SceneFile<S> {
         };
         let sample_rate = positive("sample_rate_Hz", self.input.sample_rate)?;
         let rest = positive("rest_s", self.input.rest.filter(|rest| *rest != 0.0))?;
+        let renamed = self.input.columns.renamed(&self.input.units)?;
         let shape = self.surface.source(folder, table);
         let pose = self.pose.sensor_from_surface::<f64>()?;
         let surface = placed(shape.shape()?, &self.pose)?;
@@ -324,6 +333,7 @@ impl<S: SurfaceSection> SceneFile<S> {
             name: self.name.unwrap_or_else(|| name.to_owned()),
             document,
             input: InputSection { sample_rate, rest, ..self.input },
+            renamed,
             shape,
             pose: self.pose,
             projection,

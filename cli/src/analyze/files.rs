@@ -4,7 +4,8 @@ use std::fs::File;
 use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
 
-use fingertip_recordings::RecordingReader;
+use fingertip_recordings::{ReaderOptions, RecordingReader};
+use fingertip_scene::Scene;
 use indicatif::ProgressBar;
 
 use super::args::AnalyzeArguments;
@@ -39,7 +40,7 @@ pub(super) struct Opened {
 }
 
 /// Opens a recording. One of MCAP is read as what `convert` makes of it; what to know of that goes to `notes`.
-pub(super) fn open(path: &Path, notes: &mut Vec<String>) -> Result<Opened, CliError> {
+pub(super) fn open(path: &Path, scene: &Scene, notes: &mut Vec<String>) -> Result<Opened, CliError> {
     let fault = |source| CliError::read("recording", path, source);
     let file = File::open(path).map_err(fault)?;
     let meta = file.metadata().map_err(fault)?;
@@ -52,7 +53,8 @@ pub(super) fn open(path: &Path, notes: &mut Vec<String>) -> Result<Opened, CliEr
         Ok(Kind::Mcap) => Box::new(McapAsCsv::new(BufReader::new(file), path, notes)?),
         _ => Box::new(file),
     };
-    Ok(Opened { rows: Rows::new(path.display().to_string(), text)?, bar })
+    let options = ReaderOptions { renamed: scene.renamed_columns().to_vec(), ..ReaderOptions::default() };
+    Ok(Opened { rows: Rows::with_options(path.display().to_string(), text, options)?, bar })
 }
 
 /// Prints what was found and what was written.

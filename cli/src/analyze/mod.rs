@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let recording = arguments.recording.as_path();
     files::guard(arguments)?;
     let mut notes = Vec::new();
-    let files::Opened { rows: mut reader, bar } = files::open(recording, &mut notes)?;
+    let files::Opened { rows: mut reader, bar } = files::open(recording, &scene, &mut notes)?;
     let mut source = Source::new(&mut reader, &scene, arguments, notes)?;
     let mut contacts = ContactWriter::create(&arguments.output, scene.tells())?;
     let pass = Pass { scene: &scene, reader: &mut reader, source: &mut source, contacts: &mut contacts };

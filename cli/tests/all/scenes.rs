@@ -110,3 +110,53 @@ fn a_scene_that_asks_for_more_is_told_more() {
     assert!(folder.read("plain.csv").starts_with("t_s,status,fx_N,"));
     assert!(!folder.read("plain.csv").contains("spin_Nm"));
 }
+
+/// A recording of a program that names its columns as it likes, in its own units and signs.
+#[test]
+fn columns_of_any_names_are_read() {
+    let folder = Folder::new();
+    folder.write("pushes.csv", &pushes());
+    let scene = "version = 2\n[input]\nconvention = \"on_fingertip\"\nCOLUMNS[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+    folder.write("plain.toml", &scene.replace("COLUMNS", ""));
+    folder.succeed(&[
+        "analyze",
+        "pushes.csv",
+        "--scene",
+        "plain.toml",
+        "--no-report",
+        "--output",
+        "plain.csv",
+    ]);
+    // Milliseconds, newton millimetres, the wrench upside down, and a column that is none of it.
+    let mut text =
+        "__time,note,/ft/wrench/force/x,/ft/wrench/force/y,/ft/wrench/force/z,M1,M2,M3\n".to_owned();
+    for row in pushes().lines().skip(1) {
+        let n: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
+        text.push_str(&format!("{},x,{},{},{}", n[0] * 1e3, n[1], n[2], -n[3]));
+        text.push_str(&format!(",{},{},{}\n", n[4] * 1e3, n[5] * 1e3, n[6] * 1e3));
+    }
+    folder.write("other.csv", &text);
+    let columns = "[input.columns]\ntime = \"__time\"\nfx = \"/ft/wrench/force/x\"\nfy = \"/ft/wrench/force/y\"\n\
+                   fz = \"-/ft/wrench/force/z\"\ntx = \"M1\"\nty = \"M2\"\ntz = \"M3\"\n\
+                   [input.units]\ntime = \"ms\"\ntorque = \"N*mm\"\n";
+    folder.write("other.toml", &scene.replace("COLUMNS", columns));
+    folder.succeed(&[
+        "analyze",
+        "other.csv",
+        "--scene",
+        "other.toml",
+        "--no-report",
+        "--output",
+        "other_out.csv",
+    ]);
+    let (plain, other) =
+        (Contacts::parse(&folder.read("plain.csv")), Contacts::parse(&folder.read("other_out.csv")));
+    for name in ["t_s", "fz_N", "ty_Nm", "x_m", "z_m", "normal_N"] {
+        for (a, b) in plain.numbers(name).iter().zip(other.numbers(name)) {
+            assert!((a - b).abs() < 1e-6, "{name}: {a} {b}");
+        }
+    }
+    folder.write("wrong.toml", &scene.replace("COLUMNS", &columns.replace("M3", "M4")));
+    let error = folder.fail(1, &["analyze", "other.csv", "--scene", "wrong.toml", "--no-report"]);
+    assert!(error.contains("\"M4\"") && error.contains("M3"), "{error}");
+}
