@@ -31,6 +31,14 @@ pub struct Fingertip<
 
 /// What one sample says.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: serde::Serialize, Reading: serde::Serialize, Verdict: serde::Serialize",
+        deserialize = "T: serde::Deserialize<'de>, Reading: serde::Deserialize<'de>, Verdict: serde::Deserialize<'de>"
+    ))
+)]
 pub struct Touch<T: Real, Reading = (), Verdict = ()> {
     /// The load on the fingertip, without that of its payload.
     pub wrench: Wrench<T>,

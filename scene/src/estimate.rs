@@ -68,7 +68,8 @@ pub struct Estimate<T: Real> {
 }
 
 /// What is known of the friction so far.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct Learnt<T: Real> {
     /// The static coefficient; `None` before the first slip.
     pub at_rest: Option<FrictionEstimate<T>>,

@@ -6,6 +6,7 @@ use fingertip::surfaces::DynSurface;
 use fingertip::wrench::{ContactForce, Real, Wrench};
 use fingertip::{Step, Touch};
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use crate::estimate::{Estimate, Learnt};
 use crate::friction::{Friction, Limit};
@@ -38,7 +39,8 @@ pub struct Pipeline<T: Real> {
 }
 
 /// What one sample says: of a stage that the scene has not, nothing.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct Felt<T: Real> {
     /// Wrench, contact, force, slip margin and slip verdict.
     pub touch: Touch<T, Option<SlipMargin<T>>, Option<SlipVerdict>>,
@@ -86,7 +88,7 @@ impl<T: Real> Felt<T> {
 }
 
 /// What a scene tells of a sample beside contact, forces, margin and verdict.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Tells {
     /// A spin torque: the contact model knows one.
     pub spin_torque: bool,

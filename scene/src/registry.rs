@@ -70,8 +70,8 @@ entries!(SHAPES, "The shapes of `[surface]`.", "surface", "shape":
 
 entries!(MODELS, "The models of `[contact]`.", "contact", "model":
     "point", "a contact transmits a force and no torque of its own", "least_force_N = 0.1";
-    "soft_finger", "it transmits a torque about the normal, too", "least_force_N = 0.1";
-    "auto", "the one of both that the wrench speaks for, given the noise in [uncertainty]", "least_force_N = 0.1\ngreatest_pitch_m = 0.01";
+    "soft_finger", "a contact transmits a force and a torque about the normal, as a soft tip does", "least_force_N = 0.1";
+    "auto", "point contact or soft finger, whichever the wrench speaks for, given the noise in [uncertainty]", "least_force_N = 0.1\ngreatest_pitch_m = 0.01";
 );
 
 entries!(SKINS, "The laws of `[contact.skin]`.", "contact.skin", "law":
@@ -86,8 +86,8 @@ entries!(LIMITS, "The limits of `[friction]`.", "friction", "limit":
     "coulomb", "one coefficient in all directions", "static_coefficient = 0.5";
     "anisotropic", "one coefficient along the grain of a flat surface, another across it", "grain = [1.0, 0.0, 0.0]\ncoefficient_along = 0.4\ncoefficient_across = 0.6";
     "soft_finger", "tangential force and spin torque together", "static_coefficient = 0.5\ntorque_arm_m = 0.003";
-    "power", "the same for a patch whose pressure is known: \"uniform\", \"hertz\" or \"winkler\"", "static_coefficient = 0.5\npatch_radius_m = 0.004\npressure = \"hertz\"";
-    "load_dependent", "the same for a patch that grows with the force", "static_coefficient = 0.5\ntorque_arm_m = 0.003\nreference_force_N = 1.0\ngrowth_exponent = 0.33";
+    "power", "tangential force and spin torque on a patch whose pressure is known: \"uniform\", \"hertz\" or \"winkler\"", "static_coefficient = 0.5\npatch_radius_m = 0.004\npressure = \"hertz\"";
+    "load_dependent", "tangential force and spin torque on a patch that grows with the force", "static_coefficient = 0.5\ntorque_arm_m = 0.003\nreference_force_N = 1.0\ngrowth_exponent = 0.33";
     "uncertain", "a coefficient with a standard deviation", "static_coefficient = 0.5\ndeviation = 0.05\nnoise_N = 0.01";
 );
 

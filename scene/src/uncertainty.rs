@@ -75,7 +75,8 @@ pub struct Uncertainty<T: Real> {
 }
 
 /// How sure a contact is: standard deviations to first order.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct Spread<T: Real> {
     /// The ellipse in the tangent plane in which the contact lies with the probability that the scene asks for.
     pub ellipse: ConfidenceEllipse<T>,

@@ -81,6 +81,11 @@ impl<T: Real> Entry<T> {
 
 /// The point of a surface closest to a line that misses it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct ClosestApproach<T: Real> {
     /// Distance between line and surface \[m\]; zero or more.
     pub gap: T,

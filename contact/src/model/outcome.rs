@@ -9,6 +9,11 @@ use thiserror::Error;
 
 /// One contact of the fingertip, in the sensor frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct Contact<T: Real> {
     /// Where the environment touches \[m\].
     pub point: Vector3<T>,
@@ -62,6 +67,14 @@ impl<T: Real> Contact<T> {
 
 /// Why a wrench gives no contact.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        rename_all = "snake_case",
+        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
+    )
+)]
 #[non_exhaustive]
 pub enum NoContact<T: Real> {
     /// A component of the wrench is NaN or infinite, or its line of action lies too far away to be
@@ -142,6 +155,14 @@ fn by_how_much<T: Real>(closest: &Option<ClosestApproach<T>>) -> impl fmt::Displ
 
 /// Contact, or the reason why there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        rename_all = "snake_case",
+        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
+    )
+)]
 pub enum Resolution<T: Real> {
     /// The wrench is explained by this contact.
     Contact(Contact<T>),

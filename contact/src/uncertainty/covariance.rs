@@ -20,6 +20,11 @@ pub struct ContactCovariance<T: Real> {
 
 /// The ellipse in the tangent plane that holds the contact with a given probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct ConfidenceEllipse<T: Real> {
     /// The longer and the shorter semi-axis \[m\].
     pub semi_axes: [T; 2],

@@ -5,6 +5,8 @@ use fingertip_wrench::{ContactForce, Real};
 /// What a detector says after a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[repr(u8)]
 pub enum SlipVerdict {
     /// The normal force is too small, or the sample not finite: nothing can be said.
     NotPressing,

@@ -4,7 +4,7 @@ use fingertip::contact::{ContactCovariance, ContactJacobian, WrenchNoise};
 use fingertip::friction::{ForceNoise, SlipVerdict, UncertainCoulomb};
 use fingertip::surfaces::{SmoothSurface, Sphere};
 use fingertip::wrench::Wrench;
-use fingertip_scene::Scene;
+use fingertip_scene::{Felt, Scene};
 use nalgebra::{Vector3, Vector6};
 
 use crate::{BALL, HEAD, NOISE, pushes};
@@ -130,4 +130,25 @@ fn a_pause_starts_anew() {
         let found = pipeline.sense(twice, pause).contact().unwrap().point.x;
         assert!((found - expected).abs() < 1e-9, "{found} after {pause} s");
     }
+}
+
+/// What a pipeline says can be written and read back, for programs in other languages.
+#[test]
+fn what_is_felt_is_data() {
+    let mut pipeline = scene(&format!(
+        "[contact]\nmodel = \"soft_finger\"\nleast_force_N = 0.1\n{NOISE}[friction]\nstatic_coefficient = 0.5\n\
+         [slip]\ndetector = \"drop\"\nnoise_N = 0.01\n"
+    ))
+    .pipeline();
+    let mut kinds = [0; 2];
+    for push in pushes(9, 60) {
+        let felt = *pipeline.sense(push, 1e-3);
+        let text = serde_json::to_string(&felt).unwrap();
+        assert_eq!(serde_json::from_str::<Felt<f64>>(&text).unwrap(), felt, "{text}");
+        let contact = felt.contact().is_some();
+        assert!(text.contains(if contact { "\"contact\":{" } else { "\"below_threshold\":{" }), "{text}");
+        kinds[usize::from(contact)] += 1;
+    }
+    assert!(kinds.iter().all(|&count| count > 3), "{kinds:?}");
+    assert_eq!(SlipVerdict::Slipping as u8, 3);
 }
