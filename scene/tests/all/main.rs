@@ -6,6 +6,7 @@
 mod choices;
 mod formula;
 mod hostile;
+mod parts;
 mod stages;
 mod typed;
 mod wrong;
