@@ -93,12 +93,8 @@ fn limits_are_the_librarys() {
     same("static_coefficient = 0.55\n", false, 0.55, Coulomb::new(0.55).unwrap());
     let soft = "limit = \"soft_finger\"\nstatic_coefficient = 0.5\ntorque_arm_m = 0.003\n";
     same(soft, false, 0.5, SoftFingerLimit::new(0.5, 0.003).unwrap());
-    same(
-        &format!("{soft}conservative = true\n"),
-        false,
-        0.5,
-        SoftFingerLimit::conservative(0.5, 0.003).unwrap(),
-    );
+    let rhombus = SoftFingerLimit::conservative(0.5, 0.003).unwrap();
+    same(&format!("{soft}conservative = true\n"), false, rhombus.coefficient(), rhombus);
     for (name, pressure) in [
         ("uniform", PressureDistribution::Uniform),
         ("hertz", PressureDistribution::Hertz),
