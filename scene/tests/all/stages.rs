@@ -4,7 +4,7 @@ use fingertip::contact::{ContactCovariance, ContactJacobian, WrenchNoise};
 use fingertip::friction::{ForceNoise, SlipVerdict, UncertainCoulomb};
 use fingertip::surfaces::{SmoothSurface, Sphere};
 use fingertip::wrench::Wrench;
-use fingertip_scene::{Felt, Scene};
+use fingertip_scene::{Felt, MapKind, Scene};
 use nalgebra::{Vector3, Vector6};
 
 use crate::{BALL, HEAD, NOISE, pushes};
@@ -151,4 +151,36 @@ fn what_is_felt_is_data() {
     }
     assert!(kinds.iter().all(|&count| count > 3), "{kinds:?}");
     assert_eq!(SlipVerdict::Slipping as u8, 3);
+}
+
+/// After a reset all is as at the start: the same samples are told the same.
+#[test]
+fn a_reset_forgets_everything() {
+    let ring = "[surface]\nshape = \"torus\"\nring_radius_m = 0.007\ntube_radius_m = 0.004\n";
+    let rest = format!(
+        "{NOISE}[friction]\nstatic_coefficient = 0.3\n[slip]\ndetector = \"drop\"\nnoise_N = 0.002\n\
+         [estimate]\nnoise_N = 0.002\n\
+         [grip]\nleast_N = 0.2\ngreatest_N = 20.0\nrise_N_per_s = 100.0\nfall_N_per_s = 2.0\n"
+    );
+    for surface in [BALL, ring] {
+        let mut pipeline = Scene::from_text(&format!("{HEAD}{surface}{rest}")).unwrap().pipeline();
+        let mut told =
+            || -> Vec<Felt<f64>> { pushes(31, 200).map(|push| *pipeline.sense(push, 1e-3)).collect() };
+        let first = told();
+        // It ends in the middle of what it has learnt.
+        assert_ne!(told(), first);
+        pipeline.reset();
+        let again: Vec<Felt<f64>> = pushes(31, 200).map(|push| *pipeline.sense(push, 1e-3)).collect();
+        assert_eq!(again, first);
+        assert!(first.iter().any(|felt| felt.touch.slip == Some(SlipVerdict::Slipping)));
+    }
+}
+
+/// How a sphere is drawn: all of it, or up to its rim.
+#[test]
+fn a_sphere_is_drawn_up_to_its_rim() {
+    assert_eq!(scene("").projection().kind(), MapKind::Polar { rim: None });
+    let part = Scene::from_text(&format!("{HEAD}{BALL}active_half_angle_deg = 60.0\n")).unwrap();
+    let MapKind::Polar { rim: Some(rim) } = part.projection().kind() else { panic!() };
+    assert!((rim.to_degrees() - 60.0).abs() < 1e-9);
 }

@@ -94,6 +94,14 @@ fn faults_are_named() {
         ),
         (with("[friction]\nstatic_coeficient = 0.5\n"), "unknown field `static_coeficient`"),
         (with("[slip]\ndetector = \"threshold\"\nnoise_N = 0.01\n"), "[friction]"),
+        (
+            with("[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n[estimate]\nnoise_N = 0.01\nslide_s = 0.0\n"),
+            "slide_s",
+        ),
+        (
+            with("[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n[estimate]\nnoise_N = 0.01\nslide_s = inf\n"),
+            "slide_s",
+        ),
         (with("[estimate]\nnoise_N = 0.01\n"), "[slip]"),
         (
             with("[grip]\nleast_N = 0.2\ngreatest_N = 20.0\nrise_N_per_s = 100.0\nfall_N_per_s = 2.0\n"),
@@ -191,4 +199,41 @@ fn what_is_hardly_meant_is_doubted() {
         let found = doubts(&text);
         assert!(found.len() == 1 && found[0].contains(expected), "{found:?} lacks {expected}");
     }
+}
+
+/// Three times as much noise may be of one sensor still, and half a metre of a hand.
+#[test]
+fn what_may_be_is_not_doubted() {
+    for text in [
+        format!(
+            "{HEAD}{BALL}[contact]\nleast_force_N = 5.0\n{NOISE}[slip]\ndetector = \"drop\"\nnoise_N = 0.03\n"
+        ),
+        format!("{HEAD}{BALL}[pose]\ntranslation_m = [0.5, 0.0, -0.5]\n"),
+        format!("{HEAD}{BALL}[friction]\nstatic_coefficient = 2.5\n"),
+        format!("{HEAD}{BALL}[friction]\nstatic_coefficient = 0.05\n"),
+    ] {
+        assert_eq!(Scene::from_text(&text).unwrap().doubts(), [""; 0], "{text}");
+    }
+}
+
+#[test]
+fn a_scene_says_what_it_means() {
+    let text = format!(
+        "{HEAD}[surface]\nshape = \"heightfield\"\ncorner_m = [-0.01, -0.01]\nspacing_m = [0.02, 0.02]\ncolumns = 2\n\
+         heights_m = [0.010000001, 0.010000002, 0.010000003, 0.010000004, 0.010000005, 0.010000006]\n\
+         [contact]\nleast_force_N = 0.1\n[contact.skin]\nlaw = \"linear\"\nstiffness_N_per_m = 8000.0\nradius_m = 0.013\n\
+         [friction]\nstatic_coefficient = 0.5\n"
+    );
+    let meaning = Scene::from_text(&text).unwrap().meaning();
+    assert_eq!(
+        meaning,
+        [
+            "input        convention = \"on_fingertip\", sample_rate_Hz = 1000.0",
+            "surface      heightfield, heights over a grid; columns = 2, corner_m = [-0.01, -0.01], heights_m = \
+             [0.010000001, 0.010000002, 0.010000003, 0.010000004, 0.01000 …, spacing_m = [0.02, 0.02]",
+            "contact      least_force_N = 0.1",
+            "contact.skin linear, depth in proportion to the force; radius_m = 0.013, stiffness_N_per_m = 8000.0",
+            "friction     coulomb, one coefficient in all directions; static_coefficient = 0.5",
+        ]
+    );
 }
