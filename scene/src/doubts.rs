@@ -69,7 +69,7 @@ fn as_number(value: &Value) -> Option<f64> {
 fn lengths(section: &str, key: &str, value: &Value, doubts: &mut Vec<String>) {
     match value {
         Value::Table(table) => table.iter().for_each(|(key, value)| lengths(section, key, value, doubts)),
-        Value::Array(list) if key == "parts" || !key.ends_with("_m") => {
+        Value::Array(list) if !key.ends_with("_m") => {
             list.iter().for_each(|value| lengths(section, key, value, doubts));
         }
         Value::Array(list) => {

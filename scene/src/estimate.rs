@@ -51,7 +51,7 @@ impl EstimateSection {
                 requirement: "positive and finite",
             });
         }
-        Ok(Estimate { at_rest, sliding, slide: T::literal(self.slide_s), left: T::zero(), slips: false })
+        Ok(Estimate { at_rest, sliding, slide: T::literal(self.slide_s), left: T::zero() })
     }
 }
 
@@ -64,7 +64,6 @@ pub struct Estimate<T: Real> {
     /// How long a slide is taken to last, and how long this one still does \[s\].
     slide: T,
     left: T,
-    slips: bool,
 }
 
 /// What is known of the friction so far.
@@ -89,8 +88,8 @@ impl<T: Real> Estimate<T> {
         self.left = if slips { self.slide } else { self.left - time_step };
         match force {
             Some(force) if self.left > T::zero() => {
-                // Without enough samples before it a slip teaches nothing.
-                if slips && !self.slips {
+                // Without enough samples before it, as within a slide, a slip teaches nothing.
+                if slips {
                     let _ = self.at_rest.onset();
                 }
                 self.sliding.observe(force, time_step);
@@ -98,7 +97,6 @@ impl<T: Real> Estimate<T> {
             Some(force) => self.at_rest.observe(force),
             None => self.left = T::zero(),
         }
-        self.slips = slips;
     }
 
     /// What is known so far.
@@ -111,6 +109,6 @@ impl<T: Real> Estimate<T> {
     pub(crate) fn reset(&mut self) {
         self.at_rest.reset();
         self.sliding.reset();
-        (self.left, self.slips) = (T::zero(), false);
+        self.left = T::zero();
     }
 }

@@ -26,7 +26,7 @@ fn value(formula: &str, place: &Vector3<f64>) -> f64 {
 #[test]
 fn formulas_mean_what_mathematicians_mean() {
     type Meant = fn(f64, f64, f64) -> f64;
-    let cases: [(&str, Meant); 12] = [
+    let cases: [(&str, Meant); 13] = [
         ("x^2 + y^2 + z^2 - 1", |x, y, z| x * x + y * y + z * z - 1.0),
         ("x - y - z - 1/2/2", |x, y, z| x - y - z - 0.25),
         ("x*y/4*2 + 6/2*x/(z^2 + 1)", |x, y, z| x * y / 4.0 * 2.0 + 3.0 * x / (z * z + 1.0)),
@@ -38,7 +38,8 @@ fn formulas_mean_what_mathematicians_mean() {
         ("exp(x) - cos(pi*y)*sin(z)", |x, y, z| x.exp() - (core::f64::consts::PI * y).cos() * z.sin()),
         ("(x + 9)^-2 - (y + 9)^0.5 + z", |x, y, z| (x + 9.0).powi(-2) - (y + 9.0).sqrt() + z),
         ("x*1e-3 + y*2.5E2 + z", |x, y, z| x * 1e-3 + y * 250.0 + z),
-        ("2^3*x - y + z", |x, y, z| 8.0 * x - y + z),
+        ("(2^3 + 1)*x - (1 - 2)*y + 6/4*z + 2*3", |x, y, z| 9.0 * x + y + 1.5 * z + 6.0),
+        ("(x/2)^64 + y + z", |x, y, z| (x / 2.0).powi(64) + y + z),
     ];
     let mut random = Pcg64Mcg::seed_from_u64(61);
     for (formula, meant) in cases {
@@ -99,6 +100,8 @@ fn formulas_that_cannot_be_are_refused_by_name() {
         ("1 - (y + -(x + 1)^2)", "-(x+1)^2"),
         ("x^2 + q - 1", "`q`"),
         ("x^2.5 - 1", "exponent"),
+        ("x^65 - 1", "exponent"),
+        ("1 - -y^3", "for -y^3,"),
         ("x^y - 1", "exponent"),
         ("x^2 + + ", "cannot be read"),
         ("(x^2 - 1", "cannot be read"),

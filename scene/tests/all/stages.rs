@@ -184,3 +184,44 @@ fn a_sphere_is_drawn_up_to_its_rim() {
     let MapKind::Polar { rim: Some(rim) } = part.projection().kind() else { panic!() };
     assert!((rim.to_degrees() - 60.0).abs() < 1e-9);
 }
+
+/// Each stage beside those of every scene speaks by itself.
+#[test]
+fn each_stage_speaks_alone() {
+    let push = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 0.013), Vector3::new(0.2, 0.0, -2.0));
+    let told = |rest: &str| {
+        let felt = *scene(rest).pipeline().sense(push, 1e-3);
+        [
+            felt.spread.is_some(),
+            felt.slip_probability.is_some(),
+            felt.friction.is_some(),
+            felt.grip_force.is_some(),
+        ]
+    };
+    assert_eq!(told(""), [false; 4]);
+    assert_eq!(told(NOISE), [true, false, false, false]);
+    let uncertain = "[friction]\nlimit = \"uncertain\"\nstatic_coefficient = 0.5\ndeviation = 0.05\n";
+    assert_eq!(told(uncertain), [false, true, false, false]);
+    let slip = "[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n[estimate]\nnoise_N = 0.01\n";
+    assert_eq!(told(slip), [false, false, true, false]);
+    let grip = "[friction]\nstatic_coefficient = 0.5\n[grip]\nleast_N = 0.2\ngreatest_N = 20.0\nrise_N_per_s = 100.0\nfall_N_per_s = 2.0\n";
+    assert_eq!(told(grip), [false, false, false, true]);
+}
+
+/// A pause forgets what the detector has seen: a ratio that is another one behind it is no slip.
+#[test]
+fn a_pause_is_no_slip() {
+    let top = Vector3::new(0.0, 0.0, 0.013);
+    let at = |ratio: f64| Wrench::from_force_at(&top, Vector3::new(2.0 * ratio, 0.0, -2.0));
+    for (pause, slips) in [(1e-3, true), (0.6, false)] {
+        let mut pipeline = scene("[slip]\ndetector = \"drop\"\nnoise_N = 0.002\n").pipeline();
+        for k in 0..200 {
+            let _ = pipeline.sense(at(0.3 + 0.001 * f64::from(k)), 1e-3);
+        }
+        let slipped = (0..20).any(|k| {
+            let step = if k == 0 { pause } else { 1e-3 };
+            pipeline.sense(at(0.2), step).touch.slip == Some(SlipVerdict::Slipping)
+        });
+        assert_eq!(slipped, slips, "{pause}");
+    }
+}

@@ -34,6 +34,20 @@ fn faults_are_named() {
         (with("[slip]\ndetector = \"drop\"\nnoise_N = 0.0\n"), "noise"),
         (flaw("[input]", "[input]\nrest_s = -1"), "rest_s"),
         (flaw("sample_rate_Hz = 1000.0", "sample_rate_Hz = -5.0"), "sample_rate_Hz"),
+        (flaw("sample_rate_Hz = 1000.0", "sample_rate_Hz = 0.0"), "sample_rate_Hz"),
+        (with(&format!("{NOISE}probability = 0.0\n")), "probability"),
+        (
+            with(
+                "[friction]\nlimit = \"uncertain\"\nstatic_coefficient = 0.5\ndeviation = 0.1\nprobability = 0.0\n",
+            ),
+            "probability",
+        ),
+        (
+            with(
+                "[friction]\nlimit = \"uncertain\"\nstatic_coefficient = 0.5\ndeviation = 0.1\nprobability = 0.5\n",
+            ),
+            "probability",
+        ),
         (with("active_half_angle_deg = 190.0\n"), "active_half_angle_deg"),
         (with("pole = [0.0, 0.0, 0.0]\n"), "pole"),
         (with("[pose]\nrotation_deg = [0.0, inf, 0.0]\n"), "rotation_deg"),
@@ -209,6 +223,8 @@ fn what_may_be_is_not_doubted() {
             "{HEAD}{BALL}[contact]\nleast_force_N = 5.0\n{NOISE}[slip]\ndetector = \"drop\"\nnoise_N = 0.03\n"
         ),
         format!("{HEAD}{BALL}[pose]\ntranslation_m = [0.5, 0.0, -0.5]\n"),
+        format!("{HEAD}{BALL}[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n[contact]\nleast_force_N = 0.1\n")
+            .replace("1000.0", "200.0"),
         format!("{HEAD}{BALL}[friction]\nstatic_coefficient = 2.5\n"),
         format!("{HEAD}{BALL}[friction]\nstatic_coefficient = 0.05\n"),
     ] {
@@ -234,6 +250,32 @@ fn a_scene_says_what_it_means() {
             "contact      least_force_N = 0.1",
             "contact.skin linear, depth in proportion to the force; radius_m = 0.013, stiffness_N_per_m = 8000.0",
             "friction     coulomb, one coefficient in all directions; static_coefficient = 0.5",
+        ]
+    );
+}
+
+/// Columns keep their names, take their units and turn their signs.
+#[test]
+fn columns_are_taken_for_what_the_scene_says() {
+    let text = format!(
+        "{HEAD}[input.columns]\ntime = \"T\"\nfx = \"-F 1\"\nty = \"M\"\nv2 = \"b\"\ndummy = \"d\"\ntemperature_C = \"temp\"\n\
+         [input.units]\ntime = \"us\"\nforce = \"kN\"\ntorque = \"Nmm\"\nsignal = \"mV\"\n{BALL}"
+    );
+    let scene = Scene::from_text(&text).unwrap_or_else(|problem| panic!("{problem}"));
+    let found: Vec<(&str, &str, bool)> = scene
+        .renamed_columns()
+        .iter()
+        .map(|column| (column.from.as_str(), column.to.as_str(), column.negative))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            ("d", "dummy (mV)", false),
+            ("F 1", "fx (kN)", true),
+            ("temp", "temperature_C", false),
+            ("T", "t (us)", false),
+            ("M", "ty (Nmm)", false),
+            ("b", "v2 (mV)", false),
         ]
     );
 }
