@@ -26,7 +26,6 @@ pub use estimate::{Estimate, Learnt};
 pub use fault::{SceneError, SceneFault, SceneProblem, VERSION};
 pub use formula::BadFormula;
 pub use friction::{Friction, Limit};
-pub use grip::Grip;
 pub use input::Convention;
 pub use model::Model;
 pub use pipeline::{Felt, Pipeline, Tells};

@@ -1,7 +1,7 @@
 //! The pipeline of a scene, chosen at run time.
 
 use fingertip::contact::{Contact, NoContact, Resolution};
-use fingertip::friction::{SlipMargin, SlipVerdict, StickSlip};
+use fingertip::friction::{GripController, SlipMargin, SlipVerdict, StickSlip};
 use fingertip::surfaces::DynSurface;
 use fingertip::wrench::{ContactForce, Real, Wrench};
 use fingertip::{Step, Touch};
@@ -10,7 +10,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::estimate::{Estimate, Learnt};
 use crate::friction::{Friction, Limit};
-use crate::grip::Grip;
 use crate::model::Model;
 use crate::slip::{Detector, SlipWatch};
 use crate::stages::Stages;
@@ -31,7 +30,7 @@ pub struct Pipeline<T: Real> {
     model: Model<T>,
     uncertainty: Option<Uncertainty<T>>,
     estimate: Option<Estimate<T>>,
-    grip: Option<Grip<T>>,
+    grip: Option<GripController<T>>,
     /// Whether a stage beside those of every scene is there.
     has_more: bool,
     last: Option<Vector3<T>>,
@@ -110,7 +109,7 @@ pub(crate) struct Parts<T: Real> {
     pub(crate) friction: Friction<T>,
     pub(crate) slip: SlipWatch<T>,
     pub(crate) estimate: Option<Estimate<T>>,
-    pub(crate) grip: Option<Grip<T>>,
+    pub(crate) grip: Option<GripController<T>>,
 }
 
 impl<T: Real> Pipeline<T> {
@@ -163,7 +162,12 @@ impl<T: Real> Pipeline<T> {
             felt.friction = Some(estimate.learnt());
         }
         if let (Some(grip), Some(limit)) = (&mut self.grip, limit) {
-            felt.grip_force = Some(grip.command(limit, force.as_ref(), slip, time_step));
+            // Without a contact, that of before.
+            let slip = slip.unwrap_or(SlipVerdict::Holding);
+            felt.grip_force = Some(match &force {
+                Some(force) => grip.command(limit, force, slip, time_step),
+                None => grip.present(),
+            });
         }
     }
 
@@ -174,7 +178,8 @@ impl<T: Real> Pipeline<T> {
             estimate.reset();
         }
         if let Some(grip) = &mut self.grip {
-            grip.reset();
+            // Held to its limits: the least.
+            grip.start_at(T::zero());
         }
     }
 

@@ -47,12 +47,10 @@ struct SceneFile<S> {
     grip: Option<GripSection>,
 }
 
-/// What tells kinds of scenes apart: the version, so that a scene of another version is not taken for
-/// a bad one, and the shape.
+/// The version, so that a scene of another one is not taken for a bad one.
 #[derive(Deserialize)]
 struct Kind {
     version: Option<u32>,
-    surface: Option<toml::Value>,
 }
 
 /// A scene that has been checked: every stage can be built from it.
@@ -94,14 +92,14 @@ pub struct Scene {
     shape: ShapeSource,
     pose: PoseSection,
     projection: Projection,
-    stages: Stages,
+    stages: StageSections,
     /// In double precision: that it could be built is what was checked.
     pipeline: Pipeline<f64>,
 }
 
 /// The sections of the stages.
 #[derive(Clone, Debug)]
-struct Stages {
+struct StageSections {
     contact: ContactSection,
     uncertainty: Option<UncertaintySection>,
     friction: Option<FrictionSection>,
@@ -137,20 +135,21 @@ impl Scene {
     /// # Errors
     /// [`SceneFault`].
     pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Self, SceneFault> {
-        let Kind { version, surface } =
-            toml::from_str(text).map_err(|error| explain::<DynSurface<f64>>(text, &error))?;
+        let unread = |error: toml::de::Error| explain::<DynSurface<f64>>(text, &error);
+        let Kind { version } = toml::from_str(text).map_err(unread)?;
+        let document: toml::Table = toml::from_str(text).map_err(unread)?;
         match version {
             Some(1..=VERSION) => {}
             Some(other) => return Err(SceneProblem::OtherVersion(other).into()),
             None => return Err(SceneProblem::NoVersion.into()),
         }
-        let surface = surface.unwrap_or(toml::Value::Boolean(false));
-        let parse = match surface.get("shape").and_then(toml::Value::as_str) {
-            Some("mesh") if surface.get("file").is_some() => parse_with::<MeshSection>,
+        let key = |key| document.get("surface").and_then(|surface| surface.get(key));
+        let parse = match key("shape").and_then(toml::Value::as_str) {
+            Some("mesh") if key("file").is_some() => parse_with::<MeshSection>,
             Some("formula") => parse_with::<FormulaSection>,
             _ => parse_with::<DynSurface<f64>>,
         };
-        parse(text, name, folder, surface)
+        parse(text, name, folder, document)
     }
 
     /// What it says, in a line for each of its sections.
@@ -257,12 +256,10 @@ fn parse_with<S: SurfaceSection + DeserializeOwned>(
     text: &str,
     name: &str,
     folder: &Path,
-    table: toml::Value,
+    document: toml::Table,
 ) -> Result<Scene, SceneFault> {
     let file: SceneFile<S> = toml::from_str(text).map_err(|error| explain::<S>(text, &error))?;
-    // It has been read already.
-    let document = toml::from_str(text).unwrap_or_default();
-    Ok(file.check(name, folder, table, document)?)
+    Ok(file.check(name, folder, document)?)
 }
 
 /// Line and sentence for an error of the parser.
@@ -306,13 +303,7 @@ fn culprit<S: DeserializeOwned>(text: &str, message: &str) -> Option<String> {
 }
 
 impl<S: SurfaceSection> SceneFile<S> {
-    fn check(
-        self,
-        name: &str,
-        folder: &Path,
-        table: toml::Value,
-        document: toml::Table,
-    ) -> Result<Scene, SceneProblem> {
+    fn check(self, name: &str, folder: &Path, document: toml::Table) -> Result<Scene, SceneProblem> {
         let positive = |key: &'static str, value: Option<f64>| match value {
             Some(found) if !(found > 0.0 && found.is_finite()) => {
                 Err(SceneProblem::NotPositive { key, found })
@@ -322,12 +313,12 @@ impl<S: SurfaceSection> SceneFile<S> {
         let sample_rate = positive("sample_rate_Hz", self.input.sample_rate)?;
         let rest = positive("rest_s", self.input.rest.filter(|rest| *rest != 0.0))?;
         let renamed = self.input.columns.renamed(&self.input.units)?;
-        let shape = self.surface.source(folder, table);
+        let shape = self.surface.source(folder, &document);
         let pose = self.pose.sensor_from_surface::<f64>()?;
         let surface = placed(shape.shape()?, &self.pose)?;
         let projection = map_of(&surface, &pose, self.map.as_ref())?;
         let Self { contact, uncertainty, friction, slip, estimate, grip, .. } = self;
-        let stages = Stages { contact, uncertainty, friction, slip, estimate, grip };
+        let stages = StageSections { contact, uncertainty, friction, slip, estimate, grip };
         let pipeline = stages.build(surface.clone(), &surface, &self.pose, sample_rate)?;
         Ok(Scene {
             name: self.name.unwrap_or_else(|| name.to_owned()),
@@ -343,7 +334,7 @@ impl<S: SurfaceSection> SceneFile<S> {
     }
 }
 
-impl Stages {
+impl StageSections {
     /// The pipeline on a surface that is placed; `exact` is the same in double precision.
     fn build<T: Real>(
         &self,

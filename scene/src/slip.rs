@@ -141,12 +141,6 @@ impl<T: Real> SlipDetector<T> for Detector<T> {
 pub struct SlipWatch<T: Real>(pub Option<Detector<T>>);
 
 impl<T: Real> SlipWatch<T> {
-    /// Whether anything is watched for.
-    #[must_use]
-    pub const fn is_on(&self) -> bool {
-        self.0.is_some()
-    }
-
     /// Forgets what was seen, as after a gap in a recording.
     pub fn reset(&mut self) {
         if let Some(detector) = &mut self.0 {

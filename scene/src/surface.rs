@@ -87,24 +87,25 @@ impl ShapeSource {
 
 /// What the section `[surface]` may be: a shape, or the file of one.
 pub(crate) trait SurfaceSection {
-    /// Files are looked for in `folder`; `table` is the section as it stands.
-    fn source(self, folder: &Path, table: toml::Value) -> ShapeSource;
+    /// Files are looked for in `folder`; `document` is the scene as it stands.
+    fn source(self, folder: &Path, document: &toml::Table) -> ShapeSource;
 }
 
 impl SurfaceSection for DynSurface<f64> {
-    fn source(self, _: &Path, table: toml::Value) -> ShapeSource {
-        ShapeSource::Here(table)
+    fn source(self, _: &Path, document: &toml::Table) -> ShapeSource {
+        // A scene without a surface is refused before.
+        ShapeSource::Here(document.get("surface").cloned().unwrap_or(toml::Value::Boolean(false)))
     }
 }
 
 impl SurfaceSection for MeshSection {
-    fn source(self, folder: &Path, _: toml::Value) -> ShapeSource {
+    fn source(self, folder: &Path, _: &toml::Table) -> ShapeSource {
         ShapeSource::MeshFile { path: folder.join(self.file), metres_per_unit: self.metres_per_unit }
     }
 }
 
 impl SurfaceSection for FormulaSection {
-    fn source(self, _: &Path, _: toml::Value) -> ShapeSource {
+    fn source(self, _: &Path, _: &toml::Table) -> ShapeSource {
         ShapeSource::Formula(Box::new(self))
     }
 }

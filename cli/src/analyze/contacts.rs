@@ -41,6 +41,8 @@ pub(super) struct ContactWriter {
     path: PathBuf,
     buffer: Vec<u8>,
     tells: Tells,
+    /// Cells behind those of every scene.
+    more: usize,
 }
 
 enum Out {
@@ -58,13 +60,13 @@ impl ContactWriter {
         };
         let mut buffer = Vec::with_capacity(BUFFER);
         buffer.extend_from_slice(HEADER.as_bytes());
-        for (told, columns) in MORE.map(|(of, columns)| (of(&tells), columns)) {
-            if told {
-                columns.iter().for_each(|column| buffer.extend_from_slice(format!(",{column}").as_bytes()));
-            }
+        let mut more = 0;
+        for column in MORE.iter().filter(|(of, _)| of(&tells)).flat_map(|(_, columns)| *columns) {
+            buffer.extend_from_slice(format!(",{column}").as_bytes());
+            more += 1;
         }
         buffer.push(b'\n');
-        Ok(Self { out, path: path.to_owned(), buffer, tells })
+        Ok(Self { out, path: path.to_owned(), buffer, tells, more })
     }
 
     #[inline]
@@ -136,9 +138,7 @@ impl ContactWriter {
     pub(super) fn write_without_wrench(&mut self, time: f64, status: Status) -> Result<(), CliError> {
         self.time(time);
         self.word(status.word());
-        let more: usize =
-            MORE.iter().filter(|(of, _)| of(&self.tells)).map(|(_, columns)| columns.len()).sum();
-        self.empty(6 + CONTACT_CELLS + 1 + more);
+        self.empty(6 + CONTACT_CELLS + 1 + self.more);
         self.end_row()
     }
 

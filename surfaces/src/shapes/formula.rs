@@ -110,12 +110,6 @@ impl<T: Real> Formula<T> {
         Self { topology, ..self }
     }
 
-    /// The steps, in order.
-    #[must_use]
-    pub fn steps(&self) -> &[FormulaStep<T>] {
-        &self.steps
-    }
-
     /// The result of the steps in a kind of number.
     fn run<N: Copy>(
         &self,
@@ -144,20 +138,21 @@ impl<T: Real> Formula<T> {
     }
 }
 
-impl<T: Real> ImplicitSurface<T> for Formula<T> {
-    fn formula(&self, point: [Term<T>; 3]) -> Term<T> {
-        let [x, y, z] = point;
-        self.run(
-            Term::constant(T::zero()),
+/// The steps, worked out in numbers or in terms: these have no trait in common, and call the root each its own way.
+macro_rules! run {
+    ($formula:expr, $point:expr, $constant:expr, $root:ident) => {{
+        let ([x, y, z], constant) = ($point, $constant);
+        $formula.run(
+            constant(T::zero()),
             |step| match step {
                 FormulaStep::Coordinate(0) => x,
                 FormulaStep::Coordinate(1) => y,
-                FormulaStep::Number(number) => Term::constant(*number),
+                FormulaStep::Number(number) => constant(*number),
                 _ => z,
             },
             |step, a| match step {
                 FormulaStep::Power(exponent) => a.powi(*exponent),
-                FormulaStep::Sqrt => a.sqrt(),
+                FormulaStep::Sqrt => a.$root(),
                 FormulaStep::Abs => a.abs(),
                 FormulaStep::Exp => a.exp(),
                 FormulaStep::Sin => a.sin(),
@@ -173,6 +168,12 @@ impl<T: Real> ImplicitSurface<T> for Formula<T> {
                 _ => a + b,
             },
         )
+    }};
+}
+
+impl<T: Real> ImplicitSurface<T> for Formula<T> {
+    fn formula(&self, point: [Term<T>; 3]) -> Term<T> {
+        run!(self, point, Term::constant, sqrt)
     }
 
     fn ball(&self) -> (Vector3<T>, T) {
@@ -180,32 +181,7 @@ impl<T: Real> ImplicitSurface<T> for Formula<T> {
     }
 
     fn value(&self, point: &Vector3<T>) -> T {
-        self.run(
-            T::zero(),
-            |step| match step {
-                FormulaStep::Coordinate(0) => point.x,
-                FormulaStep::Coordinate(1) => point.y,
-                FormulaStep::Number(number) => *number,
-                _ => point.z,
-            },
-            |step, a| match step {
-                FormulaStep::Power(exponent) => a.powi(*exponent),
-                FormulaStep::Sqrt => a.root(),
-                FormulaStep::Abs => a.abs(),
-                FormulaStep::Exp => a.exp(),
-                FormulaStep::Sin => a.sin(),
-                FormulaStep::Cos => a.cos(),
-                _ => -a,
-            },
-            |step, a, b| match step {
-                FormulaStep::Subtract => a - b,
-                FormulaStep::Multiply => a * b,
-                FormulaStep::Divide => a / b,
-                FormulaStep::Min => a.min(b),
-                FormulaStep::Max => a.max(b),
-                _ => a + b,
-            },
-        )
+        run!(self, [point.x, point.y, point.z], |number: T| number, root)
     }
 
     fn topology(&self) -> Topology {
