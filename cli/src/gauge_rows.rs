@@ -1,8 +1,9 @@
 //! The readings of gauges in the rows of a recording.
 
 use fingertip_recordings::{HeaderProblem, Layout, NumberColumn, Row, SignalColumns};
+use fingertip_scene::{GAUGES, GaugeReading};
 
-use crate::calibrated::{GaugeReading, MOST_GAUGES, Readings};
+use crate::calibrated::Readings;
 
 /// Where the temperature of the sensor is known from.
 #[derive(Clone, Copy, Debug)]
@@ -61,8 +62,12 @@ impl GaugeRows {
 
     /// What `take` makes of the reading in a row; `None` if the row is unusable.
     #[inline]
-    pub(crate) fn reading<A>(&self, row: &Row<'_>, take: impl FnOnce(&GaugeReading<'_>) -> A) -> Option<A> {
-        let mut cells = [0.0; MOST_GAUGES];
+    pub(crate) fn reading<A>(
+        &self,
+        row: &Row<'_>,
+        take: impl FnOnce(&GaugeReading<'_, f64>) -> A,
+    ) -> Option<A> {
+        let mut cells = [0.0; *GAUGES.end()];
         let gauges = cells.get_mut(..self.columns.count()).filter(|_| row.is_usable())?;
         for (gauge, value) in gauges.iter_mut().zip(row.unchecked_signals(&self.columns)) {
             *gauge = value;

@@ -23,7 +23,6 @@ mod record;
 mod recording_file;
 mod refine;
 mod report;
-mod rest_watch;
 mod scene;
 mod sensor;
 mod serve;

@@ -7,7 +7,9 @@ use fingertip::friction::BadParameter;
 use fingertip::surfaces::{BadShape, MeshError};
 use thiserror::Error;
 
+use crate::carried::BadCarried;
 use crate::formula::{BadFormula, FormulaFault};
+use crate::sensor::BadSensor;
 
 /// The newest version of the format that is read; older ones are, too.
 pub const VERSION: u32 = 2;
@@ -133,6 +135,32 @@ pub enum SceneProblem {
     /// A friction or a detector whose numbers cannot be.
     #[error(transparent)]
     Friction(#[from] BadParameter),
+    /// A calibration, or the matrix of a sensor, that cannot be.
+    #[error("{name}: {source}")]
+    Sensor {
+        /// Where it stands.
+        name: String,
+        /// What is wrong with it.
+        source: Box<BadSensor>,
+    },
+    /// What the sensor carries cannot be.
+    #[error("{name}: {source}")]
+    Payload {
+        /// Where it stands.
+        name: String,
+        /// What is wrong with it.
+        source: Box<BadCarried>,
+    },
+    /// A number that is out of its range.
+    #[error("`{key}` of [{section}] must be {requirement}")]
+    Range {
+        /// Which key.
+        key: &'static str,
+        /// In which section.
+        section: &'static str,
+        /// What it must be.
+        requirement: &'static str,
+    },
     /// One part of the scene asks for another.
     #[error("{what} needs {needed}")]
     Needs {

@@ -7,14 +7,30 @@ use crate::registry;
 /// Longer values are cut.
 const LONGEST: usize = 60;
 
-/// A line for each section: what was chosen, what that is, and the other keys.
-pub(crate) fn of(scene: &Table) -> Vec<String> {
-    let order =
-        ["input", "surface", "pose", "contact", "uncertainty", "friction", "slip", "estimate", "grip"];
+/// A line for each section: what was chosen, what that is, and the other keys; `delay` is that of the filter \[s\].
+pub(crate) fn of(scene: &Table, delay: f64) -> Vec<String> {
+    let order = [
+        "input",
+        "sensor",
+        "payload",
+        "filter",
+        "surface",
+        "pose",
+        "contact",
+        "uncertainty",
+        "friction",
+        "slip",
+        "estimate",
+        "grip",
+    ];
     let mut lines = Vec::new();
     for section in order {
         let Some(Value::Table(table)) = scene.get(section) else { continue };
-        lines.push(line(section, table));
+        let mut said = line(section, table);
+        if section == "filter" {
+            said += &format!("; what changes slowly comes {:.1} ms late", delay * 1e3);
+        }
+        lines.push(said);
         if let Some(Value::Table(skin)) = table.get("skin") {
             lines.push(line("contact.skin", skin));
         }

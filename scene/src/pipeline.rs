@@ -3,14 +3,18 @@
 use fingertip::contact::{Contact, NoContact, Resolution};
 use fingertip::friction::{GripController, SlipMargin, SlipVerdict, StickSlip};
 use fingertip::surfaces::DynSurface;
-use fingertip::wrench::{ContactForce, Real, Wrench};
+use fingertip::wrench::{ContactForce, Motion, Real, Wrench};
 use fingertip::{Step, Touch};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::carried::Carried;
 use crate::estimate::{Estimate, Learnt};
+use crate::filter::Filter;
 use crate::friction::{Friction, Limit};
+use crate::front::Front;
 use crate::model::Model;
+use crate::sensor::{GaugeReading, NoWrench, Sensor};
 use crate::slip::{Detector, SlipWatch};
 use crate::stages::Stages;
 use crate::uncertainty::{Spread, Uncertainty};
@@ -25,6 +29,8 @@ const PAUSE: f64 = 0.5;
 /// [`reset`](Self::reset), the next sample is the first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pipeline<T: Real> {
+    front: Front<T>,
+    filter: Option<Filter<T>>,
     stages: Stages<T>,
     surface: DynSurface<T>,
     model: Model<T>,
@@ -103,6 +109,8 @@ pub struct Tells {
 
 /// The parts that a scene builds.
 pub(crate) struct Parts<T: Real> {
+    pub(crate) front: Front<T>,
+    pub(crate) filter: Option<Filter<T>>,
     pub(crate) surface: DynSurface<T>,
     pub(crate) model: Model<T>,
     pub(crate) uncertainty: Option<Uncertainty<T>>,
@@ -114,7 +122,7 @@ pub(crate) struct Parts<T: Real> {
 
 impl<T: Real> Pipeline<T> {
     pub(crate) fn new(parts: Parts<T>) -> Self {
-        let Parts { surface, model, uncertainty, friction, slip, estimate, grip } = parts;
+        let Parts { front, filter, surface, model, uncertainty, friction, slip, estimate, grip } = parts;
         let stages = Stages::new(surface.clone(), model.clone(), friction, slip);
         let has_more = uncertainty.is_some()
             || estimate.is_some()
@@ -122,7 +130,19 @@ impl<T: Real> Pipeline<T> {
             || matches!(stages.friction(), Friction(Some(Limit::Uncertain { .. })))
             || matches!(stages.slip(), SlipWatch(Some(Detector::StickSlip(_))));
         let felt = Felt::nothing();
-        Self { stages, surface, model, uncertainty, estimate, grip, has_more, last: None, felt }
+        Self {
+            front,
+            filter,
+            stages,
+            surface,
+            model,
+            uncertainty,
+            estimate,
+            grip,
+            has_more,
+            last: None,
+            felt,
+        }
     }
 
     /// Takes a wrench on the fingertip and the time since the one before \[s\]; a time that is not positive
@@ -134,6 +154,10 @@ impl<T: Real> Pipeline<T> {
         if time_step > T::literal(PAUSE) {
             self.start_anew();
         }
+        let wrench = match &mut self.filter {
+            Some(filter) => filter.follow(wrench),
+            None => wrench,
+        };
         let before = self.last;
         self.felt.touch = self.stages.sense(wrench, Step::of(time_step).with_last(before));
         self.last = self.felt.touch.point();
@@ -141,6 +165,87 @@ impl<T: Real> Pipeline<T> {
             self.say_more(before, time_step);
         }
         &self.felt
+    }
+
+    /// Takes a wrench as the sensor reports it, that of what it carries included, and how the sensor moves: of a
+    /// scene without `[payload]`, the motion does not matter. The rest is as in [`sense`](Self::sense).
+    #[inline]
+    pub fn sense_moving(&mut self, measured: Wrench<T>, motion: &Motion<T>, time_step: T) -> &Felt<T> {
+        let wrench = match &self.front.carried {
+            Some(carried) => carried.take_off(&measured, motion),
+            None => measured,
+        };
+        self.sense(wrench, time_step)
+    }
+
+    /// Takes a reading of the gauges, which `[sensor]` turns into a wrench of the scene's convention; `motion` is
+    /// needed for the weight of a `[payload]`. The rest is as in [`sense`](Self::sense).
+    ///
+    /// ```
+    /// use fingertip_scene::{GaugeReading, Scene};
+    ///
+    /// let scene = Scene::from_text(
+    ///     r#"
+    ///     version = 2
+    ///     [input]
+    ///     convention = "on_fingertip"
+    ///     [sensor]
+    ///     signal_unit = "V"
+    ///     load_per_signal_N_Nm = [
+    ///         [5.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ///         [0.0, 5.0, 0.0, 0.0, 0.0, 0.0],
+    ///         [0.0, 0.0, 5.0, 0.0, 0.0, 0.0],
+    ///         [0.0, 0.0, 0.0, 0.05, 0.0, 0.0],
+    ///         [0.0, 0.0, 0.0, 0.0, 0.05, 0.0],
+    ///         [0.0, 0.0, 0.0, 0.0, 0.0, 0.05],
+    ///     ]
+    ///     [surface]
+    ///     shape = "sphere"
+    ///     radius_m = 0.013
+    ///     "#,
+    /// )?;
+    /// let mut pipeline = scene.pipeline();
+    /// let felt = pipeline.sense_reading(&GaugeReading::of(&[0.0, 0.0, -0.2, 0.0, 0.0, 0.0]), None, 1e-3)?;
+    /// assert!((felt.contact().unwrap().point.z - 0.013).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`NoWrench`]; the sample then is left out, and the time of the next one should count from the one before.
+    #[inline]
+    pub fn sense_reading(
+        &mut self,
+        reading: &GaugeReading<'_, T>,
+        motion: Option<&Motion<T>>,
+        time_step: T,
+    ) -> Result<&Felt<T>, NoWrench> {
+        let wrench = self.front.wrench(reading, motion)?;
+        Ok(self.sense(wrench, time_step))
+    }
+
+    /// The sensor of `[sensor]`.
+    pub const fn sensor(&self) -> Option<&Sensor<T>> {
+        self.front.sensor.as_ref()
+    }
+
+    /// The sensor of `[sensor]`, to take its zero at rest.
+    pub const fn sensor_mut(&mut self) -> Option<&mut Sensor<T>> {
+        self.front.sensor.as_mut()
+    }
+
+    /// What the sensor carries, of `[payload]`.
+    pub const fn carried(&self) -> Option<&Carried<T>> {
+        self.front.carried.as_ref()
+    }
+
+    /// What the sensor carries, to say how it hung while the zero was taken.
+    pub const fn carried_mut(&mut self) -> Option<&mut Carried<T>> {
+        self.front.carried.as_mut()
+    }
+
+    /// By how much the wrench comes late that a `[filter]` gives, where it changes slowly \[s\].
+    pub fn delay(&self) -> T {
+        self.filter.as_ref().map_or_else(T::zero, Filter::delay)
     }
 
     /// What the stages beside those of every scene say.
@@ -183,11 +288,14 @@ impl<T: Real> Pipeline<T> {
         }
     }
 
-    /// Forgets the last contact and what the slip detector saw, as after a gap in a recording; what was learnt of
-    /// the friction stays.
+    /// Forgets the last contact, what the filter holds and what the slip detector saw, as after a gap in a recording;
+    /// what was learnt of the friction stays.
     pub fn start_anew(&mut self) {
         self.stages.slip_mut().reset();
         self.last = None;
+        if let Some(filter) = &mut self.filter {
+            filter.start_anew();
+        }
     }
 
     /// What is told of each sample beside contact, forces, margin and verdict.

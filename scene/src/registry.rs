@@ -31,7 +31,7 @@ impl Entry {
 
 /// All choices, section by section.
 pub fn entries() -> impl Iterator<Item = &'static Entry> {
-    [SHAPES, MODELS, SKINS, LIMITS, DETECTORS].into_iter().flatten()
+    [FILTERS, SHAPES, MODELS, SKINS, LIMITS, DETECTORS].into_iter().flatten()
 }
 
 macro_rules! entries {
@@ -41,6 +41,11 @@ macro_rules! entries {
             &[$(Entry { section: $section, key: $key, name: $name, says: $says, example: $example }),*];
     };
 }
+
+entries!(FILTERS, "The filters of `[filter]`.", "filter", "kind":
+    "low_pass", "noise above a frequency is taken off the wrench, by a Butterworth filter of second order", "cutoff_Hz = 50.0";
+    "notch", "a hum of one frequency is taken off the wrench", "frequency_Hz = 50.0\nwidth_Hz = 10.0";
+);
 
 entries!(SHAPES, "The shapes of `[surface]`.", "surface", "shape":
     "plane", "a plane", "point_m = [0.0, 0.0, 0.01]\nnormal = [0.0, 0.0, 1.0]";

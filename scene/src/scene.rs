@@ -5,20 +5,25 @@ use std::path::Path;
 
 use fingertip::surfaces::DynSurface;
 use fingertip::wrench::Real;
+use fingertip_calibration::file::CalibrationFile;
 use fingertip_recordings::RenamedColumn;
 use nalgebra::Vector3;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
+use crate::carried::{PayloadSection, PayloadSource};
 use crate::estimate::EstimateSection;
 use crate::fault::{SceneError, SceneFault, SceneProblem, VERSION};
+use crate::filter::FilterSection;
 use crate::formula::FormulaSection;
 use crate::friction::{Friction, FrictionSection, Limit};
+use crate::front::Front;
 use crate::grip::GripSection;
 use crate::input::{Convention, InputSection};
 use crate::model::ContactSection;
 use crate::pipeline::{Parts, Pipeline, Tells};
 use crate::projection::Projection;
+use crate::sensor::{SensorSection, SensorSource};
 use crate::slip::{SlipSection, SlipWatch};
 use crate::surface::{
     MapSection, MeshSection, PoseSection, ShapeSource, SurfaceSection, flat_normal, map_of, placed,
@@ -34,6 +39,9 @@ struct SceneFile<S> {
     _version: u32,
     name: Option<String>,
     input: InputSection,
+    sensor: Option<SensorSection>,
+    payload: Option<PayloadSection>,
+    filter: Option<FilterSection>,
     surface: S,
     #[serde(default)]
     pose: PoseSection,
@@ -100,6 +108,11 @@ pub struct Scene {
 /// The sections of the stages.
 #[derive(Clone, Debug)]
 struct StageSections {
+    convention: Convention,
+    sample_rate: Option<f64>,
+    sensor: Option<SensorSource>,
+    payload: Option<PayloadSource>,
+    filter: Option<FilterSection>,
     contact: ContactSection,
     uncertainty: Option<UncertaintySection>,
     friction: Option<FrictionSection>,
@@ -155,7 +168,7 @@ impl Scene {
     /// What it says, in a line for each of its sections.
     #[must_use]
     pub fn meaning(&self) -> Vec<String> {
-        meaning::of(&self.document)
+        meaning::of(&self.document, self.pipeline.delay())
     }
 
     /// What in it can be and is hardly meant, such as a radius of 13 m: a sentence each, with the key.
@@ -176,9 +189,45 @@ impl Scene {
         self.input.convention
     }
 
+    /// The calibration of the sensor, if the scene has one.
+    #[must_use]
+    pub fn calibration(&self) -> Option<&CalibrationFile> {
+        self.stages.sensor.as_ref().map(|sensor| &sensor.file)
+    }
+
+    /// Temperature of the sensor where no reading tells it \[°C\].
+    #[must_use]
+    pub fn celsius(&self) -> Option<f64> {
+        self.stages.sensor.as_ref()?.celsius
+    }
+
+    /// With another calibration in the place of `[sensor]`.
+    ///
+    /// # Errors
+    /// [`SceneProblem::Sensor`].
+    pub fn calibrated_by(mut self, path: impl AsRef<Path>) -> Result<Self, SceneProblem> {
+        let celsius = self.celsius();
+        self.stages.sensor = Some(SensorSource { celsius, ..SensorSource::read(path.as_ref())? });
+        self.rebuilt()
+    }
+
+    /// With another payload in the place of `[payload]`.
+    ///
+    /// # Errors
+    /// [`SceneProblem::Payload`].
+    pub fn carrying(mut self, path: impl AsRef<Path>) -> Result<Self, SceneProblem> {
+        self.stages.payload = Some(PayloadSource::read(path.as_ref(), None)?);
+        self.rebuilt()
+    }
+
+    fn rebuilt(mut self) -> Result<Self, SceneProblem> {
+        self.pipeline = self.stages.build(self.surface().clone(), self.surface(), &self.pose)?;
+        Ok(self)
+    }
+
     /// Prefix of the sensor's columns.
     #[must_use]
-    pub fn sensor(&self) -> Option<&str> {
+    pub fn sensor_name(&self) -> Option<&str> {
         self.input.sensor.as_deref()
     }
 
@@ -248,7 +297,7 @@ impl Scene {
     /// [`SceneProblem`] where a number of the scene is out of the range of the type.
     pub fn pipeline_in<T: Real + DeserializeOwned>(&self) -> Result<Pipeline<T>, SceneProblem> {
         let surface = placed(self.shape.shape()?, &self.pose)?;
-        self.stages.build(surface, self.surface(), &self.pose, self.input.sample_rate)
+        self.stages.build(surface, self.surface(), &self.pose)
     }
 }
 
@@ -267,7 +316,8 @@ fn explain<S: DeserializeOwned>(text: &str, error: &toml::de::Error) -> SceneFau
     let before = error.span().and_then(|span| text.get(..span.start));
     let line = before.map(|before| before.matches('\n').count() + 1);
     let message = error.message().replace('\n', " ");
-    let key = if message.starts_with("invalid") { culprit::<S>(text, error.message()) } else { None };
+    let of_value = message.starts_with("invalid") || message.starts_with("unknown variant");
+    let key = if of_value { culprit::<S>(text, error.message()) } else { None };
     let key = key.map_or_else(String::new, |key| format!("key `{key}`: "));
     SceneFault { line, problem: SceneProblem::Key { key, message } }
 }
@@ -284,7 +334,7 @@ fn culprit<S: DeserializeOwned>(text: &str, message: &str) -> Option<String> {
     };
     let changed = |document: &toml::Table| complaint(document).as_deref() != Some(message);
     // What tells the kinds of a section apart changes everything when it is gone.
-    let tells_apart = |key: &str| matches!(key, "shape" | "detector" | "limit" | "law");
+    let tells_apart = |key: &str| matches!(key, "shape" | "detector" | "limit" | "law" | "kind");
     for (section, value) in &document {
         let mut without = document.clone();
         without.remove(section);
@@ -317,9 +367,24 @@ impl<S: SurfaceSection> SceneFile<S> {
         let pose = self.pose.sensor_from_surface::<f64>()?;
         let surface = placed(shape.shape()?, &self.pose)?;
         let projection = map_of(&surface, &pose, self.map.as_ref())?;
-        let Self { contact, uncertainty, friction, slip, estimate, grip, .. } = self;
-        let stages = StageSections { contact, uncertainty, friction, slip, estimate, grip };
-        let pipeline = stages.build(surface.clone(), &surface, &self.pose, sample_rate)?;
+        let convention = self.input.convention;
+        let sensor = self.sensor.as_ref().map(|section| section.source(folder)).transpose()?;
+        let payload = self.payload.as_ref().map(|section| section.source(folder)).transpose()?;
+        let Self { filter, contact, uncertainty, friction, slip, estimate, grip, .. } = self;
+        let stages = StageSections {
+            convention,
+            sample_rate,
+            sensor,
+            payload,
+            filter,
+            contact,
+            uncertainty,
+            friction,
+            slip,
+            estimate,
+            grip,
+        };
+        let pipeline = stages.build(surface.clone(), &surface, &self.pose)?;
         Ok(Scene {
             name: self.name.unwrap_or_else(|| name.to_owned()),
             document,
@@ -341,7 +406,6 @@ impl StageSections {
         surface: DynSurface<T>,
         exact: &DynSurface<f64>,
         pose: &PoseSection,
-        sample_rate: Option<f64>,
     ) -> Result<Pipeline<T>, SceneProblem> {
         let pose = pose.sensor_from_surface::<f64>()?;
         let pivot = pose.transform_point(&Vector3::zeros());
@@ -355,7 +419,7 @@ impl StageSections {
         };
         let detector = match &self.slip {
             Some(section) => {
-                Some(section.build(limit.map(|limit: Limit<T>| limit.coefficient()), sample_rate)?)
+                Some(section.build(limit.map(|limit: Limit<T>| limit.coefficient()), self.sample_rate)?)
             }
             None => None,
         };
@@ -368,7 +432,16 @@ impl StageSections {
         if self.grip.is_some() && self.friction.is_none() {
             return Err(SceneProblem::Needs { what: "[grip]", needed: "the section [friction]" });
         }
+        let filter = self.filter.as_ref().map(|section| section.build(self.sample_rate)).transpose()?;
+        let front = Front {
+            convention: self.convention,
+            sensor: self.sensor.as_ref().map(SensorSource::build).transpose()?,
+            celsius: self.sensor.as_ref().and_then(|sensor| sensor.celsius).map(T::literal),
+            carried: self.payload.as_ref().map(PayloadSource::build).transpose()?,
+        };
         Ok(Pipeline::new(Parts {
+            front,
+            filter,
             surface,
             model: self.contact.build(uncertainty.as_ref().map(Uncertainty::at_rest))?,
             uncertainty,

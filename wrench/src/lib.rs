@@ -28,10 +28,10 @@ pub use load::{
 pub use numeric::singular_values;
 pub use scalar::Real;
 pub use solve::{
-    BadCovariance, BadInverse, BeyondBound, BicchiDario, Combination, Conditioning, Decoupled, ErrorBound,
-    FourRosettes, GaussianElimination, Inverse, LeastSquares, LeastSquaresError, LinearMap, NoErrorBound,
-    NotDecoupled, OwnError, Refined, SingularMatrix, ThreeRosettes, Uncertainty, WrenchCovariance,
-    WrenchSolver, diagonal_pattern,
+    BadCovariance, BadInverse, BadQuadratic, BeyondBound, BicchiDario, Combination, Conditioning, Decoupled,
+    ErrorBound, FourRosettes, GaussianElimination, Inverse, LeastSquares, LeastSquaresError, LinearMap,
+    NoErrorBound, NotDecoupled, OwnError, QuadraticInverse, Refined, SingularMatrix, ThreeRosettes,
+    Uncertainty, WrenchCovariance, WrenchSolver, diagonal_pattern,
 };
 pub use zero::{
     BadPayload, BadTemperatureModel, Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy,

@@ -1,6 +1,6 @@
 //! The calibration of one sensor, as it is written to a file.
 
-use fingertip_wrench::{Real, SensorMatrix, Tare};
+use fingertip_wrench::{QuadraticInverse, Real, SensorMatrix, Tare};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector6};
 use serde::{Deserialize, Serialize};
 
@@ -242,6 +242,32 @@ impl CalibrationFile {
         Ok(SensorMatrix::new(normalised, nominal)?)
     }
 
+    /// Inverse and quadratic terms in scalar type `T`, for the hot path of a sensor that is not linear; a linear
+    /// one has terms of zero. Of signals, that is of readings whose zero and drift were taken off.
+    ///
+    /// # Errors
+    /// [`FileError::WrongGauges`] if the sensor has not `N` gauges, [`FileError::NotSixAxes`] if it
+    /// measures fewer components, [`FileError::Singular`] if its matrix has no inverse,
+    /// [`FileError::NotFinite`] if a coefficient is none in that type.
+    pub fn quadratic_inverse_in<T: Real, const N: usize>(&self) -> Result<QuadraticInverse<T, N>, FileError> {
+        self.validate()?;
+        if self.axes != Axis::ALL {
+            return Err(FileError::NotSixAxes { found: self.axes.len() });
+        }
+        self.check_gauges::<N>()?;
+        let inverse = crate::linear::pseudo_inverse(&self.matrix).ok_or(FileError::Singular)?;
+        let load = |axis: usize, share: f64| T::literal(self.nominal[axis] * share);
+        let linear = SMatrix::from_fn(|axis, gauge| load(axis, inverse[(axis, gauge)]));
+        // In the order of the pairs, which is that of the columns.
+        let mut pair = 0..;
+        QuadraticInverse::new(linear, |_, _| {
+            let column = pair.next().unwrap_or_default();
+            let terms = self.quadratic.as_ref();
+            Vector6::from_fn(|axis, _| terms.map_or_else(T::zero, |terms| load(axis, terms[(axis, column)])))
+        })
+        .map_err(|_| FileError::NotFinite { field: "quadratic".to_owned() })
+    }
+
     /// The readings without load.
     ///
     /// # Errors
@@ -249,12 +275,20 @@ impl CalibrationFile {
     /// its zero drifts with a temperature that is known: see
     /// [`temperature_compensation`](Self::temperature_compensation).
     pub fn zero<const N: usize>(&self) -> Result<Tare<f64, N>, FileError> {
+        self.zero_in::<f64, N>()
+    }
+
+    /// As [`zero`](Self::zero), in scalar type `T`.
+    ///
+    /// # Errors
+    /// The same.
+    pub fn zero_in<T: Real, const N: usize>(&self) -> Result<Tare<T, N>, FileError> {
         self.validate()?;
         self.check_gauges::<N>()?;
         if let Some(drift) = &self.temperature {
             return Err(FileError::NeedsTemperature { reference: drift.reference_celsius });
         }
-        Ok(Tare::new(SVector::from_fn(|i, _| self.zero[i])))
+        Ok(Tare::new(SVector::from_fn(|i, _| T::literal(self.zero[i]))))
     }
 
     pub(super) fn check_gauges<const N: usize>(&self) -> Result<(), FileError> {

@@ -1,5 +1,6 @@
 //! Calibration and payload files: our versioned TOML, ATI's `.cal`, and Rust constants for firmware.
 
+mod any;
 mod ati;
 mod ati_error;
 mod ati_reader;
@@ -15,6 +16,7 @@ mod temperature;
 mod text;
 mod validate;
 
+pub use any::{ReadError, read_calibration};
 pub use ati::{AtiAxis, AtiCalibration};
 pub use ati_error::AtiError;
 pub use calibration_file::{CalibrationFile, Covariance, Provenance, Quality, Verdict};

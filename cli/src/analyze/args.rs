@@ -12,11 +12,12 @@ pub(crate) struct AnalyzeArguments {
     /// The scene: surface, pose, thresholds, friction (examples/scenes/README.md)
     #[arg(long, value_name = "SCENE.toml")]
     pub(crate) scene: PathBuf,
-    /// The calibration, for a recording of volts
-    #[arg(long, value_name = "CAL.toml")]
+    /// The calibration, for a recording of volts: TOML as `calibrate` writes it, or an ATI .cal; in the place of
+    /// [sensor] of the scene
+    #[arg(long, value_name = "CAL")]
     pub(crate) calibration: Option<PathBuf>,
     /// What hangs on the sensor, as `calibrate --gravity` wrote it: its weight is taken off, by the columns
-    /// qx, qy, qz, qw of the recording
+    /// qx, qy, qz, qw of the recording; in the place of [payload] of the scene
     #[arg(long, value_name = "PAYLOAD.toml")]
     pub(crate) payload: Option<PathBuf>,
     /// Temperature of the whole recording, for a calibration that drifts with it and a recording without

@@ -12,7 +12,6 @@ mod wrenches;
 
 use std::path::Path;
 
-use fingertip::wrench::Compensation;
 use fingertip_recordings::Quality;
 use fingertip_scene::Scene;
 
@@ -28,6 +27,7 @@ use source::{Reading, Source};
 
 pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let scene = scene::load(&arguments.scene)?;
+    let scene = scene::with(scene, arguments.calibration.as_deref(), arguments.payload.as_deref())?;
     let recording = arguments.recording.as_path();
     files::guard(arguments)?;
     let mut notes = Vec::new();
@@ -69,7 +69,7 @@ struct Pass<'a> {
 
 impl Pass<'_> {
     fn run(self) -> Result<Observations, CliError> {
-        let (payload, mut pipeline) = (self.source.payload(), self.scene.pipeline());
+        let mut pipeline = self.scene.pipeline();
         let mut observations = Observations::new(*self.scene.projection());
         while let Some(row) = self.reader.next_row()? {
             let (time, time_step) = self.source.clock(&row);
@@ -77,8 +77,8 @@ impl Pass<'_> {
                 pipeline.start_anew();
             }
             match self.source.read(&row, time)? {
-                Reading::Wrench(wrench, motion) => {
-                    let felt = pipeline.sense(payload.compensate(&(wrench, motion)), time_step);
+                Reading::Wrench(wrench) => {
+                    let felt = pipeline.sense(wrench, time_step);
                     observations.add(time, &felt.touch);
                     self.contacts.write(time, felt)?;
                 }

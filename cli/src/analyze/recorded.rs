@@ -2,9 +2,9 @@
 
 use fingertip::wrench::{TareError, Wrench};
 use fingertip_recordings::Row;
+use fingertip_scene::Doubt;
 
 use crate::observe::Status;
-use crate::rest_watch::Doubt;
 
 /// What a row of a recording holds of one sensor.
 pub(super) trait Recorded {

@@ -2,16 +2,16 @@
 
 use std::path::PathBuf;
 
-use fingertip::wrench::{Motion, Payload, Wrench};
+use fingertip::wrench::Wrench;
 use fingertip_recordings::{HeaderProblem, Row};
-use nalgebra::Vector3;
 
 use super::args::AnalyzeArguments;
 use super::files::Rows;
-use super::payload::Carried;
+use super::payload::Hanging;
 use super::recorded::Recorded;
 use super::volts;
 use super::wrenches::Wrenches;
+use crate::calibrated::Calibration;
 use crate::error::CliError;
 use crate::gauge_rows::KnownTemperature;
 use crate::observe::Status;
@@ -19,8 +19,8 @@ use fingertip_scene::{Convention, Scene};
 
 /// What one row gives.
 pub(super) enum Reading {
-    /// The load on the fingertip, that of what the sensor carries included, and how the sensor lies.
-    Wrench(Wrench<f64>, Motion<f64>),
+    /// The load on the fingertip.
+    Wrench(Wrench<f64>),
     Without(Status),
 }
 
@@ -32,7 +32,7 @@ const UNMISTAKABLE: f64 = 100.0;
 pub(super) struct Source {
     recorded: Box<dyn Recorded>,
     /// What hangs on the sensor.
-    carried: Option<Carried>,
+    hanging: Option<Hanging>,
     /// Forces below this are no contact \[N\].
     least_force: f64,
     convention: Convention,
@@ -54,10 +54,9 @@ impl Source {
         arguments: &AnalyzeArguments,
         mut notes: Vec<String>,
     ) -> Result<Self, CliError> {
-        let temperature = match arguments.celsius {
-            Some(celsius) => Some(KnownTemperature::Constant(celsius)),
-            None => reader.watch("temperature_C").map(KnownTemperature::Column),
-        };
+        let column = reader.watch("temperature_C").map(KnownTemperature::Column);
+        let known = |celsius: Option<f64>| celsius.map(KnownTemperature::Constant);
+        let temperature = known(arguments.celsius).or(column).or(known(scene.celsius()));
         let layout = reader.layout();
         let has_time = layout.has_time();
         if !has_time && scene.sample_rate().is_none() {
@@ -67,8 +66,21 @@ impl Source {
             });
         }
         let header = |problem: HeaderProblem| CliError::Recording(reader.header_error(problem));
-        let sensor = arguments.sensor.as_deref().or(scene.sensor());
-        let recorded: Box<dyn Recorded> = if let Some(calibration) = &arguments.calibration {
+        let sensor = arguments.sensor.as_deref().or(scene.sensor_name());
+        let has_signals = !layout.signals().is_empty();
+        let calibration = match scene.calibration() {
+            // The user asked for it, and is told if it fits nothing.
+            Some(file) if has_signals || arguments.calibration.is_some() => {
+                let path = arguments.calibration.as_ref().unwrap_or(&arguments.scene);
+                Some(Calibration::of_scene(file.clone(), path))
+            }
+            Some(_) => {
+                notes.push("[sensor] of the scene is not used: the recording holds wrenches".to_owned());
+                None
+            }
+            None => None,
+        };
+        let recorded: Box<dyn Recorded> = if let Some(calibration) = &calibration {
             let has_rest = scene.rest().is_some();
             volts::open(layout, sensor, calibration, has_rest, temperature, &mut notes, header)?
         } else {
@@ -78,20 +90,23 @@ impl Source {
             Box::new(Wrenches::new(layout, sensor).map_err(header)?)
         };
         if scene.rest().is_none() {
-            let note = if arguments.calibration.is_some() {
+            let note = if calibration.is_some() {
                 "tare: the zero of the calibration, since the scene gives no rest_s"
             } else {
                 "no tare: the scene gives no rest_s, the wrenches are taken as they are"
             };
             notes.push(note.to_owned());
         }
-        let carried = match &arguments.payload {
-            Some(path) => Some(Carried::open(path, reader, recorded.sensor())?),
-            None => None,
-        };
+        let pipeline = scene.pipeline();
+        if pipeline.delay() > 0.0 {
+            let late = pipeline.delay() * 1e3;
+            notes.push(format!("the filter makes what changes slowly come {late:.1} ms late"));
+        }
+        let carried = pipeline.carried().cloned();
+        let hanging = carried.map(|carried| Hanging::new(carried, reader, recorded.sensor())).transpose()?;
         Ok(Self {
             recorded,
-            carried,
+            hanging,
             least_force: scene.least_force(),
             convention: scene.convention(),
             rest: scene.rest(),
@@ -106,11 +121,6 @@ impl Source {
     /// Name of the sensor; empty if the recording gives none.
     pub(super) fn sensor(&self) -> &str {
         self.recorded.sensor()
-    }
-
-    /// What the sensor carries: a body without mass if nothing is told of it.
-    pub(super) fn payload(&self) -> Payload<f64> {
-        self.carried.as_ref().map_or_else(Payload::none, Carried::payload)
     }
 
     /// What the reader of the results should know.
@@ -148,12 +158,11 @@ impl Source {
             Ok(load) => self.convention.wrench(load.force(), load.torque()),
             Err(status) => return Reading::Without(status),
         };
-        let Some(carried) = &self.carried else {
-            return Reading::Wrench(load, Motion::resting(Vector3::zeros()));
-        };
-        match carried.gravity_since_zero(row) {
-            Some(gravity) => Reading::Wrench(load - carried.bias(), Motion::resting(gravity)),
-            None => Reading::Without(Status::UnusableRow),
+        match &self.hanging {
+            None => Reading::Wrench(load),
+            Some(hanging) => {
+                hanging.take_off(&load, row).map_or(Reading::Without(Status::UnusableRow), Reading::Wrench)
+            }
         }
     }
 
@@ -183,7 +192,7 @@ impl Source {
         match self.rest {
             // A row without time is no reason to end the rest.
             Some(rest) if !(rested >= rest) => {
-                if self.carried.as_mut().is_some_and(|carried| !carried.rest(row)) {
+                if self.hanging.as_mut().is_some_and(|hanging| !hanging.rest(row)) {
                     return Ok(Reading::Without(Status::UnusableRow));
                 }
                 Ok(Reading::Without(self.recorded.rest(row)))
@@ -192,8 +201,8 @@ impl Source {
                 let rest = self.rest.take().unwrap_or(0.0);
                 self.recorded.end_rest().map_err(|_| CliError::NoRest { rest })?;
                 self.judge_rest(rest)?;
-                if let Some(carried) = &mut self.carried {
-                    carried.end_rest();
+                if let Some(hanging) = &mut self.hanging {
+                    hanging.end_rest();
                 }
                 Ok(self.read_load(row))
             }

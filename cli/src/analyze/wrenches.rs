@@ -2,16 +2,16 @@
 
 use fingertip::wrench::{TareError, Wrench};
 use fingertip_recordings::{HeaderProblem, Layout, Row, WrenchColumns};
+use fingertip_scene::{Doubt, RestWatch};
 use nalgebra::Vector6;
 
 use super::recorded::Recorded;
 use crate::observe::Status;
-use crate::rest_watch::{Doubt, RestWatch};
 
 /// The wrench of one sensor, tared.
 pub(super) struct Wrenches {
     columns: WrenchColumns,
-    watch: RestWatch<6>,
+    watch: RestWatch<f64, 6>,
     zero: Vector6<f64>,
 }
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use fingertip_calibration::file::{AtiCalibration, CalibrationFile, PayloadFile};
+use fingertip_calibration::file::{self, CalibrationFile, PayloadFile, ReadError};
 use fingertip_calibration::loads::{Columns, LoadTable};
 use fingertip_calibration::report::Report;
 
@@ -38,13 +38,10 @@ pub(crate) fn open(what: &'static str, path: &Path) -> Result<io::BufReader<fs::
 
 /// Our TOML, or ATI's `.cal` by its extension.
 pub(crate) fn read_calibration(path: &Path) -> Result<CalibrationFile, CliError> {
-    let fault = |message: String| CliError::Calibration { path: path.to_owned(), message };
-    let text = fs::read_to_string(path).map_err(|source| CliError::read("calibration", path, source))?;
-    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("cal")) {
-        let ati = AtiCalibration::from_xml(&text).map_err(|error| fault(error.to_string()))?;
-        return ati.to_calibration().map_err(|error| fault(error.to_string()));
-    }
-    CalibrationFile::from_toml(&text).map_err(|error| fault(error.to_string()))
+    file::read_calibration(path).map_err(|error| match error {
+        ReadError::Io(source) => CliError::read("calibration", path, source),
+        other => CliError::Calibration { path: path.to_owned(), message: other.to_string() },
+    })
 }
 
 /// What hangs on the sensor.

@@ -25,12 +25,13 @@ pub(crate) struct LiveArguments {
     /// Which sensor of the recording: the prefix of its columns, or its topic
     #[arg(long, value_name = "NAME", requires = "replay")]
     pub(crate) sensor: Option<String>,
-    /// The calibration, for readings of gauges: those of a recording (--replay), or of the simulated fingertip
+    /// The calibration, for readings of gauges: those of a recording (--replay), or of the simulated fingertip; in the
+    /// place of [sensor] of the scene
     #[arg(long, value_name = "CAL.toml")]
     pub(crate) calibration: Option<PathBuf>,
     /// Temperature of the sensor, for a calibration that drifts with it and a recording without column
     /// temperature_C
-    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, requires = "calibration")]
+    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true)]
     pub(crate) celsius: Option<f64>,
     /// The scene, for contact and slip: examples/scenes/README.md; `sim` is that of the simulated fingertip.
     /// Its rest_s gives the zero

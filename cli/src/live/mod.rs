@@ -11,7 +11,7 @@ use alloc::sync::Arc;
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
 use std::io::{self, IsTerminal};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Instant;
@@ -21,6 +21,7 @@ use ratatui::DefaultTerminal;
 use ratatui::crossterm::event::{self, Event as Input, KeyCode, KeyEventKind, KeyModifiers};
 use state::{Health, State};
 
+use crate::calibrated::Calibration;
 use crate::error::CliError;
 use crate::felt::{Rest, SceneFeel};
 use crate::scene;
@@ -70,13 +71,33 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
         state.coefficient = scene.limit().map(Limit::coefficient);
         state.watches_slip = scene.watches_for_slip();
     }
-    let named = scene.as_ref().and_then(|scene| scene.sensor().map(str::to_owned));
+    let named = scene.as_ref().and_then(|scene| scene.sensor_name().map(str::to_owned));
     let seconds = arguments.tare.or_else(|| scene.as_ref().and_then(Scene::rest));
+    let scene_file = arguments.scene.as_deref().unwrap_or(Path::new("sim"));
+    let calibration = match &arguments.calibration {
+        // What a device reports are wrenches already.
+        Some(_) if !simulated && arguments.replay.is_none() => return Err(fault(SensorError::NotGauges)),
+        Some(path) => Some(Calibration::read(path)?),
+        None if simulated || arguments.replay.is_some() => {
+            let of_scene = scene.as_ref().and_then(Scene::calibration).cloned();
+            of_scene.map(|file| Calibration::of_scene(file, scene_file))
+        }
+        None => None,
+    };
+    if let Some(celsius) = arguments.celsius.filter(|_| calibration.is_none()) {
+        let needs = "is for readings of gauges, with --calibration or [sensor] of the scene";
+        return Err(CliError::option("--celsius", celsius, needs));
+    }
+    let celsius = arguments.celsius.or_else(|| scene.as_ref().and_then(Scene::celsius));
+    if scene.as_ref().is_some_and(|scene| scene.pipeline().carried().is_some()) {
+        eprintln!("note: the weight of [payload] is not taken off: nothing tells how a live sensor lies");
+    }
     // The rest of gauges is taken of their readings.
-    let rest = Rest::new(seconds.filter(|_| arguments.calibration.is_none()));
+    let rest = Rest::new(seconds.filter(|_| calibration.is_none()));
     let feel = scene.map(|scene| SceneFeel::new(&scene, true));
     // Before the terminal is taken, so that what is wrong is said in plain lines.
-    let stream = open(arguments, seconds, named.as_deref())?;
+    let gauges = calibration.as_ref().map(|calibration| Calibrating { calibration, rest: seconds, celsius });
+    let stream = open(arguments, gauges, named.as_deref())?;
     let shared =
         Arc::new(Shared { state: Mutex::new(state), stop: Stop::listen(), tare: AtomicBool::new(false) });
     let reading = Arc::clone(&shared);
@@ -98,32 +119,31 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
     read.map_err(fault)
 }
 
-/// Opens the source. `rest` is how long nothing touches at the start, for gauges, and `named` their sensor by the
-/// scene.
-fn open(arguments: &LiveArguments, rest: Option<f64>, named: Option<&str>) -> Result<Stream, CliError> {
+/// Opens the source. `how` gauges become wrenches, and `named` is their sensor by the scene.
+fn open(
+    arguments: &LiveArguments,
+    how: Option<Calibrating<'_>>,
+    named: Option<&str>,
+) -> Result<Stream, CliError> {
     let LiveArguments { address, replay, speed, sensor, .. } = arguments;
     let place = replay.as_ref().map_or_else(|| address.to_string(), |path| path.display().to_string());
     let fault = |error: SensorError| CliError::sensor(&place, error);
     let mut options = StreamOptions { silence: Duration::from_secs(2), reconnect: false };
-    let once = match (&arguments.calibration, replay) {
+    let once = match (how, replay) {
         (None, None) => {
             options.reconnect = !arguments.no_reconnect;
             let address = address.clone();
             return Stream::new(Box::new(move || sensor::open(&address)), options).map_err(fault);
         }
         (None, Some(path)) => sensor::replay(path, sensor.as_deref().unwrap_or(""), *speed)?,
-        (Some(calibration), replay) => {
+        (Some(how), replay) => {
             let gauges = match replay {
                 Some(path) => {
                     GaugesOf::Recording { path, sensor: sensor.as_deref().or(named), speed: *speed }
                 }
-                None if sensor::is_simulated(address) => GaugesOf::Simulated(address),
-                None => {
-                    return Err(fault(SensorError::NotGauges));
-                }
+                None => GaugesOf::Simulated(address),
             };
             let mut notes = Vec::new();
-            let how = Calibrating { calibration, rest, celsius: arguments.celsius };
             let feed = sensor::calibrated(gauges, &how, &mut notes)?;
             notes.iter().for_each(|note| eprintln!("note: {note}"));
             feed

@@ -1,6 +1,7 @@
 //! How one sample ended, as a word.
 
 use fingertip::contact::{NoContact, Resolution};
+use fingertip_scene::NoWrench;
 
 /// Contact, or why not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,6 +50,14 @@ impl Status {
             Resolution::NoContact(NoContact::NotFinite) => Self::NotFinite,
             Resolution::NoContact(NoContact::BeyondFriction { .. }) => Self::BeyondFriction,
             Resolution::NoContact(_) => Self::Other,
+        }
+    }
+
+    /// Why a reading gave no wrench.
+    pub(crate) const fn without_wrench(why: NoWrench) -> Self {
+        match why {
+            NoWrench::Saturated => Self::Saturated,
+            _ => Self::UnusableRow,
         }
     }
 

@@ -56,6 +56,9 @@ struct InitArguments {
     /// The slip detector
     #[arg(long)]
     slip: Option<String>,
+    /// The filter of the wrench
+    #[arg(long)]
+    filter: Option<String>,
 }
 
 pub(crate) fn run(arguments: &SceneArguments) -> Result<(), CliError> {
@@ -85,6 +88,7 @@ fn write_scene(init: &InitArguments) -> Result<(), CliError> {
         ("contact.skin", "--skin", &init.skin),
         ("friction", "--friction", &init.friction),
         ("slip", "--slip", &init.slip),
+        ("filter", "--filter", &init.filter),
     ] {
         if let Some(name) = name {
             chosen.push(entry(section, option, name)?);
@@ -143,7 +147,7 @@ fn choices(section: Option<&str>) -> Result<(), CliError> {
         return Err(CliError::option(
             "section",
             section,
-            "has no choices; give surface, contact, contact.skin, friction or slip",
+            "has no choices; give filter, surface, contact, contact.skin, friction or slip",
         ));
     }
     output::print(&text)

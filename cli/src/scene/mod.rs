@@ -5,10 +5,12 @@ mod simulated;
 
 use std::path::Path;
 
-use fingertip_scene::{Scene, SceneError};
+use fingertip_calibration::file::{FileError, ReadError};
+use fingertip_scene::{BadCarried, BadSensor, Scene, SceneError, SceneProblem};
 
 pub(crate) use simulated::least_static_coefficient;
 
+use crate::calibrate::files::bad;
 use crate::error::CliError;
 
 /// Reads and checks a scene.
@@ -19,7 +21,39 @@ pub(crate) fn load(path: &Path) -> Result<Scene, CliError> {
     })
 }
 
-/// The same; `sim` is that of the simulated fingertip, unless there is a file of this name.
+/// With the calibration and the payload that the command line gives in the place of the scene's own.
+pub(crate) fn with(
+    scene: Scene,
+    calibration: Option<&Path>,
+    payload: Option<&Path>,
+) -> Result<Scene, CliError> {
+    let scene = match calibration {
+        Some(path) => scene.calibrated_by(path).map_err(|error| replaced("calibration", path, error))?,
+        None => scene,
+    };
+    match payload {
+        Some(path) => scene.carrying(path).map_err(|error| replaced("payload", path, error)),
+        None => Ok(scene),
+    }
+}
+
+/// Names the file of the command line, which is not that of the scene.
+fn replaced(what: &'static str, path: &Path, problem: SceneProblem) -> CliError {
+    let named = |message: String| CliError::Calibration { path: path.to_owned(), message };
+    match problem {
+        SceneProblem::Sensor { source, .. } => match *source {
+            BadSensor::Read(ReadError::Io(source)) => CliError::read(what, path, source),
+            other => named(other.to_string()),
+        },
+        SceneProblem::Payload { source, .. } => match *source {
+            BadCarried::File(FileError::Io { source, .. }) => CliError::read(what, path, source),
+            other => bad(path, &other),
+        },
+        other => named(other.to_string()),
+    }
+}
+
+/// As [`load`]; `sim` is that of the simulated fingertip, unless there is a file of this name.
 pub(crate) fn load_or_simulated(path: &Path) -> Result<Scene, CliError> {
     if path == Path::new("sim") && !path.exists() { simulated::scene() } else { load(path) }
 }

@@ -7,13 +7,13 @@ use std::path::Path;
 use fingertip_drivers::{Sample, Source, SourceError, SourceErrorKind};
 use fingertip_recordings::mcap::{McapReader, Recorded};
 use fingertip_recordings::{RecordingError, RecordingReader};
+use fingertip_scene::{GaugeReading, NoWrench};
 use thiserror::Error;
 
 use super::simulated::Rounds;
-use crate::calibrated::{GaugeReading, Readings};
+use crate::calibrated::Readings;
 use crate::error::CliError;
 use crate::gauge_rows::GaugeRows;
-use crate::observe::Status;
 use crate::recording_file::{self, mcap};
 
 /// A reading on its own.
@@ -25,7 +25,7 @@ pub(super) struct Owned {
 }
 
 impl Owned {
-    pub(super) fn borrowed(&self) -> GaugeReading<'_> {
+    pub(super) fn borrowed(&self) -> GaugeReading<'_, f64> {
         GaugeReading { gauges: &self.gauges, dummy: self.dummy, celsius: self.celsius }
     }
 }
@@ -38,8 +38,8 @@ pub(super) trait GaugeSource: Send {
 /// Why there is no wrench.
 #[derive(Debug, Error)]
 pub(super) enum GaugeFault {
-    #[error("{}", .0.meaning())]
-    Reading(Status),
+    #[error(transparent)]
+    Reading(#[from] NoWrench),
     #[error("{0}")]
     Damaged(String),
     #[error("the sensor may not have been at rest while its zero was taken: {0}")]
@@ -51,7 +51,7 @@ pub(super) enum GaugeFault {
 impl SourceError for GaugeFault {
     fn kind(&self) -> SourceErrorKind {
         match self {
-            Self::Reading(Status::Saturated) => SourceErrorKind::Overload,
+            Self::Reading(NoWrench::Saturated) => SourceErrorKind::Overload,
             Self::Reading(_) | Self::Damaged(_) => SourceErrorKind::Corrupt,
             Self::Doubtful(_) => SourceErrorKind::DeviceFault,
             Self::Unusable(_) => SourceErrorKind::Unsupported,

@@ -6,11 +6,12 @@ use fingertip::wrench::Wrench;
 use fingertip_drivers::middleware::Paced;
 use fingertip_drivers::{Sample, Source};
 use fingertip_recordings::{HeaderProblem, RecordingReader, SignalUnit};
+use fingertip_scene::Sensor;
 
 use super::gauge_sources::{CsvGauges, GaugeFault, GaugeSource, McapGauges, SimulatedGauges};
 use super::simulated::{self, Rounds};
 use super::{Address, Feed, Losses, SourceFeed};
-use crate::calibrated::{Calibrated, Calibration, Readings};
+use crate::calibrated::{Calibration, Readings};
 use crate::error::CliError;
 use crate::gauge_rows::{GaugeRows, KnownTemperature};
 use crate::recording_file::Kind;
@@ -27,7 +28,7 @@ pub(crate) enum GaugesOf<'a> {
 /// How they become wrenches.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Calibrating<'a> {
-    pub(crate) calibration: &'a Path,
+    pub(crate) calibration: &'a Calibration<'a>,
     /// Seconds at the start in which nothing touches, which give the zero.
     pub(crate) rest: Option<f64>,
     /// Temperature of the sensor \[°C\], where there is no column of it.
@@ -40,7 +41,7 @@ pub(crate) fn calibrated(
     how: &Calibrating<'_>,
     notes: &mut Vec<String>,
 ) -> Result<Box<dyn Feed>, CliError> {
-    let calibration = Calibration::read(how.calibration)?;
+    let calibration = how.calibration;
     let (source, readings, speed): (Box<dyn GaugeSource>, Readings, f64) = match gauges {
         GaugesOf::Recording { path, sensor, speed } => match Kind::of(path)? {
             Kind::Csv => {
@@ -79,7 +80,7 @@ pub(crate) fn calibrated(
 /// The wrenches of readings, behind the rest.
 struct CalibratedWrenches {
     source: Box<dyn GaugeSource>,
-    calibrated: Box<dyn Calibrated>,
+    calibrated: Sensor<f64>,
     /// While it lasts \[s\].
     rest: Option<f64>,
     first: Option<f64>,
@@ -95,7 +96,8 @@ impl Source<f64, Wrench<f64>> for CalibratedWrenches {
                     GaugeFault::Unusable("it tells no times, by which to find the end of the rest".to_owned())
                 })?;
                 if time - *self.first.get_or_insert(time) < rest {
-                    self.calibrated.rest(&reading.borrowed());
+                    // A reading that cannot be used is passed over.
+                    let _ = self.calibrated.rest(&reading.borrowed());
                     continue;
                 }
                 self.rest = None;
@@ -129,6 +131,7 @@ mod tests {
 
     use super::super::{Feed, Next};
     use super::{Calibrating, GaugesOf, SignalUnit, calibrated};
+    use crate::calibrated::Calibration;
 
     /// A folder that is removed with the test.
     struct Folder(PathBuf);
@@ -204,6 +207,7 @@ mod tests {
         fs::write(&files[1], writer.finish().unwrap().into_inner()).unwrap();
         for path in &files {
             let play = |rest, sensor| {
+                let calibration = Calibration::read(&calibration).unwrap();
                 let how = Calibrating { calibration: &calibration, rest, celsius: None };
                 let mut notes = Vec::new();
                 let gauges = GaugesOf::Recording { path, sensor, speed: 0.0 };
@@ -231,6 +235,7 @@ mod tests {
         let folder = Folder::new("simulated");
         let calibration = folder.calibration();
         let mut notes = Vec::new();
+        let calibration = Calibration::read(&calibration).unwrap();
         let how = Calibrating { calibration: &calibration, rest: None, celsius: None };
         let address = super::super::address("sim").unwrap();
         let mut feed = calibrated(GaugesOf::Simulated(&address), &how, &mut notes).unwrap();

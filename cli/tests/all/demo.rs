@@ -1,5 +1,7 @@
 //! `fingertip demo`, and its volts through `fingertip analyze`.
 
+use std::fs;
+
 use fingertip_simulation::{Options, SimulatedFingertip, standard_session};
 
 use crate::common::{Contacts, Folder, scene};
@@ -51,7 +53,21 @@ fn its_volts_analyzed_give_the_true_contacts() {
     let summary = folder.succeed(&analyze);
     assert!(summary.contains("8 slips were seen"), "{summary}");
 
-    let contacts = Contacts::parse(&folder.read("contacts.csv"));
+    // A scene that names the calibration itself says the same.
+    let alone =
+        format!("{}\n[sensor]\ncalibration = \"calibration.toml\"\n", fs::read_to_string(&paper).unwrap());
+    folder.write("alone.toml", &alone);
+    let by_option = folder.read("contacts.csv");
+    folder.succeed(&["analyze", "volts.csv", "--scene", "alone.toml"]);
+    assert_eq!(folder.read("contacts.csv"), by_option);
+    // Filtered, it is late and quieter, and the summary says so.
+    folder.write("filtered.toml", &format!("{alone}[filter]\nkind = \"low_pass\"\ncutoff_Hz = 40.0\n"));
+    let filtered = ["analyze", "volts.csv", "--scene", "filtered.toml", "--output", "filtered.csv"];
+    let said = folder.succeed(&filtered);
+    assert!(said.contains("the filter makes what changes slowly come 5.6 ms late"), "{said}");
+    assert_ne!(folder.read("filtered.csv"), by_option);
+
+    let contacts = Contacts::parse(&by_option);
     let truth: Vec<_> = SimulatedFingertip::new(&standard_session(), Options::default()).unwrap().collect();
     assert_eq!(contacts.len(), truth.len());
     let status = contacts.words("status");

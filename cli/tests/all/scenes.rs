@@ -26,6 +26,7 @@ fn every_choice_can_be_begun_with_and_means_something() {
             "contact" => "--model",
             "contact.skin" => "--skin",
             "friction" => "--friction",
+            "filter" => "--filter",
             _ => "--slip",
         };
         let name = format!("{}.toml", entry.name);

@@ -12,6 +12,7 @@ fn scene_with(entry: &Entry) -> String {
         "surface" => format!("{HEAD}{text}"),
         "contact" => format!("{HEAD}{BALL}{text}{NOISE}"),
         "contact.skin" => format!("{HEAD}{BALL}{text}"),
+        "filter" => format!("{HEAD}{text}{BALL}"),
         "friction" if entry.name == "anisotropic" => {
             format!("{HEAD}[surface]\nshape = \"plane\"\npoint_m = [0.0, 0.0, 0.013]\n{text}")
         }
@@ -60,7 +61,7 @@ fn every_choice_runs() {
 fn the_registry_has_all_that_the_parser_knows() {
     let mut sections: Vec<(&str, &str)> = entries().map(|entry| (entry.section, entry.key)).collect();
     sections.dedup();
-    assert_eq!(sections.len(), 5);
+    assert_eq!(sections.len(), 6);
     for (section, key) in sections {
         let surface = if section == "surface" { "" } else { BALL };
         let text = format!("{HEAD}{surface}[{section}]\n{key} = \"nonsense\"\n");

@@ -21,6 +21,10 @@ const SCENES: [&str; 6] = [
 
 /// One of each section.
 const EVERYTHING: &str = "version = 2\nname = 'all'\n[input]\nconvention = 'on_fingertip'\nsample_rate_Hz = 1000.0\n\
+    [sensor]\nsignal_unit = 'V'\nload_per_signal_N_Nm = [[5.0, 0.0, 0.0, 0.0, 0.0, 0.1], [0.0, 5.0, 0.0, 0.0, 0.0, 0.0], \
+    [0.0, 0.0, 5.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 5.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0, 5.0, 0.0], \
+    [0.0, 0.0, 0.0, 0.0, 0.0, 5.0]]\nzero = [0.0, 0.1, 0.0, 0.0, 0.0, 0.0]\nrange = [-5.0, 5.0]\ntemperature_C = 20.0\n\
+    [payload]\nmass_kg = 0.1\ncentre_of_mass_m = [0.0, 0.0, 0.01]\n[filter]\nkind = 'low_pass'\ncutoff_Hz = 100.0\n\
     [surface]\nshape = 'capsule'\nradius_m = 0.008\nhalf_length_m = 0.01\n[pose]\nrotation_deg = [0.0, 90.0, 0.0]\n\
     [contact]\nmodel = 'soft_finger'\nleast_force_N = 0.1\nskin_share = 0.9\n\
     [contact.skin]\nlaw = 'local_hertz'\nlargest_radius_m = 0.1\nyoung_moduli_Pa = [2.0e6, inf]\npoisson_ratios = [0.49, 0.3]\n\

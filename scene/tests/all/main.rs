@@ -5,8 +5,10 @@
 
 mod choices;
 mod formula;
+mod front;
 mod hostile;
 mod parts;
+mod sensor;
 mod stages;
 mod typed;
 mod wrong;

@@ -56,6 +56,11 @@ fn weight_is_found_and_taken_off() {
     }
     assert!((contacts.numbers("normal_N")[3] - 1.0).abs() < 1e-5);
     assert!((contacts.numbers("z_m")[3] - 0.01).abs() < 1e-6);
+    // A scene that names it says the same.
+    let by_option = folder.read("contacts.csv");
+    folder.write("carrying.toml", &format!("{SCENE}[payload]\nfile = \"tip.toml\"\n"));
+    folder.succeed(&["analyze", "hand.csv", "--scene", "carrying.toml", "--no-report"]);
+    assert_eq!(folder.read("contacts.csv"), by_option);
     // With a tare at rest, in the orientation that the hand has then.
     let mut resting = HEADER.to_owned();
     // Not two rows are quite the same: that would be a sensor that hangs.

@@ -1,8 +1,8 @@
-//! The rest at the start of a recording: its mean is the tare, and it is checked to be a rest.
+//! A rest: what a sensor reads without load, and whether it rested.
 
 use core::fmt;
 
-use fingertip::wrench::{NotAtRest, RestTest, Tare, TareError, Wrench};
+use fingertip::wrench::{NotAtRest, Real, RestTest, Tare, TareError, Wrench};
 use nalgebra::{SVector, Vector3};
 
 /// The fraction of good rests that are called into question. Small, since the noise of converters
@@ -11,53 +11,46 @@ const FALSE_ALARM_RATE: f64 = 1e-4;
 
 /// What made a rest doubtful, and how large it was.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Doubt {
+pub struct Doubt {
     /// What was seen.
-    pub(crate) seen: String,
+    pub seen: String,
     /// Length of the box in which the forces at rest lie \[N\]: so far the tare may be off.
-    pub(crate) force_range: f64,
+    pub force_range: f64,
 }
 
 impl fmt::Display for Doubt {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            out,
-            "{}, and the force ranged over {} N, so far the tare may be off",
-            self.seen,
-            crate::table::number(self.force_range)
-        )
+        // Three digits.
+        let places = (2.0 - self.force_range.log10().floor()).clamp(0.0, 9.0) as usize;
+        let range = self.force_range;
+        write!(out, "{}, and the force ranged over {range:.places$} N, so far the tare may be off", self.seen)
     }
 }
 
-/// Watches the readings at rest of `N` channels.
-#[derive(Clone, Debug)]
-pub(crate) struct RestWatch<const N: usize> {
+/// Watches the readings at rest of `N` channels: gives their mean, and says why it may have been no rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RestWatch<T: Real, const N: usize> {
     /// Nothing only if the rate above were none.
-    test: Option<RestTest<f64, N>>,
-    least: Vector3<f64>,
-    greatest: Vector3<f64>,
+    test: Option<RestTest<T, N>>,
+    least: Vector3<T>,
+    greatest: Vector3<T>,
 }
 
-impl<const N: usize> Default for RestWatch<N> {
+impl<T: Real, const N: usize> Default for RestWatch<T, N> {
     fn default() -> Self {
         Self {
             test: RestTest::new(FALSE_ALARM_RATE).ok().map(RestTest::finding_resolution),
-            least: Vector3::repeat(f64::INFINITY),
-            greatest: Vector3::repeat(f64::NEG_INFINITY),
+            least: Vector3::repeat(T::GREATEST),
+            greatest: Vector3::repeat(-T::GREATEST),
         }
     }
 }
 
-impl<const N: usize> RestWatch<N> {
+impl<T: Real, const N: usize> RestWatch<T, N> {
     /// Takes a reading as recorded, the same with known drift taken off, and the wrench that it
     /// stands for, up to a constant; `false` for a reading that is not finite, which is passed over.
-    pub(crate) fn add(
-        &mut self,
-        raw: &SVector<f64, N>,
-        reading: &SVector<f64, N>,
-        wrench: &Wrench<f64>,
-    ) -> bool {
-        if !reading.iter().all(|x| x.is_finite()) {
+    pub fn add(&mut self, raw: &SVector<T, N>, reading: &SVector<T, N>, wrench: &Wrench<T>) -> bool {
+        if !reading.iter().all(|x| x.is_number()) {
             return false;
         }
         if let Some(test) = &mut self.test {
@@ -69,12 +62,15 @@ impl<const N: usize> RestWatch<N> {
     }
 
     /// The mean of the readings.
-    pub(crate) fn tare(&self) -> Result<Tare<f64, N>, TareError> {
+    ///
+    /// # Errors
+    /// [`TareError`] if there were too few.
+    pub fn tare(&self) -> Result<Tare<T, N>, TareError> {
         self.test.map_or(Err(TareError::TooFewSamples { samples: 0 }), |test| test.tare())
     }
 
     /// Why it may not have been a rest; `name` names a channel.
-    pub(crate) fn doubt(&self, name: impl Fn(usize) -> String) -> Option<Doubt> {
+    pub fn doubt(&self, name: impl Fn(usize) -> String) -> Option<Doubt> {
         let seen = match self.test?.finish().err()? {
             NotAtRest::TooFewSamples { samples, needed } => {
                 format!("{samples} samples are too few to tell a rest, which takes {needed}")
@@ -88,7 +84,7 @@ impl<const N: usize> RestWatch<N> {
             }
             other => other.to_string(),
         };
-        let range = (self.greatest - self.least).norm();
+        let range = (self.greatest - self.least).map(Real::to_f64).norm();
         Some(Doubt { seen, force_range: if range.is_finite() { range } else { 0.0 } })
     }
 }
@@ -103,7 +99,7 @@ mod tests {
     use super::{Doubt, RestWatch};
 
     /// A rest in steps of `step`, with noise of `noise`, moving by `drift` in all.
-    fn watched(step: f64, noise: f64, drift: f64, seed: u64) -> RestWatch<6> {
+    fn watched(step: f64, noise: f64, drift: f64, seed: u64) -> RestWatch<f64, 6> {
         let mut random = Pcg64Mcg::seed_from_u64(seed);
         let mut watch = RestWatch::default();
         for i in 0..500 {
@@ -135,7 +131,7 @@ mod tests {
         }
     }
 
-    fn add(watch: &mut RestWatch<6>, reading: Vector6<f64>) {
+    fn add(watch: &mut RestWatch<f64, 6>, reading: Vector6<f64>) {
         let wrench = Wrench::on_fingertip(reading.fixed_rows::<3>(0).into(), Vector3::zeros());
         watch.add(&reading, &reading, &wrench);
     }

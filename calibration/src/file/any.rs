@@ -1,0 +1,36 @@
+//! A calibration in any format that is read.
+
+use std::path::Path;
+use std::{fs, io};
+
+use thiserror::Error;
+
+use super::{AtiCalibration, AtiError, CalibrationFile, FileError};
+
+/// Why a calibration of either format cannot be read.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The file cannot be opened.
+    #[error("cannot be read: {0}")]
+    Io(#[from] io::Error),
+    /// It is not as our format is.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// It is not as ATI's format is.
+    #[error(transparent)]
+    Ati(#[from] AtiError),
+}
+
+/// Reads a calibration: ATI's format if the file is called `.cal`, ours otherwise.
+///
+/// # Errors
+/// [`ReadError`], which does not name the file.
+pub fn read_calibration(path: impl AsRef<Path>) -> Result<CalibrationFile, ReadError> {
+    let path = path.as_ref();
+    let text = fs::read_to_string(path)?;
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("cal")) {
+        return Ok(AtiCalibration::from_xml(&text)?.to_calibration()?);
+    }
+    Ok(CalibrationFile::from_toml(&text)?)
+}

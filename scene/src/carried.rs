@@ -1,0 +1,158 @@
+//! `[payload]`: what the sensor carries, whose weight and inertia are no contact.
+
+use std::path::{Path, PathBuf};
+
+use fingertip::wrench::{BadPayload, Motion, Payload, Real, Wrench};
+use fingertip_calibration::file::{FileError, PayloadFile};
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::fault::SceneProblem;
+
+/// `[payload]` of a scene: a file, or the numbers themselves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PayloadSection {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<PathBuf>,
+    #[serde(rename = "mass_kg", skip_serializing_if = "Option::is_none")]
+    mass: Option<f64>,
+    #[serde(rename = "centre_of_mass_m", skip_serializing_if = "Option::is_none")]
+    centre_of_mass: Option<[f64; 3]>,
+    /// About the sensor's origin.
+    #[serde(rename = "inertia_kg_m2", skip_serializing_if = "Option::is_none")]
+    inertia: Option<[[f64; 3]; 3]>,
+    /// In the frame in which orientations are given.
+    #[serde(rename = "gravity_m_per_s2", skip_serializing_if = "Option::is_none")]
+    gravity: Option<[f64; 3]>,
+}
+
+/// Standard gravity, downwards \[m/s²\].
+const GRAVITY: [f64; 3] = [0.0, 0.0, -9.806_65];
+
+/// Why a payload cannot be used.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum BadCarried {
+    /// Its file, or a number of it.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Its body.
+    #[error(transparent)]
+    Body(#[from] BadPayload),
+}
+
+/// What the sensor carries, as it was read.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PayloadSource {
+    file: PayloadFile,
+    inertia: [[f64; 3]; 3],
+}
+
+impl PayloadSource {
+    pub(crate) fn read(path: &Path, inertia: Option<[[f64; 3]; 3]>) -> Result<Self, SceneProblem> {
+        let name = || format!("payload {}", path.display());
+        let file = PayloadFile::read(path)
+            .map_err(|source| SceneProblem::Payload { name: name(), source: Box::new(source.into()) })?;
+        Ok(Self { file, inertia: inertia.unwrap_or_default() })
+    }
+
+    pub(crate) fn build<T: Real>(&self) -> Result<Carried<T>, SceneProblem> {
+        let body = || {
+            let inertia = Matrix3::from_fn(|i, j| T::literal(self.inertia[i][j]));
+            Ok(self.file.payload::<T>()?.with_inertia(inertia)?)
+        };
+        Ok(Carried {
+            body: body().map_err(unusable)?,
+            bias: Wrench::from_components(&self.file.bias().components().map(T::literal)),
+            file: self.file.clone(),
+            resting: None,
+            at_tare: None,
+        })
+    }
+}
+
+fn unusable(source: BadCarried) -> SceneProblem {
+    SceneProblem::Payload { name: "[payload]".to_owned(), source: Box::new(source) }
+}
+
+impl PayloadSection {
+    /// Reads what it names; files are looked for in `folder`.
+    pub(crate) fn source(&self, folder: &Path) -> Result<PayloadSource, SceneProblem> {
+        let misplaced = |key| SceneProblem::Misplaced {
+            section: "payload",
+            key,
+            belongs: "a payload without `file`, which has its own",
+        };
+        match (&self.file, self.mass) {
+            (Some(_), Some(_)) => Err(misplaced("mass_kg")),
+            (Some(_), None) if self.centre_of_mass.is_some() => Err(misplaced("centre_of_mass_m")),
+            (Some(_), None) if self.gravity.is_some() => Err(misplaced("gravity_m_per_s2")),
+            (Some(file), None) => PayloadSource::read(&folder.join(file), self.inertia),
+            (None, Some(mass)) => {
+                let centre = self.centre_of_mass.unwrap_or_default();
+                let gravity = self.gravity.unwrap_or(GRAVITY);
+                let file = PayloadFile::new(mass, centre.into(), gravity.into());
+                let file = file.map_err(|source| unusable(source.into()))?;
+                Ok(PayloadSource { file, inertia: self.inertia.unwrap_or_default() })
+            }
+            (None, None) => {
+                let needed = "`file`, as `fingertip calibrate --gravity` writes it, or `mass_kg`";
+                Err(SceneProblem::Needs { what: "[payload]", needed })
+            }
+        }
+    }
+}
+
+/// What hangs on the sensor, and how it hung when the zero was taken.
+///
+/// A zero taken with the body on holds its weight as it then hung: a rest says how, by
+/// [`rest`](Self::rest) and [`end_rest`](Self::end_rest), and only what changed since is taken off. Without a rest the
+/// bias of the payload's file is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Carried<T: Real> {
+    /// Gravity, and how the sensor sits on the flange.
+    file: PayloadFile,
+    body: Payload<T>,
+    bias: Wrench<T>,
+    /// Sum and number of the gravities \[m/s²\] during a rest.
+    resting: Option<(Vector3<T>, u32)>,
+    /// Gravity in the sensor frame when the zero was taken.
+    at_tare: Option<Vector3<T>>,
+}
+
+impl<T: Real> Carried<T> {
+    /// Gravity in the sensor frame \[m/s²\], from the orientation that is recorded, a quaternion (x, y, z, w) of any
+    /// length; `None` if it is zero or not finite.
+    #[must_use]
+    pub fn gravity(&self, quaternion: [T; 4]) -> Option<Vector3<T>> {
+        Some(self.file.gravity_at(quaternion.map(Real::to_f64))?.map(T::literal))
+    }
+
+    /// Takes how the sensor lies at a reading of the rest: gravity in its frame \[m/s²\].
+    pub fn rest(&mut self, gravity: &Vector3<T>) {
+        let (sum, number) = self.resting.unwrap_or((Vector3::zeros(), 0));
+        self.resting = Some((sum + gravity, number.saturating_add(1)));
+    }
+
+    /// The zero was taken with the body on, as it hung on average in the rest.
+    pub fn end_rest(&mut self) {
+        if let Some((sum, number)) = self.resting.take() {
+            self.at_tare = Some(sum / T::literal(f64::from(number)));
+        }
+    }
+
+    /// A wrench without what the body does to the sensor.
+    #[inline]
+    #[must_use]
+    pub fn take_off(&self, measured: &Wrench<T>, motion: &Motion<T>) -> Wrench<T> {
+        match &self.at_tare {
+            Some(at_tare) => {
+                let gravity = motion.gravity - at_tare;
+                *measured - self.body.load(&Motion { gravity, ..*motion })
+            }
+            None => *measured - self.bias - self.body.load(motion),
+        }
+    }
+}

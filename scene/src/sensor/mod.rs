@@ -1,0 +1,149 @@
+//! `[sensor]`: readings of gauges, and the calibration that turns them into wrenches.
+
+mod gauges;
+mod section;
+
+use fingertip::wrench::{LeastSquaresError, Real, SingularMatrix, TareError, Wrench};
+use fingertip_calibration::file::{CalibrationFile, FileError, ReadError};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::rest::Doubt;
+pub(crate) use gauges::AnyGauges;
+pub(crate) use section::{SensorSection, SensorSource};
+
+/// Fewest and most gauges of a sensor.
+pub const GAUGES: core::ops::RangeInclusive<usize> = 6..=16;
+
+/// One reading of a sensor's gauges, and what was measured beside them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GaugeReading<'a, T> {
+    /// The gauges, in the unit of the calibration.
+    pub gauges: &'a [T],
+    /// A gauge that no load strains, which shows what drifts with all of them.
+    pub dummy: Option<T>,
+    /// Temperature of the sensor \[°C\].
+    pub celsius: Option<T>,
+}
+
+impl<'a, T> GaugeReading<'a, T> {
+    /// Of gauges alone.
+    pub const fn of(gauges: &'a [T]) -> Self {
+        Self { gauges, dummy: None, celsius: None }
+    }
+}
+
+/// Why a reading gives no wrench.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum NoWrench {
+    /// A gauge reads at or beyond the range that its calibration states.
+    #[error("a gauge is saturated")]
+    Saturated,
+    /// Too few or too many gauges, a number that is not finite, or the temperature or the dummy gauge is missing
+    /// where the zero needs it.
+    #[error("the reading is incomplete")]
+    Incomplete,
+    /// The scene has no `[sensor]`.
+    #[error("the scene has no [sensor] that turns readings into wrenches")]
+    NoSensor,
+    /// The scene has a `[payload]`, and how the sensor lies was not told.
+    #[error("the scene has a [payload], whose weight cannot be taken off without the motion of the sensor")]
+    NoMotion,
+}
+
+/// Why no wrench comes of a calibration.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum BadSensor {
+    /// It cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// Something in it is wrong.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Its matrix has no inverse.
+    #[error(transparent)]
+    Singular(#[from] SingularMatrix),
+    /// Its matrix has no inverse.
+    #[error(transparent)]
+    LeastSquares(#[from] LeastSquaresError),
+    /// More or fewer gauges than are read here.
+    #[error("it has {0} gauges, but this program reads {first} to {last}; leave some out", first = GAUGES.start(), last = GAUGES.end())]
+    Gauges(usize),
+}
+
+/// A sensor with its calibration and its zero: readings to wrenches.
+///
+/// Six gauges give the wrench exactly, more by least squares, and a calibration with quadratic terms by these. The
+/// zero is that of the calibration, drift with temperature included, or the mean of a rest: readings are given to
+/// [`rest`](Self::rest), and behind [`end_rest`](Self::end_rest) their mean is the zero. If the first reading of the
+/// rest has a dummy gauge, all later ones need it, and what it shows to drift is taken off.
+///
+/// ```
+/// use fingertip_calibration::file::{CalibrationFile, SignalUnit};
+/// use fingertip_calibration::nalgebra::DMatrix;
+/// use fingertip_scene::{GaugeReading, NoWrench, Sensor};
+///
+/// // Each gauge answers to one axis: 2 V under 10 N or 0.1 N·m.
+/// let matrix = DMatrix::from_diagonal_element(6, 6, 2.0);
+/// let nominal = vec![10.0, 10.0, 10.0, 0.1, 0.1, 0.1];
+/// let mut file = CalibrationFile::new(matrix, nominal, vec![0.5; 6], SignalUnit::Volt)?;
+/// file.range = Some([-5.0, 5.0]);
+/// let sensor = Sensor::<f64>::new(&file)?;
+/// let wrench = sensor.wrench(&GaugeReading::of(&[0.5, 0.5, 0.1, 0.5, 0.5, 0.5]))?;
+/// assert!((wrench.force().z + 2.0).abs() < 1e-12);
+/// let stuck = sensor.wrench(&GaugeReading::of(&[0.5, 0.5, 5.0, 0.5, 0.5, 0.5]));
+/// assert_eq!(stuck, Err(NoWrench::Saturated));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensor<T: Real>(AnyGauges<T>);
+
+impl<T: Real> Sensor<T> {
+    /// From a calibration.
+    ///
+    /// # Errors
+    /// [`BadSensor`].
+    pub fn new(file: &CalibrationFile) -> Result<Self, BadSensor> {
+        AnyGauges::new(file).map(Self)
+    }
+
+    /// How many gauges it reads.
+    #[must_use]
+    pub const fn gauges(&self) -> usize {
+        self.0.count()
+    }
+
+    /// The wrench of a reading as the calibration has it, in the frame and of the sign that it was calibrated in.
+    ///
+    /// # Errors
+    /// [`NoWrench::Saturated`], [`NoWrench::Incomplete`].
+    #[inline]
+    pub fn wrench(&self, reading: &GaugeReading<'_, T>) -> Result<Wrench<T>, NoWrench> {
+        self.0.wrench(reading)
+    }
+
+    /// Takes a reading of the rest.
+    ///
+    /// # Errors
+    /// As [`wrench`](Self::wrench); it is passed over.
+    pub fn rest(&mut self, reading: &GaugeReading<'_, T>) -> Result<(), NoWrench> {
+        self.0.rest(reading)
+    }
+
+    /// The mean of the rest is the zero from now on, and the next reading of a rest begins another one.
+    ///
+    /// # Errors
+    /// [`TareError`] if there were too few readings; the zero then stays.
+    pub fn end_rest(&mut self) -> Result<(), TareError> {
+        self.0.end_rest()
+    }
+
+    /// Why the last rest may not have been one.
+    #[must_use]
+    pub fn doubt(&self) -> Option<Doubt> {
+        self.0.doubt()
+    }
+}
