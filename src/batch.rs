@@ -9,7 +9,7 @@ use fingertip_wrench::{Compensation, Real, Wrench, WrenchSolver};
 use nalgebra::{SVector, Vector3};
 
 use crate::columns::Vectorised;
-use crate::{Fingertip, GripStage, SlipStage, Step};
+use crate::{Fingertip, GripStage, SlipStage, Step, Touch};
 
 /// Where the touches are written: one slice per component.
 #[derive(Debug)]
@@ -30,10 +30,57 @@ pub struct Touches<'a, T> {
 }
 
 impl<T> Touches<'_, T> {
-    pub(crate) fn len(&self) -> usize {
+    /// How many samples there is room for.
+    #[must_use]
+    pub fn len(&self) -> usize {
         let columns = self.point.iter().chain(&self.tangential_force).map(|column| column.len());
         let rest = [self.normal_force.len(), self.margin.len(), self.utilisation.len(), self.slip.len()];
         columns.chain(rest).min().unwrap_or(0)
+    }
+
+    /// Whether there is room for none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The same columns, to be written and then written on.
+    #[must_use]
+    pub fn by_ref(&mut self) -> Touches<'_, T> {
+        Touches {
+            point: self.point.each_mut().map(|column| &mut **column),
+            normal_force: self.normal_force,
+            tangential_force: self.tangential_force.each_mut().map(|column| &mut **column),
+            margin: self.margin,
+            utilisation: self.utilisation,
+            slip: self.slip,
+        }
+    }
+}
+
+impl<T: Real> Touches<'_, T> {
+    /// Writes one sample; an index beyond the columns writes nothing.
+    pub fn put(&mut self, index: usize, touch: &Touch<T, Option<SlipMargin<T>>, Option<SlipVerdict>>) {
+        fn write<A>(column: &mut [A], index: usize, value: A) {
+            if let Some(place) = column.get_mut(index) {
+                *place = value;
+            }
+        }
+        let at = touch.point().unwrap_or_else(Vector3::zeros);
+        let (normal, tangential) = match touch.force {
+            Some(force) => (force.normal, force.tangential.vector()),
+            None => (T::zero(), Vector3::zeros()),
+        };
+        for axis in 0..3 {
+            write(self.point[axis], index, at[axis]);
+            write(self.tangential_force[axis], index, tangential[axis]);
+        }
+        write(self.normal_force, index, normal);
+        let none = SlipMargin { newtons: T::zero(), utilisation: T::zero() };
+        let SlipMargin { newtons, utilisation } = touch.grip.flatten().unwrap_or(none);
+        write(self.margin, index, newtons);
+        write(self.utilisation, index, utilisation);
+        write(self.slip, index, touch.slip.unwrap_or(SlipVerdict::NotPressing));
     }
 }
 
@@ -73,7 +120,7 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
         self.one_by_one(raw, time_step, touches);
     }
 
-    fn one_by_one<T, const N: usize>(&mut self, raw: [&[T]; N], time_step: T, touches: Touches<'_, T>)
+    fn one_by_one<T, const N: usize>(&mut self, raw: [&[T]; N], time_step: T, mut touches: Touches<'_, T>)
     where
         T: Real,
         Zero: Compensation<SVector<T, N>, Raw = SVector<T, N>>,
@@ -84,26 +131,15 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
         Detector: SlipStage<T>,
     {
         let count = raw.iter().map(|column| column.len()).fold(touches.len(), usize::min);
-        let Touches { point, normal_force, tangential_force, margin, utilisation, slip } = touches;
         let mut last = None;
         for k in 0..count {
             let sample = SVector::from_fn(|gauge, _| raw[gauge][k]);
-            let touch = self.sense(&sample, Step::of(time_step).with_last(last));
+            let Touch { wrench, resolution, force, grip, slip } =
+                self.sense(&sample, Step::of(time_step).with_last(last));
+            let grip = grip.map(|reading| Friction::margin(&reading));
+            let touch = Touch { wrench, resolution, force, grip, slip: Detector::slip(&slip) };
             last = touch.point();
-            let at = last.unwrap_or_else(Vector3::zeros);
-            let (normal, tangential) = match touch.force {
-                Some(force) => (force.normal, force.tangential.vector()),
-                None => (T::zero(), Vector3::zeros()),
-            };
-            for axis in 0..3 {
-                point[axis][k] = at[axis];
-                tangential_force[axis][k] = tangential[axis];
-            }
-            normal_force[k] = normal;
-            let grip = touch.grip.and_then(|reading| Friction::margin(&reading));
-            let none = SlipMargin { newtons: T::zero(), utilisation: T::zero() };
-            SlipMargin { newtons: margin[k], utilisation: utilisation[k] } = grip.unwrap_or(none);
-            slip[k] = Detector::slip(&touch.slip).unwrap_or(SlipVerdict::NotPressing);
+            touches.put(k, &touch);
         }
     }
 }

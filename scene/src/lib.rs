@@ -2,6 +2,7 @@
 
 extern crate alloc;
 
+mod batch;
 mod carried;
 mod columns;
 mod doubts;

@@ -319,6 +319,14 @@ impl<T: Real> Pipeline<T> {
         &self.model
     }
 
+    pub(crate) const fn filter(&self) -> Option<&Filter<T>> {
+        self.filter.as_ref()
+    }
+
+    pub(crate) const fn detector(&self) -> Option<&Detector<T>> {
+        self.stages.slip().0.as_ref()
+    }
+
     /// The friction limit, if the scene has one.
     pub const fn limit(&self) -> Option<&Limit<T>> {
         self.stages.friction().0.as_ref()

@@ -73,3 +73,105 @@ fn a_soft_finger_on_a_capsule_that_is_turned() {
     check!(f64, double);
     check!(f32, single);
 }
+
+/// Columns of wrenches give what one wrench after another gives, whatever the stages; where these are vectors, to
+/// rounding.
+#[test]
+fn columns_are_one_sample_after_another() {
+    use fingertip::Touches;
+    use fingertip::friction::SlipVerdict;
+
+    let point = "[contact]\nleast_force_N = 0.1\n[friction]\nstatic_coefficient = 0.5\n";
+    let threshold = "[slip]\ndetector = \"threshold\"\nnoise_N = 0.01\n";
+    let of = |shape: &str| format!("[surface]\nshape = {shape}\n");
+    for (text, exact) in [
+        (format!("{HEAD}{BALL}{point}{threshold}"), false),
+        (
+            format!("{HEAD}{}{point}{threshold}", of("\"ellipsoid\"\nsemi_axes_m = [0.011, 0.012, 0.013]")),
+            false,
+        ),
+        (
+            format!(
+                "{HEAD}{}{point}{threshold}",
+                of("\"cylinder\"\nradius_m = 0.01\naxis = [1.0, 0.0, 0.0]")
+            ),
+            false,
+        ),
+        (
+            format!("{HEAD}{}{point}{threshold}", of("\"capsule\"\nradius_m = 0.01\nhalf_length_m = 0.01")),
+            false,
+        ),
+        (format!("{HEAD}{}{point}{threshold}", of("\"plane\"\npoint_m = [0.0, 0.0, 0.01]")), false),
+        // Bounded surfaces, other models, limits and detectors, and a filter: one by one.
+        (format!("{HEAD}{BALL}active_half_angle_deg = 20.0\n{point}{threshold}"), true),
+        (
+            format!(
+                "{HEAD}{}{point}{threshold}",
+                of("\"cylinder\"\nradius_m = 0.01\naxis = [1.0, 0.0, 0.0]\nhalf_length_m = 0.001")
+            ),
+            true,
+        ),
+        (format!("{HEAD}{BALL}{point}[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n"), true),
+        (format!("{HEAD}{BALL}[contact]\nmodel = \"soft_finger\"\nleast_force_N = 0.1\n"), true),
+        (format!("{HEAD}[filter]\nkind = \"low_pass\"\ncutoff_Hz = 80.0\n{BALL}{point}{threshold}"), true),
+        (
+            format!(
+                "{HEAD}{BALL}{point}{threshold}[uncertainty]\nforce_noise_N = 0.01\ntorque_noise_Nm = 1e-4\n"
+            ),
+            false,
+        ),
+    ] {
+        let scene = Scene::from_text(&text).unwrap();
+        let samples: Vec<_> = pushes(8, 1500).collect();
+        let columns: Vec<Vec<f64>> =
+            (0..6).map(|axis| samples.iter().map(|push| push.components()[axis]).collect()).collect();
+        let mut found = vec![vec![f64::NAN; 1600]; 9];
+        let mut slip = vec![SlipVerdict::Slipping; 1600];
+        let [x, y, z, normal, sx, sy, sz, margin, used] = &mut found[..] else { unreachable!() };
+        let touches = Touches {
+            point: [x, y, z],
+            normal_force: normal,
+            tangential_force: [sx, sy, sz],
+            margin,
+            utilisation: used,
+            slip: &mut slip,
+        };
+        let (mut together, mut alone) = (scene.pipeline(), scene.pipeline());
+        together.sense_all(core::array::from_fn(|axis| &columns[axis][..]), 1e-3, touches);
+        let mut pressed = 0;
+        for (k, push) in samples.iter().enumerate() {
+            let felt = alone.sense(*push, 1e-3);
+            let force = felt.force();
+            let (at, normal) =
+                (felt.touch.point().unwrap_or_default(), force.map_or(0.0, |force| force.normal));
+            let tangential = force.map_or_else(Vector3::zeros, |force| force.tangential.vector());
+            let margin = felt.margin();
+            let expected = [
+                at.x,
+                at.y,
+                at.z,
+                normal,
+                tangential.x,
+                tangential.y,
+                tangential.z,
+                margin.map_or(0.0, |margin| margin.newtons),
+                margin.map_or(0.0, |margin| margin.utilisation),
+            ];
+            for (column, expected) in found.iter().zip(expected) {
+                let error = (column[k] - expected).abs();
+                assert!(
+                    error <= if exact { 0.0 } else { 1e-10 },
+                    "sample {k}: {} for {expected}\n{text}",
+                    column[k]
+                );
+            }
+            assert_eq!(slip[k], felt.touch.slip.unwrap_or(SlipVerdict::NotPressing), "sample {k}\n{text}");
+            pressed += usize::from(felt.contact().is_some());
+        }
+        assert!(pressed > 200, "{pressed}\n{text}");
+        assert!(found.iter().all(|column| column[1500..].iter().all(|x| x.is_nan())));
+        // What the last one says stays, and the next goes on from there.
+        let next = samples[3];
+        assert_eq!(together.sense(next, 1e-3), alone.sense(next, 1e-3), "{text}");
+    }
+}
