@@ -35,7 +35,7 @@ impl<T: Real> SoftFingerSurface<T> for Heightfield<T> {
                 let corners = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
                 let [a, b, c, d] = &corners;
                 let sides = [about(a, b), about(d, c), about(a, d), about(b, c)];
-                in_patch(&corners, sides, &force, &torque, |contact| {
+                in_patch(&corners, sides, &force, &torque, &mut |contact| {
                     visit(SoftContact { point: contact.point + middle, ..contact });
                 });
             }
@@ -79,7 +79,7 @@ fn in_patch<T: Real>(
     [bottom, top, left, right]: [T; 4],
     force: &Vector3<T>,
     torque: &Vector3<T>,
-    mut visit: impl FnMut(SoftContact<T>),
+    visit: &mut dyn FnMut(SoftContact<T>),
 ) {
     let (along, across) = (b - a, d - a);
     let twist = a - b + c - d;

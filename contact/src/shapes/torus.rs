@@ -43,7 +43,7 @@ fn search<T: Real>(
     torus: &Torus<T>,
     wrench: &Wrench<T>,
     epsilon: T,
-    mut visit: impl FnMut(SoftContact<T>),
+    visit: &mut dyn FnMut(SoftContact<T>),
 ) -> Search<T> {
     let ring = torus.ring_radius();
     let lever = wrench.torque() / ring;
@@ -96,11 +96,11 @@ fn on_torus<T: Real>(
     mut visit: impl FnMut(SoftContact<T>),
 ) -> Search<T> {
     if T::EPSILON.to_f64() <= f64::EPSILON {
-        return search(torus, wrench, T::EPSILON, visit);
+        return search(torus, wrench, T::EPSILON, &mut visit);
     }
     let mut found = [None; MOST];
     let (mut count, mut steady) = (0, true);
-    let ended = search(torus, wrench, T::EPSILON, |contact| {
+    let ended = search(torus, wrench, T::EPSILON, &mut |contact| {
         let slot = found.get_mut(count);
         steady &= slot.is_some() && !is_folding(torus, &wrench.force(), &contact);
         if let Some(slot) = slot {
@@ -111,7 +111,7 @@ fn on_torus<T: Real>(
     if !steady && let Ok(double) = Torus::new(torus.ring_radius().to_f64(), torus.tube_radius().to_f64()) {
         let wrench = Wrench::on_fingertip(wide(&wrench.force()), wide(&wrench.torque()));
         let epsilon = T::EPSILON.to_f64();
-        return in_type(search(&double, &wrench, epsilon, |contact| visit(narrow(&contact))));
+        return in_type(search(&double, &wrench, epsilon, &mut |contact| visit(narrow(&contact))));
     }
     found.into_iter().flatten().for_each(visit);
     ended

@@ -130,11 +130,9 @@ impl<T: Real> Heightfield<T> {
     }
 }
 
-impl<T: Real> ActiveSurface<T> for Heightfield<T> {
-    /// From cell to cell under the line; in each, the height of the line over the patch is a
-    /// quadratic. Signs at the borders of cells are computed once, so that no crossing falls
-    /// between two.
-    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+impl<T: Real> Heightfield<T> {
+    /// Compiled once, not once for each caller: a call through a pointer costs little beside what is done here.
+    fn each_crossing(&self, line: &Line<T>, visit: &mut dyn FnMut(Crossing<T>)) {
         let ([cx, cy], [dx, dy]) = (self.corner, self.spacing);
         let middle = Vector3::new(cx, cy, self.low);
         let (offset, along) = foot(line, &middle);
@@ -210,6 +208,15 @@ impl<T: Real> ActiveSurface<T> for Heightfield<T> {
                 break;
             }
         }
+    }
+}
+
+impl<T: Real> ActiveSurface<T> for Heightfield<T> {
+    /// From cell to cell under the line; in each, the height of the line over the patch is a
+    /// quadratic. Signs at the borders of cells are computed once, so that no crossing falls
+    /// between two.
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        self.each_crossing(line, &mut visit);
     }
 
     /// Exact but for rounding: of a cell, the nearest place is a node, on a straight edge, or where the

@@ -162,8 +162,9 @@ impl<T: Real, S: ImplicitSurface<T>> Implicit<T, S> {
     }
 }
 
-impl<T: Real, S: ImplicitSurface<T>> ActiveSurface<T> for Implicit<T, S> {
-    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+impl<T: Real, S: ImplicitSurface<T>> Implicit<T, S> {
+    /// Compiled once, not once for each caller: a call through a pointer costs little beside what is done here.
+    fn each_crossing(&self, line: &Line<T>, visit: &mut dyn FnMut(Crossing<T>)) {
         let (offset, along) = foot(line, &self.centre);
         let scaled = offset / self.radius;
         let squared = T::literal(1.001) - scaled.norm_squared();
@@ -183,6 +184,12 @@ impl<T: Real, S: ImplicitSurface<T>> ActiveSurface<T> for Implicit<T, S> {
             let point = start + line.direction * t;
             visit(Crossing { along: along + t, point, normal: self.unit_gradient(&point), active: true });
         });
+    }
+}
+
+impl<T: Real, S: ImplicitSurface<T>> ActiveSurface<T> for Implicit<T, S> {
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        self.each_crossing(line, &mut visit);
     }
 
     /// By a bounded search: of the points of the line within the bounds, the one nearest to the surface.

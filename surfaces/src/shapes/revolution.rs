@@ -157,8 +157,9 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
     }
 }
 
-impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
-    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
+    /// Compiled once, not once for each caller: a call through a pointer costs little beside what is done here.
+    fn each_crossing(&self, line: &Line<T>, visit: &mut dyn FnMut(Crossing<T>)) {
         let (centre, reach) = self.bounds();
         let (offset, along) = foot(line, &centre);
         let left = reach * reach - offset.norm_squared();
@@ -236,6 +237,12 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
                 }
             }
         }
+    }
+}
+
+impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        self.each_crossing(line, &mut visit);
     }
 
     /// The nearest of all places that can be: each piece of the side is a quadric, on whose outline the

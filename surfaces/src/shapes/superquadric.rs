@@ -111,8 +111,9 @@ impl<T: Real> Superquadric<T> {
     }
 }
 
-impl<T: Real> ActiveSurface<T> for Superquadric<T> {
-    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+impl<T: Real> Superquadric<T> {
+    /// Compiled once, not once for each caller: a call through a pointer costs little beside what is done here.
+    fn each_crossing(&self, line: &Line<T>, visit: &mut dyn FnMut(Crossing<T>)) {
         let point = line.point.component_mul(&self.curvatures);
         let direction = line.direction.component_mul(&self.curvatures);
         let squared = direction.norm_squared();
@@ -139,6 +140,12 @@ impl<T: Real> ActiveSurface<T> for Superquadric<T> {
                 active: true,
             });
         }
+    }
+}
+
+impl<T: Real> ActiveSurface<T> for Superquadric<T> {
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        self.each_crossing(line, &mut visit);
     }
 
     /// By the support function, which is the dual norm of the scaled normal.

@@ -52,10 +52,9 @@ impl<T: Real> Torus<T> {
     }
 }
 
-impl<T: Real> ActiveSurface<T> for Torus<T> {
-    /// Up to four crossings, each bracketed between extrema of the distance from the ring
-    /// (`docs/theory/surfaces.md#torus`).
-    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+impl<T: Real> Torus<T> {
+    /// Compiled once, not once for each caller: a call through a pointer costs little beside what is done here.
+    fn each_crossing(&self, line: &Line<T>, visit: &mut dyn FnMut(Crossing<T>)) {
         let (seen, along) = self.seen(line);
         seen.crossings(self.tube_radius / self.ring_radius, |t| {
             let point = seen.at(t);
@@ -66,6 +65,14 @@ impl<T: Real> ActiveSurface<T> for Torus<T> {
                 active: true,
             });
         });
+    }
+}
+
+impl<T: Real> ActiveSurface<T> for Torus<T> {
+    /// Up to four crossings, each bracketed between extrema of the distance from the ring
+    /// (`docs/theory/surfaces.md#torus`).
+    fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
+        self.each_crossing(line, &mut visit);
     }
 
     /// The nearer of the two places at most where the distance from the ring is least.
