@@ -29,9 +29,16 @@ pub(crate) fn of(scene: &Table) -> Vec<String> {
     }
     let noises = [("uncertainty", "force_noise_N"), ("slip", "noise_N"), ("estimate", "noise_N")]
         .map(|(section, key)| Some((section, key, number(section, key)?)));
+    let deviations = number("contact", "least_force_deviations");
+    if let Some(found) = deviations.filter(|deviations| *deviations < 3.0) {
+        doubts.push(format!(
+            "`least_force_deviations` of [contact] is {found}, less than three: noise will pass for contacts"
+        ));
+    }
     let least = number("contact", "least_force_N").unwrap_or(0.0);
     let greatest = noises.iter().flatten().max_by(|a, b| a.2.total_cmp(&b.2));
     if let Some((section, key, noise)) = greatest
+        && deviations.is_none()
         && least < 3.0 * noise
     {
         doubts.push(format!(

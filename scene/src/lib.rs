@@ -16,6 +16,7 @@ mod grip;
 mod input;
 mod meaning;
 mod model;
+mod noise;
 mod pipeline;
 mod projection;
 pub mod registry;

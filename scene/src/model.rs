@@ -28,6 +28,9 @@ pub(crate) struct ContactSection {
     model: ModelName,
     #[serde(rename = "least_force_N")]
     least_force: f64,
+    /// In place of that, standard deviations of a force component in the rest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    least_force_deviations: Option<f64>,
     greatest_gap_m: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     greatest_friction_ratio: Option<f64>,
@@ -41,7 +44,25 @@ pub(crate) struct ContactSection {
     skin: Option<SkinSection>,
 }
 
+/// No force is a contact \[N\].
+const UNREACHABLE: f64 = 1e15;
+
 impl ContactSection {
+    /// Whether the least force is told by the noise of the rest.
+    pub(crate) const fn awaits_noise(&self) -> bool {
+        self.least_force_deviations.is_some()
+    }
+
+    /// With the least force that this noise of a force component asks for \[N\]; none yet: no force is a contact.
+    pub(crate) fn at_noise(&self, force_noise: Option<f64>) -> Self {
+        let least_force = match (self.least_force_deviations, force_noise) {
+            (_, None) => UNREACHABLE,
+            (Some(deviations), Some(noise)) => deviations * noise,
+            (None, Some(_)) => self.least_force,
+        };
+        Self { least_force, least_force_deviations: None, ..self.clone() }
+    }
+
     /// Smaller forces are no contact \[N\].
     pub(crate) const fn least_force(&self) -> f64 {
         self.least_force
@@ -106,7 +127,16 @@ impl ContactSection {
     fn check_keys(&self) -> Result<(), SceneProblem> {
         let point = self.model != ModelName::SoftFinger;
         let auto = self.model == ModelName::Auto;
+        if self.least_force_deviations.is_some_and(|deviations| !(deviations > 0.0 && deviations < 1e6)) {
+            let (key, section) = ("least_force_deviations", "contact");
+            return Err(SceneProblem::Range { key, section, requirement: "positive and below a million" });
+        }
         let checks = [
+            (
+                "least_force_N",
+                self.least_force > 0.0 && self.least_force_deviations.is_some(),
+                "a contact without `least_force_deviations`",
+            ),
             ("greatest_gap_m", self.greatest_gap_m > 0.0 && !point, "the point contact"),
             (
                 "greatest_friction_ratio",

@@ -5,15 +5,17 @@ use fingertip::friction::{GripController, SlipMargin, SlipVerdict, StickSlip};
 use fingertip::surfaces::DynSurface;
 use fingertip::wrench::{ContactForce, Motion, Real, Wrench};
 use fingertip::{Step, Touch};
-use nalgebra::Vector3;
+use nalgebra::{Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::carried::Carried;
 use crate::estimate::{Estimate, Learnt};
+use crate::fault::SceneProblem;
 use crate::filter::Filter;
 use crate::friction::{Friction, Limit};
 use crate::front::Front;
 use crate::model::Model;
+use crate::noise::Noisy;
 use crate::sensor::{GaugeReading, NoWrench, Sensor};
 use crate::slip::{Detector, SlipWatch};
 use crate::stages::Stages;
@@ -35,6 +37,9 @@ pub struct Pipeline<T: Real> {
     surface: DynSurface<T>,
     model: Model<T>,
     uncertainty: Option<Uncertainty<T>>,
+    /// The sections that answer to the noise of the rest, if one does.
+    noisy: Option<Box<Noisy>>,
+    awaits_noise: bool,
     estimate: Option<Estimate<T>>,
     grip: Option<GripController<T>>,
     /// Whether a stage beside those of every scene is there.
@@ -114,6 +119,7 @@ pub(crate) struct Parts<T: Real> {
     pub(crate) surface: DynSurface<T>,
     pub(crate) model: Model<T>,
     pub(crate) uncertainty: Option<Uncertainty<T>>,
+    pub(crate) noisy: Option<Box<Noisy>>,
     pub(crate) friction: Friction<T>,
     pub(crate) slip: SlipWatch<T>,
     pub(crate) estimate: Option<Estimate<T>>,
@@ -122,7 +128,8 @@ pub(crate) struct Parts<T: Real> {
 
 impl<T: Real> Pipeline<T> {
     pub(crate) fn new(parts: Parts<T>) -> Self {
-        let Parts { front, filter, surface, model, uncertainty, friction, slip, estimate, grip } = parts;
+        let Parts { front, filter, surface, model, uncertainty, noisy, friction, slip, estimate, grip } =
+            parts;
         let stages = Stages::new(surface.clone(), model.clone(), friction, slip);
         let has_more = uncertainty.is_some()
             || estimate.is_some()
@@ -137,6 +144,8 @@ impl<T: Real> Pipeline<T> {
             surface,
             model,
             uncertainty,
+            awaits_noise: noisy.is_some(),
+            noisy,
             estimate,
             grip,
             has_more,
@@ -241,6 +250,62 @@ impl<T: Real> Pipeline<T> {
     /// What the sensor carries, to say how it hung while the zero was taken.
     pub const fn carried_mut(&mut self) -> Option<&mut Carried<T>> {
         self.front.carried.as_mut()
+    }
+
+    /// Whether the scene asks for the noise of the rest, and it is not known: until then no force is a contact.
+    pub const fn awaits_noise(&self) -> bool {
+        self.awaits_noise
+    }
+
+    /// Tells the standard deviation of each component of the wrench at rest \[N, N·m\], which a
+    /// [`RestWatch`](crate::RestWatch) and a [`Sensor`] measure. A scene that states its thresholds needs none, and
+    /// nothing changes; otherwise the next sample is the first.
+    ///
+    /// ```
+    /// use fingertip::contact::{NoContact, Resolution};
+    /// use fingertip::wrench::Wrench;
+    /// use fingertip_scene::Scene;
+    /// use nalgebra::{Vector3, Vector6};
+    ///
+    /// let scene = Scene::from_text(
+    ///     r#"
+    ///     version = 2
+    ///     [input]
+    ///     convention = "on_fingertip"
+    ///     rest_s = 1.0
+    ///     [surface]
+    ///     shape = "sphere"
+    ///     radius_m = 0.013
+    ///     [contact]
+    ///     least_force_deviations = 5.0
+    ///     "#,
+    /// )?;
+    /// let mut pipeline = scene.pipeline();
+    /// let push = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -0.2), Vector3::zeros());
+    /// assert!(pipeline.awaits_noise() && pipeline.sense(push, 1e-3).contact().is_none());
+    /// pipeline.know_noise(&Vector6::new(0.02, 0.03, 0.01, 1e-4, 1e-4, 1e-4))?;
+    /// assert!(pipeline.sense(push, 1e-3).contact().is_some());
+    /// let light = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -0.14), Vector3::zeros());
+    /// let none = pipeline.sense(light, 1e-3).touch.resolution;
+    /// assert!(matches!(none, Resolution::NoContact(NoContact::BelowThreshold { .. })));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SceneProblem`] for a noise that is none: negative or not finite.
+    pub fn know_noise(&mut self, noise: &Vector6<T>) -> Result<(), SceneProblem> {
+        let Some(noisy) = &self.noisy else { return Ok(()) };
+        let noise = noise.map(Real::to_f64);
+        if !noise.iter().all(|deviation| *deviation >= 0.0 && deviation.is_finite()) {
+            let (key, section) = ("rest_s", "input");
+            return Err(SceneProblem::Range { key, section, requirement: "a rest of finite readings" });
+        }
+        let (model, uncertainty) = noisy.build(Some(&noise))?;
+        let (friction, slip) = (self.stages.friction().clone(), self.stages.slip().clone());
+        self.stages = Stages::new(self.surface.clone(), model.clone(), friction, slip);
+        (self.model, self.uncertainty, self.awaits_noise) = (model, uncertainty, false);
+        self.start_anew();
+        Ok(())
     }
 
     /// By how much the wrench comes late that a `[filter]` gives, where it changes slowly \[s\].

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use fingertip::wrench::{NotAtRest, Real, RestTest, Tare, TareError, Wrench};
-use nalgebra::{SVector, Vector3};
+use nalgebra::{SVector, Vector3, Vector6};
 
 /// The fraction of good rests that are called into question. Small, since the noise of converters
 /// is not quite independent from reading to reading.
@@ -34,6 +34,10 @@ pub struct RestWatch<T: Real, const N: usize> {
     test: Option<RestTest<T, N>>,
     least: Vector3<T>,
     greatest: Vector3<T>,
+    /// Of the wrenches: how many, their mean, and the sums of the squares of what is off it (Welford).
+    count: u32,
+    mean: Vector6<T>,
+    squares: Vector6<T>,
 }
 
 impl<T: Real, const N: usize> Default for RestWatch<T, N> {
@@ -42,6 +46,9 @@ impl<T: Real, const N: usize> Default for RestWatch<T, N> {
             test: RestTest::new(FALSE_ALARM_RATE).ok().map(RestTest::finding_resolution),
             least: Vector3::repeat(T::GREATEST),
             greatest: Vector3::repeat(-T::GREATEST),
+            count: 0,
+            mean: Vector6::zeros(),
+            squares: Vector6::zeros(),
         }
     }
 }
@@ -58,7 +65,19 @@ impl<T: Real, const N: usize> RestWatch<T, N> {
         }
         self.least = self.least.inf(&wrench.force());
         self.greatest = self.greatest.sup(&wrench.force());
+        self.count = self.count.saturating_add(1);
+        let off = wrench.components() - self.mean;
+        self.mean += off / T::literal(f64::from(self.count));
+        self.squares += off.component_mul(&(wrench.components() - self.mean));
         true
+    }
+
+    /// Standard deviation of each component of the wrench \[N, N·m\]; `None` for fewer than two readings, or some so large
+    /// that it cannot be said.
+    pub fn noise(&self) -> Option<Vector6<T>> {
+        let others = self.count.checked_sub(1).filter(|others| *others > 0)?;
+        let noise = (self.squares / T::literal(f64::from(others))).map(|square| square.max(T::zero()).root());
+        noise.iter().all(|deviation| deviation.is_number()).then_some(noise)
     }
 
     /// The mean of the readings.
@@ -177,5 +196,29 @@ mod tests {
             .for_each(|force| assert!(watch.add(&Vector6::zeros(), &Vector6::zeros(), &wrench(*force))));
         assert!(!watch.add(&Vector6::zeros(), &Vector6::repeat(f64::NAN), &wrench(1.0)));
         assert_eq!(watch.doubt(|channel| channel.to_string()).unwrap().force_range, 0.0);
+    }
+
+    /// Against the mean and the sum of squares, one after the other.
+    #[test]
+    fn the_noise_of_the_wrench_is_its_deviation() {
+        let mut random = Pcg64Mcg::seed_from_u64(9);
+        let mut watch = RestWatch::default();
+        let wrenches: Vec<Vector6<f64>> = (0..200)
+            .map(|_| Vector6::from_fn(|axis, _| 1e3 + random.random_range(-1.0..1.0) * (axis + 1) as f64))
+            .collect();
+        for (count, wrench) in wrenches.iter().enumerate() {
+            assert_eq!(watch.noise().is_some(), count > 1);
+            watch.add(wrench, wrench, &Wrench::from_components(wrench));
+        }
+        let noise = watch.noise().unwrap();
+        for axis in 0..6 {
+            let mean = wrenches.iter().map(|wrench| wrench[axis]).sum::<f64>() / 200.0;
+            let squares: f64 = wrenches.iter().map(|wrench| (wrench[axis] - mean).powi(2)).sum();
+            assert!((noise[axis] / (squares / 199.0).sqrt() - 1.0).abs() < 1e-9, "{noise}");
+        }
+        // What overflows is not said.
+        let huge = Vector6::repeat(f64::MAX);
+        watch.add(&huge, &huge, &Wrench::from_components(&huge));
+        assert_eq!(watch.noise(), None);
     }
 }

@@ -21,6 +21,7 @@ use crate::front::Front;
 use crate::grip::GripSection;
 use crate::input::{Convention, InputSection};
 use crate::model::ContactSection;
+use crate::noise::Noisy;
 use crate::pipeline::{Parts, Pipeline, Tells};
 use crate::projection::Projection;
 use crate::sensor::{SensorSection, SensorSource};
@@ -28,7 +29,7 @@ use crate::slip::{SlipSection, SlipWatch};
 use crate::surface::{
     MapSection, MeshSection, PoseSection, ShapeSource, SurfaceSection, flat_normal, map_of, placed,
 };
-use crate::uncertainty::{Uncertainty, UncertaintySection};
+use crate::uncertainty::UncertaintySection;
 use crate::{doubts, meaning};
 
 #[derive(Clone, Debug, Deserialize)]
@@ -110,6 +111,7 @@ pub struct Scene {
 struct StageSections {
     convention: Convention,
     sample_rate: Option<f64>,
+    rest: Option<f64>,
     sensor: Option<SensorSource>,
     payload: Option<PayloadSource>,
     filter: Option<FilterSection>,
@@ -374,6 +376,7 @@ impl<S: SurfaceSection> SceneFile<S> {
         let stages = StageSections {
             convention,
             sample_rate,
+            rest,
             sensor,
             payload,
             filter,
@@ -409,10 +412,14 @@ impl StageSections {
     ) -> Result<Pipeline<T>, SceneProblem> {
         let pose = pose.sensor_from_surface::<f64>()?;
         let pivot = pose.transform_point(&Vector3::zeros());
-        let uncertainty: Option<Uncertainty<T>> = match &self.uncertainty {
-            Some(section) => Some(section.build(&pivot)?),
-            None => None,
-        };
+        let noisy = Noisy { contact: self.contact.clone(), uncertainty: self.uncertainty.clone(), pivot };
+        if noisy.awaits_noise() && self.rest.is_none() {
+            return Err(SceneProblem::Needs {
+                what: "`least_force_deviations` of [contact], or [uncertainty] without its noise,",
+                needed: "`rest_s` of [input], in which the noise is measured",
+            });
+        }
+        let (model, uncertainty) = noisy.build(None)?;
         let limit = match &self.friction {
             Some(section) => Some(section.build(flat_normal(exact), |v| pose.rotate(v))?),
             None => None,
@@ -443,8 +450,9 @@ impl StageSections {
             front,
             filter,
             surface,
-            model: self.contact.build(uncertainty.as_ref().map(Uncertainty::at_rest))?,
+            model,
             uncertainty,
+            noisy: noisy.awaits_noise().then(|| Box::new(noisy)),
             friction: Friction(limit),
             slip: SlipWatch(detector),
             estimate: self.estimate.as_ref().map(EstimateSection::build).transpose()?,

@@ -8,15 +8,17 @@ use fingertip::wrench::{Real, Wrench};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
+use crate::fault::SceneProblem;
+
 /// `[uncertainty]` of a scene: standard deviations.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct UncertaintySection {
     /// Of a component of the force at rest.
-    #[serde(rename = "force_noise_N")]
-    force_noise: f64,
-    #[serde(rename = "torque_noise_Nm")]
-    torque_noise: f64,
+    #[serde(rename = "force_noise_N", skip_serializing_if = "Option::is_none")]
+    force_noise: Option<f64>,
+    #[serde(rename = "torque_noise_Nm", skip_serializing_if = "Option::is_none")]
+    torque_noise: Option<f64>,
     /// Under load, of the load.
     #[serde(default)]
     relative: f64,
@@ -39,10 +41,32 @@ const fn usual_probability() -> f64 {
 }
 
 impl UncertaintySection {
-    /// `pivot` is the origin of the surface's frame, in that of the sensor.
-    pub(crate) fn build<T: Real>(&self, pivot: &Vector3<f64>) -> Result<Uncertainty<T>, BadShape> {
+    /// Whether the noise is that of the rest.
+    pub(crate) const fn awaits_noise(&self) -> bool {
+        self.force_noise.is_none() && self.torque_noise.is_none()
+    }
+
+    /// The noise that is stated, or else `measured`.
+    fn noise(&self, measured: &Vector6<f64>) -> Result<Vector6<f64>, SceneProblem> {
+        let missing = |needed| SceneProblem::Needs { what: "[uncertainty]", needed };
+        match (self.force_noise, self.torque_noise) {
+            (Some(force), Some(torque)) => {
+                Ok(Vector6::from_fn(|axis, _| if axis < 3 { force } else { torque }))
+            }
+            (None, None) => Ok(*measured),
+            (None, Some(_)) => Err(missing("`force_noise_N` beside `torque_noise_Nm`")),
+            (Some(_), None) => Err(missing("`torque_noise_Nm` beside `force_noise_N`")),
+        }
+    }
+
+    /// `pivot` is the origin of the surface's frame, in that of the sensor, and `measured` the noise of the rest.
+    pub(crate) fn build<T: Real>(
+        &self,
+        pivot: &Vector3<f64>,
+        measured: &Vector6<f64>,
+    ) -> Result<Uncertainty<T>, SceneProblem> {
         let number = T::literal;
-        let floor = Vector6::from_fn(|i, _| number(if i < 3 { self.force_noise } else { self.torque_noise }));
+        let floor = self.noise(measured)?.map(number);
         let same = |deviation: f64| Matrix3::identity() * number(deviation * deviation);
         let deviations = [self.offset_m, self.position_m, self.attitude_deg];
         let good = deviations.iter().all(|deviation| *deviation >= 0.0 && deviation.is_finite());

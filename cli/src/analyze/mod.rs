@@ -13,7 +13,7 @@ mod wrenches;
 use std::path::Path;
 
 use fingertip_recordings::Quality;
-use fingertip_scene::Scene;
+use fingertip_scene::{Pipeline, Scene};
 
 use crate::error::CliError;
 use crate::observe::{Observations, Status};
@@ -21,6 +21,7 @@ use crate::output;
 use crate::report;
 use crate::scene;
 use crate::summary::{self, Run};
+use crate::table::number;
 use args::AnalyzeArguments;
 use contacts::ContactWriter;
 use source::{Reading, Source};
@@ -59,6 +60,17 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     files::say(&findings, to_stderr, &[Some(arguments.output.as_path()), report])
 }
 
+/// Tells the pipeline how noisy the rest was.
+#[cold]
+fn know_noise(pipeline: &mut Pipeline<f64>, source: &mut Source, scene: &Scene) -> Result<(), CliError> {
+    let unknown = || CliError::NoRest { rest: scene.rest().unwrap_or(0.0) };
+    let noise = source.noise().ok_or_else(unknown)?;
+    pipeline.know_noise(&noise).map_err(|_| unknown())?;
+    let [force, torque] = [noise.fixed_rows::<3>(0).amax(), noise.fixed_rows::<3>(3).amax()].map(number);
+    source.note(format!("the noisiest components of the rest have deviations of {force} N and {torque} N·m"));
+    Ok(())
+}
+
 /// Everything that one pass over the recording needs.
 struct Pass<'a> {
     scene: &'a Scene,
@@ -78,6 +90,9 @@ impl Pass<'_> {
             }
             match self.source.read(&row, time)? {
                 Reading::Wrench(wrench) => {
+                    if pipeline.awaits_noise() {
+                        know_noise(&mut pipeline, self.source, self.scene)?;
+                    }
                     let felt = pipeline.sense(wrench, time_step);
                     observations.add(time, &felt.touch);
                     self.contacts.write(time, felt)?;

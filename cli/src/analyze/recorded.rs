@@ -3,6 +3,7 @@
 use fingertip::wrench::{TareError, Wrench};
 use fingertip_recordings::Row;
 use fingertip_scene::Doubt;
+use nalgebra::Vector6;
 
 use crate::observe::Status;
 
@@ -19,6 +20,9 @@ pub(super) trait Recorded {
 
     /// The mean of the rest is the zero from now on.
     fn end_rest(&mut self) -> Result<(), TareError>;
+
+    /// Standard deviation of each component of the wrench in the rest \[N, N·m\].
+    fn noise(&self) -> Option<Vector6<f64>>;
 
     /// Why the rest may not have been one.
     fn doubt(&self) -> Option<Doubt>;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use fingertip::wrench::Wrench;
 use fingertip_recordings::{HeaderProblem, Row};
+use nalgebra::Vector6;
 
 use super::args::AnalyzeArguments;
 use super::files::Rows;
@@ -121,6 +122,16 @@ impl Source {
     /// Name of the sensor; empty if the recording gives none.
     pub(super) fn sensor(&self) -> &str {
         self.recorded.sensor()
+    }
+
+    /// Standard deviation of each component of the wrench in the rest \[N, N·m\].
+    pub(super) fn noise(&self) -> Option<Vector6<f64>> {
+        self.recorded.noise()
+    }
+
+    /// Adds what the reader of the results should know.
+    pub(super) fn note(&mut self, note: String) {
+        self.notes.push(note);
     }
 
     /// What the reader of the results should know.

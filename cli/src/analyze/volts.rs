@@ -3,6 +3,7 @@
 use fingertip::wrench::{TareError, Wrench};
 use fingertip_recordings::{HeaderProblem, Layout, Row};
 use fingertip_scene::{Doubt, Sensor};
+use nalgebra::Vector6;
 
 use super::recorded::Recorded;
 use crate::calibrated::{Calibration, Readings};
@@ -50,6 +51,10 @@ impl Recorded for Volts {
 
     fn end_rest(&mut self) -> Result<(), TareError> {
         self.calibrated.end_rest()
+    }
+
+    fn noise(&self) -> Option<Vector6<f64>> {
+        self.calibrated.noise()
     }
 
     fn doubt(&self) -> Option<Doubt> {

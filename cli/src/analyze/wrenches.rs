@@ -47,6 +47,10 @@ impl Recorded for Wrenches {
         Ok(())
     }
 
+    fn noise(&self) -> Option<Vector6<f64>> {
+        self.watch.noise()
+    }
+
     fn doubt(&self) -> Option<Doubt> {
         let names = ["fx", "fy", "fz", "tx", "ty", "tz"];
         self.watch.doubt(|component| names.get(component).copied().unwrap_or("a component").to_owned())

@@ -6,7 +6,7 @@ pub(crate) mod rest;
 use fingertip::contact::{ConfidenceEllipse, ContactCovariance, ContactJacobian, Resolution};
 use fingertip::wrench::Wrench;
 use fingertip_scene::{Convention, Pipeline, Scene};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector6};
 
 use crate::observe::SceneTouch;
 pub(crate) use noise::NoiseWatch;
@@ -27,9 +27,25 @@ impl SceneFeel {
         Self { convention: scene.convention(), pipeline: scene.pipeline(), rest, last: None }
     }
 
+    /// How noisy the sensor is at rest, for a scene that asks.
+    pub(crate) fn know_noise(&mut self, noise: &Vector6<f64>) {
+        // A noise that is none leaves the scene waiting, and no force is a contact.
+        let _ = self.pipeline.know_noise(noise);
+    }
+
+    /// Whether the scene asks for the noise of a rest.
+    pub(crate) const fn awaits_noise(&self) -> bool {
+        self.pipeline.awaits_noise()
+    }
+
     /// What a sample means; `None` while the zero is taken.
     pub(crate) fn feel(&mut self, time: f64, reported: &Wrench<f64>) -> Result<Option<SceneTouch>, NoZero> {
         let Some(tared) = self.rest.take(time, reported)? else { return Ok(None) };
+        if self.pipeline.awaits_noise()
+            && let Some(noise) = self.rest.noise()
+        {
+            self.know_noise(&noise);
+        }
         let wrench = self.convention.wrench(tared.force(), tared.torque());
         let step = self.last.replace(time).map_or(0.0, |last| time - last);
         Ok(Some(self.pipeline.sense(wrench, step).touch))

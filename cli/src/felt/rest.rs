@@ -1,6 +1,7 @@
 //! The zero of a sensor, from the seconds before it is touched.
 
-use fingertip::wrench::{TareAccumulator, TareError, Wrench};
+use fingertip::wrench::{TareError, Wrench};
+use fingertip_scene::RestWatch;
 use nalgebra::Vector6;
 use thiserror::Error;
 
@@ -18,14 +19,14 @@ pub(crate) struct Rest {
     /// How long, while it lasts \[s\].
     left: Option<f64>,
     first: Option<f64>,
-    resting: TareAccumulator<f64, 6>,
+    resting: RestWatch<f64, 6>,
     zero: Vector6<f64>,
 }
 
 impl Rest {
     /// Over so many seconds; `None` takes nothing off.
     pub(crate) fn new(seconds: Option<f64>) -> Self {
-        Self { left: seconds, first: None, resting: TareAccumulator::default(), zero: Vector6::zeros() }
+        Self { left: seconds, first: None, resting: RestWatch::default(), zero: Vector6::zeros() }
     }
 
     /// The wrench less the zero; `None` while it rests.
@@ -33,14 +34,19 @@ impl Rest {
         let components = wrench.components();
         if let Some(seconds) = self.left {
             if time - *self.first.get_or_insert(time) < seconds {
-                self.resting.add(&components);
+                self.resting.add(&components, &components, wrench);
                 return Ok(None);
             }
             self.left = None;
-            let tare = self.resting.finish().map_err(|source| NoZero { seconds, source })?;
+            let tare = self.resting.tare().map_err(|source| NoZero { seconds, source })?;
             self.zero = *tare.zero();
         }
         Ok(Some(Wrench::from_components(&(components - self.zero))))
+    }
+
+    /// Standard deviation of each component meanwhile.
+    pub(crate) fn noise(&self) -> Option<Vector6<f64>> {
+        self.resting.noise()
     }
 
     /// Whether the zero is still being taken.

@@ -92,6 +92,12 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
     if scene.as_ref().is_some_and(|scene| scene.pipeline().carried().is_some()) {
         eprintln!("note: the weight of [payload] is not taken off: nothing tells how a live sensor lies");
     }
+    if scene.as_ref().is_some_and(|scene| scene.pipeline().awaits_noise()) && calibration.is_some() {
+        eprintln!(
+            "note: nothing tells the noise of gauges live, which the scene asks for: no force is a contact until a \
+                   zero is taken (key t)"
+        );
+    }
     // The rest of gauges is taken of their readings.
     let rest = Rest::new(seconds.filter(|_| calibration.is_none()));
     let feel = scene.map(|scene| SceneFeel::new(&scene, true));
@@ -169,7 +175,12 @@ fn read(
             Event::Sample(time, reading) => match rest.take(time, &reading.wrench)? {
                 Some(wrench) => {
                     let touch = match &mut feel {
-                        Some(feel) => feel.feel(time, &wrench)?,
+                        Some(feel) => {
+                            if let Some(noise) = rest.noise().filter(|_| feel.awaits_noise()) {
+                                feel.know_noise(&noise);
+                            }
+                            feel.feel(time, &wrench)?
+                        }
                         None => None,
                     };
                     let mut state = shared.state();

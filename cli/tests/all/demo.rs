@@ -67,6 +67,22 @@ fn its_volts_analyzed_give_the_true_contacts() {
     assert!(said.contains("the filter makes what changes slowly come 5.6 ms late"), "{said}");
     assert_ne!(folder.read("filtered.csv"), by_option);
 
+    // A threshold of five deviations of the rest, in which a force component has some 5 to 20 mN of noise.
+    let measured = alone.replace("least_force_N = 0.1", "least_force_deviations = 5.0");
+    assert_ne!(measured, alone);
+    folder.write("measured.toml", &measured);
+    let said =
+        folder.succeed(&["analyze", "volts.csv", "--scene", "measured.toml", "--output", "measured.csv"]);
+    assert!(said.contains("the noisiest components of the rest have deviations of 0.0"), "{said}");
+    let forces = |name: &str| {
+        let contacts = Contacts::parse(&folder.read(name));
+        let (status, normal) = (contacts.words("status"), contacts.numbers("normal_N"));
+        let least =
+            status.iter().zip(normal).filter(|(status, _)| **status == "contact").map(|(_, force)| force);
+        least.fold(f64::INFINITY, f64::min)
+    };
+    assert_ne!(forces("measured.csv"), forces("contacts.csv"));
+
     let contacts = Contacts::parse(&by_option);
     let truth: Vec<_> = SimulatedFingertip::new(&standard_session(), Options::default()).unwrap().collect();
     assert_eq!(contacts.len(), truth.len());

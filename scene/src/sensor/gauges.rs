@@ -6,7 +6,7 @@ use fingertip::wrench::{
     TareError, TemperatureCompensation, Wrench, WrenchSolver,
 };
 use fingertip_calibration::file::CalibrationFile;
-use nalgebra::SVector;
+use nalgebra::{SVector, Vector6};
 
 use super::{BadSensor, GaugeReading, NoWrench};
 use crate::rest::{Doubt, RestWatch};
@@ -157,6 +157,10 @@ impl<T: Real, S: WrenchSolver<T, N>, const N: usize> Gauges<T, S, N> {
         Ok(())
     }
 
+    fn noise(&self) -> Option<Vector6<T>> {
+        self.watch.noise()
+    }
+
     fn doubt(&self) -> Option<Doubt> {
         self.watch.doubt(|gauge| format!("gauge {}", gauge + 1))
     }
@@ -223,6 +227,10 @@ impl<T: Real> AnyGauges<T> {
 
     pub(crate) fn end_rest(&mut self) -> Result<(), TareError> {
         each!(self, gauges => gauges.end_rest())
+    }
+
+    pub(crate) fn noise(&self) -> Option<Vector6<T>> {
+        each!(self, gauges => gauges.noise())
     }
 
     pub(crate) fn doubt(&self) -> Option<Doubt> {

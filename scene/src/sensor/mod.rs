@@ -5,6 +5,7 @@ mod section;
 
 use fingertip::wrench::{LeastSquaresError, Real, SingularMatrix, TareError, Wrench};
 use fingertip_calibration::file::{CalibrationFile, FileError, ReadError};
+use nalgebra::Vector6;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -139,6 +140,12 @@ impl<T: Real> Sensor<T> {
     /// [`TareError`] if there were too few readings; the zero then stays.
     pub fn end_rest(&mut self) -> Result<(), TareError> {
         self.0.end_rest()
+    }
+
+    /// Standard deviation of each component of the wrench in the last rest \[N, N·m\]; `None` for fewer than two readings.
+    #[must_use]
+    pub fn noise(&self) -> Option<Vector6<T>> {
+        self.0.noise()
     }
 
     /// Why the last rest may not have been one.

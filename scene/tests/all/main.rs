@@ -7,6 +7,7 @@ mod choices;
 mod formula;
 mod front;
 mod hostile;
+mod noise;
 mod parts;
 mod sensor;
 mod stages;

@@ -129,7 +129,7 @@ fn faults_are_named() {
         ),
         (with(&format!("{NOISE}position_m = -0.1\n")), "standard deviations"),
         (with(&format!("{NOISE}probability = 1.0\n")), "probability"),
-        (with("[uncertainty]\nforce_noise_N = 0.1\n"), "missing field `torque_noise_Nm`"),
+        (with("[uncertainty]\nforce_noise_N = 0.1\n"), "`torque_noise_Nm` beside `force_noise_N`"),
         (
             good.replace("sample_rate_Hz = 1000.0\n", "")
                 + "[slip]\ndetector = \"likelihood_ratio\"\nnoise_N = 0.01\n",
