@@ -20,6 +20,7 @@ mod heights;
 mod honesty;
 mod jacobians;
 mod limits;
+mod meshes;
 mod moved;
 mod parameters;
 mod pillow;
