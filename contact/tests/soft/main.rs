@@ -21,6 +21,7 @@ mod honesty;
 mod jacobians;
 mod limits;
 mod meshes;
+mod misses;
 mod moved;
 mod parameters;
 mod pillow;

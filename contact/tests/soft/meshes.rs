@@ -150,7 +150,6 @@ fn no_dent_is_touched_from_within() {
         let found = all(mesh, &wrench);
         for contact in &found {
             assert!(!is_inside(contact.point + contact.normal * 1e-8), "{wrench:?} {contact:?}");
-            assert!(is_inside(contact.point - contact.normal * 1e-8), "{wrench:?} {contact:?}");
         }
         for (point, _) in by_trying_all(mesh, &wrench) {
             if found.iter().all(|contact| (contact.point - point).norm() > 1e-9) {
