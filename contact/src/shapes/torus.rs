@@ -51,19 +51,20 @@ fn search<T: Real>(
     let (force, torque) = (wrench.force() * scale, lever * scale);
     let tube = torus.tube_radius() / ring;
     let power = force.dot(&torque) * tube;
+    let problem = Problem::new(torus, &wrench.force(), &wrench.torque());
     if is_pure_force_of(&force, &torque, epsilon) {
         if let Ok(axis) = wrench.line_of_action() {
             torus.crossings(&axis.line, |crossing| {
                 if crossing.normal.dot(&axis.line.direction) < T::zero() {
                     let (point, normal) = (crossing.point, crossing.normal);
-                    visit(SoftContact { point, normal, spin_torque: T::zero(), active: true });
+                    let entry = SoftContact { point, normal, spin_torque: T::zero(), active: true };
+                    visit(problem.polished(&entry).unwrap_or(entry));
                 }
             });
         }
         return Search::Complete;
     }
     let around = Around { force, torque, tube, power, epsilon };
-    let problem = Problem::new(torus, &wrench.force(), &wrench.torque());
     let mut search = Search::Complete;
     around.roots(|angle, is_fold| {
         let at = around.at(angle);
