@@ -75,6 +75,8 @@ pub enum LocalSurface {
         /// Which coordinates reach beyond the box.
         beyond: [bool; 3],
     },
+    /// Flat facets, of which a shape finds contacts to the last digit by itself.
+    Facets,
     /// A superquadric, for a type narrower than `f64`.
     Superquadric(Superquadric<f64>),
 }

@@ -5,6 +5,7 @@ use fingertip_surfaces::numeric::quadratic::roots;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
+use crate::soft_finger::closed_form::is_pure_force;
 use crate::{Search, SoftContact, SoftFingerSurface};
 
 /// The soft finger on the bilinear surface that the heightfield *is*, cell by cell, as
@@ -26,7 +27,8 @@ impl<T: Real> SoftFingerSurface<T> for Heightfield<T> {
         // About the middle, so that no digits go into far-away origins.
         let middle = self.node(columns / 2, rows / 2);
         let torque = wrench.torque_about(&middle);
-        let power = force.dot(&torque);
+        // As the wrench was given, since moving it rounds.
+        let power = force.dot(&wrench.torque());
         let node = |i: usize, j: usize| self.node(i, j) - middle;
         // The moment of the wrench about a line from one node to the next.
         let about = |a: &Vector3<T>, b: &Vector3<T>| torque.dot(&(b - a)) + force.dot(&a.cross(b));
@@ -40,7 +42,7 @@ impl<T: Real> SoftFingerSurface<T> for Heightfield<T> {
                 });
             }
         }
-        if power.is_zero() {
+        if is_pure_force(&force, &wrench.torque()) {
             return Search::Complete;
         }
         let rising = power < T::zero();

@@ -6,7 +6,7 @@ use fingertip_surfaces::{ActiveSurface, LocalSurface, SmoothSurface, Torus};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::soft_finger::closed_form::soft_finger;
+use crate::soft_finger::closed_form::{is_pure_force_of, soft_finger};
 use crate::soft_finger::double::{in_type, narrow};
 use crate::soft_finger::newton::Problem;
 use crate::soft_finger::unit_sphere::OnUnitSphere;
@@ -30,7 +30,7 @@ const DEPTH: usize = 10;
 /// one solution `n(θ)` that presses, in closed form, since `f·(m − R ρ × f) = f·m` is the same for
 /// all `θ`. The contacts of the torus are therefore exactly the zeros of `F(θ) = n(θ)·t(θ)`, a
 /// continuous function on a circle if `f·m ≠ 0`: **simple zeros come in an even number**. (If
-/// `f·m = 0` the contacts are where the line of action enters.)
+/// `f·m = 0`, for all that the numbers of the wrench say, the contacts are where the line of action enters.)
 ///
 /// Zeros are bracketed between samples of `F` and its derivative; the cells are refined where a
 /// cubic through their ends does not tell their middle. `F` has kinks, in the limit of no spin
@@ -51,19 +51,20 @@ fn search<T: Real>(
     let (force, torque) = (wrench.force() * scale, lever * scale);
     let tube = torus.tube_radius() / ring;
     let power = force.dot(&torque) * tube;
-    if power.is_zero() {
+    let problem = Problem::new(torus, &wrench.force(), &wrench.torque());
+    if is_pure_force_of(&force, &torque, epsilon) {
         if let Ok(axis) = wrench.line_of_action() {
             torus.crossings(&axis.line, |crossing| {
                 if crossing.normal.dot(&axis.line.direction) < T::zero() {
                     let (point, normal) = (crossing.point, crossing.normal);
-                    visit(SoftContact { point, normal, spin_torque: T::zero(), active: true });
+                    let entry = SoftContact { point, normal, spin_torque: T::zero(), active: true };
+                    visit(problem.polished(&entry).unwrap_or(entry));
                 }
             });
         }
         return Search::Complete;
     }
     let around = Around { force, torque, tube, power, epsilon };
-    let problem = Problem::new(torus, &wrench.force(), &wrench.torque());
     let mut search = Search::Complete;
     around.roots(|angle, is_fold| {
         let at = around.at(angle);

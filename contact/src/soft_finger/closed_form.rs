@@ -142,7 +142,12 @@ pub(crate) fn sole<T: Real>(
 
 /// Whether a wrench is a pure force, `f·m = 0`, for all that its numbers say.
 pub(crate) fn is_pure_force<T: Real>(force: &Vector3<T>, torque: &Vector3<T>) -> bool {
+    is_pure_force_of(force, torque, T::EPSILON)
+}
+
+/// The same of a wrench whose numbers are rounded to so much of them.
+pub(crate) fn is_pure_force_of<T: Real>(force: &Vector3<T>, torque: &Vector3<T>, epsilon: T) -> bool {
     let power = force.dot(torque).abs();
     // Half a unit in the last place of every number, and as much in three products and two sums.
-    !(power > largest(force) * largest(torque) * T::EPSILON * T::literal(8.0))
+    !(power > largest(force) * largest(torque) * epsilon * T::literal(8.0))
 }

@@ -38,6 +38,12 @@ pub(crate) fn mended<T: Real, S: ActiveSurface<T>>(
     )
 }
 
+/// The same on a facet.
+pub(crate) fn mended_on_facet<T: Real>(wrench: &Wrench<T>, contact: &SoftContact<T>) -> SoftContact<T> {
+    let normal = contact.normal;
+    SoftContact { normal, ..mended_on(wrench, &|_| normal, &|_| T::zero(), contact) }
+}
+
 /// The same. Compiled once for all surfaces: what differs is only what they answer.
 #[inline(never)]
 fn mended_on<T: Real>(

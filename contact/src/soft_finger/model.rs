@@ -1,6 +1,6 @@
 //! The soft finger as a contact model.
 
-use fingertip_surfaces::numeric::vectors::{is_tame, larger, largest, length};
+use fingertip_surfaces::numeric::vectors::{hypotenuse, is_tame, larger, largest, length, smaller};
 use fingertip_surfaces::{BadShape, ForceLine};
 use fingertip_wrench::{Real, Wrench, stored};
 use nalgebra::Vector3;
@@ -18,8 +18,10 @@ use crate::{Contact, ContactModel, NoContact, Resolution, Search, SoftContact, S
 /// `docs/theory/contact.md#contact-centroid`).
 ///
 /// On a convex surface there is at most one such point; a shape that is not convex may have
-/// several, and [`Contact::alternatives`] counts the others. Then the one nearest to the last
-/// contact is taken if one is given, otherwise the one where the force presses most squarely.
+/// several, and [`Contact::alternatives`] counts the others. Those that would need more friction than
+/// [`with_greatest_friction`](Self::with_greatest_friction) allows are set aside. Of the rest the one
+/// nearest to the last contact is taken if one is given, otherwise the one where the force presses most
+/// squarely.
 ///
 /// Where a body has a round edge of no thickness, a corner or a tip, a contact there has a normal
 /// between those of the faces that meet, such that something flat could touch. Meshes and heightfields
@@ -32,6 +34,7 @@ use crate::{Contact, ContactModel, NoContact, Resolution, Search, SoftContact, S
 ///
 /// What is no contact is said by type: [`NoContact::PureCouple`] where there is a torque but no
 /// force, [`NoContact::Ambiguous`] where a pure force could only graze the surface at two points,
+/// [`NoContact::BeyondFriction`] where friction, if it is stated, holds no contact,
 /// [`NoContact::Unresolved`] where a search ended at its bound, or rounding of the wrench hides whether
 /// there is a contact, as of a needle under a large spin torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +42,8 @@ pub struct SoftFinger<T: Real> {
     least_force: T,
     /// The least square of a force that takes the short way.
     least_squared: T,
+    greatest_friction: Option<T>,
+    torque_arm: Option<T>,
 }
 
 impl<T: Real> SoftFinger<T> {
@@ -52,7 +57,66 @@ impl<T: Real> SoftFinger<T> {
         BadShape::check("soft finger", "least force", "finite and not negative", good).map(|()| Self {
             least_force,
             least_squared: larger(least_force * least_force, ForceLine::least_squared()),
+            greatest_friction: None,
+            torque_arm: None,
         })
+    }
+
+    /// No contact needs a friction ratio above `greatest_friction`, and with a
+    /// [torque arm](Self::with_torque_arm) none needs more for its force and spin torque together:
+    /// `√(|f_t|² + (τ/e)²) ≤ μ f_n` (`docs/theory/friction.md#soft-finger-limit`).
+    ///
+    /// State it wherever wrenches may miss; there is none unless it is stated. Without it the noise of a pure force
+    /// whose line misses is taken for a spin torque, and explained by a contact that next to nothing presses: a force
+    /// of 2 N that passes the centre of a sphere of 13 mm at 14 mm, with 1e-9 N·m along it, would press with 2e-7 N
+    /// and spin with 10 mN·m. With it the answer follows from what friction can hold, and not from the last digits of
+    /// `f·m`. It may be generous: no finger holds a ratio of 10.
+    ///
+    /// Models without it take a shorter way to simple shapes.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless it is finite and not negative.
+    pub fn with_greatest_friction(self, greatest_friction: T) -> Result<Self, BadShape> {
+        let good = greatest_friction >= T::zero() && greatest_friction.is_number();
+        BadShape::check("soft finger", "greatest friction", "finite and not negative", good)
+            // No force takes the short way, which looks at no limit.
+            .map(|()| Self { greatest_friction: Some(greatest_friction), least_squared: T::GREATEST, ..self })
+    }
+
+    /// The torque arm `e` \[m\] of the contact, by which a spin torque counts as a tangential force: `3πa/16` for
+    /// Hertz's patch of radius `a`, and never more than the radius of the patch. It has a say together with
+    /// [`with_greatest_friction`](Self::with_greatest_friction) only.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless it is positive and finite.
+    pub fn with_torque_arm(self, torque_arm: T) -> Result<Self, BadShape> {
+        let good = torque_arm > T::zero() && torque_arm.is_number();
+        BadShape::check("soft finger", "torque arm", "positive and finite", good)
+            .map(|()| Self { torque_arm: Some(torque_arm), ..self })
+    }
+
+    /// The greatest friction ratio that a contact may need, if there is a limit.
+    #[inline]
+    #[must_use]
+    pub const fn greatest_friction(&self) -> Option<T> {
+        self.greatest_friction
+    }
+
+    /// The torque arm \[m\], if one is stated.
+    #[inline]
+    #[must_use]
+    pub const fn torque_arm(&self) -> Option<T> {
+        self.torque_arm
+    }
+
+    /// The friction ratio that a contact needs, if that is more than there is.
+    fn beyond_friction(&self, force: &Vector3<T>, contact: &SoftContact<T>) -> Option<T> {
+        let greatest = self.greatest_friction?;
+        let pressing = -force.dot(&contact.normal);
+        let sliding = length(&(force + contact.normal * pressing));
+        let turning = self.torque_arm.map_or_else(T::zero, |arm| contact.spin_torque / arm);
+        let needed = hypotenuse(sliding, if turning.is_number() { turning } else { T::GREATEST });
+        (!(needed <= greatest * pressing)).then(|| smaller(needed / pressing, T::GREATEST))
     }
 
     /// The least force that counts as a contact \[N\].
@@ -68,6 +132,8 @@ struct Seen<T: Real> {
     best: Option<(SoftContact<T>, T)>,
     candidates: u8,
     outside: Option<Vector3<T>>,
+    /// Of the contacts that friction can't hold the one that needs least, and how much.
+    too_flat: Option<(Vector3<T>, T)>,
     beyond_range: bool,
 }
 
@@ -151,7 +217,7 @@ impl<T: Real> SoftFinger<T> {
         last: Option<&Vector3<T>>,
     ) -> Resolution<T> {
         let direction = scaled.wrench.force();
-        let mut seen = Seen { best: None, candidates: 0, outside: None, beyond_range: false };
+        let mut seen = Seen { best: None, candidates: 0, outside: None, too_flat: None, beyond_range: false };
         let search = surface.soft_contacts(&scaled.wrench, last, |contact| {
             if !is_in_range(&contact) {
                 seen.beyond_range = true;
@@ -159,6 +225,12 @@ impl<T: Real> SoftFinger<T> {
             }
             if !contact.active {
                 seen.outside = Some(contact.point);
+                return;
+            }
+            if let Some(ratio) = self.beyond_friction(&direction, &contact) {
+                if seen.too_flat.is_none_or(|(_, least)| ratio < least) {
+                    seen.too_flat = Some((contact.point, ratio));
+                }
                 return;
             }
             seen.candidates = seen.candidates.saturating_add(1);
@@ -184,6 +256,9 @@ impl<T: Real> SoftFinger<T> {
         }
         if seen.beyond_range {
             return Resolution::NoContact(NoContact::NotFinite);
+        }
+        if let (Some((point, friction_ratio)), Search::Complete) = (seen.too_flat, search) {
+            return Resolution::NoContact(NoContact::BeyondFriction { point, friction_ratio });
         }
         Resolution::NoContact(match (search, seen.outside) {
             (_, Some(point)) => NoContact::OutsideActiveRegion { point },
@@ -233,6 +308,18 @@ stored! {
     |model| {
         #[serde(rename = "least_force_N", default = "T::zero")]
         least_force: T = model.least_force,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        greatest_friction: Option<T> = model.greatest_friction,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        torque_arm_m: Option<T> = model.torque_arm,
     },
     SoftFinger::new(least_force)
+        .and_then(|model| match greatest_friction {
+            Some(friction) => model.with_greatest_friction(friction),
+            None => Ok(model),
+        })
+        .and_then(|model| match torque_arm_m {
+            Some(arm) => model.with_torque_arm(arm),
+            None => Ok(model),
+        })
 }

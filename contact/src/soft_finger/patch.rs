@@ -65,6 +65,9 @@ impl Digits for LocalSurface {
         let from = |origin: &Vector3<f64>| plus_times(point, exactly(origin), W::exactly(-1.0));
         let any = |normal: Three<W>| tangents(&rounded(normal)).0;
         match self {
+            Self::Facets => {
+                Seen { height: zero, normal: [zero; 3], around: Vector3::zeros(), curvatures: [0.0; 2] }
+            }
             Self::Plane { point: origin, normal } => {
                 let normal = unit(exactly(normal)).1;
                 let height = dot(from(origin), normal);

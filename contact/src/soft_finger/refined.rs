@@ -40,6 +40,7 @@ pub(crate) fn refined<T: Real, S: SoftFingerSurface<T>>(
     contact: &SoftContact<T>,
 ) -> SoftContact<T> {
     match surface.patch(&contact.point) {
+        Some(LocalSurface::Facets) => *contact,
         Some(patch) => refined_on(wrench, &patch, &|point| surface.patch(point), contact),
         None => mended(wrench, surface, contact),
     }

@@ -20,6 +20,8 @@ mod heights;
 mod honesty;
 mod jacobians;
 mod limits;
+mod meshes;
+mod misses;
 mod moved;
 mod parameters;
 mod pillow;

@@ -14,7 +14,7 @@ use super::probe::Probe;
 use super::split::{Group, Item};
 
 /// Levels of nodes in any tree: enough for 2³² triangles by halves.
-const MOST_LEVELS: usize = 14;
+pub(super) const MOST_LEVELS: usize = 14;
 /// Lists are cleared for every line: they are short where that is done word by word.
 const IS_WIDE: bool = cfg!(target_pointer_width = "64");
 /// Nodes on a line's list of those to be looked at: as long as there are no more, they are looked at in the
@@ -24,7 +24,7 @@ const MANY_OPEN: usize = if IS_WIDE { 128 } else { 16 };
 const MOST_OPEN: usize = MANY_OPEN + WIDTH + (WIDTH - 1) * MOST_LEVELS + WIDTH;
 /// Packets that are collected before they are looked at.
 const MOST_LEAVES: usize = if IS_WIDE { 64 } else { 24 };
-const ROOT: u32 = 0;
+pub(super) const ROOT: u32 = 0;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Bvh<T: Real> {
@@ -160,7 +160,16 @@ impl<T: Real> Bvh<T> {
         }
     }
 
-    fn triangles_of(&self, packet: usize) -> core::ops::Range<usize> {
+    pub(super) fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    pub(super) fn packet_count(&self) -> usize {
+        self.packets.len()
+    }
+
+    #[inline]
+    pub(super) fn triangles_of(&self, packet: usize) -> core::ops::Range<usize> {
         match self.firsts.get(packet..packet + 2) {
             Some([first, next]) => *first as usize..*next as usize,
             _ => 0..0,

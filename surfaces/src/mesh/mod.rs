@@ -3,6 +3,7 @@
 mod bvh;
 mod closest;
 mod crossing;
+mod facing;
 mod fans;
 mod fetch;
 mod lanes;
@@ -15,12 +16,14 @@ mod split;
 mod stl;
 mod topology;
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 use fingertip_wrench::{Line, Real};
 use nalgebra::{Matrix3, Vector3};
 
 use self::bvh::Bvh;
+use self::facing::{Asked, Facings};
 use self::fans::Fans;
 use crate::numeric::vectors::{foot, is_finite};
 use crate::{ActiveSurface, ClosestApproach, Corner, Crossing, Extent, Level, SmoothSurface};
@@ -42,6 +45,8 @@ pub struct Mesh<T: Real> {
     /// In the order of the tree's leaves.
     triangles: Vec<[u32; 3]>,
     fans: Fans,
+    /// Out of the way of those who never ask.
+    facings: Box<Facings>,
     bvh: Bvh<T>,
 }
 
@@ -61,15 +66,18 @@ impl<T: Real> Mesh<T> {
             order.iter().filter_map(|k| parts.triangles.get(*k as usize).copied()).collect();
         let (vertices, triangles) = in_order_of_use(&parts.vertices, &triangles);
         let radius = vertices.iter().fold(T::zero(), |r, v| r.max(v.norm_squared())).root();
-        Ok(Self {
+        let mut mesh = Self {
             fans: Fans::new(vertices.len(), &triangles),
+            facings: Box::default(),
             centre: parts.centre,
             scale: parts.scale,
             radius: radius * T::literal(1.0001),
             vertices,
             triangles,
             bvh,
-        })
+        };
+        *mesh.facings = Facings::new(&mesh, &mesh.bvh);
+        Ok(mesh)
     }
 
     /// From the text or bytes of an STL file, ASCII or binary, in units of `metres_per_unit`
@@ -153,16 +161,51 @@ impl<T: Real> Mesh<T> {
     }
 
     /// A vertex as stored.
-    #[inline]
+    #[inline(always)]
     #[doc(hidden)]
     pub fn stored(&self, vertex: u32) -> Option<&Vector3<T>> {
         self.vertices.get(vertex as usize)
     }
 
-    /// Every vertex with those at the other ends of its edges.
+    /// The triangles around a vertex, each by its two other corners in their order.
+    #[inline(always)]
     #[doc(hidden)]
-    pub fn fans(&self) -> impl Iterator<Item = (u32, &[u32])> + '_ {
-        self.fans.iter()
+    pub fn fan(&self, vertex: u32) -> impl Iterator<Item = [u32; 2]> + '_ {
+        self.fans.around(vertex).iter().filter_map(move |k| {
+            let [a, b, c] = *self.triangles.get(*k as usize)?;
+            let (from_a, from_b) = (a == vertex, b == vertex);
+            // Without a branch, since any of the corners may be it.
+            let next = if from_a {
+                b
+            } else if from_b {
+                c
+            } else {
+                a
+            };
+            let last = if from_a {
+                c
+            } else if from_b {
+                a
+            } else {
+                b
+            };
+            Some([next, last])
+        })
+    }
+
+    /// Calls `visit` with ranges of triangles and of vertices: all that a wrench, about the origin of the
+    /// stored vertices and in their unit, may touch as a soft finger does, and few others. `side` is 1 if the
+    /// torque that is left at a contact points along the normal, −1 if against it, and 0 if it may do either.
+    #[inline]
+    #[doc(hidden)]
+    pub fn may_be_touched(
+        &self,
+        force: &Vector3<T>,
+        torque: &Vector3<T>,
+        side: T,
+        visit: impl FnMut(core::ops::Range<usize>, core::ops::Range<u32>),
+    ) {
+        self.facings.visit(&self.bvh, &Asked::new(force, torque, side), visit);
     }
 
     #[inline]

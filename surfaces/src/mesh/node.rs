@@ -138,6 +138,17 @@ impl Node {
         }
     }
 
+    /// Each child with its lane: a node, or else a packet.
+    pub(super) fn children(&self) -> impl Iterator<Item = (usize, Result<u32, u32>)> + '_ {
+        let [[_, halves], ..] = &self.boxes;
+        (0..WIDTH).zip(0..).filter(|(k, _)| halves.get(*k).is_some_and(|half| *half >= 0)).map(|(k, lane)| {
+            let is_node = self.nodes >> lane & 1 == 1;
+            let child = if is_node { Ok(self.node) } else { Err(self.packet) };
+            let at = |first: u32| first.wrapping_add(lane);
+            (k, child.map(at).map_err(at))
+        })
+    }
+
     /// Each child, with centre and radius of the ball around its box.
     pub(super) fn balls<T: Real>(&self, grid: Grid) -> impl Iterator<Item = (u32, Vector3<T>, T)> + '_ {
         let unit = grid.steps_per_unit.map(|steps| 1.0 / steps);

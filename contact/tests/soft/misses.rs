@@ -1,0 +1,164 @@
+//! Pure forces that miss are no contacts, however their torque is rounded, and friction is what tells a contact.
+
+use fingertip_contact::{ContactModel, NoContact, PointContact, Resolution, SoftFinger, SoftFingerSurface};
+use fingertip_surfaces::testing::ball_of_triangles;
+use fingertip_surfaces::{Heightfield, Mesh, Sphere, Torus};
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+
+use crate::wrenches::{Case, Random};
+
+/// The force of the torus that was told to spin with 15.7 mN·m, at a cosine of incidence of 4e-17.
+#[test]
+fn a_pure_force_past_a_torus_misses_it() {
+    let torus = Torus::<f64>::new(0.01, 0.004).unwrap();
+    let (force, point) = (Vector3::new(1.0, -2.0, 0.3), Vector3::new(0.010, 0.012, 0.006));
+    let wrench = Wrench::from_force_at(&point, force);
+    let found = SoftFinger::new(0.0).unwrap().resolve(&wrench, &torus);
+    let Resolution::NoContact(NoContact::Misses { closest: Some(closest) }) = found else {
+        panic!("{found:?}")
+    };
+    assert!((closest.gap - 0.0039).abs() < 1e-4, "{closest:?}");
+}
+
+/// A line crosses a shape or not: a pure force along it has contacts or none, and none spins.
+fn as_the_line_says<T: Real, S: SoftFingerSurface<T>>(name: &str, surface: &S) {
+    let (mut random, mut missed, mut met) = (Random::new(901), 0, 0);
+    let model = SoftFinger::new(T::zero()).unwrap();
+    for _ in 0..1500 {
+        let number = |v: Vector3<f64>| v.map(T::literal);
+        let (force, point) = (number(random.direction()), number(random.direction() * 0.02));
+        let wrench = Wrench::from_force_at(&point, force);
+        let axis = wrench.line_of_action().unwrap();
+        let (mut entries, mut nearly) = (0, false);
+        surface.crossings(&axis.line, |crossing| {
+            let cosine = -axis.line.direction.dot(&crossing.normal).to_f64();
+            nearly |= cosine.abs() < 0.05;
+            entries += usize::from(cosine > 0.0);
+        });
+        let gap = surface.closest_approach(&axis.line).map_or(1.0, |closest| closest.gap.to_f64());
+        nearly |= entries == 0 && gap < 1e-5;
+        if nearly {
+            continue;
+        }
+        match model.resolve(&wrench, surface) {
+            Resolution::Contact(contact) => {
+                assert!(entries > 0, "{name} {wrench:?} {contact:?}");
+                let spin = contact.spin_torque.to_f64().abs();
+                assert!(spin < 100.0 * 0.02 * T::EPSILON.to_f64(), "{name} {wrench:?} {contact:?}");
+                met += 1;
+            }
+            Resolution::NoContact(NoContact::Misses { .. } | NoContact::OnlyPulling { .. }) => {
+                assert!(entries == 0, "{name} {wrench:?}");
+                missed += 1;
+            }
+            other => panic!("{name} {wrench:?} {other:?}"),
+        }
+    }
+    assert!(met > 20 && missed > 100, "{name} {met} {missed}");
+}
+
+fn ball<T: Real>() -> Mesh<T> {
+    let (vertices, triangles) = ball_of_triangles::<T>(7, 9, None);
+    let vertices: Vec<_> = vertices.iter().map(|v| v * T::literal(0.012)).collect();
+    Mesh::new(&vertices, &triangles).unwrap()
+}
+
+fn pad<T: Real>() -> Heightfield<T> {
+    let at = |k: usize| 0.002 * k as f64 - 0.008;
+    let heights =
+        (0..81).map(|k| T::literal(-(at(k % 9).powi(2) / 0.020 + at(k / 9).powi(2) / 0.030))).collect();
+    Heightfield::new([T::literal(-0.008); 2], [T::literal(0.002); 2], 9, heights).unwrap()
+}
+
+#[test]
+fn pure_forces_touch_where_their_line_enters() {
+    fn all<T: Real>() {
+        as_the_line_says::<T, _>("torus", &Torus::new(T::literal(0.010), T::literal(0.004)).unwrap());
+        as_the_line_says::<T, _>("mesh", &ball::<T>());
+        as_the_line_says::<T, _>("heightfield", &pad::<T>());
+    }
+    all::<f64>();
+    all::<f32>();
+}
+
+/// 2 N that pass a sphere of 13 mm at 14 mm: whatever noise is along them, no friction holds them.
+#[test]
+fn noise_makes_no_contact_of_a_miss() {
+    let sphere = Sphere::<f64>::centred(0.013).unwrap();
+    let force = Vector3::new(0.0, 2.0, 0.0);
+    let model = SoftFinger::new(0.0).and_then(|model| model.with_greatest_friction(10.0)).unwrap();
+    for noise in [1e-12, 1e-9, 1e-6, 1e-5] {
+        let torque = Vector3::new(0.014, 0.0, 0.0).cross(&force) + Vector3::y() * noise;
+        let found = model.resolve(&Wrench::on_fingertip(force, torque), &sphere);
+        let Resolution::NoContact(NoContact::BeyondFriction { point, friction_ratio }) = found else {
+            panic!("{noise} {found:?}")
+        };
+        // It is the contact that there would be: on the sphere, with that ratio.
+        let pressing = -force.dot(&point) / 0.013;
+        assert!((point.norm() - 0.013).abs() < 1e-12 && pressing > 0.0, "{found:?}");
+        let ratio = (force + point / 0.013 * pressing).norm() / pressing;
+        assert!((friction_ratio / ratio - 1.0).abs() < 1e-4 && ratio > 10.0, "{ratio} {found:?}");
+    }
+}
+
+/// A contact that friction holds is found as without a limit; one that it does not hold is not.
+#[test]
+fn the_limit_is_the_ellipse_of_force_and_spin() {
+    let (sphere, torus) = (Sphere::<f64>::centred(0.013).unwrap(), Torus::new(0.01, 0.004).unwrap());
+    let arm = 0.002;
+    let mut random = Random::new(902);
+    let free = SoftFinger::new(0.0).unwrap();
+    let (mut held, mut refused) = (0, 0);
+    for _ in 0..400 {
+        let case = Case::random(&mut random, &sphere, 0.013, [0.001, 0.3], 1.0);
+        let pressing = case.incidence;
+        let needed = (1.0 - pressing * pressing + (case.spin / arm).powi(2)).sqrt() / pressing;
+        for (friction, holds) in [(needed * 1.001, true), (needed * 0.999, false)] {
+            let model = free.with_greatest_friction(friction).and_then(|m| m.with_torque_arm(arm)).unwrap();
+            match (model.resolve(&case.wrench, &sphere), holds) {
+                (Resolution::Contact(contact), true) => {
+                    assert!((contact.point - case.point).norm() < 1e-9, "{case:?} {contact:?}");
+                    held += 1;
+                }
+                (Resolution::NoContact(NoContact::BeyondFriction { point, friction_ratio }), false) => {
+                    assert!((point - case.point).norm() < 1e-9, "{case:?}");
+                    assert!((friction_ratio / needed - 1.0).abs() < 1e-6, "{friction_ratio} {needed}");
+                    refused += 1;
+                }
+                found => panic!("{case:?} {found:?}"),
+            }
+        }
+        // Of several contacts, those that friction does not hold do not count.
+        let case = Case::random(&mut random, &torus, 0.014, [0.01, 0.3], 1.0);
+        let mut within = Vec::new();
+        let _ = torus.soft_contacts(&case.wrench, None, |contact| {
+            let pressing = -case.wrench.force().dot(&contact.normal);
+            if (1.0 - pressing * pressing).max(0.0).sqrt() <= 2.0 * pressing {
+                within.push(contact.point);
+            }
+        });
+        let found = free.with_greatest_friction(2.0).unwrap().resolve(&case.wrench, &torus);
+        assert_eq!(found.contact().map_or(0, |c| usize::from(c.alternatives) + 1), within.len(), "{case:?}");
+    }
+    assert_eq!((held, refused), (400, 400));
+}
+
+/// With the same limit, a point contact and a soft finger refuse the same pure force.
+#[test]
+fn both_models_have_one_limit() {
+    let (sphere, mut random) = (Sphere::<f64>::centred(0.013).unwrap(), Random::new(903));
+    let soft = SoftFinger::new(0.0).and_then(|model| model.with_greatest_friction(0.7)).unwrap();
+    let point = PointContact::new(0.0).and_then(|model| model.with_greatest_friction(0.7)).unwrap();
+    for _ in 0..300 {
+        let (place, normal) = random.place(&sphere, 0.013);
+        let wrench = Wrench::from_force_at(&place, random.force(&normal, 0.05, 1.0));
+        let [soft, point] = [soft.resolve(&wrench, &sphere), point.resolve(&wrench, &sphere)];
+        assert_eq!(soft.contact().is_some(), point.contact().is_some(), "{wrench:?} {soft:?} {point:?}");
+    }
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        assert!(SoftFinger::new(0.0).unwrap().with_greatest_friction(bad).is_err(), "{bad}");
+        assert!(SoftFinger::new(0.0).unwrap().with_torque_arm(bad).is_err(), "{bad}");
+    }
+    assert!(SoftFinger::new(0.0).unwrap().with_torque_arm(0.0).is_err());
+}
