@@ -5,6 +5,7 @@ extern crate alloc;
 mod columns;
 mod doubts;
 mod estimate;
+mod export;
 mod fault;
 mod formula;
 mod friction;
@@ -23,6 +24,7 @@ mod surface;
 mod uncertainty;
 
 pub use estimate::{Estimate, Learnt};
+pub use export::{ExportError, Scalar};
 pub use fault::{SceneError, SceneFault, SceneProblem, VERSION};
 pub use formula::BadFormula;
 pub use friction::{Friction, Limit};

@@ -4,6 +4,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod choices;
+mod export;
+#[allow(dead_code, unreachable_pub)]
+mod exported;
 mod formula;
 mod hostile;
 mod parts;

@@ -1,0 +1,194 @@
+//! Exported modules: they are what is exported today, they compile, and they give the bits of the pipeline at run time.
+
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+use fingertip::contact::ContactModel;
+use fingertip::surfaces::{ActiveSurface, DynSurface, Extent, SmoothSurface};
+use fingertip::wrench::{Real, Uncompensated, Wrench};
+use fingertip::{Absent, Fingertip, GripStage, SlipStage, Step};
+use fingertip_scene::registry::entries;
+use fingertip_scene::{Pipeline, Scalar, Scene};
+use nalgebra::Vector3;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+use crate::choices::scene_with;
+use crate::exported;
+
+fn example(name: &str) -> Scene {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scenes");
+    Scene::load(folder.join(format!("{name}.toml"))).unwrap()
+}
+
+fn file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/all/exported/{name}.rs"))
+}
+
+/// That a file holds a text; with `FINGERTIP_ACCEPT=1` it is written there instead.
+fn holds(name: &str, text: &str) {
+    let path = file(name);
+    if env::var_os("FINGERTIP_ACCEPT").is_some() {
+        fs::write(&path, text).unwrap();
+    }
+    let found = fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        found == text,
+        "{} is not what is exported today; run this test with FINGERTIP_ACCEPT=1 and look at the difference",
+        path.display()
+    );
+}
+
+#[test]
+fn the_modules_are_what_is_exported_today() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scenes");
+    for entry in fs::read_dir(examples).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|ending| ending == "toml") {
+            let name = path.file_stem().unwrap().to_str().unwrap();
+            holds(name, &example(name).to_rust(Scalar::F64, None).unwrap());
+        }
+    }
+    for name in ["nano17_soft_finger", "paper_sphere", "rubber_tip"] {
+        holds(&format!("{name}_f32"), &example(name).to_rust(Scalar::F32, None).unwrap());
+    }
+}
+
+/// Every choice, by a module of its own in one file.
+#[test]
+fn every_choice_is_exported() {
+    let mut text = "//! Every choice of the registry, exported.\n".to_owned();
+    for entry in entries() {
+        let scene = Scene::from_text(&scene_with(entry)).unwrap();
+        let module = scene.to_rust(Scalar::F64, None).unwrap_or_else(|error| panic!("{entry:?}: {error}"));
+        assert!(scene.to_rust(Scalar::F32, None).is_ok(), "{entry:?}");
+        let module: String = module.lines().map(|line| format!("    {line}\n")).collect();
+        text.push_str(&format!("\npub mod {} {{\n{module}}}\n", module_of(entry.section, entry.name)));
+    }
+    holds("choices", &text);
+}
+
+fn module_of(section: &str, name: &str) -> String {
+    format!("{}_{name}", section.replace('.', "_"))
+}
+
+/// Pushes from all sides on and beside a surface, one in ten too light to be a contact.
+fn pushes_on<T: Real>(surface: &DynSurface<T>, count: usize) -> impl Iterator<Item = Wrench<T>> + use<T> {
+    let Extent { centre, radius } = surface.extent();
+    let reach = radius.to_f64().min(0.03) * 0.6;
+    let mut random = Pcg64Mcg::seed_from_u64(23);
+    (0..count).map(move |k| {
+        let mut vector = |size: f64| Vector3::from_fn(|_, _| T::literal(random.random_range(-size..size)));
+        let force = vector(4.0) * T::literal(if k % 10 == 9 { 1e-4 } else { 1.0 });
+        let at = centre + vector(reach);
+        Wrench::on_fingertip(force, at.cross(&force) + vector(2e-3))
+    })
+}
+
+/// The same wrenches through both, which must say the same, bit for bit.
+fn agree<T, S, M, F, D>(
+    what: &str,
+    mut tip: Fingertip<Absent, S, M, F, D, Uncompensated, Absent>,
+    mut pipeline: Pipeline<T>,
+    count: usize,
+) where
+    T: Real,
+    S: ActiveSurface<T>,
+    M: ContactModel<T, S>,
+    F: GripStage<T>,
+    D: SlipStage<T>,
+{
+    let step = T::literal(1e-3);
+    let (mut last, mut touched) = (None, 0);
+    let pushes = pushes_on(pipeline.surface(), count);
+    for push in pushes {
+        let felt = pipeline.sense(push, step);
+        let touch = tip.sense_wrench(push, Step::of(step).with_last(last));
+        last = touch.point();
+        touched += usize::from(last.is_some());
+        // As texts, which tell a zero from a negative one.
+        assert_eq!(format!("{:?}", felt.touch.resolution), format!("{:?}", touch.resolution), "{what}");
+        assert_eq!(felt.touch.force, touch.force, "{what}");
+        assert_eq!(felt.margin(), touch.grip.as_ref().and_then(F::margin), "{what}");
+        assert_eq!(felt.touch.slip, D::slip(&touch.slip), "{what}");
+    }
+    assert!(touched * 20 > count, "{what}: {touched} of {count}");
+}
+
+macro_rules! each {
+    ($count:expr, $scene:expr, $t:ty: $($name:ident),*) => {
+        $(agree::<$t, _, _, _, _>(
+            stringify!($name),
+            exported::$name::tip().unwrap(),
+            $scene(stringify!($name)).pipeline_in::<$t>().unwrap(),
+            $count,
+        );)*
+    };
+}
+
+#[test]
+fn the_examples_give_the_bits_of_the_pipeline() {
+    each!(2000, example, f64: auto_capsule, capsule, ellipsoid, nano17_cylinder, nano17_soft_finger, paper_sphere,
+        plane, rubber_tip);
+    each!(40, example, f64: formula_pad);
+    let narrow = |name: &str| example(name.trim_end_matches("_f32"));
+    each!(2000, narrow, f32: nano17_soft_finger_f32, paper_sphere_f32, rubber_tip_f32);
+}
+
+#[test]
+fn every_choice_gives_the_bits_of_the_pipeline() {
+    let mut entries = entries();
+    macro_rules! each {
+        ($($name:ident),* $(,)?) => {
+            $({
+                let entry = entries.next().unwrap();
+                assert_eq!(module_of(entry.section, entry.name), stringify!($name));
+                let pipeline = Scene::from_text(&scene_with(entry)).unwrap().pipeline();
+                agree(stringify!($name), exported::choices::$name::tip().unwrap(), pipeline, 60);
+            })*
+        };
+    }
+    each!(
+        surface_plane,
+        surface_disk,
+        surface_rectangle,
+        surface_sphere,
+        surface_ellipsoid,
+        surface_cylinder,
+        surface_capped_cylinder,
+        surface_elliptic_cylinder,
+        surface_capsule,
+        surface_cone,
+        surface_frustum,
+        surface_torus,
+        surface_superquadric,
+        surface_rounded_box,
+        surface_paraboloid,
+        surface_revolution,
+        surface_heightfield,
+        surface_mesh,
+        surface_formula,
+        surface_posed,
+        surface_trimmed,
+        surface_compound,
+        contact_point,
+        contact_soft_finger,
+        contact_auto,
+        contact_skin_linear,
+        contact_skin_power,
+        contact_skin_hertz,
+        contact_skin_local_hertz,
+        contact_skin_table,
+        friction_coulomb,
+        friction_anisotropic,
+        friction_soft_finger,
+        friction_power,
+        friction_load_dependent,
+        friction_uncertain,
+        slip_drop,
+        slip_threshold,
+        slip_likelihood_ratio,
+        slip_stick_slip,
+    );
+    assert!(entries.next().is_none());
+}
