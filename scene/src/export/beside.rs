@@ -117,7 +117,7 @@ impl<T: Real + DeserializeOwned> Writer<T> {
         let noise = self.fill(NOISE, estimate)?;
         Ok(Beside {
             items: self.items(ESTIMATE, estimate)?.replace("NOISE", &noise),
-            call: "With `let (mut at_rest, mut sliding) = (static_friction()?, kinetic_friction()?)` and `let mut left = \
+            call: "With `let (mut at_rest, mut sliding) = (static_friction()?, kinetic_friction()?)`\nand `let mut left = \
                    0.0`, the friction is learnt by\n    \
                    let slips = touch.slip == friction::SlipVerdict::Slipping;\n    \
                    left = if slips { SLIDE_S } else { left - time_step };\n    \

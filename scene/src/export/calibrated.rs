@@ -17,6 +17,10 @@ pub(super) struct Solved {
     pub(super) zero: Typed,
     /// The module of its constants.
     pub(super) module: String,
+    /// What turns the sensor matrix round, where the scene asks for that.
+    pub(super) opposite: String,
+    /// Whether a reading has a temperature.
+    pub(super) is_warm: bool,
     /// The type of a reading.
     pub(super) reading: String,
 }
@@ -76,9 +80,11 @@ impl<T: Real + DeserializeOwned> Writer<T> {
             solver: Typed { of, make: format!("wrench::{name}::new(&{matrix})?") },
             zero,
             module: format!(
-                "{opposite}\n/// The calibration of the sensor.\npub mod calibration {{\n    \
+                "\n/// The calibration of the sensor.\npub mod calibration {{\n    \
                  use fingertip::wrench as fingertip_wrench;\n\n{constants}}}\n"
             ),
+            opposite,
+            is_warm: file.temperature.is_some(),
             reading,
         })
     }

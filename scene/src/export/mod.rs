@@ -4,6 +4,7 @@ mod beside;
 mod calibrated;
 mod formula;
 mod json;
+mod layout;
 mod module;
 mod resolved;
 mod shapes;

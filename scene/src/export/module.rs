@@ -11,6 +11,7 @@ use toml::{Table, Value};
 use super::ExportError;
 use super::beside::Beside;
 use super::calibrated::Solved;
+use super::layout::{comment, laid_out};
 use super::resolved::{read, resolve};
 use super::shapes::ON_THE_HEAP;
 use super::template::{Typed, Writer};
@@ -108,8 +109,10 @@ pub(super) fn of<T: Real + DeserializeOwned>(
         beside.push(writer.grip(grip, stages.detector.is_some())?);
     }
     let items = items::<T>(scene, &stages, &beside, &writer.statics);
-    let (header, imports) = (header::<T>(scene, &stages, &beside, &items), imports(&items));
-    Ok(format!("{header}{imports}{}", with_imports(&items)))
+    let header = header::<T>(scene, &stages, &beside, &items);
+    // The module of a calibration stands for itself.
+    let calibration = stages.solved.as_ref().map_or("", |solved| solved.module.as_str());
+    Ok(format!("{header}{}{}{calibration}", imports(&items), laid_out(&with_imports(&items))))
 }
 
 fn uncertainty<T: Real>(scene: &Scene, resolved: &Table) -> Result<Option<Uncertainty<T>>, ExportError> {
@@ -142,7 +145,7 @@ fn header<T: Real>(scene: &Scene, stages: &Stages, beside: &[Beside], items: &st
         env!("CARGO_PKG_VERSION"),
     );
     for line in scene.meaning() {
-        let _ = writeln!(text, "//   {}", in_a_line(&line));
+        text.push_str(&comment(&in_a_line(&line), 3, 13));
     }
     let mut features = vec!["\"libm\""];
     features.extend(on_the_heap(items).then_some("\"alloc\""));
@@ -180,14 +183,13 @@ fn usage(scene: &Scene, stages: &Stages, beside: &[Beside]) -> String {
              {sense}\n    \
              last = touch.point();\n"
     );
-    if stages.solved.is_some()
-        && let Some(rest) = scene.rest()
-    {
-        let _ = write!(
-            text,
-            "\nThe sensor is unloaded for {rest:?} s at the start: the mean of a `TareAccumulator` over that is the zero, \
-             which\n`tip.set_zero` puts in place.\n"
-        );
+    if let Some(rest) = scene.rest() {
+        let then = match &stages.solved {
+            None => "the mean of force and torque there is to be taken off both.",
+            Some(solved) if solved.is_warm => "the zero stays that of the calibration at its temperature.",
+            Some(_) => "`TareAccumulator` makes a zero of it, which `tip.set_zero` puts in place.",
+        };
+        let _ = write!(text, "\nThe sensor is unloaded for {rest:?} s at the start: {then}\n");
     }
     if stages.detector.is_some() {
         text.push_str(
@@ -234,13 +236,9 @@ fn imports(items: &str) -> String {
 const NUMERIC: [&str; 7] =
     ["ComplexField", "Matrix3", "Matrix6", "RealField", "SVector", "Vector3", "Vector6"];
 
-/// The items with imported names; the module of a calibration stands for itself.
+/// The items with imported names.
 fn with_imports(items: &str) -> String {
-    let (items, calibration) = items.split_at(items.find("pub mod calibration").unwrap_or(items.len()));
-    let short = NUMERIC
-        .iter()
-        .fold(items.to_owned(), |items, name| items.replace(&format!("nalgebra::{name}"), name));
-    short + calibration
+    NUMERIC.iter().fold(items.to_owned(), |items, name| items.replace(&format!("nalgebra::{name}"), name))
 }
 
 /// All items of the module.
@@ -269,7 +267,7 @@ fn items<T: Real>(scene: &Scene, stages: &Stages, beside: &[Beside], statics: &[
     let faults = faults(&text);
     text.push_str(&faults);
     if let Some(solved) = &stages.solved {
-        text.push_str(&solved.module);
+        text.push_str(&solved.opposite);
     }
     text
 }

@@ -5,6 +5,7 @@
 
 mod choices;
 mod export;
+mod export_beside;
 #[allow(dead_code, unreachable_pub)]
 mod exported;
 mod formula;

@@ -5,7 +5,8 @@
 //   input        convention = "on_fingertip"
 //   surface      capsule, a cylinder with round ends; half_length_m = 0.01, radius_m = 0.008
 //   pose         translation_m = [0.0, 0.0, 0.02]
-//   contact      auto, point contact or soft finger, whichever the wrench speaks for, given the noise in [uncertainty]; greatest_pitch_m = 0.01, least_force_N = 0.1
+//   contact      auto, point contact or soft finger, whichever the wrench speaks for, given the noise in
+//                [uncertainty]; greatest_pitch_m = 0.01, least_force_N = 0.1
 //   uncertainty  force_noise_N = 0.01, position_m = 0.0002, torque_noise_Nm = 0.0001
 //
 // It needs neither heap nor standard library, and in Cargo.toml:
@@ -46,8 +47,18 @@ pub type Tip = Fingertip<
 /// Never for the numbers below.
 #[allow(clippy::approx_constant)]
 pub fn tip() -> Result<Tip, BadTip> {
-    let surface = surfaces::Posed::new(surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.01, 0.008)?, wrench::RigidTransform::from_matrix(Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), Vector3::new(0.0, 0.0, 0.02))?);
-    let model = contact::Auto::new(contact::PointContact::new(0.1)?, contact::SoftFinger::new(0.1)?, Matrix6::from_diagonal(&Vector6::from([0.0001, 0.0001, 0.0001, 1e-8, 1e-8, 1e-8])))?.with_greatest_pitch(0.01, 3.0)?;
+    let surface = surfaces::Posed::new(
+        surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.01, 0.008)?,
+        wrench::RigidTransform::from_matrix(
+            Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+            Vector3::new(0.0, 0.0, 0.02),
+        )?,
+    );
+    let model = contact::Auto::new(
+        contact::PointContact::new(0.1)?,
+        contact::SoftFinger::new(0.1)?,
+        Matrix6::from_diagonal(&Vector6::from([0.0001, 0.0001, 0.0001, 1e-8, 1e-8, 1e-8])),
+    )?.with_greatest_pitch(0.01, 3.0)?;
     Ok(Fingertip::builder()
         .contact(surface, model)
         .build())

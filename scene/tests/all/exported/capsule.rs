@@ -3,7 +3,8 @@
 // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
 //
 //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
-//   surface      capsule, a cylinder with round ends; axis = [1.0, 0.0, 0.0], centre_m = [0.03, 0.0, 0.0], half_length_m = 0.01, radius_m = 0.007
+//   surface      capsule, a cylinder with round ends; axis = [1.0, 0.0, 0.0], centre_m = [0.03, 0.0, 0.0],
+//                half_length_m = 0.01, radius_m = 0.007
 //   contact      greatest_friction_ratio = 2.0, least_force_N = 0.2
 //
 // It needs neither heap nor standard library, and in Cargo.toml:

@@ -122,7 +122,8 @@ pub mod surface_rectangle {
     // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
-    //   surface      rectangle, a rectangular plate; first_half_edge_m = [0.01, 0.0, 0.0], second_half_edge_m = [0.0, 0.02, 0.0]
+    //   surface      rectangle, a rectangular plate; first_half_edge_m = [0.01, 0.0, 0.0], second_half_edge_m =
+    //                [0.0, 0.02, 0.0]
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -158,7 +159,11 @@ pub mod surface_rectangle {
     /// Never for the numbers below.
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
-        let surface = surfaces::Rectangle::new(Vector3::zeros(), Vector3::new(0.01, 0.0, 0.0), Vector3::new(0.0, 0.02, 0.0))?;
+        let surface = surfaces::Rectangle::new(
+            Vector3::zeros(),
+            Vector3::new(0.01, 0.0, 0.0),
+            Vector3::new(0.0, 0.02, 0.0),
+        )?;
         let model = contact::PointContact::new(0.0)?;
         Ok(Fingertip::builder()
             .contact(surface, model)
@@ -412,7 +417,8 @@ pub mod surface_elliptic_cylinder {
     // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
-    //   surface      elliptic_cylinder, an elliptic cylinder, without ends, open or capped; ends_m = { capped = 0.01 }, semi_axes_m = [0.008, 0.012]
+    //   surface      elliptic_cylinder, an elliptic cylinder, without ends, open or capped; ends_m = { capped =
+    //                0.01 }, semi_axes_m = [0.008, 0.012]
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -564,7 +570,11 @@ pub mod surface_cone {
     /// Never for the numbers below.
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
-        let surface = surfaces::Cone::new(Vector3::zeros(), Vector3::new(0.0, 0.0, -1.0), 0.5235987755982988)?.with_depth(0.02)?;
+        let surface = surfaces::Cone::new(
+            Vector3::zeros(),
+            Vector3::new(0.0, 0.0, -1.0),
+            0.5235987755982988,
+        )?.with_depth(0.02)?;
         let model = contact::PointContact::new(0.0)?;
         Ok(Fingertip::builder()
             .contact(surface, model)
@@ -586,7 +596,8 @@ pub mod surface_frustum {
     // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
-    //   surface      frustum, a cone that is cut off; base_radius_m = 0.012, height_m = 0.02, top_radius_m = 0.006
+    //   surface      frustum, a cone that is cut off; base_radius_m = 0.012, height_m = 0.02, top_radius_m =
+    //                0.006
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -702,7 +713,8 @@ pub mod surface_superquadric {
     // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
-    //   surface      superquadric, between a box, an ellipsoid and an octahedron; exponents = [0.7, 0.8], semi_axes_m = [0.008, 0.01, 0.013]
+    //   surface      superquadric, between a box, an ellipsoid and an octahedron; exponents = [0.7, 0.8],
+    //                semi_axes_m = [0.008, 0.01, 0.013]
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -760,7 +772,8 @@ pub mod surface_rounded_box {
     // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
-    //   surface      rounded_box, a box with round edges; half_extents_m = [0.008, 0.01, 0.013], rounding_m = 0.003
+    //   surface      rounded_box, a box with round edges; half_extents_m = [0.008, 0.01, 0.013], rounding_m =
+    //                0.003
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -818,7 +831,8 @@ pub mod surface_paraboloid {
     // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
-    //   surface      paraboloid, a bowl with two radii of curvature at its apex; depth_m = 0.01, radii_m = [0.01, 0.015]
+    //   surface      paraboloid, a bowl with two radii of curvature at its apex; depth_m = 0.01, radii_m = [0.01,
+    //                0.015]
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -876,7 +890,8 @@ pub mod surface_revolution {
     // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
-    //   surface      revolution, a profile turned about an axis; profile_m = [[-0.01, 0.0], [-0.006, 0.006], [0.0, 0.008], [0.006, 0.006] …
+    //   surface      revolution, a profile turned about an axis; profile_m = [[-0.01, 0.0], [-0.006, 0.006],
+    //                [0.0, 0.008], [0.006, 0.006] …
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -912,7 +927,9 @@ pub mod surface_revolution {
     /// Never for the numbers below.
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
-        let surface = surfaces::Revolution::from_profile([[-0.01, 0.0], [-0.006, 0.006], [0.0, 0.008], [0.006, 0.006], [0.01, 0.0]])?;
+        let surface = surfaces::Revolution::from_profile(
+            [[-0.01, 0.0], [-0.006, 0.006], [0.0, 0.008], [0.006, 0.006], [0.01, 0.0]],
+        )?;
         let model = contact::PointContact::new(0.0)?;
         Ok(Fingertip::builder()
             .contact(surface, model)
@@ -934,7 +951,8 @@ pub mod surface_heightfield {
     // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
-    //   surface      heightfield, heights over a grid; columns = 2, corner_m = [-0.01, -0.01], heights_m = [0.01, 0.01, 0.01, 0.011], spacing_m = [0.02, 0.02]
+    //   surface      heightfield, heights over a grid; columns = 2, corner_m = [-0.01, -0.01], heights_m = [0.01,
+    //                0.01, 0.01, 0.011], spacing_m = [0.02, 0.02]
     //
     // It needs a heap, but no standard library, and in Cargo.toml:
     //
@@ -1001,7 +1019,9 @@ pub mod surface_mesh {
     // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
-    //   surface      mesh, a closed triangle mesh; or `file` (.stl, .obj) and `metres_per_unit`; triangles = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], vertices_m = [[0.01, 0.0, 0.0], [-0.01, 0.01, 0.0], [-0.01, -0.01, 0.0],  …
+    //   surface      mesh, a closed triangle mesh; or `file` (.stl, .obj) and `metres_per_unit`; triangles = [[0,
+    //                2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], vertices_m = [[0.01, 0.0, 0.0], [-0.01, 0.01, 0.0],
+    //                [-0.01, -0.01, 0.0],  …
     //
     // It needs a heap, but no standard library, and in Cargo.toml:
     //
@@ -1102,7 +1122,9 @@ pub mod surface_formula {
     // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
-    //   surface      formula, a shape of your own: where a formula of x, y and z is zero, within a ball; convex = true, outside = "(x/a)^4 + (y/a)^4 + (z/b)^2 - 1", parameters = { a = 0.01, b = 0.013 }, reach_m = 0.018
+    //   surface      formula, a shape of your own: where a formula of x, y and z is zero, within a ball; convex =
+    //                true, outside = "(x/a)^4 + (y/a)^4 + (z/b)^2 - 1", parameters = { a = 0.01, b = 0.013 },
+    //                reach_m = 0.018
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -1184,7 +1206,9 @@ pub mod surface_posed {
     // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
-    //   surface      posed, another shape, turned and moved; rotation_deg = [0.0, 90.0, 0.0], surface = { half_length_m = 0.01, radius_m = 0.008, shape = "capsule"  …, translation_m = [0.0, 0.0, 0.01]
+    //   surface      posed, another shape, turned and moved; rotation_deg = [0.0, 90.0, 0.0], surface = {
+    //                half_length_m = 0.01, radius_m = 0.008, shape = "capsule"  …, translation_m = [0.0, 0.0,
+    //                0.01]
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -1220,7 +1244,13 @@ pub mod surface_posed {
     /// Never for the numbers below.
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
-        let surface = surfaces::Posed::new(surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.01, 0.008)?, wrench::RigidTransform::from_matrix(Matrix3::new(6.123233995736766e-17, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 6.123233995736766e-17), Vector3::new(0.0, 0.0, 0.01))?);
+        let surface = surfaces::Posed::new(
+            surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.01, 0.008)?,
+            wrench::RigidTransform::from_matrix(
+                Matrix3::new(6.123233995736766e-17, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 6.123233995736766e-17),
+                Vector3::new(0.0, 0.0, 0.01),
+            )?,
+        );
         let model = contact::PointContact::new(0.0)?;
         Ok(Fingertip::builder()
             .contact(surface, model)
@@ -1271,7 +1301,8 @@ pub mod surface_trimmed {
     // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
-    //   surface      trimmed, the part of another shape on one side of a plane; region = { inward = [0.0, 0.0, 1.0], point_m = [0.0, 0.0, 0.0] }, surface = { radius_m = 0.013, shape = "sphere" }
+    //   surface      trimmed, the part of another shape on one side of a plane; region = { inward = [0.0, 0.0,
+    //                1.0], point_m = [0.0, 0.0, 0.0] }, surface = { radius_m = 0.013, shape = "sphere" }
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -1307,7 +1338,10 @@ pub mod surface_trimmed {
     /// Never for the numbers below.
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
-        let surface = surfaces::Trimmed::new(surfaces::Sphere::new(Vector3::zeros(), 0.013)?, surfaces::HalfSpace::new(Vector3::zeros(), Vector3::z())?);
+        let surface = surfaces::Trimmed::new(
+            surfaces::Sphere::new(Vector3::zeros(), 0.013)?,
+            surfaces::HalfSpace::new(Vector3::zeros(), Vector3::z())?,
+        );
         let model = contact::PointContact::new(0.0)?;
         Ok(Fingertip::builder()
             .contact(surface, model)
@@ -1329,7 +1363,8 @@ pub mod surface_compound {
     // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
-    //   surface      compound, the union of several shapes; parts = [{ radius_m = 0.01, shape = "sphere" }, { half_length_m = 0. …
+    //   surface      compound, the union of several shapes; parts = [{ radius_m = 0.01, shape = "sphere" }, {
+    //                half_length_m = 0. …
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -1365,7 +1400,10 @@ pub mod surface_compound {
     /// Never for the numbers below.
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
-        let surface = surfaces::Compound::new(surfaces::Sphere::new(Vector3::zeros(), 0.01)?, surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.012, 0.006)?);
+        let surface = surfaces::Compound::new(
+            surfaces::Sphere::new(Vector3::zeros(), 0.01)?,
+            surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.012, 0.006)?,
+        );
         let model = contact::PointContact::new(0.0)?;
         Ok(Fingertip::builder()
             .contact(surface, model)
@@ -1477,7 +1515,8 @@ pub mod contact_soft_finger {
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
     //   surface      sphere, a sphere, or a part of it around a pole; radius_m = 0.013
-    //   contact      soft_finger, a contact transmits a force and a torque about the normal, as a soft tip does; least_force_N = 0.1
+    //   contact      soft_finger, a contact transmits a force and a torque about the normal, as a soft tip does;
+    //                least_force_N = 0.1
     //   uncertainty  force_noise_N = 0.01, torque_noise_Nm = 0.0001
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
@@ -1562,7 +1601,8 @@ pub mod contact_auto {
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
     //   surface      sphere, a sphere, or a part of it around a pole; radius_m = 0.013
-    //   contact      auto, point contact or soft finger, whichever the wrench speaks for, given the noise in [uncertainty]; greatest_pitch_m = 0.01, least_force_N = 0.1
+    //   contact      auto, point contact or soft finger, whichever the wrench speaks for, given the noise in
+    //                [uncertainty]; greatest_pitch_m = 0.01, least_force_N = 0.1
     //   uncertainty  force_noise_N = 0.01, torque_noise_Nm = 0.0001
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
@@ -1604,7 +1644,11 @@ pub mod contact_auto {
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
         let surface = surfaces::Sphere::new(Vector3::zeros(), 0.013)?;
-        let model = contact::Auto::new(contact::PointContact::new(0.1)?, contact::SoftFinger::new(0.1)?, Matrix6::from_diagonal(&Vector6::from([0.0001, 0.0001, 0.0001, 1e-8, 1e-8, 1e-8])))?.with_greatest_pitch(0.01, 3.0)?;
+        let model = contact::Auto::new(
+            contact::PointContact::new(0.1)?,
+            contact::SoftFinger::new(0.1)?,
+            Matrix6::from_diagonal(&Vector6::from([0.0001, 0.0001, 0.0001, 1e-8, 1e-8, 1e-8])),
+        )?.with_greatest_pitch(0.01, 3.0)?;
         Ok(Fingertip::builder()
             .contact(surface, model)
             .build())
@@ -1654,7 +1698,7 @@ pub mod contact_skin_linear {
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
     //   surface      sphere, a sphere, or a part of it around a pole; radius_m = 0.013
-    //   contact      
+    //   contact
     //   contact.skin linear, depth in proportion to the force; radius_m = 0.013, stiffness_N_per_m = 8000.0
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
@@ -1692,7 +1736,10 @@ pub mod contact_skin_linear {
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
         let surface = surfaces::Sphere::new(Vector3::zeros(), 0.013)?;
-        let model = contact::Compliant::new(contact::PointContact::new(0.0)?, contact::LinearStiffness::new(8000.0, 0.013)?);
+        let model = contact::Compliant::new(
+            contact::PointContact::new(0.0)?,
+            contact::LinearStiffness::new(8000.0, 0.013)?,
+        );
         Ok(Fingertip::builder()
             .contact(surface, model)
             .build())
@@ -1714,8 +1761,9 @@ pub mod contact_skin_power {
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
     //   surface      sphere, a sphere, or a part of it around a pole; radius_m = 0.013
-    //   contact      
-    //   contact.skin power, depth and patch as powers of the force; depth_at_1_N_m = 0.0004, depth_exponent = 0.67, patch_at_1_N_m = 0.002, patch_exponent = 0.33
+    //   contact
+    //   contact.skin power, depth and patch as powers of the force; depth_at_1_N_m = 0.0004, depth_exponent =
+    //                0.67, patch_at_1_N_m = 0.002, patch_exponent = 0.33
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -1752,7 +1800,10 @@ pub mod contact_skin_power {
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
         let surface = surfaces::Sphere::new(Vector3::zeros(), 0.013)?;
-        let model = contact::Compliant::new(contact::PointContact::new(0.0)?, contact::PowerLaw::new([0.002, 0.33], [0.0004, 0.67])?);
+        let model = contact::Compliant::new(
+            contact::PointContact::new(0.0)?,
+            contact::PowerLaw::new([0.002, 0.33], [0.0004, 0.67])?,
+        );
         Ok(Fingertip::builder()
             .contact(surface, model)
             .build())
@@ -1774,8 +1825,9 @@ pub mod contact_skin_hertz {
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
     //   surface      sphere, a sphere, or a part of it around a pole; radius_m = 0.013
-    //   contact      
-    //   contact.skin hertz, an elastic body with the same curvature everywhere; poisson_ratios = [0.49, 0.3], radii_m = [0.013, 0.013], young_moduli_Pa = [2000000.0, inf]
+    //   contact
+    //   contact.skin hertz, an elastic body with the same curvature everywhere; poisson_ratios = [0.49, 0.3],
+    //                radii_m = [0.013, 0.013], young_moduli_Pa = [2000000.0, inf]
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -1812,7 +1864,13 @@ pub mod contact_skin_hertz {
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
         let surface = surfaces::Sphere::new(Vector3::zeros(), 0.013)?;
-        let model = contact::Compliant::new(contact::PointContact::new(0.0)?, contact::Hertz::new([0.013, 0.013], contact::contact_modulus([2000000.0, f64::INFINITY], [0.49, 0.3])?)?);
+        let model = contact::Compliant::new(
+            contact::PointContact::new(0.0)?,
+            contact::Hertz::new(
+                [0.013, 0.013],
+                contact::contact_modulus([2000000.0, f64::INFINITY], [0.49, 0.3])?,
+            )?,
+        );
         Ok(Fingertip::builder()
             .contact(surface, model)
             .build())
@@ -1834,8 +1892,9 @@ pub mod contact_skin_local_hertz {
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
     //   surface      sphere, a sphere, or a part of it around a pole; radius_m = 0.013
-    //   contact      
-    //   contact.skin local_hertz, an elastic body with the curvature that the surface has where it touches; largest_radius_m = 0.1, poisson_ratios = [0.49, 0.3], young_moduli_Pa = [2000000.0, inf]
+    //   contact
+    //   contact.skin local_hertz, an elastic body with the curvature that the surface has where it touches;
+    //                largest_radius_m = 0.1, poisson_ratios = [0.49, 0.3], young_moduli_Pa = [2000000.0, inf]
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -1872,7 +1931,14 @@ pub mod contact_skin_local_hertz {
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
         let surface = surfaces::Sphere::new(Vector3::zeros(), 0.013)?;
-        let model = contact::Compliant::new(contact::PointContact::new(0.0)?, contact::LocalHertz::new(contact::contact_modulus([2000000.0, f64::INFINITY], [0.49, 0.3])?, 0.0, 0.1)?);
+        let model = contact::Compliant::new(
+            contact::PointContact::new(0.0)?,
+            contact::LocalHertz::new(
+                contact::contact_modulus([2000000.0, f64::INFINITY], [0.49, 0.3])?,
+                0.0,
+                0.1,
+            )?,
+        );
         Ok(Fingertip::builder()
             .contact(surface, model)
             .build())
@@ -1894,8 +1960,9 @@ pub mod contact_skin_table {
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
     //   surface      sphere, a sphere, or a part of it around a pole; radius_m = 0.013
-    //   contact      
-    //   contact.skin table, measured points of force, depth and radius of the patch; force_depth_patch_N_m_m = [[0.5, 0.0002, 0.001], [2.0, 0.0005, 0.002], [5.0, 0.0009, 0 …
+    //   contact
+    //   contact.skin table, measured points of force, depth and radius of the patch; force_depth_patch_N_m_m =
+    //                [[0.5, 0.0002, 0.001], [2.0, 0.0005, 0.002], [5.0, 0.0009, 0 …
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -1932,7 +1999,10 @@ pub mod contact_skin_table {
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
         let surface = surfaces::Sphere::new(Vector3::zeros(), 0.013)?;
-        let model = contact::Compliant::new(contact::PointContact::new(0.0)?, contact::Tabulated::new([[0.5, 0.0002, 0.001], [2.0, 0.0005, 0.002], [5.0, 0.0009, 0.003]])?);
+        let model = contact::Compliant::new(
+            contact::PointContact::new(0.0)?,
+            contact::Tabulated::new([[0.5, 0.0002, 0.001], [2.0, 0.0005, 0.002], [5.0, 0.0009, 0.003]])?,
+        );
         Ok(Fingertip::builder()
             .contact(surface, model)
             .build())
@@ -2043,7 +2113,8 @@ pub mod friction_anisotropic {
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
     //   surface      plane, a plane; point_m = [0.0, 0.0, 0.013]
-    //   friction     anisotropic, one coefficient along the grain of a flat surface, another across it; coefficient_across = 0.6, coefficient_along = 0.4, grain = [1.0, 0.0, 0.0]
+    //   friction     anisotropic, one coefficient along the grain of a flat surface, another across it;
+    //                coefficient_across = 0.6, coefficient_along = 0.4, grain = [1.0, 0.0, 0.0]
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -2132,7 +2203,8 @@ pub mod friction_soft_finger {
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
     //   surface      sphere, a sphere, or a part of it around a pole; radius_m = 0.013
-    //   friction     soft_finger, tangential force and spin torque together; static_coefficient = 0.5, torque_arm_m = 0.003
+    //   friction     soft_finger, tangential force and spin torque together; static_coefficient = 0.5,
+    //                torque_arm_m = 0.003
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -2221,7 +2293,8 @@ pub mod friction_power {
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
     //   surface      sphere, a sphere, or a part of it around a pole; radius_m = 0.013
-    //   friction     power, tangential force and spin torque on a patch whose pressure is known: "uniform", "hertz" or "winkler"; patch_radius_m = 0.004, pressure = "hertz", static_coefficient = 0.5
+    //   friction     power, tangential force and spin torque on a patch whose pressure is known: "uniform",
+    //                "hertz" or "winkler"; patch_radius_m = 0.004, pressure = "hertz", static_coefficient = 0.5
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -2310,7 +2383,9 @@ pub mod friction_load_dependent {
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
     //   surface      sphere, a sphere, or a part of it around a pole; radius_m = 0.013
-    //   friction     load_dependent, tangential force and spin torque on a patch that grows with the force; growth_exponent = 0.33, reference_force_N = 1.0, static_coefficient = 0.5, torque_arm_m = 0.003
+    //   friction     load_dependent, tangential force and spin torque on a patch that grows with the force;
+    //                growth_exponent = 0.33, reference_force_N = 1.0, static_coefficient = 0.5, torque_arm_m =
+    //                0.003
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -2399,7 +2474,8 @@ pub mod friction_uncertain {
     //
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
     //   surface      sphere, a sphere, or a part of it around a pole; radius_m = 0.013
-    //   friction     uncertain, a coefficient with a standard deviation; deviation = 0.05, noise_N = 0.01, static_coefficient = 0.5
+    //   friction     uncertain, a coefficient with a standard deviation; deviation = 0.05, noise_N = 0.01,
+    //                static_coefficient = 0.5
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -2593,7 +2669,8 @@ pub mod slip_threshold {
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
     //   surface      sphere, a sphere, or a part of it around a pole; radius_m = 0.013
     //   friction     coulomb, one coefficient in all directions; static_coefficient = 0.5
-    //   slip         threshold, the friction ratio passes the coefficient of [friction]; noise_N = 0.01, warning_share = 0.8
+    //   slip         threshold, the friction ratio passes the coefficient of [friction]; noise_N = 0.01,
+    //                warning_share = 0.8
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -2636,7 +2713,13 @@ pub mod slip_threshold {
         Ok(Fingertip::builder()
             .contact(surface, model)
             .friction(friction::Coulomb::new(0.5)?)
-            .slip_detector(friction::RatioThreshold::new(friction::NormalForceGate::from_noise(&friction::ForceNoise::isotropic(0.01)?), 0.5, 0.8)?)
+            .slip_detector(
+                friction::RatioThreshold::new(
+                    friction::NormalForceGate::from_noise(&friction::ForceNoise::isotropic(0.01)?),
+                    0.5,
+                    0.8,
+                )?,
+            )
             .build())
     }
     
@@ -2686,7 +2769,8 @@ pub mod slip_likelihood_ratio {
     //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
     //   surface      sphere, a sphere, or a part of it around a pole; radius_m = 0.013
     //   friction     coulomb, one coefficient in all directions; static_coefficient = 0.5
-    //   slip         likelihood_ratio, the friction ratio falls, suddenly or not; false_alarms_per_minute = 1.0, noise_N = 0.01
+    //   slip         likelihood_ratio, the friction ratio falls, suddenly or not; false_alarms_per_minute = 1.0,
+    //                noise_N = 0.01
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
@@ -2729,7 +2813,12 @@ pub mod slip_likelihood_ratio {
         Ok(Fingertip::builder()
             .contact(surface, model)
             .friction(friction::Coulomb::new(0.5)?)
-            .slip_detector(friction::LikelihoodRatioDetector::with_ratio(friction::ForceNoise::isotropic(0.01)?, friction::LikelihoodRatio::new(10.33952125775202)?)?)
+            .slip_detector(
+                friction::LikelihoodRatioDetector::with_ratio(
+                    friction::ForceNoise::isotropic(0.01)?,
+                    friction::LikelihoodRatio::new(10.33952125775202)?,
+                )?,
+            )
             .build())
     }
     
@@ -2822,7 +2911,11 @@ pub mod slip_stick_slip {
         Ok(Fingertip::builder()
             .contact(surface, model)
             .friction(friction::Coulomb::new(0.5)?)
-            .slip_detector(friction::StickSlipDetector::new(friction::DropDetector::new(friction::ForceNoise::isotropic(0.01)?)?))
+            .slip_detector(
+                friction::StickSlipDetector::new(
+                    friction::DropDetector::new(friction::ForceNoise::isotropic(0.01)?)?,
+                ),
+            )
             .build())
     }
     

@@ -41,7 +41,13 @@ pub type Tip = Fingertip<
 /// Never for the numbers below.
 #[allow(clippy::approx_constant)]
 pub fn tip() -> Result<Tip, BadTip> {
-    let surface = surfaces::Posed::new(surfaces::Ellipsoid::new(Vector3::new(0.008, 0.01, 0.015))?, wrench::RigidTransform::from_matrix(Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), Vector3::new(0.0, 0.0, 0.02))?);
+    let surface = surfaces::Posed::new(
+        surfaces::Ellipsoid::new(Vector3::new(0.008, 0.01, 0.015))?,
+        wrench::RigidTransform::from_matrix(
+            Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+            Vector3::new(0.0, 0.0, 0.02),
+        )?,
+    );
     let model = contact::PointContact::new(0.2)?;
     Ok(Fingertip::builder()
         .contact(surface, model)

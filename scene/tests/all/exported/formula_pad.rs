@@ -3,7 +3,9 @@
 // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
 //
 //   input        convention = "on_fingertip"
-//   surface      formula, a shape of your own: where a formula of x, y and z is zero, within a ball; outside = "max((x/a)^4 + (y/a)^4 + (z/b)^2 - 1, (z - top)/b)", parameters = { a = 0.01, b = 0.013, top = 0.011 }, reach_m = 0.019
+//   surface      formula, a shape of your own: where a formula of x, y and z is zero, within a ball; outside
+//                = "max((x/a)^4 + (y/a)^4 + (z/b)^2 - 1, (z - top)/b)", parameters = { a = 0.01, b = 0.013,
+//                top = 0.011 }, reach_m = 0.019
 //   contact      least_force_N = 0.1
 //
 // It needs neither heap nor standard library, and in Cargo.toml:
@@ -32,7 +34,9 @@ pub struct Shape;
 impl surfaces::ImplicitSurface<f64> for Shape {
     fn formula(&self, [x, y, z]: [surfaces::Term<f64>; 3]) -> surfaces::Term<f64> {
         let number = surfaces::Term::constant;
-        (((x / number(0.01)).powi(4) + (y / number(0.01)).powi(4)) + ((z / number(0.013)).powi(2) - number(1.0))).max((z - number(0.011)) / number(0.013))
+        (((x / number(0.01)).powi(4) + (y / number(0.01)).powi(4)) + ((z / number(0.013)).powi(2) - number(1.0))).max(
+            (z - number(0.011)) / number(0.013),
+        )
     }
 
     fn ball(&self) -> (Vector3<f64>, f64) {
@@ -41,7 +45,10 @@ impl surfaces::ImplicitSurface<f64> for Shape {
 
     fn value(&self, point: &Vector3<f64>) -> f64 {
         let [x, y, z]: [f64; 3] = (*point).into();
-        RealField::max((ComplexField::powi(x / 0.01, 4) + ComplexField::powi(y / 0.01, 4)) + (ComplexField::powi(z / 0.013, 2) - 1.0), (z - 0.011) / 0.013)
+        RealField::max(
+            (ComplexField::powi(x / 0.01, 4) + ComplexField::powi(y / 0.01, 4)) + (ComplexField::powi(z / 0.013, 2) - 1.0),
+            (z - 0.011) / 0.013,
+        )
     }
 
     fn topology(&self) -> surfaces::Topology {

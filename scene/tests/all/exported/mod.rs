@@ -26,3 +26,9 @@ pub(crate) mod plane;
 pub(crate) mod rubber_tip;
 #[rustfmt::skip]
 pub(crate) mod rubber_tip_f32;
+#[rustfmt::skip]
+pub(crate) mod plane_eight_gauges_f32;
+#[rustfmt::skip]
+pub(crate) mod skinned;
+#[rustfmt::skip]
+pub(crate) mod skinned_six_gauges;

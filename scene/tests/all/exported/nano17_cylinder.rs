@@ -3,7 +3,8 @@
 // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
 //
 //   input        convention = "on_fingertip", sample_rate_Hz = 53.4
-//   surface      cylinder, the side of a round cylinder; axis = [0.0, 1.0, 0.0], centre_m = [0.0, 0.0, -0.027347], half_length_m = 0.0109965, radius_m = 0.04
+//   surface      cylinder, the side of a round cylinder; axis = [0.0, 1.0, 0.0], centre_m = [0.0, 0.0,
+//                -0.027347], half_length_m = 0.0109965, radius_m = 0.04
 //   pose         rotation_deg = [0.0, 0.0, 42.0]
 //   contact      least_force_N = 1.0
 //
@@ -41,7 +42,11 @@ pub type Tip = Fingertip<
 /// Never for the numbers below.
 #[allow(clippy::approx_constant)]
 pub fn tip() -> Result<Tip, BadTip> {
-    let surface = surfaces::Cylinder::new(Vector3::new(0.0, 0.0, -0.027347), Vector3::new(-0.6691306063588582, 0.7431448254773942, 0.0), 0.04)?.with_half_length(0.0109965)?;
+    let surface = surfaces::Cylinder::new(
+        Vector3::new(0.0, 0.0, -0.027347),
+        Vector3::new(-0.6691306063588582, 0.7431448254773942, 0.0),
+        0.04,
+    )?.with_half_length(0.0109965)?;
     let model = contact::PointContact::new(1.0)?;
     Ok(Fingertip::builder()
         .contact(surface, model)

@@ -3,11 +3,16 @@
 // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
 //
 //   input        convention = "on_fingertip", sample_rate_Hz = 53.4
-//   surface      cylinder, the side of a round cylinder; axis = [0.0, 1.0, 0.0], centre_m = [0.0, 0.0, -0.027347], half_length_m = 0.0109965, radius_m = 0.04
+//   surface      cylinder, the side of a round cylinder; axis = [0.0, 1.0, 0.0], centre_m = [0.0, 0.0,
+//                -0.027347], half_length_m = 0.0109965, radius_m = 0.04
 //   pose         rotation_deg = [0.0, 0.0, 42.0]
-//   contact      soft_finger, a contact transmits a force and a torque about the normal, as a soft tip does; least_force_N = 1.0
-//   uncertainty  attitude_deg = 0.5, force_noise_N = 0.0125, offset_m = 0.00005, position_m = 0.0001, relative = 0.005, torque_noise_Nm = 0.0000625
-//   friction     load_dependent, tangential force and spin torque on a patch that grows with the force; growth_exponent = 0.33, reference_force_N = 4.0, static_coefficient = 0.6, torque_arm_m = 0.0024
+//   contact      soft_finger, a contact transmits a force and a torque about the normal, as a soft tip does;
+//                least_force_N = 1.0
+//   uncertainty  attitude_deg = 0.5, force_noise_N = 0.0125, offset_m = 0.00005, position_m = 0.0001,
+//                relative = 0.005, torque_noise_Nm = 0.0000625
+//   friction     load_dependent, tangential force and spin torque on a patch that grows with the force;
+//                growth_exponent = 0.33, reference_force_N = 4.0, static_coefficient = 0.6, torque_arm_m =
+//                0.0024
 //
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
@@ -47,7 +52,11 @@ pub type Tip = Fingertip<
 /// Never for the numbers below.
 #[allow(clippy::approx_constant)]
 pub fn tip() -> Result<Tip, BadTip> {
-    let surface = surfaces::Cylinder::new(Vector3::new(0.0, 0.0, -0.027347), Vector3::new(-0.6691306, 0.7431448, 0.0), 0.04)?.with_half_length(0.0109965)?;
+    let surface = surfaces::Cylinder::new(
+        Vector3::new(0.0, 0.0, -0.027347),
+        Vector3::new(-0.6691306, 0.7431448, 0.0),
+        0.04,
+    )?.with_half_length(0.0109965)?;
     let model = contact::SoftFinger::new(1.0)?;
     Ok(Fingertip::builder()
         .contact(surface, model)

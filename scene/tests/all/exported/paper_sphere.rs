@@ -3,7 +3,8 @@
 // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
 //
 //   input        convention = "on_fingertip", rest_s = 1.0, sample_rate_Hz = 1000.0
-//   surface      sphere, a sphere, or a part of it around a pole; active_half_angle_deg = 147.4, pole = [1.0, 0.0, 0.0], radius_m = 0.013
+//   surface      sphere, a sphere, or a part of it around a pole; active_half_angle_deg = 147.4, pole = [1.0,
+//                0.0, 0.0], radius_m = 0.013
 //   contact      least_force_N = 0.1
 //   friction     coulomb, one coefficient in all directions; static_coefficient = 0.6
 //   slip         drop, the friction ratio falls suddenly; noise_N = 0.01
@@ -22,6 +23,8 @@
 //     let step = Step::of(time_step).with_last(last);
 //     let touch = tip.sense_wrench(load(force, torque), step);
 //     last = touch.point();
+//
+// The sensor is unloaded for 1.0 s at the start: the mean of force and torque there is to be taken off both.
 //
 // After a pause, `last = None` and `SlipDetector::<_>::reset(&mut tip.detector_mut().0)`.
 
@@ -44,7 +47,11 @@ pub type Tip = Fingertip<
 /// Never for the numbers below.
 #[allow(clippy::approx_constant)]
 pub fn tip() -> Result<Tip, BadTip> {
-    let surface = surfaces::SphericalCap::new(surfaces::Sphere::new(Vector3::zeros(), 0.013)?, Vector3::x(), -0.8424523970071475)?;
+    let surface = surfaces::SphericalCap::new(
+        surfaces::Sphere::new(Vector3::zeros(), 0.013)?,
+        Vector3::x(),
+        -0.8424523970071475,
+    )?;
     let model = contact::PointContact::new(0.1)?;
     Ok(Fingertip::builder()
         .contact(surface, model)

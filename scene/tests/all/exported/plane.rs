@@ -6,7 +6,8 @@
 //   surface      plane, a plane; normal = [0.0, 0.0, 1.0], point_m = [0.0, 0.0, 0.005]
 //   contact      least_force_N = 0.2
 //   friction     coulomb, one coefficient in all directions; static_coefficient = 0.5
-//   slip         threshold, the friction ratio passes the coefficient of [friction]; noise_N = 0.01, warning_share = 0.8
+//   slip         threshold, the friction ratio passes the coefficient of [friction]; noise_N = 0.01,
+//                warning_share = 0.8
 //
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
@@ -49,7 +50,13 @@ pub fn tip() -> Result<Tip, BadTip> {
     Ok(Fingertip::builder()
         .contact(surface, model)
         .friction(friction::Coulomb::new(0.5)?)
-        .slip_detector(friction::RatioThreshold::new(friction::NormalForceGate::from_noise(&friction::ForceNoise::isotropic(0.01)?), 0.5, 0.8)?)
+        .slip_detector(
+            friction::RatioThreshold::new(
+                friction::NormalForceGate::from_noise(&friction::ForceNoise::isotropic(0.01)?),
+                0.5,
+                0.8,
+            )?,
+        )
         .build())
 }
 

@@ -5,9 +5,12 @@
 //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
 //   surface      sphere, a sphere, or a part of it around a pole; pole = [1.0, 0.0, 0.0], radius_m = 0.013
 //   contact      point, a contact transmits a force and no torque of its own; least_force_N = 0.1
-//   contact.skin hertz, an elastic body with the same curvature everywhere; poisson_ratios = [0.49, 0.3], radii_m = [0.013, 0.013], young_moduli_Pa = [1500000.0, inf]
-//   friction     uncertain, a coefficient with a standard deviation; deviation = 0.05, noise_N = 0.01, static_coefficient = 0.5
-//   slip         likelihood_ratio, the friction ratio falls, suddenly or not; false_alarms_per_minute = 0.1, noise_N = 0.01
+//   contact.skin hertz, an elastic body with the same curvature everywhere; poisson_ratios = [0.49, 0.3],
+//                radii_m = [0.013, 0.013], young_moduli_Pa = [1500000.0, inf]
+//   friction     uncertain, a coefficient with a standard deviation; deviation = 0.05, noise_N = 0.01,
+//                static_coefficient = 0.5
+//   slip         likelihood_ratio, the friction ratio falls, suddenly or not; false_alarms_per_minute = 0.1,
+//                noise_N = 0.01
 //   estimate     noise_N = 0.01
 //   grip         fall_N_per_s = 2.0, greatest_N = 20.0, least_N = 0.2, rise_N_per_s = 100.0
 //
@@ -31,7 +34,8 @@
 // With `let model = friction_model()?`, the probability that the contact slips is
 //     model.slip_probability(&force)
 //
-// With `let (mut at_rest, mut sliding) = (static_friction()?, kinetic_friction()?)` and `let mut left = 0.0`, the friction is learnt by
+// With `let (mut at_rest, mut sliding) = (static_friction()?, kinetic_friction()?)`
+// and `let mut left = 0.0`, the friction is learnt by
 //     let slips = touch.slip == friction::SlipVerdict::Slipping;
 //     left = if slips { SLIDE_S } else { left - time_step };
 //     match &touch.force {
@@ -72,11 +76,22 @@ pub type Tip = Fingertip<
 #[allow(clippy::approx_constant)]
 pub fn tip() -> Result<Tip, BadTip> {
     let surface = surfaces::Sphere::new(Vector3::zeros(), 0.013)?;
-    let model = contact::Compliant::new(contact::PointContact::new(0.1)?, contact::Hertz::new([0.013, 0.013], contact::contact_modulus([1500000.0, f64::INFINITY], [0.49, 0.3])?)?);
+    let model = contact::Compliant::new(
+        contact::PointContact::new(0.1)?,
+        contact::Hertz::new(
+            [0.013, 0.013],
+            contact::contact_modulus([1500000.0, f64::INFINITY], [0.49, 0.3])?,
+        )?,
+    );
     Ok(Fingertip::builder()
         .contact(surface, model)
         .friction(friction::Coulomb::new(0.383682606297958)?)
-        .slip_detector(friction::LikelihoodRatioDetector::with_ratio(friction::ForceNoise::isotropic(0.01)?, friction::LikelihoodRatio::new(12.729562664342474)?)?)
+        .slip_detector(
+            friction::LikelihoodRatioDetector::with_ratio(
+                friction::ForceNoise::isotropic(0.01)?,
+                friction::LikelihoodRatio::new(12.729562664342474)?,
+            )?,
+        )
         .build())
 }
 
