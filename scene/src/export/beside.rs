@@ -69,7 +69,8 @@ const NOISY: &str = "
 /// # Errors
 /// Never for the numbers below.
 pub fn wrench_noise() -> Result<contact::WrenchNoise<{T}>, BadTip> {{
-    Ok(contact::WrenchNoise::new(nalgebra::Vector6::from({floor:a}), {relative})?)
+    let noise = contact::WrenchNoise::new(nalgebra::Vector6::from({floor:a}), {relative})?;
+    Ok(noise)
 }}
 ";
 
@@ -84,8 +85,9 @@ pub fn geometry() -> Result<contact::GeometryUncertainty<{T}>, BadTip> {{
         position: nalgebra::Matrix3::from_diagonal_element({position}),
         attitude: nalgebra::Matrix3::from_diagonal_element({attitude}),
         pivot: {pivot:v},
-    }};
-    Ok(geometry.checked()?)
+    }}
+    .checked()?;
+    Ok(geometry)
 }}
 ";
 
@@ -192,7 +194,7 @@ impl<T: Real + DeserializeOwned> Writer<T> {
         Ok(Beside {
             items,
             call: format!(
-                "With `{geometry}`, how sure the contact is is\n    {call}\n\
+                "With `{geometry}`, the covariance of the contact is\n    {call}\n\
                  whose `ellipse({probability})` is that of the scene{before}.\n"
             ),
         })

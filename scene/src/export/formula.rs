@@ -47,6 +47,7 @@ impl<T: Real + DeserializeOwned> Writer<T> {
             "/// The shape: zero on the surface, negative inside.\n\
              #[derive(Clone, Copy, Debug, PartialEq)]\n\
              pub struct Shape;\n\n\
+             #[allow(clippy::approx_constant)]\n\
              impl surfaces::ImplicitSurface<{t}> for Shape {{\n    \
                  fn formula(&self, [{names}]: [surfaces::Term<{t}>; 3]) -> surfaces::Term<{t}> {{\n\
              {constant}        {terms}\n    }}\n\n    \

@@ -70,7 +70,7 @@ impl Scene {
     ///     "#,
     /// )?;
     /// let text = scene.to_rust(Scalar::F32, None)?;
-    /// assert!(text.contains("surfaces::Sphere::new(nalgebra::Vector3::zeros(), 0.013)?"));
+    /// assert!(text.contains("surfaces::Sphere::new(Vector3::zeros(), 0.013)?"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///

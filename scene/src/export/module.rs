@@ -164,14 +164,14 @@ fn header<T: Real>(scene: &Scene, stages: &Stages, beside: &[Beside], items: &st
         env!("CARGO_PKG_VERSION"),
         features.join(", "),
     );
-    for line in usage(scene, stages, beside).lines() {
+    for line in usage::<T>(scene, stages, beside).lines() {
         let _ = writeln!(text, "//{}{line}", if line.is_empty() { "" } else { " " });
     }
     text
 }
 
 /// How a sample is taken.
-fn usage(scene: &Scene, stages: &Stages, beside: &[Beside]) -> String {
+fn usage<T: Real>(scene: &Scene, stages: &Stages, beside: &[Beside]) -> String {
     let sense = match &stages.solved {
         Some(solved) => format!("let touch = tip.sense(&reading, step); // reading: {}", solved.reading),
         None => "let touch = tip.sense_wrench(load(force, torque), step);".to_owned(),
@@ -179,7 +179,7 @@ fn usage(scene: &Scene, stages: &Stages, beside: &[Beside]) -> String {
     let mut text = format!(
         "Once, and then for each sample, `time_step` seconds after the one before:\n\n    \
              let (mut tip, mut last) = (tip()?, None);\n\n    \
-             let step = Step::of(time_step).with_last(last);\n    \
+             let step = fingertip::Step::of(time_step).with_last(last);\n    \
              {sense}\n    \
              last = touch.point();\n"
     );
@@ -187,13 +187,15 @@ fn usage(scene: &Scene, stages: &Stages, beside: &[Beside]) -> String {
         let then = match &stages.solved {
             None => "the mean of force and torque there is to be taken off both.",
             Some(solved) if solved.is_warm => "the zero stays that of the calibration at its temperature.",
-            Some(_) => "`TareAccumulator` makes a zero of it, which `tip.set_zero` puts in place.",
+            Some(_) => "a `wrench::TareAccumulator` makes a zero of it, which `tip.set_zero` puts in place.",
         };
         let _ = write!(text, "\nThe sensor is unloaded for {rest:?} s at the start: {then}\n");
     }
     if stages.detector.is_some() {
-        text.push_str(
-            "\nAfter a pause, `last = None` and `SlipDetector::<_>::reset(&mut tip.detector_mut().0)`.\n",
+        let _ = write!(
+            text,
+            "\nAfter a pause, `last = None` and `friction::SlipDetector::<{}>::reset(&mut tip.detector_mut().0)`.\n",
+            core::any::type_name::<T>()
         );
     }
     for part in beside {

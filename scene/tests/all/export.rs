@@ -70,7 +70,10 @@ fn every_choice_is_exported() {
         let scene = Scene::from_text(&scene_with(entry)).unwrap();
         let module = scene.to_rust(Scalar::F64, None).unwrap_or_else(|error| panic!("{entry:?}: {error}"));
         assert!(scene.to_rust(Scalar::F32, None).is_ok(), "{entry:?}");
-        let module: String = module.lines().map(|line| format!("    {line}\n")).collect();
+        let module: String = module
+            .lines()
+            .map(|line| format!("{}{line}\n", if line.is_empty() { "" } else { "    " }))
+            .collect();
         text.push_str(&format!("\npub mod {} {{\n{module}}}\n", module_of(entry.section, entry.name)));
     }
     holds("choices", &text);

@@ -120,7 +120,7 @@ impl<T: Real> Mesh<T> {
     pub fn parts_from_file(
         path: impl AsRef<std::path::Path>,
         metres_per_unit: T,
-    ) -> Result<(Vec<Vector3<T>>, Vec<[u32; 3]>), MeshError> {
+    ) -> Result<Parts<T>, MeshError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|error| MeshError::Unreadable(error.kind()))?;
         if path.extension().is_some_and(|name| name.eq_ignore_ascii_case("obj")) {

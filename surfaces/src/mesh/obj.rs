@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 
 use fingertip_wrench::Real;
 
-use super::{MeshError, Parts};
 use super::stl::three;
+use super::{MeshError, Parts};
 
 pub(super) fn read<T: Real>(text: &str, metres_per_unit: T) -> Result<Parts<T>, MeshError> {
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());

@@ -20,11 +20,11 @@
 //
 //     let (mut tip, mut last) = (tip()?, None);
 //
-//     let step = Step::of(time_step).with_last(last);
+//     let step = fingertip::Step::of(time_step).with_last(last);
 //     let touch = tip.sense_wrench(load(force, torque), step);
 //     last = touch.point();
 //
-// With `let (noise, geometry) = (wrench_noise()?, geometry()?)`, how sure the contact is is
+// With `let (noise, geometry) = (wrench_noise()?, geometry()?)`, the covariance of the contact is
 //     covariance(&tip, &touch, &noise, &geometry)
 // whose `ellipse(0.95)` is that of the scene.
 
@@ -74,7 +74,8 @@ pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
 /// # Errors
 /// Never for the numbers below.
 pub fn wrench_noise() -> Result<contact::WrenchNoise<f64>, BadTip> {
-    Ok(contact::WrenchNoise::new(Vector6::from([0.01, 0.01, 0.01, 0.0001, 0.0001, 0.0001]), 0.0)?)
+    let noise = contact::WrenchNoise::new(Vector6::from([0.01, 0.01, 0.01, 0.0001, 0.0001, 0.0001]), 0.0)?;
+    Ok(noise)
 }
 
 /// How sure the size and the place of the surface are.
@@ -87,8 +88,9 @@ pub fn geometry() -> Result<contact::GeometryUncertainty<f64>, BadTip> {
         position: Matrix3::from_diagonal_element(4e-8),
         attitude: Matrix3::from_diagonal_element(0.0),
         pivot: Vector3::new(0.0, 0.0, 0.02),
-    };
-    Ok(geometry.checked()?)
+    }
+    .checked()?;
+    Ok(geometry)
 }
 
 /// How sure the contact of a sample is; `None` without one, and where that cannot be said, as at grazing.

@@ -18,7 +18,7 @@
 //
 //     let (mut tip, mut last) = (tip()?, None);
 //
-//     let step = Step::of(time_step).with_last(last);
+//     let step = fingertip::Step::of(time_step).with_last(last);
 //     let touch = tip.sense_wrench(load(force, torque), step);
 //     last = touch.point();
 

@@ -19,14 +19,14 @@ pub mod surface_plane {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -35,7 +35,7 @@ pub mod surface_plane {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -48,12 +48,12 @@ pub mod surface_plane {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -77,14 +77,14 @@ pub mod surface_disk {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -93,7 +93,7 @@ pub mod surface_disk {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -106,12 +106,12 @@ pub mod surface_disk {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -136,14 +136,14 @@ pub mod surface_rectangle {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -152,7 +152,7 @@ pub mod surface_rectangle {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -169,12 +169,12 @@ pub mod surface_rectangle {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -198,14 +198,14 @@ pub mod surface_sphere {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -214,7 +214,7 @@ pub mod surface_sphere {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -227,12 +227,12 @@ pub mod surface_sphere {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -256,14 +256,14 @@ pub mod surface_ellipsoid {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -272,7 +272,7 @@ pub mod surface_ellipsoid {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -285,12 +285,12 @@ pub mod surface_ellipsoid {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -314,14 +314,14 @@ pub mod surface_cylinder {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -330,7 +330,7 @@ pub mod surface_cylinder {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -343,12 +343,12 @@ pub mod surface_cylinder {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -372,14 +372,14 @@ pub mod surface_capped_cylinder {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -388,7 +388,7 @@ pub mod surface_capped_cylinder {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -401,12 +401,12 @@ pub mod surface_capped_cylinder {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -431,14 +431,14 @@ pub mod surface_elliptic_cylinder {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -447,7 +447,7 @@ pub mod surface_elliptic_cylinder {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -460,12 +460,12 @@ pub mod surface_elliptic_cylinder {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -489,14 +489,14 @@ pub mod surface_capsule {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -505,7 +505,7 @@ pub mod surface_capsule {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -518,12 +518,12 @@ pub mod surface_capsule {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -547,14 +547,14 @@ pub mod surface_cone {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -563,7 +563,7 @@ pub mod surface_cone {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -580,12 +580,12 @@ pub mod surface_cone {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -610,14 +610,14 @@ pub mod surface_frustum {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -626,7 +626,7 @@ pub mod surface_frustum {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -639,12 +639,12 @@ pub mod surface_frustum {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -668,14 +668,14 @@ pub mod surface_torus {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -684,7 +684,7 @@ pub mod surface_torus {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -697,12 +697,12 @@ pub mod surface_torus {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -727,14 +727,14 @@ pub mod surface_superquadric {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -743,7 +743,7 @@ pub mod surface_superquadric {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -756,12 +756,12 @@ pub mod surface_superquadric {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -786,14 +786,14 @@ pub mod surface_rounded_box {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -802,7 +802,7 @@ pub mod surface_rounded_box {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -815,12 +815,12 @@ pub mod surface_rounded_box {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -845,14 +845,14 @@ pub mod surface_paraboloid {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -861,7 +861,7 @@ pub mod surface_paraboloid {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -874,12 +874,12 @@ pub mod surface_paraboloid {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -904,14 +904,14 @@ pub mod surface_revolution {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -920,7 +920,7 @@ pub mod surface_revolution {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -935,12 +935,12 @@ pub mod surface_revolution {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -965,23 +965,23 @@ pub mod surface_heightfield {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     extern crate alloc;
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     static HEIGHTS_M_0: [f64; 4] = [
         0.01,
         0.01,
         0.01,
         0.011,
     ];
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -990,7 +990,7 @@ pub mod surface_heightfield {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -1003,12 +1003,12 @@ pub mod surface_heightfield {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -1034,28 +1034,28 @@ pub mod surface_mesh {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     static VERTICES_M_0: [Vector3<f64>; 4] = [
         Vector3::new(0.01, 0.0, 0.0),
         Vector3::new(-0.01, 0.01, 0.0),
         Vector3::new(-0.01, -0.01, 0.0),
         Vector3::new(0.0, 0.0, 0.01),
     ];
-    
+
     static TRIANGLES_1: [[u32; 3]; 4] = [
         [0, 2, 1],
         [0, 1, 3],
         [1, 2, 3],
         [2, 0, 3],
     ];
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -1064,7 +1064,7 @@ pub mod surface_mesh {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -1077,12 +1077,12 @@ pub mod surface_mesh {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     #[derive(Clone, Debug, PartialEq)]
     pub enum BadTip {
@@ -1091,7 +1091,7 @@ pub mod surface_mesh {
         /// A mesh.
         Mesh(surfaces::MeshError),
     }
-    
+
     impl core::fmt::Display for BadTip {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             match self {
@@ -1100,15 +1100,15 @@ pub mod surface_mesh {
             }
         }
     }
-    
+
     impl core::error::Error for BadTip {}
-    
+
     impl From<surfaces::BadShape> for BadTip {
         fn from(bad: surfaces::BadShape) -> Self {
             Self::Shape(bad)
         }
     }
-    
+
     impl From<surfaces::MeshError> for BadTip {
         fn from(bad: surfaces::MeshError) -> Self {
             Self::Mesh(bad)
@@ -1137,38 +1137,39 @@ pub mod surface_formula {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::{ComplexField, Vector3};
-    
+
     /// The shape: zero on the surface, negative inside.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Shape;
-    
+
+    #[allow(clippy::approx_constant)]
     impl surfaces::ImplicitSurface<f64> for Shape {
         fn formula(&self, [x, y, z]: [surfaces::Term<f64>; 3]) -> surfaces::Term<f64> {
             let number = surfaces::Term::constant;
             ((x / number(0.01)).powi(4) + (y / number(0.01)).powi(4)) + ((z / number(0.013)).powi(2) - number(1.0))
         }
-    
+
         fn ball(&self) -> (Vector3<f64>, f64) {
             (Vector3::zeros(), 0.018)
         }
-    
+
         fn value(&self, point: &Vector3<f64>) -> f64 {
             let [x, y, z]: [f64; 3] = (*point).into();
             (ComplexField::powi(x / 0.01, 4) + ComplexField::powi(y / 0.01, 4)) + (ComplexField::powi(z / 0.013, 2) - 1.0)
         }
-    
+
         fn topology(&self) -> surfaces::Topology {
             surfaces::Topology::Convex
         }
     }
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -1177,7 +1178,7 @@ pub mod surface_formula {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -1190,12 +1191,12 @@ pub mod surface_formula {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -1221,14 +1222,14 @@ pub mod surface_posed {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::{Matrix3, Vector3};
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -1237,7 +1238,7 @@ pub mod surface_posed {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -1256,12 +1257,12 @@ pub mod surface_posed {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     #[derive(Clone, Debug, PartialEq)]
     pub enum BadTip {
@@ -1270,7 +1271,7 @@ pub mod surface_posed {
         /// A pose.
         Pose(wrench::TransformError),
     }
-    
+
     impl core::fmt::Display for BadTip {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             match self {
@@ -1279,15 +1280,15 @@ pub mod surface_posed {
             }
         }
     }
-    
+
     impl core::error::Error for BadTip {}
-    
+
     impl From<surfaces::BadShape> for BadTip {
         fn from(bad: surfaces::BadShape) -> Self {
             Self::Shape(bad)
         }
     }
-    
+
     impl From<wrench::TransformError> for BadTip {
         fn from(bad: wrench::TransformError) -> Self {
             Self::Pose(bad)
@@ -1315,14 +1316,14 @@ pub mod surface_trimmed {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -1331,7 +1332,7 @@ pub mod surface_trimmed {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -1347,12 +1348,12 @@ pub mod surface_trimmed {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -1377,14 +1378,14 @@ pub mod surface_compound {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -1393,7 +1394,7 @@ pub mod surface_compound {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -1409,12 +1410,12 @@ pub mod surface_compound {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -1440,18 +1441,18 @@ pub mod contact_point {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
     //
-    // With `let noise = wrench_noise()?`, how sure the contact is is
+    // With `let noise = wrench_noise()?`, the covariance of the contact is
     //     covariance(&tip, &touch, &noise)
     // whose `ellipse(0.95)` is that of the scene.
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::{Vector3, Vector6};
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -1460,7 +1461,7 @@ pub mod contact_point {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -1473,20 +1474,21 @@ pub mod contact_point {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// How sure a wrench is: standard deviations at rest, and relative ones under load.
     ///
     /// # Errors
     /// Never for the numbers below.
     pub fn wrench_noise() -> Result<contact::WrenchNoise<f64>, BadTip> {
-        Ok(contact::WrenchNoise::new(Vector6::from([0.01, 0.01, 0.01, 0.0001, 0.0001, 0.0001]), 0.0)?)
+        let noise = contact::WrenchNoise::new(Vector6::from([0.01, 0.01, 0.01, 0.0001, 0.0001, 0.0001]), 0.0)?;
+        Ok(noise)
     }
-    
+
     /// How sure the contact of a sample is; `None` without one, and where that cannot be said, as at grazing.
     pub fn covariance<Reading, Verdict>(
         tip: &Tip,
@@ -1503,7 +1505,7 @@ pub mod contact_point {
         let covariance = contact::ContactCovariance::new(&jacobian, &noise.covariance(&touch.wrench));
         Some(covariance)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -1530,18 +1532,18 @@ pub mod contact_soft_finger {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
     //
-    // With `let noise = wrench_noise()?`, how sure the contact is is
+    // With `let noise = wrench_noise()?`, the covariance of the contact is
     //     covariance(&tip, &touch, &noise)
     // whose `ellipse(0.95)` is that of the scene.
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::{Vector3, Vector6};
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -1550,7 +1552,7 @@ pub mod contact_soft_finger {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -1563,20 +1565,21 @@ pub mod contact_soft_finger {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// How sure a wrench is: standard deviations at rest, and relative ones under load.
     ///
     /// # Errors
     /// Never for the numbers below.
     pub fn wrench_noise() -> Result<contact::WrenchNoise<f64>, BadTip> {
-        Ok(contact::WrenchNoise::new(Vector6::from([0.01, 0.01, 0.01, 0.0001, 0.0001, 0.0001]), 0.0)?)
+        let noise = contact::WrenchNoise::new(Vector6::from([0.01, 0.01, 0.01, 0.0001, 0.0001, 0.0001]), 0.0)?;
+        Ok(noise)
     }
-    
+
     /// How sure the contact of a sample is; `None` without one, and where that cannot be said, as at grazing.
     pub fn covariance<Reading, Verdict>(
         tip: &Tip,
@@ -1589,7 +1592,7 @@ pub mod contact_soft_finger {
         let covariance = contact::ContactCovariance::new(&jacobian, &noise.covariance(&touch.wrench));
         Some(covariance)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -1616,18 +1619,18 @@ pub mod contact_auto {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
     //
-    // With `let noise = wrench_noise()?`, how sure the contact is is
+    // With `let noise = wrench_noise()?`, the covariance of the contact is
     //     covariance(&tip, &touch, &noise)
     // whose `ellipse(0.95)` is that of the scene.
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::{Matrix6, Vector3, Vector6};
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -1636,7 +1639,7 @@ pub mod contact_auto {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -1653,20 +1656,21 @@ pub mod contact_auto {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// How sure a wrench is: standard deviations at rest, and relative ones under load.
     ///
     /// # Errors
     /// Never for the numbers below.
     pub fn wrench_noise() -> Result<contact::WrenchNoise<f64>, BadTip> {
-        Ok(contact::WrenchNoise::new(Vector6::from([0.01, 0.01, 0.01, 0.0001, 0.0001, 0.0001]), 0.0)?)
+        let noise = contact::WrenchNoise::new(Vector6::from([0.01, 0.01, 0.01, 0.0001, 0.0001, 0.0001]), 0.0)?;
+        Ok(noise)
     }
-    
+
     /// How sure the contact of a sample is; `None` without one, and where that cannot be said, as at grazing.
     pub fn covariance<Reading, Verdict>(
         tip: &Tip,
@@ -1686,7 +1690,7 @@ pub mod contact_auto {
         let covariance = contact::ContactCovariance::new(&jacobian, &noise.covariance(&touch.wrench));
         Some(covariance)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -1712,14 +1716,14 @@ pub mod contact_skin_linear {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -1728,7 +1732,7 @@ pub mod contact_skin_linear {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -1744,12 +1748,12 @@ pub mod contact_skin_linear {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -1776,14 +1780,14 @@ pub mod contact_skin_power {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -1792,7 +1796,7 @@ pub mod contact_skin_power {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -1808,12 +1812,12 @@ pub mod contact_skin_power {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -1840,14 +1844,14 @@ pub mod contact_skin_hertz {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -1856,7 +1860,7 @@ pub mod contact_skin_hertz {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -1875,12 +1879,12 @@ pub mod contact_skin_hertz {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -1907,14 +1911,14 @@ pub mod contact_skin_local_hertz {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -1923,7 +1927,7 @@ pub mod contact_skin_local_hertz {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -1943,12 +1947,12 @@ pub mod contact_skin_local_hertz {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -1975,14 +1979,14 @@ pub mod contact_skin_table {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -1991,7 +1995,7 @@ pub mod contact_skin_table {
         Absent,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -2007,12 +2011,12 @@ pub mod contact_skin_table {
             .contact(surface, model)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     pub type BadTip = surfaces::BadShape;
 }
@@ -2037,14 +2041,14 @@ pub mod friction_coulomb {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -2053,7 +2057,7 @@ pub mod friction_coulomb {
         Present<friction::Coulomb<f64>>,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -2067,12 +2071,12 @@ pub mod friction_coulomb {
             .friction(friction::Coulomb::new(0.5)?)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     #[derive(Clone, Debug, PartialEq)]
     pub enum BadTip {
@@ -2081,7 +2085,7 @@ pub mod friction_coulomb {
         /// A friction, a detector or a grip.
         Friction(friction::BadParameter),
     }
-    
+
     impl core::fmt::Display for BadTip {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             match self {
@@ -2090,15 +2094,15 @@ pub mod friction_coulomb {
             }
         }
     }
-    
+
     impl core::error::Error for BadTip {}
-    
+
     impl From<surfaces::BadShape> for BadTip {
         fn from(bad: surfaces::BadShape) -> Self {
             Self::Shape(bad)
         }
     }
-    
+
     impl From<friction::BadParameter> for BadTip {
         fn from(bad: friction::BadParameter) -> Self {
             Self::Friction(bad)
@@ -2127,14 +2131,14 @@ pub mod friction_anisotropic {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -2143,7 +2147,7 @@ pub mod friction_anisotropic {
         Present<friction::AnisotropicCoulomb<f64>>,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -2157,12 +2161,12 @@ pub mod friction_anisotropic {
             .friction(friction::AnisotropicCoulomb::new([Vector3::x(), Vector3::y()], [0.4, 0.6])?)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     #[derive(Clone, Debug, PartialEq)]
     pub enum BadTip {
@@ -2171,7 +2175,7 @@ pub mod friction_anisotropic {
         /// A friction, a detector or a grip.
         Friction(friction::BadParameter),
     }
-    
+
     impl core::fmt::Display for BadTip {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             match self {
@@ -2180,15 +2184,15 @@ pub mod friction_anisotropic {
             }
         }
     }
-    
+
     impl core::error::Error for BadTip {}
-    
+
     impl From<surfaces::BadShape> for BadTip {
         fn from(bad: surfaces::BadShape) -> Self {
             Self::Shape(bad)
         }
     }
-    
+
     impl From<friction::BadParameter> for BadTip {
         fn from(bad: friction::BadParameter) -> Self {
             Self::Friction(bad)
@@ -2217,14 +2221,14 @@ pub mod friction_soft_finger {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -2233,7 +2237,7 @@ pub mod friction_soft_finger {
         Present<friction::SoftFingerLimit<f64>>,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -2247,12 +2251,12 @@ pub mod friction_soft_finger {
             .friction(friction::SoftFingerLimit::new(0.5, 0.003)?)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     #[derive(Clone, Debug, PartialEq)]
     pub enum BadTip {
@@ -2261,7 +2265,7 @@ pub mod friction_soft_finger {
         /// A friction, a detector or a grip.
         Friction(friction::BadParameter),
     }
-    
+
     impl core::fmt::Display for BadTip {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             match self {
@@ -2270,15 +2274,15 @@ pub mod friction_soft_finger {
             }
         }
     }
-    
+
     impl core::error::Error for BadTip {}
-    
+
     impl From<surfaces::BadShape> for BadTip {
         fn from(bad: surfaces::BadShape) -> Self {
             Self::Shape(bad)
         }
     }
-    
+
     impl From<friction::BadParameter> for BadTip {
         fn from(bad: friction::BadParameter) -> Self {
             Self::Friction(bad)
@@ -2307,14 +2311,14 @@ pub mod friction_power {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -2323,7 +2327,7 @@ pub mod friction_power {
         Present<friction::PowerLimit<f64>>,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -2337,12 +2341,12 @@ pub mod friction_power {
             .friction(friction::PowerLimit::for_patch(0.5, 0.004, friction::PressureDistribution::Hertz)?)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     #[derive(Clone, Debug, PartialEq)]
     pub enum BadTip {
@@ -2351,7 +2355,7 @@ pub mod friction_power {
         /// A friction, a detector or a grip.
         Friction(friction::BadParameter),
     }
-    
+
     impl core::fmt::Display for BadTip {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             match self {
@@ -2360,15 +2364,15 @@ pub mod friction_power {
             }
         }
     }
-    
+
     impl core::error::Error for BadTip {}
-    
+
     impl From<surfaces::BadShape> for BadTip {
         fn from(bad: surfaces::BadShape) -> Self {
             Self::Shape(bad)
         }
     }
-    
+
     impl From<friction::BadParameter> for BadTip {
         fn from(bad: friction::BadParameter) -> Self {
             Self::Friction(bad)
@@ -2398,14 +2402,14 @@ pub mod friction_load_dependent {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
-    
+
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -2414,7 +2418,7 @@ pub mod friction_load_dependent {
         Present<friction::LoadDependentLimit<f64>>,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -2428,12 +2432,12 @@ pub mod friction_load_dependent {
             .friction(friction::LoadDependentLimit::new(0.5, 0.003, 1.0, 0.33)?)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     #[derive(Clone, Debug, PartialEq)]
     pub enum BadTip {
@@ -2442,7 +2446,7 @@ pub mod friction_load_dependent {
         /// A friction, a detector or a grip.
         Friction(friction::BadParameter),
     }
-    
+
     impl core::fmt::Display for BadTip {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             match self {
@@ -2451,15 +2455,15 @@ pub mod friction_load_dependent {
             }
         }
     }
-    
+
     impl core::error::Error for BadTip {}
-    
+
     impl From<surfaces::BadShape> for BadTip {
         fn from(bad: surfaces::BadShape) -> Self {
             Self::Shape(bad)
         }
     }
-    
+
     impl From<friction::BadParameter> for BadTip {
         fn from(bad: friction::BadParameter) -> Self {
             Self::Friction(bad)
@@ -2488,17 +2492,17 @@ pub mod friction_uncertain {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
     //
     // With `let model = friction_model()?`, the probability that the contact slips is
     //     model.slip_probability(&force)
-    
+
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -2507,7 +2511,7 @@ pub mod friction_uncertain {
         Present<friction::Coulomb<f64>>,
         Absent,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -2521,12 +2525,12 @@ pub mod friction_uncertain {
             .friction(friction::Coulomb::new(0.383682606297958)?)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// What is known of the friction: `slip_probability` of a contact's force.
     ///
     /// # Errors
@@ -2534,7 +2538,7 @@ pub mod friction_uncertain {
     pub fn friction_model() -> Result<friction::UncertainCoulomb<f64>, BadTip> {
         Ok(friction::UncertainCoulomb::new(0.5, 0.05, Some(friction::ForceNoise::isotropic(0.01)?))?)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     #[derive(Clone, Debug, PartialEq)]
     pub enum BadTip {
@@ -2543,7 +2547,7 @@ pub mod friction_uncertain {
         /// A friction, a detector or a grip.
         Friction(friction::BadParameter),
     }
-    
+
     impl core::fmt::Display for BadTip {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             match self {
@@ -2552,15 +2556,15 @@ pub mod friction_uncertain {
             }
         }
     }
-    
+
     impl core::error::Error for BadTip {}
-    
+
     impl From<surfaces::BadShape> for BadTip {
         fn from(bad: surfaces::BadShape) -> Self {
             Self::Shape(bad)
         }
     }
-    
+
     impl From<friction::BadParameter> for BadTip {
         fn from(bad: friction::BadParameter) -> Self {
             Self::Friction(bad)
@@ -2589,16 +2593,16 @@ pub mod slip_drop {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
     //
-    // After a pause, `last = None` and `SlipDetector::<_>::reset(&mut tip.detector_mut().0)`.
-    
+    // After a pause, `last = None` and `friction::SlipDetector::<f64>::reset(&mut tip.detector_mut().0)`.
+
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -2607,7 +2611,7 @@ pub mod slip_drop {
         Present<friction::Coulomb<f64>>,
         Present<friction::DropDetector<f64>>,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -2622,12 +2626,12 @@ pub mod slip_drop {
             .slip_detector(friction::DropDetector::new(friction::ForceNoise::isotropic(0.01)?)?)
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     #[derive(Clone, Debug, PartialEq)]
     pub enum BadTip {
@@ -2636,7 +2640,7 @@ pub mod slip_drop {
         /// A friction, a detector or a grip.
         Friction(friction::BadParameter),
     }
-    
+
     impl core::fmt::Display for BadTip {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             match self {
@@ -2645,15 +2649,15 @@ pub mod slip_drop {
             }
         }
     }
-    
+
     impl core::error::Error for BadTip {}
-    
+
     impl From<surfaces::BadShape> for BadTip {
         fn from(bad: surfaces::BadShape) -> Self {
             Self::Shape(bad)
         }
     }
-    
+
     impl From<friction::BadParameter> for BadTip {
         fn from(bad: friction::BadParameter) -> Self {
             Self::Friction(bad)
@@ -2683,16 +2687,16 @@ pub mod slip_threshold {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
     //
-    // After a pause, `last = None` and `SlipDetector::<_>::reset(&mut tip.detector_mut().0)`.
-    
+    // After a pause, `last = None` and `friction::SlipDetector::<f64>::reset(&mut tip.detector_mut().0)`.
+
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -2701,7 +2705,7 @@ pub mod slip_threshold {
         Present<friction::Coulomb<f64>>,
         Present<friction::RatioThreshold<f64>>,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -2722,12 +2726,12 @@ pub mod slip_threshold {
             )
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     #[derive(Clone, Debug, PartialEq)]
     pub enum BadTip {
@@ -2736,7 +2740,7 @@ pub mod slip_threshold {
         /// A friction, a detector or a grip.
         Friction(friction::BadParameter),
     }
-    
+
     impl core::fmt::Display for BadTip {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             match self {
@@ -2745,15 +2749,15 @@ pub mod slip_threshold {
             }
         }
     }
-    
+
     impl core::error::Error for BadTip {}
-    
+
     impl From<surfaces::BadShape> for BadTip {
         fn from(bad: surfaces::BadShape) -> Self {
             Self::Shape(bad)
         }
     }
-    
+
     impl From<friction::BadParameter> for BadTip {
         fn from(bad: friction::BadParameter) -> Self {
             Self::Friction(bad)
@@ -2783,16 +2787,16 @@ pub mod slip_likelihood_ratio {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
     //
-    // After a pause, `last = None` and `SlipDetector::<_>::reset(&mut tip.detector_mut().0)`.
-    
+    // After a pause, `last = None` and `friction::SlipDetector::<f64>::reset(&mut tip.detector_mut().0)`.
+
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -2801,7 +2805,7 @@ pub mod slip_likelihood_ratio {
         Present<friction::Coulomb<f64>>,
         Present<friction::LikelihoodRatioDetector<f64, 32>>,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -2821,12 +2825,12 @@ pub mod slip_likelihood_ratio {
             )
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     #[derive(Clone, Debug, PartialEq)]
     pub enum BadTip {
@@ -2835,7 +2839,7 @@ pub mod slip_likelihood_ratio {
         /// A friction, a detector or a grip.
         Friction(friction::BadParameter),
     }
-    
+
     impl core::fmt::Display for BadTip {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             match self {
@@ -2844,15 +2848,15 @@ pub mod slip_likelihood_ratio {
             }
         }
     }
-    
+
     impl core::error::Error for BadTip {}
-    
+
     impl From<surfaces::BadShape> for BadTip {
         fn from(bad: surfaces::BadShape) -> Self {
             Self::Shape(bad)
         }
     }
-    
+
     impl From<friction::BadParameter> for BadTip {
         fn from(bad: friction::BadParameter) -> Self {
             Self::Friction(bad)
@@ -2881,16 +2885,16 @@ pub mod slip_stick_slip {
     //
     //     let (mut tip, mut last) = (tip()?, None);
     //
-    //     let step = Step::of(time_step).with_last(last);
+    //     let step = fingertip::Step::of(time_step).with_last(last);
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
     //
-    // After a pause, `last = None` and `SlipDetector::<_>::reset(&mut tip.detector_mut().0)`.
-    
+    // After a pause, `last = None` and `friction::SlipDetector::<f64>::reset(&mut tip.detector_mut().0)`.
+
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
     use nalgebra::Vector3;
-    
+
     /// The pipeline.
     pub type Tip = Fingertip<
         Absent,
@@ -2899,7 +2903,7 @@ pub mod slip_stick_slip {
         Present<friction::Coulomb<f64>>,
         Present<friction::StickSlipDetector<f64>>,
     >;
-    
+
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -2918,12 +2922,12 @@ pub mod slip_stick_slip {
             )
             .build())
     }
-    
+
     /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
     pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
         wrench::Wrench::on_fingertip(force, torque)
     }
-    
+
     /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
     #[derive(Clone, Debug, PartialEq)]
     pub enum BadTip {
@@ -2932,7 +2936,7 @@ pub mod slip_stick_slip {
         /// A friction, a detector or a grip.
         Friction(friction::BadParameter),
     }
-    
+
     impl core::fmt::Display for BadTip {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             match self {
@@ -2941,15 +2945,15 @@ pub mod slip_stick_slip {
             }
         }
     }
-    
+
     impl core::error::Error for BadTip {}
-    
+
     impl From<surfaces::BadShape> for BadTip {
         fn from(bad: surfaces::BadShape) -> Self {
             Self::Shape(bad)
         }
     }
-    
+
     impl From<friction::BadParameter> for BadTip {
         fn from(bad: friction::BadParameter) -> Self {
             Self::Friction(bad)

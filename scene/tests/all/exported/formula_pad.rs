@@ -19,7 +19,7 @@
 //
 //     let (mut tip, mut last) = (tip()?, None);
 //
-//     let step = Step::of(time_step).with_last(last);
+//     let step = fingertip::Step::of(time_step).with_last(last);
 //     let touch = tip.sense_wrench(load(force, torque), step);
 //     last = touch.point();
 
@@ -31,6 +31,7 @@ use nalgebra::{ComplexField, RealField, Vector3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape;
 
+#[allow(clippy::approx_constant)]
 impl surfaces::ImplicitSurface<f64> for Shape {
     fn formula(&self, [x, y, z]: [surfaces::Term<f64>; 3]) -> surfaces::Term<f64> {
         let number = surfaces::Term::constant;

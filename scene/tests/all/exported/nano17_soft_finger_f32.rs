@@ -25,11 +25,11 @@
 //
 //     let (mut tip, mut last) = (tip()?, None);
 //
-//     let step = Step::of(time_step).with_last(last);
+//     let step = fingertip::Step::of(time_step).with_last(last);
 //     let touch = tip.sense_wrench(load(force, torque), step);
 //     last = touch.point();
 //
-// With `let (noise, geometry) = (wrench_noise()?, geometry()?)`, how sure the contact is is
+// With `let (noise, geometry) = (wrench_noise()?, geometry()?)`, the covariance of the contact is
 //     covariance(&tip, &touch, &noise, &geometry)
 // whose `ellipse(0.95)` is that of the scene.
 
@@ -74,7 +74,11 @@ pub fn load(force: Vector3<f32>, torque: Vector3<f32>) -> wrench::Wrench<f32> {
 /// # Errors
 /// Never for the numbers below.
 pub fn wrench_noise() -> Result<contact::WrenchNoise<f32>, BadTip> {
-    Ok(contact::WrenchNoise::new(Vector6::from([0.0125, 0.0125, 0.0125, 6.25e-5, 6.25e-5, 6.25e-5]), 0.005)?)
+    let noise = contact::WrenchNoise::new(
+        Vector6::from([0.0125, 0.0125, 0.0125, 6.25e-5, 6.25e-5, 6.25e-5]),
+        0.005,
+    )?;
+    Ok(noise)
 }
 
 /// How sure the size and the place of the surface are.
@@ -87,8 +91,9 @@ pub fn geometry() -> Result<contact::GeometryUncertainty<f32>, BadTip> {
         position: Matrix3::from_diagonal_element(1e-8),
         attitude: Matrix3::from_diagonal_element(7.6154356e-5),
         pivot: Vector3::zeros(),
-    };
-    Ok(geometry.checked()?)
+    }
+    .checked()?;
+    Ok(geometry)
 }
 
 /// How sure the contact of a sample is; `None` without one, and where that cannot be said, as at grazing.

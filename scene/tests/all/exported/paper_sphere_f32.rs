@@ -20,13 +20,13 @@
 //
 //     let (mut tip, mut last) = (tip()?, None);
 //
-//     let step = Step::of(time_step).with_last(last);
+//     let step = fingertip::Step::of(time_step).with_last(last);
 //     let touch = tip.sense_wrench(load(force, torque), step);
 //     last = touch.point();
 //
 // The sensor is unloaded for 1.0 s at the start: the mean of force and torque there is to be taken off both.
 //
-// After a pause, `last = None` and `SlipDetector::<_>::reset(&mut tip.detector_mut().0)`.
+// After a pause, `last = None` and `friction::SlipDetector::<f32>::reset(&mut tip.detector_mut().0)`.
 
 use fingertip::{Absent, Fingertip, Present};
 use fingertip::{contact, friction, surfaces, wrench};

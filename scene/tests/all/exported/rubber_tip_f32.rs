@@ -25,11 +25,11 @@
 //
 //     let (mut tip, mut last) = (tip()?, None);
 //
-//     let step = Step::of(time_step).with_last(last);
+//     let step = fingertip::Step::of(time_step).with_last(last);
 //     let touch = tip.sense_wrench(load(force, torque), step);
 //     last = touch.point();
 //
-// After a pause, `last = None` and `SlipDetector::<_>::reset(&mut tip.detector_mut().0)`.
+// After a pause, `last = None` and `friction::SlipDetector::<f32>::reset(&mut tip.detector_mut().0)`.
 //
 // With `let model = friction_model()?`, the probability that the contact slips is
 //     model.slip_probability(&force)

@@ -26,15 +26,15 @@
 //
 //     let (mut tip, mut last) = (tip()?, None);
 //
-//     let step = Step::of(time_step).with_last(last);
+//     let step = fingertip::Step::of(time_step).with_last(last);
 //     let touch = tip.sense(&reading, step); // reading: wrench::GaugesAndTemperature { gauges, temperature }
 //     last = touch.point();
 //
 // The sensor is unloaded for 1.0 s at the start: the zero stays that of the calibration at its temperature.
 //
-// After a pause, `last = None` and `SlipDetector::<_>::reset(&mut tip.detector_mut().0)`.
+// After a pause, `last = None` and `friction::SlipDetector::<f64>::reset(&mut tip.detector_mut().0)`.
 //
-// With `let noise = wrench_noise()?`, how sure the contact is is
+// With `let noise = wrench_noise()?`, the covariance of the contact is
 //     covariance(&tip, &touch, before, &noise)
 // whose `ellipse(0.95)` is that of the scene; `before` is the last contact before this sample.
 //
@@ -135,7 +135,8 @@ pub fn tip() -> Result<Tip, BadTip> {
 /// # Errors
 /// Never for the numbers below.
 pub fn wrench_noise() -> Result<contact::WrenchNoise<f64>, BadTip> {
-    Ok(contact::WrenchNoise::new(Vector6::from([0.01, 0.01, 0.01, 0.0001, 0.0001, 0.0001]), 0.0)?)
+    let noise = contact::WrenchNoise::new(Vector6::from([0.01, 0.01, 0.01, 0.0001, 0.0001, 0.0001]), 0.0)?;
+    Ok(noise)
 }
 
 /// How sure the contact of a sample is; `None` without one, and where that cannot be said, as at grazing.
