@@ -129,6 +129,8 @@ fn the_examples_give_the_bits_of_the_pipeline() {
     each!(1000, example, f64: auto_capsule, capsule, ellipsoid, nano17_cylinder, nano17_soft_finger, paper_sphere,
         plane, rubber_tip);
     each!(40, example, f64: formula_pad);
+    let skinned = |_| Scene::from_text(SKINNED).unwrap();
+    each!(300, skinned, f64: skinned);
     let narrow = |name: &str| example(name.trim_end_matches("_f32"));
     each!(1000, narrow, f32: nano17_soft_finger_f32, paper_sphere_f32, rubber_tip_f32);
 }
@@ -205,6 +207,22 @@ fn json_is_the_scene_that_it_was_made_of() {
         let again = Scene::from_text(&again).unwrap_or_else(|problem| panic!("{problem}\n{again}"));
         assert_eq!(again.pipeline(), scene.pipeline(), "{text}");
         assert_eq!(again.to_json().unwrap(), scene.to_json().unwrap());
+    }
+}
+
+/// Keys that no example has.
+#[test]
+fn rare_keys_come_along() {
+    let text = format!(
+        "{HEAD}[surface]\nshape = \"plane\"\n[contact]\ngreatest_gap_m = 0.001\n[friction]\nlimit = \"uncertain\"\n\
+         static_coefficient = 0.5\ndeviation = 0.0\n"
+    );
+    let module = Scene::from_text(&text).unwrap().to_rust(Scalar::F64, None).unwrap();
+    for part in [
+        "contact::PointContact::new(0.0)?.accepting_gap(0.001)?;",
+        "friction::UncertainCoulomb::new(0.5, 0.0, None)?",
+    ] {
+        assert!(module.contains(part), "{part}\n{module}");
     }
 }
 

@@ -20,6 +20,7 @@ version = 2
 name = "skinned\n\"tip\""
 [input]
 convention = "reaction"
+sample_rate_Hz = 500.0
 rest_s = 1.0
 [surface]
 shape = "compound"
@@ -27,6 +28,7 @@ parts = [
     { shape = "sphere", radius_m = 0.01, pole = [0.1, 0.7, 0.3], active_half_angle_deg = 140.0 },
     { shape = "posed", rotation_deg = [0.0, 33.0, 0.0], surface = { shape = "cone", half_angle_deg = 31.0, depth_m = 0.02 } },
     { shape = "elliptic_cylinder", semi_axes_m = [0.008, 0.01], ends_m = "unbounded" },
+    { shape = "elliptic_cylinder", semi_axes_m = [0.009, 0.007], ends_m = { open = 0.012 } },
 ]
 [pose]
 translation_m = [0.001, 0.0, 0.002]
@@ -49,6 +51,7 @@ conservative = true
 [slip]
 detector = "drop"
 noise_N = 0.01
+false_alarms_per_minute = 2.0
 [grip]
 least_N = 0.2
 greatest_N = 20.0

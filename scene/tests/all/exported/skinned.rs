@@ -2,7 +2,7 @@
 //
 // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
 //
-//   input        convention = "reaction", rest_s = 1.0
+//   input        convention = "reaction", rest_s = 1.0, sample_rate_Hz = 500.0
 //   surface      compound, the union of several shapes; parts = [{ active_half_angle_deg = 140.0, pole =
 //                [0.1, 0.7, 0.3], ra …
 //   pose         rotation_deg = [10.0, 20.0, 30.0], translation_m = [0.001, 0.0, 0.002]
@@ -12,7 +12,7 @@
 //   uncertainty  force_noise_N = 0.01, torque_noise_Nm = 0.0001
 //   friction     soft_finger, tangential force and spin torque together; conservative = true,
 //                static_coefficient = 0.5, torque_arm_m = 0.003
-//   slip         drop, the friction ratio falls suddenly; noise_N = 0.01
+//   slip         drop, the friction ratio falls suddenly; false_alarms_per_minute = 2.0, noise_N = 0.01
 //   grip         fall_N_per_s = 2.0, greatest_N = 20.0, least_N = 0.2, rise_N_per_s = 100.0
 //
 // It needs neither heap nor standard library, and in Cargo.toml:
@@ -54,8 +54,8 @@ pub type Tip = Fingertip<
     surfaces::Posed<
         f64,
         surfaces::Compound<
-            surfaces::SphericalCap<f64>,
-            surfaces::Compound<surfaces::Posed<f64, surfaces::Cone<f64>>, surfaces::EllipticCylinder<f64>>,
+            surfaces::Compound<surfaces::SphericalCap<f64>, surfaces::Posed<f64, surfaces::Cone<f64>>>,
+            surfaces::Compound<surfaces::EllipticCylinder<f64>, surfaces::EllipticCylinder<f64>>,
         >,
     >,
     contact::Compliant<f64, contact::SoftFinger<f64>, contact::LinearStiffness<f64>>,
@@ -71,12 +71,12 @@ pub type Tip = Fingertip<
 pub fn tip() -> Result<Tip, BadTip> {
     let surface = surfaces::Posed::new(
         surfaces::Compound::new(
-            surfaces::SphericalCap::new(
-                surfaces::Sphere::new(Vector3::zeros(), 0.01)?,
-                Vector3::new(0.1, 0.7, 0.3),
-                -0.7660444431189779,
-            )?,
             surfaces::Compound::new(
+                surfaces::SphericalCap::new(
+                    surfaces::Sphere::new(Vector3::zeros(), 0.01)?,
+                    Vector3::new(0.1, 0.7, 0.3),
+                    -0.7660444431189779,
+                )?,
                 surfaces::Posed::new(
                     surfaces::Cone::new(
                         Vector3::zeros(),
@@ -98,7 +98,10 @@ pub fn tip() -> Result<Tip, BadTip> {
                         Vector3::new(0.0, 0.0, 0.0),
                     )?,
                 ),
+            ),
+            surfaces::Compound::new(
                 surfaces::EllipticCylinder::new([0.008, 0.01], surfaces::CylinderEnds::Unbounded)?,
+                surfaces::EllipticCylinder::new([0.009, 0.007], surfaces::CylinderEnds::Open(0.012))?,
             ),
         ),
         wrench::RigidTransform::from_matrix(
@@ -123,7 +126,12 @@ pub fn tip() -> Result<Tip, BadTip> {
     Ok(Fingertip::builder()
         .contact(surface, model)
         .friction(friction::SoftFingerLimit::conservative(0.5, 0.003)?)
-        .slip_detector(friction::DropDetector::new(friction::ForceNoise::isotropic(0.01)?)?)
+        .slip_detector(
+            friction::DropDetector::with_sum(
+                friction::ForceNoise::isotropic(0.01)?,
+                friction::Cusum::new(0.75, 5.339682943800724)?,
+            )?,
+        )
         .build())
 }
 
