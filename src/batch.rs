@@ -132,6 +132,7 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     {
         let count = raw.iter().map(|column| column.len()).fold(touches.len(), usize::min);
         let mut last = None;
+        #[allow(clippy::needless_range_loop, reason = "of columns that are as many as there are gauges")]
         for k in 0..count {
             let sample = SVector::from_fn(|gauge, _| raw[gauge][k]);
             let Touch { wrench, resolution, force, grip, slip } =

@@ -7,6 +7,7 @@ use crate::calibrate::args::{CalibrateArguments, CheckArguments, TareArguments};
 use crate::convert::ConvertArguments;
 use crate::demo::args::DemoArguments;
 use crate::design::args::DesignArguments;
+use crate::export::ExportArguments;
 use crate::geometry::GeometryArguments;
 use crate::live::args::LiveArguments;
 use crate::motion::MotionArguments;
@@ -39,6 +40,8 @@ pub(crate) enum Command {
     Live(LiveArguments),
     /// Begin a scene, say what one means, or list what there is to choose
     Scene(SceneArguments),
+    /// Export a scene as a Rust module that runs without files, or as JSON
+    Export(ExportArguments),
     /// Convert a recording from CSV to MCAP or back
     Convert(ConvertArguments),
     /// Serve a simulated fingertip over the protocol of a real sensor

@@ -88,6 +88,9 @@ pub(crate) enum CliError {
     /// What was to be converted cannot be.
     #[error("cannot convert {path}: {message}", path = .path.display())]
     Convert { path: PathBuf, message: String },
+    /// A scene cannot be exported.
+    #[error("cannot export {path}: {message}", path = .path.display())]
+    Export { path: PathBuf, message: String },
     /// A sensor cannot be reached, or was lost.
     #[error("{address}: {source}")]
     Sensor { address: String, source: SensorError },

@@ -11,6 +11,7 @@ mod convert;
 mod demo;
 mod design;
 mod error;
+mod export;
 mod felt;
 mod gauge_rows;
 mod geometry;
@@ -44,6 +45,7 @@ fn main() -> ExitCode {
         Command::Record(arguments) => record::run(&arguments),
         Command::Live(arguments) => live::run(&arguments),
         Command::Scene(arguments) => scene::command::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Simulate(arguments) => serve::run(&arguments),
         Command::Design(arguments) => design::run(&arguments),

@@ -61,7 +61,7 @@ impl FormulaSection {
     }
 
     /// The formula as steps, the parameters put in.
-    fn steps(&self) -> Result<Vec<FormulaStep<f64>>, BadFormula> {
+    pub(crate) fn steps(&self) -> Result<Vec<FormulaStep<f64>>, BadFormula> {
         no_signed_power(&self.outside)?;
         let parsed = FlatEx::<Code, Operations, Decimal>::parse(&between(&self.outside))
             .map_err(|error| BadFormula::Syntax(error.to_string().replace('\n', " ")))?;

@@ -7,6 +7,7 @@ mod carried;
 mod columns;
 mod doubts;
 mod estimate;
+mod export;
 mod fault;
 mod filter;
 mod formula;
@@ -31,6 +32,7 @@ mod uncertainty;
 
 pub use carried::{BadCarried, Carried};
 pub use estimate::{Estimate, Learnt};
+pub use export::{ExportError, Scalar};
 pub use fault::{SceneError, SceneFault, SceneProblem, VERSION};
 pub use filter::Filter;
 pub use formula::BadFormula;

@@ -160,7 +160,7 @@ impl ContactSection {
 }
 
 /// By how many standard deviations a pitch must be too large.
-const USUAL_DEVIATIONS: f64 = 3.0;
+pub(crate) const USUAL_DEVIATIONS: f64 = 3.0;
 
 /// Any of the contact models, chosen at run time.
 #[derive(Clone, Debug, PartialEq)]

@@ -301,7 +301,7 @@ impl<T: Real> Pipeline<T> {
             return Err(SceneProblem::Range { key, section, requirement: "a rest of finite readings" });
         }
         let (model, uncertainty) = noisy.build(Some(&noise))?;
-        let (friction, slip) = (self.stages.friction().clone(), self.stages.slip().clone());
+        let (friction, slip) = (*self.stages.friction(), self.stages.slip().clone());
         self.stages = Stages::new(self.surface.clone(), model.clone(), friction, slip);
         (self.model, self.uncertainty, self.awaits_noise) = (model, uncertainty, false);
         self.start_anew();

@@ -95,11 +95,11 @@ struct Kind {
 pub struct Scene {
     name: String,
     /// As it stands in the file.
-    document: toml::Table,
+    pub(crate) document: toml::Table,
     input: InputSection,
     renamed: Vec<RenamedColumn>,
-    shape: ShapeSource,
-    pose: PoseSection,
+    pub(crate) shape: ShapeSource,
+    pub(crate) pose: PoseSection,
     projection: Projection,
     stages: StageSections,
     /// In double precision: that it could be built is what was checked.

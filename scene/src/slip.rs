@@ -11,9 +11,9 @@ use serde::{Deserialize, Serialize};
 use crate::fault::SceneProblem;
 
 /// How many samples the likelihood ratio looks back over.
-const WINDOW: usize = 32;
+pub(crate) const WINDOW: usize = 32;
 /// The allowance of a cumulative sum whose false alarms are given.
-const ALLOWANCE: f64 = 0.75;
+pub(crate) const ALLOWANCE: f64 = 0.75;
 
 /// `[slip]` of a scene: each variant is a detector by its name in the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -110,33 +110,64 @@ impl SurfaceSection for FormulaSection {
     }
 }
 
-/// The shape in the sensor frame. Without a pose it is there already. Plane, sphere and cylinder are put there themselves, which costs nothing
-/// per sample; others are [`Posed`].
+/// How a shape gets into the sensor frame.
+pub(crate) enum Placing<T: Real> {
+    /// It is there already.
+    Here,
+    /// A plane is put there itself, which costs nothing per sample.
+    Plane { point: Vector3<T>, normal: Vector3<T> },
+    /// So is a sphere.
+    Sphere { centre: Vector3<T>, pole: Vector3<T> },
+    /// So is a cylinder.
+    Cylinder { centre: Vector3<T>, axis: Vector3<T> },
+    /// Others are [`Posed`].
+    Posed(RigidTransform<T>),
+}
+
+/// How a shape gets into the sensor frame: without a pose it is there already.
+pub(crate) fn placing<T: Real>(
+    surface: &DynSurface<T>,
+    section: &PoseSection,
+) -> Result<Placing<T>, SceneProblem> {
+    let pose = section.sensor_from_surface()?;
+    if *section == PoseSection::default() {
+        return Ok(Placing::Here);
+    }
+    Ok(match surface {
+        DynSurface::Plane(plane) => Placing::Plane {
+            point: pose.transform_point(&plane.point()),
+            normal: pose.rotate(&plane.normal(&plane.point())),
+        },
+        DynSurface::Sphere(cap) => Placing::Sphere {
+            centre: pose.transform_point(&cap.sphere().centre()),
+            pole: pose.rotate(&cap.pole()),
+        },
+        DynSurface::Cylinder(cylinder) => Placing::Cylinder {
+            centre: pose.transform_point(&cylinder.centre()),
+            axis: pose.rotate(&cylinder.axis()),
+        },
+        _ => Placing::Posed(pose),
+    })
+}
+
+/// The shape in the sensor frame.
 pub(crate) fn placed<T: Real>(
     surface: DynSurface<T>,
     section: &PoseSection,
 ) -> Result<DynSurface<T>, SceneProblem> {
-    let pose = section.sensor_from_surface()?;
-    if *section == PoseSection::default() {
-        return Ok(surface);
-    }
-    Ok(match surface {
-        DynSurface::Plane(plane) => {
-            let normal = pose.rotate(&plane.normal(&plane.point()));
-            DynSurface::Plane(Plane::new(pose.transform_point(&plane.point()), normal)?)
-        }
-        DynSurface::Sphere(cap) => {
-            let centre = pose.transform_point(&cap.sphere().centre());
+    Ok(match (placing(&surface, section)?, surface) {
+        (Placing::Plane { point, normal }, _) => DynSurface::Plane(Plane::new(point, normal)?),
+        (Placing::Sphere { centre, pole }, DynSurface::Sphere(cap)) => {
             let sphere = Sphere::new(centre, cap.sphere().radius())?;
-            DynSurface::Sphere(SphericalCap::new(sphere, pose.rotate(&cap.pole()), cap.least_cosine())?)
+            DynSurface::Sphere(SphericalCap::new(sphere, pole, cap.least_cosine())?)
         }
-        DynSurface::Cylinder(cylinder) => {
-            let (centre, axis) = (pose.transform_point(&cylinder.centre()), pose.rotate(&cylinder.axis()));
+        (Placing::Cylinder { centre, axis }, DynSurface::Cylinder(cylinder)) => {
             let whole = Cylinder::new(centre, axis, cylinder.radius())?;
             let half = cylinder.half_length();
             DynSurface::Cylinder(half.map_or(Ok(whole), |half| whole.with_half_length(half))?)
         }
-        other => DynSurface::Posed(Box::new(Posed::new(other, pose))),
+        (Placing::Posed(pose), other) => DynSurface::Posed(Box::new(Posed::new(other, pose))),
+        (_, here) => here,
     })
 }
 

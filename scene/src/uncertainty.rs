@@ -91,11 +91,11 @@ impl UncertaintySection {
 /// What is uncertain of a fingertip: its wrench, and where its surface is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertainty<T: Real> {
-    noise: WrenchNoise<T>,
-    geometry: GeometryUncertainty<T>,
+    pub(crate) noise: WrenchNoise<T>,
+    pub(crate) geometry: GeometryUncertainty<T>,
     /// Whether the geometry is taken to be known exactly.
-    exact: bool,
-    probability: T,
+    pub(crate) exact: bool,
+    pub(crate) probability: T,
 }
 
 /// How sure a contact is: standard deviations to first order.

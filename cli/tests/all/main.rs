@@ -11,6 +11,7 @@ mod common;
 mod conversions;
 mod demo;
 mod design;
+mod exports;
 mod live;
 mod nano17;
 mod recorded;

@@ -6,7 +6,7 @@ use fingertip_scene::registry::{Entry, entries};
 use crate::{BALL, HEAD, NOISE, pushes};
 
 /// A whole scene with this choice and what it needs beside it.
-fn scene_with(entry: &Entry) -> String {
+pub(crate) fn scene_with(entry: &Entry) -> String {
     let text = entry.text();
     match entry.section {
         "surface" => format!("{HEAD}{text}"),

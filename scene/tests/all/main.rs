@@ -4,6 +4,10 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod choices;
+mod export;
+mod export_beside;
+#[allow(dead_code, unreachable_pub)]
+mod exported;
 mod formula;
 mod front;
 mod hostile;

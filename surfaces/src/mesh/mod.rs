@@ -50,6 +50,15 @@ pub struct Mesh<T: Real> {
     bvh: Bvh<T>,
 }
 
+/// Vertices, and triangles that index them.
+type Parts<T> = (Vec<Vector3<T>>, Vec<[u32; 3]>);
+
+fn of_stl<T: Real>(bytes: &[u8], metres_per_unit: T) -> Result<Parts<T>, MeshError> {
+    let corners = stl::read(bytes, metres_per_unit)?;
+    let count = u32::try_from(corners.len() / 3).map_err(|_| MeshError::TooLarge)?;
+    Ok((corners, (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect()))
+}
+
 impl<T: Real> Mesh<T> {
     /// From vertices \[m\] and triangles that index them.
     ///
@@ -86,9 +95,7 @@ impl<T: Real> Mesh<T> {
     /// # Errors
     /// [`MeshError`] if the file is malformed or the mesh is not closed.
     pub fn from_stl(bytes: &[u8], metres_per_unit: T) -> Result<Self, MeshError> {
-        let corners = stl::read(bytes, metres_per_unit)?;
-        let count = u32::try_from(corners.len() / 3).map_err(|_| MeshError::TooLarge)?;
-        let triangles: Vec<[u32; 3]> = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        let (corners, triangles) = of_stl(bytes, metres_per_unit)?;
         Self::new(&corners, &triangles)
     }
 
@@ -108,13 +115,26 @@ impl<T: Real> Mesh<T> {
     /// [`MeshError`] if the file cannot be read, is malformed, or the mesh is not closed.
     #[cfg(feature = "std")]
     pub fn from_file(path: impl AsRef<std::path::Path>, metres_per_unit: T) -> Result<Self, MeshError> {
+        let (vertices, triangles) = Self::parts_from_file(path, metres_per_unit)?;
+        Self::new(&vertices, &triangles)
+    }
+
+    /// The vertices \[m\] and triangles of such a file as [`new`](Self::new) takes them, for those who write them
+    /// elsewhere. Those of an STL file have no vertex in common.
+    ///
+    /// # Errors
+    /// [`MeshError`] if the file cannot be read or is malformed.
+    #[cfg(feature = "std")]
+    pub fn parts_from_file(
+        path: impl AsRef<std::path::Path>,
+        metres_per_unit: T,
+    ) -> Result<Parts<T>, MeshError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|error| MeshError::Unreadable(error.kind()))?;
         if path.extension().is_some_and(|name| name.eq_ignore_ascii_case("obj")) {
-            let text = core::str::from_utf8(&bytes).map_err(|_| MeshError::NotText)?;
-            Self::from_obj(text, metres_per_unit)
+            obj::read(core::str::from_utf8(&bytes).map_err(|_| MeshError::NotText)?, metres_per_unit)
         } else {
-            Self::from_stl(&bytes, metres_per_unit)
+            of_stl(&bytes, metres_per_unit)
         }
     }
 

@@ -3,13 +3,9 @@
 use alloc::vec::Vec;
 
 use fingertip_wrench::Real;
-use nalgebra::Vector3;
 
-use super::MeshError;
 use super::stl::three;
-
-/// Vertices, and triangles that index them.
-type Parts<T> = (Vec<Vector3<T>>, Vec<[u32; 3]>);
+use super::{MeshError, Parts};
 
 pub(super) fn read<T: Real>(text: &str, metres_per_unit: T) -> Result<Parts<T>, MeshError> {
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());

@@ -3,6 +3,15 @@
 #![no_std]
 
 mod alone;
+/// What `fingertip export --scalar f32` writes of a scene to copy: it has to compile where there is neither a standard
+/// library nor a heap.
+#[rustfmt::skip]
+#[path = "../../../../scene/tests/all/exported/nano17_soft_finger_f32.rs"]
+pub mod exported_cylinder;
+/// Another one, with a slip detector.
+#[rustfmt::skip]
+#[path = "../../../../scene/tests/all/exported/paper_sphere_f32.rs"]
+pub mod exported_sphere;
 mod felt;
 mod scene_a;
 mod scene_b;

@@ -1,0 +1,91 @@
+//! Solver and zero of a calibration, as its file writes them.
+
+use fingertip::wrench::Real;
+use fingertip_calibration::file::{CalibrationFile, Scalar};
+use serde::de::DeserializeOwned;
+
+use super::ExportError;
+use super::template::{Typed, Writer};
+use crate::input::Convention;
+
+/// The fewest gauges that tell a wrench.
+const FEWEST: usize = 6;
+
+/// What a calibration adds to a pipeline.
+pub(super) struct Solved {
+    pub(super) solver: Typed,
+    pub(super) zero: Typed,
+    /// The module of its constants.
+    pub(super) module: String,
+    /// What turns the sensor matrix round, where the scene asks for that.
+    pub(super) opposite: String,
+    /// Whether a reading has a temperature.
+    pub(super) is_warm: bool,
+    /// The type of a reading.
+    pub(super) reading: String,
+}
+
+impl<T: Real + DeserializeOwned> Writer<T> {
+    pub(super) fn solved(
+        &mut self,
+        file: &CalibrationFile,
+        scalar: Scalar,
+        convention: Convention,
+    ) -> Result<Solved, ExportError> {
+        let (gauges, t) = (file.gauges(), Self::scalar());
+        if gauges < FEWEST {
+            return Err(ExportError::Gauges { found: gauges });
+        }
+        // Six gauges give the wrench exactly, more by least squares.
+        let (name, of) = match gauges {
+            FEWEST => ("GaussianElimination", format!("wrench::GaussianElimination<{t}>")),
+            _ => ("LeastSquares", format!("wrench::LeastSquares<{t}, {gauges}>")),
+        };
+        let matrix = match convention {
+            Convention::OnFingertip => "calibration::sensor_matrix()?",
+            // Signals of the opposite load: the solution of the opposite matrix.
+            Convention::Reaction => "opposite(&calibration::sensor_matrix()?)?",
+        };
+        let zero = if file.temperature.is_some() {
+            Typed {
+                of: format!("wrench::TemperatureCompensation<{t}, {gauges}, 3>"),
+                make: "calibration::temperature_compensation()?".to_owned(),
+            }
+        } else {
+            Typed {
+                of: format!("wrench::Tare<{t}, {gauges}>"),
+                make: "wrench::Tare::new(nalgebra::SVector::from(calibration::ZERO))".to_owned(),
+            }
+        };
+        let reading = match file.temperature.is_some() {
+            true => "wrench::GaugesAndTemperature { gauges, temperature }".to_owned(),
+            false => format!("nalgebra::SVector<{t}, {gauges}>"),
+        };
+        let constants: String = file
+            .to_rust(scalar)?
+            .lines()
+            .map(|line| if line.is_empty() { "\n".to_owned() } else { format!("    {line}\n") })
+            .collect();
+        let opposite = match convention {
+            Convention::OnFingertip => String::new(),
+            Convention::Reaction => format!(
+                "\n/// The scene says `convention = \"reaction\"`: what the calibration calls a load is the fingertip's on the\n\
+                 /// environment, and the pipeline wants the opposite.\n\
+                 fn opposite(\n    matrix: &wrench::SensorMatrix<{t}, {gauges}>,\n\
+                 ) -> Result<wrench::SensorMatrix<{t}, {gauges}>, wrench::SensorMatrixError> {{\n    \
+                     wrench::SensorMatrix::new(-matrix.normalised(), *matrix.nominal())\n}}\n"
+            ),
+        };
+        Ok(Solved {
+            solver: Typed { of, make: format!("wrench::{name}::new(&{matrix})?") },
+            zero,
+            module: format!(
+                "\n/// The calibration of the sensor.\npub mod calibration {{\n    \
+                 use fingertip::wrench as fingertip_wrench;\n\n{constants}}}\n"
+            ),
+            opposite,
+            is_warm: file.temperature.is_some(),
+            reading,
+        })
+    }
+}
