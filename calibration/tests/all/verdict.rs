@@ -88,9 +88,11 @@ fn a_check_says_what_it_cannot_do() {
     assert_eq!(report.notes, ["temperatures are known, but the calibration has no terms for them"]);
     let mut stamped = file.clone();
     stamped.quality.verdict = Verdict::Bad;
+    stamped.provenance.method = "hand".to_owned();
     stamped.quality.reasons = vec!["a".to_owned(), "b".to_owned()];
     let report = Report::of_check(&stamped, &table(&samples(8.0)), &Limits::default(), None).unwrap();
     assert_eq!(report.notes, ["the file itself is stamped as bad: a; b"]);
+    assert_eq!(report.method, "check of a calibration by hand");
     assert_eq!(report.verdict, Verdict::Good);
 }
 
