@@ -18,6 +18,7 @@ mod refusals;
 mod report;
 mod report_forms;
 mod residuals;
+mod robust;
 mod rust_constants;
 mod searches;
 mod shapes;

@@ -26,18 +26,23 @@ fn table() -> LoadTable {
     table
 }
 
-fn options(tare_groups: bool) -> Options {
-    Options { bias: false, tare_groups, nominal: Some(vec![1.0; 2]), ..Options::default() }
+fn options(tare_groups: bool, bias: bool) -> Options {
+    Options { bias, tare_groups, nominal: Some(vec![1.0; 2]), ..Options::default() }
 }
 
 /// The map from readings to readings less what `share` has of each group, and the degrees of freedom that it leaves.
-fn check(table: &LoadTable, fitted: &LoadTable, tare: bool, share: impl Fn(usize, usize) -> f64) {
+fn check(
+    table: &LoadTable,
+    fitted: &LoadTable,
+    (tare, bias): (bool, bool),
+    share: impl Fn(usize, usize) -> f64,
+) {
     let weights = DMatrix::from_diagonal(&table.weights.clone().unwrap().into());
     let less = DMatrix::from_fn(SAMPLES, SAMPLES, |i, j| {
         let same = if table.groups[i] == table.groups[j] { share(i, j) } else { 0.0 };
         if i == j { 1.0 - same } else { -same }
     });
-    let x = &fitted.loads;
+    let x = &if bias { fitted.loads.clone().insert_column(2, 1.0) } else { fitted.loads.clone() };
     let gram = (x.transpose() * &weights * x).try_inverse().unwrap();
     let noise = &less * weights.clone().try_inverse().unwrap() * less.transpose();
     let spread = &gram * x.transpose() * &weights * &noise * &weights * x * &gram;
@@ -45,7 +50,7 @@ fn check(table: &LoadTable, fitted: &LoadTable, tare: bool, share: impl Fn(usize
     let left = &less * &table.signals - x * &coefficients;
     let freedom = (noise * (&weights - &weights * x * &gram * x.transpose() * &weights)).trace();
     let variance = left.transpose() * weights * left / freedom;
-    let fit = calibrate(if tare { table } else { fitted }, &options(tare)).unwrap().model.fit;
+    let fit = calibrate(if tare { table } else { fitted }, &options(tare, bias)).unwrap().model.fit;
     assert!((&fit.coefficients - coefficients).largest() < 1e-12);
     let near = |a: &DMatrix<f64>, b: &DMatrix<f64>| (a - b).largest() < 1e-10 * b.largest();
     assert!(near(&fit.inverse_gram, &spread), "{} {spread}", fit.inverse_gram);
@@ -59,7 +64,9 @@ fn of_readings_at_rest() {
     let count =
         |group: usize| (0..SAMPLES).filter(|i| table.groups[*i] == group && at_rest(*i)).count() as f64;
     let share = |_: usize, j: usize| if at_rest(j) { 1.0 / count(table.groups[j]) } else { 0.0 };
-    check(&table, &table, true, share);
+    check(&table, &table, (true, false), share);
+    // A constant is pulled by the zeros as well, and at rest by these alone.
+    check(&table, &table, (true, true), share);
 }
 
 #[test]
@@ -69,5 +76,5 @@ fn of_all_readings() {
     let total = |group: usize| -> f64 {
         (0..SAMPLES).filter(|i| table.groups[*i] == group).map(|i| weights[i]).sum()
     };
-    check(&table, &table.centred_by_group(), false, |_, j| weights[j] / total(table.groups[j]));
+    check(&table, &table.centred_by_group(), (false, false), |_, j| weights[j] / total(table.groups[j]));
 }
