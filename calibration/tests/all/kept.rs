@@ -4,8 +4,8 @@ use fingertip_calibration::Axis;
 use fingertip_calibration::calibrate;
 use fingertip_calibration::file::{CalibrationFile, SignalUnit};
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{Method, Options};
-use fingertip_calibration::nalgebra::DMatrix;
+use fingertip_calibration::model::{Direction, Method, Options};
+use fingertip_calibration::nalgebra::{DMatrix, DVector};
 use rand::SeedableRng as _;
 use rand_pcg::Pcg64Mcg;
 
@@ -142,4 +142,89 @@ fn what_is_left_out_is_told_in_deviations_of_the_rest() {
         found.report.excluded.iter().map(|one| (one.sample.as_str(), one.reason.as_str())).collect();
     assert_eq!(reasons, [("sample 7", told(6, 2).as_str()), ("sample 18", told(17, 3).as_str())]);
     assert_eq!((found.table.samples(), found.model.fit.trust.shape()), (23, (23, 4)));
+}
+
+/// Loads from signals: the covariance of the entries of the matrix is that of the coefficients, carried over by
+/// differences of the matrix.
+#[test]
+fn the_covariance_of_an_inverted_fit_is_carried_over() {
+    let random = &mut Pcg64Mcg::seed_from_u64(205);
+    let signals = gaussians(random, 20, 3);
+    let loads = (&signals * sensor(random, 3, 3)).add_scalar(0.3) + gaussians(random, 20, 3) * 0.05;
+    let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt).unwrap();
+    let direction = Direction::LoadsFromSignals;
+    let options = Options { direction, nominal: Some(NOMINAL.to_vec()), ..Options::default() };
+    let model = calibrate(&table, &options).unwrap().model;
+    let entries = |k: usize, by: f64| {
+        let mut moved = model.clone();
+        moved.fit.coefficients[(k % 3, k / 3)] += by;
+        moved.matrix_and_zero().unwrap().0
+    };
+    let mut slope = DMatrix::zeros(9, 9);
+    for k in 0..9 {
+        slope.set_column(
+            k,
+            &DVector::from_column_slice(((entries(k, 1e-5) - entries(k, -1e-5)) / 2e-5).as_slice()),
+        );
+    }
+    let fit = &model.fit;
+    let of_fit = DMatrix::from_fn(9, 9, |a, b| {
+        fit.inverse_gram[(a % 3, b % 3)] * fit.residual_covariance[(a / 3, b / 3)]
+    });
+    let expected = &slope * of_fit * slope.transpose();
+    let found = model.covariance().unwrap();
+    let found = DMatrix::from_fn(9, 9, |a, b| found.signals[(a % 3, b % 3)] * found.loads[(a / 3, b / 3)]);
+    assert!((found - &expected).largest() < 1e-6 * expected.largest());
+}
+
+/// Of a bent sensor the zero reads no load, and the matrix is the inverse of the slope there.
+#[test]
+fn the_matrix_of_a_bent_sensor_is_that_at_its_zero() {
+    let random = &mut Pcg64Mcg::seed_from_u64(206);
+    let signals = gaussians(random, 40, 3);
+    let loads = DMatrix::from_fn(40, 3, |i, j| {
+        let s = |k: usize| signals[(i, (j + k) % 3)];
+        3.0 * s(0) + 0.5 * s(1) + 0.1 * s(0) * s(0) - 0.2 * s(0) * s(2) + 0.15 * s(1) * s(2) + 0.4
+            - 0.3 * j as f64
+    });
+    let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt).unwrap();
+    let direction = Direction::LoadsFromSignals;
+    let options =
+        Options { direction, quadratic: true, nominal: Some(NOMINAL.to_vec()), ..Options::default() };
+    let model = calibrate(&table, &options).unwrap().model;
+    let (matrix, zero) = model.matrix_and_zero().unwrap();
+    let said =
+        |reading: &DVector<f64>| model.loads(&DMatrix::from_row_slice(1, 3, reading.as_slice())).unwrap();
+    assert!(zero.norm() > 0.05 && said(&zero).largest() < 1e-12, "{zero}");
+    let mut slope = DMatrix::zeros(3, 3);
+    for k in 0..3 {
+        let mut step = DVector::zeros(3);
+        step[k] = 1e-4;
+        let change = (said(&(&zero + &step)) - said(&(&zero - &step))) / 2e-4;
+        (0..3).for_each(|j| slope[(j, k)] = change[j] / NOMINAL[j]);
+    }
+    assert!((&slope * &matrix - DMatrix::identity(3, 3)).largest() < 1e-9);
+}
+
+/// Noise of one reading, and of the matrix under the load, as newtons.
+#[test]
+fn the_covariance_of_a_load_has_the_reading_and_the_matrix() {
+    let (table, _) = noisy(207);
+    let options = Options { bias: false, nominal: Some(NOMINAL.to_vec()), ..Options::default() };
+    let model = calibrate(&table, &options).unwrap().model;
+    let x = regressors(&table, false);
+    let inverse = (x.transpose() * &x).try_inverse().unwrap();
+    let theta = &inverse * x.transpose() * &table.signals;
+    let left = &table.signals - &x * &theta;
+    let noise = left.transpose() * &left / 22.0;
+    // Loads from readings, in N: least squares of each reading.
+    let mut from_signals = (&theta * theta.transpose()).try_inverse().unwrap() * &theta;
+    (0..3).for_each(|j| from_signals.row_mut(j).scale_mut(NOMINAL[j]));
+    for load in [[0.0, 0.0, 0.0], [2.0, -3.0, 0.25], [-8.0, 1.0, 2.0]] {
+        let share = DVector::from_fn(3, |j, _| load[j] / NOMINAL[j]);
+        let more = 1.0 + share.dot(&(&inverse * &share));
+        let expected = &from_signals * &noise * from_signals.transpose() * more;
+        let found = model.load_covariance(&DVector::from_column_slice(&load)).unwrap();
+        assert!((found - &expected).largest() < 1e-11 * expected.largest());
+    }
 }
