@@ -11,6 +11,7 @@ mod kept;
 mod metrics;
 mod motion;
 mod payload;
+mod plans;
 mod plots;
 mod random;
 mod recordings;

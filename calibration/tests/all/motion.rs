@@ -1,7 +1,7 @@
 //! Shape from motion: errors as stated, and the same sensor in any units, order and frame.
 
 use fingertip_calibration::fit::FitError;
-use fingertip_calibration::motion::{LeverArm, MotionError, constant_force, lever_arms};
+use fingertip_calibration::motion::{LeverArm, LeverArmFit, MotionError, constant_force, lever_arms};
 use fingertip_calibration::nalgebra::{DMatrix, DVector, Vector3};
 use rand::SeedableRng as _;
 use rand_pcg::Pcg64Mcg;
@@ -178,5 +178,64 @@ fn too_few_directions_or_gauges_are_refused() {
     }
     for force in [0.0, -5.0, f64::NAN, f64::INFINITY] {
         assert!(constant_force(&signals, force).is_err(), "{force}");
+    }
+}
+
+/// A reading under a force that points roughly along x settles the sign; across it, or nowhere, it does not.
+#[test]
+fn the_sign_is_settled_by_a_known_force_only() {
+    let zero = DVector::from_fn(6, |i, _| 0.1 * i as f64);
+    let found = LeverArmFit {
+        sensitivities: DMatrix::identity(6, 6) * 2.0,
+        deviations: DMatrix::zeros(6, 6),
+        zero: zero.clone(),
+        zero_deviation: DVector::zeros(6),
+        noise: 0.0,
+        residual: 0.0,
+        hits: 1,
+        starts: 1,
+        misfit: 0.0,
+    };
+    let mut reading = zero;
+    reading[0] += 3.0;
+    for (force, sign) in [(Vector3::new(1.0, 0.9, 0.0), 1.0), (Vector3::new(-2.0, 0.0, 5.0), -1.0)] {
+        let settled = found.clone().with_sign(&reading, &force).unwrap();
+        assert_eq!(settled, LeverArmFit { sensitivities: &found.sensitivities * sign, ..found.clone() });
+    }
+    assert_eq!(found.clone().with_sign(&reading, &Vector3::zeros()), None);
+    assert_eq!(found.clone().with_sign(&reading, &Vector3::repeat(f64::NAN)), None);
+    assert_eq!(found.with_sign(&DVector::zeros(5), &Vector3::x()), None);
+}
+
+/// What a fit says of itself: how far the forces that it tells of are from their size, and how much of the readings is
+/// in a fourth direction.
+#[test]
+fn misfit_and_leakage_are_those_of_the_readings() {
+    let random = &mut Pcg64Mcg::seed_from_u64(45);
+    for gauges in 3..7 {
+        let truth = sensor(random, 3, gauges);
+        let signals = (directions(random, 18) * &truth).add_scalar(1.0) + gaussians(random, 18, gauges) * 0.2;
+        let fit = constant_force(&signals, 5.0).unwrap();
+        let squares: f64 = signals
+            .row_iter()
+            .map(|row| (fit.force(&row.transpose()).unwrap().norm() / 5.0 - 1.0).powi(2))
+            .sum();
+        assert!(
+            fit.misfit > 1e-3 && (fit.misfit / (squares / 18.0).sqrt() - 1.0).abs() < 1e-9,
+            "{}",
+            fit.misfit
+        );
+        assert!(
+            (&fit.force_from_signals * &fit.signals_from_force - DMatrix::identity(3, 3)).largest() < 1e-12
+        );
+        let mut centred = signals.clone();
+        centred.row_iter_mut().for_each(|mut row| row -= signals.row_mean());
+        // Squares of the singular values.
+        let mut sizes: Vec<f64> =
+            (centred.transpose() * centred).symmetric_eigenvalues().iter().copied().collect();
+        sizes.sort_by(|a, b| b.total_cmp(a));
+        let expected = if gauges > 3 { (sizes[3] / sizes[2]).sqrt() } else { 0.0 };
+        assert!((fit.leakage - expected).abs() < 1e-9, "{gauges}: {} {expected}", fit.leakage);
+        assert_eq!(fit.force(&DVector::zeros(gauges + 1)), None);
     }
 }

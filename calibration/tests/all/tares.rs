@@ -4,7 +4,7 @@ use fingertip_calibration::Axis;
 use fingertip_calibration::calibrate;
 use fingertip_calibration::file::SignalUnit;
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::Options;
+use fingertip_calibration::model::{Method, Options};
 use fingertip_calibration::nalgebra::DMatrix;
 use rand::SeedableRng as _;
 use rand_pcg::Pcg64Mcg;
@@ -77,4 +77,24 @@ fn of_all_readings() {
         (0..SAMPLES).filter(|i| table.groups[*i] == group).map(|i| weights[i]).sum()
     };
     check(&table, &table.centred_by_group(), (false, false), |_, j| weights[j] / total(table.groups[j]));
+}
+
+/// A sample of no weight, or one that RANSAC does not believe, is as if it were not there.
+#[test]
+fn of_samples_that_do_not_count() {
+    let table = table();
+    let expected = calibrate(&table.select(|i| i != 5), &options(true, false)).unwrap().model.fit;
+    let same = |table: &LoadTable, options: &Options| {
+        let fit = calibrate(table, options).unwrap().model.fit;
+        assert!((&fit.coefficients - &expected.coefficients).largest() < 1e-12);
+        assert!((&fit.inverse_gram - &expected.inverse_gram).largest() < 1e-12);
+        assert!((&fit.residual_covariance - &expected.residual_covariance).largest() < 1e-12);
+    };
+    let mut light = table.clone();
+    light.weights.as_mut().unwrap()[5] = 0.0;
+    same(&light, &options(true, false));
+    let mut wrong = table;
+    wrong.signals[(5, 1)] += 30.0;
+    let method = Method::Ransac { outliers: 0.2, seed: 1 };
+    same(&wrong, &Options { method, ..options(true, false) });
 }
