@@ -239,3 +239,22 @@ fn misfit_and_leakage_are_those_of_the_readings() {
         assert_eq!(fit.force(&DVector::zeros(gauges + 1)), None);
     }
 }
+
+/// Readings that are tiny or huge numbers are told as exactly as others.
+#[test]
+fn the_most_likely_sensor_does_not_mind_how_large_readings_are() {
+    let random = &mut Pcg64Mcg::seed_from_u64(46);
+    for _ in 0..5 {
+        let signals = (directions(random, 15) * sensor(random, 3, 5)).add_scalar(2.0);
+        let signals = signals + gaussians(random, 15, 5) * 0.3;
+        let plain = constant_force(&signals, 5.0).unwrap();
+        let gram = &plain.signals_from_force * plain.signals_from_force.transpose();
+        for unit in [1e-12, 1e-6, 1e6, 1e12] {
+            let other = constant_force(&(&signals * unit), 5.0).unwrap();
+            let scaled = &other.signals_from_force * other.signals_from_force.transpose() / (unit * unit);
+            assert!((scaled - &gram).largest() < 1e-6 * gram.largest(), "{unit:e}");
+            assert!((other.noise / unit / plain.noise - 1.0).abs() < 1e-9, "{unit:e}");
+            assert!((other.zero / unit - &plain.zero).largest() < 1e-6, "{unit:e}");
+        }
+    }
+}

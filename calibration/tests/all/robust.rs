@@ -1,6 +1,6 @@
 //! Robust fits and the test for outliers, against the equations that their answers must obey.
 
-use fingertip_calibration::fit::{HUBER_THRESHOLD, huber};
+use fingertip_calibration::fit::{HUBER_THRESHOLD, gauss_helmert, huber};
 use fingertip_calibration::nalgebra::{DMatrix, DVector};
 use fingertip_calibration::report::outliers;
 use rand::{RngExt as _, SeedableRng as _};
@@ -133,4 +133,26 @@ fn outliers_are_those_that_the_others_do_not_foretell() {
         }
     }
     assert!(named[..3].iter().all(|count| *count > 3), "{named:?}");
+}
+
+/// Readings without noise and without a zero: what rounding makes of the zero does not settle, and need not.
+#[test]
+fn a_coefficient_of_rounding_size_keeps_no_fit_from_its_end() {
+    let random = &mut Pcg64Mcg::seed_from_u64(213);
+    for unit in [1e-9, 1.0, 1e9] {
+        for _ in 0..10 {
+            let (loads, truth) = (gaussians(random, 12, 3) * 0.1, gaussians(random, 3, 2) * unit);
+            // No gauge sees the third load, nor is there a constant.
+            let truth = DMatrix::from_fn(4, 2, |i, j| if i < 2 { truth[(i, j)] } else { 0.0 });
+            let design = loads.insert_column(3, 1.0);
+            let errors = DMatrix::from_fn(12, 4, |_, j| if j < 3 { 1e-3 } else { 0.0 });
+            let noise = DMatrix::from_element(12, 2, 1e-3 * unit);
+            let fit = gauss_helmert(&design, &(&design * &truth), &errors, &noise).unwrap();
+            assert!(
+                (fit.coefficients - truth).largest() < 1e-12 * unit && fit.iterations < 10,
+                "{}",
+                fit.iterations
+            );
+        }
+    }
 }
