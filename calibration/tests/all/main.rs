@@ -6,6 +6,7 @@ mod covariance;
 mod design_end_to_end;
 mod design_optimum;
 mod equivariance;
+mod files;
 mod in_situ;
 mod kept;
 mod metrics;
