@@ -258,3 +258,24 @@ fn the_most_likely_sensor_does_not_mind_how_large_readings_are() {
         }
     }
 }
+
+#[test]
+fn too_few_arms_or_gauges_are_named() {
+    let random = &mut Pcg64Mcg::seed_from_u64(47);
+    let (truth, zero) = six(random);
+    let good = arms(random, &truth, &zero);
+    let refused = |arms: &[LeverArm]| lever_arms(arms, 5.0, 1e-6, 1, 1).unwrap_err().to_string();
+    let mut uneven = good.clone();
+    uneven[1].signals = uneven[1].signals.columns(0, 5).into_owned();
+    let five: Vec<LeverArm> = (good.iter())
+        .map(|arm| LeverArm { signals: arm.signals.columns(0, 5).into_owned(), ..arm.clone() })
+        .collect();
+    for wrong in [&good[..3], &five, &uneven, &[]] {
+        assert!(refused(wrong).contains("four at least, six gauges at least"), "{}", refused(wrong));
+    }
+    // Arms in a plane through the origin say nothing of a torque across it.
+    let mut flat = good;
+    flat.iter_mut().for_each(|arm| arm.arm.z = 0.0);
+    flat[2].arm = Vector3::new(0.05, 0.05, 0.0);
+    assert!(lever_arms(&flat, 5.0, 1e-6, 20, 1).is_err());
+}

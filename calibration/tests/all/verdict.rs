@@ -300,3 +300,22 @@ fn the_deviation_of_one_reading_is_that_of_what_is_left() {
     let deviation = report.matrix_deviations.unwrap()[0][0];
     assert!((deviation / (5.0 * noise / loads.norm()) - 1.0).abs() < 1e-9);
 }
+
+/// Each axis stands for the next: none is where it should be.
+#[test]
+fn axes_that_all_moved_are_suspected() {
+    let random = &mut Pcg64Mcg::seed_from_u64(96);
+    let samples: Vec<Sample<3>> = (0..12)
+        .map(|_| {
+            let load = [8.0, 16.0, 32.0].map(|full| full * gaussian(random));
+            (load, [load[1], load[2], load[0]])
+        })
+        .collect();
+    let report = check(&samples, &Limits::default());
+    let reads = report.suspicions.iter().find_map(|suspicion| match &suspicion.mistake {
+        Mistake::Axes { reads } => Some(reads.clone()),
+        _ => None,
+    });
+    // Fx was read as the third, Fy as the first, Fz as the second.
+    assert_eq!(reads.unwrap(), [(Axis::Fz, false), (Axis::Fx, false), (Axis::Fy, false)], "{report}");
+}
