@@ -2,14 +2,16 @@
 
 use fingertip_calibration::Axis;
 use fingertip_calibration::calibrate;
+use fingertip_calibration::design::{Touch, TouchSet};
 use fingertip_calibration::file::{CalibrationFile, SignalUnit};
 use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{Direction, Method, Options};
 use fingertip_calibration::nalgebra::{DMatrix, DVector};
+use fingertip_calibration::report::ContactReport;
 use rand::SeedableRng as _;
 use rand_pcg::Pcg64Mcg;
 
-use super::random::{gaussians, sensor};
+use super::random::{gaussian, gaussians, sensor};
 use super::testing::Largest as _;
 
 const NOMINAL: [f64; 3] = [2.0, 4.0, 0.5];
@@ -227,4 +229,42 @@ fn the_covariance_of_a_load_has_the_reading_and_the_matrix() {
         let found = model.load_covariance(&DVector::from_column_slice(&load)).unwrap();
         assert!((found - &expected).largest() < 1e-11 * expected.largest());
     }
+}
+
+/// Of many touches the figures are root mean squares of those of each, and the worst is the greatest.
+#[test]
+fn touches_together_are_the_mean_and_the_worst_of_each() {
+    let random = &mut Pcg64Mcg::seed_from_u64(208);
+    let nominal = [5.0, 5.0, 5.0, 0.05, 0.05, 0.05];
+    let loads = DMatrix::from_fn(20, 6, |_, j| nominal[j] * gaussian(random));
+    let shares = DMatrix::from_fn(20, 6, |i, j| loads[(i, j)] / nominal[j]);
+    let signals = shares * sensor(random, 6, 7) + gaussians(random, 20, 7) * 1e-3;
+    let table = LoadTable::new(&Axis::ALL, loads, signals, SignalUnit::Volt).unwrap();
+    let mut touches: Vec<Touch> =
+        Touch::on_sphere(0.01, 1.4, 0.5, 5.0).unwrap().into_iter().step_by(97).collect();
+    // One of another size, neither first nor last.
+    touches[5].force *= 0.3;
+    let told = |touches: &[Touch]| {
+        let set = TouchSet { surface: "a sphere".to_owned(), touches: touches.to_vec() };
+        let options = Options { touches: Some(set), nominal: Some(nominal.to_vec()), ..Options::default() };
+        calibrate(&table, &options).unwrap().report.contacts.unwrap()
+    };
+    let all = told(&touches);
+    let each: Vec<_> = touches.iter().map(|touch| told(core::slice::from_ref(touch))).collect();
+    let near =
+        |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+    let count = touches.len() as f64;
+    let mean = |of: &dyn Fn(&ContactReport) -> f64| {
+        (each.iter().map(|one| of(one).powi(2)).sum::<f64>() / count).sqrt()
+    };
+    near(all.calibration_mm, mean(&|one| one.calibration_mm));
+    near(all.reading_mm, mean(&|one| one.reading_mm));
+    near(all.together_mm, mean(&|one| one.together_mm));
+    near(all.worst_mm, each.iter().map(|one| one.together_mm).fold(0.0, f64::max));
+    near(all.force, touches.iter().map(|touch| touch.force.norm()).sum::<f64>() / count);
+    for one in &each {
+        near(one.worst_mm, one.together_mm);
+        near(one.together_mm, one.calibration_mm.hypot(one.reading_mm));
+    }
+    assert!(all.worst_mm > 1.2 * all.together_mm);
 }
