@@ -114,7 +114,7 @@ impl Decoupling {
     }
 }
 
-/// All combinations up to sign that leave out at least one load, with their row of `M·C`.
+/// All combinations up to sign, with their row of `M·C`.
 fn candidates(normalised: &DMatrix<f64>, sizes: &[f64], greatest: i8) -> Vec<Candidate> {
     let channels = normalised.nrows();
     let rows: Vec<Vector6<f64>> =
@@ -137,9 +137,7 @@ fn candidates(normalised: &DMatrix<f64>, sizes: &[f64], greatest: i8) -> Vec<Can
                     *x = 0.0;
                 }
             });
-            if combined.iter().any(|x| *x == 0.0) && combined.iter().any(|x| *x != 0.0) {
-                found.push(Candidate { factors: factors.clone(), combined, size });
-            }
+            found.push(Candidate { factors: factors.clone(), combined, size });
         }
         // Count up, as an odometer does.
         let Some(place) = factors.iter().position(|factor| *factor < greatest) else { return found };

@@ -41,8 +41,12 @@ pub fn gauss_helmert(
     }
     let start = least_squares(design, responses, None)?;
     let mut theta = start.coefficients;
-    // Relative to each column's own size, so that units do not matter.
-    let size: Vec<f64> = theta.row_iter().map(|row| row.amax().max(f64::MIN_POSITIVE)).collect();
+    // Relative to each coefficient's own size, so that units do not matter; or to what makes a ten-thousandth of the
+    // readings, since what is smaller may be rounding, which never settles.
+    let least = 1e-4 * responses.amax();
+    let size: Vec<f64> = (theta.row_iter().zip(design.column_iter()))
+        .map(|(row, loads)| row.amax().max(least / loads.amax()).max(f64::MIN_POSITIVE))
+        .collect();
     let mut change = f64::INFINITY;
     for iteration in 1..=MOST_ITERATIONS {
         let mut triangular = Triangular::new(k * m, 1);
@@ -91,9 +95,6 @@ pub fn gauss_helmert(
                 trust: DMatrix::from_element(samples, m, 1.0),
                 iterations: iteration,
             });
-        }
-        if !change.is_finite() {
-            break;
         }
     }
     Err(FitError::NoConvergence { iterations: MOST_ITERATIONS, change })

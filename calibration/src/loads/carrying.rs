@@ -76,6 +76,18 @@ mod tests {
             LoadTable::from_csv(text.replace("1,0,0,1,1,0,0,0", "1,0,0,1,0,0,0,1").as_bytes()).unwrap().0;
         let tared = upright.carrying(&payload, true).unwrap().loads;
         assert!((tared - upright.carrying(&payload, false).unwrap().loads).largest() < 1e-15);
+        // Each group is tared by its own unloaded rows: upright in the first, the mean of upright and on its side in
+        // the second, where the weight is (-1, 0, 0) N and no torque about y.
+        let text = "fx_N,fz_N,ty_Nm,v1_V,qx,qy,qz,qw,group\n0,0,0,1,0,0,0,1,1\n0,0,0,1,0,0,0,1,1\n0,1,0,1,0,1,0,0,1\n0,0,0,1,0,0,0,1,2\n0,0,0,1,0,-0.7071067811865476,0,0.7071067811865476,2\n2,0,0,1,0,0,0,1,2\n";
+        let groups = LoadTable::from_csv(text.as_bytes()).unwrap().0;
+        let tared = groups.carrying(&payload, true).unwrap().loads;
+        let expected =
+            [[0.0; 3], [0.0; 3], [0.0, 3.0, -0.04], [0.5, -0.5, 0.01], [-0.5, 0.5, -0.01], [2.5, -0.5, 0.01]];
+        for (i, row) in expected.iter().enumerate() {
+            for (j, value) in row.iter().enumerate() {
+                assert!((tared[(i, j)] - value).abs() < 1e-15, "{tared}");
+            }
+        }
         let mut bare = table;
         bare.orientations = None;
         assert!(matches!(bare.carrying(&payload, false), Err(LoadError::Empty { .. })));

@@ -237,7 +237,7 @@ impl ConstantForce {
 
 #[cfg(test)]
 mod tests {
-    use super::{MotionError, constant_force};
+    use super::{MotionError, constant_force, on_ellipsoid};
     use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
     use crate::testing::Largest as _;
     use nalgebra::{DMatrix, DVector, Vector3};
@@ -277,6 +277,30 @@ mod tests {
                 .collect();
             if let Ok(aligned) = found.aligned(&known) {
                 prop_assert!((aligned.signals_from_force - truth.transpose()).largest() < 1e-5);
+            }
+        }
+    }
+
+    /// The misfit of the ellipsoid is that of the forces it tells of. Forces of half and double size tell of a sensor of
+    /// double and half the gain.
+    #[test]
+    fn an_ellipsoid_says_how_far_its_forces_are_off() {
+        let random = &mut Pcg64Mcg::seed_from_u64(4);
+        for gauges in 3..6 {
+            let truth = sensor(random, 3, gauges);
+            let signals = (directions(random, 15) * &truth).add_scalar(2.0);
+            let signals = signals + gaussian_matrix(random, 15, gauges) * 0.1;
+            let found = on_ellipsoid(&signals, 5.0).unwrap();
+            let size = |i: usize| found.force(&signals.row(i).transpose()).unwrap().norm();
+            let squares: f64 = (0..15).map(|i| (size(i) / 5.0 - 1.0).powi(2)).sum();
+            assert!(found.misfit > 1e-4 && (found.misfit / (squares / 15.0).sqrt() - 1.0).abs() < 1e-9);
+            let inverse = &found.force_from_signals * &found.signals_from_force;
+            assert!((inverse - DMatrix::identity(3, 3)).largest() < 1e-12);
+            for force in [2.5, 10.0] {
+                let other = on_ellipsoid(&signals, force).unwrap();
+                let change = &other.signals_from_force * (force / 5.0) - &found.signals_from_force;
+                assert!(change.largest() < 1e-12 && (other.misfit - found.misfit).abs() < 1e-12);
+                assert!((other.zero - &found.zero).largest() < 1e-12);
             }
         }
     }

@@ -293,6 +293,11 @@ mod tests {
         let fit = lever_arms(&noisy, 5.0, 1e-2, 300, 1).unwrap();
         let fit = fit.with_sign(&(truth.column(0) + &zero), &Vector3::x()).unwrap();
         assert!((&fit.sensitivities - &truth).largest() < 0.02 * truth.largest());
+        let of_arm =
+            |arm: &LeverArm| crate::motion::constant_force::on_ellipsoid(&arm.signals, 5.0).unwrap().misfit;
+        let mut worst = fingertip_test_support::Worst::new();
+        noisy.iter().for_each(|arm| worst.see(of_arm(arm)));
+        assert_eq!(fit.misfit, worst.get());
         let mut wrong = noisy.clone();
         wrong[2].arm = Vector3::new(0.0, 0.05, 0.03);
         assert!(matches!(lever_arms(&wrong, 5.0, 1e-3, 100, 1), Err(MotionError::NoSolution { .. })));

@@ -43,11 +43,47 @@ fn as_many_must_agree_as_are_said_to_be_good() {
     let fit = ransac(&design, &readings, None, &Ransac { outliers: 0.4, ..Ransac::new(vec![0.5]) }).unwrap();
     assert!((0..9).all(|i| fit.trust[(i, 0)] == if i < 8 { 1.0 } else { 0.0 }));
     for bad in [0.0, -1.0, f64::NAN] {
-        assert!(ransac(&design, &readings, None, &Ransac::new(vec![bad])).is_err());
+        let refused = ransac(&design, &readings, None, &Ransac::new(vec![bad]));
+        assert_eq!(refused.unwrap_err(), FitError::BadInput { what: "the list of thresholds" });
     }
-    assert!(ransac(&design, &readings, None, &Ransac::new(vec![0.5; 2])).is_err());
+    let refused = ransac(&design, &readings, None, &Ransac::new(vec![0.5; 2]));
+    assert_eq!(refused.unwrap_err(), FitError::BadInput { what: "the list of thresholds" });
     let one = ransac(&design.rows(0, 1).into(), &readings.rows(0, 1).into(), None, &Ransac::new(vec![0.5]));
     assert_eq!(one.unwrap_err(), FitError::TooFewSamples { samples: 1, coefficients: 1 });
+}
+
+/// The set that agrees with any one reading is smaller than that which agrees with the mean of such a set.
+#[test]
+fn the_set_that_agrees_is_settled_by_fitting_to_it() {
+    // Within 1 of 0.3 are the first ten; of the others' values, nine at most. The mean of the ten is 0.39, within 1 of
+    // which are those at 1.35 too. That of all twelve is 0.54, which would lose those at −0.6.
+    let values = [&[-0.6; 3][..], &[0.3; 1], &[0.9; 6], &[1.35; 2], &[50.0, -50.0]].concat();
+    let design = DMatrix::from_element(14, 1, 1.0);
+    let readings = DMatrix::from_column_slice(14, 1, &values);
+    for seed in 0..5 {
+        let options = Ransac { outliers: 0.4, confidence: 0.999_999, seed, ..Ransac::new(vec![1.0]) };
+        // As many draws as it takes to meet the 0.3.
+        let options = Ransac { outliers: 0.9, ..options };
+        let fit = ransac(&design, &readings, None, &options).unwrap();
+        assert!((0..14).all(|i| fit.trust[(i, 0)] == if i < 12 { 1.0 } else { 0.0 }), "{}", fit.trust);
+        assert!((fit.coefficients[(0, 0)] - 6.6 / 12.0).abs() < 1e-12);
+    }
+}
+
+/// Loads along one axis after another: six drawn blindly are hardly ever one of each.
+#[test]
+fn draws_are_of_loads_that_determine_the_sensor() {
+    let random = &mut Pcg64Mcg::seed_from_u64(101);
+    let design = DMatrix::from_fn(30, 6, |i, j| if i % 6 == j { 1.0 + (i / 6) as f64 } else { 0.0 });
+    let truth = gaussians(random, 6, 2);
+    let mut readings = &design * &truth;
+    [2, 9, 22].into_iter().for_each(|i| readings[(i, i % 2)] += 5.0);
+    for seed in 0..10 {
+        let options = Ransac { seed, ..Ransac::new(vec![1e-6; 2]) };
+        let fit = ransac(&design, &readings, None, &options).unwrap();
+        assert!((&fit.coefficients - &truth).largest() < 1e-12);
+        assert_eq!((0..30).filter(|i| fit.trust[(*i, 0)] == 0.0).collect::<Vec<_>>(), [2, 9, 22]);
+    }
 }
 
 /// A recording of thousands of loads along one axis after another: each is a small part of all.

@@ -215,3 +215,25 @@ fn what_is_not_observed_is_counted_in_any_units() {
     let expected = DMatrix::from_fn(6, 6, |_, j| if j == 2 { 1e-3 / 0.25 } else { 0.0 });
     assert!((one.deviations - expected).largest() < 1e-15 && one.unobserved == 30);
 }
+
+/// How well one form stands out: the least singular value of the products of the signals over the next.
+#[test]
+fn the_ambiguity_is_that_of_the_products_of_signals() {
+    let random = &mut Pcg64Mcg::seed_from_u64(57);
+    for (count, pitch) in [(30, 1e-2), (60, 0.1), (200, 1.0)] {
+        let signals = signals(&touches(random, count, pitch), &sensor(random, 6, 6));
+        let pairs: Vec<(usize, usize)> = (0..6).flat_map(|i| (i..6).map(move |j| (i, j))).collect();
+        let products = DMatrix::from_fn(count, pairs.len(), |row, k| {
+            let (i, j) = pairs[k];
+            let twice = if i == j { 1.0 } else { core::f64::consts::SQRT_2 };
+            twice * signals[(row, i)] * signals[(row, j)] / signals.row(row).norm_squared()
+        });
+        let mut squares: Vec<f64> =
+            (products.transpose() * products).symmetric_eigenvalues().iter().copied().collect();
+        squares.sort_by(f64::total_cmp);
+        let expected = (squares[0] / squares[1]).sqrt();
+        let found = gathered(&signals).solve().unwrap();
+        assert!((found.ambiguity / expected - 1.0).abs() < 1e-6, "{} {expected}", found.ambiguity);
+        assert_eq!(found.contacts, count as u64);
+    }
+}

@@ -1,7 +1,7 @@
 //! Shape from motion: errors as stated, and the same sensor in any units, order and frame.
 
 use fingertip_calibration::fit::FitError;
-use fingertip_calibration::motion::{LeverArm, MotionError, constant_force, lever_arms};
+use fingertip_calibration::motion::{LeverArm, LeverArmFit, MotionError, constant_force, lever_arms};
 use fingertip_calibration::nalgebra::{DMatrix, DVector, Vector3};
 use rand::SeedableRng as _;
 use rand_pcg::Pcg64Mcg;
@@ -179,4 +179,103 @@ fn too_few_directions_or_gauges_are_refused() {
     for force in [0.0, -5.0, f64::NAN, f64::INFINITY] {
         assert!(constant_force(&signals, force).is_err(), "{force}");
     }
+}
+
+/// A reading under a force that points roughly along x settles the sign; across it, or nowhere, it does not.
+#[test]
+fn the_sign_is_settled_by_a_known_force_only() {
+    let zero = DVector::from_fn(6, |i, _| 0.1 * i as f64);
+    let found = LeverArmFit {
+        sensitivities: DMatrix::identity(6, 6) * 2.0,
+        deviations: DMatrix::zeros(6, 6),
+        zero: zero.clone(),
+        zero_deviation: DVector::zeros(6),
+        noise: 0.0,
+        residual: 0.0,
+        hits: 1,
+        starts: 1,
+        misfit: 0.0,
+    };
+    let mut reading = zero;
+    reading[0] += 3.0;
+    for (force, sign) in [(Vector3::new(1.0, 0.9, 0.0), 1.0), (Vector3::new(-2.0, 0.0, 5.0), -1.0)] {
+        let settled = found.clone().with_sign(&reading, &force).unwrap();
+        assert_eq!(settled, LeverArmFit { sensitivities: &found.sensitivities * sign, ..found.clone() });
+    }
+    assert_eq!(found.clone().with_sign(&reading, &Vector3::zeros()), None);
+    assert_eq!(found.clone().with_sign(&reading, &Vector3::repeat(f64::NAN)), None);
+    assert_eq!(found.with_sign(&DVector::zeros(5), &Vector3::x()), None);
+}
+
+/// What a fit says of itself: how far the forces that it tells of are from their size, and how much of the readings is
+/// in a fourth direction.
+#[test]
+fn misfit_and_leakage_are_those_of_the_readings() {
+    let random = &mut Pcg64Mcg::seed_from_u64(45);
+    for gauges in 3..7 {
+        let truth = sensor(random, 3, gauges);
+        let signals = (directions(random, 18) * &truth).add_scalar(1.0) + gaussians(random, 18, gauges) * 0.2;
+        let fit = constant_force(&signals, 5.0).unwrap();
+        let squares: f64 = signals
+            .row_iter()
+            .map(|row| (fit.force(&row.transpose()).unwrap().norm() / 5.0 - 1.0).powi(2))
+            .sum();
+        assert!(
+            fit.misfit > 1e-3 && (fit.misfit / (squares / 18.0).sqrt() - 1.0).abs() < 1e-9,
+            "{}",
+            fit.misfit
+        );
+        assert!(
+            (&fit.force_from_signals * &fit.signals_from_force - DMatrix::identity(3, 3)).largest() < 1e-12
+        );
+        let mut centred = signals.clone();
+        centred.row_iter_mut().for_each(|mut row| row -= signals.row_mean());
+        // Squares of the singular values.
+        let mut sizes: Vec<f64> =
+            (centred.transpose() * centred).symmetric_eigenvalues().iter().copied().collect();
+        sizes.sort_by(|a, b| b.total_cmp(a));
+        let expected = if gauges > 3 { (sizes[3] / sizes[2]).sqrt() } else { 0.0 };
+        assert!((fit.leakage - expected).abs() < 1e-9, "{gauges}: {} {expected}", fit.leakage);
+        assert_eq!(fit.force(&DVector::zeros(gauges + 1)), None);
+    }
+}
+
+/// Readings that are tiny or huge numbers are told as exactly as others.
+#[test]
+fn the_most_likely_sensor_does_not_mind_how_large_readings_are() {
+    let random = &mut Pcg64Mcg::seed_from_u64(46);
+    for _ in 0..5 {
+        let signals = (directions(random, 15) * sensor(random, 3, 5)).add_scalar(2.0);
+        let signals = signals + gaussians(random, 15, 5) * 0.3;
+        let plain = constant_force(&signals, 5.0).unwrap();
+        let gram = &plain.signals_from_force * plain.signals_from_force.transpose();
+        for unit in [1e-12, 1e-6, 1e6, 1e12] {
+            let other = constant_force(&(&signals * unit), 5.0).unwrap();
+            let scaled = &other.signals_from_force * other.signals_from_force.transpose() / (unit * unit);
+            assert!((scaled - &gram).largest() < 1e-6 * gram.largest(), "{unit:e}");
+            assert!((other.noise / unit / plain.noise - 1.0).abs() < 1e-9, "{unit:e}");
+            assert!((other.zero / unit - &plain.zero).largest() < 1e-6, "{unit:e}");
+        }
+    }
+}
+
+#[test]
+fn too_few_arms_or_gauges_are_named() {
+    let random = &mut Pcg64Mcg::seed_from_u64(47);
+    let (truth, zero) = six(random);
+    let good = arms(random, &truth, &zero);
+    let refused = |arms: &[LeverArm]| lever_arms(arms, 5.0, 1e-6, 1, 1).unwrap_err().to_string();
+    let mut uneven = good.clone();
+    uneven[1].signals = uneven[1].signals.columns(0, 5).into_owned();
+    let five: Vec<LeverArm> = (good.iter())
+        .map(|arm| LeverArm { signals: arm.signals.columns(0, 5).into_owned(), ..arm.clone() })
+        .collect();
+    for wrong in [&good[..3], &five, &uneven, &[]] {
+        assert!(refused(wrong).contains("four at least, six gauges at least"), "{}", refused(wrong));
+    }
+    // Arms in a plane through the origin say nothing of a torque across it.
+    let mut flat = good;
+    flat.iter_mut().for_each(|arm| arm.arm.z = 0.0);
+    flat[2].arm = Vector3::new(0.05, 0.05, 0.0);
+    assert!(lever_arms(&flat, 5.0, 1e-6, 20, 1).is_err());
 }

@@ -1,7 +1,7 @@
 //! Gravity poses: errors as stated, and the same payload in any units, order and frame.
 
 use fingertip_calibration::gravity::{PayloadOptions, Pose, fit_orientation, fit_payload};
-use fingertip_calibration::nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
+use fingertip_calibration::nalgebra::{DMatrix, Matrix3, Rotation3, Vector3, Vector6};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64Mcg;
 
@@ -160,4 +160,64 @@ fn the_residuals_are_those_of_the_readings() {
     }
     // The size of the mass and its error are those of the weight.
     assert!((fit.mass * 9.806_65 / fit.weight.norm() - 1.0).abs() < 1e-12);
+}
+
+/// Forces without noise, so that the centre of mass is one regression of the torques: on a given axis of one unknown,
+/// or of three. The readings taken as of the base frame, and how alike the poses are, by normal equations.
+#[test]
+fn the_centre_of_mass_may_be_known_to_lie_on_an_axis() {
+    let random = &mut Pcg64Mcg::seed_from_u64(35);
+    let weight = Vector3::new(0.0, 0.0, -3.0);
+    let axis = Vector3::new(0.6, 0.0, -0.8);
+    for centre_on in [None, Some(axis * 7.0)] {
+        let poses: Vec<Pose> = (0..6)
+            .map(|_| {
+                let base_from_sensor = turn(random);
+                let pull = base_from_sensor.tr_mul(&weight);
+                let torque = (axis * 0.05).cross(&pull) + TORQUE + vector(random) * NOISE.1;
+                Pose { base_from_sensor, wrench: wrench(pull + FORCE, torque) }
+            })
+            .collect();
+        let fit = fit_payload(&poses, &PayloadOptions { centre_on, ..PayloadOptions::default() }).unwrap();
+        let span = if centre_on.is_some() {
+            DMatrix::from_column_slice(3, 1, axis.as_slice())
+        } else {
+            DMatrix::identity(3, 3)
+        };
+        let stacked = |of: &dyn Fn(&Pose, usize) -> Vec<f64>| {
+            let rows: Vec<Vec<f64>> = poses.iter().flat_map(|pose| (0..3).map(|i| of(pose, i))).collect();
+            DMatrix::from_fn(18, rows[0].len(), |i, j| rows[i][j])
+        };
+        let unit = |i: usize| (0..3).map(move |j| if i == j { 1.0 } else { 0.0 });
+        let (x, y) = (
+            stacked(&|pose, i| {
+                let pull = pose.base_from_sensor.tr_mul(&weight);
+                let arms = span.column_iter().map(|arm| arm.cross(&pull)[i]);
+                arms.chain(unit(i)).collect()
+            }),
+            stacked(&|pose, i| vec![pose.wrench[3 + i]]),
+        );
+        let inverse = (x.transpose() * &x).try_inverse().unwrap();
+        let found = &inverse * x.transpose() * &y;
+        let (lengths, unknowns) = (span.ncols(), x.ncols());
+        let noise = (y - x * &found).norm_squared() / (18 - unknowns) as f64;
+        let centre = &span * found.rows(0, lengths);
+        let spread = &span * inverse.view((0, 0), (lengths, lengths)) * span.transpose() * noise;
+        for i in 0..3 {
+            assert!((fit.centre_of_mass[i] - centre[i]).abs() < 1e-12, "{fit:?}");
+            assert!((fit.centre_deviation[i] - spread[(i, i)].sqrt()).abs() < 1e-9, "{fit:?}");
+            assert!((fit.torque_bias[i] - found[lengths + i]).abs() < 1e-12, "{fit:?}");
+            let deviation = (inverse[(lengths + i, lengths + i)] * noise).sqrt();
+            assert!((fit.torque_bias_deviation[i] - deviation).abs() < 1e-9, "{fit:?}");
+        }
+        let x = stacked(&|pose, i| core::iter::once(-pose.base_from_sensor[(2, i)]).chain(unit(i)).collect());
+        let y = stacked(&|pose, i| vec![pose.base_from_sensor.tr_mul(&pose.wrench.fixed_rows::<3>(0))[i]]);
+        let gram = x.transpose() * &x;
+        let eigenvalues = gram.symmetric_eigenvalues();
+        let number = (eigenvalues.max() / eigenvalues.min()).sqrt();
+        assert!((fit.condition_number / number - 1.0).abs() < 1e-9, "{fit:?} {number}");
+        let left = &y - &x * (gram.try_inverse().unwrap() * x.transpose() * &y);
+        let rms = left.norm() / 18.0_f64.sqrt();
+        assert!(rms > 0.1 && (fit.rms_if_in_base / rms - 1.0).abs() < 1e-9, "{fit:?} {rms}");
+    }
 }

@@ -265,7 +265,8 @@ fn of_options() {
         let said = error(Options { method, direction: Direction::LoadsFromSignals, ..plain.clone() });
         assert!(said.contains("the method fits signals from loads only"), "{said}");
     }
-    error(Options { quadratic: true, ..plain.clone() });
+    let said = error(Options { quadratic: true, ..plain.clone() });
+    assert!(said.contains("only loads from signals can have quadratic terms"), "{said}");
 }
 
 /// A gauge that tells nothing of the load: what drift is a share of nothing, no fit may be made to say.

@@ -4,7 +4,7 @@ use fingertip_calibration::design::{
     LoadedTube, Material, MatrixUsed, NominalLoads, Placement, Touch as DesignTouch, Trial, TubeSpace, Wall,
 };
 use fingertip_calibration::geometry::{
-    Touch, fit_aligned_ellipsoid, fit_cylinder_along, fit_meeting_point, fit_pose, fit_sphere,
+    Touch, fit_aligned_ellipsoid, fit_cylinder_along, fit_meeting_point, fit_pose, fit_sphere, least_radius,
 };
 use fingertip_calibration::gravity::{Pose, fit_orientation};
 use fingertip_calibration::nalgebra::{Matrix3, Vector3, Vector6};
@@ -132,4 +132,34 @@ fn of_a_converter_are_those_of_rounding() {
     // Both together add in squares.
     let both = run(count / 12.0_f64.sqrt(), count);
     assert!((both.force_rms / noisy.force_rms / 2.0_f64.sqrt() - 1.0).abs() < 0.1, "{both:?} {noisy:?}");
+}
+
+/// A pose whose origin is far off, where rounding keeps the last steps from vanishing.
+#[test]
+fn a_far_pose_is_found_to_rounding() {
+    let random = &mut Pcg64Mcg::seed_from_u64(113);
+    for _ in 0..10 {
+        let (rotation, origin) = (turn(random), Vector3::new(300.0, -200.0, 500.0));
+        let touches: Vec<_> = (0..12)
+            .map(|_| {
+                let point = vector(random) * 0.02;
+                (Wrench::from_force_at(&(rotation * point + origin), vector(random)), point)
+            })
+            .collect();
+        let found = fit_pose(&touches).unwrap().shape;
+        assert!((found.origin() - origin).norm() < 1e-6, "{}", found.origin());
+        assert!((found.rotation() - rotation).norm() < 1e-6);
+    }
+}
+
+#[test]
+fn a_radius_is_told_by_lines_of_action_only() {
+    let line = |off: f64| Wrench::from_force_at(&Vector3::new(0.0, off, 0.0), Vector3::x() * 2.0);
+    let told = |wrenches: &[Wrench<f64>], friction: f64| least_radius(&Vector3::zeros(), wrenches, friction);
+    // The farthest line is 4 mm off; at friction 0.75 the sine is 0.6.
+    let radius = told(&[line(1e-3), line(-4e-3), line(2e-3)], 0.75).unwrap();
+    assert!((radius - 4e-3 / 0.6).abs() < 1e-15, "{radius}");
+    let none = Wrench::on_fingertip(Vector3::zeros(), Vector3::z());
+    assert_eq!(told(&[line(1e-3), none, line(2e-3)], 0.75), None);
+    assert_eq!((told(&[line(1e-3)], 0.0), told(&[line(1e-3)], f64::NAN)), (None, None));
 }

@@ -98,6 +98,31 @@ fn places_of_the_same_sensor_are_one_minimum() {
     assert!(minimum.spectrum.iter().all(|value| (value - 1.0).abs() < 1e-4), "{minimum:?}");
 }
 
+/// Sensors that are as good, but not the same one turned: one gauge is twice as sensitive as the others, or half.
+#[test]
+fn sensors_of_other_singular_values_are_other_minima() {
+    let two = space(vec![Parameter::periodic_angle("turn", TAU)], |values| {
+        let (sin, cos) = values[0].sin_cos();
+        let number = 2.0 + sin * sin;
+        Some(if cos > 0.0 { number } else { number.recip() })
+    });
+    let findings = found(&two, 12);
+    let [first, second] = &findings.minima[..] else { panic!("{findings:?}") };
+    assert_eq!(first.starts + second.starts, 12);
+    for minimum in [first, second] {
+        let others = if minimum.values[0].cos() > 0.0 { 0.5 } else { 1.0 };
+        let expected = [1.0, others, others, others, others, 0.5];
+        assert!((minimum.criterion - 2.0).abs() < 1e-6 && minimum.equivalents.is_empty(), "{minimum:?}");
+        assert!(minimum.spectrum.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{minimum:?}");
+    }
+    // What does not differ at all is the same, where nothing else is.
+    let flat = space(vec![ratio("p", 0.0, 1.0, 0.1)], |_| Some(1.5));
+    let loads = NominalLoads::equal(1.0, 1.0).unwrap();
+    let how = Search { starts: 5, same: 0.0, ..Search::default() };
+    let findings = search(&flat, &Criterion::ConditionNumber, &loads, &how, &|_| ()).unwrap();
+    assert_eq!(findings.minima.iter().map(|minimum| minimum.starts).collect::<Vec<_>>(), [5]);
+}
+
 #[test]
 fn every_minimum_is_told_with_its_share() {
     // 1 at 0, and 1.3 at π, where the other one is not seen.

@@ -3,9 +3,11 @@
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI, TAU};
 
 use fingertip_calibration::design::{
-    DesignSpace, LoadedTube, MalteseCross, MalteseCrossSpace, Material, NominalLoads, Stewart,
+    DesignSpace, LoadedTube, MalteseCross, MalteseCrossSpace, Material, NominalLoads, Stewart, StrainSite,
 };
-use fingertip_calibration::nalgebra::{DMatrix, Matrix6, Rotation3, Vector3, Vector6};
+use fingertip_calibration::nalgebra::{
+    DMatrix, Matrix2, Matrix3x6, Matrix6, Rotation3, Vector2, Vector3, Vector6,
+};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64Mcg;
 
@@ -284,4 +286,20 @@ fn a_platform_that_can_turn_is_refused() {
     assert!(platform.tensions().is_err());
     let nearly = Stewart { platform_half_angle: FRAC_PI_3 - 0.3 + 1e-3, ..platform };
     assert!(nearly.tensions().is_ok());
+}
+
+/// The strain along a direction is that of the tensor, `nᵀ E n`, whose shear is half of the angle.
+#[test]
+fn a_turned_gauge_reads_the_tensor_along_it() {
+    let mut random = Pcg64Mcg::seed_from_u64(31);
+    let strains = Matrix3x6::from_fn(|_, _| random.random_range(-1.0..1.0));
+    for angle in [-2.0, -0.7, 0.0, 0.3, 1.1, FRAC_PI_2] {
+        let along = Vector2::new(f64::cos(angle), f64::sin(angle));
+        let read = StrainSite { strains }.gauge(angle);
+        for load in 0..6 {
+            let half = 0.5 * strains[(2, load)];
+            let tensor = Matrix2::new(strains[(0, load)], half, half, strains[(1, load)]);
+            assert!((read[load] - along.dot(&(tensor * along))).abs() < 1e-15, "{angle} {load}: {read}");
+        }
+    }
 }

@@ -184,3 +184,57 @@ fn the_closest_gauges_are_measured_around_the_wall() {
     assert_eq!(strains, single * 2.0);
     assert_eq!(loads.components(), Vector6::new(10.0, 10.0, 10.0, 0.1, 0.1, 0.1));
 }
+
+/// Where the gauges of each family stand: along, around and turned.
+#[test]
+fn families_of_tubes_have_their_gauges_where_they_say() {
+    use core::f64::consts::{FRAC_PI_2, TAU};
+    let loads = NominalLoads::equal(10.0, 0.1).unwrap();
+    let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 40e-3, loads };
+    let (wall, radius, z, angle) = (Wall::Fixed(0.2e-3), (2e-3, 15e-3), (-20e-3, 20e-3), (0.1, 1.5));
+    let are = |space: &TubeSpace, values: &[f64], expected: &[(f64, f64, f64)]| {
+        let layout = space.layout(values).unwrap();
+        assert_eq!(layout.gauges.len(), expected.len());
+        for (gauge, (z, theta, q)) in layout.gauges.iter().zip(expected) {
+            let turns = (gauge.theta - theta) / TAU;
+            assert!(
+                (turns - turns.round()).abs() < 1e-12 && (gauge.z - z).abs() < 1e-15,
+                "{gauge:?} {theta}"
+            );
+            assert!((gauge.q - q).abs() < 1e-15, "{gauge:?} {q}");
+        }
+        layout.beam.radius
+    };
+    for (count, alternating) in [(3, false), (4, true), (5, true)] {
+        let space = TubeSpace::rings(2, count, alternating, radius, z, tube, wall).unwrap();
+        let (first, second) = ([1e-3, 0.3, 0.7], [-4e-3, 2.0, 1.9]);
+        let values = [&[6e-3][..], &first, &second].concat();
+        let ring = |[z, theta, q]: [f64; 3]| {
+            (0..count).map(move |place| {
+                let sign = if alternating && place % 2 == 1 { -1.0 } else { 1.0 };
+                (z, theta + TAU * place as f64 / count as f64, sign * q)
+            })
+        };
+        let expected: Vec<_> = ring(first).chain(ring(second)).collect();
+        assert_eq!(are(&space, &values, &expected), 6e-3);
+    }
+    let space = TubeSpace::rosettes(3, radius, angle, z, tube, wall).unwrap();
+    let pairs = (0..3).flat_map(|place| [0.4, -0.4].map(|q| (5e-3, TAU * f64::from(place) / 3.0, q)));
+    assert_eq!(are(&space, &[7e-3, 0.4, 5e-3], &pairs.collect::<Vec<_>>()), 7e-3);
+    let space = TubeSpace::free(6, z, tube, wall).unwrap();
+    let places: Vec<_> = (0..6).map(|i| f64::from(i) * 0.3).map(|x| (0.01 * x, 2.0 * x, x + 0.1)).collect();
+    let values: Vec<f64> = places.iter().flat_map(|(z, theta, q)| [*z, *theta, *q]).collect();
+    assert_eq!(are(&space, &values, &places), 5e-3);
+    // Figure 3 of Bicchi & Dario 1987: four around the ring, and two behind.
+    let space = TubeSpace::bicchi_dario(radius, angle, (2e-3, 20e-3), tube, wall).unwrap();
+    let expected = [
+        (0.0, 2.0, -0.5),
+        (0.0, 1.0, 0.5),
+        (0.0, 0.0, -0.5),
+        (0.0, 3.0, 0.5),
+        (9e-3, 2.0, -0.5),
+        (9e-3, 1.0, 0.5),
+    ]
+    .map(|(z, quarters, q)| (z, quarters * FRAC_PI_2, q));
+    assert_eq!(are(&space, &[4e-3, 0.5, 9e-3], &expected), 4e-3);
+}

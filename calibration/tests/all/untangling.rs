@@ -101,7 +101,10 @@ fn is_the_best_of_all(matrix: &DMatrix<f64>) -> Decoupling {
 
 #[test]
 fn the_best_combinations_are_taken() {
-    for matrix in [paper(), rosette(3), DMatrix::identity(6, 6)] {
+    // Each signal holds one load more than the one before, the last all of them, in shares that no whole numbers undo.
+    let one_after_another =
+        DMatrix::from_fn(6, 6, |i, j| if j <= i { (2.0 + (i * 7 + j * 3) as f64).sqrt() } else { 0.0 });
+    for matrix in [paper(), rosette(3), DMatrix::identity(6, 6), one_after_another] {
         let found = is_the_best_of_all(&matrix);
         let held: usize = found.combined.iter().filter(|entry| **entry != 0.0).count();
         assert_eq!(found.couplings(), held - 6);

@@ -88,9 +88,11 @@ fn a_check_says_what_it_cannot_do() {
     assert_eq!(report.notes, ["temperatures are known, but the calibration has no terms for them"]);
     let mut stamped = file.clone();
     stamped.quality.verdict = Verdict::Bad;
+    stamped.provenance.method = "hand".to_owned();
     stamped.quality.reasons = vec!["a".to_owned(), "b".to_owned()];
     let report = Report::of_check(&stamped, &table(&samples(8.0)), &Limits::default(), None).unwrap();
     assert_eq!(report.notes, ["the file itself is stamped as bad: a; b"]);
+    assert_eq!(report.method, "check of a calibration by hand");
     assert_eq!(report.verdict, Verdict::Good);
 }
 
@@ -297,4 +299,23 @@ fn the_deviation_of_one_reading_is_that_of_what_is_left() {
     assert!((report.matrix.unwrap()[0][0] / (5.0 * slope) - 1.0).abs() < 1e-12);
     let deviation = report.matrix_deviations.unwrap()[0][0];
     assert!((deviation / (5.0 * noise / loads.norm()) - 1.0).abs() < 1e-9);
+}
+
+/// Each axis stands for the next: none is where it should be.
+#[test]
+fn axes_that_all_moved_are_suspected() {
+    let random = &mut Pcg64Mcg::seed_from_u64(96);
+    let samples: Vec<Sample<3>> = (0..12)
+        .map(|_| {
+            let load = [8.0, 16.0, 32.0].map(|full| full * gaussian(random));
+            (load, [load[1], load[2], load[0]])
+        })
+        .collect();
+    let report = check(&samples, &Limits::default());
+    let reads = report.suspicions.iter().find_map(|suspicion| match &suspicion.mistake {
+        Mistake::Axes { reads } => Some(reads.clone()),
+        _ => None,
+    });
+    // Fx was read as the third, Fy as the first, Fz as the second.
+    assert_eq!(reads.unwrap(), [(Axis::Fz, false), (Axis::Fx, false), (Axis::Fy, false)], "{report}");
 }
