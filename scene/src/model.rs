@@ -34,6 +34,9 @@ pub(crate) struct ContactSection {
     greatest_gap_m: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     greatest_friction_ratio: Option<f64>,
+    /// By which a spin torque counts as a tangential force.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    torque_arm_m: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     greatest_pitch_m: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -78,7 +81,14 @@ impl ContactSection {
     }
 
     fn soft_finger<T: Real>(&self) -> Result<SoftFinger<T>, BadShape> {
-        SoftFinger::new(T::literal(self.least_force))
+        let mut model = SoftFinger::new(T::literal(self.least_force))?;
+        if let Some(ratio) = self.greatest_friction_ratio {
+            model = model.with_greatest_friction(T::literal(ratio))?;
+        }
+        match self.torque_arm_m {
+            Some(arm) => model.with_torque_arm(T::literal(arm)),
+            None => Ok(model),
+        }
     }
 
     fn auto<T: Real>(&self, noise: Matrix6<T>) -> Result<Auto<T>, BadShape> {
@@ -139,9 +149,10 @@ impl ContactSection {
             ),
             ("greatest_gap_m", self.greatest_gap_m > 0.0 && !point, "the point contact"),
             (
-                "greatest_friction_ratio",
-                self.greatest_friction_ratio.is_some() && !point,
-                "the point contact",
+                "torque_arm_m",
+                self.torque_arm_m.is_some()
+                    && (self.model == ModelName::Point || self.greatest_friction_ratio.is_none()),
+                "a soft finger with `greatest_friction_ratio`",
             ),
             ("greatest_pitch_m", self.greatest_pitch_m.is_some() && !auto, "the model \"auto\""),
             (

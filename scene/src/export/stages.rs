@@ -21,7 +21,12 @@ const MODELS: &[Row] = &[
         "contact::PointContact::new({least_force_N})?{?.accepting_gap({gap_m})??}\
          {?.with_greatest_friction({greatest_friction_ratio})??}",
     ),
-    row("soft_finger", "contact::SoftFinger<{T}>", "contact::SoftFinger::new({least_force_N})?"),
+    row(
+        "soft_finger",
+        "contact::SoftFinger<{T}>",
+        "contact::SoftFinger::new({least_force_N})?{?.with_greatest_friction({greatest_friction_ratio})??}\
+         {?.with_torque_arm({torque_arm_m})??}",
+    ),
     row(
         "auto",
         "contact::Auto<{T}>",

@@ -229,6 +229,10 @@ fn a_calibration_of_the_scene_goes_into_its_module() {
     let given = scene("").to_rust(fingertip_scene::Scalar::F32, own.calibration()).unwrap();
     let module = |text: String| text.split_once("pub type Tip").unwrap().1.to_owned();
     assert_eq!(module(own.to_rust(fingertip_scene::Scalar::F32, None).unwrap()), module(given));
+    let limited =
+        "[contact]\nmodel = \"soft_finger\"\ngreatest_friction_ratio = 10.0\ntorque_arm_m = 0.003\n";
+    let text = scene(limited).to_rust(fingertip_scene::Scalar::F64, None).unwrap();
+    assert!(text.contains(".with_greatest_friction(10.0)?.with_torque_arm(0.003)?"), "{text}");
     for (more, words) in [
         ("[payload]\nmass_kg = 0.1\n", "the section [payload] has no type"),
         ("[contact]\nleast_force_deviations = 5.0\n", "that the rest tells"),

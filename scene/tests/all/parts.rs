@@ -243,3 +243,28 @@ fn an_uncertain_geometry_is_the_librarys() {
     }
     assert!(seen > 50, "{seen}");
 }
+
+#[test]
+fn a_soft_finger_may_be_limited_by_friction() {
+    let soft = SoftFinger::new(0.05).unwrap().with_greatest_friction(0.4).unwrap();
+    for (text, typed) in [
+        ("greatest_friction_ratio = 0.4\n", soft),
+        ("greatest_friction_ratio = 0.4\ntorque_arm_m = 0.002\n", soft.with_torque_arm(0.002).unwrap()),
+    ] {
+        let mut ours = pipeline(&format!("[contact]\nmodel = \"soft_finger\"\nleast_force_N = 0.05\n{text}"));
+        let (mut touched, mut beyond) = (0, 0);
+        for push in pushes(31, 300) {
+            let found = ours.sense(push, 1e-3).touch.resolution;
+            assert_eq!(found, typed.resolve(&push, &ball()), "{text}");
+            touched += usize::from(found.contact().is_some());
+            let steep = matches!(
+                found,
+                fingertip::contact::Resolution::NoContact(
+                    fingertip::contact::NoContact::BeyondFriction { .. }
+                )
+            );
+            beyond += usize::from(steep);
+        }
+        assert!(touched > 50 && beyond > 50, "{touched} {beyond} {text}");
+    }
+}

@@ -74,10 +74,7 @@ fn faults_are_named() {
         (good.replace("version = 2\n", ""), "version = 2"),
         (with("[contact]\nmodel = \"auto\"\n"), "[uncertainty]"),
         (with("[contact]\nmodel = \"soft_finger\"\ngreatest_gap_m = 0.001\n"), "`greatest_gap_m`"),
-        (
-            with("[contact]\nmodel = \"soft_finger\"\ngreatest_friction_ratio = 1.0\n"),
-            "`greatest_friction_ratio`",
-        ),
+        (with("[contact]\nmodel = \"soft_finger\"\ntorque_arm_m = 0.003\n"), "`greatest_friction_ratio`"),
         (with("[contact]\ngreatest_pitch_m = 0.01\n"), "`greatest_pitch_m`"),
         (with("[contact]\nskin_share = 0.5\n"), "`skin_share`"),
         (with("[contact]\npitch_deviations = 3.0\n"), "`pitch_deviations`"),
