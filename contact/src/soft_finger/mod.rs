@@ -11,6 +11,7 @@ pub(crate) mod refined;
 pub(crate) mod rim;
 pub(crate) mod search;
 pub(crate) mod solution;
+mod three;
 pub(crate) mod unit_sphere;
 
 pub use model::SoftFinger;
