@@ -55,7 +55,8 @@ pub(crate) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
     let outcome = play(arguments)?;
     let findings = findings::of(&outcome);
     let figures = figures::of(&outcome);
-    let page = report::with_figures(&findings, figures, &outcome.observations, Some(outcome.coefficient));
+    let shown = report::Shown { coefficient: Some(outcome.coefficient), spin_torque: false };
+    let page = report::with_figures(&findings, figures, &outcome.observations, shown);
     write("report", &arguments.out, &page)?;
     let written = [Some(&arguments.out), arguments.recording.as_ref(), arguments.calibration.as_ref()];
     print(&format!("{findings}\n{}", output::written(written.into_iter().flatten())))

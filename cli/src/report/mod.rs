@@ -12,6 +12,7 @@ pub(crate) mod unrolled_tube;
 
 pub(crate) use axis::Axis;
 pub(crate) use chart::Chart;
+pub(crate) use figures::Shown;
 pub(crate) use fingertip_calibration::page::Figure;
 
 use fingertip_calibration::page::{self, Page};
@@ -22,7 +23,9 @@ use fingertip_scene::{Limit, Scene};
 
 /// The report of a recording.
 pub(crate) fn of_recording(findings: &Findings, observations: &Observations, scene: &Scene) -> String {
-    page(findings, figures::of(observations, scene.limit().map(Limit::coefficient)))
+    let coefficient = scene.limit().map(Limit::coefficient);
+    let shown = Shown { coefficient, spin_torque: scene.tells().spin_torque };
+    page(findings, figures::of(observations, shown))
 }
 
 /// The report of a run with figures of its own before the usual ones.
@@ -30,9 +33,9 @@ pub(crate) fn with_figures(
     findings: &Findings,
     mut figures: Vec<Figure>,
     observations: &Observations,
-    coefficient: Option<f64>,
+    shown: Shown,
 ) -> String {
-    figures.extend(figures::of(observations, coefficient));
+    figures.extend(figures::of(observations, shown));
     page(findings, figures)
 }
 
