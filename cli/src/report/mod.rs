@@ -9,6 +9,7 @@ mod map;
 mod read_back;
 mod svg;
 pub(crate) mod unrolled_tube;
+pub(crate) mod used;
 
 pub(crate) use axis::Axis;
 pub(crate) use chart::Chart;
@@ -19,13 +20,20 @@ use fingertip_calibration::page::{self, Page};
 
 use crate::observe::Observations;
 use crate::summary::Findings;
+use crate::table::Table;
 use fingertip_scene::{Limit, Scene};
+use used::Given;
 
 /// The report of a recording.
-pub(crate) fn of_recording(findings: &Findings, observations: &Observations, scene: &Scene) -> String {
+pub(crate) fn of_recording(
+    findings: &Findings,
+    observations: &Observations,
+    scene: &Scene,
+    given: &Given<'_>,
+) -> String {
     let coefficient = scene.limit().map(Limit::coefficient);
     let shown = Shown { coefficient, spin_torque: scene.tells().spin_torque };
-    page(findings, figures::of(observations, shown))
+    page(findings, figures::of(observations, shown), &[used::table(scene, given)])
 }
 
 /// The report of a run with figures of its own before the usual ones.
@@ -36,24 +44,28 @@ pub(crate) fn with_figures(
     shown: Shown,
 ) -> String {
     figures.extend(figures::of(observations, shown));
-    page(findings, figures)
+    page(findings, figures, &[])
 }
 
 /// The report of something else than a recording.
 pub(crate) fn of_design(findings: &Findings, figures: Vec<Figure>) -> String {
-    page(findings, figures)
+    page(findings, figures, &[])
 }
 
-fn page(findings: &Findings, figures: Vec<Figure>) -> String {
+fn shown(table: &Table) -> page::Table<'_> {
+    let Table { title, head, rows } = table;
+    page::Table { title, head, rows, words: false }
+}
+
+/// `words` are tables that stand behind the figures.
+fn page(findings: &Findings, figures: Vec<Figure>, words: &[Table]) -> String {
     let mut page = Page::new(&findings.title);
     findings.lead.iter().for_each(|sentence| page.lead(sentence));
-    page.tables(findings.tables.iter().map(|table| page::Table {
-        title: &table.title,
-        head: &table.head,
-        rows: &table.rows,
-        words: false,
-    }));
+    page.tables(findings.tables.iter().map(shown));
     page.figures(figures);
+    for table in words {
+        page.table(&page::Table { words: true, ..shown(table) });
+    }
     let notes: Vec<String> = findings.notes.iter().map(|note| format!("{note}.")).collect();
     page.list("To be minded", &notes);
     page.finish(&format!(
@@ -78,7 +90,7 @@ mod tests {
             tables: vec![table],
             notes: vec!["mind > this".to_owned()],
         };
-        let html = page(&findings, vec![Figure { title: "F&G".to_owned(), ..Figure::default() }]);
+        let html = page(&findings, vec![Figure { title: "F&G".to_owned(), ..Figure::default() }], &[]);
         let places: Vec<usize> = [
             "<h1>A &lt; B</h1>",
             "Lead 1\u{a0}N.",
@@ -92,6 +104,6 @@ mod tests {
         .map(|part| html.find(part).unwrap_or_else(|| panic!("{part} is not in {html}")))
         .collect();
         assert!(places.is_sorted(), "{places:?}");
-        assert!(!page(&Findings::default(), Vec::new()).contains("To be minded"));
+        assert!(!page(&Findings::default(), Vec::new(), &[]).contains("To be minded"));
     }
 }
