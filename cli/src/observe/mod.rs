@@ -9,6 +9,7 @@ mod trace;
 use fingertip::Touch;
 use fingertip::contact::{NoContact, Resolution};
 use fingertip::friction::{SlipMargin, SlipVerdict};
+use nalgebra::Vector3;
 
 pub(crate) use quantiles::Quantiles;
 pub(crate) use reservoir::Reservoir;
@@ -32,6 +33,8 @@ const NOTHING: [f64; 7] = [f64::NAN; 7];
 pub(crate) struct MapPoint {
     /// On the map, see [`Projection::project`].
     pub(crate) place: (f64, f64),
+    /// In the sensor frame \[m\].
+    pub(crate) point: Vector3<f64>,
     /// \[N\]
     pub(crate) normal_force: f64,
 }
@@ -96,6 +99,7 @@ impl Observations {
         let split = touch.resolution.contact().zip(touch.force).map(|(contact, force)| {
             self.map.add(|| MapPoint {
                 place: self.projection.project(&contact.point),
+                point: contact.point,
                 normal_force: force.normal,
             });
             let split = (force.normal, force.tangential_magnitude(), force.friction_ratio());

@@ -1,6 +1,8 @@
 //! The figures that every run has.
 
-use super::{Axis, Chart, Figure, map};
+use fingertip::surfaces::DynSurface;
+
+use super::{Axis, Chart, Figure, map, solid};
 use crate::observe::{Observations, Pieces};
 use crate::table::{count, number, short};
 
@@ -11,23 +13,27 @@ const MILLI: f64 = 1e3;
 
 /// What the figures show beside what was observed.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Shown {
+pub(crate) struct Shown<'a> {
+    /// The surface, in the sensor frame.
+    pub(crate) surface: &'a DynSurface<f64>,
     /// The friction coefficient, if one was given.
     pub(crate) coefficient: Option<f64>,
     /// Whether the contact model knows a spin torque.
     pub(crate) spin_torque: bool,
 }
 
-/// Map, friction ratio, normal and tangential force, components of force and torque, contact position.
-pub(super) fn of(observations: &Observations, shown: Shown) -> Vec<Figure> {
-    vec![
-        contact_map(observations),
+/// Map, solid, friction ratio, normal and tangential force, components of force and torque, contact position.
+pub(super) fn of(observations: &Observations, shown: Shown<'_>) -> Vec<Figure> {
+    let mut figures = vec![contact_map(observations)];
+    figures.extend(solid::figure(shown.surface, observations));
+    figures.extend([
         ratio(observations, shown.coefficient),
         split(observations),
         forces(observations),
         torques(observations, shown.spin_torque),
         position(observations),
-    ]
+    ]);
+    figures
 }
 
 fn time_axis(observations: &Observations) -> Axis {

@@ -7,6 +7,7 @@ pub(crate) mod contours;
 mod figures;
 mod map;
 mod read_back;
+mod solid;
 mod svg;
 pub(crate) mod unrolled_tube;
 pub(crate) mod used;
@@ -32,7 +33,7 @@ pub(crate) fn of_recording(
     given: &Given<'_>,
 ) -> String {
     let coefficient = scene.limit().map(Limit::coefficient);
-    let shown = Shown { coefficient, spin_torque: scene.tells().spin_torque };
+    let shown = Shown { surface: scene.surface(), coefficient, spin_torque: scene.tells().spin_torque };
     page(findings, figures::of(observations, shown), &[used::table(scene, given)])
 }
 
@@ -41,7 +42,7 @@ pub(crate) fn with_figures(
     findings: &Findings,
     mut figures: Vec<Figure>,
     observations: &Observations,
-    shown: Shown,
+    shown: Shown<'_>,
 ) -> String {
     figures.extend(figures::of(observations, shown));
     page(findings, figures, &[])
