@@ -96,6 +96,16 @@ impl Projection {
         self.kind
     }
 
+    /// What the map is seen around: a point of a plane, the centre of a sphere, a point of a cylinder's axis.
+    pub fn centre(&self) -> Vector3<f64> {
+        self.centre
+    }
+
+    /// Unit vectors to the right, up, and towards the viewer in the middle of the map.
+    pub fn directions(&self) -> [Vector3<f64>; 3] {
+        [self.right, self.up, self.out]
+    }
+
     /// Where a point of the surface is drawn: millimetres (plane, cylinder) or `2 sin(θ/2)` from
     /// the pole (sphere).
     pub fn project(&self, point: &Vector3<f64>) -> (f64, f64) {
@@ -232,6 +242,11 @@ mod tests {
             check_at(&sphere, centre + out * 0.02, out, 1.0 / 0.02, random);
             // A cylinder along an axis of its frame keeps lengths everywhere.
             let cylinder = Projection::cylinder(centre, frame[1], 0.02, None, &frame);
+            for map in [sphere, cylinder] {
+                let [right, up, towards] = map.directions();
+                assert!((right.cross(&up) - towards).norm() < 1e-12 && map.centre() == centre);
+                assert!((right.norm() - 1.0).abs() < 1e-12 && right.dot(&up).abs() < 1e-12);
+            }
             let angle = random.random_range(-3.0..3.0_f64);
             let radial = frame[2] * angle.cos() + frame[0] * angle.sin();
             check_at(&cylinder, centre + radial * 0.02 + frame[1] * 0.03, radial, 1e3, random);

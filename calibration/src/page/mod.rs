@@ -1,6 +1,6 @@
 //! Web pages: every report of the workspace is written by this one writer, in one style.
 //!
-//! A page is one file without scripts or outside files. Its style follows the reader's choice of light or dark, and
+//! A page is one file without outside files, and without scripts but those that a drawing brings. Its style follows the reader's choice of light or dark, and
 //! prints in light. Text is escaped wherever it stands. Drawings are SVG: those whose colours are classes of the style
 //! sheet follow the reader's choice, and those with colours of their own stand on white.
 //!
@@ -44,7 +44,7 @@ pub struct Table<'a> {
 pub struct Figure {
     /// Its heading.
     pub title: String,
-    /// What is drawn: SVG, taken as it is.
+    /// What is drawn: SVG, taken as it is, or an element around one, with what is shown in its place where scripts run.
     pub svg: String,
     /// A class of the style sheet, and what is drawn so.
     pub keys: Vec<(&'static str, String)>,

@@ -18,7 +18,7 @@ use fingertip_scene::{Pipeline, Scene};
 use crate::error::CliError;
 use crate::observe::{Observations, Status};
 use crate::output;
-use crate::report;
+use crate::report::{self, used::Given};
 use crate::scene;
 use crate::summary::{self, Run};
 use crate::table::number;
@@ -54,7 +54,12 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     });
     let report = (!arguments.no_report).then_some(arguments.report.as_path());
     if let Some(path) = report {
-        output::write("report", path, &report::of_recording(&findings, &observations, &scene))?;
+        let given = Given {
+            calibration: arguments.calibration.as_deref(),
+            payload: arguments.payload.as_deref(),
+            calibrated: source.is_calibrated(),
+        };
+        output::write("report", path, &report::of_recording(&findings, &observations, &scene, &given))?;
     }
     let to_stderr = arguments.output == Path::new("-");
     files::say(&findings, to_stderr, &[Some(arguments.output.as_path()), report])

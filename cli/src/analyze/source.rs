@@ -43,6 +43,8 @@ pub(super) struct Source {
     sample_interval: Option<f64>,
     /// For messages.
     recording: PathBuf,
+    /// Whether a calibration turns readings into wrenches.
+    calibrated: bool,
     rows: u64,
     first_time: Option<f64>,
     notes: Vec<String>,
@@ -113,6 +115,7 @@ impl Source {
             rest: scene.rest(),
             sample_interval: if has_time { None } else { scene.sample_rate().map(f64::recip) },
             recording: arguments.recording.clone(),
+            calibrated: calibration.is_some(),
             rows: 0,
             first_time: None,
             notes,
@@ -132,6 +135,11 @@ impl Source {
     /// Adds what the reader of the results should know.
     pub(super) fn note(&mut self, note: String) {
         self.notes.push(note);
+    }
+
+    /// Whether a calibration turns readings into wrenches.
+    pub(super) fn is_calibrated(&self) -> bool {
+        self.calibrated
     }
 
     /// What the reader of the results should know.

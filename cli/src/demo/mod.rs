@@ -10,7 +10,7 @@ mod rest;
 use fingertip::Fingertip;
 use fingertip::contact::PointContact;
 use fingertip::friction::{Coulomb, DropDetector, ForceNoise, SlipVerdict};
-use fingertip::surfaces::SphericalCap;
+use fingertip::surfaces::{DynSurface, SphericalCap};
 use fingertip::wrench::GaussianElimination;
 use fingertip_simulation::{Options, SessionReport, SessionScore, SimulatedFingertip, standard_session};
 use nalgebra::Vector3;
@@ -45,6 +45,7 @@ struct Outcome {
     observations: Observations,
     errors: Reservoir<SampleError>,
     rest: Rest,
+    cap: SphericalCap<f64>,
     least_force: f64,
     /// The friction coefficient that the pipeline was given.
     coefficient: f64,
@@ -55,7 +56,10 @@ pub(crate) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
     let outcome = play(arguments)?;
     let findings = findings::of(&outcome);
     let figures = figures::of(&outcome);
-    let page = report::with_figures(&findings, figures, &outcome.observations, Some(outcome.coefficient));
+    let surface = DynSurface::Sphere(outcome.cap);
+    let shown =
+        report::Shown { surface: &surface, coefficient: Some(outcome.coefficient), spin_torque: false };
+    let page = report::with_figures(&findings, figures, &outcome.observations, shown);
     write("report", &arguments.out, &page)?;
     let written = [Some(&arguments.out), arguments.recording.as_ref(), arguments.calibration.as_ref()];
     print(&format!("{findings}\n{}", output::written(written.into_iter().flatten())))
@@ -100,13 +104,11 @@ fn play(arguments: &DemoArguments) -> Result<Outcome, CliError> {
     let coefficient = least_static_coefficient(&simulated).ok_or_else(|| fault("the script has no drag"))?;
 
     let noise = ForceNoise::isotropic(rest.force_noise).map_err(fault)?;
+    let cap = SphericalCap::new(sphere, pole, rim.cos()).map_err(fault)?;
     let mut fingertip = Fingertip::builder()
         .zero(rest.zero)
         .solver(solver)
-        .contact(
-            SphericalCap::new(sphere, pole, rim.cos()).map_err(fault)?,
-            PointContact::new(least_force).map_err(fault)?,
-        )
+        .contact(cap, PointContact::new(least_force).map_err(fault)?)
         .friction_stage(Friction(Some(Limit::Coulomb(Coulomb::new(coefficient).map_err(fault)?))))
         .slip_stage(SlipWatch(Some(Detector::Drop(DropDetector::new(noise).map_err(fault)?))))
         .build();
@@ -125,5 +127,5 @@ fn play(arguments: &DemoArguments) -> Result<Outcome, CliError> {
         }
     }
     volts.finish()?;
-    Ok(Outcome { report: score.report(), observations, errors, rest, least_force, coefficient, seed })
+    Ok(Outcome { report: score.report(), observations, errors, rest, cap, least_force, coefficient, seed })
 }

@@ -9,12 +9,13 @@ mod trace;
 use fingertip::Touch;
 use fingertip::contact::{NoContact, Resolution};
 use fingertip::friction::{SlipMargin, SlipVerdict};
+use nalgebra::Vector3;
 
 pub(crate) use quantiles::Quantiles;
 pub(crate) use reservoir::Reservoir;
 pub(crate) use slips::Slips;
 pub(crate) use status::Status;
-pub(crate) use trace::{Point, Trace};
+pub(crate) use trace::{Pieces, Point, Trace};
 
 use fingertip_scene::Projection;
 
@@ -24,11 +25,16 @@ pub(crate) type SceneTouch = Touch<f64, Option<SlipMargin<f64>>, Option<SlipVerd
 /// Most contact points that are drawn.
 const MAP_POINTS: usize = 1500;
 
+/// What is traced of a sample without contact.
+const NOTHING: [f64; 7] = [f64::NAN; 7];
+
 /// A contact on the map.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MapPoint {
     /// On the map, see [`Projection::project`].
     pub(crate) place: (f64, f64),
+    /// In the sensor frame \[m\].
+    pub(crate) point: Vector3<f64>,
     /// \[N\]
     pub(crate) normal_force: f64,
 }
@@ -51,12 +57,10 @@ pub(crate) struct Observations {
     pub(crate) ratio: Quantiles,
     /// How far lines of action miss \[m\].
     pub(crate) gap: Quantiles,
-    /// Force components on the fingertip \[N\].
-    pub(crate) components: [Trace; 3],
-    /// Normal and tangential force of contacts \[N\].
-    pub(crate) split: [Trace; 2],
-    /// |f_t|/f_n of contacts.
-    pub(crate) ratio_trace: Trace,
+    /// Components of the load on the fingertip \[N, N·m\].
+    load: Trace<6>,
+    /// Of contacts: normal and tangential force \[N\], their ratio, the spin torque \[N·m\], and the point \[m\].
+    contacts: Trace<7>,
     pub(crate) map: Reservoir<MapPoint>,
     pub(crate) slips: Slips,
     /// Contacts whose friction limit is passed.
@@ -76,9 +80,8 @@ impl Observations {
             tangential: Quantiles::default(),
             ratio: Quantiles::default(),
             gap: Quantiles::default(),
-            components: Default::default(),
-            split: Default::default(),
-            ratio_trace: Trace::default(),
+            load: Trace::default(),
+            contacts: Trace::default(),
             map: Reservoir::new(MAP_POINTS),
             slips: Slips::default(),
             beyond_limit: 0,
@@ -89,23 +92,23 @@ impl Observations {
     #[inline]
     pub(crate) fn add(&mut self, time: f64, touch: &SceneTouch) {
         self.count(time, Status::of(&touch.resolution));
-        let force = touch.wrench.force();
-        for (trace, component) in self.components.iter_mut().zip(force.iter()) {
-            trace.add(time, Some(*component));
-        }
-        self.force.add(force.norm());
+        let ([fx, fy, fz], [tx, ty, tz]) = (touch.wrench.force().into(), touch.wrench.torque().into());
+        self.load.add(time, &[fx, fy, fz, tx, ty, tz]);
+        self.force.add(touch.wrench.force().norm());
+        let mut traced = NOTHING;
         let split = touch.resolution.contact().zip(touch.force).map(|(contact, force)| {
             self.map.add(|| MapPoint {
                 place: self.projection.project(&contact.point),
+                point: contact.point,
                 normal_force: force.normal,
             });
-            (force.normal, force.tangential_magnitude(), force.friction_ratio())
+            let split = (force.normal, force.tangential_magnitude(), force.friction_ratio());
+            let [x, y, z] = contact.point.into();
+            traced = [split.0, split.1, split.2.unwrap_or(f64::NAN), contact.spin_torque, x, y, z];
+            split
         });
-        let [normal_trace, tangential_trace] = &mut self.split;
-        normal_trace.add(time, split.map(|(normal, ..)| normal));
-        tangential_trace.add(time, split.map(|(_, tangential, _)| tangential));
+        self.contacts.add(time, &traced);
         let ratio = split.and_then(|(.., ratio)| ratio);
-        self.ratio_trace.add(time, ratio);
         if let Some((normal, tangential, _)) = split {
             self.normal.add(normal);
             self.tangential.add(tangential);
@@ -125,9 +128,38 @@ impl Observations {
     /// Takes a sample that gave no wrench, or one that is not analysed. Curves break here.
     pub(crate) fn add_without_wrench(&mut self, time: f64, status: Status) {
         self.count(time, status);
-        for trace in self.components.iter_mut().chain(&mut self.split).chain([&mut self.ratio_trace]) {
-            trace.add(time, None);
-        }
+        self.load.add(time, &[f64::NAN; 6]);
+        self.contacts.add(time, &NOTHING);
+    }
+
+    /// Force components on the fingertip \[N\].
+    pub(crate) fn forces(&self) -> [Pieces; 3] {
+        [0, 1, 2].map(|curve| self.load.pieces(curve))
+    }
+
+    /// Torque components on the fingertip \[N·m\].
+    pub(crate) fn torques(&self) -> [Pieces; 3] {
+        [3, 4, 5].map(|curve| self.load.pieces(curve))
+    }
+
+    /// Normal and tangential force of contacts \[N\].
+    pub(crate) fn split(&self) -> [Pieces; 2] {
+        [0, 1].map(|curve| self.contacts.pieces(curve))
+    }
+
+    /// |f_t|/f_n of contacts.
+    pub(crate) fn ratios(&self) -> Pieces {
+        self.contacts.pieces(2)
+    }
+
+    /// Spin torque of contacts \[N·m\].
+    pub(crate) fn spin_torques(&self) -> Pieces {
+        self.contacts.pieces(3)
+    }
+
+    /// x, y and z of contact points \[m\].
+    pub(crate) fn positions(&self) -> [Pieces; 3] {
+        [4, 5, 6].map(|curve| self.contacts.pieces(curve))
     }
 
     #[inline]

@@ -1,4 +1,4 @@
-//! A curve over time, thinned so that its peaks are kept.
+//! Curves over time, thinned so that their peaks are kept.
 
 /// Most bins of a trace; each draws at most two points of a curve.
 const CAPACITY: usize = 480;
@@ -10,107 +10,115 @@ pub(crate) struct Point {
     pub(crate) value: f64,
 }
 
+/// A curve between its gaps.
+pub(crate) type Pieces = Vec<Vec<Point>>;
+
 #[derive(Clone, Copy, Debug)]
-struct Extremes {
+struct Bin {
+    /// Infinite as long as there is none.
     least: Point,
     greatest: Point,
-}
-
-impl Extremes {
-    fn joined(self, other: Self) -> Self {
-        Self {
-            least: if other.least.value < self.least.value { other.least } else { self.least },
-            greatest: if other.greatest.value > self.greatest.value { other.greatest } else { self.greatest },
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, Default)]
-struct Bin {
-    extremes: Option<Extremes>,
     /// A sample of this bin had no value: the curve breaks here.
     broken: bool,
 }
 
 impl Bin {
-    fn joined(self, other: Self) -> Self {
-        let extremes = match (self.extremes, other.extremes) {
-            (Some(a), Some(b)) => Some(a.joined(b)),
-            (a, b) => a.or(b),
-        };
-        Self { extremes, broken: self.broken || other.broken }
+    const EMPTY: Self = Self {
+        least: Point { time: 0.0, value: f64::INFINITY },
+        greatest: Point { time: 0.0, value: f64::NEG_INFINITY },
+        broken: false,
+    };
+
+    #[inline]
+    fn add(&mut self, time: f64, value: f64) {
+        if !(value.is_finite() && time.is_finite()) {
+            self.broken = true;
+            return;
+        }
+        if value < self.least.value {
+            self.least = Point { time, value };
+        }
+        if value > self.greatest.value {
+            self.greatest = Point { time, value };
+        }
+    }
+
+    /// With one that came later.
+    fn joined(&self, other: &Self) -> Self {
+        Self {
+            least: if other.least.value < self.least.value { other.least } else { self.least },
+            greatest: if other.greatest.value > self.greatest.value { other.greatest } else { self.greatest },
+            broken: self.broken || other.broken,
+        }
     }
 }
 
-/// A curve of any length in bounded memory.
+/// Some curves of any length in bounded memory.
 ///
-/// Samples fall into bins of equally many samples; a bin keeps its least and its greatest value
+/// Samples fall into bins of equally many samples; a bin keeps the least and the greatest value of each curve
 /// with their times. When the bins are used up, neighbours join and every bin holds twice as many
 /// samples. So no peak is lost, however long the recording.
 #[derive(Clone, Debug)]
-pub(crate) struct Trace {
-    bins: Vec<Bin>,
+pub(crate) struct Trace<const N: usize> {
+    bins: Vec<[Bin; N]>,
     /// Samples of a full bin.
     stride: u64,
     /// Samples in the last bin.
     filled: u64,
 }
 
-impl Default for Trace {
+impl<const N: usize> Default for Trace<N> {
     fn default() -> Self {
         Self { bins: Vec::with_capacity(CAPACITY), stride: 1, filled: 0 }
     }
 }
 
-impl Trace {
-    /// Takes the next sample; `None` (or what is not finite) where there is no value.
+impl<const N: usize> Trace<N> {
+    /// Takes the next sample, a value for each curve; NaN (or what is not finite) where there is none.
     #[inline]
-    pub(crate) fn add(&mut self, time: f64, value: Option<f64>) {
-        let sample = match value {
-            Some(value) if value.is_finite() && time.is_finite() => {
-                let point = Point { time, value };
-                Bin { extremes: Some(Extremes { least: point, greatest: point }), broken: false }
+    pub(crate) fn add(&mut self, time: f64, values: &[f64; N]) {
+        if self.filled >= self.stride || self.bins.is_empty() {
+            if self.bins.len() == CAPACITY {
+                self.halve();
             }
-            _ => Bin { extremes: None, broken: true },
-        };
-        if self.filled < self.stride
-            && let Some(last) = self.bins.last_mut()
-        {
-            *last = last.joined(sample);
-            self.filled += 1;
-            return;
+            self.bins.push([Bin::EMPTY; N]);
+            self.filled = 0;
         }
-        if self.bins.len() == CAPACITY {
-            self.halve();
+        self.filled += 1;
+        if let Some(last) = self.bins.last_mut() {
+            for (bin, value) in last.iter_mut().zip(values) {
+                bin.add(time, *value);
+            }
         }
-        self.bins.push(sample);
-        self.filled = 1;
     }
 
     fn halve(&mut self) {
         let joined = self.bins.chunks(2).map(|pair| match pair {
-            [a, b] => a.joined(*b),
+            [a, b] => core::array::from_fn(|curve| match (a.get(curve), b.get(curve)) {
+                (Some(a), Some(b)) => a.joined(b),
+                _ => Bin::EMPTY,
+            }),
             [a, ..] => *a,
-            [] => Bin::default(),
+            [] => [Bin::EMPTY; N],
         });
         self.bins = joined.collect();
         self.stride *= 2;
     }
 
-    /// The pieces of the curve between its gaps, in order of time.
-    pub(crate) fn pieces(&self) -> Vec<Vec<Point>> {
+    /// The pieces of a curve between its gaps, in order of time.
+    pub(crate) fn pieces(&self, curve: usize) -> Pieces {
         let mut pieces = Vec::new();
         let mut piece: Vec<Point> = Vec::new();
-        for bin in &self.bins {
-            if let Some(Extremes { least, greatest }) = bin.extremes {
+        for Bin { least, greatest, broken } in self.bins.iter().filter_map(|bins| bins.get(curve)) {
+            if least.value <= greatest.value {
                 let (first, second) =
                     if least.time <= greatest.time { (least, greatest) } else { (greatest, least) };
-                piece.push(first);
+                piece.push(*first);
                 if second != first {
-                    piece.push(second);
+                    piece.push(*second);
                 }
             }
-            if bin.broken && !piece.is_empty() {
+            if *broken && !piece.is_empty() {
                 pieces.push(core::mem::take(&mut piece));
             }
         }
@@ -127,15 +135,15 @@ mod tests {
 
     use super::{CAPACITY, Point, Trace};
 
-    fn points(trace: &Trace) -> Vec<Point> {
-        trace.pieces().concat()
+    fn points(trace: &Trace<1>) -> Vec<Point> {
+        trace.pieces(0).concat()
     }
 
     #[test]
     fn keeps_every_sample_of_a_short_recording() {
-        let mut trace = Trace::default();
+        let mut trace = Trace::<1>::default();
         for i in 0..CAPACITY {
-            trace.add(i as f64, Some((i as f64).sin()));
+            trace.add(i as f64, &[(i as f64).sin()]);
         }
         assert_eq!(points(&trace).len(), CAPACITY);
     }
@@ -143,7 +151,7 @@ mod tests {
     #[test]
     fn keeps_a_single_spike_of_either_sign_in_a_long_one() {
         for spike_at in [0_usize, 1, 777, 123_456, 999_999] {
-            let mut trace = Trace::default();
+            let mut trace = Trace::<1>::default();
             for i in 0..1_000_000_usize {
                 let value = if i == spike_at {
                     9.0
@@ -152,7 +160,7 @@ mod tests {
                 } else {
                     (i as f64 * 0.001).sin()
                 };
-                trace.add(i as f64, Some(value));
+                trace.add(i as f64, &[value]);
             }
             let points = points(&trace);
             assert!(points.len() <= 2 * CAPACITY);
@@ -164,11 +172,11 @@ mod tests {
 
     #[test]
     fn breaks_at_gaps_and_leaves_out_what_is_not_finite() {
-        let mut trace = Trace::default();
+        let mut trace = Trace::<1>::default();
         for (i, value) in [Some(1.0), Some(2.0), None, Some(f64::NAN), Some(3.0)].into_iter().enumerate() {
-            trace.add(i as f64, value);
+            trace.add(i as f64, &[value.unwrap_or(f64::NAN)]);
         }
-        let lengths: Vec<usize> = trace.pieces().iter().map(Vec::len).collect();
+        let lengths: Vec<usize> = trace.pieces(0).iter().map(Vec::len).collect();
         assert_eq!(lengths, [2, 1]);
     }
 
@@ -205,16 +213,20 @@ mod tests {
         let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(1);
         for length in [0, 1, 2, 479, 480, 481, 959, 960, 961, 1919, 1921, 5000] {
             for gaps in [0.0, 0.002, 0.3] {
-                let mut trace = Trace::default();
-                let mut samples = Vec::new();
+                let mut trace = Trace::<2>::default();
+                let (mut samples, mut others) = (Vec::new(), Vec::new());
                 for i in 0..length {
                     // Few different values, so that extremes are met more than once.
                     let value = f64::from(random.random_range(-20..20_i32));
                     let value = (random.random::<f64>() >= gaps).then_some(value);
-                    trace.add(f64::from(i) * 0.5, value);
+                    // Another curve beside it, which is without gaps.
+                    let beside = f64::from(i % 7);
+                    trace.add(f64::from(i) * 0.5, &[beside, value.unwrap_or(f64::INFINITY)]);
+                    others.push((f64::from(i) * 0.5, Some(beside)));
                     samples.push((f64::from(i) * 0.5, value));
                 }
-                assert_eq!(trace.pieces(), by_hand(&samples), "{length} samples, {gaps} of them gaps");
+                assert_eq!(trace.pieces(0), by_hand(&others), "{length} samples without gaps");
+                assert_eq!(trace.pieces(1), by_hand(&samples), "{length} samples, {gaps} of them gaps");
             }
         }
     }

@@ -1,20 +1,39 @@
 //! The figures that every run has.
 
-use super::{Axis, Chart, Figure, map};
-use crate::observe::{Observations, Point, Trace};
+use fingertip::surfaces::DynSurface;
+
+use super::{Axis, Chart, Figure, map, solid};
+use crate::observe::{Observations, Pieces};
 use crate::table::{count, number, short};
 
 /// Most slips that are marked in a chart.
 const MARKED_SLIPS: usize = 200;
+/// For millimetres and newton millimetres.
+const MILLI: f64 = 1e3;
 
-/// Map, force components, normal and tangential force, friction ratio.
-pub(super) fn of(observations: &Observations, coefficient: Option<f64>) -> Vec<Figure> {
-    vec![
-        contact_map(observations),
-        ratio(observations, coefficient),
+/// What the figures show beside what was observed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shown<'a> {
+    /// The surface, in the sensor frame.
+    pub(crate) surface: &'a DynSurface<f64>,
+    /// The friction coefficient, if one was given.
+    pub(crate) coefficient: Option<f64>,
+    /// Whether the contact model knows a spin torque.
+    pub(crate) spin_torque: bool,
+}
+
+/// Map, solid, friction ratio, normal and tangential force, components of force and torque, contact position.
+pub(super) fn of(observations: &Observations, shown: Shown<'_>) -> Vec<Figure> {
+    let mut figures = vec![contact_map(observations)];
+    figures.extend(solid::figure(shown.surface, observations));
+    figures.extend([
+        ratio(observations, shown.coefficient),
         split(observations),
-        components(observations),
-    ]
+        forces(observations),
+        torques(observations, shown.spin_torque),
+        position(observations),
+    ]);
+    figures
 }
 
 fn time_axis(observations: &Observations) -> Axis {
@@ -23,14 +42,16 @@ fn time_axis(observations: &Observations) -> Axis {
 }
 
 /// The least and the greatest value of some curves.
-fn range(traces: &[Vec<Vec<Point>>]) -> Option<(f64, f64)> {
-    let mut values = traces.iter().flatten().flatten().map(|point| point.value);
+fn range(curves: &[Pieces]) -> Option<(f64, f64)> {
+    let mut values = curves.iter().flatten().flatten().map(|point| point.value);
     let first = values.next()?;
     Some(values.fold((first, first), |(low, high), value| (low.min(value), high.max(value))))
 }
 
-fn curves(traces: &[Trace]) -> Vec<Vec<Vec<Point>>> {
-    traces.iter().map(Trace::pieces).collect()
+/// Curves in thousandths of their unit.
+fn in_milli(mut curves: Vec<Pieces>) -> Vec<Pieces> {
+    curves.iter_mut().flatten().flatten().for_each(|point| point.value *= MILLI);
+    curves
 }
 
 fn contact_map(observations: &Observations) -> Figure {
@@ -51,26 +72,74 @@ fn contact_map(observations: &Observations) -> Figure {
     }
 }
 
-fn components(observations: &Observations) -> Figure {
-    let curves = curves(&observations.components);
-    let (low, high) = range(&curves).unwrap_or((0.0, 1.0));
-    let y = Axis::rounded("force / N", low.min(0.0), high.max(0.0));
-    let mut chart = Chart::new("Force components over time", time_axis(observations), y);
+/// Curves around zero, each with its class and name.
+fn components(
+    observations: &Observations,
+    [title, said, unit]: [&str; 3],
+    curves: &[Pieces],
+    keys: &[(&'static str, &str)],
+) -> Figure {
+    let (low, high) = range(curves).unwrap_or((0.0, 1.0));
+    let y = Axis::rounded(unit, low.min(0.0), high.max(0.0));
+    let mut chart = Chart::new(said, time_axis(observations), y);
     chart.level("axis", 0.0);
-    for (class, curve) in ["a", "b", "c"].into_iter().zip(&curves) {
+    for ((class, _), curve) in keys.iter().zip(curves) {
         chart.curve(class, curve);
     }
     Figure {
-        title: "Force on the fingertip".to_owned(),
+        title: title.to_owned(),
         svg: chart.finish(),
-        keys: [("a", "fx"), ("b", "fy"), ("c", "fz")].map(|(class, name)| (class, name.to_owned())).to_vec(),
+        keys: keys.iter().map(|(class, name)| (*class, (*name).to_owned())).collect(),
         caption: "Components in the sensor frame.".to_owned(),
         on_white: false,
     }
 }
 
+fn forces(observations: &Observations) -> Figure {
+    let said = ["Force on the fingertip", "Force components over time", "force / N"];
+    components(observations, said, &observations.forces(), &[("a", "fx"), ("b", "fy"), ("c", "fz")])
+}
+
+fn torques(observations: &Observations, with_spin: bool) -> Figure {
+    let said = ["Torque on the fingertip", "Torque components over time", "torque / mN·m"];
+    let mut curves = observations.torques().to_vec();
+    let mut keys = vec![("a", "tx"), ("b", "ty"), ("c", "tz")];
+    if with_spin {
+        curves.push(observations.spin_torques());
+        keys.push(("d", "spin torque of the contact"));
+    }
+    let caption = if with_spin {
+        "Components in the sensor frame, about its origin; the spin torque about the outward normal at the contact."
+    } else {
+        "Components in the sensor frame, about its origin."
+    };
+    let figure = components(observations, said, &in_milli(curves), &keys);
+    Figure { caption: caption.to_owned(), ..figure }
+}
+
+fn position(observations: &Observations) -> Figure {
+    let curves = in_milli(observations.positions().to_vec());
+    let (low, high) = range(&curves).unwrap_or((0.0, 1.0));
+    let mut chart = Chart::new(
+        "Contact point over time",
+        time_axis(observations),
+        Axis::rounded("position / mm", low, high),
+    );
+    let keys = [("a", "x"), ("b", "y"), ("c", "z")];
+    for ((class, _), curve) in keys.iter().zip(&curves) {
+        chart.curve(class, curve);
+    }
+    Figure {
+        title: "Contact position".to_owned(),
+        svg: chart.finish(),
+        keys: keys.map(|(class, name)| (class, name.to_owned())).to_vec(),
+        caption: "The contact point in the sensor frame, only where there is a contact.".to_owned(),
+        on_white: false,
+    }
+}
+
 fn split(observations: &Observations) -> Figure {
-    let curves = curves(&observations.split);
+    let curves = observations.split();
     let (_, high) = range(&curves).unwrap_or((0.0, 1.0));
     let mut chart = Chart::new(
         "Normal and tangential force over time",
@@ -90,7 +159,7 @@ fn split(observations: &Observations) -> Figure {
 }
 
 fn ratio(observations: &Observations, coefficient: Option<f64>) -> Figure {
-    let curve = observations.ratio_trace.pieces();
+    let curve = observations.ratios();
     let greatest = observations.ratio.greatest().unwrap_or(1.0);
     // The ratio grows without bound as a contact opens: show what holds, and say what is cut.
     let usual = 1.6 * observations.ratio.quantile(0.99).unwrap_or(1.0);

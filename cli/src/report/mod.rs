@@ -7,22 +7,34 @@ pub(crate) mod contours;
 mod figures;
 mod map;
 mod read_back;
+mod solid;
 mod svg;
 pub(crate) mod unrolled_tube;
+pub(crate) mod used;
 
 pub(crate) use axis::Axis;
 pub(crate) use chart::Chart;
+pub(crate) use figures::Shown;
 pub(crate) use fingertip_calibration::page::Figure;
 
 use fingertip_calibration::page::{self, Page};
 
 use crate::observe::Observations;
 use crate::summary::Findings;
+use crate::table::Table;
 use fingertip_scene::{Limit, Scene};
+use used::Given;
 
 /// The report of a recording.
-pub(crate) fn of_recording(findings: &Findings, observations: &Observations, scene: &Scene) -> String {
-    page(findings, figures::of(observations, scene.limit().map(Limit::coefficient)))
+pub(crate) fn of_recording(
+    findings: &Findings,
+    observations: &Observations,
+    scene: &Scene,
+    given: &Given<'_>,
+) -> String {
+    let coefficient = scene.limit().map(Limit::coefficient);
+    let shown = Shown { surface: scene.surface(), coefficient, spin_torque: scene.tells().spin_torque };
+    page(findings, figures::of(observations, shown), &[used::table(scene, given)])
 }
 
 /// The report of a run with figures of its own before the usual ones.
@@ -30,27 +42,31 @@ pub(crate) fn with_figures(
     findings: &Findings,
     mut figures: Vec<Figure>,
     observations: &Observations,
-    coefficient: Option<f64>,
+    shown: Shown<'_>,
 ) -> String {
-    figures.extend(figures::of(observations, coefficient));
-    page(findings, figures)
+    figures.extend(figures::of(observations, shown));
+    page(findings, figures, &[])
 }
 
 /// The report of something else than a recording.
 pub(crate) fn of_design(findings: &Findings, figures: Vec<Figure>) -> String {
-    page(findings, figures)
+    page(findings, figures, &[])
 }
 
-fn page(findings: &Findings, figures: Vec<Figure>) -> String {
+fn shown(table: &Table) -> page::Table<'_> {
+    let Table { title, head, rows } = table;
+    page::Table { title, head, rows, words: false }
+}
+
+/// `words` are tables that stand behind the figures.
+fn page(findings: &Findings, figures: Vec<Figure>, words: &[Table]) -> String {
     let mut page = Page::new(&findings.title);
     findings.lead.iter().for_each(|sentence| page.lead(sentence));
-    page.tables(findings.tables.iter().map(|table| page::Table {
-        title: &table.title,
-        head: &table.head,
-        rows: &table.rows,
-        words: false,
-    }));
+    page.tables(findings.tables.iter().map(shown));
     page.figures(figures);
+    for table in words {
+        page.table(&page::Table { words: true, ..shown(table) });
+    }
     let notes: Vec<String> = findings.notes.iter().map(|note| format!("{note}.")).collect();
     page.list("To be minded", &notes);
     page.finish(&format!(
@@ -75,7 +91,7 @@ mod tests {
             tables: vec![table],
             notes: vec!["mind > this".to_owned()],
         };
-        let html = page(&findings, vec![Figure { title: "F&G".to_owned(), ..Figure::default() }]);
+        let html = page(&findings, vec![Figure { title: "F&G".to_owned(), ..Figure::default() }], &[]);
         let places: Vec<usize> = [
             "<h1>A &lt; B</h1>",
             "Lead 1\u{a0}N.",
@@ -89,6 +105,6 @@ mod tests {
         .map(|part| html.find(part).unwrap_or_else(|| panic!("{part} is not in {html}")))
         .collect();
         assert!(places.is_sorted(), "{places:?}");
-        assert!(!page(&Findings::default(), Vec::new()).contains("To be minded"));
+        assert!(!page(&Findings::default(), Vec::new(), &[]).contains("To be minded"));
     }
 }

@@ -100,6 +100,16 @@ impl Svg {
         self.text.push_str("\"/>");
     }
 
+    /// A closed shape.
+    pub(crate) fn polygon(&mut self, class: &str, corners: impl Iterator<Item = (f64, f64)>) {
+        self.push(format_args!("<path class=\"{class}\" d=\""));
+        for (place, (x, y)) in corners.enumerate() {
+            let command = if place == 0 { "M" } else { "L" };
+            self.push(format_args!("{command}{x:.1} {y:.1}"));
+        }
+        self.text.push_str("Z\"/>");
+    }
+
     /// What is drawn until [`end_clip`](Self::end_clip) is cut at a frame.
     pub(crate) fn begin_clip(&mut self, corner: (f64, f64), size: (f64, f64)) {
         self.push(format_args!(
@@ -138,6 +148,7 @@ mod tests {
         svg.curve("k", [&[(0.0, 1.0), (2.0, 3.0)][..], &[(4.0, 5.0)]].into_iter());
         svg.dots("d", [(1.0, 2.0), (3.0, 4.0)].into_iter());
         svg.dots("none", core::iter::empty());
+        svg.polygon("p", [(1.0, 2.0), (3.0, 4.0), (0.0, 0.06)].into_iter());
         svg.begin_clip((1.0, 2.0), (3.0, 4.0));
         svg.end_clip();
         let expected = "<svg viewBox=\"0 0 10 20\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\">\
@@ -148,6 +159,7 @@ mod tests {
             <text class=\"t\" x=\"5.0\" y=\"6.0\" text-anchor=\"middle\">x &amp; y</text>\
             <path class=\"curve k\" d=\"M0.0 1.0L2.0 3.0M4.0 5.0h0\"/>\
             <path class=\"dots d\" d=\"M1.0 2.0h0M3.0 4.0h0\"/>\
+            <path class=\"p\" d=\"M1.0 2.0L3.0 4.0L0.0 0.1Z\"/>\
             <svg x=\"1.0\" y=\"2.0\" width=\"3.0\" height=\"4.0\" viewBox=\"1.0 2.0 3.0 4.0\"></svg></svg>";
         assert_eq!(svg.finish(), expected);
     }

@@ -66,7 +66,7 @@ fn every_outcome_has_its_word_and_every_contact_its_numbers() {
     assert!(report.starts_with("<!doctype html>") && report.trim_end().ends_with("</html>"));
     assert_eq!(report.matches("<svg viewBox").count(), report.matches("<figure>").count());
     // Self-contained.
-    for outside in ["src=", "href=", "url(", "@import", "<script", "<link"] {
+    for outside in ["src=", "href=", "url(", "@import", "<script ", "import(", "fetch(", "<link"] {
         assert!(!report.contains(outside), "{outside}");
     }
     assert!(!report.contains("NaN") && !report.contains("inf"), "a number that is none in the report");

@@ -52,6 +52,17 @@ fn its_volts_analyzed_give_the_true_contacts() {
     let analyze = ["analyze", "volts.csv", "--scene", &paper, "--calibration", "calibration.toml"];
     let summary = folder.succeed(&analyze);
     assert!(summary.contains("8 slips were seen"), "{summary}");
+    let report = folder.read("report.html");
+    for (part, said) in [
+        ("calibration", "calibration.toml"),
+        ("calibrated by", "simulated"),
+        ("calibrated with", "fingertip demo"),
+        ("calibration quality", "unchecked"),
+    ] {
+        let row = format!("<th scope=\"row\">{part}</th><td class=\"word\">{said}</td>");
+        assert!(report.contains(&row), "{row}");
+    }
+    assert!(!report.contains("calibrated sensor") && !report.contains("calibrated on"));
 
     // A scene that names the calibration itself says the same.
     let alone =

@@ -124,9 +124,54 @@ fn of_a_plane_in_a_pose() {
     read_back(&report, &contacts);
 }
 
-/// The force curves of a report are the columns of `contacts.csv`: read by the ticks of the axes, point for point.
+#[test]
+fn a_soft_finger_has_its_spin_torque_among_the_torques() {
+    let folder = Folder::new();
+    let scene = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"plane\"\n\
+        [contact]\nmodel = \"soft_finger\"\nleast_force_N = 0.1\n";
+    folder.write("scene.toml", scene);
+    // 3 N at (4, −2, 0) mm, with a spin torque that comes and goes; between the halves nothing touches.
+    let spin = |i: usize| 2e-3 * (0.1 * i as f64).sin();
+    let mut text = HEADER.to_owned();
+    for i in 0..100 {
+        let force = if i == 50 { 0.01 } else { 3.0 };
+        let cells =
+            [0.0, 0.0, -force, 0.002 * force, 0.004 * force, spin(i)].map(|cell| format!("{cell:.9}"));
+        text += &format!("{:.3},{}\n", 0.01 * i as f64, cells.join(","));
+    }
+    folder.write("session.csv", &text);
+    folder.succeed(&["analyze", "session.csv", "--scene", "scene.toml"]);
+    let (report, contacts) = (folder.read("report.html"), Contacts::parse(&folder.read("contacts.csv")));
+    read_back(&report, &contacts);
+    let spins = contacts.numbers("spin_Nm");
+    check_curve(figure(&report, "Torque on the fingertip"), "d", &contacts.numbers("t_s"), &spins, 1e3);
+    for (i, found) in spins.iter().enumerate().filter(|(i, _)| *i != 50) {
+        assert!((found - spin(i)).abs() < 1e-8, "{found} at {i}");
+    }
+    assert!(spins[50].is_nan() && report.contains("spin torque of the contact"));
+}
+
+/// The curves of a report are the columns of `contacts.csv`.
 fn read_back(report: &str, contacts: &Contacts) {
-    let figure = report.split("<figure>").find(|figure| figure.contains("Force on the fingertip")).unwrap();
+    let times = contacts.numbers("t_s");
+    for (title, columns, unit) in [
+        ("Force on the fingertip", ["fx_N", "fy_N", "fz_N"], 1.0),
+        ("Torque on the fingertip", ["tx_Nm", "ty_Nm", "tz_Nm"], 1e3),
+        ("Contact position", ["x_m", "y_m", "z_m"], 1e3),
+    ] {
+        for (class, column) in ["a", "b", "c"].into_iter().zip(columns) {
+            check_curve(figure(report, title), class, &times, &contacts.numbers(column), unit);
+        }
+    }
+}
+
+fn figure<'a>(report: &'a str, title: &str) -> &'a str {
+    let title = format!("<h2>{title}</h2>");
+    report.split("<figure>").find(|figure| figure.starts_with(&title)).unwrap()
+}
+
+/// That a curve, read by the ticks of the axes, is a column point for point; `unit` of the column in that of the axis.
+fn check_curve(figure: &str, class: &str, times: &[f64], values: &[f64], unit: f64) {
     let attribute = |tag: &str, name: &str| -> f64 {
         let start = tag.find(&format!(" {name}=\"")).unwrap() + name.len() + 3;
         tag[start..].split('"').next().unwrap().parse().unwrap()
@@ -141,31 +186,35 @@ fn read_back(report: &str, contacts: &Contacts) {
         })
         .collect()
     };
-    let line = |marks: Vec<(f64, f64)>, at: f64| {
+    let slope = |marks: &[(f64, f64)]| {
         let ((p, v), (q, w)) = (marks[0], marks[marks.len() - 1]);
-        v + (at - p) * (w - v) / (q - p)
+        (w - v) / (q - p)
     };
-    let times = contacts.numbers("t_s");
-    for (class, column) in [("a", "fx_N"), ("b", "fy_N"), ("c", "fz_N")] {
-        let path =
-            figure.split(&format!("class=\"curve {class}\" d=\"")).nth(1).unwrap().split('"').next().unwrap();
-        let drawn: Vec<(f64, f64)> = path
-            .split(['M', 'L'])
-            .skip(1)
-            .map(|point| {
-                let (x, y) = point.trim_end_matches("h0").split_once(' ').unwrap();
-                // Labels stand 3.5 below their line.
-                let (x, y) = (x.parse().unwrap(), y.parse::<f64>().unwrap() + 3.5);
-                (line(ticks("middle", "x"), x), line(ticks("end", "y"), y))
-            })
-            .collect();
-        let values = contacts.numbers(column);
-        let finite: Vec<(f64, f64)> =
-            times.iter().copied().zip(values).filter(|(_, value)| value.is_finite()).collect();
-        assert_eq!(drawn.len(), finite.len(), "{column}");
-        for ((time, value), (found_time, found)) in finite.iter().zip(&drawn) {
-            // A tenth of a unit is a two-thousandth of an axis of 1.5 s, and of one of some 50 N.
-            assert!((found_time - time).abs() < 2e-3 && (found - value).abs() < 0.05, "{column} at {time} s");
-        }
+    let (across, up) = (ticks("middle", "x"), ticks("end", "y"));
+    let line = |marks: &[(f64, f64)], at: f64| marks[0].1 + (at - marks[0].0) * slope(marks);
+    let path =
+        figure.split(&format!("class=\"curve {class}\" d=\"")).nth(1).unwrap().split('"').next().unwrap();
+    let drawn: Vec<(f64, f64)> = path
+        .split(['M', 'L'])
+        .skip(1)
+        .map(|point| {
+            let (x, y) = point.trim_end_matches("h0").split_once(' ').unwrap();
+            // Labels stand 3.5 below their line.
+            let (x, y) = (x.parse().unwrap(), y.parse::<f64>().unwrap() + 3.5);
+            (line(&across, x), line(&up, y))
+        })
+        .collect();
+    let finite: Vec<(f64, f64)> = times
+        .iter()
+        .zip(values)
+        .map(|(time, value)| (*time, unit * value))
+        .filter(|(_, v)| v.is_finite())
+        .collect();
+    assert_eq!(drawn.len(), finite.len(), "curve {class}");
+    // Places are rounded to a tenth.
+    let (time_error, error) = (0.25 * slope(&across).abs(), 0.25 * slope(&up).abs());
+    for ((time, value), (found_time, found)) in finite.iter().zip(&drawn) {
+        let near = (found_time - time).abs() < time_error && (found - value).abs() < error;
+        assert!(near, "curve {class}: {found} at {found_time} s for {value} at {time} s");
     }
 }

@@ -12,7 +12,11 @@ fn axes() -> [Vector3<f64>; 3] {
 }
 
 fn contacts(projection: &Projection, points: &[Vector3<f64>]) -> Vec<MapPoint> {
-    let point = |point| MapPoint { place: projection.project(point), normal_force: 1.0 };
+    let point = |point: &Vector3<f64>| MapPoint {
+        place: projection.project(point),
+        point: *point,
+        normal_force: 1.0,
+    };
     points.iter().map(point).collect()
 }
 

@@ -1,0 +1,146 @@
+//! The solid, for every shape that a scene can choose.
+
+use fingertip::surfaces::{ActiveSurface, SmoothSurface, nearest_crossing};
+use fingertip::wrench::Line;
+use fingertip_scene::{Scene, registry};
+use nalgebra::Vector3;
+
+use super::net::{COLUMNS, Net, ROWS, across, facets};
+use super::{SHOWN, Solid};
+use crate::observe::MapPoint;
+
+fn scene(surface: &str) -> Scene {
+    let head = "version = 2\n[input]\nconvention = \"on_fingertip\"\n";
+    Scene::from_text(&format!("{head}{surface}")).unwrap_or_else(|problem| panic!("{problem}: {surface}"))
+}
+
+fn contact(scene: &Scene, point: Vector3<f64>, normal_force: f64) -> MapPoint {
+    MapPoint { place: scene.projection().project(&point), point, normal_force }
+}
+
+#[test]
+fn every_shape_has_facets_that_lie_on_it_and_point_outwards() {
+    // And shapes without ends.
+    let endless = ["shape = \"cylinder\"\nradius_m = 0.01", "shape = \"cone\"\nhalf_angle_deg = 30.0"];
+    let endless = endless.map(|shape| (shape.to_owned(), format!("[surface]\n{shape}\n")));
+    let askew = Vector3::new(0.48, 0.6, 0.64);
+    let known = registry::SHAPES.iter().map(|entry| (entry.name.to_owned(), entry.text()));
+    for (name, text) in known.chain(endless) {
+        let scene = scene(&text);
+        let surface = scene.surface();
+        let net = Net::of(surface, scene.projection(), &[]);
+        let all: Vec<_> = facets(&net.points, COLUMNS).collect();
+        assert!(all.len() > 60, "{name}: {} facets", all.len());
+        for facet in all.iter().step_by(37) {
+            for corner in facet {
+                // The surface is at the corner, along its normal or, where that is of an edge, along another line.
+                let ways = [surface.normal(corner), Vector3::x(), Vector3::y(), Vector3::z(), askew];
+                let on = ways.into_iter().any(|direction| {
+                    let met = nearest_crossing(surface, &Line { point: *corner, direction });
+                    met.is_some_and(|met| met.along.abs() < 1e-7)
+                });
+                assert!(on, "{name}: {corner:?}");
+            }
+            // Facets of some size point to where their middle leaves the surface.
+            let along = across(facet);
+            if along.norm() > 1e-7 {
+                let middle = facet.iter().sum::<Vector3<f64>>() / 4.0;
+                let outward: Vector3<f64> = facet.iter().map(|corner| surface.normal(corner)).sum();
+                assert!(along.dot(&outward) > 0.0, "{name}: {middle:?} points inwards");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_facets_of_a_sphere_have_nearly_its_area() {
+    let area = |text: &str| {
+        let scene = scene(text);
+        let net = Net::of(scene.surface(), scene.projection(), &[]);
+        assert_eq!(net.points.len(), (ROWS + 1) * COLUMNS);
+        (facets(&net.points, COLUMNS).map(|facet| 0.5 * across(&facet).norm()).sum::<f64>(), net.is_open())
+    };
+    let ball = "[surface]\nshape = \"sphere\"\nradius_m = 0.01\n";
+    let whole = 4.0 * core::f64::consts::PI * 1e-4;
+    let (found, is_open) = area(ball);
+    assert!(!is_open && found < whole && found > 0.98 * whole, "{found} of {whole}");
+    // A cap up to 55° from its pole, which is between two rows: its rim is met.
+    let (found, is_open) = area(&format!("{ball}active_half_angle_deg = 55.0\n"));
+    let cap = 0.5 * whole * (1.0 - 55_f64.to_radians().cos());
+    assert!(is_open && found < cap && found > 0.98 * cap, "{found} of {cap}");
+    // Of a torus its outside, from tangent to tangent of the middle: the tube is seen up to the angle α from outwards
+    // with cos α = −r/R, which has the area 4π r (R α + r sin α).
+    let (found, _) = area("[surface]\nshape = \"torus\"\nring_radius_m = 0.02\ntube_radius_m = 0.004\n");
+    let alpha = (-0.2_f64).acos();
+    let outer = 4.0 * core::f64::consts::PI * 0.004 * (0.02 * alpha + 0.004 * alpha.sin());
+    assert!(found < outer && found > 0.9 * outer, "{found} of {outer}");
+}
+
+#[test]
+fn of_an_endless_shape_the_part_around_the_contacts_is_shown() {
+    let scene = scene("[surface]\nshape = \"plane\"\npoint_m = [0.0, 0.0, 0.01]\n");
+    // On a circle of 20 mm; one far away does not count.
+    let mut contacts: Vec<MapPoint> = (0..200)
+        .map(|i| {
+            let (sin, cos) = (core::f64::consts::TAU * f64::from(i) / 200.0).sin_cos();
+            contact(&scene, Vector3::new(0.1 + 0.02 * cos, 0.02 * sin, 0.01), 1.0)
+        })
+        .collect();
+    contacts.push(contact(&scene, Vector3::new(50.0, 0.0, 0.01), 1.0));
+    let solid = Solid::of(scene.surface(), scene.projection(), &contacts).unwrap();
+    let reach = solid.net.iter().flatten().map(|point| (point - Vector3::new(100.0, 0.0, 10.0)).norm());
+    let reach = reach.fold(0.0, f64::max);
+    assert!((reach - 30.0).abs() < 1.5, "{reach} mm");
+    assert_eq!(solid.contacts.concat().len(), 200);
+}
+
+#[test]
+fn the_numbers_of_the_page_are_those_of_the_surface_and_few() {
+    let scene = scene("[surface]\nshape = \"sphere\"\nradius_m = 0.013\n");
+    let contacts: Vec<MapPoint> = (0..1500)
+        .map(|i| {
+            let (sin, cos) = (0.01 * f64::from(i)).sin_cos();
+            contact(&scene, Vector3::new(0.013 * sin, 0.0, 0.013 * cos), 0.01 * f64::from(i + 1))
+        })
+        .collect();
+    let solid = Solid::of(scene.surface(), scene.projection(), &contacts).unwrap();
+    let text = solid.attributes();
+    let attribute = |name: &str| {
+        let start = text.find(&format!("data-{name}=\"")).unwrap() + name.len() + 7;
+        &text[start..start + text[start..].find('"').unwrap()]
+    };
+    let radius = |point: &str| {
+        let numbers: Vec<f64> = point.split(',').map(|number| number.parse().unwrap()).collect();
+        Vector3::from_column_slice(&numbers).norm()
+    };
+    let net: Vec<&str> = attribute("net").split(';').collect();
+    assert_eq!(net.len(), (ROWS + 1) * COLUMNS);
+    assert!(net.iter().all(|point| (radius(point) - 13.0).abs() < 0.02));
+    let shown: Vec<&str> = attribute("contacts").split(['|', ';']).collect();
+    assert!(shown.len() > SHOWN / 2 && shown.len() <= SHOWN);
+    assert!(shown.iter().all(|point| (radius(point) - 13.0).abs() < 0.02));
+    assert_eq!(attribute("contacts").matches('|').count(), 6);
+    let length = super::SCRIPT.len() + super::picture::draw(&solid).len() + text.len();
+    assert!(length < 60_000, "{length} bytes");
+    assert!(!text.contains("NaN") && !text.contains("inf"));
+}
+
+#[test]
+fn contacts_are_seen_from_their_side() {
+    let scene = scene("[surface]\nshape = \"ellipsoid\"\nsemi_axes_m = [0.008, 0.01, 0.013]\n");
+    for towards in [Vector3::new(1.0, 1.0, 1.0), Vector3::new(-1.0, 2.0, 1.0), Vector3::new(1.0, -0.5, -3.0)]
+    {
+        let line = Line { point: Vector3::zeros(), direction: towards.normalize() };
+        let mut met = Vec::new();
+        scene
+            .surface()
+            .crossings(&line, |crossing| met.extend((crossing.along > 0.0).then_some(crossing.point)));
+        let solid = Solid::of(scene.surface(), scene.projection(), &[contact(&scene, met[0], 1.0)]).unwrap();
+        let [right, up, near] = solid.view.frame;
+        assert!((right.cross(&up) - near).norm() < 1e-12, "not right-handed");
+        assert!(solid.view.seen(&(met[0] * 1e3)).z > 0.0, "behind, seen from {near:?}");
+        // All axes come out of the surface and end within the picture.
+        let extent = scene.surface().extent();
+        assert!(solid.axes.iter().all(|tip| tip.norm() > 8.0 && tip.norm() < 2e3 * extent.radius));
+    }
+}
