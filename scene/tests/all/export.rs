@@ -272,3 +272,21 @@ fn what_cannot_be_exported_is_said() {
     assert!(large.to_rust(Scalar::F64, None).is_ok());
     assert!(matches!(large.to_rust(Scalar::F32, None), Err(ExportError::Scene(_))));
 }
+
+/// Written to be read: an entry a line, lists of numbers in one; and complete, within other shapes, too.
+#[test]
+fn json_is_laid_out_and_complete() {
+    let text = format!(
+        "{HEAD}[surface]\nshape = \"posed\"\nsurface = {{ shape = \"capsule\", radius_m = 0.008, half_length_m = 0.01 }}\n\
+         [contact.skin]\nlaw = \"table\"\nforce_depth_patch_N_m_m = [[0.5, 0.0002, 0.001], [2.0, 0.0005, 0.002]]\n"
+    );
+    let json = Scene::from_text(&text).unwrap().to_json().unwrap();
+    for part in [
+        "{\n  \"contact\": {\n    \"greatest_gap_m\": 0.0,\n",
+        "\n      \"force_depth_patch_N_m_m\": [\n        [0.5, 0.0002, 0.001],\n        [2.0, 0.0005, 0.002]\n      ]",
+        "\n  \"pose\": {\n    \"rotation_deg\": [0.0, 0.0, 0.0],\n    \"translation_m\": [0.0, 0.0, 0.0]\n  },\n",
+        "\"centre_m\": [0.0, 0.0, 0.0]",
+    ] {
+        assert!(json.contains(part), "{part}\n{json}");
+    }
+}

@@ -12,6 +12,9 @@ pub(super) const COLUMNS: usize = 36;
 pub(super) const ROWS: usize = 18;
 /// Halvings of the angle in which a rim is looked for.
 const HALVINGS: usize = 14;
+/// Steps of a ray to the surface of a formula, and halvings of the last one.
+const STEPS: usize = 64;
+const MARCH_HALVINGS: usize = 40;
 /// Shapes without an end say that they reach so far \[m\].
 const ENDLESS: f64 = 0.9;
 /// What is shown of a shape without an end where nothing touched \[m\].
@@ -74,6 +77,9 @@ impl Rays<'_> {
         let [a, b, pole] = self.frame;
         let ((sin, cos), (sine, cosine)) = (polar.sin_cos(), azimuth.sin_cos());
         let outward = (a * cosine + b * sine) * sin + pole * cos;
+        if let DynSurface::Formula(formula) = self.surface {
+            return self.march(formula.as_ref(), &outward);
+        }
         let line = Line { point: self.centre, direction: -outward };
         let mut first: Option<Crossing<f64>> = None;
         self.surface.crossings(&line, |crossing| {
@@ -84,6 +90,22 @@ impl Rays<'_> {
             }
         });
         first.map(|crossing| crossing.point)
+    }
+
+    /// As [`enter`](Self::enter), in steps and by halving: a formula of one's own takes long to find every crossing of,
+    /// and a picture wants one, as exact as it is drawn.
+    fn march(&self, surface: &impl ActiveSurface<f64>, outward: &Point) -> Option<Point> {
+        let reach = self.shown.radius + (self.centre - self.shown.centre).norm();
+        let at = |distance: f64| self.centre + outward * distance;
+        let is_inside = |distance: f64| surface.contains(&at(distance));
+        let step = reach / STEPS as f64;
+        let inside = (0..STEPS).rev().map(|k| step * k as f64).find(|distance| is_inside(*distance))?;
+        let (mut low, mut high) = (inside, inside + step);
+        for _ in 0..MARCH_HALVINGS {
+            let middle = 0.5 * (low + high);
+            *(if is_inside(middle) { &mut low } else { &mut high }) = middle;
+        }
+        Some(at(0.5 * (low + high))).filter(|point| self.shown.holds(point))
     }
 
     fn net(&self, rows: usize, columns: usize) -> Vec<Option<Point>> {
