@@ -245,3 +245,27 @@ fn a_calibration_of_the_scene_goes_into_its_module() {
         Scene::from_text(&toml::to_string(&json).unwrap()).unwrap();
     }
 }
+
+/// An example that begins with volts: the module takes the readings that the pipeline takes.
+#[test]
+fn the_gauges_of_an_example_give_the_bits_of_the_pipeline() {
+    let scene = example("gauges");
+    let matrix = &scene.calibration().unwrap().matrix;
+    let nominal = &scene.calibration().unwrap().nominal;
+    let (mut tip, mut pipeline, mut last) = (exported::gauges::tip().unwrap(), scene.pipeline(), None);
+    let mut touched = 0;
+    for push in pushes_on(pipeline.surface(), 500) {
+        // What the sensor would read under the opposite load, which it reports.
+        let share = nalgebra::DVector::from_fn(6, |axis, _| -push.components()[axis] / nominal[axis]);
+        let volts = matrix * share;
+        let reading = SVector::<f64, 6>::from_iterator(volts.iter().copied());
+        let touch = tip.sense(&reading, Step::of(1e-3).with_last(last));
+        last = touch.point();
+        let gauges: Vec<f64> = volts.iter().copied().collect();
+        let felt = pipeline.sense_reading(&fingertip_scene::GaugeReading::of(&gauges), None, 1e-3).unwrap();
+        assert_eq!((felt.touch.wrench, felt.touch.resolution), (touch.wrench, touch.resolution));
+        assert!((touch.wrench - push).components().amax() < 1e-9);
+        touched += usize::from(last.is_some());
+    }
+    assert!(touched > 100, "{touched}");
+}
