@@ -171,3 +171,34 @@ batches!(plane, Plane::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0)), true);
 batches!(cylinder, Cylinder::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0), T::one()), true);
 batches!(ellipsoid, Ellipsoid::new(v(1.0, 0.8, 0.6)), false);
 batches!(capsule, Capsule::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0), T::literal(0.5), T::literal(0.6)), false);
+
+/// The tests above have spheres of about one metre: here of a fingertip's size, and a building's, away from the origin.
+#[test]
+fn spheres_of_any_size_and_place() {
+    let mut random = Pcg64Mcg::seed_from_u64(12);
+    for radius in [1e-3, 0.013, 40.0] {
+        let mut vector = |size: f64| Vector3::<f64>::from_fn(|_, _| random.random_range(-size..size));
+        let sphere = Sphere::new(vector(3.0 * radius), radius).unwrap();
+        for _ in 0..200 {
+            let force = vector(2.0);
+            let wrench = Wrench::from_force_at(&(sphere.centre() + vector(0.5 * radius)), force);
+            let (mut point, mut normal, mut gap) = ([0.0; 3], [0.0; 3], [0.0]);
+            let ([px, py, pz], [nx, ny, nz]) = (point.each_mut(), normal.each_mut());
+            let component = |v: Vector3<f64>| [[v.x], [v.y], [v.z]];
+            let (f, m) = (component(wrench.force()), component(wrench.torque()));
+            sphere.contacts(
+                Wrenches { force: f.each_ref().map(|x| &x[..]), torque: m.each_ref().map(|x| &x[..]) },
+                Contacts {
+                    point: [px, py, pz].map(core::slice::from_mut),
+                    normal: [nx, ny, nz].map(core::slice::from_mut),
+                    gap: &mut gap,
+                },
+            );
+            let expected = PointContact::new(0.0).unwrap().resolve(&wrench, &sphere);
+            let contact = expected.contact().unwrap();
+            assert_eq!(gap, [0.0]);
+            assert!((Vector3::from(point) - contact.point).amax() < 1e-12 * radius, "{point:?}");
+            assert!((Vector3::from(normal) - contact.normal).amax() < 1e-12, "{normal:?}");
+        }
+    }
+}

@@ -2,7 +2,7 @@
 
 use fingertip_contact::{ContactModel, Search, SoftContact, SoftFinger, SoftFingerSurface};
 use fingertip_surfaces::{
-    ActiveSurface, CappedCylinder, Compound, CylinderEnds, DynSurface, EllipticCylinder, Frustum,
+    ActiveSurface, CappedCylinder, Capsule, Compound, CylinderEnds, DynSurface, EllipticCylinder, Frustum,
     Heightfield, Mesh, Offset, Paraboloid, Revolution, Sphere,
 };
 use fingertip_test_support::Worst;
@@ -397,4 +397,26 @@ fn a_pure_force_that_misses_a_mesh_has_no_contact() {
         }
     }
     assert!(missed > 1000, "{missed}");
+}
+
+/// Beyond its end a capsule is the ball there, and grazed where that is.
+#[test]
+fn a_capsule_is_grazed_at_the_end_that_is_passed() {
+    let (half, radius) = (0.01, 0.005);
+    let capsule = Capsule::new(Vector3::zeros(), Vector3::z(), half, radius).unwrap();
+    for end in [1.0, -1.0] {
+        let ball = Sphere::new(Vector3::z() * (end * half), radius).unwrap();
+        let passing = Vector3::new(0.0, 1e-4, end * (half + 1.1 * radius));
+        let wrench = Wrench::from_force_at(&passing, Vector3::new(-1.0, 0.0, 0.0));
+        let pair = |search: &Search<f64>| match search {
+            Search::Grazing(pair) => *pair,
+            other => panic!("{other:?}"),
+        };
+        let found = pair(&capsule.soft_contacts(&wrench, None, |c| panic!("{c:?}")));
+        let expected = pair(&ball.soft_contacts(&wrench, None, |c| panic!("{c:?}")));
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!((found - expected).amax() < 1e-15, "{found} {expected}");
+            assert!(found.z * end >= half);
+        }
+    }
 }
