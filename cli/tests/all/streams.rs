@@ -25,13 +25,13 @@ fn long(folder: &Folder, rows: u32, signals: usize) {
     file.into_inner().unwrap();
 }
 
-/// The address space in which the program runs, and which it shares with its libraries \[KiB\].
+/// What the program may have beside its code, which is not of the recording \[KiB\].
 #[cfg(target_os = "linux")]
-const MEMORY: u64 = 36_000;
+const MEMORY: u64 = 8_000;
 
 #[cfg(target_os = "linux")]
 fn in_small_memory(folder: &Folder, arguments: &str) -> std::process::Output {
-    let run = format!("ulimit -v {MEMORY} && exec {} {arguments}", env!("CARGO_BIN_EXE_fingertip"));
+    let run = format!("ulimit -d {MEMORY} && exec {} {arguments}", env!("CARGO_BIN_EXE_fingertip"));
     Command::new("sh").args(["-c", &run]).current_dir(folder.path("")).output().unwrap()
 }
 

@@ -23,6 +23,8 @@ pub(super) struct Solved {
     pub(super) is_warm: bool,
     /// The type of a reading.
     pub(super) reading: String,
+    /// Readings at or beyond these are saturated.
+    pub(super) range: Option<[f64; 2]>,
 }
 
 impl<T: Real + DeserializeOwned> Writer<T> {
@@ -86,6 +88,7 @@ impl<T: Real + DeserializeOwned> Writer<T> {
             opposite,
             is_warm: file.temperature.is_some(),
             reading,
+            range: file.range,
         })
     }
 }

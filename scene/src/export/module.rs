@@ -191,6 +191,12 @@ fn usage<T: Real>(scene: &Scene, stages: &Stages, beside: &[Beside]) -> String {
              {sense}\n    \
              last = touch.point();\n"
     );
+    if let Some([low, high]) = stages.solved.as_ref().and_then(|solved| solved.range) {
+        let _ = write!(
+            text,
+            "\nA gauge at or below {low:?}, or at or above {high:?}, is saturated: leave such a reading out.\n"
+        );
+    }
     if let Some(rest) = scene.rest() {
         let then = match &stages.solved {
             None => "the mean of force and torque there is to be taken off both.",

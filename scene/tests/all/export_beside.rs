@@ -229,6 +229,9 @@ fn a_calibration_of_the_scene_goes_into_its_module() {
     let given = scene("").to_rust(fingertip_scene::Scalar::F32, own.calibration()).unwrap();
     let module = |text: String| text.split_once("pub type Tip").unwrap().1.to_owned();
     assert_eq!(module(own.to_rust(fingertip_scene::Scalar::F32, None).unwrap()), module(given));
+    let clipped = scene(&format!("{sensor}range = [-5.0, 4.5]\n"));
+    let text = clipped.to_rust(fingertip_scene::Scalar::F64, None).unwrap();
+    assert!(text.contains("A gauge at or below -5.0, or at or above 4.5, is saturated"), "{text}");
     let limited =
         "[contact]\nmodel = \"soft_finger\"\ngreatest_friction_ratio = 10.0\ntorque_arm_m = 0.003\n";
     let text = scene(limited).to_rust(fingertip_scene::Scalar::F64, None).unwrap();

@@ -27,6 +27,8 @@
 //     let touch = tip.sense(&reading, step); // reading: nalgebra::SVector<f64, 6>
 //     last = touch.point();
 //
+// A gauge at or below -10.0, or at or above 10.0, is saturated: leave such a reading out.
+//
 // The sensor is unloaded for 1.0 s at the start: a `wrench::TareAccumulator` makes a zero of it, which `tip.set_zero` puts in place.
 
 use fingertip::{Absent, Fingertip, Present};
