@@ -2,13 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use fingertip::wrench::{BadPayload, Motion, Payload, Real, Wrench};
-use fingertip_calibration::file::{FileError, PayloadFile};
+use fingertip::wrench::{Motion, Payload, Real, Wrench};
+use fingertip_calibration::file::PayloadFile;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-use crate::fault::SceneProblem;
+use crate::fault::{BadCarried, SceneProblem};
 
 /// `[payload]` of a scene: a file, or the numbers themselves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -30,18 +29,6 @@ pub(crate) struct PayloadSection {
 
 /// Standard gravity, downwards \[m/s²\].
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.806_65];
-
-/// Why a payload cannot be used.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum BadCarried {
-    /// Its file, or a number of it.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// Its body.
-    #[error(transparent)]
-    Body(#[from] BadPayload),
-}
 
 /// What the sensor carries, as it was read.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,9 +5,10 @@ use std::path::PathBuf;
 
 use fingertip::friction::BadParameter;
 use fingertip::surfaces::{BadShape, MeshError};
+use fingertip::wrench::BadPayload;
+use fingertip_calibration::file::FileError;
 use thiserror::Error;
 
-use crate::carried::BadCarried;
 use crate::formula::{BadFormula, FormulaFault};
 use crate::sensor::BadSensor;
 
@@ -179,6 +180,18 @@ pub enum SceneProblem {
         /// To what it belongs.
         belongs: &'static str,
     },
+}
+
+/// Why a payload cannot be used.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum BadCarried {
+    /// Its file, or a number of it.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Its body.
+    #[error(transparent)]
+    Body(#[from] BadPayload),
 }
 
 impl From<FormulaFault> for SceneProblem {

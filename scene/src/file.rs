@@ -1,5 +1,6 @@
 //! From the text of a scene to the scene.
 
+use std::fs;
 use std::path::Path;
 
 use fingertip::surfaces::DynSurface;
@@ -8,7 +9,7 @@ use serde::de::DeserializeOwned;
 
 use crate::carried::PayloadSection;
 use crate::estimate::EstimateSection;
-use crate::fault::{SceneFault, SceneProblem, VERSION};
+use crate::fault::{SceneError, SceneFault, SceneProblem, VERSION};
 use crate::filter::FilterSection;
 use crate::formula::FormulaSection;
 use crate::friction::FrictionSection;
@@ -52,23 +53,49 @@ struct Kind {
     version: Option<u32>,
 }
 
-/// A scene of which the file is called `name`, in a folder that relative paths start from.
-pub(crate) fn read(text: &str, name: &str, folder: &Path) -> Result<Scene, SceneFault> {
-    let unread = |error: toml::de::Error| explain::<DynSurface<f64>>(text, &error);
-    let Kind { version } = toml::from_str(text).map_err(unread)?;
-    let document: toml::Table = toml::from_str(text).map_err(unread)?;
-    match version {
-        Some(1..=VERSION) => {}
-        Some(other) => return Err(SceneProblem::OtherVersion(other).into()),
-        None => return Err(SceneProblem::NoVersion.into()),
+impl Scene {
+    /// Reads and checks the scene in a file.
+    ///
+    /// # Errors
+    /// [`SceneError`], which names the file, the line where it is known, the key, and the mend.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+        let path = path.as_ref();
+        let text = fs::read_to_string(path)
+            .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
+        let name = path.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::parse(&text, &name, folder).map_err(|fault| SceneError::Fault { path: path.to_owned(), fault })
     }
-    let key = |key| document.get("surface").and_then(|surface| surface.get(key));
-    let parse = match key("shape").and_then(toml::Value::as_str) {
-        Some("mesh") if key("file").is_some() => parse_with::<MeshSection>,
-        Some("formula") => parse_with::<FormulaSection>,
-        _ => parse_with::<DynSurface<f64>>,
-    };
-    parse(text, name, folder, document)
+
+    /// Checks a scene in a text; files that it names are looked for where the program runs.
+    ///
+    /// # Errors
+    /// [`SceneProblem`].
+    pub fn from_text(text: &str) -> Result<Self, SceneProblem> {
+        Self::parse(text, "scene", Path::new("")).map_err(|fault| fault.problem)
+    }
+
+    /// A scene of which the file is called `name`, in a folder that relative paths start from.
+    ///
+    /// # Errors
+    /// [`SceneFault`].
+    pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Self, SceneFault> {
+        let unread = |error: toml::de::Error| explain::<DynSurface<f64>>(text, &error);
+        let Kind { version } = toml::from_str(text).map_err(unread)?;
+        let document: toml::Table = toml::from_str(text).map_err(unread)?;
+        match version {
+            Some(1..=VERSION) => {}
+            Some(other) => return Err(SceneProblem::OtherVersion(other).into()),
+            None => return Err(SceneProblem::NoVersion.into()),
+        }
+        let key = |key| document.get("surface").and_then(|surface| surface.get(key));
+        let parse = match key("shape").and_then(toml::Value::as_str) {
+            Some("mesh") if key("file").is_some() => parse_with::<MeshSection>,
+            Some("formula") => parse_with::<FormulaSection>,
+            _ => parse_with::<DynSurface<f64>>,
+        };
+        parse(text, name, folder, document)
+    }
 }
 
 fn parse_with<S: SurfaceSection + DeserializeOwned>(

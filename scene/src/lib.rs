@@ -32,10 +32,10 @@ mod stages;
 mod surface;
 mod uncertainty;
 
-pub use carried::{BadCarried, Carried};
+pub use carried::Carried;
 pub use estimate::{Estimate, Learnt};
 pub use export::{ExportError, Scalar};
-pub use fault::{SceneError, SceneFault, SceneProblem, VERSION};
+pub use fault::{BadCarried, SceneError, SceneFault, SceneProblem, VERSION};
 pub use filter::Filter;
 pub use formula::BadFormula;
 pub use friction::{Friction, Limit};

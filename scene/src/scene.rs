@@ -1,6 +1,5 @@
 //! A scene, read and checked.
 
-use std::fs;
 use std::path::Path;
 
 use fingertip::surfaces::DynSurface;
@@ -10,7 +9,7 @@ use fingertip_recordings::RenamedColumn;
 use serde::de::DeserializeOwned;
 
 use crate::carried::PayloadSource;
-use crate::fault::{SceneError, SceneFault, SceneProblem};
+use crate::fault::SceneProblem;
 use crate::friction::Limit;
 use crate::input::{Convention, InputSection};
 use crate::pipeline::{Pipeline, Tells};
@@ -18,7 +17,7 @@ use crate::projection::Projection;
 use crate::sections::StageSections;
 use crate::sensor::SensorSource;
 use crate::surface::{PoseSection, ShapeSource, placed};
-use crate::{doubts, file, meaning};
+use crate::{doubts, meaning};
 
 /// A scene that has been checked: every stage can be built from it.
 ///
@@ -65,35 +64,6 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Reads and checks the scene in a file.
-    ///
-    /// # Errors
-    /// [`SceneError`], which names the file, the line where it is known, the key, and the mend.
-    pub fn load(path: impl AsRef<Path>) -> Result<Self, SceneError> {
-        let path = path.as_ref();
-        let text = fs::read_to_string(path)
-            .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
-        let name = path.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
-        let folder = path.parent().unwrap_or(Path::new(""));
-        Self::parse(&text, &name, folder).map_err(|fault| SceneError::Fault { path: path.to_owned(), fault })
-    }
-
-    /// Checks a scene in a text; files that it names are looked for where the program runs.
-    ///
-    /// # Errors
-    /// [`SceneProblem`].
-    pub fn from_text(text: &str) -> Result<Self, SceneProblem> {
-        Self::parse(text, "scene", Path::new("")).map_err(|fault| fault.problem)
-    }
-
-    /// A scene of which the file is called `name`, in a folder that relative paths start from.
-    ///
-    /// # Errors
-    /// [`SceneFault`].
-    pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Self, SceneFault> {
-        file::read(text, name, folder)
-    }
-
     /// What it says, in a line for each of its sections.
     #[must_use]
     pub fn meaning(&self) -> Vec<String> {
