@@ -16,6 +16,7 @@ mod outline;
 mod paraboloid;
 mod plane;
 mod profile;
+mod profile_crossings;
 mod rectangle;
 mod revolution;
 mod ring;
