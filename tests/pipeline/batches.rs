@@ -254,3 +254,35 @@ fn a_payload_is_taken_off_every_sample_of_a_batch() {
     }
     assert!(contacts > 50, "{contacts}");
 }
+
+/// Columns have room for as many samples as the shortest, and one beyond it is not written.
+#[test]
+fn a_sample_is_put_where_there_is_room() {
+    use fingertip::Touch;
+    use fingertip::contact::{NoContact, Resolution};
+
+    let mut columns = vec![vec![7.0; 3]; 9];
+    let mut slip = [SlipVerdict::Warning; 2];
+    let resolution = Resolution::NoContact(NoContact::NotFinite);
+    let grip = Some(Some(SlipMargin { newtons: 0.25, utilisation: 0.5 }));
+    let touch =
+        Touch { wrench: Wrench::zero(), resolution, force: None, grip, slip: Some(SlipVerdict::Slipping) };
+    let [px, py, pz, normal, tx, ty, tz, margin, utilisation] = &mut columns[..] else { unreachable!() };
+    let mut touches = Touches {
+        point: [px, py, pz],
+        normal_force: normal,
+        tangential_force: [tx, ty, tz],
+        margin,
+        utilisation,
+        slip: &mut slip,
+    };
+    assert_eq!((touches.len(), touches.is_empty()), (2, false));
+    touches.by_ref().put(1, &touch);
+    touches.put(3, &touch);
+    touches.slip = &mut [];
+    assert_eq!((touches.len(), touches.is_empty()), (0, true));
+    for (column, written) in columns.iter().zip([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.25, 0.5]) {
+        assert_eq!(column[..], [7.0, written, 7.0]);
+    }
+    assert_eq!(slip, [SlipVerdict::Warning, SlipVerdict::Slipping]);
+}

@@ -39,6 +39,7 @@ pub(crate) fn mended<T: Real, S: ActiveSurface<T>>(
 }
 
 /// The same on a facet.
+#[cfg(feature = "alloc")]
 pub(crate) fn mended_on_facet<T: Real>(wrench: &Wrench<T>, contact: &SoftContact<T>) -> SoftContact<T> {
     let normal = contact.normal;
     SoftContact { normal, ..mended_on(wrench, &|_| normal, &|_| T::zero(), contact) }
