@@ -1,7 +1,8 @@
 //! What models, laws and bounds take, to the last number, and what they refuse.
 
 use fingertip_contact::*;
-use fingertip_surfaces::{BadShape, Sphere};
+use fingertip_surfaces::{BadShape, Sphere, Torus};
+use fingertip_wrench::Wrench;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 const LEAST: f64 = f64::MIN_POSITIVE;
@@ -154,7 +155,7 @@ fn of_forces() {
         let model = PointContact::new(least).unwrap();
         let soft = SoftFinger::new(least).unwrap();
         for (strength, found) in [(least, true), (least * (1.0 - 1e-15), false)] {
-            let push = fingertip_wrench::Wrench::from_force_at(&Vector3::zeros(), Vector3::z() * -strength);
+            let push = Wrench::from_force_at(&Vector3::zeros(), Vector3::z() * -strength);
             for resolution in [model.resolve(&push, &sphere), soft.resolve(&push, &sphere)] {
                 assert_eq!(resolution.contact().is_some(), found, "{strength}: {resolution:?}");
                 if let Err(reason) = resolution.into_result() {
@@ -162,5 +163,16 @@ fn of_forces() {
                 }
             }
         }
+    }
+}
+
+/// On a shape without a short way, too.
+#[test]
+fn a_force_at_the_threshold_is_a_contact_on_a_ring() {
+    let ring = Torus::new(0.01, 0.003).unwrap();
+    let model = PointContact::new(0.5).unwrap();
+    for (force, touches) in [(0.5, true), (0.5 + f64::EPSILON, true), (0.5 - f64::EPSILON, false)] {
+        let push = Wrench::from_force_at(&Vector3::new(0.01, 0.0, 0.003), Vector3::new(0.0, 0.0, -force));
+        assert_eq!(model.resolve(&push, &ring).contact().is_some(), touches, "{force}");
     }
 }
