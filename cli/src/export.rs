@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use fingertip_calibration::file::CalibrationFile;
 use fingertip_scene::Scalar;
 
+use crate::calibrate::files::read_calibration;
 use crate::error::CliError;
 use crate::{output, scene};
 
@@ -23,7 +23,7 @@ pub(crate) struct ExportArguments {
     #[arg(long, value_enum, default_value_t = Precision::F64, requires = "rust")]
     scalar: Precision,
     /// The calibration of the sensor, so that the module begins with readings of its gauges, not with wrenches
-    #[arg(long, value_name = "CAL.toml", requires = "rust")]
+    #[arg(long, value_name = "CAL", requires = "rust")]
     calibration: Option<PathBuf>,
     /// Write the scene with all defaults filled in, and a mesh in the place of its file
     #[arg(long, value_name = "SCENE.json")]
@@ -41,13 +41,7 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     let ExportArguments { scene: path, rust, scalar, calibration, json } = arguments;
     output::guard("the export", core::iter::once(path).chain(calibration), rust.iter().chain(json))?;
     let scene = scene::load_or_simulated(path)?;
-    let calibration = match calibration {
-        Some(path) => Some(
-            CalibrationFile::read(path)
-                .map_err(|error| CliError::Calibration { path: path.clone(), message: error.to_string() })?,
-        ),
-        None => None,
-    };
+    let calibration = calibration.as_deref().map(read_calibration).transpose()?;
     let failed = |error: fingertip_scene::ExportError| CliError::Export {
         path: path.clone(),
         message: error.to_string(),

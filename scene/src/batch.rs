@@ -1,6 +1,5 @@
 //! Touches of many samples at once, for simulation, learning and replay.
 
-use fingertip::friction::{Coulomb, RatioThreshold};
 use fingertip::surfaces::DynSurface;
 use fingertip::wrench::{Real, Wrench, WrenchSolver};
 use fingertip::{Fingertip, Touches};
@@ -62,17 +61,15 @@ impl<T: Real> Pipeline<T> {
                 wrenches[axis].get(index).copied().unwrap_or_else(T::zero)
             }))
         };
-        let first = if self.in_vectors(wrenches, time_step, touches.by_ref()) {
+        if self.in_vectors(wrenches, time_step, touches.by_ref()) {
             // The last one again, for what stays.
-            count.saturating_sub(1)
-        } else {
-            0
-        };
-        for index in first..count {
-            let felt = self.sense(at(index), time_step);
-            if first == 0 {
-                touches.put(index, &felt.touch);
+            if let Some(last) = count.checked_sub(1) {
+                self.sense(at(last), time_step);
             }
+            return;
+        }
+        for index in 0..count {
+            touches.put(index, &self.sense(at(index), time_step).touch);
         }
     }
 
@@ -87,8 +84,10 @@ impl<T: Real> Pipeline<T> {
         macro_rules! vectors {
             ($shape:expr) => {{
                 let tip = Fingertip::builder().solver(Reported).contact(*$shape, *model);
-                let with: (Coulomb<T>, RatioThreshold<T>) = (*friction, *detector);
-                tip.friction(with.0).slip_detector(with.1).build().sense_all(wrenches, time_step, touches);
+                tip.friction(*friction)
+                    .slip_detector(*detector)
+                    .build()
+                    .sense_all(wrenches, time_step, touches);
                 true
             }};
         }

@@ -8,7 +8,7 @@ use fingertip_calibration::file::CalibrationFile;
 use fingertip_recordings::RenamedColumn;
 use serde::de::DeserializeOwned;
 
-use crate::carried::PayloadSource;
+use crate::carried::{Carried, PayloadSource};
 use crate::fault::SceneProblem;
 use crate::friction::Limit;
 use crate::input::{Convention, InputSection};
@@ -67,7 +67,7 @@ impl Scene {
     /// What it says, in a line for each of its sections.
     #[must_use]
     pub fn meaning(&self) -> Vec<String> {
-        meaning::of(&self.document, self.pipeline.delay())
+        meaning::of(&self.document, self.delay())
     }
 
     /// What in it can be and is hardly meant, such as a radius of 13 m: a sentence each, with the key.
@@ -176,6 +176,24 @@ impl Scene {
     #[must_use]
     pub const fn watches_for_slip(&self) -> bool {
         self.stages.slip.is_some()
+    }
+
+    /// What the sensor carries, if the scene has a `[payload]`.
+    #[must_use]
+    pub const fn carried(&self) -> Option<&Carried<f64>> {
+        self.pipeline.carried()
+    }
+
+    /// By how much the wrench comes late that a `[filter]` gives, where it changes slowly \[s\].
+    #[must_use]
+    pub fn delay(&self) -> f64 {
+        self.pipeline.delay()
+    }
+
+    /// Whether the scene asks for the noise of the rest: see [`Pipeline::know_noise`].
+    #[must_use]
+    pub const fn awaits_noise(&self) -> bool {
+        self.pipeline.awaits_noise()
     }
 
     /// What is told of each sample beside contact, forces, margin and verdict.

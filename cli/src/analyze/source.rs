@@ -100,12 +100,11 @@ impl Source {
             };
             notes.push(note.to_owned());
         }
-        let pipeline = scene.pipeline();
-        if pipeline.delay() > 0.0 {
-            let late = pipeline.delay() * 1e3;
+        if scene.delay() > 0.0 {
+            let late = scene.delay() * 1e3;
             notes.push(format!("the filter makes what changes slowly come {late:.1} ms late"));
         }
-        let carried = pipeline.carried().cloned();
+        let carried = scene.carried().cloned();
         let hanging = carried.map(|carried| Hanging::new(carried, reader, recorded.sensor())).transpose()?;
         Ok(Self {
             recorded,

@@ -89,10 +89,10 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
         return Err(CliError::option("--celsius", celsius, needs));
     }
     let celsius = arguments.celsius.or_else(|| scene.as_ref().and_then(Scene::celsius));
-    if scene.as_ref().is_some_and(|scene| scene.pipeline().carried().is_some()) {
+    if scene.as_ref().is_some_and(|scene| scene.carried().is_some()) {
         eprintln!("note: the weight of [payload] is not taken off: nothing tells how a live sensor lies");
     }
-    if scene.as_ref().is_some_and(|scene| scene.pipeline().awaits_noise()) && calibration.is_some() {
+    if scene.as_ref().is_some_and(Scene::awaits_noise) && calibration.is_some() {
         eprintln!(
             "note: nothing tells the noise of gauges live, which the scene asks for: no force is a contact until a \
                    zero is taken (key t)"

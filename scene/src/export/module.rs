@@ -72,7 +72,7 @@ pub(super) fn of<T: Real + DeserializeOwned>(
     if let Some(unknown) = resolved.keys().find(|key| !KNOWN.contains(&key.as_str())) {
         return Err(ExportError::NoType { what: format!("the section [{unknown}]") });
     }
-    if scene.pipeline().awaits_noise() {
+    if scene.awaits_noise() {
         let what = "a threshold or an uncertainty that the rest tells (state `least_force_N` and the noise)"
             .to_owned();
         return Err(ExportError::NoType { what });
