@@ -80,6 +80,8 @@ pub(super) fn r_d<T: Real>(x: T, y: T, z: T) -> T {
 
 #[cfg(test)]
 mod tests {
+    use fingertip_wrench::Real;
+
     use super::{r_d, r_f};
 
     /// Values of Carlson (1995), "Numerical computation of real or complex elliptic integrals".
@@ -101,5 +103,30 @@ mod tests {
         }
         // A ratio as large as a shape can have.
         assert!((r_f(0.0_f64, 1e-16, 1.0) - (4e8_f64).ln()).abs() < 1e-13);
+    }
+
+    /// `R_D(x, y, z) + R_D(y, z, x) + R_D(z, x, y) = 3/√(x y z)` (DLMF 19.21.8), at arguments so near each
+    /// other that the series does all, and so far apart that duplications do.
+    #[test]
+    fn the_sum_over_the_places_is_known() {
+        fn check<T: Real>(spread: f64, tolerance: f64) {
+            let mut state = 1_u64;
+            let mut any = || {
+                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+            };
+            for _ in 0..200 {
+                let [x, y, z] = [(); 3].map(|()| T::literal(2.0 * (spread * any()).exp()));
+                let sum = (r_d(x, y, z) + r_d(y, z, x) + r_d(z, x, y)).to_f64();
+                let known = 3.0 / (x.to_f64() * y.to_f64() * z.to_f64()).sqrt();
+                assert!((sum / known - 1.0).abs() < tolerance, "{x} {y} {z}: {sum} {known}");
+            }
+        }
+        for spread in [1e-4, 5e-4, 1e-3, 2e-3, 0.1, 1.0, 10.0] {
+            check::<f64>(spread, 4e-15);
+        }
+        for spread in [1e-3, 0.01, 0.03, 0.1, 1.0, 10.0] {
+            check::<f32>(spread, 2e-6);
+        }
     }
 }

@@ -33,4 +33,5 @@ mod solids;
 mod torus;
 mod uncertainty;
 mod uniqueness;
+mod units;
 mod wrenches;

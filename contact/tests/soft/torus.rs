@@ -194,3 +194,46 @@ fn with_little_spin_torque_the_entries_are_all() {
     println!("entries 0..3: {counts:?}");
     assert!(counts[..3].iter().all(|count| *count > 100), "{counts:?}");
 }
+
+/// A contact on the inside of the ring with the spin torque at which two merge, `τ²κ + (f·n)² = 0`, and how a
+/// torque moves `F` there: on the one side by a hair there are two contacts more than on the other, and there
+/// itself at least one, on rings from slim to stout, of any size, in any unit.
+#[test]
+fn a_fold_is_one_contact_or_two_and_beside_it_none() {
+    let mut random = Random::new(11);
+    let (mut tried, mut merged) = (0, 0);
+    for _ in 0..1500 {
+        let ring = random.log_uniform(1e-3, 10.0);
+        let torus = Torus::new(ring, ring * random.log_uniform(0.01, 0.95)).unwrap();
+        let tube = torus.tube_radius();
+        let (along, around) = (random.uniform(0.0, 6.28), random.uniform(1.7, 4.5));
+        let outward = Vector3::new(along.cos(), along.sin(), 0.0);
+        let normal = outward * around.cos() + Vector3::z() * around.sin();
+        let point = outward * ring + normal * tube;
+        let curvature = around.cos() / (tube * (ring + tube * around.cos()));
+        let magnitude = random.log_uniform(1e-2, 1e2);
+        let force = random.force(&normal, 0.2, magnitude);
+        let spin = random.sign() * -force.dot(&normal) / (-curvature).sqrt();
+        let torque = point.cross(&force) + normal * spin;
+        // Which way a torque opens the fold or closes it.
+        let aside = random.direction() * torque.norm();
+        let count = |share: f64| {
+            let (found, search) = all(&torus, &Wrench::on_fingertip(force, torque + aside * share));
+            assert!(matches!(search, Search::Complete), "{torus:?} {force} {torque}");
+            let near = |c: &&SoftContact<f64>| (c.point - point).norm() < 0.05 * tube.min(ring - tube);
+            found.iter().filter(near).count()
+        };
+        let (one, other) = (count(1e-9), count(-1e-9));
+        // Where the torque hardly moves `F`, or three contacts merge, it tells nothing.
+        if one.abs_diff(other) != 2 {
+            continue;
+        }
+        tried += 1;
+        assert_eq!(one.min(other), 0, "{torus:?} {force} {torque}");
+        let at = count(0.0);
+        assert!(at == 1 || at == 2, "{at} {torus:?} {force} {torque}");
+        merged += usize::from(at == 1);
+    }
+    println!("{tried} folds, {merged} of them one contact");
+    assert!(tried > 1200 && merged > 100, "{tried} {merged}");
+}
