@@ -229,7 +229,7 @@ fn it_says_what_the_theorem_states() {
 /// A line that misses by more than the errors explain is of no contact; by less, it is of one at the silhouette.
 #[test]
 fn a_miss_is_explained_or_not() {
-    let ball = Sphere::centred(0.013).unwrap();
+    let ball = Sphere::<f64>::centred(0.013).unwrap();
     let force = Vector3::new(0.0, 0.0, -1.5);
     for (kind, errors) in [
         WorstErrors::of_wrench(0.0, 1.5e-3),
@@ -248,6 +248,10 @@ fn a_miss_is_explained_or_not() {
             assert_eq!(bound.is_some(), explained, "{kind} {gap} {bound:?}");
             if let Some(bound) = bound {
                 assert!(bound.past_silhouette && bound.distance >= gap, "{bound:?}");
+                // The contact that is reported lies the gap beside the line, and the true one may lie on its other side.
+                let along = bound.along[0].abs().max(bound.along[1].abs());
+                let furthest = along.hypot(bound.across + gap);
+                assert!((bound.distance / furthest - 1.0).abs() < 1e-12, "{bound:?} {furthest}");
             }
         }
     }
@@ -269,4 +273,38 @@ fn what_cannot_be_has_no_bound() {
         assert!(bound(&WorstErrors::of_wrench(1e-3, bad), 0.013).is_none(), "{bad}");
     }
     assert!(bound(&WorstErrors::of_wrench(1.5, 1e-5), 0.013).is_none());
+}
+
+/// Without errors the bound is that of rounding, and holds it: far from the origin, where the reach is hardly
+/// more than the distance of the line.
+#[test]
+fn rounding_is_within_the_bound() {
+    let (far, near) = ([0.1, 0.02, -0.03].map(|x| x as f32), [0.001_f32, -0.002, 0.003]);
+    for centre in [far, near].map(Vector3::from) {
+        let single = Sphere::new(centre, 0.013_f32).unwrap();
+        let double = Sphere::new(centre.map(f64::from), f64::from(single.radius())).unwrap();
+        let mut largest = 0.0_f64;
+        for k in 1..=2000 {
+            let at = |step: f64| (f64::from(k) * step).sin() as f32;
+            let normal = Vector3::new(at(1.1), at(2.3), at(3.7)).normalize();
+            let force = (Vector3::new(at(1.7), at(2.9), at(0.6)) * 0.3 - normal) * (1.0 + 0.5 * at(4.3));
+            let measured = Wrench::from_force_at(&(centre + normal * 0.013), force);
+            let exact = Wrench::on_fingertip(force.map(f64::from), measured.torque().map(f64::from));
+            let Some(contact) = PointContact::new(0.0).unwrap().resolve(&exact, &double).contact().copied()
+            else {
+                continue;
+            };
+            let ours = PointContact::new(0.0).unwrap().resolve(&measured, &single);
+            let ours = ours.contact().unwrap().point.map(f64::from);
+            let errors = WorstErrors::of_wrench(0.0, 0.0);
+            let reach = (contact.point.norm() * 1.001) as f32;
+            let bound = ConvexBound::new(&single, &measured, &errors, reach).unwrap();
+            let off = (contact.point - ours).norm() / f64::from(bound.distance);
+            assert!(off <= 1.0, "{off} {bound:?} {measured:?}");
+            let across = (contact.point - ours).cross(&exact.force().normalize()).norm();
+            assert!(across <= f64::from(bound.across), "{across:e} {bound:?}");
+            largest = largest.max(off);
+        }
+        assert!(largest > 0.01, "{largest}");
+    }
 }

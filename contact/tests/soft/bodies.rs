@@ -2,8 +2,8 @@
 
 use fingertip_contact::{ContactModel, Search, SoftContact, SoftFinger, SoftFingerSurface};
 use fingertip_surfaces::{
-    ActiveSurface, CappedCylinder, Capsule, Compound, CylinderEnds, DynSurface, EllipticCylinder, Frustum,
-    Heightfield, Mesh, Offset, Paraboloid, Revolution, Sphere,
+    ActiveSurface, CappedCylinder, Capsule, Compound, Cone, CylinderEnds, DynSurface, EllipticCylinder,
+    Frustum, Heightfield, Mesh, Offset, Paraboloid, Revolution, Sphere,
 };
 use fingertip_test_support::Worst;
 use fingertip_wrench::{Line, Real, Wrench};
@@ -337,6 +337,14 @@ fn surfaces_of_revolution() {
     let waisted =
         Revolution::from_profile([[0.0, 0.006], [0.005, 0.004], [0.010, 0.0065], [0.016, 0.0]]).unwrap();
     comes_back("waisted tip", &waisted, 0.014, 1.0, 1e-10);
+    // The ends of the profile are part of it.
+    let tube = Revolution::from_profile([0.0, 0.006, 0.012].map(|z| [z, 0.008])).unwrap();
+    for (height, active) in [(-1e-9, false), (0.0, true), (0.012, true), (0.012 + 1e-9, false)] {
+        let wrench = Wrench::from_force_at(&Vector3::new(0.0, 0.0, height), Vector3::new(-2.0, 0.0, 0.0));
+        let found = all(&tube, &wrench);
+        assert!(found.iter().all(|contact| contact.active == active), "{height} {found:?}");
+        assert_eq!(found.iter().any(|contact| contact.active), active, "{height} {found:?}");
+    }
 }
 
 /// Chosen at run time, a shape answers as its own type does.
@@ -419,4 +427,42 @@ fn a_capsule_is_grazed_at_the_end_that_is_passed() {
             assert!(found.z * end >= half);
         }
     }
+}
+
+/// A force through the tip of a cone that pulls has no contact, and that is certain.
+#[test]
+fn a_pull_at_the_tip_of_a_cone_is_no_contact() {
+    let cone = Cone::new(Vector3::zeros(), -Vector3::z(), 0.5).unwrap();
+    for force in [Vector3::new(0.0, 0.0, 1.0), Vector3::new(0.2, -0.1, 2.0)] {
+        let wrench = Wrench::on_fingertip(force, Vector3::zeros());
+        let mut found = Vec::new();
+        let search = cone.soft_contacts(&wrench, None, |contact| found.push(contact));
+        assert!(matches!(search, Search::Complete) && found.is_empty(), "{force} {found:?}");
+    }
+}
+
+/// At flat angles on a surface that tells only its level function, single precision solves the equations but for
+/// rounding of what it answers: the spin torque is what the force leaves of the torque.
+#[test]
+fn the_spin_torque_is_mended_with_the_place() {
+    let (single, double) = (common::pillow::<f32>(), common::pillow::<f64>());
+    let mut random = Random::new(91);
+    let (mut worst, mut flat) = (Worst::new(), 0);
+    for _ in 0..4000 {
+        let (point, normal) = random.place(&double, 0.012);
+        let aside = random.direction().cross(&normal).normalize();
+        let force = (aside - normal * random.log_uniform(0.02, 0.3)).normalize();
+        let spin = random.sign() * random.log_uniform(1e-4, 0.3) * 0.01;
+        let (force, torque) = (force.cast::<f32>(), (point.cross(&force) + normal * spin).cast::<f32>());
+        for contact in all(&single, &Wrench::on_fingertip(force, torque)) {
+            let (c, n) = (contact.point.cast::<f64>(), contact.normal.cast::<f64>());
+            let left = torque.cast::<f64>() - c.cross(&force.cast());
+            let size = c.norm() + torque.cast::<f64>().norm();
+            worst.see((n.dot(&left) - f64::from(contact.spin_torque)).abs() / size);
+            flat += usize::from(n.dot(&force.cast()) > -0.1);
+        }
+    }
+    let worst = worst.get() / f64::from(f32::EPSILON);
+    println!("spin torques at flat angles: {worst:.2} units of rounding");
+    assert!(worst < 4.0 && flat > 1000, "{worst} {flat}");
 }

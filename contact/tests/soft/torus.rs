@@ -206,7 +206,7 @@ fn a_fold_is_one_contact_or_two_and_beside_it_none() {
         let ring = random.log_uniform(1e-3, 10.0);
         let torus = Torus::new(ring, ring * random.log_uniform(0.01, 0.95)).unwrap();
         let tube = torus.tube_radius();
-        let (along, around) = (random.uniform(0.0, 6.28), random.uniform(1.7, 4.5));
+        let (along, around) = (random.uniform(0.0, 6.0), random.uniform(1.7, 4.5));
         let outward = Vector3::new(along.cos(), along.sin(), 0.0);
         let normal = outward * around.cos() + Vector3::z() * around.sin();
         let point = outward * ring + normal * tube;

@@ -31,9 +31,12 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
             let (x, y) = (start.x + direction.x * t, start.y + direction.y * t);
             x * x + y * y - squared
         };
+        // Pieces hold their lower end, the last one both.
+        let top = self.knots().last().map_or(start.z, |knot| knot.z);
         for piece in pieces(self.knots()) {
             let (low, high) = if direction.z == T::zero() {
-                if !(piece.low <= start.z && start.z < piece.high) {
+                let holds = start.z < piece.high || start.z == top && piece.high == top;
+                if !(piece.low <= start.z && holds) {
                     continue;
                 }
                 ((-reach, None), (reach, None))
