@@ -17,10 +17,13 @@ pub(crate) enum CliError {
     Read { what: &'static str, path: PathBuf, source: io::Error },
     /// A file that is to be written cannot be.
     #[error(
-        "cannot write {what} {path}: {source}; choose a folder that exists and may be written to",
-        path = .path.display()
+        "cannot write {what} {path}: {source}{mend}",
+        path = .path.display(), mend = mend_writing(.source)
     )]
     Write { what: &'static str, path: PathBuf, source: io::Error },
+    /// Two outputs are one file.
+    #[error("{first} and {second} are the same file; give two outputs two names", first = .first.display(), second = .second.display())]
+    OneFile { first: PathBuf, second: PathBuf },
     /// An output would overwrite an input.
     #[error("{what} {path} is also an input of this run and would be overwritten; give another path", path = .path.display())]
     WouldOverwrite { what: &'static str, path: PathBuf },
@@ -117,6 +120,9 @@ impl CliError {
     }
 
     pub(crate) fn write(what: &'static str, path: &Path, source: io::Error) -> Self {
+        if crate::output::is_standard(path) {
+            return Self::stdout(source);
+        }
         Self::Write { what, path: path.to_owned(), source }
     }
 
@@ -133,5 +139,15 @@ impl CliError {
     /// What went wrong with the standard output.
     pub(crate) fn stdout(source: io::Error) -> Self {
         if source.kind() == io::ErrorKind::BrokenPipe { Self::ClosedPipe } else { Self::Stdout(source) }
+    }
+}
+
+/// What to do about a file that cannot be written.
+fn mend_writing(source: &io::Error) -> &'static str {
+    match source.kind() {
+        // It is in the message.
+        io::ErrorKind::AlreadyExists | io::ErrorKind::Other | io::ErrorKind::InvalidData => "",
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "; make room, or choose another disk",
+        _ => "; choose a folder that exists and may be written to",
     }
 }

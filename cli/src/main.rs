@@ -39,7 +39,9 @@ use args::{Arguments, Command};
 use error::CliError;
 
 fn main() -> ExitCode {
-    let done = match Arguments::parse().command {
+    let command = Arguments::parse().command;
+    stop::guard(&command);
+    let done = match command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Analyze(arguments) => analyze::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),

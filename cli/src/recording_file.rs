@@ -1,7 +1,7 @@
 //! The file of a recording, read or written: CSV or MCAP, by its ending.
 
-use std::fs::{File, OpenOptions};
-use std::io::{self, BufReader, BufWriter};
+use std::fs::File;
+use std::io::BufReader;
 use std::path::Path;
 
 use fingertip_recordings::mcap::{McapError, McapReader};
@@ -28,19 +28,6 @@ impl Kind {
             _ => Err(CliError::UnknownEnding { path: path.to_owned() }),
         }
     }
-}
-
-/// Creates a file; one that exists is written over only if that is wanted.
-pub(crate) fn create(path: &Path, force: bool) -> Result<BufWriter<File>, CliError> {
-    let mut options = OpenOptions::new();
-    let options = if force { options.create(true).truncate(true) } else { options.create_new(true) };
-    options.write(true).open(path).map(BufWriter::new).map_err(|source| match source.kind() {
-        io::ErrorKind::AlreadyExists => {
-            let source = io::Error::new(source.kind(), "it exists already; give another name, or --force");
-            CliError::write("recording", path, source)
-        }
-        _ => CliError::write("recording", path, source),
-    })
 }
 
 /// The bytes of an MCAP recording.

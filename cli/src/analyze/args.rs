@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::output::Overwrite;
+
 #[derive(Debug, Args)]
 pub(crate) struct AnalyzeArguments {
     /// The recording: CSV with units in the column names (fx_N, tz_Nmm, v1_V, t_s), or MCAP (.mcap)
@@ -37,4 +39,6 @@ pub(crate) struct AnalyzeArguments {
     /// Write no report
     #[arg(long)]
     pub(crate) no_report: bool,
+    #[command(flatten)]
+    pub(crate) overwrite: Overwrite,
 }

@@ -1,7 +1,7 @@
 //! The files of a run, and what is said at its end.
 
 use std::fs::File;
-use std::io::{self, BufReader, Read, Write};
+use std::io::{self, BufReader, Read};
 use std::path::Path;
 
 use fingertip_recordings::{ReaderOptions, RecordingReader};
@@ -12,21 +12,20 @@ use super::args::AnalyzeArguments;
 use super::progress::bar;
 use crate::convert::McapAsCsv;
 use crate::error::CliError;
-use crate::output;
+use crate::output::Outputs;
 use crate::recording_file::Kind;
-use crate::summary::Findings;
 
 /// Refuses to write over what is read.
-pub(super) fn guard(arguments: &AnalyzeArguments) -> Result<(), CliError> {
+pub(super) fn guard(arguments: &AnalyzeArguments) -> Result<Outputs, CliError> {
     let inputs = [
         Some(&arguments.recording),
         Some(&arguments.scene),
         arguments.calibration.as_ref(),
         arguments.payload.as_ref(),
     ];
-    let inputs = || inputs.into_iter().flatten();
-    output::guard("contacts file", inputs(), [&arguments.output])?;
-    output::guard("report", inputs(), (!arguments.no_report).then_some(&arguments.report))
+    let report = (!arguments.no_report).then_some(&arguments.report);
+    let outputs = core::iter::once(&arguments.output).chain(report);
+    Outputs::guard(arguments.overwrite, "output", inputs.into_iter().flatten(), outputs)
 }
 
 /// The rows of a recording, whichever way it was recorded.
@@ -55,19 +54,4 @@ pub(super) fn open(path: &Path, scene: &Scene, notes: &mut Vec<String>) -> Resul
     };
     let options = ReaderOptions { renamed: scene.renamed_columns().to_vec(), ..ReaderOptions::default() };
     Ok(Opened { rows: Rows::with_options(path.display().to_string(), text, options)?, bar })
-}
-
-/// Prints what was found and what was written.
-pub(super) fn say(findings: &Findings, to_stderr: bool, files: &[Option<&Path>]) -> Result<(), CliError> {
-    let files: Vec<_> = files.iter().flatten().filter(|path| **path != Path::new("-")).collect();
-    let mut text = findings.to_string();
-    if !files.is_empty() {
-        text.push_str(&format!("\n{}", output::written(files)));
-    }
-    if to_stderr {
-        // If even the standard error is closed, there is nobody left to tell.
-        let _ = io::stderr().write_all(text.as_bytes());
-        return Ok(());
-    }
-    output::print(&text)
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::touches::TouchArguments;
+use crate::output::Overwrite;
 
 /// The methods that need to know how uncertain loads and readings are.
 const UNCERTAIN: [(&str, &str); 2] = [("method", "total"), ("method", "gauss-helmert")];
@@ -112,6 +113,8 @@ pub(crate) struct CalibrateArguments {
     /// Date of the calibration, such as 2026-11-21
     #[arg(long, default_value = "")]
     pub(crate) date: String,
+    #[command(flatten)]
+    pub(crate) overwrite: Overwrite,
 }
 
 #[derive(Debug, Args)]
@@ -142,6 +145,8 @@ pub(crate) struct CheckArguments {
     /// Also write the report as JSON
     #[arg(long, value_name = "FILE")]
     pub(crate) json: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) overwrite: Overwrite,
 }
 
 #[derive(Debug, Args)]
@@ -158,6 +163,8 @@ pub(crate) struct TareArguments {
     /// Where to write the calibration with its new zero
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) overwrite: Overwrite,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

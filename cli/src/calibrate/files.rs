@@ -9,7 +9,7 @@ use fingertip_calibration::loads::{Columns, LoadTable};
 use fingertip_calibration::report::Report;
 
 use crate::error::CliError;
-use crate::output::write;
+use crate::output::Outputs;
 
 /// What is wrong with a table, in an error that names its file.
 pub(crate) fn bad(path: &Path, message: &impl ToString) -> CliError {
@@ -55,16 +55,14 @@ pub(super) fn write_reports(
     title: &str,
     html: Option<&PathBuf>,
     json: Option<&PathBuf>,
-    written: &mut Vec<PathBuf>,
+    outputs: &Outputs,
 ) -> Result<(), CliError> {
     if let Some(path) = html {
-        write("report", path, &report.to_html(title))?;
-        written.push(path.clone());
+        outputs.write("report", path, &report.to_html(title))?;
     }
     if let Some(path) = json {
         let text = report.to_json().map_err(|error| CliError::write("report", path, error.into()))?;
-        write("report", path, &text)?;
-        written.push(path.clone());
+        outputs.write("report", path, &text)?;
     }
     Ok(())
 }

@@ -11,11 +11,11 @@ use super::args::{CalibrateArguments, FitMethod};
 use super::files::{bad, open};
 use super::{limits, range, write_calibration};
 use crate::error::CliError;
-use crate::output::say;
+use crate::output::Outputs;
 use crate::table::count;
 
 /// Reads the files twice: to fit, and to see what the fit leaves.
-pub(super) fn run(arguments: &CalibrateArguments, output: &Path) -> Result<(), CliError> {
+pub(super) fn run(arguments: &CalibrateArguments, output: &Path, outputs: &Outputs) -> Result<(), CliError> {
     let first = arguments.loads.first().cloned().unwrap_or_default();
     let fault = |error: &dyn core::fmt::Display| bad(&first, &error);
     if !matches!(arguments.method, FitMethod::LeastSquares) {
@@ -74,7 +74,7 @@ pub(super) fn run(arguments: &CalibrateArguments, output: &Path) -> Result<(), C
         greatest_percent: Some(errors.greatest.clone()),
         left_out_percent: None,
     };
-    let written = write_calibration(file, arguments, output)?;
+    write_calibration(file, arguments, output, outputs)?;
     let word = if verdict == Verdict::Bad { "BAD" } else { "unchecked" };
     let mut text = format!("Calibration: {word}\n");
     for reason in &reasons {
@@ -90,7 +90,7 @@ pub(super) fn run(arguments: &CalibrateArguments, output: &Path) -> Result<(), C
             errors.greatest[i]
         ));
     }
-    say(&text, &notes, &written)
+    outputs.say(&text, &notes)
 }
 
 /// What a fit leaves, axis by axis, % of full scale.

@@ -10,12 +10,13 @@ use fingertip_recordings::{
 
 use super::{Account, ConvertArguments, fault, topic};
 use crate::error::CliError;
-use crate::recording_file::{FRAME, create, mcap};
+use crate::output::Outputs;
+use crate::recording_file::{FRAME, mcap};
 
 /// Times that a stamp holds less exactly than this were rounded \[s\].
 const ROUNDED: f64 = 1e-10;
 
-pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError> {
+pub(super) fn convert(arguments: &ConvertArguments, outputs: &Outputs) -> Result<Account, CliError> {
     let ConvertArguments { input, output, .. } = arguments;
     let mut reader = RecordingReader::open(input)?;
     let layout = reader.layout().clone();
@@ -26,7 +27,7 @@ pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError>
         ));
     }
     let failed = |error: McapError| mcap(output, &error);
-    let writer = McapWriter::new(create(output, arguments.force)?).map_err(failed)?;
+    let writer = McapWriter::new(outputs.create("recording", output)?).map_err(failed)?;
     let mut topics = Topics::open(writer, &layout).map_err(failed)?;
     let (mut rows, mut timeless, mut rounded) = (0_u64, 0, 0);
     while let Some(row) = reader.next_row()? {
@@ -47,11 +48,10 @@ pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError>
     }
     let Topics { writer, counts, .. } = topics;
     let file = writer.finish().map_err(failed)?;
-    let written = file.into_inner().map_err(io::IntoInnerError::into_error);
-    written.map_err(|source| CliError::write("recording", output, source))?;
     if rows == 0 {
         return Err(CliError::NoRows { path: input.clone() });
     }
+    file.finish()?;
     let mut account = Account::default();
     account.written("wrenches", counts.wrenches);
     account.written("signals", counts.signals);

@@ -8,19 +8,20 @@ use fingertip_recordings::RecordingWriter;
 use super::mcap_rows::Rows;
 use super::{Account, ConvertArguments};
 use crate::error::CliError;
-use crate::recording_file::{bytes, create, csv};
+use crate::output::Outputs;
+use crate::recording_file::{bytes, csv};
 
-pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError> {
-    let ConvertArguments { input, output, force, .. } = arguments;
+pub(super) fn convert(arguments: &ConvertArguments, outputs: &Outputs) -> Result<Account, CliError> {
+    let ConvertArguments { input, output, .. } = arguments;
     let failed = |error| csv(output, error);
     let mut account = Account::default();
     let (schema, mut rows) = Rows::new(bytes(input)?, input, &mut account)?;
     // Only what holds something becomes a file.
-    let mut writer = RecordingWriter::new(create(output, *force)?, &schema).map_err(failed)?;
+    let mut writer = RecordingWriter::new(outputs.create("recording", output)?, &schema).map_err(failed)?;
     while let Some(row) = rows.next()? {
         writer.write(row.iter().copied()).map_err(failed)?;
     }
-    writer.finish().map_err(failed)?;
+    writer.finish().map_err(failed)?.finish()?;
     rows.account(&mut account);
     Ok(account)
 }

@@ -5,7 +5,6 @@ mod from_mcap;
 mod mcap_rows;
 
 use core::fmt::Display;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -13,7 +12,7 @@ use clap::Args;
 pub(crate) use from_mcap::McapAsCsv;
 
 use crate::error::CliError;
-use crate::output::{guard, print};
+use crate::output::{Outputs, Overwrite};
 use crate::recording_file::Kind;
 use crate::table::count;
 
@@ -36,8 +35,10 @@ pub(crate) struct ConvertArguments {
     /// Samples per second of a CSV file that has no column of time
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f64>,
-    /// Write over a file that exists
-    #[arg(long)]
+    #[command(flatten)]
+    pub(crate) overwrite: Overwrite,
+    /// As --overwrite
+    #[arg(long, hide = true)]
     pub(crate) force: bool,
 }
 
@@ -67,23 +68,17 @@ impl Account {
 
 pub(crate) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
     let ConvertArguments { input, output, .. } = arguments;
-    guard("recording", [input], [output])?;
+    let outputs = Outputs::guard(arguments.overwrite.or(arguments.force), "recording", [input], [output])?;
     if let Some(rate) = arguments.rate
         && !(rate > 0.0 && rate.is_finite())
     {
         return Err(fault(input, "--rate must be above 0"));
     }
-    let existed = output.exists();
-    let converted = match (Kind::of(input)?, Kind::of(output)?) {
-        (Kind::Csv, Kind::Mcap) => from_csv::convert(arguments),
-        (Kind::Mcap, Kind::Csv) => from_mcap::convert(arguments),
+    let account = match (Kind::of(input)?, Kind::of(output)?) {
+        (Kind::Csv, Kind::Mcap) => from_csv::convert(arguments, &outputs),
+        (Kind::Mcap, Kind::Csv) => from_mcap::convert(arguments, &outputs),
         _ => Err(fault(input, "input and output are of the same kind; one must be .csv and the other .mcap")),
-    };
-    if converted.is_err() && !existed {
-        // Half a file would be taken for a whole one. That it is not there is as good.
-        let _ = fs::remove_file(output);
-    }
-    let account = converted?;
+    }?;
     let mut text = String::new();
     let written: Vec<String> =
         account.written.iter().map(|(what, number)| format!("{} {what}", count(*number))).collect();
@@ -95,7 +90,7 @@ pub(crate) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
         [] => text.push_str("Nothing was lost.\n"),
         lost => text.push_str(&format!("Lost: {}\n", lost.join("; "))),
     }
-    print(&text)
+    outputs.print(&text)
 }
 
 fn fault(path: &Path, message: impl Display) -> CliError {

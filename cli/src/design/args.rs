@@ -6,6 +6,8 @@ use clap::{Args, ValueEnum};
 use fingertip_calibration::design::Material;
 use thiserror::Error;
 
+use crate::output::Overwrite;
+
 /// Families of layouts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum LayoutFamily {
@@ -103,6 +105,8 @@ pub(crate) struct DesignArguments {
     /// Where to write the report
     #[arg(long, value_name = "FILE", default_value = "design.html")]
     pub(crate) report: PathBuf,
+    #[command(flatten)]
+    pub(crate) overwrite: Overwrite,
 }
 
 fn material(name: &str) -> Result<Material, UnknownMaterial> {

@@ -99,13 +99,13 @@ fn a_file_is_written_over_only_if_that_is_wanted() {
     folder.write("a.csv", &format!("t_s,{WRENCH}\n0,1,0,0,0,0,0\n"));
     folder.write("a.mcap", "mine");
     let error = folder.fail(1, &["convert", "a.csv", "a.mcap"]);
-    assert!(error.contains("it exists already") && error.contains("--force"), "{error}");
+    assert!(error.contains("it exists already") && error.contains("--overwrite"), "{error}");
     assert_eq!(folder.read("a.mcap"), "mine");
     // What fails after it was asked to write over leaves nothing of its own to be taken away.
     folder.write("bad.csv", &format!("t_s,{WRENCH}\n-1,1,0,0,0,0,0\n"));
-    folder.fail(1, &["convert", "bad.csv", "a.mcap", "--force"]);
+    folder.fail(1, &["convert", "bad.csv", "a.mcap", "--overwrite"]);
     assert!(folder.path("a.mcap").exists());
-    folder.succeed(&["convert", "a.csv", "a.mcap", "--force"]);
+    folder.succeed(&["convert", "a.csv", "a.mcap", "--overwrite"]);
     assert_eq!(entries(&folder, "a.mcap").len(), 1);
     let error = folder.fail(1, &["convert", "a.mcap", "a.csv"]);
     assert!(error.contains("it exists already"), "{error}");
@@ -113,7 +113,7 @@ fn a_file_is_written_over_only_if_that_is_wanted() {
         "c.csv",
         "a longer text that must be gone entirely, since it is of another time altogether: xxxxx",
     );
-    folder.succeed(&["convert", "a.mcap", "c.csv", "--force"]);
+    folder.succeed(&["convert", "a.mcap", "c.csv", "--overwrite"]);
     assert_eq!(folder.read("c.csv").lines().count(), 2);
 }
 
@@ -194,7 +194,7 @@ fn what_cannot_be_columns_is_refused() {
         }
         writer.finish().unwrap();
     };
-    let convert = ["convert", "a.mcap", "a.csv", "--force"];
+    let convert = ["convert", "a.mcap", "a.csv", "--overwrite"];
     write(&[("/daq", 1.0, 6), ("/daq", 2.0, 5)]);
     let error = folder.fail(1, &convert);
     assert!(error.contains("topic /daq changes its number of values or their unit at 2 s"), "{error}");

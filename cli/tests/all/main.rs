@@ -20,3 +20,4 @@ mod said;
 mod scenes;
 mod shapes;
 mod streams;
+mod whole_files;
