@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &RefineArguments) -> Result<(), CliError> {
     if file.axes != Axis::ALL || file.quadratic.is_some() {
         return Err(unusable("only a linear calibration of six components can be refined"));
     }
-    let Rest { signals, unit, temperatures } =
+    let Rest { signals, unit, temperatures, .. } =
         signals_from_csv(open("recording of touches", path)?).map_err(|error| bad(path, &error))?;
     if unit != file.signal_unit {
         return Err(bad(path, &"its readings are in another unit than the calibration"));

@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use fingertip_calibration::file::{self, CalibrationFile, PayloadFile, ReadError};
-use fingertip_calibration::loads::{Columns, LoadTable};
+use fingertip_calibration::loads::{Columns, LoadReader, LoadTable};
 use fingertip_calibration::report::Report;
 
 use crate::error::CliError;
@@ -18,12 +18,23 @@ pub(crate) fn bad(path: &Path, message: &impl ToString) -> CliError {
 
 /// A table of known loads; columns that are not used go to `notes`.
 pub(crate) fn read_loads(path: &Path, notes: &mut Vec<String>) -> Result<LoadTable, CliError> {
-    let (table, ignored) =
-        LoadTable::from_csv(open("table of loads", path)?).map_err(|error| bad(path, &error))?;
-    if !ignored.is_empty() {
-        notes.push(format!("{}: columns not used: {}", path.display(), ignored.join(", ")));
-    }
+    let mut reader = LoadReader::new(open("table of loads", path)?).map_err(|error| bad(path, &error))?;
+    let table = LoadTable::from_reader(&mut reader).map_err(|error| bad(path, &error))?;
+    notes.extend(of_reading(path, &reader));
     Ok(table)
+}
+
+/// What to mind of a table that was read.
+pub(super) fn of_reading<R: io::Read>(path: &Path, reader: &LoadReader<R>) -> Vec<String> {
+    let ignored = reader.ignored();
+    let unused =
+        (!ignored.is_empty()).then(|| format!("{}: columns not used: {}", path.display(), ignored.join(", ")));
+    unused.into_iter().chain(reader.cut_line().map(|line| cut(path, line))).collect()
+}
+
+/// That a file was cut in its last line.
+pub(crate) fn cut(path: &Path, line: u64) -> String {
+    format!("{}: the file was cut in line {line}, its last, which is left out", path.display())
 }
 
 /// A table whose columns are taken by name.

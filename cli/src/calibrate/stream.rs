@@ -8,7 +8,7 @@ use fingertip_calibration::model::{SensorModel, StreamedFit};
 use nalgebra::DMatrix;
 
 use super::args::{CalibrateArguments, FitMethod};
-use super::files::{bad, open};
+use super::files::{bad, of_reading, open};
 use super::{limits, range, write_calibration};
 use crate::error::CliError;
 use crate::output::Outputs;
@@ -35,9 +35,6 @@ pub(super) fn run(arguments: &CalibrateArguments, output: &Path, outputs: &Outpu
         if *layout.get_or_insert_with(|| here.clone()) != here {
             return Err(bad(path, &"it has other axes, gauges or units than the first file"));
         }
-        if !reader.ignored().is_empty() {
-            notes.push(format!("{}: columns not used: {}", path.display(), reader.ignored().join(", ")));
-        }
         let fit = fit.get_or_insert_with(|| StreamedFit::new(&here.0, here.1, here.2, !arguments.no_bias));
         while let Some(row) = reader.next_row().map_err(|error| bad(path, &error))? {
             if !inside(row) {
@@ -46,6 +43,7 @@ pub(super) fn run(arguments: &CalibrateArguments, output: &Path, outputs: &Outpu
                 return Err(bad(path, &format!("line {}: the weight is negative", row.line)));
             }
         }
+        notes.extend(of_reading(path, &reader));
     }
     let Some(fit) = fit else { return Err(fault(&"there are no files")) };
     let samples = fit.samples();
