@@ -85,6 +85,22 @@ pub(crate) enum CliError {
     /// An MCAP file cannot be used.
     #[error("{path}: {message}", path = .path.display())]
     Mcap { path: PathBuf, message: String },
+    /// A bag of ROS 2 in a database.
+    #[error(
+        "{path} is a ROS 2 bag in SQLite, which is not read; convert it to MCAP: ros2 bag convert -i {path} -o out.yaml, \
+         where out.yaml holds output_bags: [{{uri: out, storage_id: mcap, all: true}}]",
+        path = .path.display()
+    )]
+    Bag { path: PathBuf },
+    /// A bag of ROS 2 as a folder.
+    #[error("{path} is the folder of a ROS 2 bag; give the .mcap file in it", path = .path.display())]
+    BagFolder { path: PathBuf },
+    /// A name that says MCAP, and a file that is none.
+    #[error("{path} is no MCAP file: it does not begin as one; if it is text, call it .csv", path = .path.display())]
+    NoMcap { path: PathBuf },
+    /// No such topic.
+    #[error("{path} has no topic {topic}; there are: {known}", path = .path.display())]
+    NoTopic { path: PathBuf, topic: String, known: String },
     /// A file of another kind.
     #[error("{path} is neither .csv nor .mcap; give it one of these endings", path = .path.display())]
     UnknownEnding { path: PathBuf },

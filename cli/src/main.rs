@@ -15,18 +15,23 @@ mod export;
 mod felt;
 mod gauge_rows;
 mod geometry;
+mod info;
+mod input;
 mod live;
 mod motion;
 mod observe;
 mod output;
 mod plan;
+mod progress;
 mod record;
 mod recording_file;
+mod recover;
 mod refine;
 mod report;
 mod scene;
 mod sensor;
 mod serve;
+mod shell;
 mod stop;
 mod summary;
 mod table;
@@ -58,6 +63,10 @@ fn main() -> ExitCode {
         Command::Geometry(arguments) => geometry::run(&arguments),
         Command::Motion(arguments) => motion::run(&arguments),
         Command::Refine(arguments) => refine::run(&arguments),
+        Command::Info(arguments) => info::run(&arguments),
+        Command::Recover(arguments) => recover::run(&arguments),
+        Command::Completions(arguments) => shell::completions(&arguments),
+        Command::Man(arguments) => shell::man(&arguments),
     };
     match done {
         // Whoever reads our output may stop when they have seen enough.

@@ -61,7 +61,8 @@ impl Layout {
     pub(super) fn take_frames(&mut self, comments: &[String]) {
         for comment in comments {
             let parts = comment.strip_prefix(FRAME_OF).and_then(|rest| rest.split_once(": "));
-            let sensor = parts.and_then(|(of, _)| if of.is_empty() { Some("") } else { of.strip_prefix(" of ") });
+            let sensor =
+                parts.and_then(|(of, _)| if of.is_empty() { Some("") } else { of.strip_prefix(" of ") });
             if let Some(((_, frame), sensor)) = parts.zip(sensor) {
                 self.frames.push((sensor.to_lowercase(), frame.trim().to_owned()));
             }

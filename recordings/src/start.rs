@@ -36,6 +36,7 @@ pub(super) fn comments(start: &[u8]) -> Vec<String> {
     let text = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
     let lines = text.split(|byte| *byte == b'\n');
     let above = lines.take_while(|line| line.starts_with(b"#") || line.trim_ascii().is_empty());
-    let comment = |line: &[u8]| line.strip_prefix(b"#").map(|text| String::from_utf8_lossy(text).trim().to_owned());
+    let comment =
+        |line: &[u8]| line.strip_prefix(b"#").map(|text| String::from_utf8_lossy(text).trim().to_owned());
     above.filter_map(comment).collect()
 }

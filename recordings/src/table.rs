@@ -59,9 +59,8 @@ impl<R: Read> TableReader<R> {
         if !table.advance_to_any()? {
             return Err(RecordingError::Empty { file: table.file });
         }
-        let name = |cell: &[u8]| {
-            String::from_utf8_lossy(cell).trim_start_matches('\u{feff}').trim().to_owned()
-        };
+        let name =
+            |cell: &[u8]| String::from_utf8_lossy(cell).trim_start_matches('\u{feff}').trim().to_owned();
         table.names = table.record.iter().map(name).collect();
         Ok(table)
     }

@@ -131,11 +131,14 @@ pub(super) fn bad(line: u64, column: &str, message: impl ToString) -> LoadError 
 /// Why a table cannot be read, as every reader of recordings says it.
 pub(super) fn unreadable(error: &RecordingError) -> LoadError {
     match error {
-        RecordingError::Ragged { line, expected, found, .. } => {
-            bad(*line, "", format!("{found} cells where the header names {expected} columns; mend or delete that line"))
-        }
+        RecordingError::Ragged { line, expected, found, .. } => bad(
+            *line,
+            "",
+            format!("{found} cells where the header names {expected} columns; mend or delete that line"),
+        ),
         RecordingError::TooLong { line, limit, .. } => {
-            let what = format!("is longer than {limit} bytes, or a quote is never closed; is this a text file?");
+            let what =
+                format!("is longer than {limit} bytes, or a quote is never closed; is this a text file?");
             bad(line + 1, "", what)
         }
         RecordingError::Empty { .. } => LoadError::Empty { what: "columns: the file is empty" },

@@ -96,7 +96,8 @@ impl<R: Read> LoadReader<R> {
     /// Names of the columns that are not used.
     #[must_use]
     pub fn ignored(&self) -> Vec<String> {
-        let ignored = self.table.names().iter().zip(&self.columns).filter(|(_, column)| **column == Column::Ignored);
+        let ignored =
+            self.table.names().iter().zip(&self.columns).filter(|(_, column)| **column == Column::Ignored);
         ignored.map(|(name, _)| name.clone()).collect()
     }
 

@@ -146,7 +146,11 @@ mod tests {
             "fx_N,v1_V\n1,2\n3,4\n5,-",
         ] {
             let table = LoadTable::from_csv(text.as_bytes()).unwrap().0;
-            assert_eq!((table.loads, table.signals), (plain.loads.clone(), plain.signals.clone()), "{text:?}");
+            assert_eq!(
+                (table.loads, table.signals),
+                (plain.loads.clone(), plain.signals.clone()),
+                "{text:?}"
+            );
         }
         let mut reader = LoadReader::new("fx_N,v1_V\n1,2\n3".as_bytes()).unwrap();
         assert_eq!(LoadTable::from_reader(&mut reader).unwrap().samples(), 1);

@@ -29,6 +29,9 @@ pub(crate) struct AnalyzeArguments {
     /// Which sensor of the recording: the prefix of its columns (S1 for S1_Fx_N); overrides the scene
     #[arg(long, value_name = "PREFIX")]
     pub(crate) sensor: Option<String>,
+    /// Of an MCAP file, this topic alone; several times for several
+    #[arg(long = "topic", value_name = "TOPIC")]
+    pub(crate) topics: Vec<String>,
     /// Where to write one row per sample; `-` is the standard output, and the summary then goes to
     /// the standard error
     #[arg(long, value_name = "FILE", default_value = "contacts.csv")]

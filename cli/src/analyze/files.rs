@@ -1,18 +1,17 @@
 //! The files of a run, and what is said at its end.
 
-use std::fs::File;
-use std::io::{self, BufReader, Read};
-use std::path::Path;
+use std::io::Read;
 
 use fingertip_recordings::{ReaderOptions, RecordingReader};
 use fingertip_scene::Scene;
 use indicatif::ProgressBar;
 
 use super::args::AnalyzeArguments;
-use super::progress::bar;
 use crate::convert::McapAsCsv;
 use crate::error::CliError;
+use crate::input::Input;
 use crate::output::Outputs;
+use crate::progress::bar;
 use crate::recording_file::Kind;
 
 /// Refuses to write over what is read.
@@ -39,19 +38,20 @@ pub(super) struct Opened {
 }
 
 /// Opens a recording. One of MCAP is read as what `convert` makes of it; what to know of that goes to `notes`.
-pub(super) fn open(path: &Path, scene: &Scene, notes: &mut Vec<String>) -> Result<Opened, CliError> {
-    let fault = |source| CliError::read("recording", path, source);
-    let file = File::open(path).map_err(fault)?;
-    let meta = file.metadata().map_err(fault)?;
-    if meta.is_dir() {
-        return Err(fault(io::ErrorKind::IsADirectory.into()));
-    }
-    let bar = bar(meta.is_file().then_some(meta.len()));
-    let file = bar.wrap_read(file);
-    let text: Box<dyn Read> = match Kind::of(path) {
-        Ok(Kind::Mcap) => Box::new(McapAsCsv::new(BufReader::new(file), path, notes)?),
-        _ => Box::new(file),
+pub(super) fn open(
+    arguments: &AnalyzeArguments,
+    scene: &Scene,
+    notes: &mut Vec<String>,
+) -> Result<Opened, CliError> {
+    let mut input = Input::open(&arguments.recording)?;
+    let bar = bar(input.length());
+    let text: Box<dyn Read> = match input.kind() {
+        Kind::Mcap => {
+            let file = bar.wrap_read(input.messages()?);
+            Box::new(McapAsCsv::new(file, &input, &arguments.topics, notes)?)
+        }
+        Kind::Csv => Box::new(bar.wrap_read(input.text()?)),
     };
     let options = ReaderOptions { renamed: scene.renamed_columns().to_vec(), ..ReaderOptions::default() };
-    Ok(Opened { rows: Rows::with_options(path.display().to_string(), text, options)?, bar })
+    Ok(Opened { rows: Rows::with_options(input.name(), text, options)?, bar })
 }

@@ -4,7 +4,6 @@ pub(crate) mod args;
 mod contacts;
 mod files;
 mod payload;
-mod progress;
 mod recorded;
 mod source;
 mod volts;
@@ -29,7 +28,7 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let recording = arguments.recording.as_path();
     let outputs = files::guard(arguments)?;
     let mut notes = Vec::new();
-    let files::Opened { rows: mut reader, bar } = files::open(recording, &scene, &mut notes)?;
+    let files::Opened { rows: mut reader, bar } = files::open(arguments, &scene, &mut notes)?;
     let mut source = Source::new(&mut reader, &scene, arguments, notes)?;
     let mut contacts = ContactWriter::create(&arguments.output, &outputs, scene.tells())?;
     let pass = Pass { scene: &scene, reader: &mut reader, source: &mut source, contacts: &mut contacts };

@@ -48,13 +48,7 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
     let file = calibration.to_file().map_err(|error| fault(&error))?;
     write_calibration(file, arguments, &output, &outputs)?;
     let title = if arguments.serial.is_empty() { "Calibration" } else { &arguments.serial };
-    write_reports(
-        &calibration.report,
-        title,
-        arguments.html.as_ref(),
-        arguments.json.as_ref(),
-        &outputs,
-    )?;
+    write_reports(&calibration.report, title, arguments.html.as_ref(), arguments.json.as_ref(), &outputs)?;
     if calibration.report.verdict == Verdict::Suspect {
         notes.push(
             "suspect until somebody has looked: repeat the readings named above, or leave them out by \

@@ -11,7 +11,7 @@ use super::args::{CalibrateArguments, FitMethod};
 use super::files::{bad, of_reading, open};
 use super::{limits, range, write_calibration};
 use crate::error::CliError;
-use crate::output::Outputs;
+use crate::output::{Outputs, is_standard};
 use crate::table::count;
 
 /// Reads the files twice: to fit, and to see what the fit leaves.
@@ -20,6 +20,9 @@ pub(super) fn run(arguments: &CalibrateArguments, output: &Path, outputs: &Outpu
     let fault = |error: &dyn core::fmt::Display| bad(&first, &error);
     if !matches!(arguments.method, FitMethod::LeastSquares) {
         return Err(fault(&"--stream is for --method least-squares; the others need all samples at once"));
+    }
+    if arguments.loads.iter().any(|path| is_standard(path)) {
+        return Err(fault(&"--stream reads its files twice; write the standard input into one"));
     }
     let mut notes = Vec::new();
     let mut fit: Option<StreamedFit> = None;

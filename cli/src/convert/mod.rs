@@ -12,8 +12,10 @@ use clap::Args;
 pub(crate) use from_mcap::McapAsCsv;
 
 use crate::error::CliError;
+use crate::input::Input;
 use crate::output::{Outputs, Overwrite};
-use crate::recording_file::Kind;
+use crate::recording_file::Packing;
+use crate::recording_file::{FRAME, Kind};
 use crate::table::count;
 
 #[derive(Debug, Args)]
@@ -35,6 +37,12 @@ pub(crate) struct ConvertArguments {
     /// Samples per second of a CSV file that has no column of time
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f64>,
+    /// Of an MCAP file, this topic alone; several times for several
+    #[arg(long = "topic", value_name = "TOPIC")]
+    pub(crate) topics: Vec<String>,
+    /// How to pack an MCAP file
+    #[arg(long, value_enum, default_value_t = Packing::None)]
+    pub(crate) compression: Packing,
     #[command(flatten)]
     pub(crate) overwrite: Overwrite,
     /// As --overwrite
@@ -74,15 +82,19 @@ pub(crate) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
     {
         return Err(fault(input, "--rate must be above 0"));
     }
-    let account = match (Kind::of(input)?, Kind::of(output)?) {
-        (Kind::Csv, Kind::Mcap) => from_csv::convert(arguments, &outputs),
-        (Kind::Mcap, Kind::Csv) => from_mcap::convert(arguments, &outputs),
-        _ => Err(fault(input, "input and output are of the same kind; one must be .csv and the other .mcap")),
+    let mut input = Input::open(input)?;
+    let account = match (input.kind(), Kind::of(output)?) {
+        (Kind::Csv, Kind::Mcap) => from_csv::convert(arguments, &mut input, &outputs),
+        (Kind::Mcap, Kind::Csv) => from_mcap::convert(arguments, &input, &outputs),
+        _ => {
+            let same = "input and output are of the same kind; one must be .csv and the other .mcap";
+            Err(fault(input.path(), same))
+        }
     }?;
     let mut text = String::new();
     let written: Vec<String> =
         account.written.iter().map(|(what, number)| format!("{} {what}", count(*number))).collect();
-    text.push_str(&format!("{} → {}: {}\n", input.display(), output.display(), written.join(", ")));
+    text.push_str(&format!("{} → {}: {}\n", input.name(), output.display(), written.join(", ")));
     for note in &account.notes {
         text.push_str(&format!("Note: {note}\n"));
     }
@@ -95,6 +107,11 @@ pub(crate) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
 
 fn fault(path: &Path, message: impl Display) -> CliError {
     CliError::Convert { path: path.to_owned(), message: message.to_string() }
+}
+
+/// The name of a sensor's frame, where nothing else names one.
+fn usual_frame(sensor: &str) -> String {
+    if sensor.is_empty() { FRAME.to_owned() } else { format!("{FRAME}_{sensor}") }
 }
 
 /// The topic of a sensor's messages.

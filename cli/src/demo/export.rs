@@ -60,6 +60,7 @@ pub(super) fn calibration(
         }
     });
     let text = file.and_then(|file| file.to_toml());
-    let text = text.map_err(|fault| CliError::write("calibration", path, io::Error::other(fault.to_string())))?;
+    let text =
+        text.map_err(|fault| CliError::write("calibration", path, io::Error::other(fault.to_string())))?;
     outputs.write("calibration", path, &text)
 }

@@ -157,8 +157,7 @@ impl<'a> Recording<'a> {
                 self.epoch = now.as_secs_f64() - time;
             }
             let has_volts = reading.volts.is_some();
-            self.output =
-                Some(Output::create(&self.arguments.output, self.outputs, has_volts, has_contacts)?);
+            self.output = Some(Output::create(self.arguments, self.outputs, has_volts, has_contacts)?);
         }
         let Some(output) = &mut self.output else { return Ok(()) };
         // Whole nanoseconds, as MCAP has them: so both formats hold the same.

@@ -1,12 +1,13 @@
 //! The rows that a recording is written as, in CSV or MCAP.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use fingertip::contact::Resolution;
 use fingertip::wrench::Wrench;
 use fingertip_recordings::mcap::{McapWriter, RecordedContact, RecordedSignals, Topic};
 use fingertip_recordings::{ContactCells, RecordingWriter, Schema, SignalUnit};
 
+use super::args::RecordArguments;
 use crate::error::CliError;
 use crate::observe::SceneTouch;
 use crate::output::{Outputs, Whole};
@@ -51,11 +52,12 @@ enum Writer {
 
 impl Output {
     pub(super) fn create(
-        path: &Path,
+        arguments: &RecordArguments,
         outputs: &Outputs,
         has_volts: bool,
         has_contacts: bool,
     ) -> Result<Self, CliError> {
+        let path = arguments.output.as_path();
         let kind = Kind::of(path)?;
         let file = outputs.create("recording", path)?;
         let writer = match kind {
@@ -72,7 +74,7 @@ impl Output {
             }
             Kind::Mcap => {
                 let open = || {
-                    let mut writer = McapWriter::new(file)?;
+                    let mut writer = McapWriter::with_compression(file, arguments.compression.into())?;
                     let wrench = writer.wrenches("/fingertip/wrench", FRAME)?;
                     let signals = if has_volts {
                         let gauges = writer.signals("/fingertip/signals", FRAME)?;

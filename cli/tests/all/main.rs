@@ -15,6 +15,7 @@ mod exports;
 mod live;
 mod nano17;
 mod recorded;
+mod recordings;
 mod reports;
 mod said;
 mod scenes;

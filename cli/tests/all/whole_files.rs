@@ -16,8 +16,7 @@ fn recording(rows: usize) -> String {
 /// The names in a folder, in order.
 fn names(folder: &Folder) -> Vec<String> {
     let all = fs::read_dir(folder.path("")).unwrap();
-    let mut all: Vec<String> =
-        all.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    let mut all: Vec<String> = all.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     all.sort();
     all
 }
@@ -111,7 +110,10 @@ fn every_command_asks_before_it_writes_over_a_file() {
         let output = folder.exact_command(arguments).output().unwrap();
         assert_eq!(output.status.code(), Some(1), "{arguments:?}");
         let error = String::from_utf8(output.stderr).unwrap();
-        assert!(error.contains("it exists already; give another name, or --overwrite"), "{arguments:?}: {error}");
+        assert!(
+            error.contains("it exists already; give another name, or --overwrite"),
+            "{arguments:?}: {error}"
+        );
     }
     for name in ["mine.toml", "mine.html", "mine.csv", "mine.mcap", "mine.rs", "mine.json"] {
         assert_eq!(folder.read(name), mine, "{name}");
@@ -165,9 +167,7 @@ fn a_full_disk_is_called_one() {
     let folder = Folder::new();
     folder.write("a.csv", &recording(2000));
     let sphere = scene("paper_sphere.toml");
-    let error = folder.fail(
-        1,
-        &["analyze", "a.csv", "--scene", &sphere, "--no-report", "--output", "/dev/full"],
-    );
+    let error =
+        folder.fail(1, &["analyze", "a.csv", "--scene", &sphere, "--no-report", "--output", "/dev/full"]);
     assert!(error.contains("No space left on device") && error.contains("make room"), "{error}");
 }

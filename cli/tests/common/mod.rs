@@ -48,7 +48,9 @@ impl Folder {
     /// The command, to be run in this folder, where those that have names for their files write over them.
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = self.exact_command(arguments);
-        if arguments.first().is_some_and(|first| WRITERS.contains(first)) && !arguments.contains(&"--overwrite") {
+        if arguments.first().is_some_and(|first| WRITERS.contains(first))
+            && !arguments.contains(&"--overwrite")
+        {
             command.arg("--overwrite");
         }
         command
@@ -213,7 +215,8 @@ pub(crate) struct Contacts {
 
 impl Contacts {
     pub(crate) fn parse(text: &str) -> Self {
-        let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+        let lines = text.lines().filter(|line| !line.starts_with('#'));
+        let mut lines = lines.map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
         let columns = lines.next().unwrap();
         let rows: Vec<_> = lines.collect();
         assert!(rows.iter().all(|row| row.len() == columns.len()), "a row with another number of cells");

@@ -4,9 +4,9 @@ use alloc::borrow::Cow;
 use core::fmt;
 use std::io::Read;
 
+use ::mcap::parse_record;
 use ::mcap::read::ChannelAccumulator;
 use ::mcap::records::{MessageHeader, Record, op};
-use ::mcap::parse_record;
 
 use super::error::McapError;
 use super::lengths;

@@ -2,7 +2,9 @@
 
 use std::io::Cursor;
 
-use fingertip_recordings::mcap::{Compression, McapError, McapReader, McapWriter, Recorded, RecordedSignals, recover};
+use fingertip_recordings::mcap::{
+    Compression, McapError, McapReader, McapWriter, Recorded, RecordedSignals, recover,
+};
 use proptest::prelude::*;
 
 const ALL: [Compression; 3] = [Compression::None, Compression::Lz4, Compression::Zstd];
@@ -97,7 +99,10 @@ fn a_chunk_that_was_never_closed_is_read() {
     killed[at + 9 + 32..at + 9 + 40].fill(0xFF);
     let (messages, error) = read(&killed);
     assert!(messages == 100 && matches!(error, Some(McapError::Cut)), "{messages}, {error:?}");
-    assert_eq!(recover(killed.as_slice(), Cursor::new(Vec::new()), Compression::Zstd).unwrap().0.messages, 100);
+    assert_eq!(
+        recover(killed.as_slice(), Cursor::new(Vec::new()), Compression::Zstd).unwrap().0.messages,
+        100
+    );
 }
 
 /// A damaged chunk is an error for whoever reads, and passed over by whoever recovers.
@@ -138,7 +143,10 @@ fn recovery_keeps_what_it_does_not_know() {
     writer.finish().unwrap();
     let original = writer.into_inner().into_inner();
     let (recovered, anew) = recover(original.as_slice(), Cursor::new(Vec::new()), Compression::Lz4).unwrap();
-    assert_eq!(recovered.topics.into_iter().collect::<Vec<_>>(), [("/with".into(), 2), ("/without".into(), 1)]);
+    assert_eq!(
+        recovered.topics.into_iter().collect::<Vec<_>>(),
+        [("/with".into(), 2), ("/without".into(), 1)]
+    );
     let all = |file: &[u8]| -> Vec<_> {
         let messages = ::mcap::MessageStream::new(file).unwrap().map(Result::unwrap);
         let kept = |message: ::mcap::Message<'_>| {
@@ -158,7 +166,14 @@ fn a_chunk_that_swells_is_refused() {
     let zeros = ::zstd::encode_all(std::io::Read::take(std::io::repeat(0), 300 << 20), 1).unwrap();
     let chunk = |stated: u64| {
         let length = u64::try_from(zeros.len()).unwrap();
-        let head = [&[0; 16][..], &stated.to_le_bytes(), &[0; 4], &4_u32.to_le_bytes(), b"zstd", &length.to_le_bytes()];
+        let head = [
+            &[0; 16][..],
+            &stated.to_le_bytes(),
+            &[0; 4],
+            &4_u32.to_le_bytes(),
+            b"zstd",
+            &length.to_le_bytes(),
+        ];
         let chunk = [&head.concat()[..], &zeros].concat();
         let length = u64::try_from(chunk.len()).unwrap().to_le_bytes();
         [b"\x89MCAP0\r\n".as_slice(), &[6], &length, &chunk].concat()
