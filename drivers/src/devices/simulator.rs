@@ -27,7 +27,7 @@ pub enum Simulator {
 /// [`SimulatedSerial`](crate::sensors::line::SimulatedSerial).
 pub struct SerialSimulator {
     /// What it says.
-    pub device: Box<dyn SerialDevice + Send>,
+    pub device: SerialDevice,
     /// What its address must say behind the question mark, with it.
     pub options: String,
 }
