@@ -70,6 +70,13 @@ pub(crate) enum CliError {
     /// A table of loads, of poses or of rest cannot be used.
     #[error("{path}: {message}", path = .path.display())]
     Calibrate { path: PathBuf, message: String },
+    /// A calibration that was fitted is not worth having.
+    #[error(
+        "the calibration {path} is bad: {reason}; mend the loads that the report names, or take it as it is with \
+         --accept-bad",
+        path = .path.display()
+    )]
+    BadCalibration { path: PathBuf, reason: String },
     /// A calibration that was checked is wrong.
     #[error(
         "the calibration {calibration} does not hold on {loads}: {reason}",

@@ -72,7 +72,7 @@ fn main() -> ExitCode {
         // Whoever reads our output may stop when they have seen enough.
         Ok(()) | Err(CliError::ClosedPipe) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error}");
+            eprintln!("error: {}", output::printable(&error.to_string()));
             ExitCode::from(1)
         }
     }

@@ -9,7 +9,7 @@ use clap_mangen::Man;
 
 use crate::args::Arguments;
 use crate::error::CliError;
-use crate::output::{Outputs, Overwrite, print};
+use crate::output::{Outputs, Overwrite, print, print_exactly};
 
 #[derive(Debug, Args)]
 #[command(
@@ -35,7 +35,7 @@ pub(crate) struct ManArguments {
 pub(crate) fn completions(arguments: &CompletionsArguments) -> Result<(), CliError> {
     let mut text = Vec::new();
     clap_complete::generate(arguments.shell, &mut Arguments::command(), "fingertip", &mut text);
-    print(&String::from_utf8_lossy(&text))
+    print_exactly(&String::from_utf8_lossy(&text))
 }
 
 /// Writes the pages of the manual.

@@ -107,6 +107,9 @@ pub(crate) struct CalibrateArguments {
     /// Greatest error that is good, % of full scale, on loads left out of the fit
     #[arg(long, value_name = "PERCENT")]
     pub(crate) limit: Option<f64>,
+    /// Exit with 0 although the calibration is judged bad
+    #[arg(long)]
+    pub(crate) accept_bad: bool,
     /// Serial number of the sensor
     #[arg(long, default_value = "")]
     pub(crate) serial: String,

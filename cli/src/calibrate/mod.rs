@@ -56,7 +56,23 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
                 .to_owned(),
         );
     }
-    outputs.say(&calibration.report.to_string(), &notes)
+    outputs.say(&calibration.report.to_string(), &notes)?;
+    let report = &calibration.report;
+    refuse_bad(arguments, &output, report.verdict, &report.reasons)
+}
+
+/// An error for a calibration that is bad, unless the user takes it as it is. The files are written: they say so.
+fn refuse_bad(
+    arguments: &CalibrateArguments,
+    output: &Path,
+    verdict: Verdict,
+    reasons: &[String],
+) -> Result<(), CliError> {
+    if verdict != Verdict::Bad || arguments.accept_bad {
+        return Ok(());
+    }
+    let reason = reasons.first().cloned().unwrap_or_default();
+    Err(CliError::BadCalibration { path: output.to_owned(), reason })
 }
 
 /// Writes the calibration in every form that was asked for.

@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 
 use super::args::{CalibrateArguments, FitMethod};
 use super::files::{bad, of_reading, open};
-use super::{limits, range, write_calibration};
+use super::{limits, range, refuse_bad, write_calibration};
 use crate::error::CliError;
 use crate::output::{Outputs, is_standard};
 use crate::table::count;
@@ -59,7 +59,9 @@ pub(super) fn run(arguments: &CalibrateArguments, output: &Path, outputs: &Outpu
     let mut file = model.to_file("least squares of signals on loads, streamed").map_err(|e| fault(&e))?;
     let mut reasons = vec!["streamed: no load was left out of the fit to test it".to_owned()];
     let mut verdict = Verdict::Unchecked;
-    for (axis, rms) in model.axes.iter().zip(&errors.rms) {
+    let mut worst: Vec<_> = model.axes.iter().zip(&errors.rms).collect();
+    worst.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+    for (axis, rms) in worst {
         if !(*rms <= allowed) {
             verdict = Verdict::Bad;
             reasons.push(format!("{axis}: {rms:.2} % of full scale on these loads; {allowed} % is allowed"));
@@ -91,7 +93,8 @@ pub(super) fn run(arguments: &CalibrateArguments, output: &Path, outputs: &Outpu
             errors.greatest[i]
         ));
     }
-    outputs.say(&text, &notes)
+    outputs.say(&text, &notes)?;
+    refuse_bad(arguments, output, verdict, reasons.get(1..).unwrap_or_default())
 }
 
 /// What a fit leaves, axis by axis, % of full scale.

@@ -1,6 +1,7 @@
 //! What a run leaves: words on the standard output, and files that are whole and none of those it has read.
 
 mod guard;
+mod printable;
 mod unfinished;
 mod whole;
 
@@ -10,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+pub(crate) use printable::printable;
 pub(crate) use unfinished::remove_all as remove_unfinished;
 pub(crate) use whole::Whole;
 
@@ -88,7 +90,7 @@ impl Outputs {
     pub(crate) fn print(&self, text: &str) -> Result<(), CliError> {
         if self.to_stdout {
             // If even the standard error is closed, there is nobody left to tell.
-            let _ = io::stderr().write_all(text.as_bytes());
+            let _ = io::stderr().write_all(printable(text).as_bytes());
             return Ok(());
         }
         print(text)
@@ -105,8 +107,13 @@ pub(crate) fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Prints to the standard output, at once.
+/// Prints to the standard output, at once; names and texts of files cannot steer the terminal.
 pub(crate) fn print(text: &str) -> Result<(), CliError> {
+    print_exactly(&printable(text))
+}
+
+/// Prints what is ours to the last byte.
+pub(crate) fn print_exactly(text: &str) -> Result<(), CliError> {
     let mut stdout = io::stdout();
     stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
 }

@@ -13,7 +13,7 @@ use output::{Output, Row};
 
 use crate::error::CliError;
 use crate::felt::{NoZero, Rest, SceneFeel};
-use crate::output::Outputs;
+use crate::output::{Outputs, printable};
 use crate::recording_file::Kind;
 use crate::scene::load_or_simulated;
 use crate::sensor::{self, Event, Reading, SensorError, Stream, StreamOptions};
@@ -63,9 +63,12 @@ pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
             }
             Ok(Event::Nothing) => {}
             Ok(Event::Lost(why)) => recording.warn(&format!("{}: {why}; connecting anew", arguments.address)),
-            Ok(Event::End) => break,
+            Ok(Event::End) => {
+                ended = Err(fault(recording.ended(SensorError::Closed)));
+                break;
+            }
             Err(why) => {
-                ended = Err(fault(why));
+                ended = Err(fault(recording.ended(why)));
                 break;
             }
         }
@@ -171,6 +174,14 @@ impl<'a> Recording<'a> {
         Ok(())
     }
 
+    /// That the sensor ended, and when.
+    fn ended(&self, why: SensorError) -> SensorError {
+        if self.samples == 0 {
+            return why;
+        }
+        SensorError::Ended { why: Box::new(why), samples: self.samples, seconds: short(self.length()) }
+    }
+
     /// Counts a fault, and gives what is to be said of it.
     fn fault(&mut self, why: &str) -> Option<String> {
         self.faults += 1;
@@ -180,7 +191,7 @@ impl<'a> Recording<'a> {
 
     /// Prints a warning, above the line of news.
     fn warn(&self, what: &str) {
-        let print = || eprintln!("warning: {what}");
+        let print = || eprintln!("warning: {}", printable(what));
         match &self.news {
             Some(news) => news.suspend(print),
             None => print(),

@@ -12,6 +12,7 @@ mod conversions;
 mod demo;
 mod design;
 mod exports;
+mod foreign_readers;
 mod live;
 mod nano17;
 mod recorded;

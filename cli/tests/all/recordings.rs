@@ -74,7 +74,11 @@ fn a_cut_recording_is_read_and_recovered() {
     let said = folder.succeed(&["recover", "cut.mcap", "new.mcap"]);
     assert!(said.contains("/left/ft: ") && said.contains("Lost: what came behind them"), "{said}");
     let said = folder.succeed(&["info", "new.mcap"]);
-    assert!(said.contains(&format!("/left/ft: {rows} messages")) && !said.contains("ends in the"), "{said}");
+    assert!(
+        said.replace('\u{202f}', "").contains(&format!("/left/ft: {rows} messages"))
+            && !said.contains("ends in the"),
+        "{said}"
+    );
     assert_eq!(
         folder.succeed(&["recover", "new.mcap", "again.mcap"]).lines().last(),
         Some("Written: again.mcap")
@@ -224,4 +228,27 @@ fn shells_and_readers_are_helped() {
     let page = folder.read("pages/fingertip-analyze.1");
     assert!(page.starts_with(".ie") || page.contains(".TH"), "{page}");
     assert!(page.contains("contacts") && folder.path("pages/fingertip-scene-init.1").exists());
+}
+
+/// What has no end, or more of something than is meant, is refused with the limit, not held in memory.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_has_no_end_is_refused() {
+    let folder = Folder::new();
+    folder.write("loads.csv", "fx_N,v1_V\n0,0\n1,1\n2,2.01\n3,2.99\n4,4\n");
+    folder.write("deep.cal", &format!("{}{}", "<a>".repeat(20_000), "</a>".repeat(20_000)));
+    let error = folder.fail(1, &["check", "deep.cal", "loads.csv"]);
+    assert!(error.contains("more than 1000 elements"), "{error}");
+    let error = folder.fail(1, &["check", "/dev/zero", "loads.csv"]);
+    assert!(error.contains("longer than 16 MiB"), "{error}");
+    let error = folder.fail(1, &["scene", "check", "/dev/zero"]);
+    assert!(error.contains("longer than 16 MiB"), "{error}");
+    let mesh = "[surface]\nshape = \"mesh\"\nfile = \"/dev/zero\"\nmetres_per_unit = 1e-3\n";
+    folder.write("mesh.toml", &format!("version = 2\n[input]\nconvention = \"on_fingertip\"\n{mesh}"));
+    let error = folder.fail(1, &["scene", "check", "mesh.toml"]);
+    assert!(error.contains("cannot be read"), "{error}");
+    let error = folder.fail(2, &["design", "--gauges", "1000000"]);
+    assert!(error.contains("is not in 0..=64"), "{error}");
+    let error = folder.fail(1, &["calibrate", "/dev/zero"]);
+    assert!(error.contains("longer than 1048576 bytes"), "{error}");
 }

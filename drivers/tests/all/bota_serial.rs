@@ -194,3 +194,30 @@ fn a_sensor_that_was_switched_off_and_on_is_heard_again() {
     assert_eq!(given, 100 - BotaDecoder::RESTARTED as usize + 1);
     assert_eq!((decoder.restarts(), decoder.not_news()), (1, u64::from(BotaDecoder::RESTARTED)));
 }
+
+/// Numbers beyond every sensor are counted as faults, not believed, though their checksum fits.
+#[test]
+fn numbers_beyond_every_sensor_are_not_believed() {
+    let mut decoder = BotaDecoder::new();
+    let mut give = |component: usize, value: f32, microseconds: u32| {
+        let mut frame = Frame { microseconds, ..Frame::default() };
+        frame.components[component] = value;
+        let bytes = frame.emit();
+        let given = bytes.into_iter().filter_map(|byte| LineDecoder::<f64>::push(&mut decoder, byte));
+        given.last().unwrap()
+    };
+    for (number, (component, value, believed)) in [
+        (0, 9e4, true),
+        (0, 2e5, false),
+        (2, -1e36, false),
+        (3, 9e3, true),
+        (5, -2e4, false),
+        (4, f32::NAN, false),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let given = give(component, value, 1000 * (number as u32 + 1));
+        assert_eq!(given.is_ok(), believed, "{value}: {given:?}");
+    }
+}
