@@ -1,7 +1,7 @@
 //! What hangs on the sensor, as it is written to a file.
 
+use std::io;
 use std::path::Path;
-use std::{fs, io};
 
 use fingertip_wrench::{BadPayload, Payload, Real, Wrench};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};

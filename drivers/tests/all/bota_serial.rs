@@ -9,8 +9,11 @@ use fingertip_wrench::Wrench;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+/// Of a number of frames so many newtons: of all of them no more than a sensor measures.
+const PER_FRAME: f64 = 1.0 / 64.0;
+
 fn frame(number: u32) -> Frame {
-    let x = number as f32;
+    let x = number as f32 * PER_FRAME as f32;
     Frame {
         components: [x, -x, 1.0, 2.0, 3.0, -0.5 * x],
         // Wraps around on the way.
@@ -36,7 +39,7 @@ fn a_bad_line_costs_the_damaged_frames_and_no_other() {
         let next: Next = sensor.next_sample();
         next.unwrap()
     } {
-        let (number, time) = (sample.value.force().x, sample.time.unwrap());
+        let (number, time) = (sample.value.force().x / PER_FRAME, sample.time.unwrap());
         assert_eq!(sample.value, frame_wrench(number));
         assert!(number > last);
         let start = *start.get_or_insert(number);
@@ -51,7 +54,8 @@ fn a_bad_line_costs_the_damaged_frames_and_no_other() {
 }
 
 fn frame_wrench(number: f64) -> Wrench<f64> {
-    Wrench::from_components(&nalgebra::Vector6::new(number, -number, 1.0, 2.0, 3.0, -0.5 * number))
+    let x = number * PER_FRAME;
+    Wrench::from_components(&nalgebra::Vector6::new(x, -x, 1.0, 2.0, 3.0, -0.5 * x))
 }
 
 #[test]
@@ -173,7 +177,7 @@ fn check(
     last: &mut Option<u32>,
     watch: &mut Watch<f64, Wrench<f64>>,
 ) {
-    let number = sample.value.force().x;
+    let number = sample.value.force().x / PER_FRAME;
     assert_eq!(sample.value, frame_wrench(number));
     let number = number as u32;
     assert!(number < modulus && last.is_none_or(|last| number > last), "{number} after {last:?}");
