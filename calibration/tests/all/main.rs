@@ -3,11 +3,13 @@
 
 mod consensus;
 mod covariance;
+mod coverage;
 mod design_end_to_end;
 mod design_optimum;
 mod equivariance;
 mod files;
 mod in_situ;
+mod intervals;
 mod kept;
 mod metrics;
 mod motion;
