@@ -1,6 +1,6 @@
 //! The design in words and tables.
 
-use fingertip_calibration::design::{Criterion, DesignSpace, Spread, THICKEST_WALL};
+use fingertip_calibration::design::{Criterion, DesignSpace, Spread, THICKEST_WALL, TubeFailure};
 
 use super::{CALIBRATION_LOADS, LOAD_ERROR, Outcome};
 use crate::summary::Findings;
@@ -22,10 +22,15 @@ pub(super) fn of(outcome: &Outcome) -> Findings {
             short(noise * 1e6)
         ),
         format!(
-            "A tube of {} mm mean radius with a wall of {} mm: it bears {} times the nominal loads, all at once.",
+            "A tube of {} mm mean radius with a wall of {} mm: it bears {} times the nominal loads, all at once; then {}.",
             short(layout.beam.radius * 1e3),
             number(layout.beam.thickness * 1e3),
-            short(strength.worst_ratio().recip())
+            short(strength.safety()),
+            match strength.failure() {
+                TubeFailure::Yield => "it yields (von Mises)",
+                TubeFailure::WallBuckling => "its wall buckles",
+                TubeFailure::ColumnBuckling => "it buckles as a column",
+            }
         ),
     ];
     lead.push(match outcome.file.find_decoupling() {
