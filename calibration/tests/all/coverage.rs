@@ -31,6 +31,11 @@ impl Coverage {
         coverage
     }
 
+    /// How many trials stated intervals.
+    pub(crate) const fn stated(&self) -> usize {
+        self.trials
+    }
+
     /// All shares are between 93 and 97 %, or as near to 95 % as chance lets them be.
     pub(crate) fn holds(&self, what: &str) {
         let count = self.trials as f64;

@@ -32,6 +32,7 @@ mod tables;
 mod tares;
 #[path = "../../src/testing.rs"]
 mod testing;
+mod touch_noise;
 mod touched;
 mod untangling;
 mod verdict;
