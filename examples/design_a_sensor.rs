@@ -50,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // 3. Whether it holds, and how well it is conditioned.
     let tube = LoadedTube { radius: layout.beam.radius, ..tube };
-    println!("It bears {:.1} times the loads.", tube.strength(wall)?.worst_ratio().recip());
+    println!("It bears {:.1} times the loads.", tube.strength(wall)?.safety());
     let judged = Assessment::new(&layout.normalised(1.0, &loads)?, Some(&weight)).ok_or("not a sensor")?;
     println!("Condition number {:.2}.", judged.condition_number);
 

@@ -1,12 +1,13 @@
 //! `fingertip geometry`: the shape of the fingertip's surface from touches, as a scene.
 
+use std::fs;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use fingertip::wrench::{RigidTransform, Wrench};
 use fingertip_calibration::geometry::{
-    Fitted, Touch, fit_aligned_ellipsoid, fit_cylinder, fit_cylinder_along, fit_ellipsoid, fit_meeting_point,
-    fit_plane, fit_pose, fit_sphere,
+    Fitted, Touch, WrenchNoise, fit_aligned_ellipsoid, fit_cylinder, fit_cylinder_along, fit_ellipsoid,
+    fit_meeting_point, fit_plane, fit_pose, fit_sphere,
 };
 use fingertip_calibration::loads::Columns;
 use nalgebra::{Rotation3, Vector3};
@@ -45,6 +46,13 @@ pub(crate) struct GeometryArguments {
     /// The wrenches are what the fingertip does to the world, not the load on it
     #[arg(long)]
     reaction: bool,
+    /// Standard deviations of a force and of a torque; without them forces are taken as exact, and sizes come out
+    /// too small where they are not
+    #[arg(long, value_delimiter = ',', value_name = "N,N·m")]
+    noise: Option<Vec<f64>>,
+    /// The scene whose surface has the pose, for `pose -o`
+    #[arg(long, value_name = "SCENE.toml")]
+    scene: Option<PathBuf>,
     /// Where to write a scene with the surface
     #[arg(short, long, value_name = "SCENE.toml")]
     output: Option<PathBuf>,
@@ -74,25 +82,66 @@ struct Found {
     scene: String,
     unobserved: Vec<String>,
     rms: f64,
+    noise_scale: f64,
 }
 
+/// More than this times the stated noise is left: something is not as stated.
+const TOO_NOISY: f64 = 2.0;
+
 pub(crate) fn run(arguments: &GeometryArguments) -> Result<(), CliError> {
-    let outputs = Outputs::guard(arguments.overwrite, "output", [&arguments.touches], &arguments.output)?;
+    let inputs = [Some(&arguments.touches), arguments.scene.as_ref()];
+    let outputs =
+        Outputs::guard(arguments.overwrite, "output", inputs.into_iter().flatten(), &arguments.output)?;
     let path = &arguments.touches;
     let columns = read_columns("table of touches", path)?;
     let found = find(arguments, &columns).map_err(|message| bad(path, &message))?;
     let mut text = found.lines.join("\n");
-    text.push_str(&format!("\n{} touches; {:.3e} N·m of torque are left (RMS)\n", columns.rows(), found.rms));
+    text.push_str("\n± is half of an interval of 95 %\n");
+    text.push_str(&format!("{} touches; {:.3e} N·m of torque are left (RMS)\n", columns.rows(), found.rms));
+    if arguments.noise.is_none() {
+        text.push_str(
+            "forces are taken as exact: if they are not, sizes come out too small; --noise says their errors\n",
+        );
+    } else if found.noise_scale > TOO_NOISY {
+        text.push_str(&format!(
+            "what is left is {:.1} times what --noise says: the shape, the normals or the noise are not as stated\n",
+            found.noise_scale
+        ));
+    }
     for what in &found.unobserved {
         text.push_str(&format!("not observed: {what}\n"));
     }
     if let Some(output) = &arguments.output {
-        let convention = if arguments.reaction { "reaction" } else { "on_fingertip" };
-        let head = format!("version = 1\n\n[input]\nconvention = \"{convention}\"\n\n");
-        let scene = if arguments.shape == FittedShape::Pose { found.scene } else { head + &found.scene };
-        outputs.write("scene", output, &scene)?;
+        outputs.write("scene", output, &scene(arguments, &found)?)?;
     }
     outputs.say(&text, &[])
+}
+
+/// A whole scene, with what was found in it.
+fn scene(arguments: &GeometryArguments, found: &Found) -> Result<String, CliError> {
+    match (arguments.shape, &arguments.scene) {
+        (FittedShape::Pivot, _) => {
+            Err(bad(&arguments.touches, &"a pivot is no surface: there is no scene to write (-o)"))
+        }
+        (FittedShape::Pose, None) => {
+            Err(bad(&arguments.touches, &"a pose alone is no scene: name that of the surface (--scene)"))
+        }
+        (FittedShape::Pose, Some(path)) => {
+            let known = fs::read_to_string(path).map_err(|source| CliError::read("scene", path, source))?;
+            if known.lines().any(|line| line.trim_start().starts_with("[pose]")) {
+                return Err(bad(path, &"it has a [pose] already: take it out"));
+            }
+            Ok(format!("{}\n\n{}", known.trim_end(), found.scene))
+        }
+        _ => {
+            let convention = if arguments.reaction { "reaction" } else { "on_fingertip" };
+            Ok(format!(
+                "version = 1\n\n[input]\nconvention = \"{convention}\"\n# Where a recording has no time, as touches \
+                 have none: the rate of the sensor.\nsample_rate_Hz = 1.0\n\n{}",
+                found.scene
+            ))
+        }
+    }
 }
 
 fn find(arguments: &GeometryArguments, columns: &Columns) -> Result<Found, String> {
@@ -104,16 +153,23 @@ fn find(arguments: &GeometryArguments, columns: &Columns) -> Result<Found, Strin
         let normals = columns.vectors(["nx", "ny", "nz"]).map_err(text)?;
         Ok(wrenches.iter().zip(normals).map(|(wrench, normal)| Touch { wrench: *wrench, normal }).collect())
     };
+    let noise = &match arguments.noise.as_deref() {
+        None => WrenchNoise::exact_forces(),
+        Some([force, torque]) => {
+            WrenchNoise::new(*force, *torque).map_err(|error| format!("--noise: {error}"))?
+        }
+        Some(other) => return Err(format!("--noise takes two numbers, not {}", other.len())),
+    };
     match arguments.shape {
-        FittedShape::Sphere => sphere(&touches()?),
-        FittedShape::Ellipsoid => ellipsoid(&touches()?),
-        FittedShape::AlignedEllipsoid => aligned_ellipsoid(&touches()?),
-        FittedShape::Cylinder => cylinder(&touches()?, arguments.axis.as_deref()),
-        FittedShape::Plane => plane(&by_pivot(columns, &wrenches)?, &arguments.outward),
-        FittedShape::Pivot => pivot(&wrenches),
+        FittedShape::Sphere => sphere(&touches()?, noise),
+        FittedShape::Ellipsoid => ellipsoid(&touches()?, noise),
+        FittedShape::AlignedEllipsoid => aligned_ellipsoid(&touches()?, noise),
+        FittedShape::Cylinder => cylinder(&touches()?, arguments.axis.as_deref(), noise),
+        FittedShape::Plane => plane(&by_pivot(columns, &wrenches)?, &arguments.outward, noise),
+        FittedShape::Pivot => pivot(&wrenches, noise),
         FittedShape::Pose => {
             let points = columns.vectors(["px_m", "py_m", "pz_m"]).map_err(text)?;
-            pose(&wrenches.iter().copied().zip(points).collect::<Vec<_>>())
+            pose(&wrenches.iter().copied().zip(points).collect::<Vec<_>>(), noise)
         }
     }
 }
@@ -122,27 +178,26 @@ fn text(error: impl core::fmt::Display) -> String {
     error.to_string()
 }
 
-fn sphere(touches: &[Touch]) -> Result<Found, String> {
-    let fit = fit_sphere(touches).map_err(text)?;
+fn sphere(touches: &[Touch], noise: &WrenchNoise) -> Result<Found, String> {
+    let fit = fit_sphere(touches, noise).map_err(text)?;
+    let widths = fit.half_widths(0.95);
     let (radius, centre) = (fit.shape.radius(), fit.shape.centre());
-    let lines = vec![
-        length("radius", radius, fit.deviations.first()),
-        point("centre", &centre, fit.deviations.get(1..4)),
-    ];
+    let lines = vec![length("radius", radius, widths.first()), point("centre", &centre, widths.get(1..4))];
     let centre = list(&centre);
     let scene = format!("[surface]\nshape = \"sphere\"\nradius_m = {radius:?}\ncentre_m = {centre}\n");
     Ok(Found::of(&fit, lines, scene))
 }
 
-fn ellipsoid(touches: &[Touch]) -> Result<Found, String> {
-    let fit = fit_ellipsoid(touches).map_err(text)?;
+fn ellipsoid(touches: &[Touch], noise: &WrenchNoise) -> Result<Found, String> {
+    let fit = fit_ellipsoid(touches, noise).map_err(text)?;
+    let widths = fit.half_widths(0.95);
     let (axes, pose) = (fit.shape.semi_axes, fit.shape.sensor_from_ellipsoid);
     let turn = rotation_vector(&pose);
-    let spread = fit.deviations.get(6..9).unwrap_or_default();
+    let spread = widths.get(6..9).unwrap_or_default();
     let spread: Vec<String> = spread.iter().map(|s| format!("{:.2}", s.to_degrees())).collect();
     let lines = vec![
-        point("semi-axes", &axes, fit.deviations.get(..3)),
-        point("centre", &pose.origin(), fit.deviations.get(3..6)),
+        point("semi-axes", &axes, widths.get(..3)),
+        point("centre", &pose.origin(), widths.get(3..6)),
         format!(
             "orientation     {:+.3} {:+.3} {:+.3}° (rotation vector; ± {}° about the principal axes)",
             turn.x,
@@ -160,13 +215,11 @@ fn ellipsoid(touches: &[Touch]) -> Result<Found, String> {
     Ok(Found::of(&fit, lines, scene))
 }
 
-fn aligned_ellipsoid(touches: &[Touch]) -> Result<Found, String> {
-    let fit = fit_aligned_ellipsoid(touches).map_err(text)?;
+fn aligned_ellipsoid(touches: &[Touch], noise: &WrenchNoise) -> Result<Found, String> {
+    let fit = fit_aligned_ellipsoid(touches, noise).map_err(text)?;
+    let widths = fit.half_widths(0.95);
     let (axes, centre) = (fit.shape.semi_axes, fit.shape.centre);
-    let lines = vec![
-        point("semi-axes", &axes, fit.deviations.get(..3)),
-        point("centre", &centre, fit.deviations.get(3..6)),
-    ];
+    let lines = vec![point("semi-axes", &axes, widths.get(..3)), point("centre", &centre, widths.get(3..6))];
     let scene = format!(
         "[surface]\nshape = \"ellipsoid\"\nsemi_axes_m = {}\n\n[pose]\ntranslation_m = {}\n",
         list(&axes),
@@ -175,16 +228,17 @@ fn aligned_ellipsoid(touches: &[Touch]) -> Result<Found, String> {
     Ok(Found::of(&fit, lines, scene))
 }
 
-fn cylinder(touches: &[Touch], axis: Option<&[f64]>) -> Result<Found, String> {
+fn cylinder(touches: &[Touch], axis: Option<&[f64]>, noise: &WrenchNoise) -> Result<Found, String> {
     let fit = match axis {
-        Some(axis) => fit_cylinder_along(touches, &direction("--axis", axis)?),
-        None => fit_cylinder(touches),
+        Some(axis) => fit_cylinder_along(touches, &direction("--axis", axis)?, noise),
+        None => fit_cylinder(touches, noise),
     };
     let fit = fit.map_err(text)?;
+    let widths = fit.half_widths(0.95);
     let (centre, axis, radius) = (fit.shape.centre(), fit.shape.axis(), fit.shape.radius());
-    let tilt = tilt(fit.deviations.get(3..5)).unwrap_or_else(|| " (given)".to_owned());
+    let tilt = tilt(widths.get(3..5)).unwrap_or_else(|| " (given)".to_owned());
     let lines = vec![
-        length("radius", radius, fit.deviations.first()),
+        length("radius", radius, widths.first()),
         point("point of axis", &centre, None),
         format!("axis            {:+.5} {:+.5} {:+.5}{tilt}", axis.x, axis.y, axis.z),
     ];
@@ -209,12 +263,13 @@ fn by_pivot(columns: &Columns, wrenches: &[Wrench<f64>]) -> Result<Vec<Vec<Wrenc
     Ok(pivots.into_iter().map(|(_, list)| list).collect())
 }
 
-fn plane(pivots: &[Vec<Wrench<f64>>], outward: &[f64]) -> Result<Found, String> {
-    let fit = fit_plane(pivots, &direction("--outward", outward)?).map_err(text)?;
+fn plane(pivots: &[Vec<Wrench<f64>>], outward: &[f64], noise: &WrenchNoise) -> Result<Found, String> {
+    let fit = fit_plane(pivots, &direction("--outward", outward)?, noise).map_err(text)?;
+    let widths = fit.half_widths(0.95);
     let (normal, offset) = (fit.shape.normal, fit.shape.offset);
-    let tilt = tilt(fit.deviations.get(1..3)).unwrap_or_default();
+    let tilt = tilt(widths.get(1..3)).unwrap_or_default();
     let lines = vec![
-        length("offset", offset, fit.deviations.first()),
+        length("offset", offset, widths.first()),
         format!("normal          {:+.5} {:+.5} {:+.5}{tilt}", normal.x, normal.y, normal.z),
         format!("pivots lie within {:.4} mm of it (RMS)", 1e3 * fit.rms),
     ];
@@ -227,23 +282,24 @@ fn plane(pivots: &[Vec<Wrench<f64>>], outward: &[f64]) -> Result<Found, String> 
     // What is left of the torques is asked of each pivot.
     found.rms = 0.0;
     for pivot in pivots {
-        let rms = fit_meeting_point(pivot).map_err(text)?.rms;
+        let rms = fit_meeting_point(pivot, noise).map_err(text)?.rms;
         found.rms = found.rms.hypot(rms / (pivots.len() as f64).sqrt());
     }
     Ok(found)
 }
 
-fn pivot(wrenches: &[Wrench<f64>]) -> Result<Found, String> {
-    let fit = fit_meeting_point(wrenches).map_err(text)?;
-    let lines = vec![point("pivot", &fit.shape, fit.deviations.get(..3))];
-    let scene = format!("# pivot_m = {}\n", list(&fit.shape));
-    Ok(Found::of(&fit, lines, scene))
+fn pivot(wrenches: &[Wrench<f64>], noise: &WrenchNoise) -> Result<Found, String> {
+    let fit = fit_meeting_point(wrenches, noise).map_err(text)?;
+    let widths = fit.half_widths(0.95);
+    let lines = vec![point("pivot", &fit.shape, widths.get(..3))];
+    Ok(Found::of(&fit, lines, String::new()))
 }
 
-fn pose(touches: &[(Wrench<f64>, Vector3<f64>)]) -> Result<Found, String> {
-    let fit = fit_pose(touches).map_err(text)?;
+fn pose(touches: &[(Wrench<f64>, Vector3<f64>)], noise: &WrenchNoise) -> Result<Found, String> {
+    let fit = fit_pose(touches, noise).map_err(text)?;
+    let widths = fit.half_widths(0.95);
     let turn = rotation_vector(&fit.shape);
-    let spread = fit.deviations.get(..3).unwrap_or_default();
+    let spread = widths.get(..3).unwrap_or_default();
     let spread: Vec<String> = spread.iter().map(|s| format!("{:.3}", s.to_degrees())).collect();
     let lines = vec![
         format!(
@@ -253,7 +309,7 @@ fn pose(touches: &[(Wrench<f64>, Vector3<f64>)]) -> Result<Found, String> {
             turn.z,
             spread.join(" ")
         ),
-        point("origin", &fit.shape.origin(), fit.deviations.get(3..6)),
+        point("origin", &fit.shape.origin(), widths.get(3..6)),
     ];
     let scene =
         format!("[pose]\ntranslation_m = {}\nrotation_deg = {}\n", list(&fit.shape.origin()), list(&turn));
@@ -273,7 +329,7 @@ fn tilt(deviations: Option<&[f64]>) -> Option<String> {
 
 impl Found {
     fn of<S>(fit: &Fitted<S>, lines: Vec<String>, scene: String) -> Self {
-        Self { lines, scene, unobserved: fit.unobserved.clone(), rms: fit.rms }
+        Self { lines, scene, unobserved: fit.unobserved.clone(), rms: fit.rms, noise_scale: fit.noise_scale }
     }
 }
 

@@ -76,4 +76,4 @@ pub use touch::{Touch, TouchSet};
 pub use trial::{Accuracy, MatrixUsed, Trial};
 pub use tube_layout::{TubeLayout, TubeTheory};
 pub use tube_space::{Coordinate, GaugeRule, TubeSpace, Wall};
-pub use tube_strength::{LoadedTube, THICKEST_WALL, TubeStrength};
+pub use tube_strength::{LoadedTube, THICKEST_WALL, TubeFailure, TubeStrength};

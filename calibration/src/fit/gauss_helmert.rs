@@ -2,11 +2,19 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::errors_in_both::with_noise_of_regressors;
 use super::regression::check;
 use super::{Fit, FitError, least_squares};
 use crate::linear::Triangular;
 
 const MOST_ITERATIONS: usize = 200;
+
+/// The errors of one sample: covariances of its regressors, of its regressors with its responses, of its responses.
+struct Errors {
+    loads: DMatrix<f64>,
+    mixed: DMatrix<f64>,
+    readings: DMatrix<f64>,
+}
 
 /// The Gauss-Helmert model: `y = Θᵀ (x + e) + noise`, with standard deviations of the errors `e`
 /// and of the noise given for every sample (`docs/theory/calibration.md#errors-in-the-loads`; Helmert 1907;
@@ -18,11 +26,14 @@ const MOST_ITERATIONS: usize = 200;
 /// `r = y − Θᵀx`, `W = (Σ_y + Θᵀ Σ_x Θ)⁻¹`, with the adjusted loads `x̂ = x + Σ_x Θ W r` as
 /// regressors; using `x` itself would give back the bias of least squares.
 ///
-/// The `residual_covariance` is the mean over the samples of `Σ_y + Θᵀ Σ_x Θ`, scaled by what the
-/// residuals say of it; with `inverse_gram` an approximation to the covariance.
+/// The deviations count in their ratios: how large they are together is taken from the residuals.
+/// `full_covariance` is that of the coefficients, `σ² M⁻¹GM⁻¹` with `G = Σ W ⊗ x̂x̂ᵀ` and M what is left of it
+/// without the noise of `x̂`. `residual_covariance` is the mean over the samples of `Σ_y + Θᵀ Σ_x Θ`, in the same
+/// scale, and `inverse_gram` makes the product with it the nearest one to `full_covariance`.
 ///
 /// # Errors
-/// As [`least_squares`], and [`FitError::NoConvergence`].
+/// As [`least_squares`], [`FitError::NoConvergence`], and [`FitError::NotIdentified`] if the loads vary no more
+/// than their errors.
 pub fn gauss_helmert(
     design: &DMatrix<f64>,
     responses: &DMatrix<f64>,
@@ -30,8 +41,6 @@ pub fn gauss_helmert(
     response_deviations: &DMatrix<f64>,
 ) -> Result<Fit, FitError> {
     check(design, responses, None)?;
-    let (samples, k) = design.shape();
-    let m = responses.ncols();
     if design_deviations.shape() != design.shape()
         || design_deviations.iter().any(|s| !(*s >= 0.0 && s.is_finite()))
         || response_deviations.shape() != responses.shape()
@@ -39,6 +48,55 @@ pub fn gauss_helmert(
     {
         return Err(FitError::BadInput { what: "the matrix of standard deviations" });
     }
+    let (k, m) = (design.ncols(), responses.ncols());
+    let squared = |row: nalgebra::DMatrixView<'_, f64>| {
+        DMatrix::from_diagonal(&DVector::from_iterator(row.len(), row.iter().map(|s| s * s)))
+    };
+    solve(design, responses, |i| Errors {
+        loads: squared(design_deviations.rows(i, 1).as_view()),
+        mixed: DMatrix::zeros(k, m),
+        readings: squared(response_deviations.rows(i, 1).as_view()),
+    })
+}
+
+/// [`gauss_helmert`] with errors that are correlated within a sample: of loads with each other (a weight that is
+/// wrong is wrong in force and torque alike), of readings, and of both.
+///
+/// `errors` holds a covariance for each sample, (regressors + responses) squared, regressors first; zero rows
+/// and columns for a regressor that is exact. Between samples errors are independent.
+///
+/// # Errors
+/// As [`gauss_helmert`]; [`FitError::BadInput`] for a covariance of another size, that is not finite or not
+/// symmetric, or that leaves some combination of readings without an error.
+pub fn gauss_helmert_correlated(
+    design: &DMatrix<f64>,
+    responses: &DMatrix<f64>,
+    errors: &[DMatrix<f64>],
+) -> Result<Fit, FitError> {
+    check(design, responses, None)?;
+    let (k, m) = (design.ncols(), responses.ncols());
+    let bad = |covariance: &DMatrix<f64>| {
+        covariance.shape() != (k + m, k + m)
+            || covariance.iter().any(|x| !x.is_finite())
+            || (covariance - covariance.transpose()).amax() > 1e-9 * covariance.amax()
+            || covariance.diagonal().iter().any(|variance| *variance < 0.0)
+    };
+    if errors.len() != design.nrows() || errors.iter().any(bad) {
+        return Err(FitError::BadInput { what: "the list of covariances" });
+    }
+    solve(design, responses, |i| Errors {
+        loads: errors[i].view((0, 0), (k, k)).into_owned(),
+        mixed: errors[i].view((0, k), (k, m)).into_owned(),
+        readings: errors[i].view((k, k), (m, m)).into_owned(),
+    })
+}
+
+fn solve(
+    design: &DMatrix<f64>,
+    responses: &DMatrix<f64>,
+    errors: impl Fn(usize) -> Errors,
+) -> Result<Fit, FitError> {
+    let (k, m) = (design.ncols(), responses.ncols());
     let start = least_squares(design, responses, None)?;
     let mut theta = start.coefficients;
     // Relative to each coefficient's own size, so that units do not matter; or to what makes a ten-thousandth of the
@@ -49,29 +107,69 @@ pub fn gauss_helmert(
         .collect();
     let mut change = f64::INFINITY;
     for iteration in 1..=MOST_ITERATIONS {
+        let sums = Sums::new(design, responses, &theta, &errors)?;
+        let Sums { mut triangular, misfit, .. } = sums;
+        let factors = triangular.factors();
+        let step = factors.coefficients()?;
+        let step = DMatrix::from_column_slice(k, m, step.as_slice());
+        theta += &step;
+        change = step.row_iter().zip(&size).map(|(row, size)| row.amax() / size).fold(0.0, f64::max);
+        if change < 1e-12 || (iteration > 20 && change < 1e-9) {
+            let freedom = (design.nrows() * m).saturating_sub(k * m).max(1) as f64;
+            let variance = misfit / freedom;
+            let full = with_noise_of_regressors(&factors.inverse_root()?, &(sums.noise * variance))?;
+            return Ok(Fit {
+                coefficients: theta,
+                inverse_gram: nearest_gram(&full, &sums.covariance, k)?,
+                residual_covariance: sums.covariance * variance,
+                full_covariance: Some(full * variance),
+                freedom,
+                trust: DMatrix::from_element(design.nrows(), m, 1.0),
+                iterations: iteration,
+            });
+        }
+    }
+    Err(FitError::NoConvergence { iterations: MOST_ITERATIONS, change })
+}
+
+/// What one step and the covariance need of all samples.
+struct Sums {
+    /// Whitened residuals on the adjusted loads.
+    triangular: Triangular,
+    /// `Σ rᵀWr`.
+    misfit: f64,
+    /// The mean of `W⁻¹`.
+    covariance: DMatrix<f64>,
+    /// `Σ W ⊗ P`, with P the covariance of an adjusted load.
+    noise: DMatrix<f64>,
+}
+
+impl Sums {
+    fn new(
+        design: &DMatrix<f64>,
+        responses: &DMatrix<f64>,
+        theta: &DMatrix<f64>,
+        errors: impl Fn(usize) -> Errors,
+    ) -> Result<Self, FitError> {
+        let ((samples, k), m) = (design.shape(), responses.ncols());
         let mut triangular = Triangular::new(k * m, 1);
-        let mut gram = Triangular::new(k, 1);
-        let mut misfit = 0.0;
-        let mut mean_covariance = DMatrix::zeros(m, m);
+        let (mut misfit, mut mean) = (0.0, DMatrix::zeros(m, m));
+        let mut noise = DMatrix::zeros(k * m, k * m);
         for i in 0..samples {
             let x: DVector<f64> = design.row(i).transpose();
-            let variances = design_deviations.row(i).transpose().map(|s| s * s);
-            let residual: DVector<f64> = responses.row(i).transpose() - theta.transpose() * &x;
-            let weighted_theta = DMatrix::from_diagonal(&variances) * &theta;
-            let mut covariance = theta.transpose() * &weighted_theta;
-            for j in 0..m {
-                covariance[(j, j)] += response_deviations[(i, j)].powi(2);
-            }
-            mean_covariance += &covariance / samples as f64;
+            let Errors { loads, mixed, readings } = errors(i);
+            let mut residual: DVector<f64> = responses.row(i).transpose() - theta.tr_mul(&x);
+            // Covariances of the residual, and of minus the error of the load with it.
+            let carried = &loads * theta - &mixed;
+            let covariance = readings - mixed.tr_mul(theta) + theta.tr_mul(&carried);
+            mean += &covariance / samples as f64;
             let Some(factor) = covariance.cholesky() else {
                 return Err(FitError::BadInput { what: "the matrix of standard deviations" });
             };
-            let adjusted = &x + &weighted_theta * factor.solve(&residual);
+            let adjusted = &x + &carried * factor.solve(&residual);
             let root = factor.l();
-            let mut white = residual.clone();
-            root.solve_lower_triangular_mut(&mut white);
-            misfit += white.norm_squared();
-            gram.push(adjusted.as_slice(), &[0.0]);
+            root.solve_lower_triangular_mut(&mut residual);
+            misfit += residual.norm_squared();
             let mut inverse_root = DMatrix::identity(m, m);
             root.solve_lower_triangular_mut(&mut inverse_root);
             for row in 0..m {
@@ -79,25 +177,28 @@ pub fn gauss_helmert(
                     .flat_map(|j| adjusted.iter().map(move |x| (x, j)))
                     .map(|(x, j)| inverse_root[(row, j)] * x)
                     .collect();
-                triangular.push(&line, &[white[row]]);
+                triangular.push(&line, &[residual[row]]);
             }
+            let weight = inverse_root.tr_mul(&inverse_root);
+            noise += weight.kronecker(&(loads - &carried * &weight * carried.transpose()));
         }
-        let step = triangular.factors().coefficients()?;
-        let step = DMatrix::from_column_slice(k, m, step.as_slice());
-        theta += &step;
-        change = step.row_iter().zip(&size).map(|(row, size)| row.amax() / size).fold(0.0, f64::max);
-        if change < 1e-12 || (iteration > 20 && change < 1e-9) {
-            let freedom = (samples * m).saturating_sub(k * m).max(1) as f64;
-            return Ok(Fit {
-                coefficients: theta,
-                inverse_gram: gram.factors().inverse_gram()?,
-                residual_covariance: mean_covariance * (misfit / freedom),
-                trust: DMatrix::from_element(samples, m, 1.0),
-                iterations: iteration,
-            });
-        }
+        Ok(Self { triangular, misfit, covariance: mean, noise })
     }
-    Err(FitError::NoConvergence { iterations: MOST_ITERATIONS, change })
+}
+
+/// The matrix whose product with the covariance of the residuals comes nearest to the covariance of all coefficients:
+/// its mean over the responses, in units of that covariance.
+fn nearest_gram(full: &DMatrix<f64>, residual: &DMatrix<f64>, k: usize) -> Result<DMatrix<f64>, FitError> {
+    let m = residual.nrows();
+    let inverse = residual
+        .clone()
+        .cholesky()
+        .ok_or(FitError::BadInput { what: "the matrix of standard deviations" })?
+        .inverse();
+    Ok(DMatrix::from_fn(k, k, |i, p| {
+        let terms = (0..m).flat_map(|j| (0..m).map(move |l| (j, l)));
+        terms.map(|(j, l)| full[(j * k + i, l * k + p)] * inverse[(l, j)]).sum::<f64>() / m as f64
+    }))
 }
 
 #[cfg(test)]

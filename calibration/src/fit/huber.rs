@@ -22,6 +22,8 @@ const MOST_ITERATIONS: usize = 500;
 /// section 7.6; Street, Carroll & Ruppert 1988), so that `inverse_gram ⊗ residual_covariance` is again the
 /// covariance of the coefficients. `trust` holds the weight of each sample in each response.
 ///
+/// Samples of weight zero are none: they enter neither scale nor counts, and their trust is 1.
+///
 /// # Errors
 /// As [`least_squares`], and [`FitError::NoConvergence`].
 pub fn huber(
@@ -31,9 +33,12 @@ pub fn huber(
 ) -> Result<Fit, FitError> {
     check(design, responses, weights)?;
     let mut fit = least_squares(design, responses, weights)?;
-    let (samples, regressors) = design.shape();
-    let root = |i: usize| weights.map_or(1.0, |w| w[i]).sqrt();
-    let mut psi = DMatrix::zeros(samples, responses.ncols());
+    let regressors = design.ncols();
+    let weight = |i: usize| weights.map_or(1.0, |w| w[i]);
+    let root = |i: usize| weight(i).sqrt();
+    let counted: Vec<usize> = (0..design.nrows()).filter(|i| weight(*i) > 0.0).collect();
+    let samples = counted.len();
+    let mut psi = DMatrix::zeros(design.nrows(), responses.ncols());
     let mut mean_slope = vec![1.0; responses.ncols()];
     for j in 0..responses.ncols() {
         let response = responses.columns(j, 1).into_owned();
@@ -43,20 +48,19 @@ pub fn huber(
         let mut change = f64::INFINITY;
         for iteration in 1..=MOST_ITERATIONS {
             let residuals = &response - design * &theta;
-            let scale =
-                deviation(residuals.iter().enumerate().map(|(i, r)| r * root(i)), regressors).max(floor);
+            let scale = deviation(counted.iter().map(|i| residuals[*i] * root(*i)), regressors).max(floor);
             let trust = |i: usize| {
                 let size = (residuals[i] * root(i)).abs() / scale;
                 if size <= HUBER_THRESHOLD || scale <= 0.0 { 1.0 } else { HUBER_THRESHOLD / size }
             };
-            for i in 0..samples {
+            for i in counted.iter().copied() {
                 fit.trust[(i, j)] = trust(i);
                 psi[(i, j)] = residuals[i] * root(i) * trust(i);
             }
-            let inside = (0..samples).filter(|i| trust(*i) >= 1.0).count() as f64 / samples as f64;
+            let inside = counted.iter().filter(|i| trust(**i) >= 1.0).count() as f64 / samples as f64;
             mean_slope[j] = inside.max(1.0 / samples as f64);
             fit.iterations = fit.iterations.max(iteration);
-            let mut triangular = accumulate(design, &response, |i| weights.map_or(1.0, |w| w[i]) * trust(i));
+            let mut triangular = accumulate(design, &response, |i| weight(i) * trust(i));
             let next = triangular.factors().coefficients()?;
             change = (&next - &theta).amax() / next.amax().max(f64::MIN_POSITIVE);
             theta = next;

@@ -3,6 +3,7 @@
 //! Everything here is `f64`: a calibration is fitted once, on a computer; what it gives is
 //! converted to any scalar. Matrices have one sample per row.
 
+mod errors_in_both;
 mod gauss_helmert;
 mod huber;
 mod leave_out;
@@ -14,11 +15,13 @@ mod temperature;
 pub(crate) mod testing;
 mod total;
 
-pub use gauss_helmert::gauss_helmert;
+pub(crate) use errors_in_both::with_noise_of_regressors;
+pub use gauss_helmert::{gauss_helmert, gauss_helmert_correlated};
 pub(crate) use huber::deviation;
 pub use huber::{HUBER_THRESHOLD, huber};
 pub use leave_out::leave_out;
 pub use ransac::{Ransac, ransac};
+pub(crate) use regression::student_factor;
 pub use regression::{Fit, FitError, least_squares};
 pub use ridge::ridge;
 pub use temperature::{TemperatureFit, fit_temperature};

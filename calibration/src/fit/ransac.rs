@@ -41,7 +41,8 @@ impl Ransac {
 
 /// Draws as many (linearly independent) samples as there are regressors, counts which others agree within the thresholds
 /// in every response, and fits least squares to the largest set that agrees (Fischler & Bolles
-/// 1981). Samples outside get trust 0.
+/// 1981). Samples outside get trust 0. Samples of weight zero are none: they are not drawn, do not count, and keep
+/// the trust 1.
 ///
 /// # Errors
 /// As [`least_squares`], and [`FitError::NoConsensus`] if fewer than `1 − outliers` of the samples
@@ -53,7 +54,10 @@ pub fn ransac(
     options: &Ransac,
 ) -> Result<Fit, FitError> {
     check(design, responses, weights)?;
-    let (samples, size) = design.shape();
+    let size = design.ncols();
+    let counted: Vec<usize> =
+        (0..design.nrows()).filter(|i| weights.is_none_or(|weights| weights[*i] > 0.0)).collect();
+    let samples = counted.len();
     if options.thresholds.len() != responses.ncols() || options.thresholds.iter().any(|t| !(*t > 0.0)) {
         return Err(FitError::BadInput { what: "the list of thresholds" });
     }
@@ -62,7 +66,7 @@ pub fn ransac(
     }
     let agreeing = |coefficients: &DMatrix<f64>| -> Vec<usize> {
         let residuals = responses - design * coefficients;
-        (0..samples)
+        (counted.iter().copied())
             .filter(|i| residuals.row(*i).iter().zip(&options.thresholds).all(|(r, t)| r.abs() <= *t))
             .collect()
     };
@@ -74,7 +78,7 @@ pub fn ransac(
             column /= norm;
         }
     }
-    let mut indices: Vec<usize> = (0..samples).collect();
+    let mut indices = counted.clone();
     let mut best: Vec<usize> = Vec::new();
     for _ in 0..options.draws(size) {
         let Some(drawn) = draw_independent(&equilibrated, &mut indices, &mut random) else { break };
@@ -102,9 +106,9 @@ pub fn ransac(
         return Err(FitError::NoConsensus { agreeing: best.len(), samples, needed });
     }
     let mut fit = fit_to(design, responses, weights, &best)?;
-    fit.trust = DMatrix::zeros(samples, responses.ncols());
-    for i in best {
-        fit.trust.row_mut(i).fill(1.0);
+    fit.trust = DMatrix::from_element(design.nrows(), responses.ncols(), 1.0);
+    for i in counted.into_iter().filter(|i| best.binary_search(i).is_err()) {
+        fit.trust.row_mut(i).fill(0.0);
     }
     Ok(fit)
 }

@@ -1,6 +1,7 @@
 //! Linear regression of several responses: the problem, its answer, and plain least squares.
 
 use nalgebra::DMatrix;
+use statrs::distribution::{ContinuousCDF as _, StudentsT};
 use thiserror::Error;
 
 use crate::linear::{Triangular, Unobserved};
@@ -16,11 +17,55 @@ pub struct Fit {
     /// `inverse_gram` it gives the covariance of the coefficients: entry `(i, j)` with `(k, l)` is
     /// `inverse_gram[i][k] · residual_covariance[j][l]` (`docs/theory/calibration.md#least-squares`).
     pub residual_covariance: DMatrix<f64>,
+    /// The covariance of the coefficients where it is no such product (errors that differ from sample to
+    /// sample in another way for each response): that of Θ column by column, (regressors · responses) squared.
+    /// The product is then the nearest one, and [`deviations`](Self::deviations) are taken from this.
+    pub full_covariance: Option<DMatrix<f64>>,
+    /// Degrees of freedom behind `residual_covariance`: samples that count, less what the fit used up.
+    pub freedom: f64,
     /// By how much each sample counted for each response, in \[0, 1\]: 1 for plain least squares,
     /// less for what a robust fit distrusts.
     pub trust: DMatrix<f64>,
     /// Iterations that an iterative fit took; 1 otherwise.
     pub iterations: usize,
+}
+
+impl Fit {
+    /// Standard deviation of each coefficient, regressors × responses, in the unit of the coefficient.
+    #[must_use]
+    pub fn deviations(&self) -> DMatrix<f64> {
+        let (k, m) = self.coefficients.shape();
+        DMatrix::from_fn(k, m, |i, j| {
+            let variance = match &self.full_covariance {
+                Some(full) => full[(j * k + i, j * k + i)],
+                None => self.inverse_gram[(i, i)] * self.residual_covariance[(j, j)],
+            };
+            variance.max(0.0).sqrt()
+        })
+    }
+
+    /// Half the width of the interval around each coefficient that holds the true one with this probability:
+    /// [`deviations`](Self::deviations) times the quantile of Student's distribution with
+    /// [`freedom`](Self::freedom) (`docs/theory/calibration.md#intervals`). NaN for a probability that is not
+    /// between 0 and 1.
+    #[must_use]
+    pub fn half_widths(&self, probability: f64) -> DMatrix<f64> {
+        self.deviations() * student_factor(probability, self.freedom)
+    }
+}
+
+/// How many standard deviations, estimated with these degrees of freedom, to either side hold the truth with this
+/// probability. Infinite without a degree of freedom, NaN for a probability that is not between 0 and 1.
+pub(crate) fn student_factor(probability: f64, freedom: f64) -> f64 {
+    if !(probability > 0.0 && probability < 1.0) {
+        return f64::NAN;
+    }
+    if !(freedom > 0.0) {
+        return f64::INFINITY;
+    }
+    // Beyond this Student's distribution is the normal one to all digits.
+    StudentsT::new(0.0, 1.0, freedom.min(1e9))
+        .map_or(f64::NAN, |student| student.inverse_cdf(0.5 + 0.5 * probability))
 }
 
 /// Why a fit has no answer.
@@ -133,6 +178,8 @@ pub fn least_squares(
         coefficients,
         inverse_gram: factors.inverse_gram()?,
         residual_covariance,
+        full_covariance: None,
+        freedom: factors.samples as f64 - design.ncols() as f64,
         trust: DMatrix::from_element(design.nrows(), responses.ncols(), 1.0),
         iterations: 1,
     })

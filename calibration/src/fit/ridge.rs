@@ -44,12 +44,15 @@ pub fn ridge(
     }
     let factors = triangular.factors();
     let coefficients = factors.coefficients()?;
-    // The prior's k rows pay for the k coefficients: what is left is the number of samples.
-    let residual_covariance = factors.residual.transpose() * &factors.residual / samples.max(1) as f64;
+    // The prior's k rows pay for the k coefficients: what is left is the number of samples that count.
+    let counted = weights.map_or(samples, |w| w.iter().filter(|weight| **weight > 0.0).count());
+    let residual_covariance = factors.residual.transpose() * &factors.residual / counted.max(1) as f64;
     Ok(Fit {
         coefficients,
         inverse_gram: factors.inverse_gram()?,
         residual_covariance,
+        full_covariance: None,
+        freedom: counted as f64,
         trust: DMatrix::from_element(samples, m, 1.0),
         iterations: 1,
     })

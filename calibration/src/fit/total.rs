@@ -1,8 +1,9 @@
 //! Least squares with errors in the loads too.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
-use super::regression::check;
+use super::errors_in_both::with_noise_of_regressors;
+use super::regression::{accumulate, check};
 use super::{Fit, FitError};
 use crate::linear::{Singular, Triangular};
 
@@ -15,8 +16,10 @@ use crate::linear::{Singular, Triangular};
 /// reduces the data before, so that this streams. Ordinary least squares would attenuate: it tends
 /// to `C (I + Σ_e Σ_P⁻¹)⁻¹`.
 ///
-/// With `constant`, the last row of the coefficients is the constant. The covariance is the first
-/// order one, that of regression with the residuals' covariance `Σ_V + C Σ_e Cᵀ`.
+/// With `constant`, the last row of the coefficients is the constant. The deviations count in their ratios; how
+/// large they are together is taken from the residuals. The covariance is the first order one,
+/// `inverse_gram` being `A⁻¹(A + nP)A⁻¹` with `A` the loads' own part of `Σ xxᵀ` and `P` what is not known of an
+/// adjusted load (Fuller 1987, section 4.1).
 ///
 /// # Errors
 /// [`FitError::NotIdentified`] if the loads vary no more than their errors; as
@@ -79,11 +82,27 @@ pub fn total_least_squares(
     }
     let residuals = responses - &design * &coefficients;
     let residual_covariance = residuals.transpose() * &residuals / (samples - k - lead) as f64;
-    let mut gram = super::regression::accumulate(&design, responses, |_| 1.0);
+    let freedom = (samples - k - lead) as f64;
+    // What the residuals tell of each load: x̂ = x + Σ_e Θ W r, with W = (Σ_V + Θᵀ Σ_e Θ)⁻¹.
+    let squares = |list: &[f64]| DVector::from_iterator(list.len(), list.iter().map(|s| s * s));
+    let mut of_loads = DMatrix::zeros(k + lead, k + lead);
+    of_loads.view_mut((0, 0), (k, k)).set_diagonal(&squares(regressor_deviations));
+    let carried = &of_loads * &coefficients;
+    let of_readings = DMatrix::from_diagonal(&squares(response_deviations));
+    let weight = (of_readings + coefficients.tr_mul(&carried))
+        .cholesky()
+        .ok_or(FitError::BadInput { what: "the list of standard deviations" })?
+        .inverse();
+    let variance = (&residuals * &weight).component_mul(&residuals).sum() / (freedom * m as f64);
+    let adjusted = design + &residuals * &weight * carried.transpose();
+    let left = (of_loads - &carried * &weight * carried.transpose()) * variance;
+    let factors = accumulate(&adjusted, responses, |_| 1.0).factors();
     Ok(Fit {
         coefficients,
-        inverse_gram: gram.factors().inverse_gram()?,
+        inverse_gram: with_noise_of_regressors(&factors.inverse_root()?, &(left * samples as f64))?,
         residual_covariance,
+        full_covariance: None,
+        freedom,
         trust: DMatrix::from_element(samples, m, 1.0),
         iterations: 1,
     })

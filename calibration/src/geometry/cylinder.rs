@@ -3,8 +3,11 @@
 use fingertip_surfaces::Cylinder;
 use nalgebra::{DMatrix, Vector3};
 
-use super::touches::{Fitted, GeometryError, Touch, directions, drop_rounding, named};
-use crate::fit::least_squares;
+use super::fitted::{check_widths, roots};
+use super::torques::{Points, settle};
+use super::touches::{directions, wrenches};
+use super::{Fitted, GeometryError, Touch, WrenchNoise};
+use crate::fit::FitError;
 use crate::linear::{Singular, Unobserved};
 
 /// The axis of a cylinder shows if the spread of the normals in their weaker direction is at least
@@ -22,22 +25,21 @@ const LEAST_SPREAD: f64 = 0.05;
 /// # Errors
 /// [`GeometryError`]; the axis is not observable where all normals are parallel, the radius not without
 /// friction.
-pub fn fit_cylinder(touches: &[Touch]) -> Result<Fitted<Cylinder<f64>>, GeometryError> {
+pub fn fit_cylinder(touches: &[Touch], noise: &WrenchNoise) -> Result<Fitted<Cylinder<f64>>, GeometryError> {
     let normals = directions(touches)?;
     let spread = DMatrix::from_fn(normals.len(), 3, |i, j| normals[i][j]);
     let singular = Singular::new(&spread).filter(|singular| singular.values.len() == 3);
     let Some(singular) = singular else {
         let samples = normals.len();
-        return Err(crate::fit::FitError::TooFewSamples { samples, coefficients: 5 }.into());
+        return Err(FitError::TooFewSamples { samples, coefficients: 5 }.into());
     };
     if !(singular.values[1] > LEAST_SPREAD * singular.values[0]) {
         let directions = DMatrix::from_fn(3, 2, |i, j| singular.right[(i, 1 + j)]);
-        let names = ["axis x", "axis y", "axis z"].map(str::to_owned).to_vec();
-        let unobserved = Unobserved { regressors: 3, directions, names };
-        return Err(crate::fit::FitError::Unobserved(unobserved).into());
+        let unobserved = Unobserved { regressors: 3, directions, names: Vec::new() };
+        return Err(GeometryError::unobserved(unobserved, &["axis x", "axis y", "axis z"]));
     }
     let axis = Vector3::from_fn(|i, _| singular.right[(i, 2)]);
-    let mut fitted = fit_cylinder_along(touches, &axis)?;
+    let mut fitted = fit_cylinder_along(touches, &axis, noise)?;
     // What the normals leave along the axis is their error.
     let freedom = normals.len().saturating_sub(2).max(1) as f64;
     let error = singular.values[2] / freedom.sqrt();
@@ -49,14 +51,16 @@ pub fn fit_cylinder(touches: &[Touch]) -> Result<Fitted<Cylinder<f64>>, Geometry
 /// position of each touch along the axis is not needed. Deviations: radius, then the point of the axis
 /// nearest to the origin along two directions across the axis.
 ///
-/// Of `m = (ρ n + a + s d) × f` the part across `d × f`, which does not know of `s`, is linear in ρ
-/// and `a`. The position along the axis is not observable; `unobserved` says so.
+/// In `m = (ρ n + a + s d) × f` the place s along the axis is where each touch fits best; the rest is linear in ρ
+/// and `a`. The position along the axis is not observable; `unobserved` says so. Touches whose force is along the
+/// axis tell nothing.
 ///
 /// # Errors
 /// [`GeometryError`]; the radius is not observable without friction.
 pub fn fit_cylinder_along(
     touches: &[Touch],
     axis: &Vector3<f64>,
+    noise: &WrenchNoise,
 ) -> Result<Fitted<Cylinder<f64>>, GeometryError> {
     let length = axis.norm();
     if !(length > 0.0 && length.is_finite()) {
@@ -70,47 +74,39 @@ pub fn fit_cylinder_along(
     };
     let first = axis.cross(&across).normalize();
     let second = axis.cross(&first);
-    let normals = directions(touches)?;
-    let mut design = DMatrix::zeros(touches.len(), 3);
-    let mut torque = DMatrix::zeros(touches.len(), 1);
-    for (i, (touch, normal)) in touches.iter().zip(&normals).enumerate() {
-        let force = touch.wrench.force();
-        // Across both the force and d × f: what moving along the axis does not change.
-        let blind = axis.cross(&force);
-        let test = blind.cross(&force);
-        let size = test.norm();
-        if !(size > 0.0) {
-            continue;
-        }
-        // Weighted so that every equation has the dimension of a torque.
-        let test = test / size;
-        let radial = normal - axis * normal.dot(&axis);
-        for (j, column) in [radial, first, second].into_iter().enumerate() {
-            design[(i, j)] = test.dot(&column.cross(&force));
-        }
-        torque[(i, 0)] = test.dot(&touch.wrench.torque());
+    let radial: Vec<Vector3<f64>> =
+        directions(touches)?.iter().map(|normal| normal - axis * normal.dot(&axis)).collect();
+    let count = touches.len();
+    // Radius, two of the offset; and the place of each touch along the axis.
+    let start = (Vector3::zeros(), vec![0.0; count]);
+    let points = |(p, along): &(Vector3<f64>, Vec<f64>)| Points {
+        at: (radial.iter().zip(along))
+            .map(|(radial, along)| radial * p[0] + first * p[1] + second * p[2] + axis * *along)
+            .collect(),
+        slopes: vec![radial.clone(), vec![first; count], vec![second; count]],
+        free: Some(axis),
+    };
+    let names = ["radius", "axis offset 1", "axis offset 2"];
+    let ((p, _), step) = settle(&wrenches(touches), noise, &names, start, points, |(p, along), step| {
+        *p += step.change.fixed_rows::<3>(0);
+        along.iter_mut().zip(&step.slide).for_each(|(along, slide)| *along += slide);
+        step.change.amax() / p.norm().max(f64::MIN_POSITIVE)
+    })?;
+    let deviations = roots(&step.covariance(step.variance(), &names)?);
+    check_widths(&step, &deviations, &names, &[p[0].abs(); 3])?;
+    if p[0] < 0.0 {
+        return Err(GeometryError::negative("radius", p[0]));
     }
-    let size = touches.iter().map(|touch| touch.wrench.force().norm_squared()).sum::<f64>().sqrt();
-    (0..3).for_each(|column| drop_rounding(&mut design, column, size));
-    let fit = least_squares(&design, &torque, None)
-        .map_err(|error| named(error, &["radius", "axis offset 1", "axis offset 2"]))?;
-    let p = &fit.coefficients;
-    let left = &torque - &design * p;
-    let variance = fit.residual_covariance[(0, 0)];
-    let point = first * p[1] + second * p[2];
-    Ok(Fitted {
-        shape: Cylinder::new(point, axis, p[0])?,
-        deviations: fit.inverse_gram.diagonal().iter().map(|g| (g * variance).max(0.0).sqrt()).collect(),
-        rms: (left.norm_squared() / left.len().max(1) as f64).sqrt(),
-        unobserved: vec!["position along the axis".to_owned()],
-    })
+    let shape = Cylinder::new(first * p[1] + second * p[2], axis, p[0])?;
+    let unobserved = vec!["position along the axis".to_owned()];
+    Ok(Fitted { unobserved, ..Fitted::of(shape, &step, deviations) })
 }
 
 #[cfg(test)]
 mod tests {
     use super::{fit_cylinder, fit_cylinder_along};
     use crate::fit::testing::gaussian;
-    use crate::geometry::{GeometryError, Touch};
+    use crate::geometry::{GeometryError, Touch, WrenchNoise};
     use crate::testing::Largest as _;
     use fingertip_wrench::Wrench;
     use nalgebra::Vector3;
@@ -148,9 +144,10 @@ mod tests {
         for _ in 0..100 {
             let axis = vector(random).normalize();
             let (touches, base) = touches(random, axis, 15);
-            for fitted in
-                [fit_cylinder(&touches).unwrap(), fit_cylinder_along(&touches, &(axis * 2.0)).unwrap()]
-            {
+            for fitted in [
+                fit_cylinder(&touches, &WrenchNoise::exact_forces()).unwrap(),
+                fit_cylinder_along(&touches, &(axis * 2.0), &WrenchNoise::exact_forces()).unwrap(),
+            ] {
                 assert!((fitted.shape.radius() - 0.008).abs() < 1e-10);
                 assert!((fitted.shape.centre() - base).largest() < 1e-10);
                 assert!(fitted.shape.axis().cross(&axis).norm() < 1e-10);
@@ -166,11 +163,17 @@ mod tests {
         for touch in &mut touches {
             touch.normal = Vector3::x();
         }
-        let error = fit_cylinder(&touches).unwrap_err();
+        let error = fit_cylinder(&touches, &WrenchNoise::exact_forces()).unwrap_err();
         assert!(error.to_string().contains("axis y") && error.to_string().contains("axis z"), "{error}");
-        assert!(fit_cylinder(&touches[..2]).is_err() && fit_cylinder(&[]).is_err());
+        assert!(
+            fit_cylinder(&touches[..2], &WrenchNoise::exact_forces()).is_err()
+                && fit_cylinder(&[], &WrenchNoise::exact_forces()).is_err()
+        );
         touches[4].normal.x = f64::NAN;
-        assert!(matches!(fit_cylinder(&touches), Err(GeometryError::BadTouch { touch: 4, .. })));
+        assert!(matches!(
+            fit_cylinder(&touches, &WrenchNoise::exact_forces()),
+            Err(GeometryError::BadTouch { touch: 4, .. })
+        ));
     }
 
     /// Normals that are known to 10 mrad: the tilt is as large as is said, within 5 %.
@@ -185,7 +188,7 @@ mod tests {
                 .iter()
                 .map(|touch| Touch { normal: touch.normal.normalize() + vector(random) * 0.01, ..*touch })
                 .collect();
-            let fitted = fit_cylinder(&noisy).unwrap();
+            let fitted = fit_cylinder(&noisy, &WrenchNoise::exact_forces()).unwrap();
             found += fitted.shape.axis().cross(&Vector3::z()).norm_squared() / f64::from(trials);
             stated += (fitted.deviations[3].powi(2) + fitted.deviations[4].powi(2)) / f64::from(trials);
         }

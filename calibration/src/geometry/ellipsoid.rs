@@ -1,12 +1,13 @@
 //! The shape of an ellipsoidal fingertip from touches at known directions.
 
-use fingertip_surfaces::{BadShape, Ellipsoid, Posed};
-use fingertip_wrench::{RigidTransform, Wrench};
+use fingertip_surfaces::{BadShape, Ellipsoid, Posed, Sphere};
+use fingertip_wrench::RigidTransform;
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
-use super::touches::{Fitted, GeometryError, Touch, directions, fit_sphere, torque_fit};
-
-const MOST_ITERATIONS: usize = 200;
+use super::fitted::{check_widths, roots};
+use super::torques::{Points, Step, settle};
+use super::touches::{directions, radius_and_centre, shifts, wrenches};
+use super::{Fitted, GeometryError, Touch, WrenchNoise};
 
 /// The semi-axes and centre of an ellipsoid whose axes are those of the sensor frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,53 +24,52 @@ pub struct EllipsoidParameters {
 ///
 /// # Errors
 /// [`GeometryError`].
-pub fn fit_aligned_ellipsoid(touches: &[Touch]) -> Result<Fitted<EllipsoidParameters>, GeometryError> {
+pub fn fit_aligned_ellipsoid(
+    touches: &[Touch],
+    noise: &WrenchNoise,
+) -> Result<Fitted<EllipsoidParameters>, GeometryError> {
     let normals = directions(touches)?;
-    let start = fit_sphere(touches)?.shape;
-    let mut semi_axes = Vector3::from_element(start.radius());
-    let mut centre = start.centre();
+    let wrenches = wrenches(touches);
+    let (radius, centre, _) = radius_and_centre(&wrenches, &normals, &noise.without_forces())?;
+    let start = EllipsoidParameters { semi_axes: Vector3::from_element(positive(radius)?), centre };
     let names = ["semi-axis x", "semi-axis y", "semi-axis z", "centre x", "centre y", "centre z"];
-    for _ in 0..MOST_ITERATIONS {
-        let squares = semi_axes.component_mul(&semi_axes);
-        let mut columns: Vec<Vec<Vector3<f64>>> = vec![Vec::new(); 6];
-        let mut points = Vec::with_capacity(touches.len());
+    let points = |shape: &EllipsoidParameters| {
+        let squares = shape.semi_axes.component_mul(&shape.semi_axes);
+        let mut slopes: Vec<Vec<Vector3<f64>>> = vec![Vec::new(); 3];
+        let mut at = Vec::with_capacity(normals.len());
         for n in &normals {
             let scaled = squares.component_mul(n);
             let width = n.dot(&scaled).sqrt();
-            points.push(centre + scaled / width);
-            for j in 0..3 {
+            at.push(shape.centre + scaled / width);
+            for (j, column) in slopes.iter_mut().enumerate() {
                 // d(A²n/w)/da_j = 2 a_j n_j e_j / w − A²n · a_j n_j² / w³.
-                let slope = Vector3::ith(j, 2.0 * semi_axes[j] * n[j] / width)
-                    - scaled * (semi_axes[j] * n[j] * n[j] / width.powi(3));
-                columns[j].push(slope);
-                columns[3 + j].push(Vector3::ith(j, 1.0));
+                let along = Vector3::ith(j, 2.0 * shape.semi_axes[j] * n[j] / width);
+                column.push(along - scaled * (shape.semi_axes[j] * n[j] * n[j] / width.powi(3)));
             }
         }
-        let (step, deviations, rms, _) = torque_fit(&left_over(touches, &points), &columns, &names)?;
+        slopes.extend(shifts(normals.len()));
+        Points { at, slopes, free: None }
+    };
+    let (shape, step) = settle(&wrenches, noise, &names, start, points, |shape, step| {
         // A semi-axis may shrink to a tenth of itself in one step, but not turn negative.
         for j in 0..3 {
-            semi_axes[j] = (semi_axes[j] + step[j]).max(0.1 * semi_axes[j]);
-            centre[j] += step[3 + j];
+            shape.semi_axes[j] = (shape.semi_axes[j] + step.change[j]).max(0.1 * shape.semi_axes[j]);
+            shape.centre[j] += step.change[3 + j];
         }
-        if !semi_axes.iter().chain(&centre).all(|length| length.is_finite()) {
-            break;
-        }
-        if step.amax() <= 1e-12 * semi_axes.amax() {
-            let shape = EllipsoidParameters { semi_axes, centre };
-            return Ok(Fitted { shape, deviations, rms, unobserved: Vec::new() });
-        }
-    }
-    Err(GeometryError::NoConvergence { iterations: MOST_ITERATIONS })
+        step.change.amax() / shape.semi_axes.amax()
+    })?;
+    let deviations = roots(&step.covariance(step.variance(), &names)?);
+    let [x, y, z] = shape.semi_axes.into();
+    check_widths(&step, &deviations, &names, &[x, y, z, x, y, z])?;
+    Ok(Fitted::of(shape, &step, deviations))
 }
 
-/// The touches with the torque that the given points leave.
-fn left_over(touches: &[Touch], points: &[Vector3<f64>]) -> Vec<Touch> {
-    let left = |touch: &Touch, point: &Vector3<f64>| {
-        let force = touch.wrench.force();
-        let wrench = Wrench::on_fingertip(force, touch.wrench.torque() - point.cross(&force));
-        Touch { wrench, ..*touch }
-    };
-    touches.iter().zip(points).map(|(touch, point)| left(touch, point)).collect()
+/// The radius of a sphere to begin with.
+fn positive(radius: f64) -> Result<f64, GeometryError> {
+    if radius < 0.0 {
+        return Err(GeometryError::negative("radius", radius));
+    }
+    Ok(Sphere::centred(radius)?.radius())
 }
 
 /// An ellipsoid anywhere in the sensor frame.
@@ -113,54 +113,57 @@ fn symmetric(k: usize) -> Matrix3<f64> {
 ///
 /// # Errors
 /// [`GeometryError`]; without friction, sizes cannot be observed. Five generic touches are the least.
-pub fn fit_ellipsoid(touches: &[Touch]) -> Result<Fitted<PosedEllipsoid>, GeometryError> {
+pub fn fit_ellipsoid(
+    touches: &[Touch],
+    noise: &WrenchNoise,
+) -> Result<Fitted<PosedEllipsoid>, GeometryError> {
     let normals = directions(touches)?;
-    let start = fit_sphere(touches)?.shape;
+    let wrenches = wrenches(touches);
+    let (radius, centre, _) = radius_and_centre(&wrenches, &normals, &noise.without_forces())?;
     // In units of the sphere's radius, so that all nine numbers are of one size.
-    let unit = start.radius();
-    let mut shape = Matrix3::identity();
-    let mut centre = start.centre() / unit;
-    let names =
-        ["xx", "yy", "zz", "xy", "xz", "yz", "centre x", "centre y", "centre z"].map(|name| {
-            match name.len() {
-                2 => format!("shape {name}"),
-                _ => name.to_owned(),
-            }
-        });
-    let names = names.each_ref().map(String::as_str);
-    for _ in 0..MOST_ITERATIONS {
-        let mut columns: Vec<Vec<Vector3<f64>>> = vec![Vec::new(); 9];
-        let mut points = Vec::with_capacity(touches.len());
+    let unit = positive(radius)?;
+    let names = [
+        "shape xx", "shape yy", "shape zz", "shape xy", "shape xz", "shape yz", "centre x", "centre y",
+        "centre z",
+    ];
+    let points = |(shape, centre): &(Matrix3<f64>, Vector3<f64>)| {
+        let mut slopes: Vec<Vec<Vector3<f64>>> = vec![Vec::new(); 6];
+        let mut at = Vec::with_capacity(normals.len());
         for n in &normals {
             let scaled = shape * n;
             let width = n.dot(&scaled).sqrt();
-            points.push((centre + scaled / width) * unit);
-            for (k, column) in columns.iter_mut().take(6).enumerate() {
+            at.push((centre + scaled / width) * unit);
+            for (k, column) in slopes.iter_mut().enumerate() {
                 let change = symmetric(k) * n;
                 let slope = change / width - scaled * (n.dot(&change) / (2.0 * width.powi(3)));
                 column.push(slope * unit);
             }
-            (0..3).for_each(|j| columns[6 + j].push(Vector3::ith(j, unit)));
         }
-        let (step, deviations, rms, fit) = torque_fit(&left_over(touches, &points), &columns, &names)?;
-        let change = (0..6).fold(Matrix3::zeros(), |sum, k| sum + symmetric(k) * step[k]);
-        // Shortened until no semi-axis shrinks to less than a third.
-        let mut share = 1.0;
-        while share > 1e-6 && least_eigenvalue(&(shape + change * share)) < 0.1 * least_eigenvalue(&shape) {
-            share *= 0.5;
-        }
-        shape += change * share;
-        centre += Vector3::new(step[6], step[7], step[8]) * share;
-        if !shape.iter().chain(&centre).all(|length| length.is_finite()) {
-            break;
-        }
-        if share == 1.0 && step.amax() <= 1e-12 * shape.amax() {
-            let variance = fit.residual_covariance[(0, 0)];
-            let covariance = fit.inverse_gram * variance;
-            return Ok(taken_apart(&shape, &centre, unit, &covariance, &deviations, rms));
-        }
-    }
-    Err(GeometryError::NoConvergence { iterations: MOST_ITERATIONS })
+        slopes.extend((0..3).map(|j| vec![Vector3::ith(j, unit); normals.len()]));
+        Points { at, slopes, free: None }
+    };
+    let start = (Matrix3::identity(), centre / unit);
+    let ((shape, centre), step) =
+        settle(&wrenches, noise, &names, start, points, |(shape, centre), step| {
+            let step = &step.change;
+            let change = (0..6).fold(Matrix3::zeros(), |sum, k| sum + symmetric(k) * step[k]);
+            // Shortened until no semi-axis shrinks to less than a third.
+            let mut share = 1.0;
+            while share > 1e-6 && least_eigenvalue(&(*shape + change * share)) < 0.1 * least_eigenvalue(shape)
+            {
+                share *= 0.5;
+            }
+            *shape += change * share;
+            *centre += step.fixed_rows::<3>(6) * share;
+            if share < 1.0 { f64::INFINITY } else { step.amax() / shape.amax() }
+        })?;
+    let covariance = step.covariance(step.variance(), &names)?;
+    let fitted = taken_apart(&shape, &centre, unit, &covariance, &step);
+    let [x, y, z] = fitted.shape.semi_axes.into();
+    let names =
+        ["longest semi-axis", "middle semi-axis", "shortest semi-axis", "centre x", "centre y", "centre z"];
+    check_widths(&step, &fitted.deviations, &names, &[x, y, z, x, x, x])?;
+    Ok(fitted)
 }
 
 fn least_eigenvalue(matrix: &Matrix3<f64>) -> f64 {
@@ -173,8 +176,7 @@ fn taken_apart(
     centre: &Vector3<f64>,
     unit: f64,
     covariance: &DMatrix<f64>,
-    deviations: &[f64],
-    rms: f64,
+    step: &Step,
 ) -> Fitted<PosedEllipsoid> {
     let eigen = shape.symmetric_eigen();
     let mut order = [0, 1, 2];
@@ -193,7 +195,7 @@ fn taken_apart(
     let mut result: Vec<f64> =
         (0..3).map(|k| unit * spread(&form(&axes[k], &axes[k])) / (2.0 * semi_axes[k])).collect();
     // The centre was fitted in units too.
-    result.extend(deviations.iter().skip(6).take(3).map(|deviation| deviation * unit));
+    result.extend((6..9).map(|i| covariance[(i, i)].max(0.0).sqrt() * unit));
     let mut unobserved = Vec::new();
     for k in 0..3 {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
@@ -210,14 +212,15 @@ fn taken_apart(
     }
     let semi_axes = Vector3::from(semi_axes) * unit;
     let sensor_from_ellipsoid = RigidTransform::from_parts(rotation, centre * unit);
-    Fitted { shape: PosedEllipsoid { semi_axes, sensor_from_ellipsoid }, deviations: result, rms, unobserved }
+    let shape = PosedEllipsoid { semi_axes, sensor_from_ellipsoid };
+    Fitted { unobserved, ..Fitted::of(shape, step, result) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::{fit_aligned_ellipsoid, fit_ellipsoid};
     use crate::fit::testing::gaussian;
-    use crate::geometry::{GeometryError, Touch};
+    use crate::geometry::{GeometryError, Touch, WrenchNoise};
     use crate::testing::Largest as _;
     use fingertip_surfaces::ActiveSurface as _;
     use fingertip_wrench::Wrench;
@@ -257,7 +260,7 @@ mod tests {
         for _ in 0..100 {
             let (turn, centre) = (Rotation3::from_scaled_axis(vector(random)), vector(random) * 0.01);
             let touches = touches(random, axes, &turn, centre, 15);
-            let fitted = fit_ellipsoid(&touches).unwrap();
+            let fitted = fit_ellipsoid(&touches, &WrenchNoise::exact_forces()).unwrap();
             assert!((fitted.shape.semi_axes - axes).largest() < 1e-10, "{fitted:?}");
             assert!((fitted.shape.sensor_from_ellipsoid.origin() - centre).largest() < 1e-10);
             // Principal axes have no sign.
@@ -278,7 +281,7 @@ mod tests {
         for _ in 0..100 {
             let centre = vector(random) * 0.01;
             let touches = touches(random, axes, &Rotation3::identity(), centre, 15);
-            let fitted = fit_aligned_ellipsoid(&touches).unwrap();
+            let fitted = fit_aligned_ellipsoid(&touches, &WrenchNoise::exact_forces()).unwrap();
             assert!((fitted.shape.semi_axes - axes).largest() < 1e-10);
             assert!((fitted.shape.centre - centre).largest() < 1e-10);
         }
@@ -299,12 +302,15 @@ mod tests {
                 ..*touch
             })
             .collect();
-        let fitted = fit_ellipsoid(&noisy).unwrap();
+        let fitted = fit_ellipsoid(&noisy, &WrenchNoise::exact_forces()).unwrap();
         assert_eq!(fitted.unobserved.len(), 1, "{fitted:?}");
         assert!(fitted.unobserved[0].contains("longest") && fitted.deviations[6].is_infinite());
         assert!(fitted.deviations[7] < 0.01 && fitted.deviations[8] < 0.01);
         assert!((fitted.shape.semi_axes.x - 0.02).abs() < 5.0 * fitted.deviations[0]);
-        assert!(matches!(fit_ellipsoid(&touches[..2]), Err(GeometryError::Fit(_))));
+        assert!(matches!(
+            fit_ellipsoid(&touches[..2], &WrenchNoise::exact_forces()),
+            Err(GeometryError::Fit(_))
+        ));
     }
 
     /// Deviations of semi-axes, centre and turns against the spread of many fits, to 5 %.
@@ -324,7 +330,7 @@ mod tests {
                     ..*t
                 })
                 .collect();
-            let fitted = fit_ellipsoid(&noisy).unwrap();
+            let fitted = fit_ellipsoid(&noisy, &WrenchNoise::exact_forces()).unwrap();
             let mut errors = [0.0; 9];
             let origin = fitted.shape.sensor_from_ellipsoid.origin();
             let left = turn.matrix().tr_mul(&fitted.shape.sensor_from_ellipsoid.rotation());

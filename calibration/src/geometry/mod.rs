@@ -2,12 +2,19 @@
 
 mod cylinder;
 mod ellipsoid;
+mod error;
+mod fitted;
+mod noise;
+mod pivots;
 mod pose;
+mod torques;
 mod touches;
 
 pub use cylinder::{fit_cylinder, fit_cylinder_along};
 pub use ellipsoid::{EllipsoidParameters, PosedEllipsoid, fit_aligned_ellipsoid, fit_ellipsoid};
+pub use error::GeometryError;
+pub use fitted::Fitted;
+pub use noise::WrenchNoise;
+pub use pivots::{PlaneParameters, fit_meeting_point, fit_plane};
 pub use pose::fit_pose;
-pub use touches::{
-    Fitted, GeometryError, PlaneParameters, Touch, fit_meeting_point, fit_plane, fit_sphere, least_radius,
-};
+pub use touches::{Touch, fit_sphere, least_radius};

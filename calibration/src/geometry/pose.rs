@@ -1,37 +1,41 @@
 //! The pose of a surface from touches at known points of it.
 
 use fingertip_wrench::{RigidTransform, Wrench};
-use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::{Fitted, GeometryError};
-use crate::fit::{FitError, least_squares};
+use super::fitted::{check_widths, roots};
+use super::torques::{Points, Step, step};
+use super::touches::shifts;
+use super::{Fitted, GeometryError, WrenchNoise};
 
 /// Where a surface sits in the sensor frame, from touches at known points of the surface
-/// (coordinates in its own frame): `min Σ |m − (Q y + t) × f|²` over rigid motions
-/// (`docs/theory/calibration.md#the-shape-of-the-tip`).
+/// (coordinates in its own frame): `min Σ |m − (Q y + t) × f|²` over rigid motions, weighted by the errors that
+/// `noise` states (`docs/theory/calibration.md#the-shape-of-the-tip`).
 ///
-/// Gauss-Newton from the 24 rotations that map axes to axes; the best is taken. Deviations: rotation about x, y,
-/// z of the sensor \[rad\], then the origin x, y, z \[m\]. Three touches in general position are the least;
-/// four or more tell an error.
+/// Gauss-Newton with exact forces from the 24 rotations that map axes to axes; from the best, with the errors of
+/// forces. Deviations: rotation about x, y, z of the sensor \[rad\], then the origin x, y, z \[m\]. Three touches
+/// in general position are the least; four or more tell an error.
 ///
 /// # Errors
 /// [`GeometryError`]; directions of the pose that the touches do not show are named.
 pub fn fit_pose(
     touches: &[(Wrench<f64>, Vector3<f64>)],
+    noise: &WrenchNoise,
 ) -> Result<Fitted<RigidTransform<f64>>, GeometryError> {
     for (touch, (wrench, point)) in touches.iter().enumerate() {
         if !wrench.is_finite() || point.iter().any(|x| !x.is_finite()) {
             return Err(GeometryError::BadTouch { touch, what: "a number is not finite" });
         }
     }
+    let exact = noise.without_forces();
     let mut best: Option<Solution> = None;
     let mut known: Vec<Matrix3<f64>> = Vec::new();
     let mut last = None;
     for start in axis_rotations() {
-        match descend(touches, start, &known) {
+        match descend(touches, &exact, start, Vector3::zeros(), &known) {
             Ok(Some(solution)) => {
                 known.push(solution.rotation);
-                if best.as_ref().is_none_or(|other| solution.rms < other.rms) {
+                if best.as_ref().is_none_or(|other| solution.step.misfit < other.step.misfit) {
                     best = Some(solution);
                 }
             }
@@ -39,23 +43,26 @@ pub fn fit_pose(
             Err(error) => last = Some(error),
         }
     }
-    let Some(solution) = best else {
+    let Some(mut solution) = best else {
         return Err(last.unwrap_or(GeometryError::NoConvergence { iterations: MOST_ITERATIONS }));
     };
-    let rotation = Rotation3::from_matrix_unchecked(solution.rotation);
-    Ok(Fitted {
-        shape: RigidTransform::from_parts(rotation, solution.origin),
-        deviations: solution.deviations,
-        rms: solution.rms,
-        unobserved: Vec::new(),
-    })
+    if !noise.forces_are_exact() {
+        let settled = descend(touches, noise, solution.rotation, solution.origin, &[])?;
+        solution = settled.ok_or(GeometryError::NoConvergence { iterations: MOST_ITERATIONS })?;
+    }
+    let Solution { rotation, origin, step } = solution;
+    let deviations = roots(&step.covariance(step.variance(), &NAMES)?);
+    check_widths(&step, &deviations, &NAMES[..3], &[1.0; 3])?;
+    let rotation = Rotation3::from_matrix_unchecked(rotation);
+    Ok(Fitted::of(RigidTransform::from_parts(rotation, origin), &step, deviations))
 }
+
+const NAMES: [&str; 6] = ["turn about x", "turn about y", "turn about z", "shift x", "shift y", "shift z"];
 
 struct Solution {
     rotation: Matrix3<f64>,
     origin: Vector3<f64>,
-    deviations: Vec<f64>,
-    rms: f64,
+    step: Step,
 }
 
 const MOST_ITERATIONS: usize = 100;
@@ -77,36 +84,27 @@ const SAME: f64 = 1e-4;
 /// `None` if it comes to one of the known rotations.
 fn descend(
     touches: &[(Wrench<f64>, Vector3<f64>)],
+    noise: &WrenchNoise,
     start: Matrix3<f64>,
+    mut origin: Vector3<f64>,
     known: &[Matrix3<f64>],
 ) -> Result<Option<Solution>, GeometryError> {
     let mut rotation = start;
-    let mut origin = Vector3::zeros();
+    let wrenches: Vec<Wrench<f64>> = touches.iter().map(|(wrench, _)| *wrench).collect();
     let scale = touches.iter().map(|(_, y)| y.norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     let mut last = f64::INFINITY;
     for iteration in 0..MOST_ITERATIONS {
-        let mut design = DMatrix::zeros(3 * touches.len(), 6);
-        let mut left = DMatrix::zeros(3 * touches.len(), 1);
-        for (i, (wrench, point)) in touches.iter().enumerate() {
-            let arm = rotation * point;
-            let force = wrench.force().cross_matrix();
-            // m = (Q y + t) × f = −[f](Q y + t); turning by ω adds ω × Qy = −[Qy] ω.
-            design.view_mut((3 * i, 0), (3, 3)).copy_from(&(force * arm.cross_matrix()));
-            design.view_mut((3 * i, 3), (3, 3)).copy_from(&(-force));
-            let residual = wrench.torque() - (arm + origin).cross(&wrench.force());
-            left.view_mut((3 * i, 0), (3, 1)).copy_from(&residual);
-        }
-        let fit = least_squares(&design, &left, None).map_err(|error| match error {
-            FitError::Unobserved(mut unobserved) => {
-                let names = ["turn about x", "turn about y", "turn about z", "shift x", "shift y", "shift z"];
-                unobserved.names = names.map(str::to_owned).to_vec();
-                FitError::Unobserved(unobserved)
-            }
-            other => other,
-        })?;
-        let step = &fit.coefficients;
-        let turn = Vector3::new(step[0], step[1], step[2]);
-        let shift = Vector3::new(step[3], step[4], step[5]);
+        let arms: Vec<Vector3<f64>> = touches.iter().map(|(_, point)| rotation * point).collect();
+        // Turning by ω moves the point by ω × Qy.
+        let turned = |axis: usize| arms.iter().map(|arm| Vector3::ith(axis, 1.0).cross(arm)).collect();
+        let points = Points {
+            at: arms.iter().map(|arm| arm + origin).collect(),
+            slopes: (0..3).map(turned).chain(shifts(arms.len())).collect(),
+            free: None,
+        };
+        let step = step(&wrenches, &points, noise, &NAMES)?;
+        let turn: Vector3<f64> = step.change.fixed_rows::<3>(0).into_owned();
+        let shift: Vector3<f64> = step.change.fixed_rows::<3>(3).into_owned();
         // A turn of more than a radian is out of the reach of the linearisation.
         let damp = (1.0 / turn.norm().max(f64::MIN_POSITIVE)).min(1.0);
         rotation = Rotation3::from_scaled_axis(turn * damp).into_inner() * rotation;
@@ -116,11 +114,7 @@ fn descend(
         let stalled = size < 1e-9 && size > 0.1 * last;
         last = size;
         if iteration > 0 && (size < 1e-13 || stalled) {
-            let variance = fit.residual_covariance[(0, 0)];
-            let rms = (left.norm_squared() / left.len().max(1) as f64).sqrt();
-            let deviations =
-                fit.inverse_gram.diagonal().iter().map(|g| (g * variance).max(0.0).sqrt()).collect();
-            return Ok(Some(Solution { rotation, origin, deviations, rms }));
+            return Ok(Some(Solution { rotation, origin, step }));
         }
         if known.iter().any(|other| (other - rotation).amax() < SAME) {
             return Ok(None);
@@ -133,7 +127,7 @@ fn descend(
 mod tests {
     use super::fit_pose;
     use crate::fit::testing::gaussian;
-    use crate::geometry::GeometryError;
+    use crate::geometry::{GeometryError, WrenchNoise};
     use crate::testing::Largest as _;
     use fingertip_wrench::Wrench;
     use nalgebra::{Rotation3, Vector3};
@@ -153,7 +147,7 @@ mod tests {
                     (Wrench::from_force_at(&(rotation * y + origin), vector()), y)
                 })
                 .collect();
-            let fit = fit_pose(&touches).unwrap();
+            let fit = fit_pose(&touches, &WrenchNoise::exact_forces()).unwrap();
             assert!((fit.shape.rotation() - rotation.matrix()).largest() < 1e-9, "{}", fit.rms);
             assert!((fit.shape.origin() - origin).largest() < 1e-10);
         }
@@ -167,8 +161,8 @@ mod tests {
             .map(|_| (Wrench::from_force_at(&point, Vector3::from_fn(|_, _| gaussian(random))), point))
             .collect();
         assert!(matches!(
-            fit_pose(&touches),
-            Err(GeometryError::Fit(_) | GeometryError::NoConvergence { .. })
+            fit_pose(&touches, &WrenchNoise::exact_forces()),
+            Err(GeometryError::Undetermined { .. } | GeometryError::NoConvergence { .. })
         ));
     }
 }

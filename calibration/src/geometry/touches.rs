@@ -1,13 +1,12 @@
-//! The shape of a fingertip from touches at known directions.
+//! Touches, and the sphere that they tell of.
 
-use fingertip_surfaces::{BadShape, Sphere};
+use fingertip_surfaces::Sphere;
 use fingertip_wrench::Wrench;
-use nalgebra::{DMatrix, DVector, Vector3};
-use statrs::distribution::{ContinuousCDF as _, FisherSnedecor};
-use thiserror::Error;
+use nalgebra::Vector3;
 
-use crate::fit::{Fit, FitError, least_squares};
-use crate::linear::Triangular;
+use super::fitted::{check_widths, roots};
+use super::torques::{Points, Step, settle};
+use super::{Fitted, GeometryError, WrenchNoise};
 
 /// A touch: what the sensor said, and the outward normal of the fingertip where it was touched, in
 /// the sensor frame (known from how the fingertip was pressed on a plane, say).
@@ -15,47 +14,8 @@ use crate::linear::Triangular;
 pub struct Touch {
     /// Load on the fingertip.
     pub wrench: Wrench<f64>,
-    /// Outward normal at the touched point; any length.
+    /// Outward normal at the touched point; any length. It is taken as exact.
     pub normal: Vector3<f64>,
-}
-
-/// Why touches tell no shape.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum GeometryError {
-    /// The touches do not determine the shape: the error says which part of it.
-    #[error(transparent)]
-    Fit(#[from] FitError),
-    /// What was fitted is no shape.
-    #[error("the touches give no shape: {0}")]
-    BadShape(#[from] BadShape),
-    /// A normal or axis has no direction, or a number is not finite.
-    #[error("touch {touch}: {what}")]
-    BadTouch {
-        /// Which touch, from 0.
-        touch: usize,
-        /// What is wrong.
-        what: &'static str,
-    },
-    /// The search for the shape did not come to rest.
-    #[error("no convergence after {iterations} iterations")]
-    NoConvergence {
-        /// How many were made.
-        iterations: usize,
-    },
-}
-
-/// A fitted shape, and how sure it is.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Fitted<S> {
-    /// The shape.
-    pub shape: S,
-    /// Standard deviation of each parameter \[m\], in the order that the function tells.
-    pub deviations: Vec<f64>,
-    /// RMS of the torque that is left \[N·m\].
-    pub rms: f64,
-    /// What the touches cannot tell of the shape, in words; empty if they tell everything.
-    pub unobserved: Vec<String>,
 }
 
 pub(super) fn directions(touches: &[Touch]) -> Result<Vec<Vector3<f64>>, GeometryError> {
@@ -76,165 +36,56 @@ pub(super) fn directions(touches: &[Touch]) -> Result<Vec<Vector3<f64>>, Geometr
         .collect()
 }
 
-/// Least squares of `m = Σ parameter · column × f`, three rows a touch; unobserved parameters by name.
-pub(super) fn torque_fit(
-    touches: &[Touch],
-    columns: &[Vec<Vector3<f64>>],
-    names: &[&str],
-) -> Result<(DVector<f64>, Vec<f64>, f64, Fit), GeometryError> {
-    let mut design = DMatrix::zeros(3 * touches.len(), columns.len());
-    let mut torque = DMatrix::zeros(3 * touches.len(), 1);
-    for (i, touch) in touches.iter().enumerate() {
-        for (j, column) in columns.iter().enumerate() {
-            design.view_mut((3 * i, j), (3, 1)).copy_from(&column[i].cross(&touch.wrench.force()));
-        }
-        torque.view_mut((3 * i, 0), (3, 1)).copy_from(&touch.wrench.torque());
-    }
-    for (j, column) in columns.iter().enumerate() {
-        let sizes = column
-            .iter()
-            .zip(touches)
-            .map(|(c, touch)| c.norm_squared() * touch.wrench.force().norm_squared());
-        drop_rounding(&mut design, j, sizes.sum::<f64>().sqrt());
-    }
-    let fit = least_squares(&design, &torque, None).map_err(|error| named(error, names))?;
-    let variance = fit.residual_covariance[(0, 0)];
-    let deviations = fit.inverse_gram.diagonal().iter().map(|g| (g * variance).max(0.0).sqrt()).collect();
-    let left = torque - design * &fit.coefficients;
-    let rms = (left.norm_squared() / left.len().max(1) as f64).sqrt();
-    Ok((fit.coefficients.column(0).into_owned(), deviations, rms, fit))
+pub(super) fn wrenches(touches: &[Touch]) -> Vec<Wrench<f64>> {
+    touches.iter().map(|touch| touch.wrench).collect()
 }
 
-/// A column that is nothing but rounding observes nothing: it becomes zero.
-pub(super) fn drop_rounding(design: &mut DMatrix<f64>, column: usize, size: f64) {
-    if design.column(column).norm() <= 64.0 * f64::EPSILON * size {
-        design.column_mut(column).fill(0.0);
-    }
+/// Columns of points that move along the axes of the sensor.
+pub(super) fn shifts(count: usize) -> impl Iterator<Item = Vec<Vector3<f64>>> {
+    (0..3).map(move |axis| vec![Vector3::ith(axis, 1.0); count])
 }
 
-pub(super) fn named(error: FitError, names: &[&str]) -> FitError {
-    let FitError::Unobserved(mut unobserved) = error else { return error };
-    unobserved.names = names.iter().map(|name| (*name).to_owned()).collect();
-    FitError::Unobserved(unobserved)
+/// Radius and centre \[m\] by the torques, and the last step towards them.
+pub(super) fn radius_and_centre(
+    wrenches: &[Wrench<f64>],
+    normals: &[Vector3<f64>],
+    noise: &WrenchNoise,
+) -> Result<(f64, Vector3<f64>, Step), GeometryError> {
+    let points = |(radius, centre): &(f64, Vector3<f64>)| Points {
+        at: normals.iter().map(|n| n * *radius + centre).collect(),
+        slopes: core::iter::once(normals.to_vec()).chain(shifts(normals.len())).collect(),
+        free: None,
+    };
+    let start = (0.0, Vector3::zeros());
+    let ((radius, centre), step) =
+        settle(wrenches, noise, &SPHERE, start, points, |(radius, centre), step| {
+            *radius += step.change[0];
+            *centre += step.change.fixed_rows::<3>(1);
+            step.change.amax() / (radius.abs() + centre.norm()).max(f64::MIN_POSITIVE)
+        })?;
+    Ok((radius, centre, step))
 }
+
+const SPHERE: [&str; 4] = ["radius", "centre x", "centre y", "centre z"];
 
 /// Sphere from touches at known directions: `m = ρ n × f + t × f`, linear in radius ρ and centre t
-/// (`docs/theory/calibration.md#the-shape-of-the-tip`). Deviations: radius, centre x, y, z.
+/// (`docs/theory/calibration.md#the-shape-of-the-tip`), forces and torques having the errors that `noise` states.
+/// Deviations: radius, centre x, y, z.
 ///
 /// The touches need friction: where all forces point along the normals, every line of action passes
 /// through the centre and the radius is not observable; the error says so.
 ///
 /// # Errors
-/// [`GeometryError`].
-pub fn fit_sphere(touches: &[Touch]) -> Result<Fitted<Sphere<f64>>, GeometryError> {
+/// [`GeometryError`]; [`GeometryError::Undetermined`] also where an interval of 95 % is wider than the radius.
+pub fn fit_sphere(touches: &[Touch], noise: &WrenchNoise) -> Result<Fitted<Sphere<f64>>, GeometryError> {
     let normals = directions(touches)?;
-    let constant = |axis: usize| vec![Vector3::ith(axis, 1.0); touches.len()];
-    let columns = [normals, constant(0), constant(1), constant(2)];
-    let names = ["radius", "centre x", "centre y", "centre z"];
-    let (p, deviations, rms, _) = torque_fit(touches, &columns, &names)?;
-    let shape = Sphere::new(Vector3::new(p[1], p[2], p[3]), p[0])?;
-    Ok(Fitted { shape, deviations, rms, unobserved: Vec::new() })
-}
-
-/// The point through which the lines of action of all wrenches pass: a pivot on which the fingertip was held
-/// still while the force turned, or the centre of a sphere touched without friction. Deviations: x, y, z.
-///
-/// # Errors
-/// [`GeometryError`]: at least two forces that are not parallel are needed, with four equations to spare.
-pub fn fit_meeting_point(wrenches: &[Wrench<f64>]) -> Result<Fitted<Vector3<f64>>, GeometryError> {
-    meeting_point(wrenches).map(|(fitted, _)| fitted)
-}
-
-/// The point, and the regression behind it.
-fn meeting_point(wrenches: &[Wrench<f64>]) -> Result<(Fitted<Vector3<f64>>, Fit), GeometryError> {
-    let touches: Vec<Touch> =
-        wrenches.iter().map(|wrench| Touch { wrench: *wrench, normal: Vector3::z() }).collect();
-    directions(&touches)?;
-    let columns: Vec<_> = (0..3).map(|axis| vec![Vector3::ith(axis, 1.0); touches.len()]).collect();
-    let (p, deviations, rms, fit) = torque_fit(&touches, &columns, &["point x", "point y", "point z"])?;
-    let shape = Vector3::new(p[0], p[1], p[2]);
-    Ok((Fitted { shape, deviations, rms, unobserved: Vec::new() }, fit))
-}
-
-/// A plane `normal · x = offset`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlaneParameters {
-    /// Unit normal.
-    pub normal: Vector3<f64>,
-    /// Distance from the origin along the normal \[m\].
-    pub offset: f64,
-}
-
-/// The plane of a flat fingertip from pivots: at each of three or more points of it, the force was turned
-/// while the contact held still. A single wrench tells nothing of the offset, since its line of action
-/// crosses every plane. `outward` tells the side.
-///
-/// Deviations: offset \[m\], then the tilts of the normal \[rad\] along the two principal directions of the
-/// points in the plane, the longer first. They carry over what is uncertain of the pivots, so that three
-/// points, which leave nothing, have an error too. The noise of the torques is taken to be the same at all
-/// pivots; where the points lie off the plane by more than it allows (one chance in a thousand), the
-/// deviations grow by as much.
-///
-/// # Errors
-/// [`GeometryError`]; the points must not lie on a line.
-pub fn fit_plane(
-    pivots: &[Vec<Wrench<f64>>],
-    outward: &Vector3<f64>,
-) -> Result<Fitted<PlaneParameters>, GeometryError> {
-    let found = pivots.iter().map(|wrenches| meeting_point(wrenches)).collect::<Result<Vec<_>, _>>()?;
-    let points: Vec<Vector3<f64>> = found.iter().map(|(fitted, _)| fitted.shape).collect();
-    if points.len() < 3 {
-        return Err(FitError::TooFewSamples { samples: points.len(), coefficients: 3 }.into());
+    let (radius, centre, step) = radius_and_centre(&wrenches(touches), &normals, noise)?;
+    let deviations = roots(&step.covariance(step.variance(), &SPHERE)?);
+    check_widths(&step, &deviations, &SPHERE, &[radius.abs(); 4])?;
+    if radius < 0.0 {
+        return Err(GeometryError::negative("radius", radius));
     }
-    let count = points.len() as f64;
-    let mean = points.iter().sum::<Vector3<f64>>() / count;
-    let spread = DMatrix::from_fn(points.len(), 3, |i, j| points[i][j] - mean[j]);
-    let singular = crate::linear::Singular::new(&spread).ok_or(FitError::BadInput { what: "the pivots" })?;
-    if !(singular.values[1] > 1e-3 * singular.values[0]) {
-        return Err(GeometryError::BadTouch { touch: 0, what: "the pivots lie on a line" });
-    }
-    let axis = |k: usize| Vector3::from_fn(|i, _| singular.right[(i, k)]);
-    let (first, second) = (axis(0), axis(1));
-    let normal = first.cross(&second);
-    // The heights over this plane, weighted by how well each is known, make it a better one.
-    let mut plane = Triangular::new(3, 1);
-    for (point, (_, fit)) in points.iter().zip(&found) {
-        let from = point - mean;
-        let across = DMatrix::from_column_slice(3, 1, normal.as_slice());
-        let variance = (across.transpose() * &fit.inverse_gram * &across)[(0, 0)];
-        plane.push_weighted(
-            &[1.0, first.dot(&from), second.dot(&from)],
-            &[normal.dot(&from)],
-            1.0 / variance.max(f64::MIN_POSITIVE),
-        );
-    }
-    let factors = plane.factors();
-    let better = factors.coefficients().map_err(FitError::from)?;
-    let gram = factors.inverse_gram().map_err(FitError::from)?;
-    let point = mean + normal * better[0];
-    let normal = (normal - first * better[1] - second * better[2]).normalize();
-    let normal = if normal.dot(outward) < 0.0 { -normal } else { normal };
-    let freedom = count - 3.0;
-    let rest: f64 = pivots.iter().map(|wrenches| 3.0 * wrenches.len() as f64 - 3.0).sum();
-    let squares = |(wrenches, (_, fit)): (&Vec<Wrench<f64>>, &(_, Fit))| {
-        (3.0 * wrenches.len() as f64 - 3.0) * fit.residual_covariance[(0, 0)]
-    };
-    let noise = pivots.iter().zip(&found).map(squares).sum::<f64>() / rest;
-    let ratio = factors.residual[(0, 0)].powi(2) / (freedom * noise);
-    let inconsistent = freedom > 0.0
-        && ratio.is_finite()
-        && FisherSnedecor::new(freedom, rest).is_ok_and(|expected| expected.sf(ratio) < 1e-3);
-    let variance = if inconsistent { noise * ratio } else { noise };
-    // A tilt turns the plane about the mean of the points, which moves its foot by where that lies.
-    let foot = DMatrix::from_column_slice(3, 1, &[1.0, -first.dot(&mean), -second.dot(&mean)]);
-    let offset_variance = (foot.transpose() * &gram * &foot)[(0, 0)];
-    let variances = [offset_variance, gram[(1, 1)], gram[(2, 2)]];
-    Ok(Fitted {
-        shape: PlaneParameters { normal, offset: normal.dot(&point) },
-        deviations: variances.iter().map(|v| (v * variance).max(0.0).sqrt()).collect(),
-        rms: (points.iter().map(|p| normal.dot(&(p - point)).powi(2)).sum::<f64>() / count).sqrt(),
-        unobserved: Vec::new(),
-    })
+    Ok(Fitted::of(Sphere::new(centre, radius)?, &step, deviations))
 }
 
 /// What touches at unknown places say of a sphere's radius: with friction coefficient at most `friction`,
@@ -257,9 +108,10 @@ pub fn least_radius(centre: &Vector3<f64>, wrenches: &[Wrench<f64>], friction: f
 
 #[cfg(test)]
 mod tests {
-    use super::{GeometryError, Touch, fit_meeting_point, fit_plane, fit_sphere, least_radius};
+    use super::{fit_sphere, least_radius};
     use crate::fit::FitError;
     use crate::fit::testing::gaussian;
+    use crate::geometry::{GeometryError, Touch, WrenchNoise, fit_meeting_point, fit_plane};
     use crate::testing::Largest as _;
     use fingertip_wrench::Wrench;
     use nalgebra::Vector3;
@@ -286,7 +138,7 @@ mod tests {
             let normals: Vec<_> = (0..15).map(|_| vector(random).normalize()).collect();
             let touches: Vec<_> =
                 normals.iter().map(|n| touch(random, centre + n * 0.013, *n, 0.4)).collect();
-            let sphere = fit_sphere(&touches).unwrap();
+            let sphere = fit_sphere(&touches, &WrenchNoise::exact_forces()).unwrap();
             prop_assert!((sphere.shape.radius() - 0.013).abs() < 1e-12);
             prop_assert!((sphere.shape.centre() - centre).largest() < 1e-12);
             let wrenches: Vec<_> = touches.iter().map(|touch| touch.wrench).collect();
@@ -308,7 +160,7 @@ mod tests {
                     (0..5).map(|_| touch(random, point, normal, 0.4).wrench).collect()
                 })
                 .collect();
-            let plane = fit_plane(&pivots, &normal).unwrap();
+            let plane = fit_plane(&pivots, &normal, &WrenchNoise::exact_forces()).unwrap();
             prop_assert!((plane.shape.offset - 0.01).abs() < 1e-10 && (plane.shape.normal - normal).largest() < 1e-8);
         }
     }
@@ -323,16 +175,25 @@ mod tests {
                 Touch { wrench: Wrench::from_force_at(&(centre + n * 0.013), -n), normal: n }
             })
             .collect();
-        let error = fit_sphere(&frictionless).unwrap_err();
-        assert!(error.to_string().contains("unobserved: radius"), "{error}");
+        let error = fit_sphere(&frictionless, &WrenchNoise::exact_forces()).unwrap_err();
+        assert!(error.to_string().contains("do not determine radius: "), "{error}");
         // But the centre is.
         let wrenches: Vec<_> = frictionless.iter().map(|touch| touch.wrench).collect();
-        assert!((fit_meeting_point(&wrenches).unwrap().shape - centre).largest() < 1e-12);
+        assert!(
+            (fit_meeting_point(&wrenches, &WrenchNoise::exact_forces()).unwrap().shape - centre).largest()
+                < 1e-12
+        );
         let parallel = vec![wrenches[0]; 5];
-        assert!(matches!(fit_meeting_point(&parallel), Err(GeometryError::Fit(_))));
+        assert!(matches!(
+            fit_meeting_point(&parallel, &WrenchNoise::exact_forces()),
+            Err(GeometryError::Undetermined { .. })
+        ));
         let mut bad = frictionless;
         bad[3].normal = Vector3::zeros();
-        assert!(matches!(fit_sphere(&bad), Err(GeometryError::BadTouch { touch: 3, .. })));
+        assert!(matches!(
+            fit_sphere(&bad, &WrenchNoise::exact_forces()),
+            Err(GeometryError::BadTouch { touch: 3, .. })
+        ));
     }
 
     #[test]
@@ -343,7 +204,11 @@ mod tests {
         };
         let [a, b, c] = [pivot(0.0, 0.0), pivot(0.01, 0.0), pivot(0.0, 0.01)];
         let plane = |pivots: &[&Vec<Wrench<f64>>]| {
-            fit_plane(&pivots.iter().map(|pivot| (*pivot).clone()).collect::<Vec<_>>(), &Vector3::z())
+            fit_plane(
+                &pivots.iter().map(|pivot| (*pivot).clone()).collect::<Vec<_>>(),
+                &Vector3::z(),
+                &WrenchNoise::exact_forces(),
+            )
         };
         assert!((plane(&[&a, &b, &c]).unwrap().shape.offset - 0.01).abs() < 1e-9);
         assert_eq!(
@@ -356,7 +221,7 @@ mod tests {
             );
         }
         // The side is that of `outward`.
-        let below = fit_plane(&[a, b, c], &-Vector3::z()).unwrap().shape;
+        let below = fit_plane(&[a, b, c], &-Vector3::z(), &WrenchNoise::exact_forces()).unwrap().shape;
         assert!((below.normal.z + 1.0).abs() < 1e-9 && (below.offset + 0.01).abs() < 1e-9);
     }
 }

@@ -38,6 +38,23 @@ pub struct Unobserved {
     pub names: Vec<String>,
 }
 
+impl Unobserved {
+    /// The combinations in words.
+    pub(crate) fn described(&self) -> String {
+        describe(&self.directions, &self.names)
+    }
+
+    /// The first of the names with half of the largest part in any of them, or more.
+    pub(crate) fn leading(&self) -> Option<&str> {
+        let part = |name: usize| self.directions.row(name).amax();
+        let most = self.directions.amax();
+        (0..self.directions.nrows())
+            .find(|name| part(*name) >= 0.5 * most)
+            .and_then(|name| self.names.get(name))
+            .map(String::as_str)
+    }
+}
+
 /// "0.71 Fx − 0.71 Ty; Tz".
 fn describe(directions: &DMatrix<f64>, names: &[String]) -> String {
     let one = |column: nalgebra::DVectorView<'_, f64>| {

@@ -129,8 +129,12 @@ fn fit_agreeing(
         ransac(x, y, weights, &Ransac { outliers, seed, ..Ransac::new(thresholds.collect()) })
     };
     let residuals = y - x * &huber(x, y, weights)?.coefficients;
-    let mut bulk: Vec<f64> =
-        residuals.column_iter().map(|residual| deviation(residual.iter().copied(), x.ncols())).collect();
+    let counts = |i: usize| weights.is_none_or(|weights| weights[i] > 0.0);
+    let of_counted = |residual: nalgebra::DVectorView<'_, f64>| {
+        let counted = residual.iter().enumerate().filter(|(i, _)| counts(*i)).map(|(_, r)| *r);
+        deviation(counted, x.ncols())
+    };
+    let mut bulk: Vec<f64> = residuals.column_iter().map(of_counted).collect();
     let mut widened = 1.0;
     let fit = loop {
         match agreeing(&bulk) {

@@ -107,9 +107,10 @@ impl StreamedFit {
             inverse_gram.row_mut(i).scale_mut(*size);
             inverse_gram.column_mut(i).scale_mut(*size);
         }
+        let coefficient_count = axes + usize::from(self.bias);
         let residual_covariance = factors.residual_covariance().ok_or(FitError::TooFewSamples {
             samples: usize::try_from(factors.samples).unwrap_or(usize::MAX),
-            coefficients: axes + usize::from(self.bias),
+            coefficients: coefficient_count,
         })?;
         Ok(SensorModel {
             axes: self.axes,
@@ -122,6 +123,8 @@ impl StreamedFit {
                 coefficients,
                 inverse_gram,
                 residual_covariance,
+                full_covariance: None,
+                freedom: factors.samples as f64 - coefficient_count as f64,
                 trust: DMatrix::zeros(0, self.gauges),
                 iterations: 1,
             },

@@ -57,5 +57,6 @@ pub(super) fn account_for_zeros(table: &LoadTable, design: &DMatrix<f64>, fit: &
     // Without a degree of freedom to spare nothing is known; the fit's own figure is then the least bad.
     if freedom > 0.0 {
         fit.residual_covariance *= before / freedom;
+        fit.freedom = freedom;
     }
 }

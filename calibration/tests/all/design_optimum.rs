@@ -262,3 +262,21 @@ fn refuses_searches_that_make_no_sense() {
     let how = Search { starts: 2, ..Search::default() };
     assert!(search(&space, &Criterion::Trace, &loads(), &how, &|_| ()).is_err());
 }
+
+/// The paper's gauges turned the other way are another sensor: for 30 N and 0.1 N·m the better one.
+#[test]
+fn both_signs_of_the_papers_angle_are_searched() {
+    let loads = NominalLoads::equal(30.0, 0.1).unwrap();
+    let tube = LoadedTube { loads, length: 20e-3, ..tube(5e-3) };
+    let best = |angles: (f64, f64)| {
+        let space =
+            TubeSpace::bicchi_dario((4e-3, 10e-3), angles, (1e-3, 16e-3), tube, Wall::Fixed(0.2e-3)).unwrap();
+        let how = Search { starts: 8, ..Search::default() };
+        let found = search(&space, &Criterion::ConditionNumber, &loads, &how, &|_| ()).unwrap();
+        found.best().unwrap().clone()
+    };
+    assert!((best(degrees(1.0, 59.0)).criterion - 5.405).abs() < 1e-3);
+    let both = best(degrees(-59.0, 59.0));
+    assert!((both.criterion - 5.058).abs() < 1e-3, "{both:?}");
+    assert!((both.values[1].to_degrees() + 15.15).abs() < 0.01 && (both.values[2] - 5.66e-3).abs() < 1e-5);
+}

@@ -3,11 +3,13 @@
 
 mod consensus;
 mod covariance;
+mod coverage;
 mod design_end_to_end;
 mod design_optimum;
 mod equivariance;
 mod files;
 mod in_situ;
+mod intervals;
 mod kept;
 mod metrics;
 mod motion;
@@ -30,6 +32,7 @@ mod tables;
 mod tares;
 #[path = "../../src/testing.rs"]
 mod testing;
+mod touch_noise;
 mod touched;
 mod untangling;
 mod verdict;

@@ -1,8 +1,8 @@
 //! Shapes and poses from touches: errors as stated, and the same in any units, order and frame.
 
 use fingertip_calibration::geometry::{
-    GeometryError, Touch, fit_aligned_ellipsoid, fit_cylinder, fit_cylinder_along, fit_ellipsoid,
-    fit_meeting_point, fit_plane, fit_pose, fit_sphere,
+    GeometryError, Touch, WrenchNoise, fit_aligned_ellipsoid, fit_cylinder, fit_cylinder_along,
+    fit_ellipsoid, fit_meeting_point, fit_plane, fit_pose, fit_sphere,
 };
 use fingertip_calibration::nalgebra::{Matrix3, Rotation3, Vector3};
 use fingertip_wrench::Wrench;
@@ -56,7 +56,7 @@ fn errors_of_sphere_ellipsoid_and_cylinder_are_as_stated() {
     let random = &mut Pcg64Mcg::seed_from_u64(61);
     let clean = touches(random, 12, None, |n| CENTRE + n * 0.013);
     let spread = Spread::over(10_000, || {
-        let fit = fit_sphere(&all_noisy(random, &clean)).unwrap();
+        let fit = fit_sphere(&all_noisy(random, &clean), &WrenchNoise::exact_forces()).unwrap();
         let centre = fit.shape.centre() - CENTRE;
         (vec![fit.shape.radius() - 0.013, centre.x, centre.y, centre.z], squares(&fit.deviations))
     });
@@ -66,7 +66,7 @@ fn errors_of_sphere_ellipsoid_and_cylinder_are_as_stated() {
     let squared = Matrix3::from_diagonal(&axes.component_mul(&axes));
     let clean = touches(random, 15, None, |n| CENTRE + squared * n / n.dot(&(squared * n)).sqrt());
     let spread = Spread::over(8_000, || {
-        let fit = fit_aligned_ellipsoid(&all_noisy(random, &clean)).unwrap();
+        let fit = fit_aligned_ellipsoid(&all_noisy(random, &clean), &WrenchNoise::exact_forces()).unwrap();
         let (axes, centre) = (fit.shape.semi_axes - axes, fit.shape.centre - CENTRE);
         (axes.iter().chain(centre.iter()).copied().collect(), squares(&fit.deviations))
     });
@@ -74,7 +74,8 @@ fn errors_of_sphere_ellipsoid_and_cylinder_are_as_stated() {
 
     let clean = touches(random, 15, Some(Vector3::z()), |n| CENTRE + n * 0.008);
     let spread = Spread::over(10_000, || {
-        let fit = fit_cylinder_along(&all_noisy(random, &clean), &Vector3::z()).unwrap();
+        let fit = fit_cylinder_along(&all_noisy(random, &clean), &Vector3::z(), &WrenchNoise::exact_forces())
+            .unwrap();
         let error = fit.shape.centre() - CENTRE;
         // Its two offsets are along −y and x for an axis along z.
         (vec![fit.shape.radius() - 0.008, error.y, error.x], squares(&fit.deviations))
@@ -88,7 +89,7 @@ fn errors_of_pivot_and_pose_are_as_stated() {
     let forces: Vec<_> = (0..6).map(|_| Wrench::from_force_at(&CENTRE, vector(random))).collect();
     let spread = Spread::over(10_000, || {
         let wrenches: Vec<_> = forces.iter().map(|wrench| noisy(random, wrench)).collect();
-        let fit = fit_meeting_point(&wrenches).unwrap();
+        let fit = fit_meeting_point(&wrenches, &WrenchNoise::exact_forces()).unwrap();
         ((fit.shape - CENTRE).iter().copied().collect(), squares(&fit.deviations))
     });
     spread.agrees("pivot");
@@ -102,7 +103,7 @@ fn errors_of_pivot_and_pose_are_as_stated() {
         .collect();
     let spread = Spread::over(1_900, || {
         let touches: Vec<_> = clean.iter().map(|(wrench, point)| (noisy(random, wrench), *point)).collect();
-        let fit = fit_pose(&touches).unwrap();
+        let fit = fit_pose(&touches, &WrenchNoise::exact_forces()).unwrap();
         let turned = Rotation3::from_matrix_unchecked(fit.shape.rotation() * rotation.matrix().transpose());
         let errors =
             turned.scaled_axis().iter().chain((fit.shape.origin() - CENTRE).iter()).copied().collect();
@@ -132,7 +133,7 @@ fn errors_of_a_plane_are_as_stated() {
         let spread = Spread::over(8_000, || {
             let pivots: Vec<Vec<_>> =
                 clean.iter().map(|list| list.iter().map(|wrench| noisy(random, wrench)).collect()).collect();
-            let fit = fit_plane(&pivots, &Vector3::z()).unwrap();
+            let fit = fit_plane(&pivots, &Vector3::z(), &WrenchNoise::exact_forces()).unwrap();
             // The longer direction of the points is x, the shorter y.
             let normal = fit.shape.normal;
             (vec![fit.shape.offset - 0.01, normal.x, normal.y], squares(&fit.deviations))
@@ -194,7 +195,10 @@ fn shapes_do_not_mind_units_order_and_frames() {
         };
         let made = touches(random, 20, None, |n| CENTRE + n * 0.013);
         let made = all_noisy(random, &made);
-        let (one, two) = (fit_sphere(&made).unwrap(), fit_sphere(&change.touches(&made)).unwrap());
+        let (one, two) = (
+            fit_sphere(&made, &WrenchNoise::exact_forces()).unwrap(),
+            fit_sphere(&change.touches(&made), &WrenchNoise::exact_forces()).unwrap(),
+        );
         same(two.shape.radius(), one.shape.radius(), allowed);
         change.close(&two.shape.centre(), &one.shape.centre(), allowed);
         same(two.deviations[0], one.deviations[0], allowed);
@@ -202,7 +206,10 @@ fn shapes_do_not_mind_units_order_and_frames() {
         let axis = vector(random).normalize();
         let made = touches(random, 20, Some(axis), |n| CENTRE + n * 0.008);
         let made = all_noisy(random, &made);
-        let (one, two) = (fit_cylinder(&made).unwrap(), fit_cylinder(&change.touches(&made)).unwrap());
+        let (one, two) = (
+            fit_cylinder(&made, &WrenchNoise::exact_forces()).unwrap(),
+            fit_cylinder(&change.touches(&made), &WrenchNoise::exact_forces()).unwrap(),
+        );
         same(two.shape.radius(), one.shape.radius(), allowed);
         assert!(two.shape.axis().cross(&(change.turn * one.shape.axis())).norm() < 1e4 * f64::EPSILON);
         // Its centre is the point of the axis nearest to the origin, which has moved.
@@ -216,7 +223,10 @@ fn shapes_do_not_mind_units_order_and_frames() {
         let made = all_noisy(random, &made);
         // Gauss-Newton ends at steps of 1e-12 of the size.
         let settled = 0.03 * 1e-10;
-        let (one, two) = (fit_ellipsoid(&made).unwrap(), fit_ellipsoid(&change.touches(&made)).unwrap());
+        let (one, two) = (
+            fit_ellipsoid(&made, &WrenchNoise::exact_forces()).unwrap(),
+            fit_ellipsoid(&change.touches(&made), &WrenchNoise::exact_forces()).unwrap(),
+        );
         for k in 0..3 {
             same(two.shape.semi_axes[k], one.shape.semi_axes[k], settled);
         }
@@ -226,8 +236,10 @@ fn shapes_do_not_mind_units_order_and_frames() {
         assert!((found.abs() - Matrix3::identity()).largest() < 1e-8, "{found}");
         // Its axes stay along those of the frame, so only units, order and place may change.
         let moved = Change { turn: Matrix3::identity(), ..change };
-        let (one, two) =
-            (fit_aligned_ellipsoid(&made).unwrap(), fit_aligned_ellipsoid(&moved.touches(&made)).unwrap());
+        let (one, two) = (
+            fit_aligned_ellipsoid(&made, &WrenchNoise::exact_forces()).unwrap(),
+            fit_aligned_ellipsoid(&moved.touches(&made), &WrenchNoise::exact_forces()).unwrap(),
+        );
         for k in 0..3 {
             same(two.shape.semi_axes[k], one.shape.semi_axes[k], settled);
         }
@@ -258,10 +270,13 @@ fn pivots_planes_and_poses_do_not_mind_units_order_and_frames() {
             .rev()
             .map(|list| list.iter().rev().map(|wrench| change.wrench(wrench)).collect())
             .collect();
-        let (one, two) = (fit_meeting_point(&pivots[0]).unwrap(), fit_meeting_point(&changed[4]).unwrap());
+        let (one, two) = (
+            fit_meeting_point(&pivots[0], &WrenchNoise::exact_forces()).unwrap(),
+            fit_meeting_point(&changed[4], &WrenchNoise::exact_forces()).unwrap(),
+        );
         change.close(&two.shape, &one.shape, 10.0 * allowed);
-        let Ok(one) = fit_plane(&pivots, &normal) else { continue };
-        let two = fit_plane(&changed, &(change.turn * normal)).unwrap();
+        let Ok(one) = fit_plane(&pivots, &normal, &WrenchNoise::exact_forces()) else { continue };
+        let two = fit_plane(&changed, &(change.turn * normal), &WrenchNoise::exact_forces()).unwrap();
         assert!((two.shape.normal - change.turn * one.shape.normal).largest() < 1e-9);
         // The foot of the plane moves with the origin.
         let offset = one.shape.offset + two.shape.normal.dot(&change.origin);
@@ -281,7 +296,10 @@ fn pivots_planes_and_poses_do_not_mind_units_order_and_frames() {
             .rev()
             .map(|(wrench, point)| (change.wrench(wrench), point * change.metre))
             .collect();
-        let (one, two) = (fit_pose(&touches).unwrap(), fit_pose(&changed).unwrap());
+        let (one, two) = (
+            fit_pose(&touches, &WrenchNoise::exact_forces()).unwrap(),
+            fit_pose(&changed, &WrenchNoise::exact_forces()).unwrap(),
+        );
         // The search ends at turns of 1e-13, or of 1e-10 if rounding lets it come no nearer.
         assert!((two.shape.rotation() - change.turn * one.shape.rotation()).largest() < 1e-9);
         change.close(&two.shape.origin(), &one.shape.origin(), 1e-10);
@@ -302,14 +320,14 @@ fn flat_and_long_ellipsoids_come_back() {
             let point =
                 |n: &Vector3<f64>, shape: &Matrix3<f64>| CENTRE + shape * n / n.dot(&(shape * n)).sqrt();
             let touched = touches(random, 40, None, |n| point(n, &shape));
-            let fit = fit_ellipsoid(&touched).unwrap();
+            let fit = fit_ellipsoid(&touched, &WrenchNoise::exact_forces()).unwrap();
             assert!((fit.shape.semi_axes - axes).largest() < 1e-9, "{axes} {:?}", fit.shape);
             let found = fit.shape.sensor_from_ellipsoid;
             assert!((found.origin() - CENTRE).largest() < 1e-9 && fit.rms < 1e-12);
             let found = found.rotation() * squares * found.rotation().transpose();
             assert!((found - shape).largest() < 1e-9 * shape.largest());
             let aligned = touches(random, 40, None, |n| point(n, &squares));
-            let fit = fit_aligned_ellipsoid(&aligned).unwrap();
+            let fit = fit_aligned_ellipsoid(&aligned, &WrenchNoise::exact_forces()).unwrap();
             assert!((fit.shape.semi_axes - axes).largest() < 1e-9, "{axes} {:?}", fit.shape);
             assert!((fit.shape.centre - CENTRE).largest() < 1e-9 && fit.rms < 1e-12);
         }
@@ -330,7 +348,7 @@ fn a_pose_far_away_comes_back() {
                     (Wrench::from_force_at(&(rotation * point + origin), vector(random)), point)
                 })
                 .collect();
-            let fit = fit_pose(&touches).unwrap();
+            let fit = fit_pose(&touches, &WrenchNoise::exact_forces()).unwrap();
             let rounding = 1e3 * f64::EPSILON * distance;
             assert!((fit.shape.origin() - origin).largest() < rounding, "{distance}");
             assert!((fit.shape.rotation() - rotation).largest() < rounding / 0.02, "{distance}");
@@ -343,12 +361,12 @@ fn a_pose_far_away_comes_back() {
 fn forces_along_the_axis_tell_nothing_of_a_cylinder() {
     let random = &mut Pcg64Mcg::seed_from_u64(69);
     let mut touches = touches(random, 12, Some(Vector3::z()), |n| CENTRE + n * 0.008);
-    let without = fit_cylinder_along(&touches, &Vector3::z()).unwrap().shape;
+    let without = fit_cylinder_along(&touches, &Vector3::z(), &WrenchNoise::exact_forces()).unwrap().shape;
     touches.push(Touch {
         wrench: Wrench::from_force_at(&(CENTRE + Vector3::y() * 0.05), -Vector3::z()),
         normal: Vector3::y(),
     });
-    let with = fit_cylinder_along(&touches, &Vector3::z()).unwrap().shape;
+    let with = fit_cylinder_along(&touches, &Vector3::z(), &WrenchNoise::exact_forces()).unwrap().shape;
     assert!((with.radius() - without.radius()).abs() < 1e-14 && (with.radius() - 0.008).abs() < 1e-12);
     assert!((with.centre() - without.centre()).largest() < 1e-14);
 }
@@ -363,13 +381,19 @@ fn touches_of_a_pose_are_finite() {
             (Wrench::from_force_at(&point, vector(random)), point)
         })
         .collect();
-    assert!(fit_pose(&good).is_ok());
+    assert!(fit_pose(&good, &WrenchNoise::exact_forces()).is_ok());
     for bad in [f64::NAN, f64::INFINITY] {
         let mut touches = good.clone();
         touches[2].1.y = bad;
-        assert!(matches!(fit_pose(&touches), Err(GeometryError::BadTouch { touch: 2, .. })));
+        assert!(matches!(
+            fit_pose(&touches, &WrenchNoise::exact_forces()),
+            Err(GeometryError::BadTouch { touch: 2, .. })
+        ));
         let mut touches = good.clone();
         touches[2].0 = Wrench::on_fingertip(Vector3::new(bad, 0.0, 0.0), Vector3::zeros());
-        assert!(matches!(fit_pose(&touches), Err(GeometryError::BadTouch { touch: 2, .. })));
+        assert!(matches!(
+            fit_pose(&touches, &WrenchNoise::exact_forces()),
+            Err(GeometryError::BadTouch { touch: 2, .. })
+        ));
     }
 }

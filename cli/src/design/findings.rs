@@ -1,6 +1,8 @@
 //! The design in words and tables.
 
-use fingertip_calibration::design::{Criterion, DesignSpace, Spread, THICKEST_WALL};
+use fingertip_calibration::design::{
+    Criterion, DesignSpace, Parameter, ParameterUnit, Spread, THICKEST_WALL, TubeFailure,
+};
 
 use super::{CALIBRATION_LOADS, LOAD_ERROR, Outcome};
 use crate::summary::Findings;
@@ -22,10 +24,15 @@ pub(super) fn of(outcome: &Outcome) -> Findings {
             short(noise * 1e6)
         ),
         format!(
-            "A tube of {} mm mean radius with a wall of {} mm: it bears {} times the nominal loads, all at once.",
+            "A tube of {} mm mean radius with a wall of {} mm: it bears {} times the nominal loads, all at once; then {}.",
             short(layout.beam.radius * 1e3),
             number(layout.beam.thickness * 1e3),
-            short(strength.worst_ratio().recip())
+            short(strength.safety()),
+            match strength.failure() {
+                TubeFailure::Yield => "it yields (von Mises)",
+                TubeFailure::WallBuckling => "its wall buckles",
+                TubeFailure::ColumnBuckling => "it buckles as a column",
+            }
         ),
     ];
     lead.push(match outcome.file.find_decoupling() {
@@ -191,6 +198,37 @@ fn strengths(outcome: &Outcome) -> Table {
     table
 }
 
+/// Parameters that would go further if they could.
+fn at_bounds(outcome: &Outcome) -> Vec<String> {
+    let Some(best) = outcome.found.best() else { return Vec::new() };
+    let of = |(parameter, value): (&Parameter, &f64)| {
+        let (lowest, near) = (*value - parameter.lower, 1e-3 * parameter.span());
+        let bound = if parameter.periodic {
+            return None;
+        } else if lowest < near {
+            ("least", parameter.lower)
+        } else if parameter.span() - lowest < near {
+            ("greatest", parameter.upper)
+        } else {
+            return None;
+        };
+        let moved = match (parameter.name.as_str(), parameter.unit) {
+            ("R", _) => "--radius-mm moves it",
+            (_, ParameterUnit::Metre) if bound.0 == "least" => {
+                "gauges go no nearer to the origin of the loads"
+            }
+            (_, ParameterUnit::Metre) => {
+                "gauges stay within 0.8 of the clamped length, since nearer to the clamp the strain is not that of a beam; \
+                 --length-mm moves it"
+            }
+            _ => "it cannot be moved",
+        };
+        let (side, at) = (bound.0, short(parameter.display(bound.1)));
+        Some(format!("{} is at its {side}, {at} {}: {moved}", parameter.name, parameter.display_unit()))
+    };
+    outcome.task.space.parameters().iter().zip(&best.values).filter_map(of).collect()
+}
+
 fn notes(outcome: &Outcome) -> Vec<String> {
     let Outcome { task, layout, strength, .. } = outcome;
     let x = task.arm() / layout.beam.radius;
@@ -211,6 +249,7 @@ fn notes(outcome: &Outcome) -> Vec<String> {
         ),
         "Contact errors from noise fall as 1/force; those from misplacement do not depend on it".to_owned(),
     ];
+    notes.extend(at_bounds(outcome));
     if strength.wall_ratio > THICKEST_WALL {
         notes.push("The wall is not thin against the radius: the strains are not accurate".to_owned());
     }

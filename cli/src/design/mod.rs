@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &DesignArguments) -> Result<(), CliError> {
 }
 
 fn design(arguments: &DesignArguments) -> Result<Outcome, DesignError> {
-    let task = Task::new(arguments)?;
+    let mut task = Task::new(arguments)?;
     let bar = bar(arguments.starts);
     let how = Search { starts: arguments.starts, seed: arguments.seed, ..Search::default() };
     let progress = |progress: Progress| {
@@ -69,7 +69,15 @@ fn design(arguments: &DesignArguments) -> Result<Outcome, DesignError> {
             bar.set_message(format!("{:.4}", progress.best));
         }
     };
-    let found = search(&task.space, &task.criterion, &task.tube.loads, &how, &progress)?;
+    let mut found = search(&task.space, &task.criterion, &task.tube.loads, &how, &progress)?;
+    if let Some(space) = task.turned.take() {
+        let turned = search(&space, &task.criterion, &task.tube.loads, &how, &progress)?;
+        let least = |found: &Found| found.best().map_or(f64::INFINITY, |best| best.criterion);
+        // Where both are as good, rounding does not decide.
+        if least(&turned) < least(&found) * (1.0 - 1e-6) {
+            (task.space, found) = (space, turned);
+        }
+    }
     if let Some(bar) = bar {
         bar.finish_and_clear();
     }

@@ -17,6 +17,8 @@ const HALF_ANGLE: f64 = 90.0;
 /// What is asked for.
 pub(super) struct Task {
     pub(super) space: TubeSpace,
+    /// The same with gauges turned the other way, where that is another sensor.
+    pub(super) turned: Option<TubeSpace>,
     pub(super) criterion: Criterion,
     /// For wrenches in nominal loads, at a tenth of the force.
     pub(super) weight: ContactWeight,
@@ -48,7 +50,10 @@ impl Task {
             Some(wall) => Wall::Fixed(wall * 1e-3),
             None => Wall::AtStrength { safety: arguments.safety },
         };
-        let space = space(arguments, radius, tube, wall)?;
+        let turned = (arguments.layout == LayoutFamily::Paper)
+            .then(|| space(arguments, radius, tube, wall, (-ANGLES.1, -ANGLES.0)))
+            .transpose()?;
+        let space = space(arguments, radius, tube, wall, ANGLES)?;
         let half_angle = HALF_ANGLE.to_radians();
         let (tip_radius, touch_force) = (arguments.tip_radius_mm * 1e-3, 0.1 * arguments.force);
         let weight = ContactWeight::on_sphere(tip_radius, half_angle, arguments.friction, touch_force)?;
@@ -69,6 +74,7 @@ impl Task {
         let (seed, family) = (arguments.seed, arguments.layout);
         Ok(Self {
             space,
+            turned,
             criterion,
             weight,
             tube,
@@ -137,13 +143,14 @@ fn space(
     radius: (f64, f64),
     tube: LoadedTube,
     wall: Wall,
+    angles: (f64, f64),
 ) -> Result<TubeSpace, DesignError> {
     let (count, length) = (arguments.gauges, USABLE * tube.length);
     let wrong = |expected| DesignError::WrongCount { what: "gauges", found: count, expected };
     match arguments.layout {
         LayoutFamily::Paper if count != 6 => Err(wrong(6)),
         LayoutFamily::Paper => {
-            TubeSpace::bicchi_dario(radius, degrees(ANGLES), (0.05 * length, length), tube, wall)
+            TubeSpace::bicchi_dario(radius, degrees(angles), (0.05 * length, length), tube, wall)
         }
         LayoutFamily::Rosettes if count < 6 || count % 2 == 1 => Err(wrong(6.max(count + 1))),
         LayoutFamily::Rosettes => {

@@ -1,6 +1,6 @@
 //! `fingertip design`: files that load, numbers that stay, errors that help.
 
-use fingertip_calibration::design::{LayoutFile, LoadedTube};
+use fingertip_calibration::design::{LayoutFile, LoadedTube, NominalLoads};
 use fingertip_calibration::file::CalibrationFile;
 
 use crate::common::Folder;
@@ -15,8 +15,19 @@ fn writes_a_layout_that_loads() {
     let tube: LoadedTube = file.loaded_tube();
     assert!((tube.radius - 10e-3).abs() < 1e-9);
     // As thin as the safety allows, and no thinner.
-    let ratio = tube.strength(file.layout().beam.thickness).unwrap().worst_ratio();
-    assert!((ratio * 3.0 - 1.0).abs() < 1e-6, "{ratio}");
+    let wall = file.layout().beam.thickness;
+    let safety = tube.strength(wall).unwrap().safety();
+    assert!(
+        (safety / 3.0 - 1.0).abs() < 1e-6 && text.contains("bears 3 times the nominal loads"),
+        "{safety}"
+    );
+    // Three times the loads, and it just fails.
+    let loads =
+        NominalLoads { force: tube.loads.force.map(|f| 3.0 * f), torque: tube.loads.torque.map(|m| 3.0 * m) };
+    let ratio = LoadedTube { loads, ..tube }.strength(wall).unwrap().worst_ratio();
+    assert!((ratio - 1.0).abs() < 1e-6, "{ratio}");
+    assert!(text.contains("then it yields") || text.contains("then its wall buckles"), "{text}");
+    assert!(text.contains("R is at its greatest, 10 mm: --radius-mm moves it"), "{text}");
     let calibration = CalibrationFile::from_toml(&folder.read("cal.toml")).unwrap();
     let matrix = calibration.sensor_matrix::<6>().unwrap();
     assert_eq!(matrix, file.sensor_matrix::<6>().unwrap());
@@ -27,6 +38,15 @@ fn writes_a_layout_that_loads() {
         !page.contains("http://")
             || page.matches("http://").count() == page.matches("http://www.w3.org").count()
     );
+}
+
+/// The paper's gauges turned the other way are another sensor, and here the better one.
+#[test]
+fn both_signs_of_the_papers_angle_are_tried() {
+    let folder = Folder::new();
+    let text = folder.succeed(&["design", "--layout", "paper", "--torque", "0.1", "--starts", "8"]);
+    assert!(text.contains("Condition number 5.06"), "{text}");
+    assert!(text.contains("-15.15"), "{text}");
 }
 
 #[test]

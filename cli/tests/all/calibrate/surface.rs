@@ -64,6 +64,9 @@ pub(crate) fn touches(shape: &str) -> String {
 #[test]
 fn surfaces_are_found_and_their_scenes_can_be_used() {
     let folder = Folder::new();
+    let sphere = "version = 1\n[input]\nconvention = \"on_fingertip\"\nsample_rate_Hz = 10.0\n\
+                  [surface]\nshape = \"sphere\"\nradius_m = 0.01\n";
+    folder.write("known.toml", sphere);
     for (shape, expected) in [
         ("sphere", "12.5000"),
         ("ellipsoid", "+20.0000 +14.1421 +10.0000"),
@@ -73,15 +76,22 @@ fn surfaces_are_found_and_their_scenes_can_be_used() {
         ("pose", "+11.4592 +28.6479 -5.7296"),
     ] {
         folder.write("touches.csv", &touches(shape));
-        let said = folder.succeed(&["geometry", shape, "touches.csv", "-o", "scene.toml"]);
+        let mut command = vec!["geometry", shape, "touches.csv"];
+        match shape {
+            "pivot" => {}
+            "pose" => command.extend(["--scene", "known.toml", "-o", "scene.toml"]),
+            _ => command.extend(["-o", "scene.toml"]),
+        }
+        let said = folder.succeed(&command);
         assert!(said.contains(expected) && said.contains("20 touches"), "{shape}: {said}");
         if shape == "cylinder" {
             assert!(said.contains("not observed: position along the axis"), "{said}");
         }
-        if !matches!(shape, "pivot" | "pose") {
-            let head = "[input]\nsample_rate_Hz = 100.0\n";
-            let scene = folder.read("scene.toml").replace("[input]\n", head);
-            folder.write("scene.toml", &scene);
+        // With errors of the forces, what is exact comes out the same.
+        let noisy = folder.succeed(&[&command[..3], &["--noise", "0.01,1e-5"]].concat());
+        assert!(noisy.contains(expected) && !noisy.contains("taken as exact"), "{shape}: {noisy}");
+        assert!(said.contains("taken as exact") && said.contains("95 %"), "{shape}: {said}");
+        if shape != "pivot" {
             let analyze = ["analyze", "touches.csv", "--scene", "scene.toml", "--no-report"];
             let said = folder.succeed(&analyze);
             assert!(said.contains("20 contacts"), "{shape}: {said}");
@@ -103,4 +113,37 @@ fn mistakes_are_named() {
     let error = folder.fail(1, &["geometry", "sphere", "broken.csv"]);
     assert!(error.contains("tz_parsec"), "{error}");
     folder.fail(2, &["geometry", "cube", "touches.csv"]);
+    for (noise, expected) in [("0.1", "two numbers, not 1"), ("0.1,0", "--noise: the noise of the wrenches")]
+    {
+        let error = folder.fail(1, &["geometry", "sphere", "touches.csv", "--noise", noise]);
+        assert!(error.contains(expected), "{error}");
+    }
+    folder.write("held.csv", &touches("pivot"));
+    let error = folder.fail(1, &["geometry", "pivot", "held.csv", "-o", "scene.toml"]);
+    assert!(error.contains("no surface"), "{error}");
+    folder.write("posed.csv", &touches("pose"));
+    let error = folder.fail(1, &["geometry", "pose", "posed.csv", "-o", "scene.toml"]);
+    assert!(error.contains("--scene"), "{error}");
+    folder.write("known.toml", "version = 1\n[pose]\n");
+    let command = ["geometry", "pose", "posed.csv", "--scene", "known.toml", "-o", "scene.toml"];
+    let error = folder.fail(1, &command);
+    assert!(error.contains("known.toml") && error.contains("[pose] already"), "{error}");
+}
+
+/// Without friction the radius does not show, and the error says what to do.
+#[test]
+fn the_motion_that_is_missing_is_named() {
+    let folder = Folder::new();
+    let random = &mut Pcg64Mcg::seed_from_u64(6);
+    let mut text = "fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,nx,ny,nz\n".to_owned();
+    for _ in 0..20 {
+        let n = direction(random);
+        // Forces within half a degree of the normals, wrong by more than that.
+        let (f, arm) = (direction(random).cross(&n) * 0.01 - n * 2.0, n * 0.0125);
+        let (m, f) = (arm.cross(&f), f + direction(random) * 0.05);
+        text += &format!("{},{},{},{},{},{},{},{},{}\n", f.x, f.y, f.z, m.x, m.y, m.z, n.x, n.y, n.z);
+    }
+    folder.write("touches.csv", &text);
+    let error = folder.fail(1, &["geometry", "sphere", "touches.csv", "--noise", "0.03,1e-5"]);
+    assert!(error.contains("do not determine radius") && error.contains("press with friction"), "{error}");
 }
