@@ -1,0 +1,17 @@
+//! A contact over time: followed on the surface, and the events that it begins and ends with.
+
+mod bad_track;
+mod events;
+mod fold;
+mod plane;
+mod retract;
+mod sighting;
+mod track;
+mod tracked;
+mod tracker;
+
+pub use bad_track::BadTrack;
+pub use events::{ContactEvents, Happened, Impact};
+pub use sighting::Sighting;
+pub use tracked::{Continuity, Tracked};
+pub use tracker::Tracker;
