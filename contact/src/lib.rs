@@ -27,7 +27,10 @@ pub use skin::{
 };
 pub use soft_finger::{Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};
 #[cfg(feature = "track")]
-pub use track::{BadTrack, ContactEvents, Continuity, Happened, Impact, Sighting, Tracked, Tracker};
+pub use track::{
+    BadTrack, ContactEvents, Continuity, Happened, Impact, LineMeeting, Met, NoMeeting, Sighting, Tracked,
+    Tracker,
+};
 pub use uncertainty::{
     ConfidenceEllipse, ContactCovariance, ContactJacobian, ConvexBound, GeometrySensitivity,
     GeometryUncertainty, PaperBounds, SensorUncertainty, WorstCase, WrenchNoise, WrenchSpread,

@@ -3,6 +3,7 @@
 mod bad_track;
 mod events;
 mod fold;
+mod meeting;
 mod plane;
 mod retract;
 mod sighting;
@@ -12,6 +13,7 @@ mod tracker;
 
 pub use bad_track::BadTrack;
 pub use events::{ContactEvents, Happened, Impact};
+pub use meeting::{LineMeeting, Met, NoMeeting};
 pub use sighting::Sighting;
 pub use tracked::{Continuity, Tracked};
 pub use tracker::Tracker;

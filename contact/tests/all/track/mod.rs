@@ -6,4 +6,5 @@ mod course;
 mod events;
 mod hostile;
 mod jumps;
+mod meeting;
 mod surfaces;
