@@ -28,8 +28,8 @@ pub use skin::{
 pub use soft_finger::{Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};
 #[cfg(feature = "track")]
 pub use track::{
-    BadTrack, ContactEvents, Continuity, Happened, Impact, LineMeeting, Met, NoMeeting, Sighting, Tracked,
-    Tracker,
+    BadTrack, ContactEvents, Continuity, FingerVelocity, Happened, Impact, LineMeeting, Met, MotionJudge,
+    Motions, NoCurvature, NoMeeting, ObjectCurvature, RollingCurvature, Sighting, Tracked, Tracker,
 };
 pub use uncertainty::{
     ConfidenceEllipse, ContactCovariance, ContactJacobian, ConvexBound, GeometrySensitivity,

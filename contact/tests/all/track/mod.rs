@@ -7,4 +7,5 @@ mod events;
 mod hostile;
 mod jumps;
 mod meeting;
+mod motion;
 mod surfaces;
