@@ -21,6 +21,7 @@ use crate::sections::StageSections;
 use crate::sensor::SensorSection;
 use crate::slip::SlipSection;
 use crate::surface::{MapSection, MeshSection, PoseSection, SurfaceSection, map_of, placed};
+use crate::tracking::TrackingSection;
 use crate::uncertainty::UncertaintySection;
 
 #[derive(Clone, Debug, Deserialize)]
@@ -41,6 +42,7 @@ struct SceneFile<S> {
     #[serde(default)]
     contact: ContactSection,
     uncertainty: Option<UncertaintySection>,
+    tracking: Option<TrackingSection>,
     friction: Option<FrictionSection>,
     slip: Option<SlipSection>,
     estimate: Option<EstimateSection>,
@@ -167,7 +169,7 @@ impl<S: SurfaceSection> SceneFile<S> {
         let convention = self.input.convention;
         let sensor = self.sensor.as_ref().map(|section| section.source(folder)).transpose()?;
         let payload = self.payload.as_ref().map(|section| section.source(folder)).transpose()?;
-        let Self { filter, contact, uncertainty, friction, slip, estimate, grip, .. } = self;
+        let Self { filter, contact, uncertainty, tracking, friction, slip, estimate, grip, .. } = self;
         let stages = StageSections {
             convention,
             sample_rate,
@@ -177,6 +179,7 @@ impl<S: SurfaceSection> SceneFile<S> {
             filter,
             contact,
             uncertainty,
+            tracking,
             friction,
             slip,
             estimate,
