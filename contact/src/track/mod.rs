@@ -1,14 +1,14 @@
-//! A contact over time: followed on the surface, and the events that it begins and ends with.
+//! A contact over time: followed on the surface, the events that it begins and ends with, and how it moves.
 
 mod bad_track;
 mod events;
 mod fold;
+mod followed;
 mod meeting;
 mod motion;
 mod plane;
 mod retract;
 mod sighting;
-mod track;
 mod tracked;
 mod tracker;
 

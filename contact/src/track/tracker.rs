@@ -4,7 +4,7 @@ use fingertip_surfaces::ActiveSurface;
 use fingertip_wrench::Real;
 use nalgebra::Vector2;
 
-use super::track::{Compared, Track};
+use super::followed::{Compared, Track};
 use super::{BadTrack, Continuity, Sighting, Tracked};
 
 const WHAT: &str = "a tracker";
