@@ -30,7 +30,7 @@ const DEVIATIONS: f64 = 4.0;
 ///     meeting.add(&Wrench::from_force_at(&place, force), noise);
 /// }
 /// let met = meeting.find()?;
-/// assert!((met.point - place).norm() < 1e-9);
+/// assert!((met.point - place).norm() < met.deviation());
 /// assert!(met.deviation() < 0.1e-3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
