@@ -10,6 +10,8 @@ mod shapes;
 #[cfg(feature = "skin")]
 mod skin;
 mod soft_finger;
+#[cfg(feature = "track")]
+mod track;
 mod uncertainty;
 
 #[cfg(feature = "fusion")]
@@ -24,6 +26,11 @@ pub use skin::{
     IndentationSlope, LinearStiffness, LocalHertz, PowerLaw, SkinLaw, Tabulated, contact_modulus,
 };
 pub use soft_finger::{Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};
+#[cfg(feature = "track")]
+pub use track::{
+    BadTrack, ContactEvents, Continuity, FingerVelocity, Happened, Impact, LineMeeting, Met, MotionJudge,
+    Motions, NoCurvature, NoMeeting, ObjectCurvature, RollingCurvature, Sighting, Tracked, Tracker,
+};
 pub use uncertainty::{
     ConfidenceEllipse, ContactCovariance, ContactJacobian, ConvexBound, GeometrySensitivity,
     GeometryUncertainty, PaperBounds, SensorUncertainty, WorstCase, WrenchNoise, WrenchSpread,

@@ -22,6 +22,7 @@ use crate::sections::StageSections;
 use crate::sensor::SensorSection;
 use crate::slip::SlipSection;
 use crate::surface::{MapSection, MeshSection, PoseSection, SurfaceSection, map_of, placed};
+use crate::tracking::TrackingSection;
 use crate::uncertainty::UncertaintySection;
 
 #[derive(Clone, Debug, Deserialize)]
@@ -42,6 +43,7 @@ struct SceneFile<S> {
     #[serde(default)]
     contact: ContactSection,
     uncertainty: Option<UncertaintySection>,
+    tracking: Option<TrackingSection>,
     friction: Option<FrictionSection>,
     slip: Option<SlipSection>,
     estimate: Option<EstimateSection>,
@@ -176,7 +178,7 @@ impl<S: SurfaceSection> SceneFile<S> {
         let convention = self.input.convention;
         let sensor = self.sensor.as_ref().map(|section| section.source(folder)).transpose()?;
         let payload = self.payload.as_ref().map(|section| section.source(folder)).transpose()?;
-        let Self { filter, contact, uncertainty, friction, slip, estimate, grip, .. } = self;
+        let Self { filter, contact, uncertainty, tracking, friction, slip, estimate, grip, .. } = self;
         let stages = StageSections {
             convention,
             sample_rate,
@@ -186,6 +188,7 @@ impl<S: SurfaceSection> SceneFile<S> {
             filter,
             contact,
             uncertainty,
+            tracking,
             friction,
             slip,
             estimate,

@@ -30,6 +30,7 @@ mod skin;
 mod slip;
 mod stages;
 mod surface;
+mod tracking;
 mod uncertainty;
 
 pub use carried::Carried;

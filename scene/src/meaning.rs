@@ -18,6 +18,7 @@ pub(crate) fn of(scene: &Table, delay: f64) -> Vec<String> {
         "pose",
         "contact",
         "uncertainty",
+        "tracking",
         "friction",
         "slip",
         "estimate",

@@ -1,6 +1,6 @@
 //! The pipeline of a scene, chosen at run time.
 
-use fingertip::contact::{Contact, NoContact, Resolution};
+use fingertip::contact::{Contact, Happened, NoContact, Resolution, Tracked};
 use fingertip::friction::{GripController, SlipMargin, SlipVerdict, StickSlip};
 use fingertip::surfaces::DynSurface;
 use fingertip::wrench::{ContactForce, Motion, Real, Wrench};
@@ -15,10 +15,11 @@ use crate::filter::Filter;
 use crate::friction::{Friction, Limit};
 use crate::front::Front;
 use crate::model::Model;
-use crate::noise::Noisy;
+use crate::noise::{Known, Noisy};
 use crate::sensor::{GaugeReading, NoWrench, Sensor};
 use crate::slip::{Detector, SlipWatch};
 use crate::stages::Stages;
+use crate::tracking::Tracking;
 use crate::uncertainty::{Spread, Uncertainty};
 
 /// A longer step than this is a pause \[s\]: what follows from sample to sample starts anew.
@@ -37,6 +38,7 @@ pub struct Pipeline<T: Real> {
     surface: DynSurface<T>,
     model: Model<T>,
     uncertainty: Option<Uncertainty<T>>,
+    tracking: Option<Tracking<T>>,
     /// The sections that answer to the noise of the rest, if one does.
     noisy: Option<Box<Noisy>>,
     awaits_noise: bool,
@@ -56,6 +58,10 @@ pub struct Felt<T: Real> {
     pub touch: AnyTouch<T>,
     /// How sure the contact is, with `[uncertainty]`; `None` also where it cannot be said, as at grazing.
     pub spread: Option<Spread<T>>,
+    /// Where the contact is by all samples so far, with `[tracking]`; `None` where none is followed.
+    pub tracked: Option<Tracked<T>>,
+    /// Whether something touches, lets go or strikes, where `[tracking]` has a `least_touch_N`.
+    pub happened: Option<Happened<T>>,
     /// The probability that the contact slips, where the friction is known with a deviation.
     pub slip_probability: Option<T>,
     /// The stick-slip motion that goes on, where it is looked for.
@@ -74,6 +80,8 @@ impl<T: Real> Felt<T> {
         Self {
             touch: Touch { wrench: zero, resolution, force: None, grip: None, slip: None },
             spread: None,
+            tracked: None,
+            happened: None,
             slip_probability: None,
             stick_slip: None,
             friction: None,
@@ -104,6 +112,10 @@ pub struct Tells {
     pub spin_torque: bool,
     /// How sure the contact is: there is an `[uncertainty]`.
     pub spread: bool,
+    /// Where the contact is over time: there is a `[tracking]`.
+    pub tracked: bool,
+    /// Touch, release and blow: the `[tracking]` has a `least_touch_N`.
+    pub happened: bool,
     /// The probability of slip: the friction has a deviation.
     pub slip_probability: bool,
     /// What was learnt of the friction: there is an `[estimate]`.
@@ -119,6 +131,7 @@ pub(crate) struct Parts<T: Real> {
     pub(crate) surface: DynSurface<T>,
     pub(crate) model: Model<T>,
     pub(crate) uncertainty: Option<Uncertainty<T>>,
+    pub(crate) tracking: Option<Tracking<T>>,
     pub(crate) noisy: Option<Box<Noisy>>,
     pub(crate) friction: Friction<T>,
     pub(crate) slip: SlipWatch<T>,
@@ -128,8 +141,19 @@ pub(crate) struct Parts<T: Real> {
 
 impl<T: Real> Pipeline<T> {
     pub(crate) fn new(parts: Parts<T>) -> Self {
-        let Parts { front, filter, surface, model, uncertainty, noisy, friction, slip, estimate, grip } =
-            parts;
+        let Parts {
+            front,
+            filter,
+            surface,
+            model,
+            uncertainty,
+            tracking,
+            noisy,
+            friction,
+            slip,
+            estimate,
+            grip,
+        } = parts;
         let stages = Stages::new(surface.clone(), model.clone(), friction, slip);
         let has_more = uncertainty.is_some()
             || estimate.is_some()
@@ -144,6 +168,7 @@ impl<T: Real> Pipeline<T> {
             surface,
             model,
             uncertainty,
+            tracking,
             awaits_noise: noisy.is_some(),
             noisy,
             estimate,
@@ -300,10 +325,11 @@ impl<T: Real> Pipeline<T> {
             let (key, section) = ("rest_s", "input");
             return Err(SceneProblem::Range { key, section, requirement: "a rest of finite readings" });
         }
-        let (model, uncertainty) = noisy.build(Some(&noise))?;
+        let Known { model, uncertainty, tracking } = noisy.build(Some(&noise))?;
         let (friction, slip) = (*self.stages.friction(), self.stages.slip().clone());
         self.stages = Stages::new(self.surface.clone(), model.clone(), friction, slip);
         (self.model, self.uncertainty, self.awaits_noise) = (model, uncertainty, false);
+        self.tracking = tracking;
         self.start_anew();
         Ok(())
     }
@@ -322,10 +348,16 @@ impl<T: Real> Pipeline<T> {
         felt.stick_slip = self.stages.slip().stick_slip();
         felt.slip_probability = force.as_ref().and_then(|force| limit?.slip_probability(force));
         felt.spread = None;
-        if let (Some(uncertainty), Some(contact)) = (&self.uncertainty, felt.touch.resolution.contact()) {
-            let wrench = &felt.touch.wrench;
-            let jacobian = self.model.jacobian(contact, wrench, &self.surface, before.as_ref());
-            felt.spread = jacobian.and_then(|jacobian| uncertainty.of(&jacobian, wrench));
+        if let Some(uncertainty) = &self.uncertainty {
+            let (contact, wrench) = (felt.touch.resolution.contact(), &felt.touch.wrench);
+            let jacobian = contact
+                .and_then(|contact| self.model.jacobian(contact, wrench, &self.surface, before.as_ref()));
+            felt.spread = jacobian.as_ref().and_then(|jacobian| uncertainty.of(jacobian, wrench));
+            if let Some(tracking) = &mut self.tracking {
+                let found = contact.zip(jacobian.as_ref());
+                (felt.tracked, felt.happened) =
+                    tracking.follow(found, wrench, uncertainty, &self.surface, time_step);
+            }
         }
         if let Some(estimate) = &mut self.estimate {
             estimate.follow(force.as_ref(), slip, time_step);
@@ -353,11 +385,14 @@ impl<T: Real> Pipeline<T> {
         }
     }
 
-    /// Forgets the last contact, what the filter holds and what the slip detector saw, as after a gap in a recording;
+    /// Forgets the last contact and its track, what the filter holds and what the slip detector saw, as after a gap in a recording;
     /// what was learnt of the friction stays.
     pub fn start_anew(&mut self) {
         self.stages.slip_mut().reset();
         self.last = None;
+        if let Some(tracking) = &mut self.tracking {
+            tracking.start_anew();
+        }
         if let Some(filter) = &mut self.filter {
             filter.start_anew();
         }
@@ -368,6 +403,8 @@ impl<T: Real> Pipeline<T> {
         Tells {
             spin_torque: self.model().knows_spin(),
             spread: self.uncertainty.is_some(),
+            tracked: self.tracking.is_some(),
+            happened: self.tracking.as_ref().is_some_and(Tracking::tells_events),
             slip_probability: matches!(self.limit(), Some(Limit::Uncertain { .. })),
             friction: self.estimate.is_some(),
             grip_force: self.grip.is_some(),

@@ -13,11 +13,12 @@ use crate::front::Front;
 use crate::grip::GripSection;
 use crate::input::Convention;
 use crate::model::ContactSection;
-use crate::noise::Noisy;
+use crate::noise::{Known, Noisy};
 use crate::pipeline::{Parts, Pipeline};
 use crate::sensor::SensorSource;
 use crate::slip::{SlipSection, SlipWatch};
 use crate::surface::{PoseSection, flat_normal};
+use crate::tracking::TrackingSection;
 use crate::uncertainty::UncertaintySection;
 
 /// The sections of the stages.
@@ -31,6 +32,7 @@ pub(crate) struct StageSections {
     pub(crate) filter: Option<FilterSection>,
     pub(crate) contact: ContactSection,
     pub(crate) uncertainty: Option<UncertaintySection>,
+    pub(crate) tracking: Option<TrackingSection>,
     pub(crate) friction: Option<FrictionSection>,
     pub(crate) slip: Option<SlipSection>,
     pub(crate) estimate: Option<EstimateSection>,
@@ -47,14 +49,19 @@ impl StageSections {
     ) -> Result<Pipeline<T>, SceneProblem> {
         let pose = pose.sensor_from_surface::<f64>()?;
         let pivot = pose.transform_point(&Vector3::zeros());
-        let noisy = Noisy { contact: self.contact.clone(), uncertainty: self.uncertainty.clone(), pivot };
+        let noisy = Noisy {
+            contact: self.contact.clone(),
+            uncertainty: self.uncertainty.clone(),
+            tracking: self.tracking.clone(),
+            pivot,
+        };
         if noisy.awaits_noise() && self.rest.is_none() {
             return Err(SceneProblem::Needs {
                 what: "`least_force_deviations` of [contact], or [uncertainty] without its noise,",
                 needed: "`rest_s` of [input], in which the noise is measured",
             });
         }
-        let (model, uncertainty) = noisy.build(None)?;
+        let Known { model, uncertainty, tracking } = noisy.build(None)?;
         let limit = match &self.friction {
             Some(section) => Some(section.build(flat_normal(exact), |v| pose.rotate(v))?),
             None => None,
@@ -87,6 +94,7 @@ impl StageSections {
             surface,
             model,
             uncertainty,
+            tracking,
             noisy: noisy.awaits_noise().then(|| Box::new(noisy)),
             friction: Friction(limit),
             slip: SlipWatch(detector),

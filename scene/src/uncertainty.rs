@@ -116,6 +116,11 @@ impl<T: Real> Uncertainty<T> {
         Matrix6::from_diagonal(&self.noise.floor.component_mul(&self.noise.floor))
     }
 
+    /// Standard deviation of the noisiest component of the force at rest \[N\].
+    pub(crate) fn force_noise(&self) -> T {
+        self.noise.floor.fixed_rows::<3>(0).amax()
+    }
+
     /// How sure a contact with these derivatives is, under this wrench; `None` where that cannot be said.
     pub(crate) fn of(&self, jacobian: &ContactJacobian<T>, wrench: &Wrench<T>) -> Option<Spread<T>> {
         let mut covariance = ContactCovariance::new(jacobian, &self.noise.covariance(wrench));

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use fingertip::contact::{NoContact, Resolution};
+use fingertip::contact::{Continuity, Happened, NoContact, Resolution, Tracked};
 use fingertip::friction::SlipVerdict;
 use fingertip_scene::{Felt, Tells};
 
@@ -17,11 +17,29 @@ const HEADER: &str = "t_s,status,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,x_m,y_m,z_m,nx
 /// Whether a scene asks for some columns.
 type IsTold = fn(&Tells) -> bool;
 /// What a scene that asks for more has behind it, in this order.
-const MORE: [(IsTold, &[&str]); 5] = [
+const MORE: [(IsTold, &[&str]); 7] = [
     (|tells| tells.spin_torque, &["spin_Nm"]),
     (
         |tells| tells.spread,
         &["ellipse_a_m", "ellipse_b_m", "ellipse_x", "ellipse_y", "ellipse_z", "normal_deviation_N"],
+    ),
+    (
+        |tells| tells.tracked,
+        &[
+            "track",
+            "track_x_m",
+            "track_y_m",
+            "track_z_m",
+            "track_vx_m_per_s",
+            "track_vy_m_per_s",
+            "track_vz_m_per_s",
+            "track_deviation_m",
+            "track_surprise",
+        ],
+    ),
+    (
+        |tells| tells.happened,
+        &["event", "event_since_s", "impact_peak_N", "impact_x_Ns", "impact_y_Ns", "impact_z_Ns"],
     ),
     (|tells| tells.slip_probability, &["slip_probability"]),
     (|tells| tells.friction, &["mu_static", "mu_static_deviation", "mu_kinetic", "mu_kinetic_deviation"]),
@@ -111,6 +129,12 @@ impl ContactWriter {
                 None => self.empty(6),
             }
         }
+        if self.tells.tracked {
+            self.tracked(felt.tracked.as_ref());
+        }
+        if self.tells.happened {
+            self.happened(felt.happened.as_ref());
+        }
         if self.tells.slip_probability {
             self.cell(number(felt.slip_probability));
         }
@@ -123,6 +147,43 @@ impl ContactWriter {
         }
         if self.tells.grip_force {
             self.cell(number(felt.grip_force));
+        }
+    }
+
+    /// Where the contact is over time.
+    fn tracked(&mut self, tracked: Option<&Tracked<f64>>) {
+        let Some(tracked) = tracked else {
+            self.word("");
+            self.empty(8);
+            return;
+        };
+        self.word(match tracked.continuity {
+            Continuity::New => "new",
+            Continuity::Followed => "followed",
+            Continuity::Doubted => "doubted",
+            Continuity::Bridged => "bridged",
+        });
+        self.cells(tracked.point.as_ref());
+        self.cells(tracked.velocity.as_ref());
+        self.cell(tracked.deviation());
+        self.cell(tracked.surprise);
+    }
+
+    /// Touch, release, or none; and the blow that is over.
+    fn happened(&mut self, happened: Option<&Happened<f64>>) {
+        let (touch, release) = (happened.and_then(|h| h.touch), happened.and_then(|h| h.release));
+        self.word(match (touch, release) {
+            (Some(_), _) => "touch",
+            (None, Some(_)) => "release",
+            (None, None) => "",
+        });
+        self.cell(touch.or(release).unwrap_or(f64::NAN));
+        match happened.and_then(|happened| happened.impact) {
+            Some(impact) => {
+                self.cell(impact.peak);
+                self.cells(impact.impulse.as_ref());
+            }
+            None => self.empty(4),
         }
     }
 

@@ -18,5 +18,6 @@ mod skins;
 mod spherical_cap;
 mod stored;
 mod thresholds;
+mod track;
 mod worst_case;
 mod wrappers;

@@ -93,7 +93,7 @@ pub fn geometry() -> Result<contact::GeometryUncertainty<{T}>, BadTip> {{
 
 impl<T: Real + DeserializeOwned> Writer<T> {
     /// A template of items, in which braces of Rust are doubled.
-    fn items(&mut self, template: &str, keys: &Table) -> Result<String, ExportError> {
+    pub(super) fn items(&mut self, template: &str, keys: &Table) -> Result<String, ExportError> {
         let (open, close) = ('\u{1}'.to_string(), '\u{2}'.to_string());
         let text = self.fill(&template.replace("{{", &open).replace("}}", &close), keys)?;
         Ok(text.replace(&open, "{").replace(&close, "}"))
@@ -202,7 +202,7 @@ impl<T: Real + DeserializeOwned> Writer<T> {
 }
 
 /// The derivatives of a contact, as each model knows them; `contact` and `wrench` are the sample's.
-fn jacobian(model: &str, skin: bool) -> &'static str {
+pub(super) fn jacobian(model: &str, skin: bool) -> &'static str {
     const OF_POINT: &str = "contact::ContactJacobian::of_point_contact(
         found,
         &touch.wrench,

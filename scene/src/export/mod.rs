@@ -2,6 +2,7 @@
 
 mod beside;
 mod calibrated;
+mod followed;
 mod formula;
 mod json;
 mod layout;

@@ -20,7 +20,7 @@ use crate::scene::Scene;
 use crate::uncertainty::{Uncertainty, UncertaintySection};
 
 /// The sections that are exported, or that are of no sample: how recordings are read, and how points are drawn.
-const KNOWN: [&str; 13] = [
+const KNOWN: [&str; 14] = [
     "version",
     "name",
     "input",
@@ -30,6 +30,7 @@ const KNOWN: [&str; 13] = [
     "map",
     "contact",
     "uncertainty",
+    "tracking",
     "friction",
     "slip",
     "estimate",
@@ -37,9 +38,10 @@ const KNOWN: [&str; 13] = [
 ];
 
 /// What can be wrong with numbers: where it shows that it can, its variant, its type, and what it is of.
-const FAULTS: [(&str, &str, &str, &str); 8] = [
+const FAULTS: [(&str, &str, &str, &str); 9] = [
     ("", "Shape", "surfaces::BadShape", "A shape, a contact model or an uncertainty."),
     ("friction::", "Friction", "friction::BadParameter", "A friction, a detector or a grip."),
+    ("contact::Tracker::new", "Track", "contact::BadTrack", "What follows a contact over time."),
     ("RigidTransform::from_matrix", "Pose", "wrench::TransformError", "A pose."),
     ("surfaces::Mesh::new", "Mesh", "surfaces::MeshError", "A mesh."),
     ("calibration::sensor_matrix", "Sensor", "wrench::SensorMatrixError", "The sensor matrix."),
@@ -106,6 +108,9 @@ pub(super) fn of<T: Real + DeserializeOwned>(
     if let Some(uncertainty) = &uncertainty {
         beside.push(writer.uncertainty(uncertainty, &contact)?);
     }
+    if let Some(tracking) = section("tracking") {
+        beside.push(writer.tracking(tracking, uncertainty.as_ref(), &contact)?);
+    }
     if let Some(friction) = section("friction") {
         beside.extend(writer.friction_model(friction)?);
     }
@@ -159,6 +164,7 @@ fn header<T: Real>(scene: &Scene, stages: &Stages, beside: &[Beside], items: &st
     features.extend(on_the_heap(items).then_some("\"alloc\""));
     features.extend(items.contains("friction::").then_some("\"friction\""));
     features.extend(items.contains("contact::Compliant").then_some("\"skin\""));
+    features.extend(items.contains("contact::Tracker").then_some("\"track\""));
     let heap = if on_the_heap(items) {
         "a heap, but no standard library"
     } else {

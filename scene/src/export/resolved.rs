@@ -20,6 +20,7 @@ use crate::scene::Scene;
 use crate::sensor::SensorSection;
 use crate::slip::SlipSection;
 use crate::surface::{MapSection, PoseSection, ShapeSource};
+use crate::tracking::TrackingSection;
 use crate::uncertainty::UncertaintySection;
 
 /// The scene in version 2 of the format. Numbers are those of the file, to the bit; those of a mesh in a file are rounded
@@ -41,6 +42,7 @@ pub(super) fn resolve<T: Real>(scene: &Scene) -> Result<Table, ExportError> {
             "pose" => filled::<PoseSection>(section)?,
             "map" => filled::<MapSection>(section)?,
             "contact" => contact(section)?,
+            "tracking" => filled::<TrackingSection>(section)?,
             "uncertainty" => filled::<UncertaintySection>(section)?,
             "friction" => filled::<FrictionSection>(section)?,
             "slip" => filled::<SlipSection>(section)?,

@@ -48,7 +48,7 @@ fn the_modules_are_what_is_exported_today() {
             holds(name, &example(name).to_rust(Scalar::F64, None).unwrap());
         }
     }
-    for name in ["nano17_soft_finger", "paper_sphere", "rubber_tip"] {
+    for name in ["nano17_soft_finger", "paper_sphere", "rubber_tip", "tracked_ball"] {
         holds(&format!("{name}_f32"), &example(name).to_rust(Scalar::F32, None).unwrap());
     }
 }
@@ -133,12 +133,12 @@ macro_rules! each {
 #[test]
 fn the_examples_give_the_bits_of_the_pipeline() {
     each!(1000, example, f64: auto_capsule, capsule, ellipsoid, nano17_cylinder, nano17_soft_finger, paper_sphere,
-        plane, rubber_tip);
+        plane, rubber_tip, tracked_ball);
     each!(40, example, f64: formula_pad);
     let skinned = |_| Scene::from_text(SKINNED).unwrap();
     each!(300, skinned, f64: skinned);
     let narrow = |name: &str| example(name.trim_end_matches("_f32"));
-    each!(1000, narrow, f32: nano17_soft_finger_f32, paper_sphere_f32, rubber_tip_f32);
+    each!(1000, narrow, f32: nano17_soft_finger_f32, paper_sphere_f32, rubber_tip_f32, tracked_ball_f32);
 }
 
 #[test]

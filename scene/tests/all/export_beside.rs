@@ -272,3 +272,47 @@ fn the_gauges_of_an_example_give_the_bits_of_the_pipeline() {
     }
     assert!(touched > 100, "{touched}");
 }
+
+/// A light touch that wanders, jumps and lets go: followed by the exported module as by the scene, to the bit.
+#[test]
+fn the_contact_is_followed_as_at_run_time() {
+    macro_rules! follow {
+        ($module:ident, $t:ty) => {{
+            use exported::$module::{contact_events, sighting, tip, tracker, wrench_noise};
+            let mut pipeline = example("tracked_ball").pipeline_in::<$t>().unwrap();
+            let (mut tip, mut last) = (tip().unwrap(), None);
+            let (mut tracker, noise, mut events) =
+                (tracker().unwrap(), wrench_noise().unwrap(), contact_events().unwrap());
+            let (mut new, mut touches, mut releases) = (0, 0, 0);
+            for k in 0..3000_u32 {
+                let number = <$t as Real>::literal;
+                let turn = f64::from(k) * 2e-3 + if k > 2000 { 1.0 } else { 0.0 };
+                let normal = Vector3::new(turn.cos(), 0.4, turn.sin()).normalize().map(number);
+                let jitter = number(f64::from(k * 7919 % 101) * 1e-4);
+                let size = if k % 1000 < 900 { number(0.2) } else { number(0.0) };
+                let push = Wrench::from_force_at(&(normal * number(0.013)), -normal * size)
+                    + Wrench::on_fingertip(
+                        Vector3::zeros(),
+                        Vector3::new(jitter, -jitter, jitter) * number(1e-2),
+                    );
+                let time_step = number(1e-3);
+                let felt = *pipeline.sense(push, time_step);
+                let touch = tip.sense_wrench(push, Step::of(time_step).with_last(last));
+                last = touch.point();
+                let sighting = sighting(&tip, &touch, &noise);
+                let tracked = tracker.follow(tip.surface(), sighting.as_ref(), time_step);
+                assert_eq!(felt.tracked, tracked, "{k}");
+                let happened = events.observe(&touch.wrench.force(), time_step);
+                assert_eq!(felt.happened, Some(happened), "{k}");
+                new += u32::from(tracked.is_some_and(|tracked| tracked.is_new()));
+                touches += u32::from(happened.touch.is_some());
+                releases += u32::from(happened.release.is_some());
+            }
+            // The jump at 2000 comes with the third touch.
+            assert!(new >= 3, "{new}");
+            assert_eq!((touches, releases), (3, 3));
+        }};
+    }
+    follow!(tracked_ball, f64);
+    follow!(tracked_ball_f32, f32);
+}

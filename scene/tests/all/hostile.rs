@@ -29,6 +29,7 @@ const EVERYTHING: &str = "version = 2\nname = 'all'\n[input]\nconvention = 'on_f
     [contact]\nmodel = 'soft_finger'\nleast_force_N = 0.1\nskin_share = 0.9\n\
     [contact.skin]\nlaw = 'local_hertz'\nlargest_radius_m = 0.1\nyoung_moduli_Pa = [2.0e6, inf]\npoisson_ratios = [0.49, 0.3]\n\
     [uncertainty]\nforce_noise_N = 0.01\ntorque_noise_Nm = 0.0001\nposition_m = 0.0001\nattitude_deg = 0.5\n\
+    [tracking]\nspeed_m_per_s = 0.01\nturns_within_s = 0.1\nleast_touch_N = 0.1\n\
     [friction]\nlimit = 'uncertain'\nstatic_coefficient = 0.5\ndeviation = 0.05\n\
     [slip]\ndetector = 'likelihood_ratio'\nnoise_N = 0.01\n[estimate]\nnoise_N = 0.01\n\
     [grip]\nleast_N = 0.2\ngreatest_N = 20.0\nrise_N_per_s = 100.0\nfall_N_per_s = 2.0\n";
@@ -133,6 +134,12 @@ fn numbers(scene: &Scene) -> Vec<f64> {
         all.extend(contact.point.iter().chain(contact.normal.iter()).copied());
     }
     all.extend(felt.spread.iter().flat_map(|spread| spread.ellipse.semi_axes));
+    all.extend(felt.tracked.iter().flat_map(|tracked| {
+        [tracked.point, tracked.velocity]
+            .into_iter()
+            .flat_map(|v| [v.x, v.y, v.z])
+            .chain([tracked.deviation()])
+    }));
     all.extend([felt.slip_probability, felt.grip_force].into_iter().flatten());
     all.extend([scene.sample_rate(), scene.rest()].into_iter().flatten());
     all.extend(scene.limit().map(fingertip_scene::Limit::coefficient));

@@ -158,7 +158,8 @@ fn what_is_felt_is_data() {
 fn a_reset_forgets_everything() {
     let ring = "[surface]\nshape = \"torus\"\nring_radius_m = 0.007\ntube_radius_m = 0.004\n";
     let rest = format!(
-        "{NOISE}[friction]\nstatic_coefficient = 0.3\n[slip]\ndetector = \"drop\"\nnoise_N = 0.002\n\
+        "{NOISE}[tracking]\nspeed_m_per_s = 0.01\nturns_within_s = 0.1\nleast_touch_N = 0.1\n\
+         [friction]\nstatic_coefficient = 0.3\n[slip]\ndetector = \"drop\"\nnoise_N = 0.002\n\
          [estimate]\nnoise_N = 0.002\n\
          [grip]\nleast_N = 0.2\ngreatest_N = 20.0\nrise_N_per_s = 100.0\nfall_N_per_s = 2.0\n"
     );
@@ -191,6 +192,9 @@ fn each_stage_speaks_alone() {
     let push = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 0.013), Vector3::new(0.2, 0.0, -2.0));
     let told = |rest: &str| {
         let felt = *scene(rest).pipeline().sense(push, 1e-3);
+        // Not without its section.
+        assert_eq!(felt.tracked.is_some(), rest.contains("[tracking]"));
+        assert_eq!(felt.happened.is_some(), rest.contains("least_touch_N"));
         [
             felt.spread.is_some(),
             felt.slip_probability.is_some(),
@@ -200,6 +204,9 @@ fn each_stage_speaks_alone() {
     };
     assert_eq!(told(""), [false; 4]);
     assert_eq!(told(NOISE), [true, false, false, false]);
+    let tracking = format!("{NOISE}[tracking]\nspeed_m_per_s = 0.01\nturns_within_s = 0.1\n");
+    assert_eq!(told(&tracking), [true, false, false, false]);
+    assert_eq!(told(&format!("{tracking}least_touch_N = 0.1\n")), [true, false, false, false]);
     let uncertain = "[friction]\nlimit = \"uncertain\"\nstatic_coefficient = 0.5\ndeviation = 0.05\n";
     assert_eq!(told(uncertain), [false, true, false, false]);
     let slip = "[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n[estimate]\nnoise_N = 0.01\n";

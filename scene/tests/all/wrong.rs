@@ -10,6 +10,8 @@ fn faults_are_named() {
     let good = format!("{HEAD}{BALL}");
     assert_eq!(Scene::from_text(&good).unwrap().convention(), Convention::OnFingertip);
     let with = |rest: &str| format!("{good}{rest}");
+    let noise = "[uncertainty]\nforce_noise_N = 0.01\ntorque_noise_Nm = 0.0001\n";
+    let tracked = |keys: &str| with(&format!("{noise}[tracking]\n{keys}"));
     let flaw = |text: &str, other: &str| good.replace(text, other);
     let cases = [
         (flaw("convention = \"on_fingertip\"\n", ""), "missing field `convention`"),
@@ -114,6 +116,19 @@ fn faults_are_named() {
             "slide_s",
         ),
         (with("[estimate]\nnoise_N = 0.01\n"), "[slip]"),
+        (with("[tracking]\nspeed_m_per_s = 0.01\nturns_within_s = 0.1\n"), "[uncertainty]"),
+        (tracked("speed_m_per_s = -0.01\nturns_within_s = 0.1\n"), "`speed_m_per_s` of [tracking]"),
+        (tracked("speed_m_per_s = 0.01\nturns_within_s = 0.0\n"), "`turns_within_s` of [tracking]"),
+        (tracked("speed_m_per_s = 1e-200\nturns_within_s = 1e-200\n"), "a length"),
+        (tracked("speed_m_per_s = 0.01\nturns_within_s = 0.1\ndoubted_share = 1.0\n"), "`doubted_share`"),
+        (tracked("speed_m_per_s = 0.01\nturns_within_s = 0.1\nleast_touch_N = 0.0\n"), "`least_touch_N`"),
+        (
+            tracked(
+                "speed_m_per_s = 0.01\nturns_within_s = 0.1\nleast_touch_N = 0.1\nsamples_per_false_event = 1.0\n",
+            ),
+            "`samples_per_false_event`",
+        ),
+        (tracked("turns_within_s = 0.1\n"), "speed_m_per_s"),
         (
             with("[grip]\nleast_N = 0.2\ngreatest_N = 20.0\nrise_N_per_s = 100.0\nfall_N_per_s = 2.0\n"),
             "[friction]",

@@ -5,3 +5,4 @@ mod prototype;
 mod simulated_flaws;
 mod simulated_truth;
 mod simulation;
+mod tracking;

@@ -29,6 +29,10 @@ pub(crate) mod rubber_tip;
 #[rustfmt::skip]
 pub(crate) mod rubber_tip_f32;
 #[rustfmt::skip]
+pub(crate) mod tracked_ball;
+#[rustfmt::skip]
+pub(crate) mod tracked_ball_f32;
+#[rustfmt::skip]
 pub(crate) mod plane_eight_gauges_f32;
 #[rustfmt::skip]
 pub(crate) mod skinned;

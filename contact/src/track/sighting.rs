@@ -1,0 +1,125 @@
+//! One contact and how sure it is, as a tracker takes it.
+
+use fingertip_surfaces::SmoothSurface;
+use fingertip_surfaces::numeric::vectors::{is_finite, tangents};
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::{Matrix2, Vector3};
+
+use crate::{Contact, ContactCovariance, ContactJacobian, WrenchSpread};
+
+/// Where one sample found the contact, with the covariance that it has under *this* force: noise of the position
+/// grows as the force vanishes (`docs/theory/contact.md#errors-of-a-point-contact`).
+///
+/// ```
+/// use fingertip_contact::{ContactModel, PointContact, Sighting, WrenchSpread};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// let ball = Sphere::new(Vector3::zeros(), 0.013)?;
+/// let noise = WrenchSpread::Isotropic { force: 1e-4, torque: 1e-8 };
+/// let push = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 0.013), Vector3::new(0.0, 0.0, -0.5));
+/// let found = PointContact::new(0.1)?.resolve(&push, &ball).into_result()?;
+/// let sighting = Sighting::of_point_contact(&found, &push, noise).ok_or("it grazes")?;
+/// // 0.1 N·mm, and 10 mN on an arm of 13 mm, over 0.5 N.
+/// let variance: f64 = sighting.covariance().m11;
+/// assert!((variance.sqrt() - 0.1_f64.hypot(0.13) * 1e-3 / 0.5).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sighting<T: Real> {
+    pub(super) point: Vector3<T>,
+    pub(super) normal: Vector3<T>,
+    pub(super) tangents: [Vector3<T>; 2],
+    pub(super) covariance: Matrix2<T>,
+}
+
+impl<T: Real> Sighting<T> {
+    /// Of a point on the surface \[m\], its outward unit normal, two unit vectors in the tangent plane, and the
+    /// covariance along them \[m²\].
+    ///
+    /// `None` if a number is not finite, the normal is no unit vector (within 1 %), a variance is negative, or the
+    /// covariance larger than its variances allow.
+    #[inline]
+    #[must_use]
+    pub fn new(
+        point: Vector3<T>,
+        normal: Vector3<T>,
+        tangents: [Vector3<T>; 2],
+        covariance: Matrix2<T>,
+    ) -> Option<Self> {
+        let [e1, e2] = tangents;
+        let (first, both, second) = (covariance.m11, covariance.m12, covariance.m22);
+        let rounding = T::one() + T::EPSILON * T::literal(64.0);
+        let possible =
+            first >= T::zero() && second >= T::zero() && both.abs() <= first.max(second) * rounding;
+        let straight = (normal.norm_squared() - T::one()).abs() <= T::literal(0.02);
+        let finite = (e1.sum() + e2.sum() + first + second).is_number() && is_finite(&point);
+        (possible && straight && finite).then_some(Self { point, normal, tangents, covariance })
+    }
+
+    /// Of what [`PointContact`](crate::PointContact) found in a wrench. `None` where the force grazes.
+    #[inline]
+    #[must_use]
+    pub fn of_point_contact<'a>(
+        contact: &Contact<T>,
+        wrench: &Wrench<T>,
+        spread: impl Into<WrenchSpread<'a, T>>,
+    ) -> Option<Self> {
+        let covariance = ContactCovariance::point_contact_position(contact, wrench, spread)?;
+        let (first, second) = tangents(&contact.normal);
+        Self::new(contact.point, contact.normal, [first, second], covariance)
+    }
+
+    /// Of what [`SoftFinger`](crate::SoftFinger) found on a surface. `None` where no derivative exists, as
+    /// [`ContactJacobian::of_soft_finger_on`] says.
+    #[inline]
+    #[must_use]
+    pub fn of_soft_finger<'a, S: SmoothSurface<T>>(
+        contact: &Contact<T>,
+        surface: &S,
+        spread: impl Into<WrenchSpread<'a, T>>,
+    ) -> Option<Self> {
+        Self::of(contact, &ContactJacobian::of_soft_finger_on(contact, surface)?, spread)
+    }
+
+    /// Of any contact whose derivatives are known, such as one through a skin.
+    #[inline]
+    #[must_use]
+    pub fn of<'a>(
+        contact: &Contact<T>,
+        jacobian: &ContactJacobian<T>,
+        spread: impl Into<WrenchSpread<'a, T>>,
+    ) -> Option<Self> {
+        let covariance = ContactCovariance::position_only(jacobian, spread);
+        Self::new(contact.point, contact.normal, jacobian.tangents(), covariance)
+    }
+
+    /// Where it is \[m\].
+    #[inline]
+    #[must_use]
+    pub const fn point(&self) -> &Vector3<T> {
+        &self.point
+    }
+
+    /// The outward unit normal there.
+    #[inline]
+    #[must_use]
+    pub const fn normal(&self) -> &Vector3<T> {
+        &self.normal
+    }
+
+    /// The two unit vectors that the covariance refers to.
+    #[inline]
+    #[must_use]
+    pub const fn tangents(&self) -> &[Vector3<T>; 2] {
+        &self.tangents
+    }
+
+    /// Covariance of the position along the tangents \[m²\].
+    #[inline]
+    #[must_use]
+    pub const fn covariance(&self) -> &Matrix2<T> {
+        &self.covariance
+    }
+}

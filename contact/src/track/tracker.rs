@@ -1,0 +1,269 @@
+//! Follows a contact from sample to sample.
+
+use fingertip_surfaces::ActiveSurface;
+use fingertip_wrench::Real;
+use nalgebra::Vector2;
+
+use super::followed::{Compared, Track};
+use super::{BadTrack, Continuity, Sighting, Tracked};
+
+const WHAT: &str = "a tracker";
+
+/// A pause that is so many times as long as the contact takes to turn is the end of a track.
+const PAUSE: f64 = 10.0;
+
+/// The share of samples of the contact itself that are taken for another one, if nothing else is said.
+const ASTRAY: f64 = 1e-3;
+
+/// Follows a contact on the surface: a Kalman filter of position and velocity in the tangent plane
+/// (`docs/theory/contact.md#tracking`), in which each sample counts by how sure it is under its force.
+///
+/// How a contact moves is said in words: it moves at about `speed` and may turn round within about the time
+/// `within`. That is white acceleration of the density `speed/√within` \[m/s^1.5\]. The slower and steadier, the more
+/// samples are averaged.
+///
+/// A sample that is too far off for the contact that is followed is not taken at first. If the next one is there too, it
+/// is another contact, and the track starts anew: nothing is dragged along.
+///
+/// Forces are not touched: they are those of the sample.
+///
+/// ```
+/// use fingertip_contact::{ContactModel, PointContact, Sighting, Tracker, WrenchSpread};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// let ball = Sphere::new(Vector3::zeros(), 0.013)?;
+/// let model = PointContact::new(0.05)?;
+/// let noise = WrenchSpread::Isotropic { force: 1e-4, torque: 1e-8 };
+/// // It moves at about 10 mm/s and may turn within a tenth of a second.
+/// let mut tracker = Tracker::new(0.01, 0.1)?;
+/// let mut last = None;
+/// for sample in 0..200 {
+///     // In truth it rolls along at 10 mm/s.
+///     let angle = 0.01 / 0.013 * 1e-3 * f64::from(sample);
+///     let normal = Vector3::new(angle.sin(), 0.0, angle.cos());
+///     let wrench = Wrench::from_force_at(&(normal * 0.013), -normal * 0.5);
+///     let found = model.resolve(&wrench, &ball);
+///     let sighting = found.contact().and_then(|contact| Sighting::of_point_contact(contact, &wrench, noise));
+///     last = tracker.follow(&ball, sighting.as_ref(), 1e-3);
+/// }
+/// let tracked = last.ok_or("no contact")?;
+/// assert!((tracked.velocity.norm() - 0.01).abs() < 1e-3);
+/// // One sample has a deviation of 0.33 mm.
+/// assert!(tracked.deviation() < 0.12e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tracker<T: Real> {
+    speed: T,
+    within: T,
+    /// The unit of length \[m\] and its reciprocal.
+    unit: T,
+    shorter: T,
+    /// The reciprocal of the unit of time \[1/s\].
+    faster: T,
+    gate: T,
+    track: Option<Track<T>>,
+    /// What the sample before would be if it was no mistake.
+    rival: Option<Track<T>>,
+    /// Sum of the variances of the last sighting that was taken [units].
+    sample: T,
+}
+
+impl<T: Real> Tracker<T> {
+    /// For a contact that moves at about `speed` \[m/s\] and may turn round within about so long \[s\].
+    ///
+    /// # Errors
+    /// [`BadTrack`] unless both are positive and finite, and their product, a length, has a square and its reciprocal in
+    /// the range of the type.
+    pub fn new(speed: T, within: T) -> Result<Self, BadTrack> {
+        let positive = |x: T| x > T::zero() && (T::one() / x).is_number() && x.is_number();
+        BadTrack::check(WHAT, "speed", "positive and finite", positive(speed))?;
+        BadTrack::check(WHAT, "time to turn", "positive and finite", positive(within))?;
+        let unit = speed * within;
+        let square = unit * unit;
+        let good = square >= T::LEAST_NORMAL && square <= T::one() / T::LEAST_NORMAL;
+        BadTrack::check(WHAT, "speed times its time to turn", "a length of ordinary size", good)?;
+        Ok(Self {
+            speed,
+            within,
+            unit,
+            shorter: T::one() / unit,
+            faster: T::one() / within,
+            gate: gate_at(T::literal(ASTRAY)),
+            track: None,
+            rival: None,
+            sample: T::zero(),
+        })
+    }
+
+    /// With another gate: of the samples of the contact itself, so many are taken for another one at first, by their
+    /// noise. The share is 0.001 if nothing is said. A smaller one lets the contact jump farther unnoticed.
+    ///
+    /// # Errors
+    /// [`BadTrack`] unless the share is between 0 and 1.
+    pub fn with_gate(self, share: T) -> Result<Self, BadTrack> {
+        let good = share > T::zero() && share < T::one();
+        BadTrack::check(WHAT, "share of samples beyond the gate", "between 0 and 1", good)?;
+        Ok(Self { gate: gate_at(share), ..self })
+    }
+
+    /// How fast the contact moves, about \[m/s\].
+    #[must_use]
+    pub const fn speed(&self) -> T {
+        self.speed
+    }
+
+    /// How long it takes to turn round, about \[s\].
+    #[must_use]
+    pub const fn within(&self) -> T {
+        self.within
+    }
+
+    /// The normalised innovation squared beyond which a sample is of another contact.
+    #[must_use]
+    pub const fn gate(&self) -> T {
+        self.gate
+    }
+
+    /// Takes a sample, and the time since the one before \[s\]; `None` if it has no contact. Says what is known now, and
+    /// `None` if no contact is followed.
+    ///
+    /// A time that is not positive counts as none. After a pause of ten times the time to turn the next contact is
+    /// new; so it is when, without any contact, the track knows less of the place than a sample did.
+    #[inline]
+    pub fn follow<S: ActiveSurface<T>>(
+        &mut self,
+        surface: &S,
+        sighting: Option<&Sighting<T>>,
+        time_step: T,
+    ) -> Option<Tracked<T>> {
+        let time = if time_step > T::zero() { time_step * self.faster } else { T::zero() };
+        if !(time <= T::literal(PAUSE)) {
+            self.reset();
+        }
+        match sighting {
+            Some(sighting) => self.see(surface, sighting, time),
+            None => self.coast(surface, time),
+        }
+    }
+
+    #[inline]
+    fn see<S: ActiveSurface<T>>(
+        &mut self,
+        surface: &S,
+        sighting: &Sighting<T>,
+        time: T,
+    ) -> Option<Tracked<T>> {
+        let variance = sighting.covariance.trace() * (self.shorter * self.shorter);
+        if !variance.is_number() {
+            // It says nothing.
+            return self.coast(surface, time);
+        }
+        let Some(track) = &mut self.track else { return self.start(sighting) };
+        let moved = track.state.wait(time);
+        match track.compare(sighting, &moved, self.shorter) {
+            Some(compared) if compared.surprise() <= self.gate => {
+                track.take(surface, &compared, &moved, self.unit);
+                self.rival = None;
+                self.sample = variance;
+                self.say(Continuity::Followed, Some(compared))
+            }
+            compared => self.doubt(surface, sighting, &moved, time, compared),
+        }
+    }
+
+    /// The sample may be of another contact: of the one that the sample before was of, if that was in doubt, too.
+    #[cold]
+    fn doubt<S: ActiveSurface<T>>(
+        &mut self,
+        surface: &S,
+        sighting: &Sighting<T>,
+        moved: &Vector2<T>,
+        time: T,
+        compared: Option<Compared<T>>,
+    ) -> Option<Tracked<T>> {
+        if let Some(rival) = &mut self.rival {
+            let moved = rival.state.wait(time);
+            let again = rival.compare(sighting, &moved, self.shorter);
+            if let Some(again) = again.filter(|again| again.surprise() <= self.gate) {
+                rival.take(surface, &again, &moved, self.unit);
+                self.track = self.rival.take();
+                self.sample = sighting.covariance.trace() * (self.shorter * self.shorter);
+                return self.say(Continuity::New, compared);
+            }
+        }
+        self.rival = Some(Track::start(sighting, self.shorter));
+        self.move_on(surface, moved);
+        self.say(Continuity::Doubted, compared)
+    }
+
+    fn coast<S: ActiveSurface<T>>(&mut self, surface: &S, time: T) -> Option<Tracked<T>> {
+        let track = self.track.as_mut()?;
+        let moved = track.state.wait(time);
+        if !(track.state.positions.trace() <= self.sample) {
+            self.reset();
+            return None;
+        }
+        self.rival = None;
+        self.move_on(surface, &moved);
+        self.say(Continuity::Bridged, None)
+    }
+
+    fn move_on<S: ActiveSurface<T>>(&mut self, surface: &S, moved: &Vector2<T>) {
+        if let Some(track) = &mut self.track {
+            let along = track.normal;
+            track.shift(surface, moved, &along, self.unit);
+        }
+    }
+
+    #[cold]
+    fn start(&mut self, sighting: &Sighting<T>) -> Option<Tracked<T>> {
+        self.track = Some(Track::start(sighting, self.shorter));
+        self.rival = None;
+        self.sample = sighting.covariance.trace() * (self.shorter * self.shorter);
+        self.say(Continuity::New, None)
+    }
+
+    /// The track in SI units; without one whose numbers are in range, nothing, and it is forgotten.
+    #[inline]
+    fn say(&mut self, continuity: Continuity, compared: Option<Compared<T>>) -> Option<Tracked<T>> {
+        let track = self.track.as_ref()?;
+        if !track.state.is_number() {
+            self.reset();
+            return None;
+        }
+        let Track { point, normal, tangents, state } = *track;
+        let [e1, e2] = &tangents;
+        let velocity = (e1 * state.velocity.x + e2 * state.velocity.y) * self.speed;
+        let (innovation, surprise) = match compared {
+            Some(compared) => (compared.innovation * self.unit, compared.surprise()),
+            // On another side of the body.
+            None if continuity == Continuity::Doubted => (Vector2::zeros(), T::GREATEST),
+            None => (Vector2::zeros(), T::zero()),
+        };
+        Some(Tracked {
+            point,
+            normal,
+            tangents,
+            velocity,
+            position_covariance: state.positions * (self.unit * self.unit),
+            velocity_covariance: state.velocities * (self.speed * self.speed),
+            innovation,
+            surprise,
+            continuity,
+        })
+    }
+
+    /// Forgets the contact: the next one is new.
+    pub fn reset(&mut self) {
+        self.track = None;
+        self.rival = None;
+    }
+}
+
+/// The quantile of χ² with two degrees of freedom that this share exceeds.
+fn gate_at<T: Real>(share: T) -> T {
+    -share.ln() * T::literal(2.0)
+}
