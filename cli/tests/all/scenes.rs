@@ -93,6 +93,7 @@ fn a_scene_that_asks_for_more_is_told_more() {
         "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n\
          [contact]\nmodel = \"soft_finger\"\nleast_force_N = 0.1\n\
          [uncertainty]\nforce_noise_N = 0.01\ntorque_noise_Nm = 0.0001\n\
+         [tracking]\nspeed_m_per_s = 0.01\nturns_within_s = 0.1\nleast_touch_N = 0.1\n\
          [friction]\nlimit = \"uncertain\"\nstatic_coefficient = 0.5\ndeviation = 0.05\n\
          [slip]\ndetector = \"drop\"\nnoise_N = 0.01\n[estimate]\nnoise_N = 0.01\n\
          [grip]\nleast_N = 0.2\ngreatest_N = 20.0\nrise_N_per_s = 100.0\nfall_N_per_s = 2.0\n",
@@ -104,6 +105,10 @@ fn a_scene_that_asks_for_more_is_told_more() {
     assert!((last("spin_Nm") - 0.0005).abs() < 1e-4, "{}", last("spin_Nm"));
     assert!(last("ellipse_a_m") >= last("ellipse_b_m") && last("ellipse_b_m") > 0.0);
     assert!((0.005..0.02).contains(&last("normal_deviation_N")), "{}", last("normal_deviation_N"));
+    let apart = ["x_m", "y_m", "z_m"].map(|axis| last(axis) - last(&format!("track_{axis}")));
+    assert!(apart.iter().all(|apart| apart.abs() < 1e-3), "{apart:?}");
+    assert!(last("track_deviation_m") > 0.0 && last("track_surprise") >= 0.0);
+    assert!(folder.read("contacts.csv").contains(",new,") && folder.read("contacts.csv").contains(",touch,"));
     assert!((0.0..=1.0).contains(&last("slip_probability")));
     assert!(last("grip_N") > 0.2);
     // A scene that asks for none has none of them.
