@@ -1,0 +1,5 @@
+//! Several contacts on one object.
+
+mod value;
+
+pub use value::Grasp;
