@@ -6,9 +6,15 @@ mod contact;
 mod grasp;
 mod grip;
 mod limits;
+mod load;
+mod object;
+mod quality;
 
 pub use bad_contact::{BadContact, BadLimit};
 pub use contact::{GraspContact, Hand};
-pub use grasp::Grasp;
+pub use grasp::{Freedom, Grasp, SplitForces};
 pub use grip::{CannotHold, Grip, GripOutcome, LeastGrip, Precision};
 pub use limits::FingerLimits;
+pub use load::{FingerContact, UncertainWrench};
+pub use object::{ObjectWeight, OtherContact, WeightEstimate};
+pub use quality::{GraspBall, Metric, Reach};

@@ -230,7 +230,10 @@ impl<T: Real, const ROWS: usize> Block<T, ROWS> {
         keep: T,
     ) -> Vector4<T> {
         let missing = factored.scaling.apply(&(factored.residual * keep));
-        let mut force = factored.turned.tr_mul(&(target.cone - missing));
+        let mut force = target.cone - missing;
+        if ROWS > 0 {
+            force = factored.turned.tr_mul(&force);
+        }
         let rows = at.rows.iter().zip(&target.rows).zip(&factored.row_residuals);
         for ((row, normal), ((pair, target), residual)) in self.rows.iter().zip(&factored.normals).zip(rows) {
             if row.is_some() {

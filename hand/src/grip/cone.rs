@@ -43,7 +43,8 @@ pub(crate) fn divide<T: Real>(u: &Vector4<T>, d: &Vector4<T>) -> Vector4<T> {
 pub(crate) fn step_to_boundary<T: Real>(y: &Vector4<T>, d: &Vector4<T>, most: T) -> T {
     // det(y + αd) = a α² + 2b α + c, and the first component must stay positive.
     let b = y.x * d.x - (y.y * d.y + y.z * d.z + y.w * d.w);
-    let (a, c) = (det(d), det(y).max(T::zero()));
+    let a = d.x * d.x - (d.y * d.y + d.z * d.z + d.w * d.w);
+    let c = det(y).max(T::zero());
     let discriminant = b * b - a * c;
     let mut step = most;
     if d.x < T::zero() {

@@ -5,8 +5,8 @@ use core::marker::PhantomData;
 use fingertip_wrench::{ContactForce, Frame, Real, Wrench};
 use nalgebra::{Vector3, Vector6};
 
-use crate::grip::block::Block;
-use crate::grip::program::{Each, Ending, Iterate, Program, Stop};
+use crate::grip::assemble::{Assembled, assemble};
+use crate::grip::program::{Ending, Iterate, Program, Stop};
 use crate::{CannotHold, FingerLimits, Grasp, Grip, GripOutcome};
 
 /// How exactly, and for how long, the least grip is looked for.
@@ -141,8 +141,10 @@ impl<T: Real, const N: usize, const ROWS: usize> LeastGrip<T, N, ROWS> {
             });
         }
         let per_newton = self.per_newton(size);
-        let (program, most) = assemble(grasp, limits, &(wanted * per_newton), per_newton);
-        let Some(program) = program else { return GripOutcome::NotFinite };
+        let Some(Assembled { program, most }) = assemble(grasp, limits, &(wanted * per_newton), per_newton)
+        else {
+            return GripOutcome::NotFinite;
+        };
         let mut stop = Stop {
             tolerance: self.precision.tolerance,
             greatest: T::one() / self.precision.tolerance,
@@ -213,40 +215,6 @@ impl<T: Real, const N: usize, const ROWS: usize> LeastGrip<T, N, ROWS> {
         let (ending, used) = program.iterate(&mut iterate, stop);
         (ending, steps + used, iterate)
     }
-}
-
-/// The program of a grasp, in units near 1; `None` if a number leaves the range. With it the greatest sum of normal
-/// forces, if all fingers have a limit.
-fn assemble<T: Real, const N: usize, const ROWS: usize, F: Frame>(
-    grasp: &Grasp<T, N, F>,
-    limits: &[FingerLimits<T, ROWS>; N],
-    wrench: &Vector6<T>,
-    per_newton: T,
-) -> (Option<Program<T, N, ROWS>>, Option<T>) {
-    let mut blocks: Each<_, N> = Each::all(None);
-    let mut dearest = T::zero();
-    let mut most = Some(T::zero());
-    for (contact, limits) in grasp.contacts().iter().zip(limits) {
-        if contact.is_some() {
-            dearest = dearest.max(limits.cost());
-            most = most.and_then(|sum| limits.greatest_normal().map(|greatest| sum + greatest * per_newton));
-        }
-    }
-    let scale = dearest.normalising_factor();
-    let mut finite = wrench.iter().all(|x| x.is_number());
-    let maps = grasp.blocks().zip(grasp.contacts()).zip(limits);
-    for (block, ((map, contact), limits)) in blocks.fingers.iter_mut().zip(maps) {
-        let (Some(map), Some(contact)) = (map, contact) else { continue };
-        let rows = limits.rows(contact, per_newton);
-        finite = finite
-            && map.iter().all(|x| x.is_number())
-            && rows
-                .iter()
-                .flatten()
-                .all(|row| row.bound.is_number() && row.normal.iter().all(|x| x.is_number()));
-        *block = Some(Block { map, cost: limits.cost() * scale, rows });
-    }
-    (finite.then_some(Program { blocks, wrench: *wrench, cost_factor: scale }), most)
 }
 
 fn held<T: Real, const N: usize, const ROWS: usize, F: Frame>(

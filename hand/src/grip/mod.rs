@@ -1,5 +1,6 @@
 //! The least grip that holds.
 
+mod assemble;
 mod block;
 mod cholesky;
 mod cone;
@@ -7,6 +8,8 @@ mod least_grip;
 mod outcome;
 mod program;
 
-pub(crate) use block::Row;
+pub(crate) use assemble::{Assembled, assemble};
+pub(crate) use block::{Block, Row};
 pub use least_grip::{LeastGrip, Precision};
 pub use outcome::{CannotHold, Grip, GripOutcome};
+pub(crate) use program::{Ending, Iterate, Stop};

@@ -248,6 +248,7 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
         keep: T,
         equilibrium: &Vector6<T>,
         missing: T,
+        refined: bool,
     ) -> Iterate<T, N, ROWS> {
         let mut share: Each<_, N> = Each::all(Vector4::zeros());
         let mut right = equilibrium * -keep;
@@ -276,9 +277,12 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
         for ((factored, force), (share, of_tau)) in each.zip(share.iter().zip(system.share.iter())) {
             let Some(f) = factored else { continue };
             *force = f.scaled(&twist, &(share + of_tau * tau));
-            left -= f.wrench_of(force);
+            if refined {
+                left -= f.wrench_of(force);
+            }
         }
-        let more = system.cholesky.solve(&left);
+        // The predictor need not be exact.
+        let more = if refined { system.cholesky.solve(&left) } else { Vector6::zeros() };
         twist += more;
 
         let mut along = *at;
@@ -287,7 +291,7 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
             each.zip(forces.iter().zip(along.blocks.iter_mut()))
         {
             let (Some(block), Some(f)) = (block, factored) else { continue };
-            let scaled = f.scaled(&more, force);
+            let scaled = if refined { f.scaled(&more, force) } else { *force };
             *along = block.direction(f, inner, target, keep, &scaled, &twist, tau);
         }
         along.twist = twist;
@@ -329,7 +333,7 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
             }
         }
         let of_tau = -at.tau * at.kappa;
-        let predicted = self.direction(&system, at, &targets, of_tau, one, &equilibrium, missing);
+        let predicted = self.direction(&system, at, &targets, of_tau, one, &equilibrium, missing, false);
         let reach = self.greatest_step(at, &predicted, one);
         let left = one - reach;
         let sigma = left * left * left;
@@ -343,7 +347,7 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
             }
         }
         let of_tau = centre - at.tau * at.kappa - predicted.tau * predicted.kappa;
-        let along = self.direction(&system, at, &targets, of_tau, one - sigma, &equilibrium, missing);
+        let along = self.direction(&system, at, &targets, of_tau, one - sigma, &equilibrium, missing, true);
         let step = (self.greatest_step(at, &along, T::literal(2.0)) * T::literal(0.99)).min(one);
         if !(step > T::literal(1e-6)) {
             return false;
