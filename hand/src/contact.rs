@@ -130,6 +130,11 @@ impl<T: Real, F: Frame> GraspContact<T, F> {
         }
     }
 
+    /// With another friction coefficient; `None` unless it is positive and finite.
+    pub(crate) fn with_friction(self, friction: T) -> Option<Self> {
+        (friction > T::zero() && friction.is_number()).then_some(Self { friction, ..self })
+    }
+
     /// The contact in another frame.
     #[must_use]
     pub fn expressed_in<To: Frame>(&self, to_from_here: &RigidTransform<T, To, F>) -> GraspContact<T, To> {

@@ -9,6 +9,7 @@ mod limits;
 mod load;
 mod object;
 mod quality;
+mod react;
 
 pub use bad_contact::{BadContact, BadLimit};
 pub use contact::{GraspContact, Hand};
@@ -18,3 +19,4 @@ pub use limits::FingerLimits;
 pub use load::{FingerContact, UncertainWrench};
 pub use object::{ObjectWeight, OtherContact, WeightEstimate};
 pub use quality::{GraspBall, Metric, Reach};
+pub use react::{BadHandSettings, FingerSample, HandCommand, HandController, HandSettings, HandState};

@@ -24,10 +24,11 @@ pub struct Grip<T: Real, const N: usize, F: Frame = Hand> {
 }
 
 impl<T: Real, const N: usize, F: Frame> Grip<T, N, F> {
-    /// By how much the cost may exceed the least one, as a share of it.
+    /// By how much the cost may differ from the least one, as a share of it. (Where the imbalance is in its favour, it
+    /// may be below.)
     #[must_use]
     pub fn gap(&self) -> T {
-        let gap = (self.cost - self.least_cost).max(T::zero());
+        let gap = (self.cost - self.least_cost).abs();
         if gap > T::zero() { gap / self.cost.abs().max(T::LEAST_NORMAL) } else { T::zero() }
     }
 }

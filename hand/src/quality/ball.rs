@@ -76,6 +76,9 @@ impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
         if !(length > T::zero() && length.is_number()) {
             return None;
         }
+        if let Some(weakest) = self.not_borne(length) {
+            return Some(GraspBall { certified: T::zero(), found: T::zero(), weakest });
+        }
         let ratio = self.length() / length;
         let mut best = (T::GREATEST, Vector6::zeros());
         // Axes, and the wrenches that the map itself bears best and worst.
@@ -106,6 +109,29 @@ impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
             if found > T::zero() { self.certify(&direction, metric).min(found) } else { T::zero() };
         let weakest = -self.wrench_along(&direction, length);
         Some(GraspBall { certified, found, weakest })
+    }
+
+    /// A load of unit length that no forces bear, if there is one. Then one along an axis is not borne either, and its
+    /// certificate is a direction in which the fingers give nothing.
+    fn not_borne(&self, length: T) -> Option<Wrench<T, F>> {
+        let mut least = LeastGrip::<T, N, 0>::new();
+        for axis in 0..12 {
+            let mut unit = Vector6::zeros();
+            for (i, x) in unit.iter_mut().enumerate() {
+                *x = T::literal(f64::from(u8::from(2 * i == axis)) - f64::from(u8::from(2 * i + 1 == axis)));
+            }
+            let load = self.wrench_along(&unit, length);
+            if let GripOutcome::CannotHold(why) = least.solve(self, &[FingerLimits::none(); N], &load) {
+                let velocity = why.velocity + why.turning.cross(&self.centre());
+                let turning = why.turning * length;
+                let size = (velocity.norm_squared() + turning.norm_squared()).root();
+                let [vx, vy, vz] = (velocity / size).into();
+                let [wx, wy, wz] = (turning / size).into();
+                return Some(self.wrench_along(&Vector6::new(vx, vy, vz, wx, wy, wz), length));
+            }
+            least.forget();
+        }
+        None
     }
 
     /// The load that a direction of the metric stands for.

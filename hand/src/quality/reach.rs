@@ -11,9 +11,10 @@ use crate::{FingerLimits, Grasp};
 pub enum Reach<T> {
     /// This many times the disturbance, and no more.
     Times(T),
-    /// The fingers have no limits that matter: as much as one likes.
+    /// As much as one likes: the fingers have no limits that matter. (A load that is not held alone may be with a
+    /// disturbance.)
     Unlimited,
-    /// Not even the load alone can be held.
+    /// Neither the load alone nor any multiple beside it can be held.
     NotHeld,
     /// A number is NaN or infinite or out of range, or it could not be told in a bounded number of steps.
     Unknown,
@@ -77,6 +78,11 @@ impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
         match program.iterate(&mut iterate, &stop).0 {
             Ending::Solved if size > T::zero() => {
                 let found = iterate.blocks.extra.y.x / iterate.tau;
+                // What an imbalance is worth: near a reach that takes forces without bound it is worth much.
+                let imbalance = program.equilibrium(&iterate).component_mul(&iterate.twist).abs().sum();
+                if imbalance / (iterate.tau * iterate.tau) > tolerance.root() * found.max(tolerance.root()) {
+                    return Reach::Unknown;
+                }
                 let times = found / per_newton * size.normalising_factor();
                 if times.is_number() { Reach::Times(times.max(T::zero())) } else { Reach::Unlimited }
             }

@@ -32,13 +32,13 @@ fn check_held<const N: usize>(problem: &Problem<N>, grip: &Grip<f64, N, TestHand
             + Wrench::on_fingertip(on_tip, contact.place().cross(&on_tip) + contact.normal() * force.spin);
     }
     let off = sum - *load;
-    let size = load.force().norm().max(grip.cost);
+    let size = load.force().norm().max(grip.forces.iter().map(|force| force.normal).sum());
     assert!(off.force().norm() <= 1e-6 * size, "{off:?}");
     assert!(off.torque_about(&grasp.centre()).norm() <= 1e-6 * size * grasp.length());
     let stated = (off - grip.imbalance).components().norm();
     assert!(stated <= 1e-12 * size, "the imbalance is stated");
     assert!((cost - grip.cost).abs() <= 1e-12 * cost);
-    assert!(grip.least_cost <= grip.cost * (1.0 + 1e-7) && grip.gap() < 1e-6, "{}", grip.gap());
+    assert!(grip.gap() < 1e-6, "{}", grip.gap());
 }
 
 /// The certificate by its own formula: what friction and limits can take up along the motion, with no more trust in
@@ -120,7 +120,7 @@ fn agrees_with_clarabel_on_random_grasps() {
 
 /// The same on many more.
 #[test]
-#[ignore = "100 000 random grasps take a minute or two"]
+#[ignore = "100 000 random grasps take three minutes"]
 fn agrees_with_clarabel_on_many_random_grasps() {
     compare(2, 100_000);
 }

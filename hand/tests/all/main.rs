@@ -4,4 +4,9 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod extremes;
+mod grasps;
 mod least_grip;
+mod objects;
+mod quality;
+mod reaction;
