@@ -4,7 +4,8 @@ use fingertip_wrench::{Frame, Real};
 use nalgebra::Vector6;
 
 use crate::grip::block::Block;
-use crate::grip::program::{Each, Program};
+use crate::grip::iterate::Each;
+use crate::grip::program::Program;
 use crate::{FingerLimits, Grasp};
 
 /// The program of a grasp, in units near 1.

@@ -6,7 +6,8 @@ use fingertip_wrench::{ContactForce, Frame, Real, Wrench};
 use nalgebra::{Vector3, Vector6};
 
 use crate::grip::assemble::{Assembled, assemble};
-use crate::grip::program::{Ending, Iterate, Program, Stop};
+use crate::grip::iterate::Iterate;
+use crate::grip::program::{Ending, Program, Stop};
 use crate::{CannotHold, FingerLimits, Grasp, Grip, GripOutcome};
 
 /// How exactly, and for how long, the least grip is looked for.

@@ -8,29 +8,7 @@ use nalgebra::{Matrix6, Vector4, Vector6};
 
 use crate::grip::block::{Block, Factored, Interior, Target};
 use crate::grip::cholesky::Cholesky;
-
-/// One for each finger, and one for a disturbance that is to be as great as possible.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Each<A, const N: usize> {
-    pub(crate) fingers: [A; N],
-    pub(crate) extra: A,
-}
-
-impl<A: Copy, const N: usize> Each<A, N> {
-    pub(crate) const fn all(value: A) -> Self {
-        Self { fingers: [value; N], extra: value }
-    }
-
-    #[inline]
-    pub(crate) fn iter(&self) -> impl Iterator<Item = &A> {
-        self.fingers.iter().chain(core::iter::once(&self.extra))
-    }
-
-    #[inline]
-    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut A> {
-        self.fingers.iter_mut().chain(core::iter::once(&mut self.extra))
-    }
-}
+use crate::grip::iterate::{Each, Iterate};
 
 /// Minimise `Σ cost y₀` with `Σ map y = wrench`, `y` in the cones and the half-spaces.
 #[derive(Clone, Copy, Debug)]
@@ -39,15 +17,6 @@ pub(crate) struct Program<T: Real, const N: usize, const ROWS: usize> {
     pub(crate) wrench: Vector6<T>,
     /// By what the costs were multiplied.
     pub(crate) cost_factor: T,
-}
-
-/// An iterate of the homogeneous embedding: what is asked for is this over `tau`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Iterate<T: Real, const N: usize, const ROWS: usize> {
-    pub(crate) blocks: Each<Interior<T, ROWS>, N>,
-    pub(crate) twist: Vector6<T>,
-    pub(crate) tau: T,
-    pub(crate) kappa: T,
 }
 
 /// How an iteration ended.
@@ -79,17 +48,6 @@ struct Missing<T: Real> {
     dual: T,
     cost: T,
     value: T,
-}
-
-impl<T: Real, const N: usize, const ROWS: usize> Iterate<T, N, ROWS> {
-    pub(crate) fn middle() -> Self {
-        Self {
-            blocks: Each::all(Interior::middle()),
-            twist: Vector6::zeros(),
-            tau: T::one(),
-            kappa: T::one(),
-        }
-    }
 }
 
 /// The factored system of an iterate.
@@ -379,42 +337,5 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
         at.tau += along.tau * step;
         at.kappa += along.kappa * step;
         at.is_inside()
-    }
-}
-
-impl<T: Real, const N: usize, const ROWS: usize> Iterate<T, N, ROWS> {
-    /// Whether all is finite and inside, as rounding may have it otherwise.
-    fn is_inside(&self) -> bool {
-        self.tau > T::zero()
-            && self.kappa > T::zero()
-            && self.tau.is_number()
-            && self.kappa.is_number()
-            && self.twist.iter().all(|x| x.is_number())
-            && self.blocks.iter().all(Interior::is_inside)
-    }
-
-    /// Takes a solution with `τ = 1` off the boundary, the further the more the problem has moved since.
-    pub(crate) fn lift(&mut self, moved: T) {
-        let up = (moved * T::literal(0.5)).max(T::literal(1e-3)).min(T::literal(0.5));
-        for inner in self.blocks.iter_mut() {
-            inner.y.x += up;
-            inner.z.x += up;
-            for row in &mut inner.rows {
-                row.slack += up;
-                row.price += up;
-            }
-        }
-        self.tau = T::one();
-        self.kappa = up;
-    }
-
-    /// The same direction with numbers near 1.
-    pub(crate) fn rescale(&mut self, factor: T) {
-        for inner in self.blocks.iter_mut() {
-            inner.scale(factor);
-        }
-        self.twist *= factor;
-        self.tau *= factor;
-        self.kappa *= factor;
     }
 }
