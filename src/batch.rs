@@ -9,7 +9,7 @@ use fingertip_wrench::{Compensation, Real, Wrench, WrenchSolver};
 use nalgebra::{SVector, Vector3};
 
 use crate::columns::Vectorised;
-use crate::{Fingertip, GripStage, SlipStage, Step, Touch};
+use crate::{AnyTouch, Fingertip, GripStage, SlipStage, Step};
 
 /// Where the touches are written: one slice per component.
 #[derive(Debug)]
@@ -60,7 +60,7 @@ impl<T> Touches<'_, T> {
 
 impl<T: Real> Touches<'_, T> {
     /// Writes one sample; an index beyond the columns writes nothing.
-    pub fn put(&mut self, index: usize, touch: &Touch<T, Option<SlipMargin<T>>, Option<SlipVerdict>>) {
+    pub fn put(&mut self, index: usize, touch: &AnyTouch<T>) {
         fn write<A>(column: &mut [A], index: usize, value: A) {
             if let Some(place) = column.get_mut(index) {
                 *place = value;
@@ -135,10 +135,7 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
         #[allow(clippy::needless_range_loop, reason = "of columns that are as many as there are gauges")]
         for k in 0..count {
             let sample = SVector::from_fn(|gauge, _| raw[gauge][k]);
-            let Touch { wrench, resolution, force, grip, slip } =
-                self.sense(&sample, Step::of(time_step).with_last(last));
-            let grip = grip.map(|reading| Friction::margin(&reading));
-            let touch = Touch { wrench, resolution, force, grip, slip: Detector::slip(&slip) };
+            let touch = self.sense(&sample, Step::of(time_step).with_last(last)).any::<Friction, Detector>();
             last = touch.point();
             touches.put(k, &touch);
         }

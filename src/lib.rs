@@ -9,6 +9,8 @@ mod columns;
 mod pipeline;
 mod stage;
 mod step;
+#[cfg(feature = "friction")]
+mod touch_sensor;
 
 pub use fingertip_contact as contact;
 #[cfg(feature = "friction")]
@@ -24,3 +26,5 @@ pub use builder::FingertipBuilder;
 pub use pipeline::{Fingertip, Touch};
 pub use stage::{Absent, GripStage, Present, SlipStage};
 pub use step::Step;
+#[cfg(feature = "friction")]
+pub use touch_sensor::{AnyTouch, TouchSensor};

@@ -38,6 +38,10 @@ pub trait SlipStage<T: Real> {
     /// Takes the next sample, if there is a contact, and the time since the one before \[s\].
     fn follow(&mut self, force: Option<&ContactForce<T>>, time_step: T) -> Self::Verdict;
 
+    /// Forgets the samples before; the default has nothing to forget.
+    #[inline]
+    fn start_anew(&mut self) {}
+
     /// What a verdict says in the words of the column of a batch; `None`, as the default answers, if nothing.
     #[cfg(feature = "friction")]
     #[inline]
@@ -96,6 +100,11 @@ impl<T: Real, D: SlipDetector<T>> SlipStage<T> for Present<D> {
             Some(force) => self.0.update(force, time_step),
             None => self.0.update_open(time_step),
         }
+    }
+
+    #[inline]
+    fn start_anew(&mut self) {
+        self.0.reset();
     }
 
     #[inline]

@@ -69,7 +69,7 @@ impl CalibrationFile {
     /// # Errors
     /// [`RestError`].
     pub fn tared(&self, rest: impl Read, celsius: Option<f64>) -> Result<Tared, RestError> {
-        let Rest { mut signals, unit, temperatures } = signals_from_csv(rest)?;
+        let Rest { mut signals, unit, temperatures, .. } = signals_from_csv(rest)?;
         if unit != self.signal_unit {
             return Err(RestError::WrongUnit { recording: unit, calibration: self.signal_unit });
         }

@@ -9,19 +9,22 @@ use crate::demo::args::DemoArguments;
 use crate::design::args::DesignArguments;
 use crate::export::ExportArguments;
 use crate::geometry::GeometryArguments;
+use crate::info::InfoArguments;
 use crate::live::args::LiveArguments;
 use crate::motion::MotionArguments;
 use crate::plan::PlanArguments;
 use crate::record::args::RecordArguments;
+use crate::recover::RecoverArguments;
 use crate::refine::RefineArguments;
 use crate::scene::command::SceneArguments;
 use crate::serve::args::SimulateArguments;
+use crate::shell::{CompletionsArguments, ManArguments};
 
 /// From the strain gauges behind a fingertip to contact, force and slip.
 #[derive(Debug, Parser)]
 #[command(name = "fingertip", version, about, propagate_version = true)]
 #[command(
-    after_help = "Exit codes: 0 done, 1 an input is bad or an output cannot be written, 2 wrong usage."
+    after_help = "Exit codes: 0 done, 1 an input is bad or an output cannot be written, 2 wrong usage, 130 interrupted."
 )]
 pub(crate) struct Arguments {
     #[command(subcommand)]
@@ -44,6 +47,10 @@ pub(crate) enum Command {
     Export(ExportArguments),
     /// Convert a recording from CSV to MCAP or back
     Convert(ConvertArguments),
+    /// Say what recordings hold: rows, rate, gaps, topics, and columns with units as they are understood
+    Info(InfoArguments),
+    /// Write a recording that was cut or damaged anew, as far as it is whole
+    Recover(RecoverArguments),
     /// Serve a simulated fingertip over the protocol of a real sensor
     Simulate(SimulateArguments),
     /// Design a sensor: from wanted ranges and size to a layout of gauges and the accuracy to expect
@@ -62,4 +69,8 @@ pub(crate) enum Command {
     Motion(MotionArguments),
     /// Say what ordinary point contacts tell of a calibration, and mend it by them
     Refine(RefineArguments),
+    /// Print what a shell completes the command line by
+    Completions(CompletionsArguments),
+    /// Write the pages of the manual, one for each command
+    Man(ManArguments),
 }

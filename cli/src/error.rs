@@ -17,10 +17,13 @@ pub(crate) enum CliError {
     Read { what: &'static str, path: PathBuf, source: io::Error },
     /// A file that is to be written cannot be.
     #[error(
-        "cannot write {what} {path}: {source}; choose a folder that exists and may be written to",
-        path = .path.display()
+        "cannot write {what} {path}: {source}{mend}",
+        path = .path.display(), mend = mend_writing(.source)
     )]
     Write { what: &'static str, path: PathBuf, source: io::Error },
+    /// Two outputs are one file.
+    #[error("{first} and {second} are the same file; give two outputs two names", first = .first.display(), second = .second.display())]
+    OneFile { first: PathBuf, second: PathBuf },
     /// An output would overwrite an input.
     #[error("{what} {path} is also an input of this run and would be overwritten; give another path", path = .path.display())]
     WouldOverwrite { what: &'static str, path: PathBuf },
@@ -67,6 +70,13 @@ pub(crate) enum CliError {
     /// A table of loads, of poses or of rest cannot be used.
     #[error("{path}: {message}", path = .path.display())]
     Calibrate { path: PathBuf, message: String },
+    /// A calibration that was fitted is not worth having.
+    #[error(
+        "the calibration {path} is bad: {reason}; mend the loads that the report names, or take it as it is with \
+         --accept-bad",
+        path = .path.display()
+    )]
+    BadCalibration { path: PathBuf, reason: String },
     /// A calibration that was checked is wrong.
     #[error(
         "the calibration {calibration} does not hold on {loads}: {reason}",
@@ -82,6 +92,22 @@ pub(crate) enum CliError {
     /// An MCAP file cannot be used.
     #[error("{path}: {message}", path = .path.display())]
     Mcap { path: PathBuf, message: String },
+    /// A bag of ROS 2 in a database.
+    #[error(
+        "{path} is a ROS 2 bag in SQLite, which is not read; convert it to MCAP: ros2 bag convert -i {path} -o out.yaml, \
+         where out.yaml holds output_bags: [{{uri: out, storage_id: mcap, all: true}}]",
+        path = .path.display()
+    )]
+    Bag { path: PathBuf },
+    /// A bag of ROS 2 as a folder.
+    #[error("{path} is the folder of a ROS 2 bag; give the .mcap file in it", path = .path.display())]
+    BagFolder { path: PathBuf },
+    /// A name that says MCAP, and a file that is none.
+    #[error("{path} is no MCAP file: it does not begin as one; if it is text, call it .csv", path = .path.display())]
+    NoMcap { path: PathBuf },
+    /// No such topic.
+    #[error("{path} has no topic {topic}; there are: {known}", path = .path.display())]
+    NoTopic { path: PathBuf, topic: String, known: String },
     /// A file of another kind.
     #[error("{path} is neither .csv nor .mcap; give it one of these endings", path = .path.display())]
     UnknownEnding { path: PathBuf },
@@ -117,6 +143,9 @@ impl CliError {
     }
 
     pub(crate) fn write(what: &'static str, path: &Path, source: io::Error) -> Self {
+        if crate::output::is_standard(path) {
+            return Self::stdout(source);
+        }
         Self::Write { what, path: path.to_owned(), source }
     }
 
@@ -133,5 +162,15 @@ impl CliError {
     /// What went wrong with the standard output.
     pub(crate) fn stdout(source: io::Error) -> Self {
         if source.kind() == io::ErrorKind::BrokenPipe { Self::ClosedPipe } else { Self::Stdout(source) }
+    }
+}
+
+/// What to do about a file that cannot be written.
+fn mend_writing(source: &io::Error) -> &'static str {
+    match source.kind() {
+        // It is in the message.
+        io::ErrorKind::AlreadyExists | io::ErrorKind::Other | io::ErrorKind::InvalidData => "",
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "; make room, or choose another disk",
+        _ => "; choose a folder that exists and may be written to",
     }
 }

@@ -7,7 +7,8 @@ use fingertip_scene::Scalar;
 
 use crate::calibrate::files::read_calibration;
 use crate::error::CliError;
-use crate::{output, scene};
+use crate::output::{Outputs, Overwrite};
+use crate::scene;
 
 /// A scene as a Rust module, as JSON, or both.
 #[derive(Debug, Args)]
@@ -28,6 +29,8 @@ pub(crate) struct ExportArguments {
     /// Write the scene with all defaults filled in, and a mesh in the place of its file
     #[arg(long, value_name = "SCENE.json")]
     json: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 /// The precision of a module.
@@ -38,8 +41,9 @@ enum Precision {
 }
 
 pub(crate) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
-    let ExportArguments { scene: path, rust, scalar, calibration, json } = arguments;
-    output::guard("the export", core::iter::once(path).chain(calibration), rust.iter().chain(json))?;
+    let ExportArguments { scene: path, rust, scalar, calibration, json, overwrite } = arguments;
+    let inputs = core::iter::once(path).chain(calibration);
+    let outputs = Outputs::guard(*overwrite, "the export", inputs, rust.iter().chain(json))?;
     let scene = scene::load_or_simulated(path)?;
     let calibration = calibration.as_deref().map(read_calibration).transpose()?;
     let failed = |error: fingertip_scene::ExportError| CliError::Export {
@@ -59,7 +63,7 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         files.push(("JSON file", path, scene.to_json().map_err(failed)?));
     }
     for (what, path, text) in &files {
-        output::write(what, path, text)?;
+        outputs.write(what, path, text)?;
     }
-    output::print(&output::written(files.iter().map(|(_, path, _)| path)))
+    outputs.print(&outputs.written())
 }

@@ -13,7 +13,7 @@ use nalgebra::{Rotation3, Vector3};
 
 use crate::calibrate::files::{bad, read_columns};
 use crate::error::CliError;
-use crate::output::{guard, say, write};
+use crate::output::{Outputs, Overwrite};
 
 #[derive(Debug, Args)]
 #[command(after_help = "Columns of TOUCHES.csv: fx_N … tz_Nm, the load on the sensor; and\n  \
@@ -22,6 +22,8 @@ use crate::output::{guard, say, write};
     pivot: nothing more, all rows are of one point\n  \
     pose: px_m, py_m, pz_m, the touched point in the surface's own frame")]
 pub(crate) struct GeometryArguments {
+    #[command(flatten)]
+    overwrite: Overwrite,
     /// What to find
     #[arg(value_enum)]
     shape: FittedShape,
@@ -75,7 +77,7 @@ struct Found {
 }
 
 pub(crate) fn run(arguments: &GeometryArguments) -> Result<(), CliError> {
-    guard("output", [&arguments.touches], &arguments.output)?;
+    let outputs = Outputs::guard(arguments.overwrite, "output", [&arguments.touches], &arguments.output)?;
     let path = &arguments.touches;
     let columns = read_columns("table of touches", path)?;
     let found = find(arguments, &columns).map_err(|message| bad(path, &message))?;
@@ -84,15 +86,13 @@ pub(crate) fn run(arguments: &GeometryArguments) -> Result<(), CliError> {
     for what in &found.unobserved {
         text.push_str(&format!("not observed: {what}\n"));
     }
-    let mut written = Vec::new();
     if let Some(output) = &arguments.output {
         let convention = if arguments.reaction { "reaction" } else { "on_fingertip" };
         let head = format!("version = 1\n\n[input]\nconvention = \"{convention}\"\n\n");
         let scene = if arguments.shape == FittedShape::Pose { found.scene } else { head + &found.scene };
-        write("scene", output, &scene)?;
-        written.push(output.clone());
+        outputs.write("scene", output, &scene)?;
     }
-    say(&text, &[], &written)
+    outputs.say(&text, &[])
 }
 
 fn find(arguments: &GeometryArguments, columns: &Columns) -> Result<Found, String> {

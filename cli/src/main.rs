@@ -15,18 +15,23 @@ mod export;
 mod felt;
 mod gauge_rows;
 mod geometry;
+mod info;
+mod input;
 mod live;
 mod motion;
 mod observe;
 mod output;
 mod plan;
+mod progress;
 mod record;
 mod recording_file;
+mod recover;
 mod refine;
 mod report;
 mod scene;
 mod sensor;
 mod serve;
+mod shell;
 mod stop;
 mod summary;
 mod table;
@@ -39,7 +44,9 @@ use args::{Arguments, Command};
 use error::CliError;
 
 fn main() -> ExitCode {
-    let done = match Arguments::parse().command {
+    let command = Arguments::parse().command;
+    stop::guard(&command);
+    let done = match command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Analyze(arguments) => analyze::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),
@@ -56,12 +63,16 @@ fn main() -> ExitCode {
         Command::Geometry(arguments) => geometry::run(&arguments),
         Command::Motion(arguments) => motion::run(&arguments),
         Command::Refine(arguments) => refine::run(&arguments),
+        Command::Info(arguments) => info::run(&arguments),
+        Command::Recover(arguments) => recover::run(&arguments),
+        Command::Completions(arguments) => shell::completions(&arguments),
+        Command::Man(arguments) => shell::man(&arguments),
     };
     match done {
         // Whoever reads our output may stop when they have seen enough.
         Ok(()) | Err(CliError::ClosedPipe) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error}");
+            eprintln!("error: {}", output::printable(&error.to_string()));
             ExitCode::from(1)
         }
     }

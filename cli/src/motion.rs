@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::calibrate::files::{bad, open, read_columns, read_loads};
 use crate::error::CliError;
-use crate::output::{guard, say, write};
+use crate::output::{Outputs, Overwrite};
 
 #[derive(Debug, Args)]
 #[command(after_help = "Without arms, three components are found, up to one rotation of all of them; with \
@@ -36,6 +36,8 @@ pub(crate) struct MotionArguments {
     /// Where to write the calibration; needs --align
     #[arg(short, long, value_name = "FILE", requires = "align")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 /// What was found, and the gauges' sensitivities if nothing is left open.
@@ -50,7 +52,8 @@ struct Found {
 
 pub(crate) fn run(arguments: &MotionArguments) -> Result<(), CliError> {
     let path = &arguments.readings;
-    guard("output", [Some(path), arguments.align.as_ref()].into_iter().flatten(), &arguments.output)?;
+    let inputs = [Some(path), arguments.align.as_ref()].into_iter().flatten();
+    let outputs = Outputs::guard(arguments.overwrite, "output", inputs, &arguments.output)?;
     let Rest { signals, unit, .. } =
         signals_from_csv(open("table of readings", path)?).map_err(|error| bad(path, &error))?;
     let columns = read_columns("table of readings", path)?;
@@ -69,13 +72,11 @@ pub(crate) fn run(arguments: &MotionArguments) -> Result<(), CliError> {
     } else {
         three_components(arguments, &signals, known.as_ref())?
     };
-    let mut written = Vec::new();
     if let Some(output) = &arguments.output {
         let file = to_file(&found, unit, path, signals.nrows()).map_err(|message| bad(path, &message))?;
-        write("calibration", output, &file)?;
-        written.push(output.clone());
+        outputs.write("calibration", output, &file)?;
     }
-    say(&found.text, &notes, &written)
+    outputs.say(&found.text, &notes)
 }
 
 type Known<'a> = (&'a Path, LoadTable);

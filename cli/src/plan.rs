@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 
 use crate::calibrate::files::{bad, read_columns};
 use crate::error::CliError;
-use crate::output::say;
+use crate::output::print;
 use crate::table::{Table, number};
 
 #[derive(Debug, Args)]
@@ -124,5 +124,5 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<(), CliError> {
     );
     let note = "error after: what the calibration adds at the worst load, in errors of one reading; open while \
                 the loads do not determine the sensor";
-    say(&text, &[note.to_owned()], &[])
+    print(&format!("{text}note: {note}\n"))
 }

@@ -1,16 +1,39 @@
-//! The file of a recording, read or written: CSV or MCAP, by its ending.
+//! The file of a recording that is written: CSV or MCAP, by its ending; and what is wrong with one.
 
-use std::fs::{File, OpenOptions};
-use std::io::{self, BufReader, BufWriter};
 use std::path::Path;
 
-use fingertip_recordings::mcap::{McapError, McapReader};
+use clap::ValueEnum;
+use fingertip_recordings::mcap::{Compression, McapError};
 use fingertip_recordings::{RecordingError, SignalUnit};
 
 use crate::error::CliError;
+use crate::output::is_standard;
+use crate::table::count;
 
 /// Name of the frame in MCAP files.
 pub(crate) const FRAME: &str = "fingertip_sensor";
+
+/// How an MCAP file is packed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Packing {
+    /// Not at all
+    #[default]
+    None,
+    /// By LZ4, which is fast
+    Lz4,
+    /// By zstd, which makes small files
+    Zstd,
+}
+
+impl From<Packing> for Compression {
+    fn from(packing: Packing) -> Self {
+        match packing {
+            Packing::None => Self::None,
+            Packing::Lz4 => Self::Lz4,
+            Packing::Zstd => Self::Zstd,
+        }
+    }
+}
 
 /// What the ending of a name says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,32 +48,10 @@ impl Kind {
         match ending.as_deref() {
             Some("csv" | "txt") => Ok(Self::Csv),
             Some("mcap") => Ok(Self::Mcap),
+            None if is_standard(path) => Ok(Self::Csv),
             _ => Err(CliError::UnknownEnding { path: path.to_owned() }),
         }
     }
-}
-
-/// Creates a file; one that exists is written over only if that is wanted.
-pub(crate) fn create(path: &Path, force: bool) -> Result<BufWriter<File>, CliError> {
-    let mut options = OpenOptions::new();
-    let options = if force { options.create(true).truncate(true) } else { options.create_new(true) };
-    options.write(true).open(path).map(BufWriter::new).map_err(|source| match source.kind() {
-        io::ErrorKind::AlreadyExists => {
-            let source = io::Error::new(source.kind(), "it exists already; give another name, or --force");
-            CliError::write("recording", path, source)
-        }
-        _ => CliError::write("recording", path, source),
-    })
-}
-
-/// The bytes of an MCAP recording.
-pub(crate) fn bytes(path: &Path) -> Result<BufReader<File>, CliError> {
-    File::open(path).map(BufReader::new).map_err(|source| CliError::read("recording", path, source))
-}
-
-/// The entries of an MCAP recording.
-pub(crate) fn open(path: &Path) -> Result<McapReader<BufReader<File>>, CliError> {
-    McapReader::new(bytes(path)?).map_err(|error| mcap(path, &error))
 }
 
 /// The unit that a message of signals states.
@@ -71,4 +72,14 @@ pub(crate) fn csv(path: &Path, error: RecordingError) -> CliError {
 /// An error of an MCAP file, with its name.
 pub(crate) fn mcap(path: &Path, error: &McapError) -> CliError {
     CliError::Mcap { path: path.to_owned(), message: error.to_string() }
+}
+
+/// What to know of a file that was cut behind so many messages.
+pub(crate) fn cut(path: &Path, messages: u64) -> String {
+    format!(
+        "{} ends in the middle: it was cut, or its recorder was killed; its {} whole messages were read (`fingertip \
+         recover` writes them anew)",
+        path.display(),
+        count(messages)
+    )
 }

@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 
 use crate::calibrate::files::{bad, open, read_calibration, read_loads};
 use crate::error::CliError;
-use crate::output::{guard, say, write};
+use crate::output::{Outputs, Overwrite};
 
 #[derive(Debug, Args)]
 #[command(
@@ -39,11 +39,14 @@ pub(crate) struct RefineArguments {
     /// Where to write the mended calibration; nothing is mended without it
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 pub(crate) fn run(arguments: &RefineArguments) -> Result<(), CliError> {
     let path = &arguments.touches;
-    guard("output", core::iter::once(path).chain(&arguments.loads), &arguments.output)?;
+    let inputs = core::iter::once(path).chain(&arguments.loads);
+    let outputs = Outputs::guard(arguments.overwrite, "output", inputs, &arguments.output)?;
     let file = read_calibration(&arguments.calibration)?;
     let unusable = |message: &str| CliError::Calibration {
         path: arguments.calibration.clone(),
@@ -52,7 +55,7 @@ pub(crate) fn run(arguments: &RefineArguments) -> Result<(), CliError> {
     if file.axes != Axis::ALL || file.quadratic.is_some() {
         return Err(unusable("only a linear calibration of six components can be refined"));
     }
-    let Rest { signals, unit, temperatures } =
+    let Rest { signals, unit, temperatures, .. } =
         signals_from_csv(open("recording of touches", path)?).map_err(|error| bad(path, &error))?;
     if unit != file.signal_unit {
         return Err(bad(path, &"its readings are in another unit than the calibration"));
@@ -105,7 +108,6 @@ pub(crate) fn run(arguments: &RefineArguments) -> Result<(), CliError> {
         "what is observed of it is known to {:.3} % (standard deviation of the whole matrix, relative)\n",
         100.0 * mended.deviations.norm() / size
     ));
-    let mut written = Vec::new();
     if let Some(output) = &arguments.output {
         let matrix = pseudo_inverse(&mended.loads_per_signal)
             .ok_or_else(|| bad(path, &"the mended matrix is singular"))?;
@@ -116,10 +118,9 @@ pub(crate) fn run(arguments: &RefineArguments) -> Result<(), CliError> {
             reasons: vec!["refined by point contacts: check it on known loads".to_owned()],
             ..Quality::default()
         };
-        write("calibration", output, &better.to_toml().map_err(|error| bad(path, &error))?)?;
-        written.push(output.clone());
+        outputs.write("calibration", output, &better.to_toml().map_err(|error| bad(path, &error))?)?;
     }
-    say(&text, &notes, &written)
+    outputs.say(&text, &notes)
 }
 
 /// Readings less their zero, at the reference temperature.

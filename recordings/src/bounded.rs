@@ -12,6 +12,7 @@ pub(super) struct Bounded<R> {
     total: u64,
     reached: bool,
     ended: bool,
+    added: bool,
 }
 
 impl<R> Bounded<R> {
@@ -19,7 +20,7 @@ impl<R> Bounded<R> {
     pub(super) const LIMIT: u64 = 1 << 20;
 
     pub(super) const fn new(inner: R) -> Self {
-        Self { inner, since: 0, total: 0, reached: false, ended: true }
+        Self { inner, since: 0, total: 0, reached: false, ended: true, added: false }
     }
 
     /// A record is complete: the next one starts.
@@ -30,6 +31,11 @@ impl<R> Bounded<R> {
     /// Whether the limit was the reason of the last failure.
     pub(super) const fn reached(&self) -> bool {
         self.reached
+    }
+
+    /// Whether the last line had no end of its own.
+    pub(super) const fn has_added_end(&self) -> bool {
+        self.added
     }
 
     /// All bytes passed.
@@ -57,6 +63,7 @@ impl<R: Read> Read for Bounded<R> {
         {
             *first = b'\n';
             self.ended = true;
+            self.added = true;
             return Ok(1);
         }
         if let Some(last) = count.checked_sub(1).and_then(|last| buffer.get(last)) {

@@ -35,6 +35,8 @@ pub struct Layout {
     signals: Vec<SignalColumns>,
     contacts: Option<ContactColumns>,
     left_out: Vec<LeftOut>,
+    /// Names of frames by those of sensors.
+    frames: Vec<(String, String)>,
 }
 
 /// A column whose cells are read, and what one of its unit is in SI.
@@ -46,7 +48,27 @@ pub(super) struct UsedColumn {
     pub(super) optional: bool,
 }
 
+/// How a comment names the frame of a sensor: `# frame_id of NAME: FRAME`, or `# frame_id: FRAME` without a name.
+pub(super) const FRAME_OF: &str = "frame_id";
+
 impl Layout {
+    /// The name of a sensor's frame, where a comment above the header gives it; an empty name for the only sensor.
+    #[must_use]
+    pub fn frame(&self, sensor: &str) -> Option<&str> {
+        self.frames.iter().find(|(of, _)| of == sensor).map(|(_, frame)| frame.as_str())
+    }
+
+    pub(super) fn take_frames(&mut self, comments: &[String]) {
+        for comment in comments {
+            let parts = comment.strip_prefix(FRAME_OF).and_then(|rest| rest.split_once(": "));
+            let sensor =
+                parts.and_then(|(of, _)| if of.is_empty() { Some("") } else { of.strip_prefix(" of ") });
+            if let Some(((_, frame), sensor)) = parts.zip(sensor) {
+                self.frames.push((sensor.to_lowercase(), frame.trim().to_owned()));
+            }
+        }
+    }
+
     /// From the names of the columns.
     ///
     /// # Errors
@@ -64,6 +86,7 @@ impl Layout {
             signals: Vec::new(),
             contacts: None,
             left_out: Vec::new(),
+            frames: Vec::new(),
         };
         layout.find_time(&parsed)?;
         let mut sensors: Vec<&str> = Vec::new();

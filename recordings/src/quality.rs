@@ -60,6 +60,8 @@ pub struct Quality {
     /// it measures, or one that stands still. They are used, since a coarse converter gives them
     /// too.
     pub held_rows: FaultCount,
+    /// A last line that was cut: it has no end, and cells are missing or half. It is not among the rows.
+    pub cut_lines: FaultCount,
 }
 
 impl Quality {
@@ -70,11 +72,12 @@ impl Quality {
             && self.empty_cells.count == 0
             && self.not_finite_cells.count == 0
             && self.gaps.count == 0
+            && self.cut_lines.count == 0
     }
 
     /// Every kind of fault with its name, for a table.
     #[must_use]
-    pub const fn faults(&self) -> [(&'static str, FaultCount); 7] {
+    pub const fn faults(&self) -> [(&'static str, FaultCount); 8] {
         [
             ("unusable rows", self.unusable_rows),
             ("empty cells", self.empty_cells),
@@ -83,6 +86,7 @@ impl Quality {
             ("repeated rows", self.repeated_rows),
             ("times that do not advance", self.backward_times),
             ("rows that hold the last values", self.held_rows),
+            ("last lines that were cut", self.cut_lines),
         ]
     }
 }

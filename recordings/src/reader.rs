@@ -2,19 +2,16 @@
 
 use core::fmt;
 use std::fs::File;
-use std::io::{Cursor, Read};
+use std::io::Read;
 use std::path::Path;
 
-use csv::ByteRecord;
-
-use crate::bounded::Bounded;
 use crate::cell::Cell;
 use crate::columns::NumberColumn;
 use crate::error::{HeaderProblem, RecordingError};
 use crate::layout::{AssumedUnits, Layout, UsedColumn, shortened};
-use crate::quality::Quality;
+use crate::quality::{FaultCount, Quality};
 use crate::row::{Row, RowMarks};
-use crate::start::{delimiter, read_start};
+use crate::table::TableReader;
 use crate::time_watch::{Step, TimeWatch};
 
 /// How a recording is read.
@@ -48,26 +45,21 @@ impl Default for ReaderOptions {
 
 /// Reads a recording row by row, in memory that does not grow with the file.
 pub struct RecordingReader<R> {
-    file: String,
-    csv: csv::Reader<Bounded<std::io::Chain<Cursor<Vec<u8>>, R>>>,
-    record: ByteRecord,
+    table: TableReader<R>,
     layout: Layout,
     time_watch: TimeWatch,
     values: Vec<f64>,
     last_values: Vec<f64>,
     /// Whether the line before was a row, with which the next one can be compared.
     follows: bool,
-    line: u64,
     quality: Quality,
 }
 
 impl<R> fmt::Debug for RecordingReader<R> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { file, layout, line, quality, .. } = self;
+        let Self { layout, quality, .. } = self;
         f.debug_struct("RecordingReader")
-            .field("file", file)
             .field("layout", layout)
-            .field("line", line)
             .field("quality", quality)
             .finish_non_exhaustive()
     }
@@ -133,57 +125,26 @@ impl<R: Read> RecordingReader<R> {
     /// As [`new`](Self::new).
     pub fn with_options(
         file: impl Into<String>,
-        mut input: R,
+        input: R,
         options: ReaderOptions,
     ) -> Result<Self, RecordingError> {
-        let file = file.into();
-        let start = match read_start(&mut input) {
-            Ok(start) => start,
-            Err(source) => return Err(RecordingError::Read { file, line: 0, source }),
-        };
-        let delimiter = delimiter(&start);
-        let mut csv = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .comment(Some(b'#'))
-            .delimiter(delimiter)
-            // A carriage return before it is trimmed with the blanks around a cell.
-            .terminator(csv::Terminator::Any(b'\n'))
-            .buffer_capacity(1 << 16)
-            .from_reader(Bounded::new(Cursor::new(start).chain(input)));
-        let mut record = ByteRecord::new();
-        let names = loop {
-            match csv.read_byte_record(&mut record) {
-                Ok(true) if is_blank(&record) => csv.get_mut().start_record(),
-                Ok(true) => break record.iter().map(|name| String::from_utf8_lossy(name).into_owned()),
-                Ok(false) => return Err(RecordingError::Empty { file }),
-                Err(error) => return Err(read_error(file, 0, csv.get_ref().reached(), error)),
-            }
-        };
-        let mut names: Vec<String> = names.collect();
-        let negative = match rename(&mut names, &options.renamed) {
-            Ok(negative) => negative,
-            Err(problem) => return Err(RecordingError::Header { file, problem }),
-        };
-        let mut layout = match Layout::from_header(&names, options.assumed_units) {
-            Ok(layout) => layout,
-            Err(problem) => return Err(RecordingError::Header { file, problem }),
-        };
+        let table = TableReader::new(file, input)?;
+        let header = |problem| RecordingError::Header { file: table.file().to_owned(), problem };
+        let mut names = table.names().to_vec();
+        let negative = rename(&mut names, &options.renamed).map_err(header)?;
+        let mut layout = Layout::from_header(&names, options.assumed_units).map_err(header)?;
+        layout.take_frames(table.comments());
         for used in layout.used.iter_mut().filter(|used| negative.contains(&used.column)) {
             used.scale = -used.scale;
         }
-        let line = line_of_record(&csv);
         let values = vec![f64::NAN; layout.used.len()];
         Ok(Self {
-            file,
-            csv,
-            record,
+            table,
             last_values: values.clone(),
             values,
             layout,
             time_watch: TimeWatch::new(options.gap_factor),
             follows: false,
-            line,
             quality: Quality::default(),
         })
     }
@@ -225,20 +186,20 @@ impl<R: Read> RecordingReader<R> {
     /// What errors call the file.
     #[must_use]
     pub fn file(&self) -> &str {
-        &self.file
+        self.table.file()
     }
 
     /// Bytes taken from the input so far, those read ahead included: for a progress bar.
     #[must_use]
     pub fn bytes_read(&self) -> u64 {
-        self.csv.get_ref().total()
+        self.table.bytes_read()
     }
 
     /// Wraps a problem with the header in an error that names the file, as for a sensor that the
     /// layout does not have.
     #[must_use]
     pub fn header_error(&self, problem: HeaderProblem) -> RecordingError {
-        RecordingError::Header { file: self.file.clone(), problem }
+        RecordingError::Header { file: self.table.file().to_owned(), problem }
     }
 
     /// The next row, or `None` at the end.
@@ -250,42 +211,27 @@ impl<R: Read> RecordingReader<R> {
         // Behind a row that cannot be read, whose numbers are half of one row and half of another, nothing is
         // known to be repeated.
         let mut same = core::mem::take(&mut self.follows);
-        loop {
-            self.csv.get_mut().start_record();
-            match self.csv.read_byte_record(&mut self.record) {
-                Ok(true) => {}
-                Ok(false) => return Ok(None),
-                Err(error) => {
-                    let reached = self.csv.get_ref().reached();
-                    return Err(read_error(self.file.clone(), self.line, reached, error));
-                }
-            }
-            self.line = line_of_record(&self.csv);
-            let (expected, found) = (self.layout.columns().len(), self.record.len());
-            if expected == found {
-                break;
-            }
-            if !is_blank(&self.record) {
-                return Err(RecordingError::Ragged {
-                    file: self.file.clone(),
-                    line: self.line,
-                    expected,
-                    found,
-                });
-            }
+        if !self.table.advance()? {
+            return Ok(self.end());
         }
+        let line = self.table.line();
         let mut marks = RowMarks::default();
         core::mem::swap(&mut self.values, &mut self.last_values);
         let mut any_bad = false;
         for ((used, value), last) in self.layout.used.iter().zip(&mut self.values).zip(&self.last_values) {
-            *value = match Cell::read(&self.record, *used) {
+            *value = match Cell::read(&self.table.record, *used) {
                 Cell::Number(number) => number,
                 Cell::Empty if used.optional => f64::NAN,
                 bad => {
                     any_bad = true;
-                    bad.count(self.line, &mut marks, &mut self.quality).ok_or_else(|| {
-                        not_a_number(&self.file, self.line, &self.layout, &self.record, *used)
-                    })?
+                    let Some(nan) = bad.count(line, &mut marks, &mut self.quality) else {
+                        return if self.table.is_cut_in(used.column) {
+                            Ok(self.end())
+                        } else {
+                            Err(not_a_number(&self.table, *used))
+                        };
+                    };
+                    nan
                 }
             };
             // Bits, so that a NaN equals itself.
@@ -293,7 +239,7 @@ impl<R: Read> RecordingReader<R> {
         }
         let (mut time, mut time_step) = (None, None);
         if let Some(used) = self.layout.time {
-            match Cell::read(&self.record, used) {
+            match Cell::read(&self.table.record, used) {
                 Cell::Number(number) => {
                     time = Some(number);
                     match self.time_watch.step_to(number) {
@@ -310,18 +256,32 @@ impl<R: Read> RecordingReader<R> {
                 }
                 bad => {
                     marks.bad_time = true;
-                    bad.count(self.line, &mut marks, &mut self.quality).ok_or_else(|| {
-                        not_a_number(&self.file, self.line, &self.layout, &self.record, used)
-                    })?;
+                    if bad.count(line, &mut marks, &mut self.quality).is_none() {
+                        return if self.table.is_cut_in(used.column) {
+                            Ok(self.end())
+                        } else {
+                            Err(not_a_number(&self.table, used))
+                        };
+                    }
                 }
             }
         } else {
             marks.repeated = same;
         }
-        let row = Row { line: self.line, time, time_step, marks, values: &self.values };
+        let row = Row { line, time, time_step, marks, values: &self.values };
         self.quality.note(&row, any_bad);
         self.follows = true;
         Ok(Some(row))
+    }
+
+    /// No more rows; a line that was cut is counted.
+    #[cold]
+    fn end(&mut self) -> Option<Row<'_>> {
+        if let Some(line) = self.table.cut_line() {
+            self.quality.cut_lines = FaultCount::default();
+            self.quality.cut_lines.add(line);
+        }
+        None
     }
 }
 
@@ -347,40 +307,11 @@ impl Quality {
 }
 
 #[cold]
-fn not_a_number(
-    file: &str,
-    line: u64,
-    layout: &Layout,
-    record: &ByteRecord,
-    used: UsedColumn,
-) -> RecordingError {
+fn not_a_number<R: Read>(table: &TableReader<R>, used: UsedColumn) -> RecordingError {
     RecordingError::NotANumber {
-        file: file.to_owned(),
-        line,
-        column: layout.columns().get(used.column).cloned().unwrap_or_default(),
-        found: shortened(&String::from_utf8_lossy(record.get(used.column).unwrap_or_default()), 40),
+        file: table.file().to_owned(),
+        line: table.line(),
+        column: table.names().get(used.column).cloned().unwrap_or_default(),
+        found: shortened(&String::from_utf8_lossy(table.record.get(used.column).unwrap_or_default()), 40),
     }
-}
-
-#[cold]
-fn read_error(file: String, line: u64, too_long: bool, error: csv::Error) -> RecordingError {
-    if too_long {
-        return RecordingError::TooLong { file, line, limit: Bounded::<()>::LIMIT };
-    }
-    let source = match error.into_kind() {
-        csv::ErrorKind::Io(source) => source,
-        other => std::io::Error::other(format!("{other:?}")),
-    };
-    RecordingError::Read { file, line, source }
-}
-
-/// The line of the record read last: every record ends with a line end, which has been counted. (The
-/// position of the record itself is that of the comments and empty lines before it.)
-fn line_of_record<R: Read>(csv: &csv::Reader<R>) -> u64 {
-    csv.position().line().saturating_sub(1)
-}
-
-/// A line of nothing but blanks.
-fn is_blank(record: &ByteRecord) -> bool {
-    record.len() <= 1 && record.get(0).is_none_or(|cell| cell.trim_ascii().is_empty())
 }

@@ -30,3 +30,13 @@ pub(super) fn delimiter(start: &[u8]) -> u8 {
     let header = header_line(start).unwrap_or(start);
     [b',', b';', b'\t'].into_iter().find(|delimiter| header.contains(delimiter)).unwrap_or(b',')
 }
+
+/// The comments above the header, without their `#`.
+pub(super) fn comments(start: &[u8]) -> Vec<String> {
+    let text = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
+    let lines = text.split(|byte| *byte == b'\n');
+    let above = lines.take_while(|line| line.starts_with(b"#") || line.trim_ascii().is_empty());
+    let comment =
+        |line: &[u8]| line.strip_prefix(b"#").map(|text| String::from_utf8_lossy(text).trim().to_owned());
+    above.filter_map(comment).collect()
+}

@@ -7,6 +7,7 @@ use fingertip_wrench::Wrench;
 
 use crate::columns::CONTACT_COLUMNS;
 use crate::error::RecordingError;
+use crate::layout::FRAME_OF;
 use crate::unit::SignalUnit;
 
 /// The columns of a recording to write, in SI units.
@@ -21,6 +22,7 @@ use crate::unit::SignalUnit;
 #[must_use]
 pub struct Schema {
     names: Vec<String>,
+    frames: Vec<String>,
 }
 
 impl Schema {
@@ -63,6 +65,15 @@ impl Schema {
         self
     }
 
+    /// Names the frame of a sensor, in a comment above the header; names with control characters are left out.
+    pub fn frame(mut self, sensor: &str, frame: &str) -> Self {
+        if !frame.chars().chain(sensor.chars()).any(char::is_control) {
+            let of = if sensor.is_empty() { String::new() } else { format!(" of {sensor}") };
+            self.frames.push(format!("# {FRAME_OF}{of}: {frame}\n"));
+        }
+        self
+    }
+
     /// The names of the columns.
     #[must_use]
     pub fn names(&self) -> &[String] {
@@ -95,7 +106,7 @@ impl<W: Write> RecordingWriter<W> {
     /// # Errors
     /// [`RecordingError::Write`].
     pub fn new(mut out: W, schema: &Schema) -> Result<Self, RecordingError> {
-        writeln!(out, "{}", schema.names.join(",")).map_err(failed)?;
+        writeln!(out, "{}{}", schema.frames.concat(), schema.names.join(",")).map_err(failed)?;
         Ok(Self { out, columns: schema.names.len(), line: String::new(), digits: ryu::Buffer::new() })
     }
 

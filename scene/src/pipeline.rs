@@ -4,7 +4,7 @@ use fingertip::contact::{Contact, NoContact, Resolution};
 use fingertip::friction::{GripController, SlipMargin, SlipVerdict, StickSlip};
 use fingertip::surfaces::DynSurface;
 use fingertip::wrench::{ContactForce, Motion, Real, Wrench};
-use fingertip::{Step, Touch};
+use fingertip::{AnyTouch, Step, Touch, TouchSensor};
 use nalgebra::{Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
@@ -53,7 +53,7 @@ pub struct Pipeline<T: Real> {
 #[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct Felt<T: Real> {
     /// Wrench, contact, force, slip margin and slip verdict.
-    pub touch: Touch<T, Option<SlipMargin<T>>, Option<SlipVerdict>>,
+    pub touch: AnyTouch<T>,
     /// How sure the contact is, with `[uncertainty]`; `None` also where it cannot be said, as at grazing.
     pub spread: Option<Spread<T>>,
     /// The probability that the contact slips, where the friction is known with a deviation.
@@ -395,5 +395,17 @@ impl<T: Real> Pipeline<T> {
     /// The friction limit, if the scene has one.
     pub const fn limit(&self) -> Option<&Limit<T>> {
         self.stages.friction().0.as_ref()
+    }
+}
+
+/// The last contact is its own, unless the step has one.
+impl<T: Real> TouchSensor<T> for Pipeline<T> {
+    fn feel(&mut self, wrench: Wrench<T>, step: Step<T>) -> AnyTouch<T> {
+        self.last = step.last.or(self.last);
+        self.sense(wrench, step.time).touch
+    }
+
+    fn start_anew(&mut self) {
+        self.start_anew();
     }
 }

@@ -1,10 +1,9 @@
 //! The stages of a pipeline: as types for the commonest scenes, chosen call by call for all others.
 
 use fingertip::contact::{PointContact, SoftFinger};
-use fingertip::friction::{SlipMargin, SlipVerdict};
 use fingertip::surfaces::{Cylinder, DynSurface, Ellipsoid, Plane, SphericalCap};
 use fingertip::wrench::{Real, Uncompensated, Wrench};
-use fingertip::{Absent, Fingertip, Step, Touch};
+use fingertip::{Absent, AnyTouch, Fingertip, Step};
 
 use crate::friction::Friction;
 use crate::model::Model;
@@ -83,11 +82,7 @@ impl<T: Real> Stages<T> {
     }
 
     #[inline]
-    pub(crate) fn sense(
-        &mut self,
-        wrench: Wrench<T>,
-        step: Step<T>,
-    ) -> Touch<T, Option<SlipMargin<T>>, Option<SlipVerdict>> {
+    pub(crate) fn sense(&mut self, wrench: Wrench<T>, step: Step<T>) -> AnyTouch<T> {
         each!(self, tip => tip.sense_wrench(wrench, step))
     }
 

@@ -1,10 +1,11 @@
 //! A calibration in any format that is read.
 
+use std::io;
 use std::path::Path;
-use std::{fs, io};
 
 use thiserror::Error;
 
+use super::bounded::read_to_string;
 use super::{AtiCalibration, AtiError, CalibrationFile, FileError};
 
 /// Why a calibration of either format cannot be read.
@@ -28,7 +29,7 @@ pub enum ReadError {
 /// [`ReadError`], which does not name the file.
 pub fn read_calibration(path: impl AsRef<Path>) -> Result<CalibrationFile, ReadError> {
     let path = path.as_ref();
-    let text = fs::read_to_string(path)?;
+    let text = read_to_string(path)?;
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("cal")) {
         return Ok(AtiCalibration::from_xml(&text)?.to_calibration()?);
     }

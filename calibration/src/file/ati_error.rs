@@ -11,6 +11,12 @@ pub enum AtiError {
     /// Not XML.
     #[error("not XML: {0}")]
     NotXml(#[from] roxmltree::Error),
+    /// More elements than any such file has.
+    #[error("it has more than {most} elements; is it a calibration of ATI's?")]
+    TooMany {
+        /// So many are read.
+        most: usize,
+    },
     /// An element is missing.
     #[error("element `{element}` is missing")]
     MissingElement {

@@ -6,12 +6,26 @@ use super::ati::{FINITE_IN_SI, length};
 use super::{AtiAxis, AtiCalibration, AtiError};
 use crate::Axis;
 
+/// The most elements of a file: one of six axes has some twenty.
+const MOST: usize = 1000;
+
+/// Whether an element begins at this `<`.
+fn is_element(xml: &str, at: usize) -> bool {
+    let next = xml.as_bytes().get(at + 1);
+    !next.is_some_and(|byte| matches!(byte, b'/' | b'!' | b'?'))
+}
+
 impl AtiCalibration {
     /// Reads the text of a `.cal` file.
     ///
     /// # Errors
     /// [`AtiError`], naming element and attribute.
     pub fn from_xml(xml: &str) -> Result<Self, AtiError> {
+        // The parser calls itself for each level, and a stack ends.
+        let elements = xml.match_indices('<').filter(|(at, _)| is_element(xml, *at)).take(MOST + 1).count();
+        if elements > MOST {
+            return Err(AtiError::TooMany { most: MOST });
+        }
         // Some tools write a byte order mark, which roxmltree does not expect.
         let document = Document::parse(xml.trim_start_matches('\u{feff}'))?;
         let sensor = document.root_element();

@@ -5,6 +5,7 @@ mod ati;
 mod ati_error;
 mod ati_reader;
 mod ati_writer;
+mod bounded;
 mod calibration_file;
 mod checksum;
 mod document;

@@ -2,10 +2,11 @@
 
 use std::io::Read;
 
+use fingertip_recordings::TableReader;
 use nalgebra::{DMatrix, Vector3, Vector6};
 
 use super::LoadError;
-use super::header::number_in;
+use super::header::{number_in, unreadable};
 use crate::Axis;
 
 /// A CSV with a header, whose columns are taken by name; columns nobody asks for do not matter. Blanks around
@@ -15,6 +16,7 @@ pub struct Columns {
     header: Vec<String>,
     /// Line of the file, and its cells.
     rows: Vec<(u64, Vec<String>)>,
+    cut_line: Option<u64>,
 }
 
 fn bad(line: u64, column: &str, message: &str) -> LoadError {
@@ -25,22 +27,27 @@ impl Columns {
     /// Reads all of it.
     ///
     /// # Errors
-    /// [`LoadError::BadText`] for lines of different lengths or text that is not UTF-8,
+    /// [`LoadError::BadText`] for lines of different lengths,
     /// [`LoadError::Empty`] without a row.
     pub fn from_csv(reader: impl Read) -> Result<Self, LoadError> {
-        let mut reader =
-            csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(reader);
-        let header = reader.headers().map_err(|error| bad(1, "", &error.to_string()))?;
-        let header = header.iter().map(str::to_owned).collect();
+        let mut table = TableReader::new("the table", reader).map_err(|error| unreadable(&error))?;
         let mut rows = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(|error| {
-                bad(error.position().map_or(0, csv::Position::line), "", &error.to_string())
-            })?;
-            let line = record.position().map_or(0, csv::Position::line);
-            rows.push((line, record.iter().map(str::to_owned).collect()));
+        while table.advance().map_err(|error| unreadable(&error))? {
+            let cells = (0..table.names().len()).map(|column| table.text(column).to_owned());
+            rows.push((table.line(), cells.collect()));
         }
-        if rows.is_empty() { Err(LoadError::Empty { what: "rows" }) } else { Ok(Self { header, rows }) }
+        let (header, cut_line) = (table.names().to_vec(), table.cut_line());
+        if rows.is_empty() {
+            Err(LoadError::Empty { what: "rows" })
+        } else {
+            Ok(Self { header, rows, cut_line })
+        }
+    }
+
+    /// The line in which the file was cut, if its last cells are missing: it is not among the rows.
+    #[must_use]
+    pub const fn cut_line(&self) -> Option<u64> {
+        self.cut_line
     }
 
     /// How many rows there are; at least one.

@@ -1,6 +1,8 @@
 //! What the columns of a table of loads mean, by their names.
 
-use fingertip_recordings::{ColumnMeaning, ColumnName, ForceUnit, TorqueUnit};
+use std::io::Read;
+
+use fingertip_recordings::{ColumnMeaning, ColumnName, ForceUnit, RecordingError, TableReader, TorqueUnit};
 use thiserror::Error;
 
 use super::LoadError;
@@ -124,6 +126,31 @@ pub(super) fn signal_layout(columns: &[Column]) -> Layout {
 /// What is wrong, where.
 pub(super) fn bad(line: u64, column: &str, message: impl ToString) -> LoadError {
     LoadError::BadText { line, column: column.to_owned(), message: message.to_string() }
+}
+
+/// Why a table cannot be read, as every reader of recordings says it.
+pub(super) fn unreadable(error: &RecordingError) -> LoadError {
+    match error {
+        RecordingError::Ragged { line, expected, found, .. } => bad(
+            *line,
+            "",
+            format!("{found} cells where the header names {expected} columns; mend or delete that line"),
+        ),
+        RecordingError::TooLong { line, limit, .. } => {
+            let what =
+                format!("is longer than {limit} bytes, or a quote is never closed; is this a text file?");
+            bad(line + 1, "", what)
+        }
+        RecordingError::Empty { .. } => LoadError::Empty { what: "columns: the file is empty" },
+        RecordingError::Read { line, source, .. } => bad(line + 1, "", format!("cannot be read: {source}")),
+        other => bad(1, "", other),
+    }
+}
+
+/// A cell of the row at hand that is not what it should be.
+pub(super) fn not_a_number<R: Read>(table: &TableReader<R>, column: usize, what: &str) -> LoadError {
+    let name = table.names().get(column).map_or("", String::as_str);
+    bad(table.line(), name, format!("{:?} is not {what}", table.text(column)))
 }
 
 /// The number that a cell says, in a unit of this size; or what it is not. A finite number may be infinite in

@@ -2,8 +2,10 @@
 
 use std::io::Read;
 
+use fingertip_recordings::TableReader;
+
 use super::LoadError;
-use super::header::{Column, bad, layout, number_in, parse_name};
+use super::header::{Column, bad, layout, not_a_number, number_in, parse_name, unreadable};
 use crate::Axis;
 use crate::file::SignalUnit;
 
@@ -11,9 +13,7 @@ use crate::file::SignalUnit;
 /// [`LoadTable::from_csv`](super::LoadTable::from_csv).
 #[derive(Debug)]
 pub struct LoadReader<R> {
-    csv: csv::Reader<R>,
-    record: csv::StringRecord,
-    header: csv::StringRecord,
+    table: TableReader<R>,
     columns: Vec<Column>,
     axes: Vec<Axis>,
     unit: SignalUnit,
@@ -51,9 +51,9 @@ impl<R: Read> LoadReader<R> {
     /// # Errors
     /// [`LoadError::BadText`], naming the column.
     pub fn new(reader: R) -> Result<Self, LoadError> {
-        let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(reader);
-        let header = csv.headers().map_err(|error| bad(1, "", error.to_string()))?.clone();
-        let columns = header
+        let table = TableReader::new("the table", reader).map_err(|error| unreadable(&error))?;
+        let columns = table
+            .names()
             .iter()
             .map(|name| parse_name(name).map_err(|message| bad(1, name, message)))
             .collect::<Result<Vec<_>, _>>()?;
@@ -72,7 +72,7 @@ impl<R: Read> LoadReader<R> {
             orientation: (!parts.is_empty()).then_some([0.0; 4]),
             ..LoadRow::default()
         };
-        Ok(Self { csv, record: csv::StringRecord::new(), header, columns, axes, unit, row })
+        Ok(Self { table, columns, axes, unit, row })
     }
 
     /// The axes that have loads.
@@ -96,8 +96,15 @@ impl<R: Read> LoadReader<R> {
     /// Names of the columns that are not used.
     #[must_use]
     pub fn ignored(&self) -> Vec<String> {
-        let ignored = self.header.iter().zip(&self.columns).filter(|(_, column)| **column == Column::Ignored);
-        ignored.map(|(name, _)| name.to_owned()).collect()
+        let ignored =
+            self.table.names().iter().zip(&self.columns).filter(|(_, column)| **column == Column::Ignored);
+        ignored.map(|(name, _)| name.clone()).collect()
+    }
+
+    /// The line in which the file was cut, if that was found at its end: it is not among the rows.
+    #[must_use]
+    pub const fn cut_line(&self) -> Option<u64> {
+        self.table.cut_line()
     }
 
     /// The next row; `None` at the end.
@@ -105,20 +112,23 @@ impl<R: Read> LoadReader<R> {
     /// # Errors
     /// [`LoadError::BadText`], naming line and column.
     pub fn next_row(&mut self) -> Result<Option<&LoadRow>, LoadError> {
-        let more = self.csv.read_record(&mut self.record).map_err(|error| {
-            let line = error.position().map_or(0, csv::Position::line);
-            bad(line, "", error.to_string())
-        })?;
-        if !more {
+        if !self.table.advance().map_err(|error| unreadable(&error))? {
             return Ok(None);
         }
-        let line = self.record.position().map_or(0, csv::Position::line);
+        match self.take_row() {
+            Ok(()) => Ok(Some(&self.row)),
+            Err((column, _)) if self.table.is_cut_in(column) => Ok(None),
+            Err((column, what)) => Err(not_a_number(&self.table, column, what)),
+        }
+    }
+
+    /// Takes the cells of the row at hand, or says which is not what.
+    fn take_row(&mut self) -> Result<(), (usize, &'static str)> {
         let row = &mut self.row;
-        row.line = line;
-        for ((column, name), text) in self.columns.iter().zip(&self.header).zip(&self.record) {
-            let number = |size: f64| {
-                number_in(text, size).map_err(|what| bad(line, name, format!("{text:?} is not {what}")))
-            };
+        row.line = self.table.line();
+        for (index, column) in self.columns.iter().enumerate() {
+            let text = self.table.text(index);
+            let number = |size: f64| number_in(text, size).map_err(|what| (index, what));
             match *column {
                 Column::Load(axis, size) => {
                     if let Some(slot) = self.axes.iter().position(|a| *a == axis) {
@@ -140,6 +150,6 @@ impl<R: Read> LoadReader<R> {
                 Column::Ignored => {}
             }
         }
-        Ok(Some(row))
+        Ok(())
     }
 }

@@ -2,10 +2,13 @@
 
 use std::io::Read;
 
+use fingertip_recordings::TableReader;
 use nalgebra::DMatrix;
 
 use super::LoadError;
-use super::header::{Column, NameProblem, bad, number_in, parse_name, signal_layout};
+use super::header::{
+    Column, NameProblem, bad, not_a_number, number_in, parse_name, signal_layout, unreadable,
+};
 use crate::file::SignalUnit;
 
 /// Readings without load.
@@ -17,6 +20,8 @@ pub struct Rest {
     pub unit: SignalUnit,
     /// Temperature of each sample \[°C\], if the file has them.
     pub temperatures: Option<Vec<f64>>,
+    /// The line in which the file was cut, if that was found at its end: it is not among the samples.
+    pub cut_line: Option<u64>,
 }
 
 /// Reads the signals alone of a CSV with the header of [`LoadTable::from_csv`](super::LoadTable::from_csv), and their temperatures.
@@ -25,10 +30,9 @@ pub struct Rest {
 /// # Errors
 /// [`LoadError`], naming line and column.
 pub fn signals_from_csv(reader: impl Read) -> Result<Rest, LoadError> {
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(reader);
-    let header = reader.headers().map_err(|error| bad(1, "", error.to_string()))?.clone();
+    let mut table = TableReader::new("the table", reader).map_err(|error| unreadable(&error))?;
     let mut columns = Vec::new();
-    for name in &header {
+    for name in table.names() {
         // A load in an unknown unit does not matter here.
         columns.push(match parse_name(name) {
             Ok(Column::Load(..)) | Err(NameProblem::LoadUnit { .. }) => Column::Ignored,
@@ -39,24 +43,30 @@ pub fn signals_from_csv(reader: impl Read) -> Result<Rest, LoadError> {
     let (_, gauges, unit) = signal_layout(&columns).map_err(|(column, message)| bad(1, &column, message))?;
     let (mut signals, mut temperatures) = (Vec::new(), Vec::new());
     let mut samples = 0;
-    for record in reader.records() {
-        let record = record
-            .map_err(|error| bad(error.position().map_or(0, csv::Position::line), "", error.to_string()))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let start = signals.len();
-        signals.resize(start + gauges, 0.0);
-        for ((column, name), text) in columns.iter().zip(&header).zip(&record) {
-            let number = |size: f64| {
-                number_in(text, size).map_err(|what| bad(line, name, format!("{text:?} is not {what}")))
+    'rows: while table.advance().map_err(|error| unreadable(&error))? {
+        let mut row = vec![0.0; gauges];
+        let mut temperature = None;
+        for (index, column) in columns.iter().enumerate() {
+            let read = match *column {
+                Column::Signal(gauge, _, size) => {
+                    number_in(table.text(index), size).map(|number| row[gauge] = number)
+                }
+                Column::Temperature => {
+                    number_in(table.text(index), 1.0).map(|number| temperature = Some(number))
+                }
+                _ => Ok(()),
             };
-            match *column {
-                Column::Signal(gauge, _, size) => signals[start + gauge] = number(size)?,
-                Column::Temperature => temperatures.push(number(1.0)?),
-                _ => {}
+            match read {
+                Ok(()) => {}
+                Err(_) if table.is_cut_in(index) => break 'rows,
+                Err(what) => return Err(not_a_number(&table, index, what)),
             }
         }
+        signals.extend(row);
+        temperatures.extend(temperature);
         samples += 1;
     }
     let signals = DMatrix::from_row_slice(samples, gauges, &signals);
-    Ok(Rest { signals, unit, temperatures: (!temperatures.is_empty()).then_some(temperatures) })
+    let temperatures = (!temperatures.is_empty()).then_some(temperatures);
+    Ok(Rest { signals, unit, temperatures, cut_line: table.cut_line() })
 }

@@ -89,7 +89,7 @@ pub enum LoadError {
     #[error("some sessions have had their zeros taken off, others have not: join them first")]
     MixedZeros,
     /// The text is not a table of loads.
-    #[error("line {line}, column `{column}`: {message}")]
+    #[error("line {line}{}: {message}", if column.is_empty() { String::new() } else { format!(", column `{column}`") })]
     BadText {
         /// Line of the file, counting from 1.
         line: u64,

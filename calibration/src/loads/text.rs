@@ -31,6 +31,15 @@ impl LoadTable {
     /// [`LoadError`], naming line and column.
     pub fn from_csv(reader: impl Read) -> Result<(Self, Vec<String>), LoadError> {
         let mut reader = LoadReader::new(reader)?;
+        let table = Self::from_reader(&mut reader)?;
+        Ok((table, reader.ignored()))
+    }
+
+    /// Reads what a reader has still to give.
+    ///
+    /// # Errors
+    /// [`LoadError`], naming line and column.
+    pub fn from_reader(reader: &mut LoadReader<impl Read>) -> Result<Self, LoadError> {
         let (mut loads, mut signals) = (Vec::new(), Vec::new());
         let (mut times, mut temperatures, mut weights) = (Vec::new(), Vec::new(), Vec::new());
         let (mut names, mut cases, mut groups) = (Vec::new(), Vec::new(), Vec::new());
@@ -59,7 +68,7 @@ impl LoadTable {
         (table.times, table.temperatures, table.weights) = (some(times), some(temperatures), some(weights));
         table.orientations = (!orientations.is_empty()).then_some(orientations);
         table.validate()?;
-        Ok((table, reader.ignored()))
+        Ok(table)
     }
 }
 
@@ -94,7 +103,7 @@ fn same_loads(loads: &DMatrix<f64>) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::LoadTable;
+    use super::{LoadReader, LoadTable};
     use crate::Axis;
     use crate::file::SignalUnit;
 
@@ -124,6 +133,31 @@ mod tests {
         assert_eq!(table.cases[0], table.cases[2]);
         assert_ne!(table.cases[0], table.cases[1]);
         assert_eq!(table.names[2], "line 4");
+    }
+
+    /// As recordings are: other separators, blank lines, lines that are cut or endless.
+    #[test]
+    fn tables_are_read_as_recordings_are() {
+        let plain = LoadTable::from_csv("fx_N,v1_V\n1,2\n3,4\n".as_bytes()).unwrap().0;
+        for text in [
+            "fx_N;v1_V\r\n1;2\r\n\r\n3;4\r\n",
+            "\u{feff}# by hand\n\nfx_N\tv1_V\n1\t2\n  \n3\t4",
+            "fx_N,v1_V\n1,2\n3,4\n5",
+            "fx_N,v1_V\n1,2\n3,4\n5,-",
+        ] {
+            let table = LoadTable::from_csv(text.as_bytes()).unwrap().0;
+            assert_eq!(
+                (table.loads, table.signals),
+                (plain.loads.clone(), plain.signals.clone()),
+                "{text:?}"
+            );
+        }
+        let mut reader = LoadReader::new("fx_N,v1_V\n1,2\n3".as_bytes()).unwrap();
+        assert_eq!(LoadTable::from_reader(&mut reader).unwrap().samples(), 1);
+        assert_eq!(reader.cut_line(), Some(3));
+        let endless = std::io::Read::take(std::io::repeat(b'7'), 1 << 30);
+        let error = LoadTable::from_csv(std::io::Read::chain("fx_N,v1_V\n1,2\n".as_bytes(), endless));
+        assert!(error.unwrap_err().to_string().contains("line 3: is longer than 1048576 bytes"));
     }
 
     #[test]

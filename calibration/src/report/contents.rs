@@ -262,42 +262,7 @@ impl Report {
 
     /// Good, suspect or bad, and why.
     fn judge(&mut self, limits: &Limits) {
-        for axis in &self.axes {
-            let (error, kind) = match axis.left_out_percent {
-                Some(error) => (error, "on loads left out of the fit"),
-                None => (axis.rms_percent, "on these loads"),
-            };
-            if !(error <= limits.left_out_percent) {
-                self.reasons.push(format!(
-                    "{}: {error:.2} % of full scale {kind}; {} % is allowed",
-                    axis.axis, limits.left_out_percent
-                ));
-            }
-            if let Some(left_out) = axis.left_out_percent
-                && left_out > limits.over_fitting * axis.rms_percent
-                // Below a tenth of what is allowed nobody minds.
-                && left_out > 0.1 * limits.left_out_percent
-            {
-                self.reasons.push(format!(
-                    "{}: over-fitted: {left_out:.2} % on loads left out of the fit, {:.2} % on those in it",
-                    axis.axis, axis.rms_percent
-                ));
-            }
-        }
-        match self.condition_number {
-            Some(number) if number <= limits.condition_number => {}
-            Some(number) => self.reasons.push(format!(
-                "ill-conditioned: N_c = {number:.0}; {:.0} is allowed",
-                limits.condition_number
-            )),
-            None => self.reasons.push("the sensor matrix is singular".to_owned()),
-        }
-        if !self.needed_cases.is_empty() {
-            self.reasons.push(format!(
-                "nothing checks {}: without it, the other loads do not determine the sensor",
-                self.needed_cases.join(", ")
-            ));
-        }
+        self.reasons = worst_first(self.shortfalls(limits));
         match self.excluded.len() {
             0 => {}
             1 => self.notes.push("1 sample was left out".to_owned()),
@@ -319,6 +284,53 @@ impl Report {
         }
         self.verdict = if self.reasons.is_empty() { Verdict::Good } else { Verdict::Bad };
         self.doubt(limits);
+    }
+
+    /// What misses a limit, and by how many times.
+    fn shortfalls(&self, limits: &Limits) -> Vec<(f64, String)> {
+        let mut found = Vec::new();
+        for axis in &self.axes {
+            let (error, kind) = match axis.left_out_percent {
+                Some(error) => (error, "on loads left out of the fit"),
+                None => (axis.rms_percent, "on these loads"),
+            };
+            let times = error / limits.left_out_percent;
+            if !(error <= limits.left_out_percent) {
+                let text = format!(
+                    "{}: {error:.2} % of full scale {kind}; {} % is allowed",
+                    axis.axis, limits.left_out_percent
+                );
+                found.push((times, text));
+            }
+            if let Some(left_out) = axis.left_out_percent
+                && left_out > limits.over_fitting * axis.rms_percent
+                // Below a tenth of what is allowed nobody minds.
+                && left_out > 0.1 * limits.left_out_percent
+            {
+                let text = format!(
+                    "{}: over-fitted: {left_out:.2} % on loads left out of the fit, {:.2} % on those in it",
+                    axis.axis, axis.rms_percent
+                );
+                found.push((times, text));
+            }
+        }
+        match self.condition_number {
+            Some(number) if number <= limits.condition_number => {}
+            Some(number) => {
+                let text =
+                    format!("ill-conditioned: N_c = {number:.0}; {:.0} is allowed", limits.condition_number);
+                found.push((number / limits.condition_number, text));
+            }
+            None => found.push((f64::INFINITY, "the sensor matrix is singular".to_owned())),
+        }
+        if !self.needed_cases.is_empty() {
+            let text = format!(
+                "nothing checks {}: without it, the other loads do not determine the sensor",
+                self.needed_cases.join(", ")
+            );
+            found.push((1.0, text));
+        }
+        found
     }
 
     /// What the outliers that were kept make of a good calibration: a gross one may be a bad reading or a
@@ -384,4 +396,10 @@ fn describe(options: &Options) -> String {
         text.push_str(", outliers rejected");
     }
     text
+}
+
+/// Reasons, those that miss by most first.
+fn worst_first(mut found: Vec<(f64, String)>) -> Vec<String> {
+    found.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    found.into_iter().map(|(_, text)| text).collect()
 }

@@ -91,6 +91,9 @@ fn most_extreme(x: &DMatrix<f64>, y: &DMatrix<f64>, weights: Option<&[f64]>) -> 
     let fit = least_squares(x, y, weights).ok()?;
     let residuals = y - x * &fit.coefficients;
     let freedom = (samples - k) as f64;
+    // What rounding leaves of an exact fit is no deviation.
+    let floors: Vec<f64> =
+        y.column_iter().map(|column| f64::EPSILON * samples as f64 * column.amax()).collect();
     let mut best: Option<(usize, usize, f64)> = None;
     for i in 0..samples {
         let weight = weights.map_or(1.0, |w| w[i]);
@@ -101,9 +104,7 @@ fn most_extreme(x: &DMatrix<f64>, y: &DMatrix<f64>, weights: Option<&[f64]>) -> 
         }
         for j in 0..y.ncols() {
             let variance = fit.residual_covariance[(j, j)];
-            // What rounding leaves of an exact fit is no deviation.
-            let floor = f64::EPSILON * samples as f64 * y.column(j).amax();
-            if !(variance.sqrt() > floor) {
+            if !(variance.sqrt() > floors[j]) {
                 continue;
             }
             let internal = residuals[(i, j)] * weight.sqrt() / (variance * free).sqrt();

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::output::Overwrite;
+
 #[derive(Debug, Args)]
 pub(crate) struct AnalyzeArguments {
     /// The recording: CSV with units in the column names (fx_N, tz_Nmm, v1_V, t_s), or MCAP (.mcap)
@@ -27,6 +29,9 @@ pub(crate) struct AnalyzeArguments {
     /// Which sensor of the recording: the prefix of its columns (S1 for S1_Fx_N); overrides the scene
     #[arg(long, value_name = "PREFIX")]
     pub(crate) sensor: Option<String>,
+    /// Of an MCAP file, this topic alone; several times for several
+    #[arg(long = "topic", value_name = "TOPIC")]
+    pub(crate) topics: Vec<String>,
     /// Where to write one row per sample; `-` is the standard output, and the summary then goes to
     /// the standard error
     #[arg(long, value_name = "FILE", default_value = "contacts.csv")]
@@ -37,4 +42,6 @@ pub(crate) struct AnalyzeArguments {
     /// Write no report
     #[arg(long)]
     pub(crate) no_report: bool,
+    #[command(flatten)]
+    pub(crate) overwrite: Overwrite,
 }

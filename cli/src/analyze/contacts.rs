@@ -1,7 +1,6 @@
 //! `contacts.csv`: one row per sample.
 
-use std::fs::File;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use fingertip::contact::{NoContact, Resolution};
@@ -10,6 +9,7 @@ use fingertip_scene::{Felt, Tells};
 
 use crate::error::CliError;
 use crate::observe::Status;
+use crate::output::{Outputs, Whole};
 
 /// The columns; units are in the names. Where a sample has no value, the cell is empty.
 const HEADER: &str = "t_s,status,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,x_m,y_m,z_m,nx,ny,nz,\
@@ -37,7 +37,7 @@ const BUFFER: usize = 1 << 16;
 /// Numbers are written in single precision with as many digits as that needs (7 to 9), which no
 /// force sensor comes near; times in nanoseconds.
 pub(super) struct ContactWriter {
-    out: Out,
+    out: Whole,
     path: PathBuf,
     buffer: Vec<u8>,
     tells: Tells,
@@ -45,19 +45,10 @@ pub(super) struct ContactWriter {
     more: usize,
 }
 
-enum Out {
-    File(File),
-    Stdout(io::Stdout),
-}
-
 impl ContactWriter {
     /// `-` is the standard output.
-    pub(super) fn create(path: &Path, tells: Tells) -> Result<Self, CliError> {
-        let out = if path == Path::new("-") {
-            Out::Stdout(io::stdout())
-        } else {
-            Out::File(File::create(path).map_err(|source| CliError::write("contacts", path, source))?)
-        };
+    pub(super) fn create(path: &Path, outputs: &Outputs, tells: Tells) -> Result<Self, CliError> {
+        let out = outputs.create("contacts", path)?;
         let mut buffer = Vec::with_capacity(BUFFER);
         buffer.extend_from_slice(HEADER.as_bytes());
         let mut more = 0;
@@ -185,20 +176,14 @@ impl ContactWriter {
     }
 
     fn flush(&mut self) -> Result<(), CliError> {
-        let written = match &mut self.out {
-            Out::File(file) => {
-                file.write_all(&self.buffer).map_err(|source| CliError::write("contacts", &self.path, source))
-            }
-            Out::Stdout(stdout) => {
-                stdout.write_all(&self.buffer).and_then(|()| stdout.flush()).map_err(CliError::stdout)
-            }
-        };
+        let written = self.out.write_all(&self.buffer).and_then(|()| self.out.flush());
         self.buffer.clear();
-        written
+        written.map_err(|source| CliError::write("contacts", &self.path, source))
     }
 
     /// Writes what is left.
-    pub(super) fn finish(&mut self) -> Result<(), CliError> {
-        self.flush()
+    pub(super) fn finish(mut self) -> Result<(), CliError> {
+        self.flush()?;
+        self.out.finish()
     }
 }

@@ -1,32 +1,30 @@
 //! The files of a run, and what is said at its end.
 
-use std::fs::File;
-use std::io::{self, BufReader, Read, Write};
-use std::path::Path;
+use std::io::Read;
 
 use fingertip_recordings::{ReaderOptions, RecordingReader};
 use fingertip_scene::Scene;
 use indicatif::ProgressBar;
 
 use super::args::AnalyzeArguments;
-use super::progress::bar;
 use crate::convert::McapAsCsv;
 use crate::error::CliError;
-use crate::output;
+use crate::input::Input;
+use crate::output::Outputs;
+use crate::progress::bar;
 use crate::recording_file::Kind;
-use crate::summary::Findings;
 
 /// Refuses to write over what is read.
-pub(super) fn guard(arguments: &AnalyzeArguments) -> Result<(), CliError> {
+pub(super) fn guard(arguments: &AnalyzeArguments) -> Result<Outputs, CliError> {
     let inputs = [
         Some(&arguments.recording),
         Some(&arguments.scene),
         arguments.calibration.as_ref(),
         arguments.payload.as_ref(),
     ];
-    let inputs = || inputs.into_iter().flatten();
-    output::guard("contacts file", inputs(), [&arguments.output])?;
-    output::guard("report", inputs(), (!arguments.no_report).then_some(&arguments.report))
+    let report = (!arguments.no_report).then_some(&arguments.report);
+    let outputs = core::iter::once(&arguments.output).chain(report);
+    Outputs::guard(arguments.overwrite, "output", inputs.into_iter().flatten(), outputs)
 }
 
 /// The rows of a recording, whichever way it was recorded.
@@ -40,34 +38,20 @@ pub(super) struct Opened {
 }
 
 /// Opens a recording. One of MCAP is read as what `convert` makes of it; what to know of that goes to `notes`.
-pub(super) fn open(path: &Path, scene: &Scene, notes: &mut Vec<String>) -> Result<Opened, CliError> {
-    let fault = |source| CliError::read("recording", path, source);
-    let file = File::open(path).map_err(fault)?;
-    let meta = file.metadata().map_err(fault)?;
-    if meta.is_dir() {
-        return Err(fault(io::ErrorKind::IsADirectory.into()));
-    }
-    let bar = bar(meta.is_file().then_some(meta.len()));
-    let file = bar.wrap_read(file);
-    let text: Box<dyn Read> = match Kind::of(path) {
-        Ok(Kind::Mcap) => Box::new(McapAsCsv::new(BufReader::new(file), path, notes)?),
-        _ => Box::new(file),
+pub(super) fn open(
+    arguments: &AnalyzeArguments,
+    scene: &Scene,
+    notes: &mut Vec<String>,
+) -> Result<Opened, CliError> {
+    let mut input = Input::open(&arguments.recording)?;
+    let bar = bar(input.length());
+    let text: Box<dyn Read> = match input.kind() {
+        Kind::Mcap => {
+            let file = bar.wrap_read(input.messages()?);
+            Box::new(McapAsCsv::new(file, &input, &arguments.topics, notes)?)
+        }
+        Kind::Csv => Box::new(bar.wrap_read(input.text()?)),
     };
     let options = ReaderOptions { renamed: scene.renamed_columns().to_vec(), ..ReaderOptions::default() };
-    Ok(Opened { rows: Rows::with_options(path.display().to_string(), text, options)?, bar })
-}
-
-/// Prints what was found and what was written.
-pub(super) fn say(findings: &Findings, to_stderr: bool, files: &[Option<&Path>]) -> Result<(), CliError> {
-    let files: Vec<_> = files.iter().flatten().filter(|path| **path != Path::new("-")).collect();
-    let mut text = findings.to_string();
-    if !files.is_empty() {
-        text.push_str(&format!("\n{}", output::written(files)));
-    }
-    if to_stderr {
-        // If even the standard error is closed, there is nobody left to tell.
-        let _ = io::stderr().write_all(text.as_bytes());
-        return Ok(());
-    }
-    output::print(&text)
+    Ok(Opened { rows: Rows::with_options(input.name(), text, options)?, bar })
 }

@@ -4,20 +4,16 @@ pub(crate) mod args;
 mod contacts;
 mod files;
 mod payload;
-mod progress;
 mod recorded;
 mod source;
 mod volts;
 mod wrenches;
-
-use std::path::Path;
 
 use fingertip_recordings::Quality;
 use fingertip_scene::{Pipeline, Scene};
 
 use crate::error::CliError;
 use crate::observe::{Observations, Status};
-use crate::output;
 use crate::report::{self, used::Given};
 use crate::scene;
 use crate::summary::{self, Run};
@@ -30,20 +26,20 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let scene = scene::load(&arguments.scene)?;
     let scene = scene::with(scene, arguments.calibration.as_deref(), arguments.payload.as_deref())?;
     let recording = arguments.recording.as_path();
-    files::guard(arguments)?;
+    let outputs = files::guard(arguments)?;
     let mut notes = Vec::new();
-    let files::Opened { rows: mut reader, bar } = files::open(recording, &scene, &mut notes)?;
+    let files::Opened { rows: mut reader, bar } = files::open(arguments, &scene, &mut notes)?;
     let mut source = Source::new(&mut reader, &scene, arguments, notes)?;
-    let mut contacts = ContactWriter::create(&arguments.output, scene.tells())?;
+    let mut contacts = ContactWriter::create(&arguments.output, &outputs, scene.tells())?;
     let pass = Pass { scene: &scene, reader: &mut reader, source: &mut source, contacts: &mut contacts };
     let observations = pass.run()?;
     bar.finish_and_clear();
-    contacts.finish()?;
 
     let quality: Quality = *reader.quality();
     if observations.rows() == 0 {
         return Err(CliError::NoRows { path: recording.to_owned() });
     }
+    contacts.finish()?;
     let findings = summary::of_recording(&Run {
         recording,
         scene: &scene,
@@ -59,10 +55,9 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
             payload: arguments.payload.as_deref(),
             calibrated: source.is_calibrated(),
         };
-        output::write("report", path, &report::of_recording(&findings, &observations, &scene, &given))?;
+        outputs.write("report", path, &report::of_recording(&findings, &observations, &scene, &given))?;
     }
-    let to_stderr = arguments.output == Path::new("-");
-    files::say(&findings, to_stderr, &[Some(arguments.output.as_path()), report])
+    outputs.say(&findings.to_string(), &[])
 }
 
 /// Tells the pipeline how noisy the rest was.

@@ -16,6 +16,7 @@ use crate::calibrated::Calibration;
 use crate::error::CliError;
 use crate::gauge_rows::KnownTemperature;
 use crate::observe::Status;
+use crate::output::printable;
 use fingertip_scene::{Convention, Scene};
 
 /// What one row gives.
@@ -195,7 +196,7 @@ impl Source {
              contacts look wrong, shorten rest_s of the scene to the part without load and motion, or set it to 0"
         );
         // Those who read only the table of contacts should learn of it too.
-        eprintln!("warning: {warning}");
+        eprintln!("warning: {}", printable(&warning));
         self.notes.insert(0, warning);
         Ok(())
     }

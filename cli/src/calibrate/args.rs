@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::touches::TouchArguments;
+use crate::output::Overwrite;
 
 /// The methods that need to know how uncertain loads and readings are.
 const UNCERTAIN: [(&str, &str); 2] = [("method", "total"), ("method", "gauss-helmert")];
@@ -106,12 +107,17 @@ pub(crate) struct CalibrateArguments {
     /// Greatest error that is good, % of full scale, on loads left out of the fit
     #[arg(long, value_name = "PERCENT")]
     pub(crate) limit: Option<f64>,
+    /// Exit with 0 although the calibration is judged bad
+    #[arg(long)]
+    pub(crate) accept_bad: bool,
     /// Serial number of the sensor
     #[arg(long, default_value = "")]
     pub(crate) serial: String,
     /// Date of the calibration, such as 2026-11-21
     #[arg(long, default_value = "")]
     pub(crate) date: String,
+    #[command(flatten)]
+    pub(crate) overwrite: Overwrite,
 }
 
 #[derive(Debug, Args)]
@@ -142,6 +148,8 @@ pub(crate) struct CheckArguments {
     /// Also write the report as JSON
     #[arg(long, value_name = "FILE")]
     pub(crate) json: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) overwrite: Overwrite,
 }
 
 #[derive(Debug, Args)]
@@ -158,6 +166,8 @@ pub(crate) struct TareArguments {
     /// Where to write the calibration with its new zero
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) overwrite: Overwrite,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -7,12 +7,13 @@ use super::args::CheckArguments;
 use super::files::{bad, read_calibration, read_loads, read_payload, write_reports};
 use super::limits;
 use crate::error::CliError;
-use crate::output::{guard, say};
+use crate::output::Outputs;
 
 /// An error if the calibration does not hold.
 pub(crate) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
     let inputs = [arguments.calibration.clone(), arguments.loads.clone()];
-    guard("output", &inputs, [arguments.html.as_ref(), arguments.json.as_ref()].into_iter().flatten())?;
+    let paths = [arguments.html.as_ref(), arguments.json.as_ref()].into_iter().flatten();
+    let outputs = Outputs::guard(arguments.overwrite, "output", &inputs, paths)?;
     let mut file = read_calibration(&arguments.calibration)?;
     let mut notes = Vec::new();
     let mut table = read_loads(&arguments.loads, &mut notes)?;
@@ -47,9 +48,8 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
     let touches = arguments.touches.set(&file.axes, &file.nominal)?;
     let report = Report::of_check(&file, &table, &limits(arguments.limit), touches.as_ref())
         .map_err(|error| fault(&error))?;
-    let mut written = Vec::new();
-    write_reports(&report, "Check", arguments.html.as_ref(), arguments.json.as_ref(), &mut written)?;
-    say(&report.to_string(), &notes, &written)?;
+    write_reports(&report, "Check", arguments.html.as_ref(), arguments.json.as_ref(), &outputs)?;
+    outputs.say(&report.to_string(), &notes)?;
     if report.verdict == Verdict::Bad {
         return Err(CliError::DoesNotHold {
             calibration: arguments.calibration.clone(),

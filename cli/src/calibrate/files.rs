@@ -1,15 +1,16 @@
 //! The files of the commands that calibrate.
 
 use std::fs;
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use fingertip_calibration::file::{self, CalibrationFile, PayloadFile, ReadError};
-use fingertip_calibration::loads::{Columns, LoadTable};
+use fingertip_calibration::file::{self, CalibrationFile, FileError, PayloadFile, ReadError};
+use fingertip_calibration::loads::{Columns, LoadReader, LoadTable};
 use fingertip_calibration::report::Report;
 
 use crate::error::CliError;
-use crate::output::write;
+use crate::output::{Outputs, is_standard};
+use crate::progress::bar;
 
 /// What is wrong with a table, in an error that names its file.
 pub(crate) fn bad(path: &Path, message: &impl ToString) -> CliError {
@@ -18,12 +19,23 @@ pub(crate) fn bad(path: &Path, message: &impl ToString) -> CliError {
 
 /// A table of known loads; columns that are not used go to `notes`.
 pub(crate) fn read_loads(path: &Path, notes: &mut Vec<String>) -> Result<LoadTable, CliError> {
-    let (table, ignored) =
-        LoadTable::from_csv(open("table of loads", path)?).map_err(|error| bad(path, &error))?;
-    if !ignored.is_empty() {
-        notes.push(format!("{}: columns not used: {}", path.display(), ignored.join(", ")));
-    }
+    let mut reader = LoadReader::new(open("table of loads", path)?).map_err(|error| bad(path, &error))?;
+    let table = LoadTable::from_reader(&mut reader).map_err(|error| bad(path, &error))?;
+    notes.extend(of_reading(path, &reader));
     Ok(table)
+}
+
+/// What to mind of a table that was read.
+pub(super) fn of_reading<R: Read>(path: &Path, reader: &LoadReader<R>) -> Vec<String> {
+    let ignored = reader.ignored();
+    let unused = (!ignored.is_empty())
+        .then(|| format!("{}: columns not used: {}", path.display(), ignored.join(", ")));
+    unused.into_iter().chain(reader.cut_line().map(|line| cut(path, line))).collect()
+}
+
+/// That a file was cut in its last line.
+pub(crate) fn cut(path: &Path, line: u64) -> String {
+    format!("{}: the file was cut in line {line}, its last, which is left out", path.display())
 }
 
 /// A table whose columns are taken by name.
@@ -31,13 +43,30 @@ pub(crate) fn read_columns(what: &'static str, path: &Path) -> Result<Columns, C
     Columns::from_csv(open(what, path)?).map_err(|error| bad(path, &error))
 }
 
-pub(crate) fn open(what: &'static str, path: &Path) -> Result<io::BufReader<fs::File>, CliError> {
-    let file = fs::File::open(path).map_err(|source| CliError::read(what, path, source))?;
-    Ok(io::BufReader::new(file))
+/// The bytes of a file; `-` is the standard input.
+pub(crate) fn open(what: &'static str, path: &Path) -> Result<Box<dyn Read>, CliError> {
+    if is_standard(path) {
+        return Ok(Box::new(io::stdin()));
+    }
+    let fault = |source| CliError::read(what, path, source);
+    let file = fs::File::open(path).map_err(fault)?;
+    let meta = file.metadata().map_err(fault)?;
+    Ok(Box::new(bar(meta.is_file().then_some(meta.len())).wrap_read(file)))
+}
+
+/// All of a text; `-` is the standard input.
+fn text(what: &'static str, path: &Path) -> Result<String, CliError> {
+    let read = if is_standard(path) { io::read_to_string(io::stdin()) } else { fs::read_to_string(path) };
+    read.map_err(|source| CliError::read(what, path, source))
 }
 
 /// Our TOML, or ATI's `.cal` by its extension.
 pub(crate) fn read_calibration(path: &Path) -> Result<CalibrationFile, CliError> {
+    if is_standard(path) {
+        let unusable =
+            |error: FileError| CliError::Calibration { path: path.to_owned(), message: error.to_string() };
+        return CalibrationFile::from_toml(&text("calibration", path)?).map_err(unusable);
+    }
     file::read_calibration(path).map_err(|error| match error {
         ReadError::Io(source) => CliError::read("calibration", path, source),
         other => CliError::Calibration { path: path.to_owned(), message: other.to_string() },
@@ -46,7 +75,7 @@ pub(crate) fn read_calibration(path: &Path) -> Result<CalibrationFile, CliError>
 
 /// What hangs on the sensor.
 pub(crate) fn read_payload(path: &Path) -> Result<PayloadFile, CliError> {
-    let text = fs::read_to_string(path).map_err(|source| CliError::read("payload", path, source))?;
+    let text = text("payload", path)?;
     PayloadFile::from_toml(&text).map_err(|error| bad(path, &error))
 }
 
@@ -55,16 +84,14 @@ pub(super) fn write_reports(
     title: &str,
     html: Option<&PathBuf>,
     json: Option<&PathBuf>,
-    written: &mut Vec<PathBuf>,
+    outputs: &Outputs,
 ) -> Result<(), CliError> {
     if let Some(path) = html {
-        write("report", path, &report.to_html(title))?;
-        written.push(path.clone());
+        outputs.write("report", path, &report.to_html(title))?;
     }
     if let Some(path) = json {
         let text = report.to_json().map_err(|error| CliError::write("report", path, error.into()))?;
-        write("report", path, &text)?;
-        written.push(path.clone());
+        outputs.write("report", path, &text)?;
     }
     Ok(())
 }

@@ -8,13 +8,13 @@ use nalgebra::Vector3;
 use super::args::{CalibrateArguments, SensorAxis};
 use super::files::{bad, open};
 use crate::error::CliError;
-use crate::output::{guard, say, write};
+use crate::output::Outputs;
 
 const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
 pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), CliError> {
     let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from("payload.toml"));
-    guard("output", &[path.to_owned()], [&output])?;
+    let outputs = Outputs::guard(arguments.overwrite, "output", [&path.to_owned()], [&output])?;
     let fault = |error: &dyn core::fmt::Display| bad(path, &error);
     let mut poses = poses_from_csv(open("table of poses", path)?).map_err(|error| fault(&error))?;
     if arguments.reaction {
@@ -54,7 +54,7 @@ pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), Cli
     file.provenance.serial.clone_from(&arguments.serial);
     file.provenance.date.clone_from(&arguments.date);
     file.provenance.source = path.display().to_string();
-    write("payload", &output, &file.to_toml().map_err(|error| fault(&error))?)?;
+    outputs.write("payload", &output, &file.to_toml().map_err(|error| fault(&error))?)?;
     text.insert_str(0, &format!("{} poses, condition number {:.1}\n", poses.len(), fit.condition_number));
     text.push_str(&format!(
         "weight          {:.5} ± {:.5} N (mass {:.5} kg)\n",
@@ -87,7 +87,7 @@ pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), Cli
     ));
     let rms: Vec<String> = fit.rms.iter().map(|rms| format!("{rms:.5}")).collect();
     text.push_str(&format!("RMS left        {} (N, N·m)\n", rms.join(" ")));
-    say(&text, &fit.warnings, &[output])
+    outputs.say(&text, &fit.warnings)
 }
 
 fn triple(v: &Vector3<f64>, scale: f64) -> String {

@@ -16,7 +16,7 @@ use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{Direction, Limits, Method, Options};
 
 use crate::error::CliError;
-use crate::output::{guard, say, write};
+use crate::output::Outputs;
 use args::{CalibrateArguments, FitMethod};
 use files::{bad, read_calibration, read_loads, read_payload, write_reports};
 
@@ -26,11 +26,12 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
         return gravity::run(poses, arguments);
     }
     let output = arguments.output.clone().unwrap_or_else(|| "calibration.toml".into());
-    let outputs = [Some(&output), arguments.html.as_ref(), arguments.json.as_ref()];
+    let paths = [Some(&output), arguments.html.as_ref(), arguments.json.as_ref()];
     let extra = [arguments.cal.as_ref(), arguments.rust.as_ref()];
-    guard("output", &arguments.loads, outputs.into_iter().chain(extra).flatten())?;
+    let paths = paths.into_iter().chain(extra).flatten();
+    let outputs = Outputs::guard(arguments.overwrite, "output", &arguments.loads, paths)?;
     if arguments.stream {
-        return stream::run(arguments, &output);
+        return stream::run(arguments, &output, &outputs);
     }
     let mut notes = Vec::new();
     let sessions =
@@ -45,15 +46,9 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
     let options = options(arguments, &table)?;
     let calibration = fit(&table, &options).map_err(|error| fault(&error))?;
     let file = calibration.to_file().map_err(|error| fault(&error))?;
-    let mut written = write_calibration(file, arguments, &output)?;
+    write_calibration(file, arguments, &output, &outputs)?;
     let title = if arguments.serial.is_empty() { "Calibration" } else { &arguments.serial };
-    write_reports(
-        &calibration.report,
-        title,
-        arguments.html.as_ref(),
-        arguments.json.as_ref(),
-        &mut written,
-    )?;
+    write_reports(&calibration.report, title, arguments.html.as_ref(), arguments.json.as_ref(), &outputs)?;
     if calibration.report.verdict == Verdict::Suspect {
         notes.push(
             "suspect until somebody has looked: repeat the readings named above, or leave them out by \
@@ -61,7 +56,23 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
                 .to_owned(),
         );
     }
-    say(&calibration.report.to_string(), &notes, &written)
+    outputs.say(&calibration.report.to_string(), &notes)?;
+    let report = &calibration.report;
+    refuse_bad(arguments, &output, report.verdict, &report.reasons)
+}
+
+/// An error for a calibration that is bad, unless the user takes it as it is. The files are written: they say so.
+fn refuse_bad(
+    arguments: &CalibrateArguments,
+    output: &Path,
+    verdict: Verdict,
+    reasons: &[String],
+) -> Result<(), CliError> {
+    if verdict != Verdict::Bad || arguments.accept_bad {
+        return Ok(());
+    }
+    let reason = reasons.first().cloned().unwrap_or_default();
+    Err(CliError::BadCalibration { path: output.to_owned(), reason })
 }
 
 /// Writes the calibration in every form that was asked for.
@@ -69,7 +80,8 @@ fn write_calibration(
     mut file: CalibrationFile,
     arguments: &CalibrateArguments,
     output: &Path,
-) -> Result<Vec<PathBuf>, CliError> {
+    outputs: &Outputs,
+) -> Result<(), CliError> {
     let first = arguments.loads.first().cloned().unwrap_or_default();
     let fault = |error: &dyn core::fmt::Display| bad(&first, &error);
     file.provenance.serial.clone_from(&arguments.serial);
@@ -77,18 +89,15 @@ fn write_calibration(
     let sources: Vec<String> = arguments.loads.iter().map(|path| path.display().to_string()).collect();
     file.provenance.source = sources.join(", ");
     file.range = range(arguments);
-    write("calibration", output, &file.to_toml().map_err(|error| fault(&error))?)?;
-    let mut written = vec![output.to_owned()];
+    outputs.write("calibration", output, &file.to_toml().map_err(|error| fault(&error))?)?;
     if let Some(path) = &arguments.cal {
         let ati = AtiCalibration::from_calibration(&file).map_err(|error| fault(&error))?;
-        write(".cal file", path, &ati.to_xml())?;
-        written.push(path.clone());
+        outputs.write(".cal file", path, &ati.to_xml())?;
     }
     if let Some(path) = &arguments.rust {
-        write("Rust file", path, &file.to_rust(Scalar::F32).map_err(|error| fault(&error))?)?;
-        written.push(path.clone());
+        outputs.write("Rust file", path, &file.to_rust(Scalar::F32).map_err(|error| fault(&error))?)?;
     }
-    Ok(written)
+    Ok(())
 }
 
 fn range(arguments: &CalibrateArguments) -> Option<[f64; 2]> {

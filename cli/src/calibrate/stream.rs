@@ -8,18 +8,21 @@ use fingertip_calibration::model::{SensorModel, StreamedFit};
 use nalgebra::DMatrix;
 
 use super::args::{CalibrateArguments, FitMethod};
-use super::files::{bad, open};
-use super::{limits, range, write_calibration};
+use super::files::{bad, of_reading, open};
+use super::{limits, range, refuse_bad, write_calibration};
 use crate::error::CliError;
-use crate::output::say;
+use crate::output::{Outputs, is_standard};
 use crate::table::count;
 
 /// Reads the files twice: to fit, and to see what the fit leaves.
-pub(super) fn run(arguments: &CalibrateArguments, output: &Path) -> Result<(), CliError> {
+pub(super) fn run(arguments: &CalibrateArguments, output: &Path, outputs: &Outputs) -> Result<(), CliError> {
     let first = arguments.loads.first().cloned().unwrap_or_default();
     let fault = |error: &dyn core::fmt::Display| bad(&first, &error);
     if !matches!(arguments.method, FitMethod::LeastSquares) {
         return Err(fault(&"--stream is for --method least-squares; the others need all samples at once"));
+    }
+    if arguments.loads.iter().any(|path| is_standard(path)) {
+        return Err(fault(&"--stream reads its files twice; write the standard input into one"));
     }
     let mut notes = Vec::new();
     let mut fit: Option<StreamedFit> = None;
@@ -35,9 +38,6 @@ pub(super) fn run(arguments: &CalibrateArguments, output: &Path) -> Result<(), C
         if *layout.get_or_insert_with(|| here.clone()) != here {
             return Err(bad(path, &"it has other axes, gauges or units than the first file"));
         }
-        if !reader.ignored().is_empty() {
-            notes.push(format!("{}: columns not used: {}", path.display(), reader.ignored().join(", ")));
-        }
         let fit = fit.get_or_insert_with(|| StreamedFit::new(&here.0, here.1, here.2, !arguments.no_bias));
         while let Some(row) = reader.next_row().map_err(|error| bad(path, &error))? {
             if !inside(row) {
@@ -46,6 +46,7 @@ pub(super) fn run(arguments: &CalibrateArguments, output: &Path) -> Result<(), C
                 return Err(bad(path, &format!("line {}: the weight is negative", row.line)));
             }
         }
+        notes.extend(of_reading(path, &reader));
     }
     let Some(fit) = fit else { return Err(fault(&"there are no files")) };
     let samples = fit.samples();
@@ -58,7 +59,9 @@ pub(super) fn run(arguments: &CalibrateArguments, output: &Path) -> Result<(), C
     let mut file = model.to_file("least squares of signals on loads, streamed").map_err(|e| fault(&e))?;
     let mut reasons = vec!["streamed: no load was left out of the fit to test it".to_owned()];
     let mut verdict = Verdict::Unchecked;
-    for (axis, rms) in model.axes.iter().zip(&errors.rms) {
+    let mut worst: Vec<_> = model.axes.iter().zip(&errors.rms).collect();
+    worst.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+    for (axis, rms) in worst {
         if !(*rms <= allowed) {
             verdict = Verdict::Bad;
             reasons.push(format!("{axis}: {rms:.2} % of full scale on these loads; {allowed} % is allowed"));
@@ -74,7 +77,7 @@ pub(super) fn run(arguments: &CalibrateArguments, output: &Path) -> Result<(), C
         greatest_percent: Some(errors.greatest.clone()),
         left_out_percent: None,
     };
-    let written = write_calibration(file, arguments, output)?;
+    write_calibration(file, arguments, output, outputs)?;
     let word = if verdict == Verdict::Bad { "BAD" } else { "unchecked" };
     let mut text = format!("Calibration: {word}\n");
     for reason in &reasons {
@@ -90,7 +93,8 @@ pub(super) fn run(arguments: &CalibrateArguments, output: &Path) -> Result<(), C
             errors.greatest[i]
         ));
     }
-    say(&text, &notes, &written)
+    outputs.say(&text, &notes)?;
+    refuse_bad(arguments, output, verdict, reasons.get(1..).unwrap_or_default())
 }
 
 /// What a fit leaves, axis by axis, % of full scale.

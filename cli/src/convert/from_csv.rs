@@ -5,19 +5,26 @@ use std::io;
 use fingertip::wrench::Wrench;
 use fingertip_recordings::mcap::{Header, McapError, McapWriter, RecordedContact, RecordedSignals, Topic};
 use fingertip_recordings::{
-    ContactCells, ContactColumns, Layout, RecordingReader, Row, SignalColumns, WrenchColumns,
+    ContactCells, ContactColumns, Layout, ReaderOptions, Row, SignalColumns, WrenchColumns,
 };
 
-use super::{Account, ConvertArguments, fault, topic};
+use super::{Account, ConvertArguments, fault, topic, usual_frame};
 use crate::error::CliError;
-use crate::recording_file::{FRAME, create, mcap};
+use crate::input::Input;
+use crate::output::Outputs;
+use crate::recording_file::mcap;
 
 /// Times that a stamp holds less exactly than this were rounded \[s\].
 const ROUNDED: f64 = 1e-10;
 
-pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError> {
-    let ConvertArguments { input, output, .. } = arguments;
-    let mut reader = RecordingReader::open(input)?;
+pub(super) fn convert(
+    arguments: &ConvertArguments,
+    input: &mut Input,
+    outputs: &Outputs,
+) -> Result<Account, CliError> {
+    let output = &arguments.output;
+    let mut reader = input.rows(ReaderOptions::default())?;
+    let input = input.path();
     let layout = reader.layout().clone();
     if !layout.has_time() && arguments.rate.is_none() {
         return Err(fault(
@@ -26,7 +33,9 @@ pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError>
         ));
     }
     let failed = |error: McapError| mcap(output, &error);
-    let writer = McapWriter::new(create(output, arguments.force)?).map_err(failed)?;
+    let writer =
+        McapWriter::with_compression(outputs.create("recording", output)?, arguments.compression.into())
+            .map_err(failed)?;
     let mut topics = Topics::open(writer, &layout).map_err(failed)?;
     let (mut rows, mut timeless, mut rounded) = (0_u64, 0, 0);
     while let Some(row) = reader.next_row()? {
@@ -47,12 +56,15 @@ pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError>
     }
     let Topics { writer, counts, .. } = topics;
     let file = writer.finish().map_err(failed)?;
-    let written = file.into_inner().map_err(io::IntoInnerError::into_error);
-    written.map_err(|source| CliError::write("recording", output, source))?;
     if rows == 0 {
-        return Err(CliError::NoRows { path: input.clone() });
+        return Err(CliError::NoRows { path: input.to_owned() });
     }
+    file.finish()?;
     let mut account = Account::default();
+    let cut = reader.quality().cut_lines;
+    if let Some(line) = cut.first_lines().first() {
+        account.lost.push(format!("line {line}, the last, in which the file was cut"));
+    }
     account.written("wrenches", counts.wrenches);
     account.written("signals", counts.signals);
     account.written("contacts", counts.contacts);
@@ -93,7 +105,7 @@ struct Counts {
 
 impl<'a, W: io::Write + io::Seek> Topics<'a, W> {
     fn open(mut writer: McapWriter<W>, layout: &'a Layout) -> Result<Self, McapError> {
-        let frame = |name: &str| if name.is_empty() { FRAME.to_owned() } else { format!("{FRAME}_{name}") };
+        let frame = |name: &str| layout.frame(name).map_or_else(|| usual_frame(name), str::to_owned);
         let mut wrenches = Vec::new();
         for columns in layout.wrenches() {
             let name = columns.name();
@@ -110,7 +122,7 @@ impl<'a, W: io::Write + io::Seek> Topics<'a, W> {
             signals.push((columns, gauges, dummy));
         }
         let contacts = match layout.contacts() {
-            Some(columns) => Some((columns, writer.contacts(&topic("", "contact"), FRAME)?)),
+            Some(columns) => Some((columns, writer.contacts(&topic("", "contact"), &frame(""))?)),
             None => None,
         };
         Ok(Self { writer, wrenches, signals, contacts, counts: Counts::default() })

@@ -1,26 +1,31 @@
 //! From MCAP to CSV: into a file, or as it is read.
 
 use std::io::{self, Read};
-use std::path::Path;
 
 use fingertip_recordings::RecordingWriter;
 
 use super::mcap_rows::Rows;
 use super::{Account, ConvertArguments};
 use crate::error::CliError;
-use crate::recording_file::{bytes, create, csv};
+use crate::input::Input;
+use crate::output::Outputs;
+use crate::recording_file::csv;
 
-pub(super) fn convert(arguments: &ConvertArguments) -> Result<Account, CliError> {
-    let ConvertArguments { input, output, force, .. } = arguments;
+pub(super) fn convert(
+    arguments: &ConvertArguments,
+    input: &Input,
+    outputs: &Outputs,
+) -> Result<Account, CliError> {
+    let ConvertArguments { output, topics, .. } = arguments;
     let failed = |error| csv(output, error);
     let mut account = Account::default();
-    let (schema, mut rows) = Rows::new(bytes(input)?, input, &mut account)?;
+    let (schema, mut rows) = Rows::new(input.messages()?, input, topics, &mut account)?;
     // Only what holds something becomes a file.
-    let mut writer = RecordingWriter::new(create(output, *force)?, &schema).map_err(failed)?;
+    let mut writer = RecordingWriter::new(outputs.create("recording", output)?, &schema).map_err(failed)?;
     while let Some(row) = rows.next()? {
         writer.write(row.iter().copied()).map_err(failed)?;
     }
-    writer.finish().map_err(failed)?;
+    writer.finish().map_err(failed)?.finish()?;
     rows.account(&mut account);
     Ok(account)
 }
@@ -38,11 +43,16 @@ const PIECE: usize = 1 << 16;
 
 impl<R: Read> McapAsCsv<R> {
     /// The text of `file`, which is that at `input`; what to know of its columns goes to `notes`.
-    pub(crate) fn new(file: R, input: &Path, notes: &mut Vec<String>) -> Result<Self, CliError> {
+    pub(crate) fn new(
+        file: R,
+        input: &Input,
+        topics: &[String],
+        notes: &mut Vec<String>,
+    ) -> Result<Self, CliError> {
         let mut account = Account::default();
-        let (schema, rows) = Rows::new(file, input, &mut account)?;
+        let (schema, rows) = Rows::new(file, input, topics, &mut account)?;
         notes.append(&mut account.notes);
-        let writer = RecordingWriter::new(Vec::new(), &schema).map_err(|error| csv(input, error))?;
+        let writer = RecordingWriter::new(Vec::new(), &schema).map_err(|error| csv(input.path(), error))?;
         Ok(Self { rows, writer, given: 0 })
     }
 }

@@ -3,12 +3,13 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use fingertip_recordings::mcap::{Entry, McapReader, Recorded};
+use fingertip_recordings::mcap::{Entry, McapError, McapReader, Recorded};
 use fingertip_recordings::{ContactCells, Schema};
 
-use super::{Account, fault};
+use super::{Account, fault, usual_frame};
 use crate::error::CliError;
-use crate::recording_file::{mcap, open, unit as unit_of};
+use crate::input::Input;
+use crate::recording_file::{cut, mcap, unit as unit_of};
 
 /// A topic, and the columns that its messages fill.
 struct Columns {
@@ -61,8 +62,14 @@ pub(super) struct Rows<R> {
 impl<R: Read> Rows<R> {
     /// The rows of `file`, which is that at `input`. The latter is read through once, to see what there is; what to
     /// know of that goes to `account`.
-    pub(super) fn new(file: R, input: &Path, account: &mut Account) -> Result<(Schema, Self), CliError> {
-        let (schema, columns) = survey(input, account)?;
+    pub(super) fn new(
+        file: R,
+        input: &Input,
+        topics: &[String],
+        account: &mut Account,
+    ) -> Result<(Schema, Self), CliError> {
+        let (schema, columns) = survey(input, topics, account)?;
+        let input = input.path();
         let rows = Self {
             reader: McapReader::new(file).map_err(|error| mcap(input, &error))?,
             input: input.to_owned(),
@@ -87,7 +94,7 @@ impl<R: Read> Rows<R> {
         let mut at = None;
         loop {
             let entry = match self.waiting.take() {
-                None => self.reader.next_entry().map_err(|error| mcap(&self.input, &error))?,
+                None => next(&mut self.reader, &self.input)?,
                 waiting => waiting,
             };
             let Some(entry) = entry else { break };
@@ -140,10 +147,6 @@ impl<R: Read> Rows<R> {
                 self.backward
             ));
         }
-        let mut frames: Vec<&str> = self.columns.iter().map(|columns| columns.frame.as_str()).collect();
-        frames.sort_unstable();
-        frames.dedup();
-        account.lost(frames.len() as u64, format!("names of frames: {}", frames.join(", ")));
     }
 }
 
@@ -156,11 +159,32 @@ fn put<'a>(cells: impl Iterator<Item = &'a mut f64>, values: &[f64]) -> u64 {
 }
 
 /// Reads the file through once: what it holds, and the columns for it.
-fn survey(input: &Path, account: &mut Account) -> Result<(Schema, Vec<Columns>), CliError> {
+fn survey(
+    input: &Input,
+    topics: &[String],
+    account: &mut Account,
+) -> Result<(Schema, Vec<Columns>), CliError> {
     let mut found: Vec<Columns> = Vec::new();
     let mut others: Vec<(String, u64)> = Vec::new();
-    let mut reader = open(input)?;
-    while let Some(entry) = reader.next_entry().map_err(|error| mcap(input, &error))? {
+    let mut passed_over: Vec<String> = Vec::new();
+    let mut reader = input.entries()?;
+    let path = input.path();
+    loop {
+        let entry = match reader.next_entry() {
+            Ok(Some(entry)) => entry,
+            Ok(None) => break,
+            Err(McapError::Cut) => {
+                account.notes.push(cut(path, reader.messages()));
+                break;
+            }
+            Err(error) => return Err(mcap(path, &error)),
+        };
+        if !(topics.is_empty() || topics.contains(&entry.topic)) {
+            if !passed_over.contains(&entry.topic) {
+                passed_over.push(entry.topic);
+            }
+            continue;
+        }
         let (kind, width) = What::of(&entry.recorded);
         let second_contact = kind == What::Contact
             && found.iter().any(|known| known.kind == kind && known.topic != entry.topic);
@@ -178,7 +202,7 @@ fn survey(input: &Path, account: &mut Account) -> Result<(Schema, Vec<Columns>),
             }
             Some(known) if known.width != width || known.kind != kind => {
                 return Err(fault(
-                    input,
+                    path,
                     format!(
                         "topic {} changes its number of values or their unit at {} s",
                         entry.topic, entry.time
@@ -188,17 +212,31 @@ fn survey(input: &Path, account: &mut Account) -> Result<(Schema, Vec<Columns>),
             Some(_) => {}
         }
     }
+    let has = |topic: &str| {
+        found.iter().any(|known| known.topic == topic) || others.iter().any(|(known, _)| known == topic)
+    };
+    if let Some(topic) = topics.iter().find(|topic| !has(topic)) {
+        let known = found.iter().map(|known| &known.topic).chain(&passed_over);
+        let known: Vec<&str> = known.map(String::as_str).collect();
+        return Err(CliError::NoTopic {
+            path: path.to_owned(),
+            topic: topic.clone(),
+            known: known.join(", "),
+        });
+    }
     if found.is_empty() {
-        return Err(fault(input, "it holds no wrenches, signals or contacts"));
+        return Err(fault(path, "it holds no wrenches, signals or contacts"));
     }
     for (topic, number) in &others {
         account.lost(*number, format!("messages of {topic}, which CSV has no columns for"));
     }
     let mut schema = Schema::default().time();
+    let mut frames: Vec<(String, String)> = Vec::new();
     for index in 0..found.len() {
         let name = name(&found, index, account);
         let Some(columns) = found.get_mut(index) else { continue };
         columns.start = schema.names().len();
+        frames.push((name.clone(), columns.frame.clone()));
         schema = match &columns.kind {
             What::Wrench => schema.wrench(&name),
             What::Signals(unit) => {
@@ -216,9 +254,33 @@ fn survey(input: &Path, account: &mut Account) -> Result<(Schema, Vec<Columns>),
     let mut names = schema.names().to_vec();
     names.sort_unstable();
     if let Some([twice, _]) = names.array_windows().find(|[a, b]| a == b) {
-        return Err(fault(input, format!("two topics would both be the column {twice}; rename one of them")));
+        return Err(fault(path, format!("two topics would both be the column {twice}; rename one of them")));
     }
-    Ok((schema, found))
+    Ok((with_frames(schema, &frames, account), found))
+}
+
+/// Names the frames that are not those which `convert` gives by itself; of two for one sensor the first.
+fn with_frames(mut schema: Schema, frames: &[(String, String)], account: &mut Account) -> Schema {
+    let mut lost: Vec<&str> = Vec::new();
+    for (index, (sensor, frame)) in frames.iter().enumerate() {
+        match frames.iter().take(index).find(|(of, _)| of == sensor) {
+            Some((_, first)) if first != frame => lost.push(frame),
+            None if *frame != usual_frame(sensor) => schema = schema.frame(sensor, frame),
+            _ => {}
+        }
+    }
+    lost.sort_unstable();
+    lost.dedup();
+    account.lost(lost.len() as u64, format!("names of frames: {}", lost.join(", ")));
+    schema
+}
+
+/// The next entry; a file that was cut, which the survey has said, ends there.
+fn next<R: Read>(reader: &mut McapReader<R>, path: &Path) -> Result<Option<Entry>, CliError> {
+    match reader.next_entry() {
+        Err(McapError::Cut) => Ok(None),
+        entry => entry.map_err(|error| mcap(path, &error)),
+    }
 }
 
 /// The name of the sensor of a topic, as the prefix of its columns: nothing for our own topics without one,

@@ -5,7 +5,6 @@ mod from_mcap;
 mod mcap_rows;
 
 use core::fmt::Display;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -13,8 +12,10 @@ use clap::Args;
 pub(crate) use from_mcap::McapAsCsv;
 
 use crate::error::CliError;
-use crate::output::{guard, print};
-use crate::recording_file::Kind;
+use crate::input::Input;
+use crate::output::{Outputs, Overwrite};
+use crate::recording_file::Packing;
+use crate::recording_file::{FRAME, Kind};
 use crate::table::count;
 
 #[derive(Debug, Args)]
@@ -36,8 +37,16 @@ pub(crate) struct ConvertArguments {
     /// Samples per second of a CSV file that has no column of time
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f64>,
-    /// Write over a file that exists
-    #[arg(long)]
+    /// Of an MCAP file, this topic alone; several times for several
+    #[arg(long = "topic", value_name = "TOPIC")]
+    pub(crate) topics: Vec<String>,
+    /// How to pack an MCAP file
+    #[arg(long, value_enum, default_value_t = Packing::None)]
+    pub(crate) compression: Packing,
+    #[command(flatten)]
+    pub(crate) overwrite: Overwrite,
+    /// As --overwrite
+    #[arg(long, hide = true)]
     pub(crate) force: bool,
 }
 
@@ -67,27 +76,25 @@ impl Account {
 
 pub(crate) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
     let ConvertArguments { input, output, .. } = arguments;
-    guard("recording", [input], [output])?;
+    let outputs = Outputs::guard(arguments.overwrite.or(arguments.force), "recording", [input], [output])?;
     if let Some(rate) = arguments.rate
         && !(rate > 0.0 && rate.is_finite())
     {
         return Err(fault(input, "--rate must be above 0"));
     }
-    let existed = output.exists();
-    let converted = match (Kind::of(input)?, Kind::of(output)?) {
-        (Kind::Csv, Kind::Mcap) => from_csv::convert(arguments),
-        (Kind::Mcap, Kind::Csv) => from_mcap::convert(arguments),
-        _ => Err(fault(input, "input and output are of the same kind; one must be .csv and the other .mcap")),
-    };
-    if converted.is_err() && !existed {
-        // Half a file would be taken for a whole one. That it is not there is as good.
-        let _ = fs::remove_file(output);
-    }
-    let account = converted?;
+    let mut input = Input::open(input)?;
+    let account = match (input.kind(), Kind::of(output)?) {
+        (Kind::Csv, Kind::Mcap) => from_csv::convert(arguments, &mut input, &outputs),
+        (Kind::Mcap, Kind::Csv) => from_mcap::convert(arguments, &input, &outputs),
+        _ => {
+            let same = "input and output are of the same kind; one must be .csv and the other .mcap";
+            Err(fault(input.path(), same))
+        }
+    }?;
     let mut text = String::new();
     let written: Vec<String> =
         account.written.iter().map(|(what, number)| format!("{} {what}", count(*number))).collect();
-    text.push_str(&format!("{} → {}: {}\n", input.display(), output.display(), written.join(", ")));
+    text.push_str(&format!("{} → {}: {}\n", input.name(), output.display(), written.join(", ")));
     for note in &account.notes {
         text.push_str(&format!("Note: {note}\n"));
     }
@@ -95,11 +102,16 @@ pub(crate) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
         [] => text.push_str("Nothing was lost.\n"),
         lost => text.push_str(&format!("Lost: {}\n", lost.join("; "))),
     }
-    print(&text)
+    outputs.print(&text)
 }
 
 fn fault(path: &Path, message: impl Display) -> CliError {
     CliError::Convert { path: path.to_owned(), message: message.to_string() }
+}
+
+/// The name of a sensor's frame, where nothing else names one.
+fn usual_frame(sensor: &str) -> String {
+    if sensor.is_empty() { FRAME.to_owned() } else { format!("{FRAME}_{sensor}") }
 }
 
 /// The topic of a sensor's messages.

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::output::Overwrite;
+
 #[derive(Debug, Args)]
 pub(crate) struct DemoArguments {
     /// Where to write the report
@@ -18,4 +20,6 @@ pub(crate) struct DemoArguments {
     /// Also write the simulated sensor's calibration
     #[arg(long, value_name = "FILE")]
     pub(crate) calibration: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) overwrite: Overwrite,
 }

@@ -1,26 +1,26 @@
 //! The demo's volts and calibration as files, to try `fingertip analyze` on.
 
-use std::fs::File;
-use std::io::{self, BufWriter};
+use std::io;
 use std::path::{Path, PathBuf};
 
-use fingertip_calibration::file::{CalibrationFile, FileError, Provenance};
-use fingertip_recordings::{RecordingError, RecordingWriter, Schema, SignalUnit};
+use fingertip_calibration::file::{CalibrationFile, Provenance};
+use fingertip_recordings::{RecordingWriter, Schema, SignalUnit};
 use fingertip_simulation::{SimulatedFingertip, SimulatedSample};
 use nalgebra::DMatrix;
 
 use crate::error::CliError;
+use crate::output::{Outputs, Whole};
+use crate::recording_file::csv as failed;
 
 /// Writes samples as they come, if somebody wants them.
-pub(super) struct VoltsFile(Option<(RecordingWriter<BufWriter<File>>, PathBuf)>);
+pub(super) struct VoltsFile(Option<(RecordingWriter<Whole>, PathBuf)>);
 
 impl VoltsFile {
-    pub(super) fn create(path: Option<&Path>) -> Result<Self, CliError> {
+    pub(super) fn create(path: Option<&Path>, outputs: &Outputs) -> Result<Self, CliError> {
         let Some(path) = path else { return Ok(Self(None)) };
-        let file = File::create(path).map_err(|source| CliError::write("recording", path, source))?;
+        let file = outputs.create("recording", path)?;
         let schema = Schema::default().time().signals("", 6, SignalUnit::Volt).dummy("", SignalUnit::Volt);
-        let writer =
-            RecordingWriter::new(BufWriter::new(file), &schema).map_err(|fault| failed(path, fault))?;
+        let writer = RecordingWriter::new(file, &schema).map_err(|fault| failed(path, fault))?;
         Ok(Self(Some((writer, path.to_owned()))))
     }
 
@@ -32,22 +32,19 @@ impl VoltsFile {
 
     pub(super) fn finish(self) -> Result<(), CliError> {
         match self.0 {
-            Some((writer, path)) => writer.finish().map(drop).map_err(|fault| failed(&path, fault)),
+            Some((writer, path)) => writer.finish().map_err(|fault| failed(&path, fault))?.finish(),
             None => Ok(()),
         }
     }
 }
 
-fn failed(path: &Path, fault: RecordingError) -> CliError {
-    match fault {
-        RecordingError::Write { source } => CliError::write("recording", path, source),
-        other => CliError::Recording(other),
-    }
-}
-
 /// Writes the calibration of the simulated sensor, its zero left to the tare. Readings at either
 /// end of the converter's range are marked as saturated.
-pub(super) fn calibration(path: &Path, simulated: &SimulatedFingertip) -> Result<(), CliError> {
+pub(super) fn calibration(
+    path: &Path,
+    simulated: &SimulatedFingertip,
+    outputs: &Outputs,
+) -> Result<(), CliError> {
     let (matrix, electronics) = (simulated.calibrated_matrix(), &simulated.options().electronics);
     let normalised = DMatrix::from_iterator(6, 6, matrix.normalised().iter().copied());
     let nominal = matrix.nominal().iter().copied().collect();
@@ -62,11 +59,8 @@ pub(super) fn calibration(path: &Path, simulated: &SimulatedFingertip) -> Result
             ..file
         }
     });
-    file.and_then(|file| file.write(path)).map_err(|fault| {
-        let source = match fault {
-            FileError::Io { source, .. } => source,
-            other => io::Error::other(other.to_string()),
-        };
-        CliError::write("calibration", path, source)
-    })
+    let text = file.and_then(|file| file.to_toml());
+    let text =
+        text.map_err(|fault| CliError::write("calibration", path, io::Error::other(fault.to_string())))?;
+    outputs.write("calibration", path, &text)
 }

@@ -17,7 +17,7 @@ use nalgebra::Vector3;
 
 use crate::error::CliError;
 use crate::observe::{Observations, Reservoir, Status};
-use crate::output::{self, print, write};
+use crate::output::Outputs;
 use crate::report;
 use crate::scene::least_static_coefficient;
 use args::DemoArguments;
@@ -53,16 +53,17 @@ struct Outcome {
 }
 
 pub(crate) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
-    let outcome = play(arguments)?;
+    let paths = [Some(&arguments.out), arguments.recording.as_ref(), arguments.calibration.as_ref()];
+    let outputs = Outputs::guard(arguments.overwrite, "output", [], paths.into_iter().flatten())?;
+    let outcome = play(arguments, &outputs)?;
     let findings = findings::of(&outcome);
     let figures = figures::of(&outcome);
     let surface = DynSurface::Sphere(outcome.cap);
     let shown =
         report::Shown { surface: &surface, coefficient: Some(outcome.coefficient), spin_torque: false };
     let page = report::with_figures(&findings, figures, &outcome.observations, shown);
-    write("report", &arguments.out, &page)?;
-    let written = [Some(&arguments.out), arguments.recording.as_ref(), arguments.calibration.as_ref()];
-    print(&format!("{findings}\n{}", output::written(written.into_iter().flatten())))
+    outputs.write("report", &arguments.out, &page)?;
+    outputs.say(&findings.to_string(), &[])
 }
 
 /// Whatever cannot be built here is a fault of ours, not of the user's.
@@ -70,14 +71,14 @@ fn fault(fault: impl ToString) -> CliError {
     CliError::Demo { message: fault.to_string() }
 }
 
-fn play(arguments: &DemoArguments) -> Result<Outcome, CliError> {
+fn play(arguments: &DemoArguments, outputs: &Outputs) -> Result<Outcome, CliError> {
     let seed = arguments.seed;
     let mut simulated = SimulatedFingertip::new(&standard_session(), Options { seed, ..Options::default() })
         .map_err(fault)?;
     if let Some(path) = &arguments.calibration {
-        export::calibration(path, &simulated)?;
+        export::calibration(path, &simulated, outputs)?;
     }
-    let mut volts = VoltsFile::create(arguments.recording.as_deref())?;
+    let mut volts = VoltsFile::create(arguments.recording.as_deref(), outputs)?;
     let solver = GaussianElimination::new(simulated.calibrated_matrix()).map_err(fault)?;
     let mut score = SessionScore::new(&simulated);
 

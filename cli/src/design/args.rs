@@ -2,9 +2,12 @@
 
 use std::path::PathBuf;
 
+use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum};
 use fingertip_calibration::design::Material;
 use thiserror::Error;
+
+use crate::output::Overwrite;
 
 /// Families of layouts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -53,7 +56,7 @@ pub(crate) struct DesignArguments {
     #[arg(long, value_enum, default_value_t = LayoutFamily::Rosettes)]
     pub(crate) layout: LayoutFamily,
     /// Number of gauges (even for rosettes; the paper's layout has six)
-    #[arg(long, value_name = "N", default_value_t = 6)]
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = RangedU64ValueParser::<usize>::new().range(..=64))]
     pub(crate) gauges: usize,
     /// What to make small
     #[arg(long, value_enum, default_value_t = CriterionName::ConditionNumber)]
@@ -103,6 +106,8 @@ pub(crate) struct DesignArguments {
     /// Where to write the report
     #[arg(long, value_name = "FILE", default_value = "design.html")]
     pub(crate) report: PathBuf,
+    #[command(flatten)]
+    pub(crate) overwrite: Overwrite,
 }
 
 fn material(name: &str) -> Result<Material, UnknownMaterial> {

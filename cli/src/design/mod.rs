@@ -13,7 +13,7 @@ use fingertip_calibration::design::{
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::error::CliError;
-use crate::output::{self, print, write};
+use crate::output::Outputs;
 use crate::report;
 use args::DesignArguments;
 use task::Task;
@@ -45,19 +45,18 @@ fn fault(error: impl ToString) -> CliError {
 }
 
 pub(crate) fn run(arguments: &DesignArguments) -> Result<(), CliError> {
+    let paths = [Some(&arguments.out), arguments.calibration.as_ref(), Some(&arguments.report)];
+    let outputs = Outputs::guard(arguments.overwrite, "output", [], paths.into_iter().flatten())?;
     let outcome = design(arguments).map_err(fault)?;
     let findings = findings::of(&outcome);
     let figures = figures::of(&outcome).map_err(fault)?;
-    write("layout", &arguments.out, &outcome.file.to_toml().map_err(fault)?)?;
-    let mut written = vec![&arguments.out];
+    outputs.write("layout", &arguments.out, &outcome.file.to_toml().map_err(fault)?)?;
     if let Some(path) = &arguments.calibration {
         let file = outcome.file.predicted_calibration().map_err(fault)?;
-        write("calibration", path, &file.to_toml().map_err(fault)?)?;
-        written.push(path);
+        outputs.write("calibration", path, &file.to_toml().map_err(fault)?)?;
     }
-    write("report", &arguments.report, &report::of_design(&findings, figures))?;
-    written.push(&arguments.report);
-    print(&format!("{findings}\n{}", output::written(&written)))
+    outputs.write("report", &arguments.report, &report::of_design(&findings, figures))?;
+    outputs.say(&findings.to_string(), &[])
 }
 
 fn design(arguments: &DesignArguments) -> Result<Outcome, DesignError> {

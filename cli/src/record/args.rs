@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::output::Overwrite;
+use crate::recording_file::Packing;
 use crate::sensor::{self, Address};
 
 #[derive(Debug, Args)]
@@ -15,8 +17,13 @@ pub(crate) struct RecordArguments {
     /// The file to write; its ending says what: .csv or .mcap (ROS 2 messages, for Foxglove and PlotJuggler)
     #[arg(short, long, value_name = "FILE", default_value = "recording.csv")]
     pub(crate) output: PathBuf,
-    /// Write over a file that exists
-    #[arg(long)]
+    /// How to pack an MCAP file
+    #[arg(long, value_enum, default_value_t = Packing::None)]
+    pub(crate) compression: Packing,
+    #[command(flatten)]
+    pub(crate) overwrite: Overwrite,
+    /// As --overwrite
+    #[arg(long, hide = true)]
     pub(crate) force: bool,
     /// End after so many seconds of samples
     #[arg(long, value_name = "S")]

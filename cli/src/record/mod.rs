@@ -13,7 +13,7 @@ use output::{Output, Row};
 
 use crate::error::CliError;
 use crate::felt::{NoZero, Rest, SceneFeel};
-use crate::output::{print, written};
+use crate::output::{Outputs, printable};
 use crate::recording_file::Kind;
 use crate::scene::load_or_simulated;
 use crate::sensor::{self, Event, Reading, SensorError, Stream, StreamOptions};
@@ -28,6 +28,8 @@ const FAULTS_SHOWN: u64 = 3;
 pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
     let fault = |error: SensorError| CliError::sensor(&arguments.address, error);
     Kind::of(&arguments.output)?;
+    let overwrite = arguments.overwrite.or(arguments.force);
+    let outputs = Outputs::guard(overwrite, "recording", &arguments.scene, [&arguments.output])?;
     let limits =
         [("duration", arguments.duration), ("tare", arguments.tare), ("silence", Some(arguments.silence))];
     for (name, limit) in limits {
@@ -43,7 +45,7 @@ pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
     let options =
         StreamOptions { silence: Duration::from_secs_f64(arguments.silence), reconnect: arguments.reconnect };
     let mut stream = Stream::new(Box::new(move || sensor::open(&address)), options).map_err(fault)?;
-    let mut recording = Recording::new(arguments);
+    let mut recording = Recording::new(arguments, &outputs);
     // The first sample says what there is to be written: until then no file is made.
     let mut ended = Ok(());
     while !stop.is_asked() && !recording.is_full() {
@@ -61,9 +63,12 @@ pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
             }
             Ok(Event::Nothing) => {}
             Ok(Event::Lost(why)) => recording.warn(&format!("{}: {why}; connecting anew", arguments.address)),
-            Ok(Event::End) => break,
+            Ok(Event::End) => {
+                ended = Err(fault(recording.ended(SensorError::Closed)));
+                break;
+            }
             Err(why) => {
-                ended = Err(fault(why));
+                ended = Err(fault(recording.ended(why)));
                 break;
             }
         }
@@ -74,7 +79,7 @@ pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
     match (ended, summary) {
         (ended, Some(summary)) => {
             if !arguments.quiet {
-                print(&summary)?;
+                outputs.print(&summary)?;
             }
             ended
         }
@@ -85,6 +90,7 @@ pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
 
 struct Recording<'a> {
     arguments: &'a RecordArguments,
+    outputs: &'a Outputs,
     output: Option<Output>,
     rest: Rest,
     /// What is added to times \[s\].
@@ -102,9 +108,10 @@ struct Recording<'a> {
 }
 
 impl<'a> Recording<'a> {
-    fn new(arguments: &'a RecordArguments) -> Self {
+    fn new(arguments: &'a RecordArguments, outputs: &'a Outputs) -> Self {
         Self {
             arguments,
+            outputs,
             output: None,
             rest: Rest::new(arguments.tare),
             epoch: 0.0,
@@ -153,8 +160,7 @@ impl<'a> Recording<'a> {
                 self.epoch = now.as_secs_f64() - time;
             }
             let has_volts = reading.volts.is_some();
-            self.output =
-                Some(Output::create(&self.arguments.output, self.arguments.force, has_volts, has_contacts)?);
+            self.output = Some(Output::create(self.arguments, self.outputs, has_volts, has_contacts)?);
         }
         let Some(output) = &mut self.output else { return Ok(()) };
         // Whole nanoseconds, as MCAP has them: so both formats hold the same.
@@ -168,6 +174,14 @@ impl<'a> Recording<'a> {
         Ok(())
     }
 
+    /// That the sensor ended, and when.
+    fn ended(&self, why: SensorError) -> SensorError {
+        if self.samples == 0 {
+            return why;
+        }
+        SensorError::Ended { why: Box::new(why), samples: self.samples, seconds: short(self.length()) }
+    }
+
     /// Counts a fault, and gives what is to be said of it.
     fn fault(&mut self, why: &str) -> Option<String> {
         self.faults += 1;
@@ -177,7 +191,7 @@ impl<'a> Recording<'a> {
 
     /// Prints a warning, above the line of news.
     fn warn(&self, what: &str) {
-        let print = || eprintln!("warning: {what}");
+        let print = || eprintln!("warning: {}", printable(what));
         match &self.news {
             Some(news) => news.suspend(print),
             None => print(),
@@ -238,7 +252,7 @@ impl<'a> Recording<'a> {
             let zero: Vec<String> = self.rest.zero().iter().map(|component| number(*component)).collect();
             note(true, format!("Zero taken off [N, N·m]: {}", zero.join(", ")));
         }
-        text.push_str(&written([&self.arguments.output]));
+        text.push_str(&self.outputs.written());
         Ok(Some(text))
     }
 }
@@ -256,6 +270,7 @@ mod tests {
     use super::{Reading, RecordArguments, Recording, Stream, StreamOptions};
     use crate::args::{Arguments, Command};
     use crate::felt::SceneFeel;
+    use crate::output::Outputs;
     use crate::scene::load_or_simulated;
     use crate::sensor::{Feed, Losses, Next, SensorError};
 
@@ -288,6 +303,10 @@ mod tests {
         }
     }
 
+    fn outputs(arguments: &RecordArguments) -> Outputs {
+        Outputs::guard(arguments.overwrite, "recording", [], [&arguments.output]).unwrap()
+    }
+
     fn reading(value: f64) -> Reading {
         let wrench = Wrench::from_components(&Vector6::repeat(value));
         Reading { time: None, wrench, volts: None }
@@ -303,7 +322,8 @@ mod tests {
     #[test]
     fn what_is_recorded_and_what_is_not_is_counted() {
         let arguments = arguments("counts", &["--samples", "5"]);
-        let mut recording = Recording::new(&arguments);
+        let outputs = outputs(&arguments);
+        let mut recording = Recording::new(&arguments, &outputs);
         for (time, value) in
             [(1.0, 1.0), (1.5, f64::NAN), (2.0, 2.0), (2.0, 3.0), (1.5, 4.0), (3.000_000_000_4, 5.0)]
         {
@@ -333,7 +353,8 @@ mod tests {
     #[test]
     fn one_sample_has_no_rate_and_none_no_file() {
         let one = arguments("one", &["--quiet"]);
-        let mut recording = Recording::new(&one);
+        let of_one = outputs(&one);
+        let mut recording = Recording::new(&one, &of_one);
         assert!(recording.finish(&over()).unwrap().is_none());
         assert_eq!(recording.fault("cut"), None);
         recording.take(4.0, &reading(1.0), None).unwrap();
@@ -342,7 +363,8 @@ mod tests {
         assert_eq!(written(&one).len(), 1);
         // Two samples at one time: no rate either.
         let two = arguments("two", &[]);
-        let mut recording = Recording::new(&two);
+        let of_two = outputs(&two);
+        let mut recording = Recording::new(&two, &of_two);
         (0..2).for_each(|_| recording.take(4.0, &reading(1.0), None).unwrap());
         assert!(recording.finish(&over()).unwrap().unwrap().starts_with("2 samples in 0 s\n"));
         assert_eq!(written(&two).len(), 2);
@@ -351,7 +373,8 @@ mod tests {
     #[test]
     fn a_duration_counts_from_the_first_sample_that_is_recorded() {
         let arguments = arguments("duration", &["--duration", "0.5", "--tare", "1", "--scene", "sim"]);
-        let mut recording = Recording::new(&arguments);
+        let outputs = outputs(&arguments);
+        let mut recording = Recording::new(&arguments, &outputs);
         let scene = load_or_simulated("sim".as_ref()).unwrap();
         let mut feel = SceneFeel::new(&scene, true);
         // A press of 2 N on the tip; its half is the zero of the rest, so that the other half is felt.

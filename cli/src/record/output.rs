@@ -1,17 +1,17 @@
 //! The rows that a recording is written as, in CSV or MCAP.
 
-use std::fs::File;
-use std::io::{self, BufWriter};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use fingertip::contact::Resolution;
 use fingertip::wrench::Wrench;
 use fingertip_recordings::mcap::{McapWriter, RecordedContact, RecordedSignals, Topic};
 use fingertip_recordings::{ContactCells, RecordingWriter, Schema, SignalUnit};
 
+use super::args::RecordArguments;
 use crate::error::CliError;
 use crate::observe::SceneTouch;
-use crate::recording_file::{FRAME, Kind, create, csv, mcap};
+use crate::output::{Outputs, Whole};
+use crate::recording_file::{FRAME, Kind, csv, mcap};
 use crate::sensor::Volts;
 
 /// One row.
@@ -40,9 +40,9 @@ pub(super) struct Output {
 }
 
 enum Writer {
-    Csv(RecordingWriter<BufWriter<File>>),
+    Csv(RecordingWriter<Whole>),
     Mcap {
-        writer: Box<McapWriter<BufWriter<File>>>,
+        writer: Box<McapWriter<Whole>>,
         wrench: Topic,
         /// Of the gauges, and of the dummy gauge.
         signals: Option<[Topic; 2]>,
@@ -52,13 +52,14 @@ enum Writer {
 
 impl Output {
     pub(super) fn create(
-        path: &Path,
-        force: bool,
+        arguments: &RecordArguments,
+        outputs: &Outputs,
         has_volts: bool,
         has_contacts: bool,
     ) -> Result<Self, CliError> {
+        let path = arguments.output.as_path();
         let kind = Kind::of(path)?;
-        let file = create(path, force)?;
+        let file = outputs.create("recording", path)?;
         let writer = match kind {
             Kind::Csv => {
                 let mut schema = Schema::default().time();
@@ -73,7 +74,7 @@ impl Output {
             }
             Kind::Mcap => {
                 let open = || {
-                    let mut writer = McapWriter::new(file)?;
+                    let mut writer = McapWriter::with_compression(file, arguments.compression.into())?;
                     let wrench = writer.wrenches("/fingertip/wrench", FRAME)?;
                     let signals = if has_volts {
                         let gauges = writer.signals("/fingertip/signals", FRAME)?;
@@ -134,12 +135,9 @@ impl Output {
     /// Writes the rest, so that the file is whole.
     pub(super) fn finish(self) -> Result<(), CliError> {
         match self.writer {
-            Writer::Csv(writer) => writer.finish().map(drop).map_err(|error| csv(&self.path, error)),
-            Writer::Mcap { writer, .. } => {
-                let file = writer.finish().map_err(|error| mcap(&self.path, &error))?;
-                let written = file.into_inner().map_err(io::IntoInnerError::into_error);
-                written.map(drop).map_err(|source| CliError::write("recording", &self.path, source))
-            }
+            Writer::Csv(writer) => writer.finish().map_err(|error| csv(&self.path, error))?,
+            Writer::Mcap { writer, .. } => writer.finish().map_err(|error| mcap(&self.path, &error))?,
         }
+        .finish()
     }
 }

@@ -9,7 +9,7 @@ use fingertip_scene::{Scene, VERSION};
 
 use super::load;
 use crate::error::CliError;
-use crate::output;
+use crate::output::{self, Outputs, Overwrite};
 
 /// What to do with scenes.
 #[derive(Debug, Args)]
@@ -59,6 +59,8 @@ struct InitArguments {
     /// The filter of the wrench
     #[arg(long)]
     filter: Option<String>,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 pub(crate) fn run(arguments: &SceneArguments) -> Result<(), CliError> {
@@ -77,6 +79,7 @@ fn entry(section: &str, option: &str, name: &str) -> Result<&'static Entry, CliE
 }
 
 fn write_scene(init: &InitArguments) -> Result<(), CliError> {
+    let outputs = Outputs::guard(init.overwrite, "scene", [], [&init.output])?;
     let mut text = format!(
         "# The keys are explained in examples/scenes/README.md of fingertip.\nversion = {VERSION}\n\n[input]\n\
          # Whose load is recorded: \"on_fingertip\", what the environment does to the fingertip, or \"reaction\".\n\
@@ -107,8 +110,8 @@ fn write_scene(init: &InitArguments) -> Result<(), CliError> {
     Scene::parse(&text, "scene", folder).map_err(|fault| {
         CliError::Scene(fingertip_scene::SceneError::Fault { path: init.output.clone(), fault })
     })?;
-    output::write_new("scene", &init.output, &text)?;
-    output::print(&format!("Written: {}\n", init.output.display()))
+    outputs.write("scene", &init.output, &text)?;
+    outputs.print(&outputs.written())
 }
 
 fn check(path: &Path) -> Result<(), CliError> {

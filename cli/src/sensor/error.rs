@@ -34,6 +34,9 @@ pub(crate) enum SensorError {
     /// The line ended: a sensor that was unplugged.
     #[error("the line was closed")]
     Closed,
+    /// It ended while it was recorded.
+    #[error("{why} {seconds} s after the first sample, behind {samples} samples, which are recorded")]
+    Ended { why: Box<SensorError>, samples: u64, seconds: String },
     /// It was lost, and is not to be connected anew.
     #[error("{0}; is the sensor on, and can it be reached?")]
     Lost(Box<SensorError>),

@@ -2,10 +2,9 @@
 
 use std::fs::File;
 use std::io::BufReader;
-use std::path::Path;
 
 use fingertip_drivers::{Sample, Source, SourceError, SourceErrorKind};
-use fingertip_recordings::mcap::{McapReader, Recorded};
+use fingertip_recordings::mcap::{McapError, McapReader, Recorded};
 use fingertip_recordings::{RecordingError, RecordingReader};
 use fingertip_scene::{GaugeReading, NoWrench};
 use thiserror::Error;
@@ -14,6 +13,7 @@ use super::simulated::Rounds;
 use crate::calibrated::Readings;
 use crate::error::CliError;
 use crate::gauge_rows::GaugeRows;
+use crate::input::{Input, Text};
 use crate::recording_file::{self, mcap};
 
 /// A reading on its own.
@@ -61,7 +61,7 @@ impl SourceError for GaugeFault {
 
 /// The rows of a recording.
 pub(super) struct CsvGauges {
-    pub(super) reader: RecordingReader<File>,
+    pub(super) reader: RecordingReader<Text>,
     pub(super) rows: GaugeRows,
 }
 
@@ -98,13 +98,19 @@ pub(super) struct McapGauges {
 impl McapGauges {
     /// Reads the file through once, to see what there is.
     pub(super) fn open(
-        path: &Path,
+        input: &Input,
         sensor: Option<&str>,
         celsius: Option<f64>,
     ) -> Result<(Self, Readings), CliError> {
         let mut known: Vec<(String, String)> = Vec::new();
-        let mut reader = recording_file::open(path)?;
-        while let Some(entry) = reader.next_entry().map_err(|error| mcap(path, &error))? {
+        let path = input.path();
+        let mut reader = input.entries()?;
+        loop {
+            let entry = match reader.next_entry() {
+                Ok(Some(entry)) => entry,
+                Ok(None) | Err(McapError::Cut) => break,
+                Err(error) => return Err(mcap(path, &error)),
+            };
             if let Recorded::Signals(signals) = entry.recorded
                 && !known.iter().any(|(topic, _)| *topic == entry.topic)
             {
@@ -132,10 +138,7 @@ impl McapGauges {
             has_rest: false,
             has_temperature: celsius.is_some(),
         };
-        Ok((
-            Self { reader: recording_file::open(path)?, topic: topic.clone(), dummy, waiting: None, celsius },
-            readings,
-        ))
+        Ok((Self { reader: input.entries()?, topic: topic.clone(), dummy, waiting: None, celsius }, readings))
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use fingertip::wrench::Wrench;
 use fingertip_drivers::middleware::Paced;
 use fingertip_drivers::{Sample, Source};
-use fingertip_recordings::{HeaderProblem, RecordingReader, SignalUnit};
+use fingertip_recordings::{HeaderProblem, ReaderOptions, SignalUnit};
 use fingertip_scene::Sensor;
 
 use super::gauge_sources::{CsvGauges, GaugeFault, GaugeSource, McapGauges, SimulatedGauges};
@@ -14,6 +14,7 @@ use super::{Address, Feed, Losses, SourceFeed};
 use crate::calibrated::{Calibration, Readings};
 use crate::error::CliError;
 use crate::gauge_rows::{GaugeRows, KnownTemperature};
+use crate::input::Input;
 use crate::recording_file::Kind;
 
 /// Where the readings come from.
@@ -43,9 +44,9 @@ pub(crate) fn calibrated(
 ) -> Result<Box<dyn Feed>, CliError> {
     let calibration = how.calibration;
     let (source, readings, speed): (Box<dyn GaugeSource>, Readings, f64) = match gauges {
-        GaugesOf::Recording { path, sensor, speed } => match Kind::of(path)? {
-            Kind::Csv => {
-                let mut reader = RecordingReader::open(path)?;
+        GaugesOf::Recording { path, sensor, speed } => match Input::open(path)? {
+            mut input if input.kind() == Kind::Csv => {
+                let mut reader = input.rows(ReaderOptions::default())?;
                 let column = || reader.watch("temperature_C").map(KnownTemperature::Column);
                 let temperature = how.celsius.map(KnownTemperature::Constant).or_else(column);
                 let header = |problem: HeaderProblem| CliError::Recording(reader.header_error(problem));
@@ -54,8 +55,8 @@ pub(crate) fn calibrated(
                 let readings = rows.readings();
                 (Box::new(CsvGauges { reader, rows }), readings, speed)
             }
-            Kind::Mcap => {
-                let (source, readings) = McapGauges::open(path, sensor, how.celsius)?;
+            input => {
+                let (source, readings) = McapGauges::open(&input, sensor, how.celsius)?;
                 (Box::new(source), readings, speed)
             }
         },

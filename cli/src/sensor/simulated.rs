@@ -45,6 +45,9 @@ struct Simulated {
     zero: DummyGauge<f64, 6>,
 }
 
+/// So many samples of the rest give the zero: at a high rate all of it would take longer than anybody waits.
+const REST: usize = 20_000;
+
 /// The fingertip of an address.
 pub(super) fn fresh(address: &Address) -> Result<SimulatedFingertip, SensorError> {
     let options = Options {
@@ -60,7 +63,7 @@ pub(super) fn open(address: &Address) -> Result<Box<dyn Feed>, SensorError> {
     let solver = GaussianElimination::new(fresh.calibrated_matrix())?;
     // The session begins with a rest: it gives the zero, as on a bench before the work begins.
     let mut rest = DummyGaugeAccumulator::default();
-    for sample in fresh.clone().take_while(|sample| sample.truth.phase == 0) {
+    for sample in fresh.clone().take(REST).take_while(|sample| sample.truth.phase == 0) {
         rest.add(&sample.reading());
     }
     let zero = rest.finish()?;

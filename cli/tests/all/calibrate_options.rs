@@ -127,3 +127,36 @@ fn a_calibration_with_an_outlier_is_to_be_looked_at() {
     let (code, said) = calibrate(&folder, &["--limit", "4"]);
     assert!(code == 0 && !said.contains(advice), "{said}");
 }
+
+/// A calibration that is bad is an error unless it is accepted; the reasons are a line each, the worst first.
+#[test]
+fn a_bad_calibration_is_an_error_unless_it_is_accepted() {
+    let folder = Folder::new();
+    folder.write(
+        "loads.csv",
+        "fx_N,fy_N,v1_V,v2_V\n0,0,0,0\n1,0,1.1,0\n0,1,0,1.5\n1,1,0.9,0.6\n2,0,2.2,0\n0,2,0.1,1.6\n2,2,1.9,2.7\n",
+    );
+    for more in [&[][..], &["--stream"]] {
+        let calibrate = [&["calibrate", "loads.csv", "-o", "bad.toml"][..], more].concat();
+        let error = folder.fail(1, &calibrate);
+        assert!(
+            error.contains("the calibration bad.toml is bad: F") && error.contains("--accept-bad"),
+            "{error}"
+        );
+        let said = folder.succeed(&[&calibrate[..], &["--accept-bad"]].concat());
+        worst_first(&said);
+    }
+    let output = folder.run(&["check", "bad.toml", "loads.csv"]);
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    worst_first(&said);
+}
+
+/// There are two errors at least, each on a line of its own, and none is greater than the one before.
+fn worst_first(said: &str) {
+    let reasons =
+        said.lines().filter_map(|line| line.strip_prefix("  because F")?.split_once(" % of full scale on"));
+    let errors: Vec<f64> =
+        reasons.map(|(text, _)| text.split_once(": ").unwrap().1.parse().unwrap()).collect();
+    assert!(errors.len() >= 2 && errors.is_sorted_by(|a, b| a >= b), "{said}");
+}

@@ -247,3 +247,63 @@ fn a_scene_that_is_no_file_is_an_error() {
     // Its rest of a second swallows the fifty samples of contacts, which are recorded all the same.
     assert!(folder.succeed(&record).contains(", 0 with a contact"));
 }
+
+/// A sensor that goes while it is recorded is an error that says when; what came before is a whole file.
+#[test]
+fn a_sensor_that_goes_is_an_error() {
+    use fingertip_drivers::sensors::bota_serial::Frame;
+    use std::io::Write as _;
+
+    let folder = Folder::new();
+    let listener = std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap();
+    let address = format!("bota+tcp://{}", listener.local_addr().unwrap());
+    let sensor = std::thread::spawn(move || {
+        let (mut line, _) = listener.accept().unwrap();
+        for number in 0..40_u32 {
+            let frame = Frame { components: [1.0; 6], microseconds: number * 2500, ..Frame::default() };
+            line.write_all(&frame.emit()).unwrap();
+        }
+    });
+    let output = folder.run(&["record", &address, "-o", "a.csv", "--silence", "60"]);
+    sensor.join().unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    let expected =
+        "the line was closed 0.0975 s after the first sample, behind 40 samples, which are recorded";
+    assert!(error.contains(expected), "{error}");
+    assert_eq!(Contacts::parse(&folder.read("a.csv")).len(), 40);
+}
+
+/// However high the rate, it begins at once.
+#[test]
+fn a_fast_simulation_begins() {
+    let folder = Folder::new();
+    let said = folder.succeed(&["record", "sim?rate_Hz=1e7", "-o", "a.csv", "--samples", "10"]);
+    assert!(said.starts_with("10 samples in "), "{said}");
+}
+
+/// What a file says cannot steer the terminal.
+#[test]
+fn control_characters_are_shown_as_what_they_are() {
+    let folder = Folder::new();
+    folder.write("a.csv", "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,m\u{1b}]0;mine\u{7}d\n0,1,0,0,0,0,0,0\n");
+    let said = folder.succeed(&["info", "a.csv"]);
+    assert!(said.contains("\\u{1b}]0;mine\\u{7}") && !said.contains('\u{1b}'), "{said}");
+    let said = folder.succeed(&["convert", "a.csv", "a.mcap"]);
+    assert!(said.contains("\\u{1b}") && !said.contains('\u{1b}'), "{said}");
+    folder.write("b.csv", "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0,1,0,0,0,0,\u{1b}[2J\n");
+    let error = folder.fail(1, &["info", "b.csv"]);
+    assert!(error.contains("\\u{1b}[2J") && !error.contains('\u{1b}'), "{error}");
+}
+
+/// An address that this machine does not have is called that, whatever was to be served.
+#[test]
+fn an_address_of_others_cannot_be_served_on() {
+    let folder = Folder::new();
+    for more in [&["ati"][..], &["bota", "--over", "tcp"]] {
+        // Set aside for examples (RFC 5737): nobody has it.
+        let arguments = [&["simulate", "--listen", "192.0.2.1", "--port", "0", "--serve"][..], more].concat();
+        let error = folder.fail(1, &arguments);
+        assert!(error.contains("none of this machine's: give --listen one that is"), "{error}");
+    }
+}

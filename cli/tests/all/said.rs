@@ -79,7 +79,7 @@ fn of_a_stream_of_two_files() {
     folder.write("b.csv", &more);
     let stream = ["calibrate", "a.csv", "b.csv", "--stream", "-o", "cal.toml", "--range", "-1.9", "1.9"];
     assert_accepted("stream.txt", &folder.succeed(&[&stream[..], &FULL].concat()));
-    let bad = [&stream[..], &FULL, &["--limit", "0.01"]].concat();
+    let bad = [&stream[..], &FULL, &["--limit", "0.01", "--accept-bad"]].concat();
     assert_accepted("stream_bad.txt", &folder.succeed(&bad));
     assert!(folder.read("cal.toml").contains("verdict = \"bad\""));
     // Rows without weight or of less than none.
@@ -349,7 +349,7 @@ fn of_a_calibration_that_is_mended() {
         assert!(error.contains("other.csv: it has other axes, gauges or units"), "{error}");
     }
     folder.write("forces.csv", "fx_N,fy_N,fz_N,v1_V,v2_V,v3_V\n1,0,0,1,0,0\n0,1,0,0,1,0\n0,0,1,0,0,1\n0,0,0,0,0,0\n-1,0,0,-1,0,0\n0,-1,0,0,-1,0\n");
-    folder.succeed(&["calibrate", "forces.csv", "-o", "forces.toml"]);
+    folder.succeed(&["calibrate", "forces.csv", "-o", "forces.toml", "--accept-bad"]);
     let error = folder.fail(1, &["refine", "forces.toml", "touches.csv"]);
     assert!(error.contains("only a linear calibration of six components"), "{error}");
 }

@@ -8,6 +8,10 @@ use std::net::UdpSocket;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+/// Commands that tests run again and again in one folder.
+const WRITERS: [&str; 9] =
+    ["analyze", "calibrate", "check", "demo", "design", "geometry", "motion", "refine", "tare"];
+
 /// A folder that is removed with the test.
 pub(crate) struct Folder(PathBuf);
 
@@ -25,6 +29,14 @@ impl Folder {
         self.0.join(name)
     }
 
+    /// Whether a file is being written that will have this name.
+    pub(crate) fn has_begun(&self, name: &str) -> bool {
+        let stem = name.split('.').next().unwrap_or_default();
+        let begun = format!("{stem}.unfinished-");
+        let mut all = fs::read_dir(&self.0).unwrap().flatten();
+        all.any(|entry| entry.file_name().to_string_lossy().starts_with(&begun))
+    }
+
     pub(crate) fn write(&self, name: &str, text: &str) {
         fs::write(self.path(name), text).unwrap();
     }
@@ -33,8 +45,19 @@ impl Folder {
         fs::read_to_string(self.path(name)).unwrap()
     }
 
-    /// The command, to be run in this folder.
+    /// The command, to be run in this folder, where those that have names for their files write over them.
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = self.exact_command(arguments);
+        if arguments.first().is_some_and(|first| WRITERS.contains(first))
+            && !arguments.contains(&"--overwrite")
+        {
+            command.arg("--overwrite");
+        }
+        command
+    }
+
+    /// The command with these arguments alone.
+    pub(crate) fn exact_command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_fingertip"));
         command.current_dir(&self.0).args(arguments).stdin(Stdio::null());
         name_test(&mut command);
@@ -192,7 +215,8 @@ pub(crate) struct Contacts {
 
 impl Contacts {
     pub(crate) fn parse(text: &str) -> Self {
-        let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+        let lines = text.lines().filter(|line| !line.starts_with('#'));
+        let mut lines = lines.map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
         let columns = lines.next().unwrap();
         let rows: Vec<_> = lines.collect();
         assert!(rows.iter().all(|row| row.len() == columns.len()), "a row with another number of cells");

@@ -178,7 +178,8 @@ fn of_frustum<T: Real>(shape: &Frustum<T>, point: &Vector3<T>) -> [GeometrySensi
         return [top, GeometrySensitivity::none(), GeometrySensitivity::none()];
     }
     let steep = T::one() / shape.side_cosine();
-    let (gradient, hessian) = (level.gradient * steep, level.hessian * steep);
+    let gradient = level.gradient * steep;
+    let hessian = level.hessian * steep;
     let share = above / height;
     let of = |value: T, slope: T| GeometrySensitivity::of_level(value, &(axis * slope), &gradient, &hessian);
     let one = T::one();

@@ -129,4 +129,27 @@ mod tests {
             check::<f32>(spread, 2e-6);
         }
     }
+
+    /// `R_F(x, y, y) = arctan √((y − x)/x)/√(y − x)`, or with the areatangent where `x` is the greater (DLMF
+    /// 19.2.17 to 19.2.19), whichever argument stands alone.
+    #[test]
+    fn two_equal_arguments_give_an_angle() {
+        for ratio in [1e-12, 1e-3, 0.2, 0.9, 1.1, 3.0, 1e3_f64] {
+            let (x, y) = (0.7, 0.7 * ratio);
+            let apart = (y - x).abs();
+            let angle = match ratio {
+                1.0.. => (apart / x).sqrt().atan(),
+                0.5.. => (apart / x).sqrt().atanh(),
+                _ => (x / y).sqrt().acosh(),
+            };
+            let known = angle / apart.sqrt();
+            for found in [r_f(x, y, y), r_f(y, x, y), r_f(y, y, x)] {
+                assert!((found / known - 1.0).abs() < 4e-15, "{ratio} {found} {known}");
+            }
+            let [x, y] = [x as f32, y as f32];
+            for found in [r_f(x, y, y), r_f(y, x, y), r_f(y, y, x)] {
+                assert!((f64::from(found) / known - 1.0).abs() < 2e-6, "{ratio} {found} {known}");
+            }
+        }
+    }
 }

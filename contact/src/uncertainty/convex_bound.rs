@@ -158,8 +158,8 @@ impl<T: Real> ConvexBound<T> {
         let slope = latest / inner;
         let rise = slope * epsilon + shape * (T::one() + slope * slope).root();
         let deep_enough = rise + shape <= exit && latest + shape + shape <= exit;
-        let excluded = (inner - margin) * cosine > high.max(T::zero()) * sine;
-        let past_silhouette = !(all_hit && deep_enough && excluded && gap.is_zero());
+        // Wide enough the polygon is by its making.
+        let past_silhouette = !(all_hit && deep_enough && gap.is_zero());
         if !past_silhouette {
             high = high.min(rise);
         }

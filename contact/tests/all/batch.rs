@@ -167,6 +167,7 @@ macro_rules! batches {
 
 batches!(sphere, Sphere::new(v(0.1, -0.2, 0.3), T::one()), true);
 batches!(centred_sphere, Sphere::centred(T::one()), true);
+batches!(small_sphere, Sphere::new(v(0.1, -0.2, 0.1), T::literal(0.4)), true);
 batches!(plane, Plane::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0)), true);
 batches!(cylinder, Cylinder::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0), T::one()), true);
 batches!(ellipsoid, Ellipsoid::new(v(1.0, 0.8, 0.6)), false);
@@ -201,4 +202,70 @@ fn spheres_of_any_size_and_place() {
             assert!((Vector3::from(normal) - contact.normal).amax() < 1e-12, "{normal:?}");
         }
     }
+}
+
+/// Of a line that misses an ellipsoid the gap is the distance from the plane that touches it where the contact is
+/// reported, and a line that only misses is no certain contact.
+#[test]
+fn the_gap_of_an_ellipsoid_is_that_of_its_tangent_plane() {
+    let mut random = Pcg64Mcg::seed_from_u64(14);
+    for size in [1.0, 0.01] {
+        let ellipsoid = Ellipsoid::new(v(1.0, 0.7, 0.4) * size).unwrap();
+        let mut missed = 0;
+        for _ in 0..1000 {
+            let mut vector = |size: f64| Vector3::<f64>::from_fn(|_, _| random.random_range(-size..size));
+            let (force, through) = (vector(2.0), vector(1.5 * size));
+            let torque = through.cross(&force);
+            let answer = ellipsoid.enter(force.into(), torque.into(), Lines::Any, false);
+            let (point, normal) = (Vector3::from(answer.point), Vector3::from(answer.normal));
+            let on_surface = point.component_div(&ellipsoid.semi_axes()).norm();
+            assert!((on_surface - 1.0).abs() < 1e-12, "{point}");
+            if answer.gap > 1e-6 * size {
+                missed += 1;
+                let gap = (through - point).dot(&normal);
+                assert!((answer.gap - gap).abs() < 1e-11 * size, "{} {gap}", answer.gap);
+                assert!(normal.dot(&force).abs() < 1e-11 * force.norm());
+            }
+            assert_eq!(answer.certain, answer.gap.is_finite());
+            let meeting = ellipsoid.enter(force.into(), torque.into(), Lines::Meeting, false);
+            assert_eq!(meeting.certain, answer.gap == 0.0, "{answer:?}");
+        }
+        assert!(missed > 200, "{missed}");
+    }
+}
+
+/// A plane is met for certain by what presses on it, and by nothing that pulls.
+#[test]
+fn what_pulls_at_a_plane_is_no_certain_contact() {
+    let plane = Plane::new(v(0.0, 0.0, 0.1), v::<f64>(0.0, 0.0, 1.0)).unwrap();
+    for lines in [Lines::Any, Lines::Meeting] {
+        let enter = |force: [f64; 3]| plane.enter(force, [0.01, 0.02, 0.0], lines, false);
+        assert!(enter([0.1, 0.0, -1.0]).certain);
+        assert!(!enter([0.1, 0.0, 1.0]).certain && !enter([1.0, 0.0, 0.0]).certain);
+    }
+}
+
+/// Of a line that misses a capsule the gap is how far it passes its axis, less the radius.
+#[test]
+fn the_gap_of_a_capsule_is_the_distance_of_its_axis() {
+    let mut random = Pcg64Mcg::seed_from_u64(15);
+    let capsule = Capsule::new(v(0.1, -0.2, 0.3), v::<f64>(1.0, 2.0, 3.0), 0.5, 0.3).unwrap();
+    let mut missed = 0;
+    for _ in 0..500 {
+        let mut vector = |size: f64| Vector3::<f64>::from_fn(|_, _| random.random_range(-size..size));
+        let (force, through) = (vector(2.0), vector(1.5));
+        let answer = capsule.enter(force.into(), through.cross(&force).into(), Lines::Any, false);
+        let aside = |along: f64| {
+            let from = capsule.centre() + capsule.axis() * along - through;
+            from.cross(&force).norm() / force.norm()
+        };
+        let nearest = (-5000..=5000).map(|k| aside(f64::from(k) * 1e-4)).fold(f64::INFINITY, f64::min);
+        if nearest > 0.301 {
+            missed += 1;
+            assert!((answer.gap - (nearest - 0.3)).abs() < 1e-6, "{} {nearest}", answer.gap);
+        } else if nearest < 0.299 {
+            assert_eq!(answer.gap, 0.0);
+        }
+    }
+    assert!(missed > 100, "{missed}");
 }

@@ -192,3 +192,50 @@ fn grazing_is_said_from_where_it_begins() {
     }
     assert!(grazes > 40 && does_not > 100, "{grazes} {does_not}");
 }
+
+/// Without errors the bound is that of rounding, and holds it, far from the origin and near it.
+#[test]
+fn rounding_alone_is_within_the_bound() {
+    let mut random = Pcg64Mcg::seed_from_u64(77);
+    let mut worst = 0.0_f64;
+    for centre in [[0.3, 0.2, -0.3], [0.001, -0.002, 0.003]] {
+        let single = Sphere::new(Vector3::from(centre.map(|x| x as f32)), 0.013_f32).unwrap();
+        let radius = f64::from(single.radius());
+        for _ in 0..3000 {
+            let normal = direction(&mut random);
+            let force = (direction(&mut random) * 0.9 - normal).map(|x| x as f32);
+            let at = single.centre() + (normal * radius).map(|x| x as f32);
+            let wrench = Wrench::on_fingertip(force, at.cross(&force));
+            let Resolution::Contact(ours) = PointContact::new(0.0).unwrap().resolve(&wrench, &single) else {
+                continue;
+            };
+            // The contact of the wrench to the last bit of its numbers.
+            let double = Sphere::new(single.centre().cast::<f64>(), radius).unwrap();
+            let exact = Wrench::on_fingertip(force.cast::<f64>(), wrench.torque().cast::<f64>());
+            let Resolution::Contact(truth) = PointContact::new(0.0).unwrap().resolve(&exact, &double) else {
+                continue;
+            };
+            let bound = ContactBound::on_sphere(&single, &wrench, &WorstErrors::of_wrench(0.0, 0.0)).unwrap();
+            let ratio = (ours.point.cast::<f64>() - truth.point).norm() / f64::from(bound.distance);
+            assert!(ratio <= 1.0, "{ratio} {bound:?} {wrench:?}");
+            worst = worst.max(ratio);
+        }
+    }
+    assert!(worst > 0.01, "{worst}");
+}
+
+/// Of a line that misses by what the errors allow, the true contact may be as far away as the bound says: the
+/// gap and the tube across, the longest chord along.
+#[test]
+fn a_miss_has_the_bound_of_its_gap_and_its_errors() {
+    let sphere = Sphere::centred(0.013_f64).unwrap();
+    for (gap, torque) in [(1e-4, 2e-4), (5e-4, 1e-3), (1e-3, 1.5e-3)] {
+        let wrench = Wrench::from_force_at(&Vector3::new(0.013 + gap, 0.0, 0.0), -Vector3::z());
+        let bound = ContactBound::on_sphere(&sphere, &wrench, &WorstErrors::of_wrench(0.0, torque)).unwrap();
+        // The line may pass anywhere within the torque's error of 1 N; the chord that it then cuts off is half as long.
+        let nearest = 0.013 + gap - torque;
+        let along = (0.013_f64.powi(2) - nearest.powi(2)).sqrt();
+        let known = along.hypot(gap + torque);
+        assert!((bound.distance / known - 1.0).abs() < 1e-9, "{bound:?} {known}");
+    }
+}

@@ -2,8 +2,8 @@
 
 use fingertip_contact::{ContactModel, Search, SoftContact, SoftFinger, SoftFingerSurface};
 use fingertip_surfaces::{
-    ActiveSurface, CappedCylinder, Capsule, Compound, Cone, CylinderEnds, DynSurface, EllipticCylinder,
-    Frustum, Heightfield, Mesh, Offset, Paraboloid, Revolution, Sphere,
+    ActiveSurface, CappedCylinder, Capsule, Compound, Cone, Cylinder, CylinderEnds, DynSurface,
+    EllipticCylinder, Frustum, Heightfield, Mesh, Offset, Paraboloid, Revolution, Sphere,
 };
 use fingertip_test_support::Worst;
 use fingertip_wrench::{Line, Real, Wrench};
@@ -459,10 +459,24 @@ fn the_spin_torque_is_mended_with_the_place() {
             let left = torque.cast::<f64>() - c.cross(&force.cast());
             let size = c.norm() + torque.cast::<f64>().norm();
             worst.see((n.dot(&left) - f64::from(contact.spin_torque)).abs() / size);
+            // The normal of the place, but for rounding of the place and of the normal: it bends by 4 radii of 10 mm.
+            worst.see((n - double.normal(&c)).norm() / 4.0);
             flat += usize::from(n.dot(&force.cast()) > -0.1);
         }
     }
     let worst = worst.get() / f64::from(f32::EPSILON);
     println!("spin torques at flat angles: {worst:.2} units of rounding");
     assert!(worst < 4.0 && flat > 1000, "{worst} {flat}");
+}
+
+/// The ends of a cylinder that ends are part of it.
+#[test]
+fn the_end_of_a_cylinder_is_part_of_it() {
+    let cylinder =
+        Cylinder::new(Vector3::zeros(), Vector3::z(), 0.01).unwrap().with_half_length(0.02).unwrap();
+    for (height, active) in [(0.02, true), (-0.02, true), (0.020_000_1, false), (-0.020_000_1, false)] {
+        let wrench = Wrench::from_force_at(&Vector3::new(0.0, 0.0, height), Vector3::new(-2.0, 0.0, 0.0));
+        let found = all(&cylinder, &wrench);
+        assert_eq!(found.iter().map(|contact| contact.active).collect::<Vec<_>>(), [active], "{height}");
+    }
 }

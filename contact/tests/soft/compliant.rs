@@ -322,3 +322,36 @@ fn a_skin_without_contact_says_why() {
     }
     assert!(model.with_share(1.5).is_err());
 }
+
+/// Near the silhouette the first step leads past it, to where there is no contact; the contact on the way is found:
+/// on a sphere of radius `R` with a spring `k`, for a force `F` at an offset `d`, that of
+/// `R sin θ − (F/k) sin θ cos θ = d`.
+#[test]
+fn a_step_past_the_silhouette_comes_back() {
+    let (radius, force) = (0.013_f64, 1.0);
+    let sphere = Sphere::centred(radius).unwrap();
+    let mut past = 0;
+    for stiffness in [250.0, 400.0, 1000.0] {
+        let law = LinearStiffness::new(stiffness, 1e-3).unwrap();
+        let model = CompliantPointContact::new(PointContact::new(0.0).unwrap(), law);
+        for k in 0..60 {
+            let offset = radius * (0.9 + 0.001 * f64::from(k));
+            let wrench =
+                Wrench::from_force_at(&Vector3::new(offset, 0.0, 0.0), Vector3::new(0.0, 0.0, -force));
+            let left = |angle: f64| (radius - force / stiffness * angle.cos()) * angle.sin() - offset;
+            let (mut low, mut high) = (0.0, core::f64::consts::FRAC_PI_2);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                *if left(middle) < 0.0 { &mut low } else { &mut high } = middle;
+            }
+            let first = offset / radius;
+            past += usize::from(first * (radius + force / stiffness * (1.0 - first * first).sqrt()) > radius);
+            let found = model.resolve_indented(&wrench, &sphere, None);
+            let found = found.unwrap_or_else(|reason| panic!("{stiffness} {k} {reason:?}"));
+            let expected = Vector3::new(low.sin(), 0.0, low.cos()) * radius;
+            let flat = low.cos();
+            assert!((found.undeformed - expected).norm() < 1e-13 / flat, "{stiffness} {k} {found:?} {low}");
+        }
+    }
+    assert!(past > 30, "{past}");
+}

@@ -162,3 +162,15 @@ fn both_models_have_one_limit() {
     }
     assert!(SoftFinger::new(0.0).unwrap().with_torque_arm(0.0).is_err());
 }
+
+/// A friction limit of zero is one: only what presses straight down is a contact. None is less, nor no number.
+#[test]
+fn limits_that_cannot_be_are_refused() {
+    let free = SoftFinger::<f64>::new(0.0).unwrap();
+    assert!(free.with_greatest_friction(0.0).is_ok());
+    assert!(free.with_torque_arm(f64::MIN_POSITIVE).is_ok() && free.with_torque_arm(0.0).is_err());
+    for bad in [-1e-300, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(free.with_greatest_friction(bad).is_err(), "{bad}");
+        assert!(free.with_torque_arm(bad).is_err(), "{bad}");
+    }
+}

@@ -27,7 +27,7 @@ pub enum Simulator {
 /// [`SimulatedSerial`](crate::sensors::line::SimulatedSerial).
 pub struct SerialSimulator {
     /// What it says.
-    pub device: Box<dyn SerialDevice + Send>,
+    pub device: SerialDevice,
     /// What its address must say behind the question mark, with it.
     pub options: String,
 }
@@ -57,12 +57,20 @@ impl Serving {
     }
 }
 
+/// What to do about a port that is not to be had: another one, or one of an address that there is.
+fn mend(source: &io::Error, port: &'static str) -> &'static str {
+    match source.kind() {
+        io::ErrorKind::AddrNotAvailable => "the address is none of this machine's: give --listen one that is",
+        _ => port,
+    }
+}
+
 /// Why a simulated sensor cannot be served.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ServeError {
     /// The port is not to be had.
-    #[error("cannot serve on {transport} port {port}: {source}; choose another --port, 0 for any free one")]
+    #[error("cannot serve on {transport} port {port}: {source}; {}", mend(.source, "choose another --port, 0 for any free one"))]
     Port {
         /// UDP or TCP.
         transport: &'static str,
@@ -72,7 +80,7 @@ pub enum ServeError {
         source: io::Error,
     },
     /// The port of the page is not to be had.
-    #[error("cannot serve on TCP port {port}: {source}; choose another --http-port")]
+    #[error("cannot serve on TCP port {port}: {source}; {}", mend(.source, "choose another --http-port"))]
     Page {
         /// The port.
         port: u16,

@@ -23,7 +23,9 @@ impl SourceError for McapError {
     fn kind(&self) -> SourceErrorKind {
         match self {
             error if error.is_transport() => SourceErrorKind::Transport,
-            Self::File(_) | Self::Length { .. } | Self::Message { .. } => SourceErrorKind::Corrupt,
+            Self::Cut | Self::File(_) | Self::Length { .. } | Self::Message { .. } => {
+                SourceErrorKind::Corrupt
+            }
             _ => SourceErrorKind::Unsupported,
         }
     }

@@ -233,3 +233,48 @@ fn a_rate_that_cannot_be_gives_no_times() {
         assert_eq!(client.next_sample().unwrap().unwrap().time, None, "{rate}");
     }
 }
+
+/// Somebody who asks and says no more does not keep others from the page.
+#[test]
+fn half_open_connections_do_not_block_the_page() {
+    use fingertip_drivers::devices::{Serving, devices};
+
+    let device = devices().iter().find(|device| device.name == "ati").unwrap();
+    let Some(fingertip_drivers::devices::Simulator::Network(start)) = device.simulator else { panic!() };
+    let simulator = start(Serving {
+        listen: [127, 0, 0, 1].into(),
+        port: Some(0),
+        http_port: 0,
+        udp_port: 0,
+        faults: FaultPlan::default(),
+        rate: 100.0,
+        load: Box::new(|_| [0.0; 6]),
+    })
+    .unwrap();
+    let (_, http) = simulator.address().rsplit_once("http=").unwrap();
+    let page = ("127.0.0.1", http.parse::<u16>().unwrap());
+    let idle: Vec<_> = (0..20).map(|_| std::net::TcpStream::connect(page).unwrap()).collect();
+    // Twenty in a row would take ten seconds.
+    let configuration = RdtClient::<f64>::configuration(page, Duration::from_secs(5)).unwrap();
+    assert_eq!(configuration.counts_per_newton, 1e6);
+    drop(idle);
+}
+
+/// All of a page must have come in time, however often a little of it comes.
+#[test]
+fn a_page_that_drips_is_given_up() {
+    use std::io::Write as _;
+
+    let listener = std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap();
+    let address = listener.local_addr().unwrap();
+    let server = std::thread::spawn(move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        // It goes on until nobody listens.
+        while stream.write_all(b"<").is_ok() {
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    });
+    let error = RdtClient::<f64>::configuration(address, Duration::from_millis(200)).unwrap_err();
+    assert!(matches!(error, ClientError::Page(_)) && error.to_string().starts_with("HTTP: "), "{error}");
+    server.join().unwrap();
+}

@@ -9,8 +9,11 @@ use fingertip_wrench::Wrench;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+/// Of a number of frames so many newtons: of all of them no more than a sensor measures.
+const PER_FRAME: f64 = 1.0 / 64.0;
+
 fn frame(number: u32) -> Frame {
-    let x = number as f32;
+    let x = number as f32 * PER_FRAME as f32;
     Frame {
         components: [x, -x, 1.0, 2.0, 3.0, -0.5 * x],
         // Wraps around on the way.
@@ -36,7 +39,7 @@ fn a_bad_line_costs_the_damaged_frames_and_no_other() {
         let next: Next = sensor.next_sample();
         next.unwrap()
     } {
-        let (number, time) = (sample.value.force().x, sample.time.unwrap());
+        let (number, time) = (sample.value.force().x / PER_FRAME, sample.time.unwrap());
         assert_eq!(sample.value, frame_wrench(number));
         assert!(number > last);
         let start = *start.get_or_insert(number);
@@ -51,7 +54,8 @@ fn a_bad_line_costs_the_damaged_frames_and_no_other() {
 }
 
 fn frame_wrench(number: f64) -> Wrench<f64> {
-    Wrench::from_components(&nalgebra::Vector6::new(number, -number, 1.0, 2.0, 3.0, -0.5 * number))
+    let x = number * PER_FRAME;
+    Wrench::from_components(&nalgebra::Vector6::new(x, -x, 1.0, 2.0, 3.0, -0.5 * x))
 }
 
 #[test]
@@ -173,7 +177,7 @@ fn check(
     last: &mut Option<u32>,
     watch: &mut Watch<f64, Wrench<f64>>,
 ) {
-    let number = sample.value.force().x;
+    let number = sample.value.force().x / PER_FRAME;
     assert_eq!(sample.value, frame_wrench(number));
     let number = number as u32;
     assert!(number < modulus && last.is_none_or(|last| number > last), "{number} after {last:?}");
@@ -193,4 +197,31 @@ fn a_sensor_that_was_switched_off_and_on_is_heard_again() {
     let given = (0..100).filter(|number| give(*number, 1250 * number)).count();
     assert_eq!(given, 100 - BotaDecoder::RESTARTED as usize + 1);
     assert_eq!((decoder.restarts(), decoder.not_news()), (1, u64::from(BotaDecoder::RESTARTED)));
+}
+
+/// Numbers beyond every sensor are counted as faults, not believed, though their checksum fits.
+#[test]
+fn numbers_beyond_every_sensor_are_not_believed() {
+    let mut decoder = BotaDecoder::new();
+    let mut give = |component: usize, value: f32, microseconds: u32| {
+        let mut frame = Frame { microseconds, ..Frame::default() };
+        frame.components[component] = value;
+        let bytes = frame.emit();
+        let given = bytes.into_iter().filter_map(|byte| LineDecoder::<f64>::push(&mut decoder, byte));
+        given.last().unwrap()
+    };
+    for (number, (component, value, believed)) in [
+        (0, 9e4, true),
+        (0, 2e5, false),
+        (2, -1e36, false),
+        (3, 9e3, true),
+        (5, -2e4, false),
+        (4, f32::NAN, false),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let given = give(component, value, 1000 * (number as u32 + 1));
+        assert_eq!(given.is_ok(), believed, "{value}: {given:?}");
+    }
 }

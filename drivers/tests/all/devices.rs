@@ -30,11 +30,7 @@ fn feels_the_load(address: &str) {
 }
 
 /// Serves a simulated sensor to one client over TCP, until the flag is set.
-fn serve(
-    listener: &TcpListener,
-    mut sensor: SimulatedSerial<impl fingertip_drivers::sensors::line::SerialDevice>,
-    stop: &AtomicBool,
-) {
+fn serve(listener: &TcpListener, mut sensor: SimulatedSerial, stop: &AtomicBool) {
     let (mut client, _) = listener.accept().unwrap();
     client.set_read_timeout(Some(Duration::from_millis(1))).unwrap();
     let mut pace = Pace::new(Duration::from_millis(2));

@@ -181,7 +181,7 @@ fn what_the_sensors_say_of_themselves_is_an_error() {
 /// A simulated device where its port would be, through 30 samples: the wrenches that come, each asked for by
 /// `request` before its sample.
 fn through<D: LineDecoder<f64>>(
-    device: impl SerialDevice,
+    device: impl Into<SerialDevice>,
     faults: LineFaults,
     decoder: D,
     request: impl Fn(u32) -> Vec<u8>,

@@ -8,7 +8,10 @@ use super::cdr::CdrError;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum McapError {
-    /// The file is damaged, cut, or compressed, or the system refuses.
+    /// The file ends before it says that it does: it was cut, or its recorder was killed.
+    #[error("the file ends in the middle: it was cut, or its recorder was killed")]
+    Cut,
+    /// The file is damaged or packed in a way that is not read, or the system refuses.
     #[error("MCAP: {0}")]
     File(#[from] ::mcap::McapError),
     /// A length in a record is beyond its bytes.

@@ -47,3 +47,8 @@ fn counted<'a>(what: &'static str, rest: &'a [u8]) -> Result<(&'a [u8], &'a [u8]
     let length = usize::try_from(stated).unwrap_or(usize::MAX);
     bytes.split_at_checked(length).ok_or(McapError::Length { what, stated, found: bytes.len() })
 }
+
+/// The string at the front, if there is one.
+pub(super) fn first_string(contents: &[u8]) -> Option<&str> {
+    counted("a string", contents).ok().and_then(|(string, _)| core::str::from_utf8(string).ok())
+}

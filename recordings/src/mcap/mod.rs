@@ -8,8 +8,9 @@
 //! | contact | `tactile_msgs/msg/TactileContact`: header, name, position, normal, wrench |
 //!
 //! Times are seconds, as everywhere; in the file they are whole nanoseconds from 0 to 2³¹ s. Files are
-//! written in chunks with checksums and an index, without compression; compressed ones are not read. Reading
-//! takes as much memory as the longest chunk, however long the file.
+//! written in chunks with checksums and an index; with the feature `compression` they are read and written packed by
+//! zstd or LZ4, too. Reading takes as much memory as the longest chunk, however long the file. What a recorder that was
+//! killed has left is read up to where it is whole, and [`recover`] writes it anew.
 //!
 //! ```
 //! use std::io::Cursor;
@@ -31,15 +32,20 @@
 //! ```
 
 mod cdr;
+mod compression;
 mod definitions;
 mod error;
 mod lengths;
 mod messages;
 mod reader;
+mod records;
+mod recover;
 mod writer;
 
 pub use cdr::{CdrError, CdrReader, CdrWriter};
+pub use compression::Compression;
 pub use error::McapError;
 pub use messages::{Header, Recorded, RecordedContact, RecordedSignals};
 pub use reader::{Entry, McapReader};
+pub use recover::{Recovered, recover};
 pub use writer::{McapWriter, Topic};

@@ -8,6 +8,7 @@ use ::mcap::records::MessageHeader;
 use ::mcap::{WriteOptions, Writer};
 use fingertip_wrench::Wrench;
 
+use super::compression::Compression;
 use super::definitions::{CONTACT, Definition, SIGNALS, WRENCH};
 use super::error::McapError;
 use super::messages::{Header, Recorded, RecordedContact, RecordedSignals};
@@ -24,6 +25,16 @@ struct Channel {
     frame: String,
     definition: &'static str,
     sequence: u32,
+}
+
+/// How files are written here, with messages of this profile.
+pub(super) fn options(compression: Compression, profile: &str) -> WriteOptions {
+    let library = concat!("fingertip ", env!("CARGO_PKG_VERSION"));
+    let options = WriteOptions::new();
+    // One thread: what packs must not take the time of what measures, nor memory by the number of cores.
+    #[cfg(feature = "compression")]
+    let options = options.compression_threads(0);
+    options.compression(compression.of_library()).profile(profile).library(library)
 }
 
 /// Writes wrenches, signals and contacts. Call [`finish`](Self::finish): a file without its end can be
@@ -45,9 +56,15 @@ impl<W: Write + Seek> McapWriter<W> {
     /// # Errors
     /// [`McapError::File`].
     pub fn new(out: W) -> Result<Self, McapError> {
-        let library = concat!("fingertip ", env!("CARGO_PKG_VERSION"));
-        let options = WriteOptions::new().compression(None).profile("ros2").library(library);
-        Ok(Self { writer: options.create(out)?, channels: Vec::new() })
+        Self::with_compression(out, Compression::None)
+    }
+
+    /// Begins a file whose chunks are packed.
+    ///
+    /// # Errors
+    /// [`McapError::File`].
+    pub fn with_compression(out: W, compression: Compression) -> Result<Self, McapError> {
+        Ok(Self { writer: options(compression, "ros2").create(out)?, channels: Vec::new() })
     }
 
     fn topic(&mut self, name: &str, frame: &str, definition: &Definition) -> Result<Topic, McapError> {

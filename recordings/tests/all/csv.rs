@@ -406,3 +406,47 @@ fn contacts_are_read_as_they_were_written() {
     assert!(reader.layout().contacts().is_none() && reader.layout().only_wrench().is_ok());
     assert_eq!(reader.layout().ignored().collect::<Vec<_>>(), ["contact_x_m", "contact_load_x_N"]);
 }
+
+/// A file that was cut in its last line loses that line, and says so; what is wrong elsewhere is an error as before.
+#[test]
+fn a_cut_last_line_is_lost_alone() {
+    let header = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm";
+    let whole = format!("{header}\n0,1,2,3,4,5,6\n1,1,2,3,4,5,7\n");
+    let read = |text: &str| {
+        let mut reader = RecordingReader::new("a.csv", text.as_bytes()).unwrap();
+        let mut rows = 0;
+        while reader.next_row()?.is_some() {
+            rows += 1;
+        }
+        Ok::<_, RecordingError>((rows, reader.quality().cut_lines.first_lines().to_vec()))
+    };
+    assert_eq!(read(&whole).unwrap(), (2, vec![]));
+    // Without the end of the line the last number may be short, but it is a number.
+    assert_eq!(read(whole.trim_end()).unwrap(), (2, vec![]));
+    let start = whole.len() - "1,1,2,3,4,5,7\n".len();
+    for cut in start + 1..whole.len() - 2 {
+        assert_eq!(read(&whole[..cut]).unwrap(), (1, vec![3]), "{:?}", &whole[..cut]);
+    }
+    for end in ["-", "1e", "+.", "x"] {
+        let cut = format!("{}{end}", &whole[..whole.len() - 2]);
+        assert_eq!(read(&cut).unwrap(), (1, vec![3]), "{cut:?}");
+        assert!(matches!(read(&format!("{cut}\n")), Err(RecordingError::NotANumber { line: 3, .. })));
+    }
+    let bad = format!("{whole}2,x,2,3,4,5,6");
+    assert!(matches!(read(&bad), Err(RecordingError::NotANumber { line: 4, .. })));
+    let long = format!("{whole}2,1,2,3,4,5,6,7");
+    assert!(matches!(read(&long), Err(RecordingError::Ragged { line: 4, .. })));
+}
+
+#[test]
+fn frames_are_named_above_the_header() {
+    let schema = Schema::default().time().wrench("").wrench("left");
+    let schema = schema.frame("", "tip").frame("left", "left wrist").frame("x", "two\nlines");
+    let mut writer = RecordingWriter::new(Vec::new(), &schema).unwrap();
+    writer.write([0.0; 13]).unwrap();
+    let text = String::from_utf8(writer.finish().unwrap()).unwrap();
+    assert!(text.starts_with("# frame_id: tip\n# frame_id of left: left wrist\nt_s,fx_N,"), "{text}");
+    let reader = RecordingReader::new("a.csv", text.as_bytes()).unwrap();
+    let frames = ["", "left", "x"].map(|sensor| reader.layout().frame(sensor).map(str::to_owned));
+    assert_eq!(frames, [Some("tip".to_owned()), Some("left wrist".to_owned()), None]);
+}

@@ -4,5 +4,6 @@
 mod csv;
 mod mcap;
 mod mcap_by_hand;
+mod mcap_damaged;
 mod real_recordings;
 mod rows;

@@ -212,7 +212,7 @@ fn a_length_that_cannot_be_takes_no_memory() {
         for length in [1_u64 << 20, 1 << 40, u64::MAX] {
             let file = [&b"\x89MCAP0\r\n"[..], &[opcode], &length.to_le_bytes(), &[0; 100]].concat();
             let error = McapReader::new(file.as_slice()).unwrap().next_entry().unwrap_err();
-            assert!(matches!(error, McapError::File(_)) && !error.is_transport(), "{error}");
+            assert!(matches!(error, McapError::File(_) | McapError::Cut) && !error.is_transport(), "{error}");
         }
     }
 }

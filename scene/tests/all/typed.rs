@@ -3,8 +3,8 @@
 use fingertip::contact::{PointContact, SoftFinger};
 use fingertip::friction::{Coulomb, DropDetector, ForceNoise, SoftFingerLimit};
 use fingertip::surfaces::{Capsule, Posed, Sphere};
-use fingertip::wrench::RigidTransform;
-use fingertip::{Fingertip, Step};
+use fingertip::wrench::{RigidTransform, Wrench};
+use fingertip::{Fingertip, Present, Step, TouchSensor};
 use fingertip_scene::Scene;
 use nalgebra::Vector3;
 
@@ -174,4 +174,54 @@ fn columns_are_one_sample_after_another() {
         let next = samples[3];
         assert_eq!(together.sense(next, 1e-3), alone.sense(next, 1e-3), "{text}");
     }
+}
+
+/// A hand of a typed finger and one from a scene: each answers as it does alone, keeps its last contact or is told
+/// it, and starts anew.
+#[test]
+fn fingers_of_both_kinds_in_one_hand() {
+    let text = format!(
+        "{HEAD}{BALL}[contact]\nleast_force_N = 0.1\n[friction]\nstatic_coefficient = 0.5\n\
+         [slip]\ndetector = \"drop\"\nnoise_N = 0.01\n"
+    );
+    let mut from_scene = Scene::from_text(&text).unwrap().pipeline();
+    let mut typed = Fingertip::builder()
+        .contact(Sphere::centred(0.013).unwrap(), PointContact::new(0.1).unwrap())
+        .friction(Coulomb::new(0.5).unwrap())
+        .slip_detector(DropDetector::new(ForceNoise::isotropic(0.01).unwrap()).unwrap())
+        .build();
+    let mut alone = typed;
+    let mut hand: [&mut dyn TouchSensor<f64>; 2] = [&mut from_scene, &mut typed];
+    let mut last = [None; 3];
+    for push in pushes(6, 3000) {
+        let once = alone.sense_wrench(push, Step::of(1e-3).with_last(last[2]));
+        last[2] = once.point();
+        for (finger, last) in hand.iter_mut().zip(&mut last) {
+            let touch = finger.feel(push, Step::of(1e-3).with_last(*last));
+            *last = touch.point();
+            assert_eq!(
+                (touch.wrench, touch.resolution, touch.force),
+                (once.wrench, once.resolution, once.force)
+            );
+            assert_eq!((touch.grip.flatten(), touch.slip), (once.grip, Some(once.slip)));
+        }
+    }
+    let fresh = Present(DropDetector::new(ForceNoise::isotropic(0.01).unwrap()).unwrap());
+    let push = Wrench::on_fingertip(Vector3::new(-1.0, 0.0, 0.2), Vector3::zeros());
+    alone.sense_wrench(push, 1e-3);
+    assert_ne!(*alone.detector(), fresh);
+    TouchSensor::<f64>::start_anew(&mut alone);
+    assert_eq!(*alone.detector(), fresh);
+    // What a step says of the last contact rules: on a ring it chooses the side.
+    let ring = "[surface]\nshape = \"torus\"\nring_radius_m = 0.01\ntube_radius_m = 0.003\n";
+    let mut ring = Scene::from_text(&format!("{HEAD}{ring}")).unwrap().pipeline();
+    let push = Wrench::on_fingertip(Vector3::new(-1.0, 0.0, 0.0), Vector3::zeros());
+    let mut at = |last: Option<f64>| {
+        let last = last.map(|x| Vector3::new(x, 0.0, 0.0));
+        ring.feel(push, Step::of(1e-3).with_last(last)).point().unwrap().x
+    };
+    assert!((at(None) - 0.013).abs() < 1e-12 && (at(Some(-0.007)) + 0.007).abs() < 1e-12);
+    assert!((at(None) + 0.007).abs() < 1e-12, "its own last contact");
+    TouchSensor::start_anew(&mut ring);
+    assert!((ring.feel(push, Step::of(1e-3)).point().unwrap().x - 0.013).abs() < 1e-12);
 }

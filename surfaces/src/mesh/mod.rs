@@ -59,6 +59,24 @@ fn of_stl<T: Real>(bytes: &[u8], metres_per_unit: T) -> Result<Parts<T>, MeshErr
     Ok((corners, (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect()))
 }
 
+/// The bytes of a file, as long as it is no longer than any mesh that is meant.
+#[cfg(feature = "std")]
+fn read(path: &std::path::Path) -> Result<Vec<u8>, MeshError> {
+    use std::io::Read as _;
+
+    /// Ten million triangles of a binary STL.
+    const LONGEST: u64 = 512 << 20;
+    let unreadable = |error: std::io::Error| MeshError::Unreadable(error.kind());
+    let file = std::fs::File::open(path).map_err(unreadable)?;
+    // A device without an end has no length either.
+    if !file.metadata().map_err(unreadable)?.is_file() {
+        return Err(MeshError::Unreadable(std::io::ErrorKind::InvalidInput));
+    }
+    let mut bytes = Vec::new();
+    let length = file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if length as u64 > LONGEST { Err(MeshError::TooLarge) } else { Ok(bytes) }
+}
+
 impl<T: Real> Mesh<T> {
     /// From vertices \[m\] and triangles that index them.
     ///
@@ -130,7 +148,7 @@ impl<T: Real> Mesh<T> {
         metres_per_unit: T,
     ) -> Result<Parts<T>, MeshError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|error| MeshError::Unreadable(error.kind()))?;
+        let bytes = read(path)?;
         if path.extension().is_some_and(|name| name.eq_ignore_ascii_case("obj")) {
             obj::read(core::str::from_utf8(&bytes).map_err(|_| MeshError::NotText)?, metres_per_unit)
         } else {

@@ -38,7 +38,7 @@ pub enum MeshError {
     #[error("the mesh encloses no volume")]
     NoVolume,
     /// More vertices or triangles than 32-bit indices can name.
-    #[error("the mesh is too large")]
+    #[error("the mesh is too large: more than 2³² vertices or triangles, or a file of more than 512 MiB")]
     TooLarge,
     /// A line of a text file, or a part of a binary one, cannot be understood.
     #[error("line or record {line} of the mesh file is malformed")]

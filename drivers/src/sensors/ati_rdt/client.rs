@@ -3,6 +3,7 @@
 use core::time::Duration;
 use std::io::{self, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs, UdpSocket};
+use std::time::Instant;
 
 use fingertip_wrench::{Real, Wrench};
 use thiserror::Error;
@@ -22,6 +23,9 @@ pub enum ClientError {
     /// The socket failed.
     #[error("UDP socket: {0}")]
     Socket(#[from] io::Error),
+    /// The page of its configuration cannot be asked for.
+    #[error("HTTP: {0}")]
+    Page(io::Error),
     /// No record came in time.
     #[error("no record within {timeout:?}; is the sensor on, reachable, and not serving another client?")]
     Timeout {
@@ -42,7 +46,7 @@ pub enum ClientError {
 impl SourceError for ClientError {
     fn kind(&self) -> SourceErrorKind {
         match self {
-            Self::Socket(_) => SourceErrorKind::Transport,
+            Self::Socket(_) | Self::Page(_) => SourceErrorKind::Transport,
             Self::Timeout { .. } => SourceErrorKind::Timeout,
             Self::Corrupt(_) => SourceErrorKind::Corrupt,
             Self::Configuration(_) => SourceErrorKind::Unsupported,
@@ -74,20 +78,12 @@ impl<T: Real> RdtClient<T> {
     /// Asks a sensor (its name or address with port 80) for its configuration over HTTP.
     ///
     /// # Errors
-    /// [`ClientError::Socket`] or [`ClientError::Configuration`].
+    /// [`ClientError::Page`], also if all of it takes longer than `timeout`, or [`ClientError::Configuration`].
     pub fn configuration(
         sensor: impl ToSocketAddrs,
         timeout: Duration,
     ) -> Result<Configuration, ClientError> {
-        let address = sensor.to_socket_addrs()?.next();
-        let address = address.ok_or_else(|| io::Error::from(io::ErrorKind::AddrNotAvailable))?;
-        let mut stream = TcpStream::connect_timeout(&address, timeout)?;
-        stream.set_read_timeout(Some(timeout))?;
-        stream.set_write_timeout(Some(timeout))?;
-        stream.write_all(Configuration::REQUEST.as_bytes())?;
-        let mut page = Vec::new();
-        // A page is some kilobytes; whatever serves more is no sensor.
-        stream.take(1 << 20).read_to_end(&mut page)?;
+        let page = page(sensor, timeout).map_err(ClientError::Page)?;
         Ok(Configuration::parse(&String::from_utf8_lossy(&page))?)
     }
 
@@ -187,6 +183,33 @@ impl<T: Real> RdtClient<T> {
             }
         }
     }
+}
+
+/// Asks for the page; all of it must have come within the timeout.
+fn page(sensor: impl ToSocketAddrs, timeout: Duration) -> io::Result<Vec<u8>> {
+    let end = Instant::now() + timeout;
+    let left = || {
+        let left = end.saturating_duration_since(Instant::now());
+        if left.is_zero() { Err(io::Error::from(io::ErrorKind::TimedOut)) } else { Ok(left) }
+    };
+    let address = sensor.to_socket_addrs()?.next();
+    let address = address.ok_or_else(|| io::Error::from(io::ErrorKind::AddrNotAvailable))?;
+    let mut stream = TcpStream::connect_timeout(&address, left()?)?;
+    stream.set_write_timeout(Some(left()?))?;
+    stream.write_all(Configuration::REQUEST.as_bytes())?;
+    let mut page = Vec::new();
+    let mut piece = [0; 4096];
+    // A page is some kilobytes; whatever serves more is no sensor.
+    while page.len() < 1 << 20 {
+        stream.set_read_timeout(Some(left()?))?;
+        match stream.read(&mut piece) {
+            Ok(0) => break,
+            Ok(length) => page.extend_from_slice(piece.get(..length).unwrap_or_default()),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(page)
 }
 
 impl<T: Real> Drop for RdtClient<T> {

@@ -17,7 +17,7 @@ pub enum BotaFault {
         /// Time on the sensor's clock \[µs\].
         microseconds: u32,
     },
-    /// The sensor says that its numbers are invalid, or one is not finite.
+    /// The sensor says that its numbers are invalid, or one is not finite, or beyond what any sensor measures.
     #[error("the sensor gives no valid numbers at its time {microseconds} µs (status {status:#06x})")]
     Invalid {
         /// Time on the sensor's clock \[µs\].
@@ -122,6 +122,15 @@ impl BotaDecoder {
     }
 }
 
+/// Beyond every sensor of the maker, by far \[N\], \[N·m\]: bytes that are no frame, and pass for one by chance.
+const GREATEST: [f64; 2] = [1e5, 1e4];
+
+fn is_plausible<T: Real>(wrench: &Wrench<T>) -> bool {
+    let [force, torque] = GREATEST.map(T::literal);
+    wrench.force().iter().all(|component| component.abs() <= force)
+        && wrench.torque().iter().all(|component| component.abs() <= torque)
+}
+
 impl<T: Real> LineDecoder<T> for BotaDecoder {
     type Fault = BotaFault;
     /// Some 27 frames, or 20 ms of a full line.
@@ -134,7 +143,8 @@ impl<T: Real> LineDecoder<T> for BotaDecoder {
             return Some(Err(BotaFault::Overrange { microseconds }));
         }
         let wrench = finite_wrench(components.map(f64::from));
-        Some(match wrench.filter(|_| status & Frame::INVALID == 0) {
+        let is_valid = |wrench: &Wrench<T>| status & Frame::INVALID == 0 && is_plausible(wrench);
+        Some(match wrench.filter(is_valid) {
             Some(value) => {
                 #[allow(clippy::cast_precision_loss, reason = "exact for 285 years")]
                 let time = T::literal(elapsed as f64 * 1e-6);

@@ -18,7 +18,7 @@ pub(crate) const ENTRY: Entry = Entry {
             "as it is set: lost samples are counted by their times",
         )],
         simulator: Some(Simulator::Serial(|rate| SerialSimulator {
-            device: Box::new(SimulatedBota::new(rate)),
+            device: SimulatedBota::new(rate).into(),
             options: format!("?rate_Hz={rate}"),
         })),
     },

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use super::wire::Frame;
-use crate::sensors::line::{SerialDevice, SerialRequest, SerialSample};
+use crate::sensors::line::{SerialDevice, SerialSample};
 
 /// A sensor that streams, for a [`SimulatedSerial`](crate::sensors::line::SimulatedSerial). It does not hear: configuration
 /// is not here.
@@ -23,15 +23,13 @@ impl SimulatedBota {
     }
 }
 
-impl SerialDevice for SimulatedBota {
-    fn streams(&self) -> bool {
-        true
+impl From<SimulatedBota> for SerialDevice {
+    fn from(device: SimulatedBota) -> Self {
+        Self::new(true, |_| None, move |sample| device.frame(sample))
     }
+}
 
-    fn request(&self, _: &[u8]) -> Option<(SerialRequest, usize)> {
-        None
-    }
-
+impl SimulatedBota {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -20,7 +20,7 @@ pub(crate) const ENTRY: Entry = Entry {
             DeviceOption::new("counts_per_Nm", "1664", "as counts_per_N"),
         ],
         simulator: Some(Simulator::Serial(|_| SerialSimulator {
-            device: Box::new(SimulatedDynPick::new(WEF_6A200)),
+            device: SimulatedDynPick::new(WEF_6A200).into(),
             options: String::new(),
         })),
     },

@@ -21,11 +21,13 @@ impl SimulatedDynPick {
     }
 }
 
-impl SerialDevice for SimulatedDynPick {
-    fn streams(&self) -> bool {
-        false
+impl From<SimulatedDynPick> for SerialDevice {
+    fn from(device: SimulatedDynPick) -> Self {
+        Self::new(false, move |heard| device.request(heard), move |sample| device.frame(sample))
     }
+}
 
+impl SimulatedDynPick {
     fn request(&self, heard: &[u8]) -> Option<(SerialRequest, usize)> {
         let request = match *heard.first()? {
             REQUEST => SerialRequest::Single,
@@ -61,7 +63,7 @@ mod tests {
     fn it_tells_the_counts_of_its_readings_and_gives_each_that_is_asked_for() {
         let counts = AxisCounts::new([24.9, 24.6, 24.5, 1664.7, 1639.7, 1638.0]).unwrap();
         let mut sensor = SimulatedSerial::new(SimulatedDynPick::new(counts), LineFaults::default());
-        let said = |sensor: &mut SimulatedSerial<_>, requests: &[u8], load: [f64; 6]| {
+        let said = |sensor: &mut SimulatedSerial, requests: &[u8], load: [f64; 6]| {
             sensor.write_all(requests).unwrap();
             sensor.sample(load);
             let mut bytes = Vec::new();

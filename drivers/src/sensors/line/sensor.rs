@@ -43,11 +43,26 @@ where
                 Err(error) => match error.kind() {
                     io::ErrorKind::Interrupted => {}
                     io::ErrorKind::TimedOut | io::ErrorKind::WouldBlock => return Err(LineError::Timeout),
+                    _ if is_pulled(&error) => return Ok(None),
                     _ => return Err(LineError::Line(error)),
                 },
             }
         }
     }
+}
+
+/// Whether a line has ended at its other end, or was pulled out: systems say so in many ways.
+fn is_pulled(error: &io::Error) -> bool {
+    /// Of a terminal whose other end has hung up.
+    const EIO: i32 = 5;
+    let kinds = [
+        io::ErrorKind::BrokenPipe,
+        io::ErrorKind::ConnectionAborted,
+        io::ErrorKind::ConnectionReset,
+        io::ErrorKind::NotConnected,
+        io::ErrorKind::UnexpectedEof,
+    ];
+    kinds.contains(&error.kind()) || cfg!(unix) && error.raw_os_error() == Some(EIO)
 }
 
 impl<L: Read, T: Real, D: LineDecoder<T>> NbSource<T, Wrench<T>> for LineSensor<L, T, D>

@@ -1,7 +1,8 @@
 //! A sensor on a serial line that is not there.
 
-use alloc::boxed::Box;
+use alloc::sync::Arc;
 use alloc::vec::Vec;
+use core::fmt;
 use std::io::{self, Read, Write};
 
 use super::simulator::{LineFaults, SimulatedLine};
@@ -43,15 +44,33 @@ pub struct SerialSample {
 }
 
 /// What one kind of sensor says on a serial line, and understands.
-pub trait SerialDevice {
-    /// Whether it streams as soon as it is switched on.
-    fn streams(&self) -> bool;
+#[derive(Clone)]
+pub struct SerialDevice {
+    streams: bool,
+    request: Arc<Understand>,
+    frame: Arc<Speak>,
+}
 
-    /// The request with which the bytes begin, and how many it takes; `None` if they begin with none.
-    fn request(&self, heard: &[u8]) -> Option<(SerialRequest, usize)>;
+type Understand = dyn Fn(&[u8]) -> Option<(SerialRequest, usize)> + Send + Sync;
+type Speak = dyn Fn(&SerialSample) -> Vec<u8> + Send + Sync;
 
-    /// The bytes of a reading.
-    fn frame(&self, sample: &SerialSample) -> Vec<u8>;
+impl SerialDevice {
+    /// By whether it streams as soon as it is switched on; by the request with which bytes begin, and how many it
+    /// takes, `None` if they begin with none; and by the bytes of a reading.
+    #[must_use]
+    pub fn new(
+        streams: bool,
+        request: impl Fn(&[u8]) -> Option<(SerialRequest, usize)> + Send + Sync + 'static,
+        frame: impl Fn(&SerialSample) -> Vec<u8> + Send + Sync + 'static,
+    ) -> Self {
+        Self { streams, request: Arc::new(request), frame: Arc::new(frame) }
+    }
+}
+
+impl fmt::Debug for SerialDevice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SerialDevice").field("streams", &self.streams).finish_non_exhaustive()
+    }
 }
 
 /// How many bytes of requests are kept until they make sense.
@@ -80,8 +99,8 @@ const LONGEST_REQUEST: usize = 64;
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct SimulatedSerial<Device> {
-    device: Device,
+pub struct SimulatedSerial {
+    device: SerialDevice,
     line: SimulatedLine,
     streaming: bool,
     number: u64,
@@ -92,11 +111,12 @@ pub struct SimulatedSerial<Device> {
     zero: [f64; 6],
 }
 
-impl<Device: SerialDevice> SimulatedSerial<Device> {
+impl SimulatedSerial {
     /// A sensor that was just switched on.
     #[must_use]
-    pub fn new(device: Device, faults: LineFaults) -> Self {
-        let streaming = device.streams();
+    pub fn new(device: impl Into<SerialDevice>, faults: LineFaults) -> Self {
+        let device = device.into();
+        let streaming = device.streams;
         Self {
             device,
             line: SimulatedLine::new(faults),
@@ -113,7 +133,7 @@ impl<Device: SerialDevice> SimulatedSerial<Device> {
     pub fn switch_off_and_on(&mut self) {
         self.line.clear();
         self.heard.clear();
-        (self.streaming, self.number, self.asked) = (self.device.streams(), 0, 0);
+        (self.streaming, self.number, self.asked) = (self.device.streams, 0, 0);
         (self.load, self.zero) = ([0.0; 6], [0.0; 6]);
     }
 
@@ -139,7 +159,7 @@ impl<Device: SerialDevice> SimulatedSerial<Device> {
         }
         let streamed = self.streaming;
         for _ in 0..core::mem::take(&mut self.asked) + u32::from(streamed) {
-            let frame = self.device.frame(&SerialSample { number: self.number, load: zeroed, streamed });
+            let frame = (self.device.frame)(&SerialSample { number: self.number, load: zeroed, streamed });
             self.line.send(&frame);
         }
     }
@@ -161,12 +181,12 @@ impl<Device: SerialDevice> SimulatedSerial<Device> {
 }
 
 /// Takes requests: whole ones, in pieces, or among bytes that mean nothing.
-impl<Device: SerialDevice> Write for SimulatedSerial<Device> {
+impl Write for SimulatedSerial {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.heard.extend_from_slice(bytes);
         let mut at = 0;
         while let Some(rest) = self.heard.get(at..).filter(|rest| !rest.is_empty()) {
-            match self.device.request(rest) {
+            match (self.device.request)(rest) {
                 Some((request, length)) => {
                     self.heard.drain(..at + length.max(1));
                     at = 0;
@@ -186,23 +206,9 @@ impl<Device: SerialDevice> Write for SimulatedSerial<Device> {
     }
 }
 
-impl<Device> Read for SimulatedSerial<Device> {
+impl Read for SimulatedSerial {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         self.line.read(buffer)
-    }
-}
-
-impl<D: SerialDevice + ?Sized> SerialDevice for Box<D> {
-    fn streams(&self) -> bool {
-        (**self).streams()
-    }
-
-    fn request(&self, heard: &[u8]) -> Option<(SerialRequest, usize)> {
-        (**self).request(heard)
-    }
-
-    fn frame(&self, sample: &SerialSample) -> Vec<u8> {
-        (**self).frame(sample)
     }
 }
 
@@ -211,33 +217,25 @@ mod tests {
     use super::*;
 
     /// Streams on `go`, stops on `no`, and answers `x` with one reading; a reading is its number.
-    struct Simple;
-
-    impl SerialDevice for Simple {
-        fn streams(&self) -> bool {
-            false
-        }
-
-        fn request(&self, heard: &[u8]) -> Option<(SerialRequest, usize)> {
-            match heard {
+    fn simple() -> SerialDevice {
+        SerialDevice::new(
+            false,
+            |heard| match heard {
                 [b'g', b'o', ..] => Some((SerialRequest::Stream, 2)),
                 [b'n', b'o', ..] => Some((SerialRequest::Stop, 2)),
                 [b'z', ..] => Some((SerialRequest::Zero { set: true }, 1)),
                 [b'x', ..] => Some((SerialRequest::Single, 1)),
                 [b'?', ..] => Some((SerialRequest::Tell(b"me".to_vec()), 1)),
                 _ => None,
-            }
-        }
-
-        fn frame(&self, sample: &SerialSample) -> Vec<u8> {
-            alloc::vec![sample.number as u8, sample.load[0] as u8, u8::from(sample.streamed)]
-        }
+            },
+            |sample| alloc::vec![sample.number as u8, sample.load[0] as u8, u8::from(sample.streamed)],
+        )
     }
 
     #[test]
     fn requests_are_heard_among_noise_and_in_pieces() {
-        let mut sensor = SimulatedSerial::new(Simple, LineFaults::default());
-        let said = |sensor: &mut SimulatedSerial<Simple>, request: &[u8], load: f64| {
+        let mut sensor = SimulatedSerial::new(simple(), LineFaults::default());
+        let said = |sensor: &mut SimulatedSerial, request: &[u8], load: f64| {
             sensor.write_all(request).unwrap();
             sensor.sample([load; 6]);
             let mut bytes = Vec::new();

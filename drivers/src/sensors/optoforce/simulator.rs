@@ -21,12 +21,14 @@ impl SimulatedOptoForce {
     }
 }
 
-impl SerialDevice for SimulatedOptoForce {
-    fn streams(&self) -> bool {
-        true
+impl From<SimulatedOptoForce> for SerialDevice {
+    fn from(device: SimulatedOptoForce) -> Self {
+        Self::new(true, SimulatedOptoForce::request, move |sample| device.frame(sample))
     }
+}
 
-    fn request(&self, heard: &[u8]) -> Option<(SerialRequest, usize)> {
+impl SimulatedOptoForce {
+    fn request(heard: &[u8]) -> Option<(SerialRequest, usize)> {
         let Configuration { rate, zero, .. } = Configuration::parse(heard.first_chunk()?)?;
         Some((SerialRequest::Configure { stream: rate != Rate::Stop, zero }, Configuration::LENGTH))
     }

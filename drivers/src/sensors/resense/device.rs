@@ -26,7 +26,7 @@ pub(crate) const ENTRY: Entry = Entry {
             ),
         ],
         simulator: Some(Simulator::Serial(|_| SerialSimulator {
-            device: Box::new(SimulatedResense::streaming()),
+            device: SimulatedResense::streaming().into(),
             options: "?greatest_N=200&greatest_Nm=10".to_owned(),
         })),
     },

@@ -25,11 +25,14 @@ impl SimulatedResense {
     }
 }
 
-impl SerialDevice for SimulatedResense {
-    fn streams(&self) -> bool {
-        self.request.is_empty()
+impl From<SimulatedResense> for SerialDevice {
+    fn from(device: SimulatedResense) -> Self {
+        let (streams, same) = (device.request.is_empty(), device.clone());
+        Self::new(streams, move |heard| same.request(heard), move |sample| device.frame(sample))
     }
+}
 
+impl SimulatedResense {
     fn request(&self, heard: &[u8]) -> Option<(SerialRequest, usize)> {
         let length = self.request.len();
         (length > 0 && heard.starts_with(&self.request)).then_some((SerialRequest::Single, length))

@@ -20,7 +20,7 @@ pub(crate) const SERIAL: Entry = Entry {
         place: Some("/dev/ttyUSB0"),
         options: &COUNTS,
         simulator: Some(Simulator::Serial(|_| SerialSimulator {
-            device: Box::new(SimulatedRft::new(RFT60)),
+            device: SimulatedRft::new(RFT60).into(),
             options: String::new(),
         })),
     },

@@ -22,12 +22,14 @@ impl SimulatedRft {
     }
 }
 
-impl SerialDevice for SimulatedRft {
-    fn streams(&self) -> bool {
-        false
+impl From<SimulatedRft> for SerialDevice {
+    fn from(device: SimulatedRft) -> Self {
+        Self::new(false, SimulatedRft::request, move |sample| device.frame(sample))
     }
+}
 
-    fn request(&self, heard: &[u8]) -> Option<(SerialRequest, usize)> {
+impl SimulatedRft {
+    fn request(heard: &[u8]) -> Option<(SerialRequest, usize)> {
         let request = match Request::parse_serial(heard.first_chunk()?)? {
             Request::Stream => SerialRequest::Stream,
             Request::Stop => SerialRequest::Stop,

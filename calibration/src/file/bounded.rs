@@ -1,0 +1,28 @@
+//! Texts of bounded length.
+
+use std::fs::File;
+use std::io::{self, Read as _};
+use std::path::Path;
+
+/// The longest file that is read \[MiB\]: a calibration has some kilobytes.
+const LONGEST: u64 = 16;
+
+/// All of a file, unless it is longer than any that is meant.
+pub(super) fn read_to_string(path: &Path) -> io::Result<String> {
+    let mut text = String::new();
+    let most = LONGEST << 20;
+    let length = File::open(path)?.take(most + 1).read_to_string(&mut text)?;
+    if length as u64 > most {
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, format!("it is longer than {LONGEST} MiB")));
+    }
+    Ok(text)
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    #[test]
+    fn a_file_without_an_end_is_refused() {
+        let error = super::read_to_string("/dev/zero".as_ref()).unwrap_err().to_string();
+        assert!(error.contains("longer than 16 MiB"), "{error}");
+    }
+}

@@ -1,0 +1,62 @@
+//! What an MCAP file holds.
+
+use alloc::collections::BTreeMap;
+
+use fingertip_recordings::mcap::{McapError, Recorded};
+
+use super::{Info, Topic};
+use crate::error::CliError;
+use crate::input::Input;
+use crate::recording_file::{cut, mcap};
+
+pub(super) fn of(input: &Input) -> Result<Info, CliError> {
+    let mut info = Info { file: input.name(), format: "mcap", ..Info::default() };
+    let mut topics: BTreeMap<String, Topic> = BTreeMap::new();
+    let mut reader = input.entries()?;
+    let mut damaged = 0_u64;
+    loop {
+        let entry = match reader.next_entry() {
+            Ok(Some(entry)) => entry,
+            Ok(None) => break,
+            Err(McapError::Cut) => {
+                info.notes.push(cut(input.path(), reader.messages()));
+                break;
+            }
+            Err(McapError::Message { .. }) => {
+                damaged += 1;
+                continue;
+            }
+            Err(error) => return Err(mcap(input.path(), &error)),
+        };
+        info.steps.add(entry.time);
+        let name = entry.topic;
+        let topic = topics.entry(name).or_insert_with_key(|name| Topic {
+            name: name.clone(),
+            holds: holds(&entry.recorded),
+            frame: entry.frame,
+            messages: 0,
+            steps: super::Steps::default(),
+        });
+        topic.messages += 1;
+        topic.steps.add(entry.time);
+    }
+    info.samples = reader.messages();
+    if damaged > 0 {
+        info.notes.push(format!("{damaged} messages are not what their definition says"));
+    }
+    info.topics = topics.into_values().collect();
+    // Of several topics beside one another the times of all say nothing.
+    if info.topics.len() > 1 {
+        info.steps = super::Steps::default();
+    }
+    Ok(info)
+}
+
+fn holds(recorded: &Recorded) -> String {
+    match recorded {
+        Recorded::Wrench(_) => "wrenches [N, N·m]".to_owned(),
+        Recorded::Signals(signals) => format!("{} signals [{}]", signals.values.len(), signals.unit),
+        Recorded::Contact(_) => "contacts".to_owned(),
+        _ => "messages of a type that is not read".to_owned(),
+    }
+}

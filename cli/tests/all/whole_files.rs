@@ -1,0 +1,173 @@
+//! Files appear whole or not at all, and never in the place of another that is wanted.
+
+use std::fs;
+use std::io::Write as _;
+use std::process::{Child, Command, Stdio};
+
+use crate::common::{Folder, scene};
+
+const HEADER: &str = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n";
+
+fn recording(rows: usize) -> String {
+    let rows: String = (0..rows).map(|row| format!("{row}e-3,-2,0,0,0,0,0\n")).collect();
+    format!("{HEADER}{rows}")
+}
+
+/// The names in a folder, in order.
+fn names(folder: &Folder) -> Vec<String> {
+    let all = fs::read_dir(folder.path("")).unwrap();
+    let mut all: Vec<String> = all.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    all.sort();
+    all
+}
+
+/// `analyze` of what comes through a pipe, so many rows of which have come: it waits for more.
+#[cfg(unix)]
+fn waiting(folder: &Folder, more: &[&str]) -> Child {
+    let made = Command::new("mkfifo").arg(folder.path("pipe")).status().unwrap();
+    assert!(made.success());
+    let sphere = scene("paper_sphere.toml");
+    let text = fs::read_to_string(sphere).unwrap().replace("rest_s", "# rest_s");
+    folder.write("scene.toml", &text);
+    let arguments = ["analyze", "pipe", "--scene", "scene.toml", "--no-report"];
+    let child = folder.command(&[&arguments, more].concat()).stderr(Stdio::null()).spawn().unwrap();
+    let mut pipe = fs::OpenOptions::new().write(true).open(folder.path("pipe")).unwrap();
+    pipe.write_all(recording(5000).as_bytes()).unwrap();
+    while !folder.has_begun("contacts.csv") {
+        std::thread::sleep(core::time::Duration::from_millis(5));
+    }
+    // The writing end stays open as long as the child lives.
+    core::mem::forget(pipe);
+    child
+}
+
+#[cfg(unix)]
+fn signal(child: &mut Child, signal: &str) -> Option<i32> {
+    Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+    child.wait().unwrap().code()
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interruption_leaves_nothing() {
+    let folder = Folder::new();
+    let mut child = waiting(&folder, &[]);
+    assert_eq!(signal(&mut child, "-INT"), Some(130));
+    assert_eq!(names(&folder), ["pipe", "scene.toml"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_end_without_warning_leaves_the_file_that_was_there() {
+    let folder = Folder::new();
+    folder.write("contacts.csv", "of yesterday\n");
+    let mut child = waiting(&folder, &["--overwrite"]);
+    assert_eq!(signal(&mut child, "-KILL"), None);
+    assert_eq!(folder.read("contacts.csv"), "of yesterday\n");
+    let left = names(&folder);
+    let [whole, half, ..] = left.as_slice() else { panic!("{left:?}") };
+    assert!(whole == "contacts.csv" && half.starts_with("contacts.unfinished-"), "{left:?}");
+}
+
+#[test]
+fn what_fails_leaves_the_file_that_was_there() {
+    let folder = Folder::new();
+    folder.write("contacts.csv", "of yesterday\n");
+    folder.write("bad.csv", &format!("{}x,1,2\n", recording(9)));
+    let sphere = scene("paper_sphere.toml");
+    folder.fail(1, &["analyze", "bad.csv", "--scene", &sphere, "--no-report", "--overwrite"]);
+    assert_eq!(folder.read("contacts.csv"), "of yesterday\n");
+    assert_eq!(names(&folder), ["bad.csv", "contacts.csv"]);
+}
+
+/// Every command refuses to write over a file, and leaves it.
+#[test]
+fn every_command_asks_before_it_writes_over_a_file() {
+    let folder = Folder::new();
+    folder.write("loads.csv", "fx_N,v1_V\n0,0\n1,1\n2,2.01\n3,2.99\n4,4\n");
+    folder.succeed(&["calibrate", "loads.csv", "-o", "tip.toml"]);
+    folder.write("rest.csv", "v1_V\n0.1\n0.1\n");
+    folder.write("a.csv", &recording(9));
+    let (sphere, mine) = (scene("paper_sphere.toml"), "mine\n");
+    for name in ["mine.toml", "mine.html", "mine.csv", "mine.mcap", "mine.rs", "mine.json"] {
+        folder.write(name, mine);
+    }
+    for arguments in [
+        &["analyze", "a.csv", "--scene", &sphere, "--output", "mine.csv"][..],
+        &["analyze", "a.csv", "--scene", &sphere, "--report", "mine.html"],
+        &["calibrate", "loads.csv", "-o", "mine.toml"],
+        &["calibrate", "loads.csv", "-o", "new.toml", "--html", "mine.html"],
+        &["calibrate", "loads.csv", "-o", "new.toml", "--stream", "--rust", "mine.rs"],
+        &["check", "tip.toml", "loads.csv", "--json", "mine.json"],
+        &["tare", "tip.toml", "rest.csv", "-o", "mine.toml"],
+        &["convert", "a.csv", "mine.mcap"],
+        &["demo", "--out", "mine.html"],
+        &["design", "--force", "9", "--out", "mine.toml"],
+        &["export", &sphere, "--rust", "mine.rs"],
+        &["record", "sim", "-o", "mine.csv"],
+        &["scene", "init", "mine.toml"],
+    ] {
+        let output = folder.exact_command(arguments).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            error.contains("it exists already; give another name, or --overwrite"),
+            "{arguments:?}: {error}"
+        );
+    }
+    for name in ["mine.toml", "mine.html", "mine.csv", "mine.mcap", "mine.rs", "mine.json"] {
+        assert_eq!(folder.read(name), mine, "{name}");
+    }
+    assert!(!folder.path("new.toml").exists(), "one of two files was written");
+    folder.succeed(&["tare", "tip.toml", "rest.csv", "-o", "tip.toml", "--overwrite"]);
+    folder.succeed(&["scene", "init", "mine.toml", "--overwrite"]);
+}
+
+/// A file is the same file by whatever name.
+#[test]
+fn files_are_compared_by_what_they_are() {
+    let folder = Folder::new();
+    let text = recording(9);
+    folder.write("a.csv", &text);
+    fs::hard_link(folder.path("a.csv"), folder.path("b.csv")).unwrap();
+    let sphere = scene("paper_sphere.toml");
+    let analyze = ["analyze", "a.csv", "--scene", &sphere, "--overwrite"];
+    let error = folder.fail(1, &[&analyze[..], &["--no-report", "--output", "b.csv"]].concat());
+    assert!(error.contains("b.csv is also an input of this run"), "{error}");
+    assert_eq!((folder.read("a.csv"), folder.read("b.csv")), (text.clone(), text));
+    let error = folder.fail(1, &[&analyze[..], &["--output", "x", "--report", "./x"]].concat());
+    assert!(error.contains("x and ./x are the same file"), "{error}");
+    folder.write("loads.csv", "fx_N,v1_V\n0,0\n1,1\n2,2.01\n3,2.99\n4,4\n");
+    let error = folder.fail(1, &["calibrate", "loads.csv", "-o", "x", "--html", "x"]);
+    assert!(error.contains("x and x are the same file; give two outputs two names"), "{error}");
+    assert!(!folder.path("x").exists());
+}
+
+/// What a link leads to is replaced, not the link; a file keeps who may read it.
+#[cfg(unix)]
+#[test]
+fn links_stay_links_and_rights_stay() {
+    use std::os::unix::fs::{PermissionsExt as _, symlink};
+
+    let folder = Folder::new();
+    folder.write("a.csv", &recording(9));
+    folder.write("real.mcap", "old");
+    fs::set_permissions(folder.path("real.mcap"), fs::Permissions::from_mode(0o640)).unwrap();
+    symlink("real.mcap", folder.path("link.mcap")).unwrap();
+    folder.succeed(&["convert", "a.csv", "link.mcap", "--overwrite"]);
+    assert!(fs::symlink_metadata(folder.path("link.mcap")).unwrap().is_symlink());
+    let meta = fs::metadata(folder.path("real.mcap")).unwrap();
+    assert!(meta.len() > 100 && meta.permissions().mode() & 0o777 == 0o640, "{meta:?}");
+    assert_eq!(names(&folder), ["a.csv", "link.mcap", "real.mcap"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_called_one() {
+    let folder = Folder::new();
+    folder.write("a.csv", &recording(2000));
+    let sphere = scene("paper_sphere.toml");
+    let error =
+        folder.fail(1, &["analyze", "a.csv", "--scene", &sphere, "--no-report", "--output", "/dev/full"]);
+    assert!(error.contains("No space left on device") && error.contains("make room"), "{error}");
+}

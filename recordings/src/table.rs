@@ -1,0 +1,189 @@
+//! The cells of a CSV, row by row.
+
+use core::fmt;
+use std::io::{Chain, Cursor, Read};
+
+use csv::ByteRecord;
+
+use crate::bounded::Bounded;
+use crate::error::RecordingError;
+use crate::start::{comments, delimiter, read_start};
+
+/// Reads the rows of any CSV with a header, in memory that does not grow with the file: what
+/// [`RecordingReader`](crate::RecordingReader) and every other reader of tables stand on. Columns are parted by commas,
+/// or by semicolons or tabs where the header has no comma; lines that begin with `#`, and blank ones, are passed over.
+pub struct TableReader<R> {
+    file: String,
+    csv: csv::Reader<Bounded<Chain<Cursor<Vec<u8>>, R>>>,
+    pub(super) record: ByteRecord,
+    names: Vec<String>,
+    comments: Vec<String>,
+    line: u64,
+    cut_line: Option<u64>,
+}
+
+impl<R> fmt::Debug for TableReader<R> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { file, names, line, .. } = self;
+        f.debug_struct("TableReader")
+            .field("file", file)
+            .field("names", names)
+            .field("line", line)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<R: Read> TableReader<R> {
+    /// Reads the header of `input`; `file` is what errors call it. No buffer is needed around it.
+    ///
+    /// # Errors
+    /// [`RecordingError`] if it cannot be read or there is no header.
+    pub fn new(file: impl Into<String>, mut input: R) -> Result<Self, RecordingError> {
+        let file = file.into();
+        let start = match read_start(&mut input) {
+            Ok(start) => start,
+            Err(source) => return Err(RecordingError::Read { file, line: 0, source }),
+        };
+        let (delimiter, comments) = (delimiter(&start), comments(&start));
+        let csv = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .comment(Some(b'#'))
+            .delimiter(delimiter)
+            // A carriage return before it is trimmed with the blanks around a cell.
+            .terminator(csv::Terminator::Any(b'\n'))
+            .buffer_capacity(1 << 16)
+            .from_reader(Bounded::new(Cursor::new(start).chain(input)));
+        let record = ByteRecord::new();
+        let mut table = Self { file, csv, record, names: Vec::new(), comments, line: 0, cut_line: None };
+        if !table.advance_to_any()? {
+            return Err(RecordingError::Empty { file: table.file });
+        }
+        let name =
+            |cell: &[u8]| String::from_utf8_lossy(cell).trim_start_matches('\u{feff}').trim().to_owned();
+        table.names = table.record.iter().map(name).collect();
+        Ok(table)
+    }
+
+    /// The names of the columns.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The comments above the header, without their `#`.
+    #[must_use]
+    pub fn comments(&self) -> &[String] {
+        &self.comments
+    }
+
+    /// What errors call the file.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// The line of the row at hand, counting from 1.
+    #[must_use]
+    pub const fn line(&self) -> u64 {
+        self.line
+    }
+
+    /// The line that the file ends in, if that was cut: it has no end, and its last cells are missing or no numbers.
+    /// It is not among the rows.
+    #[must_use]
+    pub const fn cut_line(&self) -> Option<u64> {
+        self.cut_line
+    }
+
+    /// Bytes taken from the input so far, those read ahead included: for a progress bar.
+    #[must_use]
+    pub fn bytes_read(&self) -> u64 {
+        self.csv.get_ref().total()
+    }
+
+    /// Goes to the next row; `false` at the end.
+    ///
+    /// # Errors
+    /// [`RecordingError`] for a row with too few or too many cells, or if reading fails. The next call goes on behind
+    /// the bad row.
+    pub fn advance(&mut self) -> Result<bool, RecordingError> {
+        if !self.advance_to_any()? {
+            return Ok(false);
+        }
+        let (expected, found) = (self.names.len(), self.record.len());
+        if expected == found {
+            return Ok(true);
+        }
+        if found < expected && self.is_at_cut_end() {
+            self.cut_line = Some(self.line);
+            return Ok(false);
+        }
+        Err(RecordingError::Ragged { file: self.file.clone(), line: self.line, expected, found })
+    }
+
+    /// The text of a cell of the row at hand, without blanks around it; empty if it is no UTF-8.
+    #[must_use]
+    pub fn text(&self, column: usize) -> &str {
+        let cell = self.record.get(column).unwrap_or_default().trim_ascii();
+        core::str::from_utf8(cell).unwrap_or_default()
+    }
+
+    /// Whether this cell, which says nothing, is where the file was cut: the row at hand is then none.
+    pub fn is_cut_in(&mut self, column: usize) -> bool {
+        let is_cut = column + 1 == self.names.len() && self.is_at_cut_end();
+        if is_cut {
+            self.cut_line = Some(self.line);
+        }
+        is_cut
+    }
+
+    /// Whether the file ends in the row at hand, without the end of the line.
+    fn is_at_cut_end(&self) -> bool {
+        let input = self.csv.get_ref();
+        // The end that was added is a byte that the file does not have.
+        input.has_added_end() && self.csv.position().byte() > input.total()
+    }
+
+    /// Goes to the next line that is not blank.
+    fn advance_to_any(&mut self) -> Result<bool, RecordingError> {
+        loop {
+            self.csv.get_mut().start_record();
+            match self.csv.read_byte_record(&mut self.record) {
+                Ok(true) if is_blank(&self.record) => {}
+                Ok(true) => {
+                    self.line = line_of_record(&self.csv);
+                    return Ok(true);
+                }
+                Ok(false) => return Ok(false),
+                Err(error) => {
+                    let reached = self.csv.get_ref().reached();
+                    return Err(read_error(self.file.clone(), self.line, reached, error));
+                }
+            }
+        }
+    }
+}
+
+#[cold]
+fn read_error(file: String, line: u64, too_long: bool, error: csv::Error) -> RecordingError {
+    if too_long {
+        return RecordingError::TooLong { file, line, limit: Bounded::<()>::LIMIT };
+    }
+    let source = match error.into_kind() {
+        csv::ErrorKind::Io(source) => source,
+        other => std::io::Error::other(format!("{other:?}")),
+    };
+    RecordingError::Read { file, line, source }
+}
+
+/// The line of the record read last: every record ends with a line end, which has been counted. (The
+/// position of the record itself is that of the comments and empty lines before it.)
+fn line_of_record<R: Read>(csv: &csv::Reader<R>) -> u64 {
+    csv.position().line().saturating_sub(1)
+}
+
+/// A line of nothing but blanks.
+fn is_blank(record: &ByteRecord) -> bool {
+    record.len() <= 1 && record.get(0).is_none_or(|cell| cell.trim_ascii().is_empty())
+}
