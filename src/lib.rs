@@ -15,6 +15,8 @@ mod touch_sensor;
 pub use fingertip_contact as contact;
 #[cfg(feature = "friction")]
 pub use fingertip_friction as friction;
+#[cfg(feature = "hand")]
+pub use fingertip_hand as hand;
 pub use fingertip_surfaces as surfaces;
 pub use fingertip_wrench as wrench;
 

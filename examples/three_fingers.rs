@@ -1,0 +1,73 @@
+//! Three fingertips lift a jar: what it weighs, how firmly to grip, what happens when one slips.
+//!
+//! `cargo run --example three_fingers --features hand`
+
+use fingertip::friction::SlipVerdict;
+use fingertip::hand::{
+    FingerLimits, FingerSample, Grasp, GraspContact, Hand, HandController, HandSettings, HandState,
+    ObjectWeight, UncertainWrench,
+};
+use fingertip::wrench::{ContactForce, Wrench};
+use nalgebra::{Matrix6, Vector3};
+
+/// Samples of 1 ms.
+const STEP: f64 = 1e-3;
+
+fn main() -> Result<(), Box<dyn core::error::Error>> {
+    // The jar: 300 g, its middle 2 cm below the fingers. Three soft fingertips around it.
+    let (mass, centre, gravity) = (0.3, Vector3::new(0.005, 0.0, -0.02), Vector3::new(0.0, 0.0, -9.81));
+    let mut contacts = [None; 3];
+    for (contact, angle) in contacts.iter_mut().zip([0.0, 2.1, 4.2_f64]) {
+        let outward = Vector3::new(angle.cos(), angle.sin(), 0.0);
+        *contact = Some(GraspContact::<f64, Hand>::soft(outward * 0.04, -outward, 0.6, 2e-3)?);
+    }
+    let grasp = Grasp::new(contacts);
+    println!("force closure: {:?}", grasp.force_closure());
+
+    let settings = HandSettings {
+        safety: 1.3,
+        rise: 200.0,
+        fall: 2.0,
+        at_slip: 0.8,
+        least_friction: 0.1,
+        greatest_ratio: 3.0,
+    };
+    let limits = FingerLimits::<f64, 2>::none().with_least_normal(0.3)?.with_greatest_normal(15.0)?;
+    let mut hand = HandController::new(settings, [limits; 3])?;
+    let mut weight = ObjectWeight::new();
+    let noise = Matrix6::from_diagonal(&[4e-4, 4e-4, 4e-4, 4e-8, 4e-8, 4e-8].into());
+
+    for sample in 0..500 {
+        // Lifting takes the weight over in 0.1 s; afterwards the hand tilts. The finger 1 slips once.
+        let share = (f64::from(sample) / 100.0).min(1.0);
+        let tilt = 0.5 * (f64::from(sample - 150).max(0.0) / 350.0);
+        let gravity = Vector3::new(gravity.z * tilt.sin(), 0.0, gravity.z * tilt.cos());
+        let load = Wrench::<f64, Hand>::from_force_at(&centre, gravity * (mass * share));
+        if sample > 120 {
+            weight.observe(&UncertainWrench { wrench: load, covariance: noise }, &gravity);
+        }
+        // What the fingers feel: about what they were told to, with a third of the weight each.
+        let mut fingers = [None; 3];
+        let present = hand.present();
+        for (finger, (index, (contact, normal))) in
+            fingers.iter_mut().zip(contacts.iter().zip(present).enumerate())
+        {
+            let Some(contact) = contact else { continue };
+            let force = ContactForce::new(normal, gravity * (mass * share / 3.0), 0.0);
+            let slips = index == 1 && sample == 300;
+            let slip = if slips { SlipVerdict::Slipping } else { SlipVerdict::Holding };
+            *finger = Some(FingerSample { contact: *contact, force, slip });
+        }
+        let command = hand.command(&fingers, &load, STEP);
+        if sample % 100 == 99 || (299..303).contains(&sample) {
+            let [a, b, c] = command.normal;
+            let holding = matches!(command.state, HandState::Holding);
+            println!("{sample:3} ms: press with {a:.2}, {b:.2}, {c:.2} N, holding: {holding}");
+        }
+    }
+    if let Some(found) = weight.estimate() {
+        println!("it weighs {:.1} g ± {:.1} g", found.mass * 1e3, found.mass_deviation * 1e3);
+        println!("its middle is at {:.1} mm below the fingers", -found.centre.z * 1e3);
+    }
+    Ok(())
+}

@@ -1,0 +1,86 @@
+//! Where the interior-point iteration is.
+
+use fingertip_wrench::Real;
+use nalgebra::Vector6;
+
+use crate::grip::block::Interior;
+
+/// One for each finger, and one for a disturbance that is to be as great as possible.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Each<A, const N: usize> {
+    pub(crate) fingers: [A; N],
+    pub(crate) extra: A,
+}
+
+impl<A: Copy, const N: usize> Each<A, N> {
+    pub(crate) const fn all(value: A) -> Self {
+        Self { fingers: [value; N], extra: value }
+    }
+
+    #[inline]
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &A> {
+        self.fingers.iter().chain(core::iter::once(&self.extra))
+    }
+
+    #[inline]
+    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut A> {
+        self.fingers.iter_mut().chain(core::iter::once(&mut self.extra))
+    }
+}
+
+/// An iterate of the homogeneous embedding: what is asked for is this over `tau`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Iterate<T: Real, const N: usize, const ROWS: usize> {
+    pub(crate) blocks: Each<Interior<T, ROWS>, N>,
+    pub(crate) twist: Vector6<T>,
+    pub(crate) tau: T,
+    pub(crate) kappa: T,
+}
+
+impl<T: Real, const N: usize, const ROWS: usize> Iterate<T, N, ROWS> {
+    pub(crate) fn middle() -> Self {
+        Self {
+            blocks: Each::all(Interior::middle()),
+            twist: Vector6::zeros(),
+            tau: T::one(),
+            kappa: T::one(),
+        }
+    }
+}
+
+impl<T: Real, const N: usize, const ROWS: usize> Iterate<T, N, ROWS> {
+    /// Whether all is finite and inside, as rounding may have it otherwise.
+    pub(crate) fn is_inside(&self) -> bool {
+        self.tau > T::zero()
+            && self.kappa > T::zero()
+            && self.tau.is_number()
+            && self.kappa.is_number()
+            && self.twist.iter().all(|x| x.is_number())
+            && self.blocks.iter().all(Interior::is_inside)
+    }
+
+    /// Takes a solution with `τ = 1` off the boundary, the further the more the problem has moved since.
+    pub(crate) fn lift(&mut self, moved: T) {
+        let up = (moved * T::literal(0.5)).max(T::literal(1e-3)).min(T::literal(0.5));
+        for inner in self.blocks.iter_mut() {
+            inner.y.x += up;
+            inner.z.x += up;
+            for row in &mut inner.rows {
+                row.slack += up;
+                row.price += up;
+            }
+        }
+        self.tau = T::one();
+        self.kappa = up;
+    }
+
+    /// The same direction with numbers near 1.
+    pub(crate) fn rescale(&mut self, factor: T) {
+        for inner in self.blocks.iter_mut() {
+            inner.scale(factor);
+        }
+        self.twist *= factor;
+        self.tau *= factor;
+        self.kappa *= factor;
+    }
+}

@@ -1,0 +1,222 @@
+//! Ferrari and Canny's ball: the least disturbance that a grasp cannot resist, whatever its direction.
+
+use fingertip_wrench::{Frame, Real, Wrench};
+use nalgebra::{Vector3, Vector6};
+
+use crate::grasp::Spectrum;
+use crate::{FingerLimits, Grasp, GripOutcome, LeastGrip, Reach};
+
+/// What counts as an effort of 1 N, and how torques compare with forces.
+///
+/// ```
+/// use fingertip_hand::Metric;
+///
+/// // One motor drives all fingers, and 1 N·m counts as 1 N at 30 mm.
+/// let metric = Metric::Total { length: 0.03 };
+/// assert_eq!(metric.length(), 0.03);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Metric<T> {
+    /// The normal forces sum to at most 1 N: the convex hull of the friction cones' wrenches (their `L¹`).
+    Total {
+        /// By which torques about the [centre](Grasp::centre) are divided \[m\].
+        length: T,
+    },
+    /// Each normal force is at most 1 N: the sum of the cones' wrenches (their `L^∞`).
+    Each {
+        /// By which torques about the [centre](Grasp::centre) are divided \[m\].
+        length: T,
+    },
+}
+
+impl<T: Real> Metric<T> {
+    /// By which torques are divided \[m\].
+    #[must_use]
+    pub const fn length(&self) -> T {
+        match self {
+            Self::Total { length } | Self::Each { length } => *length,
+        }
+    }
+}
+
+/// The radius of the greatest ball of wrenches that a grasp can bear for an effort of 1 N, between bounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GraspBall<T: Real, F: Frame> {
+    /// The radius is at least this \[N\]: certified, from what the grasp bears along six axes, both ways.
+    pub certified: T,
+    /// The radius is at most this \[N\]: found by a search from 24 starts, usually the radius itself; 2 % too
+    /// much was seen.
+    pub found: T,
+    /// The load of that size that is borne least: of unit length in the metric, about the origin of the frame.
+    pub weakest: Wrench<T, F>,
+}
+
+/// How many steps from each start.
+const STEPS: usize = 120;
+
+impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
+    /// The quality of Ferrari & Canny 1992 with round friction cones (`docs/theory/hand.md#ferrari-and-cannys-ball`):
+    /// zero without force closure; `None` if the metric's length is not positive and finite. It takes some dozen cone
+    /// programs: for planning, not for every sample.
+    ///
+    /// ```
+    /// use fingertip_hand::{Grasp, GraspContact, Metric};
+    /// use nalgebra::Vector3;
+    ///
+    /// let at = |x: f64| GraspContact::<f64>::soft(Vector3::x() * x, -Vector3::x() * x, 0.5, 3e-3);
+    /// let grasp = Grasp::new([Some(at(-0.02)?), Some(at(0.02)?)]);
+    /// let ball = grasp.ball(Metric::Each { length: 0.02 }).expect("a length");
+    /// // What it bears least is a torque about the line of the fingers: 2·μ·e/length.
+    /// assert!((ball.found - 2.0 * 0.5 * 3e-3 / 0.02).abs() < 1e-3);
+    /// assert!(ball.certified > 0.0 && ball.certified <= ball.found);
+    /// # Ok::<(), fingertip_hand::BadContact>(())
+    /// ```
+    #[must_use]
+    pub fn ball(&self, metric: Metric<T>) -> Option<GraspBall<T, F>> {
+        let length = metric.length();
+        if !(length > T::zero() && length.is_number()) {
+            return None;
+        }
+        if let Some(weakest) = self.not_borne(length) {
+            return Some(GraspBall { certified: T::zero(), found: T::zero(), weakest });
+        }
+        let ratio = self.length() / length;
+        let mut best = (T::GREATEST, Vector6::zeros());
+        // Axes, and the wrenches that the map itself bears best and worst.
+        let spectrum = Spectrum::new(self.blocks().flatten());
+        let axes = nalgebra::Matrix6::identity();
+        let starts = axes.column_iter().chain(spectrum.directions.column_iter());
+        for start in starts.flat_map(|start| [start.into_owned(), -start]) {
+            let mut direction = start;
+            for step in 0..STEPS {
+                let (support, wrench) = self.support(&direction, ratio, metric);
+                if support < best.0 {
+                    best = (support, direction);
+                }
+                // Down the subgradient in the sphere's tangent, by less and less.
+                let along = wrench - direction * support;
+                let size = along.norm_squared().root();
+                if !(size > T::EPSILON * wrench.amax()) {
+                    break;
+                }
+                let share = T::literal(0.5 / (1.0 + 0.15 * (step * step) as f64));
+                let next = direction - along * (share / size);
+                direction = next / next.norm_squared().root();
+            }
+        }
+        let (found, direction) = best;
+        let found = found.max(T::zero());
+        let certified =
+            if found > T::zero() { self.certify(&direction, metric).min(found) } else { T::zero() };
+        let weakest = -self.wrench_along(&direction, length);
+        Some(GraspBall { certified, found, weakest })
+    }
+
+    /// A load of unit length that no forces bear, if there is one. Then one along an axis is not borne either, and its
+    /// certificate is a direction in which the fingers give nothing.
+    fn not_borne(&self, length: T) -> Option<Wrench<T, F>> {
+        let mut least = LeastGrip::<T, N, 0>::new();
+        for axis in 0..12 {
+            let mut unit = Vector6::zeros();
+            for (i, x) in unit.iter_mut().enumerate() {
+                *x = T::literal(f64::from(u8::from(2 * i == axis)) - f64::from(u8::from(2 * i + 1 == axis)));
+            }
+            let load = self.wrench_along(&unit, length);
+            if let GripOutcome::CannotHold(why) = least.solve(self, &[FingerLimits::none(); N], &load) {
+                let velocity = why.velocity + why.turning.cross(&self.centre());
+                let turning = why.turning * length;
+                let size = (velocity.norm_squared() + turning.norm_squared()).root();
+                let [vx, vy, vz] = (velocity / size).into();
+                let [wx, wy, wz] = (turning / size).into();
+                return Some(self.wrench_along(&Vector6::new(vx, vy, vz, wx, wy, wz), length));
+            }
+            least.forget();
+        }
+        None
+    }
+
+    /// The load that a direction of the metric stands for.
+    fn wrench_along(&self, direction: &Vector6<T>, length: T) -> Wrench<T, F> {
+        let [fx, fy, fz, tx, ty, tz] = (*direction).into();
+        let force = Vector3::new(fx, fy, fz);
+        let torque = Vector3::new(tx, ty, tz) * length;
+        Wrench::on_fingertip(force, torque + self.centre().cross(&force))
+    }
+
+    /// The most that 1 N of effort gives along a unit wrench on the object, and the wrench that does.
+    fn support(&self, direction: &Vector6<T>, ratio: T, metric: Metric<T>) -> (T, Vector6<T>) {
+        let mut weighed = *direction;
+        for torque in weighed.iter_mut().skip(3) {
+            *torque *= ratio;
+        }
+        let (mut most, mut sum) = (T::zero(), Vector6::zeros());
+        for map in self.blocks().flatten() {
+            let pull = map.tr_mul(&weighed);
+            let sideways = (pull.y * pull.y + pull.z * pull.z + pull.w * pull.w).root();
+            let gain = pull.x + sideways;
+            let mut force = pull / if sideways > T::zero() { sideways } else { T::one() };
+            force.x = T::one();
+            match metric {
+                Metric::Total { .. } if gain > most => {
+                    most = gain;
+                    sum = map * force;
+                }
+                Metric::Each { .. } if gain > T::zero() => {
+                    most += gain;
+                    sum += map * force;
+                }
+                _ => {}
+            }
+        }
+        for torque in sum.iter_mut().skip(3) {
+            *torque *= ratio;
+        }
+        (most, sum)
+    }
+
+    /// The ball inside the hull of what is borne along six axes, one of them given, both ways.
+    fn certify(&self, direction: &Vector6<T>, metric: Metric<T>) -> T {
+        // A reflection that takes the first axis to the direction.
+        let mut mirror = *direction;
+        let sign = if mirror.x > T::zero() { T::one() } else { -T::one() };
+        mirror.x += sign;
+        let square = mirror.norm_squared();
+        let mut sum = T::zero();
+        for axis in 0..6 {
+            let mut unit = Vector6::<T>::zeros();
+            for (i, x) in unit.iter_mut().enumerate() {
+                *x = if i == axis { T::one() } else { T::zero() };
+            }
+            let unit = unit - mirror * (T::literal(2.0) * mirror.dot(&unit) / square);
+            let shortest = self.radius(&unit, metric).min(self.radius(&-unit, metric));
+            if !(shortest > T::zero()) {
+                return T::zero();
+            }
+            sum += T::one() / (shortest * shortest);
+        }
+        let radius = T::one() / sum.root();
+        if radius.is_number() { radius } else { T::zero() }
+    }
+
+    /// How much of a unit load 1 N of effort bears.
+    fn radius(&self, direction: &Vector6<T>, metric: Metric<T>) -> T {
+        let load = self.wrench_along(direction, metric.length());
+        match metric {
+            Metric::Total { .. } => {
+                match LeastGrip::<T, N, 0>::new().solve(self, &[FingerLimits::none(); N], &load) {
+                    GripOutcome::Held(grip) if grip.cost > T::zero() => T::one() / grip.cost,
+                    _ => T::zero(),
+                }
+            }
+            Metric::Each { .. } => {
+                let Ok(limits) = FingerLimits::<T, 1>::none().with_greatest_normal(T::one()) else {
+                    return T::zero();
+                };
+                match self.reach(&[limits; N], &Wrench::zero(), &load) {
+                    Reach::Times(times) => times,
+                    _ => T::zero(),
+                }
+            }
+        }
+    }
+}

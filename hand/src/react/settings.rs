@@ -1,0 +1,60 @@
+//! The habits of a gripping hand.
+
+use fingertip_wrench::Real;
+use thiserror::Error;
+
+/// Limits and habits of a hand; [`HandController::new`](crate::HandController::new) validates them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HandSettings<T> {
+    /// Factor of safety on friction, at least 1.
+    pub safety: T,
+    /// How fast a normal force may rise \[N/s\].
+    pub rise: T,
+    /// How fast it may fall \[N/s\]; slower than the rise, so that a grip is not lost to noise.
+    pub fall: T,
+    /// By what a finger's friction coefficient is multiplied when it slips, between 0 and 1.
+    pub at_slip: T,
+    /// Below what friction coefficient it is never taken, however often it slips.
+    pub least_friction: T,
+    /// The greatest friction ratio that a contact can have: a contact that asks for more is implausible, and its
+    /// force is not used.
+    pub greatest_ratio: T,
+}
+
+/// Why settings are none.
+///
+/// ```
+/// use fingertip_hand::{HandController, HandSettings, FingerLimits};
+///
+/// let settings = HandSettings {
+///     safety: 0.5, rise: 100.0, fall: 2.0, at_slip: 0.8, least_friction: 0.1, greatest_ratio: 3.0,
+/// };
+/// let error = HandController::new(settings, [FingerLimits::<f64, 1>::none(); 2]).unwrap_err();
+/// assert_eq!(error.to_string(), "the factor of safety must be at least 1 and finite");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("the {parameter} must be {requirement}")]
+pub struct BadHandSettings {
+    /// Which number.
+    pub parameter: &'static str,
+    /// What it must be.
+    pub requirement: &'static str,
+}
+
+impl<T: Real> HandSettings<T> {
+    /// The settings if they are some.
+    pub(crate) fn checked(self) -> Result<Self, BadHandSettings> {
+        let check = |good: bool, parameter, requirement| {
+            if good { Ok(()) } else { Err(BadHandSettings { parameter, requirement }) }
+        };
+        let positive = |x: T| x > T::zero() && x.is_number();
+        let one = T::one();
+        check(self.safety >= one && self.safety.is_number(), "factor of safety", "at least 1 and finite")?;
+        check(positive(self.rise), "rate of rise", "positive and finite")?;
+        check(positive(self.fall), "rate of fall", "positive and finite")?;
+        check(positive(self.at_slip) && self.at_slip < one, "factor at slip", "between 0 and 1")?;
+        check(positive(self.least_friction), "least friction coefficient", "positive and finite")?;
+        check(positive(self.greatest_ratio), "greatest friction ratio", "positive and finite")?;
+        Ok(self)
+    }
+}
