@@ -39,7 +39,9 @@ const SETTLING: u8 = 32;
 ///
 /// # What it can't tell
 /// A noise that begins: for some hundred samples its alarms are not those asked for. A disturbance that only ever
-/// *lowers* the ratio suddenly, without being slip, is not learnt.
+/// *lowers* the ratio suddenly, without being slip, is not learnt. And a stick-slip with great drops that goes on from the
+/// first sample of its life may be taken for noise: the line rebounds after a drop that was not called. Let it feel a
+/// second of hold first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdaptiveDropDetector<T> {
     tracker: RatioTracker<T>,
