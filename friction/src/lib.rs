@@ -12,8 +12,8 @@ pub mod testing;
 
 pub use bad_parameter::BadParameter;
 pub use dynamics::{
-    Bristle, BristleLaw, Coupled, Dahl, Drive, ElastoPlastic, Exponential, Implicit, Integrator, LuGre,
-    ReturnMap, Stribeck, StribeckFriction,
+    Advanced, Bristle, BristleLaw, Coupled, Dahl, Drive, ElastoPlastic, Exponential, Implicit, Integrator,
+    LuGre, ReturnMap, StepForce, Stribeck, StribeckFriction,
 };
 pub use estimate::{FrictionEstimate, KineticFriction, StaticFriction};
 pub use grip::{GripController, GripSettings};
@@ -25,6 +25,7 @@ pub use limits::{
 pub use limits::{LimitCurve, LimitPoint};
 pub use slip::run_length;
 pub use slip::{
-    Cusum, DropDetector, ForceNoise, IncipientSlip, LikelihoodRatio, LikelihoodRatioDetector,
-    NormalForceGate, RatioThreshold, SlipDetector, SlipVerdict, StickSlip, StickSlipDetector,
+    AdaptiveDropDetector, Cusum, DropDetector, ForceNoise, IncipientSlip, LikelihoodRatio,
+    LikelihoodRatioDetector, NormalForceGate, RatioThreshold, SlipDetector, SlipVerdict, StickSlip,
+    StickSlipDetector,
 };

@@ -56,7 +56,7 @@ pub(crate) fn of(scene: &Table) -> Vec<String> {
         ));
     }
     let detector = scene.get("slip").and_then(|slip| slip.get("detector")).and_then(Value::as_str);
-    if let (Some("drop" | "likelihood_ratio" | "stick_slip"), Some(rate)) =
+    if let (Some("drop" | "adaptive_drop" | "likelihood_ratio" | "stick_slip"), Some(rate)) =
         (detector, number("input", "sample_rate_Hz"))
         && rate < SLOW
     {

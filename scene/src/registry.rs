@@ -101,4 +101,5 @@ entries!(DETECTORS, "The detectors of `[slip]`.", "slip", "detector":
     "threshold", "the friction ratio passes the coefficient of [friction]", "noise_N = 0.01\nwarning_share = 0.8";
     "likelihood_ratio", "the friction ratio falls, suddenly or not", "noise_N = 0.01\nfalse_alarms_per_minute = 1.0";
     "stick_slip", "falls that come again and again", "noise_N = 0.01";
+    "adaptive_drop", "the friction ratio falls suddenly, in noise that is learnt: hum, vibration, steps of a converter", "noise_N = 0.01\nfalse_alarms_per_minute = 1.0";
 );

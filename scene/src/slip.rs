@@ -2,8 +2,8 @@
 
 use fingertip::SlipStage;
 use fingertip::friction::{
-    Cusum, DropDetector, ForceNoise, LikelihoodRatioDetector, NormalForceGate, RatioThreshold, SlipDetector,
-    SlipVerdict, StickSlip, StickSlipDetector,
+    AdaptiveDropDetector, Cusum, DropDetector, ForceNoise, LikelihoodRatioDetector, NormalForceGate,
+    RatioThreshold, SlipDetector, SlipVerdict, StickSlip, StickSlipDetector,
 };
 use fingertip::wrench::{ContactForce, Real};
 use serde::{Deserialize, Serialize};
@@ -40,6 +40,12 @@ pub(crate) enum SlipSection {
     StickSlip {
         #[serde(rename = "noise_N")]
         noise: f64,
+    },
+    AdaptiveDrop {
+        #[serde(rename = "noise_N")]
+        noise: f64,
+        #[serde(default = "one")]
+        false_alarms_per_minute: f64,
     },
 }
 
@@ -86,6 +92,14 @@ impl SlipSection {
                 let detector = LikelihoodRatioDetector::new(noise_of(noise)?, false_alarms_per_minute, rate)?;
                 Detector::LikelihoodRatio(Box::new(detector))
             }
+            Self::AdaptiveDrop { noise, false_alarms_per_minute } => {
+                let rate = sample_rate.ok_or(SceneProblem::Needs {
+                    what: "the `adaptive_drop` detector",
+                    needed: "`sample_rate_Hz` in [input]",
+                })?;
+                let detector = AdaptiveDropDetector::new(noise_of(noise)?, false_alarms_per_minute, rate)?;
+                Detector::AdaptiveDrop(Box::new(detector))
+            }
             Self::StickSlip { noise } => {
                 Detector::StickSlip(StickSlipDetector::new(DropDetector::new(noise_of(noise)?)?))
             }
@@ -104,6 +118,8 @@ pub enum Detector<T: Real> {
     LikelihoodRatio(Box<LikelihoodRatioDetector<T, WINDOW>>),
     /// Falls that come again and again.
     StickSlip(StickSlipDetector<T>),
+    /// A sudden fall, in noise that is learnt.
+    AdaptiveDrop(Box<AdaptiveDropDetector<T>>),
 }
 
 macro_rules! each_detector {
@@ -116,6 +132,10 @@ macro_rules! each_detector {
                 $call
             }
             Detector::StickSlip($detector) => $call,
+            Detector::AdaptiveDrop(boxed) => {
+                let $detector = &mut **boxed;
+                $call
+            }
         }
     };
 }

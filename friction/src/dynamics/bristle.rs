@@ -3,7 +3,7 @@
 use fingertip_wrench::Real;
 use nalgebra::SVector;
 
-use crate::{BristleLaw, Exponential, Integrator};
+use crate::{Advanced, BristleLaw, Exponential, Integrator};
 
 /// A friction law with its state: the deflection z \[m\].
 ///
@@ -22,6 +22,24 @@ pub struct Bristle<T: Real, Law, const D: usize, Method = Exponential> {
     load: T,
     _method: core::marker::PhantomData<Method>,
 }
+
+/// Friction over one step of a prescribed motion \[N\], along the motion that it opposes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepForce<T: Real, const D: usize> {
+    /// The mean over the step, its damping limited to what keeps it passive.
+    pub mean: SVector<T, D>,
+    /// At the end of the step, `σ₀z + σ₁ż + σ₂v` of the law.
+    pub end: SVector<T, D>,
+}
+
+impl<T: Real, const D: usize> StepForce<T, D> {
+    const fn constant(force: SVector<T, D>) -> Self {
+        Self { mean: force, end: force }
+    }
+}
+
+/// Parts of a step in which the share that slides changes, beside the last.
+const PARTS: u8 = 16;
 
 /// What acts on a body that friction holds, besides friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,29 +116,27 @@ impl<T: Real, Law: BristleLaw<T>, const D: usize, Method: Integrator> Bristle<T,
         ((share * speed / limit).min(T::GREATEST), limit)
     }
 
-    /// Moves by `velocity` over `time_step` and returns the friction force at its end, along the
-    /// motion that it opposes: a body that moves over the other feels minus this.
+    /// Moves by `velocity` over `time_step` and returns the friction force, along the motion that it opposes: a body
+    /// that moves over the other feels minus this. The mean over the step is what moves a body and what does work; it is
+    /// passive. The force at the end of the step is that of the law itself, for what is shown or compared.
     ///
     /// A motion or time that is not finite (or a negative time) changes nothing; the elastic force
     /// is returned.
     #[inline]
-    pub fn step(&mut self, velocity: &SVector<T, D>, time_step: T) -> SVector<T, D> {
+    pub fn step(&mut self, velocity: &SVector<T, D>, time_step: T) -> StepForce<T, D> {
         let path = velocity * time_step;
         let good = time_step >= T::zero()
             && time_step.is_number()
             && velocity.iter().chain(path.iter()).all(|x| x.is_number());
         if !good {
-            return self.elastic_force();
+            return StepForce::constant(self.elastic_force());
         }
         if !(self.load > T::zero()) {
             self.deflection = SVector::zeros();
-            return SVector::zeros();
+            return StepForce::constant(SVector::zeros());
         }
-        let before = self.deflection;
-        let (rate, limit) = self.slide(length(velocity), before.dot(velocity) < T::zero());
-        let slide = (rate * time_step).min(T::GREATEST);
-        let after = Method::advance(&before, &path, slide, limit);
-        let after = clamped(after, self.greatest_deflection()).0;
+        let (before, speed) = (self.deflection, length(velocity));
+        let Advanced { end: after, mean } = self.advanced(&path, speed, time_step);
         self.deflection = after;
 
         // The mean damping force over the step, no greater than passivity allows.
@@ -130,14 +146,65 @@ impl<T: Real, Law: BristleLaw<T>, const D: usize, Method: Integrator> Bristle<T,
         let power = change.dot(&path);
         if power < T::zero() {
             let half = T::literal(0.5);
-            let spare = after.dot(&path) - half * change.dot(&(after + before));
+            let spare = mean.dot(&path) - half * change.dot(&(after + before));
             damping = damping.min(spare.max(T::zero()) / -power);
         }
         // A step of no time, or of next to none.
         if !damping.is_number() {
             damping = T::zero();
         }
-        ((after + change * damping) * stiffness + velocity * self.law.viscous()) * self.load
+        let viscous = velocity * self.law.viscous();
+        let (rate, _) = self.slide(speed, after.dot(velocity) < T::zero());
+        // At a rate without bound the deflection is that of steady sliding, which does not change.
+        let pace = velocity - after * rate;
+        let damped = pace * self.law.damping();
+        let damped = if damped.iter().all(|x| x.is_number()) { damped } else { SVector::zeros() };
+        StepForce {
+            mean: ((mean + change * damping) * stiffness + viscous) * self.load,
+            end: (after * stiffness + damped + viscous) * self.load,
+        }
+    }
+
+    /// The deflection after a step. The share of the motion that slides is that of its start while it does not
+    /// change, as in LuGre's law; where it does, the way is divided, and each part takes that of its middle.
+    #[inline]
+    fn advanced(&self, path: &SVector<T, D>, speed: T, time_step: T) -> Advanced<T, D> {
+        let before = self.deflection;
+        let (rate, limit) = self.slide(speed, before.dot(path) < T::zero());
+        let slide = (rate * time_step).min(T::GREATEST);
+        let mut whole = Method::advance(&before, path, slide, limit);
+        whole.end = clamped(whole.end, self.greatest_deflection()).0;
+        let share = |deflection: &SVector<T, D>| {
+            self.law.plastic_share(length(deflection), deflection.dot(path) < T::zero(), speed)
+        };
+        let same = share(&before) == share(&whole.end);
+        if same { whole } else { self.divided(path, speed, limit) }
+    }
+
+    /// The same in parts, each no longer than a sixteenth of the way after which the deflection is near that of steady
+    /// sliding; the last takes what is left.
+    #[inline(never)]
+    fn divided(&self, path: &SVector<T, D>, speed: T, limit: T) -> Advanced<T, D> {
+        let way = length(path);
+        let settled = length(&self.deflection) + limit * T::literal(3.0);
+        let part = (settled / way * T::literal(1.0 / f64::from(PARTS))).min(T::one());
+        let (mut left, mut end, mut mean) = (T::one(), self.deflection, SVector::zeros());
+        for index in 0..=PARTS {
+            let taken = if index < PARTS { part.min(left) } else { left };
+            let step = path * taken;
+            let middle = clamped(end + step * T::literal(0.5), limit).0;
+            let opposed = middle.dot(path) < T::zero();
+            let share = self.law.plastic_share(length(&middle), opposed, speed);
+            let slide = (share * (way * taken / limit)).min(T::GREATEST);
+            let advanced = Method::advance(&end, &step, slide, limit);
+            end = clamped(advanced.end, self.greatest_deflection()).0;
+            mean += advanced.mean * taken;
+            left -= taken;
+            if !(left > T::zero()) {
+                break;
+            }
+        }
+        Advanced { end, mean }
     }
 
     /// Releases all deflection.

@@ -10,27 +10,39 @@ use super::bristle::clamped;
 /// All three keep `|z| ≤ F_s/σ₀`, do not let two states of the same law part (for α = 1), and are
 /// passive, for every step length (`docs/theory/friction.md#integrators`).
 pub trait Integrator: Copy {
-    /// The new deflection. `step` is `hv`, `slide` is `hλ` with
+    /// The new deflection, and the mean deflection over the step. `step` is `hv`, `slide` is `hλ` with
     /// `λ = α σ₀|v|/g`, and `limit` is `g/σ₀`.
     fn advance<T: Real, const D: usize>(
         deflection: &SVector<T, D>,
         step: &SVector<T, D>,
         slide: T,
         limit: T,
-    ) -> SVector<T, D>;
+    ) -> Advanced<T, D>;
 }
 
-/// Exact for a constant velocity: `z⁺ = z e^{−λh} + v h φ₁(λh)`.
+/// What an [`Integrator`] makes of a deflection.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Advanced<T: Real, const D: usize> {
+    /// The deflection at the end of the step \[m\].
+    pub end: SVector<T, D>,
+    /// Its mean over the step \[m\]. It is the one with which the law's own balance holds over the step,
+    /// `end − start = hv − hλ·mean`, while nothing is clamped.
+    pub mean: SVector<T, D>,
+}
+
+/// Exact for a constant velocity and a constant `α`: `z⁺ = z e^{−λh} + v h φ₁(λh)`, and the mean
+/// `z φ₁(λh) + v h φ₂(λh)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Exponential;
 
-/// Backward Euler: `z⁺ = (z + hv)/(1 + hλ)`. First order, without an exponential.
+/// Backward Euler: `z⁺ = (z + hv)/(1 + hλ)`. First order, without an exponential. The mean that goes with it is `z⁺`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Implicit;
 
-/// The rate-independent limit: elastic up to `g/σ₀`, then slides along (radial return).
+/// The rate-independent limit: elastic up to `g/σ₀`, then slides along (radial return). The mean is taken for
+/// `z⁺`: in this limit the deflection arrives at once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ReturnMap;
@@ -42,12 +54,15 @@ impl Integrator for Exponential {
         step: &SVector<T, D>,
         slide: T,
         _limit: T,
-    ) -> SVector<T, D> {
+    ) -> Advanced<T, D> {
         // 1 − e^{−x}, and φ₁(x) = (1 − e^{−x})/x.
         let fall = -(-slide).exp_m1();
         let mean = if slide > T::LEAST_NORMAL { fall / slide } else { T::one() };
         let decay = T::one() - fall;
-        deflection * decay + step * mean
+        Advanced {
+            end: deflection * decay + step * mean,
+            mean: deflection * mean + step * second(slide, mean),
+        }
     }
 }
 
@@ -58,8 +73,9 @@ impl Integrator for Implicit {
         step: &SVector<T, D>,
         slide: T,
         _limit: T,
-    ) -> SVector<T, D> {
-        (deflection + step) / (T::one() + slide)
+    ) -> Advanced<T, D> {
+        let end = (deflection + step) / (T::one() + slide);
+        Advanced { end, mean: end }
     }
 }
 
@@ -70,8 +86,18 @@ impl Integrator for ReturnMap {
         step: &SVector<T, D>,
         _slide: T,
         limit: T,
-    ) -> SVector<T, D> {
+    ) -> Advanced<T, D> {
         let (moved, _) = clamped(deflection + step, limit);
-        moved
+        Advanced { end: moved, mean: moved }
     }
+}
+
+/// `φ₂(x) = (1 − φ₁(x))/x`, from `φ₁(x)`; by its series where that cancels.
+#[inline]
+fn second<T: Real>(x: T, first: T) -> T {
+    if x > T::literal(1.0 / 64.0) {
+        return (T::one() - first) / x;
+    }
+    let terms = [-1.0 / 5040.0, 1.0 / 720.0, -1.0 / 120.0, 1.0 / 24.0, -1.0 / 6.0, 0.5];
+    terms.iter().fold(T::zero(), |sum, term| sum * x + T::literal(*term))
 }

@@ -5,7 +5,7 @@ mod bristle_law;
 mod integrator;
 mod stribeck;
 
-pub use bristle::{Bristle, Coupled, Drive};
+pub use bristle::{Bristle, Coupled, Drive, StepForce};
 pub use bristle_law::{BristleLaw, Dahl, ElastoPlastic, LuGre, StribeckFriction};
-pub use integrator::{Exponential, Implicit, Integrator, ReturnMap};
+pub use integrator::{Advanced, Exponential, Implicit, Integrator, ReturnMap};
 pub use stribeck::Stribeck;

@@ -5,12 +5,14 @@ use fingertip_wrench::{ContactForce, Real, stored};
 use crate::bad_parameter::positive;
 use crate::{BadParameter, Cusum, ForceNoise, FrictionEstimate, NormalForceGate};
 
-/// Fits `|f_t| = μ f_n` to the samples of a slide, with noise on both (Deming's regression through
-/// the origin) and exponential forgetting (`docs/theory/friction.md#kinetic-friction`):
+/// Fits `|f_t| = μ f_n` to the samples of a slide, with noise of known size on both, and exponential forgetting
+/// (`docs/theory/friction.md#kinetic-friction`), by the moments of functional regression (Fuller 1987):
 ///
-/// `μ = [S_tt − λS_nn + √((S_tt − λS_nn)² + 4λS_nt²)]/(2S_nt)`, `λ = σ_t²/σ_n²`.
+/// `μ² = (S_tt − 2σ_t² S_w)/(S_nn − σ_n² S_w)`.
 ///
-/// Plain least squares is biased low (the noise of `f_n` attenuates it), the mean of ratios high.
+/// The square of the tangential force has the noise of both its components, which makes its length too great (Rice);
+/// least squares is biased low (the noise of `f_n` attenuates it), the mean of ratios high. What was stated of the noise
+/// is taken off: stated too great by `δ` (in variance), the coefficient is low by `δ/f_t²` of itself.
 /// A two-sided cumulative sum of the residuals notices another surface, whereupon the sums start
 /// anew.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,9 +22,10 @@ pub struct KineticFriction<T> {
     memory: T,
     tangential: T,
     normal: T,
-    product: T,
-    /// Sum of `w² f_n²`, for the variance.
+    /// Sum of the weights `w`, and those of `w²` and `w² f_n²`, for the variance.
+    weights: T,
     squared_weights: T,
+    weighted_normal: T,
     samples: u32,
     above: Cusum<T>,
     below: Cusum<T>,
@@ -44,8 +47,9 @@ impl<T: Real> KineticFriction<T> {
             memory,
             tangential: T::zero(),
             normal: T::zero(),
-            product: T::zero(),
+            weights: T::zero(),
             squared_weights: T::zero(),
+            weighted_normal: T::zero(),
             samples: 0,
             above: sum,
             below: sum,
@@ -68,7 +72,9 @@ impl<T: Real> KineticFriction<T> {
         if self.samples >= 16
             && let Some(known) = self.estimate()
         {
-            let residual = tangential - known.coefficient * normal;
+            // The length of a vector with noise of its own: Rice's mean, to first order.
+            let length = crate::limits::cone::hypot(known.coefficient * normal, self.noise.tangential);
+            let residual = tangential - length;
             let scaled = known.coefficient * self.noise.normal;
             let wide = known.deviation * normal;
             let deviation =
@@ -86,11 +92,12 @@ impl<T: Real> KineticFriction<T> {
         let sums = (
             self.tangential * keep + t * t,
             self.normal * keep + n * n,
-            self.product * keep + t * n,
-            self.squared_weights * keep * keep + n * n,
+            self.weighted_normal * keep * keep + n * n,
         );
-        if sums.0.is_number() && sums.1.is_number() && sums.2.is_number() && sums.3.is_number() {
-            (self.tangential, self.normal, self.product, self.squared_weights) = sums;
+        if sums.0.is_number() && sums.1.is_number() && sums.2.is_number() {
+            (self.tangential, self.normal, self.weighted_normal) = sums;
+            self.weights = self.weights * keep + T::one();
+            self.squared_weights = self.squared_weights * keep * keep + T::one();
             self.samples = self.samples.saturating_add(1);
         }
     }
@@ -99,24 +106,25 @@ impl<T: Real> KineticFriction<T> {
     /// loaded slide. `surface_changed` holds from a change until [`acknowledge`](Self::acknowledge).
     #[must_use]
     pub fn estimate(&self) -> Option<FrictionEstimate<T>> {
-        if self.samples < 2 || !(self.product > T::zero()) {
+        if self.samples < 2 {
             return None;
         }
-        let lambda =
-            (self.noise.tangential / self.noise.normal) * (self.noise.tangential / self.noise.normal);
+        // At unit scale, so that no product over- or underflows.
         let unit = self.normal.max(self.tangential).normalising_factor();
-        let (tt, nn, nt) = (self.tangential * unit, self.normal * unit, self.product * unit);
-        let difference = tt - lambda * nn;
-        let root = crate::limits::cone::hypot(difference, T::literal(2.0) * lambda.root() * nt);
-        // The form without cancellation on either side.
-        let coefficient = if difference >= T::zero() {
-            (difference + root) / (nt + nt)
-        } else {
-            T::literal(2.0) * lambda * nt / (root - difference)
-        };
-        let scaled = coefficient * self.noise.normal;
-        let spread = (self.noise.tangential * self.noise.tangential + scaled * scaled).root();
-        let deviation = spread * self.squared_weights.root() / self.normal;
+        let square = |deviation: T| deviation * unit * deviation;
+        let (of_t, of_n) = (square(self.noise.tangential), square(self.noise.normal));
+        let tangential = self.tangential * unit - of_t * self.weights * T::literal(2.0);
+        let normal = self.normal * unit - of_n * self.weights;
+        if !(tangential > T::zero() && normal > T::zero()) {
+            return None;
+        }
+        let ratio = tangential / normal;
+        let coefficient = ratio.root();
+        // Of first order in the noise, and of second, which counts where the tangential force is small.
+        let first = (of_t + ratio * of_n)
+            * (self.weighted_normal * unit - of_n * self.squared_weights).max(T::zero());
+        let second = (of_t / ratio * of_t + T::literal(0.5) * ratio * of_n * of_n) * self.squared_weights;
+        let deviation = (first + second).root() / normal;
         (coefficient > T::zero() && coefficient.is_number() && deviation.is_number())
             .then_some(FrictionEstimate { coefficient, deviation, surface_changed: self.changed })
     }
@@ -135,8 +143,9 @@ impl<T: Real> KineticFriction<T> {
     fn forget(&mut self) {
         self.tangential = T::zero();
         self.normal = T::zero();
-        self.product = T::zero();
+        self.weights = T::zero();
         self.squared_weights = T::zero();
+        self.weighted_normal = T::zero();
         self.samples = 0;
         self.above.reset();
         self.below.reset();
@@ -166,11 +175,43 @@ mod tests {
     fn slide<T: Real>(rng: &mut Pcg64Mcg, mu: f64, sigma: f64) -> ContactForce<T> {
         let normal = rng.random_range(0.5..3.0);
         let noise: (f64, f64) = (StandardNormal.sample(rng), StandardNormal.sample(rng));
+        let across: f64 = StandardNormal.sample(rng);
         ContactForce::new(
             T::literal(normal + sigma * noise.0),
-            Vector3::new(T::zero(), T::literal(mu * normal + sigma * noise.1), T::zero()),
+            Vector3::new(T::literal(sigma * across), T::literal(mu * normal + sigma * noise.1), T::zero()),
             T::zero(),
         )
+    }
+
+    /// Light touches, of which the tangential force is four or five deviations of its noise: the 95 % interval holds
+    /// the truth in 93 to 97 % of 2000 slides.
+    #[test]
+    fn intervals_of_light_slides_hold() {
+        let mut rng = Pcg64Mcg::seed_from_u64(9);
+        let mut draw = || -> f64 { StandardNormal.sample(&mut rng) };
+        let noise = ForceNoise::isotropic(0.02).unwrap();
+        for (normal, mu) in [(0.4, 0.2), (1.0, 0.1), (0.4, 0.1), (3.0, 0.6)] {
+            let (mut held, mut sum, mut changed, trials) = (0.0, 0.0, 0, 2000.0);
+            for _ in 0..2000 {
+                let mut friction = KineticFriction::new(noise, 1.0).unwrap();
+                for _ in 0..200 {
+                    let (n, t) = (normal + 0.02 * draw(), mu * normal + 0.02 * draw());
+                    let force = ContactForce::new(n, Vector3::new(t, 0.02 * draw(), 0.0), 0.0);
+                    friction.observe(&force, 1e-3);
+                }
+                let found = friction.estimate().unwrap();
+                changed += u32::from(found.surface_changed);
+                sum += found.coefficient;
+                held += f64::from(u8::from((found.coefficient - mu).abs() < 1.96 * found.deviation));
+            }
+            let (bias, share) = (sum / trials / mu - 1.0, held / trials);
+            println!(
+                "{normal} N, {mu}: bias {:.2} %, {:.1} % held, {changed} changes",
+                100.0 * bias,
+                100.0 * share
+            );
+            assert!(bias.abs() < 0.004 && (0.93..0.97).contains(&share) && changed < 20, "{bias} {share}");
+        }
     }
 
     fn unbiased<T: Real>() {

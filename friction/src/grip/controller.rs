@@ -19,7 +19,7 @@ pub struct GripSettings<T> {
     pub rise: T,
     /// How fast it may fall \[N/s\]; slower than the rise, so that a grip is not lost to noise.
     pub fall: T,
-    /// The factor on the present command at each slip, at least 1.
+    /// The factor at each slip, at least 1, on the present command or, where that is more, on what the load needs.
     pub slip_boost: T,
 }
 
@@ -68,7 +68,8 @@ impl<T: Real> GripController<T> {
     ///
     /// `friction` is the limit to keep, with the coefficient one trusts: from the low quantile of
     /// an estimate, not from its mean. A contact force that is not finite, or a time step that is
-    /// not positive and finite, leaves the command as it is: a finger never opens on a fault.
+    /// not positive and finite, leaves the command as it is: a finger never opens on a fault. Nor does it on a limit that
+    /// answers with a NaN, which counts for the present command.
     #[inline]
     pub fn command(
         &mut self,
@@ -83,10 +84,14 @@ impl<T: Real> GripController<T> {
         }
         let settings = &self.settings;
         self.boosted = (self.boosted - settings.fall * time_step).max(settings.least);
-        if slip == SlipVerdict::Slipping {
-            self.boosted = (self.command * settings.slip_boost).clamp(settings.least, settings.greatest);
-        }
         let needed = friction.least_normal_force(force, settings.safety);
+        // Not where it is a NaN.
+        let needed = if needed >= T::zero() || needed < T::zero() { needed } else { self.command };
+        if slip == SlipVerdict::Slipping {
+            // Of a command of nothing no factor makes a grip.
+            let held = self.command.max(needed.min(settings.greatest));
+            self.boosted = (held * settings.slip_boost).clamp(settings.least, settings.greatest);
+        }
         let wanted = needed.max(self.boosted).clamp(settings.least, settings.greatest);
         let lowest = self.command - settings.fall * time_step;
         let highest = self.command + settings.rise * time_step;
@@ -120,7 +125,7 @@ stored! {
 #[cfg(test)]
 mod tests {
     use super::{GripController, GripSettings};
-    use crate::{Coulomb, SlipVerdict};
+    use crate::{Coulomb, FrictionModel, SlipMargin, SlipVerdict};
     use fingertip_wrench::{ContactForce, Real};
     use nalgebra::Vector3;
 
@@ -177,6 +182,50 @@ mod tests {
             grip.command(&friction, &load(2.0), SlipVerdict::Holding, 0.1);
         }
         assert!((grip.present() - 6.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_slip_tightens_a_grip_that_may_be_nothing() {
+        let friction = Coulomb::new(0.5).unwrap();
+        let mut grip = GripController::new(GripSettings { least: 0.0, ..settings::<f64>() }).unwrap();
+        assert_eq!(grip.present(), 0.0);
+        // 1.5 times 2 N over 0.5, and a quarter more.
+        grip.command(&friction, &load(2.0), SlipVerdict::Slipping, 1.0);
+        assert!((grip.present() - 7.5).abs() < 1e-12, "{}", grip.present());
+        // A command above that is what counts.
+        grip.start_at(8.0);
+        grip.command(&friction, &load(2.0), SlipVerdict::Slipping, 1.0);
+        assert!((grip.present() - 10.0).abs() < 1e-12, "{}", grip.present());
+    }
+
+    /// A limit that answers with what it is.
+    struct Answer(f64);
+
+    impl FrictionModel<f64> for Answer {
+        fn slip_margin(&self, _: &ContactForce<f64>) -> SlipMargin<f64> {
+            SlipMargin { newtons: self.0, utilisation: self.0 }
+        }
+
+        fn least_normal_force(&self, _: &ContactForce<f64>, _: f64) -> f64 {
+            self.0
+        }
+    }
+
+    #[test]
+    fn a_limit_that_fails_does_not_open_the_finger() {
+        for (answer, slip, wanted) in [
+            (f64::NAN, SlipVerdict::Holding, 6.0),
+            (f64::NAN, SlipVerdict::Slipping, 7.5),
+            (f64::INFINITY, SlipVerdict::Holding, 20.0),
+            (f64::INFINITY, SlipVerdict::Slipping, 20.0),
+            (-1.0, SlipVerdict::Holding, 4.0),
+            (f64::NEG_INFINITY, SlipVerdict::Holding, 4.0),
+        ] {
+            let mut grip = GripController::new(settings::<f64>()).unwrap();
+            grip.start_at(6.0);
+            grip.command(&Answer(answer), &load(1.0), slip, 1.0);
+            assert!((grip.present() - wanted).abs() < 1e-12, "{answer} {}", grip.present());
+        }
     }
 
     #[test]

@@ -155,16 +155,31 @@ impl<T: Real> FrictionLimit<T> for LoadDependentLimit<T> {
     /// With the arm at the normal force sought.
     fn normal_force_keeping(&self, force: &ContactForce<T>, margin: T) -> T {
         let margin = margin.max(T::zero());
-        // The certified margin is a little less than the frozen one: raise until it is kept.
-        let mut normal = self.least_with(force, T::one(), margin / self.cone.cosine);
-        for _ in 0..200 {
-            let there = ContactForce { normal, ..*force };
-            if self.slip_margin(&there).newtons >= margin {
-                return normal;
-            }
-            normal = saturated(normal * T::literal(1.0 + 1.0 / 64.0) + T::LEAST_NORMAL);
+        let kept = |normal: T| self.slip_margin(&ContactForce { normal, ..*force }).newtons >= margin;
+        let least = self.least_with(force, T::one(), margin / self.cone.cosine);
+        if kept(least) || !(least < T::GREATEST) {
+            return least;
         }
-        normal
+        // The certified margin is a little less than the frozen one, or just as great but for rounding: raise by twice
+        // as much each time until it is kept, then halve what was too much.
+        let raised = |raise: T| saturated(least + least * raise + T::LEAST_NORMAL);
+        let mut raise = T::EPSILON;
+        for _ in 0..64 {
+            if kept(raised(raise)) {
+                break;
+            }
+            raise += raise;
+        }
+        let (mut low, mut high) = (raise * T::literal(0.5), raise);
+        for _ in 0..12 {
+            let middle = (low + high) * T::literal(0.5);
+            if kept(raised(middle)) {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        raised(high)
     }
 
     /// With the arm at the present normal force; inside to rounding, since outside the normal

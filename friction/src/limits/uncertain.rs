@@ -50,9 +50,12 @@ impl<T: Real> UncertainCoulomb<T> {
     }
 
     /// The coefficient that is undercut with probability `probability` (a low quantile, for
-    /// control); not below zero.
+    /// control); not below zero, and zero for a NaN.
     #[must_use]
     pub fn quantile(&self, probability: f64) -> T {
+        if probability.is_nan() {
+            return T::zero();
+        }
         let coefficient = self.coefficient + self.deviation * T::literal(normal_quantile(probability));
         if coefficient > T::zero() { coefficient } else { T::zero() }
     }
@@ -89,14 +92,14 @@ impl<T: Real> UncertainCoulomb<T> {
     }
 
     /// The least normal force \[N\] with a probability of slip of at most `probability`; saturates
-    /// at the largest number where pressing harder can't reach it (σ_μ too great).
+    /// at the largest number where pressing harder can't reach it (σ_μ too great), and for a NaN.
     ///
     /// Solves `μN − |f_t| = z√(σ_t² + μ²σ_n² + N²σ_μ²)` for N.
     #[must_use]
     pub fn least_normal_force(&self, force: &ContactForce<T>, probability: f64) -> T {
         let z = T::literal(-normal_quantile(probability));
         let tangential = force.tangential_magnitude();
-        if !tangential.is_number() || z > T::GREATEST {
+        if !tangential.is_number() || probability.is_nan() || z > T::GREATEST {
             return T::GREATEST;
         }
         if z < -T::GREATEST {
@@ -195,6 +198,9 @@ mod tests {
             assert_eq!(model.least_normal_force(&force(0.0, 1.0), 0.0), f64::MAX);
             assert_eq!(model.least_normal_force(&force(0.0, f64::NAN), 0.1), f64::MAX);
         }
+        let model = UncertainCoulomb::new(0.5_f64, 0.04, None).unwrap();
+        assert_eq!(model.quantile(f64::NAN), 0.0);
+        assert_eq!(model.least_normal_force(&force(0.0, 1.0), f64::NAN), f64::MAX);
         // Beyond 12.5 deviations no grip is enough.
         let model = UncertainCoulomb::new(0.5_f64, 0.04, None).unwrap();
         assert_eq!(model.least_normal_force(&force(0.0, 1.0), 1e-40), f64::MAX);

@@ -2,7 +2,8 @@
 
 use fingertip_wrench::{Real, stored};
 
-use super::change_test::ChangeTest;
+use super::change_test::{ChangeTest, test_of_falls};
+use super::followed_lines::State;
 use crate::BadParameter;
 use crate::bad_parameter::{not_negative, positive};
 
@@ -98,17 +99,7 @@ impl<T: Real> Cusum<T> {
     }
 }
 
-impl<T: Real> ChangeTest<T> for Cusum<T> {
-    #[inline]
-    fn add(&mut self, sample: T) -> bool {
-        Self::add(self, sample)
-    }
-
-    #[inline]
-    fn reset(&mut self) {
-        Self::reset(self);
-    }
-}
+test_of_falls! { Cusum<T>, [T: Real] }
 
 stored! {
     Cusum<T>, [T: Real],

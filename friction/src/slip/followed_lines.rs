@@ -15,6 +15,9 @@ const BETA: f64 = ALPHA * ALPHA / (2.0 - ALPHA);
 /// tracker (Kalata 1984).
 pub(super) const INNOVATION_VARIANCE: f64 =
     1.0 + (2.0 * ALPHA * ALPHA + 2.0 * BETA + ALPHA * BETA) / (ALPHA * (4.0 - 2.0 * ALPHA - BETA));
+/// The greatest square of an innovation, in stated variances, by which the roughness grows: white noise of five times
+/// the stated is known by it, and one drop makes a detector an eighth less sensitive at most.
+const GREATEST_SQUARE: f64 = 64.0;
 /// Samples after which the start-up gain `2(2n+1)/((n+1)(n+2))` has fallen to α.
 const STEADY: u8 = 25;
 
@@ -48,7 +51,8 @@ pub(super) struct State<T> {
     pub(super) roughness: T,
     /// One over the root of the greater of roughness and 1.
     pub(super) smoothing: T,
-    /// Samples taken, up to `STEADY`.
+    /// Samples taken, up to `STEADY`; 0 while the lines hold the first sample, which counts only if the samples
+    /// are not averaged.
     pub(super) samples: u8,
 }
 
@@ -133,6 +137,31 @@ impl<T: Real> State<T> {
         self.samples >= STEADY
     }
 
+    /// Whether the lines hold a sample that may not be followed.
+    #[inline]
+    pub(super) fn is_provisional(&self) -> bool {
+        self.samples == 0
+    }
+
+    /// Lets the lines start.
+    pub(super) fn set(&mut self, tangential: T, ratio: T) {
+        self.ratio = Line::at(ratio, T::zero());
+        self.tangential = Line::at(tangential, T::zero());
+        self.samples = 1;
+    }
+
+    /// Deviation of a steady tracker's innovation over that during start-up: the forecast by the line of least
+    /// squares through `n` samples has the variance `(4n + 2)/(n(n − 1))` of one sample.
+    #[inline]
+    pub(super) fn start_up_share(&self) -> T {
+        if self.is_steady() || self.samples < 2 {
+            return T::one();
+        }
+        let n = T::literal(f64::from(self.samples));
+        let forecast = (T::literal(4.0) * n + T::literal(2.0)) / (n * (n - T::one()));
+        (T::literal(INNOVATION_VARIANCE) / (T::one() + forecast)).root()
+    }
+
     /// Whether the lines are so far within the range that, on their way back to ordinary samples,
     /// they stay there: a slope adds to its value for some 1/α samples at most.
     pub(super) fn is_followed(&self) -> bool {
@@ -160,12 +189,12 @@ impl<T: Real> State<T> {
     /// The part of the innovations that speaks for slip, in deviations.
     #[inline(always)]
     pub(super) fn fall(&mut self, &(of_ratio, of_force): &(T, T)) -> T {
-        let square = lesser(of_ratio * of_ratio, T::literal(9.0));
+        let square = lesser(of_ratio * of_ratio, T::literal(GREATEST_SQUARE));
         self.roughness += (square - self.roughness) * T::literal(1.0 / 256.0);
         // By what was known before this sample.
         let fall = lesser(-of_ratio, -of_force) * self.smoothing;
-        // One step of Newton's method for 1/√: since the roughness moves by at most 3 % a sample,
-        // this stays within 1e-3 of it, without a root, a division or a branch.
+        // One step of Newton's method for 1/√: since the roughness grows by at most a quarter a
+        // sample, and far less but after a jump, this stays within 2 % of it, without a root, a division or a branch.
         let half = T::literal(0.5) * greater(self.roughness, T::one()) * self.smoothing;
         self.smoothing *= T::literal(1.5) - half * self.smoothing;
         fall

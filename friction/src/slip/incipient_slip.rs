@@ -101,7 +101,7 @@ impl<T: Real> IncipientSlip<T> {
     /// stiffness, and the share of the mean stiffness at which to warn.
     ///
     /// The stretch is some forty times the resolution of the displacement, and long enough for
-    /// the force to grow by ten times its noise; 4 µm and 0.65 suit a rubber pad and a good
+    /// the force to grow by twenty times its noise (with ten, noise alone warns on three of ten ramps); 4 µm and 0.65 suit a rubber pad and a good
     /// encoder.
     ///
     /// # Errors

@@ -2,7 +2,8 @@
 
 use fingertip_wrench::{ContactForce, Real, stored};
 
-use super::change_test::ChangeTest;
+use super::change_test::{ChangeTest, test_of_falls};
+use super::followed_lines::State;
 use super::ratio_tracker::RatioTracker;
 use crate::slip::run_length::{likelihood_ratio_threshold, run_length_for};
 use crate::{BadParameter, ForceNoise, SlipDetector, SlipVerdict};
@@ -103,20 +104,11 @@ impl<T: Real, const W: usize> LikelihoodRatio<T, W> {
     }
 }
 
-impl<T: Real, const W: usize> ChangeTest<T> for LikelihoodRatio<T, W> {
-    #[inline]
-    fn add(&mut self, sample: T) -> bool {
-        Self::add(self, sample)
-    }
-
-    #[inline]
-    fn reset(&mut self) {
-        Self::reset(self);
-    }
-}
+test_of_falls! { LikelihoodRatio<T, W>, [T: Real, const W: usize] }
 
 /// Finds slip as a fall of the friction ratio of unknown size: [`LikelihoodRatio`] on the same
-/// evidence as [`DropDetector`](crate::DropDetector), and as robust.
+/// evidence as [`DropDetector`](crate::DropDetector), with the same start, and as little proof against noise that is not
+/// white, or stronger than stated: its rate of false alarms is that of white noise of the stated size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LikelihoodRatioDetector<T, const W: usize> {
     tracker: RatioTracker<T>,
@@ -156,7 +148,7 @@ impl<T: Real, const W: usize> SlipDetector<T> for LikelihoodRatioDetector<T, W> 
 
     #[inline]
     fn update_open(&mut self, time_step: T) -> SlipVerdict {
-        self.tracker.update_open(time_step)
+        self.tracker.update_open(&mut self.ratio, time_step)
     }
 
     fn reset(&mut self) {

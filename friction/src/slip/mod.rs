@@ -1,5 +1,7 @@
 //! Slip as the samples tell it: detectors, and how often they err.
 
+mod adaptive_drop;
+mod block_maxima;
 mod change_test;
 mod cusum;
 mod drop_detector;
@@ -7,6 +9,7 @@ mod followed_lines;
 mod gate;
 mod incipient_slip;
 mod likelihood_ratio;
+mod predictor;
 mod ratio_tracker;
 pub mod run_length;
 mod sample_block;
@@ -14,6 +17,7 @@ mod slip_detector;
 mod stick_slip;
 mod threshold;
 
+pub use adaptive_drop::AdaptiveDropDetector;
 pub use cusum::Cusum;
 pub use drop_detector::DropDetector;
 pub use gate::{ForceNoise, NormalForceGate};

@@ -15,6 +15,12 @@ const SHORTEST_STEP: f64 = 0.45e-3;
 /// A gap of more nominal sample times than this starts the tracker anew.
 const GREATEST_GAP: f64 = 16.0;
 
+/// How many samples a second are taken of so many \[Hz\], which are averaged where there are more than some 2000.
+pub(super) fn taken_rate(sample_rate: f64) -> f64 {
+    let averaged = libm::ceil(SHORTEST_STEP * sample_rate);
+    if averaged > 1.0 { sample_rate / averaged } else { sample_rate }
+}
+
 /// Follows the friction ratio and the tangential force with α-β trackers, and gives the part of
 /// their innovations that speaks for slip.
 ///
@@ -25,10 +31,11 @@ const GREATEST_GAP: f64 = 16.0;
 /// give none, either way.
 ///
 /// # Noise
-/// The deviations come from [`ForceNoise`]; where the innovations prove rougher than that (mains
-/// hum, vibration, coarse steps of a converter), a running estimate of their own variance takes
-/// over, so that unexpected noise costs sensitivity, not false alarms. It never goes below the
-/// stated noise.
+/// The deviations come from [`ForceNoise`]; where the innovations prove rougher than that, a running estimate of their
+/// own variance takes over within some hundred samples, so that white noise above the stated costs sensitivity more than
+/// false alarms. It never goes
+/// below the stated noise. Noise that hangs together is another matter:
+/// [`AdaptiveDropDetector`](crate::AdaptiveDropDetector).
 ///
 /// # Time
 /// Samples that come faster than some 2 kHz are averaged to that, with the noise that the mean has. The
@@ -43,13 +50,15 @@ pub(crate) struct RatioTracker<T> {
 }
 
 /// What a sample says.
-enum Evidence<T> {
+enum Evidence<E> {
     /// Nothing: not pressing, or not finite.
     NotPressing,
     /// Nothing yet: the tracker starts, or the time has not advanced.
     None,
-    /// Standardised fall below the forecast: Gaussian with unit variance while nothing happens.
-    Fall(T),
+    /// Nothing, and what was said before no longer counts: the tracker starts anew after a gap.
+    Anew,
+    /// What the innovations say to the test.
+    Some(E),
 }
 
 impl<T: Real> RatioTracker<T> {
@@ -94,28 +103,33 @@ impl<T: Real> RatioTracker<T> {
     /// sample that is not finite, in force or time, leaves the state as it was, but for the time
     /// that has passed.
     #[inline]
-    pub(crate) fn update(
+    pub(crate) fn update<Test: ChangeTest<T>>(
         &mut self,
-        test: &mut impl ChangeTest<T>,
+        test: &mut Test,
         force: &ContactForce<T>,
         time_step: T,
     ) -> SlipVerdict {
         let plain = self.plain(force);
-        let fall = match plain.and_then(|(normal, load)| self.ordinary(normal, load, time_step)) {
-            Some(fall) => fall,
-            None => {
-                let Some((normal, load)) = plain.or_else(|| self.pressing_at_all(force, time_step)) else {
+        let evidence = match plain.and_then(|(normal, load)| self.ordinary::<Test>(normal, load, time_step)) {
+            Some(evidence) => evidence,
+            None => match self.any::<Test>(plain, force, time_step) {
+                Evidence::NotPressing => {
+                    // What was seen of a contact that has opened says nothing of the next.
+                    if self.state.is_none() {
+                        test.restart();
+                    }
                     return SlipVerdict::NotPressing;
-                };
-                match self.any(normal, load, time_step) {
-                    Evidence::NotPressing => return SlipVerdict::NotPressing,
-                    Evidence::None => return SlipVerdict::Holding,
-                    Evidence::Fall(fall) => fall,
                 }
-            }
+                Evidence::None => return SlipVerdict::Holding,
+                Evidence::Anew => {
+                    test.restart();
+                    return SlipVerdict::Holding;
+                }
+                Evidence::Some(evidence) => evidence,
+            },
         };
-        if test.add(fall) {
-            test.reset();
+        if test.take(evidence) {
+            test.restart();
             self.restart();
             SlipVerdict::Slipping
         } else {
@@ -125,10 +139,11 @@ impl<T: Real> RatioTracker<T> {
 
     /// A sample without contact: what a force of zero says.
     #[inline]
-    pub(crate) fn update_open(&mut self, time_step: T) -> SlipVerdict {
+    pub(crate) fn update_open(&mut self, test: &mut impl ChangeTest<T>, time_step: T) -> SlipVerdict {
         // One at no known time leaves the state as it was.
         if time_step.is_number() {
             self.state = None;
+            test.restart();
         }
         SlipVerdict::NotPressing
     }
@@ -173,7 +188,12 @@ impl<T: Real> RatioTracker<T> {
     /// The evidence of an ordinary sample: plain, new, of a started tracker, at an even rate below 2 kHz.
     /// Says and does nothing for others.
     #[inline(always)]
-    fn ordinary(&mut self, normal: T, tangential: T, time_step: T) -> Option<T> {
+    fn ordinary<Test: ChangeTest<T>>(
+        &mut self,
+        normal: T,
+        tangential: T,
+        time_step: T,
+    ) -> Option<Test::Evidence> {
         let state = self.state.as_mut()?;
         let even = state.is_steady()
             && state.block.is_empty()
@@ -190,12 +210,20 @@ impl<T: Real> RatioTracker<T> {
         let ratio = tangential * (T::one() / normal);
         let sample = Sample { normal, tangential, ratio, sharper: T::one() };
         let innovations = state.follow(&self.variances, &sample, &Step::steady());
-        Some(state.fall(&innovations))
+        Some(Test::evidence(state, &innovations))
     }
 
-    /// The evidence of any sample.
+    /// The evidence of any sample; its forces, where they are `plain`.
     #[inline(never)]
-    fn any(&mut self, normal: T, tangential: T, time_step: T) -> Evidence<T> {
+    fn any<Test: ChangeTest<T>>(
+        &mut self,
+        plain: Option<(T, T)>,
+        force: &ContactForce<T>,
+        time_step: T,
+    ) -> Evidence<Test::Evidence> {
+        let Some((normal, tangential)) = plain.or_else(|| self.pressing_at_all(force, time_step)) else {
+            return Evidence::NotPressing;
+        };
         if !time_step.is_number() {
             return Evidence::NotPressing;
         }
@@ -219,7 +247,7 @@ impl<T: Real> RatioTracker<T> {
             return Evidence::None;
         }
         let Block { elapsed, count, .. } = *block;
-        let sample = if count > T::one() {
+        let mut sample = if count > T::one() {
             // The noise of the mean is less.
             let (normal, tangential) = (block.normal / count, block.tangential / count);
             Sample { normal, tangential, ratio: tangential / normal, sharper: count.root() }
@@ -235,10 +263,23 @@ impl<T: Real> RatioTracker<T> {
             state.period *= T::literal(17.0 / 16.0);
             let period = state.period;
             self.start(sample.normal, sample.tangential, period);
-            return Evidence::None;
+            return Evidence::Anew;
+        }
+        if state.is_provisional() {
+            if count > T::one() {
+                // Samples are averaged: the lines start from a mean, not from the one sample before.
+                state.set(sample.tangential, sample.ratio);
+                if state.is_followed() {
+                    return Evidence::None;
+                }
+                self.state = None;
+                return Evidence::NotPressing;
+            }
+            state.samples = 1;
         }
         let step = Step::new(elapsed, state.period, state.samples);
         state.period += (elapsed - state.period) * T::literal(1.0 / 16.0);
+        sample.sharper *= state.start_up_share();
         let innovations = state.follow(&self.variances, &sample, &step);
         if !state.is_followed() {
             // Forces near the end of the range: nothing to be followed.
@@ -251,19 +292,18 @@ impl<T: Real> RatioTracker<T> {
                 return Evidence::None;
             }
         }
-        let fall = state.fall(&innovations);
+        let evidence = Test::evidence(state, &innovations);
         // A repeated sample is no independent evidence.
-        Evidence::Fall(if count > T::zero() { fall } else { T::zero() })
+        Evidence::Some(if count > T::zero() { evidence } else { Test::NOTHING() })
     }
 
     /// Starts anew from the last sample, keeping what is known of time and noise.
     #[inline]
     pub(crate) fn restart(&mut self) {
         if let Some(state) = &mut self.state {
-            state.ratio = Line::at(state.last_tangential / state.last_normal, T::zero());
-            state.tangential = Line::at(state.last_tangential, T::zero());
+            state.set(state.last_tangential, state.last_tangential / state.last_normal);
             state.block = Block::empty();
-            state.samples = 1;
+            state.samples = 0;
         }
     }
 
@@ -292,7 +332,7 @@ impl<T: Real> RatioTracker<T> {
             weighed_to: T::zero(),
             roughness: T::one(),
             smoothing: T::one(),
-            samples: 1,
+            samples: 0,
         });
     }
 }

@@ -50,10 +50,11 @@ impl<T: Real> RatioThreshold<T> {
     #[must_use]
     pub fn verdict_of(&self, normal: T, load: T) -> SlipVerdict {
         let verdict = self.verdict_in_contact(normal, load);
-        if (load >= T::zero()) & (load <= T::GREATEST) { verdict } else { SlipVerdict::NotPressing }
+        let finite = (load >= T::zero()) & (load <= T::GREATEST) & (normal <= T::GREATEST);
+        if finite { verdict } else { SlipVerdict::NotPressing }
     }
 
-    /// The same where the load is known to be a number.
+    /// The same where both are known to be finite.
     #[inline(always)]
     #[must_use]
     pub fn verdict_in_contact(&self, normal: T, load: T) -> SlipVerdict {
@@ -76,7 +77,9 @@ impl<T: Real> SlipDetector<T> for RatioThreshold<T> {
     fn update(&mut self, force: &ContactForce<T>, _time_step: T) -> SlipVerdict {
         let (normal, load) = (force.normal, force.tangential_magnitude());
         // As `verdict_of`, but with the branch that one sample foretells.
-        if !(normal > self.gate.least() && load.is_number()) {
+        // Of what is not finite nothing times is a NaN: one comparison for the three.
+        let none = normal * T::zero() + load * T::zero() + force.spin * T::zero();
+        if !(normal > self.gate.least() && none >= T::zero()) {
             return SlipVerdict::NotPressing;
         }
         self.said(normal, load)
@@ -109,6 +112,22 @@ mod tests {
 
     use super::RatioThreshold;
     use crate::{ForceNoise, NormalForceGate, SlipDetector, SlipVerdict};
+
+    #[test]
+    fn what_is_not_finite_does_not_press() {
+        let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.02).unwrap());
+        let mut detector = RatioThreshold::new(gate, 0.6, 0.75).unwrap();
+        let mut told = |normal, tangential, spin| {
+            detector.update(&ContactForce::new(normal, Vector3::new(tangential, 0.0, 0.0), spin), 1e-3)
+        };
+        assert_eq!(told(1.0, 0.1, 0.1), SlipVerdict::Holding);
+        assert_eq!(told(f64::MAX, f64::MAX, f64::MIN), SlipVerdict::Slipping);
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for (normal, tangential, spin) in [(bad, 0.1, 0.1), (1.0, bad, 0.1), (1.0, 0.1, bad)] {
+                assert_eq!(told(normal, tangential, spin), SlipVerdict::NotPressing, "{normal} {spin}");
+            }
+        }
+    }
 
     proptest! {
         #[test]

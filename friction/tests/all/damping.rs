@@ -18,8 +18,8 @@ fn law() -> LuGre<f64> {
     LuGre::new(STIFFNESS, DAMPING, VISCOUS, Stribeck::new(0.8, 1.2, 1e-2).unwrap()).unwrap()
 }
 
-/// From rest at a constant velocity the deflection is `g/σ₀ (1 − e^{−σ₀vt/g})`, which gives the force at
-/// any time but for the damping, of which the step returns the mean.
+/// From rest at a constant velocity the deflection is `g/σ₀ (1 − e^{−σ₀vt/g})`, which gives the force at any time, and,
+/// by Simpson's rule, its mean.
 #[test]
 fn force_at_a_constant_velocity_is_the_closed_form() {
     let direction = Vector3::new(2.0, -1.0, 2.0) / 3.0;
@@ -33,14 +33,47 @@ fn force_at_a_constant_velocity_is_the_closed_form() {
                 for step in 0..20 {
                     let force = bristle.step(&(direction * speed), h);
                     let (start, end) = (deflection(h * f64::from(step)), deflection(h * f64::from(step + 1)));
-                    let exact = load * (STIFFNESS * end + DAMPING * (end - start) / h + VISCOUS * speed);
-                    // The difference of deflections that are nearly equal has lost digits.
-                    let rounding = 64.0 * f64::EPSILON * load * (2.0 + DAMPING * limit / h);
-                    let error = (force - direction * exact).norm();
+                    let count = 2000;
+                    let mean = (0..=count).map(|index| {
+                        let weight = if index % count == 0 { 1.0 } else { f64::from(2 + 2 * (index % 2)) };
+                        let share = f64::from(index) / f64::from(count);
+                        weight / (3.0 * f64::from(count)) * deflection(h * (f64::from(step) + share))
+                    });
+                    let elastic = STIFFNESS * mean.sum::<f64>();
+                    let exact = load * (elastic + DAMPING * (end - start) / h + VISCOUS * speed);
+                    // The difference of deflections that are nearly equal has lost digits, and Simpson's rule some.
+                    let rounding = 64.0 * f64::EPSILON * load * (2.0 + DAMPING * limit / h) + 1e-11 * load;
+                    let error = (force.mean - direction * exact).norm();
+                    assert!(error <= rounding, "{load} {speed} {h} {step}: {force:?} {exact}");
+                    let pace = speed * (1.0 - end / limit);
+                    let exact = load * (STIFFNESS * end + DAMPING * pace + VISCOUS * speed);
+                    let error = (force.end - direction * exact).norm();
                     assert!(error <= rounding, "{load} {speed} {h} {step}: {force:?} {exact}");
                 }
             }
         }
+    }
+}
+
+/// A law without its σ₁ and σ₂.
+#[derive(Clone, Copy)]
+struct Undamped<L>(L);
+
+impl<L: BristleLaw<f64>> BristleLaw<f64> for Undamped<L> {
+    fn stiffness(&self) -> f64 {
+        self.0.stiffness()
+    }
+
+    fn steady(&self, speed: f64) -> f64 {
+        self.0.steady(speed)
+    }
+
+    fn greatest(&self) -> f64 {
+        self.0.greatest()
+    }
+
+    fn plastic_share(&self, deflection: f64, opposed: bool, speed: f64) -> f64 {
+        self.0.plastic_share(deflection, opposed, speed)
     }
 }
 
@@ -52,6 +85,8 @@ fn damping_is_the_greatest_passive<L: BristleLaw<f64> + Copy, M: Integrator, con
 ) -> (usize, usize) {
     let (mut limited, mut plain) = (0, 0);
     let mut bristle = Bristle::<f64, L, D, M>::with_method(law);
+    // The same without damping, whose mean force is that of the mean deflection.
+    let mut undamped = Bristle::<f64, _, D, M>::with_method(Undamped(law));
     let mut slow = SVector::zeros();
     for index in 0..3000 {
         // Slow for long, up to the static friction; fast the same way, where friction is less; anywhere.
@@ -63,7 +98,8 @@ fn damping_is_the_greatest_passive<L: BristleLaw<f64> + Copy, M: Integrator, con
         };
         slow = v;
         let before = *bristle.deflection();
-        let force = bristle.step(&v, h);
+        let force = bristle.step(&v, h).mean;
+        let elastic = undamped.step(&v, h).mean;
         let after = *bristle.deflection();
         let (path, change) = (v * h, after - before);
         if path.norm() < 1e-6 * after.norm() {
@@ -72,7 +108,7 @@ fn damping_is_the_greatest_passive<L: BristleLaw<f64> + Copy, M: Integrator, con
         }
         // ½σ₀(|z⁺|² − |z|²), without its cancellation.
         let stored = 0.5 * law.stiffness() * change.dot(&(after + before));
-        let passive = |damping: f64| path.dot(&(after * law.stiffness() + change * (damping / h))) >= stored;
+        let passive = |damping: f64| path.dot(&(elastic + change * (damping / h))) >= stored;
         let mut damping = law.damping();
         if passive(damping) {
             plain += 1;
@@ -85,7 +121,7 @@ fn damping_is_the_greatest_passive<L: BristleLaw<f64> + Copy, M: Integrator, con
             }
             damping = low;
         }
-        let exact = after * law.stiffness() + change * (damping / h) + v * law.viscous();
+        let exact = elastic + change * (damping / h) + v * law.viscous();
         // Where the change is nearly across the path, much damping gives little energy.
         let power = change.dot(&path).abs();
         let across = if power > 0.0 { change.norm() * (path.norm() + change.norm()) / power } else { 1.0 };
@@ -128,8 +164,8 @@ fn force_on_a_prescribed_motion_agrees_with_radau() {
     for (index, pair) in deflections.windows(2).enumerate() {
         let v = velocity(h * (index as f64 + 0.5));
         let damping = 1e5_f64.sqrt() * (pair[1] - pair[0]) / h;
-        let exact = 1e5 * pair[1] + damping + 0.4 * v;
-        worst.see(bristle.step(&Vector1::new(v), h)[0] - exact);
+        let exact = 1e5 * 0.5 * (pair[0] + pair[1]) + damping + 0.4 * v;
+        worst.see(bristle.step(&Vector1::new(v), h).mean[0] - exact);
         damped.see(damping);
     }
     println!("force within {:.2e} N, damping up to {:.2e} N", worst.get(), damped.get());
@@ -147,10 +183,11 @@ fn no_motion_and_no_time_give_the_elastic_force() {
         bristle.step(&SVector::<T, 2>::new(l(1e-3), l(-2e-3)), l(1e-3));
         let before = bristle;
         let elastic = *before.deflection() * (l(1e5) * l(2.0));
-        assert_eq!(bristle.step(&SVector::zeros(), l(1e-3)), elastic);
+        let still = bristle.step(&SVector::zeros(), l(1e-3));
+        assert_eq!((still.mean, still.end), (elastic, elastic));
         assert_eq!(bristle, before);
         let v = SVector::<T, 2>::new(l(3.0), l(1.0));
-        let force = bristle.step(&v, T::zero());
+        let force = bristle.step(&v, T::zero()).mean;
         assert_eq!(bristle, before);
         let wanted = elastic + v * (l(0.4) * l(2.0));
         assert!((force - wanted).norm() <= l(8.0) * T::EPSILON * wanted.norm(), "{force:?} {wanted:?}");

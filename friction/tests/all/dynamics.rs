@@ -37,7 +37,7 @@ fn run<T: Real, L: BristleLaw<T> + Copy, M: Integrator, const D: usize>(law: L, 
         let h = T::literal(spread(draws, 1e-6, 1.0));
         let v = SVector::<T, D>::from_fn(|_, _| T::literal(speed * draws.signed()));
         let before = bristle.energy();
-        let force = bristle.step(&v, h);
+        let force = bristle.step(&v, h).mean;
         let after = bristle.energy();
         let length = bristle.deflection().norm();
         assert!(length <= bound * (T::one() + rounding), "|z| {length:?} above {bound:?}");
@@ -49,7 +49,7 @@ fn run<T: Real, L: BristleLaw<T> + Copy, M: Integrator, const D: usize>(law: L, 
             work - (after - before) >= -rounding * size,
             "energy from nothing: {work:?} {before:?} {after:?}"
         );
-        let back = mirror.step(&-v, h);
+        let back = mirror.step(&-v, h).mean;
         assert!((back + force).norm() <= rounding * force.norm(), "odd: {force:?} {back:?}");
     }
 }
@@ -290,8 +290,8 @@ fn bad_input_changes_nothing() {
     let before = bristle;
     let good = SVector::<f64, 2>::new(1.0, 0.0);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        assert!(bristle.step(&SVector::<f64, 2>::new(bad, 0.0), 1e-3).iter().all(|x| x.is_finite()));
-        assert!(bristle.step(&good, bad).iter().all(|x| x.is_finite()));
+        assert!(bristle.step(&SVector::<f64, 2>::new(bad, 0.0), 1e-3).end.iter().all(|x| x.is_finite()));
+        assert!(bristle.step(&good, bad).end.iter().all(|x| x.is_finite()));
         let drive =
             Drive { mass: good.map(|_| 1.0), force: SVector::<f64, 2>::new(bad, 0.0), stiffness: 0.0 };
         assert_eq!(bristle.step_body(&good, &drive, 1e-3).velocity, good);
@@ -301,12 +301,72 @@ fn bad_input_changes_nothing() {
     assert_eq!(bristle, before);
     // Without load nothing is held.
     bristle.set_load(f64::NAN);
-    assert_eq!(bristle.step(&good, 1e-3), SVector::<f64, 2>::zeros());
+    assert_eq!(bristle.step(&good, 1e-3).mean, SVector::<f64, 2>::zeros());
     let mut fast = before;
-    assert!(fast.step(&(good * 1e300), 1e-300).iter().all(|x| x.is_finite()));
-    assert!(fast.step(&(good * 1e-320), 1.0).iter().all(|x| x.is_finite()));
+    assert!(fast.step(&(good * 1e300), 1e-300).end.iter().all(|x| x.is_finite()));
+    assert!(fast.step(&(good * 1e-320), 1.0).end.iter().all(|x| x.is_finite()));
     for bad in [0.0, -1.0, f64::NAN] {
         assert!(Dahl::new(bad, 1.0).is_err());
         assert!(Stribeck::new(1.0, 0.5, 1e-3).is_err() && Stribeck::new(1.0, 1.5, bad).is_err());
+    }
+}
+
+/// The reversal at 0.1 m/s within a millisecond: of the mean and the end of the second step, against the law itself in
+/// ten thousand small steps of fourth order.
+#[test]
+fn mean_and_end_of_a_step_are_those_of_the_law() {
+    fn reference<L: BristleLaw<f64>>(law: &L, start: f64, v: f64, h: f64) -> (f64, f64, f64) {
+        let pace = |z: f64| {
+            let share = law.plastic_share(z.abs(), z * v < 0.0, v.abs());
+            v - share * law.stiffness() * v.abs() * z / law.steady(v.abs())
+        };
+        let (mut z, mut sum) = (start, 0.0);
+        let count = 10_000;
+        let small = h / f64::from(count);
+        let force = |z: f64| law.stiffness() * z + law.damping() * pace(z) + law.viscous() * v;
+        for _ in 0..count {
+            let first = pace(z);
+            let second = pace(z + 0.5 * small * first);
+            let third = pace(z + 0.5 * small * second);
+            let fourth = pace(z + small * third);
+            let next = z + small / 6.0 * (first + 2.0 * second + 2.0 * third + fourth);
+            sum += 0.5 * (force(z) + force(next)) / f64::from(count);
+            z = next;
+        }
+        (z, sum, force(z))
+    }
+    fn check<L: BristleLaw<f64> + Copy>(name: &str, law: L, bound: f64) {
+        for (speed, h) in [(0.1, 1e-3), (0.1, 3e-5), (1e-3, 1e-3), (1e-2, 1e-2)] {
+            let mut bristle = Bristle::<f64, L, 1>::new(law);
+            for v in [speed, speed, -speed, -0.3 * speed, speed] {
+                let start = bristle.deflection()[0];
+                let force = bristle.step(&Vector1::new(v), h);
+                let (deflection, mean, end) = reference(&law, start, v, h);
+                let size = law.greatest() + law.damping() * speed;
+                let off = (bristle.deflection()[0] - deflection) * law.stiffness();
+                assert!(off.abs() < bound * size, "{name} {speed} {h} {v}: deflection off by {off} N");
+                assert!((force.end[0] - end).abs() < bound * size, "{name} {speed} {h} {v}: {force:?} {end}");
+                // Where passivity limits the damping the mean is another, on purpose.
+                let limited = speed > 0.012 && law.damping() > 0.0;
+                assert!(
+                    limited || (force.mean[0] - mean).abs() < bound * size,
+                    "{name} {v}: {force:?} {mean}"
+                );
+            }
+        }
+    }
+    check("LuGre", LuGre::reference().unwrap(), 1e-6);
+    check("Dahl", Dahl::new(1e5, 1.0).unwrap(), 1e-6);
+    let undamped = LuGre::new(1e5, 0.0, 0.4, *LuGre::reference().unwrap().curve()).unwrap();
+    check("elasto-plastic", ElastoPlastic::new(undamped, 0.3).unwrap(), 0.03);
+    check("elasto-plastic, late", ElastoPlastic::new(undamped, 0.6).unwrap(), 0.05);
+    // As it was found: −1.04 N after the reversal, and no more than 1 N of a law that slides at 1 N.
+    let mut bristle = Bristle::<f64, _, 1>::new(LuGre::reference().unwrap());
+    bristle.step(&Vector1::new(0.1), 1e-3);
+    assert!((bristle.step(&Vector1::new(-0.1), 1e-3).end[0] + 1.04).abs() < 0.01);
+    let mut bristle = Bristle::<f64, _, 1>::new(ElastoPlastic::new(undamped, 0.3).unwrap());
+    for v in [0.1, 0.1, -0.1, -0.1, 0.1] {
+        let end = bristle.step(&Vector1::new(v), 1e-3).end[0];
+        assert!((end.abs() - 1.04).abs() < 0.01, "{v}: {end}");
     }
 }

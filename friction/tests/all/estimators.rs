@@ -10,6 +10,11 @@ fn force(normal: f64, ratio: f64) -> ContactForce<f64> {
     ContactForce::new(normal, Vector3::new(0.0, normal * ratio, 0.0), 0.0)
 }
 
+/// What is taken of a ratio at 4 N: without the biases of a length and of a quotient.
+fn unbiased(ratio: f64) -> f64 {
+    (ratio * ratio - (NOISE.tangential / 4.0).powi(2)).sqrt() * (1.0 - (NOISE.normal / 4.0).powi(2))
+}
+
 fn close(a: f64, b: f64) {
     assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
 }
@@ -27,7 +32,7 @@ fn peak_is_the_greatest_mean_of_five_in_the_window() {
             }
             let middle = if slope > 0.0 { count - 3 } else { (count - 8).max(0) + 2 };
             let (peak, deviation) = friction.peak().unwrap();
-            close(peak, at(middle));
+            close(peak, (middle - 2..=middle + 2).map(|index| unbiased(at(index)) / 5.0).sum());
             let variance = |index: i32| NOISE.tangential.powi(2) + (at(index) * NOISE.normal).powi(2);
             let sum: f64 = (middle - 2..=middle + 2).map(variance).sum();
             close(deviation, sum.sqrt() / 4.0 / 5.0);
@@ -72,7 +77,7 @@ fn bias_of_a_plateau_is_the_expected_greatest() {
         }
         let (peak, deviation) = friction.peak().unwrap();
         close(deviation, NOISE.ratio_deviation(4.0, 0.6) / 5.0_f64.sqrt());
-        let bias = (0.6 - peak) / deviation;
+        let bias = (unbiased(0.6) - peak) / deviation;
         // Blom's formula is within 0.026 of it for two, and within 0.01 for ten and more.
         let bound = if independent == 2 { 0.026 } else { 0.01 };
         assert!((bias - greatest(independent)).abs() < bound, "{plateau}: {bias} {}", greatest(independent));
@@ -96,7 +101,7 @@ fn slip(friction: &mut StaticFriction<f64, 8>, ratio: f64) -> FrictionEstimate<f
 
 /// Variance of the logarithm of one peak.
 fn variance(ratio: f64, scatter: f64) -> f64 {
-    (NOISE.ratio_deviation(4.0, ratio) / ratio).powi(2) / 5.0 + scatter * scatter
+    (NOISE.ratio_deviation(4.0, ratio) / unbiased(ratio)).powi(2) / 5.0 + scatter * scatter
 }
 
 /// Without wander, the mean of logarithms weighed by their variances; with it, what is known grows less sure.
@@ -105,16 +110,16 @@ fn peaks_are_fused_by_their_variances() {
     for (scatter, wander) in [(0.05, 0.0), (0.0, 0.0), (0.1, 0.03)] {
         let mut friction = StaticFriction::<f64, 8>::new(NOISE, scatter, wander).unwrap();
         let first = slip(&mut friction, 0.5);
-        close(first.coefficient, 0.5);
-        close(first.deviation, 0.5 * variance(0.5, scatter).sqrt());
+        close(first.coefficient, unbiased(0.5));
+        close(first.deviation, unbiased(0.5) * variance(0.5, scatter).sqrt());
         assert!(!first.surface_changed);
-        let (mut log, mut known) = (0.5_f64.ln(), variance(0.5, scatter));
+        let (mut log, mut known) = (unbiased(0.5).ln(), variance(0.5, scatter));
         for ratio in [0.52, 0.49, 0.505, 0.51] {
             let fresh = variance(ratio, scatter);
             // Precisions add.
             let prior = known + wander * wander;
             let precision = 1.0 / prior + 1.0 / fresh;
-            log = (log / prior + ratio.ln() / fresh) / precision;
+            log = (log / prior + unbiased(ratio).ln() / fresh) / precision;
             known = 1.0 / precision;
             let found = slip(&mut friction, ratio);
             assert!(!found.surface_changed);
@@ -138,8 +143,8 @@ fn a_miss_by_four_deviations_is_another_surface() {
         let found = slip(&mut friction, ratio);
         assert_eq!(found.surface_changed, changed, "{factor}");
         if changed {
-            close(found.coefficient, ratio);
-            close(found.deviation, ratio * variance(ratio, 0.1).sqrt());
+            close(found.coefficient, unbiased(ratio));
+            close(found.deviation, unbiased(ratio) * variance(ratio, 0.1).sqrt());
         }
     }
 }
@@ -215,30 +220,27 @@ fn slide(friction: &mut KineticFriction<f64>, step: f64, memory: f64) -> Vec<(f6
     seen
 }
 
-/// Deming's regression is where `Σ w (t − μn)²/(σ_t² + μ²σ_n²)` is least.
+/// The moments of squares without those of the noise, and their spread.
 #[test]
-fn kinetic_friction_is_the_line_of_least_weighed_distance() {
+fn kinetic_friction_is_the_quotient_of_moments() {
     for noise in
         [NOISE, ForceNoise { normal: 0.05, tangential: 0.02 }, ForceNoise { normal: 0.2, tangential: 1e-3 }]
     {
         for (step, memory) in [(1e-3, 10.0), (1e-3, 0.02), (0.0, 1.0), (0.5, 0.1)] {
             let mut friction = KineticFriction::new(noise, memory).unwrap();
             let seen = slide(&mut friction, step, memory);
-            let cost = |mu: f64| {
-                let sum: f64 = seen.iter().map(|(n, t, w)| w * (t - mu * n).powi(2)).sum();
-                sum / (noise.tangential.powi(2) + (mu * noise.normal).powi(2))
+            let (of_t, of_n) = (noise.tangential.powi(2), noise.normal.powi(2));
+            let sum = |term: &dyn Fn(f64, f64, f64) -> f64| {
+                seen.iter().map(|(n, t, w)| term(*n, *t, *w)).sum::<f64>()
             };
-            // By bisection on a slope by wide differences, which the cost, a smooth bowl, allows.
-            let (mut low, mut high) = (0.5, 0.7);
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                if cost(middle + 1e-3) < cost(middle - 1e-3) { low = middle } else { high = middle }
-            }
+            let normal = sum(&|n, _, w| w * (n * n - of_n));
+            let square = sum(&|_, t, w| w * (t * t - 2.0 * of_t)) / normal;
             let found = friction.estimate().unwrap();
-            assert!((found.coefficient - low).abs() < 2e-6, "{noise:?} {step} {memory}: {found:?} {low}");
-            let spread = noise.tangential.hypot(found.coefficient * noise.normal);
-            let squares = |power: i32| seen.iter().map(|(n, _, w)| w.powi(power) * n * n).sum::<f64>();
-            close(found.deviation, spread * squares(2).sqrt() / squares(1));
+            assert!((found.coefficient / square.sqrt() - 1.0).abs() < 1e-10, "{noise:?} {step}: {found:?}");
+            let first = (of_t + square * of_n) * sum(&|n, _, w| w * w * (n * n - of_n));
+            let second = (of_t * of_t / square + 0.5 * square * of_n * of_n) * sum(&|_, _, w| w * w);
+            let wanted = (first + second).sqrt() / normal;
+            assert!((found.deviation / wanted - 1.0).abs() < 1e-10, "{noise:?} {step}: {found:?} {wanted}");
         }
     }
 }
@@ -286,11 +288,18 @@ fn a_new_surface_is_noticed_by_its_residuals() {
         }
         assert_eq!(noticed, wanted, "{deviations}");
         if wanted < 60 {
-            assert!((friction.estimate().unwrap().coefficient / ratio - 1.0).abs() < 1e-9);
+            close(friction.estimate().unwrap().coefficient, moments([4.0, 4.0], ratio));
             friction.acknowledge();
             assert!(!friction.estimate().unwrap().surface_changed);
         }
     }
+}
+
+/// Of two samples of one ratio, by the moments.
+fn moments(normals: [f64; 2], ratio: f64) -> f64 {
+    let squares: f64 = normals.iter().map(|n| n * n).sum();
+    let (of_t, of_n) = (NOISE.tangential.powi(2), NOISE.normal.powi(2));
+    ((squares * ratio * ratio - 4.0 * of_t) / (squares - 2.0 * of_n)).sqrt()
 }
 
 #[test]
@@ -313,7 +322,7 @@ fn kinetic_friction_needs_two_loaded_samples() {
         assert_eq!(friction, before, "{bad:?} {step}");
     }
     friction.observe(&force(0.2001, 0.6), 0.0);
-    close(friction.estimate().unwrap().coefficient, 0.6);
+    close(friction.estimate().unwrap().coefficient, moments([4.0, 0.2001], 0.6));
     let mut idle = KineticFriction::new(NOISE, 1.0).unwrap();
     for _ in 0..5 {
         idle.observe(&force(4.0, 0.0), 1e-3);

@@ -3,6 +3,9 @@
 use fingertip_friction::{ForceNoise, IncipientSlip, NormalForceGate, SlipVerdict};
 use fingertip_wrench::ContactForce;
 use nalgebra::Vector3;
+use rand::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64Mcg;
 
 const WINDOW: f64 = 4e-6;
 const SHARE: f64 = 0.65;
@@ -248,4 +251,21 @@ fn limits_of_the_settings() {
             assert!(detector.stiffness().is_none_or(f64::is_finite));
         }
     }
+}
+
+/// Elastic ramps whose force grows by twenty times its noise over a window: as advised, noise alone does not warn.
+#[test]
+fn noise_of_a_twentieth_does_not_warn_on_a_spring() {
+    let mut random = Pcg64Mcg::seed_from_u64(41);
+    let mut warned = 0;
+    for _ in 0..100 {
+        let mut detector = started(1e3);
+        let noise = 1e3 * WINDOW / 20.0;
+        warned += u32::from((0..2000_u32).any(|index| {
+            let x = START + 2e-8 * f64::from(index);
+            let draw: f64 = StandardNormal.sample(&mut random);
+            sample(&mut detector, x, 1e3 * x + noise * draw) != SlipVerdict::Holding
+        }));
+    }
+    assert_eq!(warned, 0);
 }

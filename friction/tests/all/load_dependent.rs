@@ -2,6 +2,7 @@
 
 use fingertip_friction::testing::Draws;
 use fingertip_friction::{FrictionLimit, FrictionModel, LoadDependentLimit, SoftFingerLimit};
+use fingertip_test_support::Worst;
 use fingertip_wrench::ContactForce;
 use nalgebra::Vector3;
 
@@ -164,4 +165,28 @@ fn grip_forces_are_just_enough() {
         let exact = (spin * REFERENCE.powf(0.3) / (MU * ARM)).powf(1.0 / 1.3);
         assert!((least / exact - 1.0).abs() < 1e-12, "{spin:e} {least:e} {exact:e}");
     }
+}
+
+/// No more than that: against a bisection over the margin itself.
+#[test]
+fn keeping_a_margin_asks_for_no_more_than_it_takes() {
+    let mut worst = Worst::new();
+    for index in 1..1000_u32 {
+        let growth = f64::from(index % 10) / 10.0;
+        let model = LoadDependentLimit::new(0.5, 3e-3, 2.0, growth).unwrap();
+        let load = 0.01 * f64::from(index);
+        let force = ContactForce::new(1.0, Vector3::new(load, 0.0, 0.0), 1e-3 * f64::from(index % 7));
+        let margin = 0.1 * f64::from(index % 13);
+        let keeping = model.normal_force_keeping(&force, margin);
+        let kept = |normal: f64| model.slip_margin(&ContactForce { normal, ..force }).newtons >= margin;
+        assert!(kept(keeping), "{index}");
+        let (mut low, mut high) = (0.5 * keeping, keeping);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if kept(middle) { high = middle } else { low = middle }
+        }
+        worst.see(keeping / high - 1.0);
+    }
+    println!("too great by {:.1e}", worst.get());
+    assert!(worst.get() < 1e-4, "{}", worst.get());
 }

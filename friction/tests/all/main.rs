@@ -4,6 +4,7 @@
 #[path = "../support/stick_slip.rs"]
 mod reference;
 
+mod adaptive;
 mod anisotropic;
 mod body;
 mod broken_limits;

@@ -4,8 +4,8 @@
 use core::fmt::Debug;
 
 use fingertip_friction::{
-    AnisotropicCoulomb, Bristle, Coulomb, Cusum, Dahl, DropDetector, ElastoPlastic, ForceNoise,
-    GripController, GripSettings, Implicit, IncipientSlip, KineticFriction, LikelihoodRatio,
+    AdaptiveDropDetector, AnisotropicCoulomb, Bristle, Coulomb, Cusum, Dahl, DropDetector, ElastoPlastic,
+    ForceNoise, GripController, GripSettings, Implicit, IncipientSlip, KineticFriction, LikelihoodRatio,
     LikelihoodRatioDetector, LoadDependentLimit, LuGre, NormalForceGate, PowerLimit, PressureDistribution,
     RatioThreshold, SlipDetector, SoftFingerLimit, StaticFriction, StickSlipDetector, Stribeck,
     StribeckFriction, UncertainCoulomb,
@@ -94,6 +94,7 @@ fn detectors<T: Real + Serialize + DeserializeOwned>() {
     let drops = DropDetector::with_sum(noise, Cusum::new(l(1.0), l(6.1)).unwrap()).unwrap();
     kept(&drops);
     kept(&StickSlipDetector::new(drops));
+    kept(&AdaptiveDropDetector::new(noise, 0.5, 1000.0).unwrap());
     kept(&LikelihoodRatio::<T, 16>::with_window(12, l(9.5)).unwrap());
     kept(&LikelihoodRatioDetector::<T, 16>::new(noise, 1.0, 1000.0).unwrap());
     kept(&IncipientSlip::new(gate, l(4e-6), l(0.65)).unwrap());

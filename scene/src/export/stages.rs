@@ -117,6 +117,11 @@ const DETECTORS: &[Row] = &[
         "friction::StickSlipDetector<{T}>",
         "friction::StickSlipDetector::new(friction::DropDetector::new(NOISE)?)",
     ),
+    row(
+        "adaptive_drop",
+        "friction::AdaptiveDropDetector<{T}>",
+        "friction::AdaptiveDropDetector::new(NOISE, {false_alarms_per_minute}, {sample_rate})?",
+    ),
 ];
 
 /// The choice that a section names.
@@ -209,6 +214,9 @@ impl<T: Real + DeserializeOwned> Writer<T> {
                     likelihood_ratio_threshold(WINDOW, run_length_for(alarms, rate)).map_err(bad)?;
                 derive("threshold", Value::Float(threshold));
                 derive("window", Value::Integer(i64::try_from(WINDOW).unwrap_or(i64::MAX)));
+            }
+            ("adaptive_drop", Some((_, rate))) => {
+                derive("sample_rate", Value::Float(rate));
             }
             _ => {}
         }

@@ -195,6 +195,7 @@ fn every_choice_gives_the_bits_of_the_pipeline() {
         slip_threshold,
         slip_likelihood_ratio,
         slip_stick_slip,
+        slip_adaptive_drop,
     );
     assert!(entries.next().is_none());
 }

@@ -6,9 +6,9 @@ use fingertip::contact::{
     contact_modulus,
 };
 use fingertip::friction::{
-    AnisotropicCoulomb, Coulomb, Cusum, DropDetector, ForceNoise, FrictionModel, LikelihoodRatioDetector,
-    LoadDependentLimit, NormalForceGate, PowerLimit, PressureDistribution, RatioThreshold, SlipDetector,
-    SlipVerdict, SoftFingerLimit, StickSlipDetector,
+    AdaptiveDropDetector, AnisotropicCoulomb, Coulomb, Cusum, DropDetector, ForceNoise, FrictionModel,
+    LikelihoodRatioDetector, LoadDependentLimit, NormalForceGate, PowerLimit, PressureDistribution,
+    RatioThreshold, SlipDetector, SlipVerdict, SoftFingerLimit, StickSlipDetector,
 };
 use fingertip::surfaces::{DynSurface, SmoothSurface, Sphere};
 use fingertip::wrench::Wrench;
@@ -120,11 +120,12 @@ fn limits_are_the_librarys() {
     );
 }
 
-/// A load that grows, drops at a slip, and does so again and again, with a little noise.
-fn ramps() -> impl Iterator<Item = Wrench<f64>> {
+/// A load that is held for so many samples, and then grows, drops at a slip, and does so again and again, with a
+/// little noise.
+fn ramps(held: u32) -> impl Iterator<Item = Wrench<f64>> {
     let top = Vector3::new(0.0, 0.0, 0.013);
-    (0..1200_u32).map(move |k| {
-        let phase = f64::from(k % 200) / 200.0;
+    (0..held + 1200).map(move |k| {
+        let phase = f64::from(k.saturating_sub(held) % 200) / 200.0;
         let noise = f64::from(k * 7919 % 101) / 101.0 - 0.5;
         let ratio = 0.2 + 0.3 * phase;
         Wrench::from_force_at(&top, Vector3::new(2.0 * ratio + 0.02 * noise, 0.0, -2.0))
@@ -136,7 +137,8 @@ fn detectors_are_the_librarys() {
     fn same(text: &str, mut typed: impl SlipDetector<f64>) {
         let mut ours = pipeline(&format!("[friction]\nstatic_coefficient = 0.47\n[slip]\n{text}"));
         let mut seen = [0; 4];
-        for push in ramps() {
+        // One that learns the noise takes a while.
+        for push in ramps(if text.contains("adaptive") { 3000 } else { 0 }) {
             let found = ours.sense(push, 1e-3);
             let expected = typed.update(found.force().unwrap(), 1e-3);
             assert_eq!(found.touch.slip, Some(expected), "{text}");
@@ -166,6 +168,10 @@ fn detectors_are_the_librarys() {
         LikelihoodRatioDetector::<f64, 32>::new(noise, 1.0, 1000.0).unwrap(),
     );
     same("detector = \"stick_slip\"\nnoise_N = 0.01\n", StickSlipDetector::new(drop()));
+    same(
+        "detector = \"adaptive_drop\"\nnoise_N = 0.01\nfalse_alarms_per_minute = 2.0\n",
+        AdaptiveDropDetector::new(noise, 2.0, 1000.0).unwrap(),
+    );
 }
 
 /// Falls that come every 200 samples of 1 ms are told with their period, and only by the detector that looks for it.
@@ -174,7 +180,7 @@ fn stick_slip_is_told_with_its_period() {
     for (detector, told) in [("stick_slip", true), ("drop", false)] {
         let mut ours = pipeline(&format!("[slip]\ndetector = \"{detector}\"\nnoise_N = 0.01\n"));
         let mut last = None;
-        for push in ramps() {
+        for push in ramps(0) {
             last = ours.sense(push, 1e-3).stick_slip;
         }
         assert_eq!(last.is_some(), told, "{detector}");
