@@ -168,7 +168,7 @@ impl<T: Real, const N: usize, const ROWS: usize> LeastGrip<T, N, ROWS> {
             }
             Ending::Infeasible => {
                 self.last = None;
-                GripOutcome::CannotHold(cannot_hold(grasp, &program, &iterate, per_newton, steps))
+                cannot_hold(grasp, &program, &iterate, per_newton, steps)
             }
             Ending::Unbounded | Ending::Undecided => {
                 self.last = None;
@@ -245,7 +245,7 @@ fn cannot_hold<T: Real, const N: usize, const ROWS: usize, F: Frame>(
     iterate: &Iterate<T, N, ROWS>,
     per_newton: T,
     steps: u32,
-) -> CannotHold<T, F> {
+) -> GripOutcome<T, N, F> {
     let scale = T::one() / iterate.twist.amax();
     let [vx, vy, vz, wx, wy, wz] = (iterate.twist * -scale).into();
     let turning = Vector3::new(wx, wy, wz) / grasp.length();
@@ -253,12 +253,17 @@ fn cannot_hold<T: Real, const N: usize, const ROWS: usize, F: Frame>(
     let value = program.value(iterate);
     let violation = program.violation(iterate);
     let needs = value / violation / per_newton;
-    CannotHold {
+    let excess = value * scale / per_newton;
+    // Of a size, or with a centre, at the end of the range a motion may lie beyond it.
+    if !(velocity.sum() + turning.sum() + excess).is_number() {
+        return GripOutcome::NotFinite;
+    }
+    GripOutcome::CannotHold(CannotHold {
         velocity,
         turning,
-        excess: value * scale / per_newton,
+        excess,
         needs: if needs.is_number() { needs } else { T::GREATEST },
         steps,
         frame: PhantomData,
-    }
+    })
 }
