@@ -10,6 +10,7 @@ mod load;
 mod object;
 mod quality;
 mod react;
+mod triangle;
 
 pub use bad_contact::{BadContact, BadLimit};
 pub use contact::{GraspContact, Hand};

@@ -2,7 +2,9 @@
 
 use fingertip_wrench::Real;
 use fingertip_wrench::numeric::jacobi::{column_norm, orthogonalise};
-use nalgebra::{Matrix6, Matrix6x4, RowVector6, Vector6};
+use nalgebra::{Matrix6, Matrix6x4, Vector6};
+
+use crate::triangle::add_row;
 
 /// `A = Σ σ_i v_i u_iᵀ`: the part of it that lives in the space of wrenches.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +20,7 @@ impl<T: Real> Spectrum<T> {
         let mut triangle = Matrix6::<T>::zeros();
         for block in blocks {
             for column in block.column_iter() {
-                add_row(&mut triangle, column.transpose());
+                add_row(&mut triangle, column.transpose(), |_, _, _| ());
             }
         }
         let mut directions = Matrix6::identity();
@@ -49,26 +51,5 @@ impl<T: Real> Spectrum<T> {
             }
         }
         sum
-    }
-}
-
-/// Rotates a row into an upper triangle.
-fn add_row<T: Real>(triangle: &mut Matrix6<T>, mut row: RowVector6<T>) {
-    for j in 0..6 {
-        let (a, b) = (triangle[(j, j)], row[j]);
-        if b == T::zero() {
-            continue;
-        }
-        let scale = a.abs().max(b.abs()).normalising_factor();
-        let length = ((a * scale) * (a * scale) + (b * scale) * (b * scale)).root() / scale;
-        if !(length > T::zero()) {
-            continue;
-        }
-        let (cos, sin) = (a / length, b / length);
-        for k in j..6 {
-            let (x, y) = (triangle[(j, k)], row[k]);
-            triangle[(j, k)] = cos * x + sin * y;
-            row[k] = cos * y - sin * x;
-        }
     }
 }

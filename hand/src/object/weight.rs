@@ -1,9 +1,10 @@
 //! Mass and centre of mass of what is held, learnt while it is held.
 
 use fingertip_wrench::{Frame, Real, Wrench};
-use nalgebra::{Matrix3, Matrix4, Matrix6, Matrix6x4, RowVector4, Vector3, Vector4, Vector6};
+use nalgebra::{Matrix3, Matrix4, Matrix6, Matrix6x4, Vector3, Vector4, Vector6};
 
 use crate::UncertainWrench;
+use crate::triangle::add_row;
 
 /// Mass and centre of mass, with how sure they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +76,12 @@ impl<T: Real> ObjectWeight<T> {
         }
         let (mut triangle, mut right) = (self.triangle, self.right);
         for (row, value) in rows.row_iter().zip(values.iter()) {
-            add_row(&mut triangle, &mut right, row.into_owned(), *value);
+            let mut value = *value;
+            add_row(&mut triangle, row.into_owned(), |j, cos, sin| {
+                let (x, y) = (right[j], value);
+                right[j] = cos * x + sin * y;
+                value = cos * y - sin * x;
+            });
         }
         if !triangle.iter().chain(right.iter()).all(|x| x.is_number()) {
             return false;
@@ -204,29 +210,5 @@ impl<T: Real> Whitener<T> {
             column.copy_from(&whitened);
         }
         found
-    }
-}
-
-/// Rotates a row and its value into the triangle.
-fn add_row<T: Real>(triangle: &mut Matrix4<T>, right: &mut Vector4<T>, mut row: RowVector4<T>, mut value: T) {
-    for j in 0..4 {
-        let (a, b) = (triangle[(j, j)], row[j]);
-        if b == T::zero() {
-            continue;
-        }
-        let scale = a.abs().max(b.abs()).normalising_factor();
-        let length = ((a * scale) * (a * scale) + (b * scale) * (b * scale)).root() / scale;
-        if !(length > T::zero()) {
-            continue;
-        }
-        let (cos, sin) = (a / length, b / length);
-        for k in j..4 {
-            let (x, y) = (triangle[(j, k)], row[k]);
-            triangle[(j, k)] = cos * x + sin * y;
-            row[k] = cos * y - sin * x;
-        }
-        let (x, y) = (right[j], value);
-        right[j] = cos * x + sin * y;
-        value = cos * y - sin * x;
     }
 }
