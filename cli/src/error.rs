@@ -143,7 +143,7 @@ impl CliError {
     }
 
     pub(crate) fn write(what: &'static str, path: &Path, source: io::Error) -> Self {
-        if crate::output::is_standard(path) {
+        if crate::output::standard::is_standard(path) {
             return Self::stdout(source);
         }
         Self::Write { what, path: path.to_owned(), source }

@@ -38,7 +38,7 @@ mod table;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 
 use args::{Arguments, Command};
 use error::CliError;
@@ -65,8 +65,8 @@ fn main() -> ExitCode {
         Command::Refine(arguments) => refine::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Recover(arguments) => recover::run(&arguments),
-        Command::Completions(arguments) => shell::completions(&arguments),
-        Command::Man(arguments) => shell::man(&arguments),
+        Command::Completions(arguments) => shell::completions(&arguments, Arguments::command()),
+        Command::Man(arguments) => shell::man(&arguments, Arguments::command()),
     };
     match done {
         // Whoever reads our output may stop when they have seen enough.

@@ -3,11 +3,10 @@
 use std::io;
 use std::path::PathBuf;
 
-use clap::{Args, Command, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 use clap_mangen::Man;
 
-use crate::args::Arguments;
 use crate::error::CliError;
 use crate::output::{Outputs, Overwrite, print, print_exactly};
 
@@ -32,18 +31,17 @@ pub(crate) struct ManArguments {
 }
 
 /// Prints what a shell completes by.
-pub(crate) fn completions(arguments: &CompletionsArguments) -> Result<(), CliError> {
+pub(crate) fn completions(arguments: &CompletionsArguments, mut whole: Command) -> Result<(), CliError> {
     let mut text = Vec::new();
-    clap_complete::generate(arguments.shell, &mut Arguments::command(), "fingertip", &mut text);
+    clap_complete::generate(arguments.shell, &mut whole, "fingertip", &mut text);
     print_exactly(&String::from_utf8_lossy(&text))
 }
 
 /// Writes the pages of the manual.
-pub(crate) fn man(arguments: &ManArguments) -> Result<(), CliError> {
-    let mut command = Arguments::command();
-    command.build();
+pub(crate) fn man(arguments: &ManArguments, mut whole: Command) -> Result<(), CliError> {
+    whole.build();
     let mut pages = Vec::new();
-    collect(&command, "fingertip", &mut pages).map_err(CliError::Stdout)?;
+    collect(&whole, "fingertip", &mut pages).map_err(CliError::Stdout)?;
     let paths: Vec<PathBuf> =
         pages.iter().map(|(name, _)| arguments.folder.join(format!("{name}.1"))).collect();
     let outputs = Outputs::guard(arguments.overwrite, "page", [], &paths)?;

@@ -1,16 +1,15 @@
 //! The pipeline of a scene, chosen at run time.
 
-use fingertip::contact::{Contact, Happened, NoContact, Resolution, Tracked};
-use fingertip::friction::{GripController, SlipMargin, SlipVerdict, StickSlip};
+use fingertip::friction::{GripController, SlipVerdict};
 use fingertip::surfaces::DynSurface;
-use fingertip::wrench::{ContactForce, Motion, Real, Wrench};
-use fingertip::{AnyTouch, Step, Touch, TouchSensor};
+use fingertip::wrench::{Motion, Real, Wrench};
+use fingertip::{AnyTouch, Step, TouchSensor};
 use nalgebra::{Vector3, Vector6};
-use serde::{Deserialize, Serialize};
 
 use crate::carried::Carried;
-use crate::estimate::{Estimate, Learnt};
+use crate::estimate::Estimate;
 use crate::fault::SceneProblem;
+use crate::felt::{Felt, Tells};
 use crate::filter::Filter;
 use crate::friction::{Friction, Limit};
 use crate::front::Front;
@@ -20,7 +19,7 @@ use crate::sensor::{GaugeReading, NoWrench, Sensor};
 use crate::slip::{Detector, SlipWatch};
 use crate::stages::Stages;
 use crate::tracking::Tracking;
-use crate::uncertainty::{Spread, Uncertainty};
+use crate::uncertainty::Uncertainty;
 
 /// A longer step than this is a pause \[s\]: what follows from sample to sample starts anew.
 const PAUSE: f64 = 0.5;
@@ -48,80 +47,6 @@ pub struct Pipeline<T: Real> {
     has_more: bool,
     last: Option<Vector3<T>>,
     felt: Felt<T>,
-}
-
-/// What one sample says: of a stage that the scene has not, nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
-pub struct Felt<T: Real> {
-    /// Wrench, contact, force, slip margin and slip verdict.
-    pub touch: AnyTouch<T>,
-    /// How sure the contact is, with `[uncertainty]`; `None` also where it cannot be said, as at grazing.
-    pub spread: Option<Spread<T>>,
-    /// Where the contact is by all samples so far, with `[tracking]`; `None` where none is followed.
-    pub tracked: Option<Tracked<T>>,
-    /// Whether something touches, lets go or strikes, where `[tracking]` has a `least_touch_N`.
-    pub happened: Option<Happened<T>>,
-    /// The probability that the contact slips, where the friction is known with a deviation.
-    pub slip_probability: Option<T>,
-    /// The stick-slip motion that goes on, where it is looked for.
-    pub stick_slip: Option<StickSlip<T>>,
-    /// What was learnt of the friction so far, with `[estimate]`.
-    pub friction: Option<Learnt<T>>,
-    /// The normal force to command next \[N\], with `[grip]`.
-    pub grip_force: Option<T>,
-}
-
-impl<T: Real> Felt<T> {
-    /// Before the first sample.
-    fn nothing() -> Self {
-        let (zero, force) = (Wrench::zero(), T::zero());
-        let resolution = Resolution::NoContact(NoContact::BelowThreshold { force });
-        Self {
-            touch: Touch { wrench: zero, resolution, force: None, grip: None, slip: None },
-            spread: None,
-            tracked: None,
-            happened: None,
-            slip_probability: None,
-            stick_slip: None,
-            friction: None,
-            grip_force: None,
-        }
-    }
-
-    /// Where it touches, and how.
-    pub const fn contact(&self) -> Option<&Contact<T>> {
-        self.touch.resolution.contact()
-    }
-
-    /// The force of the contact, split at its tangent plane.
-    pub const fn force(&self) -> Option<&ContactForce<T>> {
-        self.touch.force.as_ref()
-    }
-
-    /// How far the contact is from slipping, with `[friction]`.
-    pub fn margin(&self) -> Option<SlipMargin<T>> {
-        self.touch.grip.flatten()
-    }
-}
-
-/// What a scene tells of a sample beside contact, forces, margin and verdict.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Tells {
-    /// A spin torque: the contact model knows one.
-    pub spin_torque: bool,
-    /// How sure the contact is: there is an `[uncertainty]`.
-    pub spread: bool,
-    /// Where the contact is over time: there is a `[tracking]`.
-    pub tracked: bool,
-    /// Touch, release and blow: the `[tracking]` has a `least_touch_N`.
-    pub happened: bool,
-    /// The probability of slip: the friction has a deviation.
-    pub slip_probability: bool,
-    /// What was learnt of the friction: there is an `[estimate]`.
-    pub friction: bool,
-    /// The normal force to command: there is a `[grip]`.
-    pub grip_force: bool,
 }
 
 /// The parts that a scene builds.

@@ -10,9 +10,10 @@ use serde::de::DeserializeOwned;
 
 use crate::carried::{Carried, PayloadSource};
 use crate::fault::SceneProblem;
+use crate::felt::Tells;
 use crate::friction::Limit;
 use crate::input::{Convention, InputSection};
-use crate::pipeline::{Pipeline, Tells};
+use crate::pipeline::Pipeline;
 use crate::projection::Projection;
 use crate::sections::StageSections;
 use crate::sensor::SensorSource;

@@ -7,6 +7,7 @@ use super::contact::{ContactReport, contact_report};
 use super::metrics::{AxisReport, LineReport, axis_reports, cross_talk, lines};
 use super::outliers::{Outlier, outliers};
 use super::suspicion::{Suspicion, suspicions};
+use super::words::{describe, worst_first};
 use crate::design::TouchSet;
 use crate::file::{CalibrationFile, Verdict};
 use crate::linear::{Singular, pseudo_inverse};
@@ -373,33 +374,4 @@ impl Report {
     pub fn to_json(&self) -> Result<String, serde_json::Error> {
         serde_json::to_string_pretty(self)
     }
-}
-
-fn describe(options: &Options) -> String {
-    use crate::model::Direction;
-    let mut text = options.method.name().to_owned();
-    text.push_str(match options.direction {
-        Direction::SignalsFromLoads => " of signals on loads",
-        Direction::LoadsFromSignals => " of loads on signals",
-    });
-    if options.quadratic {
-        text.push_str(", quadratic");
-    }
-    text.push_str(if options.bias { ", with bias" } else { ", without bias" });
-    if options.tare_groups {
-        text.push_str(", tared by group");
-    }
-    if options.reference_celsius.is_some() {
-        text.push_str(", drift with temperature taken off");
-    }
-    if options.reject_outliers {
-        text.push_str(", outliers rejected");
-    }
-    text
-}
-
-/// Reasons, those that miss by most first.
-fn worst_first(mut found: Vec<(f64, String)>) -> Vec<String> {
-    found.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    found.into_iter().map(|(_, text)| text).collect()
 }

@@ -8,6 +8,7 @@ mod outliers;
 mod plot;
 mod suspicion;
 mod terminal;
+mod words;
 
 pub use contact::ContactReport;
 pub use contents::{Exclusion, Report, SampleReport};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use same_file::Handle;
 
-use super::is_standard;
+use super::standard::is_standard;
 use super::whole::already_there;
 use crate::error::CliError;
 

@@ -2,6 +2,7 @@
 
 mod guard;
 mod printable;
+pub(crate) mod standard;
 mod unfinished;
 mod whole;
 
@@ -12,6 +13,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 pub(crate) use printable::printable;
+pub(crate) use standard::is_standard;
 pub(crate) use unfinished::remove_all as remove_unfinished;
 pub(crate) use whole::Whole;
 
@@ -100,11 +102,6 @@ impl Outputs {
     pub(crate) fn written(&self) -> String {
         written(self.written.borrow().iter())
     }
-}
-
-/// Whether a path is the standard input or output.
-pub(crate) fn is_standard(path: &Path) -> bool {
-    path == Path::new("-")
 }
 
 /// Prints to the standard output, at once; names and texts of files cannot steer the terminal.

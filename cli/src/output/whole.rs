@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile};
 
-use super::is_standard;
+use super::standard::is_standard;
 use super::unfinished::Unfinished;
 use crate::error::CliError;
 

@@ -14,6 +14,8 @@ mod packet;
 mod probe;
 mod split;
 mod stl;
+#[cfg(feature = "serde")]
+mod stored;
 mod topology;
 
 use alloc::boxed::Box;
@@ -326,39 +328,6 @@ impl<T: Real> SmoothSurface<T> for Mesh<T> {
     /// A vertex: on a straight edge no spin torque holds a contact.
     fn corner(&self, _point: &Vector3<T>, _normal: &Vector3<T>) -> Option<Corner<T>> {
         Some(Corner::Tip)
-    }
-}
-
-/// In files, vertices and triangles.
-#[cfg(feature = "serde")]
-mod files {
-    use alloc::vec::Vec;
-
-    use fingertip_wrench::Real;
-    use nalgebra::Vector3;
-    use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
-
-    use super::Mesh;
-
-    #[derive(Serialize, Deserialize)]
-    #[serde(deny_unknown_fields, bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
-    struct Parts<T: Real> {
-        vertices_m: Vec<Vector3<T>>,
-        triangles: Vec<[u32; 3]>,
-    }
-
-    impl<T: Real + Serialize> Serialize for Mesh<T> {
-        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-            Parts { vertices_m: self.vertices().collect(), triangles: self.triangles.clone() }
-                .serialize(serializer)
-        }
-    }
-
-    impl<'de, T: Real + Deserialize<'de>> Deserialize<'de> for Mesh<T> {
-        fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-            let parts = Parts::<T>::deserialize(deserializer)?;
-            Self::new(&parts.vertices_m, &parts.triangles).map_err(Error::custom)
-        }
     }
 }
 

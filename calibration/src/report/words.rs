@@ -1,0 +1,32 @@
+//! What a report says in words.
+
+use crate::model::{Direction, Options};
+
+/// How a fit was made.
+pub(super) fn describe(options: &Options) -> String {
+    let mut text = options.method.name().to_owned();
+    text.push_str(match options.direction {
+        Direction::SignalsFromLoads => " of signals on loads",
+        Direction::LoadsFromSignals => " of loads on signals",
+    });
+    if options.quadratic {
+        text.push_str(", quadratic");
+    }
+    text.push_str(if options.bias { ", with bias" } else { ", without bias" });
+    if options.tare_groups {
+        text.push_str(", tared by group");
+    }
+    if options.reference_celsius.is_some() {
+        text.push_str(", drift with temperature taken off");
+    }
+    if options.reject_outliers {
+        text.push_str(", outliers rejected");
+    }
+    text
+}
+
+/// Reasons, those that miss by most first.
+pub(super) fn worst_first(mut found: Vec<(f64, String)>) -> Vec<String> {
+    found.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    found.into_iter().map(|(_, text)| text).collect()
+}

@@ -1,0 +1,8 @@
+//! The standard input and output by their name.
+
+use std::path::Path;
+
+/// Whether a path is the standard input or output.
+pub(crate) fn is_standard(path: &Path) -> bool {
+    path == Path::new("-")
+}
