@@ -12,6 +12,7 @@ use fingertip::wrench::gauge_layout::{GaugeLayout, ThinWalledBeam};
 use fingertip::wrench::{Real, SensorMatrix};
 use nalgebra::Vector6;
 
+mod any_fingertip;
 mod batches;
 mod batches_at_the_edges;
 mod contacts;
