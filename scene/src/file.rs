@@ -1,10 +1,9 @@
 //! From the text of a scene to the scene.
 
-use std::fs;
-use std::io::{self, Read as _};
 use std::path::Path;
 
 use fingertip::surfaces::DynSurface;
+use fingertip_calibration::file::read_text;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
@@ -56,9 +55,6 @@ struct Kind {
     version: Option<u32>,
 }
 
-/// The longest scene that is read: 16 MiB. Meshes stand in files of their own.
-const LONGEST: u64 = 16 << 20;
-
 impl Scene {
     /// Reads and checks the scene in a file.
     ///
@@ -66,13 +62,8 @@ impl Scene {
     /// [`SceneError`], which names the file, the line where it is known, the key, and the mend.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let path = path.as_ref();
-        let mut text = String::new();
-        let read = fs::File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_string(&mut text));
-        let read = read.and_then(|length| {
-            let too_long = || io::Error::new(io::ErrorKind::FileTooLarge, "it is longer than 16 MiB");
-            if length as u64 > LONGEST { Err(too_long()) } else { Ok(()) }
-        });
-        read.map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
+        let text =
+            read_text(path).map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
         let name = path.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
         let folder = path.parent().unwrap_or(Path::new(""));
         Self::parse(&text, &name, folder).map_err(|fault| SceneError::Fault { path: path.to_owned(), fault })

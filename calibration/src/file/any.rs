@@ -5,7 +5,7 @@ use std::path::Path;
 
 use thiserror::Error;
 
-use super::bounded::read_to_string;
+use super::bounded::read_text;
 use super::{AtiCalibration, AtiError, CalibrationFile, FileError};
 
 /// Why a calibration of either format cannot be read.
@@ -29,7 +29,7 @@ pub enum ReadError {
 /// [`ReadError`], which does not name the file.
 pub fn read_calibration(path: impl AsRef<Path>) -> Result<CalibrationFile, ReadError> {
     let path = path.as_ref();
-    let text = read_to_string(path)?;
+    let text = read_text(path)?;
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("cal")) {
         return Ok(AtiCalibration::from_xml(&text)?.to_calibration()?);
     }

@@ -4,11 +4,14 @@ use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::Path;
 
-/// The longest file that is read \[MiB\]: a calibration has some kilobytes.
+/// The longest file that is read \[MiB\]: a calibration or a scene has some kilobytes.
 const LONGEST: u64 = 16;
 
-/// All of a file, unless it is longer than any that is meant.
-pub(super) fn read_to_string(path: &Path) -> io::Result<String> {
+/// All of a calibration's, a payload's or a scene's file, unless it is longer than any that is meant.
+///
+/// # Errors
+/// Those of reading; [`io::ErrorKind::FileTooLarge`] beyond 16 MiB.
+pub fn read_text(path: &Path) -> io::Result<String> {
     let mut text = String::new();
     let most = LONGEST << 20;
     let length = File::open(path)?.take(most + 1).read_to_string(&mut text)?;
@@ -22,7 +25,7 @@ pub(super) fn read_to_string(path: &Path) -> io::Result<String> {
 mod tests {
     #[test]
     fn a_file_without_an_end_is_refused() {
-        let error = super::read_to_string("/dev/zero".as_ref()).unwrap_err().to_string();
+        let error = super::read_text("/dev/zero".as_ref()).unwrap_err().to_string();
         assert!(error.contains("longer than 16 MiB"), "{error}");
     }
 }

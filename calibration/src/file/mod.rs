@@ -20,6 +20,7 @@ mod validate;
 pub use any::{ReadError, read_calibration};
 pub use ati::{AtiAxis, AtiCalibration};
 pub use ati_error::AtiError;
+pub use bounded::read_text;
 pub use calibration_file::{CalibrationFile, Covariance, Provenance, Quality, Verdict};
 pub use document::VERSION;
 pub use error::FileError;

@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use toml::Value;
 
-use super::bounded::read_to_string;
+use super::bounded::read_text;
 use super::document::{compare, malformed, open, write};
 use super::{FileError, Provenance};
 
@@ -184,7 +184,7 @@ impl PayloadFile {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
         let fault = |source: io::Error| FileError::Io { path: path.display().to_string(), source };
-        Self::from_toml(&read_to_string(path).map_err(fault)?)
+        Self::from_toml(&read_text(path).map_err(fault)?)
     }
 
     /// Reads the text of a payload file.

@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 
 use toml::{Table, Value};
 
-use super::bounded::read_to_string;
+use super::bounded::read_text;
 use super::document::{checksum_of, compare, malformed, open, write};
 use super::{CalibrationFile, FileError};
 
@@ -17,8 +17,8 @@ impl CalibrationFile {
     /// is not that of its contents.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
-        let text = read_to_string(path)
-            .map_err(|source| FileError::Io { path: path.display().to_string(), source })?;
+        let text =
+            read_text(path).map_err(|source| FileError::Io { path: path.display().to_string(), source })?;
         Self::from_toml(&text)
     }
 

@@ -81,6 +81,8 @@ pub(super) fn r_d<T: Real>(x: T, y: T, z: T) -> T {
 #[cfg(test)]
 mod tests {
     use fingertip_wrench::Real;
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
 
     use super::{r_d, r_f};
 
@@ -110,11 +112,8 @@ mod tests {
     #[test]
     fn the_sum_over_the_places_is_known() {
         fn check<T: Real>(spread: f64, tolerance: f64) {
-            let mut state = 1_u64;
-            let mut any = || {
-                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-            };
+            let mut random = Pcg64Mcg::seed_from_u64(1);
+            let mut any = || random.random_range(-0.5..0.5);
             for _ in 0..200 {
                 let [x, y, z] = [(); 3].map(|()| T::literal(2.0 * (spread * any()).exp()));
                 let sum = (r_d(x, y, z) + r_d(y, z, x) + r_d(z, x, y)).to_f64();

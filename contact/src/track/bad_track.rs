@@ -1,5 +1,6 @@
 //! Why what follows a contact cannot be made.
 
+use fingertip_wrench::Real;
 use thiserror::Error;
 
 /// A setting of what follows a contact over time is out of range.
@@ -31,4 +32,10 @@ impl BadTrack {
     ) -> Result<(), Self> {
         if good { Ok(()) } else { Err(Self { what, parameter, requirement }) }
     }
+}
+
+/// Whether the square of a length, and its reciprocal, are in the range of the type.
+pub(super) fn is_ordinary<T: Real>(length: T) -> bool {
+    let square = length * length;
+    square >= T::LEAST_NORMAL && square <= T::one() / T::LEAST_NORMAL
 }

@@ -4,6 +4,7 @@ use fingertip_surfaces::ActiveSurface;
 use fingertip_wrench::Real;
 use nalgebra::Vector2;
 
+use super::bad_track::is_ordinary;
 use super::followed::{Compared, Track};
 use super::{BadTrack, Continuity, Sighting, Tracked};
 
@@ -82,9 +83,12 @@ impl<T: Real> Tracker<T> {
         BadTrack::check(WHAT, "speed", "positive and finite", positive(speed))?;
         BadTrack::check(WHAT, "time to turn", "positive and finite", positive(within))?;
         let unit = speed * within;
-        let square = unit * unit;
-        let good = square >= T::LEAST_NORMAL && square <= T::one() / T::LEAST_NORMAL;
-        BadTrack::check(WHAT, "speed times its time to turn", "a length of ordinary size", good)?;
+        BadTrack::check(
+            WHAT,
+            "speed times its time to turn",
+            "a length of ordinary size",
+            is_ordinary(unit),
+        )?;
         Ok(Self {
             speed,
             within,
@@ -156,7 +160,7 @@ impl<T: Real> Tracker<T> {
         sighting: &Sighting<T>,
         time: T,
     ) -> Option<Tracked<T>> {
-        let variance = sighting.covariance.trace() * (self.shorter * self.shorter);
+        let variance = self.variance(sighting);
         if !variance.is_number() {
             // It says nothing.
             return self.coast(surface, time);
@@ -172,6 +176,12 @@ impl<T: Real> Tracker<T> {
             }
             compared => self.doubt(surface, sighting, &moved, time, compared),
         }
+    }
+
+    /// Sum of the variances of a sighting [units].
+    #[inline(always)]
+    fn variance(&self, sighting: &Sighting<T>) -> T {
+        sighting.covariance.trace() * (self.shorter * self.shorter)
     }
 
     /// The sample may be of another contact: of the one that the sample before was of, if that was in doubt, too.
@@ -190,7 +200,7 @@ impl<T: Real> Tracker<T> {
             if let Some(again) = again.filter(|again| again.surprise() <= self.gate) {
                 rival.take(surface, &again, &moved, self.unit);
                 self.track = self.rival.take();
-                self.sample = sighting.covariance.trace() * (self.shorter * self.shorter);
+                self.sample = self.variance(sighting);
                 return self.say(Continuity::New, compared);
             }
         }
@@ -222,7 +232,7 @@ impl<T: Real> Tracker<T> {
     fn start(&mut self, sighting: &Sighting<T>) -> Option<Tracked<T>> {
         self.track = Some(Track::start(sighting, self.shorter));
         self.rival = None;
-        self.sample = sighting.covariance.trace() * (self.shorter * self.shorter);
+        self.sample = self.variance(sighting);
         self.say(Continuity::New, None)
     }
 

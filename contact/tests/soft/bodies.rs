@@ -1,6 +1,7 @@
 //! Bodies with edges, bodies of facets, and shapes made of shapes.
 
 use fingertip_contact::{ContactModel, Search, SoftContact, SoftFinger, SoftFingerSurface};
+use fingertip_surfaces::testing::cube_of_triangles;
 use fingertip_surfaces::{
     ActiveSurface, CappedCylinder, Capsule, Compound, Cone, Cylinder, CylinderEnds, DynSurface,
     EllipticCylinder, Frustum, Heightfield, Mesh, Offset, Paraboloid, Revolution, Sphere,
@@ -168,22 +169,7 @@ fn ball(radius: f64, n: u32) -> Mesh<f64> {
 }
 
 fn cube(half: f64) -> Mesh<f64> {
-    let vertices: Vec<_> =
-        (0..8_u8).map(|k| Vector3::from_fn(|i, _| if k >> i & 1 == 1 { half } else { -half })).collect();
-    let triangles = [
-        [0, 2, 1],
-        [1, 2, 3],
-        [4, 5, 6],
-        [5, 7, 6],
-        [0, 1, 4],
-        [1, 5, 4],
-        [2, 6, 3],
-        [3, 6, 7],
-        [0, 4, 2],
-        [2, 4, 6],
-        [1, 3, 5],
-        [3, 7, 5],
-    ];
+    let (vertices, triangles) = cube_of_triangles(half);
     Mesh::new(&vertices, &triangles).unwrap()
 }
 

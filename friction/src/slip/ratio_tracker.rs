@@ -33,8 +33,7 @@ pub(super) fn taken_rate(sample_rate: f64) -> f64 {
 /// # Noise
 /// The deviations come from [`ForceNoise`]; where the innovations prove rougher than that, a running estimate of their
 /// own variance takes over within some hundred samples, so that white noise above the stated costs sensitivity more than
-/// false alarms. It never goes
-/// below the stated noise. Noise that hangs together is another matter:
+/// false alarms. It never goes below the stated noise. Noise that hangs together is another matter:
 /// [`AdaptiveDropDetector`](crate::AdaptiveDropDetector).
 ///
 /// # Time

@@ -1,7 +1,7 @@
 //! Mass and centre of mass of what is held, learnt while it is held.
 
 use fingertip_wrench::{Frame, Real, Wrench};
-use nalgebra::{Matrix3, Matrix4, Matrix6, Matrix6x4, Vector3, Vector4, Vector6};
+use nalgebra::{Matrix3, Matrix4, Matrix6, Matrix6x4, SMatrix, Vector3, Vector4};
 
 use crate::UncertainWrench;
 use crate::triangle::add_row;
@@ -69,7 +69,7 @@ impl<T: Real> ObjectWeight<T> {
     /// `false`, and nothing learnt, if a number is NaN or infinite or the covariance is not positive definite.
     pub fn observe<F: Frame>(&mut self, load: &UncertainWrench<T, F>, gravity: &Vector3<T>) -> bool {
         let Some(whitener) = Whitener::new(&load.covariance) else { return false };
-        let rows = whitener.apply_map(&map(gravity));
+        let rows = whitener.apply(&map(gravity));
         let values = whitener.apply(&load.wrench.components());
         if !rows.iter().chain(values.iter()).all(|x| x.is_number()) {
             return false;
@@ -140,16 +140,7 @@ impl<T: Real> ObjectWeight<T> {
 
     /// The inverse of the triangle.
     fn inverse(&self) -> Option<Matrix4<T>> {
-        let mut inverse = Matrix4::zeros();
-        for j in 0..4 {
-            for i in (0..=j).rev() {
-                let mut sum = if i == j { T::one() } else { T::zero() };
-                for k in i + 1..=j {
-                    sum -= self.triangle[(i, k)] * inverse[(k, j)];
-                }
-                inverse[(i, j)] = sum / self.triangle[(i, i)];
-            }
-        }
+        let inverse = self.triangle.solve_upper_triangular(&Matrix4::identity())?;
         inverse.iter().all(|x| x.is_number()).then_some(inverse)
     }
 }
@@ -168,47 +159,15 @@ pub(crate) struct Whitener<T: Real> {
 }
 
 impl<T: Real> Whitener<T> {
-    /// `None` unless positive definite.
+    /// `None` unless positive definite: beyond rounding, in each direction that the ones before leave.
     pub(crate) fn new(covariance: &Matrix6<T>) -> Option<Self> {
-        // Scaled to a unit diagonal: square newtons and square newton metres are far apart.
-        let mut lower = Matrix6::zeros();
-        for j in 0..6 {
-            for i in j..6 {
-                let mut sum = covariance[(i, j)];
-                for k in 0..j {
-                    sum -= lower[(i, k)] * lower[(j, k)];
-                }
-                if i == j {
-                    if !(sum > covariance[(i, i)].abs() * T::EPSILON && sum.is_number()) {
-                        return None;
-                    }
-                    lower[(i, i)] = sum.root();
-                } else {
-                    lower[(i, j)] = sum / lower[(j, j)];
-                }
-            }
-        }
-        lower.iter().all(|x| x.is_number()).then_some(Self { lower })
+        let lower = covariance.cholesky()?.l();
+        let left = |i: usize| lower[(i, i)] * lower[(i, i)] > covariance[(i, i)] * T::EPSILON;
+        ((0..6).all(left) && lower.iter().all(|x| x.is_number())).then_some(Self { lower })
     }
 
-    pub(crate) fn apply(&self, right: &Vector6<T>) -> Vector6<T> {
-        let mut x = *right;
-        for i in 0..6 {
-            let mut sum = x[i];
-            for k in 0..i {
-                sum -= self.lower[(i, k)] * x[k];
-            }
-            x[i] = sum / self.lower[(i, i)];
-        }
-        x
-    }
-
-    fn apply_map(&self, map: &Matrix6x4<T>) -> Matrix6x4<T> {
-        let mut found = *map;
-        for mut column in found.column_iter_mut() {
-            let whitened = self.apply(&column.clone_owned());
-            column.copy_from(&whitened);
-        }
-        found
+    /// A column, or the columns of a map.
+    pub(crate) fn apply<const C: usize>(&self, right: &SMatrix<T, 6, C>) -> SMatrix<T, 6, C> {
+        self.lower.solve_lower_triangular(right).unwrap_or_else(SMatrix::zeros)
     }
 }

@@ -1,9 +1,8 @@
 //! Force closure.
 
-use fingertip_wrench::{Frame, Real, Wrench};
+use fingertip_wrench::{ContactForce, Frame, Real, Wrench};
 
 use crate::{FingerLimits, Grasp, Reach};
-use fingertip_wrench::ContactForce;
 
 impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
     /// Whether the contacts can bear any load at all, if only they press hard enough; `None` where that is closer

@@ -4,24 +4,32 @@ use fingertip::contact::{PointContact, SoftFinger};
 use fingertip::friction::{Coulomb, DropDetector, ForceNoise, SoftFingerLimit};
 use fingertip::surfaces::{Capsule, Posed, Sphere};
 use fingertip::wrench::{RigidTransform, Wrench};
-use fingertip::{Fingertip, Present, Step, TouchSensor};
-use fingertip_scene::Scene;
+use fingertip::{Absent, Fingertip, Present, Step, TouchSensor};
+use fingertip_scene::{Pipeline, Scene};
 use nalgebra::Vector3;
 
 use crate::{BALL, HEAD, pushes};
 
-#[test]
-fn a_point_contact_on_a_sphere() {
+type TypedBall =
+    Fingertip<Absent, Sphere<f64>, PointContact<f64>, Present<Coulomb<f64>>, Present<DropDetector<f64>>>;
+
+/// A point contact on a sphere with friction and a slip detector, from a scene and typed.
+fn ball() -> (Pipeline<f64>, TypedBall) {
     let text = format!(
         "{HEAD}{BALL}[contact]\nleast_force_N = 0.1\n[friction]\nstatic_coefficient = 0.5\n\
          [slip]\ndetector = \"drop\"\nnoise_N = 0.01\n"
     );
-    let mut pipeline = Scene::from_text(&text).unwrap().pipeline();
-    let mut typed = Fingertip::builder()
+    let typed = Fingertip::builder()
         .contact(Sphere::centred(0.013).unwrap(), PointContact::new(0.1).unwrap())
         .friction(Coulomb::new(0.5).unwrap())
         .slip_detector(DropDetector::new(ForceNoise::isotropic(0.01).unwrap()).unwrap())
         .build();
+    (Scene::from_text(&text).unwrap().pipeline(), typed)
+}
+
+#[test]
+fn a_point_contact_on_a_sphere() {
+    let (mut pipeline, mut typed) = ball();
     let mut last = None;
     for push in pushes(3, 2000) {
         let felt = pipeline.sense(push, 1e-3);
@@ -180,16 +188,7 @@ fn columns_are_one_sample_after_another() {
 /// it, and starts anew.
 #[test]
 fn fingers_of_both_kinds_in_one_hand() {
-    let text = format!(
-        "{HEAD}{BALL}[contact]\nleast_force_N = 0.1\n[friction]\nstatic_coefficient = 0.5\n\
-         [slip]\ndetector = \"drop\"\nnoise_N = 0.01\n"
-    );
-    let mut from_scene = Scene::from_text(&text).unwrap().pipeline();
-    let mut typed = Fingertip::builder()
-        .contact(Sphere::centred(0.013).unwrap(), PointContact::new(0.1).unwrap())
-        .friction(Coulomb::new(0.5).unwrap())
-        .slip_detector(DropDetector::new(ForceNoise::isotropic(0.01).unwrap()).unwrap())
-        .build();
+    let (mut from_scene, mut typed) = ball();
     let mut alone = typed;
     let mut hand: [&mut dyn TouchSensor<f64>; 2] = [&mut from_scene, &mut typed];
     let mut last = [None; 3];

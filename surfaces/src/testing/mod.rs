@@ -17,6 +17,8 @@ mod ball;
 mod closest;
 mod collect;
 mod crossings;
+#[cfg(feature = "alloc")]
+mod cube;
 mod law;
 mod laws;
 mod random;
@@ -25,6 +27,8 @@ mod wrapper;
 
 #[cfg(feature = "alloc")]
 pub use ball::ball_of_triangles;
+#[cfg(feature = "alloc")]
+pub use cube::cube_of_triangles;
 pub use law::{Law, Violation};
 pub use laws::SurfaceLaws;
 pub use wrapper::Kept;

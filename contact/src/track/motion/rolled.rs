@@ -5,6 +5,7 @@ use nalgebra::{Matrix2, Matrix3, SMatrix, SVector, Vector2, Vector3};
 use thiserror::Error;
 
 use super::FingerVelocity;
+use crate::track::bad_track::is_ordinary;
 use crate::track::fold::Fold;
 use crate::track::{BadTrack, Sighting, Tracked};
 
@@ -58,19 +59,9 @@ impl<T: Real> RollingCurvature<T> {
     /// # Errors
     /// [`BadTrack`] unless the radius is positive and its square and the reciprocal of that are finite.
     pub fn new(radius: T) -> Result<Self, BadTrack> {
-        let square = radius * radius;
-        let good = radius > T::zero() && square >= T::LEAST_NORMAL && square <= T::one() / T::LEAST_NORMAL;
+        let good = radius > T::zero() && is_ordinary(radius);
         BadTrack::check("a curvature from rolling", "radius", "positive and of ordinary size", good)?;
-        Ok(Self {
-            unit: radius,
-            last: None,
-            way: Vector2::zeros(),
-            angle: Vector2::zeros(),
-            finger: Matrix2::zeros(),
-            count: 0,
-            matrix: SMatrix::zeros(),
-            right: SVector::zeros(),
-        })
+        Ok(Self::fresh(radius))
     }
 
     /// Takes a sample: what the tracker said of it, where it was seen, how the finger moved since the sample before, the
@@ -169,8 +160,11 @@ impl<T: Real> RollingCurvature<T> {
 
     /// Forgets all samples.
     pub fn reset(&mut self) {
-        let unit = self.unit;
-        *self = Self {
+        *self = Self::fresh(self.unit);
+    }
+
+    fn fresh(unit: T) -> Self {
+        Self {
             unit,
             last: None,
             way: Vector2::zeros(),
@@ -179,6 +173,6 @@ impl<T: Real> RollingCurvature<T> {
             count: 0,
             matrix: SMatrix::zeros(),
             right: SVector::zeros(),
-        };
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! Across edges and facets, off the end, and on every side of a body.
 
 use fingertip_contact::{Continuity, Sighting, Tracker};
+use fingertip_surfaces::testing::cube_of_triangles;
 use fingertip_surfaces::{ActiveSurface, CappedCylinder, Mesh, Rectangle, RoundedBox, Sphere};
 use nalgebra::{Matrix2, Vector3};
 use rand::SeedableRng;
@@ -61,25 +62,7 @@ fn nearest<S: ActiveSurface<f64>>(
 }
 
 fn cube(half: f64) -> Mesh<f64> {
-    let corner = |k: u32| {
-        let side = |bit: u32| if k & bit == 0 { -half } else { half };
-        Vector3::new(side(1), side(2), side(4))
-    };
-    let vertices: Vec<_> = (0..8).map(corner).collect();
-    let triangles = [
-        [0, 2, 1],
-        [1, 2, 3],
-        [4, 5, 6],
-        [5, 7, 6],
-        [0, 1, 4],
-        [1, 5, 4],
-        [2, 6, 3],
-        [3, 6, 7],
-        [0, 4, 2],
-        [2, 4, 6],
-        [1, 3, 5],
-        [3, 7, 5],
-    ];
+    let (vertices, triangles) = cube_of_triangles(half);
     Mesh::new(&vertices, &triangles).unwrap()
 }
 
