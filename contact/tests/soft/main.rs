@@ -32,6 +32,8 @@ mod skin_covariance;
 mod solids;
 mod torus;
 mod uncertainty;
+#[cfg(target_os = "linux")]
+mod unchanged;
 mod uniqueness;
 mod units;
 mod wrenches;

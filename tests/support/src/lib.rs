@@ -3,7 +3,9 @@
 
 pub mod mcap;
 mod recordings;
+mod unchanged;
 mod worst;
 
 pub use recordings::{recording, recording_text};
+pub use unchanged::Unchanged;
 pub use worst::Worst;
