@@ -26,3 +26,5 @@ mod stick_slip;
 mod stored;
 mod tracker;
 mod tribometer;
+#[cfg(target_os = "linux")]
+mod unchanged;

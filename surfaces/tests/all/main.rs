@@ -21,4 +21,6 @@ mod residual;
 mod smooth;
 mod special_lines;
 mod superquadric;
+#[cfg(target_os = "linux")]
+mod unchanged;
 mod wrappers;

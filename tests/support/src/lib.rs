@@ -1,6 +1,8 @@
 //! What the tests of several crates share. Not published.
 #![allow(clippy::panic, clippy::expect_used)]
 
+extern crate alloc;
+
 pub mod mcap;
 mod recordings;
 mod unchanged;

@@ -1,7 +1,7 @@
 //! Answers that are to stay as they are, bit for bit.
 
-use std::collections::BTreeMap;
-use std::fmt::{Debug, Write};
+use alloc::collections::BTreeMap;
+use core::fmt::{Debug, Write};
 use std::path::PathBuf;
 
 /// Answers that are to stay as they are, bit for bit: a file holds how many there are of each kind, and a checksum

@@ -32,7 +32,7 @@ impl<'a> Wandering<'a> {
     /// Force and torque, which are zero while nothing touches, and the time since the last \[s\].
     fn next(&mut self) -> (Wrench<f64>, f64) {
         self.step += 1;
-        if self.step % 97 == 0 {
+        if self.step.is_multiple_of(97) {
             self.last = self.draw.place(self.surface, 0.015);
         }
         let (point, normal) = self.last;
@@ -45,7 +45,7 @@ impl<'a> Wandering<'a> {
         if let Some(contact) = found.contact() {
             self.last = (contact.point, contact.normal);
         }
-        if self.step % 31 == 0 {
+        if self.step.is_multiple_of(31) {
             self.aside = self.draw.direction();
         }
         let size = match self.step % 150 {
@@ -55,7 +55,7 @@ impl<'a> Wandering<'a> {
         };
         let pressing = Wrench::from_force_at(&self.last.0, (self.aside * 0.2 - self.last.1) * size);
         let noise = Wrench::on_fingertip(self.draw.vector() * 3e-3, self.draw.vector() * 4e-5);
-        let time = if self.step % 211 == 0 { 0.3 } else { 1e-3 };
+        let time = if self.step.is_multiple_of(211) { 0.3 } else { 1e-3 };
         (pressing + noise, time)
     }
 }
