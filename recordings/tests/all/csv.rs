@@ -1,8 +1,8 @@
 //! The reader against files that are made to be known.
 
 use fingertip_recordings::{
-    ContactCells, Quality, ReaderOptions, RecordingError, RecordingReader, RecordingWriter, Schema,
-    SignalUnit,
+    ContactCells, Quality, ReaderOptions, RecordingError, RecordingReader, RecordingWriter, RenamedColumn,
+    Schema, SignalUnit,
 };
 use fingertip_wrench::Wrench;
 use nalgebra::Vector3;
@@ -449,4 +449,45 @@ fn frames_are_named_above_the_header() {
     let reader = RecordingReader::new("a.csv", text.as_bytes()).unwrap();
     let frames = ["", "left", "x"].map(|sensor| reader.layout().frame(sensor).map(str::to_owned));
     assert_eq!(frames, [Some("tip".to_owned()), Some("left wrist".to_owned()), None]);
+}
+
+/// A row that cannot be used says nothing by its dummy gauge either, nor does a number that is not finite.
+#[test]
+fn the_dummy_of_a_row_that_cannot_be_used_is_none() {
+    let file = "t_s,v1_V,dummy_V\n0,1,2\n0,2,3\n1,2,NaN\n2,2,4\n";
+    let mut reader = RecordingReader::new("test.csv", file.as_bytes()).unwrap();
+    let sensor = reader.layout().only_signals().cloned().unwrap();
+    let mut dummies = Vec::new();
+    while let Some(row) = reader.next_row().unwrap() {
+        dummies.push((row.is_usable(), row.dummy(&sensor)));
+    }
+    assert_eq!(dummies, [(true, Some(2.0)), (false, None), (true, None), (true, Some(4.0))]);
+}
+
+/// Columns with names of their own, behind a mark of the byte order too, are taken for what the reader is told, with the
+/// sign that it is told.
+#[test]
+fn renamed_columns_are_read_with_their_sign() {
+    let renamed =
+        |from: &str, to: &str, negative| RenamedColumn { from: from.into(), to: to.into(), negative };
+    let options = |renamed| ReaderOptions { renamed, ..ReaderOptions::default() };
+    let file = "\u{feff}clock,a,b,c,d,e, f \n0.5,1,2,3,4,5,6\n";
+    let columns = vec![
+        renamed("f", "fx_N", true),
+        renamed("b", "fy_N", false),
+        renamed("c", "fz_mN", true),
+        renamed("d", "tx_Nm", false),
+        renamed("e", "ty_Nmm", false),
+        renamed("a", "tz_Nm", true),
+        renamed("clock", "t_ms", false),
+    ];
+    let mut reader = RecordingReader::with_options("test.csv", file.as_bytes(), options(columns)).unwrap();
+    let sensor = reader.layout().only_wrench().cloned().unwrap();
+    let row = reader.next_row().unwrap().unwrap();
+    let read: [f64; 6] = row.wrench(&sensor).unwrap().components().into();
+    assert_eq!(read, [-6.0, 2.0, -0.003, 4.0, 0.005, -1.0]);
+    assert_eq!(row.time(), Some(0.0005));
+    let missing = options(vec![renamed("g", "fx_N", false)]);
+    let error = RecordingReader::with_options("test.csv", file.as_bytes(), missing).unwrap_err().to_string();
+    assert!(error.contains('g') && error.contains("clock"), "{error}");
 }

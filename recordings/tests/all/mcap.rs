@@ -99,7 +99,8 @@ fn a_message_is_logged_at_its_time() {
 #[test]
 fn the_time_of_a_stamp_is_the_nearest_number() {
     for seconds in [0, 1, 4, 9_007_198, 9_007_200, 1_763_800_000, i32::MAX] {
-        for nanoseconds in [0, 1, 3, 100_000_000, 123_456_789, 350_000_001, 999_999_999] {
+        let some = [0, 1, 3, 100_000_000, 123_456_789, 350_000_001, 999_999_999];
+        for nanoseconds in some.into_iter().chain((0..1000).map(|k| k * 999_983)) {
             let header = Header { seconds, nanoseconds, frame: String::new() };
             let exact: f64 = format!("{seconds}.{nanoseconds:09}").parse().unwrap();
             // Above 2^53 ns it is rounded twice.

@@ -45,6 +45,13 @@ fn read(file: &[u8]) -> (u32, Option<McapError>) {
     }
 }
 
+/// Where the first chunk of a file begins: it is the first record behind the header.
+fn first_chunk(file: &[u8]) -> usize {
+    let at = 8 + 9 + usize::try_from(u64::from_le_bytes(file[9..17].try_into().unwrap())).unwrap();
+    assert_eq!(file[at], 6);
+    at
+}
+
 #[test]
 fn packed_files_are_read_as_plain_ones() {
     let sizes = ALL.map(|compression| {
@@ -88,9 +95,7 @@ fn cut_files_are_read_as_far_as_they_are_whole() {
 #[test]
 fn a_chunk_that_was_never_closed_is_read() {
     let whole = file(100, Compression::None);
-    // The chunk is the first record of its kind behind the header.
-    let at = 8 + 9 + usize::try_from(u64::from_le_bytes(whole[9..17].try_into().unwrap())).unwrap();
-    assert_eq!(whole[at], 6);
+    let at = first_chunk(&whole);
     let length = usize::try_from(u64::from_le_bytes(whole[at + 1..at + 9].try_into().unwrap())).unwrap();
     let mut killed = whole[..at + 9 + length].to_vec();
     killed[at + 1..at + 9].fill(0xFF);
@@ -158,6 +163,49 @@ fn recovery_keeps_what_it_does_not_know() {
         messages.map(kept).collect()
     };
     assert_eq!(all(anew.get_ref()), all(&original));
+    // The header's contents begin with the length of the profile and its letters.
+    assert_eq!(anew.get_ref()[17..25], *b"\x04\0\0\0mine");
+}
+
+/// A record that says to be longer than its chunk ends the chunk, and is said once.
+#[test]
+fn a_record_beyond_its_chunk_is_said_once() {
+    let mut whole = file(100, Compression::None);
+    let at = first_chunk(&whole);
+    // No checksum; the length of the first record in it.
+    whole[at + 33..at + 37].fill(0);
+    whole[at + 50..at + 58].copy_from_slice(&(1_u64 << 40).to_le_bytes());
+    let (messages, error) = read(&whole);
+    assert!(messages == 0 && matches!(error, Some(McapError::File(_))), "{messages}, {error:?}");
+}
+
+/// A record that no memory holds is refused, and nothing is looked for behind it.
+#[test]
+fn a_record_without_end_is_said_once() {
+    let mut whole = file(100, Compression::None);
+    let at = first_chunk(&whole);
+    whole[at] = 5;
+    whole[at + 1..at + 9].copy_from_slice(&(1_u64 << 50).to_le_bytes());
+    let (messages, error) = read(&whole);
+    assert!(messages == 0 && matches!(error, Some(McapError::File(_))), "{messages}, {error:?}");
+}
+
+/// What the system says of a file that cannot be read is not taken for a file of another kind.
+#[test]
+fn a_refusal_by_the_system_is_told() {
+    struct Refused;
+    impl std::io::Read for Refused {
+        fn read(&mut self, _: &mut [u8]) -> std::io::Result<usize> {
+            Err(std::io::Error::other("unplugged"))
+        }
+    }
+    let error = McapReader::new(Refused).err().unwrap();
+    assert!(
+        matches!(&error, McapError::File(::mcap::McapError::Io(cause)) if cause.to_string() == "unplugged"),
+        "{error:?}"
+    );
+    let short = McapReader::new(&b"\x89MC"[..]).err().unwrap();
+    assert!(matches!(short, McapError::File(_)), "{short:?}");
 }
 
 #[test]
