@@ -254,3 +254,20 @@ fn special_lines_are_like_their_neighbours_in_double_precision() {
 fn special_lines_are_like_their_neighbours_in_single_precision() {
     special_lines_are_like_their_neighbours::<f32>();
 }
+
+/// Forces whose square keeps all its digits are taken, from the least to the greatest.
+#[test]
+fn forces_are_taken_while_their_squares_keep_their_digits() {
+    fn check<T: Real>(least: f64, greatest: f64) {
+        let taken = |force: f64| {
+            let wrench =
+                Wrench::on_fingertip(Vector3::new(T::literal(force), T::zero(), T::zero()), Vector3::zeros());
+            ForceLine::new(&wrench, ForceLine::least_squared()).is_some()
+        };
+        assert!(taken(least) && !taken(least * 0.9) && taken(greatest) && !taken(greatest * 1.1));
+        assert!(!taken(0.0) && !taken(f64::NAN) && !taken(f64::INFINITY));
+    }
+    // √(2^-1022 / 2^-104), √((2 − 2^-52) 2^1023 · 2^-104), a hair beside them; so in single precision.
+    check::<f64>(2_f64.powi(-459) * 1.0001, 2_f64.powi(460) * 0.9999);
+    check::<f32>(2_f64.powi(-40) * 1.0001, 2_f64.powf(40.9999));
+}

@@ -12,6 +12,7 @@ macro_rules! each_shape {
 mod draw;
 mod over_time;
 
+use fingertip_contact::batch::{BatchSurface, Lines};
 use fingertip_contact::{
     Auto, Compliant, Contact, ContactBound, ContactCovariance, ContactJacobian, ContactModel, ConvexBound,
     GeometrySensitivity, GeometryUncertainty, Hertz, LinearStiffness, LocalHertz, PaperBounds, PointContact,
@@ -258,5 +259,36 @@ fn through_skins() {
 fn bounds_of_contacts() {
     let mut unchanged = Unchanged::new(env!("CARGO_MANIFEST_DIR"), "tests/unchanged/bounds.txt");
     each_shape!(bounds, unchanged; sphere ellipsoid capsule capped_cylinder rounded_box mesh);
+    unchanged.check();
+}
+
+/// Lines of a batch, whether they meet or miss, of both kinds of loops.
+#[test]
+fn of_batches() {
+    fn batch<T: Real>(
+        unchanged: &mut Unchanged,
+        name: &str,
+        surface: &impl BatchSurface<T>,
+        double: &Double,
+    ) {
+        let mut draw = Draw::new(37);
+        let answers = (0..600).map(|kind| {
+            let [force, torque, _] = draw.load(double, kind, 0.015);
+            let strength = [1.0, 1e-3, 1e5, 1e-9][kind / 8 % 4];
+            let [force, torque] = [force, torque].map(|v| [v.x, v.y, v.z].map(|x| T::literal(x * strength)));
+            [Lines::Any, Lines::Meeting]
+                .map(|lines| surface.enter(force, torque, lines, surface.is_at_origin()))
+        });
+        unchanged.note(name, answers);
+    }
+    let mut unchanged = Unchanged::new(env!("CARGO_MANIFEST_DIR"), "tests/unchanged/batches.txt");
+    macro_rules! each {
+        ($($shape:ident)*) => {$(
+            let (name, double) = (stringify!($shape), common::$shape::<f64>());
+            batch(&mut unchanged, &format!("{name} f64"), &double, &double.into());
+            batch(&mut unchanged, &format!("{name} f32"), &common::$shape::<f32>(), &double.into());
+        )*};
+    }
+    each!(sphere ellipsoid plane);
     unchanged.check();
 }
