@@ -44,7 +44,9 @@ impl Unchanged {
         }
         if let Some(folder) = std::env::var_os("FINGERTIP_ANSWERS") {
             let path = PathBuf::from(folder).join(name.replace([' ', ':', '/'], "_"));
-            std::fs::write(&path, &all).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+            let folder = path.parent().map_or(Ok(()), std::fs::create_dir_all);
+            let written = folder.and_then(|()| std::fs::write(&path, &all));
+            written.unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         }
         write!(self.text, "{name}: {sum:016x}").expect("writing to a string");
         for (kind, count) in kinds {

@@ -24,3 +24,5 @@ mod serialisation;
 mod solver_limits;
 #[path = "../support/mod.rs"]
 mod support;
+#[cfg(target_os = "linux")]
+mod unchanged;
