@@ -37,6 +37,18 @@ pub(crate) fn of_recording(
     page(findings, figures::of(observations, shown), &[used::table(scene, given)])
 }
 
+/// What a scene means, with a picture of its surface; and what in it is implausible.
+pub(crate) fn of_scene(scene: &Scene) -> String {
+    let findings = Findings {
+        title: if scene.name().is_empty() { "Scene".to_owned() } else { scene.name().to_owned() },
+        notes: scene.doubts(),
+        ..Findings::default()
+    };
+    let figure = solid::of_scene(scene.surface(), scene.projection());
+    let used = used::table(scene, &Given { calibrated: true, ..Given::default() });
+    page(&findings, figure.into_iter().collect(), &[used])
+}
+
 /// The report of a run with figures of its own before the usual ones.
 pub(crate) fn with_figures(
     findings: &Findings,

@@ -7,9 +7,10 @@ use clap::{Args, Subcommand};
 use fingertip_scene::registry::{self, Entry};
 use fingertip_scene::{Scene, VERSION};
 
-use super::load;
+use super::{load, load_or_simulated};
 use crate::error::CliError;
 use crate::output::{self, Outputs, Overwrite};
+use crate::report;
 
 /// What to do with scenes.
 #[derive(Debug, Args)]
@@ -27,6 +28,17 @@ enum SceneCommand {
         /// The scene
         #[arg(value_name = "SCENE.toml")]
         scene: PathBuf,
+    },
+    /// Draw a scene on a page: the surface, where it may touch, the axes of the sensor, and what all means
+    Show {
+        /// The scene; `sim` is that of the simulated fingertip
+        #[arg(value_name = "SCENE.toml")]
+        scene: PathBuf,
+        /// Where to write the page
+        #[arg(short, long, value_name = "FILE", default_value = "scene.html")]
+        output: PathBuf,
+        #[command(flatten)]
+        overwrite: Overwrite,
     },
     /// List all that a scene can choose
     Choices {
@@ -67,6 +79,7 @@ pub(crate) fn run(arguments: &SceneArguments) -> Result<(), CliError> {
     match &arguments.command {
         SceneCommand::Init(init) => write_scene(init),
         SceneCommand::Check { scene } => check(scene),
+        SceneCommand::Show { scene, output, overwrite } => show(scene, output, *overwrite),
         SceneCommand::Choices { section } => choices(section.as_deref()),
     }
 }
@@ -124,6 +137,13 @@ fn check(path: &Path) -> Result<(), CliError> {
         let _ = writeln!(text, "warning: {doubt}");
     }
     output::print(&text)
+}
+
+fn show(path: &PathBuf, output: &PathBuf, overwrite: Overwrite) -> Result<(), CliError> {
+    let outputs = Outputs::guard(overwrite, "page", [path], [output])?;
+    let scene = load_or_simulated(path)?;
+    outputs.write("page", output, &report::of_scene(&scene))?;
+    outputs.print(&outputs.written())
 }
 
 fn choices(section: Option<&str>) -> Result<(), CliError> {

@@ -66,6 +66,26 @@ fn choices_are_listed_and_doubts_are_said() {
     assert!(said.contains("warning: `radius_m` of [surface] is 13 m"), "{said}");
 }
 
+/// The page of a scene: what it is called and means, its surface, what is implausible; and it writes over nothing.
+#[test]
+fn a_scene_is_drawn_on_a_page() {
+    let folder = Folder::new();
+    let text = fs::read_to_string(scene("paper_sphere.toml")).unwrap();
+    folder.write("far.toml", &text.replace("radius_m = 0.013", "radius_m = 13.0"));
+    let said = folder.succeed(&["scene", "show", "far.toml"]);
+    assert!(said.contains("scene.html"), "{said}");
+    let page = folder.read("scene.html");
+    assert!(page.contains("radius_m` of [surface] is 13") && page.contains("data-net=\""), "{page}");
+    assert!(page.contains("<td>surface</td>"), "{page}");
+    let refused = folder.fail(1, &["scene", "show", "far.toml"]);
+    assert!(refused.contains("scene.html") && refused.contains("--overwrite"), "{refused}");
+    assert_eq!(folder.read("scene.html"), page);
+    folder.succeed(&["scene", "show", "sim", "--output", "sim.html"]);
+    assert!(folder.read("sim.html").contains("<h1>simulated fingertip</h1>"));
+    folder.fail(1, &["scene", "show", "none.toml", "--output", "other.html"]);
+    assert!(!folder.path("other.html").exists());
+}
+
 /// All scenes that there are to copy can be read, mean something, and are not doubted.
 #[test]
 fn the_scenes_to_copy_are_sound() {
@@ -75,8 +95,14 @@ fn the_scenes_to_copy_are_sound() {
     for file in fs::read_dir(Path::new(&one).parent().unwrap()).unwrap() {
         let path = file.unwrap().path();
         if path.extension().is_some_and(|extension| extension == "toml") {
-            let said = folder.succeed(&["scene", "check", path.to_str().unwrap()]);
+            let path = path.to_str().unwrap();
+            let said = folder.succeed(&["scene", "check", path]);
             assert!(said.contains("surface") && !said.contains("warning: "), "{said}");
+            let page = format!("{seen}.html");
+            folder.succeed(&["scene", "show", path, "--output", &page]);
+            let page = folder.read(&page);
+            assert!(page.contains("<h1>") && page.contains("data-net=\"") && page.contains("Scene and calibration"));
+            assert!(!page.contains("To be minded"), "{path}");
             seen += 1;
         }
     }

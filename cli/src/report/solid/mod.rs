@@ -33,17 +33,33 @@ struct Solid {
     view: View,
 }
 
+/// How the solid is turned, for its caption.
+const TURNING: &str = "Drag it or use the arrow keys to turn, the wheel or + and − to zoom; a double click resets.";
+
 /// The surface with its contacts; `None` where nothing of it can be seen.
 pub(super) fn figure(surface: &DynSurface<f64>, observations: &Observations) -> Option<Figure> {
-    let solid = Solid::of(surface, observations.projection(), observations.map.kept())?;
+    let shown = "The active surface with contacts, coloured by normal force as on the map, and the axes of the sensor.";
+    drawn(surface, observations.projection(), observations.map.kept(), shown)
+}
+
+/// The surface alone, where its region and the sensor's axes are what one wants to see.
+pub(super) fn of_scene(surface: &DynSurface<f64>, projection: &Projection) -> Option<Figure> {
+    drawn(surface, projection, &[], "The active surface and the axes of the sensor.")
+}
+
+fn drawn(
+    surface: &DynSurface<f64>,
+    projection: &Projection,
+    contacts: &[MapPoint],
+    shown: &str,
+) -> Option<Figure> {
+    let solid = Solid::of(surface, projection, contacts)?;
     let picture = picture::draw(&solid);
     Some(Figure {
         title: "The fingertip from all sides".to_owned(),
         svg: format!("<div class=\"solid\" {}>{picture}<script>{SCRIPT}</script></div>", solid.attributes()),
         keys: [("a", "x"), ("b", "y"), ("c", "z")].map(|(class, name)| (class, name.to_owned())).to_vec(),
-        caption: "The active surface with contacts, coloured by normal force as on the map, and the axes of the sensor. \
-                  Drag it or use the arrow keys to turn, the wheel or + and − to zoom; a double click resets."
-            .to_owned(),
+        caption: format!("{shown} {TURNING}"),
         on_white: false,
     })
 }
