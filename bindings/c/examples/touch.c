@@ -25,7 +25,7 @@ int main(void) {
     } else if (touch.resolution != FT_CONTACT) {
         printf("no contact: %s\n", ft_resolution_text(touch.resolution));
     } else {
-        printf("contact at %.4f %.4f %.4f m\n", touch.point[0], touch.point[1], touch.point[2]);
+        printf("contact %.1f mm above the middle of the ball\n", touch.point[2] * 1e3);
         printf("it presses with %.2f N, %.2f N from slipping\n", touch.normal_force, touch.margin);
         printf("grip with %.2f N next\n", beside.grip_force);
     }

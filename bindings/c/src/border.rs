@@ -8,6 +8,8 @@
 use core::ffi::{CStr, c_char};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use nalgebra::Vector3;
+
 use crate::fault::{Fault, ft_status};
 use crate::message::ft_error;
 
@@ -71,6 +73,39 @@ pub(crate) fn read<V: Copy>(pointer: *const V, name: &'static str) -> Result<V, 
     Ok(unsafe { pointer.read_unaligned() })
 }
 
+/// A number that need not lie where numbers lie.
+#[repr(C, packed)]
+#[derive(Clone, Copy)]
+struct Anywhere(f64);
+
+/// Numbers that the caller has just written, one by one: a wide load would wait until all of its stores have reached the
+/// cache, which takes as long as a third of a sample. Volatile loads are not made wide.
+#[inline(always)]
+pub(crate) fn read_numbers<const N: usize>(
+    pointer: *const [f64; N],
+    name: &'static str,
+) -> Result<[f64; N], Fault> {
+    if pointer.is_null() {
+        return Err(Fault::Null(name));
+    }
+    let first = pointer.cast::<Anywhere>();
+    // SAFETY: not NULL, so `N` numbers of the caller, at any address.
+    Ok(core::array::from_fn(|index| unsafe { first.add(index).read_volatile() }.0))
+}
+
+/// A number that was just computed: as in [`read_numbers`].
+#[inline(always)]
+pub(crate) fn fresh(number: &f64) -> f64 {
+    // SAFETY: a reference.
+    unsafe { core::ptr::from_ref(number).read_volatile() }
+}
+
+/// The same of three numbers.
+#[inline(always)]
+pub(crate) fn fresh_vector(vector: &Vector3<f64>) -> [f64; 3] {
+    [fresh(&vector.x), fresh(&vector.y), fresh(&vector.z)]
+}
+
 /// A place to write to.
 #[derive(Debug)]
 pub(crate) struct Place<V>(*mut V);
@@ -88,6 +123,25 @@ impl<V> Place<V> {
         unsafe { self.0.write_unaligned(value) };
     }
 }
+
+impl<V> Place<V> {
+    /// For [`put!`].
+    #[inline(always)]
+    pub(crate) const fn pointer(&self) -> *mut V {
+        self.0
+    }
+}
+
+/// Writes one field of the structure at a [`Place`].
+macro_rules! put {
+    ($place:ident.$field:ident = $value:expr) => {{
+        let value = $value;
+        // SAFETY: not NULL, so the caller's memory of the size of the structure, of which this is a field; what lies
+        // there before is never read.
+        unsafe { (&raw mut (*$place.pointer()).$field).write_unaligned(value) };
+    }};
+}
+pub(crate) use put;
 
 /// The first `count` values behind a pointer, in an array that has room for them.
 #[inline(always)]

@@ -6,7 +6,7 @@ use fingertip::wrench::{Motion, Wrench};
 use fingertip_scene::{GAUGES, GaugeReading};
 use nalgebra::Vector3;
 
-use crate::border::read_many;
+use crate::border::{read_many, read_numbers};
 use crate::fault::Fault;
 
 /// Most gauges of a sensor.
@@ -23,6 +23,13 @@ pub struct ft_wrench {
 }
 
 impl ft_wrench {
+    /// One that the caller has just put together.
+    #[inline(always)]
+    pub(crate) fn read(pointer: *const Self) -> Result<Self, Fault> {
+        let [fx, fy, fz, tx, ty, tz] = read_numbers(pointer.cast::<[f64; 6]>(), "wrench")?;
+        Ok(Self { force: [fx, fy, fz], torque: [tx, ty, tz] })
+    }
+
     #[inline(always)]
     pub(crate) fn of(wrench: &Wrench<f64>) -> Self {
         Self { force: wrench.force().into(), torque: wrench.torque().into() }

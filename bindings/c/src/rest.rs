@@ -45,7 +45,7 @@ impl ft_tip {
     fn end_rest(&mut self) -> Result<(), Fault> {
         let noise = match self.resting.take() {
             Some(watch) => {
-                self.zero = *watch.tare()?.zero();
+                self.set_zero(watch.tare()?.zero());
                 self.rested.insert(watch).noise()
             }
             None => {
@@ -166,7 +166,7 @@ pub unsafe extern "C" fn ft_set_zero_wrench(tip: *mut ft_tip, wrench: *const ft_
         if !zero.is_finite() {
             return Err(Fault::Number { name: "wrench", requirement: "finite" });
         }
-        tip.zero = components(&zero);
+        tip.set_zero(&components(&zero));
         tip.resting = None;
         tip.pipeline.start_anew();
         Ok(())
@@ -178,7 +178,7 @@ pub unsafe extern "C" fn ft_set_zero_wrench(tip: *mut ft_tip, wrench: *const ft_
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ft_zero_wrench(tip: *mut ft_tip, wrench: *mut ft_wrench) -> ft_status {
     on(tip, |tip| {
-        place(wrench, "wrench")?.put(ft_wrench::of(&Wrench::from_components(&tip.zero)));
+        place(wrench, "wrench")?.put(ft_wrench::of(&Wrench::from_components(tip.zero())));
         Ok(())
     })
 }

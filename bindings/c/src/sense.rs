@@ -20,12 +20,12 @@ pub unsafe extern "C" fn ft_sense_wrench(
     touch: *mut ft_touch,
 ) -> ft_status {
     on(tip, |tip| {
-        let (reported, place) = (read(wrench, "wrench")?, place(touch, "touch")?);
+        let (reported, place) = (ft_wrench::read(wrench)?, place(touch, "touch")?);
         if tip.pipeline.carried().is_some() {
             return Err(NoWrench::NoMotion.into());
         }
         let loaded = tip.loaded(&reported);
-        place.put(ft_touch::of(tip.pipeline.sense(loaded, time_step)));
+        ft_touch::put(tip.pipeline.sense(loaded, time_step), place);
         Ok(())
     })
 }
@@ -41,10 +41,10 @@ pub unsafe extern "C" fn ft_sense_wrench_moving(
     touch: *mut ft_touch,
 ) -> ft_status {
     on(tip, |tip| {
-        let (reported, motion) = (read(wrench, "wrench")?, read(motion, "motion")?);
+        let (reported, motion) = (ft_wrench::read(wrench)?, read(motion, "motion")?);
         let place = place(touch, "touch")?;
         let loaded = tip.loaded(&reported);
-        place.put(ft_touch::of(tip.pipeline.sense_moving(loaded, &motion.motion(), time_step)));
+        ft_touch::put(tip.pipeline.sense_moving(loaded, &motion.motion(), time_step), place);
         Ok(())
     })
 }
@@ -78,7 +78,7 @@ pub unsafe extern "C" fn ft_sense_reading(
         let (reading, place) = (read(reading, "reading")?, place(touch, "touch")?);
         let reading = Reading::of(&reading, tip.gauges()?)?;
         let felt = tip.pipeline.sense_reading(&reading.gauges(), reading.motion.as_ref(), time_step)?;
-        place.put(ft_touch::of(felt));
+        ft_touch::put(felt, place);
         Ok(())
     })
 }

@@ -17,7 +17,8 @@ pub struct ft_tip {
     pub(crate) pipeline: Pipeline<f64>,
     convention: Convention,
     /// What a sensor that reports wrenches reads without load, in its own sign.
-    pub(crate) zero: Vector6<f64>,
+    zero: Vector6<f64>,
+    has_zero: bool,
     /// A rest of reported wrenches.
     pub(crate) resting: Option<RestWatch<f64, 6>>,
     /// The last rest of them, for what may be doubted of it.
@@ -37,6 +38,7 @@ impl ft_tip {
             pipeline: scene.pipeline(),
             convention: scene.convention(),
             zero: Vector6::zeros(),
+            has_zero: false,
             resting: None,
             rested: None,
             error: ft_error::none(),
@@ -46,9 +48,21 @@ impl ft_tip {
     /// The load on the fingertip of a wrench as the sensor reports it.
     #[inline(always)]
     pub(crate) fn loaded(&self, reported: &ft_wrench) -> Wrench<f64> {
-        let force = Vector3::from(reported.force) - self.zero.fixed_rows::<3>(0);
-        let torque = Vector3::from(reported.torque) - self.zero.fixed_rows::<3>(3);
+        let (mut force, mut torque) = (Vector3::from(reported.force), Vector3::from(reported.torque));
+        if self.has_zero {
+            force -= self.zero.fixed_rows::<3>(0);
+            torque -= self.zero.fixed_rows::<3>(3);
+        }
         self.convention.wrench(force, torque)
+    }
+
+    pub(crate) const fn zero(&self) -> &Vector6<f64> {
+        &self.zero
+    }
+
+    pub(crate) fn set_zero(&mut self, zero: &Vector6<f64>) {
+        self.zero = *zero;
+        self.has_zero = true;
     }
 
     /// The gauges that a reading must have.

@@ -6,6 +6,7 @@ use fingertip::contact::{NoContact, Resolution};
 use fingertip::friction::SlipVerdict;
 use fingertip_scene::Felt;
 
+use crate::border::{Place, fresh, fresh_vector, put};
 use crate::load::ft_wrench;
 
 /// Whether a sample is a contact, and if not, why not.
@@ -98,44 +99,50 @@ pub struct ft_touch {
 }
 
 impl ft_touch {
+    /// Writes what a sample says, field by field: a whole one that is put together first and copied then takes longer than
+    /// a sample of a small scene.
     #[inline(always)]
-    pub(crate) fn of(felt: &Felt<f64>) -> Self {
+    pub(crate) fn put(felt: &Felt<f64>, place: Place<Self>) {
         let touch = &felt.touch;
-        let mut told = Self {
-            resolution: ft_resolution::FT_CONTACT,
-            slip: touch.slip.map_or(ft_slip::FT_NOT_PRESSING, ft_slip::of),
-            has_margin: 0,
-            alternatives: 0,
-            wrench: ft_wrench::of(&touch.wrench),
-            point: [0.0; 3],
-            normal: [0.0; 3],
-            normal_force: 0.0,
-            tangential_force: [0.0; 3],
-            spin_torque: 0.0,
-            gap: 0.0,
-            margin: 0.0,
-            utilisation: 0.0,
+        put!(place.slip = touch.slip.map_or(ft_slip::FT_NOT_PRESSING, ft_slip::of));
+        put!(place.wrench = ft_wrench::of(&touch.wrench));
+        let (contact, force) = match (&touch.resolution, &touch.force) {
+            (Resolution::Contact(contact), Some(force)) => (contact, force),
+            (Resolution::NoContact(why), _) => return Self::put_none(reason(why), &place),
+            // A contact always has its force.
+            (Resolution::Contact(_), None) => return Self::put_none(ft_resolution::FT_OTHER_REASON, &place),
         };
-        match &touch.resolution {
-            Resolution::Contact(contact) => {
-                told.alternatives = u32::from(contact.alternatives);
-                told.point = contact.point.into();
-                told.normal = contact.normal.into();
-                told.gap = contact.gap;
-                if let Some(force) = &touch.force {
-                    told.normal_force = force.normal;
-                    told.tangential_force = force.tangential.vector().into();
-                    told.spin_torque = force.spin;
-                }
-                if let Some(margin) = felt.margin() {
-                    told.has_margin = 1;
-                    told.margin = margin.newtons;
-                    told.utilisation = margin.utilisation;
-                }
-            }
-            Resolution::NoContact(why) => told.resolution = reason(why),
-        }
-        told
+        put!(place.resolution = ft_resolution::FT_CONTACT);
+        put!(place.alternatives = u32::from(contact.alternatives));
+        put!(place.point = fresh_vector(&contact.point));
+        put!(place.normal = fresh_vector(&contact.normal));
+        put!(place.gap = fresh(&contact.gap));
+        put!(place.normal_force = fresh(&force.normal));
+        put!(place.tangential_force = force.tangential.vector().into());
+        put!(place.spin_torque = fresh(&force.spin));
+        let (known, margin, utilisation) = match &touch.grip {
+            Some(Some(margin)) => (1, fresh(&margin.newtons), fresh(&margin.utilisation)),
+            _ => (0, 0.0, 0.0),
+        };
+        put!(place.has_margin = known);
+        put!(place.margin = margin);
+        put!(place.utilisation = utilisation);
+    }
+
+    /// All but the wrench and the verdict of a sample that is no contact.
+    #[inline(never)]
+    fn put_none(resolution: ft_resolution, place: &Place<Self>) {
+        put!(place.resolution = resolution);
+        put!(place.has_margin = 0);
+        put!(place.alternatives = 0);
+        put!(place.point = [0.0; 3]);
+        put!(place.normal = [0.0; 3]);
+        put!(place.normal_force = 0.0);
+        put!(place.tangential_force = [0.0; 3]);
+        put!(place.spin_torque = 0.0);
+        put!(place.gap = 0.0);
+        put!(place.margin = 0.0);
+        put!(place.utilisation = 0.0);
     }
 }
 
