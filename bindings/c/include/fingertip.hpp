@@ -306,8 +306,10 @@ inline Eigen::Map<const Eigen::Vector3d> map(const Vector& vector) noexcept {
     return Eigen::Map<const Eigen::Vector3d>(vector.data());
 }
 /// A force in N and a torque in N·m.
-inline ft_wrench wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque) noexcept {
-    return {{force.x(), force.y(), force.z()}, {torque.x(), torque.y(), torque.z()}};
+template <typename Force, typename Torque>
+ft_wrench wrench(const Eigen::MatrixBase<Force>& force, const Eigen::MatrixBase<Torque>& torque) noexcept {
+    const Eigen::Vector3d f = force, t = torque;
+    return {{f.x(), f.y(), f.z()}, {t.x(), t.y(), t.z()}};
 }
 /// A pose of a rotation matrix and an origin in m.
 inline ft_pose pose(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& origin) noexcept {

@@ -225,7 +225,10 @@ static void rest(void) {
 
 static void columns(void) {
     enum { MOST = 300 };
-    static double in[6][MOST], out[10][MOST];
+    static double memory[16 * MOST];
+    double *in[6], *out[10];
+    for (size_t i = 0; i < 6; ++i) in[i] = memory + i * MOST;
+    for (size_t i = 0; i < 10; ++i) out[i] = memory + (6 + i) * MOST;
     const size_t count = once_in(20) ? SIZE_MAX / (1 + below(9)) : below(MOST + 1);
     for (size_t i = 0; i < MOST && count <= MOST; ++i) {
         const ft_wrench wrench = some_wrench();

@@ -106,7 +106,7 @@ void senses() {
     check(touch->slip_margin() && std::abs(touch->slip_margin()->utilisation - 0.5 / 1.2) < 1e-12, "and holds");
     const double signals[6] = {0.1, 0.0, -0.4, 0.0, 0.13, 0.0};
     check(std::abs(tip.sense(signals, 1e-3)->contact()->point[2] - 0.013) < 1e-12, "a reading is the same");
-    for (int i = 0; i < 30; ++i) check(tip.rest(signals) == FT_OK, "a rest");
+    for (int i = 0; i < 300; ++i) check(tip.rest(signals) == FT_OK, "a rest");
     check(tip.end_rest() == FT_OK && !tip.rest_doubt(), "a rest that is one");
     check(tip.sense(signals, 1e-3)->resolution == FT_BELOW_THRESHOLD, "the zero is taken off");
     check(tip.set_zero(ft_reading_of(std::array<double, 6>{}.data(), 6)) == FT_OK, "a zero is set");
@@ -126,8 +126,8 @@ void senses() {
 #if defined(FINGERTIP_HAS_EIGEN)
 void maps() {
     fingertip::Tip tip = fingertip::Tip::from_scene(gauges).or_throw();
-    const Eigen::Vector3d force(0.5, 0.0, -2.0), point(0.0, 0.0, 0.013);
-    const auto touch = tip.sense_wrench(fingertip::wrench(force, point.cross(force)), 1e-3);
+    const Eigen::Vector3d force(0.5, 0.0, -2.0), torque(0.0, 0.0065, 0.0), point(0.0, 0.0, 0.013);
+    const auto touch = tip.sense_wrench(fingertip::wrench(force, torque), 1e-3);
     check((fingertip::map(touch->point) - point).norm() < 1e-12, "a point is a vector of Eigen's");
     check(fingertip::map(touch->point).data() == touch->point, "without a copy");
     const ft_pose pose = fingertip::pose(Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.1, 0.0, 0.0));
