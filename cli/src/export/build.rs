@@ -39,8 +39,11 @@ impl Source {
 
     fn dependency(&self) -> Result<String, BuildError> {
         let Some(folder) = &self.0 else { return Ok(format!("version = \"{}\"", env!("CARGO_PKG_VERSION"))) };
-        let whole = fs::canonicalize(folder)
-            .map_err(|source| BuildError::File { what: "fingertip's source", path: folder.clone(), source })?;
+        let whole = fs::canonicalize(folder).map_err(|source| BuildError::File {
+            what: "fingertip's source",
+            path: folder.clone(),
+            source,
+        })?;
         Ok(format!("path = {:?}", whole.display().to_string()))
     }
 }
@@ -67,7 +70,8 @@ pub(super) struct Build {
 /// Runs a program to its end: what it says, the standard output first, or that of its failure.
 pub(super) fn run(command: &mut Command) -> Result<String, BuildError> {
     let program = command.get_program().to_string_lossy().into_owned();
-    let ended = command.output().map_err(|source| BuildError::NoProgram { program: program.clone(), source })?;
+    let ended =
+        command.output().map_err(|source| BuildError::NoProgram { program: program.clone(), source })?;
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     // The emulator passes what a firmware says on as an error.
     let said = text(&ended.stdout) + &text(&ended.stderr);
@@ -82,9 +86,10 @@ impl Compiler {
         let Some(target) = target else {
             return Ok(Self { cargo: "cargo".into(), rustc: "rustc".into(), builds_core: false });
         };
-        for (builds_core, part) in
-            [(false, format!("lib/rustlib/{target}/lib")), (true, "lib/rustlib/src/rust/library/core".to_owned())]
-        {
+        for (builds_core, part) in [
+            (false, format!("lib/rustlib/{target}/lib")),
+            (true, "lib/rustlib/src/rust/library/core".to_owned()),
+        ] {
             for (cargo, rustc) in pairs {
                 let Ok(sysroot) = run(Command::new(rustc).args(["--print", "sysroot"])) else { continue };
                 if Path::new(sysroot.lines().next().unwrap_or_default()).join(&part).is_dir() {
@@ -137,8 +142,11 @@ impl Build {
     /// A folder for files of its own.
     pub(super) fn folder(&self, name: &str) -> Result<PathBuf, BuildError> {
         let folder = self.folder.join(name);
-        fs::create_dir_all(&folder)
-            .map_err(|source| BuildError::File { what: "folder", path: folder.clone(), source })?;
+        fs::create_dir_all(&folder).map_err(|source| BuildError::File {
+            what: "folder",
+            path: folder.clone(),
+            source,
+        })?;
         Ok(folder)
     }
 

@@ -63,8 +63,11 @@ pub(super) fn run(
     let source = Source::find(source.as_deref());
     let build = Build::new(build.as_deref(), target.as_deref()).map_err(|error| failed(&error))?;
     let compiled = build.compile(&library, name, &source).map_err(|error| failed(&error))?;
-    let bytes = fs::read(&compiled)
-        .map_err(|source| CliError::Read { what: "library", path: compiled.clone(), source })?;
+    let bytes = fs::read(&compiled).map_err(|source| CliError::Read {
+        what: "library",
+        path: compiled.clone(),
+        source,
+    })?;
     let state = CLibrary::state_bytes(&bytes)
         .ok_or_else(|| failed(&"the compiled library does not tell the size of its state"))?;
     let header = library.header(state);

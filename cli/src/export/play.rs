@@ -18,9 +18,18 @@ const FILES: [(&str, &str); 5] = [
 /// The target that is emulated.
 const EMULATED: &str = "thumbv7em-none-eabihf";
 /// Functions of the code that a sample of the scene needs, in a file that holds nothing else.
-const FLAGS: [&str; 8] =
-    ["-std=c11", "-Wall", "-Wextra", "-Werror", "-pedantic", "-O2", "-ffp-contract=off", "-ffunction-sections"];
-const CORE: [&str; 5] = ["-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16", "-ffreestanding"];
+const FLAGS: [&str; 8] = [
+    "-std=c11",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-pedantic",
+    "-O2",
+    "-ffp-contract=off",
+    "-ffunction-sections",
+];
+const CORE: [&str; 5] =
+    ["-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16", "-ffreestanding"];
 
 /// What a session showed.
 #[derive(Debug)]
@@ -58,9 +67,14 @@ pub(super) fn play(
     // The programs call it by its usual name.
     let upper = name.to_uppercase();
     let usual = header.replace(&format!("{upper}_"), "TIP_");
-    let alias = ["init", "sense", "start_anew"].map(|call| format!("#define tip_{call} {name}_{call}\n")).concat();
+    let alias =
+        ["init", "sense", "start_anew"].map(|call| format!("#define tip_{call} {name}_{call}\n")).concat();
     let alias = if name == "tip" { String::new() } else { alias };
-    let types = if name == "tip" { String::new() } else { format!("#define tip_state {name}_state\n#define tip_touch {name}_touch\n") };
+    let types = if name == "tip" {
+        String::new()
+    } else {
+        format!("#define tip_state {name}_state\n#define tip_touch {name}_touch\n")
+    };
     write(&folder.join("tip.h"), &format!("{usual}{alias}{types}"))?;
     write(&folder.join("session.h"), &session.text)?;
     let program = folder.join("play");
@@ -75,9 +89,9 @@ pub(super) fn play(
     };
     let flash = match build.target() {
         None => None,
-        Some(_) => Some([&["sense"][..], &["sense", "init"][..]].map(|calls| {
-            weighed(&folder, library, name, calls)
-        })),
+        Some(_) => {
+            Some([&["sense"][..], &["sense", "init"][..]].map(|calls| weighed(&folder, library, name, calls)))
+        }
     };
     let flash = match flash {
         None => None,
@@ -100,7 +114,17 @@ fn emulated(folder: &Path, library: &Path, program: &PathBuf) -> Result<String, 
     command.args(["-nostdlib", "-Wl,--gc-sections", "-Wl,-z,noexecstack", "-T"]).arg(folder.join("link.ld"));
     run(command.arg("-o").arg(program))?;
     let mut emulator = Command::new("timeout");
-    emulator.args(["300", "qemu-system-arm", "-M", "mps2-an386", "-nographic", "-monitor", "none", "-serial", "none"]);
+    emulator.args([
+        "300",
+        "qemu-system-arm",
+        "-M",
+        "mps2-an386",
+        "-nographic",
+        "-monitor",
+        "none",
+        "-serial",
+        "none",
+    ]);
     emulator.args(["-semihosting-config", "enable=on,target=native", "-icount", "shift=10", "-kernel"]);
     run(emulator.arg(program))
 }

@@ -39,7 +39,8 @@ impl<T: Real> Drawn<'_, T> {
         let random = &mut self.random;
         let mut vector = |size: f64| Vector3::from_fn(|_, _| random.random_range(-size..size));
         let (direction, off, spin) = (vector(1.0), vector(1.0), vector(2e-4));
-        let strength = (self.scene.least_force().max(1e-2) * 3.0).max(10_f64.powf(random.random_range(-0.5..0.7)));
+        let strength =
+            (self.scene.least_force().max(1e-2) * 3.0).max(10_f64.powf(random.random_range(-0.5..0.7)));
         // Of unknown size: from half a millimetre to five centimetres.
         let size = 5e-4 * 10_f64.powf(random.random_range(0.0..2.0));
         let force = direction.normalize() * strength;
@@ -52,7 +53,8 @@ impl<T: Real> Drawn<'_, T> {
         match self.scene.calibration().filter(|_| self.takes_gauges) {
             None => reported.iter().map(|x| T::literal(*x)).collect(),
             Some(file) => {
-                let nominal = Vector6::from_iterator(file.nominal.iter().copied().chain(core::iter::repeat(1.0)));
+                let nominal =
+                    Vector6::from_iterator(file.nominal.iter().copied().chain(core::iter::repeat(1.0)));
                 let signals = &file.matrix * reported.component_div(&nominal);
                 let zeros = file.zero.iter().copied().chain(core::iter::repeat(0.0));
                 signals.iter().zip(zeros).map(|(signal, zero)| T::literal(signal + zero)).collect()
@@ -121,7 +123,8 @@ fn written<T: Real>(samples: &[Vec<T>], sums: &[u32], library: &CLibrary, celsiu
     }
     let _ = writeln!(text, "static const {c} tip_session[TIP_SAMPLES][{}] = {{", library.inputs());
     for sample in samples {
-        let numbers: Vec<String> = sample.iter().map(|number| format!("{:e}{end}", number.to_f64())).collect();
+        let numbers: Vec<String> =
+            sample.iter().map(|number| format!("{:e}{end}", number.to_f64())).collect();
         let _ = writeln!(text, "    {{{}}},", numbers.join(", "));
     }
     let sums: Vec<String> = sums.iter().map(|sum| format!("{sum}u")).collect();

@@ -31,7 +31,10 @@ fn the_header_says_what_the_functions_take() {
     assert!(plain.manifest("path = \"..\"").contains("features = [\"libm\"]"));
     let rich = library(&format!("{FRICTION}{GRIP}{NOISE}"), Scalar::F64).unwrap();
     let header = rich.header(8);
-    assert!(header.contains("double grip_force;") && header.contains("[uncertainty] is not told here"), "{header}");
+    assert!(
+        header.contains("double grip_force;") && header.contains("[uncertainty] is not told here"),
+        "{header}"
+    );
     assert!(rich.has_grip() && rich.untold() == ["uncertainty"] && !rich.takes_gauges());
 
     let scene = Scene::from_text(&format!("{HEAD}{BALL}")).unwrap();
@@ -51,7 +54,10 @@ fn the_header_says_what_the_functions_take() {
 fn the_border_holds_no_place_that_is_not_filled() {
     for more in ["", FRICTION, &format!("{FRICTION}{GRIP}[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n")] {
         let border = library(more, Scalar::F32).unwrap().border();
-        for place in ["REAL", "NAME", "MARGIN", "GRIP_", "ZERO_", "CELSIUS_", "CHECK", "RESET", "SLIP,", "INPUTS", "MARK"] {
+        for place in [
+            "REAL", "NAME", "MARGIN", "GRIP_", "ZERO_", "CELSIUS_", "CHECK", "RESET", "SLIP,", "INPUTS",
+            "MARK",
+        ] {
             assert!(!border.contains(place), "{place}: {border}");
         }
         assert_eq!(border.contains("SlipDetector"), more.contains("slip"), "{border}");

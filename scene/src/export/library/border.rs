@@ -232,10 +232,7 @@ pub(super) fn text(library: &CLibrary) -> String {
                  if let Some(&zero) = unsafe { zero.as_ref() } {\n        \
                      if !zero.iter().all(|gauge| gauge.is_finite()) {\n            return INCOMPLETE;\n        }\n        \
                      tip.set_zero(fingertip::wrench::Tare::new(zero.into()));\n    }\n",
-            ) + &when(
-                library.has_grip,
-                "    let Ok(grip) = scene::grip() else { return 1 };\n",
-            ),
+            ) + &when(library.has_grip, "    let Ok(grip) = scene::grip() else { return 1 };\n"),
         ),
         ("CELSIUS_PARAMETER", when(library.is_warm, "    celsius: REAL,\n")),
         ("CHECK", check(library)),
@@ -282,8 +279,10 @@ fn sense(library: &CLibrary) -> String {
                        let felt = state.tip.sense_wrench(load, step);\n"
             .to_owned(),
         (true, false) => "    let felt = state.tip.sense(&input.into(), step);\n".to_owned(),
-        (true, true) => "    let reading = fingertip::wrench::GaugesAndTemperature { gauges: input.into(), temperature: \
+        (true, true) => {
+            "    let reading = fingertip::wrench::GaugesAndTemperature { gauges: input.into(), temperature: \
                          celsius };\n    let felt = state.tip.sense(&reading, step);\n"
-            .to_owned(),
+                .to_owned()
+        }
     }
 }

@@ -9,7 +9,7 @@ const HEADER: &str = r#"/*
  *
  * Units are SI. Wrenches are loads on the fingertip, points are in the sensor frame, normals point out of the fingertip.
  * A state belongs to the caller, is begun by NAME_init, and holds all memory of a fingertip: two fingertips are two
- * states. One thread at a time may use a state. Nothing allocatesHEAP_NOTE, and nothing panics.UNTOLD
+ * states. One thread at a time may use a state. Nothing allocatesHEAP_NOTE, and no sample can panic.UNTOLD
  */
 #ifndef NAME_H
 #define NAME_H
