@@ -5,10 +5,12 @@
 //! of each count.
 #![allow(unsafe_code, reason = "calls of the interface for C")]
 
+extern crate alloc;
+
+use alloc::ffi::CString;
 use core::hint::black_box;
 use core::mem::MaybeUninit;
 use core::ptr;
-use std::ffi::CString;
 use std::time::Instant;
 
 use fingertip::wrench::Wrench;
@@ -61,9 +63,9 @@ fn measured(text: &str) -> Result<[f64; 2], Box<dyn core::error::Error>> {
         let called = nanoseconds(|reported| {
             // SAFETY: a handle of this thread, and structures of this function.
             let status = unsafe { sense(tip, &raw const reported, 1e-3, touch.as_mut_ptr()) };
+            let written = (status == ft_status::FT_OK).then_some(&touch);
             // SAFETY: written where the status is that.
-            let touch =
-                if status == ft_status::FT_OK { Some(unsafe { touch.assume_init_ref() }) } else { None };
+            let touch = written.map(|touch| unsafe { touch.assume_init_ref() });
             touch.map_or(f64::NAN, |touch| touch.point[2] + touch.normal_force + touch.utilisation)
         });
         rust.push(plain);

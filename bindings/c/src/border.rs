@@ -6,7 +6,8 @@
 //! may be any.
 
 use core::ffi::{CStr, c_char};
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use core::panic::AssertUnwindSafe;
+use std::panic::catch_unwind;
 
 use nalgebra::Vector3;
 

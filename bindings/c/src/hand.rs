@@ -142,12 +142,11 @@ pub unsafe extern "C" fn ft_hand_free(hand: *mut *mut ft_hand) {
 /// Why the last call of this hand failed that did; as ft_tip_message.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ft_hand_message(hand: *const ft_hand) -> *const c_char {
-    // SAFETY: NULL, or a handle that nobody else uses now.
     if hand.is_null() {
-        crate::ft_status_text(1)
-    } else {
-        unsafe { (&raw const (*hand).error.message).cast() }
+        return crate::ft_status_text(1);
     }
+    // SAFETY: a handle that nobody else uses now. No reference to the whole is made: see `ft_tip_message`.
+    unsafe { (&raw const (*hand).error.message).cast() }
 }
 
 /// The normal forces to command for the next sample, which rise at once when a finger slips. `load` is what the object

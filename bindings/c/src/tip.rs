@@ -83,9 +83,12 @@ pub unsafe extern "C" fn ft_tip_free(tip: *mut *mut ft_tip) {
 /// first. NULL has the sentence of FT_NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ft_tip_message(tip: *const ft_tip) -> *const c_char {
-    // SAFETY: NULL, or a handle that nobody else uses now. No reference to the whole is made, since the caller reads
-    // the text while it may call again.
-    if tip.is_null() { crate::ft_status_text(1) } else { unsafe { (&raw const (*tip).error.message).cast() } }
+    if tip.is_null() {
+        return crate::ft_status_text(1);
+    }
+    // SAFETY: a handle that nobody else uses now. No reference to the whole is made, since the caller reads the text while
+    // it may call again.
+    unsafe { (&raw const (*tip).error.message).cast() }
 }
 
 /// How many gauges a reading has: 0 for a scene without [sensor], which takes wrenches, and for NULL.

@@ -1,7 +1,12 @@
 //! Calls that take a sample allocate nothing.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-#![allow(unsafe_code, reason = "an allocator that counts, and calls of the interface for C")]
+#![allow(unsafe_code, clippy::undocumented_unsafe_blocks, reason = "an allocator, and calls as C makes them")]
+#![allow(
+    clippy::std_instead_of_alloc,
+    clippy::std_instead_of_core,
+    reason = "tests have the standard library"
+)]
 
 use core::mem::MaybeUninit;
 use core::ptr;

@@ -92,6 +92,13 @@ impl Compiler {
         ] {
             for (cargo, rustc) in pairs {
                 let Ok(sysroot) = run(Command::new(rustc).args(["--print", "sysroot"])) else { continue };
+                let knows = || {
+                    let list = run(Command::new(rustc).args(["--print", "target-list"]));
+                    list.is_ok_and(|list| list.lines().any(|known| known == target))
+                };
+                if builds_core && !knows() {
+                    continue;
+                }
                 if Path::new(sysroot.lines().next().unwrap_or_default()).join(&part).is_dir() {
                     return Ok(Self { cargo: cargo.into(), rustc: rustc.into(), builds_core });
                 }

@@ -23,19 +23,19 @@ pub(crate) struct ExportArguments {
     scene: PathBuf,
     /// Write a Rust module with the typed pipeline and a function that makes it: no files, no standard library, no heap
     /// but for meshes and heightfields
-    #[arg(long, value_name = "TIP.rs", required_unless_present_any = ["json", "c"])]
+    #[arg(long, value_name = "TIP.rs", required_unless_present_any = ["json", "c"], group = "typed")]
     rust: Option<PathBuf>,
     /// The precision of the module (f64 if none is given) or of the library (f32)
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, requires = "typed")]
     scalar: Option<Precision>,
     /// The calibration of the sensor, so that the module begins with readings of its gauges, not with wrenches
-    #[arg(long, value_name = "CAL")]
+    #[arg(long, value_name = "CAL", requires = "typed")]
     calibration: Option<PathBuf>,
     /// Write the scene with all defaults filled in, and a mesh in the place of its file
     #[arg(long, value_name = "SCENE.json")]
     json: Option<PathBuf>,
     /// Make a static library and a header of three functions for C; it takes cargo
-    #[arg(long, requires = "output", conflicts_with_all = ["rust", "json"])]
+    #[arg(long, requires = "output", conflicts_with_all = ["rust", "json"], group = "typed")]
     c: bool,
     #[command(flatten)]
     library: library::LibraryArguments,
@@ -69,10 +69,6 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     if *c {
         let scalar = scalar.unwrap_or(Precision::F32).scalar();
         return library::run(path, calibration.as_ref(), scalar, library, *overwrite);
-    }
-    let option = |name: &str| CliError::Option { option: name.to_owned(), problem: "is for --rust or --c" };
-    if rust.is_none() && (scalar.is_some() || calibration.is_some()) {
-        return Err(option(if scalar.is_some() { "--scalar" } else { "--calibration" }));
     }
     let inputs = core::iter::once(path).chain(calibration);
     let outputs = Outputs::guard(*overwrite, "the export", inputs, rust.iter().chain(json))?;

@@ -87,15 +87,10 @@ pub(super) fn play(
         }
         Some(_) => emulated(&folder, library, &program)?,
     };
+    let weigh = |calls| weighed(&folder, library, name, calls);
     let flash = match build.target() {
         None => None,
-        Some(_) => {
-            Some([&["sense"][..], &["sense", "init"][..]].map(|calls| weighed(&folder, library, name, calls)))
-        }
-    };
-    let flash = match flash {
-        None => None,
-        Some([sense, all]) => Some([sense?, all?]),
+        Some(_) => Some([weigh(&["sense"])?, weigh(&["sense", "init"])?]),
     };
     let bad = |said: &str| BuildError::Failed { program: "the session".to_owned(), said: said.to_owned() };
     let cost = said.lines().find_map(|line| line.strip_prefix("cost ")).ok_or_else(|| bad(&said))?;

@@ -3,7 +3,12 @@
 
 // Helpers of tests are tests too.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-#![allow(unsafe_code, reason = "calls of the interface for C")]
+#![allow(
+    unsafe_code,
+    clippy::undocumented_unsafe_blocks,
+    reason = "calls of the interface for C, as C makes them"
+)]
+#![allow(clippy::std_instead_of_alloc, reason = "tests have the standard library")]
 
 mod columns;
 mod faults;
