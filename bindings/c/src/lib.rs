@@ -1,12 +1,16 @@
 //! `fingertip` for C and C++: what stands in `include/fingertip.h`, which `cbindgen` writes of this crate.
 //!
 //! Names are those of C, so that one search finds a thing on both sides. Every function is entered through
-//! [`border`], where pointers become values and panics end.
+//! `border`, where pointers become values and panics end.
 #![allow(non_camel_case_types, reason = "the names of C")]
 #![allow(unsafe_code, reason = "pointers come over the border; what is relied on stands beside each use")]
 #![allow(
     clippy::missing_safety_doc,
     reason = "the rules for all pointers stand once, at the head of the header"
+)]
+#![allow(
+    rustdoc::broken_intra_doc_links,
+    reason = "[sensor] and its like are sections of scenes, here and in the header"
 )]
 
 mod ball;
