@@ -36,7 +36,7 @@ mod uncertainty;
 
 pub use carried::Carried;
 pub use estimate::{Estimate, Learnt};
-pub use export::{ExportError, Scalar};
+pub use export::{CLibrary, ExportError, Scalar};
 pub use fault::{BadCarried, SceneError, SceneFault, SceneProblem, VERSION};
 pub use felt::{Felt, Tells};
 pub use filter::Filter;

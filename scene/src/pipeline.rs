@@ -336,6 +336,11 @@ impl<T: Real> Pipeline<T> {
         }
     }
 
+    /// What the last sample said; before the first, that nothing touches.
+    pub const fn felt(&self) -> &Felt<T> {
+        &self.felt
+    }
+
     /// The surface, in the sensor frame.
     pub const fn surface(&self) -> &DynSurface<T> {
         &self.surface

@@ -44,3 +44,23 @@ fn an_export_that_cannot_be_leaves_no_file() {
     assert!(error.contains("far.toml"), "{error}");
     assert!(!folder.path("tip.rs").exists() && !folder.path("tip.json").exists());
 }
+
+/// What `.ci/firmware-c` does not: a library that cannot be is refused before anything is compiled.
+#[test]
+fn a_library_for_c_that_cannot_be_is_refused() {
+    let folder = Folder::new();
+    let ball = scene("paper_sphere.toml");
+    folder.fail(2, &["export", &ball, "--c"]);
+    folder.fail(2, &["export", &ball, "--c", "-o", "out", "--json", "ball.json"]);
+    folder.fail(2, &["export", &ball, "--rust", "ball.rs", "--target", "thumbv7em-none-eabihf"]);
+    let refused = |arguments: &[&str], says: &str| {
+        let error = folder.fail(1, &[&["export", "--c", "-o", "out"], arguments].concat());
+        assert!(error.contains(says), "{error}");
+    };
+    refused(&[&scene("tracked_ball.toml")], "the section [tracking], of which a touch for C tells nothing");
+    refused(&[&ball, "--name", "Tip"], "\"Tip\" is no name for C");
+    refused(&[&ball, "--target", "nonsense-none-elf"], "no compiler here has the target nonsense-none-elf");
+    folder.write("garbled.cal", "nonsense");
+    refused(&[&ball, "--calibration", "garbled.cal"], "garbled.cal");
+    assert!(!folder.path("out/libtip.a").exists() && !folder.path("out/tip.h").exists());
+}

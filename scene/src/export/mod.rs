@@ -6,6 +6,7 @@ mod followed;
 mod formula;
 mod json;
 mod layout;
+mod library;
 mod module;
 mod resolved;
 mod shapes;
@@ -16,6 +17,7 @@ use fingertip_calibration::file::{CalibrationFile, FileError};
 use thiserror::Error;
 
 pub use fingertip_calibration::file::Scalar;
+pub use library::CLibrary;
 
 use crate::fault::SceneProblem;
 use crate::scene::Scene;
@@ -42,6 +44,12 @@ pub enum ExportError {
     /// The calibration cannot be exported.
     #[error("the calibration cannot be exported: {0}")]
     Calibration(#[from] FileError),
+    /// A name that is none in C.
+    #[error("{name:?} is no name for C; take small letters, digits and _, and begin with a letter")]
+    Name {
+        /// As it was written.
+        name: String,
+    },
     /// Too few gauges for a wrench.
     #[error("the calibration has {found} gauges, and a wrench takes six at least")]
     Gauges {
@@ -85,6 +93,24 @@ impl Scene {
         match scalar {
             Scalar::F32 => module::of::<f32>(self, scalar, calibration),
             Scalar::F64 => module::of::<f64>(self, scalar, calibration),
+        }
+        .map(|module| module.text)
+    }
+
+    /// The scene for C: a package that makes a static library of [`to_rust`](Self::to_rust)'s module with three functions
+    /// for C, and the header for it. `name` is what all their names begin with.
+    ///
+    /// # Errors
+    /// [`ExportError`], also for a section that tells what has no place in the structure of a touch.
+    pub fn to_c(
+        &self,
+        scalar: Scalar,
+        calibration: Option<&CalibrationFile>,
+        name: &str,
+    ) -> Result<CLibrary, ExportError> {
+        match scalar {
+            Scalar::F32 => CLibrary::of::<f32>(self, scalar, calibration, name),
+            Scalar::F64 => CLibrary::of::<f64>(self, scalar, calibration, name),
         }
     }
 

@@ -64,12 +64,27 @@ struct Stages {
     solved: Option<Solved>,
 }
 
+/// A module, and what those who call it must know.
+pub(super) struct Module {
+    pub(super) text: String,
+    /// How many gauges a reading has; `None` if samples are wrenches.
+    pub(super) gauges: Option<usize>,
+    /// Whether a reading has a temperature.
+    pub(super) is_warm: bool,
+    /// Readings at or beyond these are saturated.
+    pub(super) range: Option<[f64; 2]>,
+    pub(super) has_limit: bool,
+    pub(super) has_detector: bool,
+    /// Features of `fingertip` that it needs.
+    pub(super) features: Vec<&'static str>,
+}
+
 /// The module of a scene.
 pub(super) fn of<T: Real + DeserializeOwned>(
     scene: &Scene,
     scalar: Scalar,
     calibration: Option<&CalibrationFile>,
-) -> Result<String, ExportError> {
+) -> Result<Module, ExportError> {
     let resolved = resolve::<T>(scene)?;
     if let Some(unknown) = resolved.keys().find(|key| !KNOWN.contains(&key.as_str())) {
         return Err(ExportError::NoType { what: format!("the section [{unknown}]") });
@@ -122,9 +137,18 @@ pub(super) fn of<T: Real + DeserializeOwned>(
     }
     let items = items::<T>(scene, &stages, &beside, &writer.statics);
     let header = header::<T>(scene, &stages, &beside, &items);
+    let solved = stages.solved.as_ref();
     // The module of a calibration stands for itself.
-    let calibration = stages.solved.as_ref().map_or("", |solved| solved.module.as_str());
-    Ok(format!("{header}{}{}{calibration}", imports(&items), laid_out(&with_imports(&items))))
+    let own = solved.map_or("", |solved| solved.module.as_str());
+    Ok(Module {
+        text: format!("{header}{}{}{own}", imports(&items), laid_out(&with_imports(&items))),
+        gauges: calibration.map(CalibrationFile::gauges),
+        is_warm: solved.is_some_and(|solved| solved.is_warm),
+        range: solved.and_then(|solved| solved.range),
+        has_limit: stages.limit.is_some(),
+        has_detector: stages.detector.is_some(),
+        features: features(&items),
+    })
 }
 
 fn uncertainty<T: Real>(scene: &Scene, resolved: &Table) -> Result<Option<Uncertainty<T>>, ExportError> {
@@ -145,6 +169,16 @@ fn on_the_heap(items: &str) -> bool {
     ON_THE_HEAP.iter().any(|shape| items.contains(shape))
 }
 
+/// Features of `fingertip` that the items need.
+fn features(items: &str) -> Vec<&'static str> {
+    let mut features = vec!["libm"];
+    features.extend(on_the_heap(items).then_some("alloc"));
+    features.extend(items.contains("friction::").then_some("friction"));
+    features.extend(items.contains("contact::Compliant").then_some("skin"));
+    features.extend(items.contains("contact::Tracker").then_some("track"));
+    features
+}
+
 /// What the module is, what it needs, and how it is called.
 fn header<T: Real>(scene: &Scene, stages: &Stages, beside: &[Beside], items: &str) -> String {
     let mut text = String::new();
@@ -160,11 +194,7 @@ fn header<T: Real>(scene: &Scene, stages: &Stages, beside: &[Beside], items: &st
     for line in scene.meaning() {
         text.push_str(&comment(&in_a_line(&line), 3, 13));
     }
-    let mut features = vec!["\"libm\""];
-    features.extend(on_the_heap(items).then_some("\"alloc\""));
-    features.extend(items.contains("friction::").then_some("\"friction\""));
-    features.extend(items.contains("contact::Compliant").then_some("\"skin\""));
-    features.extend(items.contains("contact::Tracker").then_some("\"track\""));
+    let features: Vec<String> = features(items).iter().map(|feature| format!("{feature:?}")).collect();
     let heap = if on_the_heap(items) {
         "a heap, but no standard library"
     } else {

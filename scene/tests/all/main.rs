@@ -6,6 +6,7 @@
 mod choices;
 mod export;
 mod export_beside;
+mod export_c;
 #[allow(dead_code, unreachable_pub)]
 mod exported;
 mod formula;

@@ -1,6 +1,11 @@
 //! `fingertip export`: a scene as what runs without files.
 
-use std::path::PathBuf;
+mod build;
+mod library;
+mod play;
+mod session;
+
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use fingertip_scene::Scalar;
@@ -10,7 +15,7 @@ use crate::error::CliError;
 use crate::output::{Outputs, Overwrite};
 use crate::scene;
 
-/// A scene as a Rust module, as JSON, or both.
+/// A scene as a Rust module, as JSON, or as a library for C.
 #[derive(Debug, Args)]
 pub(crate) struct ExportArguments {
     /// The scene (examples/scenes/README.md), or `sim` for that of the simulated fingertip
@@ -18,17 +23,22 @@ pub(crate) struct ExportArguments {
     scene: PathBuf,
     /// Write a Rust module with the typed pipeline and a function that makes it: no files, no standard library, no heap
     /// but for meshes and heightfields
-    #[arg(long, value_name = "TIP.rs", required_unless_present = "json")]
+    #[arg(long, value_name = "TIP.rs", required_unless_present_any = ["json", "c"], group = "typed")]
     rust: Option<PathBuf>,
-    /// The precision of the module
-    #[arg(long, value_enum, default_value_t = Precision::F64, requires = "rust")]
-    scalar: Precision,
+    /// The precision of the module (f64 if none is given) or of the library (f32)
+    #[arg(long, value_enum, requires = "typed")]
+    scalar: Option<Precision>,
     /// The calibration of the sensor, so that the module begins with readings of its gauges, not with wrenches
-    #[arg(long, value_name = "CAL", requires = "rust")]
+    #[arg(long, value_name = "CAL", requires = "typed")]
     calibration: Option<PathBuf>,
     /// Write the scene with all defaults filled in, and a mesh in the place of its file
     #[arg(long, value_name = "SCENE.json")]
     json: Option<PathBuf>,
+    /// Make a static library and a header of three functions for C; it takes cargo
+    #[arg(long, requires = "output", conflicts_with_all = ["rust", "json"], group = "typed")]
+    c: bool,
+    #[command(flatten)]
+    library: library::LibraryArguments,
     #[command(flatten)]
     overwrite: Overwrite,
 }
@@ -40,27 +50,39 @@ enum Precision {
     F64,
 }
 
+impl Precision {
+    const fn scalar(self) -> Scalar {
+        match self {
+            Self::F32 => Scalar::F32,
+            Self::F64 => Scalar::F64,
+        }
+    }
+}
+
+/// What an export that fails says.
+fn failed(path: &Path, message: &dyn core::fmt::Display) -> CliError {
+    CliError::Export { path: path.to_owned(), message: message.to_string() }
+}
+
 pub(crate) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
-    let ExportArguments { scene: path, rust, scalar, calibration, json, overwrite } = arguments;
+    let ExportArguments { scene: path, rust, scalar, calibration, json, c, library, overwrite } = arguments;
+    if *c {
+        let scalar = scalar.unwrap_or(Precision::F32).scalar();
+        return library::run(path, calibration.as_ref(), scalar, library, *overwrite);
+    }
     let inputs = core::iter::once(path).chain(calibration);
     let outputs = Outputs::guard(*overwrite, "the export", inputs, rust.iter().chain(json))?;
     let scene = scene::load_or_simulated(path)?;
     let calibration = calibration.as_deref().map(read_calibration).transpose()?;
-    let failed = |error: fingertip_scene::ExportError| CliError::Export {
-        path: path.clone(),
-        message: error.to_string(),
-    };
-    let scalar = match scalar {
-        Precision::F32 => Scalar::F32,
-        Precision::F64 => Scalar::F64,
-    };
+    let scalar = scalar.unwrap_or(Precision::F64).scalar();
     // Both texts before a file is written: what cannot be exported leaves none behind.
     let mut files = Vec::new();
-    if let Some(path) = rust {
-        files.push(("Rust file", path, scene.to_rust(scalar, calibration.as_ref()).map_err(failed)?));
+    if let Some(to) = rust {
+        let text = scene.to_rust(scalar, calibration.as_ref()).map_err(|error| failed(path, &error))?;
+        files.push(("Rust file", to, text));
     }
-    if let Some(path) = json {
-        files.push(("JSON file", path, scene.to_json().map_err(failed)?));
+    if let Some(to) = json {
+        files.push(("JSON file", to, scene.to_json().map_err(|error| failed(path, &error))?));
     }
     for (what, path, text) in &files {
         outputs.write(what, path, text)?;

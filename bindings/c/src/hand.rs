@@ -1,0 +1,204 @@
+//! A hand behind a handle: normal forces to command.
+
+use core::ffi::c_char;
+
+use fingertip::hand::{FingerLimits, HandController, HandSettings, HandState, LeastGrip};
+
+use crate::border::{self, Keeps, hand_out, on, place, read, read_many, told};
+use crate::fault::{Fault, ft_status};
+use crate::finger::{FT_MAX_FINGERS, fingers, ft_finger, ft_finger_limits, load};
+use crate::load::ft_wrench;
+use crate::message::ft_error;
+
+/// Half-spaces that limit a finger: of its least and its greatest normal force.
+pub(crate) const ROWS: usize = 2;
+
+/// A hand: what it commanded last, and what slip has taught it. Made by ft_hand_create, freed by ft_hand_free.
+#[derive(Debug)]
+pub struct ft_hand {
+    controller: HandController<f64, FT_MAX_FINGERS, ROWS>,
+    pub(crate) limits: [FingerLimits<f64, ROWS>; FT_MAX_FINGERS],
+    /// For the question of the least grip alone.
+    pub(crate) least: LeastGrip<f64, FT_MAX_FINGERS, ROWS>,
+    pub(crate) count: usize,
+    error: ft_error,
+}
+
+impl Keeps for ft_hand {
+    fn kept(&mut self) -> &mut ft_error {
+        &mut self.error
+    }
+}
+
+impl ft_hand {
+    /// That as many fingers are given as the hand has.
+    pub(crate) fn check(&self, count: usize) -> Result<(), Fault> {
+        if count == self.count {
+            return Ok(());
+        }
+        Err(Fault::Size { what: "fingers", found: count, needed: self.count })
+    }
+}
+
+/// Limits and habits of a hand. ft_hand_settings_defaults has values to begin with.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ft_hand_settings {
+    /// Factor of safety on friction, at least 1.
+    pub safety: f64,
+    /// How fast a normal force may rise, in N/s.
+    pub rise: f64,
+    /// How fast it may fall, in N/s.
+    pub fall: f64,
+    /// By what a finger's friction coefficient is multiplied when it slips, between 0 and 1.
+    pub at_slip: f64,
+    /// Below what friction coefficient it is never taken, however often it slips.
+    pub least_friction: f64,
+    /// A contact that asks for a greater friction ratio is implausible, and its force is not used.
+    pub greatest_ratio: f64,
+}
+
+/// What commands rest on.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ft_hand_state {
+    /// The least grip for the load.
+    FT_HAND_HOLDING = 0,
+    /// No forces within friction and limits hold the load. The commands are those of before.
+    FT_HAND_CANNOT_HOLD = 1,
+    /// A number is not finite, no plausible contact is left, or no answer was found. The commands are those of before.
+    FT_HAND_BLIND = 2,
+}
+
+/// Normal forces to command.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ft_hand_order {
+    /// What they rest on.
+    pub state: ft_hand_state,
+    /// Bit i is 1 if the contact of finger i was not believed.
+    pub implausible: u32,
+    /// For each finger, in N; zero of fingers that the hand has not.
+    pub normal_force: [f64; FT_MAX_FINGERS],
+    /// With FT_HAND_CANNOT_HOLD, the motion by which the object will go, of which the direction alone has a meaning: its
+    /// velocity at the origin of the hand's frame, in m/s.
+    pub velocity: [f64; 3],
+    /// Its angular velocity, in rad/s.
+    pub turning: [f64; 3],
+}
+
+/// A safety of 1.5, 200 N/s up and 2 N/s down, friction taken as 0.8 times as large at each slip and never below 0.1,
+/// and no contact beyond a friction ratio of 3.
+#[unsafe(no_mangle)]
+pub extern "C" fn ft_hand_settings_defaults() -> ft_hand_settings {
+    ft_hand_settings {
+        safety: 1.5,
+        rise: 200.0,
+        fall: 2.0,
+        at_slip: 0.8,
+        least_friction: 0.1,
+        greatest_ratio: 3.0,
+    }
+}
+
+/// Makes a hand of 1 to FT_MAX_FINGERS fingers; it begins with the least normal forces of their limits. `limits` has
+/// `count` of them, or is NULL for none; `error` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ft_hand_create(
+    settings: *const ft_hand_settings,
+    limits: *const ft_finger_limits,
+    count: usize,
+    hand: *mut *mut ft_hand,
+    error: *mut ft_error,
+) -> ft_status {
+    told(error, || {
+        let (place, given) = (place(hand, "hand")?, read(settings, "settings")?);
+        if !(1..=FT_MAX_FINGERS).contains(&count) {
+            return Err(Fault::Fingers { found: count, most: FT_MAX_FINGERS });
+        }
+        let mut each = [FingerLimits::none(); FT_MAX_FINGERS];
+        if !limits.is_null() {
+            let none = ft_finger_limits { least_normal_force: 0.0, greatest_normal_force: 0.0, cost: 0.0 };
+            let limits: [ft_finger_limits; FT_MAX_FINGERS] = read_many(limits, count, "limits", none)?;
+            for (index, (to, from)) in each.iter_mut().zip(&limits).enumerate() {
+                *to = from.limits(index)?;
+            }
+        }
+        let ft_hand_settings { safety, rise, fall, at_slip, least_friction, greatest_ratio } = given;
+        let settings = HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio };
+        let controller = HandController::new(settings, each)?;
+        let least = LeastGrip::new();
+        hand_out(place, ft_hand { controller, limits: each, least, count, error: ft_error::none() });
+        Ok(())
+    })
+}
+
+/// Frees a hand and sets the variable that held it to NULL: to do so twice does no harm. NULL is left.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ft_hand_free(hand: *mut *mut ft_hand) {
+    border::free(hand);
+}
+
+/// Why the last call of this hand failed that did; as ft_tip_message.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ft_hand_message(hand: *const ft_hand) -> *const c_char {
+    if hand.is_null() {
+        return crate::ft_status_text(1);
+    }
+    // SAFETY: a handle that nobody else uses now. No reference to the whole is made: see `ft_tip_message`.
+    unsafe { (&raw const (*hand).error.message).cast() }
+}
+
+/// The normal forces to command for the next sample, which rise at once when a finger slips. `load` is what the object
+/// loads the fingers with, as ft_object_wrench tells; NULL for just that. `time_step` is the time since the call before,
+/// in s. Allocates nothing. That no forces hold is FT_OK, and a state of the order.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ft_hand_command(
+    hand: *mut ft_hand,
+    fingers: *const ft_finger,
+    count: usize,
+    load: *const ft_wrench,
+    time_step: f64,
+    order: *mut ft_hand_order,
+) -> ft_status {
+    on(hand, |hand| {
+        let place = place(order, "order")?;
+        hand.check(count)?;
+        let fingers = self::fingers(fingers, count)?;
+        let load = self::load(load, &fingers)?;
+        let command = hand.controller.command(&fingers, &load, time_step);
+        let mut told = ft_hand_order {
+            state: ft_hand_state::FT_HAND_HOLDING,
+            implausible: 0,
+            normal_force: [0.0; FT_MAX_FINGERS],
+            velocity: [0.0; 3],
+            turning: [0.0; 3],
+        };
+        for (to, from) in told.normal_force.iter_mut().zip(&command.normal).take(count) {
+            *to = *from;
+        }
+        for (index, implausible) in command.implausible.iter().enumerate() {
+            told.implausible |= u32::from(*implausible) << index;
+        }
+        match &command.state {
+            HandState::Holding => {}
+            HandState::CannotHold(why) => {
+                told.state = ft_hand_state::FT_HAND_CANNOT_HOLD;
+                (told.velocity, told.turning) = (why.velocity.into(), why.turning.into());
+            }
+            HandState::Blind => told.state = ft_hand_state::FT_HAND_BLIND,
+        }
+        place.put(told);
+        Ok(())
+    })
+}
+
+/// Forgets what slip has taught of the friction, as when another object is grasped. The commands stay.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ft_hand_forget(hand: *mut ft_hand) -> ft_status {
+    on(hand, |hand| {
+        hand.controller.forget_friction();
+        hand.least.forget();
+        Ok(())
+    })
+}

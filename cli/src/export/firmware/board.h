@@ -1,0 +1,1 @@
+../../../../examples/cortex-m4-c/board.h
