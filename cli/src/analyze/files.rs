@@ -2,8 +2,7 @@
 
 use std::io::Read;
 
-use fingertip_recordings::{ReaderOptions, RecordingReader};
-use fingertip_scene::Scene;
+use fingertip_recordings::{ReaderOptions, RecordingReader, RenamedColumn};
 use indicatif::ProgressBar;
 
 use super::args::AnalyzeArguments;
@@ -40,7 +39,7 @@ pub(super) struct Opened {
 /// Opens a recording. One of MCAP is read as what `convert` makes of it; what to know of that goes to `notes`.
 pub(super) fn open(
     arguments: &AnalyzeArguments,
-    scene: &Scene,
+    renamed: &[RenamedColumn],
     notes: &mut Vec<String>,
 ) -> Result<Opened, CliError> {
     let mut input = Input::open(&arguments.recording)?;
@@ -52,6 +51,6 @@ pub(super) fn open(
         }
         Kind::Csv => Box::new(bar.wrap_read(input.text()?)),
     };
-    let options = ReaderOptions { renamed: scene.renamed_columns().to_vec(), ..ReaderOptions::default() };
+    let options = ReaderOptions { renamed: renamed.to_vec(), ..ReaderOptions::default() };
     Ok(Opened { rows: Rows::with_options(input.name(), text, options)?, bar })
 }

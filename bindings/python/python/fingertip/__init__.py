@@ -1,0 +1,65 @@
+"""Touch from a small force/torque sensor behind a robot's fingertip.
+
+From the wrench and the known shape of the fingertip come the point of contact, normal and tangential force, how far
+the grip is from slipping, and how sure that is. All numbers are in SI units; a wrench is the load that the environment
+applies to the fingertip, and normals point out of it.
+
+>>> import fingertip
+>>> scene = fingertip.Scene.from_dict({"surface": {"shape": "sphere", "radius_m": 0.013}})
+>>> tip = fingertip.Fingertip(scene)
+>>> tip.sense([0.0, 0.0, -2.0, 0.0, 0.0, 0.0], 1e-3).point.tolist()
+[0.0, 0.0, 0.013]
+"""
+
+from fingertip._enums import Continuity, Convention, NoContactReason, SlipVerdict
+from fingertip._native import (
+    CalibrationError,
+    Contact,
+    DesignError,
+    Fingertip,
+    FingertipError,
+    FrictionError,
+    HandError,
+    Happened,
+    Impact,
+    NoContact,
+    ReadingError,
+    RecordingError,
+    Scene,
+    SceneError,
+    ShapeError,
+    SimulationError,
+    Spread,
+    Surface,
+    Touch,
+    Tracked,
+)
+from fingertip._touches import Touches
+
+__all__ = [
+    "CalibrationError",
+    "Contact",
+    "Continuity",
+    "Convention",
+    "DesignError",
+    "Fingertip",
+    "FingertipError",
+    "FrictionError",
+    "HandError",
+    "Happened",
+    "Impact",
+    "NoContact",
+    "NoContactReason",
+    "ReadingError",
+    "RecordingError",
+    "Scene",
+    "SceneError",
+    "ShapeError",
+    "SimulationError",
+    "SlipVerdict",
+    "Spread",
+    "Surface",
+    "Touch",
+    "Touches",
+    "Tracked",
+]

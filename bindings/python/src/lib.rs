@@ -1,0 +1,40 @@
+//! The extension module of the Python package `fingertip`. The package itself, with what is written in Python, is in
+//! `python/fingertip`; its classes and functions are explained there, by `help(fingertip)`.
+// `numpy` reads headers of arrays, and verdicts are written as bytes: each place says why it may.
+#![allow(unsafe_code)]
+#![allow(clippy::needless_pass_by_value, reason = "what Python passes is passed by value")]
+
+extern crate alloc;
+
+mod batch;
+mod columns;
+mod contact;
+mod enums;
+mod errors;
+mod fingertip;
+mod numbers;
+mod pipe;
+mod scene;
+mod surface;
+mod touch;
+mod value;
+
+/// The extension module.
+#[pyo3::pymodule(gil_used = false)]
+mod _native {
+    #[pymodule_export]
+    use crate::contact::{PyContact, PyNoContact};
+    #[pymodule_export]
+    use crate::errors::{
+        CalibrationError, DesignError, FingertipError, FrictionError, HandError, ReadingError,
+        RecordingError, SceneError, ShapeError, SimulationError,
+    };
+    #[pymodule_export]
+    use crate::fingertip::PyFingertip;
+    #[pymodule_export]
+    use crate::scene::PyScene;
+    #[pymodule_export]
+    use crate::surface::PySurface;
+    #[pymodule_export]
+    use crate::touch::{PyHappened, PyImpact, PySpread, PyTouch, PyTracked};
+}
