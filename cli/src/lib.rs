@@ -37,7 +37,6 @@ mod summary;
 mod table;
 
 use std::ffi::OsString;
-use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
 
@@ -45,17 +44,17 @@ pub use analyze::library;
 use args::{Arguments, Command};
 use error::CliError;
 
-/// Runs the command with the arguments that a shell gives it, the name of the program first. What it says goes to the
-/// standard streams, `--help` and what is wrong with the arguments too.
+/// Runs the command with the arguments that a shell gives it, the name of the program first, and gives its exit code.
+/// What it says goes to the standard streams, `--help` and what is wrong with the arguments too.
 ///
 /// Programs that have the command within them call this, as the Python package does.
-pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) -> ExitCode {
+pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) -> u8 {
     let command = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments.command,
         Err(told) => {
             // As clap does where it ends the program itself: a stream that is closed is no reason to fail.
             let _ = told.print();
-            return ExitCode::from(u8::try_from(told.exit_code()).unwrap_or(2));
+            return u8::try_from(told.exit_code()).unwrap_or(2);
         }
     };
     stop::guard(&command);
@@ -83,10 +82,10 @@ pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) ->
     };
     match done {
         // Whoever reads our output may stop when they have seen enough.
-        Ok(()) | Err(CliError::ClosedPipe) => ExitCode::SUCCESS,
+        Ok(()) | Err(CliError::ClosedPipe) => 0,
         Err(error) => {
             eprintln!("error: {}", output::printable(&error.to_string()));
-            ExitCode::from(1)
+            1
         }
     }
 }

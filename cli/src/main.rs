@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    fingertip_cli::run(std::env::args_os())
+    ExitCode::from(fingertip_cli::run(std::env::args_os()))
 }

@@ -7,6 +7,7 @@
 extern crate alloc;
 
 mod batch;
+mod calibration;
 mod columns;
 mod contact;
 mod enums;
@@ -14,7 +15,9 @@ mod errors;
 mod fingertip;
 mod numbers;
 mod pipe;
+mod recording;
 mod scene;
+mod simulation;
 mod surface;
 mod touch;
 mod value;
@@ -22,6 +25,8 @@ mod value;
 /// The extension module.
 #[pyo3::pymodule(gil_used = false)]
 mod _native {
+    #[pymodule_export]
+    use crate::calibration::{PyCalibration, calibrate_table};
     #[pymodule_export]
     use crate::contact::{PyContact, PyNoContact};
     #[pymodule_export]
@@ -32,7 +37,11 @@ mod _native {
     #[pymodule_export]
     use crate::fingertip::PyFingertip;
     #[pymodule_export]
+    use crate::recording::{analyze_rows, read_rows, run_command};
+    #[pymodule_export]
     use crate::scene::PyScene;
+    #[pymodule_export]
+    use crate::simulation::{design_layout, simulate_script};
     #[pymodule_export]
     use crate::surface::PySurface;
     #[pymodule_export]

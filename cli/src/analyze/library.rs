@@ -4,7 +4,7 @@ use core::fmt;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use fingertip_recordings::{Quality, RecordingReader, RenamedColumn};
+use fingertip_recordings::{Quality, ReaderOptions, RecordingReader};
 use fingertip_scene::{Felt, Scene};
 
 use super::args::AnalyzeArguments;
@@ -75,10 +75,10 @@ impl Recorded {
     /// [`Failure`], which names the file.
     pub fn rows(
         &self,
-        renamed: &[RenamedColumn],
+        options: ReaderOptions,
         notes: &mut Vec<String>,
-    ) -> Result<RecordingReader<Box<dyn Read>>, Failure> {
-        Ok(files::open(&self.arguments(Path::new("")), renamed, notes)?.rows)
+    ) -> Result<RecordingReader<Box<dyn Read + Send>>, Failure> {
+        Ok(files::open(&self.arguments(Path::new("")), options, notes)?.rows)
     }
 }
 
@@ -146,8 +146,7 @@ pub fn analyze(
 ) -> Result<Analysis, Failure> {
     let arguments = recorded.arguments(scene_file);
     let mut notes = Vec::new();
-    let files::Opened { rows: mut reader, bar } =
-        files::open(&arguments, scene.renamed_columns(), &mut notes)?;
+    let files::Opened { rows: mut reader, bar } = files::open(&arguments, files::of(scene), &mut notes)?;
     let mut source = Source::new(&mut reader, scene, &arguments, notes)?;
     let mut sink = Each(each);
     let pass = Pass { scene, reader: &mut reader, source: &mut source, sink: &mut sink };

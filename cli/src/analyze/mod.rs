@@ -31,8 +31,7 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let recording = arguments.recording.as_path();
     let outputs = files::guard(arguments)?;
     let mut notes = Vec::new();
-    let files::Opened { rows: mut reader, bar } =
-        files::open(arguments, scene.renamed_columns(), &mut notes)?;
+    let files::Opened { rows: mut reader, bar } = files::open(arguments, files::of(&scene), &mut notes)?;
     let mut source = Source::new(&mut reader, &scene, arguments, notes)?;
     let mut contacts = ContactWriter::create(&arguments.output, &outputs, scene.tells())?;
     let pass = Pass { scene: &scene, reader: &mut reader, source: &mut source, sink: &mut contacts };

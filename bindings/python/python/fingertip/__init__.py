@@ -11,8 +11,9 @@ applies to the fingertip, and normals point out of it.
 [0.0, 0.0, 0.013]
 """
 
-from fingertip._enums import Continuity, Convention, NoContactReason, SlipVerdict
+from fingertip._enums import Continuity, Convention, NoContactReason, Quality, SlipVerdict
 from fingertip._native import (
+    Calibration,
     CalibrationError,
     Contact,
     DesignError,
@@ -34,13 +35,18 @@ from fingertip._native import (
     Touch,
     Tracked,
 )
+from fingertip._recordings import Analysis, Recording, analyze, read_recording
+from fingertip._sensors import Design, Simulation, calibrate, design, simulate
 from fingertip._touches import Touches
 
 __all__ = [
+    "Analysis",
+    "Calibration",
     "CalibrationError",
     "Contact",
     "Continuity",
     "Convention",
+    "Design",
     "DesignError",
     "Fingertip",
     "FingertipError",
@@ -50,11 +56,14 @@ __all__ = [
     "Impact",
     "NoContact",
     "NoContactReason",
+    "Quality",
     "ReadingError",
+    "Recording",
     "RecordingError",
     "Scene",
     "SceneError",
     "ShapeError",
+    "Simulation",
     "SimulationError",
     "SlipVerdict",
     "Spread",
@@ -62,4 +71,9 @@ __all__ = [
     "Touch",
     "Touches",
     "Tracked",
+    "analyze",
+    "calibrate",
+    "design",
+    "read_recording",
+    "simulate",
 ]

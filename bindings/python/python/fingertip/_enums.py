@@ -53,3 +53,16 @@ class Continuity(str, Enum):
     """Too far away for the same contact; the next sample decides."""
     BRIDGED = "bridged"
     """No contact was seen, but the track still knows where it would be."""
+
+
+class Quality(str, Enum):
+    """Whether a calibration can be trusted."""
+
+    GOOD = "good"
+    """Checked, and within what was asked for."""
+    SUSPECT = "suspect"
+    """Within what was asked for but for readings that do not fit the others."""
+    BAD = "bad"
+    """Checked, and not: the reasons stand beside it."""
+    UNCHECKED = "unchecked"
+    """Nobody has checked it."""
