@@ -8,6 +8,7 @@ extern crate alloc;
 
 mod batch;
 mod calibration;
+mod capsule;
 mod columns;
 mod contact;
 mod enums;
@@ -19,6 +20,7 @@ mod recording;
 mod scene;
 mod simulation;
 mod surface;
+mod table;
 mod touch;
 mod value;
 
@@ -44,6 +46,8 @@ mod _native {
     use crate::simulation::{design_layout, simulate_script};
     #[pymodule_export]
     use crate::surface::PySurface;
+    #[pymodule_export]
+    use crate::table::{PyTable, find_columns};
     #[pymodule_export]
     use crate::touch::{PyHappened, PyImpact, PySpread, PyTouch, PyTracked};
 }

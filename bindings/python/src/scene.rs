@@ -217,6 +217,18 @@ impl PyScene {
         self.scene.sample_rate()
     }
 
+    /// Prefix of the sensor's columns in a recording, or `None`.
+    #[getter]
+    fn sensor_name(&self) -> Option<&str> {
+        self.scene.sensor_name()
+    }
+
+    /// Whether readings are gauges, which a `[sensor]` turns into wrenches.
+    #[getter]
+    fn has_sensor(&self) -> bool {
+        self.scene.calibration().is_some()
+    }
+
     /// How long the sensor is known to be unloaded at the start of a recording [s], or `None`.
     #[getter]
     fn rest(&self) -> Option<f64> {

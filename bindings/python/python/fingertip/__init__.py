@@ -11,6 +11,7 @@ applies to the fingertip, and normals point out of it.
 [0.0, 0.0, 0.013]
 """
 
+from fingertip._arrow import Columns, Table, columns
 from fingertip._enums import Continuity, Convention, NoContactReason, Quality, SlipVerdict
 from fingertip._native import (
     Calibration,
@@ -43,6 +44,7 @@ __all__ = [
     "Analysis",
     "Calibration",
     "CalibrationError",
+    "Columns",
     "Contact",
     "Continuity",
     "Convention",
@@ -68,11 +70,13 @@ __all__ = [
     "SlipVerdict",
     "Spread",
     "Surface",
+    "Table",
     "Touch",
     "Touches",
     "Tracked",
     "analyze",
     "calibrate",
+    "columns",
     "design",
     "read_recording",
     "simulate",
