@@ -34,8 +34,8 @@ use crate::{errors, numbers};
 /// ... })
 /// >>> tip = fingertip.Fingertip(scene)
 /// >>> touch = tip.sense([0.5, 0.0, -2.0, 0.0, 6.5e-3, 0.0], 1e-3)
-/// >>> touch.point.round(6).tolist(), round(touch.normal_force, 6), touch.margin > 0.5
-/// ([0.0, 0.0, 0.013], 2.0, True)
+/// >>> float(touch.point[2]), round(touch.normal_force, 6), touch.margin > 0.5
+/// (0.013, 2.0, True)
 #[pyclass(name = "Fingertip", module = "fingertip", subclass)]
 pub(crate) struct PyFingertip {
     scene: Py<PyScene>,
