@@ -187,6 +187,12 @@ impl PyFingertip {
         }
     }
 
+    /// 1.0 where readings are loads on the fingertip, -1.0 where they are the reaction.
+    #[getter]
+    fn sign(&self) -> f64 {
+        self.sign
+    }
+
     /// How many numbers a reading has: the gauges of the scene's `[sensor]`, or 6.
     #[getter]
     fn channels(&self) -> usize {

@@ -14,6 +14,10 @@ mod contact;
 mod enums;
 mod errors;
 mod fingertip;
+mod friction;
+mod gauges;
+mod hand;
+mod model;
 mod numbers;
 mod pipe;
 mod recording;
@@ -22,6 +26,7 @@ mod simulation;
 mod surface;
 mod table;
 mod touch;
+mod track;
 mod value;
 
 /// The extension module.
@@ -39,6 +44,14 @@ mod _native {
     #[pymodule_export]
     use crate::fingertip::PyFingertip;
     #[pymodule_export]
+    use crate::friction::{PyBristle, PyDetector, PyIncipient, PyLimit, limit_curve};
+    #[pymodule_export]
+    use crate::gauges::{PyMonitor, conditioning, worst_errors};
+    #[pymodule_export]
+    use crate::hand::{PyGrasp, PyWeight};
+    #[pymodule_export]
+    use crate::model::{PyCovariance, PyJacobian, PyModel, paper_bounds};
+    #[pymodule_export]
     use crate::recording::{analyze_rows, read_rows, run_command};
     #[pymodule_export]
     use crate::scene::PyScene;
@@ -50,4 +63,6 @@ mod _native {
     use crate::table::{PyTable, find_columns};
     #[pymodule_export]
     use crate::touch::{PyHappened, PyImpact, PySpread, PyTouch, PyTracked};
+    #[pymodule_export]
+    use crate::track::{PyEvents, PyJudge, PyMeeting, fuse};
 }

@@ -42,6 +42,18 @@ impl PySurface {
     pub(crate) const fn surface(&self) -> &DynSurface<f64> {
         &self.surface
     }
+
+    /// The text of a scene of this surface in its pose, and of other sections.
+    pub(crate) fn scene_with(&self, sections: &str) -> PyResult<String> {
+        let parse = |text: &str| text.parse::<toml::Table>().map_err(errors::scene);
+        let (mut scene, own) = (parse(sections)?, parse(&self.scene)?);
+        for key in ["surface", "pose"] {
+            if let Some(section) = own.get(key) {
+                scene.insert(key.to_owned(), section.clone());
+            }
+        }
+        toml::to_string(&scene).map_err(errors::scene)
+    }
 }
 
 /// Distance along the line [m], point [m], outward normal, and whether the point may touch.

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+import fingertip
 import numpy as np
 import pytest
-
-import fingertip
 
 RADIUS = 0.013
 SECTIONS = {

@@ -3,10 +3,9 @@
 import gc
 import pickle
 
+import fingertip
 import numpy as np
 import pytest
-
-import fingertip
 from fingertip import Fingertip, Table
 
 pa = pytest.importorskip("pyarrow")
@@ -145,5 +144,5 @@ def test_duckdb_takes_and_gives_columns(scene, table):
     sense = fingertip.columns(scene, time_step=1e-3)
     rows = table  # noqa: F841
     touched = sense(duckdb.sql("select * from rows"))  # noqa: F841
-    found = duckdb.sql("select count(*) from touched where normal_N > 0").fetchone()[0]
+    found = duckdb.sql("select count(*) from touched where normal_N > 0").fetchall()[0][0]
     assert found == np.count_nonzero(np.array(sense(table)["normal_N"]) > 0)

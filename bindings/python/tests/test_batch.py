@@ -3,14 +3,13 @@
 import threading
 import time
 
+import fingertip
 import numpy as np
 import pytest
 from conftest import RADIUS, SECTIONS
+from fingertip import Fingertip, Scene, SlipVerdict, Touches
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-import fingertip
-from fingertip import Fingertip, Scene, SlipVerdict, Touches
 
 SHAPES = [
     {"shape": "sphere", "radius_m": RADIUS},

@@ -4,14 +4,13 @@ import copy
 import pickle
 import threading
 
+import fingertip
 import numpy as np
 import pytest
 from conftest import RADIUS, SECTIONS
+from fingertip import Fingertip, NoContactReason, Scene, SlipVerdict
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-import fingertip
-from fingertip import Fingertip, NoContactReason, Scene, SlipVerdict
 
 unit = st.floats(-1, 1)
 

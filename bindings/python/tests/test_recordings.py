@@ -7,11 +7,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import fingertip
 import numpy as np
 import pytest
 from conftest import SECTIONS
-
-import fingertip
 from fingertip import Scene
 
 COMMAND = [sys.executable, "-m", "fingertip._command"]

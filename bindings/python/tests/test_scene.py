@@ -6,11 +6,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import fingertip
 import numpy as np
 import pytest
 from conftest import SECTIONS
-
-import fingertip
 from fingertip import Scene, SceneError, Surface
 
 SCENES = Path(__file__).resolve().parents[3] / "examples" / "scenes"

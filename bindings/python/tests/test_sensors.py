@@ -2,10 +2,9 @@
 
 import pickle
 
+import fingertip
 import numpy as np
 import pytest
-
-import fingertip
 from fingertip import Quality
 
 NOMINAL = np.array([10, 10, 10, 0.1, 0.1, 0.1])
@@ -82,7 +81,14 @@ def test_a_simulation_is_what_its_script_says():
     script = [
         {"do": "rest", "duration": 0.2},
         {"do": "press", "at": {"from_top": 0.5, "azimuth": 1.0}, "force": 3.0, "duration": 0.2},
-        {"do": "drag", "heading": 0.0, "static_coefficient": 0.5, "kinetic_coefficient": 0.4, "ramp": 0.3, "slide": 0.1},
+        {
+            "do": "drag",
+            "heading": 0.0,
+            "static_coefficient": 0.5,
+            "kinetic_coefficient": 0.4,
+            "ramp": 0.3,
+            "slide": 0.1,
+        },
     ]
     seen = fingertip.simulate(script, sample_rate=500, seed=3)
     assert len(seen) == 400 and seen.time[1] == pytest.approx(0.002)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Generic, TypeVar
+from typing import Any, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -86,12 +86,12 @@ class Columns:
         if not pieces:
             empty = Table(tip.sense_all([np.zeros(0)] * tip.channels, 0.0).columns())
             nothing = Table.joined([], given)
-            return _as(type(table), nothing.with_no_rows(empty))
-        return _as(type(table), Table.joined(pieces, given))
+            return cast(T, _as(type(table), nothing.with_no_rows(empty)))
+        return cast(T, _as(type(table), Table.joined(pieces, given)))
 
     def _column(self, batch: Table, name: str, size: float) -> npt.NDArray[Any]:
         column = batch.column(name)
-        return column if size == 1.0 else column * self.dtype.type(size)
+        return column if size == 1.0 else np.asarray(column * size, column.dtype)
 
 
 def columns(
