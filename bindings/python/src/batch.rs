@@ -8,8 +8,9 @@ use fingertip::wrench::Wrench;
 use fingertip::{AnyTouch, Touch, Touches};
 use fingertip_scene::{GaugeReading, NoWrench, Pipeline};
 use nalgebra::Vector6;
-use numpy::ndarray::Axis;
-use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray1, PyReadwriteArray2};
+use numpy::{
+    Element, PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray1, PyReadwriteArray2, PyUntypedArrayMethods,
+};
 use pyo3::prelude::*;
 
 use crate::columns::{Column, Scalar, View};
@@ -94,12 +95,10 @@ impl<'py, T: Scalar> Written<'py, T> {
 
 /// The three rows of an array.
 fn three<'a, T: Element>(array: &'a mut PyReadwriteArray2<'_, T>) -> Option<[&'a mut [T]; 3]> {
-    let view = array.as_array_mut();
-    let length = view.len_of(Axis(1));
-    if view.len_of(Axis(0)) != 3 || !view.is_standard_layout() {
+    let &[3, length] = array.shape() else { return None };
+    if !array.is_c_contiguous() {
         return None;
     }
-    drop(view);
     let all = array.as_slice_mut().ok()?;
     let (x, rest) = all.split_at_mut_checked(length)?;
     let (y, z) = rest.split_at_mut_checked(length)?;

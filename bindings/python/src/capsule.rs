@@ -5,7 +5,7 @@ use core::ffi::CStr;
 use core::ptr::NonNull;
 
 use arrow_array::ffi::{FFI_ArrowArray, FFI_ArrowSchema, from_ffi, to_ffi};
-use arrow_array::ffi_stream::{ArrowArrayStreamReader, FFI_ArrowArrayStream};
+use arrow_array::ffi_stream::{FFI_ArrowArrayStream, RecordBatchStreamReader};
 use arrow_array::{Array, RecordBatch, RecordBatchIterator, StructArray};
 use arrow_schema::{Schema, SchemaRef};
 use pyo3::prelude::*;
@@ -29,7 +29,7 @@ pub(crate) fn batches_of(table: &Bound<'_, PyAny>) -> PyResult<(SchemaRef, Vec<R
         let mut stream = held::<FFI_ArrowArrayStream>(&capsule, STREAM)?;
         // SAFETY: a capsule of this name holds such a stream, by the specification, and lives as long as `capsule`. It
         // is taken out and leaves an empty one, which the capsule does not release.
-        let reader = unsafe { ArrowArrayStreamReader::from_raw(stream.as_mut()) }.map_err(errors::bad)?;
+        let reader = unsafe { RecordBatchStreamReader::from_raw(stream.as_mut()) }.map_err(errors::bad)?;
         let schema = arrow_array::RecordBatchReader::schema(&reader);
         return Ok((schema, reader.collect::<Result<_, _>>().map_err(errors::bad)?));
     }

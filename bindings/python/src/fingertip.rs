@@ -306,7 +306,7 @@ impl PyFingertip {
         self.rested = Some(rested);
         if let Some(doubt) = doubt {
             let sentence = format!("the sensor may not have been at rest: {doubt}");
-            PyErr::warn(py, &py.get_type::<PyUserWarning>(), &std::ffi::CString::new(sentence)?, 1)?;
+            PyErr::warn(py, &py.get_type::<PyUserWarning>(), &alloc::ffi::CString::new(sentence)?, 1)?;
         }
         Ok(noise.map(|noise| numbers::array(py, &noise)))
     }

@@ -1,13 +1,12 @@
-//! `fingertip.FrictionLimit`, `fingertip.SlipDetector` and `fingertip.BristleFriction`.
+//! `fingertip.FrictionLimit`, `fingertip.SlipDetector` and `fingertip.IncipientSlip`.
 
 use fingertip::friction::{
-    Bristle, Dahl, ElastoPlastic, Exponential, FrictionModel, IncipientSlip, LimitCurve, LimitPoint, LuGre,
-    NormalForceGate, PressureDistribution, ReturnMap, SlipDetector, StepForce, Stribeck, StribeckFriction,
+    ForceNoise, FrictionLimit, FrictionModel, IncipientSlip, LimitCurve, LimitPoint, NormalForceGate,
+    PressureDistribution, SlipDetector, SlipDirection, SlipVerdict,
 };
-use fingertip::friction::{BristleLaw, ForceNoise, SlipVerdict};
 use fingertip::wrench::ContactForce;
 use fingertip_scene::{Detector, Limit};
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector3;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -16,8 +15,11 @@ use crate::scene::{PyScene, document};
 use crate::{enums, errors, numbers, value};
 
 /// A scene of a flat fingertip with some sections, to check them as scenes are checked.
-fn flat_scene(py: Python<'_>, sections: [(&str, &Bound<'_, PyDict>); 2]) -> PyResult<PyScene> {
-    let (surface, all) = (PyDict::new(py), PyDict::new(py));
+fn flat_scene(py: Python<'_>, rate: f64, sections: [(&str, &Bound<'_, PyDict>); 2]) -> PyResult<PyScene> {
+    let (surface, input, all) = (PyDict::new(py), PyDict::new(py), PyDict::new(py));
+    input.set_item("convention", "on_fingertip")?;
+    input.set_item("sample_rate_Hz", rate)?;
+    all.set_item("input", input)?;
     surface.set_item("shape", "plane")?;
     surface.set_item("point_m", [0.0, 0.0, 0.0])?;
     surface.set_item("normal", [0.0, 0.0, 1.0])?;
@@ -73,7 +75,7 @@ impl PyLimit {
     fn new(limit: &str, parameters: Option<&Bound<'_, PyDict>>, py: Python<'_>) -> PyResult<Self> {
         let section = parameters.map_or_else(|| Ok(PyDict::new(py)), Bound::copy)?;
         section.set_item("limit", limit)?;
-        Self::of(&flat_scene(py, [("friction", &section), ("slip", &PyDict::new(py))])?)
+        Self::of(&flat_scene(py, 1000.0, [("friction", &section), ("slip", &PyDict::new(py))])?)
     }
 
     /// Signed distance to the limit [N], positive while the contact holds, and how much of the limit is used.
@@ -112,6 +114,28 @@ impl PyLimit {
         spin: f64,
     ) -> PyResult<Option<f64>> {
         Ok(self.limit.slip_probability(&force(normal, tangential, spin)?))
+    }
+
+    /// How the finger slides over the object when this force slips: direction of its velocity, and the spin that goes with
+    /// it [1/m]. `None` where there is no tangential load.
+    #[pyo3(signature = (normal, tangential=None, spin=0.0))]
+    fn slip_direction<'py>(
+        &self,
+        py: Python<'py>,
+        normal: f64,
+        tangential: Option<&Bound<'py, PyAny>>,
+        spin: f64,
+    ) -> PyResult<Option<(Bound<'py, PyArray1<f64>>, f64)>> {
+        let force = force(normal, tangential, spin)?;
+        let slips: Option<SlipDirection<f64>> = match &self.limit {
+            Limit::Coulomb(limit) => limit.slip_direction(&force),
+            Limit::Anisotropic(limit) => limit.slip_direction(&force),
+            Limit::SoftFinger(limit) => limit.slip_direction(&force),
+            Limit::Power(limit) => limit.slip_direction(&force),
+            Limit::LoadDependent(limit) => limit.slip_direction(&force),
+            Limit::Uncertain { cautious, .. } => cautious.slip_direction(&force),
+        };
+        Ok(slips.map(|SlipDirection { velocity, spin }| (numbers::array(py, &velocity), spin)))
     }
 
     /// The static coefficient; the lowest where it depends on the direction.
@@ -177,11 +201,7 @@ impl PyDetector {
         if let Some(coefficient) = static_coefficient {
             friction.set_item("static_coefficient", coefficient)?;
         }
-        let scene = flat_scene(py, [("friction", &friction), ("slip", &slip)]);
-        let rated = |text: &str| {
-            text.replacen("[input]\n", &format!("[input]\nsample_rate_Hz = {sample_rate:?}\n"), 1)
-        };
-        Self::of(&PyScene::from_text(rated(scene?.text()))?)
+        Self::of(&flat_scene(py, sample_rate, [("friction", &friction), ("slip", &slip)])?)
     }
 
     /// Takes a contact force and the time since the one before [s]; gives a `SlipVerdict`.
@@ -301,122 +321,4 @@ pub(crate) fn limit_curve<'py>(
         .flat_map(|LimitPoint { force, torque, centre }| [*force, *torque, *centre])
         .collect();
     PyArray1::from_vec(py, numbers).reshape([count, 3])
-}
-
-/// Friction in motion, in the plane, by a law and a way to integrate it.
-#[derive(Clone)]
-enum AnyBristle {
-    Dahl(Bristle<f64, Dahl<f64>, 2, Exponential>),
-    LuGre(Bristle<f64, LuGre<f64>, 2, Exponential>),
-    ElastoPlastic(Bristle<f64, ElastoPlastic<f64>, 2, Exponential>),
-    Stribeck(Bristle<f64, StribeckFriction<f64>, 2, ReturnMap>),
-}
-
-macro_rules! each_bristle {
-    ($of:expr, $bristle:ident => $call:expr) => {
-        match $of {
-            AnyBristle::Dahl($bristle) => $call,
-            AnyBristle::LuGre($bristle) => $call,
-            AnyBristle::ElastoPlastic($bristle) => $call,
-            AnyBristle::Stribeck($bristle) => $call,
-        }
-    };
-}
-
-/// Friction in motion: bristles that bend before they slide. Coefficients are over the normal force.
-///
-/// Parameters
-/// ----------
-/// law : str
-///     "dahl", "lugre", "elasto_plastic", or "stribeck", which bends nothing before it slides but elastically.
-/// stiffness : float
-///     Of the bristles over the normal force [1/m].
-/// kinetic, breakaway : float
-///     Coefficients while it slides fast, and when it breaks away; Dahl's law has the kinetic one alone.
-/// speed : float, optional
-///     At which the coefficient falls from one to the other [m/s].
-/// damping, viscous : float, optional
-///     Of the bristles, and of the sliding [s/m].
-/// elastic_share : float, optional
-///     Of the greatest deflection, below which the elasto-plastic law creeps not.
-#[pyclass(name = "BristleFriction", module = "fingertip")]
-pub(crate) struct PyBristle(AnyBristle);
-
-#[pymethods]
-impl PyBristle {
-    #[new]
-    #[pyo3(signature = (law, *, stiffness, kinetic, breakaway=None, speed=1e-3, damping=0.0, viscous=0.0, elastic_share=0.7))]
-    #[allow(clippy::too_many_arguments, reason = "keywords in Python")]
-    fn new(
-        law: &str,
-        stiffness: f64,
-        kinetic: f64,
-        breakaway: Option<f64>,
-        speed: f64,
-        damping: f64,
-        viscous: f64,
-        elastic_share: f64,
-    ) -> PyResult<Self> {
-        let bad = errors::friction;
-        let curve = || Stribeck::new(kinetic, breakaway.unwrap_or(kinetic), speed).map_err(bad);
-        let lugre = || LuGre::new(stiffness, damping, viscous, curve()?).map_err(bad);
-        Ok(Self(match law {
-            "dahl" => AnyBristle::Dahl(Bristle::new(Dahl::new(stiffness, kinetic).map_err(bad)?)),
-            "lugre" => AnyBristle::LuGre(Bristle::new(lugre()?)),
-            "elasto_plastic" => AnyBristle::ElastoPlastic(Bristle::new(
-                ElastoPlastic::new(lugre()?, elastic_share).map_err(bad)?,
-            )),
-            "stribeck" => AnyBristle::Stribeck(Bristle::with_method(
-                StribeckFriction::new(stiffness, viscous, curve()?).map_err(bad)?,
-            )),
-            other => {
-                let known = "dahl, lugre, elasto_plastic or stribeck";
-                return Err(errors::friction(format!("`law` {other:?} is not {known}")));
-            }
-        }))
-    }
-
-    /// Tells the normal force from now on [N].
-    fn set_load(&mut self, normal_force: f64) {
-        each_bristle!(&mut self.0, bristle => bristle.set_load(normal_force));
-    }
-
-    /// Slides with a velocity [m/s], shape (2,), for a time [s]: gives the friction force's mean over the step, and at
-    /// its end [N].
-    fn step<'py>(
-        &mut self,
-        py: Python<'py>,
-        velocity: &Bound<'py, PyAny>,
-        time_step: f64,
-    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
-        let velocity = Vector2::from(numbers::numbers::<2>(velocity, "velocity")?);
-        let StepForce { mean, end } =
-            each_bristle!(&mut self.0, bristle => bristle.step(&velocity, time_step));
-        Ok((numbers::array(py, &mean), numbers::array(py, &end)))
-    }
-
-    /// How far the bristles are bent [m], shape (2,).
-    #[getter]
-    fn deflection<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        numbers::array(py, each_bristle!(&self.0, bristle => bristle.deflection()))
-    }
-
-    /// The greatest coefficient that the law knows.
-    #[getter]
-    fn greatest(&self) -> f64 {
-        each_bristle!(&self.0, bristle => bristle.law().greatest())
-    }
-
-    /// Bends all bristles back.
-    fn reset(&mut self) {
-        each_bristle!(&mut self.0, bristle => bristle.reset());
-    }
-
-    fn __copy__(&self) -> Self {
-        Self(self.0.clone())
-    }
-
-    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
-        self.__copy__()
-    }
 }

@@ -14,7 +14,7 @@ use pyo3::types::PyDict;
 use crate::{errors, numbers};
 
 /// Most fingers of a grasp.
-const MOST: usize = 5;
+pub(crate) const MOST: usize = 5;
 
 /// Forces of the contacts: normal [N], tangential [N], shape (3,), spin [N·m].
 type Forces<'py> = Vec<(f64, Bound<'py, PyArray1<f64>>, f64)>;
@@ -47,7 +47,7 @@ pub(crate) struct PyGrasp {
     contacts: Vec<Py<PyDict>>,
 }
 
-fn contact(given: &Bound<'_, PyDict>) -> PyResult<GraspContact<f64, Hand>> {
+pub(crate) fn contact(given: &Bound<'_, PyDict>) -> PyResult<GraspContact<f64, Hand>> {
     let part = |key: &str| {
         let part = given.get_item(key)?;
         part.ok_or_else(|| errors::hand(format!("a contact needs `{key}`")))
@@ -62,8 +62,20 @@ fn contact(given: &Bound<'_, PyDict>) -> PyResult<GraspContact<f64, Hand>> {
     .map_err(errors::hand)
 }
 
-fn wrench(given: &Bound<'_, PyAny>, what: &str) -> PyResult<Wrench<f64, Hand>> {
+pub(crate) fn wrench(given: &Bound<'_, PyAny>, what: &str) -> PyResult<Wrench<f64, Hand>> {
     Ok(Wrench::from_components(&numbers::numbers::<6>(given, what)?.into()))
+}
+
+/// The same limits for every finger.
+pub(crate) fn limits(least: f64, greatest: Option<f64>) -> PyResult<[FingerLimits<f64, 2>; MOST]> {
+    let mut limits = FingerLimits::none();
+    if least > 0.0 {
+        limits = limits.with_least_normal(least).map_err(errors::hand)?;
+    }
+    if let Some(greatest) = greatest {
+        limits = limits.with_greatest_normal(greatest).map_err(errors::hand)?;
+    }
+    Ok([limits; MOST])
 }
 
 impl PyGrasp {
@@ -86,17 +98,6 @@ impl PyGrasp {
             (force.normal, numbers::array(py, &force.tangential.vector()), force.spin)
         };
         forces.iter().take(self.count).map(of).collect()
-    }
-
-    fn limits(least: f64, greatest: Option<f64>) -> PyResult<[FingerLimits<f64, 1>; MOST]> {
-        let mut limits = FingerLimits::none();
-        if least > 0.0 {
-            limits = limits.with_least_normal(least).map_err(errors::hand)?;
-        }
-        if let Some(greatest) = greatest {
-            limits = limits.with_greatest_normal(greatest).map_err(errors::hand)?;
-        }
-        Ok([limits; MOST])
     }
 }
 
@@ -190,7 +191,7 @@ impl PyGrasp {
         least: f64,
         greatest: Option<f64>,
     ) -> PyResult<Forces<'py>> {
-        let (limits, load) = (Self::limits(least, greatest)?, wrench(load, "load")?);
+        let (limits, load) = (limits(least, greatest)?, wrench(load, "load")?);
         match LeastGrip::new().solve(&self.grasp, &limits, &load) {
             GripOutcome::Held(Grip { forces, .. }) => Ok(self.said(py, &forces)),
             GripOutcome::CannotHold(CannotHold { velocity, turning, .. }) => {
@@ -216,7 +217,7 @@ impl PyGrasp {
         least: f64,
         greatest: Option<f64>,
     ) -> PyResult<Option<f64>> {
-        let limits = Self::limits(least, greatest)?;
+        let limits = limits(least, greatest)?;
         let reach = self.grasp.reach(&limits, &wrench(load, "load")?, &wrench(disturbance, "disturbance")?);
         Ok(match reach {
             Reach::Times(times) => Some(times),

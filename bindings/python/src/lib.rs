@@ -2,6 +2,7 @@
 //! `python/fingertip`; its classes and functions are explained there, by `help(fingertip)`.
 // `numpy` reads headers of arrays, and verdicts are written as bytes: each place says why it may.
 #![allow(unsafe_code)]
+#![allow(clippy::type_complexity, reason = "tuples of Python are what they are")]
 #![allow(clippy::needless_pass_by_value, reason = "what Python passes is passed by value")]
 
 extern crate alloc;
@@ -11,6 +12,8 @@ mod calibration;
 mod capsule;
 mod columns;
 mod contact;
+mod controller;
+mod dynamics;
 mod enums;
 mod errors;
 mod fingertip;
@@ -25,6 +28,7 @@ mod scene;
 mod simulation;
 mod surface;
 mod table;
+mod timing;
 mod touch;
 mod track;
 mod value;
@@ -37,6 +41,10 @@ mod _native {
     #[pymodule_export]
     use crate::contact::{PyContact, PyNoContact};
     #[pymodule_export]
+    use crate::controller::PyController;
+    #[pymodule_export]
+    use crate::dynamics::PyBristle;
+    #[pymodule_export]
     use crate::errors::{
         CalibrationError, DesignError, FingertipError, FrictionError, HandError, ReadingError,
         RecordingError, SceneError, ShapeError, SimulationError,
@@ -44,7 +52,7 @@ mod _native {
     #[pymodule_export]
     use crate::fingertip::PyFingertip;
     #[pymodule_export]
-    use crate::friction::{PyBristle, PyDetector, PyIncipient, PyLimit, limit_curve};
+    use crate::friction::{PyDetector, PyIncipient, PyLimit, limit_curve};
     #[pymodule_export]
     use crate::gauges::{PyMonitor, conditioning, worst_errors};
     #[pymodule_export]
@@ -61,6 +69,8 @@ mod _native {
     use crate::surface::PySurface;
     #[pymodule_export]
     use crate::table::{PyTable, find_columns};
+    #[pymodule_export]
+    use crate::timing::{time_all, time_sense};
     #[pymodule_export]
     use crate::touch::{PyHappened, PyImpact, PySpread, PyTouch, PyTracked};
     #[pymodule_export]

@@ -1,9 +1,9 @@
 //! `fingertip.ContactModel`: one wrench at a time, and what a small change of it does.
 
 use fingertip::contact::{
-    ContactBound, ContactJacobian, ContactModel, ConvexBound, PaperBounds, WorstCase, WorstErrors,
+    Choice, ContactBound, ContactJacobian, ContactModel, ConvexBound, PaperBounds, WorstCase, WorstErrors,
 };
-use fingertip::contact::{ContactCovariance, GeometryUncertainty};
+use fingertip::contact::{ContactCovariance, GeometrySensitivity, GeometryUncertainty, PitchTest};
 use fingertip::surfaces::{DynSurface, SmoothSurface};
 use fingertip::wrench::Wrench;
 use fingertip_scene::Model;
@@ -112,6 +112,20 @@ impl PyModel {
         Ok(found.map(PyJacobian))
     }
 
+    /// Of the model "auto": what speaks for a torque of the contact's own. The name of what it chooses ("point",
+    /// "soft_finger"), and the pitch of the wrench [m] with its standard deviation; `None` of other models.
+    fn choice(&self, wrench: &Bound<'_, PyAny>) -> PyResult<Option<(&'static str, f64, f64)>> {
+        let Model::Auto(auto) = &self.model else { return Ok(None) };
+        let test: Option<PitchTest<f64>> = auto.test(&self::wrench(wrench)?);
+        Ok(test.map(|test| {
+            let name = match test.choice {
+                Choice::SoftFinger => "soft_finger",
+                _ => "point",
+            };
+            (name, test.pitch, test.deviation)
+        }))
+    }
+
     /// How far the point of a point contact on a convex surface may be off at most, with all its rounding [m]; `None`
     /// where nothing bounds it.
     ///
@@ -214,6 +228,12 @@ impl PyJacobian {
     ) -> PyResult<PyCovariance> {
         let covariance = ContactCovariance::new(&self.0, &numbers::matrix::<6, 6>(wrench, "wrench")?);
         Ok(PyCovariance(covariance.with_geometry(&self.0, &geometry(offset, position, attitude)?)))
+    }
+
+    /// How the point [m] moves per metre that the surface lies farther out, shape (3,): what a wrong radius does.
+    #[getter]
+    fn offset<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        numbers::array(py, &self.0.point_answer_to(&GeometrySensitivity::offset()))
     }
 
     /// Greatest errors, to first order, under greatest errors of the components of the wrench: of the components of the

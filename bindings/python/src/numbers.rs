@@ -24,7 +24,7 @@ pub(crate) fn numbers<const N: usize>(given: &Bound<'_, PyAny>, what: &str) -> P
 #[inline]
 fn of_double_array<const N: usize>(given: &Bound<'_, PyAny>) -> Option<[f64; N]> {
     let array = given.cast::<PyUntypedArray>().ok()?;
-    if array.ndim() != 1 || array.len() != N || !array.dtype().is(&dtype::<f64>(given.py())) {
+    if array.ndim() != 1 || array.len() != N || !array.dtype().is(dtype::<f64>(given.py())) {
         return None;
     }
     let stride = *array.strides().first()?;
@@ -57,11 +57,6 @@ pub(crate) fn list(given: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<f64>> {
 /// A vector of three numbers.
 pub(crate) fn three(given: &Bound<'_, PyAny>, what: &str) -> PyResult<Vector3<f64>> {
     Ok(Vector3::from(numbers::<3>(given, what)?))
-}
-
-/// A vector of fixed length.
-pub(crate) fn column<const N: usize>(given: &Bound<'_, PyAny>, what: &str) -> PyResult<SVector<f64, N>> {
-    Ok(SVector::from(numbers::<N>(given, what)?))
 }
 
 /// A matrix of whatever size.

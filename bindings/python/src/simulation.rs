@@ -121,7 +121,7 @@ impl Wanted {
         let weight = weight.normalised(&loads.components());
         let criterion = match self.criterion.as_str() {
             "condition_number" => Some(Criterion::ConditionNumber),
-            "contact_error" => Some(Criterion::ContactError(weight.clone())),
+            "contact_error" => Some(Criterion::ContactError(weight)),
             "worst_axis" => Some(Criterion::WorstAxis),
             "trace" => Some(Criterion::Trace),
             "log_determinant" => Some(Criterion::LogDeterminant),

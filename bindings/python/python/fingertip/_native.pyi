@@ -29,6 +29,7 @@ __all__ = [
     "ShapeError",
     "SimulationError",
     "Fingertip",
+    "HandController",
     "BristleFriction",
     "SlipDetector",
     "IncipientSlip",
@@ -52,15 +53,17 @@ __all__ = [
     "Surface",
     "Table",
     "find_columns",
-    "ContactEvents",
-    "MotionJudge",
-    "LineMeeting",
-    "fuse",
     "Happened",
     "Impact",
     "Spread",
     "Touch",
     "Tracked",
+    "time_all",
+    "time_sense",
+    "ContactEvents",
+    "MotionJudge",
+    "LineMeeting",
+    "fuse",
 ]
 
 class FingertipError(ValueError): ...
@@ -97,6 +100,9 @@ class BristleFriction:
     def reset(self) -> None: ...
     def set_load(self, normal_force: float) -> None: ...
     def step(self, velocity: npt.ArrayLike, time_step: float) -> tuple[_Numbers, _Numbers]: ...
+    def step_body(
+        self, velocity: npt.ArrayLike, mass: float, force: npt.ArrayLike, time_step: float, stiffness: float = 0.0
+    ) -> tuple[_Numbers, _Numbers]: ...
 
 @final
 class Calibration:
@@ -204,6 +210,8 @@ class ContactJacobian:
     @property
     def normal(self) -> _Numbers: ...
     @property
+    def offset(self) -> _Numbers: ...
+    @property
     def point(self) -> _Numbers: ...
     @property
     def tangents(self) -> list[_Numbers]: ...
@@ -221,6 +229,7 @@ class ContactModel:
     def __reduce__(self) -> tuple[Any, ...]: ...
     @staticmethod
     def _from_bytes(bytes: bytes) -> ContactModel: ...
+    def choice(self, wrench: npt.ArrayLike) -> tuple[str, float, float] | None: ...
     def jacobian(
         self, contact: Contact, wrench: npt.ArrayLike, last: npt.ArrayLike | None = None
     ) -> ContactJacobian | None: ...
@@ -302,6 +311,9 @@ class FrictionLimit:
     def margin(
         self, normal: float, tangential: npt.ArrayLike | None = None, spin: float = 0.0
     ) -> tuple[float, float]: ...
+    def slip_direction(
+        self, normal: float, tangential: npt.ArrayLike | None = None, spin: float = 0.0
+    ) -> tuple[_Numbers, float] | None: ...
     def slip_probability(
         self, normal: float, tangential: npt.ArrayLike | None = None, spin: float = 0.0
     ) -> float | None: ...
@@ -330,6 +342,25 @@ class Grasp:
         self, forces: Sequence[tuple[float, npt.ArrayLike, float]]
     ) -> tuple[list[tuple[float, _Numbers, float]], list[tuple[float, _Numbers, float]]]: ...
     def wrench(self, forces: Sequence[tuple[float, npt.ArrayLike, float]]) -> _Numbers: ...
+
+@final
+class HandController:
+    def __new__(
+        cls,
+        *,
+        safety: float = 1.3,
+        rise: float = 200.0,
+        fall: float = 2.0,
+        at_slip: float = 0.8,
+        least_friction: float = 0.1,
+        greatest_ratio: float = 3.0,
+        least: float = 0.3,
+        greatest: float | None = None,
+    ) -> HandController: ...
+    def command(
+        self, fingers: Sequence[Mapping[str, Any] | None], load: npt.ArrayLike, time_step: float
+    ) -> tuple[list[float], bool | None, list[bool]]: ...
+    def forget_friction(self) -> None: ...
 
 @final
 class Happened:
@@ -660,6 +691,8 @@ def read_rows(
 ) -> dict[str, Any]: ...
 def run_command(arguments: Sequence[str]) -> int: ...
 def simulate_script(script: Any, sample_rate: float, seed: int) -> dict[str, Any]: ...
+def time_all(scene: Scene, columns: npt.NDArray[np.float64], count: int) -> float: ...
+def time_sense(scene: Scene, wrench: npt.ArrayLike, count: int) -> float: ...
 def worst_errors(
     matrix: npt.ArrayLike,
     nominal: npt.ArrayLike,
