@@ -24,6 +24,7 @@ mod model;
 mod numbers;
 mod pipe;
 mod recording;
+mod rolling;
 mod scene;
 mod simulation;
 mod surface;
@@ -61,6 +62,8 @@ mod _native {
     use crate::model::{PyCovariance, PyJacobian, PyModel, paper_bounds};
     #[pymodule_export]
     use crate::recording::{analyze_rows, read_rows, run_command};
+    #[pymodule_export]
+    use crate::rolling::PyRolling;
     #[pymodule_export]
     use crate::scene::PyScene;
     #[pymodule_export]

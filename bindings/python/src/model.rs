@@ -170,7 +170,7 @@ impl PyModel {
 
 /// The first derivatives of a contact with respect to the wrench.
 #[pyclass(name = "ContactJacobian", module = "fingertip", frozen, skip_from_py_object)]
-pub(crate) struct PyJacobian(ContactJacobian<f64>);
+pub(crate) struct PyJacobian(pub(crate) ContactJacobian<f64>);
 
 /// Variances of the geometry, the same in all directions.
 fn geometry(offset: f64, position: f64, attitude: f64) -> PyResult<GeometryUncertainty<f64>> {

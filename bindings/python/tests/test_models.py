@@ -318,3 +318,40 @@ def test_conditioning_and_worst_errors_are_those_of_numpy():
         assert np.allclose(bound, np.abs(inverse).sum(axis=1) * 1e-3, rtol=1e-6)
     with pytest.raises(fingertip.FingertipError, match="6 to 10 or 12 gauges"):
         fingertip.conditioning(np.eye(5), nominal)
+
+
+def test_rolling_over_a_ball_tells_its_radius():
+    # A sphere rolls over a fixed ball of twice its radius: the contact moves over the finger at ω r R/(r + R).
+    radius, other = RADIUS, 2 * RADIUS
+    model, rolling = ContactModel(BALL), fingertip.RollingCurvature(radius)
+    sections = {
+        "surface": {"shape": "sphere", "radius_m": radius},
+        "contact": {"least_force_N": 0.05},
+        "uncertainty": {"force_noise_N": 1e-4, "torque_noise_Nm": 1e-7},
+        "tracking": {"speed_m_per_s": 0.005, "turns_within_s": 0.1},
+    }
+    tip = fingertip.Fingertip(fingertip.Scene.from_dict(sections))
+    noise = np.diag([1e-8] * 3 + [1e-14] * 3)
+    with pytest.raises(fingertip.FingertipError, match="has not rolled in two directions"):
+        rolling.find()
+    # Directions in the sensor frame, in which the fingertip rests and the ball rolls around it.
+    normal, step, found = np.array([0.0, 0.0, 1.0]), 1e-3, None
+    for sample in range(400):
+        axis = np.array([0.0, 1.0, 0.0]) if sample < 200 else np.array([1.0, 0.0, 0.0])
+        turning = 0.5 * (axis - normal * (axis @ normal))
+        # While the finger turns by ω, the contact's normal moves against the turning, by the object's share of curvature.
+        way = np.cross(normal, turning) * radius * other / (radius + other)
+        normal = normal + way * step / radius
+        normal /= np.linalg.norm(normal)
+        point, force = radius * normal, -2.0 * normal
+        wrench = np.hstack([force, np.cross(point, force)])
+        contact = model.resolve(wrench)
+        tracked = tip.sense(wrench, step).tracked
+        # The finger turns about the contact, where its velocity is none.
+        linear = -np.cross(turning, point)
+        rolling.roll(
+            tracked, contact, model.jacobian(contact, wrench), noise, linear, turning, np.eye(2) / radius, step
+        )
+    found, covariance, tangents = rolling.find()
+    assert np.allclose(found, np.eye(2) / other, atol=0.1 / other), found * other
+    assert (np.diag(covariance) > 0).all() and abs(tangents[0] @ tangents[1]) < 1e-9

@@ -25,6 +25,7 @@ __all__ = [
     "HandError",
     "ReadingError",
     "RecordingError",
+    "RollingCurvature",
     "SceneError",
     "ShapeError",
     "SimulationError",
@@ -700,3 +701,20 @@ def worst_errors(
     signal_error: float,
     matrix_error: float = 0.0,
 ) -> _Numbers: ...
+
+@final
+class RollingCurvature:
+    def __new__(cls, radius: float) -> RollingCurvature: ...
+    def find(self) -> tuple[_Numbers, _Numbers, list[_Numbers]]: ...
+    def reset(self) -> None: ...
+    def roll(
+        self,
+        tracked: Tracked,
+        contact: Contact,
+        jacobian: ContactJacobian,
+        covariance: npt.ArrayLike,
+        linear: npt.ArrayLike,
+        angular: npt.ArrayLike,
+        curvature: npt.ArrayLike,
+        time_step: float,
+    ) -> None: ...
