@@ -54,6 +54,7 @@ def columns() -> tuple[float, float, float]:
     rows[:2], rows[2] = random.normal(0, 0.3, (2, ROWS)), random.normal(-2, 0.4, ROWS)
     rows[3:] = random.normal(0, 2e-3, (3, ROWS))
     tip, out = fingertip.Fingertip(scene), fingertip.Touches(ROWS)
+    tip.sense_all(rows.T, 1e-3, out=out)
     # In turns, so that what else the machine does strikes both alike.
     rust, ours, fresh = [], [], []
     for _ in range(REPEATS):
