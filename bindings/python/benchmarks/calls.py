@@ -26,7 +26,8 @@ BALL = {
     "friction": {"static_coefficient": 0.6},
     "slip": {"detector": "threshold", "noise_N": 0.01},
 }
-CALLS, ROWS, REPEATS = 100_000, 1_000_000, 7
+# Short turns and many of them: the least is then of a moment in which the machine did nothing else.
+CALLS, ROWS, REPEATS = 5_000, 50_000, 100
 # A push at a point of the plane, without a torque of its own: what the commercial package takes for granted.
 FORCE, POINT = np.array([0.5, 0.2, -2.0]), np.array([1e-3, -2e-3, 0.01])
 LOAD = np.hstack([FORCE, np.cross(POINT, FORCE)])
