@@ -238,7 +238,7 @@ impl<T: Real> Model<T> {
     }
 
     /// The first derivatives of a contact that this model found in a wrench; `None` where they do not exist.
-    pub(crate) fn jacobian(
+    pub fn jacobian(
         &self,
         contact: &Contact<T>,
         wrench: &Wrench<T>,

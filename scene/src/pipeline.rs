@@ -355,7 +355,8 @@ impl<T: Real> Pipeline<T> {
         self.filter.as_ref()
     }
 
-    pub(crate) const fn detector(&self) -> Option<&Detector<T>> {
+    /// The slip detector, if the scene has one, with what it saw so far.
+    pub const fn detector(&self) -> Option<&Detector<T>> {
         self.stages.slip().0.as_ref()
     }
 

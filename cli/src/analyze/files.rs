@@ -28,7 +28,7 @@ pub(super) fn guard(arguments: &AnalyzeArguments) -> Result<Outputs, CliError> {
 }
 
 /// The rows of a recording, whichever way it was recorded.
-pub(super) type Rows = RecordingReader<Box<dyn Read>>;
+pub(super) type Rows = RecordingReader<Box<dyn Read + Send>>;
 
 /// A recording that is read.
 pub(super) struct Opened {
@@ -37,21 +37,25 @@ pub(super) struct Opened {
     pub(super) bar: ProgressBar,
 }
 
+/// How the recordings of a scene are read.
+pub(super) fn of(scene: &Scene) -> ReaderOptions {
+    ReaderOptions { renamed: scene.renamed_columns().to_vec(), ..ReaderOptions::default() }
+}
+
 /// Opens a recording. One of MCAP is read as what `convert` makes of it; what to know of that goes to `notes`.
 pub(super) fn open(
     arguments: &AnalyzeArguments,
-    scene: &Scene,
+    options: ReaderOptions,
     notes: &mut Vec<String>,
 ) -> Result<Opened, CliError> {
     let mut input = Input::open(&arguments.recording)?;
     let bar = bar(input.length());
-    let text: Box<dyn Read> = match input.kind() {
+    let text: Box<dyn Read + Send> = match input.kind() {
         Kind::Mcap => {
             let file = bar.wrap_read(input.messages()?);
             Box::new(McapAsCsv::new(file, &input, &arguments.topics, notes)?)
         }
         Kind::Csv => Box::new(bar.wrap_read(input.text()?)),
     };
-    let options = ReaderOptions { renamed: scene.renamed_columns().to_vec(), ..ReaderOptions::default() };
     Ok(Opened { rows: Rows::with_options(input.name(), text, options)?, bar })
 }

@@ -3,8 +3,10 @@
 pub(crate) mod args;
 mod contacts;
 mod files;
+pub mod library;
 mod payload;
 mod recorded;
+mod sink;
 mod source;
 mod volts;
 mod wrenches;
@@ -20,6 +22,7 @@ use crate::summary::{self, Run};
 use crate::table::number;
 use args::AnalyzeArguments;
 use contacts::ContactWriter;
+use sink::Sink;
 use source::{Reading, Source};
 
 pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
@@ -28,10 +31,10 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let recording = arguments.recording.as_path();
     let outputs = files::guard(arguments)?;
     let mut notes = Vec::new();
-    let files::Opened { rows: mut reader, bar } = files::open(arguments, &scene, &mut notes)?;
+    let files::Opened { rows: mut reader, bar } = files::open(arguments, files::of(&scene), &mut notes)?;
     let mut source = Source::new(&mut reader, &scene, arguments, notes)?;
     let mut contacts = ContactWriter::create(&arguments.output, &outputs, scene.tells())?;
-    let pass = Pass { scene: &scene, reader: &mut reader, source: &mut source, contacts: &mut contacts };
+    let pass = Pass { scene: &scene, reader: &mut reader, source: &mut source, sink: &mut contacts };
     let observations = pass.run()?;
     bar.finish_and_clear();
 
@@ -72,14 +75,14 @@ fn know_noise(pipeline: &mut Pipeline<f64>, source: &mut Source, scene: &Scene) 
 }
 
 /// Everything that one pass over the recording needs.
-struct Pass<'a> {
+struct Pass<'a, S> {
     scene: &'a Scene,
     reader: &'a mut files::Rows,
     source: &'a mut Source,
-    contacts: &'a mut ContactWriter,
+    sink: &'a mut S,
 }
 
-impl Pass<'_> {
+impl<S: Sink> Pass<'_, S> {
     fn run(self) -> Result<Observations, CliError> {
         let mut pipeline = self.scene.pipeline();
         let mut observations = Observations::new(*self.scene.projection());
@@ -95,11 +98,11 @@ impl Pass<'_> {
                     }
                     let felt = pipeline.sense(wrench, time_step);
                     observations.add(time, &felt.touch);
-                    self.contacts.write(time, felt)?;
+                    self.sink.sample(time, felt)?;
                 }
                 Reading::Without(status) => {
                     observations.add_without_wrench(time, status);
-                    self.contacts.write_without_wrench(time, status)?;
+                    self.sink.without_wrench(time, status)?;
                 }
             }
         }

@@ -1,0 +1,303 @@
+//! `fingertip.Touch`: what one sample says.
+
+use fingertip::friction::FrictionEstimate;
+use fingertip_scene::Felt;
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+
+use crate::contact::{PyContact, PyNoContact};
+use crate::value::value_class;
+use crate::{enums, numbers};
+
+/// What one sample says. Of a stage that the scene has not, `None`.
+#[pyclass(name = "Touch", module = "fingertip", frozen, skip_from_py_object)]
+pub(crate) struct PyTouch(pub(crate) Felt<f64>);
+
+impl PyTouch {
+    fn estimate(
+        &self,
+        of: impl Fn(fingertip_scene::Learnt<f64>) -> Option<FrictionEstimate<f64>>,
+    ) -> Option<(f64, f64)> {
+        let estimate = of(self.0.friction?)?;
+        Some((estimate.coefficient, estimate.deviation))
+    }
+}
+
+#[pymethods]
+impl PyTouch {
+    /// Load on the fingertip, (fx, fy, fz [N], tx, ty, tz [N·m]), behind zero, payload and filter.
+    #[getter]
+    fn wrench<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        numbers::array(py, &self.0.touch.wrench.components())
+    }
+
+    /// Where it touches, and how.
+    #[getter]
+    fn contact(&self) -> Option<PyContact> {
+        self.0.contact().copied().map(PyContact)
+    }
+
+    /// Why there is no contact, or `None` where there is one.
+    #[getter]
+    fn no_contact(&self) -> Option<PyNoContact> {
+        self.0.touch.resolution.into_result().err().map(PyNoContact)
+    }
+
+    /// Where the environment touches [m], or `None`.
+    #[getter]
+    fn point<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        Some(numbers::array(py, &self.0.contact()?.point))
+    }
+
+    /// Outward normal there, or `None`.
+    #[getter]
+    fn normal<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        Some(numbers::array(py, &self.0.contact()?.normal))
+    }
+
+    /// Normal force [N], positive when pressing, or `None`.
+    #[getter]
+    fn normal_force(&self) -> Option<f64> {
+        self.0.force().map(|force| force.normal)
+    }
+
+    /// Tangential force on the fingertip [N], or `None`.
+    #[getter]
+    fn tangential_force<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        Some(numbers::array(py, &self.0.force()?.tangential.vector()))
+    }
+
+    /// Spin torque on the fingertip about the normal [N·m], or `None`.
+    #[getter]
+    fn spin_torque(&self) -> Option<f64> {
+        self.0.force().map(|force| force.spin)
+    }
+
+    /// Signed distance to the friction limit [N], positive while the contact holds; needs `[friction]`.
+    #[getter]
+    fn margin(&self) -> Option<f64> {
+        self.0.margin().map(|margin| margin.newtons)
+    }
+
+    /// How much of the friction limit is used: 1 at slip; needs `[friction]`.
+    #[getter]
+    fn utilisation(&self) -> Option<f64> {
+        self.0.margin().map(|margin| margin.utilisation)
+    }
+
+    /// What the slip detector says, a `SlipVerdict`; needs `[slip]`.
+    #[getter]
+    fn slip(&self, py: Python<'_>) -> PyResult<Option<Py<PyAny>>> {
+        self.0.touch.slip.map(|verdict| enums::slip(py, verdict)).transpose()
+    }
+
+    /// How sure the contact is; needs `[uncertainty]`.
+    #[getter]
+    fn spread(&self) -> Option<PySpread> {
+        self.0.spread.map(PySpread)
+    }
+
+    /// Where the contact is by all samples so far; needs `[tracking]`.
+    #[getter]
+    fn tracked(&self) -> Option<PyTracked> {
+        self.0.tracked.map(PyTracked)
+    }
+
+    /// Whether something touches, lets go or strikes; needs `[tracking]` with `least_touch_N`.
+    #[getter]
+    fn happened(&self) -> Option<PyHappened> {
+        self.0.happened.map(PyHappened)
+    }
+
+    /// The probability that the contact slips; needs a friction with a deviation.
+    #[getter]
+    fn slip_probability(&self) -> Option<f64> {
+        self.0.slip_probability
+    }
+
+    /// Period of the stick-slip motion that goes on [s], and its spread over the period; needs that detector.
+    #[getter]
+    fn stick_slip(&self) -> Option<(f64, f64)> {
+        self.0.stick_slip.map(|motion| (motion.period, motion.spread))
+    }
+
+    /// Static coefficient of friction learnt so far, and its deviation; needs `[estimate]`.
+    #[getter]
+    fn static_friction(&self) -> Option<(f64, f64)> {
+        self.estimate(|learnt| learnt.at_rest)
+    }
+
+    /// Kinetic coefficient of friction learnt so far, and its deviation; needs `[estimate]`.
+    #[getter]
+    fn kinetic_friction(&self) -> Option<(f64, f64)> {
+        self.estimate(|learnt| learnt.sliding)
+    }
+
+    /// The normal force to command next [N]; needs `[grip]`.
+    #[getter]
+    fn grip_force(&self) -> Option<f64> {
+        self.0.grip_force
+    }
+
+    /// Whether something touches.
+    fn __bool__(&self) -> bool {
+        self.0.contact().is_some()
+    }
+
+    fn __repr__(&self) -> String {
+        match self.contact() {
+            Some(contact) => format!("Touch({})", contact.__repr__()),
+            None => format!("Touch({})", self.no_contact().map_or_else(String::new, |none| none.__repr__())),
+        }
+    }
+}
+
+/// How sure a contact is: standard deviations to first order.
+#[pyclass(name = "Spread", module = "fingertip", frozen, skip_from_py_object)]
+pub(crate) struct PySpread(fingertip_scene::Spread<f64>);
+
+#[pymethods]
+impl PySpread {
+    /// Longer and shorter semi-axis of the ellipse in which the contact lies with the probability of the scene [m].
+    #[getter]
+    fn semi_axes(&self) -> [f64; 2] {
+        self.0.ellipse.semi_axes
+    }
+
+    /// Unit vectors along these.
+    #[getter]
+    fn directions<'py>(&self, py: Python<'py>) -> [Bound<'py, PyArray1<f64>>; 2] {
+        self.0.ellipse.directions.map(|direction| numbers::array(py, &direction))
+    }
+
+    /// Standard deviation of the normal force [N].
+    #[getter]
+    fn normal_force(&self) -> f64 {
+        self.0.normal_force
+    }
+
+    /// Standard deviation of the spin torque [N·m].
+    #[getter]
+    fn spin_torque(&self) -> f64 {
+        self.0.spin_torque
+    }
+}
+
+/// Where a contact is, by all samples so far.
+#[pyclass(name = "Tracked", module = "fingertip", frozen, skip_from_py_object)]
+pub(crate) struct PyTracked(pub(crate) fingertip::contact::Tracked<f64>);
+
+#[pymethods]
+impl PyTracked {
+    /// Where it is [m].
+    #[getter]
+    fn point<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        numbers::array(py, &self.0.point)
+    }
+
+    /// Outward unit normal there.
+    #[getter]
+    fn normal<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        numbers::array(py, &self.0.normal)
+    }
+
+    /// How fast it moves over the fingertip [m/s].
+    #[getter]
+    fn velocity<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        numbers::array(py, &self.0.velocity)
+    }
+
+    /// Two unit vectors in the tangent plane, to which the covariances refer.
+    #[getter]
+    fn tangents<'py>(&self, py: Python<'py>) -> [Bound<'py, PyArray1<f64>>; 2] {
+        self.0.tangents.map(|tangent| numbers::array(py, &tangent))
+    }
+
+    /// Covariance of the position along the tangents [m²].
+    #[getter]
+    fn position_covariance<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        numbers::array2(py, &self.0.position_covariance)
+    }
+
+    /// Covariance of the velocity along the tangents [m²/s²].
+    #[getter]
+    fn velocity_covariance<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        numbers::array2(py, &self.0.velocity_covariance)
+    }
+
+    /// Standard deviation of the position in the direction in which it is known worst [m].
+    #[getter]
+    fn deviation(&self) -> f64 {
+        self.0.deviation()
+    }
+
+    /// How far the sample is from what was expected: χ² of two degrees of freedom.
+    #[getter]
+    fn surprise(&self) -> f64 {
+        self.0.surprise
+    }
+
+    /// How the sample fits to those before, a `Continuity`.
+    #[getter]
+    fn continuity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        enums::member(py, "Continuity", &self.0.continuity)
+    }
+}
+
+/// What begins, ends or strikes.
+#[pyclass(name = "Happened", module = "fingertip", frozen, skip_from_py_object)]
+pub(crate) struct PyHappened(pub(crate) fingertip::contact::Happened<f64>);
+
+#[pymethods]
+impl PyHappened {
+    /// Whether something touches.
+    #[getter]
+    fn touching(&self) -> bool {
+        self.0.touching
+    }
+
+    /// A touch is called, which showed first so long ago [s], or `None`.
+    #[getter]
+    fn touch(&self) -> Option<f64> {
+        self.0.touch
+    }
+
+    /// A release is called, which showed first so long ago [s], or `None`.
+    #[getter]
+    fn release(&self) -> Option<f64> {
+        self.0.release
+    }
+
+    /// A blow is over, with which the contact began, an `Impact`, or `None`.
+    #[getter]
+    fn impact(&self) -> Option<PyImpact> {
+        self.0.impact.map(PyImpact)
+    }
+}
+
+/// A blow.
+#[pyclass(name = "Impact", module = "fingertip", frozen, skip_from_py_object)]
+pub(crate) struct PyImpact(fingertip::contact::Impact<f64>);
+
+#[pymethods]
+impl PyImpact {
+    /// Greatest magnitude of the force [N].
+    #[getter]
+    fn peak(&self) -> f64 {
+        self.0.peak
+    }
+
+    /// The force summed over the time of the blow, on the fingertip [N·s].
+    #[getter]
+    fn impulse<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        numbers::array(py, &self.0.impulse)
+    }
+
+    /// From the first sign of the touch to where the force was least after its peak [s].
+    #[getter]
+    fn duration(&self) -> f64 {
+        self.0.duration
+    }
+}
+
+value_class!(PyTouch, PySpread, PyTracked, PyHappened, PyImpact);

@@ -1,0 +1,357 @@
+"""Contact models, friction, hands and channels, against formulas that are not the library's."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+
+import fingertip
+from fingertip import ContactModel, FrictionLimit, Grasp, SlipVerdict, Surface
+
+RADIUS = 0.013
+BALL = Surface("sphere", radius_m=RADIUS)
+EGG = Surface("ellipsoid", semi_axes_m=[0.008, 0.010, 0.013])
+
+
+def pushes(count, surface, spin=0.0, seed=1):
+    """Wrenches at known points, by the surface's own normals."""
+    random = np.random.default_rng(seed)
+    for _ in range(count):
+        direction = random.normal(size=3)
+        _, point, normal, _ = surface.crossings([0, 0, 0], direction)[-1]
+        sideways = np.cross(normal, random.normal(size=3)) * 0.3
+        force = random.uniform(0.5, 3) * (sideways - normal)
+        yield point, normal, np.hstack([force, np.cross(point, force) + spin * normal])
+
+
+@pytest.mark.parametrize("surface", [BALL, EGG])
+@pytest.mark.parametrize(("model", "spin"), [("point", 0.0), ("soft_finger", 2e-4)])
+def test_contacts_and_their_derivatives_are_those_of_differences(surface, model, spin):
+    contacts = ContactModel(surface, model)
+    assert pickle.loads(pickle.dumps(contacts)) == contacts
+    for point, _, wrench in pushes(20, surface, spin):
+        contact = contacts.resolve(wrench)
+        assert np.linalg.norm(contact.point - point) < 1e-9
+        assert contact.spin_torque == pytest.approx(spin, abs=1e-9)
+        jacobian = contacts.jacobian(contact, wrench)
+        differences = np.empty((3, 6))
+        for axis, step in enumerate([1e-6] * 3 + [1e-8] * 3):
+            change = np.zeros(6)
+            change[axis] = step
+            above, below = contacts.resolve(wrench + change), contacts.resolve(wrench - change)
+            differences[:, axis] = (above.point - below.point) / (2 * step)
+        assert np.allclose(jacobian.point, differences, atol=1e-4 * np.abs(differences).max())
+        # The covariance of the point is J Σ Jᵀ, and its ellipse that of the eigenvalues in the tangent plane.
+        noise = np.diag([1e-4] * 3 + [1e-8] * 3)
+        spread = jacobian.covariance(noise)
+        assert np.allclose(spread.point, jacobian.point @ noise @ jacobian.point.T, rtol=1e-9, atol=1e-18)
+        axes, directions = spread.ellipse(0.95)
+        greatest = np.sqrt(np.linalg.eigvalsh(spread.position)[::-1] * -2 * np.log(0.05))
+        assert np.allclose(axes, greatest, rtol=1e-6) and abs(directions[0] @ directions[1]) < 1e-12
+        assert np.allclose(spread.normal_force, (jacobian.local @ noise @ jacobian.local.T)[2, 2])
+
+
+def test_the_worst_case_holds_what_noise_within_it_does():
+    contacts = ContactModel(BALL)
+    random = np.random.default_rng(2)
+    worst = np.array([0.01] * 3 + [1e-5] * 3)
+    for _, _, wrench in pushes(20, BALL):
+        contact = contacts.resolve(wrench)
+        components, distance, _, _ = contacts.jacobian(contact, wrench).worst_case(worst)
+        bound = contacts.worst_distance(wrench, np.linalg.norm(worst[:3]), np.linalg.norm(worst[3:]))
+        for _ in range(100):
+            other = contacts.resolve(wrench + random.uniform(-1, 1, 6) * worst)
+            moved = other.point - contact.point
+            assert np.linalg.norm(moved) <= bound
+            assert np.linalg.norm(moved) <= 1.1 * distance and (np.abs(moved) <= 1.1 * components + 1e-9).all()
+    bounds = fingertip.paper_bounds(RADIUS, 0.01, [0.0, 0.0, -1.0], [0.0, 0.0, 0.0])
+    assert bounds.shape == (3,) and (bounds >= 0).all() and 0.01 * RADIUS < bounds.max() < 0.1 * RADIUS
+
+
+def test_an_offset_of_the_surface_moves_the_contact():
+    contacts = ContactModel(BALL)
+    larger = ContactModel(Surface("sphere", radius_m=RADIUS + 1e-6))
+    for _, _, wrench in pushes(10, BALL):
+        contact = contacts.resolve(wrench)
+        moved = (larger.resolve(wrench).point - contact.point) / 1e-6
+        offset = contacts.jacobian(contact, wrench).offset
+        tangential = moved - contact.normal * (moved @ contact.normal)
+        assert np.allclose(offset - contact.normal * (offset @ contact.normal), tangential, atol=1e-3)
+
+
+def test_the_model_that_weighs_evidence_chooses():
+    contacts = ContactModel(BALL, "auto", force_noise_N=0.01, torque_noise_Nm=1e-5)
+    point = np.array([0, 0, RADIUS])
+    force = np.array([0.1, 0, -1.0])
+    without = np.hstack([force, np.cross(point, force)])
+    assert contacts.choice(without)[0] == "point"
+    with_spin = without + [0, 0, 0, 0, 0, 1e-3]
+    name, pitch, deviation = contacts.choice(with_spin)
+    assert name == "soft_finger" and abs(pitch) > 3 * deviation
+    assert contacts.resolve(with_spin).spin_torque == pytest.approx(1e-3, rel=1e-2)
+    assert ContactModel(BALL).choice(without) is None
+
+
+def test_a_skin_gives_way():
+    skin = {"law": "linear", "stiffness_N_per_m": 1000.0, "radius_m": RADIUS}
+    soft = ContactModel(BALL, skin=skin)
+    sunk = soft.resolve([0, 0, -2.0, 0, 0, 0])
+    assert sunk.point[2] == pytest.approx(RADIUS - 2.0 / 1000.0, rel=1e-6)
+
+
+def test_coulomb_is_a_cone_and_a_soft_finger_an_ellipse():
+    cone = FrictionLimit(static_coefficient=0.5)
+    newtons, used = cone.margin(2.0, [0.3, 0.4, 0.0])
+    assert newtons == pytest.approx((0.5 * 2 - 0.5) / np.hypot(1, 0.5)) and used == pytest.approx(0.5)
+    assert cone.least_normal_force([0.3, 0.4, 0.0], safety=2.0) == pytest.approx(2.0)
+    direction, spin = cone.slip_direction(2.0, [0.3, 0.4, 0.0])
+    assert abs(direction @ [0.6, 0.8, 0]) == pytest.approx(1) and spin == 0
+    soft = FrictionLimit("soft_finger", static_coefficient=0.5, torque_arm_m=0.003)
+    _, used = soft.margin(2.0, [0.6, 0.0, 0.0], 0.8 * 0.5 * 2 * 0.003)
+    assert used == pytest.approx(1.0)
+    unsure = FrictionLimit("uncertain", static_coefficient=0.5, deviation=0.05)
+    assert unsure.slip_probability(2.0, [1.0, 0, 0]) == pytest.approx(0.5, abs=0.02)
+    assert cone.slip_probability(2.0, [1.0, 0, 0]) is None and cone.coefficient == 0.5
+    for limit in (cone, soft, unsure):
+        assert pickle.loads(pickle.dumps(limit)) == limit
+    with pytest.raises(fingertip.SceneError, match="friction coefficient"):
+        FrictionLimit(static_coefficient=-1.0)
+
+
+def test_the_limit_curve_of_a_uniform_pressure_meets_its_ends():
+    curve = fingertip.limit_curve("uniform", 50)
+    assert curve.shape == (50, 3)
+    force, torque = curve[:, 0], curve[:, 1]
+    assert force.min() == pytest.approx(0, abs=1e-9) and force.max() == pytest.approx(1)
+    assert torque.max() == pytest.approx(1) and (force**2 + torque**2 > 0.8).all()
+    with pytest.raises(fingertip.FrictionError, match="uniform, hertz or winkler"):
+        fingertip.limit_curve("square", 3)
+
+
+@pytest.mark.parametrize("detector", ["drop", "threshold", "likelihood_ratio", "stick_slip", "adaptive_drop"])
+def test_detectors_find_a_slip(detector):
+    watch = fingertip.SlipDetector(detector, static_coefficient=0.5 if detector == "threshold" else None, noise_N=0.01)
+    ratios = np.concatenate([np.linspace(0, 0.6, 600), np.full(100, 0.35)])
+    noise = np.random.default_rng(3).normal(0, 0.005, len(ratios))
+    verdicts = [watch.update(2.0, [2.0 * ratio + more, 0, 0], 1e-3) for ratio, more in zip(ratios, noise, strict=True)]
+    assert all(isinstance(verdict, SlipVerdict) for verdict in verdicts)
+    # Falls that come again are not one fall; noise that is to be learnt takes longer than this.
+    if detector not in ("stick_slip", "adaptive_drop"):
+        assert SlipVerdict.SLIPPING in verdicts[450:] and SlipVerdict.SLIPPING not in verdicts[:400]
+    twin, fresh = copy.deepcopy(watch), pickle.loads(pickle.dumps(watch))
+    assert twin.update(2.0, [0.7, 0, 0], 1e-3) == watch.update(2.0, [0.7, 0, 0], 1e-3)
+    assert fresh.update(2.0, [0.7, 0, 0], 1e-3) in SlipVerdict
+
+
+def test_a_contact_that_gives_way_warns():
+    watch = fingertip.IncipientSlip(0.005, 2e-5, 0.5)
+    verdicts = []
+    for step in range(400):
+        moved = step * 1e-6
+        force = 1.2 * (1 - np.exp(-moved / 8e-5))
+        verdicts.append(watch.update(2.0, [-force, 0, 0], [moved, 0, 0]))
+    assert verdicts[30] is not SlipVerdict.WARNING and SlipVerdict.WARNING in verdicts[60:]
+
+
+@pytest.mark.parametrize("law", ["dahl", "lugre", "elasto_plastic", "stribeck"])
+def test_bristles_bend_and_then_slide(law):
+    bristle = fingertip.BristleFriction(law, stiffness=1e4, kinetic=0.4)
+    bristle.set_load(2.0)
+    first, _ = bristle.step([1e-6, 0.0], 1e-3)
+    # Bent by half a nanometre on average; the law without creep is integrated by its end.
+    bent = 1e-9 if law == "stribeck" else 0.5e-9
+    assert first[0] == pytest.approx(1e4 * 2.0 * bent, rel=0.05)
+    for _ in range(2000):
+        mean, end = bristle.step([0.01, 0.0], 1e-3)
+    assert np.linalg.norm(end) == pytest.approx(0.4 * 2.0, rel=1e-3) and mean[0] > 0
+    assert np.linalg.norm(bristle.deflection) == pytest.approx(0.4 / 1e4, rel=1e-2)
+    assert bristle.greatest == pytest.approx(0.4)
+    bristle.reset()
+    # A body under less than friction holds stays; under more it goes.
+    velocity = np.zeros(2)
+    for _ in range(500):
+        velocity, friction = bristle.step_body(velocity, 0.1, [0.5, 0.0], 1e-3)
+    assert np.linalg.norm(velocity) < 1e-2 and friction[0] == pytest.approx(0.5, rel=0.1)
+
+
+def test_lines_meet_where_the_contact_is():
+    point = np.array([0.004, 0.003, 0.012])
+    meeting = fingertip.LineMeeting()
+    random = np.random.default_rng(5)
+    noise = np.diag([1e-4] * 3 + [1e-10] * 3)
+    with pytest.raises(fingertip.FingertipError):
+        meeting.find()
+    for _ in range(200):
+        force = random.normal([0, 0, -2], 0.5)
+        wrench = np.hstack([force, np.cross(point, force)]) + random.normal(0, 1, 6) * np.sqrt(np.diag(noise))
+        assert meeting.add(wrench, noise)
+    found, covariance, _ = meeting.find()
+    error = found - point
+    assert len(meeting) == 200 and error @ np.linalg.solve(covariance, error) < 20
+    assert np.linalg.norm(error) < 1e-3
+
+
+def test_what_happens_is_told():
+    events = fingertip.ContactEvents(0.01, 0.06)
+    told = [events.observe([0, 0, -force], 1e-3) for force in [0.0] * 20 + [0.5] * 20 + [0.0] * 40]
+    assert not told[19].touching and told[25].touching and not told[-1].touching
+    assert sum(one.touch is not None for one in told) == 1 == sum(one.release is not None for one in told)
+
+
+def test_wrench_and_array_are_fused():
+    point = np.array([0.0, 0.0, RADIUS])
+    force = np.array([0.2, 0.0, -1.0])
+    wrench = np.hstack([force, np.cross(point, force)])
+    reading = {
+        "centroid": point + [2e-3, 0, 0],
+        "centroid_covariance": np.eye(3) * 4e-6,
+        "normal_force": 1.1,
+        "normal_deviation": 0.3,
+    }
+    noise = np.diag([1e-4] * 3 + [1e-10] * 3)
+    [contact], disagreement = fingertip.fuse(BALL, wrench, noise, [reading], 0.6)
+    assert np.linalg.norm(contact["point"] - point) < 2e-4 and contact["grip"] == "sticks"
+    assert np.allclose(contact["force"], force, atol=0.02) and disagreement < 5
+    with pytest.raises(fingertip.FingertipError):
+        fingertip.fuse(BALL, wrench, noise, [], 0.6)
+
+
+def three(friction=0.6):
+    outward = [np.array([np.cos(angle), np.sin(angle), 0.0]) for angle in (0.0, 2.1, 4.2)]
+    return Grasp([{"point": 0.04 * o, "outward": -o, "friction": friction, "arm": 2e-3} for o in outward])
+
+
+def test_the_least_grip_bears_the_load_within_friction():
+    grasp = three()
+    load = np.array([0.0, 0.0, -2.94, 0.0, 0.0147, 0.0])
+    forces = grasp.least_grip(load)
+    assert np.allclose(grasp.wrench(forces), -load, atol=1e-6) or np.allclose(grasp.wrench(forces), load, atol=1e-6)
+    for normal, tangential, spin in forces:
+        assert np.hypot(np.linalg.norm(tangential), spin / 2e-3) <= 0.6 * normal * (1 + 1e-6)
+    # No grip with one per cent less holds, since the limits are cones: only a larger one can.
+    total = sum(normal for normal, _, _ in forces)
+    firmer = sum(normal for normal, _, _ in grasp.least_grip(load, least=5.0))
+    assert total < firmer and firmer == pytest.approx(15.0, rel=0.2)
+    assert all(margin >= -1e-6 for margin, _ in grasp.slip_margins(forces))
+    bearing, internal = grasp.split(forces)
+    assert np.allclose(grasp.wrench(internal), 0, atol=1e-9)
+    assert np.allclose(grasp.wrench(bearing), grasp.wrench(forces), atol=1e-9)
+    with pytest.raises(fingertip.HandError, match="cannot be held"):
+        grasp.least_grip(load * 100, greatest=1.0)
+
+
+def test_the_quality_of_a_grasp_is_told():
+    grasp = three()
+    assert grasp.force_closure is True and grasp.rank == 6 and not grasp.freedoms() and len(grasp) == 3
+    certified, found, weakest = grasp.ball(0.04)
+    assert 0 < certified <= found and weakest.shape == (6,)
+    times = grasp.reach([0, 0, -1.0, 0, 0, 0], [0, 0, -1.0, 0, 0, 0], greatest=10.0)
+    assert times > 1 and grasp.reach([0, 0, -1.0, 0, 0, 0], [0, 0, -1.0, 0, 0, 0]) == np.inf
+    one = Grasp([{"point": [0, 0, 0.01], "outward": [0, 0, 1], "friction": 0.5}])
+    assert one.force_closure is False and one.rank == 3 and len(one.freedoms()) == 3
+    assert pickle.loads(pickle.dumps(grasp)).least_grip([0, 0, -1.0, 0, 0, 0])
+    with pytest.raises(fingertip.HandError, match="needs `friction`"):
+        Grasp([{"point": [0, 0, 0], "outward": [0, 0, 1]}])
+    with pytest.raises(fingertip.HandError, match="at most 5"):
+        Grasp([{"point": [0, 0, 0], "outward": [0, 0, 1], "friction": 0.5}] * 6)
+
+
+def test_a_controller_presses_as_firmly_as_it_must():
+    outward = [np.array([np.cos(angle), np.sin(angle), 0.0]) for angle in (0.0, 2.1, 4.2)]
+    hand, normal = fingertip.HandController(greatest=15.0), [0.3] * 3
+    weight = np.array([0.0, 0.0, -2.94, 0.0, 0.0, 0.0])
+    for step in range(300):
+        # Lifting takes the weight over in 0.1 s.
+        load = weight * min(step / 100, 1)
+        fingers = [
+            {"point": 0.04 * o, "outward": -o, "friction": 0.6, "arm": 2e-3, "normal": n, "tangential": load[:3] / 3,
+             "slip": SlipVerdict.SLIPPING if (step, i) == (250, 1) else SlipVerdict.HOLDING}
+            for i, (o, n) in enumerate(zip(outward, normal, strict=True))
+        ]  # fmt: skip
+        normal, holds, implausible = hand.command(fingers, load, 1e-3)
+        if step == 249:
+            before = normal
+    assert holds is True and not any(implausible)
+    least = [n for n, _, _ in three().least_grip(weight)]
+    assert np.allclose(before, np.array(least) * 1.3, rtol=0.3) and sum(normal) > sum(before)
+
+
+def test_an_object_is_weighed():
+    mass, centre = 0.3, np.array([0.005, 0.0, -0.02])
+    weight, random = fingertip.ObjectWeight(), np.random.default_rng(6)
+    noise = np.diag([4e-4] * 3 + [4e-8] * 3)
+    for tilt in np.linspace(0, 1.0, 200):
+        gravity = 9.81 * np.array([-np.sin(tilt), 0.3 * np.sin(3 * tilt), -np.cos(tilt)])
+        force = mass * gravity
+        load = np.hstack([force, np.cross(centre, force)]) + random.normal(size=6) * np.sqrt(np.diag(noise))
+        weight.observe(load, noise, gravity)
+    found, deviation, middle, covariance = weight.estimate()
+    assert abs(found - mass) < 5 * deviation < 0.01
+    assert (middle - centre) @ np.linalg.solve(covariance, middle - centre) < 25
+    gravity = np.array([0, 0, -9.81])
+    load = np.hstack([mass * gravity, np.cross(centre, mass * gravity)])
+    assert weight.touches_elsewhere(load, noise, gravity) is False
+    assert weight.touches_elsewhere(load + [0, 0, 1.0, 0, 0, 0], noise, gravity) is True
+
+
+def test_channels_are_watched():
+    watch = fingertip.ChannelMonitor([0.0] * 3, [5.0] * 3, [1e-3] * 3, 20)
+    random = np.random.default_rng(7)
+    for _ in range(50):
+        faults = watch.update([2.5 + random.normal(0, 0.1), 1.234, 5.0])
+    assert faults == [None, "stuck", "saturated_high"]
+    assert watch.update([np.nan, 1.0, 2.0])[0] == "not_finite"
+
+
+def test_conditioning_and_worst_errors_are_those_of_numpy():
+    random = np.random.default_rng(8)
+    nominal = np.array([10, 10, 10, 0.1, 0.1, 0.1])
+    for gauges in (6, 8):
+        matrix = np.vstack([np.eye(6)] * 2)[:gauges] + 0.2 * random.standard_normal((gauges, 6))
+        singular, number, worst = fingertip.conditioning(matrix, nominal)
+        assert np.allclose(singular, np.linalg.svd(matrix)[1]) and number == pytest.approx(np.linalg.cond(matrix))
+        assert worst is None or worst.shape == (6,)
+        signals = matrix @ random.uniform(-1, 1, 6)
+        bound = fingertip.worst_errors(matrix, nominal, signals, 1e-3)
+        inverse = np.linalg.pinv(matrix) * nominal[:, None]
+        assert np.allclose(bound, np.abs(inverse).sum(axis=1) * 1e-3, rtol=1e-6)
+    with pytest.raises(fingertip.FingertipError, match="6 to 10 or 12 gauges"):
+        fingertip.conditioning(np.eye(5), nominal)
+
+
+def test_rolling_over_a_ball_tells_its_radius():
+    # A sphere rolls over a fixed ball of twice its radius: the contact moves over the finger at ω r R/(r + R).
+    radius, other = RADIUS, 2 * RADIUS
+    model, rolling = ContactModel(BALL), fingertip.RollingCurvature(radius)
+    sections = {
+        "surface": {"shape": "sphere", "radius_m": radius},
+        "contact": {"least_force_N": 0.05},
+        "uncertainty": {"force_noise_N": 1e-4, "torque_noise_Nm": 1e-7},
+        "tracking": {"speed_m_per_s": 0.005, "turns_within_s": 0.1},
+    }
+    tip = fingertip.Fingertip(fingertip.Scene.from_dict(sections))
+    noise = np.diag([1e-8] * 3 + [1e-14] * 3)
+    with pytest.raises(fingertip.FingertipError, match="has not rolled in two directions"):
+        rolling.find()
+    # Directions in the sensor frame, in which the fingertip rests and the ball rolls around it.
+    normal, step, found = np.array([0.0, 0.0, 1.0]), 1e-3, None
+    for sample in range(400):
+        axis = np.array([0.0, 1.0, 0.0]) if sample < 200 else np.array([1.0, 0.0, 0.0])
+        turning = 0.5 * (axis - normal * (axis @ normal))
+        # While the finger turns by ω, the contact's normal moves against the turning, by the object's share of curvature.
+        way = np.cross(normal, turning) * radius * other / (radius + other)
+        normal = normal + way * step / radius
+        normal /= np.linalg.norm(normal)
+        point, force = radius * normal, -2.0 * normal
+        wrench = np.hstack([force, np.cross(point, force)])
+        contact = model.resolve(wrench)
+        tracked = tip.sense(wrench, step).tracked
+        # The finger turns about the contact, where its velocity is none.
+        linear = -np.cross(turning, point)
+        rolling.roll(
+            tracked, contact, model.jacobian(contact, wrench), noise, linear, turning, np.eye(2) / radius, step
+        )
+    found, covariance, tangents = rolling.find()
+    assert np.allclose(found, np.eye(2) / other, atol=0.1 / other), found * other
+    assert (np.diag(covariance) > 0).all() and abs(tangents[0] @ tangents[1]) < 1e-9

@@ -1,0 +1,124 @@
+"""Sensors: calibrated, simulated, designed."""
+
+import pickle
+
+import fingertip
+import numpy as np
+import pytest
+from fingertip import Quality
+
+NOMINAL = np.array([10, 10, 10, 0.1, 0.1, 0.1])
+
+
+def known(samples=80, gauges=6, noise=1e-4, seed=1):
+    random = np.random.default_rng(seed)
+    loads = random.uniform(-1, 1, (samples, 6)) * NOMINAL
+    matrix = np.vstack([np.eye(6)] * 2)[:gauges] + 0.1 * random.standard_normal((gauges, 6))
+    zero = random.uniform(-1, 1, gauges)
+    signals = loads / NOMINAL @ matrix.T + zero + noise * random.standard_normal((samples, gauges))
+    return loads, signals, matrix, zero
+
+
+@pytest.mark.parametrize("gauges", [6, 8])
+@pytest.mark.parametrize("method", ["least_squares", "huber", "ransac"])
+def test_a_known_sensor_is_found(gauges, method):
+    loads, signals, matrix, zero = known(gauges=gauges)
+    found = fingertip.calibrate(loads, signals, nominal=NOMINAL, method=method)
+    assert found.verdict is Quality.GOOD and not found.reasons
+    assert np.abs(found.matrix - matrix).max() < 2e-4 and np.abs(found.zero - zero).max() < 2e-4
+    # The oracle: NumPy's own least squares.
+    if method == "least_squares":
+        design = np.column_stack([loads / NOMINAL, np.ones(len(loads))])
+        theirs = np.linalg.lstsq(design, signals, rcond=None)[0]
+        assert np.allclose(found.matrix, theirs[:6].T, atol=1e-12) and np.allclose(found.zero, theirs[6], atol=1e-12)
+        assert found.condition_number == pytest.approx(np.linalg.cond(theirs[:6].T), rel=1e-9)
+    assert np.abs(found.loads(signals) - loads).max() < 0.02
+
+
+def test_a_report_is_a_dictionary_a_text_and_a_page(tmp_path):
+    loads, signals, _, _ = known()
+    found = fingertip.calibrate(loads, signals, names=[f"weight {i}" for i in range(len(loads))])
+    report = found.report()
+    assert report["verdict"] == "good" and len(report["axes"]) == 6 and report["details"][3]["name"] == "weight 3"
+    assert found._repr_html_().startswith("<!") and "svg" in found.report_html("tip")
+    assert "GOOD" in str(found) and "good" in repr(found)
+    assert pickle.loads(pickle.dumps(found)) == found
+    found.save(tmp_path / "tip.toml")
+    assert (tmp_path / "tip.toml").read_text() == found.to_toml()
+
+
+def test_a_bad_calibration_is_stamped_and_none_is_refused():
+    loads, signals, _, _ = known(noise=0.1)
+    found = fingertip.calibrate(loads, signals)
+    assert found.verdict is Quality.BAD and found.reasons
+    flat = loads.copy()
+    flat[:, 3:] = 0
+    with pytest.raises(fingertip.CalibrationError):
+        fingertip.calibrate(flat, signals)
+    for wrong, sentence in [
+        ({"loads": loads[:, :4]}, "must have 6 columns"),
+        ({"signals": signals[:-1]}, "entries|rows"),
+        ({"unit": "bananas"}, "is not known; write V"),
+        ({"method": "magic"}, "is not known; there are"),
+        ({"loads": loads * np.nan}, "not a finite number"),
+    ]:
+        given = {"loads": loads, "signals": signals, **wrong}
+        with pytest.raises(fingertip.CalibrationError, match=sentence):
+            fingertip.calibrate(**given)
+
+
+def test_outliers_are_named_or_left_out():
+    loads, signals, matrix, _ = known()
+    signals[7] += 0.3
+    kept = fingertip.calibrate(loads, signals, nominal=NOMINAL)
+    assert [outlier["sample"] for outlier in kept.report()["outliers"]] == ["sample 8"]
+    out = fingertip.calibrate(loads, signals, nominal=NOMINAL, reject_outliers=True)
+    assert [one["sample"] for one in out.report()["excluded"]] == ["sample 8"]
+    assert np.abs(out.matrix - matrix).max() < 2e-4
+
+
+def test_a_simulation_is_what_its_script_says():
+    script = [
+        {"do": "rest", "duration": 0.2},
+        {"do": "press", "at": {"from_top": 0.5, "azimuth": 1.0}, "force": 3.0, "duration": 0.2},
+        {
+            "do": "drag",
+            "heading": 0.0,
+            "static_coefficient": 0.5,
+            "kinetic_coefficient": 0.4,
+            "ramp": 0.3,
+            "slide": 0.1,
+        },
+    ]
+    seen = fingertip.simulate(script, sample_rate=500, seed=3)
+    assert len(seen) == 400 and seen.time[1] == pytest.approx(0.002)
+    pressed = seen.phase == 1
+    assert np.linalg.norm(seen.force[pressed][-1]) == pytest.approx(3.0, rel=1e-3)
+    direction = (seen.point[pressed][-1] - seen.centre) / seen.radius
+    assert np.allclose(direction, [np.cos(0.5), np.sin(0.5) * np.cos(1), np.sin(0.5) * np.sin(1)])
+    touched = pressed & np.isfinite(seen.point[:, 0])
+    assert touched.sum() > 90
+    assert np.allclose(np.cross(seen.point, seen.force)[touched], seen.wrench[touched, 3:], atol=1e-12)
+    assert seen.slipping.any() and len(seen.slip_onsets) == 1
+    again = fingertip.simulate(script, sample_rate=500, seed=3)
+    assert np.array_equal(seen.raw, again.raw)
+    assert not np.array_equal(seen.raw, fingertip.simulate(script, sample_rate=500, seed=4).raw)
+    with pytest.raises(fingertip.SimulationError, match="the script is none"):
+        fingertip.simulate([{"do": "dance"}])
+    with pytest.raises(fingertip.SimulationError):
+        fingertip.simulate(script, sample_rate=-1)
+
+
+def test_a_design_is_a_sensor_and_its_files_are_read(tmp_path):
+    found = fingertip.design(starts=6, force=20, torque=0.2)
+    assert found.condition_number == pytest.approx(np.linalg.cond(found.matrix), rel=1e-6)
+    assert 4e-3 <= found.radius <= 10e-3 and found.thickness > 0
+    (tmp_path / "tip.toml").write_text(found.calibration_toml)
+    scene = fingertip.Scene.from_dict({"surface": {"shape": "sphere", "radius_m": 0.013}})
+    tip = fingertip.Fingertip(scene.calibrated_by(tmp_path / "tip.toml"))
+    load = np.array([2.0, -1.0, -5.0, 0.01, 0.02, -0.01])
+    signals = found.matrix @ (load / [20, 20, 20, 0.2, 0.2, 0.2])
+    assert np.allclose(tip.sense(signals, 1e-3).wrench, load, atol=1e-9)
+    for wrong in ({"material": "cheese"}, {"criterion": "beauty"}, {"gauges": 7}, {"force": -1.0}):
+        with pytest.raises(fingertip.DesignError):
+            fingertip.design(starts=2, **wrong)

@@ -1,0 +1,175 @@
+//! `analyze` for programs that have the command within them: the same pass, the same summary, the same page.
+
+use core::fmt;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use fingertip_recordings::{Quality, ReaderOptions, RecordingReader};
+use fingertip_scene::{Felt, Scene};
+
+use super::args::AnalyzeArguments;
+use super::sink::Sink;
+use super::source::Source;
+use super::{Pass, files};
+use crate::error::CliError;
+use crate::observe::Status;
+use crate::output::Overwrite;
+use crate::report::{self, used::Given};
+use crate::summary::{self, Run};
+
+/// Why a recording could not be read or analysed, in the sentence that the command says.
+#[derive(Debug)]
+pub struct Failure(CliError);
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl core::error::Error for Failure {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        self.0.source()
+    }
+}
+
+impl From<CliError> for Failure {
+    fn from(error: CliError) -> Self {
+        Self(error)
+    }
+}
+
+/// Which recording, and what of it.
+#[derive(Clone, Debug, Default)]
+pub struct Recorded {
+    /// CSV with units in the names of its columns, or MCAP.
+    pub path: PathBuf,
+    /// The sensor, by the prefix of its columns; the scene's, or the only one, if `None`.
+    pub sensor: Option<String>,
+    /// Of an MCAP file, these topics alone; all, if there are none.
+    pub topics: Vec<String>,
+    /// Temperature of the whole recording \[°C\], for a calibration that drifts with it.
+    pub celsius: Option<f64>,
+}
+
+impl Recorded {
+    fn arguments(&self, scene: &Path) -> AnalyzeArguments {
+        AnalyzeArguments {
+            recording: self.path.clone(),
+            scene: scene.to_owned(),
+            calibration: None,
+            payload: None,
+            celsius: self.celsius,
+            sensor: self.sensor.clone(),
+            topics: self.topics.clone(),
+            output: PathBuf::new(),
+            report: PathBuf::new(),
+            no_report: true,
+            overwrite: Overwrite::default(),
+        }
+    }
+
+    /// Opens it, to be read row by row. What is to be known of a file that was converted goes to `notes`.
+    ///
+    /// # Errors
+    /// [`Failure`], which names the file.
+    pub fn rows(
+        &self,
+        options: ReaderOptions,
+        notes: &mut Vec<String>,
+    ) -> Result<RecordingReader<Box<dyn Read + Send>>, Failure> {
+        Ok(files::open(&self.arguments(Path::new("")), options, notes)?.rows)
+    }
+}
+
+/// What one row of a recording gives.
+#[derive(Clone, Copy, Debug)]
+pub enum Sample<'a> {
+    /// What its wrench says.
+    Felt(&'a Felt<f64>),
+    /// No wrench; why, by the word that the command writes, such as `rest` or `unusable_row`.
+    Without(&'static str),
+}
+
+impl Sample<'_> {
+    /// `contact`, or why there is none, by the word that the command writes.
+    #[must_use]
+    pub fn status(&self) -> &'static str {
+        match self {
+            Self::Felt(felt) => Status::of(&felt.touch.resolution).word(),
+            Self::Without(word) => word,
+        }
+    }
+}
+
+/// What a recording showed.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    /// Name of the sensor; empty if the recording gives none.
+    pub sensor: String,
+    /// What should be minded.
+    pub notes: Vec<String>,
+    /// The faults of the recording.
+    pub quality: Quality,
+    /// The result in sentences and tables, as the command prints it.
+    pub summary: String,
+    /// The page that the command writes.
+    pub html: String,
+}
+
+/// Hands samples on to a function.
+struct Each<'a>(&'a mut dyn FnMut(f64, Sample<'_>));
+
+impl Sink for Each<'_> {
+    fn sample(&mut self, time: f64, felt: &Felt<f64>) -> Result<(), CliError> {
+        (self.0)(time, Sample::Felt(felt));
+        Ok(())
+    }
+
+    fn without_wrench(&mut self, time: f64, status: Status) -> Result<(), CliError> {
+        (self.0)(time, Sample::Without(status.word()));
+        Ok(())
+    }
+}
+
+/// Contacts from a recording, as `fingertip analyze` finds them: units, signs, rest, calibration, payload and gaps
+/// included. `each` takes the time of a row \[s\], NaN where it has none, and what it gives, for every row in its order;
+/// `scene_file` is what messages call the scene.
+///
+/// # Errors
+/// [`Failure`], in the sentence that the command says.
+pub fn analyze(
+    scene: &Scene,
+    scene_file: &Path,
+    recorded: &Recorded,
+    each: &mut dyn FnMut(f64, Sample<'_>),
+) -> Result<Analysis, Failure> {
+    let arguments = recorded.arguments(scene_file);
+    let mut notes = Vec::new();
+    let files::Opened { rows: mut reader, bar } = files::open(&arguments, files::of(scene), &mut notes)?;
+    let mut source = Source::new(&mut reader, scene, &arguments, notes)?;
+    let mut sink = Each(each);
+    let pass = Pass { scene, reader: &mut reader, source: &mut source, sink: &mut sink };
+    let observations = pass.run()?;
+    bar.finish_and_clear();
+    let quality = *reader.quality();
+    if observations.rows() == 0 {
+        return Err(CliError::NoRows { path: recorded.path.clone() }.into());
+    }
+    let findings = summary::of_recording(&Run {
+        recording: &recorded.path,
+        scene,
+        observations: &observations,
+        quality: &quality,
+        notes: source.notes(),
+        sensor: source.sensor(),
+    });
+    let given = Given { calibration: None, payload: None, calibrated: source.is_calibrated() };
+    Ok(Analysis {
+        sensor: source.sensor().to_owned(),
+        notes: source.notes().to_vec(),
+        quality,
+        summary: findings.to_string(),
+        html: report::of_recording(&findings, &observations, scene, &given),
+    })
+}
