@@ -195,7 +195,7 @@ impl PayloadFile {
         let (table, checksum) = open(text)?;
         let file: Self = Value::Table(table).try_into().map_err(malformed)?;
         file.validate()?;
-        compare(&file, checksum)?;
+        compare(&file, checksum.ok_or_else(|| malformed("missing field `checksum`"))?)?;
         Ok(file)
     }
 

@@ -13,6 +13,7 @@ use fingertip_recordings::Quality;
 use fingertip_scene::{Pipeline, Scene};
 
 use crate::error::CliError;
+use crate::health::{WatchedRows, seen};
 use crate::observe::{Observations, Status};
 use crate::report::{self, used::Given};
 use crate::scene;
@@ -31,9 +32,19 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let files::Opened { rows: mut reader, bar } = files::open(arguments, &scene, &mut notes)?;
     let mut source = Source::new(&mut reader, &scene, arguments, notes)?;
     let mut contacts = ContactWriter::create(&arguments.output, &outputs, scene.tells())?;
-    let pass = Pass { scene: &scene, reader: &mut reader, source: &mut source, contacts: &mut contacts };
+    let watched = WatchedRows::brief(reader.layout(), source.sensor(), source.is_calibrated());
+    let mut watched = watched.map_err(|problem| CliError::Recording(reader.header_error(problem)))?;
+    watched.limit(source.sensor(), scene.calibration().and_then(|file| file.range));
+    let pass = Pass {
+        scene: &scene,
+        reader: &mut reader,
+        source: &mut source,
+        contacts: &mut contacts,
+        watched: &mut watched,
+    };
     let observations = pass.run()?;
     bar.finish_and_clear();
+    seen(&watched.finish()).into_iter().for_each(|fault| source.note(fault));
 
     let quality: Quality = *reader.quality();
     if observations.rows() == 0 {
@@ -77,6 +88,8 @@ struct Pass<'a> {
     reader: &'a mut files::Rows,
     source: &'a mut Source,
     contacts: &'a mut ContactWriter,
+    /// The health of the sensor, as far as that costs little.
+    watched: &'a mut WatchedRows,
 }
 
 impl Pass<'_> {
@@ -85,6 +98,7 @@ impl Pass<'_> {
         let mut observations = Observations::new(*self.scene.projection());
         while let Some(row) = self.reader.next_row()? {
             let (time, time_step) = self.source.clock(&row);
+            self.watched.add(&row);
             if row.marks().gap {
                 pipeline.start_anew();
             }
