@@ -19,7 +19,7 @@ pub(super) fn of(health: &Health, findings: &Findings) -> String {
     page.list("Good to know", &of_level(|level| level == Level::Note));
     page.figures(pictures::of(health));
     for table in &findings.tables {
-        let words = table.head.last().is_some_and(|head| head == "source" || head == "unit");
+        let words = table.head.last().is_some_and(|head| ["source", "unit", "what"].contains(&head.as_str()));
         page.table(&PageTable { title: &table.title, head: &table.head, rows: &table.rows, words });
     }
     page.list("To be minded", &findings.notes);

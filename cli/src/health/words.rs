@@ -1,5 +1,6 @@
 //! The health of a sensor in sentences and tables.
 
+use fingertip::wrench::ChannelFault;
 use fingertip_recordings::health::{ChannelHealth, Finding, Health, Level, What};
 
 use crate::summary::Findings;
@@ -15,7 +16,9 @@ pub(super) fn findings(health: &Health, name: &str, notes: Vec<String>) -> Findi
     let mut lead = vec![verdict(health), overview(health)];
     lead.extend(health.findings.iter().map(ToString::to_string).map(|said| format!("{said}.")));
     let mut tables = vec![noise(health), rest(health)];
-    tables.extend([steps(health), lines(health)].into_iter().filter(|table| !table.rows.is_empty()));
+    tables.extend(
+        [stretches(health), steps(health), lines(health)].into_iter().filter(|table| !table.rows.is_empty()),
+    );
     Findings { title: format!("Health of the sensor in {name}"), lead, tables, notes }
 }
 
@@ -128,6 +131,32 @@ fn rest(health: &Health) -> Table {
             number_or_dash(drift.map(|drift| drift.error)),
             count(channel.at_fault + channel.not_finite),
         ]);
+    }
+    table
+}
+
+fn stretches(health: &Health) -> Table {
+    let mut table =
+        Table::new("Readings at fault", ["", "from / s", "to / s", "readings", "lowest", "highest", "what"]);
+    for channel in &health.channels {
+        for stretch in channel.stretches.iter().take(STEPS) {
+            let what = match stretch.fault {
+                ChannelFault::NotFinite => "no number",
+                ChannelFault::SaturatedLow | ChannelFault::SaturatedHigh => "saturated",
+                ChannelFault::PlateauLow => "clipped below",
+                ChannelFault::PlateauHigh => "clipped above",
+                ChannelFault::Stuck => "stuck",
+            };
+            table.row([
+                unit_of(channel),
+                short(stretch.from),
+                short(stretch.to),
+                count(stretch.readings),
+                number(stretch.low),
+                number(stretch.high),
+                what.to_owned(),
+            ]);
+        }
     }
     table
 }
