@@ -2,7 +2,7 @@
 
 use nalgebra::RowDVector;
 
-use crate::file::{CalibrationFile, FileError, Quality, Temperature};
+use crate::file::{CalibrationFile, FileError, Quality, Temperature, Verdict};
 use crate::fit::{fit_temperature, leave_out};
 use crate::loads::LoadTable;
 use crate::model::{
@@ -32,6 +32,7 @@ pub struct Calibration {
 /// [`CalibrationError`].
 pub fn calibrate(table: &LoadTable, options: &Options) -> Result<Calibration, CalibrationError> {
     table.validate()?;
+    let oddities = oddities(table)?;
     let mut excluded = Vec::new();
     let mut table = table.clone();
     if let Some(range) = options.range {
@@ -81,7 +82,35 @@ pub fn calibrate(table: &LoadTable, options: &Options) -> Result<Calibration, Ca
     if table.temperatures.is_some() && temperature.is_none() {
         report.notes.push("temperatures are known but no drift was fitted".to_owned());
     }
+    report.reasons.extend(oddities);
+    if !report.reasons.is_empty() && report.verdict == Verdict::Good {
+        report.verdict = Verdict::Suspect;
+    }
     Ok(Calibration { model, table, temperature, report })
+}
+
+/// What is odd about the table itself: gauges that are dead, too few gauges, torques in another unit.
+fn oddities(table: &LoadTable) -> Result<Vec<String>, CalibrationError> {
+    let mut found = Vec::new();
+    let (gauges, axes, dead) = (table.gauges(), table.axes.len(), table.dead_gauges());
+    if !dead.is_empty() {
+        let names: Vec<String> = dead
+            .iter()
+            .map(|(gauge, reading)| format!("gauge {} is dead: it always reads {reading}", gauge + 1))
+            .collect();
+        let (left, dead) = (gauges - dead.len(), names.join("; "));
+        if left < axes {
+            return Err(CalibrationError::DeadGauges { dead, left, axes });
+        }
+        found.push(format!("{dead}; leave its column out"));
+    }
+    if gauges < axes {
+        found.push(format!(
+            "{gauges} gauges cannot tell {axes} components apart: leave some out, or add gauges"
+        ));
+    }
+    found.extend(table.odd_lever_arms());
+    Ok(found)
 }
 
 /// Fits the drift with temperature and brings the readings to the reference temperature.

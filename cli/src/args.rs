@@ -4,11 +4,13 @@ use clap::{Parser, Subcommand};
 
 use crate::analyze::args::AnalyzeArguments;
 use crate::calibrate::args::{CalibrateArguments, CheckArguments, TareArguments};
+use crate::calibrate::import::ImportArguments;
 use crate::convert::ConvertArguments;
 use crate::demo::args::DemoArguments;
 use crate::design::args::DesignArguments;
 use crate::export::ExportArguments;
 use crate::geometry::GeometryArguments;
+use crate::health::HealthArguments;
 use crate::info::InfoArguments;
 use crate::live::args::LiveArguments;
 use crate::motion::MotionArguments;
@@ -49,6 +51,8 @@ pub(crate) enum Command {
     Convert(ConvertArguments),
     /// Say what recordings hold: rows, rate, gaps, topics, and columns with units as they are understood
     Info(InfoArguments),
+    /// Say what a recording tells of the sensor itself: noise, drift, mains, channels at fault
+    Health(HealthArguments),
     /// Write a recording that was cut or damaged anew, as far as it is whole
     Recover(RecoverArguments),
     /// Serve a simulated fingertip over the protocol of a real sensor
@@ -59,6 +63,8 @@ pub(crate) enum Command {
     Calibrate(Box<CalibrateArguments>),
     /// Test a calibration on loads that it has not seen
     Check(CheckArguments),
+    /// Make a calibration of a plain matrix (CSV, NumPy), of an ATI .cal, or of TOML written by hand
+    Import(ImportArguments),
     /// Give a calibration a new zero from a recording at rest
     Tare(TareArguments),
     /// Say which loads to apply, and how many are enough

@@ -70,6 +70,9 @@ pub(crate) enum CliError {
     /// A table of loads, of poses or of rest cannot be used.
     #[error("{path}: {message}", path = .path.display())]
     Calibrate { path: PathBuf, message: String },
+    /// Readings of the sensor are wrong.
+    #[error("the sensor in {path} gives wrong readings: {reason}", path = .path.display())]
+    Unhealthy { path: PathBuf, reason: String },
     /// A calibration that was fitted is not worth having.
     #[error(
         "the calibration {path} is bad: {reason}; mend the loads that the report names, or take it as it is with \

@@ -15,6 +15,7 @@ mod export;
 mod felt;
 mod gauge_rows;
 mod geometry;
+mod health;
 mod info;
 mod input;
 mod live;
@@ -70,12 +71,14 @@ pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) ->
         Command::Design(arguments) => design::run(&arguments),
         Command::Calibrate(arguments) => calibrate::calibrate(&arguments),
         Command::Check(arguments) => calibrate::check::run(&arguments),
+        Command::Import(arguments) => calibrate::import::run(&arguments),
         Command::Tare(arguments) => calibrate::tare::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Geometry(arguments) => geometry::run(&arguments),
         Command::Motion(arguments) => motion::run(&arguments),
         Command::Refine(arguments) => refine::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
+        Command::Health(arguments) => health::run(&arguments),
         Command::Recover(arguments) => recover::run(&arguments),
         Command::Completions(arguments) => shell::completions(&arguments, Arguments::command()),
         Command::Man(arguments) => shell::man(&arguments, Arguments::command()),

@@ -282,6 +282,23 @@ impl Layout {
         &self.left_out
     }
 
+    /// The names of the columns of a sensor's signals as they stand in the file, its dummy gauge last.
+    #[must_use]
+    pub fn names_of_signals(&self, columns: &SignalColumns) -> Vec<&str> {
+        columns.slots.iter().chain(&columns.dummy).map(|slot| self.name_of(*slot)).collect()
+    }
+
+    /// The names of the columns of a wrench as they stand in the file.
+    #[must_use]
+    pub fn names_of_wrench(&self, columns: &WrenchColumns) -> [&str; 6] {
+        columns.slots.map(|slot| self.name_of(slot))
+    }
+
+    fn name_of(&self, slot: usize) -> &str {
+        let column = self.used.get(slot).map(|used| used.column);
+        column.and_then(|column| self.columns.get(column)).map_or("", String::as_str)
+    }
+
     /// Columns that no sensor uses.
     pub fn ignored(&self) -> impl Iterator<Item = &str> {
         self.columns.iter().enumerate().filter_map(|(index, name)| {

@@ -1,6 +1,6 @@
 #![doc = include_str!("../README.md")]
 
-#[cfg(feature = "mcap")]
+#[cfg(any(feature = "health", feature = "mcap"))]
 extern crate alloc;
 
 mod bounded;
@@ -8,6 +8,8 @@ mod cell;
 mod column_name;
 mod columns;
 mod error;
+#[cfg(feature = "health")]
+pub mod health;
 mod layout;
 #[cfg(feature = "mcap")]
 pub mod mcap;
@@ -17,6 +19,7 @@ mod row;
 mod start;
 mod table;
 mod time_watch;
+mod timing;
 mod unit;
 mod writer;
 
@@ -29,5 +32,6 @@ pub use quality::{FaultCount, Quality};
 pub use reader::{ReaderOptions, RecordingReader, RenamedColumn};
 pub use row::{Row, RowMarks};
 pub use table::TableReader;
+pub use timing::Timing;
 pub use unit::SignalUnit;
 pub use writer::{RecordingWriter, Schema};

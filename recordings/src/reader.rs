@@ -12,7 +12,8 @@ use crate::layout::{AssumedUnits, Layout, UsedColumn, shortened};
 use crate::quality::{FaultCount, Quality};
 use crate::row::{Row, RowMarks};
 use crate::table::TableReader;
-use crate::time_watch::{Step, TimeWatch};
+use crate::time_watch::Step;
+use crate::timing::Timing;
 
 /// How a recording is read.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +40,7 @@ pub struct RenamedColumn {
 
 impl Default for ReaderOptions {
     fn default() -> Self {
-        Self { assumed_units: AssumedUnits::default(), gap_factor: 1.5, renamed: Vec::new() }
+        Self { assumed_units: AssumedUnits::default(), gap_factor: Timing::GAP_FACTOR, renamed: Vec::new() }
     }
 }
 
@@ -47,7 +48,7 @@ impl Default for ReaderOptions {
 pub struct RecordingReader<R> {
     table: TableReader<R>,
     layout: Layout,
-    time_watch: TimeWatch,
+    timing: Timing,
     values: Vec<f64>,
     last_values: Vec<f64>,
     /// Whether the line before was a row, with which the next one can be compared.
@@ -143,7 +144,7 @@ impl<R: Read> RecordingReader<R> {
             last_values: values.clone(),
             values,
             layout,
-            time_watch: TimeWatch::new(options.gap_factor),
+            timing: Timing::with_gap_factor(options.gap_factor),
             follows: false,
             quality: Quality::default(),
         })
@@ -181,6 +182,12 @@ impl<R: Read> RecordingReader<R> {
     #[must_use]
     pub const fn quality(&self) -> &Quality {
         &self.quality
+    }
+
+    /// Rate, jitter and gaps so far.
+    #[must_use]
+    pub const fn timing(&self) -> &Timing {
+        &self.timing
     }
 
     /// What errors call the file.
@@ -242,15 +249,15 @@ impl<R: Read> RecordingReader<R> {
             match Cell::read(&self.table.record, used) {
                 Cell::Number(number) => {
                     time = Some(number);
-                    match self.time_watch.step_to(number) {
-                        Step::First => {}
-                        Step::Usual(step) => time_step = Some(step),
-                        Step::Gap(step) => {
+                    match self.timing.judge(number) {
+                        Some(Step::First) | None => {}
+                        Some(Step::Usual(step)) => time_step = Some(step),
+                        Some(Step::Gap(step)) => {
                             time_step = Some(step);
                             marks.gap = true;
                         }
-                        Step::Same if same => marks.repeated = true,
-                        Step::Same | Step::Backward => marks.backward = true,
+                        Some(Step::Same) if same => marks.repeated = true,
+                        Some(Step::Same | Step::Backward) => marks.backward = true,
                     }
                     marks.held = same && time_step.is_some();
                 }

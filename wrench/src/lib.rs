@@ -7,6 +7,7 @@ compile_error!("fingertip-wrench needs one of the features `std` and `libm` for 
 #[cfg(feature = "serde")]
 mod array_in_file;
 mod gauges;
+mod health;
 mod load;
 #[doc(hidden)]
 pub mod numeric;
@@ -17,10 +18,8 @@ pub mod units;
 mod zero;
 
 pub use gauges::gauge_layout;
-pub use gauges::{
-    BadCheck, BadLimits, ChannelFault, ChannelLimits, ChannelMonitor, ConsistencyCheck, DriftMonitor, Fault,
-    SensorMatrix, SensorMatrixError, Verdict,
-};
+pub use gauges::{BadCheck, ConsistencyCheck, DriftMonitor, Fault, SensorMatrix, SensorMatrixError, Verdict};
+pub use health::{AllanVariance, BadLimits, ChannelFault, ChannelLimits, ChannelMonitor, Resolution};
 pub use load::{
     BadNormal, ContactForce, ContactFrame, ContactLoad, Frame, Line, LineOfAction, NoLineOfAction,
     RigidTransform, Sensor, TangentialForce, TransformError, Wrench, scaled_length, tangents,

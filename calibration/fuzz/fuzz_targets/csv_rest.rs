@@ -13,7 +13,7 @@ fuzz_target!(|bytes: &[u8]| {
     let matrix = DMatrix::identity(rest.signals.ncols(), 3);
     let zero = vec![0.0; rest.signals.ncols()];
     let Ok(file) = CalibrationFile::new(matrix, vec![1.0; 3], zero, rest.unit) else { return };
-    if let Ok(tared) = file.tared(bytes, None) {
+    if let Ok(tared) = file.tared(bytes, None, false) {
         assert!(tared.file.validate().is_ok());
         assert_eq!(tared.samples, rest.signals.nrows());
         assert!(tared.load_before.iter().chain(&tared.moved).all(|number| number.is_finite()));

@@ -15,6 +15,12 @@ pub enum ReadError {
     /// The file cannot be opened.
     #[error("cannot be read: {0}")]
     Io(#[from] io::Error),
+    /// A plain matrix, which does not say what it is.
+    #[error(
+        "a plain matrix says neither its units nor which way it goes; make it a calibration by `fingertip import`, where you \
+         say them"
+    )]
+    Plain,
     /// It is not as our format is.
     #[error(transparent)]
     File(#[from] FileError),
@@ -29,6 +35,10 @@ pub enum ReadError {
 /// [`ReadError`], which does not name the file.
 pub fn read_calibration(path: impl AsRef<Path>) -> Result<CalibrationFile, ReadError> {
     let path = path.as_ref();
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    if matches!(ending.as_deref(), Some("csv" | "npy" | "txt")) {
+        return Err(ReadError::Plain);
+    }
     let text = read_text(path)?;
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("cal")) {
         return Ok(AtiCalibration::from_xml(&text)?.to_calibration()?);

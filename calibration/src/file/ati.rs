@@ -7,6 +7,9 @@ use super::{AtiError, CalibrationFile, FileError, Provenance, Quality, SignalUni
 use crate::linear::pseudo_inverse;
 use crate::{Axis, TOOL};
 
+/// Why a calibration is to be tared, which a tare takes away.
+pub(crate) const UNTARED: &str = "a .cal file tells no zero: tare before use";
+
 /// What an ATI `.cal` file says: the matrix from gauge volts to loads, in the units of the file.
 ///
 /// The older layout has six `Axis` elements, scaled, about an inner origin, and a `BasicTransform`
@@ -142,7 +145,7 @@ impl AtiCalibration {
         };
         file.quality = Quality {
             verdict: Verdict::Unchecked,
-            reasons: vec!["a .cal file tells neither zero nor accuracy: tare before use".to_owned()],
+            reasons: vec![UNTARED.to_owned(), "a .cal file does not tell its accuracy".to_owned()],
             ..Quality::default()
         };
         file.validate()?;

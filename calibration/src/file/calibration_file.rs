@@ -68,8 +68,10 @@ pub struct CalibrationFile {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub temperature: Option<Temperature>,
     /// Where the calibration comes from.
+    #[serde(default)]
     pub provenance: Provenance,
     /// How good it is.
+    #[serde(default)]
     pub quality: Quality,
 }
 

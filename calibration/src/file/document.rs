@@ -11,8 +11,8 @@ use super::checksum::checksum;
 /// The version of the formats that this library reads and writes.
 pub const VERSION: i64 = 1;
 
-/// Takes version and checksum off the front: the fields, and the checksum that the file claims.
-pub(super) fn open(text: &str) -> Result<(Table, String), FileError> {
+/// Takes version and checksum off the front: the fields, and the checksum that the file claims, if it does.
+pub(super) fn open(text: &str) -> Result<(Table, Option<String>), FileError> {
     let mut table: Table = text.parse().map_err(malformed)?;
     match table.remove("version") {
         Some(Value::Integer(VERSION)) => {}
@@ -21,9 +21,9 @@ pub(super) fn open(text: &str) -> Result<(Table, String), FileError> {
         None => return Err(malformed("missing field `version`")),
     }
     match table.remove("checksum") {
-        Some(Value::String(found)) => Ok((table, found)),
+        Some(Value::String(found)) => Ok((table, Some(found))),
         Some(_) => Err(malformed("field `checksum` is not a text")),
-        None => Err(malformed("missing field `checksum`")),
+        None => Ok((table, None)),
     }
 }
 

@@ -10,7 +10,7 @@ use toml::Value;
 
 use super::bounded::read_text;
 use super::document::{compare, malformed, open, write};
-use super::{FileError, Provenance};
+use super::{FileError, Provenance, Verdict};
 
 /// Mass, centre of mass and zero of a sensor that carries a body, and how it sits on its flange: what
 /// takes the weight off a measured wrench wherever the hand turns.
@@ -71,6 +71,14 @@ pub struct PayloadQuality {
     pub rms: [f64; 6],
     /// What to mind.
     pub warnings: Vec<String>,
+    /// Whether it can be trusted.
+    #[serde(skip_serializing_if = "is_unchecked")]
+    pub verdict: Verdict,
+}
+
+/// Files of before say nothing of it.
+fn is_unchecked(verdict: &Verdict) -> bool {
+    *verdict == Verdict::Unchecked
 }
 
 const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -195,7 +203,7 @@ impl PayloadFile {
         let (table, checksum) = open(text)?;
         let file: Self = Value::Table(table).try_into().map_err(malformed)?;
         file.validate()?;
-        compare(&file, checksum)?;
+        compare(&file, checksum.ok_or_else(|| malformed("missing field `checksum`"))?)?;
         Ok(file)
     }
 

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 use super::error::PayloadError;
 use super::payload_parts::{Centre, Weight};
 use super::poses::{Pose, turn, unit};
-use crate::file::{FileError, PayloadFile, PayloadQuality};
+use crate::file::{FileError, PayloadFile, PayloadQuality, Verdict};
 use crate::fit::{Fit, least_squares};
 use crate::linear::Singular;
 
@@ -136,10 +136,30 @@ impl PayloadFit {
             centre_deviation: self.centre_deviation.into(),
             rms: self.rms,
             warnings: self.warnings.clone(),
+            verdict: self.verdict(),
         };
         file.provenance.method = "gravity in several poses".to_owned();
         file.validate()?;
         Ok(file)
+    }
+
+    /// Whether it can be trusted: bad if frames seem to be mixed, if the poses are too alike, or if a tenth of the weight is
+    /// left or not known; suspect if there is anything else to mind.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        let weight = self.weight.norm();
+        let left = self.rms.iter().take(3).map(|rms| rms * rms).sum::<f64>().sqrt();
+        let is_bad = 3.0 * self.rms_if_in_base < left
+            || self.condition_number > 30.0
+            || self.weight_deviation > 0.1 * weight
+            || left > 0.1 * weight;
+        if is_bad {
+            Verdict::Bad
+        } else if self.warnings.is_empty() {
+            Verdict::Good
+        } else {
+            Verdict::Suspect
+        }
     }
 
     fn rate(&mut self, poses: &[Pose], design: &DMatrix<f64>, fit: &Fit) {

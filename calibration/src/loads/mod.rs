@@ -4,6 +4,7 @@ mod carrying;
 mod columns;
 mod header;
 mod merge;
+mod plausible;
 mod reader;
 mod rest;
 mod table;

@@ -46,8 +46,23 @@ pub enum CalibrationError {
         /// The same for the linear model.
         linear: f64,
     },
+    /// Gauges never change, and too few are left.
+    #[error(
+        "{dead}, and the {left} other gauges are too few for {axes} components; mend the wiring, or leave some components out"
+    )]
+    DeadGauges {
+        /// Which are, in words.
+        dead: String,
+        /// How many gauges are left.
+        left: usize,
+        /// How many components the loads have.
+        axes: usize,
+    },
     /// The fitted matrix cannot be inverted.
-    #[error("the fitted matrix has no inverse: some load gives no signal")]
+    #[error(
+        "the fitted matrix has no inverse: some load gives no signal; fewer gauges than components, or two gauges that \
+         read the same, cannot tell the loads apart"
+    )]
     Singular,
 }
 

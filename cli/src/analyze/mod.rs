@@ -15,6 +15,7 @@ use fingertip_recordings::Quality;
 use fingertip_scene::{Pipeline, Scene};
 
 use crate::error::CliError;
+use crate::health::{WatchedRows, seen};
 use crate::observe::{Observations, Status};
 use crate::report::{self, used::Given};
 use crate::scene;
@@ -86,8 +87,15 @@ impl<S: Sink> Pass<'_, S> {
     fn run(self) -> Result<Observations, CliError> {
         let mut pipeline = self.scene.pipeline();
         let mut observations = Observations::new(*self.scene.projection());
+        let (sensor, calibrated) = (self.source.sensor(), self.source.is_calibrated());
+        // The health of the sensor, as far as that costs little.
+        let watched = WatchedRows::brief(self.reader.layout(), sensor, calibrated);
+        let mut watched =
+            watched.map_err(|problem| CliError::Recording(self.reader.header_error(problem)))?;
+        watched.limit(sensor, self.scene.calibration().and_then(|file| file.range));
         while let Some(row) = self.reader.next_row()? {
             let (time, time_step) = self.source.clock(&row);
+            watched.add(&row);
             if row.marks().gap {
                 pipeline.start_anew();
             }
@@ -113,6 +121,7 @@ impl<S: Sink> Pass<'_, S> {
                 rows: observations.count_of(Status::Rest),
             });
         }
+        seen(&watched.finish()).into_iter().for_each(|fault| self.source.note(fault));
         Ok(observations)
     }
 }

@@ -163,6 +163,9 @@ pub(crate) struct TareArguments {
     /// Temperature at which all of it was recorded, if there is no column temperature_C
     #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true)]
     pub(crate) celsius: Option<f64>,
+    /// Take the zero although the sensor moved
+    #[arg(long)]
+    pub(crate) accept_motion: bool,
     /// Where to write the calibration with its new zero
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,

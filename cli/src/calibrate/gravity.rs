@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use fingertip_calibration::gravity::{PayloadOptions, fit_orientation, fit_payload, poses_from_csv};
+use fingertip_calibration::gravity::{
+    FrameTrial, Frames, PayloadOptions, fit_orientation, fit_payload, poses_from_csv, try_frames,
+};
 use nalgebra::Vector3;
 
 use super::args::{CalibrateArguments, SensorAxis};
@@ -20,6 +22,7 @@ pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), Cli
     if arguments.reaction {
         poses.iter_mut().for_each(|pose| pose.wrench.neg_mut());
     }
+    let recorded = poses.clone();
     if arguments.wrench_in_base {
         poses = poses.iter().map(|pose| pose.with_wrench_in_base(&pose.wrench)).collect();
     }
@@ -46,7 +49,18 @@ pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), Cli
         SensorAxis::Y => Vector3::y(),
         SensorAxis::Z => Vector3::z(),
     });
-    let fit = fit_payload(&poses, &options).map_err(|error| fault(&error))?;
+    let fit = fit_payload(&poses, &options).map_err(|error| {
+        let tried = if arguments.fit_mounting { Vec::new() } else { try_frames(&recorded, &options) };
+        match tried.first() {
+            Some(best) => fault(&format!(
+                "{error}; with {} only {:.5} N would be left: {}",
+                best.frames,
+                best.rms,
+                mend(best.frames)
+            )),
+            None => fault(&error),
+        }
+    })?;
     let mut file = fit.to_file(poses.len()).map_err(|error| fault(&error))?;
     if let Some(turn) = mounting {
         file.sensor_from_flange = core::array::from_fn(|i| core::array::from_fn(|j| turn[(i, j)]));
@@ -87,7 +101,36 @@ pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), Cli
     ));
     let rms: Vec<String> = fit.rms.iter().map(|rms| format!("{rms:.5}")).collect();
     text.push_str(&format!("RMS left        {} (N, N·m)\n", rms.join(" ")));
-    outputs.say(&text, &fit.warnings)
+    let mut notes = fit.warnings.clone();
+    if !arguments.fit_mounting {
+        let stated = Frames { wrench_in_base: arguments.wrench_in_base, inverse: false };
+        notes.extend(better_frames(&try_frames(&recorded, &options), stated, &mut text));
+    }
+    text.insert_str(0, &format!("Payload: {}\n", fit.verdict().name().to_uppercase()));
+    outputs.say(&text, &notes)
+}
+
+/// Says what is left of the force if the frames are as stated and in the best other way, and which to state if that is
+/// much better.
+fn better_frames(trials: &[FrameTrial], stated: Frames, text: &mut String) -> Option<String> {
+    let of = |trial: &&FrameTrial| trial.frames == stated;
+    let as_stated = trials.iter().find(of)?;
+    let other = trials.iter().find(|trial| !of(trial))?;
+    text.push_str(&format!(
+        "frames          as stated {:.5} N are left; best otherwise: {:.5} N with {}\n",
+        as_stated.rms, other.rms, other.frames
+    ));
+    let is_better = 2.0 * other.rms < as_stated.rms;
+    is_better.then(|| format!("the frames seem to be {}: {}", other.frames, mend(other.frames)))
+}
+
+/// How to say that the frames are so.
+const fn mend(frames: Frames) -> &'static str {
+    match (frames.wrench_in_base, frames.inverse) {
+        (_, true) => "turn the quaternions round (the signs of qx, qy, qz)",
+        (true, false) => "state --wrench-in-base",
+        (false, false) => "leave out --wrench-in-base",
+    }
 }
 
 fn triple(v: &Vector3<f64>, scale: f64) -> String {

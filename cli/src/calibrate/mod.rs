@@ -4,6 +4,7 @@ pub(crate) mod args;
 pub(crate) mod check;
 pub(crate) mod files;
 mod gravity;
+pub(crate) mod import;
 mod stream;
 pub(crate) mod tare;
 mod touches;
@@ -16,6 +17,7 @@ use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{Direction, Limits, Method, Options};
 
 use crate::error::CliError;
+use crate::health::{of_table, seen_in_loads};
 use crate::output::Outputs;
 use args::{CalibrateArguments, FitMethod};
 use files::{bad, read_calibration, read_loads, read_payload, write_reports};
@@ -39,9 +41,18 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
     let first = arguments.loads.first().cloned().unwrap_or_default();
     let fault = |error: &dyn core::fmt::Display| bad(&first, &error);
     let mut table = LoadTable::merged(&sessions).map_err(|error| fault(&error))?;
+    notes.extend(seen_in_loads(&of_table(&table.signals, table.signal_unit, range(arguments))));
     if let Some(path) = &arguments.payload {
         let payload = read_payload(path)?;
         table.loads = table.carrying(&payload, false).map_err(|error| fault(&error))?.loads;
+    }
+    let (table, unloaded) = table.of_loaded_axes();
+    if !unloaded.is_empty() {
+        let names: Vec<String> = unloaded.iter().map(ToString::to_string).collect();
+        let names = names.join(", ");
+        notes.push(format!(
+            "{names}: no load has any, so the calibration is for the other components alone; under such a load it reads falsely"
+        ));
     }
     let options = options(arguments, &table)?;
     let calibration = fit(&table, &options).map_err(|error| fault(&error))?;

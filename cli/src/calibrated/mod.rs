@@ -43,6 +43,11 @@ impl<'a> Calibration<'a> {
         self.file.gauges()
     }
 
+    /// The range of its readings.
+    pub(crate) const fn range(&self) -> Option<[f64; 2]> {
+        self.file.range
+    }
+
     /// For readings; what is to be minded about it is added to `notes`.
     pub(crate) fn of(&self, readings: &Readings, notes: &mut Vec<String>) -> Result<Sensor<f64>, CliError> {
         let Readings { unit, has_dummy, has_rest, has_temperature } = *readings;
@@ -59,6 +64,11 @@ impl<'a> Calibration<'a> {
             let quality = &file.quality;
             let reasons = quality.reasons.join("; ");
             notes.push(format!("the calibration calls itself {}: {reasons}", quality.verdict.name()));
+        }
+        if file.quality.verdict == Verdict::Unchecked {
+            // A rest gives the zero that it may lack.
+            let counts = |reason: &&String| !(has_rest && reason.contains("tare before use"));
+            notes.extend(file.quality.reasons.iter().filter(counts).cloned());
         }
         match &file.temperature {
             Some(drift) if !has_temperature => {

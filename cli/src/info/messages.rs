@@ -2,6 +2,7 @@
 
 use alloc::collections::BTreeMap;
 
+use fingertip_recordings::Timing;
 use fingertip_recordings::mcap::{McapError, Recorded};
 
 use super::{Info, Topic};
@@ -11,7 +12,8 @@ use crate::recording_file::{cut, mcap};
 
 pub(super) fn of(input: &Input) -> Result<Info, CliError> {
     let mut info = Info { file: input.name(), format: "mcap", ..Info::default() };
-    let mut topics: BTreeMap<String, Topic> = BTreeMap::new();
+    let mut topics: BTreeMap<String, (Topic, Timing)> = BTreeMap::new();
+    let mut timing = Timing::default();
     let mut reader = input.entries()?;
     let mut damaged = 0_u64;
     loop {
@@ -28,26 +30,25 @@ pub(super) fn of(input: &Input) -> Result<Info, CliError> {
             }
             Err(error) => return Err(mcap(input.path(), &error)),
         };
-        info.steps.add(entry.time);
+        timing.add(entry.time);
         let name = entry.topic;
-        let topic = topics.entry(name).or_insert_with_key(|name| Topic {
-            name: name.clone(),
-            holds: holds(&entry.recorded),
-            frame: entry.frame,
-            messages: 0,
-            steps: super::Steps::default(),
+        let (topic, times) = topics.entry(name).or_insert_with_key(|name| {
+            let holds = holds(&entry.recorded);
+            let topic = Topic { name: name.clone(), holds, frame: entry.frame, ..Topic::default() };
+            (topic, Timing::default())
         });
         topic.messages += 1;
-        topic.steps.add(entry.time);
+        times.add(entry.time);
     }
     info.samples = reader.messages();
     if damaged > 0 {
         info.notes.push(format!("{damaged} messages are not what their definition says"));
     }
-    info.topics = topics.into_values().collect();
+    let said = |(topic, times): (Topic, Timing)| Topic { steps: (&times).into(), ..topic };
+    info.topics = topics.into_values().map(said).collect();
     // Of several topics beside one another the times of all say nothing.
-    if info.topics.len() > 1 {
-        info.steps = super::Steps::default();
+    if info.topics.len() <= 1 {
+        info.steps = (&timing).into();
     }
     Ok(info)
 }

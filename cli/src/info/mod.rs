@@ -3,7 +3,7 @@
 mod columns;
 mod messages;
 mod rows;
-mod steps;
+pub(crate) mod steps;
 
 use core::fmt::Write as _;
 use std::path::PathBuf;
@@ -53,7 +53,7 @@ struct Column {
     meaning: String,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 struct Topic {
     name: String,
     holds: String,

@@ -11,11 +11,8 @@ pub(super) fn of(input: &mut Input) -> Result<Info, CliError> {
     let layout = reader.layout().clone();
     let mut info =
         Info { file: input.name(), format: "csv", columns: columns::of(&layout), ..Info::default() };
-    while let Some(row) = reader.next_row()? {
-        if let Some(time) = row.time() {
-            info.steps.add(time);
-        }
-    }
+    while reader.next_row()?.is_some() {}
+    info.steps = reader.timing().into();
     let quality = reader.quality();
     info.samples = quality.rows;
     for left_out in layout.left_out() {

@@ -1,20 +1,16 @@
-//! The times of samples: how many a second, how evenly.
+//! The times of samples in words: how many a second, how evenly.
 
 use core::fmt::Write as _;
 
+use fingertip_recordings::Timing;
 use serde::Serialize;
 
 use super::seconds;
 use crate::table::{count, short};
 
-/// A step above this many times the mean of those before is a gap, as readers have it of the median.
-const GAP: f64 = 1.5;
-/// So many steps are looked at before one is called a gap.
-const USUAL: u64 = 8;
-
 /// What the times of samples tell.
 #[derive(Clone, Debug, Default, Serialize)]
-pub(super) struct Steps {
+pub(crate) struct Steps {
     /// \[s\]
     #[serde(rename = "start_s", skip_serializing_if = "Option::is_none")]
     first: Option<f64>,
@@ -34,45 +30,26 @@ pub(super) struct Steps {
     repeats: u64,
     /// Times before it.
     backward: u64,
-    #[serde(skip)]
-    usual: u64,
-    #[serde(skip)]
-    mean: f64,
-    #[serde(skip)]
-    squares: f64,
+}
+
+impl From<&Timing> for Steps {
+    fn from(timing: &Timing) -> Self {
+        Self {
+            first: timing.first(),
+            last: timing.last(),
+            rate: timing.rate(),
+            jitter: timing.jitter(),
+            gaps: timing.gaps(),
+            longest_gap: timing.longest_gap(),
+            repeats: timing.repeats(),
+            backward: timing.backward(),
+        }
+    }
 }
 
 impl Steps {
-    /// Takes the time of a sample \[s\].
-    pub(super) fn add(&mut self, time: f64) {
-        self.first.get_or_insert(time);
-        let Some(last) = self.last else {
-            self.last = Some(time);
-            return;
-        };
-        let step = time - last;
-        if step == 0.0 {
-            self.repeats += 1;
-        } else if step < 0.0 {
-            self.backward += 1;
-            return;
-        } else if self.usual >= USUAL && step > GAP * self.mean {
-            self.gaps += 1;
-            self.longest_gap = Some(self.longest_gap.map_or(step, |longest| longest.max(step)));
-        } else {
-            // Welford 1962.
-            self.usual += 1;
-            let off = step - self.mean;
-            self.mean += off / self.usual as f64;
-            self.squares += off * (step - self.mean);
-            self.rate = Some(self.mean.recip());
-            self.jitter = Some((self.squares / self.usual as f64).sqrt());
-        }
-        self.last = Some(time);
-    }
-
     /// In words, a line for times and one for what is uneven.
-    pub(super) fn said(&self, indent: &str) -> String {
+    pub(crate) fn said(&self, indent: &str) -> String {
         let (Some(first), Some(last)) = (self.first, self.last) else { return String::new() };
         let mut text = format!("{indent}from {} to {}", seconds(first), seconds(last));
         // Writing to a string cannot fail.
@@ -85,6 +62,15 @@ impl Steps {
             );
         }
         text.push('\n');
+        let uneven = self.uneven();
+        if !uneven.is_empty() {
+            let _ = writeln!(text, "{indent}{uneven}");
+        }
+        text
+    }
+
+    /// What is uneven, in one line; nothing if it is even.
+    pub(crate) fn uneven(&self) -> String {
         let mut uneven = Vec::new();
         if let Some(longest) = self.longest_gap {
             uneven.push(format!("{} gaps, the longest of {}", count(self.gaps), seconds(longest)));
@@ -95,33 +81,27 @@ impl Steps {
         if self.backward > 0 {
             uneven.push(format!("{} times go back", count(self.backward)));
         }
-        if !uneven.is_empty() {
-            let _ = writeln!(text, "{indent}{}", uneven.join("; "));
-        }
-        text
+        uneven.join("; ")
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use fingertip_recordings::Timing;
+
     use super::Steps;
 
     #[test]
-    fn gaps_repeats_and_steps_back_are_told_apart() {
-        let mut steps = Steps::default();
-        for k in 0..100 {
-            steps.add(f64::from(k) * 0.25);
-        }
-        for time in [24.75, 30.0, 29.0, 30.25] {
-            steps.add(time);
-        }
-        assert_eq!((steps.gaps, steps.repeats, steps.backward), (1, 1, 1));
-        assert_eq!((steps.longest_gap, steps.rate, steps.jitter), (Some(5.25), Some(4.0), Some(0.0)));
-        assert!(steps.said("").contains("4 samples/s, jitter 0 ms"), "{}", steps.said(""));
-        // Steps of 1 and 3 in turn, before any is called a gap: mean 2, deviation 1.
-        let mut uneven = Steps::default();
-        [0.0, 1.0, 4.0, 5.0, 8.0].into_iter().for_each(|time| uneven.add(time));
-        assert_eq!((uneven.rate, uneven.jitter, uneven.gaps), (Some(0.5), Some(1.0), 0));
-        assert_eq!(Steps::default().said(""), "");
+    fn gaps_repeats_and_steps_back_are_said() {
+        let mut timing = Timing::default();
+        let times = (0..100).map(|k| f64::from(k) * 0.25).chain([24.75, 30.0, 29.0, 29.25]);
+        times.for_each(|time| timing.add(time));
+        let steps = Steps::from(&timing);
+        let uneven = "1 gaps, the longest of 5.25 s; 1 times are those of the sample before; 1 times go back";
+        assert_eq!(steps.uneven(), uneven);
+        let said = steps.said("  ");
+        assert!(said.starts_with("  from 0 s to 29.2 s, 4 samples/s, jitter 0 ms"), "{said}");
+        assert!(said.ends_with(&format!("\n  {uneven}\n")), "{said}");
+        assert_eq!((Steps::default().said(""), Steps::default().uneven()), (String::new(), String::new()));
     }
 }

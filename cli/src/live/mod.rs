@@ -24,13 +24,19 @@ use state::{Health, State};
 use crate::calibrated::Calibration;
 use crate::error::CliError;
 use crate::felt::{Rest, SceneFeel};
+use crate::health::{of_wrench, seen};
+use crate::output::printable;
 use crate::scene;
 use crate::sensor::{self, Calibrating, Event, GaugesOf, SensorError, Stream, StreamOptions};
 use crate::stop::Stop;
+use fingertip::wrench::Wrench;
+use fingertip_recordings::health::{Depth, HealthWatch};
 use fingertip_scene::{Limit, Scene};
 
 /// How long a zero takes that is asked for by a key \[s\].
 const ZERO: f64 = 1.0;
+/// Behind so many samples the health of the sensor is judged again.
+const HEALTH_PERIOD: u64 = 2048;
 
 /// What the reader of samples and the view share.
 struct Shared {
@@ -121,6 +127,9 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
     ratatui::restore();
     shared.stop.ask();
     let read = reader.join().unwrap_or(Err(SensorError::Died));
+    for fault in &shared.state().seen {
+        eprintln!("warning: {}", printable(fault));
+    }
     shown.map_err(CliError::Terminal)?;
     read.map_err(fault)
 }
@@ -167,28 +176,31 @@ fn read(
     mut rest: Rest,
     mut feel: Option<SceneFeel>,
 ) -> Result<(), SensorError> {
+    let mut watch = HealthWatch::new(of_wrench(""), Depth::Brief);
     while !shared.stop.is_asked() {
         if shared.tare.swap(false, Ordering::Relaxed) {
             rest = Rest::new(Some(ZERO));
         }
         match stream.next()? {
-            Event::Sample(time, reading) => match rest.take(time, &reading.wrench)? {
-                Some(wrench) => {
-                    let touch = match &mut feel {
-                        Some(feel) => {
-                            if let Some(noise) = rest.noise().filter(|_| feel.awaits_noise()) {
-                                feel.know_noise(&noise);
+            Event::Sample(time, reading) => {
+                match rest.take(time, watched(&mut watch, shared, time, &reading.wrench))? {
+                    Some(wrench) => {
+                        let touch = match &mut feel {
+                            Some(feel) => {
+                                if let Some(noise) = rest.noise().filter(|_| feel.awaits_noise()) {
+                                    feel.know_noise(&noise);
+                                }
+                                feel.feel(time, &wrench)?
                             }
-                            feel.feel(time, &wrench)?
-                        }
-                        None => None,
-                    };
-                    let mut state = shared.state();
-                    state.sample(time, &wrench, touch, Instant::now());
-                    state.losses = stream.losses();
+                            None => None,
+                        };
+                        let mut state = shared.state();
+                        state.sample(time, &wrench, touch, Instant::now());
+                        state.losses = stream.losses();
+                    }
+                    None => shared.state().health = Health::Resting,
                 }
-                None => shared.state().health = Health::Resting,
-            },
+            }
             Event::Fault(why) => {
                 let mut state = shared.state();
                 state.faults += 1;
@@ -204,6 +216,21 @@ fn read(
         }
     }
     Ok(())
+}
+
+/// Looks at the health of the sensor, and every so often says what it sees.
+fn watched<'a>(
+    watch: &mut HealthWatch,
+    shared: &Shared,
+    time: f64,
+    wrench: &'a Wrench<f64>,
+) -> &'a Wrench<f64> {
+    watch.add(Some(time), wrench.components().as_slice());
+    if watch.samples().is_multiple_of(HEALTH_PERIOD) {
+        let seen = seen(&watch.finish());
+        shared.state().seen = seen;
+    }
+    wrench
 }
 
 /// Draws until the user has seen enough.
@@ -252,10 +279,9 @@ mod tests {
     use std::path::Path;
     use std::sync::Mutex;
 
-    use fingertip::wrench::Wrench;
     use nalgebra::Vector6;
 
-    use super::{Health, Rest, Shared, State, Stop, Stream, StreamOptions, read};
+    use super::{Health, Rest, Shared, State, Stop, Stream, StreamOptions, Wrench, read};
     use crate::felt::SceneFeel;
     use crate::sensor::{Feed, Losses, Next, Reading, SensorError};
 

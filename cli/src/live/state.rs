@@ -52,6 +52,8 @@ pub(super) struct State {
     pub(super) samples: u64,
     pub(super) faults: u64,
     pub(super) last_fault: Option<String>,
+    /// What is wrong with the sensor, as far as it was seen.
+    pub(super) seen: Vec<String>,
     pub(super) losses: Losses,
     pub(super) reconnections: u64,
     /// Samples a second, of the last whole stretch.
@@ -80,6 +82,7 @@ impl State {
             samples: 0,
             faults: 0,
             last_fault: None,
+            seen: Vec::new(),
             losses: Losses::default(),
             reconnections: 0,
             rate: 0.0,

@@ -111,6 +111,9 @@ fn statistics(state: &State) -> Line<'_> {
         let last = state.last_fault.as_deref().unwrap_or_default();
         spans.push(Span::raw(format!(", {} bad ({last})", count(state.faults))).red());
     }
+    if let Some(first) = state.seen.first() {
+        spans.push(Span::raw(format!(", sensor: {first}")).red());
+    }
     Line::from(spans)
 }
 
@@ -286,6 +289,13 @@ mod tests {
         let top =
             |t: f64| (Vector3::new(0.003 * t.cos(), 0.003 * t.sin(), 0.0095), Vector3::new(0.0, 0.0, -1.0));
         assert_accepted("live_cap.txt", &picture(&wandering(cap, 1e-3, top), (80, 24)));
+    }
+
+    #[test]
+    fn what_is_wrong_with_the_sensor_is_shown() {
+        let mut state = pressed(Vector3::new(-1.5, -1.2, 0.3), 100);
+        state.seen = vec!["fx is dead".to_owned(), "fy is dead".to_owned()];
+        assert!(picture(&state, (100, 24)).contains(", sensor: fx is dead"));
     }
 
     #[test]

@@ -1,116 +1,146 @@
-//! Channels that are stuck, sample by sample: from which reading on, and within which tolerance.
+//! Channels that are saturated, clipped or stuck, reading by reading.
 
-use fingertip_wrench::{BadLimits, ChannelFault, ChannelLimits, ChannelMonitor};
-use nalgebra::SVector;
+use fingertip_wrench::{BadLimits, ChannelFault, ChannelLimits, ChannelMonitor, Real};
 
-type Monitor = ChannelMonitor<f64, 3>;
-
-const TOLERANCE: f64 = 0.25;
-
-fn monitor(run: u16) -> Monitor {
-    ChannelMonitor::new(ChannelLimits::none(), SVector::repeat(TOLERANCE), run).expect("valid")
-}
-
-/// What is said of the second channel, which reads as given while the first moves at every reading.
-fn said(run: u16, readings: &[f64]) -> Vec<Option<ChannelFault>> {
-    let mut monitor = monitor(run);
-    readings
-        .iter()
-        .enumerate()
-        .map(|(i, reading)| monitor.update(&SVector::from([i as f64, *reading, -(i as f64)]))[1])
-        .collect()
-}
+use crate::support::{generator, normal};
 
 const STUCK: Option<ChannelFault> = Some(ChannelFault::Stuck);
 const HIGH: Option<ChannelFault> = Some(ChannelFault::PlateauHigh);
 const LOW: Option<ChannelFault> = Some(ChannelFault::PlateauLow);
 
+fn monitor<T: Real>() -> ChannelMonitor<T> {
+    ChannelMonitor::new(ChannelLimits::none())
+}
+
+/// What is said of readings in whole steps, with a noise of so many steps, of a level that `level` changes.
+fn said<T: Real>(noise: f64, readings: u32, level: impl Fn(u32, f64) -> f64) -> Vec<Option<ChannelFault>> {
+    let mut random = generator(17);
+    let mut monitor = monitor::<T>();
+    (0..readings)
+        .map(|i| {
+            let reading = level(i, noise * normal(&mut random)).round();
+            monitor.update(T::literal(reading * 0.125), true)
+        })
+        .collect()
+}
+
+/// The first reading that is faulty, and how many are.
+fn faults(said: &[Option<ChannelFault>], of: Option<ChannelFault>) -> (usize, usize) {
+    let first = said.iter().position(|fault| *fault == of).unwrap_or(usize::MAX);
+    assert!(said.iter().all(|fault| fault.is_none() || *fault == of), "another fault than {of:?}");
+    (first, said.iter().filter(|fault| **fault == of).count())
+}
+
 #[test]
-fn a_run_is_as_long_as_stated() {
-    for run in 2..6_u16 {
-        let found = said(run, &[7.0; 8]);
-        let wanted: Vec<_> = (1..=8).map(|nth| if nth >= run { STUCK } else { None }).collect();
-        assert_eq!(found, wanted, "run of {run}");
+fn plateaus_and_stuck_channels_are_told_apart() {
+    fn check<T: Real>() {
+        let wave = |i: u32| 400.0 * (f64::from(i) * 0.002).sin();
+        // Half of a wave is beyond, less what it takes to be sure: 12 readings of a noise of four steps.
+        let high = said::<T>(4.0, 20_000, |i, noise| (wave(i) + noise).min(0.0));
+        let (first, count) = faults(&high, HIGH);
+        assert!(first < 5000 && (8500..=10_000).contains(&count), "{first} {count}");
+        let low = said::<T>(4.0, 20_000, |i, noise| (wave(i) + noise).max(0.0));
+        assert!((8500..=10_000).contains(&faults(&low, LOW).1));
+        // A wire breaks at a value that is none of the extremes.
+        let stuck = said::<T>(4.0, 20_000, |i, noise| if i < 10_000 { wave(i) + noise } else { 37.0 });
+        let (first, count) = faults(&stuck, STUCK);
+        assert!((10_008..10_050).contains(&first) && count == 20_000 - first, "{first} {count}");
+        // Between two neighbouring values is as bad.
+        let between =
+            said::<T>(
+                4.0,
+                20_000,
+                |i, noise| if i < 10_000 { wave(i) + noise } else { 37.0 + f64::from(i % 7 % 2) },
+            );
+        assert!(faults(&between, STUCK).1 > 9900);
+        // Behind the fault the channel is sound at once.
+        let mended =
+            said::<T>(4.0, 20_000, |i, noise| if (8000..9000).contains(&i) { 37.0 } else { wave(i) + noise });
+        let (first, count) = faults(&mended, STUCK);
+        assert!((8008..8050).contains(&first) && (950..1000).contains(&count), "{first} {count}");
     }
+    check::<f64>();
+    check::<f32>();
 }
 
+/// Sound channels of all kinds: fine and coarse steps, at rest, in motion, and resting between motions.
 #[test]
-fn the_tolerance_is_no_motion_and_more_is() {
-    // Of the reading that the run began with: a creep of less than the tolerance ends where it adds up.
-    assert_eq!(said(3, &[1.0, 1.25, 1.0, 0.75, 1.25])[2..], [STUCK, LOW, HIGH]);
-    assert_eq!(said(3, &[1.0, 1.25, 1.26, 1.26, 1.26]), [None, None, None, None, HIGH]);
-    assert_eq!(said(3, &[1.0, 0.75, 0.74, 0.74, 0.74]), [None, None, None, None, LOW]);
-    assert_eq!(said(3, &[1.0, 1.3, 1.0, 1.3, 1.0]), [None; 5]);
-    // A run that is broken begins anew.
-    assert_eq!(said(3, &[1.0, 1.0, 5.0, 1.0, 1.0, 1.0]), [None, None, None, None, None, LOW]);
-}
-
-#[test]
-fn plateaus_are_extremes_to_within_the_tolerance() {
-    let plateau = |before: f64, reading: f64| said(3, &[0.0, before, reading, reading, reading])[4];
-    assert_eq!((plateau(-5.0, 5.0), plateau(5.0, -5.0), plateau(9.0, 5.0)), (HIGH, LOW, STUCK));
-    assert_eq!((plateau(5.25, 5.0), plateau(5.5, 5.0)), (HIGH, STUCK));
-    assert_eq!((plateau(-5.25, -5.0), plateau(-5.5, -5.0)), (LOW, STUCK));
-}
-
-#[test]
-fn a_channel_that_is_no_number_moves_and_is_no_extreme() {
-    let nan = f64::NAN;
-    let broken = Some(ChannelFault::NotFinite);
-    assert_eq!(said(3, &[5.0, nan, nan, nan, 5.0, 5.0, 5.0])[1..4], [broken; 3]);
-    assert_eq!(said(3, &[5.0, nan, nan, nan, 5.0, 5.0, 5.0])[4..], [None, None, STUCK]);
-    let infinite = f64::INFINITY;
-    assert_eq!(said(3, &[0.0, infinite, -infinite, 5.0, 5.0, 5.0])[5], HIGH);
-}
-
-#[test]
-fn readings_on_which_nothing_moves_do_not_count() {
-    let mut monitor = monitor(4);
-    let still = SVector::from([1.0, 2.0, 3.0]);
-    let moved = |x: f64| SVector::from([1.0 + x, 2.0, 3.0]);
-    (0..50).for_each(|_| assert_eq!(monitor.update(&still), [None; 3]));
-    // Two readings that move the first channel, and one more.
-    assert_eq!(monitor.update(&moved(1.0)), [None; 3]);
-    assert_eq!(monitor.update(&moved(2.0)), [None; 3]);
-    assert_eq!(monitor.update(&moved(2.0)), [None; 3]);
-    assert_eq!(monitor.update(&moved(3.0)), [None, STUCK, STUCK]);
-    // So long as nothing moves, a stuck channel stays one.
-    assert_eq!(monitor.update(&moved(3.0)), [None, STUCK, STUCK]);
-}
-
-#[test]
-fn a_known_limit_is_said_before_a_plateau() {
-    let limits = ChannelLimits::new(SVector::repeat(-1.0), SVector::repeat(8.0)).expect("valid");
-    let mut monitor = ChannelMonitor::new(limits, SVector::zeros(), 2).expect("valid");
-    let mut found = [None; 3];
-    for i in 0..5 {
-        found = monitor.update(&SVector::from([f64::from(i), 8.0, -1.0]));
-    }
-    assert_eq!(found, [None, Some(ChannelFault::SaturatedHigh), Some(ChannelFault::SaturatedLow)]);
-}
-
-#[test]
-fn without_limits_every_number_is_within() {
-    let raw = SVector::from([f64::MAX, -f64::MAX, 0.0]);
-    let none = ChannelLimits::<f64, 3>::none();
-    assert_eq!([0, 1, 2, 3].map(|channel| none.fault(&raw, channel)), [None; 4]);
-}
-
-#[test]
-fn limits_and_tolerances_that_are_none() {
-    for (least, greatest) in [(1.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (1.0, f64::NAN)] {
-        for channel in 0..3 {
-            let (mut from, mut to) = (SVector::<f64, 3>::repeat(0.0), SVector::repeat(5.0));
-            (from[channel], to[channel]) = (least, greatest);
-            assert_eq!(ChannelLimits::new(from, to), Err(BadLimits::Empty { channel }));
+fn a_sound_channel_is_not_accused() {
+    for (noise, ramp) in
+        [(0.0, 0.0), (0.05, 0.0), (0.3, 0.0), (0.5, 0.0), (0.7, 0.0), (1.5, 0.0), (40.0, 0.0)]
+            .into_iter()
+            .flat_map(|(noise, _)| [0.0, 0.01, 1.0, 20.0].map(|ramp| (noise, ramp)))
+    {
+        for rest in [0.0, 0.25, 0.5] {
+            let level = |i: u32, noise: f64| {
+                let phase = f64::from(i % 4000);
+                let moved = if phase < 1000.0 { phase } else { 1000.0 };
+                rest + ramp * moved + noise
+            };
+            let said = said::<f64>(noise, 60_000, level);
+            assert!(said.iter().all(Option::is_none), "noise {noise}, ramp {ramp}, rest {rest}");
         }
     }
-    let new = |tolerance: [f64; 3], run: u16| {
-        ChannelMonitor::new(ChannelLimits::none(), SVector::from(tolerance), run).err()
-    };
-    assert_eq!([new([0.0; 3], 2), new([0.5, 0.0, 1e9], u16::MAX)], [None; 2]);
-    for bad in [-1e-300, f64::NAN, f64::INFINITY] {
-        assert_eq!(new([0.0, 0.0, bad], 2), Some(BadLimits::BadTolerance { channel: 2 }));
+}
+
+#[test]
+fn what_nobody_witnesses_is_a_buffer_read_again() {
+    for (witness, expected) in [(true, STUCK), (false, None)] {
+        let mut random = generator(3);
+        let mut monitor = monitor::<f64>();
+        (0..2000).for_each(|_| assert_eq!(monitor.update(normal(&mut random), true), None));
+        let mut last = None;
+        (0..100).for_each(|_| last = monitor.update(0.5, witness));
+        assert_eq!((last, monitor.held(), monitor.held_between()), (expected, 100, [0.5, 0.5]));
+        // What is missing breaks it off.
+        monitor.interrupt();
+        assert_eq!((monitor.update(0.5, true), monitor.held()), (None, 1));
     }
-    assert_eq!(new([0.0; 3], 1), Some(BadLimits::BadTolerance { channel: 0 }));
+}
+
+#[test]
+fn noise_and_step_are_learnt_beside_motion() {
+    let mut random = generator(5);
+    let mut monitor = monitor::<f64>();
+    assert_eq!((monitor.noise(), monitor.step()), (None, None));
+    for i in 0..20_000 {
+        // A quarter of the time it moves, faster than its noise.
+        let moved = if i % 4000 < 1000 { 3.0 * f64::from(i % 4000) } else { 0.0 };
+        monitor.update((0.02 * normal(&mut random) / 0.01).round() * 0.01 + moved, true);
+    }
+    // With rounding: 2² + 1/12 steps. The lower quartile of blocks of 32 is a tenth below.
+    let expected = 0.01 * (4.0_f64 + 1.0 / 12.0).sqrt();
+    let noise = monitor.noise().expect("known");
+    assert!((0.8..1.05).contains(&(noise / expected)), "{noise} for {expected}");
+    assert!((monitor.step().expect("known") / 0.01 - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn limits_are_kept_to_and_come_first() {
+    let limits = ChannelLimits::new(-1.0, 8.0).expect("valid");
+    let said = [-1.0, -0.9, 8.0, f64::NAN, f64::INFINITY].map(|reading| limits.fault(reading));
+    let (low, high) = (Some(ChannelFault::SaturatedLow), Some(ChannelFault::SaturatedHigh));
+    let broken = Some(ChannelFault::NotFinite);
+    assert_eq!(said, [low, None, high, broken, broken]);
+    let none = ChannelLimits::none();
+    assert_eq!([f64::MAX, -f64::MAX, 0.0].map(|reading| none.fault(reading)), [None; 3]);
+    let mut random = generator(7);
+    let mut monitor = ChannelMonitor::new(limits);
+    (0..2000).for_each(|_| assert_eq!(monitor.update(4.0 + 0.1 * normal(&mut random), true), None));
+    (0..100).for_each(|_| assert_eq!(monitor.update(8.0, true), high));
+    assert_eq!(monitor.update(f64::NAN, true), broken);
+    assert_eq!(monitor.held(), 0);
+    for (least, greatest) in [(1.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (1.0, f64::NAN)] {
+        assert_eq!(ChannelLimits::new(least, greatest), Err(BadLimits::Empty));
+    }
+}
+
+#[test]
+fn any_readings_are_taken() {
+    let mut monitor = monitor::<f32>();
+    for i in 0..10_000_u32 {
+        // Bits in no order: subnormal, huge and broken ones among them.
+        let bits = i.wrapping_mul(0x9E37_79B9).rotate_left(i % 32);
+        monitor.update(f32::from_bits(bits), i.is_multiple_of(3));
+    }
 }

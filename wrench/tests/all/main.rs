@@ -4,6 +4,7 @@
 mod any_bits;
 mod bad_uncertainties;
 mod channel_limits;
+mod channel_noise;
 mod compensations;
 mod conditioning;
 mod consistency_limits;

@@ -3,8 +3,7 @@
 use crate::support::{generator, normal};
 use fingertip_test_support::recording_text;
 use fingertip_wrench::{
-    BadLimits, ChannelFault, ChannelLimits, ChannelMonitor, Compensation, NotAtRest, Real, RestTest, Tare,
-    TareAccumulator, TareError,
+    ChannelLimits, Compensation, NotAtRest, Real, RestTest, Tare, TareAccumulator, TareError,
 };
 use nalgebra::{SVector, Vector6};
 
@@ -199,85 +198,12 @@ fn moments_do_not_cancel() {
     moments::<f32>(1e3);
 }
 
-fn monitor(run: u16) -> ChannelMonitor<f64, 6> {
-    ChannelMonitor::new(ChannelLimits::none(), Vector6::repeat(1e-9), run).expect("valid")
-}
-
-#[test]
-fn known_limits_are_kept_to() {
-    let limits = ChannelLimits::new(Vector6::repeat(50.0), Vector6::repeat(950.0)).expect("valid");
-    let raw = Vector6::new(50.0, 50.5, 949.0, 950.0, f64::NAN, f64::NEG_INFINITY);
-    let expected = [
-        Some(ChannelFault::SaturatedLow),
-        None,
-        None,
-        Some(ChannelFault::SaturatedHigh),
-        Some(ChannelFault::NotFinite),
-        Some(ChannelFault::NotFinite),
-    ];
-    for (channel, expected) in expected.into_iter().enumerate() {
-        assert_eq!(limits.fault(&raw, channel), expected);
-    }
-    assert_eq!(limits.fault(&raw, 6), None);
-    let empty = ChannelLimits::new(Vector6::repeat(1.0), Vector6::new(2.0, 2.0, 1.0, 2.0, 2.0, 2.0));
-    assert_eq!(empty, Err(BadLimits::Empty { channel: 2 }));
-    for (tolerance, run) in [(-1.0, 5), (f64::NAN, 5), (0.0, 1)] {
-        let error = ChannelMonitor::new(ChannelLimits::none(), Vector6::repeat(tolerance), run).err();
-        assert_eq!(error, Some(BadLimits::BadTolerance { channel: 0 }));
-    }
-}
-
-#[test]
-fn plateaus_and_stuck_channels_are_told_apart() {
-    let mut random = generator(22);
-    let mut monitor = monitor(6);
-    let mut seen = [[0; 3]; 6];
-    for i in 0..5_000 {
-        let phase = f64::from(i) * 0.01 - 1.0;
-        let mut raw =
-            Vector6::from_fn(|channel, _| (phase + channel as f64).sin() + 1e-3 * normal(&mut random));
-        raw[1] = raw[1].min(0.6); // clips high
-        raw[2] = raw[2].max(-0.7); // clips low
-        if i > 2_000 {
-            raw[3] = 0.25; // a wire breaks
-        }
-        for (channel, fault) in monitor.update(&raw).into_iter().enumerate() {
-            match fault {
-                Some(ChannelFault::PlateauHigh) => seen[channel][0] += 1,
-                Some(ChannelFault::PlateauLow) => seen[channel][1] += 1,
-                Some(ChannelFault::Stuck) => seen[channel][2] += 1,
-                None => {}
-                other => panic!("{other:?}"),
-            }
-        }
-    }
-    let [sound, high, low, stuck, ..] = seen;
-    assert_eq!([sound, seen[4], seen[5]], [[0; 3]; 3]);
-    assert!(high[0] > 1_000 && high[1] + high[2] == 0, "{high:?}");
-    assert!(low[1] > 900 && low[0] + low[2] == 0, "{low:?}");
-    assert!(stuck[2] > 2_980 && stuck[0] + stuck[1] == 0, "{stuck:?}");
-}
-
-#[test]
-fn a_sensor_on_which_nothing_moves_is_not_stuck() {
-    let mut monitor = monitor(4);
-    for _ in 0..100 {
-        assert_eq!(monitor.update(&Vector6::repeat(0.5)), [None; 6]);
-    }
-    // A recovered channel is sound at once.
-    for i in 0..20 {
-        monitor.update(&Vector6::from_fn(|channel, _| if channel == 0 { 0.5 } else { f64::from(i) }));
-    }
-    let raw = Vector6::repeat(100.0);
-    assert_eq!(monitor.update(&raw), [None; 6]);
-}
-
 /// Poses of an 8-channel optical sensor, 13 of 60 beyond its linear range of 50 to 950 counts, well
 /// inside the 1024 of the converter.
 #[test]
 fn saturated_poses_of_a_real_sensor_are_found() {
     let Some(text) = recording_text("jonurce_fts8/poses.csv") else { return };
-    let limits = ChannelLimits::<f64, 8>::new(SVector::repeat(50.0), SVector::repeat(950.0)).expect("valid");
+    let limits = ChannelLimits::new(50.0, 950.0).expect("valid");
     let mut lines = text.lines();
     let names: Vec<&str> = lines.next().expect("a header").split(',').collect();
     let columns: Vec<usize> = (0..8)
@@ -290,7 +216,7 @@ fn saturated_poses_of_a_real_sensor_are_found() {
         .filter(|line| {
             let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect();
             let raw = SVector::<f64, 8>::from_fn(|channel, _| cells[columns[channel]]);
-            (0..8).any(|channel| limits.fault(&raw, channel).is_some())
+            raw.iter().any(|reading| limits.fault(*reading).is_some())
         })
         .count();
     assert_eq!(saturated, 13);

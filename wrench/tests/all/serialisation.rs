@@ -40,7 +40,7 @@ fn plain_data_survives() {
     survives(&RigidTransform::<f64, Sensor, Sensor>::from_axis_angle(turned, Vector3::x()).expect("finite"));
     survives(&Tare::new(Vector6::repeat(0.125_f32)));
     survives(&DummyGauge::new(Tare::new(Vector6::repeat(0.125)), 0.5).with_ratios(Vector6::repeat(0.9)));
-    survives(&ChannelLimits::new(Vector6::repeat(-1.0), Vector6::repeat(1.0)).expect("a range"));
+    survives(&ChannelLimits::new(-1.0, 1.0).expect("a range"));
     let tip = Payload::new(0.02, Vector3::new(0.015, 0.0, 0.0)).expect("a mass");
     survives(&tip);
     survives(&tip.with_inertia(Matrix3::identity() * 1e-6).expect("an inertia"));
@@ -70,9 +70,9 @@ fn what_a_constructor_refuses_a_file_cannot_bring_in() {
     // What is misspelt must not be passed over.
     let misspelt = refused(payload, "{", r#"{"gravitation":1,"#);
     assert!(from_str::<Payload<f64>>(&misspelt).unwrap_err().to_string().contains("`gravitation`"));
-    let limits = ChannelLimits::new(Vector6::repeat(-1.0), Vector6::repeat(1.0)).expect("a range");
+    let limits = ChannelLimits::new(-1.0, 1.0).expect("a range");
     let limits = refused(to_string(&limits).expect("writable"), "-1.0", "3.0");
-    assert!(from_str::<ChannelLimits<f64, 6>>(&limits).is_err());
+    assert!(from_str::<ChannelLimits<f64>>(&limits).is_err());
     let none = [SVector::<f64, 1>::zeros(); 1];
     let model = TemperatureCompensation::new(20.0, (0.0, 60.0), none, none).expect("a model");
     let model = refused(to_string(&model).expect("writable"), "60.0", "10.0");

@@ -1,0 +1,135 @@
+//! `fingertip health`: what a recording tells of the sensor itself.
+
+mod columns;
+mod page;
+mod pictures;
+mod words;
+
+use std::path::PathBuf;
+
+use clap::Args;
+use fingertip_recordings::health::{Depth, Health, Level};
+use fingertip_recordings::{HeaderProblem, ReaderOptions, RecordingReader};
+
+use crate::calibrated::Calibration;
+use crate::convert::McapAsCsv;
+use crate::error::CliError;
+use crate::gauge_rows::KnownTemperature;
+use crate::input::Input;
+use crate::output::{Outputs, Overwrite};
+use crate::progress::bar;
+use crate::recording_file::Kind;
+pub(crate) use columns::{WatchedRows, of_table, of_wrench};
+pub(crate) use words::{seen, seen_in_loads};
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Best is a recording of some seconds in which the sensor rests: that tells its noise, drift and lines. One with
+loads tells which channels are dead, stuck or clipped. Exit code 1: readings are wrong.")]
+pub(crate) struct HealthArguments {
+    /// The recording: .csv or .mcap; `-` is the standard input
+    #[arg(value_name = "FILE")]
+    recording: PathBuf,
+    /// The calibration, for a recording of signals: TOML, or an ATI .cal; figures are then given of the wrench, too
+    #[arg(long, value_name = "CAL")]
+    calibration: Option<PathBuf>,
+    /// Temperature of the whole recording, for a calibration that drifts with it and a recording without
+    /// column temperature_C
+    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true)]
+    celsius: Option<f64>,
+    /// This sensor alone: the prefix of its columns (S1 for S1_Fx_N)
+    #[arg(long, value_name = "PREFIX")]
+    sensor: Option<String>,
+    /// Of an MCAP file, this topic alone; several times for several
+    #[arg(long = "topic", value_name = "TOPIC")]
+    topics: Vec<String>,
+    /// Samples per second of a recording that has no column of time
+    #[arg(long, value_name = "HZ")]
+    rate: Option<f64>,
+    /// Write a page with pictures
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Write all figures as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
+}
+
+pub(crate) fn run(arguments: &HealthArguments) -> Result<(), CliError> {
+    let path = &arguments.recording;
+    let inputs = [Some(path), arguments.calibration.as_ref()];
+    let files = [arguments.html.as_ref(), arguments.json.as_ref()];
+    let outputs = Outputs::guard(
+        arguments.overwrite,
+        "output",
+        inputs.into_iter().flatten(),
+        files.into_iter().flatten(),
+    )?;
+    if let Some(rate) = arguments.rate.filter(|rate| !(*rate > 0.0 && rate.is_finite())) {
+        return Err(CliError::option("--rate", rate, "must be a number of samples a second above 0"));
+    }
+    let mut notes = Vec::new();
+    let (health, name) = watched(arguments, &mut notes)?;
+    let findings = words::findings(&health, &name, notes);
+    if let Some(path) = &arguments.html {
+        outputs.write("report", path, &page::of(&health, &findings))?;
+    }
+    if let Some(path) = &arguments.json {
+        let json = serde_json::to_string_pretty(&health);
+        let json = json.map_err(|error| CliError::write("report", path, error.into()))?;
+        outputs.write("report", path, &(json + "\n"))?;
+    }
+    outputs.say(&findings.to_string(), &[])?;
+    let worst = health.findings.first().filter(|finding| finding.level == Level::Bad);
+    match worst {
+        Some(worst) => Err(CliError::Unhealthy { path: path.clone(), reason: worst.said.clone() }),
+        None => Ok(()),
+    }
+}
+
+/// Everything that the recording shows, and its name.
+fn watched(arguments: &HealthArguments, notes: &mut Vec<String>) -> Result<(Health, String), CliError> {
+    let mut input = Input::open(&arguments.recording)?;
+    let bar = bar(input.length());
+    let text: Box<dyn std::io::Read> = match input.kind() {
+        Kind::Mcap => {
+            let file = bar.wrap_read(input.messages()?);
+            Box::new(McapAsCsv::new(file, &input, &arguments.topics, notes)?)
+        }
+        Kind::Csv => Box::new(bar.wrap_read(input.text()?)),
+    };
+    let mut reader = RecordingReader::with_options(input.name(), text, ReaderOptions::default())?;
+    let temperature = arguments
+        .celsius
+        .map(KnownTemperature::Constant)
+        .or_else(|| reader.watch("temperature_C").map(KnownTemperature::Column));
+    let layout = reader.layout().clone();
+    let header = |problem: HeaderProblem| CliError::Recording(reader.header_error(problem));
+    let calibration = arguments.calibration.as_deref().map(Calibration::read).transpose()?;
+    let mut rows = WatchedRows::of(&layout, arguments.sensor.as_deref(), Depth::Full).map_err(header)?;
+    if let Some(calibration) = &calibration {
+        rows =
+            rows.calibrated(&layout, arguments.sensor.as_deref(), calibration, temperature, notes, header)?;
+    }
+    if let Some(rate) = arguments.rate {
+        rows = rows.with_rate(rate);
+    }
+    for left_out in layout.left_out() {
+        notes.push(left_out.problem.to_string());
+    }
+    if !layout.has_time() && arguments.rate.is_none() {
+        notes.push(
+            "the recording has no column of time: times are numbers of samples; state --rate for a spectrum"
+                .to_owned(),
+        );
+    }
+    while let Some(row) = reader.next_row()? {
+        rows.add(&row);
+    }
+    bar.finish_and_clear();
+    if rows.samples() == 0 {
+        return Err(CliError::NoRows { path: arguments.recording.clone() });
+    }
+    Ok((rows.finish(), input.name()))
+}

@@ -1,0 +1,84 @@
+//! Stretches over which a channel stays where its noise would not let it.
+
+use fingertip_wrench::{ChannelFault, ChannelLimits, ChannelMonitor};
+
+/// A stretch over which a channel is at fault.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct HeldStretch {
+    /// When it began \[s\].
+    pub from: f64,
+    /// When it was last seen \[s\].
+    pub to: f64,
+    /// How many readings it has.
+    pub readings: u64,
+    /// The lowest reading in it.
+    pub low: f64,
+    /// The highest.
+    pub high: f64,
+    /// What is wrong.
+    pub fault: ChannelFault,
+}
+
+/// Watches one channel, and keeps how often it was at fault and where first.
+#[derive(Clone, Debug)]
+pub(super) struct HeldWatch {
+    monitor: ChannelMonitor<f64>,
+    /// The first stretches.
+    pub(super) stretches: Vec<HeldStretch>,
+    /// Readings at fault, those of stretches that are not kept included.
+    pub(super) readings: u64,
+    /// Readings that are NaN or infinite.
+    pub(super) not_finite: u64,
+    /// Whether the stretch that was kept last goes on.
+    goes_on: bool,
+}
+
+impl HeldWatch {
+    /// So many stretches are kept.
+    const MOST: usize = 16;
+
+    pub(super) fn new(limits: ChannelLimits<f64>) -> Self {
+        let monitor = ChannelMonitor::new(limits);
+        Self { monitor, stretches: Vec::new(), readings: 0, not_finite: 0, goes_on: false }
+    }
+
+    pub(super) const fn monitor(&self) -> &ChannelMonitor<f64> {
+        &self.monitor
+    }
+
+    pub(super) fn interrupt(&mut self) {
+        self.monitor.interrupt();
+        self.goes_on = false;
+    }
+
+    /// Takes a reading, and how long a sample lasts \[s\].
+    pub(super) fn add(&mut self, time: f64, reading: f64, others_change: bool, pace: f64) {
+        let fault = match self.monitor.update(reading, others_change) {
+            None => return self.goes_on = false,
+            Some(ChannelFault::NotFinite) => {
+                self.not_finite += 1;
+                return self.goes_on = false;
+            }
+            Some(fault) => fault,
+        };
+        if self.goes_on && self.stretches.last().is_some_and(|last| last.fault == fault) {
+            self.readings += 1;
+            if let Some(last) = self.stretches.last_mut() {
+                (last.to, last.readings) = (time, last.readings + 1);
+                (last.low, last.high) = (last.low.min(reading), last.high.max(reading));
+            }
+            return;
+        }
+        // What stays was at fault from its first reading on.
+        let saturated = matches!(fault, ChannelFault::SaturatedLow | ChannelFault::SaturatedHigh);
+        let readings = if saturated { 1 } else { u64::from(self.monitor.held()) };
+        let [low, high] = if saturated { [reading, reading] } else { self.monitor.held_between() };
+        self.readings += readings;
+        self.goes_on = self.stretches.len() < Self::MOST;
+        if self.goes_on {
+            let from = time - pace * (readings - 1) as f64;
+            self.stretches.push(HeldStretch { from, to: time, readings, low, high, fault });
+        }
+    }
+}

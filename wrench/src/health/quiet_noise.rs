@@ -1,0 +1,98 @@
+//! The noise of a channel while nothing moves, found among readings of which some move.
+
+use crate::Real;
+
+/// A running quantile of the noise of short blocks, among those that look like noise.
+///
+/// The noise of a block is its root mean square change from reading to reading over √2, which slow motion hardly
+/// enlarges. A block that moves further than noise of that size would, but for its largest change, is left out, and so is one that does not move
+/// at all. The quantile follows by steps of a share of itself (Robbins & Monro 1951), which become smaller.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct QuietNoise<T: Real> {
+    readings: u32,
+    squares: T,
+    /// The largest of the squares: of a jump it is all.
+    largest: T,
+    least: T,
+    greatest: T,
+    last: T,
+    /// The quantile of the variance.
+    variance: T,
+    blocks: u32,
+}
+
+impl<T: Real> QuietNoise<T> {
+    /// Readings a block.
+    const BLOCK: u32 = 32;
+    /// Blocks before the quantile is believed.
+    const FEWEST: u32 = 8;
+    /// The range of 32 independent normal readings is 4.1 ± 0.7 deviations; of noise that hangs together, more of
+    /// what its changes tell. A ramp has 44.
+    const WIDEST: f64 = 12.0;
+    /// Which quantile: some blocks hold what is no noise.
+    const SHARE: f64 = 0.25;
+
+    pub(super) fn new() -> Self {
+        let zero = T::zero();
+        Self {
+            readings: 0,
+            squares: zero,
+            largest: zero,
+            least: zero,
+            greatest: zero,
+            last: zero,
+            variance: zero,
+            blocks: 0,
+        }
+    }
+
+    /// Takes a finite reading; changes within `hold` are none.
+    pub(super) fn add(&mut self, reading: T, hold: T) {
+        if self.readings == 0 {
+            (self.squares, self.largest) = (T::zero(), T::zero());
+            (self.least, self.greatest) = (reading, reading);
+        } else {
+            let change = reading - self.last;
+            let square = change * change;
+            self.squares += square;
+            self.largest = self.largest.max(square);
+            self.least = self.least.min(reading);
+            self.greatest = self.greatest.max(reading);
+        }
+        self.last = reading;
+        self.readings += 1;
+        if self.readings == Self::BLOCK {
+            self.readings = 0;
+            self.end_block(hold);
+        }
+    }
+
+    /// A block that was begun is forgotten.
+    pub(super) fn interrupt(&mut self) {
+        self.readings = 0;
+    }
+
+    fn end_block(&mut self, hold: T) {
+        let changes = T::literal(f64::from(2 * (Self::BLOCK - 1)));
+        let (variance, without_jump) = (self.squares / changes, (self.squares - self.largest) / changes);
+        let range = self.greatest - self.least;
+        let looks_like_noise =
+            range > hold && range * range <= without_jump * T::literal(Self::WIDEST * Self::WIDEST);
+        if !looks_like_noise {
+            return;
+        }
+        self.blocks = self.blocks.saturating_add(1);
+        if self.blocks <= Self::FEWEST / 2 {
+            self.variance = if self.blocks == 1 { variance } else { self.variance.min(variance) };
+            return;
+        }
+        let pace = (2.0 / f64::from(self.blocks)).max(0.02);
+        let share = if variance < self.variance { Self::SHARE - 1.0 } else { Self::SHARE };
+        self.variance *= T::literal(1.0 + pace * share);
+    }
+
+    /// The variance of a reading at rest; `None` until enough quiet blocks are known.
+    pub(super) fn variance(&self) -> Option<T> {
+        (self.blocks >= Self::FEWEST).then_some(self.variance)
+    }
+}

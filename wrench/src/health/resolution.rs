@@ -1,0 +1,92 @@
+//! The steps in which a converter's readings come.
+
+use crate::Real;
+
+/// Finds the step of a channel from its readings alone.
+///
+/// The smallest change from reading to reading is taken for the step, and changes of a few steps are counted by whether
+/// they are whole multiples of it. Readings that were written with a few digits come in steps of the last digit.
+///
+/// ```
+/// use fingertip_wrench::Resolution;
+///
+/// let mut resolution = Resolution::<f64>::default();
+/// for i in 0..40_i32 {
+///     // A step of 0.25 V.
+///     resolution.add(0.25 * f64::from(i * i % 7));
+/// }
+/// assert_eq!(resolution.step(), Some(0.25));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resolution<T: Real> {
+    last: Option<T>,
+    /// The mean of the changes of one step; zero before the first change.
+    step: T,
+    singles: u32,
+    whole: u32,
+    broken: u32,
+    changes: u32,
+}
+
+impl<T: Real> Default for Resolution<T> {
+    fn default() -> Self {
+        Self { last: None, step: T::zero(), singles: 0, whole: 0, broken: 0, changes: 0 }
+    }
+}
+
+impl<T: Real> Resolution<T> {
+    /// Fewer small changes tell no step.
+    const FEWEST: u32 = 12;
+    /// Behind so many changes a step that does not show is finer than the noise.
+    const MANY: u32 = 64;
+    /// Changes of more steps than this tell nothing: the step is known to a few percent.
+    const SMALL: f64 = 8.0;
+    /// How far a change may be from a whole number of steps: text has rounded both readings.
+    const SLACK: f64 = 0.12;
+
+    /// Takes the next reading; one that is not finite is left out.
+    pub fn add(&mut self, reading: T) {
+        if !reading.is_number() {
+            return;
+        }
+        let Some(last) = self.last.replace(reading) else { return };
+        let change = (reading - last).abs();
+        if !(change > T::zero() && change.is_number()) {
+            return;
+        }
+        self.changes = self.changes.saturating_add(1);
+        if !(change > self.step * T::literal(1.0 - 4.0 * Self::SLACK)) || self.singles == 0 {
+            *self = Self { step: change, singles: 1, whole: 1, broken: 0, ..*self };
+            return;
+        }
+        let steps = change / self.step;
+        if steps > T::literal(Self::SMALL) {
+            return;
+        }
+        let nearest = steps.round();
+        if (steps - nearest).abs() > T::literal(Self::SLACK) {
+            self.broken = self.broken.saturating_add(1);
+            return;
+        }
+        self.whole = self.whole.saturating_add(1);
+        if nearest == T::one() {
+            self.singles = self.singles.saturating_add(1);
+            self.step += (change - self.step) / T::literal(f64::from(self.singles));
+        }
+    }
+
+    /// The step; `None` while too few small changes are known, or if they are no multiples of one: the channel's
+    /// steps do not show in its noise.
+    #[must_use]
+    pub fn step(&self) -> Option<T> {
+        // Of numbers without any step one in four is within the slack of a whole one.
+        let known = self.whole >= Self::FEWEST && self.broken <= self.whole / 16;
+        known.then_some(self.step)
+    }
+
+    /// Whether the readings changed often enough to say that there is no step that shows, or which.
+    #[must_use]
+    pub fn is_known(&self) -> bool {
+        self.changes >= Self::MANY || self.step().is_some()
+    }
+}
