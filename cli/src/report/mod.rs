@@ -34,7 +34,7 @@ pub(crate) fn of_recording(
 ) -> String {
     let coefficient = scene.limit().map(Limit::coefficient);
     let shown = Shown { surface: scene.surface(), coefficient, spin_torque: scene.tells().spin_torque };
-    page(findings, figures::of(observations, shown), &[used::table(scene, given)])
+    page(findings, figures::of(observations, shown), &[used::table(scene, given)], CURVES)
 }
 
 /// What a scene means, with a picture of its surface; and what in it is implausible.
@@ -46,7 +46,7 @@ pub(crate) fn of_scene(scene: &Scene) -> String {
     };
     let figure = solid::of_scene(scene.surface(), scene.projection());
     let used = used::table(scene, &Given { calibrated: true, ..Given::default() });
-    page(&findings, figure.into_iter().collect(), &[used])
+    page(&findings, figure.into_iter().collect(), &[used], "")
 }
 
 /// The report of a run with figures of its own before the usual ones.
@@ -57,12 +57,12 @@ pub(crate) fn with_figures(
     shown: Shown<'_>,
 ) -> String {
     figures.extend(figures::of(observations, shown));
-    page(findings, figures, &[])
+    page(findings, figures, &[], CURVES)
 }
 
 /// The report of something else than a recording.
 pub(crate) fn of_design(findings: &Findings, figures: Vec<Figure>) -> String {
-    page(findings, figures, &[])
+    page(findings, figures, &[], CURVES)
 }
 
 fn shown(table: &Table) -> page::Table<'_> {
@@ -70,8 +70,11 @@ fn shown(table: &Table) -> page::Table<'_> {
     page::Table { title, head, rows, words: false }
 }
 
-/// `words` are tables that stand behind the figures.
-fn page(findings: &Findings, figures: Vec<Figure>, words: &[Table]) -> String {
+/// How curves are drawn.
+const CURVES: &str = "Curves are thinned so that their peaks are kept; quantiles are right to 0.4 %. ";
+
+/// `words` are tables that stand behind the figures; `of_figures` says at the foot how these are drawn.
+fn page(findings: &Findings, figures: Vec<Figure>, words: &[Table], of_figures: &str) -> String {
     let mut page = Page::new(&findings.title);
     findings.lead.iter().for_each(|sentence| page.lead(sentence));
     page.tables(findings.tables.iter().map(shown));
@@ -82,8 +85,7 @@ fn page(findings: &Findings, figures: Vec<Figure>, words: &[Table]) -> String {
     let notes: Vec<String> = findings.notes.iter().map(|note| format!("{note}.")).collect();
     page.list("To be minded", &notes);
     page.finish(&format!(
-        "Forces and torques are loads on the fingertip, in the sensor frame. Curves are thinned so that their peaks are \
-         kept; quantiles are right to 0.4 %. Made by fingertip {}.",
+        "Forces and torques are loads on the fingertip, in the sensor frame. {of_figures}Made by fingertip {}.",
         env!("CARGO_PKG_VERSION")
     ))
 }
@@ -103,7 +105,8 @@ mod tests {
             tables: vec![table],
             notes: vec!["mind > this".to_owned()],
         };
-        let html = page(&findings, vec![Figure { title: "F&G".to_owned(), ..Figure::default() }], &[]);
+        let html =
+            page(&findings, vec![Figure { title: "F&G".to_owned(), ..Figure::default() }], &[], CURVES);
         let places: Vec<usize> = [
             "<h1>A &lt; B</h1>",
             "Lead 1\u{a0}N.",
@@ -117,6 +120,6 @@ mod tests {
         .map(|part| html.find(part).unwrap_or_else(|| panic!("{part} is not in {html}")))
         .collect();
         assert!(places.is_sorted(), "{places:?}");
-        assert!(!page(&Findings::default(), Vec::new(), &[]).contains("To be minded"));
+        assert!(!page(&Findings::default(), Vec::new(), &[], CURVES).contains("To be minded"));
     }
 }

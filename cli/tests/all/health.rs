@@ -72,10 +72,7 @@ fn what_is_wrong_is_named_as_the_file_names_it_and_the_code_is_one() {
     let output = folder.run(&["health", "bad.csv"]);
     let (said, error) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     assert_eq!(output.status.code(), Some(1));
-    assert!(
-        error.contains("bad.csv gives wrong readings: v1_V is stuck: "),
-        "{error}"
-    );
+    assert!(error.contains("bad.csv gives wrong readings: v1_V is stuck: "), "{error}");
     assert!(said.contains("v3_V is dead") && said.contains("Readings at fault"), "{said}");
     assert!(said.contains("v5_V: ") && said.contains("at 50 Hz (mains, 50 Hz)"), "{said}");
     assert!(folder.fail(1, &["health", "bad.csv", "--rate", "0"]).contains("--rate"));

@@ -76,7 +76,7 @@ fn a_scene_is_drawn_on_a_page() {
     assert!(said.contains("scene.html"), "{said}");
     let page = folder.read("scene.html");
     assert!(page.contains("radius_m` of [surface] is 13") && page.contains("data-net=\""), "{page}");
-    assert!(page.contains("<td>surface</td>"), "{page}");
+    assert!(page.contains(">surface</th>"), "{page}");
     let refused = folder.fail(1, &["scene", "show", "far.toml"]);
     assert!(refused.contains("scene.html") && refused.contains("--overwrite"), "{refused}");
     assert_eq!(folder.read("scene.html"), page);
@@ -101,7 +101,11 @@ fn the_scenes_to_copy_are_sound() {
             let page = format!("{seen}.html");
             folder.succeed(&["scene", "show", path, "--output", &page]);
             let page = folder.read(&page);
-            assert!(page.contains("<h1>") && page.contains("data-net=\"") && page.contains("Scene and calibration"));
+            assert!(
+                page.contains("<h1>")
+                    && page.contains("data-net=\"")
+                    && page.contains("Scene and calibration")
+            );
             assert!(!page.contains("To be minded"), "{path}");
             seen += 1;
         }

@@ -34,7 +34,8 @@ struct Solid {
 }
 
 /// How the solid is turned, for its caption.
-const TURNING: &str = "Drag it or use the arrow keys to turn, the wheel or + and − to zoom; a double click resets.";
+const TURNING: &str =
+    "Drag it or use the arrow keys to turn, the wheel or + and − to zoom; a double click resets.";
 
 /// The surface with its contacts; `None` where nothing of it can be seen.
 pub(super) fn figure(surface: &DynSurface<f64>, observations: &Observations) -> Option<Figure> {
