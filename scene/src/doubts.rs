@@ -86,7 +86,7 @@ fn lengths(section: &str, key: &str, value: &Value, doubts: &mut Vec<String>) {
         }
         other if key.ends_with("_m") && is_long(other) => {
             let found = as_number(other).unwrap_or(0.0);
-            let millimetres = found * 1e-3;
+            let millimetres = found / 1000.0;
             doubts.push(format!(
                 "`{key}` of [{section}] is {found} m, longer than any fingertip; of millimetres it is {millimetres}"
             ));

@@ -92,7 +92,7 @@ fn page(findings: &Findings, figures: Vec<Figure>, words: &[Table], of_figures: 
 
 #[cfg(test)]
 mod tests {
-    use super::{Figure, Findings, page};
+    use super::{CURVES, Figure, Findings, page};
     use crate::table::Table;
 
     #[test]

@@ -75,7 +75,7 @@ fn a_scene_is_drawn_on_a_page() {
     let said = folder.succeed(&["scene", "show", "far.toml"]);
     assert!(said.contains("scene.html"), "{said}");
     let page = folder.read("scene.html");
-    assert!(page.contains("radius_m` of [surface] is 13") && page.contains("data-net=\""), "{page}");
+    assert!(page.contains("longer than any fingertip") && page.contains("data-net=\""), "{page}");
     assert!(page.contains(">surface</th>"), "{page}");
     let refused = folder.fail(1, &["scene", "show", "far.toml"]);
     assert!(refused.contains("scene.html") && refused.contains("--overwrite"), "{refused}");

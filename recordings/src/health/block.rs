@@ -61,6 +61,12 @@ impl Default for Cell {
 }
 
 impl Cell {
+    /// Those of one channel, block by block, that hold readings.
+    pub(super) fn of_channel(blocks: &[Block], channel: usize) -> Vec<&Self> {
+        let cells = blocks.iter().filter_map(|block| block.cells.get(channel));
+        cells.filter(|cell| cell.count > 0).collect()
+    }
+
     pub(super) fn add(&mut self, reading: f64) {
         self.count += 1;
         // Welford 1962.

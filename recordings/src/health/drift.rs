@@ -28,11 +28,7 @@ const DEVIATIONS: f64 = 6.0;
 impl Drift {
     /// Over blocks that last so many seconds in all; without times, in the unit of the samples.
     pub(super) fn of(blocks: &[Block], channel: usize, seconds: f64) -> Option<Self> {
-        let cells: Vec<&Cell> = blocks
-            .iter()
-            .filter_map(|block| block.cells.get(channel))
-            .filter(|cell| cell.count > 0)
-            .collect();
+        let cells = Cell::of_channel(blocks, channel);
         let line = Line::through(&cells)?;
         let count = cells.len() as f64;
         let (moved, error) = (line.slope * (count - 1.0), line.slope_error * (count - 1.0));

@@ -36,11 +36,7 @@ const FEWEST: u32 = 3;
 impl Noise {
     /// In some blocks, each of `2^octave` readings.
     pub(super) fn of(blocks: &[Block], channel: usize, octave: u32) -> Option<Self> {
-        let cells: Vec<&Cell> = blocks
-            .iter()
-            .filter_map(|block| block.cells.get(channel))
-            .filter(|cell| cell.count > 0)
-            .collect();
+        let cells = Cell::of_channel(blocks, channel);
         let line = Line::through(&cells)?;
         let readings: f64 = cells.iter().map(|cell| f64::from(cell.count)).sum();
         let mut squares = 0.0;
