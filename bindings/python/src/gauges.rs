@@ -10,41 +10,23 @@ use pyo3::prelude::*;
 
 use crate::{errors, numbers};
 
-/// Most channels.
-const MOST: usize = 16;
-
-/// Watches the raw readings of up to 16 channels: saturated, stuck, not finite.
+/// Watches the raw readings of channels: saturated, stuck, clipped, not finite. It learns the noise and the step of each
+/// from its readings.
 ///
 /// Parameters
 /// ----------
 /// least, greatest : array_like, shape (channels,)
-///     The range of each.
-/// tolerance : array_like, shape (channels,)
-///     A reading that changes by less has not changed.
-/// run : int
-///     A channel that has not changed over so many readings is stuck.
+///     The linear range of each.
 ///
 /// Examples
 /// --------
 /// >>> from fingertip import ChannelMonitor
-/// >>> watch = ChannelMonitor([0.0, 0.0], [5.0, 5.0], [1e-6, 1e-6], 100)
+/// >>> watch = ChannelMonitor([0.0, 0.0], [5.0, 5.0])
 /// >>> watch.update([2.5, 5.0])
 /// [None, 'saturated_high']
 #[pyclass(name = "ChannelMonitor", module = "fingertip")]
 pub(crate) struct PyMonitor {
-    monitor: ChannelMonitor<f64, MOST>,
-    channels: usize,
-}
-
-fn padded(given: &Bound<'_, PyAny>, what: &str, channels: usize, rest: f64) -> PyResult<SVector<f64, MOST>> {
-    let numbers = numbers::list(given, what)?;
-    if numbers.len() != channels || channels > MOST {
-        let found = numbers.len();
-        return Err(errors::bad(format!(
-            "`{what}` must have {channels} numbers, at most {MOST}, not {found}"
-        )));
-    }
-    Ok(SVector::from_fn(|channel, _| numbers.get(channel).copied().unwrap_or(rest)))
+    channels: Vec<(ChannelMonitor<f64>, f64)>,
 }
 
 const fn word(fault: ChannelFault) -> &'static str {
@@ -61,29 +43,48 @@ const fn word(fault: ChannelFault) -> &'static str {
 #[pymethods]
 impl PyMonitor {
     #[new]
-    fn new(
-        least: &Bound<'_, PyAny>,
-        greatest: &Bound<'_, PyAny>,
-        tolerance: &Bound<'_, PyAny>,
-        run: u16,
-    ) -> PyResult<Self> {
-        let channels = numbers::list(least, "least")?.len();
-        let (low, high) = (f64::MIN, f64::MAX);
-        let limits = ChannelLimits::new(
-            padded(least, "least", channels, low)?,
-            padded(greatest, "greatest", channels, high)?,
-        );
-        let tolerance = padded(tolerance, "tolerance", channels, 0.0)?;
-        let monitor =
-            ChannelMonitor::new(limits.map_err(errors::bad)?, tolerance, run).map_err(errors::bad)?;
-        Ok(Self { monitor, channels })
+    fn new(least: &Bound<'_, PyAny>, greatest: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let (least, greatest) = (numbers::list(least, "least")?, numbers::list(greatest, "greatest")?);
+        if least.len() != greatest.len() || least.is_empty() {
+            let (low, high) = (least.len(), greatest.len());
+            return Err(errors::bad(format!("`least` and `greatest` must be as many, not {low} and {high}")));
+        }
+        let limits = least.into_iter().zip(greatest).map(|(least, greatest)| {
+            let limits = ChannelLimits::new(least, greatest).map_err(errors::bad)?;
+            Ok((ChannelMonitor::new(limits), f64::NAN))
+        });
+        Ok(Self { channels: limits.collect::<PyResult<_>>()? })
     }
 
     /// Takes a reading; says of each channel what is wrong with it, or `None`.
     fn update(&mut self, reading: &Bound<'_, PyAny>) -> PyResult<Vec<Option<&'static str>>> {
-        let raw = padded(reading, "reading", self.channels, 0.0)?;
-        let faults = self.monitor.update(&raw);
-        Ok(faults.iter().take(self.channels).map(|fault| fault.map(word)).collect())
+        let readings = numbers::list(reading, "reading")?;
+        let (found, channels) = (readings.len(), self.channels.len());
+        if found != channels {
+            return Err(errors::bad(format!("`reading` must have {channels} numbers, not {found}")));
+        }
+        let changes = |channel: &(ChannelMonitor<f64>, f64), reading: f64| channel.1 != reading;
+        let changed =
+            self.channels.iter().zip(&readings).filter(|(channel, reading)| changes(channel, **reading));
+        let changed = changed.count();
+        let each = self.channels.iter_mut().zip(readings).map(|(channel, reading)| {
+            let others = changed > usize::from(changes(channel, reading));
+            channel.1 = reading;
+            channel.0.update(reading, others).map(word)
+        });
+        Ok(each.collect())
+    }
+
+    /// Standard deviation of a reading of each channel at rest; `None` until its readings have told it.
+    #[getter]
+    fn noise(&self) -> Vec<Option<f64>> {
+        self.channels.iter().map(|channel| channel.0.noise()).collect()
+    }
+
+    /// The step of each channel's converter; `None` where its readings show none.
+    #[getter]
+    fn step(&self) -> Vec<Option<f64>> {
+        self.channels.iter().map(|channel| channel.0.step()).collect()
     }
 }
 

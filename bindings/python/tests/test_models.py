@@ -296,12 +296,19 @@ def test_an_object_is_weighed():
 
 
 def test_channels_are_watched():
-    watch = fingertip.ChannelMonitor([0.0] * 3, [5.0] * 3, [1e-3] * 3, 20)
+    watch = fingertip.ChannelMonitor([0.0] * 3, [5.0] * 3)
     random = np.random.default_rng(7)
-    for _ in range(50):
+    for _ in range(2000):
+        assert watch.update([2.5 + random.normal(0, 0.1), 1.2 + random.normal(0, 0.05), 2.0]) is not None
+    assert watch.noise[0] == pytest.approx(0.1, rel=0.1) and watch.noise[1] == pytest.approx(0.05, rel=0.1)
+    for _ in range(500):
         faults = watch.update([2.5 + random.normal(0, 0.1), 1.234, 5.0])
     assert faults == [None, "stuck", "saturated_high"]
     assert watch.update([np.nan, 1.0, 2.0])[0] == "not_finite"
+    with pytest.raises(fingertip.FingertipError, match="3 numbers, not 2"):
+        watch.update([1.0, 2.0])
+    with pytest.raises(fingertip.FingertipError, match="as many"):
+        fingertip.ChannelMonitor([0.0], [1.0, 2.0])
 
 
 def test_conditioning_and_worst_errors_are_those_of_numpy():
