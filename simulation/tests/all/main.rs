@@ -1,5 +1,5 @@
 //! The tests of the crate from outside, as one program: each program more is linked again.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "helpers of tests")]
 
 mod health;
 mod prototype;
