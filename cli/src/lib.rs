@@ -21,6 +21,7 @@ mod input;
 mod live;
 mod motion;
 mod observe;
+mod opened;
 mod output;
 mod plan;
 mod progress;

@@ -9,13 +9,12 @@ use fingertip_scene::{Felt, Scene};
 
 use super::args::AnalyzeArguments;
 use super::sink::Sink;
-use super::source::Source;
-use super::{Pass, files};
+use super::{Analysed, analysed};
 use crate::error::CliError;
 use crate::observe::Status;
+use crate::opened::Opened;
 use crate::output::Overwrite;
 use crate::report::{self, used::Given};
-use crate::summary::{self, Run};
 
 /// Why a recording could not be read or analysed, in the sentence that the command says.
 #[derive(Debug)]
@@ -78,7 +77,7 @@ impl Recorded {
         options: ReaderOptions,
         notes: &mut Vec<String>,
     ) -> Result<RecordingReader<Box<dyn Read + Send>>, Failure> {
-        Ok(files::open(&self.arguments(Path::new("")), options, notes)?.rows)
+        Ok(Opened::open(&self.path, &self.topics, options, notes)?.rows)
     }
 }
 
@@ -145,25 +144,8 @@ pub fn analyze(
     each: &mut dyn FnMut(f64, Sample<'_>),
 ) -> Result<Analysis, Failure> {
     let arguments = recorded.arguments(scene_file);
-    let mut notes = Vec::new();
-    let files::Opened { rows: mut reader, bar } = files::open(&arguments, files::of(scene), &mut notes)?;
-    let mut source = Source::new(&mut reader, scene, &arguments, notes)?;
-    let mut sink = Each(each);
-    let pass = Pass { scene, reader: &mut reader, source: &mut source, sink: &mut sink };
-    let observations = pass.run()?;
-    bar.finish_and_clear();
-    let quality = *reader.quality();
-    if observations.rows() == 0 {
-        return Err(CliError::NoRows { path: recorded.path.clone() }.into());
-    }
-    let findings = summary::of_recording(&Run {
-        recording: &recorded.path,
-        scene,
-        observations: &observations,
-        quality: &quality,
-        notes: source.notes(),
-        sensor: source.sensor(),
-    });
+    let Analysed { source, observations, quality, findings, .. } =
+        analysed(scene, &arguments, || Ok(Each(each)))?;
     let given = Given { calibration: None, payload: None, calibrated: source.is_calibrated() };
     Ok(Analysis {
         sensor: source.sensor().to_owned(),

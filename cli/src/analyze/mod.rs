@@ -17,9 +17,10 @@ use fingertip_scene::{Pipeline, Scene};
 use crate::error::CliError;
 use crate::health::{WatchedRows, seen};
 use crate::observe::{Observations, Status};
+use crate::opened::{Opened, Rows};
 use crate::report::{self, used::Given};
 use crate::scene;
-use crate::summary::{self, Run};
+use crate::summary::{self, Findings, Run};
 use crate::table::number;
 use args::AnalyzeArguments;
 use contacts::ContactWriter;
@@ -29,29 +30,11 @@ use source::{Reading, Source};
 pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let scene = scene::load(&arguments.scene)?;
     let scene = scene::with(scene, arguments.calibration.as_deref(), arguments.payload.as_deref())?;
-    let recording = arguments.recording.as_path();
     let outputs = files::guard(arguments)?;
-    let mut notes = Vec::new();
-    let files::Opened { rows: mut reader, bar } = files::open(arguments, files::of(&scene), &mut notes)?;
-    let mut source = Source::new(&mut reader, &scene, arguments, notes)?;
-    let mut contacts = ContactWriter::create(&arguments.output, &outputs, scene.tells())?;
-    let pass = Pass { scene: &scene, reader: &mut reader, source: &mut source, sink: &mut contacts };
-    let observations = pass.run()?;
-    bar.finish_and_clear();
-
-    let quality: Quality = *reader.quality();
-    if observations.rows() == 0 {
-        return Err(CliError::NoRows { path: recording.to_owned() });
-    }
+    let create = || ContactWriter::create(&arguments.output, &outputs, scene.tells());
+    let Analysed { sink: contacts, source, observations, findings, .. } =
+        analysed(&scene, arguments, create)?;
     contacts.finish()?;
-    let findings = summary::of_recording(&Run {
-        recording,
-        scene: &scene,
-        observations: &observations,
-        quality: &quality,
-        notes: source.notes(),
-        sensor: source.sensor(),
-    });
     let report = (!arguments.no_report).then_some(arguments.report.as_path());
     if let Some(path) = report {
         let given = Given {
@@ -62,6 +45,45 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
         outputs.write("report", path, &report::of_recording(&findings, &observations, &scene, &given))?;
     }
     outputs.say(&findings.to_string(), &[])
+}
+
+/// A recording that was read to its end.
+struct Analysed<S> {
+    sink: S,
+    source: Source,
+    observations: Observations,
+    quality: Quality,
+    findings: Findings,
+}
+
+/// Reads a recording to its end. The sink is made when the recording is known to be one of this scene.
+fn analysed<S: Sink>(
+    scene: &Scene,
+    arguments: &AnalyzeArguments,
+    sink: impl FnOnce() -> Result<S, CliError>,
+) -> Result<Analysed<S>, CliError> {
+    let recording = arguments.recording.as_path();
+    let mut notes = Vec::new();
+    let opened = Opened::open(recording, &arguments.topics, files::of(scene), &mut notes)?;
+    let Opened { rows: mut reader, bar, .. } = opened;
+    let mut source = Source::new(&mut reader, scene, arguments, notes)?;
+    let mut sink = sink()?;
+    let pass = Pass { scene, reader: &mut reader, source: &mut source, sink: &mut sink };
+    let observations = pass.run()?;
+    bar.finish_and_clear();
+    let quality = *reader.quality();
+    if observations.rows() == 0 {
+        return Err(CliError::NoRows { path: recording.to_owned() });
+    }
+    let findings = summary::of_recording(&Run {
+        recording,
+        scene,
+        observations: &observations,
+        quality: &quality,
+        notes: source.notes(),
+        sensor: source.sensor(),
+    });
+    Ok(Analysed { sink, source, observations, quality, findings })
 }
 
 /// Tells the pipeline how noisy the rest was.
@@ -78,7 +100,7 @@ fn know_noise(pipeline: &mut Pipeline<f64>, source: &mut Source, scene: &Scene) 
 /// Everything that one pass over the recording needs.
 struct Pass<'a, S> {
     scene: &'a Scene,
-    reader: &'a mut files::Rows,
+    reader: &'a mut Rows,
     source: &'a mut Source,
     sink: &'a mut S,
 }

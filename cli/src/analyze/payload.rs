@@ -5,8 +5,8 @@ use fingertip_recordings::{NumberColumn, Row};
 use fingertip_scene::Carried;
 use nalgebra::Vector3;
 
-use super::files::Rows;
 use crate::error::CliError;
+use crate::opened::Rows;
 
 /// A payload, and where a recording tells how the sensor lies.
 pub(super) struct Hanging {

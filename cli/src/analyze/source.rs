@@ -7,7 +7,6 @@ use fingertip_recordings::{HeaderProblem, Row};
 use nalgebra::Vector6;
 
 use super::args::AnalyzeArguments;
-use super::files::Rows;
 use super::payload::Hanging;
 use super::recorded::Recorded;
 use super::volts;
@@ -16,6 +15,7 @@ use crate::calibrated::Calibration;
 use crate::error::CliError;
 use crate::gauge_rows::KnownTemperature;
 use crate::observe::Status;
+use crate::opened::Rows;
 use crate::output::printable;
 use fingertip_scene::{Convention, Scene};
 

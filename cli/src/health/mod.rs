@@ -9,16 +9,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 use fingertip_recordings::health::{Depth, Health, Level};
-use fingertip_recordings::{HeaderProblem, ReaderOptions, RecordingReader};
+use fingertip_recordings::{HeaderProblem, ReaderOptions};
 
 use crate::calibrated::Calibration;
-use crate::convert::McapAsCsv;
 use crate::error::CliError;
 use crate::gauge_rows::KnownTemperature;
-use crate::input::Input;
+use crate::opened::Opened;
 use crate::output::{Outputs, Overwrite};
-use crate::progress::bar;
-use crate::recording_file::Kind;
 pub(crate) use columns::{WatchedRows, of_table, of_wrench};
 pub(crate) use words::{seen, seen_in_loads};
 
@@ -90,16 +87,9 @@ pub(crate) fn run(arguments: &HealthArguments) -> Result<(), CliError> {
 
 /// Everything that the recording shows, and its name.
 fn watched(arguments: &HealthArguments, notes: &mut Vec<String>) -> Result<(Health, String), CliError> {
-    let mut input = Input::open(&arguments.recording)?;
-    let bar = bar(input.length());
-    let text: Box<dyn std::io::Read> = match input.kind() {
-        Kind::Mcap => {
-            let file = bar.wrap_read(input.messages()?);
-            Box::new(McapAsCsv::new(file, &input, &arguments.topics, notes)?)
-        }
-        Kind::Csv => Box::new(bar.wrap_read(input.text()?)),
-    };
-    let mut reader = RecordingReader::with_options(input.name(), text, ReaderOptions::default())?;
+    let options = ReaderOptions::default();
+    let Opened { rows: mut reader, bar, name } =
+        Opened::open(&arguments.recording, &arguments.topics, options, notes)?;
     let temperature = arguments
         .celsius
         .map(KnownTemperature::Constant)
@@ -131,5 +121,5 @@ fn watched(arguments: &HealthArguments, notes: &mut Vec<String>) -> Result<(Heal
     if rows.samples() == 0 {
         return Err(CliError::NoRows { path: arguments.recording.clone() });
     }
-    Ok((rows.finish(), input.name()))
+    Ok((rows.finish(), name))
 }
