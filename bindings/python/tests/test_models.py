@@ -300,7 +300,8 @@ def test_channels_are_watched():
     random = np.random.default_rng(7)
     for _ in range(2000):
         assert watch.update([2.5 + random.normal(0, 0.1), 1.2 + random.normal(0, 0.05), 2.0]) is not None
-    assert watch.noise[0] == pytest.approx(0.1, rel=0.1) and watch.noise[1] == pytest.approx(0.05, rel=0.1)
+    # The noise is a low quantile of that of blocks, since what moves only adds to it.
+    assert watch.noise[0] == pytest.approx(0.1, rel=0.2) and watch.noise[1] == pytest.approx(0.05, rel=0.2)
     for _ in range(500):
         faults = watch.update([2.5 + random.normal(0, 0.1), 1.234, 5.0])
     assert faults == [None, "stuck", "saturated_high"]
