@@ -7,3 +7,5 @@ mod simulated_flaws;
 mod simulated_truth;
 mod simulation;
 mod tracking;
+#[cfg(target_os = "linux")]
+mod unchanged;

@@ -159,19 +159,38 @@ fn parameters_out_of_range_are_refused() {
         SimulatedFingertip::new(&standard_session(), options).is_err()
     };
     assert!(!refused(&|_| {}));
-    let bad: [&dyn Fn(&mut Options); 12] = [
+    let bad: [&dyn Fn(&mut Options); 31] = [
         &|options| options.sample_rate = 0.0,
         &|options| options.sample_rate = f64::INFINITY,
         &|options| options.design.sphere_radius = f64::NAN,
         &|options| options.design.beam.thickness = 0.0,
         &|options| options.design.gauges[4].z = f64::NAN,
         &|options| options.design.force_range = -1.0,
+        &|options| options.electronics.gauge_factor = 0.0,
+        &|options| options.electronics.excitation = -1.0,
         &|options| options.electronics.amplification = f64::NAN,
+        &|options| options.electronics.converter_range = 0.0,
+        &|options| options.electronics.offset = -0.1,
+        &|options| options.electronics.input_noise = f64::NAN,
+        &|options| options.electronics.dummy_averaging = -1.0,
         &|options| options.electronics.bits = 0,
         &|options| options.electronics.bits = 25,
         &|options| options.electronics.conversions = 0,
         &|options| options.thermal_drift.time_constant = 0.0,
+        &|options| options.thermal_drift.random_walk = -1e-3,
+        &|options| options.thermal_drift.spread = f64::INFINITY,
+        &|options| options.thermal_drift.offset_drift = f64::NAN,
+        &|options| options.thermal_drift.warming = f64::NAN,
+        &|options| options.thermal_drift.warming = f64::INFINITY,
+        &|options| options.thermal_drift.apparent_strain = f64::NAN,
+        &|options| options.thermal_drift.apparent_strain = f64::NEG_INFINITY,
+        &|options| options.imperfections.axial_placement = -1e-3,
+        &|options| options.imperfections.circumferential_placement = f64::NAN,
+        &|options| options.imperfections.angle = -0.1,
         &|options| options.imperfections.gain = -0.1,
+        &|options| options.imperfections.unbalance = f64::INFINITY,
+        &|options| options.imperfections.calibration_scale = -0.1,
+        &|options| options.imperfections.calibration_entry = f64::NAN,
     ];
     for (index, change) in bad.iter().enumerate() {
         assert!(refused(change), "bad option {index} is accepted");
