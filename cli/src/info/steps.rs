@@ -32,13 +32,19 @@ pub(crate) struct Steps {
     backward: u64,
 }
 
+/// The jitter, none of which is what the times are rounded by \[s\].
+fn jitter(timing: &Timing) -> Option<f64> {
+    let times = timing.first()?.abs().max(timing.last()?.abs());
+    timing.jitter().map(|jitter| if jitter > 4.0 * f64::EPSILON * times { jitter } else { 0.0 })
+}
+
 impl From<&Timing> for Steps {
     fn from(timing: &Timing) -> Self {
         Self {
             first: timing.first(),
             last: timing.last(),
             rate: timing.rate(),
-            jitter: timing.jitter(),
+            jitter: jitter(timing),
             gaps: timing.gaps(),
             longest_gap: timing.longest_gap(),
             repeats: timing.repeats(),

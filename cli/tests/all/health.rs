@@ -7,7 +7,7 @@ use fingertip_test_support::recording;
 use crate::common::Folder;
 
 /// Twelve uniform numbers are nearly a normal one.
-fn normal(state: &mut u64) -> f64 {
+pub(crate) fn normal(state: &mut u64) -> f64 {
     let mut sum = -6.0;
     for _ in 0..12 {
         // Knuth's generator.
@@ -18,7 +18,7 @@ fn normal(state: &mut u64) -> f64 {
 }
 
 /// Six gauges at 1 kHz with a noise of 1 mV in steps of 0.1 mV, which `change` may change.
-fn gauges(samples: u32, change: impl Fn(f64, &mut [f64; 6])) -> String {
+pub(crate) fn gauges(samples: u32, change: impl Fn(f64, &mut [f64; 6])) -> String {
     let mut text = String::from("t_s,v1_V,v2_V,v3_V,v4_V,v5_V,v6_V\n");
     let mut state = 7;
     for i in 0..samples {
@@ -81,7 +81,7 @@ fn what_is_wrong_is_named_as_the_file_names_it_and_the_code_is_one() {
 }
 
 /// A calibration of 2 V for 10 N or 0.1 N·m.
-fn calibration(folder: &Folder) {
+pub(crate) fn calibration(folder: &Folder) {
     let mut loads = String::from("fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,v1_V,v2_V,v3_V,v4_V,v5_V,v6_V\n");
     let mut state = 3;
     for i in 0..60_usize {

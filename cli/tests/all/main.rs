@@ -20,6 +20,8 @@ mod recorded;
 mod recordings;
 mod reports;
 mod said;
+mod said_of_files;
+mod said_of_scenes;
 mod scenes;
 mod shapes;
 mod streams;

@@ -14,7 +14,7 @@ const SCENE: &str =
     "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.5\n";
 
 /// Two topics of wrenches in frames of their own, so many messages each.
-fn two_wrists(folder: &Folder, name: &str, messages: u32, compression: Compression) {
+pub(crate) fn two_wrists(folder: &Folder, name: &str, messages: u32, compression: Compression) {
     let file = File::create(folder.path(name)).unwrap();
     let mut writer = McapWriter::with_compression(file, compression).unwrap();
     let left = writer.wrenches("/left/ft", "left wrist").unwrap();

@@ -17,6 +17,15 @@ fn pushes() -> String {
     text
 }
 
+/// A scene that asks for all that there is.
+pub(crate) const ALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n\
+    [contact]\nmodel = \"soft_finger\"\nleast_force_N = 0.1\n\
+    [uncertainty]\nforce_noise_N = 0.01\ntorque_noise_Nm = 0.0001\n\
+    [tracking]\nspeed_m_per_s = 0.01\nturns_within_s = 0.1\nleast_touch_N = 0.1\n\
+    [friction]\nlimit = \"uncertain\"\nstatic_coefficient = 0.5\ndeviation = 0.05\n\
+    [slip]\ndetector = \"drop\"\nnoise_N = 0.01\n[estimate]\nnoise_N = 0.01\n\
+    [grip]\nleast_N = 0.2\ngreatest_N = 20.0\nrise_N_per_s = 100.0\nfall_N_per_s = 2.0\n";
+
 #[test]
 fn every_choice_can_be_begun_with_and_means_something() {
     let folder = Folder::new();
@@ -119,16 +128,7 @@ fn the_scenes_to_copy_are_sound() {
 fn a_scene_that_asks_for_more_is_told_more() {
     let folder = Folder::new();
     folder.write("pushes.csv", &pushes());
-    folder.write(
-        "all.toml",
-        "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n\
-         [contact]\nmodel = \"soft_finger\"\nleast_force_N = 0.1\n\
-         [uncertainty]\nforce_noise_N = 0.01\ntorque_noise_Nm = 0.0001\n\
-         [tracking]\nspeed_m_per_s = 0.01\nturns_within_s = 0.1\nleast_touch_N = 0.1\n\
-         [friction]\nlimit = \"uncertain\"\nstatic_coefficient = 0.5\ndeviation = 0.05\n\
-         [slip]\ndetector = \"drop\"\nnoise_N = 0.01\n[estimate]\nnoise_N = 0.01\n\
-         [grip]\nleast_N = 0.2\ngreatest_N = 20.0\nrise_N_per_s = 100.0\nfall_N_per_s = 2.0\n",
-    );
+    folder.write("all.toml", ALL);
     folder.succeed(&["analyze", "pushes.csv", "--scene", "all.toml"]);
     let contacts = Contacts::parse(&folder.read("contacts.csv"));
     let last = |name: &str| *contacts.numbers(name).last().unwrap();

@@ -31,9 +31,11 @@ pub(super) fn findings(health: &Health) -> Vec<Finding> {
         found.extend(dead);
         if !is_dead {
             found.extend(unmoved(channel, health));
-            found.extend(stays(channel));
+            let stays = stays(channel);
+            // What stays where it is says nothing of the converter.
+            found.extend(if stays.is_none() { coarse(channel) } else { None });
+            found.extend(stays);
             found.extend(noisy(channel, health));
-            found.extend(coarse(channel));
             found.extend(drift(channel, health));
         }
     }

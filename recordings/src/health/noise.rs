@@ -64,7 +64,10 @@ impl Noise {
         }
         let independent = allan.first().map_or(0.0, |point| point.deviation);
         let deviation = (squares / (readings - 2.0).max(1.0)).max(0.0).sqrt();
-        Some(Self { deviation, independent, mean: line.at((cells.len() as f64 - 1.0) / 2.0), allan })
+        let mean = line.at((cells.len() as f64 - 1.0) / 2.0);
+        // Readings that are all alike leave what their sums were rounded by.
+        let deviation = if deviation > 16.0 * f64::EPSILON * mean.abs() { deviation } else { 0.0 };
+        Some(Self { deviation, independent, mean, allan })
     }
 }
 

@@ -36,6 +36,9 @@ const SIDE: usize = 3;
 const DEVIATIONS: f64 = 8.0;
 /// And the other changes near by, so many times.
 const OUTSTANDING: f64 = 2.5;
+/// A channel that changes so many deviations at the sample at which another jumps has jumped with it: noise does so
+/// once in 10⁵ steps.
+const ALONGSIDE: f64 = 6.0;
 /// Most steps that are listed.
 const MOST: usize = 50;
 
@@ -116,7 +119,16 @@ fn kind(trace: &Trace, quiet: &[Quiet], channels: &[usize], step: &ZeroStep) -> 
         let Some(quiet) = quiet.get(channel) else { return false };
         behind.is_some_and(|(mean, _)| mean.abs() <= 3.0 * quiet.variance.sqrt() + quiet.step + 0.02 * size)
     });
-    match (zeroed, step.channels.len()) {
+    // A load that changes suddenly changes most channels, some by too little for a step.
+    let jumps_along = |channel: &usize| {
+        let (Some(cell), Some(quiet)) = (cell(trace, block, *channel), quiet.get(*channel)) else {
+            return false;
+        };
+        cell.jump.at.abs_diff(step.sample) <= 1
+            && cell.jump.size.abs() > ALONGSIDE * quiet.variance.sqrt() + quiet.step
+    };
+    let jumped = channels.iter().filter(|channel| jumps_along(channel)).count();
+    match (zeroed, step.channels.len().max(jumped)) {
         (true, _) if step.channels.len() * 2 > channels.len() => StepKind::Tare,
         (_, 1) if channels.len() > 1 => StepKind::One,
         _ => StepKind::Several,
