@@ -30,7 +30,7 @@ fn with_faults(ragged: bool) -> String {
             114 => writeln!(text, "{time:.3},NaN,0,-2,0,0,0,1,0.5,x"),
             115 => writeln!(text, "0.001,1,0,-2,0,0,0,1,0.5,x"),
             116 | 117 => writeln!(text, "0.230,1,0,-2,0,0,0,1,0.5,x"),
-            118 => writeln!(text, "{time:.3},word,0,-2,0,0,0,1,0.5,x"),
+            118 if ragged => writeln!(text, "{time:.3},word,0,-2,0,0,0,1,0.5,x"),
             _ => writeln!(text, "{row}"),
         }
         .unwrap();

@@ -57,7 +57,7 @@ fn of_parts_of_shapes() {
         ),
         (
             "formula",
-            "shape = \"formula\"\noutside = \"x^2/a^2 + y^2/b^2 + z^4/c^4 - 1\"\nparameters = { a = 0.01, b = 0.012, c = 0.015 }\nreach_m = 0.03",
+            "shape = \"formula\"\noutside = \"(x-d)^2/a^2 + y^2/b^2 + z^4/c^4 - 1\"\nparameters = { a = 0.01, b = 0.012, c = 0.015, d = 0.02 }\nreach_m = 0.04",
         ),
     ] {
         folder.write(
@@ -85,7 +85,8 @@ fn pushes() -> String {
             let cells: [f64; 3] = vector.into();
             cells.map(|cell| format!("{cell:.6}")).join(",")
         });
-        text += &format!("{:.3},{}\n", f64::from(k) * 1e-3, cells.join(","));
+        let cells = if k == 150 { "NaN,0,0,0,0,0".to_owned() } else { cells.join(",") };
+        text += &format!("{:.3},{cells}\n", f64::from(k) * 1e-3);
     }
     text
 }
@@ -109,6 +110,11 @@ fn of_a_scene_that_asks_for_all() {
         .collect();
     assert_accepted("scene_all_contacts.csv", &rows);
     assert_eq!(Contacts::parse(&contacts).len(), 240);
+    assert!(
+        contacts
+            .lines()
+            .all(|line| line.split(',').count() == contacts.lines().next().unwrap().split(',').count())
+    );
     let report =
         folder.read("report.html").replace("><", ">\n<").replace(env!("CARGO_PKG_VERSION"), "VERSION");
     let (_, body) = report.split_once("</style>").unwrap();
@@ -117,4 +123,21 @@ fn of_a_scene_that_asks_for_all() {
         |line: &&str| ["<path", "<circle", "<line", "<rect"].iter().any(|tag| line.starts_with(tag));
     let body: String = body.lines().filter(|line| !is_drawn(line)).map(|line| format!("{line}\n")).collect();
     assert_accepted("scene_all_report.html", &body);
+}
+
+/// Where nothing touches there is little to say.
+#[test]
+fn of_a_recording_without_contacts() {
+    let folder = Folder::new();
+    let quiet: String = pushes()
+        .lines()
+        .enumerate()
+        .filter(|(i, _)| *i == 0 || *i > 201)
+        .map(|(_, line)| format!("{line}\n"))
+        .collect();
+    folder.write("quiet.csv", &quiet);
+    folder.write("all.toml", ALL);
+    assert_accepted("scene_all_quiet.txt", &folder.succeed(&["analyze", "quiet.csv", "--scene", "all.toml"]));
+    let report = folder.read("report.html");
+    assert!(!report.contains("<p></p>") && !report.contains("<p class=\"lead\"></p>"), "{report}");
 }

@@ -77,3 +77,40 @@ fn drift_is_applied_or_the_calibration_refused() {
     folder.succeed(&["tare", "cal.toml", "rest.csv", "-o", "new.toml", "--celsius", "30"]);
     assert!(folder.read("new.toml").contains("zero = [0.1"), "{}", folder.read("new.toml"));
 }
+
+/// Readings at 30 °C are those of 25 °C, drifted.
+#[test]
+fn touches_are_brought_to_the_reference_before_they_mend() {
+    let folder = Folder::new();
+    folder.write("warm.csv", &warm_loads(true));
+    let full = ["--full-scale", "10,10,10,0.1,0.1,0.1", "--reference-celsius", "25"];
+    folder.succeed(&[&["calibrate", "warm.csv", "-o", "cal.toml"][..], &full].concat());
+    let touches = |celsius: f64| {
+        let mut text = "v1_V,v2_V,v3_V,v4_V,v5_V,v6_V,temperature_C\n".to_owned();
+        for k in 0..60 {
+            // Pure forces of 4 N at a sphere of 10 mm, all round.
+            let at = f64::from(k);
+            let force = [(1.1 * at).sin(), (1.7 * at).cos(), (2.3 * at).sin()];
+            let normal = [(0.9 * at).cos(), (1.3 * at).sin(), 0.4];
+            let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let arm = normal.map(|x| 0.01 * x / length);
+            let torque: [f64; 3] = core::array::from_fn(|i| {
+                arm[(i + 1) % 3] * force[(i + 2) % 3] - arm[(i + 2) % 3] * force[(i + 1) % 3]
+            });
+            let share: [f64; 6] =
+                core::array::from_fn(|i| if i < 3 { 0.4 * force[i] } else { 4.0 * torque[i - 3] / 0.1 });
+            let volts: Vec<String> = (0..6)
+                .map(|i| format!("{:.9}", warm(0.1 + 2.0 * share[i] + 0.2 * share[(i + 1) % 6], celsius)))
+                .collect();
+            text += &format!("{},{celsius}\n", volts.join(","));
+        }
+        text
+    };
+    // Up to where rounding is said.
+    let said = |celsius: f64| {
+        folder.write("touches.csv", &touches(celsius));
+        let said = folder.succeed(&["refine", "cal.toml", "touches.csv"]);
+        said.split(" ambiguity").next().unwrap().to_owned()
+    };
+    assert_eq!(said(25.0), said(30.0));
+}
