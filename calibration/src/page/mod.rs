@@ -1,6 +1,9 @@
 //! Web pages: every report of the workspace is written by this one writer, in one style.
 //!
-//! A page is one file without outside files, and without scripts but those that a drawing brings. Its style follows the reader's choice of light or dark, and
+//! A page is one file without outside files. Its scripts are those that a drawing brings, and one that reads the point
+//! under the pointer of drawings that tell their axes: an inner `svg` with `data-x` and `data-y`
+//! (`label / unit;low;high`, and `;log` for decades) or with `data-turn` (how long the radius of a sphere is drawn,
+//! in an equal-area map about the middle). Its style follows the reader's choice of light or dark, and
 //! prints in light. Text is escaped wherever it stands. Drawings are SVG: those whose colours are classes of the style
 //! sheet follow the reader's choice, and those with colours of their own stand on white.
 //!
@@ -53,6 +56,9 @@ pub struct Figure {
     /// Whether the drawing has colours of its own, so that it must stand on white.
     pub on_white: bool,
 }
+
+/// What a drawing has whose points can be read.
+const READABLE: [&str; 2] = [" data-x=\"", " data-turn=\""];
 
 impl Page {
     /// A page with its heading.
@@ -149,6 +155,9 @@ impl Page {
                         (PreEscaped(&self.body))
                         @if !footer.is_empty() { footer { (unbroken(footer)) } }
                     }
+                    @if READABLE.iter().any(|axes| self.body.contains(axes)) {
+                        script { (PreEscaped(include_str!("read.js"))) }
+                    }
                 }
             }
         };
@@ -218,6 +227,21 @@ pub(crate) fn unbroken(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The script that reads points comes with the drawings that tell their axes, once.
+    #[test]
+    fn points_are_read_where_axes_are_told() {
+        let page = |drawing: &str| {
+            let mut page = Page::new("");
+            let figure = Figure { svg: drawing.to_owned(), ..Figure::default() };
+            page.figures([figure.clone(), figure]);
+            page.finish("")
+        };
+        assert_eq!(page("<svg></svg>").matches("<script>").count(), 0);
+        for axes in ["data-x=\"time / s;0;1\" data-y=\"force / N;0.1;10;log\"", "data-turn=\"20\""] {
+            assert_eq!(page(&format!("<svg><svg {axes}></svg></svg>")).matches("<script>").count(), 1);
+        }
+    }
 
     #[test]
     fn only_a_number_and_its_unit_are_kept_together() {

@@ -60,6 +60,12 @@ impl Axis {
         Self { label: label.to_owned(), low, high, scale: Scale::Log }
     }
 
+    /// For the page's script: `label;low;high`, and `;log` for decades.
+    pub(crate) fn in_words(&self) -> String {
+        let decades = if self.scale == Scale::Log { ";log" } else { "" };
+        format!("{};{};{}{decades}", self.label, digits(self.low), digits(self.high))
+    }
+
     /// Where a value lies: 0 at the low end, 1 at the high end, limited to a little beyond.
     pub(crate) fn place(&self, value: f64) -> f64 {
         let place = match self.scale {
@@ -125,6 +131,16 @@ fn step(range: f64, most: usize) -> f64 {
         .find(|step| *step >= rough * 0.999_999)
         .unwrap_or(rough);
     if step > 0.0 && step.is_finite() { step } else { 1.0 }
+}
+
+/// Six digits, which no drawing shows.
+fn digits(value: f64) -> String {
+    if value.abs() > 0.0 {
+        let places = (5.0 - value.abs().log10().floor()).clamp(0.0, 12.0) as usize;
+        format!("{value:.places$}")
+    } else {
+        "0".to_owned()
+    }
 }
 
 fn tick_label(value: f64, step: f64, largest: f64) -> String {

@@ -26,7 +26,7 @@ impl Chart {
     pub(crate) fn new(title: &str, x: Axis, y: Axis) -> Self {
         let mut chart = Self { svg: Svg::new(WIDTH, HEIGHT, title), x, y };
         chart.draw_axes();
-        chart.svg.begin_clip((LEFT, TOP), PLOT);
+        chart.svg.begin_plot((LEFT, TOP), PLOT, &chart.x, &chart.y);
         chart
     }
 

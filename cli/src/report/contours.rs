@@ -49,7 +49,7 @@ pub(crate) fn draw(contours: &Contours<'_>) -> (String, Vec<(&'static str, Strin
     let place = |(a, b): (f64, f64)| (LEFT + PLOT.0 * x.place(a), bottom - PLOT.1 * y.place(b));
     let classes = ["q0", "q1", "q2", "q3", "q4", "q5", "q6"];
     let mut keys = Vec::new();
-    svg.begin_clip((LEFT, TOP), PLOT);
+    svg.begin_plot((LEFT, TOP), PLOT, x, y);
     for (level, class) in LEVELS.iter().zip(classes) {
         let lines = segments(xs, ys, values, level * least);
         if lines.is_empty() {

@@ -71,7 +71,9 @@ fn polar(title: &str, rim: Option<f64>, names: [&str; 2], points: &[MapPoint], c
     if let Some(rim) = rim {
         svg.circle("rim", centre, scale * chord(rim));
     }
+    svg.begin_turn(centre, disk, scale);
     dots(&mut svg, points, classes, |(u, v)| (centre.0 + scale * u, centre.1 - scale * v));
+    svg.end_clip();
     // Ring labels last, on a slant between two spokes, so that they stay readable.
     let (sin, cos) = (0.375 * PI).sin_cos();
     for ring in rings {
@@ -137,7 +139,7 @@ fn flat(
     }
     svg.label("name", (2.0, 12.0), Anchor::Start, &y.label);
     svg.label("name", (LEFT + width, bottom + 30.0), Anchor::End, &x.label);
-    svg.begin_clip((LEFT, TOP), (width, map_height));
+    svg.begin_plot((LEFT, TOP), (width, map_height), &x, &y);
     for edge in half_length.iter().flat_map(|half| [-half, *half]) {
         svg.line("rim", place((left, edge)), place((right, edge)));
     }

@@ -6,6 +6,8 @@
 
 use core::fmt::Write;
 
+use super::axis::Axis;
+
 /// A growing drawing of a fixed size in its own units.
 #[derive(Clone, Debug)]
 pub(crate) struct Svg {
@@ -112,8 +114,25 @@ impl Svg {
 
     /// What is drawn until [`end_clip`](Self::end_clip) is cut at a frame.
     pub(crate) fn begin_clip(&mut self, corner: (f64, f64), size: (f64, f64)) {
+        self.begin_inner(corner, size, "");
+    }
+
+    /// As [`begin_clip`](Self::begin_clip), and the page can read points along these axes, which end with the frame.
+    pub(crate) fn begin_plot(&mut self, corner: (f64, f64), size: (f64, f64), x: &Axis, y: &Axis) {
+        let axes = format!(" data-x=\"{}\" data-y=\"{}\"", escape(&x.in_words()), escape(&y.in_words()));
+        self.begin_inner(corner, size, &axes);
+    }
+
+    /// An equal-area map about a centre, of a sphere whose radius is drawn so long; nothing is cut.
+    pub(crate) fn begin_turn(&mut self, centre: (f64, f64), reach: f64, radius: f64) {
+        let corner = (centre.0 - reach, centre.1 - reach);
+        let turn = format!(" overflow=\"visible\" data-turn=\"{radius:.3}\"");
+        self.begin_inner(corner, (2.0 * reach, 2.0 * reach), &turn);
+    }
+
+    fn begin_inner(&mut self, corner: (f64, f64), size: (f64, f64), more: &str) {
         self.push(format_args!(
-            "<svg x=\"{:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\" viewBox=\"{:.1} {:.1} {:.1} {:.1}\">",
+            "<svg x=\"{:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\" viewBox=\"{:.1} {:.1} {:.1} {:.1}\"{more}>",
             corner.0, corner.1, size.0, size.1, corner.0, corner.1, size.0, size.1
         ));
     }
@@ -135,7 +154,7 @@ fn escape(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Anchor, Svg};
+    use super::{Anchor, Axis, Svg};
 
     #[test]
     fn every_piece_is_written_as_it_is_drawn() {
@@ -151,6 +170,11 @@ mod tests {
         svg.polygon("p", [(1.0, 2.0), (3.0, 4.0), (0.0, 0.06)].into_iter());
         svg.begin_clip((1.0, 2.0), (3.0, 4.0));
         svg.end_clip();
+        let (time, force) = (Axis::linear("t & u / s", -0.125, 2e6), Axis::log("f / N", 1e-3, 10.0));
+        svg.begin_plot((1.0, 2.0), (3.0, 4.0), &time, &force);
+        svg.end_clip();
+        svg.begin_turn((5.0, 6.0), 2.0, 0.5);
+        svg.end_clip();
         let expected = "<svg viewBox=\"0 0 10 20\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\">\
             <title>a &lt; b</title><path class=\"l\" d=\"M1.0 2.0L3.0 4.1\"/>\
             <rect class=\"r\" x=\"1.0\" y=\"2.0\" width=\"0.0\" height=\"3.0\"/>\
@@ -160,7 +184,11 @@ mod tests {
             <path class=\"curve k\" d=\"M0.0 1.0L2.0 3.0M4.0 5.0h0\"/>\
             <path class=\"dots d\" d=\"M1.0 2.0h0M3.0 4.0h0\"/>\
             <path class=\"p\" d=\"M1.0 2.0L3.0 4.0L0.0 0.1Z\"/>\
-            <svg x=\"1.0\" y=\"2.0\" width=\"3.0\" height=\"4.0\" viewBox=\"1.0 2.0 3.0 4.0\"></svg></svg>";
+            <svg x=\"1.0\" y=\"2.0\" width=\"3.0\" height=\"4.0\" viewBox=\"1.0 2.0 3.0 4.0\"></svg>\
+            <svg x=\"1.0\" y=\"2.0\" width=\"3.0\" height=\"4.0\" viewBox=\"1.0 2.0 3.0 4.0\" \
+            data-x=\"t &amp; u / s;-0.125000;2000000\" data-y=\"f / N;0.00100000;10.0000;log\"></svg>\
+            <svg x=\"3.0\" y=\"4.0\" width=\"4.0\" height=\"4.0\" viewBox=\"3.0 4.0 4.0 4.0\" \
+            overflow=\"visible\" data-turn=\"0.500\"></svg></svg>";
         assert_eq!(svg.finish(), expected);
     }
 }

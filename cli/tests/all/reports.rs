@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::common::{Contacts, Folder, assert_accepted};
+use crate::common::{Contacts, Folder, assert_accepted, body};
 
 const HEADER: &str = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n";
 const REST: usize = 30;
@@ -48,14 +48,6 @@ fn session(place: impl Fn(f64, f64) -> (Vector3<f64>, Vector3<f64>), bias: &Vect
     text
 }
 
-/// The drawings and words of a page, without its style, a tag a line.
-fn without_style(page: &str) -> String {
-    let (head, rest) = page.split_once("<style>").unwrap();
-    let (_, body) = rest.split_once("</style>").unwrap();
-    let version = env!("CARGO_PKG_VERSION");
-    format!("{head}{body}").replace("><", ">\n<").replace(version, "VERSION")
-}
-
 /// Analyses a session with a scene, and compares all that comes out with what was accepted.
 fn check(name: &str, scene: &str, recording: &str) -> (String, Contacts) {
     let folder = Folder::new();
@@ -67,7 +59,7 @@ fn check(name: &str, scene: &str, recording: &str) -> (String, Contacts) {
     let said = folder.succeed(&["analyze", "session.csv", "--scene", "scene.toml"]);
     let (report, contacts) = (folder.read("report.html"), folder.read("contacts.csv"));
     assert_accepted(&format!("{name}_summary.txt"), &said);
-    assert_accepted(&format!("{name}_report.html"), &without_style(&report));
+    assert_accepted(&format!("{name}_report.html"), &body(&report));
     assert_accepted(&format!("{name}_contacts.csv"), &contacts);
     (report, Contacts::parse(&contacts))
 }

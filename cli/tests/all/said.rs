@@ -5,7 +5,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64Mcg;
 
 use crate::calibrate::{loads, payload, surface};
-use crate::common::{Folder, assert_accepted};
+use crate::common::{Folder, assert_accepted, body};
 
 /// Something like noise of so many units in the columns whose names start so.
 pub(crate) fn noisy(table: &str, starts: &[&str], size: f64) -> String {
@@ -272,11 +272,9 @@ fn of_a_plan() {
 
 /// The drawings without the curves of the landscape, a tag a line.
 fn without_curves(page: &str) -> String {
-    let (_, body) = page.split_once("</style>").unwrap();
-    let body = body.replace("><", ">\n<").replace(env!("CARGO_PKG_VERSION"), "VERSION");
     let curve =
         |line: &&str| !line.starts_with("<path class=\"curve q") && !line.starts_with("<path class=\"dots a");
-    body.lines().filter(curve).map(|line| format!("{line}\n")).collect()
+    body(page).lines().filter(curve).map(|line| format!("{line}\n")).collect()
 }
 
 #[test]

@@ -7,7 +7,7 @@ use fingertip_recordings::mcap::Compression;
 use nalgebra::Rotation3;
 
 use crate::calibrate::{loads, payload};
-use crate::common::{Folder, assert_accepted};
+use crate::common::{Folder, assert_accepted, body};
 use crate::health::{calibration, gauges, normal};
 use crate::recordings::two_wrists;
 use crate::said::{noisy, noisy_loads};
@@ -105,11 +105,10 @@ fn of_sensors() {
         let with = ["health", &file, "--calibration", "tip.toml", "--celsius", "24"];
         assert_accepted(&format!("health_{name}_loads.txt"), &all_said(&folder, &with));
         // The words and figures of the page; its curves follow the noise of sines and logarithms.
-        let page = folder.read(&page).replace("><", ">\n<").replace(env!("CARGO_PKG_VERSION"), "VERSION");
-        let (_, body) = page.split_once("</style>").unwrap();
-        let body: String =
-            body.lines().filter(|line| !line.starts_with("<path")).map(|line| format!("{line}\n")).collect();
-        assert_accepted(&format!("health_{name}.html"), &body);
+        let page = body(&folder.read(&page));
+        let page: String =
+            page.lines().filter(|line| !line.starts_with("<path")).map(|line| format!("{line}\n")).collect();
+        assert_accepted(&format!("health_{name}.html"), &page);
         assert_accepted(
             &format!("tare_{name}.txt"),
             &all_said(&folder, &["tare", "tip.toml", &file, "-o", "x.toml"]),

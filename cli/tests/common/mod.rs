@@ -99,6 +99,13 @@ pub(crate) fn name_test(command: &mut Command) {
     }
 }
 
+/// What stands on a page, a tag a line: without its head, its style and the script that every page has.
+pub(crate) fn body(page: &str) -> String {
+    let (_, body) = page.split_once("</style>").unwrap();
+    let (body, _) = body.split_once("</main>").unwrap_or((body, ""));
+    body.replace("><", ">\n<").replace(env!("CARGO_PKG_VERSION"), "VERSION")
+}
+
 /// Compares a text with the one of `tests/accepted` that somebody has looked at: the same words, and the same
 /// numbers to within one unit of the last place, in which two machines may round apart. With
 /// `FINGERTIP_ACCEPT=1` it is written there instead.
