@@ -33,7 +33,8 @@ fn waiting(folder: &Folder, more: &[&str]) -> Child {
     let child = folder.command(&[&arguments, more].concat()).stderr(Stdio::null()).spawn().unwrap();
     let mut pipe = fs::OpenOptions::new().write(true).open(folder.path("pipe")).unwrap();
     pipe.write_all(recording(5000).as_bytes()).unwrap();
-    while !folder.has_begun("contacts.csv") {
+    let output = more.iter().skip_while(|word| **word != "--output").nth(1).unwrap_or(&"contacts.csv");
+    while !folder.has_begun(output) {
         std::thread::sleep(core::time::Duration::from_millis(5));
     }
     // The writing end stays open as long as the child lives.
@@ -159,6 +160,23 @@ fn links_stay_links_and_rights_stay() {
     let meta = fs::metadata(folder.path("real.mcap")).unwrap();
     assert!(meta.len() > 100 && meta.permissions().mode() & 0o777 == 0o640, "{meta:?}");
     assert_eq!(names(&folder), ["a.csv", "link.mcap", "real.mcap"]);
+}
+
+/// A new file has the rights of any other, and is begun where it will be, which may be another disk.
+#[cfg(unix)]
+#[test]
+fn new_files_are_like_others() {
+    use std::os::unix::fs::PermissionsExt as _;
+
+    let folder = Folder::new();
+    folder.write("a.csv", &recording(9));
+    folder.succeed(&["convert", "a.csv", "a.mcap"]);
+    let rights = |name: &str| fs::metadata(folder.path(name)).unwrap().permissions().mode();
+    assert_eq!(rights("a.mcap"), rights("a.csv"));
+    fs::create_dir(folder.path("sub")).unwrap();
+    let mut child = waiting(&folder, &["--output", "sub/contacts.csv"]);
+    assert!(!folder.has_begun("contacts.csv"));
+    signal(&mut child, "-INT");
 }
 
 #[cfg(target_os = "linux")]

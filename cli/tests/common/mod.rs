@@ -29,11 +29,11 @@ impl Folder {
         self.0.join(name)
     }
 
-    /// Whether a file is being written that will have this name.
+    /// Whether a file is being written that will have this name, in the folder in which it will be.
     pub(crate) fn has_begun(&self, name: &str) -> bool {
-        let stem = name.split('.').next().unwrap_or_default();
-        let begun = format!("{stem}.unfinished-");
-        let mut all = fs::read_dir(&self.0).unwrap().flatten();
+        let path = self.path(name);
+        let begun = format!("{}.unfinished-", path.file_stem().unwrap().to_string_lossy());
+        let mut all = fs::read_dir(path.parent().unwrap()).unwrap().flatten();
         all.any(|entry| entry.file_name().to_string_lossy().starts_with(&begun))
     }
 
