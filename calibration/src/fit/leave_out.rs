@@ -30,7 +30,6 @@ pub fn leave_out(
     }
     let mut members: Vec<(usize, usize)> = cases.iter().copied().zip(0..).collect();
     members.sort_unstable();
-    let k = design.ncols();
     let alike = fit.trust.column_iter().all(|column| column == fit.trust.column(0));
     let responses_together: Vec<core::ops::Range<usize>> = if alike {
         core::iter::once(0..responses.ncols()).collect()
@@ -59,25 +58,37 @@ pub fn leave_out(
             let theta = fit.coefficients.columns(range.start, range.len());
             let residual = y - &x * theta;
             let q = x * root;
-            let left = DMatrix::identity(k, k) - q.transpose() * &q;
-            // Its eigenvalues lie in [0, 1]; one of rounding size means that the case was the only
-            // one to observe some direction.
-            let eigen = left.symmetric_eigen();
-            if !(eigen.eigenvalues.min() > 1e3 * k as f64 * f64::EPSILON) {
+            let Some(right) = solve(&q, &residual) else {
                 determined = false;
                 break;
-            }
-            let mut right = eigen.eigenvectors.transpose() * (q.transpose() * residual);
-            for (mut row, value) in right.row_iter_mut().zip(eigen.eigenvalues.iter()) {
-                row /= *value;
-            }
-            let step = root * (eigen.eigenvectors * right);
+            };
+            let step = root * right;
             let mut target = without.columns_mut(range.start, range.len());
             target -= step;
         }
         visit(group[0].0, &samples, determined.then_some(&without));
     }
     Ok(())
+}
+
+/// `(I − QᵀQ)⁻¹ Qᵀ r`; `None` if the case was the only one to observe some direction.
+fn solve(q: &DMatrix<f64>, residual: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let k = q.ncols();
+    // The eigenvalues of I − QᵀQ lie in [0, 1]; one of rounding size means that nothing else observed a direction.
+    let least = 1e3 * k as f64 * f64::EPSILON;
+    if q.nrows() == 1 {
+        let free = 1.0 - q.norm_squared();
+        return (free > least).then(|| q.transpose() * residual / free);
+    }
+    let eigen = (DMatrix::identity(k, k) - q.transpose() * q).symmetric_eigen();
+    if !(eigen.eigenvalues.min() > least) {
+        return None;
+    }
+    let mut right = eigen.eigenvectors.transpose() * (q.transpose() * residual);
+    for (mut row, value) in right.row_iter_mut().zip(eigen.eigenvalues.iter()) {
+        row /= *value;
+    }
+    Some(eigen.eigenvectors * right)
 }
 
 #[cfg(test)]

@@ -10,6 +10,6 @@ mod zeros;
 pub use error::CalibrationError;
 pub(crate) use fitting::fit_model;
 pub use options::{Direction, Limits, Method, Options};
-pub use sensor_model::SensorModel;
+pub use sensor_model::{LoadCovariance, SensorModel};
 pub(crate) use sensor_model::{design, normalised, responses};
 pub use streamed::StreamedFit;

@@ -208,23 +208,21 @@ impl SensorModel {
         }
     }
 
-    /// Covariance of the load \[N, N·m\] that one reading tells of near a load: that of one reading
+    /// Covariance of the load \[N, N·m\] that one reading tells of, at any load: that of one reading
     /// and that of the fit, `C⁺ Σ_V C⁺ᵀ (1 + xᵀG⁻¹x)` (`docs/theory/calibration.md#least-squares`). `None` if
     /// the matrix has deficient rank.
     #[must_use]
-    pub fn load_covariance(&self, load: &DVector<f64>) -> Option<DMatrix<f64>> {
+    pub fn load_covariance(&self) -> Option<LoadCovariance> {
         let (matrix, _) = self.matrix_and_zero().ok()?;
         let covariance = self.covariance()?;
         let inverse = pseudo_inverse(&matrix)?;
-        let load = DVector::from_fn(load.len(), |i, _| load[i] / self.nominal[i]);
-        let spread = 1.0 + load.dot(&(&covariance.loads * &load));
-        let mut result = &inverse * covariance.signals * inverse.transpose() * spread;
-        for i in 0..self.nominal.len() {
-            for j in 0..self.nominal.len() {
-                result[(i, j)] *= self.nominal[i] * self.nominal[j];
+        let mut of_reading = &inverse * covariance.signals * inverse.transpose();
+        for (i, row) in self.nominal.iter().enumerate() {
+            for (j, column) in self.nominal.iter().enumerate() {
+                of_reading[(i, j)] *= row * column;
             }
         }
-        Some(result)
+        Some(LoadCovariance { of_reading, of_fit: covariance.loads, nominal: self.nominal.clone() })
     }
 
     /// As a calibration file, its quality unchecked.
@@ -241,6 +239,28 @@ impl SensorModel {
             Provenance { method: method.to_owned(), tool: crate::TOOL.to_owned(), ..Provenance::default() };
         file.validate()?;
         Ok(file)
+    }
+}
+
+/// How surely a model tells a load: see [`SensorModel::load_covariance`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadCovariance {
+    /// Of a reading at zero load, but for what the fit adds.
+    of_reading: DMatrix<f64>,
+    /// `G⁻¹`, of loads in shares of the nominal ones.
+    of_fit: DMatrix<f64>,
+    nominal: Vec<f64>,
+}
+
+impl LoadCovariance {
+    /// At a load \[N, N·m\], of as many axes as the model has; those that are missing count as zero.
+    #[must_use]
+    pub fn at(&self, load: &[f64]) -> DMatrix<f64> {
+        let load = DVector::from_fn(self.nominal.len(), |i, _| {
+            load.get(i).copied().unwrap_or_default() / self.nominal[i]
+        });
+        let spread = 1.0 + load.dot(&(&self.of_fit * &load));
+        &self.of_reading * spread
     }
 }
 

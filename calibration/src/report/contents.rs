@@ -1,6 +1,8 @@
 //! What can be said of a calibration.
 
-use nalgebra::{DMatrix, DVector};
+use alloc::collections::BTreeSet;
+
+use nalgebra::DMatrix;
 use serde::Serialize;
 
 use super::contact::{ContactReport, contact_report};
@@ -105,13 +107,10 @@ impl Report {
         report.excluded = excluded;
         report.outliers = outliers;
         report.outlier_influence_percent = influence;
-        report.lines = lines(table, &model.nominal, &predicted, |i| {
-            model.load_covariance(&DVector::from_iterator(
-                table.axes.len(),
-                table.loads.row(i).iter().copied(),
-            ))
-        });
-        if let Some(covariance) = model.load_covariance(&DVector::zeros(table.axes.len())) {
+        let covariance = model.load_covariance();
+        report.lines = lines(table, &model.nominal, &predicted, |load| Some(covariance.as_ref()?.at(load)));
+        if let Some(covariance) = &covariance {
+            let covariance = covariance.at(&[]);
             for (j, axis) in report.axes.iter_mut().enumerate() {
                 axis.deviation_percent = Some(100.0 * covariance[(j, j)].max(0.0).sqrt() / axis.full_scale);
             }
@@ -169,7 +168,8 @@ impl Report {
                 let reason = format!("gauge {} saturated", gauge + 1);
                 excluded.push(Exclusion { sample: table.names[*sample].clone(), reason });
             }
-            kept = table.select(|i| saturated.iter().all(|(sample, _)| *sample != i));
+            let saturated: BTreeSet<usize> = saturated.into_iter().map(|(sample, _)| sample).collect();
+            kept = table.select(|i| !saturated.contains(&i));
             kept.validate()?;
         }
         let table = &kept;

@@ -2,8 +2,9 @@
 //! VDI/VDE 2638 and ISO 376, which know one axis only).
 
 use alloc::collections::BTreeMap;
+use std::collections::HashMap;
 
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, Matrix3x6, Matrix6, Vector3};
 use serde::Serialize;
 
 use crate::Axis;
@@ -44,12 +45,32 @@ pub struct AxisReport {
     pub creep_percent: Option<f64>,
 }
 
-/// The same load in the same group.
-type Key = (usize, Vec<u64>);
+/// Which samples have the same load: numbers from 0 in the order in which loads first occur.
+struct Alike {
+    /// Of any group.
+    anywhere: Vec<usize>,
+    /// Of the same group.
+    in_group: Vec<usize>,
+}
 
-fn key(table: &LoadTable, sample: usize, group: usize) -> Key {
-    // Adding zero makes −0 and 0 the same bits.
-    (group, table.loads.row(sample).iter().map(|x| (x + 0.0).to_bits()).collect())
+impl Alike {
+    fn of(table: &LoadTable) -> Self {
+        let (mut loads, mut in_groups) = (HashMap::new(), HashMap::new());
+        let (mut anywhere, mut in_group) = (Vec::new(), Vec::new());
+        for sample in 0..table.samples() {
+            let mut bits = [0; Axis::ALL.len()];
+            // Adding zero makes −0 and 0 the same bits.
+            bits.iter_mut()
+                .zip(table.loads.row(sample).iter())
+                .for_each(|(bits, x)| *bits = (x + 0.0).to_bits());
+            let new = loads.len();
+            let load = *loads.entry(bits).or_insert(new);
+            let new = in_groups.len();
+            in_group.push(*in_groups.entry((load, table.groups[sample])).or_insert(new));
+            anywhere.push(load);
+        }
+        Self { anywhere, in_group }
+    }
 }
 
 /// The errors of every axis; `predicted` is samples × axes.
@@ -60,6 +81,7 @@ pub(crate) fn axis_reports(
     left_out: Option<&[Option<Vec<f64>>]>,
 ) -> Vec<AxisReport> {
     let error = predicted - &table.loads;
+    let alike = Alike::of(table);
     let rms = |values: &mut dyn Iterator<Item = f64>| {
         let (sum, count) = values.fold((0.0, 0_u32), |(sum, count), x| (sum + x * x, count + 1));
         (sum / f64::from(count.max(1))).sqrt()
@@ -91,8 +113,8 @@ pub(crate) fn axis_reports(
                     .map(|out| percent(out.iter().fold(0.0, |most, x| most.max(x.abs())))),
                 deviation_percent: None,
                 linearity_percent: linearity(table, predicted, j).map(percent),
-                hysteresis_percent: hysteresis(table, full_scale, predicted, j).map(percent),
-                repeatability_percent: repeatability(table, predicted, j).map(percent),
+                hysteresis_percent: hysteresis(table, &alike, full_scale, predicted, j).map(percent),
+                repeatability_percent: repeatability(table, &alike, predicted, j).map(percent),
                 zero_return_percent: zero_return(table, predicted, j).map(percent),
                 creep_percent: creep(table, predicted, j).map(percent),
             }
@@ -113,35 +135,44 @@ fn linearity(table: &LoadTable, predicted: &DMatrix<f64>, axis: usize) -> Option
     Some(pairs.iter().map(|(l, p)| (p - slope * l).abs()).fold(0.0, f64::max))
 }
 
-fn hysteresis(table: &LoadTable, full_scale: &[f64], predicted: &DMatrix<f64>, axis: usize) -> Option<f64> {
+fn hysteresis(
+    table: &LoadTable,
+    alike: &Alike,
+    full_scale: &[f64],
+    predicted: &DMatrix<f64>,
+    axis: usize,
+) -> Option<f64> {
     let size = |i: usize| {
         table.loads.row(i).iter().zip(full_scale).map(|(load, full)| (load / full).powi(2)).sum::<f64>()
     };
     // Sum and number of the readings with rising and with falling load.
-    let mut seen: BTreeMap<Key, [(f64, u32); 2]> = BTreeMap::new();
-    for i in 1..table.samples() {
-        if table.groups[i] != table.groups[i - 1] || size(i) <= 0.0 || size(i) == size(i - 1) {
-            continue;
+    let mut seen = vec![[(0.0, 0_u32); 2]; alike.in_group.iter().max().map_or(0, |last| last + 1)];
+    let mut before = 0.0;
+    for i in 0..table.samples() {
+        let now = size(i);
+        if i > 0 && table.groups[i] == table.groups[i - 1] && now > 0.0 && now != before {
+            let entry = &mut seen[alike.in_group[i]][usize::from(now < before)];
+            *entry = (entry.0 + predicted[(i, axis)], entry.1 + 1);
         }
-        let way = usize::from(size(i) < size(i - 1));
-        let entry = &mut seen.entry(key(table, i, table.groups[i])).or_default()[way];
-        *entry = (entry.0 + predicted[(i, axis)], entry.1 + 1);
+        before = now;
     }
-    let differences = seen.values().filter(|[up, down]| up.1 > 0 && down.1 > 0);
+    let differences = seen.iter().filter(|[up, down]| up.1 > 0 && down.1 > 0);
     differences.map(|[up, down]| (up.0 / f64::from(up.1) - down.0 / f64::from(down.1)).abs()).reduce(f64::max)
 }
 
-fn repeatability(table: &LoadTable, predicted: &DMatrix<f64>, axis: usize) -> Option<f64> {
-    let mut seen: BTreeMap<Key, Vec<f64>> = BTreeMap::new();
-    for i in (0..table.samples()).filter(|i| table.loads.row(*i).amax() > 0.0) {
-        seen.entry(key(table, i, 0)).or_default().push(predicted[(i, axis)]);
+fn repeatability(table: &LoadTable, alike: &Alike, predicted: &DMatrix<f64>, axis: usize) -> Option<f64> {
+    let loaded = || (0..table.samples()).filter(|i| table.loads.row(*i).amax() > 0.0);
+    let mut seen = vec![(0.0, 0_u32); alike.anywhere.iter().max().map_or(0, |last| last + 1)];
+    for i in loaded() {
+        let (sum, count) = &mut seen[alike.anywhere[i]];
+        (*sum, *count) = (*sum + predicted[(i, axis)], *count + 1);
     }
-    let (mut squares, mut freedom) = (0.0, 0.0);
-    for values in seen.values().filter(|values| values.len() > 1) {
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        squares += values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>();
-        freedom += (values.len() - 1) as f64;
-    }
+    let squares: f64 = loaded()
+        .map(|i| (predicted[(i, axis)], seen[alike.anywhere[i]]))
+        .filter(|(_, (_, count))| *count > 1)
+        .map(|(reading, (sum, count))| (reading - sum / f64::from(count)).powi(2))
+        .sum();
+    let freedom: f64 = seen.iter().map(|(_, count)| f64::from(count.saturating_sub(1))).sum();
     (freedom > 0.0).then(|| (squares / freedom).sqrt())
 }
 
@@ -225,7 +256,7 @@ pub(crate) fn lines(
     table: &LoadTable,
     full_scale: &[f64],
     predicted: &DMatrix<f64>,
-    covariance: impl Fn(usize) -> Option<DMatrix<f64>>,
+    covariance: impl Fn(&[f64]) -> Option<DMatrix<f64>>,
 ) -> Option<LineReport> {
     if table.axes != Axis::ALL {
         return None;
@@ -248,12 +279,13 @@ pub(crate) fn lines(
         }
         // The foot of the true line lies off the measured line by |f × (m − r × f)| / |f|².
         distances.push(1e3 * f.cross(&(m - foot.cross(&f))).norm() / squared);
-        if let Some(covariance) = covariance(i) {
+        let [load, moment]: [[f64; 3]; 2] = [force.into(), torque.into()];
+        if let Some(covariance) = covariance(&[load, moment].concat()) {
             let cross = f.cross_matrix() / squared;
-            let mut jacobian = DMatrix::zeros(3, 6);
-            jacobian.view_mut((0, 0), (3, 3)).copy_from(&(-cross * foot.cross_matrix()));
-            jacobian.view_mut((0, 3), (3, 3)).copy_from(&cross);
-            let spread = &jacobian * covariance * jacobian.transpose();
+            let mut jacobian = Matrix3x6::zeros();
+            jacobian.fixed_columns_mut::<3>(0).copy_from(&(-cross * foot.cross_matrix()));
+            jacobian.fixed_columns_mut::<3>(3).copy_from(&cross);
+            let spread = jacobian * Matrix6::from_fn(|i, j| covariance[(i, j)]) * jacobian.transpose();
             expected.push(1e3 * spread.trace().max(0.0).sqrt());
         }
     }

@@ -226,7 +226,7 @@ fn the_covariance_of_a_load_has_the_reading_and_the_matrix() {
         let share = DVector::from_fn(3, |j, _| load[j] / NOMINAL[j]);
         let more = 1.0 + share.dot(&(&inverse * &share));
         let expected = &from_signals * &noise * from_signals.transpose() * more;
-        let found = model.load_covariance(&DVector::from_column_slice(&load)).unwrap();
+        let found = model.load_covariance().unwrap().at(&load);
         assert!((found - &expected).largest() < 1e-11 * expected.largest());
     }
 }
