@@ -228,7 +228,7 @@ impl PyCalibration {
     /// The report as one page with tables and plots.
     #[pyo3(signature = (title="Calibration"))]
     fn report_html(&self, title: &str) -> String {
-        self.calibration.report.to_html(title)
+        self.calibration.report.to_html(title, &[])
     }
 
     /// The calibration file as a text, which a scene can name as `calibration` of `[sensor]`.

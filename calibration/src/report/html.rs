@@ -23,12 +23,21 @@ const ROWS: [(&str, &str, Column); 10] = [
 ];
 
 impl Report {
-    /// As one HTML page without scripts or outside files, plots as SVG within.
+    /// As one HTML page without scripts or outside files, plots as SVG within. `of` says of which sensor, files and
+    /// date: names and what stands beside them; what is empty is left out.
     #[must_use]
-    pub fn to_html(&self, title: &str) -> String {
+    pub fn to_html(&self, title: &str, of: &[(&str, String)]) -> String {
         let mut page = Page::new(title);
         let word = self.verdict.name();
         page.push(&html! { p.lead { "This calibration is " b class=(word) { (word) } "." } });
+        let of: Vec<Vec<String>> = of
+            .iter()
+            .filter(|(_, text)| !text.is_empty())
+            .map(|(name, text)| vec![(*name).to_owned(), text.clone()])
+            .collect();
+        if !of.is_empty() {
+            page.table(&Table { title: "", head: &[], rows: &of, words: true });
+        }
         page.list("Why", &self.reasons);
         page.list("Mind", &self.notes);
         page.push(&self.summary());

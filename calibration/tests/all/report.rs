@@ -89,7 +89,8 @@ fn three_forms_say_the_same() {
     assert_eq!(json["verdict"], "good");
     assert_eq!(json["axes"][2]["rms_percent"].as_f64().unwrap(), report.axes[2].rms_percent);
     assert_eq!(json["details"].as_array().unwrap().len(), 72);
-    let html = report.to_html("Tip <7>");
+    let html = report.to_html("Tip <7>", &[("serial", "A <1>".to_owned()), ("date", String::new())]);
+    assert!(html.contains("A &lt;1&gt;") && !html.contains(">date<"), "{html}");
     assert!(html.contains("Tip &lt;7&gt;") && !html.contains("<script"));
     assert_eq!(html.matches("<svg").count(), 12);
 }

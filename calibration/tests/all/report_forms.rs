@@ -163,7 +163,7 @@ fn json_has_every_field() {
 
 /// The page without its plots.
 fn page(report: &Report) -> String {
-    let html = report.to_html("Tip <7> & \"co\"");
+    let html = report.to_html("Tip <7> & \"co\"", &[]);
     let body = html.split_once("<main>").unwrap().1;
     let mut text = String::new();
     for (index, part) in body.split("<svg").enumerate() {

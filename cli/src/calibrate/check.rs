@@ -48,7 +48,13 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
     let touches = arguments.touches.set(&file.axes, &file.nominal)?;
     let report = Report::of_check(&file, &table, &limits(arguments.limit), touches.as_ref())
         .map_err(|error| fault(&error))?;
-    write_reports(&report, "Check", arguments.html.as_ref(), arguments.json.as_ref(), &outputs)?;
+    let of = [
+        ("serial number", file.provenance.serial.clone()),
+        ("date of the calibration", file.provenance.date.clone()),
+        ("calibration", arguments.calibration.display().to_string()),
+        ("loads", arguments.loads.display().to_string()),
+    ];
+    write_reports(&report, "Check", &of, arguments.html.as_ref(), arguments.json.as_ref(), &outputs)?;
     outputs.say(&report.to_string(), &notes)?;
     if report.verdict == Verdict::Bad {
         return Err(CliError::DoesNotHold {

@@ -82,12 +82,13 @@ pub(crate) fn read_payload(path: &Path) -> Result<PayloadFile, CliError> {
 pub(super) fn write_reports(
     report: &Report,
     title: &str,
+    of: &[(&str, String)],
     html: Option<&PathBuf>,
     json: Option<&PathBuf>,
     outputs: &Outputs,
 ) -> Result<(), CliError> {
     if let Some(path) = html {
-        outputs.write("report", path, &report.to_html(title))?;
+        outputs.write("report", path, &report.to_html(title, of))?;
     }
     if let Some(path) = json {
         let text = report.to_json().map_err(|error| CliError::write("report", path, error.into()))?;

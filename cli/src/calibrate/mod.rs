@@ -59,7 +59,15 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
     let file = calibration.to_file().map_err(|error| fault(&error))?;
     write_calibration(file, arguments, &output, &outputs)?;
     let title = if arguments.serial.is_empty() { "Calibration" } else { &arguments.serial };
-    write_reports(&calibration.report, title, arguments.html.as_ref(), arguments.json.as_ref(), &outputs)?;
+    let loads: Vec<String> = arguments.loads.iter().map(|path| path.display().to_string()).collect();
+    let of = [
+        ("serial number", arguments.serial.clone()),
+        ("date", arguments.date.clone()),
+        ("loads", loads.join(", ")),
+        ("calibration", output.display().to_string()),
+    ];
+    let (html, json) = (arguments.html.as_ref(), arguments.json.as_ref());
+    write_reports(&calibration.report, title, &of, html, json, &outputs)?;
     if calibration.report.verdict == Verdict::Suspect {
         notes.push(
             "suspect until somebody has looked: repeat the readings named above, or leave them out by \
