@@ -171,3 +171,32 @@ fn fold<T: Real>(felt: &Felt<T>, library: &CLibrary) -> u32 {
     }
     words.into_iter().fold(0x811c_9dc5_u32, |sum, word| (sum ^ word).wrapping_mul(0x0100_0193))
 }
+
+/// What an exported library is played with is held bit for bit; `.ci/firmware-c` plays it.
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use std::path::Path;
+
+    use fingertip_scene::{Scalar, Scene};
+    use fingertip_test_support::Unchanged;
+
+    use super::Session;
+
+    #[test]
+    fn sessions_stay_as_they_are() {
+        let mut unchanged = Unchanged::new(env!("CARGO_MANIFEST_DIR"), "tests/unchanged/sessions.txt");
+        for name in ["paper_sphere", "capsule", "nano17_cylinder", "ellipsoid", "gauges"] {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../examples/scenes/{name}.toml"));
+            let scene = Scene::load(&path).unwrap();
+            let single = scene.to_c(Scalar::F32, None, "tip").unwrap();
+            let double = scene.to_c(Scalar::F64, None, "tip").unwrap();
+            let sessions =
+                [Session::of::<f32>(&scene, &single).unwrap(), Session::of::<f64>(&scene, &double).unwrap()];
+            for (scalar, session) in ["f32", "f64"].into_iter().zip(sessions) {
+                assert!(session.text.contains("#define TIP_SAMPLES 200\n"));
+                unchanged.note(&format!("{name} {scalar}"), session.text.lines());
+            }
+        }
+        unchanged.check();
+    }
+}

@@ -94,12 +94,15 @@ fn what_a_calibration_is_told_is_written_down() {
         assert!(text.contains(expected), "{expected} is not in {text}");
     }
     let page = folder.read("r.html");
-    for expected in ["<title>T7</title>", ">T7</td>", ">2026-11-21</td>", ">loads.csv</td>", ">cal.toml</td>"] {
+    for expected in ["<title>T7</title>", ">T7</td>", ">2026-11-21</td>", ">loads.csv</td>", ">cal.toml</td>"]
+    {
         assert!(page.contains(expected), "{expected} is not in {page}");
     }
     folder.succeed(&["check", "cal.toml", "loads.csv", "--html", "check.html", "--overwrite"]);
     let page = folder.read("check.html");
-    assert!(page.contains(">T7</td>") && page.contains(">2026-11-21</td>") && page.contains(">cal.toml</td>"));
+    assert!(
+        page.contains(">T7</td>") && page.contains(">2026-11-21</td>") && page.contains(">cal.toml</td>")
+    );
     // Without a zero, and of loads from signals.
     run(&["--no-bias"]);
     assert!(

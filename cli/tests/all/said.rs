@@ -82,6 +82,24 @@ fn of_a_stream_of_two_files() {
     let bad = [&stream[..], &FULL, &["--limit", "0.01", "--accept-bad"]].concat();
     assert_accepted("stream_bad.txt", &folder.succeed(&bad));
     assert!(folder.read("cal.toml").contains("verdict = \"bad\""));
+    // A reading at the end of the range is none; and more rows than are looked at at once.
+    let least = table
+        .lines()
+        .skip(1)
+        .flat_map(|line| line.split(',').skip(7).map(|cell| cell.parse::<f64>().unwrap()).collect::<Vec<_>>())
+        .fold(f64::INFINITY, f64::min);
+    let least = format!("{least:.9}");
+    let said = folder.succeed(&["calibrate", "a.csv", "--stream", "-o", "c.toml", "--range", &least, "9"]);
+    assert!(said.contains("23 samples"), "{said}");
+    let header = table.lines().next().unwrap();
+    let rows: String = table.lines().skip(1).map(|line| format!("{line}\n")).collect();
+    folder.write("many.csv", &format!("{header}\n{}", rows.repeat(400)));
+    let errors = |file: &str| {
+        let said = folder.succeed(&["calibrate", file, "--stream", "-o", "c.toml"]);
+        said.lines().filter(|line| line.contains("RMS")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(errors("a.csv").len(), 6);
+    assert_eq!(errors("many.csv"), errors("a.csv"));
     // Rows without weight or of less than none.
     let weighted = |weight: &str| {
         table

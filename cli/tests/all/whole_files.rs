@@ -179,6 +179,15 @@ fn new_files_are_like_others() {
     signal(&mut child, "-INT");
 }
 
+#[test]
+fn the_standard_output_holds_one_thing() {
+    let folder = Folder::new();
+    folder.write("a.csv", &recording(9));
+    let sphere = scene("paper_sphere.toml");
+    let error = folder.fail(1, &["analyze", "a.csv", "--scene", &sphere, "--output", "-", "--report", "-"]);
+    assert!(error.contains("-"), "{error}");
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_called_one() {
