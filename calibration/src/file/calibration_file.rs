@@ -1,8 +1,7 @@
 //! The calibration of one sensor, as it is written to a file.
 
-use fingertip_contact::CalibrationUncertainty;
 use fingertip_wrench::{QuadraticInverse, Real, SensorMatrix, Tare};
-use nalgebra::{DMatrix, DVector, Matrix6, SMatrix, SVector, Vector6};
+use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector6};
 use serde::{Deserialize, Serialize};
 
 use super::{FileError, SignalUnit, Temperature, rows};
@@ -269,31 +268,6 @@ impl CalibrationFile {
             Vector6::from_fn(|axis, _| terms.map_or_else(T::zero, |terms| load(axis, terms[(axis, column)])))
         })
         .map_err(|_| FileError::NotFinite { field: "quadratic".to_owned() })
-    }
-
-    /// What the fit leaves uncertain of the wrenches that are solved by this calibration, in scalar type `T`; of one with
-    /// quadratic terms, that of its linear part. `None` if the file has no covariance.
-    ///
-    /// # Errors
-    /// [`FileError::NotSixAxes`] if it measures fewer components, [`FileError::Singular`] if its matrix has no inverse,
-    /// [`FileError::OutOfRange`] for field `covariance` if its numbers are none of a covariance.
-    pub fn uncertainty_in<T: Real>(&self) -> Result<Option<CalibrationUncertainty<T>>, FileError> {
-        let Some(Covariance { signals, loads }) = &self.covariance else { return Ok(None) };
-        self.validate()?;
-        if self.axes != Axis::ALL {
-            return Err(FileError::NotSixAxes { found: self.axes.len() });
-        }
-        let inverse = crate::linear::pseudo_inverse(&self.matrix).ok_or(FileError::Singular)?;
-        let readings = &inverse * signals * inverse.transpose();
-        // Both halves, which rounding leaves apart.
-        let even = |matrix: &DMatrix<f64>, i: usize, j: usize| 0.5 * (matrix[(i, j)] + matrix[(j, i)]);
-        let full_scale = |i: usize, j: usize| self.nominal[i] * self.nominal[j];
-        let readings = Matrix6::from_fn(|i, j| T::literal(even(&readings, i, j) * full_scale(i, j)));
-        let loads = Matrix6::from_fn(|i, j| T::literal(even(loads, i, j) / full_scale(i, j)));
-        CalibrationUncertainty::new(readings, loads).map(Some).map_err(|_| FileError::OutOfRange {
-            field: "covariance".to_owned(),
-            requirement: "symmetric and without a negative variance",
-        })
     }
 
     /// The readings without load.

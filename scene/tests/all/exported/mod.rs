@@ -13,6 +13,8 @@ pub(crate) mod formula_pad;
 #[rustfmt::skip]
 pub(crate) mod gauges;
 #[rustfmt::skip]
+pub(crate) mod gripped_ball;
+#[rustfmt::skip]
 pub(crate) mod nano17_cylinder;
 #[rustfmt::skip]
 pub(crate) mod nano17_soft_finger;
