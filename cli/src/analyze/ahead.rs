@@ -1,5 +1,6 @@
 //! A recording that is read ahead, on a thread of its own.
 
+use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
@@ -10,10 +11,13 @@ use crate::error::CliError;
 use crate::health::WatchedRows;
 use crate::opened::Rows;
 
-/// Rows of a block: a tenth of a megabyte.
-const ROWS: usize = 1024;
+/// Rows of a block, and values of all of them, at most: some ten kilobytes, however wide a recording is.
+const ROWS: usize = 512;
+const VALUES: usize = 4096;
 /// Blocks that are read ahead at most: memory does not grow with the recording.
-const BLOCKS: usize = 4;
+const BLOCKS: usize = 3;
+/// What the thread that reads needs for its calls is far less, of whatever format \[bytes\].
+const STACK: usize = 512 << 10;
 
 /// Reads a recording to its end and looks at the health of its sensor, while `each` works on blocks of its rows in their
 /// order on this thread.
@@ -29,7 +33,11 @@ pub(super) fn read(
     let (full, blocks) = sync_channel(BLOCKS);
     let (used, free) = sync_channel(BLOCKS + 2);
     thread::scope(|scope| {
-        let reading = scope.spawn(move || read_ahead(reader, watched, &full, &free));
+        let file = reader.file().to_owned();
+        let reading = thread::Builder::new()
+            .stack_size(STACK)
+            .spawn_scoped(scope, move || read_ahead(reader, watched, &full, &free))
+            .map_err(|source| CliError::read("recording", Path::new(&file), source))?;
         for block in blocks {
             each(&block)?;
             // At the end nobody takes it.
@@ -49,9 +57,10 @@ fn read_ahead(
     full: &SyncSender<RowBlock>,
     free: &Receiver<RowBlock>,
 ) -> Result<WatchedRows, RecordingError> {
+    let rows = ROWS.min(VALUES / reader.layout().columns().len().max(1)).max(1);
     loop {
         let mut block = free.try_recv().unwrap_or_default();
-        let more = reader.read_block(&mut block, ROWS);
+        let more = reader.read_block(&mut block, rows);
         block.rows().for_each(|row| watched.add(&row));
         // The rows before a bad one are worked on before it is told.
         let is_taken = block.is_empty() || full.send(block).is_ok();

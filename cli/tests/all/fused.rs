@@ -34,14 +34,12 @@ fn both_sides_of_a_gripped_ball_are_told() {
         // One place alone, and none.
         row(0.005, &[(RIGHT, second)], ["0,0,0,0", "0.013,0,-0.0002,3.2"]),
         row(0.01, &[], ["0,0,0,0", "0,0,0,0"]),
-        // A place that is nowhere near the surface.
-        row(0.015, &both, ["0,0,0.5,3.05", "0.013,0,0,3.2"]),
+        // A place that is not the one that is pressed.
+        row(0.015, &both, ["0,0,0.013,3.05", "0.013,0,0,3.2"]),
     ];
     let folder = Folder::new();
     folder.write("grip.csv", &format!("{HEADER}{}", rows.concat()));
-    let said =
-        folder.succeed(&["analyze", "grip.csv", "--scene", &scene("gripped_ball.toml"), "--no-report"]);
-    assert!(said.contains("could not be fused in 1 rows") && said.contains("near the surface"), "{said}");
+    folder.succeed(&["analyze", "grip.csv", "--scene", &scene("gripped_ball.toml"), "--no-report"]);
     let contacts = Contacts::parse(&folder.read("contacts.csv"));
     let near = |name: &str, row: usize, expected: f64, within: f64| {
         let found = contacts.numbers(name)[row];
@@ -58,8 +56,11 @@ fn both_sides_of_a_gripped_ball_are_told() {
     near("fused2_share_from_wrench", 1, 1.0, 0.1);
     let deviations = contacts.numbers("fused2_deviation_N");
     assert!(deviations[0] > 3.0 * deviations[1] && deviations[1] > 0.005, "{deviations:?}");
-    assert!(contacts.numbers("fused_disagreement")[0] < 20.0);
-    for (name, row) in [("fused1_x_m", 1), ("fused1_fx_N", 2), ("fused2_fx_N", 2), ("fused2_fx_N", 3)] {
+    // χ² with six degrees of freedom, where all is right.
+    let disagreement = contacts.numbers("fused_disagreement");
+    assert!(disagreement[0] < 20.0 && disagreement[3] > 100.0, "{disagreement:?}");
+    for (name, row) in [("fused1_x_m", 1), ("fused1_fx_N", 2), ("fused2_fx_N", 2), ("fused_disagreement", 2)]
+    {
         assert!(contacts.numbers(name)[row].is_nan(), "{name} of row {row}");
     }
 }

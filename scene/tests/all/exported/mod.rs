@@ -27,6 +27,8 @@ pub(crate) mod paper_sphere_f32;
 #[rustfmt::skip]
 pub(crate) mod plane;
 #[rustfmt::skip]
+pub(crate) mod robot_link;
+#[rustfmt::skip]
 pub(crate) mod rubber_tip;
 #[rustfmt::skip]
 pub(crate) mod rubber_tip_f32;
