@@ -136,7 +136,7 @@ pub enum SceneProblem {
     },
     /// A robot's description that gives no surface.
     #[error(transparent)]
-    Urdf(#[from] BadUrdf),
+    Urdf(Box<BadUrdf>),
     /// A friction or a detector whose numbers cannot be.
     #[error(transparent)]
     Friction(#[from] BadParameter),
@@ -196,6 +196,12 @@ pub enum BadCarried {
     /// Its body.
     #[error(transparent)]
     Body(#[from] BadPayload),
+}
+
+impl From<BadUrdf> for SceneProblem {
+    fn from(bad: BadUrdf) -> Self {
+        Self::Urdf(Box::new(bad))
+    }
 }
 
 impl From<FormulaFault> for SceneProblem {

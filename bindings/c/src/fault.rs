@@ -99,6 +99,7 @@ impl Fault {
                 _ => ft_status::FT_BAD_SCENE,
             },
             Self::Scene(_) | Self::Fusion(NoFusion::NoSection) => ft_status::FT_BAD_SCENE,
+            Self::Fusion(NoFusion::AwaitsNoise) => ft_status::FT_NO_REST,
             Self::Size { .. } | Self::Fingers { .. } | Self::Fusion(NoFusion::Readings(_)) => {
                 ft_status::FT_WRONG_SIZE
             }
@@ -112,7 +113,7 @@ impl Fault {
             Self::Reading(NoWrench::NoSensor) => ft_status::FT_NO_SENSOR,
             Self::Reading(NoWrench::NoMotion) => ft_status::FT_NO_MOTION,
             Self::Reading(_) => ft_status::FT_INCOMPLETE,
-            Self::Tare(_) | Self::Fusion(NoFusion::AwaitsNoise) => ft_status::FT_NO_REST,
+            Self::Tare(_) => ft_status::FT_NO_REST,
             Self::Overlap(..) => ft_status::FT_OVERLAP,
             Self::Panicked => ft_status::FT_INTERNAL,
         }

@@ -68,9 +68,9 @@ impl ft_fused_contact {
             point: contact.point.into(),
             normal: contact.normal.into(),
             force: contact.force.into(),
-            // Symmetric, so that rows are columns.
-            point_covariance: contact.point_covariance.into(),
-            force_covariance: contact.force_covariance.into(),
+            // Row by row, of columns.
+            point_covariance: contact.point_covariance.transpose().into(),
+            force_covariance: contact.force_covariance.transpose().into(),
             share_from_wrench: contact.share_from_wrench,
             grip: match contact.grip {
                 Grip::Sticks => 0,

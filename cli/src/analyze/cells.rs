@@ -1,6 +1,6 @@
 //! Text that is made of short pieces.
 
-/// Bytes that are collected before they are written.
+/// Bytes that are collected before they are written: as many as a file takes without collecting them once more.
 const BUFFER: usize = 1 << 16;
 
 /// Text that is collected piece by piece: most are numbers of eight bytes and a few, for which a call that copies
@@ -13,7 +13,7 @@ pub(super) struct Cells {
 
 impl Default for Cells {
     fn default() -> Self {
-        Self { bytes: vec![0; BUFFER], filled: 0 }
+        Self { bytes: vec![0; 2 * BUFFER], filled: 0 }
     }
 }
 
@@ -29,24 +29,43 @@ fn copy_halves<const H: usize>(to: &mut [u8], text: &[u8]) {
     }
 }
 
+/// Copies text to a place that is as long.
+#[inline]
+fn copy(to: &mut [u8], text: &[u8]) {
+    match text.len() {
+        0 => {}
+        1..=3 => to.iter_mut().zip(text).for_each(|(to, byte)| *to = *byte),
+        4..=7 => copy_halves::<4>(to, text),
+        8..=16 => copy_halves::<8>(to, text),
+        _ => to.copy_from_slice(text),
+    }
+}
+
 impl Cells {
     /// Appends text.
     #[inline]
     pub(super) fn put(&mut self, text: &[u8]) {
-        let end = self.filled + text.len();
-        if end > self.bytes.len() {
-            self.grow(end);
+        copy(self.room(text.len()), text);
+    }
+
+    /// Appends a comma and text.
+    #[inline]
+    pub(super) fn put_cell(&mut self, text: &[u8]) {
+        if let Some((comma, to)) = self.room(1 + text.len()).split_first_mut() {
+            *comma = b',';
+            copy(to, text);
         }
-        if let Some(to) = self.bytes.get_mut(self.filled..end) {
-            match text.len() {
-                0 => {}
-                1..=3 => to.iter_mut().zip(text).for_each(|(to, byte)| *to = *byte),
-                4..=7 => copy_halves::<4>(to, text),
-                8..=16 => copy_halves::<8>(to, text),
-                _ => to.copy_from_slice(text),
-            }
+    }
+
+    /// Room for so many bytes.
+    #[inline]
+    fn room(&mut self, bytes: usize) -> &mut [u8] {
+        let start = self.filled;
+        self.filled += bytes;
+        if self.filled > self.bytes.len() {
+            self.grow(self.filled);
         }
-        self.filled = end;
+        self.bytes.get_mut(start..self.filled).unwrap_or_default()
     }
 
     #[cold]
@@ -57,7 +76,7 @@ impl Cells {
     /// Whether it is time to write.
     #[inline]
     pub(super) const fn is_full(&self) -> bool {
-        self.filled >= BUFFER / 2
+        self.filled >= BUFFER
     }
 
     /// What was collected.
@@ -78,13 +97,18 @@ mod tests {
     #[test]
     fn pieces_of_every_length_are_put_together() {
         let (mut cells, mut expected) = (Cells::default(), Vec::new());
-        for round in 0..4000_usize {
+        for round in 0..8000_usize {
             let piece: Vec<u8> = (0..round % 41).map(|i| b'a' + ((i + round) % 26) as u8).collect();
-            cells.put(&piece);
+            if round % 3 == 0 {
+                cells.put_cell(&piece);
+                expected.push(b',');
+            } else {
+                cells.put(&piece);
+            }
             expected.extend_from_slice(&piece);
-            assert_eq!(cells.is_full(), expected.len() >= BUFFER / 2);
+            assert_eq!(cells.is_full(), expected.len() >= BUFFER);
         }
-        assert!(expected.len() > BUFFER && cells.text() == expected);
+        assert!(expected.len() > 2 * BUFFER && cells.text() == expected);
         cells.clear();
         assert!(cells.text().is_empty() && !cells.is_full());
         cells.put(b"again");

@@ -257,10 +257,11 @@ impl ContactWriter {
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "single precision is what the file holds")]
     fn cell(&mut self, value: f64) {
-        self.cells.put(b",");
         let single = value as f32;
         if single.is_finite() {
-            self.cells.put(zmij::Buffer::new().format_finite(single).as_bytes());
+            self.cells.put_cell(zmij::Buffer::new().format_finite(single).as_bytes());
+        } else {
+            self.cells.put(b",");
         }
     }
 
@@ -276,8 +277,7 @@ impl ContactWriter {
 
     #[inline]
     fn word(&mut self, word: &str) {
-        self.cells.put(b",");
-        self.cells.put(word.as_bytes());
+        self.cells.put_cell(word.as_bytes());
     }
 
     #[inline]

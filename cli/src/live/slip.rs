@@ -52,10 +52,12 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         share if share > 0.8 => Color::Yellow,
         _ => Color::Green,
     };
-    let of = state
-        .coefficient
-        .map_or_else(String::new, |coefficient| format!(" of µ {}", crate::table::short(coefficient)));
-    let label = format!("ratio {}{of}, limit used {:.0} %", number(ratio), 100.0 * share);
+    // Of a limit of the ratio alone, the coefficient says more than the share.
+    let is_used = |coefficient: &f64| (ratio / coefficient - share).abs() < 0.005 || share >= 1.0;
+    let label = match state.coefficient.filter(is_used) {
+        Some(coefficient) => format!("ratio {} of µ {}", number(ratio), crate::table::short(coefficient)),
+        None => format!("ratio {}, limit used {:.0} %", number(ratio), 100.0 * share),
+    };
     let gauge_line = LineGauge::default()
         .ratio(if share.is_finite() { share } else { 0.0 })
         .label(label)
@@ -158,7 +160,7 @@ mod tests {
         }
         let (lines, ..) = shown(&touched(0.4, None));
         assert_eq!(lines[1], "fn 5.00, ft 2.00, margin 0.250 N");
-        assert!(lines[2].starts_with("ratio 0.400 of µ 0.5, limit used 80 % █"), "{lines:?}");
+        assert!(lines[2].starts_with("ratio 0.400 of µ 0.5 █"), "{lines:?}");
         // A spin torque uses the limit up, too: what counts is the margin, not the ratio.
         let mut state = touched(0.1, None);
         state.touch = state.touch.map(|touch| SceneTouch {
@@ -166,7 +168,7 @@ mod tests {
             ..touch
         });
         let (lines, _, found) = shown(&state);
-        assert!(lines[2].starts_with("ratio 0.100 of µ 0.5, limit used 90 % █"), "{lines:?}");
+        assert!(lines[2].starts_with("ratio 0.100, limit used 90 % █"), "{lines:?}");
         assert_eq!(found, Some(Color::Yellow));
         // Without friction there is a ratio, and without a contact force nothing.
         state.touch = state.touch.map(|touch| SceneTouch { grip: None, ..touch });

@@ -22,6 +22,9 @@ pub(super) struct Robot<'a, 'b> {
     joints: BTreeMap<&'a str, Joint<'a>>,
 }
 
+/// A link above another, what takes coordinates of that other to its own, and the joint that was passed to it.
+type Above<'a, 'j> = (&'a str, Isometry3<f64>, Option<&'j Joint<'a>>);
+
 /// Most links that a message lists.
 const LISTED: usize = 12;
 
@@ -86,8 +89,8 @@ impl<'a, 'b> Robot<'a, 'b> {
         })
     }
 
-    /// The links above one, with what takes its coordinates to each of theirs and the joint that was passed; itself first.
-    fn above(&self, link: &'a str) -> Result<Vec<(&'a str, Isometry3<f64>, Option<&Joint<'a>>)>, UrdfFault> {
+    /// The links above one; itself first.
+    fn above(&self, link: &'a str) -> Result<Vec<Above<'a, '_>>, UrdfFault> {
         let mut chain = vec![(link, Isometry3::identity(), None)];
         let (mut at, mut pose) = (link, Isometry3::identity());
         while let Some(joint) = self.joints.get(at) {
