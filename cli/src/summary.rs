@@ -80,6 +80,9 @@ pub(crate) fn of_recording(run: &Run<'_>) -> Findings {
     if observations.slips.count() > 0 {
         findings.tables.push(slip_table(observations));
     }
+    if !observations.instants.kept().is_empty() {
+        findings.tables.push(instant_table(observations));
+    }
     let faults: Vec<_> = quality.faults().into_iter().filter(|(_, fault)| fault.count() > 0).collect();
     if !faults.is_empty() {
         let mut table = Table::new("Faults of the recording", ["", "count", "first in lines"]);
@@ -182,6 +185,27 @@ fn slip_table(observations: &Observations) -> Table {
             format!("{:.3}", slip.time),
             number_or_dash(slip.normal_force),
             number_or_dash(slip.ratio),
+        ]);
+    }
+    table
+}
+
+/// How sure contacts were, at instants that are spread over the recording.
+fn instant_table(observations: &Observations) -> Table {
+    let head = ["at / s", "x / mm", "y / mm", "z / mm", "ellipse / mm", "normal / N", "± / N"];
+    let mut table = Table::new("How sure some contacts are", head);
+    for instant in observations.instants.kept() {
+        let [a, b] = instant.semi_axes.map(|axis| number(axis * 1e3));
+        let [x, y, z] =
+            [instant.point.x, instant.point.y, instant.point.z].map(|x| format!("{:.2}", x * 1e3));
+        table.row([
+            format!("{:.3}", instant.time),
+            x,
+            y,
+            z,
+            format!("{a} × {b}"),
+            number(instant.normal_force),
+            number(instant.deviation),
         ]);
     }
     table

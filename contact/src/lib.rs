@@ -32,6 +32,7 @@ pub use track::{
     Motions, NoCurvature, NoMeeting, ObjectCurvature, RollingCurvature, Sighting, Tracked, Tracker,
 };
 pub use uncertainty::{
-    ConfidenceEllipse, ContactCovariance, ContactJacobian, ConvexBound, GeometrySensitivity,
-    GeometryUncertainty, PaperBounds, SensorUncertainty, WorstCase, WrenchNoise, WrenchSpread,
+    CalibrationUncertainty, ConfidenceEllipse, ContactCovariance, ContactJacobian, ConvexBound,
+    GeometrySensitivity, GeometryUncertainty, PaperBounds, SensorUncertainty, WorstCase, WrenchNoise,
+    WrenchSpread,
 };

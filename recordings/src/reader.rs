@@ -11,6 +11,7 @@ use crate::error::{HeaderProblem, RecordingError};
 use crate::layout::{AssumedUnits, Layout, UsedColumn, shortened};
 use crate::quality::{FaultCount, Quality};
 use crate::row::{Row, RowMarks};
+use crate::row_block::RowBlock;
 use crate::table::TableReader;
 use crate::time_watch::Step;
 use crate::timing::Timing;
@@ -25,6 +26,9 @@ pub struct ReaderOptions {
     pub gap_factor: f64,
     /// Columns that have names of their own, and what to take them for; none by default.
     pub renamed: Vec<RenamedColumn>,
+    /// Whether the first line names the columns, as it does by default. Without names they are called by their numbers,
+    /// `1`, `2` and so on, and `renamed` says what they are.
+    pub header: bool,
 }
 
 /// A column whose name says nothing to this library.
@@ -40,7 +44,8 @@ pub struct RenamedColumn {
 
 impl Default for ReaderOptions {
     fn default() -> Self {
-        Self { assumed_units: AssumedUnits::default(), gap_factor: Timing::GAP_FACTOR, renamed: Vec::new() }
+        let (assumed_units, renamed) = (AssumedUnits::default(), Vec::new());
+        Self { assumed_units, gap_factor: Timing::GAP_FACTOR, renamed, header: true }
     }
 }
 
@@ -129,7 +134,11 @@ impl<R: Read> RecordingReader<R> {
         input: R,
         options: ReaderOptions,
     ) -> Result<Self, RecordingError> {
-        let table = TableReader::new(file, input)?;
+        let table = if options.header {
+            TableReader::new(file, input)
+        } else {
+            TableReader::without_header(file, input)
+        }?;
         let header = |problem| RecordingError::Header { file: table.file().to_owned(), problem };
         let mut names = table.names().to_vec();
         let negative = rename(&mut names, &options.renamed).map_err(header)?;
@@ -279,6 +288,19 @@ impl<R: Read> RecordingReader<R> {
         self.quality.note(&row, any_bad);
         self.follows = true;
         Ok(Some(row))
+    }
+
+    /// Reads so many rows at most into a block, in the place of what it holds; `false` at the end, where it holds none.
+    ///
+    /// # Errors
+    /// As [`next_row`](Self::next_row); the block then holds the rows before the bad one.
+    pub fn read_block(&mut self, block: &mut RowBlock, most: usize) -> Result<bool, RecordingError> {
+        block.start(self.values.len());
+        while block.len() < most.max(1) {
+            let Some(row) = self.next_row()? else { break };
+            block.push(&row);
+        }
+        Ok(!block.is_empty())
     }
 
     /// No more rows; a line that was cut is counted.

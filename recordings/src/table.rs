@@ -20,6 +20,8 @@ pub struct TableReader<R> {
     comments: Vec<String>,
     line: u64,
     cut_line: Option<u64>,
+    /// Whether the row at hand is the first, and was not given yet.
+    is_ahead: bool,
 }
 
 impl<R> fmt::Debug for TableReader<R> {
@@ -38,7 +40,27 @@ impl<R: Read> TableReader<R> {
     ///
     /// # Errors
     /// [`RecordingError`] if it cannot be read or there is no header.
-    pub fn new(file: impl Into<String>, mut input: R) -> Result<Self, RecordingError> {
+    pub fn new(file: impl Into<String>, input: R) -> Result<Self, RecordingError> {
+        let mut table = Self::begin(file, input)?;
+        let name =
+            |cell: &[u8]| String::from_utf8_lossy(cell).trim_start_matches('\u{feff}').trim().to_owned();
+        table.names = table.record.iter().map(name).collect();
+        Ok(table)
+    }
+
+    /// The same of a table without a header: its columns are called by their numbers, `1`, `2` and so on.
+    ///
+    /// # Errors
+    /// [`RecordingError`] if it cannot be read or is empty.
+    pub fn without_header(file: impl Into<String>, input: R) -> Result<Self, RecordingError> {
+        let mut table = Self::begin(file, input)?;
+        table.names = (1..=table.record.len()).map(|number| number.to_string()).collect();
+        table.is_ahead = true;
+        Ok(table)
+    }
+
+    /// Up to its first line.
+    fn begin(file: impl Into<String>, mut input: R) -> Result<Self, RecordingError> {
         let file = file.into();
         let start = match read_start(&mut input) {
             Ok(start) => start,
@@ -55,13 +77,11 @@ impl<R: Read> TableReader<R> {
             .buffer_capacity(1 << 16)
             .from_reader(Bounded::new(Cursor::new(start).chain(input)));
         let record = ByteRecord::new();
-        let mut table = Self { file, csv, record, names: Vec::new(), comments, line: 0, cut_line: None };
+        let mut table =
+            Self { file, csv, record, names: Vec::new(), comments, line: 0, cut_line: None, is_ahead: false };
         if !table.advance_to_any()? {
             return Err(RecordingError::Empty { file: table.file });
         }
-        let name =
-            |cell: &[u8]| String::from_utf8_lossy(cell).trim_start_matches('\u{feff}').trim().to_owned();
-        table.names = table.record.iter().map(name).collect();
         Ok(table)
     }
 
@@ -108,7 +128,7 @@ impl<R: Read> TableReader<R> {
     /// [`RecordingError`] for a row with too few or too many cells, or if reading fails. The next call goes on behind
     /// the bad row.
     pub fn advance(&mut self) -> Result<bool, RecordingError> {
-        if !self.advance_to_any()? {
+        if !core::mem::take(&mut self.is_ahead) && !self.advance_to_any()? {
             return Ok(false);
         }
         let (expected, found) = (self.names.len(), self.record.len());

@@ -12,7 +12,15 @@ use crate::fault::SceneProblem;
 /// minus before the name turns the sign round.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
-pub(crate) struct ColumnsSection(BTreeMap<String, String>);
+pub(crate) struct ColumnsSection(BTreeMap<String, Column>);
+
+/// A column by its name, or by its number, counted from 1: for recordings without a header.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+enum Column {
+    Name(String),
+    Number(i64),
+}
 
 /// The units of columns that `[input.columns]` names.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -42,7 +50,11 @@ impl ColumnsSection {
         if let Some((key, unit, _)) = known.into_iter().find(|(.., known)| !known) {
             return Err(SceneProblem::Unit { key, unit: unit.clone() });
         }
-        let named = |(key, name): (&String, &String)| {
+        let named = |(key, column): (&String, &Column)| {
+            let name = match column {
+                Column::Name(name) => name.clone(),
+                Column::Number(number) => number.to_string(),
+            };
             let to = match key.as_str() {
                 "time" => format!("t ({})", units.time),
                 "fx" | "fy" | "fz" => format!("{key} ({})", units.force),

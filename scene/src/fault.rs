@@ -11,6 +11,7 @@ use thiserror::Error;
 
 use crate::formula::{BadFormula, FormulaFault};
 use crate::sensor::BadSensor;
+use crate::urdf::BadUrdf;
 
 /// The newest version of the format that is read; older ones are, too.
 pub const VERSION: u32 = 2;
@@ -133,6 +134,9 @@ pub enum SceneProblem {
         /// Why not.
         source: MeshError,
     },
+    /// A robot's description that gives no surface.
+    #[error(transparent)]
+    Urdf(Box<BadUrdf>),
     /// A friction or a detector whose numbers cannot be.
     #[error(transparent)]
     Friction(#[from] BadParameter),
@@ -192,6 +196,12 @@ pub enum BadCarried {
     /// Its body.
     #[error(transparent)]
     Body(#[from] BadPayload),
+}
+
+impl From<BadUrdf> for SceneProblem {
+    fn from(bad: BadUrdf) -> Self {
+        Self::Urdf(Box::new(bad))
+    }
 }
 
 impl From<FormulaFault> for SceneProblem {

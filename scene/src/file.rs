@@ -13,6 +13,7 @@ use crate::fault::{SceneError, SceneFault, SceneProblem, VERSION};
 use crate::filter::FilterSection;
 use crate::formula::FormulaSection;
 use crate::friction::FrictionSection;
+use crate::fusion::FusionSection;
 use crate::grip::GripSection;
 use crate::input::InputSection;
 use crate::model::ContactSection;
@@ -23,6 +24,7 @@ use crate::slip::SlipSection;
 use crate::surface::{MapSection, MeshSection, PoseSection, SurfaceSection, map_of, placed};
 use crate::tracking::TrackingSection;
 use crate::uncertainty::UncertaintySection;
+use crate::urdf::UrdfSection;
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -45,6 +47,7 @@ struct SceneFile<S> {
     tracking: Option<TrackingSection>,
     friction: Option<FrictionSection>,
     slip: Option<SlipSection>,
+    fusion: Option<FusionSection>,
     estimate: Option<EstimateSection>,
     grip: Option<GripSection>,
 }
@@ -94,6 +97,7 @@ impl Scene {
         let parse = match key("shape").and_then(toml::Value::as_str) {
             Some("mesh") if key("file").is_some() => parse_with::<MeshSection>,
             Some("formula") => parse_with::<FormulaSection>,
+            None if key("urdf").is_some() => parse_with::<UrdfSection>,
             _ => parse_with::<DynSurface<f64>>,
         };
         parse(text, name, folder, document)
@@ -162,14 +166,15 @@ impl<S: SurfaceSection> SceneFile<S> {
         let sample_rate = positive("sample_rate_Hz", self.input.sample_rate)?;
         let rest = positive("rest_s", self.input.rest.filter(|rest| *rest != 0.0))?;
         let renamed = self.input.columns.renamed(&self.input.units)?;
-        let shape = self.surface.source(folder, &document);
+        let shape = self.surface.source(folder, &document)?;
         let pose = self.pose.sensor_from_surface::<f64>()?;
         let surface = placed(shape.shape()?, &self.pose)?;
         let projection = map_of(&surface, &pose, self.map.as_ref())?;
         let convention = self.input.convention;
         let sensor = self.sensor.as_ref().map(|section| section.source(folder)).transpose()?;
         let payload = self.payload.as_ref().map(|section| section.source(folder)).transpose()?;
-        let Self { filter, contact, uncertainty, tracking, friction, slip, estimate, grip, .. } = self;
+        let Self { filter, contact, uncertainty, tracking, fusion, friction, slip, estimate, grip, .. } =
+            self;
         let stages = StageSections {
             convention,
             sample_rate,
@@ -180,6 +185,7 @@ impl<S: SurfaceSection> SceneFile<S> {
             contact,
             uncertainty,
             tracking,
+            fusion,
             friction,
             slip,
             estimate,

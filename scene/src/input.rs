@@ -27,6 +27,10 @@ impl Convention {
     }
 }
 
+const fn yes() -> bool {
+    true
+}
+
 /// `[input]` of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -38,6 +42,9 @@ pub(crate) struct InputSection {
     pub(crate) sample_rate: Option<f64>,
     #[serde(rename = "rest_s", skip_serializing_if = "Option::is_none")]
     pub(crate) rest: Option<f64>,
+    /// Whether the first line of a recording names its columns.
+    #[serde(default = "yes")]
+    pub(crate) header: bool,
     #[serde(default)]
     pub(crate) columns: ColumnsSection,
     #[serde(default)]

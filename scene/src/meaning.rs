@@ -19,6 +19,7 @@ pub(crate) fn of(scene: &Table, delay: f64) -> Vec<String> {
         "contact",
         "uncertainty",
         "tracking",
+        "fusion",
         "friction",
         "slip",
         "estimate",

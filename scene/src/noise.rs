@@ -5,6 +5,7 @@ use nalgebra::{Vector3, Vector6};
 
 use crate::fault::SceneProblem;
 use crate::model::{ContactSection, Model};
+use crate::sensor::SensorSource;
 use crate::tracking::{Tracking, TrackingSection};
 use crate::uncertainty::{Uncertainty, UncertaintySection};
 
@@ -16,6 +17,8 @@ pub(crate) struct Noisy {
     pub(crate) tracking: Option<TrackingSection>,
     /// Origin of the surface's frame, in that of the sensor.
     pub(crate) pivot: Vector3<f64>,
+    /// The calibration, whose fit leaves something uncertain.
+    pub(crate) sensor: Option<SensorSource>,
 }
 
 /// What a noise makes of them.
@@ -39,7 +42,7 @@ impl Noisy {
     pub(crate) fn build<T: Real>(&self, noise: Option<&Vector6<f64>>) -> Result<Known<T>, SceneProblem> {
         let known = noise.copied().unwrap_or_else(|| Vector6::repeat(UNKNOWN));
         let uncertainty: Option<Uncertainty<T>> = match &self.uncertainty {
-            Some(section) => Some(section.build(&self.pivot, &known)?),
+            Some(section) => Some(section.build(&self.pivot, &known, self.sensor.as_ref())?),
             None => None,
         };
         // What is wrong with it is said before the noise is known.

@@ -13,6 +13,7 @@ use crate::felt::{Felt, Tells};
 use crate::filter::Filter;
 use crate::friction::{Friction, Limit};
 use crate::front::Front;
+use crate::fusion::Joined;
 use crate::model::Model;
 use crate::noise::{Known, Noisy};
 use crate::sensor::{GaugeReading, NoWrench, Sensor};
@@ -38,6 +39,7 @@ pub struct Pipeline<T: Real> {
     model: Model<T>,
     uncertainty: Option<Uncertainty<T>>,
     tracking: Option<Tracking<T>>,
+    fusion: Option<Joined<T>>,
     /// The sections that answer to the noise of the rest, if one does.
     noisy: Option<Box<Noisy>>,
     awaits_noise: bool,
@@ -57,6 +59,7 @@ pub(crate) struct Parts<T: Real> {
     pub(crate) model: Model<T>,
     pub(crate) uncertainty: Option<Uncertainty<T>>,
     pub(crate) tracking: Option<Tracking<T>>,
+    pub(crate) fusion: Option<Joined<T>>,
     pub(crate) noisy: Option<Box<Noisy>>,
     pub(crate) friction: Friction<T>,
     pub(crate) slip: SlipWatch<T>,
@@ -73,6 +76,7 @@ impl<T: Real> Pipeline<T> {
             model,
             uncertainty,
             tracking,
+            fusion,
             noisy,
             friction,
             slip,
@@ -94,6 +98,7 @@ impl<T: Real> Pipeline<T> {
             model,
             uncertainty,
             tracking,
+            fusion,
             awaits_noise: noisy.is_some(),
             noisy,
             estimate,
@@ -349,6 +354,14 @@ impl<T: Real> Pipeline<T> {
     /// The contact model.
     pub const fn model(&self) -> &Model<T> {
         &self.model
+    }
+
+    pub(crate) const fn fusion(&self) -> Option<&Joined<T>> {
+        self.fusion.as_ref()
+    }
+
+    pub(crate) const fn uncertainty(&self) -> Option<&Uncertainty<T>> {
+        self.uncertainty.as_ref()
     }
 
     pub(crate) const fn filter(&self) -> Option<&Filter<T>> {

@@ -137,6 +137,12 @@ impl Scene {
         &self.renamed
     }
 
+    /// Whether the first line of a recording names its columns.
+    #[must_use]
+    pub const fn has_header(&self) -> bool {
+        self.input.header
+    }
+
     /// Samples per second where the recording has no time \[Hz\].
     #[must_use]
     pub const fn sample_rate(&self) -> Option<f64> {
@@ -171,6 +177,12 @@ impl Scene {
     #[must_use]
     pub const fn limit(&self) -> Option<&Limit<f64>> {
         self.pipeline.limit()
+    }
+
+    /// How many places the tactile array of `[fusion]` has; `None` for a scene without one.
+    #[must_use]
+    pub fn array_places(&self) -> Option<usize> {
+        self.pipeline.array_places()
     }
 
     /// Whether slip is watched for.

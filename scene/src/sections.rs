@@ -10,6 +10,7 @@ use crate::fault::SceneProblem;
 use crate::filter::FilterSection;
 use crate::friction::{Friction, FrictionSection, Limit};
 use crate::front::Front;
+use crate::fusion::FusionSection;
 use crate::grip::GripSection;
 use crate::input::Convention;
 use crate::model::ContactSection;
@@ -33,6 +34,7 @@ pub(crate) struct StageSections {
     pub(crate) contact: ContactSection,
     pub(crate) uncertainty: Option<UncertaintySection>,
     pub(crate) tracking: Option<TrackingSection>,
+    pub(crate) fusion: Option<FusionSection>,
     pub(crate) friction: Option<FrictionSection>,
     pub(crate) slip: Option<SlipSection>,
     pub(crate) estimate: Option<EstimateSection>,
@@ -54,6 +56,7 @@ impl StageSections {
             uncertainty: self.uncertainty.clone(),
             tracking: self.tracking.clone(),
             pivot,
+            sensor: self.sensor.clone().filter(|_| self.uncertainty.is_some()),
         };
         if noisy.awaits_noise() && self.rest.is_none() {
             return Err(SceneProblem::Needs {
@@ -64,6 +67,13 @@ impl StageSections {
         let Known { model, uncertainty, tracking } = noisy.build(None)?;
         let limit = match &self.friction {
             Some(section) => Some(section.build(flat_normal(exact), |v| pose.rotate(v))?),
+            None => None,
+        };
+        let fusion = match &self.fusion {
+            Some(section) => {
+                let coefficient = limit.as_ref().map(Limit::coefficient);
+                Some(section.build(uncertainty.as_ref(), coefficient)?)
+            }
             None => None,
         };
         let detector = match &self.slip {
@@ -95,6 +105,7 @@ impl StageSections {
             model,
             uncertainty,
             tracking,
+            fusion,
             noisy: noisy.awaits_noise().then(|| Box::new(noisy)),
             friction: Friction(limit),
             slip: SlipWatch(detector),

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::fault::SceneProblem;
 use crate::formula::FormulaSection;
 use crate::projection::Projection;
+use crate::urdf::UrdfSection;
 
 type Triple = [f64; 3];
 
@@ -88,25 +89,32 @@ impl ShapeSource {
 /// What the section `[surface]` may be: a shape, or the file of one.
 pub(crate) trait SurfaceSection {
     /// Files are looked for in `folder`; `document` is the scene as it stands.
-    fn source(self, folder: &Path, document: &toml::Table) -> ShapeSource;
+    fn source(self, folder: &Path, document: &toml::Table) -> Result<ShapeSource, SceneProblem>;
 }
 
 impl SurfaceSection for DynSurface<f64> {
-    fn source(self, _: &Path, document: &toml::Table) -> ShapeSource {
+    fn source(self, _: &Path, document: &toml::Table) -> Result<ShapeSource, SceneProblem> {
         // A scene without a surface is refused before.
-        ShapeSource::Here(document.get("surface").cloned().unwrap_or(toml::Value::Boolean(false)))
+        let here = document.get("surface").cloned().unwrap_or(toml::Value::Boolean(false));
+        Ok(ShapeSource::Here(here))
     }
 }
 
 impl SurfaceSection for MeshSection {
-    fn source(self, folder: &Path, _: &toml::Table) -> ShapeSource {
-        ShapeSource::MeshFile { path: folder.join(self.file), metres_per_unit: self.metres_per_unit }
+    fn source(self, folder: &Path, _: &toml::Table) -> Result<ShapeSource, SceneProblem> {
+        Ok(ShapeSource::MeshFile { path: folder.join(self.file), metres_per_unit: self.metres_per_unit })
     }
 }
 
 impl SurfaceSection for FormulaSection {
-    fn source(self, _: &Path, _: &toml::Table) -> ShapeSource {
-        ShapeSource::Formula(Box::new(self))
+    fn source(self, _: &Path, _: &toml::Table) -> Result<ShapeSource, SceneProblem> {
+        Ok(ShapeSource::Formula(Box::new(self)))
+    }
+}
+
+impl SurfaceSection for UrdfSection {
+    fn source(self, folder: &Path, _: &toml::Table) -> Result<ShapeSource, SceneProblem> {
+        Ok(ShapeSource::Here(self.shape(folder)?))
     }
 }
 

@@ -1,7 +1,8 @@
 //! `[uncertainty]`: how sure each contact is.
 
 use fingertip::contact::{
-    ConfidenceEllipse, ContactCovariance, ContactJacobian, GeometryUncertainty, WrenchNoise,
+    CalibrationUncertainty, ConfidenceEllipse, ContactCovariance, ContactJacobian, GeometryUncertainty,
+    WrenchNoise,
 };
 use fingertip::surfaces::BadShape;
 use fingertip::wrench::{Real, Wrench};
@@ -9,6 +10,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::fault::SceneProblem;
+use crate::sensor::SensorSource;
 
 /// `[uncertainty]` of a scene: standard deviations.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,6 +33,9 @@ pub(crate) struct UncertaintySection {
     /// Of the surface's attitude, about each axis through its origin.
     #[serde(default)]
     attitude_deg: f64,
+    /// Whether what the calibration's fit leaves uncertain counts; it does where the calibration tells it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    calibration: Option<bool>,
     /// That the contact lies within the ellipse.
     #[serde(default = "usual_probability")]
     probability: f64,
@@ -59,11 +64,30 @@ impl UncertaintySection {
         }
     }
 
+    /// What the fit of the calibration leaves uncertain.
+    fn calibration<T: Real>(
+        &self,
+        sensor: Option<&SensorSource>,
+    ) -> Result<Option<CalibrationUncertainty<T>>, SceneProblem> {
+        if self.calibration == Some(false) {
+            return Ok(None);
+        }
+        let told = sensor.map(SensorSource::uncertainty).transpose()?.flatten();
+        if told.is_none() && self.calibration == Some(true) {
+            return Err(SceneProblem::Needs {
+                what: "`calibration = true` of [uncertainty]",
+                needed: "a `calibration` in [sensor] whose file has a [covariance], as `fingertip calibrate` writes it",
+            });
+        }
+        Ok(told)
+    }
+
     /// `pivot` is the origin of the surface's frame, in that of the sensor, and `measured` the noise of the rest.
     pub(crate) fn build<T: Real>(
         &self,
         pivot: &Vector3<f64>,
         measured: &Vector6<f64>,
+        sensor: Option<&SensorSource>,
     ) -> Result<Uncertainty<T>, SceneProblem> {
         let number = T::literal;
         let floor = self.noise(measured)?.map(number);
@@ -83,18 +107,21 @@ impl UncertaintySection {
             noise: WrenchNoise::new(floor, number(self.relative))?,
             geometry: geometry.checked()?,
             exact: deviations == [0.0; 3],
+            calibration: self.calibration(sensor)?,
             probability: number(self.probability),
         })
     }
 }
 
-/// What is uncertain of a fingertip: its wrench, and where its surface is.
+/// What is uncertain of a fingertip: its wrench, by noise and by calibration, and where its surface is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertainty<T: Real> {
     pub(crate) noise: WrenchNoise<T>,
     pub(crate) geometry: GeometryUncertainty<T>,
     /// Whether the geometry is taken to be known exactly.
     pub(crate) exact: bool,
+    /// What the fit of the calibration leaves uncertain, if that is known.
+    pub(crate) calibration: Option<CalibrationUncertainty<T>>,
     pub(crate) probability: T,
 }
 
@@ -121,9 +148,18 @@ impl<T: Real> Uncertainty<T> {
         self.noise.floor.fixed_rows::<3>(0).amax()
     }
 
+    /// Covariance of a wrench: that of its noise, and what the calibration adds under this load.
+    pub(crate) fn of_wrench(&self, wrench: &Wrench<T>) -> Matrix6<T> {
+        let noise = self.noise.covariance(wrench);
+        match &self.calibration {
+            Some(calibration) => noise + calibration.covariance(wrench),
+            None => noise,
+        }
+    }
+
     /// How sure a contact with these derivatives is, under this wrench; `None` where that cannot be said.
     pub(crate) fn of(&self, jacobian: &ContactJacobian<T>, wrench: &Wrench<T>) -> Option<Spread<T>> {
-        let mut covariance = ContactCovariance::new(jacobian, &self.noise.covariance(wrench));
+        let mut covariance = ContactCovariance::new(jacobian, &self.of_wrench(wrench));
         if !self.exact {
             covariance = covariance.with_geometry(jacobian, &self.geometry);
         }

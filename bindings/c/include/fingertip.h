@@ -30,6 +30,9 @@
 // Most fingers of a hand.
 #define FT_MAX_FINGERS 6
 
+// Most places of a tactile array that are told apart.
+#define FT_MAX_PLACES 4
+
 // Bytes of a message, its closing zero included.
 #define FT_MESSAGE_BYTES 512
 
@@ -372,6 +375,51 @@ typedef struct ft_margin {
     double utilisation;
 } ft_margin;
 
+// What one place of a tactile array reads.
+typedef struct ft_array_reading {
+    // Centroid of the pressure in the sensor frame, in m.
+    double centroid[3];
+    // Sum of the pressure, in N.
+    double normal_force;
+} ft_array_reading;
+
+// One contact of those that wrench and array tell together.
+typedef struct ft_fused_contact {
+    // Where, on the surface, in m.
+    double point[3];
+    // Outward unit normal there.
+    double normal[3];
+    // Force on the fingertip, in N.
+    double force[3];
+    // Covariance of the point in m2, row by row.
+    double point_covariance[3][3];
+    // Covariance of the force in N2, row by row.
+    double force_covariance[3][3];
+    // How much of the variance of the force the wrench removed: 1, nearly all is known from it; 0, nothing.
+    double share_from_wrench;
+    // 0 while friction holds more than is asked, 1 where it slides, 2 where it carries nothing.
+    uint32_t grip;
+    // Zero.
+    uint32_t reserved;
+} ft_fused_contact;
+
+// What wrench and array say together.
+typedef struct ft_fused {
+    // How many contacts there are: one for each reading.
+    uint32_t count;
+    // Dimension of the forces that the wrench cannot see, since they cancel.
+    uint32_t internal_forces;
+    // 1 if the estimate came to rest.
+    uint32_t settled;
+    // Zero.
+    uint32_t reserved;
+    // How far the wrench is from what the array alone predicts: follows chi-squared with six degrees of freedom if all is
+    // right. Much more, and a contact is missing.
+    double disagreement;
+    // The contacts in the order of the readings, zero behind the last.
+    struct ft_fused_contact contacts[FT_MAX_PLACES];
+} ft_fused;
+
 // The least normal forces that hold a load within friction and limits.
 typedef struct ft_grip {
     // Whether there are such forces.
@@ -524,6 +572,16 @@ ft_status ft_slip_margins(const struct ft_finger *fingers,
                           size_t count,
                           struct ft_margin *margins,
                           struct ft_error *error);
+
+// The contacts that the wrench of the last sample and the readings of a tactile array tell together, of a scene with
+// [fusion]: one for each reading, one to FT_MAX_PLACES. Nothing of it is carried to the next sample. Allocates nothing.
+//
+// FT_BAD_SCENE for a scene without [fusion], FT_NO_REST while it waits for the noise of a rest, FT_WRONG_SIZE for none or
+// too many readings, FT_BAD_NUMBER for one that is not finite or not near the surface.
+ft_status ft_fuse(struct ft_tip *tip,
+                  const struct ft_array_reading *readings,
+                  size_t count,
+                  struct ft_fused *fused);
 
 // The least grip for the fingers as they are given: without the hand's safety and without what slip has taught, and
 // no command changes. `load` as in ft_hand_command. Allocates nothing. That no forces hold is FT_OK, and a state.

@@ -184,6 +184,12 @@ public:
                         const ft_touch_columns& touches) noexcept {
         return ft_sense_all(raw(), &wrenches, count, time_step, &touches);
     }
+    /// What the wrench of the last sample and a tactile array tell together, with [fusion].
+    Result<ft_fused> fuse(View<const ft_array_reading> readings) noexcept {
+        Result<ft_fused> result{FT_OK, {}};
+        result.status = ft_fuse(raw(), readings.data(), readings.size(), &result.value);
+        return result;
+    }
     /// What the last sample says beside its touch.
     Result<ft_beside> beside() noexcept {
         Result<ft_beside> result{FT_OK, {}};

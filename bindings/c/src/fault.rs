@@ -5,7 +5,7 @@ use core::num::FpCategory;
 
 use fingertip::hand::{BadContact, BadHandSettings, BadLimit};
 use fingertip::wrench::{TareError, TransformError};
-use fingertip_scene::{NoWrench, SceneError, SceneProblem};
+use fingertip_scene::{NoFusion, NoWrench, SceneError, SceneProblem};
 use thiserror::Error;
 
 use crate::message::ft_error;
@@ -74,6 +74,8 @@ pub(crate) enum Fault {
     #[error(transparent)]
     Reading(#[from] NoWrench),
     #[error(transparent)]
+    Fusion(#[from] NoFusion),
+    #[error(transparent)]
     Tare(#[from] TareError),
     #[error("the columns `{0}` and `{1}` overlap")]
     Overlap(&'static str, &'static str),
@@ -96,13 +98,17 @@ impl Fault {
                 SceneError::Unreadable { .. } => ft_status::FT_UNREADABLE,
                 _ => ft_status::FT_BAD_SCENE,
             },
-            Self::Scene(_) => ft_status::FT_BAD_SCENE,
-            Self::Size { .. } | Self::Fingers { .. } => ft_status::FT_WRONG_SIZE,
+            Self::Scene(_) | Self::Fusion(NoFusion::NoSection) => ft_status::FT_BAD_SCENE,
+            Self::Fusion(NoFusion::AwaitsNoise) => ft_status::FT_NO_REST,
+            Self::Size { .. } | Self::Fingers { .. } | Self::Fusion(NoFusion::Readings(_)) => {
+                ft_status::FT_WRONG_SIZE
+            }
             Self::Number { .. }
             | Self::Contact { .. }
             | Self::Limit { .. }
             | Self::Settings(_)
-            | Self::Pose(_) => ft_status::FT_BAD_NUMBER,
+            | Self::Pose(_)
+            | Self::Fusion(_) => ft_status::FT_BAD_NUMBER,
             Self::Reading(NoWrench::Saturated) => ft_status::FT_SATURATED,
             Self::Reading(NoWrench::NoSensor) => ft_status::FT_NO_SENSOR,
             Self::Reading(NoWrench::NoMotion) => ft_status::FT_NO_MOTION,

@@ -20,6 +20,7 @@ mod columns;
 mod create;
 mod fault;
 mod finger;
+mod fuse;
 mod grip;
 mod hand;
 mod load;
@@ -39,6 +40,7 @@ pub use finger::{
     FT_MAX_FINGERS, ft_finger, ft_finger_from_touch, ft_finger_limits, ft_margin, ft_object_wrench, ft_pose,
     ft_slip_margins,
 };
+pub use fuse::{FT_MAX_PLACES, ft_array_reading, ft_fuse, ft_fused, ft_fused_contact};
 pub use grip::{ft_grip, ft_hand_least_grip};
 pub use hand::{
     ft_hand, ft_hand_command, ft_hand_create, ft_hand_forget, ft_hand_free, ft_hand_message, ft_hand_order,

@@ -1,7 +1,7 @@
 //! `fingertip.Fingertip`.
 
 use fingertip::wrench::{Motion, Wrench};
-use fingertip_scene::{NoWrench, RestWatch};
+use fingertip_scene::{ArrayReading, NoWrench, RestWatch};
 use nalgebra::{DMatrix, Vector3, Vector6};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyUserWarning};
@@ -11,6 +11,7 @@ use pyo3::types::PyDict;
 use crate::pipe::{Beside, Pipe, each};
 use crate::scene::PyScene;
 use crate::touch::PyTouch;
+use crate::track;
 use crate::{errors, numbers};
 
 /// A fingertip that a scene describes: takes reading after reading, and says what touches.
@@ -262,6 +263,55 @@ impl PyFingertip {
     fn sense_wrench(&mut self, wrench: &Bound<'_, PyAny>, time_step: f64) -> PyResult<PyTouch> {
         let wrench = Wrench::from_components(&numbers::numbers(wrench, "wrench")?.into());
         self.pipe.sense(wrench, time_step).map(PyTouch)
+    }
+
+    /// The contacts that the wrench of the last sample and a tactile array tell together, of a scene with `[fusion]`.
+    ///
+    /// Parameters
+    /// ----------
+    /// readings : array_like, shape (n, 4)
+    ///     For each place of the array that is pressed, one to four: centroid x, y, z in the sensor frame [m] and normal
+    ///     force [N].
+    ///
+    /// Returns
+    /// -------
+    /// tuple
+    ///     A dict for each reading, as the function `fuse` gives them (`point`, `normal`, `force`, `point_covariance`,
+    ///     `force_covariance`, `share_from_wrench`, `grip`), and the disagreement: χ² with six degrees of freedom if all is
+    ///     right.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import fingertip
+    /// >>> tip = fingertip.Fingertip(fingertip.Scene.from_dict({
+    /// ...     "surface": {"shape": "sphere", "radius_m": 0.013},
+    /// ...     "uncertainty": {"force_noise_N": 0.01, "torque_noise_Nm": 1e-4},
+    /// ...     "fusion": {"position_deviation_m": 1e-3, "normal_deviation_N": 0.1, "static_coefficient": 0.5},
+    /// ... }))
+    /// >>> touch = tip.sense([-0.1, 0.4, 0.0, 0.0, 0.0, 0.0], 1e-3)
+    /// >>> contacts, disagreement = tip.fuse([[-0.013, 0.0, 0.0, 1.05], [0.013, 0.0, 0.0, 1.05]])
+    /// >>> [round(float(contact["force"][1]), 1) for contact in contacts]
+    /// [0.2, 0.2]
+    fn fuse<'py>(
+        &self,
+        py: Python<'py>,
+        readings: &Bound<'py, PyAny>,
+    ) -> PyResult<(Vec<Bound<'py, PyDict>>, f64)> {
+        let table = numbers::table(readings, "readings")?;
+        if table.ncols() != 4 {
+            return Err(errors::bad(format!(
+                "`readings` must have 4 columns, x, y, z and the normal force, not {}",
+                table.ncols()
+            )));
+        }
+        let reading = |row: usize| ArrayReading {
+            centroid: Vector3::new(table[(row, 0)], table[(row, 1)], table[(row, 2)]),
+            normal_force: table[(row, 3)],
+        };
+        let readings: Vec<ArrayReading<f64>> = (0..table.nrows()).map(reading).collect();
+        let fused = self.pipe.fuse(&readings)?;
+        let contacts = fused.contacts.iter().flatten().map(|contact| track::parts(py, contact));
+        Ok((contacts.collect::<PyResult<_>>()?, fused.disagreement))
     }
 
     /// Takes the zero from readings without load, and with it the noise that a scene may ask for.

@@ -1,7 +1,7 @@
 //! A pipeline in either precision.
 
 use fingertip::wrench::{Motion, Wrench};
-use fingertip_scene::{Felt, GaugeReading, NoWrench, Pipeline, Scene};
+use fingertip_scene::{ArrayReading, Felt, FusedTouch, GaugeReading, NoWrench, Pipeline, Scene};
 use nalgebra::{Vector3, Vector6};
 use pyo3::prelude::*;
 
@@ -117,6 +117,23 @@ impl Pipe {
                     Ok(felt) => widened(felt),
                     Err(why) => Err(errors::reading(why)),
                 }
+            }
+        }
+    }
+
+    /// What the wrench of the last sample and an array tell together.
+    pub(crate) fn fuse(&self, readings: &[ArrayReading<f64>]) -> PyResult<FusedTouch<f64>> {
+        match self {
+            Self::Double(pipeline) => pipeline.fuse(readings).map_err(errors::reading),
+            Self::Single(pipeline) => {
+                let narrowed = |reading: &ArrayReading<f64>| ArrayReading {
+                    centroid: reading.centroid.map(|x| x as f32),
+                    normal_force: reading.normal_force as f32,
+                };
+                let readings: Vec<ArrayReading<f32>> = readings.iter().map(narrowed).collect();
+                let fused = pipeline.fuse(&readings).map_err(errors::reading)?;
+                let bytes = rmp_serde::to_vec_named(&fused).map_err(errors::bad)?;
+                value::from_bytes(&bytes)
             }
         }
     }

@@ -55,7 +55,8 @@ pub(crate) fn read_rows<'py>(
     let recorded = Recorded { path, topics, ..Recorded::default() };
     let renamed = scene.map(|scene| scene.scene().renamed_columns().to_vec()).unwrap_or_default();
     let assumed_units = assumed(force_unit, torque_unit)?;
-    let options = ReaderOptions { assumed_units, renamed, ..ReaderOptions::default() };
+    let header = scene.is_none_or(|scene| scene.scene().has_header());
+    let options = ReaderOptions { assumed_units, renamed, header, ..ReaderOptions::default() };
     let mut reader = recorded.rows(options, &mut notes).map_err(errors::recording)?;
     let layout = reader.layout().clone();
     let (mut time, mut gap, mut usable) = (Vec::new(), Vec::new(), Vec::new());

@@ -153,6 +153,24 @@ fn reading(given: &Bound<'_, PyAny>) -> PyResult<ArrayContact<f64>> {
     })
 }
 
+/// A contact of those that wrench and array tell, by the names of its parts.
+pub(crate) fn parts<'py>(py: Python<'py>, contact: &FusedContact<f64>) -> PyResult<Bound<'py, PyDict>> {
+    let parts = PyDict::new(py);
+    parts.set_item("point", numbers::array(py, &contact.point))?;
+    parts.set_item("normal", numbers::array(py, &contact.normal))?;
+    parts.set_item("force", numbers::array(py, &contact.force))?;
+    parts.set_item("point_covariance", numbers::array2(py, &contact.point_covariance))?;
+    parts.set_item("force_covariance", numbers::array2(py, &contact.force_covariance))?;
+    parts.set_item("share_from_wrench", contact.share_from_wrench)?;
+    let grip = match contact.grip {
+        Grip::Sticks => "sticks",
+        Grip::Slides => "slides",
+        Grip::Lifted => "lifted",
+    };
+    parts.set_item("grip", grip)?;
+    Ok(parts)
+}
+
 fn fused<'py, const K: usize>(
     py: Python<'py>,
     fusion: &Fusion<f64>,
@@ -164,25 +182,7 @@ fn fused<'py, const K: usize>(
     let readings: &[ArrayContact<f64>; K] = readings.try_into().map_err(|_| wrong())?;
     let Fused { contacts, disagreement, .. } =
         fusion.estimate(surface, wrench, readings).map_err(errors::shape)?;
-    let of = |contact: &FusedContact<f64>| {
-        let parts = PyDict::new(py);
-        parts.set_item("point", numbers::array(py, &contact.point))?;
-        parts.set_item("normal", numbers::array(py, &contact.normal))?;
-        parts.set_item("force", numbers::array(py, &contact.force))?;
-        parts.set_item("point_covariance", numbers::array2(py, &contact.point_covariance))?;
-        parts.set_item("force_covariance", numbers::array2(py, &contact.force_covariance))?;
-        parts.set_item("share_from_wrench", contact.share_from_wrench)?;
-        parts.set_item(
-            "grip",
-            match contact.grip {
-                Grip::Sticks => "sticks",
-                Grip::Slides => "slides",
-                Grip::Lifted => "lifted",
-            },
-        )?;
-        Ok(parts)
-    };
-    Ok((contacts.iter().map(of).collect::<PyResult<Vec<_>>>()?, disagreement))
+    Ok((contacts.iter().map(|contact| parts(py, contact)).collect::<PyResult<Vec<_>>>()?, disagreement))
 }
 
 /// The most probable contacts, by a wrench and a tactile array together.

@@ -217,6 +217,37 @@ def test_wrench_and_array_are_fused():
         fingertip.fuse(BALL, wrench, noise, [], 0.6)
 
 
+def test_a_scene_fuses_as_the_function_does():
+    sections = {
+        "surface": {"shape": "sphere", "radius_m": RADIUS},
+        "uncertainty": {"force_noise_N": 0.01, "torque_noise_Nm": 1e-5},
+        "fusion": {"position_deviation_m": 2e-3, "normal_deviation_N": 0.3, "static_coefficient": 0.6},
+    }
+    point, force = np.array([0.0, 0.0, RADIUS]), np.array([0.2, 0.0, -1.0])
+    wrench = np.hstack([force, np.cross(point, force)])
+    centroid = point + [2e-3, 0, 0]
+    reading = {
+        "centroid": centroid,
+        "centroid_covariance": np.eye(3) * 4e-6,
+        "normal_force": 1.1,
+        "normal_deviation": 0.3,
+    }
+    [expected], chi = fingertip.fuse(BALL, wrench, np.diag([1e-4] * 3 + [1e-10] * 3), [reading], 0.6)
+    for dtype, within in [("float64", 1e-9), ("float32", 1e-3)]:
+        tip = fingertip.Fingertip(fingertip.Scene.from_dict(sections), dtype)
+        tip.sense_wrench(wrench, 1e-3)
+        [contact], disagreement = tip.fuse([[*centroid, 1.1]])
+        assert np.allclose(contact["force"], expected["force"], atol=within)
+        assert np.allclose(contact["point"], expected["point"], atol=within)
+        assert contact["grip"] == expected["grip"] and abs(disagreement - chi) < 1e3 * within
+    for readings in [[], [[0.0, 0.0, RADIUS]], [[0.0, 0.0, RADIUS, 1.0]] * 5]:
+        with pytest.raises(fingertip.FingertipError):
+            tip.fuse(readings)
+    bare = fingertip.Fingertip(fingertip.Scene.from_dict({"surface": sections["surface"]}))
+    with pytest.raises(fingertip.ReadingError, match="no \\[fusion\\]"):
+        bare.fuse([[0.0, 0.0, RADIUS, 1.0]])
+
+
 def three(friction=0.6):
     outward = [np.array([np.cos(angle), np.sin(angle), 0.0]) for angle in (0.0, 2.1, 4.2)]
     return Grasp([{"point": 0.04 * o, "outward": -o, "friction": friction, "arm": 2e-3} for o in outward])

@@ -17,6 +17,7 @@ mod rows;
 mod rust_constants;
 mod temperature;
 mod text;
+mod uncertainty;
 mod validate;
 
 pub use any::{ReadError, read_calibration};

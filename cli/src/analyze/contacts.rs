@@ -7,6 +7,8 @@ use fingertip::contact::{Continuity, Happened, NoContact, Resolution, Tracked};
 use fingertip::friction::SlipVerdict;
 use fingertip_scene::{Felt, Tells};
 
+use super::array::Fused;
+use super::cells::Cells;
 use crate::error::CliError;
 use crate::observe::Status;
 use crate::output::{Outputs, Whole};
@@ -47,8 +49,11 @@ const MORE: [(IsTold, &[&str]); 7] = [
 ];
 /// Cells behind the wrench.
 const CONTACT_CELLS: usize = 11;
-/// Bytes that are collected before they are written.
-const BUFFER: usize = 1 << 16;
+/// Of each place of an array: point, force, standard deviation of the force in the direction that is told worst, and how
+/// much of it the wrench told.
+const FUSED: [&str; 8] = ["x_m", "y_m", "z_m", "fx_N", "fy_N", "fz_N", "deviation_N", "share_from_wrench"];
+/// Commas of cells that have no value.
+const COMMAS: [u8; 64] = [b','; 64];
 
 /// Writes one row per sample.
 ///
@@ -57,7 +62,7 @@ const BUFFER: usize = 1 << 16;
 pub(super) struct ContactWriter {
     out: Whole,
     path: PathBuf,
-    buffer: Vec<u8>,
+    cells: Cells,
     tells: Tells,
     /// Cells behind those of every scene.
     more: usize,
@@ -65,21 +70,41 @@ pub(super) struct ContactWriter {
 
 impl ContactWriter {
     /// `-` is the standard output.
-    pub(super) fn create(path: &Path, outputs: &Outputs, tells: Tells) -> Result<Self, CliError> {
+    pub(super) fn create(
+        path: &Path,
+        outputs: &Outputs,
+        tells: Tells,
+        places: usize,
+    ) -> Result<Self, CliError> {
         let out = outputs.create("contacts", path)?;
-        let mut buffer = Vec::with_capacity(BUFFER);
-        buffer.extend_from_slice(HEADER.as_bytes());
+        let mut cells = Cells::default();
+        cells.put(HEADER.as_bytes());
         let mut more = 0;
         for column in MORE.iter().filter(|(of, _)| of(&tells)).flat_map(|(_, columns)| *columns) {
-            buffer.extend_from_slice(format!(",{column}").as_bytes());
+            cells.put(format!(",{column}").as_bytes());
             more += 1;
         }
-        buffer.push(b'\n');
-        Ok(Self { out, path: path.to_owned(), buffer, tells, more })
+        for place in 1..=places {
+            for column in FUSED {
+                cells.put(format!(",fused{place}_{column}").as_bytes());
+            }
+            more += FUSED.len();
+        }
+        if places > 0 {
+            cells.put(b",fused_disagreement");
+            more += 1;
+        }
+        cells.put(b"\n");
+        Ok(Self { out, path: path.to_owned(), cells, tells, more })
     }
 
     #[inline]
-    pub(super) fn write(&mut self, time: f64, felt: &Felt<f64>) -> Result<(), CliError> {
+    pub(super) fn write(
+        &mut self,
+        time: f64,
+        felt: &Felt<f64>,
+        fused: Option<&Fused>,
+    ) -> Result<(), CliError> {
         let touch = &felt.touch;
         self.time(time);
         self.word(Status::of(&touch.resolution).word());
@@ -109,6 +134,9 @@ impl ContactWriter {
             Some(SlipVerdict::Slipping) => "slipping",
         });
         self.more(felt);
+        if let Some(fused) = fused {
+            self.fused(fused);
+        }
         self.end_row()
     }
 
@@ -148,6 +176,23 @@ impl ContactWriter {
         if self.tells.grip_force {
             self.cell(number(felt.grip_force));
         }
+    }
+
+    /// What wrench and array say together, place by place.
+    fn fused(&mut self, fused: &Fused) {
+        for place in &fused.places {
+            let contact =
+                fused.touch.as_ref().zip(*place).and_then(|(touch, own)| touch.contacts.get(own)?.as_ref());
+            let Some(contact) = contact else {
+                self.empty(FUSED.len());
+                continue;
+            };
+            self.cells(contact.point.as_ref());
+            self.cells(contact.force.as_ref());
+            self.cell(contact.force_covariance.symmetric_eigenvalues().max().max(0.0).sqrt());
+            self.cell(contact.share_from_wrench);
+        }
+        self.cell(fused.touch.as_ref().map_or(f64::NAN, |touch| touch.disagreement));
     }
 
     /// Where the contact is over time.
@@ -200,7 +245,7 @@ impl ContactWriter {
             let rounded = (time * 1e9).round() / 1e9;
             // Long times have no nanoseconds to round to.
             let rounded = if rounded.is_finite() { rounded } else { time };
-            self.buffer.extend_from_slice(zmij::Buffer::new().format_finite(rounded).as_bytes());
+            self.cells.put(zmij::Buffer::new().format_finite(rounded).as_bytes());
         }
     }
 
@@ -212,33 +257,38 @@ impl ContactWriter {
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "single precision is what the file holds")]
     fn cell(&mut self, value: f64) {
-        self.buffer.push(b',');
         let single = value as f32;
         if single.is_finite() {
-            self.buffer.extend_from_slice(zmij::Buffer::new().format_finite(single).as_bytes());
+            self.cells.put_cell(zmij::Buffer::new().format_finite(single).as_bytes());
+        } else {
+            self.cells.put(b",");
         }
     }
 
     #[inline]
     fn empty(&mut self, cells: usize) {
-        self.buffer.extend(core::iter::repeat_n(b',', cells));
+        let mut left = cells;
+        while left > 0 {
+            let some = COMMAS.get(..left).unwrap_or(&COMMAS);
+            self.cells.put(some);
+            left -= some.len();
+        }
     }
 
     #[inline]
     fn word(&mut self, word: &str) {
-        self.buffer.push(b',');
-        self.buffer.extend_from_slice(word.as_bytes());
+        self.cells.put_cell(word.as_bytes());
     }
 
     #[inline]
     fn end_row(&mut self) -> Result<(), CliError> {
-        self.buffer.push(b'\n');
-        if self.buffer.len() >= BUFFER { self.flush() } else { Ok(()) }
+        self.cells.put(b"\n");
+        if self.cells.is_full() { self.flush() } else { Ok(()) }
     }
 
     fn flush(&mut self) -> Result<(), CliError> {
-        let written = self.out.write_all(&self.buffer).and_then(|()| self.out.flush());
-        self.buffer.clear();
+        let written = self.out.write_all(self.cells.text()).and_then(|()| self.out.flush());
+        self.cells.clear();
         written.map_err(|source| CliError::write("contacts", &self.path, source))
     }
 

@@ -22,5 +22,6 @@ pub(super) fn guard(arguments: &AnalyzeArguments) -> Result<Outputs, CliError> {
 
 /// How the recordings of a scene are read.
 pub(super) fn of(scene: &Scene) -> ReaderOptions {
-    ReaderOptions { renamed: scene.renamed_columns().to_vec(), ..ReaderOptions::default() }
+    let (renamed, header) = (scene.renamed_columns().to_vec(), scene.has_header());
+    ReaderOptions { renamed, header, ..ReaderOptions::default() }
 }

@@ -8,6 +8,7 @@ use fingertip_recordings::{Quality, ReaderOptions, RecordingReader};
 use fingertip_scene::{Felt, Scene};
 
 use super::args::AnalyzeArguments;
+use super::array::Fused;
 use super::sink::Sink;
 use super::{Analysed, analysed};
 use crate::error::CliError;
@@ -120,7 +121,7 @@ pub struct Analysis {
 struct Each<'a>(&'a mut dyn FnMut(f64, Sample<'_>));
 
 impl Sink for Each<'_> {
-    fn sample(&mut self, time: f64, felt: &Felt<f64>) -> Result<(), CliError> {
+    fn sample(&mut self, time: f64, felt: &Felt<f64>, _: Option<&Fused>) -> Result<(), CliError> {
         (self.0)(time, Sample::Felt(felt));
         Ok(())
     }

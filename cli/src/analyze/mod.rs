@@ -1,6 +1,9 @@
 //! `fingertip analyze`: a recording and a scene to contacts, a summary and a report.
 
+mod ahead;
 pub(crate) mod args;
+mod array;
+mod cells;
 mod contacts;
 mod files;
 pub mod library;
@@ -23,6 +26,7 @@ use crate::scene;
 use crate::summary::{self, Findings, Run};
 use crate::table::number;
 use args::AnalyzeArguments;
+use array::{Array, Fused};
 use contacts::ContactWriter;
 use sink::Sink;
 use source::{Reading, Source};
@@ -31,7 +35,10 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let scene = scene::load(&arguments.scene)?;
     let scene = scene::with(scene, arguments.calibration.as_deref(), arguments.payload.as_deref())?;
     let outputs = files::guard(arguments)?;
-    let create = || ContactWriter::create(&arguments.output, &outputs, scene.tells());
+    let create = || {
+        let places = scene.array_places().unwrap_or(0);
+        ContactWriter::create(&arguments.output, &outputs, scene.tells(), places)
+    };
     let Analysed { sink: contacts, source, observations, findings, .. } =
         analysed(&scene, arguments, create)?;
     contacts.finish()?;
@@ -67,8 +74,9 @@ fn analysed<S: Sink>(
     let opened = Opened::open(recording, &arguments.topics, files::of(scene), &mut notes)?;
     let Opened { rows: mut reader, bar, .. } = opened;
     let mut source = Source::new(&mut reader, scene, arguments, notes)?;
+    let array = scene.array_places().map(|places| Array::new(places, &mut reader)).transpose()?;
     let mut sink = sink()?;
-    let pass = Pass { scene, reader: &mut reader, source: &mut source, sink: &mut sink };
+    let pass = Pass { scene, reader: &mut reader, source: &mut source, array, sink: &mut sink };
     let observations = pass.run()?;
     bar.finish_and_clear();
     let quality = *reader.quality();
@@ -102,6 +110,7 @@ struct Pass<'a, S> {
     scene: &'a Scene,
     reader: &'a mut Rows,
     source: &'a mut Source,
+    array: Option<Array>,
     sink: &'a mut S,
 }
 
@@ -115,35 +124,46 @@ impl<S: Sink> Pass<'_, S> {
         let mut watched =
             watched.map_err(|problem| CliError::Recording(self.reader.header_error(problem)))?;
         watched.limit(sensor, self.scene.calibration().and_then(|file| file.range));
-        while let Some(row) = self.reader.next_row()? {
-            let (time, time_step) = self.source.clock(&row);
-            watched.add(&row);
-            if row.marks().gap {
-                pipeline.start_anew();
-            }
-            match self.source.read(&row, time)? {
-                Reading::Wrench(wrench) => {
-                    if pipeline.awaits_noise() {
-                        know_noise(&mut pipeline, self.source, self.scene)?;
+        let Self { scene, reader, source, mut array, sink } = self;
+        let mut fused = Fused::default();
+        let health = ahead::read(reader, watched, |block| {
+            for row in block.rows() {
+                let (time, time_step) = source.clock(&row);
+                if row.marks().gap {
+                    pipeline.start_anew();
+                }
+                match source.read(&row, time)? {
+                    Reading::Wrench(wrench) => {
+                        if pipeline.awaits_noise() {
+                            know_noise(&mut pipeline, source, scene)?;
+                        }
+                        let felt = pipeline.sense(wrench, time_step);
+                        observations.add(time, &felt.touch);
+                        observations.instants.add(time, felt);
+                        if let Some(array) = &mut array {
+                            array.fuse(&row, &pipeline, &mut fused);
+                        }
+                        sink.sample(time, pipeline.felt(), array.is_some().then_some(&fused))?;
                     }
-                    let felt = pipeline.sense(wrench, time_step);
-                    observations.add(time, &felt.touch);
-                    self.sink.sample(time, felt)?;
-                }
-                Reading::Without(status) => {
-                    observations.add_without_wrench(time, status);
-                    self.sink.without_wrench(time, status)?;
+                    Reading::Without(status) => {
+                        observations.add_without_wrench(time, status);
+                        sink.without_wrench(time, status)?;
+                    }
                 }
             }
-        }
-        if let Some(rest) = self.source.unfinished_rest() {
+            Ok(())
+        })?;
+        if let Some(rest) = source.unfinished_rest() {
             return Err(CliError::RestTooLong {
-                path: self.reader.file().into(),
+                path: reader.file().into(),
                 rest,
                 rows: observations.count_of(Status::Rest),
             });
         }
-        seen(&watched.finish()).into_iter().for_each(|fault| self.source.note(fault));
+        seen(&health).into_iter().for_each(|fault| source.note(fault));
+        if let Some(note) = array.as_ref().and_then(Array::note) {
+            source.note(note);
+        }
         Ok(observations)
     }
 }

@@ -42,17 +42,22 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     text.push_str(" N");
     frame.render_widget(Paragraph::new(text), forces);
     let Some(ratio) = force.friction_ratio().filter(|ratio| ratio.is_finite()) else { return };
-    let Some(coefficient) = state.coefficient else {
+    // By the limit of the scene: a spin torque uses it up, too, and a patch that grows holds more.
+    let Some(share) = margin.map(|margin| margin.utilisation.clamp(0.0, 1.0)) else {
         frame.render_widget(Paragraph::new(format!("ratio {}", number(ratio))), gauge);
         return;
     };
-    let share = (ratio / coefficient).clamp(0.0, 1.0);
     let colour = match share {
         share if share >= 1.0 => Color::Red,
         share if share > 0.8 => Color::Yellow,
         _ => Color::Green,
     };
-    let label = format!("ratio {} of µ {}", number(ratio), crate::table::short(coefficient));
+    // Of a limit of the ratio alone, the coefficient says more than the share.
+    let is_used = |coefficient: &f64| (ratio / coefficient - share).abs() < 0.005 || share >= 1.0;
+    let label = match state.coefficient.filter(is_used) {
+        Some(coefficient) => format!("ratio {} of µ {}", number(ratio), crate::table::short(coefficient)),
+        None => format!("ratio {}, limit used {:.0} %", number(ratio), 100.0 * share),
+    };
     let gauge_line = LineGauge::default()
         .ratio(if share.is_finite() { share } else { 0.0 })
         .label(label)
@@ -100,7 +105,7 @@ mod tests {
             wrench: Wrench::zero(),
             resolution: Resolution::NoContact(NoContact::NotFinite),
             force: Some(ContactForce::new(2.0 / ratio, Vector3::new(0.0, 2.0, 0.0), 0.0)),
-            grip: Some(Some(SlipMargin { newtons: 0.25, utilisation: 0.5 })),
+            grip: Some(Some(SlipMargin { newtons: 0.25, utilisation: ratio / 0.5 })),
             slip: verdict,
         };
         state.sample(0.0, &Wrench::zero(), Some(touch), Instant::now());
@@ -156,10 +161,18 @@ mod tests {
         let (lines, ..) = shown(&touched(0.4, None));
         assert_eq!(lines[1], "fn 5.00, ft 2.00, margin 0.250 N");
         assert!(lines[2].starts_with("ratio 0.400 of µ 0.5 █"), "{lines:?}");
-        // Without a coefficient there is a ratio, and without a contact force nothing.
-        let mut state = touched(0.4, None);
-        state.coefficient = None;
-        assert_eq!(shown(&state).0[2], "ratio 0.400");
+        // A spin torque uses the limit up, too: what counts is the margin, not the ratio.
+        let mut state = touched(0.1, None);
+        state.touch = state.touch.map(|touch| SceneTouch {
+            grip: Some(Some(SlipMargin { newtons: 0.25, utilisation: 0.9 })),
+            ..touch
+        });
+        let (lines, _, found) = shown(&state);
+        assert!(lines[2].starts_with("ratio 0.100, limit used 90 % █"), "{lines:?}");
+        assert_eq!(found, Some(Color::Yellow));
+        // Without friction there is a ratio, and without a contact force nothing.
+        state.touch = state.touch.map(|touch| SceneTouch { grip: None, ..touch });
+        assert_eq!(shown(&state).0[2], "ratio 0.100");
         state.touch = None;
         assert_eq!(shown(&state).0[1..], ["", ""]);
         // What presses with nothing has no ratio.

@@ -1,5 +1,6 @@
 //! What a run remembers of its samples: bounded memory, however long the recording.
 
+mod instants;
 mod quantiles;
 mod reservoir;
 mod slips;
@@ -11,6 +12,7 @@ use fingertip::contact::{NoContact, Resolution};
 use fingertip::friction::{SlipMargin, SlipVerdict};
 use nalgebra::Vector3;
 
+pub(crate) use instants::Instants;
 pub(crate) use quantiles::Quantiles;
 pub(crate) use reservoir::Reservoir;
 pub(crate) use slips::Slips;
@@ -63,6 +65,8 @@ pub(crate) struct Observations {
     contacts: Trace<7>,
     pub(crate) map: Reservoir<MapPoint>,
     pub(crate) slips: Slips,
+    /// How sure contacts were.
+    pub(crate) instants: Instants,
     /// Contacts whose friction limit is passed.
     pub(crate) beyond_limit: u64,
 }
@@ -84,6 +88,7 @@ impl Observations {
             contacts: Trace::default(),
             map: Reservoir::new(MAP_POINTS),
             slips: Slips::default(),
+            instants: Instants::default(),
             beyond_limit: 0,
         }
     }

@@ -56,7 +56,10 @@ fn in_milli(mut curves: Vec<Pieces>) -> Vec<Pieces> {
 
 fn contact_map(observations: &Observations) -> Figure {
     let points = &observations.map;
-    let drawn = map::draw("Contact points on the fingertip", observations.projection(), points.kept());
+    let projection = observations.projection();
+    let instants = observations.instants.kept();
+    let outlines: Vec<_> = instants.iter().filter_map(|instant| instant.outline(projection)).collect();
+    let drawn = map::draw("Contact points on the fingertip", projection, points.kept(), &outlines);
     let shown = points.kept().len() as u64;
     let share = if points.seen() > shown {
         format!(" {} of {} contacts, chosen at random.", count(shown), count(points.seen()))
@@ -67,8 +70,19 @@ fn contact_map(observations: &Observations) -> Figure {
         title: "Where it touches".to_owned(),
         svg: drawn.svg,
         keys: Vec::new(),
-        caption: format!("{}{share} Colour: normal force.", drawn.remark),
+        caption: format!("{}{share} Colour: normal force.{}", drawn.remark, of_ellipses(outlines.len())),
         on_white: false,
+    }
+}
+
+/// What is said of the ellipses on the map.
+fn of_ellipses(drawn: usize) -> String {
+    match drawn {
+        0 => String::new(),
+        1 => " The ellipse shows how sure one contact is, to scale.".to_owned(),
+        _ => format!(
+            " The ellipses show how sure {drawn} of the contacts are, evenly spread over the recording, to scale."
+        ),
     }
 }
 

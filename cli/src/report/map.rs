@@ -22,14 +22,17 @@ pub(crate) struct Map {
     pub(crate) remark: String,
 }
 
-/// Draws contact points, coloured by normal force.
-pub(crate) fn draw(title: &str, projection: &Projection, points: &[MapPoint]) -> Map {
+/// An outline on the map, as its corners.
+type Outline = Vec<(f64, f64)>;
+
+/// Draws contact points, coloured by normal force, and outlines over them.
+pub(crate) fn draw(title: &str, projection: &Projection, points: &[MapPoint], outlines: &[Outline]) -> Map {
     let classes = Classes::of(points.iter().map(|point| point.normal_force));
     match projection.kind() {
-        MapKind::Polar { rim } => polar(title, rim, projection.names(), points, &classes),
-        MapKind::Flat => flat(title, None, projection.names(), points, &classes),
+        MapKind::Polar { rim } => polar(title, rim, projection.names(), points, outlines, &classes),
+        MapKind::Flat => flat(title, None, projection.names(), points, outlines, &classes),
         MapKind::Unrolled { radius, half_length } => {
-            flat(title, Some((radius, half_length)), projection.names(), points, &classes)
+            flat(title, Some((radius, half_length)), projection.names(), points, outlines, &classes)
         }
     }
 }
@@ -43,7 +46,14 @@ fn dots(svg: &mut Svg, points: &[MapPoint], classes: &Classes, place: impl Fn((f
 
 /// The sphere in a disk of radius 2 (in radii of the sphere), or less where nothing lies further
 /// out.
-fn polar(title: &str, rim: Option<f64>, names: [&str; 2], points: &[MapPoint], classes: &Classes) -> Map {
+fn polar(
+    title: &str,
+    rim: Option<f64>,
+    names: [&str; 2],
+    points: &[MapPoint],
+    outlines: &[Outline],
+    classes: &Classes,
+) -> Map {
     let chord = |polar: f64| 2.0 * (0.5 * polar).sin();
     let farthest = points.iter().map(|point| point.place.0.hypot(point.place.1)).fold(0.0, f64::max);
     let reach = farthest.max(rim.map_or(0.0, chord)).max(chord(PI / 6.0));
@@ -71,8 +81,12 @@ fn polar(title: &str, rim: Option<f64>, names: [&str; 2], points: &[MapPoint], c
     if let Some(rim) = rim {
         svg.circle("rim", centre, scale * chord(rim));
     }
+    let place = |(u, v): (f64, f64)| (centre.0 + scale * u, centre.1 - scale * v);
     svg.begin_turn(centre, disk, scale);
-    dots(&mut svg, points, classes, |(u, v)| (centre.0 + scale * u, centre.1 - scale * v));
+    dots(&mut svg, points, classes, place);
+    for outline in outlines {
+        svg.polygon("sure", outline.iter().copied().map(place));
+    }
     svg.end_clip();
     // Ring labels last, on a slant between two spokes, so that they stay readable.
     let (sin, cos) = (0.375 * PI).sin_cos();
@@ -100,6 +114,7 @@ fn flat(
     unrolled: Option<(f64, Option<f64>)>,
     names: [&str; 2],
     points: &[MapPoint],
+    outlines: &[Outline],
     classes: &Classes,
 ) -> Map {
     let half_length = unrolled.and_then(|(_, half_length)| half_length);
@@ -147,6 +162,9 @@ fn flat(
         |point: &&MapPoint| (left..=right).contains(&point.place.0) && (low..=high).contains(&point.place.1);
     let shown: Vec<MapPoint> = points.iter().filter(inside).copied().collect();
     dots(&mut svg, &shown, classes, place);
+    for outline in outlines {
+        svg.polygon("sure", outline.iter().copied().map(place));
+    }
     svg.end_clip();
     classes.legend(&mut svg, (LEFT, height - LEGEND + 10.0), width);
 

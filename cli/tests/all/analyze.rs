@@ -283,3 +283,41 @@ fn mcap_is_read_as_csv_is() {
     let error = folder.fail(1, &["analyze", "broken.mcap", "--scene", "scene.toml"]);
     assert!(error.contains("broken.mcap"), "{error}");
 }
+
+/// Columns by their numbers: the same contacts as of a recording that names them, its first row included.
+#[test]
+fn a_recording_without_a_header_is_read_by_the_numbers_of_its_columns() {
+    let rows: String = (0..20).map(|i| push(f64::from(i) * 0.01, 0.05 * f64::from(i))).collect();
+    let folder = folder(&rows);
+    folder.succeed(&with(&["--no-report"]));
+    let named = folder.read("contacts.csv");
+    // The same with a column before, the torques first, in millimetres, and fz turned round.
+    let moved = |line: &str| {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        format!(
+            "9,{},{},{},{},{},{},{}\n",
+            cells[4] * 1e3,
+            cells[5] * 1e3,
+            cells[6] * 1e3,
+            cells[1],
+            cells[2],
+            -cells[3],
+            cells[0]
+        )
+    };
+    folder.write("touch.csv", &rows.lines().map(moved).collect::<String>());
+    let columns = "header = false\ncolumns = { time = 8, fx = 5, fy = 6, fz = -7, tx = 2, ty = \"3\", tz = 4 }\n\
+                   units = { torque = \"Nmm\" }\n[surface]";
+    folder.write("scene.toml", &SCENE.replace("[surface]", columns));
+    folder.succeed(&with(&["--no-report", "--overwrite"]));
+    let (named, numbered) = (Contacts::parse(&named), Contacts::parse(&folder.read("contacts.csv")));
+    assert_eq!((named.len(), named.words("status")), (20, numbered.words("status")));
+    for column in ["t_s", "x_m", "normal_N", "ratio", "fz_N"] {
+        for (a, b) in named.numbers(column).iter().zip(numbered.numbers(column)) {
+            assert!((a - b).abs() < 1e-7, "{column}: {a} and {b}");
+        }
+    }
+    folder.write("scene.toml", &SCENE.replace("[surface]", &columns.replace("fx = 5", "fx = 9")));
+    let error = folder.fail(1, &with(&["--no-report", "--overwrite"]));
+    assert!(error.contains("no column 9") || error.contains("9"), "{error}");
+}

@@ -13,6 +13,7 @@ mod demo;
 mod design;
 mod exports;
 mod foreign_readers;
+mod fused;
 mod health;
 mod live;
 mod nano17;

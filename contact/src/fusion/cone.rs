@@ -9,6 +9,8 @@ use super::prior::{Prior, State};
 
 /// Where in its friction cone a force lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
+#[repr(u8)]
 pub enum Grip {
     /// Inside: the constraint does not matter.
     Sticks,

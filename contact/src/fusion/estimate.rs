@@ -41,6 +41,11 @@ pub struct Fusion<T: Real> {
 
 /// One contact of the estimate.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct FusedContact<T: Real> {
     /// Where \[m\], on the surface.
     pub point: Vector3<T>,

@@ -12,6 +12,7 @@
 //! line of action and `φ` the angle between force and inward normal (`docs/theory/contact.md#grazing`).
 
 mod answers;
+mod calibration;
 mod convex_bound;
 mod covariance;
 pub(crate) mod geometry;
@@ -25,6 +26,7 @@ mod skin;
 mod spread;
 mod worst_case;
 
+pub use calibration::CalibrationUncertainty;
 pub use convex_bound::ConvexBound;
 pub use covariance::{ConfidenceEllipse, ContactCovariance};
 pub use geometry::{GeometrySensitivity, GeometryUncertainty};

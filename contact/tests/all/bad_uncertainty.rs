@@ -50,6 +50,22 @@ fn of_the_signals_and_the_calibration() {
     assert!((found - Matrix6::identity() * 1e-6).norm() < 1e-20);
 }
 
+/// What a fit leaves uncertain; a wrench that is none has an uncertainty that is none.
+#[test]
+fn of_a_fit() {
+    let good = Matrix6::identity();
+    for matrix in bad() {
+        let error = CalibrationUncertainty::new(matrix, good).unwrap_err();
+        assert_eq!(error.parameter, "covariance of a reading", "{matrix}");
+        let error = CalibrationUncertainty::new(good, matrix).unwrap_err();
+        assert_eq!(error.parameter, "spread of the loads", "{matrix}");
+    }
+    let fit = CalibrationUncertainty::new(good, good).unwrap();
+    assert_eq!(fit.covariance(&Wrench::<f64>::zero()), Matrix6::zeros());
+    let nan = Wrench::<f64>::on_fingertip(Vector3::new(f64::NAN, 0.0, 0.0), Vector3::zeros());
+    assert!(fit.covariance(&nan).iter().any(|x| x.is_nan()));
+}
+
 /// Of the pitch test and of fusion with an array; the latter divides by it.
 #[test]
 fn of_the_wrench() {

@@ -1,8 +1,8 @@
 //! What the noise of gauges does to wrench and contact force.
 
 use fingertip_contact::{
-    Contact, ContactCovariance, ContactJacobian, ContactModel, PointContact, SensorUncertainty, SoftFinger,
-    WrenchNoise,
+    CalibrationUncertainty, Contact, ContactCovariance, ContactJacobian, ContactModel, PointContact,
+    SensorUncertainty, SoftFinger, WrenchNoise,
 };
 use fingertip_surfaces::SmoothSurface;
 use fingertip_test_support::Worst;
@@ -31,6 +31,13 @@ fn gauges_to_wrench_match_monte_carlo() {
     let uncertainty =
         SensorUncertainty::independent(&solver, &noise).unwrap().with_calibration(rows).unwrap();
     let predicted = uncertainty.wrench_covariance(&wrench);
+    // Rows that are uncertain alike are what a fit to the same loads leaves.
+    let alike = core::array::from_fn(|gauge| rows[0] * noise[gauge] * noise[gauge]);
+    let of_rows = SensorUncertainty::independent(&solver, &Vector6::zeros()).unwrap();
+    let of_rows = of_rows.with_calibration(alike).unwrap().wrench_covariance(&wrench);
+    let readings = SensorUncertainty::independent(&solver, &noise).unwrap().wrench_covariance(&wrench);
+    let fit = CalibrationUncertainty::new(readings, rows[0]).unwrap().covariance(&wrench);
+    assert!((fit - of_rows).norm() < 1e-12 * of_rows.norm(), "{fit} for {of_rows}");
     let factors = rows.map(|row: Matrix6<f64>| row.cholesky().unwrap().l());
     let mut sums = Matrix6::zeros();
     let count = 60_000;

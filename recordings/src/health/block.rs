@@ -19,8 +19,8 @@ impl Jump {
     pub(super) fn add(&mut self, at: u64, size: f64) {
         if size.abs() > self.size.abs() {
             *self = Self { at, size, second: self.size.abs() };
-        } else {
-            self.second = self.second.max(size.abs());
+        } else if size.abs() > self.second {
+            self.second = size.abs();
         }
     }
 
@@ -73,8 +73,20 @@ impl Cell {
         let off = reading - self.mean;
         self.mean += off / f64::from(self.count);
         self.squares += off * (reading - self.mean);
-        self.least = self.least.min(reading);
-        self.greatest = self.greatest.max(reading);
+        if reading < self.least {
+            self.least = reading;
+        }
+        if reading > self.greatest {
+            self.greatest = reading;
+        }
+    }
+
+    /// Takes a change from reading to reading for the Allan variance of single readings.
+    pub(super) fn add_change(&mut self, change: f64) {
+        if let Some((sum, pairs)) = self.allan.first_mut() {
+            *sum += change * change;
+            *pairs += 1;
+        }
     }
 
     /// Variance of a reading about the mean; `None` for fewer than two.

@@ -26,7 +26,7 @@ pub struct Noise {
     pub independent: f64,
     /// Mean of the readings.
     pub mean: f64,
-    /// By the time of averaging.
+    /// By the time of averaging; of a brief look, that of single readings and those above the length of a block.
     pub allan: Vec<AllanPoint>,
 }
 

@@ -14,7 +14,8 @@ pub(super) struct Trace {
     /// Pairs of channels whose changes are multiplied.
     pairs: Vec<(usize, usize)>,
     last: Vec<f64>,
-    allan: Vec<AllanVariance<f64>>,
+    /// Of each channel; without them, only single readings are compared.
+    allan: Option<Vec<AllanVariance<f64>>>,
     samples: u64,
     /// So many blocks are kept at most.
     most: usize,
@@ -23,8 +24,14 @@ pub(super) struct Trace {
 impl Trace {
     /// The shortest block: 2⁴ readings.
     const FIRST_OCTAVE: u32 = 4;
-    /// Of so many channels, with so many blocks at most.
+    /// Of so many channels, with so many blocks at most; their Allan variance is that of all octaves.
     pub(super) fn new(channels: usize, pairs: Vec<(usize, usize)>, most: usize) -> Self {
+        let allan = Some(vec![AllanVariance::default(); channels]);
+        Self { allan, ..Self::brief(channels, pairs, most) }
+    }
+
+    /// The same with the Allan variance of single readings alone, which costs a sum.
+    pub(super) fn brief(channels: usize, pairs: Vec<(usize, usize)>, most: usize) -> Self {
         Self {
             most,
             blocks: Vec::new(),
@@ -32,7 +39,7 @@ impl Trace {
             octave: Self::FIRST_OCTAVE,
             pairs,
             last: vec![f64::NAN; channels],
-            allan: vec![AllanVariance::default(); channels],
+            allan: None,
             samples: 0,
         }
     }
@@ -53,7 +60,7 @@ impl Trace {
     /// Readings are missing here.
     pub(super) fn interrupt(&mut self) {
         self.last.fill(f64::NAN);
-        self.allan.iter_mut().for_each(AllanVariance::interrupt);
+        self.allan.iter_mut().flatten().for_each(AllanVariance::interrupt);
     }
 
     /// Takes a sample; what is not finite is left out.
@@ -68,13 +75,20 @@ impl Trace {
                 *product += if both.is_finite() { both } else { 0.0 };
             }
         }
-        let cells = self.current.cells.iter_mut().zip(&mut self.last).zip(&mut self.allan);
-        for (((cell, last), allan), reading) in cells.zip(readings) {
+        for (allan, reading) in self.allan.iter_mut().flatten().zip(readings) {
             allan.add(*reading);
+        }
+        // Differences of single readings are taken within a block.
+        let compares = self.allan.is_none() && self.current.samples > 0;
+        for ((cell, last), reading) in self.current.cells.iter_mut().zip(&mut self.last).zip(readings) {
             if reading.is_finite() {
                 cell.add(*reading);
                 if last.is_finite() {
-                    cell.jump.add(self.samples, reading - *last);
+                    let change = *reading - *last;
+                    cell.jump.add(self.samples, change);
+                    if compares {
+                        cell.add_change(change);
+                    }
                 }
             }
             *last = *reading;
@@ -89,7 +103,7 @@ impl Trace {
     fn end_block(&mut self) {
         let fresh = Block::new(self.samples, 0.0, self.current.cells.len(), self.pairs.len());
         let mut block = core::mem::replace(&mut self.current, fresh);
-        for (cell, allan) in block.cells.iter_mut().zip(&mut self.allan) {
+        for (cell, allan) in block.cells.iter_mut().zip(self.allan.iter_mut().flatten()) {
             for octave in 0..OCTAVES {
                 let pairs = allan.pairs(octave);
                 let sum = allan.variance(octave).map_or(0.0, |variance| 2.0 * variance * f64::from(pairs));
@@ -123,6 +137,32 @@ impl Trace {
 #[cfg(test)]
 mod tests {
     use super::Trace;
+
+    /// A brief look knows of single readings what the whole one does, gaps and missing readings included.
+    #[test]
+    fn briefly_single_readings_are_compared_alike() {
+        let (mut whole, mut brief) = (Trace::new(2, Vec::new(), 64), Trace::brief(2, Vec::new(), 64));
+        for i in 0..5000_u32 {
+            let reading = f64::from(i * 7919 % 101) * 0.37;
+            let other = if i % 23 == 5 { f64::NAN } else { reading * reading };
+            for trace in [&mut whole, &mut brief] {
+                if i % 777 == 0 {
+                    trace.interrupt();
+                }
+                trace.add(f64::from(i), &[reading, other]);
+            }
+        }
+        assert_eq!(whole.blocks.len(), brief.blocks.len());
+        for (whole, brief) in whole.blocks.iter().zip(&brief.blocks) {
+            for (whole, brief) in whole.cells.iter().zip(&brief.cells) {
+                assert_eq!((whole.mean, whole.squares, whole.jump), (brief.mean, brief.squares, brief.jump));
+                assert_eq!(whole.allan[0].1, brief.allan[0].1);
+                assert!((whole.allan[0].0 / brief.allan[0].0 - 1.0).abs() < 1e-12);
+                // Blocks that were joined compare their means, at the octaves of their lengths.
+                assert_eq!(brief.allan[1], (0.0, 0));
+            }
+        }
+    }
 
     #[test]
     fn memory_is_bounded_and_nothing_is_lost() {

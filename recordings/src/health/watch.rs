@@ -14,7 +14,7 @@ use crate::time_watch::Step;
 /// How much is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
-    /// What costs little: all but spectra and noise in common.
+    /// What costs little: all but spectra, noise in common, and the Allan deviation of means of some readings.
     Brief,
     /// Everything.
     Full,
@@ -57,11 +57,10 @@ impl HealthWatch {
             channels,
             timing: Timing::default(),
             stated_rate: None,
-            trace: Trace::new(
-                count,
-                pairs,
-                if depth == Depth::Full { Self::BLOCKS } else { Self::BLOCKS / 8 },
-            ),
+            trace: match depth {
+                Depth::Full => Trace::new(count, pairs, Self::BLOCKS),
+                Depth::Brief => Trace::brief(count, pairs, Self::BLOCKS / 8),
+            },
             spectra: (depth == Depth::Full).then(|| Spectra::new(count)),
             last: vec![f64::NAN; count],
             held_rows: 0,

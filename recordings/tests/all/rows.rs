@@ -1,6 +1,6 @@
 //! Rows of a recording that say again what the row before said.
 
-use fingertip_recordings::{RecordingError, RecordingReader};
+use fingertip_recordings::{RecordingError, RecordingReader, RowBlock};
 
 /// Lines of the rows that are marked as repeated, held and backward.
 fn marked(file: &str) -> [Vec<u64>; 3] {
@@ -136,4 +136,53 @@ fn a_read_that_is_interrupted_goes_on() {
         times.extend(row.time());
     }
     assert_eq!(times, [0.0, 1.0]);
+}
+
+/// Line, time, step, marks and values of every row up to the first error, which is told behind them.
+#[test]
+fn rows_of_blocks_are_those_that_come_one_by_one() {
+    let mut file = "t_s,v1_V,v2_V\n".to_owned();
+    for i in 0..50_u32 {
+        // Gaps, repeated rows, held ones, times that go back, cells without a number.
+        let time = match i {
+            20..30 => f64::from(i) * 0.1 + 3.0,
+            30 => 5.9,
+            _ => f64::from(i) * 0.1,
+        };
+        let value = if i % 7 == 3 { String::new() } else { format!("{}", i / 2 % 5) };
+        file += &format!("{time},{value},{}\n", i % 4 / 2);
+    }
+    for end in ["", "9,x,1\n10,1,1\n", "9,1\n10,1,1\n"] {
+        let whole = format!("{file}{end}");
+        let shown = |row: &fingertip_recordings::Row<'_>| format!("{row:?}");
+        let mut reader = RecordingReader::new("test.csv", whole.as_bytes()).unwrap();
+        let (mut expected, mut error) = (Vec::new(), None);
+        loop {
+            match reader.next_row() {
+                Ok(Some(row)) => expected.push(shown(&row)),
+                Ok(None) => break,
+                Err(found) => {
+                    error = Some(found.to_string());
+                    break;
+                }
+            }
+        }
+        assert!(expected.len() == 50 && error.is_some() != end.is_empty(), "{error:?}");
+        for most in [0, 1, 2, 7, 49, 50, 51, 1000] {
+            let mut blocks = RecordingReader::new("test.csv", whole.as_bytes()).unwrap();
+            let (mut block, mut found) = (RowBlock::default(), Vec::new());
+            let ended = loop {
+                let more = blocks.read_block(&mut block, most);
+                assert!(block.len() <= most.max(1));
+                found.extend(block.rows().map(|row| shown(&row)));
+                match more {
+                    Ok(true) => {}
+                    Ok(false) => break None,
+                    Err(error) => break Some(error.to_string()),
+                }
+            };
+            assert_eq!((&found, &ended), (&expected, &error), "blocks of {most}");
+            assert_eq!(blocks.quality(), reader.quality());
+        }
+    }
 }

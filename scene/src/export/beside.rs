@@ -1,6 +1,7 @@
 //! What a scene has beside the pipeline: functions of their own, and how they are called.
 
 use fingertip::wrench::Real;
+use nalgebra::Matrix6;
 use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
@@ -91,6 +92,19 @@ pub fn geometry() -> Result<contact::GeometryUncertainty<{T}>, BadTip> {{
 }}
 ";
 
+const CALIBRATION: &str = "
+/// What the fit of the calibration leaves uncertain of a wrench.
+///
+/// # Errors
+/// Never for the numbers below.
+pub fn calibration_uncertainty() -> Result<contact::CalibrationUncertainty<{T}>, BadTip> {{
+    Ok(contact::CalibrationUncertainty::new(
+        nalgebra::Matrix6::from({readings:a}),
+        nalgebra::Matrix6::from({loads:a}),
+    )?)
+}}
+";
+
 impl<T: Real + DeserializeOwned> Writer<T> {
     /// A template of items, in which braces of Rust are doubled.
     pub(super) fn items(&mut self, template: &str, keys: &Table) -> Result<String, ExportError> {
@@ -174,21 +188,36 @@ impl<T: Real + DeserializeOwned> Writer<T> {
             keys.insert("pivot".to_owned(), Value::Array(geometry.pivot.iter().map(|x| float(*x)).collect()));
             items.push_str(&self.items(GEOMETRY, &keys)?);
         }
+        if let Some(calibration) = &uncertainty.calibration {
+            let columns = |matrix: &Matrix6<T>| {
+                let column = |column: [T; 6]| Value::Array(column.iter().map(|x| float(*x)).collect());
+                Value::Array(matrix.data.0.into_iter().map(column).collect())
+            };
+            keys.insert("readings".to_owned(), columns(calibration.readings()));
+            keys.insert("loads".to_owned(), columns(calibration.loads()));
+            items.push_str(&self.items(CALIBRATION, &keys)?);
+        }
         let skin = contact.contains_key("skin");
-        items.push_str(&covariance(
-            Self::scalar(),
-            jacobian(chosen(contact, "model"), skin),
-            skin,
-            uncertainty.exact,
-        ));
-        let last = if skin { "&tip, &touch, before, &noise" } else { "&tip, &touch, &noise" };
-        let (geometry, call) = match uncertainty.exact {
-            true => ("let noise = wrench_noise()?", format!("covariance({last})")),
-            false => (
-                "let (noise, geometry) = (wrench_noise()?, geometry()?)",
-                format!("covariance({last}, &geometry)"),
-            ),
+        let parts = Parts { skin, exact: uncertainty.exact, calibrated: uncertainty.calibration.is_some() };
+        items.push_str(&covariance(Self::scalar(), jacobian(chosen(contact, "model"), skin), parts));
+        let of = [
+            (true, "noise", "wrench_noise()?"),
+            (parts.calibrated, "calibration", "calibration_uncertainty()?"),
+            (!parts.exact, "geometry", "geometry()?"),
+        ];
+        let of: Vec<_> = of.into_iter().filter(|(is_there, ..)| *is_there).collect();
+        let list = |names: Vec<&str>| match names.as_slice() {
+            [one] => (*one).to_owned(),
+            _ => format!("({})", names.join(", ")),
         };
+        let geometry = format!(
+            "let {} = {}",
+            list(of.iter().map(|(_, name, _)| *name).collect()),
+            list(of.iter().map(|(.., made)| *made).collect())
+        );
+        let last = if skin { "&tip, &touch, before" } else { "&tip, &touch" };
+        let given: String = of.iter().map(|(_, name, _)| format!(", &{name}")).collect();
+        let call = format!("covariance({last}{given})");
         let before = if skin { "; `before` is the last contact before this sample" } else { "" };
         let probability = self.fill("{probability}", &keys)?;
         Ok(Beside {
@@ -226,8 +255,17 @@ pub(super) fn jacobian(model: &str, skin: bool) -> &'static str {
     }
 }
 
+/// What takes part in the covariance of a contact.
+#[derive(Clone, Copy)]
+struct Parts {
+    skin: bool,
+    /// Whether the geometry is taken to be known exactly.
+    exact: bool,
+    calibrated: bool,
+}
+
 /// The function that tells how sure a contact is.
-fn covariance(t: &str, jacobian: &str, skin: bool, exact: bool) -> String {
+fn covariance(t: &str, jacobian: &str, Parts { skin, exact, calibrated }: Parts) -> String {
     let (last, found) = if skin {
         (
             format!("    last: Option<&nalgebra::Vector3<{t}>>,\n"),
@@ -236,23 +274,25 @@ fn covariance(t: &str, jacobian: &str, skin: bool, exact: bool) -> String {
     } else {
         (String::new(), "let found = touch.resolution.contact()?;")
     };
-    let (parameter, with) = if exact {
-        (String::new(), "")
-    } else {
-        (
-            format!("    geometry: &contact::GeometryUncertainty<{t}>,\n"),
-            ".with_geometry(&jacobian, geometry)",
-        )
-    };
+    let (mut parameters, mut of_wrench, mut with) =
+        (String::new(), "noise.covariance(&touch.wrench)".to_owned(), "");
+    if calibrated {
+        parameters += &format!("    calibration: &contact::CalibrationUncertainty<{t}>,\n");
+        of_wrench = format!("({of_wrench} + calibration.covariance(&touch.wrench))");
+    }
+    if !exact {
+        parameters += &format!("    geometry: &contact::GeometryUncertainty<{t}>,\n");
+        with = ".with_geometry(&jacobian, geometry)";
+    }
     format!(
         "\n/// How sure the contact of a sample is; `None` without one, and where that cannot be said, as at grazing.\n\
          pub fn covariance<Reading, Verdict>(\n    tip: &Tip,\n    \
              touch: &fingertip::Touch<{t}, Reading, Verdict>,\n{last}    \
-             noise: &contact::WrenchNoise<{t}>,\n{parameter}) -> Option<contact::ContactCovariance<{t}>> {{\n    \
+             noise: &contact::WrenchNoise<{t}>,\n{parameters}) -> Option<contact::ContactCovariance<{t}>> {{\n    \
              let surface = tip.surface();\n    \
              {found}\n    \
              let jacobian = {jacobian};\n    \
-             let covariance = contact::ContactCovariance::new(&jacobian, &noise.covariance(&touch.wrench));\n    \
+             let covariance = contact::ContactCovariance::new(&jacobian, &{of_wrench});\n    \
              Some(covariance{with})\n}}\n"
     )
 }

@@ -2,11 +2,17 @@
 
 use fingertip::wrench::Real;
 use fingertip_calibration::file::{CalibrationFile, Scalar};
+use nalgebra::{Vector3, Vector6};
 use serde::de::DeserializeOwned;
+use toml::Table;
 
 use super::ExportError;
+use super::resolved::read;
 use super::template::{Typed, Writer};
 use crate::input::Convention;
+use crate::scene::Scene;
+use crate::sensor::SensorSource;
+use crate::uncertainty::{Uncertainty, UncertaintySection};
 
 /// The fewest gauges that tell a wrench.
 const FEWEST: usize = 6;
@@ -91,4 +97,24 @@ impl<T: Real + DeserializeOwned> Writer<T> {
             range: file.range,
         })
     }
+}
+
+/// What is uncertain of a contact, the fit of the calibration included.
+pub(super) fn uncertainty<T: Real>(
+    scene: &Scene,
+    resolved: &Table,
+    calibration: Option<&CalibrationFile>,
+) -> Result<Option<Uncertainty<T>>, ExportError> {
+    let Some(section) = resolved.get("uncertainty") else { return Ok(None) };
+    let section: UncertaintySection = read(section)?;
+    let pivot = scene.pose.sensor_from_surface::<f64>()?.transform_point(&Vector3::zeros());
+    // The calibration of the command stands in the place of the scene's.
+    let of = |file: &CalibrationFile| SensorSource {
+        file: file.clone(),
+        name: "the calibration".to_owned(),
+        celsius: None,
+    };
+    let sensor = calibration.map(of);
+    // What the rest would tell was refused before.
+    Ok(Some(section.build(&pivot, &Vector6::zeros(), sensor.as_ref())?))
 }

@@ -4,6 +4,7 @@ mod beside;
 mod calibrated;
 mod followed;
 mod formula;
+mod fused;
 mod json;
 mod layout;
 mod library;

@@ -4,23 +4,21 @@ use core::fmt::Write as _;
 
 use fingertip::wrench::Real;
 use fingertip_calibration::file::{CalibrationFile, Scalar};
-use nalgebra::{Vector3, Vector6};
 use serde::de::DeserializeOwned;
-use toml::{Table, Value};
+use toml::Value;
 
 use super::ExportError;
 use super::beside::Beside;
-use super::calibrated::Solved;
+use super::calibrated::{Solved, uncertainty};
 use super::layout::{comment, laid_out};
-use super::resolved::{read, resolve};
+use super::resolved::resolve;
 use super::shapes::ON_THE_HEAP;
 use super::template::{Typed, Writer};
 use crate::input::Convention;
 use crate::scene::Scene;
-use crate::uncertainty::{Uncertainty, UncertaintySection};
 
 /// The sections that are exported, or that are of no sample: how recordings are read, and how points are drawn.
-const KNOWN: [&str; 14] = [
+const KNOWN: [&str; 15] = [
     "version",
     "name",
     "input",
@@ -31,6 +29,7 @@ const KNOWN: [&str; 14] = [
     "contact",
     "uncertainty",
     "tracking",
+    "fusion",
     "friction",
     "slip",
     "estimate",
@@ -101,7 +100,7 @@ pub(super) fn of<T: Real + DeserializeOwned>(
     // Also checks that each number is within the range of the precision.
     let pipeline = scene.pipeline_in::<T>()?;
     let contact = needed("contact")?;
-    let uncertainty = uncertainty::<T>(scene, &resolved)?;
+    let uncertainty = uncertainty::<T>(scene, &resolved, calibration)?;
     let mut writer = Writer::<T>::new();
     let stages = Stages {
         surface: writer.placed(&needed("surface")?, &scene.pose)?,
@@ -125,6 +124,10 @@ pub(super) fn of<T: Real + DeserializeOwned>(
     }
     if let Some(tracking) = section("tracking") {
         beside.push(writer.tracking(tracking, uncertainty.as_ref(), &contact)?);
+    }
+    if let Some(joined) = pipeline.fusion() {
+        let calibrated = uncertainty.as_ref().is_some_and(|uncertainty| uncertainty.calibration.is_some());
+        beside.push(writer.fusion(joined, calibrated)?);
     }
     if let Some(friction) = section("friction") {
         beside.extend(writer.friction_model(friction)?);
@@ -151,14 +154,6 @@ pub(super) fn of<T: Real + DeserializeOwned>(
     })
 }
 
-fn uncertainty<T: Real>(scene: &Scene, resolved: &Table) -> Result<Option<Uncertainty<T>>, ExportError> {
-    let Some(section) = resolved.get("uncertainty") else { return Ok(None) };
-    let section: UncertaintySection = read(section)?;
-    let pivot = scene.pose.sensor_from_surface::<f64>()?.transform_point(&Vector3::zeros());
-    // What the rest would tell was refused before.
-    Ok(Some(section.build(&pivot, &Vector6::zeros())?))
-}
-
 /// A text that stays within a comment.
 fn in_a_line(text: &str) -> String {
     text.replace(['\n', '\r'], " ")
@@ -176,6 +171,7 @@ fn features(items: &str) -> Vec<&'static str> {
     features.extend(items.contains("friction::").then_some("friction"));
     features.extend(items.contains("contact::Compliant").then_some("skin"));
     features.extend(items.contains("contact::Tracker").then_some("track"));
+    features.extend(items.contains("contact::Fusion").then_some("fusion"));
     features
 }
 

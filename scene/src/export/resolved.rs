@@ -13,6 +13,7 @@ use crate::fault::{SceneProblem, VERSION};
 use crate::filter::FilterSection;
 use crate::formula::FormulaSection;
 use crate::friction::FrictionSection;
+use crate::fusion::FusionSection;
 use crate::grip::GripSection;
 use crate::input::InputSection;
 use crate::model::{ContactSection, USUAL_DEVIATIONS};
@@ -44,6 +45,7 @@ pub(super) fn resolve<T: Real>(scene: &Scene) -> Result<Table, ExportError> {
             "contact" => contact(section)?,
             "tracking" => filled::<TrackingSection>(section)?,
             "uncertainty" => filled::<UncertaintySection>(section)?,
+            "fusion" => filled::<FusionSection>(section)?,
             "friction" => filled::<FrictionSection>(section)?,
             "slip" => filled::<SlipSection>(section)?,
             "estimate" => filled::<EstimateSection>(section)?,

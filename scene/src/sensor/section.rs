@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use fingertip::contact::CalibrationUncertainty;
 use fingertip::wrench::Real;
 use fingertip_calibration::file::{self, CalibrationFile, SignalUnit};
 use fingertip_calibration::linear::pseudo_inverse;
@@ -50,6 +51,16 @@ impl SensorSource {
     pub(crate) fn build<T: Real>(&self) -> Result<Sensor<T>, SceneProblem> {
         Sensor::new(&self.file)
             .map_err(|source| SceneProblem::Sensor { name: self.name.clone(), source: Box::new(source) })
+    }
+}
+
+impl SensorSource {
+    /// What the fit of the calibration leaves uncertain; `None` if its file does not tell.
+    pub(crate) fn uncertainty<T: Real>(&self) -> Result<Option<CalibrationUncertainty<T>>, SceneProblem> {
+        self.file.uncertainty_in().map_err(|source| SceneProblem::Sensor {
+            name: self.name.clone(),
+            source: Box::new(source.into()),
+        })
     }
 }
 

@@ -132,8 +132,8 @@ macro_rules! each {
 
 #[test]
 fn the_examples_give_the_bits_of_the_pipeline() {
-    each!(1000, example, f64: auto_capsule, capsule, ellipsoid, nano17_cylinder, nano17_soft_finger, paper_sphere,
-        plane, rubber_tip, tracked_ball);
+    each!(1000, example, f64: auto_capsule, capsule, ellipsoid, gripped_ball, nano17_cylinder, nano17_soft_finger, paper_sphere,
+        plane, robot_link, rubber_tip, tracked_ball);
     each!(40, example, f64: formula_pad);
     let skinned = |_| Scene::from_text(SKINNED).unwrap();
     each!(300, skinned, f64: skinned);

@@ -5,12 +5,13 @@ use fingertip::contact::ContactCovariance;
 use fingertip::friction::SlipVerdict;
 use fingertip::surfaces::{DynSurface, Extent, SmoothSurface};
 use fingertip::wrench::{GaugesAndTemperature, Real, Wrench};
-use fingertip_calibration::file::{CalibrationFile, SignalUnit, Temperature};
+use fingertip_calibration::file::{CalibrationFile, Covariance, SignalUnit, Temperature};
 use fingertip_scene::Scene;
 use nalgebra::{DMatrix, SVector, Vector3, Vector6};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+use crate::calibrated_spread::calibrated;
 use crate::export::example;
 use crate::exported;
 
@@ -67,6 +68,11 @@ pub(crate) fn calibration(gauges: usize) -> CalibrationFile {
     let matrix = DMatrix::from_fn(gauges, 6, entry);
     let mut file = CalibrationFile::new(matrix, nominal, zero, SignalUnit::Volt).unwrap();
     if gauges == 6 {
+        let near = |i: usize, j: usize| if i == j { 1.0 } else { 0.2 / (1.0 + i.abs_diff(j) as f64) };
+        file.covariance = Some(Covariance {
+            signals: DMatrix::from_fn(6, 6, |i, j| 1e-4 * near(i, j)),
+            loads: DMatrix::from_fn(6, 6, |i, j| 0.03 * near(i, j)),
+        });
         file.temperature = Some(Temperature {
             reference_celsius: 22.0,
             range_celsius: [15.0, 45.0],
@@ -159,11 +165,50 @@ fn what_stands_beside_the_pipeline_gives_its_bits() {
             covariance(&tip, &touch, &noise, &geometry)
         });
     }
+    {
+        use exported::skinned_six_gauges::{calibration_uncertainty, covariance, wrench_noise};
+        let (noise, of_fit) = (wrench_noise().unwrap(), calibration_uncertainty().unwrap());
+        spreads!(calibrated(SKINNED, &calibration(6)), skinned_six_gauges, 0.95, |tip, touch, last| {
+            covariance(&tip, &touch, last.as_ref(), &noise, &of_fit)
+        });
+    }
     use exported::skinned::{covariance, wrench_noise};
     let noise = wrench_noise().unwrap();
     spreads!(Scene::from_text(SKINNED).unwrap(), skinned, 0.95, |tip, touch, last| {
         covariance(&tip, &touch, last.as_ref(), &noise)
     });
+}
+
+/// An array of two places beside the wrench, as the header of its module says.
+#[test]
+fn wrench_and_array_are_joined_as_at_run_time() {
+    use exported::gripped_ball::{fused, tip, wrench_noise};
+    let (mut tip, noise) = (tip().unwrap(), wrench_noise().unwrap());
+    let mut pipeline = example("gripped_ball").pipeline();
+    let mut random = Pcg64Mcg::seed_from_u64(31);
+    let mut slid = 0;
+    for _ in 0..200 {
+        let mut vector = |size: f64| Vector3::from_fn(|_, _| random.random_range(-size..size));
+        let places = [vector(1.0).normalize() * 0.013, vector(1.0).normalize() * 0.013];
+        let forces = places.map(|at| vector(0.4) - at * (100.0 + 50.0 * vector(1.0).x));
+        let load = |i: usize| {
+            let push: Wrench<f64> = Wrench::from_force_at(&places[i], forces[i]);
+            push.components()
+        };
+        let wrench = Wrench::from_components(&(load(0) + load(1)));
+        let read = places.map(|at| (at + vector(5e-4), 1.3 + 0.2 * vector(1.0).x));
+        let touch = tip.sense_wrench(wrench, 5e-3);
+        let direct = fused(&tip, &touch, &noise, &read).unwrap();
+        pipeline.sense(wrench, 5e-3);
+        let reading = |(centroid, normal_force)| fingertip_scene::ArrayReading { centroid, normal_force };
+        let told = pipeline.fuse(&read.map(reading)).unwrap();
+        for (direct, told) in direct.contacts.iter().zip(&told.contacts) {
+            assert_eq!(Some(*direct), *told);
+            slid += usize::from(direct.grip == fingertip::contact::Grip::Slides);
+        }
+        assert_eq!((direct.disagreement, direct.settled), (told.disagreement, told.settled));
+    }
+    assert!(slid < 400, "all slide");
 }
 
 #[test]

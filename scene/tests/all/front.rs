@@ -1,7 +1,7 @@
 //! `[sensor]`, `[payload]` and `[filter]` of a scene, and the pipeline from a reading on.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use fingertip::wrench::{Motion, Wrench};
 use fingertip_calibration::file::{AtiCalibration, PayloadFile};
@@ -12,13 +12,17 @@ use crate::sensor::{NOMINAL, file, signals};
 use crate::{BALL, HEAD};
 
 /// A folder that is removed at the end.
-struct Folder(PathBuf);
+pub(crate) struct Folder(PathBuf);
 
 impl Folder {
-    fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let path = std::env::temp_dir().join(format!("fingertip-front-{}-{name}", std::process::id()));
         fs::create_dir_all(&path).unwrap();
         Self(path)
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.0
     }
 
     fn scene(&self, text: &str) -> Result<Scene, String> {

@@ -3,6 +3,7 @@
 // Helpers of tests are tests too.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod calibrated_spread;
 mod choices;
 mod export;
 mod export_beside;
@@ -11,12 +12,14 @@ mod export_c;
 mod exported;
 mod formula;
 mod front;
+mod fusion;
 mod hostile;
 mod noise;
 mod parts;
 mod sensor;
 mod stages;
 mod typed;
+mod urdf;
 mod wrong;
 
 use fingertip::wrench::Wrench;

@@ -86,9 +86,14 @@ impl<T: Real> ChannelMonitor<T> {
         if self.readings.is_multiple_of(Self::PERIOD) {
             self.patience = self.patience();
         }
-        self.least = self.least.min(reading);
-        self.greatest = self.greatest.max(reading);
-        let (low, high) = (self.low.min(reading), self.high.max(reading));
+        if reading < self.least {
+            self.least = reading;
+        }
+        if reading > self.greatest {
+            self.greatest = reading;
+        }
+        let low = if reading < self.low { reading } else { self.low };
+        let high = if reading > self.high { reading } else { self.high };
         if self.held > 0 && high - low <= hold {
             (self.low, self.high) = (low, high);
             self.held = self.held.saturating_add(1);

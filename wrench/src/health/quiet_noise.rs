@@ -55,9 +55,16 @@ impl<T: Real> QuietNoise<T> {
             let change = reading - self.last;
             let square = change * change;
             self.squares += square;
-            self.largest = self.largest.max(square);
-            self.least = self.least.min(reading);
-            self.greatest = self.greatest.max(reading);
+            // Of finite readings: a comparison costs less than a least number that minds what is none.
+            if square > self.largest {
+                self.largest = square;
+            }
+            if reading < self.least {
+                self.least = reading;
+            }
+            if reading > self.greatest {
+                self.greatest = reading;
+            }
         }
         self.last = reading;
         self.readings += 1;

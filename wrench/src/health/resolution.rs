@@ -59,6 +59,10 @@ impl<T: Real> Resolution<T> {
             *self = Self { step: change, singles: 1, whole: 1, broken: 0, ..*self };
             return;
         }
+        // Most changes are of more steps by far: told without a division.
+        if change > self.step * T::literal(Self::SMALL + 1.0) {
+            return;
+        }
         let steps = change / self.step;
         if steps > T::literal(Self::SMALL) {
             return;

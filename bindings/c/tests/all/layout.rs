@@ -7,8 +7,9 @@ use std::process::Command;
 use std::{env, fs};
 
 use fingertip_c::{
-    ft_ball, ft_beside, ft_error, ft_finger, ft_finger_limits, ft_grip, ft_hand_order, ft_hand_settings,
-    ft_margin, ft_motion, ft_pose, ft_reading, ft_touch, ft_touch_columns, ft_wrench, ft_wrench_columns,
+    ft_array_reading, ft_ball, ft_beside, ft_error, ft_finger, ft_finger_limits, ft_fused, ft_fused_contact,
+    ft_grip, ft_hand_order, ft_hand_settings, ft_margin, ft_motion, ft_pose, ft_reading, ft_touch,
+    ft_touch_columns, ft_wrench, ft_wrench_columns,
 };
 
 /// Size and alignment of a structure, and offset and size of each field, by their names.
@@ -39,6 +40,7 @@ macro_rules! layout {
 fn here() -> Layout {
     let mut layout = Layout::new();
     layout! { layout:
+        ft_array_reading { centroid, normal_force }
         ft_ball {
             radius_m, centre_m, reaction, soft_finger, least_force_n, static_coefficient, torque_arm_m,
             load_per_signal, gauges,
@@ -55,6 +57,10 @@ fn here() -> Layout {
             touching, slip, point, normal, friction, torque_arm, normal_force, tangential_force, spin_torque,
         }
         ft_finger_limits { least_normal_force, greatest_normal_force, cost }
+        ft_fused { count, internal_forces, settled, reserved, disagreement, contacts }
+        ft_fused_contact {
+            point, normal, force, point_covariance, force_covariance, share_from_wrench, grip, reserved,
+        }
         ft_grip {
             state, reserved, normal_force, tangential_force, spin_torque, cost, least_cost, velocity, turning,
         }

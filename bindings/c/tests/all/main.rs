@@ -12,6 +12,7 @@
 
 mod columns;
 mod faults;
+mod fused;
 mod hands;
 mod layout;
 mod rests;

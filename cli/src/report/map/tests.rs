@@ -38,7 +38,7 @@ fn on_sphere(places: &[(f64, f64)]) -> Vec<Vector3<f64>> {
 /// The polar map of such points, with its rim in degrees.
 fn polar(rim: Option<f64>, places: &[(f64, f64)]) -> Map {
     let projection = Projection::sphere(Vector3::zeros(), Vector3::x(), rim.map(f64::to_radians), &axes());
-    draw("test", &projection, &contacts(&projection, &on_sphere(places)))
+    draw("test", &projection, &contacts(&projection, &on_sphere(places)), &[])
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn a_plane_is_drawn_to_scale_in_millimetres() {
     let projection = Projection::plane(Vector3::zeros(), Vector3::z(), &axes());
     let points: Vec<_> =
         (0..50).map(|i| Vector3::new(0.01 * f64::from(i).sin(), 0.008 * f64::from(i).cos(), 0.0)).collect();
-    let map = draw("test", &projection, &contacts(&projection, &points));
+    let map = draw("test", &projection, &contacts(&projection, &points), &[]);
     assert_readable(&map.svg);
     assert_eq!(map.remark, "Seen from outside.");
     let (across, up) = rulers(&map.svg);
@@ -152,7 +152,7 @@ fn a_cylinder_is_unrolled_by_angle_and_height() {
             Vector3::new(0.02 * sin, height, 0.02 * cos)
         })
         .collect();
-    let map = draw("test", &projection, &contacts(&projection, &points));
+    let map = draw("test", &projection, &contacts(&projection, &points), &[]);
     assert_readable(&map.svg);
     let (across, up) = rulers(&map.svg);
     assert_eq!(dots(&map).len(), points.len());
@@ -182,7 +182,7 @@ fn a_thread_is_not_to_scale_and_strays_are_counted() {
     for (stray, said) in
         [(0, ""), (1, " One contact lies outside the window."), (2, " 2 contacts lie outside the window.")]
     {
-        let map = draw("test", &projection, &contacts(&projection, &thread(stray)));
+        let map = draw("test", &projection, &contacts(&projection, &thread(stray)), &[]);
         assert_eq!(map.remark, format!("Seen from outside. Not to scale.{said}"));
         assert_eq!(dots(&map).len(), 400);
     }

@@ -57,7 +57,7 @@ impl CLibrary {
             return Err(ExportError::Name { name: name.to_owned() });
         }
         let has = |section: &str| matches!(scene.document.get(section), Some(Value::Table(_)));
-        if let Some(section) = ["tracking", "estimate"].into_iter().find(|section| has(section)) {
+        if let Some(section) = ["tracking", "estimate", "fusion"].into_iter().find(|section| has(section)) {
             let what = format!("the section [{section}], of which a touch for C tells nothing,");
             return Err(ExportError::NoType { what });
         }

@@ -13,6 +13,8 @@ pub(crate) mod formula_pad;
 #[rustfmt::skip]
 pub(crate) mod gauges;
 #[rustfmt::skip]
+pub(crate) mod gripped_ball;
+#[rustfmt::skip]
 pub(crate) mod nano17_cylinder;
 #[rustfmt::skip]
 pub(crate) mod nano17_soft_finger;
@@ -24,6 +26,8 @@ pub(crate) mod paper_sphere;
 pub(crate) mod paper_sphere_f32;
 #[rustfmt::skip]
 pub(crate) mod plane;
+#[rustfmt::skip]
+pub(crate) mod robot_link;
 #[rustfmt::skip]
 pub(crate) mod rubber_tip;
 #[rustfmt::skip]

@@ -34,8 +34,8 @@
 //
 // After a pause, `last = None` and `friction::SlipDetector::<f64>::reset(&mut tip.detector_mut().0)`.
 //
-// With `let noise = wrench_noise()?`, the covariance of the contact is
-//     covariance(&tip, &touch, before, &noise)
+// With `let (noise, calibration) = (wrench_noise()?, calibration_uncertainty()?)`, the covariance of the contact is
+//     covariance(&tip, &touch, before, &noise, &calibration)
 // whose `ellipse(0.95)` is that of the scene; `before` is the last contact before this sample.
 //
 // With `let mut grip = grip()?`, the normal force to command next [N] is
@@ -46,7 +46,7 @@
 
 use fingertip::{Fingertip, Present};
 use fingertip::{contact, friction, surfaces, wrench};
-use nalgebra::{Matrix3, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 /// The pipeline.
 pub type Tip = Fingertip<
@@ -147,17 +147,92 @@ pub fn wrench_noise() -> Result<contact::WrenchNoise<f64>, BadTip> {
     Ok(noise)
 }
 
+/// What the fit of the calibration leaves uncertain of a wrench.
+///
+/// # Errors
+/// Never for the numbers below.
+pub fn calibration_uncertainty() -> Result<contact::CalibrationUncertainty<f64>, BadTip> {
+    Ok(contact::CalibrationUncertainty::new(
+        Matrix6::from(
+            [
+                [
+                    0.00442520668598828,
+                    0.00018644852619003528,
+                    0.0002396046156163629,
+                    8.711456522318103e-7,
+                    6.85909077816679e-7,
+                    2.878295341521262e-7,
+                ],
+                [
+                    0.00018644852619003528,
+                    0.004412475449665489,
+                    0.0006322537952959396,
+                    1.8926024446966578e-6,
+                    1.3122886943920066e-6,
+                    4.984726985765321e-7,
+                ],
+                [
+                    0.0002396046156163629,
+                    0.0006322537952959396,
+                    0.017669453914093063,
+                    7.131773236422787e-6,
+                    4.375053901152789e-6,
+                    1.5416721534354491e-6,
+                ],
+                [
+                    8.711456522318103e-7,
+                    1.8926024446966578e-6,
+                    7.131773236422787e-6,
+                    4.4223579913754865e-7,
+                    3.780274432661247e-8,
+                    1.1827341792530599e-8,
+                ],
+                [
+                    6.85909077816679e-7,
+                    1.3122886943920066e-6,
+                    4.375053901152789e-6,
+                    3.780274432661247e-8,
+                    4.426904064635549e-7,
+                    1.9618630062661902e-8,
+                ],
+                [
+                    2.878295341521262e-7,
+                    4.984726985765321e-7,
+                    1.5416721534354491e-6,
+                    1.1827341792530599e-8,
+                    1.9618630062661902e-8,
+                    1.1079008196639808e-7,
+                ],
+            ],
+        ),
+        Matrix6::from(
+            [
+                [0.0003, 3e-5, 1e-5, 0.0015, 0.0012, 0.002],
+                [3e-5, 0.0003, 1.5e-5, 0.002, 0.0015, 0.0024],
+                [1e-5, 1.5e-5, 7.5e-5, 0.0015, 0.001, 0.0015],
+                [0.0015, 0.002, 0.0015, 2.999999999999999, 0.29999999999999993, 0.3999999999999999],
+                [0.0012, 0.0015, 0.001, 0.29999999999999993, 2.999999999999999, 0.5999999999999999],
+                [0.002, 0.0024, 0.0015, 0.3999999999999999, 0.5999999999999999, 11.999999999999996],
+            ],
+        ),
+    )?)
+}
+
 /// How sure the contact of a sample is; `None` without one, and where that cannot be said, as at grazing.
 pub fn covariance<Reading, Verdict>(
     tip: &Tip,
     touch: &fingertip::Touch<f64, Reading, Verdict>,
     last: Option<&Vector3<f64>>,
     noise: &contact::WrenchNoise<f64>,
+    calibration: &contact::CalibrationUncertainty<f64>,
 ) -> Option<contact::ContactCovariance<f64>> {
     let surface = tip.surface();
     let indented = tip.model().resolve_indented(&touch.wrench, surface, last).ok()?;
     let jacobian = tip.model().jacobian(&indented, surface)?;
-    let covariance = contact::ContactCovariance::new(&jacobian, &noise.covariance(&touch.wrench));
+    let covariance = contact::ContactCovariance::new(
+        &jacobian,
+        &(noise.covariance(&touch.wrench) + calibration.covariance(&touch.wrench)),
+    );
     Some(covariance)
 }
 
@@ -256,7 +331,7 @@ fn opposite(
 pub mod calibration {
     use fingertip::wrench as fingertip_wrench;
 
-    // Calibration fnv1a64:1d2c8dae5cf5ea89, written by fingertip-calibration 0.1.0.
+    // Calibration fnv1a64:c36bbdec38de87c3, written by fingertip-calibration 0.1.0.
     // Quality: unchecked
 
     /// Number of gauges.

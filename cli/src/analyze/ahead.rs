@@ -1,0 +1,71 @@
+//! A recording that is read ahead, on a thread of its own.
+
+use std::path::Path;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
+
+use fingertip_recordings::health::Health;
+use fingertip_recordings::{RecordingError, RowBlock};
+
+use crate::error::CliError;
+use crate::health::WatchedRows;
+use crate::opened::Rows;
+
+/// Rows of a block, and values of all of them, at most: some ten kilobytes, however wide a recording is.
+const ROWS: usize = 512;
+const VALUES: usize = 4096;
+/// Blocks that are read ahead at most: memory does not grow with the recording.
+const BLOCKS: usize = 3;
+/// What the thread that reads needs for its calls is far less, of whatever format \[bytes\].
+const STACK: usize = 512 << 10;
+
+/// Reads a recording to its end and looks at the health of its sensor, while `each` works on blocks of its rows in their
+/// order on this thread.
+///
+/// # Errors
+/// The first one that reading row by row would meet: what `each` says of a row comes before what reading says of a later
+/// one.
+pub(super) fn read(
+    reader: &mut Rows,
+    watched: WatchedRows,
+    mut each: impl FnMut(&RowBlock) -> Result<(), CliError>,
+) -> Result<Health, CliError> {
+    let (full, blocks) = sync_channel(BLOCKS);
+    let (used, free) = sync_channel(BLOCKS + 2);
+    thread::scope(|scope| {
+        let file = reader.file().to_owned();
+        let reading = thread::Builder::new()
+            .stack_size(STACK)
+            .spawn_scoped(scope, move || read_ahead(reader, watched, &full, &free))
+            .map_err(|source| CliError::read("recording", Path::new(&file), source))?;
+        for block in blocks {
+            each(&block)?;
+            // At the end nobody takes it.
+            let _ = used.send(block);
+        }
+        match reading.join() {
+            Ok(read) => Ok(read?.finish()),
+            Err(panic) => std::panic::resume_unwind(panic),
+        }
+    })
+}
+
+/// Sends blocks until the recording ends or nobody takes them.
+fn read_ahead(
+    reader: &mut Rows,
+    mut watched: WatchedRows,
+    full: &SyncSender<RowBlock>,
+    free: &Receiver<RowBlock>,
+) -> Result<WatchedRows, RecordingError> {
+    let rows = ROWS.min(VALUES / reader.layout().columns().len().max(1)).max(1);
+    loop {
+        let mut block = free.try_recv().unwrap_or_default();
+        let more = reader.read_block(&mut block, rows);
+        block.rows().for_each(|row| watched.add(&row));
+        // The rows before a bad one are worked on before it is told.
+        let is_taken = block.is_empty() || full.send(block).is_ok();
+        if !more? || !is_taken {
+            return Ok(watched);
+        }
+    }
+}
