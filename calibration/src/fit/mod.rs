@@ -16,6 +16,7 @@ pub(crate) mod testing;
 mod total;
 
 pub(crate) use errors_in_both::with_noise_of_regressors;
+pub(crate) use gauss_helmert::gauss_helmert_of_shares;
 pub use gauss_helmert::{gauss_helmert, gauss_helmert_correlated};
 pub(crate) use huber::deviation;
 pub use huber::{HUBER_THRESHOLD, huber};

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{Direction, Options};
 use crate::Axis;
-use crate::file::{CalibrationFile, Covariance, FileError, Provenance, SignalUnit};
+use crate::file::{CalibrationFile, Covariance, FileError, Provenance, SignalUnit, of_pseudo_inverse};
 use crate::fit::Fit;
 use crate::linear::{Singular, pairs, pseudo_inverse};
 use crate::loads::LoadTable;
@@ -187,29 +187,38 @@ impl SensorModel {
             .map_or(f64::INFINITY, |singular| singular.condition_number())
     }
 
-    /// Covariance of the normalised matrix, carried over by `dC = −C dB C` (first order) for a model
-    /// of loads from signals.
+    /// Covariance of the normalised matrix; for a model of loads from signals carried over by the derivative of the
+    /// pseudo-inverse (first order).
     #[must_use]
     pub fn covariance(&self) -> Option<Covariance> {
         let (axes, gauges) = (self.axes.len(), self.gauges());
         match self.direction {
-            Direction::SignalsFromLoads => Some(Covariance {
-                signals: self.fit.residual_covariance.clone(),
-                loads: self.fit.inverse_gram.view((0, 0), (axes, axes)).into_owned(),
-            }),
+            Direction::SignalsFromLoads => {
+                let loads = self.fit.inverse_gram.view((0, 0), (axes, axes)).into_owned();
+                let regressors = self.fit.coefficients.nrows();
+                // Those of the loads among the regressors, gauge by gauge.
+                let place = |entry: usize| (entry / axes) * regressors + entry % axes;
+                let entries = self.fit.full_covariance.as_ref().map(|full| {
+                    DMatrix::from_fn(gauges * axes, gauges * axes, |a, b| full[(place(a), place(b))])
+                });
+                Some(Covariance { signals: self.fit.residual_covariance.clone(), loads, entries })
+            }
             Direction::LoadsFromSignals => {
                 let (matrix, _) = self.matrix_and_zero().ok()?;
                 let gram = self.fit.inverse_gram.view((0, 0), (gauges, gauges)).into_owned();
-                Some(Covariance {
-                    signals: &matrix * &self.fit.residual_covariance * matrix.transpose(),
-                    loads: matrix.transpose() * gram * &matrix,
-                })
+                let signals = &matrix * &self.fit.residual_covariance * matrix.transpose();
+                if gauges == axes {
+                    return Some(Covariance::product(signals, matrix.transpose() * gram * &matrix));
+                }
+                let fitted = pseudo_inverse(&matrix)?;
+                let of_fitted = self.fit.residual_covariance.kronecker(&gram);
+                Some(Covariance::of_entries(signals, of_pseudo_inverse(&fitted, &matrix, &of_fitted)))
             }
         }
     }
 
     /// Covariance of the load \[N, N·m\] that one reading tells of near a load: that of one reading
-    /// and that of the fit, `C⁺ Σ_V C⁺ᵀ (1 + xᵀG⁻¹x)` (`docs/theory/calibration.md#least-squares`). `None` if
+    /// and that of the fit, `C⁺ (Σ_V + Cov(C x)) C⁺ᵀ` (`docs/theory/calibration.md#least-squares`). `None` if
     /// the matrix has deficient rank.
     #[must_use]
     pub fn load_covariance(&self, load: &DVector<f64>) -> Option<DMatrix<f64>> {
@@ -217,8 +226,8 @@ impl SensorModel {
         let covariance = self.covariance()?;
         let inverse = pseudo_inverse(&matrix)?;
         let load = DVector::from_fn(load.len(), |i, _| load[i] / self.nominal[i]);
-        let spread = 1.0 + load.dot(&(&covariance.loads * &load));
-        let mut result = &inverse * covariance.signals * inverse.transpose() * spread;
+        let of_matrix = covariance.of_signals(&load);
+        let mut result = &inverse * (covariance.signals + of_matrix) * inverse.transpose();
         for i in 0..self.nominal.len() {
             for j in 0..self.nominal.len() {
                 result[(i, j)] *= self.nominal[i] * self.nominal[j];

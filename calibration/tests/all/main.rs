@@ -7,6 +7,7 @@ mod coverage;
 mod design_end_to_end;
 mod design_optimum;
 mod equivariance;
+mod file_covariance;
 mod files;
 mod in_situ;
 mod intervals;
