@@ -6,6 +6,7 @@ mod covariance;
 mod coverage;
 mod design_end_to_end;
 mod design_optimum;
+mod drift_coverage;
 mod equivariance;
 mod file_covariance;
 mod files;
