@@ -18,6 +18,7 @@ mod motion;
 mod payload;
 mod plans;
 mod plots;
+mod pose_coverage;
 mod random;
 mod recordings;
 mod refusals;
