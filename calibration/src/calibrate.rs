@@ -3,10 +3,10 @@
 use nalgebra::RowDVector;
 
 use crate::file::{CalibrationFile, FileError, Quality, Temperature, Verdict};
-use crate::fit::{fit_temperature, leave_out};
+use crate::fit::leave_out;
 use crate::loads::LoadTable;
 use crate::model::{
-    CalibrationError, Direction, Options, SensorModel, design, fit_model, normalised, responses,
+    CalibrationError, Direction, FittedDrift, Options, SensorModel, design, fit_model, responses,
 };
 use crate::report::{Exclusion, Outlier, Report, outliers};
 
@@ -56,7 +56,7 @@ pub fn calibrate(table: &LoadTable, options: &Options) -> Result<Calibration, Ca
         table = table.tared_by_group()?;
     }
     let nominal = nominal(&table, options)?;
-    let temperature = match options.reference_celsius {
+    let drift = match options.reference_celsius {
         Some(reference) => Some(take_off_drift(&mut table, &nominal, reference)?),
         None => None,
     };
@@ -74,18 +74,22 @@ pub fn calibrate(table: &LoadTable, options: &Options) -> Result<Calibration, Ca
     } else if !found.is_empty() {
         influence = influence_of(&found, &table, &model, options);
     }
+    if let Some(drift) = &drift {
+        drift.account(&table, options, &mut model)?;
+    }
     let left_out = left_out_loads(&table, &model, options)?;
     if options.quadratic {
         refuse_over_fitting(&table, options, &model, &left_out)?;
     }
     let mut report = Report::of_fit(&table, &model, options, &left_out, excluded, (found, influence))?;
-    if table.temperatures.is_some() && temperature.is_none() {
+    if table.temperatures.is_some() && drift.is_none() {
         report.notes.push("temperatures are known but no drift was fitted".to_owned());
     }
     report.reasons.extend(oddities);
     if !report.reasons.is_empty() && report.verdict == Verdict::Good {
         report.verdict = Verdict::Suspect;
     }
+    let temperature = drift.map(|drift| drift.fit().temperature.clone());
     Ok(Calibration { model, table, temperature, report })
 }
 
@@ -118,22 +122,22 @@ fn take_off_drift(
     table: &mut LoadTable,
     nominal: &[f64],
     reference: f64,
-) -> Result<Temperature, CalibrationError> {
+) -> Result<FittedDrift, CalibrationError> {
     let bad = |message: &str| CalibrationError::BadOption {
         option: "reference_celsius",
         message: message.to_owned(),
     };
     let celsius = table.temperatures.as_ref().ok_or_else(|| bad("the table has no temperatures"))?;
-    let fit = fit_temperature(&normalised(&table.loads, nominal), &table.signals, celsius, reference)?;
-    let drift = fit.temperature;
+    let fitted = FittedDrift::new(table, nominal, celsius, reference)?;
+    let (drift, zero) = (&fitted.fit().temperature, fitted.fit().zero.as_slice());
     for (i, celsius) in celsius.iter().enumerate() {
         let reading: Vec<f64> = table.signals.row(i).iter().copied().collect();
         let reading = drift
-            .at_reference(&reading, fit.zero.as_slice(), *celsius)
+            .at_reference(&reading, zero, *celsius)
             .ok_or_else(|| bad("the fitted drift of the gain changes its sign"))?;
         table.signals.set_row(i, &RowDVector::from_vec(reading));
     }
-    Ok(drift)
+    Ok(fitted)
 }
 
 impl Calibration {

@@ -4,7 +4,7 @@ use fingertip_wrench::{QuadraticInverse, Real, SensorMatrix, Tare};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector6};
 use serde::{Deserialize, Serialize};
 
-use super::{FileError, SignalUnit, Temperature, rows};
+use super::{Covariance, FileError, SignalUnit, Temperature, rows};
 use crate::Axis;
 
 /// Everything that is known of a calibrated sensor: what turns its readings into a wrench, how
@@ -18,7 +18,8 @@ use crate::Axis;
 /// frame, and are what the environment applies **to** the fingertip.
 ///
 /// # The file
-/// TOML, all fields below by these names, then `version = 1` and `checksum`. The checksum is taken
+/// TOML, all fields below by these names, then `version` and `checksum`. The version is 1, or 2 where the
+/// [`covariance`](Self::covariance) has `entries`, which programs of before don't know. The checksum is taken
 /// over the values (see [`read`](Self::read)), so comments and layout may be changed by hand.
 ///
 /// ```
@@ -73,20 +74,6 @@ pub struct CalibrationFile {
     /// How good it is.
     #[serde(default)]
     pub quality: Quality,
-}
-
-/// Covariance of the normalised matrix, as a Kronecker product: the covariance of entries
-/// `(i, j)` and `(k, l)` is `signals[i][k] · loads[j][l]` (`docs/theory/calibration.md#least-squares`; the
-/// classical result for multi-response regression).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Covariance {
-    /// Covariance of the gauges' residuals, N × N, signal².
-    #[serde(with = "rows")]
-    pub signals: DMatrix<f64>,
-    /// Inverse of the sum of load·loadᵀ over the calibration, loads in nominal loads.
-    #[serde(with = "rows")]
-    pub loads: DMatrix<f64>,
 }
 
 /// Where a calibration comes from.

@@ -8,14 +8,15 @@ use toml::{Table, Value};
 use super::FileError;
 use super::checksum::checksum;
 
-/// The version of the formats that this library reads and writes.
-pub const VERSION: i64 = 1;
+/// The newest version of the formats; those of before are read, too. A file is written in the first version that has
+/// what is in it, so that programs of before can read what they know.
+pub const VERSION: i64 = 2;
 
 /// Takes version and checksum off the front: the fields, and the checksum that the file claims, if it does.
 pub(super) fn open(text: &str) -> Result<(Table, Option<String>), FileError> {
     let mut table: Table = text.parse().map_err(malformed)?;
     match table.remove("version") {
-        Some(Value::Integer(VERSION)) => {}
+        Some(Value::Integer(1..=VERSION)) => {}
         Some(Value::Integer(found)) => return Err(FileError::UnknownVersion { found, known: VERSION }),
         Some(_) => return Err(malformed("field `version` is not an integer")),
         None => return Err(malformed("missing field `version`")),
@@ -39,13 +40,13 @@ pub(super) fn compare(contents: &impl Serialize, found: String) -> Result<(), Fi
 }
 
 /// The text of a file: rows of matrices one to a line.
-pub(super) fn write(heading: &str, contents: &impl Serialize) -> Result<String, FileError> {
+pub(super) fn write(heading: &str, version: i64, contents: &impl Serialize) -> Result<String, FileError> {
     let Value::Table(fields) = Value::try_from(contents).map_err(malformed)? else {
         return Err(malformed("its contents are no table"));
     };
     // Writing to a String cannot fail.
     let mut text = format!("# {heading}, written by fingertip.\n");
-    let _ = writeln!(text, "version = {VERSION}\nchecksum = {:?}\n", checksum_of(contents)?);
+    let _ = writeln!(text, "version = {version}\nchecksum = {:?}\n", checksum_of(contents)?);
     // Top-level values come before the tables, or they would belong to the last of these.
     for (key, value) in fields.iter().filter(|(_, value)| !value.is_table()) {
         write_entry(&mut text, key, value);

@@ -24,11 +24,11 @@ pub enum FileError {
         message: String,
     },
     /// The field `version` names a version that this library does not know.
-    #[error("field `version`: version {found} is not known; this library reads version {known}")]
+    #[error("field `version`: version {found} is not known; this library reads versions up to {known}")]
     UnknownVersion {
         /// The version of the file.
         found: i64,
-        /// The version that this library reads and writes.
+        /// The newest version that this library reads.
         known: i64,
     },
     /// The contents are not those that the checksum was taken of.

@@ -213,7 +213,7 @@ impl PayloadFile {
     /// [`FileError`] if a number is not valid.
     pub fn to_toml(&self) -> Result<String, FileError> {
         self.validate()?;
-        write("What hangs on a force/torque sensor", self)
+        write("What hangs on a force/torque sensor", 1, self)
     }
 }
 

@@ -61,7 +61,13 @@ impl CalibrationFile {
     /// [`FileError`] if the calibration is not valid.
     pub fn to_toml(&self) -> Result<String, FileError> {
         self.validate()?;
-        write("Calibration of a force/torque sensor", self)
+        write("Calibration of a force/torque sensor", self.version(), self)
+    }
+
+    /// The first version of the format that has what is in this file.
+    fn version(&self) -> i64 {
+        let entries = self.covariance.as_ref().is_some_and(|covariance| covariance.entries.is_some());
+        if entries { 2 } else { 1 }
     }
 
     /// The checksum of the contents: FNV-1a, 64 bits, of one line `path=type:value` per value,
@@ -107,7 +113,9 @@ mod tests {
         file.noise = Some(positive(gauges, 50));
         file.range = Some([-10.0, 10.0]);
         file.quadratic = Some(matrix(6, gauges * (gauges + 1) / 2, 60));
-        file.covariance = Some(Covariance { signals: matrix(gauges, gauges, 3), loads: matrix(6, 6, 9) });
+        let entries = (gauges != 7).then(|| matrix(6 * gauges, 6 * gauges, 5));
+        file.covariance =
+            Some(Covariance { signals: matrix(gauges, gauges, 3), loads: matrix(6, 6, 9), entries });
         file.temperature = Some(Temperature {
             reference_celsius: 22.5,
             range_celsius: [10.0, 40.0],
@@ -147,11 +155,27 @@ mod tests {
         example(|i| 1.0 + i as f64, 7).to_toml().unwrap()
     }
 
+    /// What programs of before know is written as they know it.
+    #[test]
+    fn entries_of_the_covariance_make_it_the_second_version() {
+        for (gauges, version) in [(7, "\nversion = 1\n"), (6, "\nversion = 2\n")] {
+            let file = example(|i| 1.0 + i as f64, gauges);
+            let text = file.to_toml().unwrap();
+            assert!(text.contains(version), "{text}");
+            assert_eq!(text.contains("\nentries = ["), gauges == 6);
+            assert_eq!(CalibrationFile::from_toml(&text).unwrap(), file);
+        }
+        for none in ["version = 0", "version = -1"] {
+            let error = CalibrationFile::from_toml(&text().replacen("version = 1", none, 1)).unwrap_err();
+            assert!(matches!(error, FileError::UnknownVersion { .. }), "{error}");
+        }
+    }
+
     #[test]
     fn unknown_version_is_named() {
         let error =
-            CalibrationFile::from_toml(&text().replacen("version = 1", "version = 2", 1)).unwrap_err();
-        assert!(matches!(error, FileError::UnknownVersion { found: 2, known: 1 }));
+            CalibrationFile::from_toml(&text().replacen("version = 1", "version = 3", 1)).unwrap_err();
+        assert!(matches!(error, FileError::UnknownVersion { found: 3, known: 2 }));
         assert!(error.to_string().contains("`version`"));
     }
 

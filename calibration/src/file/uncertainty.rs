@@ -18,13 +18,14 @@ const SYMMETRIC: &str = "symmetric and without a negative variance";
 
 impl CalibrationFile {
     /// What the fit leaves uncertain of the wrenches that are solved by this calibration, in scalar type `T`; of one with
-    /// quadratic terms, that of its linear part. `None` if the file has no covariance.
+    /// quadratic terms, that of its linear part; of a covariance that is no product, the product that comes near to it.
+    /// `None` if the file has no covariance.
     ///
     /// # Errors
     /// [`FileError::NotSixAxes`] if it measures fewer components, [`FileError::Singular`] if its matrix has no inverse,
     /// [`FileError::OutOfRange`] for field `covariance` if its numbers are none of a covariance.
     pub fn uncertainty_in<T: Real>(&self) -> Result<Option<CalibrationUncertainty<T>>, FileError> {
-        let Some(Covariance { signals, loads }) = &self.covariance else { return Ok(None) };
+        let Some(Covariance { signals, loads, .. }) = &self.covariance else { return Ok(None) };
         self.validate()?;
         if self.axes != Axis::ALL {
             return Err(FileError::NotSixAxes { found: self.axes.len() });
@@ -54,11 +55,12 @@ impl CalibrationFile {
         let noise = SVector::from_fn(|gauge, _| T::literal(deviation(gauge).unwrap_or(0.0)));
         let sensor = SensorUncertainty::independent(&solver, &noise)
             .map_err(|_| none("noise", "finite and not negative"))?;
-        let Some(Covariance { signals, loads }) = &self.covariance else { return Ok(sensor) };
+        let Some(covariance) = &self.covariance else { return Ok(sensor) };
+        let between = |gauge, i, j| covariance.between((gauge, i), (gauge, j)).unwrap_or(f64::NAN);
         let row = |gauge: usize| {
             Matrix6::from_fn(|i, j| {
-                let both = 0.5 * (loads[(i, j)] + loads[(j, i)]);
-                T::literal(signals[(gauge, gauge)] * both / (self.nominal[i] * self.nominal[j]))
+                let both = 0.5 * (between(gauge, i, j) + between(gauge, j, i));
+                T::literal(both / (self.nominal[i] * self.nominal[j]))
             })
         };
         sensor.with_calibration(core::array::from_fn(row)).map_err(|_| none(FIELD, SYMMETRIC))
@@ -77,10 +79,10 @@ mod tests {
         let matrix = DMatrix::from_fn(7, 6, |i, j| if i % 6 == j { 2.0 } else { 0.1 / (1 + i + j) as f64 });
         let nominal = vec![10.0, 20.0, 30.0, 0.1, 0.2, 0.3];
         let mut file = CalibrationFile::new(matrix, nominal, vec![0.0; 7], SignalUnit::Volt).unwrap();
-        file.covariance = Some(Covariance {
-            signals: DMatrix::from_fn(7, 7, |i, j| if i == j { 1e-6 * (1 + i) as f64 } else { 0.0 }),
-            loads: DMatrix::from_fn(6, 6, |i, j| if i == j { 0.2 } else { 0.02 }),
-        });
+        file.covariance = Some(Covariance::product(
+            DMatrix::from_fn(7, 7, |i, j| if i == j { 1e-6 * (1 + i) as f64 } else { 0.0 }),
+            DMatrix::from_fn(6, 6, |i, j| if i == j { 0.2 } else { 0.02 }),
+        ));
         file
     }
 
@@ -91,6 +93,13 @@ mod tests {
         let whole = file.uncertainty_in::<f64>().unwrap().unwrap().covariance(&wrench);
         let typed = file.sensor_uncertainty_in::<f64, 7>().unwrap().wrench_covariance(&wrench);
         assert!((whole - typed).norm() < 1e-10 * whole.norm(), "{whole} {typed}");
+        // The same, written entry by entry.
+        let product = file.covariance.take().unwrap();
+        file.covariance = Some(Covariance::of_entries(product.signals.clone(), product.all()));
+        let entries = file.uncertainty_in::<f64>().unwrap().unwrap().covariance(&wrench);
+        assert!((entries - whole).norm() < 1e-10 * whole.norm(), "{entries} {whole}");
+        let entries = file.sensor_uncertainty_in::<f64, 7>().unwrap().wrench_covariance(&wrench);
+        assert!((entries - typed).norm() < 1e-10 * typed.norm(), "{entries} {typed}");
         // Noise of the gauges is there without a load, and what the fit leaves is not.
         file.noise = Some(vec![1e-3; 7]);
         let noisy = file.sensor_uncertainty_in::<f64, 7>().unwrap();

@@ -55,6 +55,10 @@ impl CalibrationFile {
             shape("covariance.signals", &covariance.signals, gauges, gauges)?;
             finite_matrix("covariance.loads", &covariance.loads)?;
             shape("covariance.loads", &covariance.loads, axes, axes)?;
+            if let Some(entries) = &covariance.entries {
+                finite_matrix("covariance.entries", entries)?;
+                shape("covariance.entries", entries, gauges * axes, gauges * axes)?;
+            }
         }
         if let Some(temperature) = &self.temperature {
             finite_list("temperature.reference_celsius", &[temperature.reference_celsius], 1)?;
@@ -135,7 +139,7 @@ mod tests {
         file.noise = Some(vec![0.0; 7]);
         file.range = Some([-1.0, 1.0]);
         file.quadratic = Some(DMatrix::zeros(6, 28));
-        file.covariance = Some(Covariance { signals: DMatrix::zeros(7, 7), loads: DMatrix::zeros(6, 6) });
+        file.covariance = Some(Covariance::of_entries(DMatrix::zeros(7, 7), DMatrix::zeros(42, 42)));
         file.temperature = Some(Temperature {
             reference_celsius: 20.0,
             range_celsius: [20.0, 20.0],
@@ -176,6 +180,10 @@ mod tests {
                 "covariance.signals[6][0]",
             ),
             (refused(|file| file.covariance.as_mut().unwrap().loads[(0, 5)] = nan), "covariance.loads[0][5]"),
+            (
+                refused(|file| file.covariance.as_mut().unwrap().entries.as_mut().unwrap()[(41, 2)] = nan),
+                "covariance.entries[41][2]",
+            ),
             (warm(|drift| drift.reference_celsius = nan), "temperature.reference_celsius"),
             (warm(|drift| drift.range_celsius[1] = f64::INFINITY), "temperature.range_celsius[1]"),
             (warm(|drift| drift.zero_drift[0] = nan), "temperature.zero_drift[0]"),
@@ -224,6 +232,18 @@ mod tests {
                 "covariance.loads",
                 7,
                 6,
+            ),
+            (
+                refused(|file| file.covariance.as_mut().unwrap().entries = Some(DMatrix::zeros(41, 42))),
+                "covariance.entries",
+                41,
+                42,
+            ),
+            (
+                refused(|file| file.covariance.as_mut().unwrap().entries = Some(DMatrix::zeros(42, 6))),
+                "covariance.entries[0]",
+                6,
+                42,
             ),
             (warm(|drift| drift.zero_drift.truncate(6)), "temperature.zero_drift", 6, 7),
             (warm(|drift| drift.zero_curvature.push(0.0)), "temperature.zero_curvature", 8, 7),

@@ -48,15 +48,7 @@ pub fn gauss_helmert(
     {
         return Err(FitError::BadInput { what: "the matrix of standard deviations" });
     }
-    let (k, m) = (design.ncols(), responses.ncols());
-    let squared = |row: nalgebra::DMatrixView<'_, f64>| {
-        DMatrix::from_diagonal(&DVector::from_iterator(row.len(), row.iter().map(|s| s * s)))
-    };
-    solve(design, responses, |i| Errors {
-        loads: squared(design_deviations.rows(i, 1).as_view()),
-        mixed: DMatrix::zeros(k, m),
-        readings: squared(response_deviations.rows(i, 1).as_view()),
-    })
+    solve(design, responses, |i| uncorrelated(design_deviations, response_deviations, i))
 }
 
 /// [`gauss_helmert`] with errors that are correlated within a sample: of loads with each other (a weight that is
@@ -89,6 +81,104 @@ pub fn gauss_helmert_correlated(
         mixed: errors[i].view((0, k), (k, m)).into_owned(),
         readings: errors[i].view((k, k), (m, m)).into_owned(),
     })
+}
+
+/// [`gauss_helmert`] where an error of a regressor has a fixed part and a share of the regressor itself.
+///
+/// It is the true load that the share is of. Taken of the stated one it would be small where the error made the load
+/// small, and such samples would count too much: a bias of some twice the share squared. So the shares are taken of
+/// the adjusted loads, and the fit is made anew until these stay.
+///
+/// # Errors
+/// As [`gauss_helmert`].
+pub(crate) fn gauss_helmert_of_shares(
+    design: &DMatrix<f64>,
+    responses: &DMatrix<f64>,
+    (fixed, share): (&DMatrix<f64>, &DMatrix<f64>),
+    response_deviations: &DMatrix<f64>,
+) -> Result<Fit, FitError> {
+    /// A change of the deviations by a hundred-thousandth moves coefficients by far less than their errors.
+    const SETTLED: f64 = 1e-5;
+    const MOST_ROUNDS: usize = 30;
+    let deviations = |loads: &DMatrix<f64>| {
+        fixed.zip_zip_map(share, loads, |fixed, share, load| fixed.hypot(share * load))
+    };
+    let mut stated = deviations(design);
+    let mut fit = gauss_helmert(design, responses, &stated, response_deviations)?;
+    if share.iter().all(|share| *share == 0.0) {
+        return Ok(fit);
+    }
+    let size = stated.amax();
+    for _ in 0..MOST_ROUNDS {
+        let next = deviations(&adjusted(design, responses, &fit.coefficients, &stated, response_deviations)?);
+        let change = (&next - &stated).amax();
+        stated = next;
+        fit = gauss_helmert(design, responses, &stated, response_deviations)?;
+        if change <= SETTLED * size {
+            break;
+        }
+    }
+    Ok(fit)
+}
+
+/// The adjusted loads `x + Σ_x Θ W r` of all samples.
+fn adjusted(
+    design: &DMatrix<f64>,
+    responses: &DMatrix<f64>,
+    theta: &DMatrix<f64>,
+    design_deviations: &DMatrix<f64>,
+    response_deviations: &DMatrix<f64>,
+) -> Result<DMatrix<f64>, FitError> {
+    let mut loads = design.clone();
+    for i in 0..design.nrows() {
+        let errors = uncorrelated(design_deviations, response_deviations, i);
+        let one = Adjusted::new(design.row(i).transpose(), responses.row(i).transpose(), theta, errors)?;
+        loads.set_row(i, &one.load.transpose());
+    }
+    Ok(loads)
+}
+
+/// Errors that are not correlated, by their deviations in row `i`.
+fn uncorrelated(design_deviations: &DMatrix<f64>, response_deviations: &DMatrix<f64>, i: usize) -> Errors {
+    let squared = |row: nalgebra::DMatrixView<'_, f64>| {
+        DMatrix::from_diagonal(&DVector::from_iterator(row.len(), row.iter().map(|s| s * s)))
+    };
+    Errors {
+        loads: squared(design_deviations.rows(i, 1).as_view()),
+        mixed: DMatrix::zeros(design_deviations.ncols(), response_deviations.ncols()),
+        readings: squared(response_deviations.rows(i, 1).as_view()),
+    }
+}
+
+/// One sample with its load adjusted to its reading.
+struct Adjusted {
+    /// `x + (Σ_xΘ − Σ_xy) W r`.
+    load: DVector<f64>,
+    /// `r = y − Θᵀx`.
+    residual: DVector<f64>,
+    /// `W⁻¹`, and its triangle.
+    covariance: DMatrix<f64>,
+    root: DMatrix<f64>,
+    /// `Σ_xΘ − Σ_xy`.
+    carried: DMatrix<f64>,
+    /// `Σ_x`.
+    loads: DMatrix<f64>,
+}
+
+impl Adjusted {
+    fn new(x: DVector<f64>, y: DVector<f64>, theta: &DMatrix<f64>, errors: Errors) -> Result<Self, FitError> {
+        let Errors { loads, mixed, readings } = errors;
+        let residual = y - theta.tr_mul(&x);
+        // Covariances of the residual, and of minus the error of the load with it.
+        let carried = &loads * theta - &mixed;
+        let covariance = readings - mixed.tr_mul(theta) + theta.tr_mul(&carried);
+        let factor = covariance
+            .clone()
+            .cholesky()
+            .ok_or(FitError::BadInput { what: "the matrix of standard deviations" })?;
+        let load = x + &carried * factor.solve(&residual);
+        Ok(Self { load, residual, covariance, root: factor.l(), carried, loads })
+    }
 }
 
 fn solve(
@@ -156,18 +246,10 @@ impl Sums {
         let (mut misfit, mut mean) = (0.0, DMatrix::zeros(m, m));
         let mut noise = DMatrix::zeros(k * m, k * m);
         for i in 0..samples {
-            let x: DVector<f64> = design.row(i).transpose();
-            let Errors { loads, mixed, readings } = errors(i);
-            let mut residual: DVector<f64> = responses.row(i).transpose() - theta.tr_mul(&x);
-            // Covariances of the residual, and of minus the error of the load with it.
-            let carried = &loads * theta - &mixed;
-            let covariance = readings - mixed.tr_mul(theta) + theta.tr_mul(&carried);
+            let (x, y) = (design.row(i).transpose(), responses.row(i).transpose());
+            let one = Adjusted::new(x, y, theta, errors(i))?;
+            let Adjusted { load: adjusted, mut residual, covariance, root, carried, loads } = one;
             mean += &covariance / samples as f64;
-            let Some(factor) = covariance.cholesky() else {
-                return Err(FitError::BadInput { what: "the matrix of standard deviations" });
-            };
-            let adjusted = &x + &carried * factor.solve(&residual);
-            let root = factor.l();
             root.solve_lower_triangular_mut(&mut residual);
             misfit += residual.norm_squared();
             let mut inverse_root = DMatrix::identity(m, m);

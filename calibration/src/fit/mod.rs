@@ -16,13 +16,13 @@ pub(crate) mod testing;
 mod total;
 
 pub(crate) use errors_in_both::with_noise_of_regressors;
+pub(crate) use gauss_helmert::gauss_helmert_of_shares;
 pub use gauss_helmert::{gauss_helmert, gauss_helmert_correlated};
 pub(crate) use huber::deviation;
 pub use huber::{HUBER_THRESHOLD, huber};
 pub use leave_out::leave_out;
 pub use ransac::{Ransac, ransac};
-pub(crate) use regression::student_factor;
-pub use regression::{Fit, FitError, least_squares};
+pub use regression::{Fit, FitError, least_squares, student_factor};
 pub use ridge::ridge;
 pub use temperature::{TemperatureFit, fit_temperature};
 pub use total::total_least_squares;

@@ -55,8 +55,10 @@ impl Fit {
 }
 
 /// How many standard deviations, estimated with these degrees of freedom, to either side hold the truth with this
-/// probability. Infinite without a degree of freedom, NaN for a probability that is not between 0 and 1.
-pub(crate) fn student_factor(probability: f64, freedom: f64) -> f64 {
+/// probability: the quantile of Student's distribution (`docs/theory/calibration.md#intervals`), 1.96 for 95 % and many
+/// degrees of freedom. Infinite without a degree of freedom, NaN for a probability that is not between 0 and 1.
+#[must_use]
+pub fn student_factor(probability: f64, freedom: f64) -> f64 {
     if !(probability > 0.0 && probability < 1.0) {
         return f64::NAN;
     }

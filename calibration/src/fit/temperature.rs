@@ -26,7 +26,7 @@ pub struct TemperatureFit {
 const MOST_ITERATIONS: usize = 100;
 
 /// Fits matrix, zero and drift together to loads (samples × regressors, such as nominal loads) and
-/// signals (samples × gauges) at known temperatures.
+/// signals (samples × gauges) at known temperatures, weighted as in [`least_squares`].
 ///
 /// The gain drift makes the problem bilinear; it is solved by Gauss-Newton from α = 0, each step a least-squares
 /// problem. A soak without load determines the drift of the zero, loads at two temperatures that of
@@ -38,10 +38,11 @@ const MOST_ITERATIONS: usize = 100;
 pub fn fit_temperature(
     loads: &DMatrix<f64>,
     signals: &DMatrix<f64>,
+    weights: Option<&[f64]>,
     celsius: &[f64],
     reference_celsius: f64,
 ) -> Result<TemperatureFit, FitError> {
-    check(loads, signals, None)?;
+    check(loads, signals, weights)?;
     let (samples, k) = loads.shape();
     let gauges = signals.ncols();
     if celsius.len() != samples || celsius.iter().any(|t| !t.is_finite()) || !reference_celsius.is_finite() {
@@ -68,14 +69,14 @@ pub fn fit_temperature(
                 }
             }
             let fit = if iteration == 0 {
-                least_squares(&design, &response, None)?
+                least_squares(&design, &response, weights)?
             } else {
                 // One more column: the derivative by α.
                 let slope =
                     DVector::from_fn(samples, |i, _| difference[i] * loads.row(i).transpose().dot(&matrix));
                 let mut extended = design.clone().insert_column(k + 3, 0.0);
                 extended.set_column(k + 3, &slope);
-                least_squares(&extended, &response, None)?
+                least_squares(&extended, &response, weights)?
             };
             matrix = fit.coefficients.view((0, 0), (k, 1)).column(0).into_owned();
             let step = if iteration == 0 { 0.0 } else { fit.coefficients[(k + 3, 0)] };
@@ -154,7 +155,7 @@ mod tests {
     #[test]
     fn exact_without_noise() {
         let (loads, signals, celsius, matrix, gain) = made(0.0);
-        let fit = fit_temperature(&loads, &signals, &celsius, 22.0).unwrap();
+        let fit = fit_temperature(&loads, &signals, None, &celsius, 22.0).unwrap();
         assert!((fit.matrix - matrix).largest() < 1e-12);
         assert!((DVector::from_vec(fit.temperature.gain_drift) - gain).largest() < 1e-13);
         assert!(fit.temperature.zero_drift.iter().all(|z| (z - 0.01).abs() < 1e-13));
@@ -165,9 +166,9 @@ mod tests {
     #[test]
     fn noise_is_estimated_and_constant_temperature_refused() {
         let (loads, signals, celsius, ..) = made(0.01);
-        let fit = fit_temperature(&loads, &signals, &celsius, 22.0).unwrap();
+        let fit = fit_temperature(&loads, &signals, None, &celsius, 22.0).unwrap();
         assert!(fit.residual_deviation.iter().all(|s| (s / 0.01 - 1.0).abs() < 0.4));
-        let error = fit_temperature(&loads, &signals, &[20.0; 60], 22.0).unwrap_err();
+        let error = fit_temperature(&loads, &signals, None, &[20.0; 60], 22.0).unwrap_err();
         assert!(matches!(error, FitError::Unobserved(_)));
     }
 }

@@ -5,10 +5,11 @@ mod frames;
 mod orientation;
 mod payload;
 mod payload_parts;
+mod pose_noise;
 mod poses;
 
 pub use error::PayloadError;
 pub use frames::{FrameTrial, Frames, try_frames};
 pub use orientation::{Orientation, fit_orientation};
-pub use payload::{PayloadFit, PayloadOptions, fit_payload};
+pub use payload::{PayloadFit, PayloadFreedom, PayloadOptions, fit_payload};
 pub use poses::{Pose, poses_from_csv};

@@ -23,6 +23,9 @@ pub struct Orientation {
     pub weight_deviation: f64,
     /// Standard deviations of the force without load \[N\].
     pub bias_deviation: Vector3<f64>,
+    /// Degrees of freedom behind the deviations of the turns, the weight and the force without load: an interval is a
+    /// deviation times [`student_factor`](crate::fit::student_factor) of its own.
+    pub freedom: [f64; 7],
     /// RMS of what the forces leave \[N\].
     pub rms: f64,
     /// By how much the free linear map differs from weight times a rotation, relative to it: large if
@@ -74,7 +77,7 @@ pub fn fit_orientation(poses: &[Pose], down: &Vector3<f64>) -> Result<Orientatio
     let mut mean = Vector3::zeros();
     poses.iter().for_each(|pose| mean += pose.base_from_sensor.transpose() * down / poses.len() as f64);
     let spread = orientation_spread(&fit, &sensor_from_flange, weight, &mean, poses.len() as f64);
-    let deviation = |i: usize| spread[(i, i)].max(0.0).sqrt();
+    let deviation = |i: usize| spread[i].0.max(0.0).sqrt();
     Ok(Orientation {
         sensor_from_flange,
         weight,
@@ -82,22 +85,28 @@ pub fn fit_orientation(poses: &[Pose], down: &Vector3<f64>) -> Result<Orientatio
         turn_deviation: Vector3::from_fn(|i, _| deviation(i)),
         weight_deviation: deviation(3),
         bias_deviation: Vector3::from_fn(|i, _| deviation(4 + i)),
+        freedom: spread.map(|(_, freedom)| freedom),
         rms,
         distortion,
     })
 }
 
-/// Covariance of the turn (3), the weight and the force without load (3). An error E of the linear map
-/// turns the nearest rotation S by the skew part of `E Sᵀ / weight` and changes the weight by a third of its
-/// trace, to first order; the error of the mean of the forces is independent of both.
+/// Variances of the turn (3), the weight and the force without load (3), and the degrees of freedom behind each. An error
+/// E of the linear map turns the nearest rotation S by the skew part of `E Sᵀ / weight` and changes the weight by a third
+/// of its trace, to first order; the error of the mean of the forces is independent of both.
+///
+/// With the covariance Σ of the forces, estimated with ν degrees of freedom, and slopes P by the map, a variance is
+/// `tr(A Σ)`, `A = P G Pᵀ` (of the force without load with 1/n for its own component), with
+/// `ν tr(A Σ)²/tr(A Σ A Σ)` degrees of freedom (Satterthwaite 1946).
 fn orientation_spread(
     fit: &Fit,
     turn: &Matrix3<f64>,
     weight: f64,
     mean: &Vector3<f64>,
     poses: f64,
-) -> DMatrix<f64> {
-    let mut slope = DMatrix::zeros(7, 9);
+) -> [(f64, f64); 7] {
+    // Of each quantity by the entries of the map.
+    let mut slopes = [Matrix3::zeros(); 7];
     for i in 0..3 {
         for j in 0..3 {
             let mut error = Matrix3::zeros();
@@ -107,18 +116,22 @@ fn orientation_spread(
             let angle = Vector3::new(skew[(2, 1)], skew[(0, 2)], skew[(1, 0)]);
             let heavier = relative.trace() / 3.0;
             let bias = -(turn * heavier + angle.cross_matrix() * turn * weight) * mean;
-            let column = [angle.x, angle.y, angle.z, heavier, bias.x, bias.y, bias.z];
-            slope.column_mut(3 * i + j).copy_from_slice(&column);
+            let by = [angle.x, angle.y, angle.z, heavier, bias.x, bias.y, bias.z];
+            slopes.iter_mut().zip(by).for_each(|(slope, by)| slope[(i, j)] = by);
         }
     }
-    let map = DMatrix::from_fn(9, 9, |a, b| {
-        fit.residual_covariance[(a / 3, b / 3)] * fit.inverse_gram[(a % 3, b % 3)]
-    });
-    let mut spread = &slope * map * slope.transpose();
-    for i in 0..3 {
-        for j in 0..3 {
-            spread[(4 + i, 4 + j)] += fit.residual_covariance[(i, j)] / poses;
+    let gram = Matrix3::from_fn(|i, j| fit.inverse_gram[(i, j)]);
+    let noise = Matrix3::from_fn(|i, j| fit.residual_covariance[(i, j)]);
+    let mut place = 0;
+    slopes.map(|slope| {
+        let mut form = slope * gram * slope.transpose();
+        if let Some(axis) = usize::checked_sub(place, 4) {
+            form[(axis, axis)] += 1.0 / poses;
         }
-    }
-    spread
+        place += 1;
+        let of_noise = form * noise;
+        let (variance, squares) = (of_noise.trace(), (of_noise * of_noise).trace());
+        let freedom = if squares > 0.0 { fit.freedom * variance * variance / squares } else { fit.freedom };
+        (variance, freedom)
+    })
 }

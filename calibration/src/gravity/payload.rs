@@ -4,7 +4,7 @@ use fingertip_wrench::units::STANDARD_GRAVITY;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use super::error::PayloadError;
-use super::payload_parts::{Centre, Weight};
+use super::payload_parts::{Centre, Sureness, Weight};
 use super::poses::{Pose, turn, unit};
 use crate::file::{FileError, PayloadFile, PayloadQuality, Verdict};
 use crate::fit::{Fit, least_squares};
@@ -26,6 +26,20 @@ impl Default for PayloadOptions {
     fn default() -> Self {
         Self { down: Some(-Vector3::z()), centre_on: None, gravity: STANDARD_GRAVITY }
     }
+}
+
+/// Degrees of freedom behind the deviations of a payload: an interval is a deviation times
+/// [`student_factor`](crate::fit::student_factor) of its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PayloadFreedom {
+    /// Of the weight.
+    pub weight: f64,
+    /// Of the force at rest, axis by axis.
+    pub force_bias: Vector3<f64>,
+    /// Of the centre of mass, axis by axis.
+    pub centre: Vector3<f64>,
+    /// Of the torque at rest, axis by axis.
+    pub torque_bias: Vector3<f64>,
 }
 
 /// What the weight of a body told.
@@ -59,6 +73,8 @@ pub struct PayloadFit {
     pub force_bias_deviation: Vector3<f64>,
     /// Standard deviations of the torque at rest \[N·m\].
     pub torque_bias_deviation: Vector3<f64>,
+    /// Degrees of freedom behind the deviations.
+    pub freedom: PayloadFreedom,
     /// Condition number of the poses for the forces: near 1 is good, above 30 say, poses are too alike.
     pub condition_number: f64,
     /// RMS of the force residual \[N\] if the readings are taken as given in the base frame instead: if
@@ -90,20 +106,41 @@ pub fn fit_payload(poses: &[Pose], options: &PayloadOptions) -> Result<PayloadFi
     let weight = Weight::of(poses, down)?;
     weight.checked(down, options.gravity)?;
     let centre = Centre::of(poses, axis, &weight)?;
+    let sure = Sureness::of(poses, &weight, &centre)?;
+    let direction = unit(&weight.load).unwrap_or_else(Vector3::zeros);
+    let (weight_deviation, weight_freedom) = sure.along(&direction);
+    let across =
+        (0..3).map(|i| sure.along(&Vector3::ith(i, 1.0)).0.powi(2)).sum::<f64>() - weight_deviation.powi(2);
+    let by_axis = |of: &dyn Fn(usize) -> (f64, f64)| {
+        (Vector3::from_fn(|i, _| of(i).0), Vector3::from_fn(|i, _| of(i).1))
+    };
+    let (force_bias_deviation, of_force_bias) = by_axis(&|axis| sure.force_at_rest(axis));
+    let (centre_deviation, of_centre) = by_axis(&|axis| sure.centre(axis));
+    let (torque_bias_deviation, of_torque_bias) = by_axis(&|axis| sure.torque_at_rest(axis));
     let mut result = PayloadFit {
         weight: weight.load,
         mass: weight.length / options.gravity,
         centre_of_mass: centre.of_mass,
         force_bias: weight.bias,
         torque_bias: centre.bias,
-        direction_deviation: weight.direction_deviation,
+        direction_deviation: if down.is_some() {
+            0.0
+        } else {
+            (0.5 * across.max(0.0)).sqrt() / weight.length
+        },
         tilt: if down.is_some() { 0.0 } else { weight.load.angle(&-Vector3::z()) },
         rms: [0.0; 6],
         rms_in_base: [0.0; 6],
-        weight_deviation: weight.deviation,
-        centre_deviation: centre.deviation,
-        force_bias_deviation: weight.bias_deviation,
-        torque_bias_deviation: centre.bias_deviation,
+        weight_deviation,
+        centre_deviation,
+        force_bias_deviation,
+        torque_bias_deviation,
+        freedom: PayloadFreedom {
+            weight: weight_freedom,
+            force_bias: of_force_bias,
+            centre: of_centre,
+            torque_bias: of_torque_bias,
+        },
         condition_number: Singular::new(&weight.design).map_or(f64::INFINITY, |s| s.condition_number()),
         rms_if_in_base: f64::INFINITY,
         warnings: Vec::new(),

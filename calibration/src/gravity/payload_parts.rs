@@ -1,8 +1,9 @@
 //! The two least-squares problems behind a payload: forces give the weight, torques the centre of mass.
 
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, DVector, Vector3, Vector6};
 
 use super::error::{PayloadError, named};
+use super::pose_noise::PoseNoise;
 use super::poses::{Pose, unit};
 use crate::fit::{Fit, least_squares};
 
@@ -11,17 +12,13 @@ pub(super) struct Weight {
     pub(super) fit: Fit,
     /// Poses to forces, of the weight along `basis` and the bias.
     pub(super) design: DMatrix<f64>,
+    forces: DMatrix<f64>,
     /// The directions in which the weight may lie, as columns.
     basis: DMatrix<f64>,
     /// Weight in the base frame \[N\].
     pub(super) load: Vector3<f64>,
     pub(super) length: f64,
-    /// Standard deviation of the length \[N\].
-    pub(super) deviation: f64,
-    /// Standard deviation of the direction \[rad\].
-    pub(super) direction_deviation: f64,
     pub(super) bias: Vector3<f64>,
-    pub(super) bias_deviation: Vector3<f64>,
 }
 
 impl Weight {
@@ -42,26 +39,20 @@ impl Weight {
             least_squares(&design, &forces, None).map_err(|error| named(error, &["weight"], unknowns))?;
         let load = vector(&(&basis * fit.coefficients.rows(0, unknowns)));
         let length = load.norm();
-        let direction = unit(&load).unwrap_or_else(Vector3::zeros);
-        let parameter = basis.transpose() * direction;
-        let noise = fit.residual_covariance[(0, 0)];
-        let spread = fit.inverse_gram.view((0, 0), (unknowns, unknowns));
-        let variance = noise * (parameter.transpose() * spread * &parameter)[(0, 0)];
-        let all = &basis * spread * basis.transpose();
-        let across = (all.trace() * noise - variance).max(0.0);
-        let direction_deviation = if down.is_some() { 0.0 } else { (0.5 * across).sqrt() / length };
         let bias = Vector3::from_fn(|i, _| fit.coefficients[(unknowns + i, 0)]);
-        let bias_deviation = Vector3::from_fn(|i, _| {
-            let i = unknowns + i;
-            (fit.inverse_gram[(i, i)] * noise).max(0.0).sqrt()
-        });
-        let deviation = variance.max(0.0).sqrt();
-        Ok(Self { fit, design, basis, load, length, deviation, direction_deviation, bias, bias_deviation })
+        Ok(Self { fit, design, forces, basis, load, length, bias })
     }
 
     /// A weight that shows, and pulls down: along −z unless told otherwise.
     pub(super) fn checked(&self, down: Option<Vector3<f64>>, gravity: f64) -> Result<(), PayloadError> {
-        let &Self { length, deviation, .. } = self;
+        let length = self.length;
+        // As if all components were as noisy: what the torques say is not known yet.
+        let direction = unit(&self.load).unwrap_or_else(Vector3::zeros);
+        let parameter = self.basis.tr_mul(&direction);
+        let unknowns = parameter.len();
+        let spread = self.fit.inverse_gram.view((0, 0), (unknowns, unknowns));
+        let variance = self.fit.residual_covariance[(0, 0)] * parameter.dot(&(spread * &parameter));
+        let deviation = variance.max(0.0).sqrt();
         if !(length > 3.0 * deviation) {
             return Err(PayloadError::NoWeight { weight: length, deviation });
         }
@@ -74,11 +65,15 @@ impl Weight {
 
 /// What the torques tell, once the weight is known.
 pub(super) struct Centre {
+    fit: Fit,
+    /// Poses to torques, of the centre along `span` and the bias.
+    arms: DMatrix<f64>,
+    torques: DMatrix<f64>,
+    /// The directions in which the centre may lie, as columns.
+    span: DMatrix<f64>,
     /// In the sensor frame \[m\].
     pub(super) of_mass: Vector3<f64>,
-    pub(super) deviation: Vector3<f64>,
     pub(super) bias: Vector3<f64>,
-    pub(super) bias_deviation: Vector3<f64>,
 }
 
 impl Centre {
@@ -103,26 +98,79 @@ impl Centre {
             .map_err(|error| named(error, &["centre of mass"], lengths))?;
         let of_mass = vector(&(&span * fit.coefficients.rows(0, lengths)));
         let bias = Vector3::from_fn(|i, _| fit.coefficients[(lengths + i, 0)]);
+        Ok(Self { fit, arms, torques, span, of_mass, bias })
+    }
+}
+
+/// How sure weight and centre are.
+pub(super) struct Sureness {
+    noise: PoseNoise,
+    /// Parameters: of the weight, three of the force at rest, of the centre, three of the torque at rest.
+    basis: DMatrix<f64>,
+    span: DMatrix<f64>,
+}
+
+impl Sureness {
+    pub(super) fn of(poses: &[Pose], weight: &Weight, centre: &Centre) -> Result<Self, PayloadError> {
+        let (unknowns, lengths) = (weight.basis.ncols(), centre.span.ncols());
+        let (of_force, of_torque) = (unknowns + 3, lengths + 3);
         // By how much the torques would change with the weight, and what the fit makes of that.
-        let unknowns = weight.basis.ncols();
-        let mut change = DMatrix::zeros(rows, unknowns);
+        let mut change = DMatrix::zeros(3 * poses.len(), unknowns);
         for (i, pose) in poses.iter().enumerate() {
             let turned = pose.base_from_sensor.transpose() * &weight.basis;
-            change.view_mut((3 * i, 0), (3, unknowns)).copy_from(&(of_mass.cross_matrix() * turned));
+            change.view_mut((3 * i, 0), (3, unknowns)).copy_from(&(centre.of_mass.cross_matrix() * turned));
         }
-        let carried = least_squares(&arms, &change, None)?;
-        let weight_spread = weight.fit.inverse_gram.view((0, 0), (unknowns, unknowns))
-            * weight.fit.residual_covariance[(0, 0)];
-        // Part of what the torques leave is of the weight, too.
-        let of_weight = (&carried.residual_covariance * &weight_spread).trace();
-        let variance = (fit.residual_covariance[(0, 0)] - of_weight).max(0.0);
-        let torque_spread = &fit.inverse_gram * variance
-            + &carried.coefficients * weight_spread * carried.coefficients.transpose();
-        let spread: DMatrix<f64> = &span * torque_spread.view((0, 0), (lengths, lengths)) * span.transpose();
-        let deviation = Vector3::from_fn(|i, _| spread[(i, i)].max(0.0).sqrt());
-        let bias_deviation =
-            Vector3::from_fn(|i, _| torque_spread[(lengths + i, lengths + i)].max(0.0).sqrt());
-        Ok(Self { of_mass, deviation, bias, bias_deviation })
+        let carried = least_squares(&centre.arms, &change, None)?.coefficients;
+        let by_force = &weight.design * &weight.fit.inverse_gram;
+        let by_torque = &centre.arms * &centre.fit.inverse_gram;
+        let by_weight = by_force.columns(0, unknowns) * carried.transpose();
+        let forces = &weight.forces - &weight.design * &weight.fit.coefficients;
+        let torques = &centre.torques - &centre.arms * &centre.fit.coefficients;
+        let (mut left, mut slopes, mut moves) = (Vec::new(), Vec::new(), Vec::new());
+        for i in (0..3 * poses.len()).step_by(3) {
+            left.push(Vector6::from_fn(|a, _| if a < 3 { forces[i + a] } else { torques[i + a - 3] }));
+            let mut slope = DMatrix::zeros(6, of_force + of_torque);
+            slope.view_mut((0, 0), (3, of_force)).copy_from(&weight.design.rows(i, 3));
+            slope.view_mut((3, 0), (3, unknowns)).copy_from(&change.rows(i, 3));
+            slope.view_mut((3, of_force), (3, of_torque)).copy_from(&centre.arms.rows(i, 3));
+            slopes.push(slope);
+            let mut by = DMatrix::zeros(6, of_force + of_torque);
+            by.view_mut((0, 0), (3, of_force)).copy_from(&by_force.rows(i, 3));
+            by.view_mut((0, of_force), (3, of_torque)).copy_from(&-by_weight.rows(i, 3));
+            by.view_mut((3, of_force), (3, of_torque)).copy_from(&by_torque.rows(i, 3));
+            moves.push(by);
+        }
+        let noise = PoseNoise::new(&left, &slopes, &moves);
+        Ok(Self { noise, basis: weight.basis.clone(), span: centre.span.clone() })
+    }
+
+    /// Of parameters beginning at `first`, combined by `by`.
+    fn combined(&self, first: usize, by: &[f64]) -> (f64, f64) {
+        let count = self.basis.ncols() + self.span.ncols() + 6;
+        let mut combination = DVector::zeros(count);
+        combination.rows_mut(first, by.len()).copy_from_slice(by);
+        self.noise.of(&combination)
+    }
+
+    /// Of the weight along a direction of the base: deviation \[N\] and freedom, as all below.
+    pub(super) fn along(&self, direction: &Vector3<f64>) -> (f64, f64) {
+        self.combined(0, self.basis.tr_mul(direction).as_slice())
+    }
+
+    /// Of a component of the force at rest \[N\].
+    pub(super) fn force_at_rest(&self, axis: usize) -> (f64, f64) {
+        self.combined(self.basis.ncols() + axis, &[1.0])
+    }
+
+    /// Of a component of the centre of mass \[m\].
+    pub(super) fn centre(&self, axis: usize) -> (f64, f64) {
+        let along: Vec<f64> = self.span.row(axis).iter().copied().collect();
+        self.combined(self.basis.ncols() + 3, &along)
+    }
+
+    /// Of a component of the torque at rest \[N·m\].
+    pub(super) fn torque_at_rest(&self, axis: usize) -> (f64, f64) {
+        self.combined(self.basis.ncols() + self.span.ncols() + 3 + axis, &[1.0])
     }
 }
 

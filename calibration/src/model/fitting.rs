@@ -7,7 +7,8 @@ use super::zeros::account_for_zeros;
 use super::{CalibrationError, Direction, Method, Options, SensorModel};
 use crate::file::CalibrationFile;
 use crate::fit::{
-    Fit, FitError, Ransac, deviation, gauss_helmert, huber, least_squares, ransac, ridge, total_least_squares,
+    Fit, FitError, Ransac, deviation, gauss_helmert_of_shares, huber, least_squares, ransac, ridge,
+    total_least_squares,
 };
 use crate::loads::LoadTable;
 
@@ -91,12 +92,12 @@ fn fit(table: &LoadTable, options: &Options, nominal: &[f64]) -> Result<Fit, Fit
             if signal_deviations.len() != y.ncols() {
                 return Err(deviations);
             }
-            let of_loads = DMatrix::from_fn(x.nrows(), x.ncols(), |i, j| {
-                // The constant is exact.
-                if j < fixed.len() { fixed[j].hypot(share * x[(i, j)]) } else { 0.0 }
-            });
+            // The constant, behind the loads, is exact.
+            let own = |of: &dyn Fn(usize) -> f64| {
+                DMatrix::from_fn(x.nrows(), x.ncols(), |_, j| if j < fixed.len() { of(j) } else { 0.0 })
+            };
             let noise = DMatrix::from_fn(y.nrows(), y.ncols(), |_, j| signal_deviations[j]);
-            gauss_helmert(&x, &y, &of_loads, &noise)
+            gauss_helmert_of_shares(&x, &y, (&own(&|j| fixed[j]), &own(&|_| *share)), &noise)
         }
         Method::Prior { prior, relative } => {
             fit_with_prior(&x, &y, weights, prior, *relative, nominal, options.bias)

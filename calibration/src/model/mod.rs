@@ -1,5 +1,6 @@
 //! A sensor that is fitted to known loads: how to fit it, and what it is.
 
+mod drift;
 mod error;
 mod fitting;
 mod options;
@@ -7,6 +8,7 @@ mod sensor_model;
 mod streamed;
 mod zeros;
 
+pub(crate) use drift::FittedDrift;
 pub use error::CalibrationError;
 pub(crate) use fitting::fit_model;
 pub use options::{Direction, Limits, Method, Options};

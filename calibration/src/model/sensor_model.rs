@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{Direction, Options};
 use crate::Axis;
-use crate::file::{CalibrationFile, Covariance, FileError, Provenance, SignalUnit};
+use crate::file::{CalibrationFile, Covariance, FileError, Provenance, SignalUnit, of_pseudo_inverse};
 use crate::fit::Fit;
 use crate::linear::{Singular, pairs, pseudo_inverse};
 use crate::loads::LoadTable;
@@ -187,42 +187,48 @@ impl SensorModel {
             .map_or(f64::INFINITY, |singular| singular.condition_number())
     }
 
-    /// Covariance of the normalised matrix, carried over by `dC = −C dB C` (first order) for a model
-    /// of loads from signals.
+    /// Covariance of the normalised matrix; for a model of loads from signals carried over by the derivative of the
+    /// pseudo-inverse (first order).
     #[must_use]
     pub fn covariance(&self) -> Option<Covariance> {
         let (axes, gauges) = (self.axes.len(), self.gauges());
         match self.direction {
-            Direction::SignalsFromLoads => Some(Covariance {
-                signals: self.fit.residual_covariance.clone(),
-                loads: self.fit.inverse_gram.view((0, 0), (axes, axes)).into_owned(),
-            }),
+            Direction::SignalsFromLoads => {
+                let loads = self.fit.inverse_gram.view((0, 0), (axes, axes)).into_owned();
+                let regressors = self.fit.coefficients.nrows();
+                // Those of the loads among the regressors, gauge by gauge.
+                let place = |entry: usize| (entry / axes) * regressors + entry % axes;
+                let entries = self.fit.full_covariance.as_ref().map(|full| {
+                    DMatrix::from_fn(gauges * axes, gauges * axes, |a, b| full[(place(a), place(b))])
+                });
+                Some(Covariance { signals: self.fit.residual_covariance.clone(), loads, entries })
+            }
             Direction::LoadsFromSignals => {
                 let (matrix, _) = self.matrix_and_zero().ok()?;
                 let gram = self.fit.inverse_gram.view((0, 0), (gauges, gauges)).into_owned();
-                Some(Covariance {
-                    signals: &matrix * &self.fit.residual_covariance * matrix.transpose(),
-                    loads: matrix.transpose() * gram * &matrix,
-                })
+                let signals = &matrix * &self.fit.residual_covariance * matrix.transpose();
+                if gauges == axes {
+                    return Some(Covariance::product(signals, matrix.transpose() * gram * &matrix));
+                }
+                let fitted = pseudo_inverse(&matrix)?;
+                let of_fitted = self.fit.residual_covariance.kronecker(&gram);
+                Some(Covariance::of_entries(signals, of_pseudo_inverse(&fitted, &matrix, &of_fitted)))
             }
         }
     }
 
     /// Covariance of the load \[N, N·m\] that one reading tells of, at any load: that of one reading
-    /// and that of the fit, `C⁺ Σ_V C⁺ᵀ (1 + xᵀG⁻¹x)` (`docs/theory/calibration.md#least-squares`). `None` if
+    /// and that of the fit, `C⁺ (Σ_V + Cov(C x)) C⁺ᵀ` (`docs/theory/calibration.md#least-squares`). `None` if
     /// the matrix has deficient rank.
     #[must_use]
     pub fn load_covariance(&self) -> Option<LoadCovariance> {
         let (matrix, _) = self.matrix_and_zero().ok()?;
         let covariance = self.covariance()?;
-        let inverse = pseudo_inverse(&matrix)?;
-        let mut of_reading = &inverse * covariance.signals * inverse.transpose();
-        for (i, row) in self.nominal.iter().enumerate() {
-            for (j, column) in self.nominal.iter().enumerate() {
-                of_reading[(i, j)] *= row * column;
-            }
+        let mut inverse = pseudo_inverse(&matrix)?;
+        for (mut row, nominal) in inverse.row_iter_mut().zip(&self.nominal) {
+            row *= *nominal;
         }
-        Some(LoadCovariance { of_reading, of_fit: covariance.loads, nominal: self.nominal.clone() })
+        Some(LoadCovariance { inverse, covariance, nominal: self.nominal.clone() })
     }
 
     /// As a calibration file, its quality unchecked.
@@ -245,10 +251,9 @@ impl SensorModel {
 /// How surely a model tells a load: see [`SensorModel::load_covariance`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadCovariance {
-    /// Of a reading at zero load, but for what the fit adds.
-    of_reading: DMatrix<f64>,
-    /// `G⁻¹`, of loads in shares of the nominal ones.
-    of_fit: DMatrix<f64>,
+    /// Loads \[N, N·m\] per signal.
+    inverse: DMatrix<f64>,
+    covariance: Covariance,
     nominal: Vec<f64>,
 }
 
@@ -259,8 +264,8 @@ impl LoadCovariance {
         let load = DVector::from_fn(self.nominal.len(), |i, _| {
             load.get(i).copied().unwrap_or_default() / self.nominal[i]
         });
-        let spread = 1.0 + load.dot(&(&self.of_fit * &load));
-        &self.of_reading * spread
+        let signals = &self.covariance.signals + self.covariance.of_signals(&load);
+        &self.inverse * signals * self.inverse.transpose()
     }
 }
 

@@ -25,6 +25,9 @@ pub struct ConstantForce {
     /// Standard deviation of one reading of one gauge; infinite, as the other deviations, if there are not
     /// more readings than unknowns.
     pub noise: f64,
+    /// Degrees of freedom behind the noise and all deviations: readings less unknowns; zero if there are not more. An
+    /// interval is a deviation times [`student_factor`](crate::fit::student_factor).
+    pub freedom: f64,
     /// RMS deviation of the fitted forces' size from the given one, relative.
     pub misfit: f64,
     /// Fourth over third singular value of the readings: noise and nonlinearity over signal. Near
@@ -88,6 +91,7 @@ pub fn constant_force(signals: &DMatrix<f64>, force: f64) -> Result<ConstantForc
         zero_deviation: found.covariance.diagonal().rows(3 * gauges, gauges).map(|v| v.max(0.0).sqrt()),
         zero: found.zero,
         noise: found.noise,
+        freedom: found.freedom,
         misfit: (squares / samples as f64).sqrt(),
         leakage: start.leakage,
     })
@@ -160,6 +164,7 @@ pub(super) fn on_ellipsoid(signals: &DMatrix<f64>, force: f64) -> Result<Constan
         zero,
         size_deviation: f64::INFINITY,
         noise: f64::INFINITY,
+        freedom: 0.0,
         misfit: (squares / samples as f64).sqrt(),
         leakage: if gauges > 3 { singular.values[3] / singular.values[2] } else { 0.0 },
     })

@@ -34,6 +34,9 @@ pub struct LeverArmFit {
     /// Standard deviation of one reading of one gauge; infinite, as the other deviations, if there are not
     /// more readings than unknowns.
     pub noise: f64,
+    /// Degrees of freedom behind the noise and all deviations: readings less unknowns; zero if there are not more. An
+    /// interval is a deviation times [`student_factor`](crate::fit::student_factor).
+    pub freedom: f64,
     /// What is left of the blocks, relative.
     pub residual: f64,
     /// How many of the starts reached this solution.
@@ -104,14 +107,14 @@ pub fn lever_arms(
         .collect();
     let mut deviations = DMatrix::from_element(gauges, 6, f64::INFINITY);
     let mut zero_deviation = DVector::from_element(gauges, f64::INFINITY);
-    let mut noise = f64::INFINITY;
+    let (mut noise, mut freedom) = (f64::INFINITY, 0.0);
     if let Some(found) = most_likely(&hung, &(&sensitivities * force), &zero, false) {
         sensitivities = found.map / force;
         let spread = found.covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
         deviations = DMatrix::from_row_slice(gauges, 6, &spread.as_slice()[..6 * gauges]) / force;
         zero = found.zero;
         zero_deviation = spread.rows(6 * gauges, gauges).into_owned();
-        noise = found.noise;
+        (noise, freedom) = (found.noise, found.freedom);
     }
     sensitivities.columns_mut(3, 3).scale_mut(1.0 / length);
     deviations.columns_mut(3, 3).scale_mut(1.0 / length);
@@ -121,6 +124,7 @@ pub fn lever_arms(
         zero,
         zero_deviation,
         noise,
+        freedom,
         residual,
         hits: residuals.iter().filter(|r| **r <= (2.0 * residual).max(tolerance)).count(),
         starts,

@@ -21,6 +21,8 @@ pub(super) struct MostLikely {
     pub(super) covariance: DMatrix<f64>,
     /// Standard deviation of one reading of one gauge.
     pub(super) noise: f64,
+    /// Degrees of freedom behind it.
+    pub(super) freedom: f64,
     /// Directions of all weights.
     pub(super) directions: Vec<Vector3<f64>>,
 }
@@ -69,11 +71,12 @@ pub(super) fn most_likely(
             break;
         }
     }
-    let noise = left(&factors) / (freedom as f64).sqrt();
+    let freedom = freedom as f64;
+    let noise = left(&factors) / freedom.sqrt();
     let (factors, turns) = without_turns(&system, &best.0, turnable)?;
     let covariance = (factors.inverse_gram().ok()? - &turns * turns.transpose()) * (noise * noise);
     let finite = covariance.iter().chain(best.0.iter()).chain(best.1.iter()).all(|x| x.is_finite());
-    finite.then_some(MostLikely { map: best.0, zero: best.1, covariance, noise, directions })
+    finite.then_some(MostLikely { map: best.0, zero: best.1, covariance, noise, freedom, directions })
 }
 
 /// The system with what a turn of all forces would change held at zero, and an orthonormal basis of that:

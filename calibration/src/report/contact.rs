@@ -13,7 +13,7 @@ use crate::linear::pseudo_inverse;
 /// surface, of the distance along the surface between the true contact point and the one that is
 /// resolved \[mm\].
 ///
-/// First order: the covariance of the wrench, `C⁺ Σ_V C⁺ᵀ (1 + xᵀG⁻¹x)`, carried to the contact point by
+/// First order: the covariance of the wrench, `C⁺ (Σ_V + Cov(C x)) C⁺ᵀ`, carried to the contact point by
 /// the derivative of the crossing of the line of action with the surface. Too small, therefore, near
 /// grazing. The zero is taken to be tared, and the surface to be known exactly.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -49,18 +49,22 @@ pub(crate) fn contact_report(
     for (mut row, nominal) in inverse.row_iter_mut().zip(nominal) {
         row *= *nominal;
     }
-    let noise = &inverse * &covariance.signals * inverse.transpose();
-    let noise = Matrix6::from_fn(|i, j| noise[(i, j)]);
+    // From a covariance of signals to that of the wrench.
+    let carried = |signals: &DMatrix<f64>| {
+        let wrench = &inverse * signals * inverse.transpose();
+        Matrix6::from_fn(|i, j| wrench[(i, j)])
+    };
+    let noise = carried(&covariance.signals);
     let (mut by_reading, mut by_matrix, mut worst, mut force) = (0.0, 0.0, 0.0_f64, 0.0);
     for touch in &set.touches {
         let jacobian = touch.jacobian();
         let load = Wrench::<f64>::from_force_at(&touch.point, touch.force).components();
         let load = DVector::from_fn(6, |i, _| load[i] / nominal[i]);
-        let spread = load.dot(&(&covariance.loads * &load));
-        let squared = (jacobian * noise * jacobian.transpose()).trace().max(0.0);
-        by_reading += squared;
-        by_matrix += squared * spread;
-        worst = worst.max(squared * (1.0 + spread));
+        let squared = |noise: Matrix6<f64>| (jacobian * noise * jacobian.transpose()).trace().max(0.0);
+        let (of_reading, of_matrix) = (squared(noise), squared(carried(&covariance.of_signals(&load))));
+        by_reading += of_reading;
+        by_matrix += of_matrix;
+        worst = worst.max(of_reading + of_matrix);
         force += touch.force.norm();
     }
     let count = set.touches.len() as f64;
@@ -109,8 +113,7 @@ mod tests {
             let signals = &loads * &truth + gaussian_matrix(&mut random, 12, 7) * 1e-3;
             let fit = least_squares(&loads, &signals, None).unwrap();
             let matrix = fit.coefficients.transpose();
-            let covariance =
-                Covariance { signals: fit.residual_covariance.clone(), loads: fit.inverse_gram.clone() };
+            let covariance = Covariance::product(fit.residual_covariance.clone(), fit.inverse_gram.clone());
             let report = contact_report(&Axis::ALL, &matrix, &nominal, &covariance, &set).unwrap();
             assert!((report.force - 5.0).abs() < 1e-12 && report.touches == touches.len());
             let both = report.calibration_mm.hypot(report.reading_mm);

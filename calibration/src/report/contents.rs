@@ -124,8 +124,9 @@ impl Report {
             .ok()
             .map(|(matrix, _)| matrix.row_iter().map(|row| row.iter().copied().collect()).collect());
         report.matrix_deviations = model.covariance().map(|covariance| {
-            let entry =
-                |i: usize, j: usize| (covariance.signals[(i, i)] * covariance.loads[(j, j)]).max(0.0).sqrt();
+            let entry = |i: usize, j: usize| {
+                covariance.between((i, j), (i, j)).map_or(f64::NAN, |variance| variance.max(0.0).sqrt())
+            };
             (0..model.gauges()).map(|i| (0..table.axes.len()).map(|j| entry(i, j)).collect()).collect()
         });
         report.judge(&options.limits);

@@ -118,7 +118,7 @@ fn temperature_terms() {
                 + (1.0 + truth[3] * warmer) * loads.row(i).dot(&matrix.row(0))
                 + 0.02 * gaussian(random)
         });
-        let fit = fit_temperature(&loads, &signals, &celsius, 22.0).unwrap();
+        let fit = fit_temperature(&loads, &signals, None, &celsius, 22.0).unwrap();
         let drift = &fit.temperature;
         let mut errors: Vec<f64> = (0..3).map(|j| fit.matrix[(0, j)] - matrix[(0, j)]).collect();
         errors.extend([

@@ -38,13 +38,26 @@ impl Coverage {
 
     /// All shares are between 93 and 97 %, or as near to 95 % as chance lets them be.
     pub(crate) fn holds(&self, what: &str) {
+        let allowed = self.allowed();
+        self.share_lies_in(what, 95.0 - allowed..=95.0 + allowed);
+    }
+
+    /// No share is below 93 %, or below what chance lets it be: intervals that are too wide where little is known.
+    pub(crate) fn holds_at_least(&self, what: &str) {
+        self.share_lies_in(what, 95.0 - self.allowed()..=100.0);
+    }
+
+    fn allowed(&self) -> f64 {
+        (400.0 * (0.95 * 0.05 / self.trials as f64).sqrt()).max(2.0)
+    }
+
+    fn share_lies_in(&self, what: &str, range: core::ops::RangeInclusive<f64>) {
         let count = self.trials as f64;
         let shares: Vec<f64> = self.held.iter().map(|held| 100.0 * *held as f64 / count).collect();
         let least = shares.iter().copied().fold(f64::INFINITY, f64::min);
         let most = shares.iter().copied().fold(0.0, f64::max);
         println!("{what}: 95 % intervals hold {least:.1} to {most:.1} % of {} trials", self.trials);
-        let allowed = (400.0 * (0.95 * 0.05 / count).sqrt()).max(2.0);
-        let near = |share: &f64| (share - 95.0).abs() <= allowed;
+        let near = |share: &f64| range.contains(share);
         assert!(!shares.is_empty() && shares.iter().all(near), "{what}: {shares:.1?} %");
     }
 }

@@ -116,13 +116,14 @@ fn of_the_temperature_terms() {
                 + (1.0 + 1e-3 * (celsius[i] - 20.0)) * loads.row(i).dot(&matrix.row(j))
                 + 0.01 * gaussian(random)
         });
-        let fit = fit_temperature(&loads, &signals, &celsius, 20.0).unwrap();
+        let fit = fit_temperature(&loads, &signals, None, &celsius, 20.0).unwrap();
         let frame = *Rotation3::from_scaled_axis(vector(random)).matrix();
         let frame = DMatrix::from_fn(3, 3, |i, j| frame[(i, j)]);
         let order: Vec<usize> = (0..SAMPLES).map(|i| (11 * i + 5) % SAMPLES).collect();
         let warm: Vec<f64> = order.iter().map(|i| celsius[*i]).collect();
         let turned = loads.select_rows(&order) * &frame * 1e3;
-        let other = fit_temperature(&turned, &(signals.select_rows(&order) * 1e-4), &warm, 20.0).unwrap();
+        let other =
+            fit_temperature(&turned, &(signals.select_rows(&order) * 1e-4), None, &warm, 20.0).unwrap();
         assert!((other.matrix * frame.transpose() * 1e7 - &fit.matrix).largest() < 1e-10);
         for (a, b) in [
             (&other.temperature.zero_drift, &fit.temperature.zero_drift),

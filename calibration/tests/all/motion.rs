@@ -191,6 +191,7 @@ fn the_sign_is_settled_by_a_known_force_only() {
         zero: zero.clone(),
         zero_deviation: DVector::zeros(6),
         noise: 0.0,
+        freedom: 0.0,
         residual: 0.0,
         hits: 1,
         starts: 1,

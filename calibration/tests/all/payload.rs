@@ -117,8 +117,27 @@ fn payload_and_mounting_do_not_mind_units_order_and_frames() {
         close(same.centre_of_mass / metre, sensor * fit.centre_of_mass, 0.1);
         close(same.force_bias / newton, sensor * fit.force_bias, 3.0);
         close(same.torque_bias / (newton * metre), sensor * fit.torque_bias, 0.3);
-        let deviation = same.weight_deviation / newton / fit.weight_deviation - 1.0;
-        assert!(deviation.abs() < 1e-9 * fit.condition_number, "{deviation}");
+        // How noisy each component is goes with the axes of the sensor, which stay here.
+        let scaled: Vec<Pose> = poses
+            .iter()
+            .rev()
+            .map(|pose| {
+                let force = pose.wrench.fixed_rows::<3>(0) * newton;
+                let torque = pose.wrench.fixed_rows::<3>(3) * (newton * metre);
+                Pose { base_from_sensor: base * pose.base_from_sensor, wrench: wrench(force, torque) }
+            })
+            .collect();
+        let scaled = fit_payload(&scaled, &options).unwrap();
+        let near = |a: f64, b: f64| {
+            assert!((a / b - 1.0).abs() < 1e-8 * fit.condition_number.powi(2), "{a} {b}");
+        };
+        near(scaled.weight_deviation / newton, fit.weight_deviation);
+        near(scaled.freedom.weight, fit.freedom.weight);
+        for i in 0..3 {
+            near(scaled.centre_deviation[i] / metre, fit.centre_deviation[i]);
+            near(scaled.torque_bias_deviation[i] / (newton * metre), fit.torque_bias_deviation[i]);
+            near(scaled.freedom.centre[i], fit.freedom.centre[i]);
+        }
         // The mounting turns with the sensor, whose flange is the former frame.
         let down = weight.normalize();
         let one = fit_orientation(&poses, &down).unwrap();
@@ -199,15 +218,26 @@ fn the_centre_of_mass_may_be_known_to_lie_on_an_axis() {
         );
         let inverse = (x.transpose() * &x).try_inverse().unwrap();
         let found = &inverse * x.transpose() * &y;
-        let (lengths, unknowns) = (span.ncols(), x.ncols());
-        let noise = (y - x * &found).norm_squared() / (18 - unknowns) as f64;
+        let lengths = span.ncols();
+        // What is left is `(1 − H) e`: the squares of each component in the mean, solved for the variances.
+        let maker = DMatrix::identity(18, 18) - &x * &inverse * x.transpose();
+        let left = &y - &x * &found;
+        let squares = DMatrix::from_fn(3, 1, |a, _| (0..6).map(|i| left[3 * i + a].powi(2)).sum::<f64>());
+        let mean = DMatrix::from_fn(3, 3, |a, b| {
+            let pairs = (0..6).flat_map(|i| (0..6).map(move |j| (3 * i + a, 3 * j + b)));
+            pairs.map(|entry| maker[entry].powi(2)).sum::<f64>()
+        });
+        let least = DMatrix::from_fn(3, 1, |a, _| 0.05 * squares[a] / mean[(a, a)]);
+        let variances = (mean.try_inverse().unwrap() * squares).zip_map(&least, f64::max);
+        let noise = DMatrix::from_fn(18, 18, |i, j| if i == j { variances[i % 3] } else { 0.0 });
+        let covariance = &inverse * x.transpose() * noise * &x * &inverse;
         let centre = &span * found.rows(0, lengths);
-        let spread = &span * inverse.view((0, 0), (lengths, lengths)) * span.transpose() * noise;
+        let spread = &span * covariance.view((0, 0), (lengths, lengths)) * span.transpose();
         for i in 0..3 {
             assert!((fit.centre_of_mass[i] - centre[i]).abs() < 1e-12, "{fit:?}");
             assert!((fit.centre_deviation[i] - spread[(i, i)].sqrt()).abs() < 1e-9, "{fit:?}");
             assert!((fit.torque_bias[i] - found[lengths + i]).abs() < 1e-12, "{fit:?}");
-            let deviation = (inverse[(lengths + i, lengths + i)] * noise).sqrt();
+            let deviation = covariance[(lengths + i, lengths + i)].sqrt();
             assert!((fit.torque_bias_deviation[i] - deviation).abs() < 1e-9, "{fit:?}");
         }
         let x = stacked(&|pose, i| core::iter::once(-pose.base_from_sensor[(2, i)]).chain(unit(i)).collect());

@@ -138,21 +138,21 @@ fn of_temperatures() {
     let loads = gaussians(random, 12, 2);
     let signals = &loads * DMatrix::from_element(2, 1, 2.0) + gaussians(random, 12, 1) * 1e-6;
     let celsius: Vec<f64> = (0..12).map(|i| 20.0 + f64::from(i * 5 % 12)).collect();
-    let fitted = fit_temperature(&loads, &signals, &celsius, 19.0).unwrap();
+    let fitted = fit_temperature(&loads, &signals, None, &celsius, 19.0).unwrap();
     // The reference belongs to the range.
     assert_eq!(fitted.temperature.range_celsius, [19.0, 31.0]);
     assert_eq!(
-        fit_temperature(&loads, &signals, &celsius, 40.0).unwrap().temperature.range_celsius,
+        fit_temperature(&loads, &signals, None, &celsius, 40.0).unwrap().temperature.range_celsius,
         [20.0, 40.0]
     );
     for bad in BAD {
-        assert!(fit_temperature(&loads, &signals, &celsius, bad).is_err());
+        assert!(fit_temperature(&loads, &signals, None, &celsius, bad).is_err());
         let mut wrong = celsius.clone();
         wrong[5] = bad;
-        assert!(fit_temperature(&loads, &signals, &wrong, 20.0).is_err());
+        assert!(fit_temperature(&loads, &signals, None, &wrong, 20.0).is_err());
     }
-    assert!(fit_temperature(&loads, &signals, &celsius[..11], 20.0).is_err());
-    assert!(fit_temperature(&loads, &signals, &[20.0; 12], 20.0).is_err());
+    assert!(fit_temperature(&loads, &signals, None, &celsius[..11], 20.0).is_err());
+    assert!(fit_temperature(&loads, &signals, None, &[20.0; 12], 20.0).is_err());
 }
 
 #[test]
@@ -277,7 +277,7 @@ fn of_a_gain_that_cannot_be_told() {
     let mut refused = 0;
     for _ in 0..30 {
         let (loads, signals) = (gaussians(random, 40, 6), gaussians(random, 40, 1));
-        let found = match fit_temperature(&loads, &signals, &celsius, 22.0) {
+        let found = match fit_temperature(&loads, &signals, None, &celsius, 22.0) {
             Ok(found) => found,
             Err(error) => {
                 assert!(matches!(error, FitError::NoConvergence { .. }), "{error}");

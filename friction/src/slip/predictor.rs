@@ -2,8 +2,10 @@
 
 use fingertip_wrench::Real;
 
-/// How many samples foretell the next.
-pub(super) const ORDER: usize = 8;
+/// How many samples foretell the next: at 2 kHz, the fastest that is taken, four fifths of a period of 50 Hz and its
+/// harmonics. Eight or sixteen leave so much of these that they fall further than they rise, or the other way round, as their
+/// phases have it.
+pub(super) const ORDER: usize = 32;
 /// The step of the normalised rule: the share of a prediction's error that is mended at once.
 const STEP: f64 = 0.05;
 /// Samples over which the deviation of the errors is taken.
@@ -124,7 +126,8 @@ mod tests {
             println!("AR {share}: {square:.4} of {best:.4}, neighbours {correlation:.3}, weight {weight:.3}");
             assert!((0.98..1.10).contains(&(square / best)), "{share}: {square} {best}");
             assert!(correlation.abs() < 0.05, "{share}: {correlation}");
-            assert!((weight - share).abs() < 0.03, "{share}: {weight}");
+            // The further 31 have some of it for a long time.
+            assert!((weight - share).abs() < 0.08, "{share}: {weight}");
         }
     }
 
@@ -138,7 +141,7 @@ mod tests {
             14.0 * (time * core::f64::consts::TAU * 50.0).sin() + draw()
         });
         println!("hum of variance 98: {square:.2} left");
-        assert!(square < 8.0, "{square}");
+        assert!(square < 1.5, "{square}");
     }
 
     /// After a jump of a thousand deviations the weights are what they were, nearly.
@@ -153,8 +156,8 @@ mod tests {
         assert!(moved.fold(0.0, f64::max) < 0.1, "{predictor:?}");
         assert!(predictor.variance < before.variance * 1.04);
         predictor.restart();
-        assert_eq!(predictor.last, [0.0; 8]);
-        assert_ne!(predictor.weights, [0.0; 8]);
+        assert_eq!(predictor.last, [0.0; super::ORDER]);
+        assert_ne!(predictor.weights, [0.0; super::ORDER]);
     }
 
     #[test]

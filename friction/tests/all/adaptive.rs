@@ -76,19 +76,59 @@ fn false_alarms_are_those_asked_for() {
     }
 }
 
-/// The long version: ten million samples of each kind at each rate, and as many on touches. About five minutes in
-/// an optimised build.
+/// Alarms a minute that are borne: twice what was asked, but on touches in the strongest hum, as documented.
+fn most(kind: Kind, rate: f64) -> f64 {
+    let strong = matches!(kind, Kind::Hum { size, .. } if size >= 10.0);
+    if strong && rate > 1000.0 { 4.0 } else { 2.0 }
+}
+
+/// The long version: ten million samples of each kind at each rate in a hold, and as many on touches that end in
+/// lift-offs. Some five minutes in an optimised build.
 #[test]
 #[ignore = "ten million samples of 15 kinds of noise at four rates"]
 fn false_alarms_are_those_asked_for_in_ten_million_samples() {
+    let mut above = Vec::new();
     for (name, kind) in KINDS {
         for rate in [200.0, 1000.0, 2000.0, 10_000.0] {
             let (hold, touches) =
                 (in_a_hold::<f64>(kind, rate, 10_000_000, 1.0), in_touches(kind, rate, 10_000_000, 1.0));
             println!("{name}, {rate} Hz: {hold:.2} a minute in a hold, {touches:.2} on touches, asked 1");
-            assert!(hold <= 2.0, "{name}, {rate} Hz: {hold}");
+            if hold > 2.0 || touches > most(kind, rate) {
+                above.push(format!("{name}, {rate} Hz: {hold:.2}, {touches:.2}"));
+            }
         }
     }
+    assert!(above.is_empty(), "{above:#?}");
+}
+
+/// A hum with harmonics falls and rises otherwise, as its phases have it: none of twelve makes more alarms than asked,
+/// but for what six alarms may be by chance.
+#[test]
+#[ignore = "twelve phases of two hums at three rates, two million samples and more of each"]
+fn phases_of_harmonics_do_not_matter() {
+    let mut above = Vec::new();
+    for index in [9, 11] {
+        let (name, kind) = KINDS[index];
+        for rate in [1000.0, 2000.0, 10_000.0] {
+            let samples = if rate > 2000.0 { 10_000_000 } else { 2_000_000 };
+            let minutes = f64::from(samples) / rate / 60.0;
+            let found: Vec<f64> = (0..12)
+                .map(|seed| {
+                    let mut noise = Noise::new(kind, rate, 100 + seed);
+                    let mut detector = detector::<f64>(1.0, rate);
+                    let slips = |_: &u32| slips(&mut detector, &noise.on(5.0, 2.0), rate);
+                    (0..samples).filter(slips).count() as f64 / minutes
+                })
+                .collect();
+            println!("{name}, {rate} Hz: {found:.2?} a minute");
+            let mean = found.iter().sum::<f64>() / 12.0;
+            let most = found.iter().copied().fold(0.0, f64::max);
+            if mean > 2.0 || most > 2.5 + 6.0 / minutes {
+                above.push(format!("{name}, {rate} Hz: {found:.2?}"));
+            }
+        }
+    }
+    assert!(above.is_empty(), "{above:#?}");
 }
 
 /// Share of drops found within 30 samples, and the median delay in samples.
@@ -148,6 +188,68 @@ fn slips_that_come_again_are_not_learnt() {
     assert_eq!(late, 100);
 }
 
+/// Saw teeth that go on for minutes, from a second of hold on: how many of the drops are found, how many alarms are
+/// none of these, and by how much the threshold has grown.
+fn teeth(kind: Kind, period: u32, drop: f64) -> (f64, u32, f64) {
+    let mut noise = Noise::new(kind, 1000.0, 17);
+    let mut detector = detector::<f64>(1.0, 1000.0);
+    for _ in 0..10_000 {
+        slips(&mut detector, &noise.on(5.0, 2.0), 1000.0);
+    }
+    let before = detector.threshold().unwrap();
+    let drop = drop * STATED * (1.0_f64 + 0.4 * 0.4).sqrt();
+    let count = 120_000 / period;
+    let (mut found, mut others) = (0, 0);
+    for _ in 0..count {
+        let mut seen = false;
+        for index in 0..period {
+            // It falls in two samples and is loaded again.
+            let part = match index {
+                0 => 0.5,
+                _ => f64::from(index - 1) / f64::from(period - 1),
+            };
+            let alarm = slips(&mut detector, &noise.on(5.0, 2.0 - drop + drop * part), 1000.0);
+            if index < 12 {
+                seen |= alarm;
+            } else {
+                others += u32::from(alarm);
+            }
+        }
+        found += u32::from(seen);
+    }
+    (f64::from(found) / f64::from(count), others, detector.threshold().unwrap() / before)
+}
+
+/// Slips that come again and again are each found, in whatever noise, and none teaches the detector to be silent.
+#[test]
+fn each_of_many_slips_is_found() {
+    for (kind, drop) in [
+        (Kind::White(1.0), 8.0),
+        (Kind::White(1.0), 30.0),
+        (Kind::White(3.0), 25.0),
+        (Kind::Correlated(0.9, 1.0), 8.0),
+        (KINDS[8].1, 15.0),
+        (KINDS[10].1, 60.0),
+        (Kind::Steps(12, 1.0), 8.0),
+        (Kind::Steps(12, 0.5), 12.0),
+        (KINDS[12].1, 16.0),
+    ] {
+        for period in [100, 250, 1000] {
+            let (found, others, grown) = teeth(kind, period, drop);
+            println!(
+                "{kind:?}, drops by {drop} each {period} ms: {:.1} % found, {others} more, threshold {grown:.2}",
+                100.0 * found
+            );
+            // In steps much coarser than the noise a tooth that follows at once is not told from these.
+            if kind == KINDS[12].1 && period == 100 {
+                continue;
+            }
+            assert!(found > 0.97, "{kind:?} {period} {drop}: {found}");
+            assert!(others <= 4 && grown < 1.5, "{kind:?} {period} {drop}: {others} {grown}");
+        }
+    }
+}
+
 /// Nothing is said before three blocks of 256 samples, and what was learnt outlives the contact, but not a reset.
 #[test]
 fn noise_is_learnt_once() {
@@ -159,21 +261,21 @@ fn noise_is_learnt_once() {
         slips(&mut detector, &noise.on(5.0, 2.0), 1000.0);
         known = known.or(detector.threshold().map(|_| index));
     }
-    // Eight of the tracker, 32 to settle, and the blocks.
-    assert_eq!(known, Some(8 + 32 + 768));
+    // Eight of the tracker, 64 to settle, and the blocks.
+    assert_eq!(known, Some(8 + 64 + 768));
     assert!(detector.ratio().is_some());
     let threshold = detector.threshold();
     detector.update_open(1e-3);
     assert_eq!((detector.threshold(), detector.ratio()), (threshold, None));
-    // Forty samples of the next contact give no evidence, and the one after does.
-    for quiet in [39, 40] {
+    // Seventy-two samples of the next contact give no evidence, and the one after does.
+    for quiet in [71, 72] {
         let mut next = detector;
         for index in 0..quiet {
             let level = 2.0 + 1e-6 * f64::from(index % 3);
             assert!(!slips(&mut next, &ContactForce::new(5.0, Vector3::new(level, 0.0, 0.0), 0.0), 1000.0));
         }
         let drop = ContactForce::new(5.0, Vector3::new(0.5, 0.0, 0.0), 0.0);
-        assert_eq!(slips(&mut next, &drop, 1000.0), quiet == 40, "{quiet}");
+        assert_eq!(slips(&mut next, &drop, 1000.0), quiet == 72, "{quiet}");
     }
     detector.reset();
     assert_eq!(detector, new);
