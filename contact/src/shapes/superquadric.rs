@@ -63,7 +63,7 @@ fn search_finely<T: Real>(
 /// With a turn `d` across `n` the point moves by `H d`, `H` being the Hessian of `h`, so that in the plane across `n`
 /// `(τ + f·n J₂ H) d = M`, `τ = n·M`, `J₂` turning by a right angle. Its determinant `τ² + (f·n)² det H` is not small
 /// where the surface is bent so sharply that its own curvature is infinite, and `H` zero: there Newton's method in
-/// the point has no step to take. The support function of a superquadric is the gauge of the one with the reciprocal
+/// the point has no step to take (`docs/theory/contact.md#general-surfaces`). The support function of a superquadric is the gauge of the one with the reciprocal
 /// semi-axes and the exponents `2 − e` (the dual norms). `None` unless the equations hold up to rounding, and the
 /// force presses.
 #[cold]
