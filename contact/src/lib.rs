@@ -25,7 +25,7 @@ pub use skin::{
     Compliant, CompliantContact, CompliantPointContact, CompliantSoftFinger, Hertz, Indentation,
     IndentationSlope, LinearStiffness, LocalHertz, PowerLaw, SkinLaw, Tabulated, contact_modulus,
 };
-pub use soft_finger::{Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};
+pub use soft_finger::{Patch, Search, SoftContact, SoftFinger, SoftFingerSurface, newton_soft_contacts};
 #[cfg(feature = "track")]
 pub use track::{
     BadTrack, ContactEvents, Continuity, FingerVelocity, Happened, Impact, LineMeeting, Met, MotionJudge,

@@ -34,8 +34,8 @@ pub enum LocalSurface {
         axis: Vector3<f64>,
         /// The radius at the origin \[m\].
         radius: f64,
-        /// By how much the radius shrinks over how much height.
-        taper: [f64; 2],
+        /// From which radius it shrinks to which \[m\], over how much height \[m\].
+        taper: [f64; 3],
     },
     /// A part of a surface of revolution around the third axis: `ρ² = r² + d (s + (t₁ − t₀) d/(w₁ − w₀))` at
     /// the height `d` over `r`.

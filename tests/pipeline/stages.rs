@@ -103,6 +103,7 @@ impl<S> ContactModel<f64, S> for Noted<'_> {
             spin_torque: 0.25,
             gap: 0.0,
             alternatives: 0,
+            searched: false,
         })
     }
 }

@@ -88,7 +88,7 @@ impl Contacts<'_> {
         scale: f64,
         evaluations: Option<&Cell<usize>>,
     ) -> Row {
-        let model = SoftFinger::new(T::zero()).expect("a model");
+        let model = SoftFinger::new(T::zero()).expect("a model").without_friction_limit();
         let mut random = Pcg64Mcg::seed_from_u64(35);
         let (size, epsilon) = (level.size(scale), T::EPSILON.to_f64());
         // Newton's method in units in which a pancake is one: 1e-13 of the size in `f64`
@@ -172,7 +172,7 @@ impl<T: Real> Visitor<T> for Contacts<'_> {
             self.rows.push(row);
         }
         if self.case == "ordinary" {
-            let model = SoftFinger::new(T::zero()).expect("a model");
+            let model = SoftFinger::new(T::zero()).expect("a model").without_friction_limit();
             let row =
                 no_force(routine, &model, &surface, |reason| matches!(reason, NoContact::PureCouple { .. }));
             self.rows.push(row);
@@ -192,7 +192,7 @@ impl<T: Real> Visitor<T> for Misses<'_> {
         _: f64,
     ) {
         let unbounded = matches!(level, Level::Plane | Level::Cylinder { .. } | Level::Cone { .. });
-        let model = SoftFinger::new(T::zero()).expect("a model");
+        let model = SoftFinger::new(T::zero()).expect("a model").without_friction_limit();
         let mut row = Row::new::<T>(format!("soft finger, {name}"), "pure force that misses");
         for (x, y) in [(3.0, 0.0), (2.0, 2.5), (0.1, 7.0)] {
             let point = Vector3::new(T::literal(x), T::literal(y), T::zero());

@@ -40,6 +40,7 @@ impl PyContact {
             spin_torque,
             gap: 0.0,
             alternatives: 0,
+            searched: false,
         }))
     }
 
@@ -101,6 +102,12 @@ impl PyContact {
     #[getter]
     fn alternatives(&self) -> u8 {
         self.0.alternatives
+    }
+
+    /// Whether contacts were searched for, and the surface says too little of itself to know that none was missed.
+    #[getter]
+    fn searched(&self) -> bool {
+        self.0.searched
     }
 
     pub(crate) fn __repr__(&self) -> String {

@@ -6,43 +6,70 @@ use fingertip_surfaces::{ActiveSurface, Shortcuts};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-/// The point where the line of action meets the surface, from one that is off by rounding errors of
-/// line and surface.
+/// More steps than that do not help: from where rounding leaves a crossing next to tangency, seven do.
+const STEPS: usize = 8;
+
+/// The point where the line of action meets the surface and the normal there, from ones that are off by rounding
+/// errors of line and surface.
 ///
 /// A point `x` with normal `n` is off the line by `r = f × (m − x × f)/|f|²`, and outside the surface
 /// by `e`. To first order the two meet at `x + r − f·(e + n·r)/(n·f)`: whatever `r` and `e` are is
 /// multiplied by the reciprocal cosine of incidence, which is why a rounding error of the foot point
 /// is one of twenty at a cosine of 0.05. Both are found here with twice the digits
-/// ([`Shortcuts::surface_residual`] for `e`), so that of the step's own error that factor is all that is
-/// left. A step that is longer than rounding explains, as on a surface that is not smooth there, is
-/// not taken.
+/// ([`Shortcuts::surface_residual`] for `e`), so that of the last step's own error that factor is all that is
+/// left. The normal is that of the point where the steps end: it turns as much as they move it. A step that is
+/// longer than rounding explains, as on a surface that is not smooth there, is not taken, nor one that is not much
+/// shorter than the one before.
 #[cold]
+#[inline(never)]
 pub(super) fn onto_line<T: Real, S: ActiveSurface<T>>(
     wrench: &Wrench<T>,
     surface: &S,
-    point: Vector3<T>,
-    normal: &Vector3<T>,
+    (point, normal): (Vector3<T>, Vector3<T>),
     incidence: T,
-) -> Vector3<T> {
-    // Below 32√ε.
-    if incidence * incidence < T::literal(1024.0) * T::EPSILON {
-        return point;
+) -> (Vector3<T>, Vector3<T>) {
+    // Below √ε/2 the place is known to half of the digits.
+    if incidence * incidence < T::literal(0.25) * T::EPSILON {
+        return (point, normal);
     }
     let scale = largest(&wrench.force()).normalising_factor();
     let (f, m) = (wrench.force() * scale, wrench.torque() * scale);
+    let (mut place, mut outward, mut before) = (point, normal, T::GREATEST);
+    for _ in 0..STEPS {
+        let off = off_line(&f, &m, &place);
+        let outside = surface.shortcuts().surface_residual(&place);
+        let step = off - f * ((outside + outward.dot(&off)) / outward.dot(&f));
+        // The line is no farther away than that: the force is 1 or more in its own unit.
+        let size = largest(&place) + largest(&m);
+        let allowed = T::literal(64.0) * T::EPSILON * size / incidence;
+        // False for a NaN, too.
+        let size = largest(&step);
+        if !(size <= allowed && size <= before * T::literal(0.75)) {
+            break;
+        }
+        before = size;
+        place += step;
+        let turned = surface.normal(&place);
+        // Beside an edge, or where a surface is thin, a point may belong to another side.
+        if !(turned.dot(&f) < T::zero() && (turned - outward).norm_squared() < T::literal(0.1)) {
+            break;
+        }
+        outward = turned;
+        if size <= T::EPSILON * largest(&place) {
+            break;
+        }
+    }
+    (place, outward)
+}
+
+/// By how much a point is off the line of a force: `f × (m − x × f)/|f|²`.
+#[inline(never)]
+fn off_line<T: Real>(f: &Vector3<T>, m: &Vector3<T>, point: &Vector3<T>) -> Vector3<T> {
     let tx = torque_left(m.x, point.y, f.z, point.z, f.y);
     let ty = torque_left(m.y, point.z, f.x, point.x, f.z);
     let tz = torque_left(m.z, point.x, f.y, point.y, f.x);
-    let squared = f.norm_squared();
-    let off =
-        Vector3::new(across(f.y, tz, f.z, ty), across(f.z, tx, f.x, tz), across(f.x, ty, f.y, tx)) / squared;
-    let outside = surface.shortcuts().surface_residual(&point);
-    let step = off - f * ((outside + normal.dot(&off)) / normal.dot(&f));
-    // The line is no farther away than that: the force is 1 or more in its own unit.
-    let size = largest(&point) + largest(&m);
-    let allowed = T::literal(64.0) * T::EPSILON * size / incidence;
-    // False for a NaN, too.
-    if step.iter().all(|x| x.abs() <= allowed) { point + step } else { point }
+    Vector3::new(across(f.y, tz, f.z, ty), across(f.z, tx, f.x, tz), across(f.x, ty, f.y, tx))
+        / f.norm_squared()
 }
 
 /// A component of the torque that is left about a point, `m − (y·fz − z·fy)`.

@@ -29,6 +29,11 @@ pub struct Contact<T: Real> {
     /// How many *other* points of the surface would explain the wrench as well (only shapes that
     /// are not convex have them).
     pub alternatives: u8,
+    /// `true` where contacts were searched for, and the surface says too little of itself to know that none was
+    /// missed, which might press more squarely: a soft finger on a surface of
+    /// [unknown](fingertip_surfaces::Topology::Unknown) topology.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub searched: bool,
 }
 
 impl<T: Real> Contact<T> {

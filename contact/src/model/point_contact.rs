@@ -146,7 +146,15 @@ impl<T: Real> PointContact<T> {
 
 #[inline]
 fn contact_at<T: Real>(wrench: &Wrench<T>, point: Vector3<T>, normal: Vector3<T>) -> Contact<T> {
-    Contact { point, normal, force: wrench.force(), spin_torque: T::zero(), gap: T::zero(), alternatives: 0 }
+    Contact {
+        point,
+        normal,
+        force: wrench.force(),
+        spin_torque: T::zero(),
+        gap: T::zero(),
+        alternatives: 0,
+        searched: false,
+    }
 }
 
 /// Where the contact is.
@@ -172,8 +180,10 @@ fn entered<T: Real, S: ActiveSurface<T>>(
     incidence: T,
 ) -> Place<T> {
     let Crossing { point, normal, .. } = *crossing;
-    let point =
-        if incidence < flat() { onto_line(wrench, surface, point, &normal, incidence) } else { point };
+    if incidence < flat() {
+        let (point, normal) = onto_line(wrench, surface, (point, normal), incidence);
+        return Place::at(point, normal);
+    }
     Place::at(point, normal)
 }
 

@@ -1,18 +1,19 @@
 //! The capsule.
 
 use fingertip_surfaces::numeric::vectors::wide;
-use fingertip_surfaces::{ActiveSurface, Capsule, Cylinder, LocalSurface, SmoothSurface, Sphere};
+use fingertip_surfaces::{ActiveSurface, Capsule, Cylinder, ForceLine, LocalSurface, SmoothSurface, Sphere};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use super::cylinder::on_round_side;
-use super::sphere::on_sphere;
+use super::cylinder::{on_round_side, steeply_on_round_side};
+use super::sphere::{on_sphere, steeply_on_sphere};
 #[cfg(feature = "batch")]
 use crate::batch::Lines;
 #[cfg(feature = "batch")]
 use crate::batch::kernel::{Answer, Kernel, Push, Versions, add, dot, pick, scale};
-use crate::soft_finger::closed_form::{soft_finger, sole, told};
-use crate::soft_finger::double::{finely, is_steady, spins_little};
+use crate::soft_finger::closed_form::{is_steady, soft_finger, sole, told};
+use crate::soft_finger::double;
+use crate::soft_finger::double::{finely, spins_little};
 use crate::soft_finger::refined::refined;
 use crate::{GeometrySensitivity, Search, SoftContact};
 
@@ -26,7 +27,7 @@ fn on_capsule<T: Real>(shape: &Capsule<T>, wrench: &Wrench<T>) -> Result<SoftCon
     let torque = wrench.torque_about(&centre);
     // Rounding under a large spin torque, or at a flat angle, moves a contact along the side, and past its
     // ends.
-    let is_steady = is_steady(wrench, shape.radius());
+    let is_steady = double::is_steady(wrench, shape.radius());
     if let Ok(side) = Cylinder::new(centre, axis, shape.radius())
         && let Some(contact) = on_round_side(&centre, &axis, shape.radius(), &wrench.force(), &torque)
         && let contact = if is_steady(&contact) { contact } else { refined(wrench, &side, &contact) }
@@ -61,6 +62,23 @@ fn on_capsule_finely<T: Real>(shape: &Capsule<T>, wrench: &Wrench<T>) -> Result<
     })
 }
 
+/// The contact of a force that presses steeply, on the side or on the end that the side's contact lies beyond: a
+/// convex body has no other.
+#[inline(always)]
+fn steeply_on_capsule<T: Real>(shape: &Capsule<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+    let (centre, axis, half, radius) = (shape.centre(), shape.axis(), shape.half_length(), shape.radius());
+    let end = match steeply_on_round_side((&centre, &axis), radius, push) {
+        Some((contact, height)) if height.abs() <= half => return Some(contact),
+        Some((_, height)) => axis * height.signum(),
+        // Along the axis.
+        None => -axis * push.force().dot(&axis).signum(),
+    };
+    let ball = Sphere::new(centre + end * half, radius).ok()?;
+    let contact = steeply_on_sphere(&ball, push)?;
+    let lever = radius * T::literal(0.5);
+    (contact.normal.dot(&end) >= T::zero() && is_steady(push, &contact, lever)).then_some(contact)
+}
+
 soft_finger!(
     /// The closed forms of the side and of the two round ends, each where it applies.
     Capsule,
@@ -71,13 +89,15 @@ soft_finger!(
         }),
         visit
     ),
+    sole | shape,
+    push | steeply_on_capsule(shape, push),
     patch | shape,
     point | {
         let (origin, axis) = (wide(&shape.centre()), wide(&shape.axis()));
         let (height, half) = ((point - shape.centre()).dot(&shape.axis()), shape.half_length());
         let radius = shape.radius().to_f64();
         Some(if height.abs() <= half {
-            LocalSurface::Cone { origin, axis, radius, taper: [0.0, 1.0] }
+            LocalSurface::Cone { origin, axis, radius, taper: [0.0, 0.0, 1.0] }
         } else {
             LocalSurface::Ball { origin, axis, height: half.copysign(height).to_f64(), radius }
         })

@@ -1,16 +1,15 @@
 //! Shapes made of shapes.
 
 use fingertip_surfaces::is_inside_along;
+use fingertip_surfaces::numeric::vectors::wide;
 use fingertip_surfaces::{
-    ActiveSurface, Compound, ForceLine, LocalSurface, Offset, Posed, Region, SignedDistance, SmoothSurface,
-    Trimmed,
+    ActiveSurface, Compound, ForceLine, Offset, Posed, Region, SignedDistance, SmoothSurface, Trimmed,
 };
-use fingertip_wrench::{Line, Real, Wrench};
-use nalgebra::Vector3;
+use fingertip_wrench::{Line, Real, RigidTransform, Wrench};
+use nalgebra::{Rotation3, Vector3};
 
-use crate::{GeometrySensitivity, Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
+use crate::{GeometrySensitivity, Patch, Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
 
-/// Without the [`patch`](SoftFingerSurface::patch) of the shape inside: turned, it would not be exact.
 impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
     #[inline]
     fn soft_contacts(
@@ -49,6 +48,16 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
         })
     }
 
+    /// That of the shape, in its place. A pose of a pose has none.
+    fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
+        let pose = self.sensor_from_shape();
+        let inside = pose.rotation().tr_mul(&(point - pose.origin()));
+        let Patch { surface, pose: None } = self.inner().patch(&inside)? else { return None };
+        let rotation = Rotation3::from_matrix_unchecked(pose.rotation().map(Real::to_f64));
+        let placed = RigidTransform::from_parts(rotation, wide(&pose.origin()));
+        Some(Patch { surface, pose: Some(placed) })
+    }
+
     /// That of the shape, wherever it is. (How well its place is known is a matter of
     /// [`GeometryUncertainty`](crate::GeometryUncertainty).)
     fn sensitivity(&self, size: usize, point: &Vector3<T>) -> Option<GeometrySensitivity<T>> {
@@ -75,7 +84,7 @@ impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Tr
         })
     }
 
-    fn patch(&self, point: &Vector3<T>) -> Option<LocalSurface> {
+    fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
         self.inner().patch(point)
     }
 
@@ -103,6 +112,7 @@ fn is_covered<T: Real>(part: &impl ActiveSurface<T>, contact: &SoftContact<T>, t
 fn of_both<T: Real>(first: Search<T>, second: Search<T>, seen: bool) -> Search<T> {
     match (first, second) {
         (Search::Incomplete, _) | (_, Search::Incomplete) => Search::Incomplete,
+        (Search::Uncertified, _) | (_, Search::Uncertified) => Search::Uncertified,
         (Search::Grazing(pair), _) | (_, Search::Grazing(pair)) if !seen => Search::Grazing(pair),
         _ => Search::Complete,
     }

@@ -1,7 +1,7 @@
 //! Cylinders without flat ends: the ellipsoid's closed form with the third axis at infinity.
 
 use fingertip_surfaces::numeric::vectors::{tangents, wide};
-use fingertip_surfaces::{Cylinder, LocalSurface};
+use fingertip_surfaces::{Cylinder, ForceLine, LocalSurface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -9,7 +9,8 @@ use nalgebra::Vector3;
 use crate::batch::Lines;
 #[cfg(feature = "batch")]
 use crate::batch::kernel::{Answer, Chord, Kernel, Push, Versions, add, dot, scale};
-use crate::soft_finger::closed_form::{is_steady, soft_finger, told};
+use crate::model::flat;
+use crate::soft_finger::closed_form::{soft_finger, told};
 use crate::soft_finger::double::{finely, spins_little};
 use crate::{GeometrySensitivity, Search, SoftContact};
 
@@ -93,6 +94,44 @@ pub(super) fn on_round_side<T: Real>(
     found
 }
 
+/// On the side of an unbounded circular cylinder, with the height along its axis from its centre, for a force that
+/// presses at no flat angle and a spin torque that does not rule.
+///
+/// The closed form of [`on_cylinder`] for equal semi-axes, without a frame: with the parts of force and torque along
+/// the axis `f_a`, `m_a` and across it, `q = m_a/R` and `s = √(|f_⊥|² − q²)`,
+///
+/// ```text
+/// n = (q f_⊥ × a − s f_⊥)/|f_⊥|²,   f·n = −s,   τ = −f·m/s,
+/// c = R n + z a,   z = (m·(a × f) − R f_a s + τ q)/|f_⊥|²
+/// ```
+#[inline(always)]
+pub(super) fn steeply_on_round_side<T: Real>(
+    (centre, axis): (&Vector3<T>, &Vector3<T>),
+    radius: T,
+    push: &ForceLine<T>,
+) -> Option<(SoftContact<T>, T)> {
+    let (force, torque) = (push.force(), push.torque_about(centre));
+    let (along, turning) = (force.dot(axis), torque.dot(axis) / radius);
+    let across = force - axis * along;
+    let aside = axis.cross(&across);
+    let squared = across.norm_squared();
+    let pressing_squared = squared - turning * turning;
+    // False for a NaN, too.
+    if !(pressing_squared >= flat::<T>() * flat::<T>() * push.squared()) {
+        return None;
+    }
+    let (pressing, inverse) = (pressing_squared.root(), T::one() / squared);
+    let spin_torque = -force.dot(&torque) / pressing;
+    let lever = radius * T::literal(0.5);
+    if !(spin_torque * spin_torque <= push.squared() * (lever * lever)) {
+        return None;
+    }
+    let normal = (aside * -turning - across * pressing) * inverse;
+    let height = (torque.dot(&aside) - radius * along * pressing + spin_torque * turning) * inverse;
+    let point = centre + normal * radius + axis * height;
+    Some((SoftContact { point, normal, spin_torque, active: true }, height))
+}
+
 #[inline(always)]
 fn cylinder_contact<T: Real>(
     shape: &Cylinder<T>,
@@ -123,14 +162,18 @@ soft_finger!(
     Cylinder,
     |shape, wrench, _, visit| told(on_cylinder_finely(shape, wrench), visit),
     sole | shape,
-    push | cylinder_contact(shape, &push.force(), |point| push.torque_about(point))
-        .filter(|contact| is_steady(push, contact, shape.radius() * T::literal(0.5))),
+    push | steeply_on_round_side((&shape.centre(), &shape.axis()), shape.radius(), push).map(
+        |(contact, height)| SoftContact {
+            active: shape.half_length().is_none_or(|half| height.abs() <= half),
+            ..contact
+        }
+    ),
     patch | shape,
     _ | Some(LocalSurface::Cone {
         origin: wide(&shape.centre()),
         axis: wide(&shape.axis()),
         radius: shape.radius().to_f64(),
-        taper: [0.0, 1.0],
+        taper: [0.0, 0.0, 1.0],
     }),
     sizes | _,
     size,

@@ -4,7 +4,7 @@ use fingertip_surfaces::{DynSurface, ForceLine, each_surface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::{GeometrySensitivity, Search, SoftContact, SoftFingerSurface};
+use crate::{GeometrySensitivity, Patch, Search, SoftContact, SoftFingerSurface};
 
 impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
     fn soft_contacts(
@@ -17,7 +17,7 @@ impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
         each_surface!(self, shape => shape.soft_contacts(wrench, last, visit))
     }
 
-    fn patch(&self, point: &Vector3<T>) -> Option<fingertip_surfaces::LocalSurface> {
+    fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
         each_surface!(self, shape => shape.patch(point))
     }
 

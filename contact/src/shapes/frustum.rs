@@ -121,7 +121,7 @@ fn solid_patch<T: Real>(
         LocalSurface::Plane { point: end(ends[0]), normal: -axis }
     } else {
         let [below, above] = [solid.base_radius(), solid.top_radius()].map(Real::to_f64);
-        LocalSurface::Cone { origin, axis, radius: below, taper: [below - above, solid.height().to_f64()] }
+        LocalSurface::Cone { origin, axis, radius: below, taper: [below, above, solid.height().to_f64()] }
     }
 }
 

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use crate::soft_finger::closed_form::is_pure_force;
 use crate::soft_finger::mended::mended_on_facet;
-use crate::{Search, SoftContact, SoftFingerSurface};
+use crate::{Patch, Search, SoftContact, SoftFingerSurface};
 
 /// The soft finger on the polyhedron that the mesh *is*: facets are flat and normals are theirs, not
 /// interpolated. A contact is either inside a facet, by the closed form of the plane, or on a vertex,
@@ -62,8 +62,8 @@ impl<T: Real> SoftFingerSurface<T> for Mesh<T> {
         Search::Complete
     }
 
-    fn patch(&self, _point: &Vector3<T>) -> Option<LocalSurface> {
-        Some(LocalSurface::Facets)
+    fn patch(&self, _point: &Vector3<T>) -> Option<Patch> {
+        Some(LocalSurface::Facets.into())
     }
 }
 

@@ -1,12 +1,12 @@
 //! The surface of revolution.
 
-use fingertip_surfaces::{Knot, LocalSurface, Revolution, SmoothSurface};
+use fingertip_surfaces::{Knot, Revolution, SmoothSurface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::soft_finger::double::spins_little;
 use crate::soft_finger::refined::settled;
-use crate::{Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
+use crate::{Patch, Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
 
 /// More contacts than that are not told apart.
 const MOST: usize = 16;
@@ -46,7 +46,7 @@ impl<T: Real, K: AsRef<[Knot<T>]>> SoftFingerSurface<T> for Revolution<T, K> {
         })
     }
 
-    fn patch(&self, point: &Vector3<T>) -> Option<LocalSurface> {
-        self.local_surface_at(point.z)
+    fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
+        self.local_surface_at(point.z).map(Patch::from)
     }
 }

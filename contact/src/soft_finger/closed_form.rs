@@ -43,9 +43,9 @@ macro_rules! soft_finger {
                 $sole
             })?
 
-            $(fn patch(&self, $point: &nalgebra::Vector3<T>) -> Option<fingertip_surfaces::LocalSurface> {
+            $(fn patch(&self, $point: &nalgebra::Vector3<T>) -> Option<$crate::Patch> {
                 let $part = self;
-                $patch
+                $patch.map($crate::Patch::from)
             })?
 
             $(fn sensitivity(

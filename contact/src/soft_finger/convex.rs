@@ -109,7 +109,12 @@ mod tests {
             let mut any = || Vector3::from_fn(|_, _| random.random_range(-1.0..1.0));
             let (force, torque, from): (Vector3<f64>, Vector3<f64>, Vector3<f64>) = (any(), any(), any());
             let wrench = Wrench::on_fingertip(force, torque);
-            let contact = *SoftFinger::new(0.0).unwrap().resolve(&wrench, &surface).contact().unwrap();
+            let contact = *SoftFinger::new(0.0)
+                .unwrap()
+                .without_friction_limit()
+                .resolve(&wrench, &surface)
+                .contact()
+                .unwrap();
             let problem = Problem::new(&surface, &force, &torque);
             // Onto the ellipsoid, and to the side on which the force presses.
             let start = from.component_mul(&surface.semi_axes()) / from.norm();

@@ -22,7 +22,7 @@ pub(crate) fn finely<T: Real>(
         Some(Err(pair @ Search::Grazing(_))) => Err(in_type(pair)),
         // There is none; what the rounding of the wrench could make of it is for the narrower type to say.
         Some(Err(Search::Complete)) => found.and(Err(Search::Incomplete)),
-        Some(Err(Search::Incomplete)) | None => found,
+        Some(Err(Search::Incomplete | Search::Uncertified)) | None => found,
     }
 }
 
@@ -44,6 +44,7 @@ pub(crate) fn in_type<T: Real>(search: Search<f64>) -> Search<T> {
     match search {
         Search::Grazing(pair) => Search::Grazing(pair.map(|point| point.map(T::literal))),
         Search::Complete => Search::Complete,
+        Search::Uncertified => Search::Uncertified,
         Search::Incomplete => Search::Incomplete,
     }
 }

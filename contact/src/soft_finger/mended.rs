@@ -1,8 +1,7 @@
 //! What rounding did to a soft contact that the force meets at a flat angle, undone.
 
 use fingertip_surfaces::numeric::twofold::Twofold;
-use fingertip_surfaces::numeric::vectors::larger;
-use fingertip_surfaces::numeric::vectors::tangents;
+use fingertip_surfaces::numeric::vectors::{larger, largest, tangents};
 use fingertip_surfaces::{ActiveSurface, Shortcuts};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
@@ -15,9 +14,9 @@ use crate::model::{flat, torque_left};
 /// Rounding of the closed forms, and of Newton's last step, leaves a torque `r = m − c × f − τ n` and a
 /// height `e` above the surface. Where the force is nearly square to the normal the contact answers to
 /// them with up to the reciprocal cosine of incidence: a rounding error at a cosine of 0.05 is one of
-/// twenty. Both are found here with twice the digits ([`Shortcuts::surface_residual`] for `e`), and a step
-/// of Newton's method takes them away, so that of the step's own error that factor is all that is left.
-/// The step need not be exact: the curvature comes from differences of the normal.
+/// twenty. Both are found here with twice the digits ([`Shortcuts::surface_residual`] for `e`), and steps
+/// of Newton's method take them away, so that of the last step's own error that factor is all that is left.
+/// The steps need not be exact: the curvature comes from differences of the normal.
 ///
 /// A contact at an edge or a tip keeps its place, since its normal is not the surface's there; so does
 /// one under a spin torque that outweighs the force: if the surface is round both ways it is steady
@@ -45,6 +44,9 @@ pub(crate) fn mended_on_facet<T: Real>(wrench: &Wrench<T>, contact: &SoftContact
     SoftContact { normal, ..mended_on(wrench, &|_| normal, &|_| T::zero(), contact) }
 }
 
+/// More steps than that do not help: from where rounding leaves a contact next to tangency, seven do.
+const STEPS: usize = 8;
+
 /// The same. Compiled once for all surfaces: what differs is only what they answer.
 #[inline(never)]
 fn mended_on<T: Real>(
@@ -54,16 +56,40 @@ fn mended_on<T: Real>(
     contact: &SoftContact<T>,
 ) -> SoftContact<T> {
     let scale = wrench.force().amax().normalising_factor();
-    let (f, m) = (wrench.force() * scale, wrench.torque() * scale);
-    let (c, n, spin) = (contact.point, contact.normal, contact.spin_torque * scale);
+    let scaled = Wrench::on_fingertip(wrench.force() * scale, wrench.torque() * scale);
+    let mut mended = SoftContact { spin_torque: contact.spin_torque * scale, ..*contact };
+    let mut before = T::GREATEST;
+    for _ in 0..STEPS {
+        let Some((better, size)) = one_step(&scaled, normal, residual, &mended) else { break };
+        if !(size <= before * T::literal(0.75)) {
+            break;
+        }
+        (mended, before) = (better, size);
+        if size <= T::EPSILON * largest(&mended.point) {
+            break;
+        }
+    }
+    SoftContact { spin_torque: mended.spin_torque / scale, ..mended }
+}
+
+/// A step, and how long it is; `None` where there is none to be taken.
+fn one_step<T: Real>(
+    wrench: &Wrench<T>,
+    normal: &dyn Fn(&Vector3<T>) -> Vector3<T>,
+    residual: &dyn Fn(&Vector3<T>) -> T,
+    contact: &SoftContact<T>,
+) -> Option<(SoftContact<T>, T)> {
+    let (f, m) = (wrench.force(), wrench.torque());
+    let (c, n, spin) = (contact.point, contact.normal, contact.spin_torque);
     let (strength, pressing) = (f.norm_squared().root(), f.dot(&n));
     let incidence = -pressing / strength;
-    if !(incidence < flat() && incidence >= T::literal(32.0) * T::EPSILON.root()) {
-        return *contact;
+    // Down to `√ε/2`, where a place is known to half of the digits.
+    if !(incidence < flat() && incidence >= T::literal(0.5) * T::EPSILON.root()) {
+        return None;
     }
     let size = c.amax() + m.amax() / strength;
     if (normal(&c) - n).amax() > T::literal(64.0) * T::EPSILON {
-        return *contact;
+        return None;
     }
     let (e1, e2) = tangents(&n);
     // At the cube root of ε the rounding of the normal and its third derivatives weigh about the same.
@@ -72,7 +98,7 @@ fn mended_on<T: Real>(
     let (first, second) = (bend(&e1), bend(&e2));
     let steepest = larger(first.amax(), second.amax());
     if !(spin.abs() * steepest <= strength) {
-        return *contact;
+        return None;
     }
     let (w11, w22) = (spin * e1.dot(&first), spin * e2.dot(&second));
     let w12 = spin * (e1.dot(&second) + e2.dot(&first)) * T::literal(0.5);
@@ -94,15 +120,14 @@ fn mended_on<T: Real>(
     let step = e1 * a1 + e2 * a2 - n * outside;
     let allowed = T::literal(64.0) * T::EPSILON * size * (strength * strength / determinant.abs());
     if !(step.amax() <= allowed) {
-        return *contact;
+        return None;
     }
     let twist = n.dot(&(rest - step.cross(&f)));
-    // Turned as the step is: the equations have been solved for this normal, whatever its rounding.
-    let turned = n + first * a1 + second * a2;
-    SoftContact {
-        point: c + step,
-        normal: turned / turned.norm_squared().root(),
-        spin_torque: contact.spin_torque + twist / scale,
-        ..*contact
+    let point = c + step;
+    let turned = normal(&point);
+    // The side that the force presses on.
+    if !(turned.dot(&f) < T::zero()) {
+        return None;
     }
+    Some((SoftContact { point, normal: turned, spin_torque: spin + twist, ..*contact }, step.amax()))
 }

@@ -7,7 +7,9 @@ pub(crate) mod mended;
 pub(crate) mod model;
 pub(crate) mod newton;
 pub(crate) mod patch;
+mod placed;
 pub(crate) mod refined;
+mod resolve;
 pub(crate) mod rim;
 pub(crate) mod search;
 pub(crate) mod solution;
@@ -15,5 +17,6 @@ mod three;
 pub(crate) mod unit_sphere;
 
 pub use model::SoftFinger;
+pub use placed::Patch;
 pub use search::newton_soft_contacts;
 pub use solution::{Search, SoftContact, SoftFingerSurface};

@@ -1,13 +1,10 @@
 //! The soft finger as a contact model.
 
-use fingertip_surfaces::numeric::vectors::{hypotenuse, is_tame, larger, largest, length, smaller};
+use fingertip_surfaces::numeric::vectors::larger;
 use fingertip_surfaces::{BadShape, ForceLine};
-use fingertip_wrench::{Real, Wrench, stored};
-use nalgebra::Vector3;
+use fingertip_wrench::{Real, stored};
 
-use super::refined::refined;
-use crate::model::long_way;
-use crate::{Contact, ContactModel, NoContact, Resolution, Search, SoftContact, SoftFingerSurface};
+use crate::model::flat;
 
 /// A contact that transmits a force and a torque about the normal: `m = c × f + τ n`, `c` on the
 /// surface, `f·n < 0` (Bicchi, Salisbury & Brock 1990, 1993).
@@ -33,20 +30,26 @@ use crate::{Contact, ContactModel, NoContact, Resolution, Search, SoftContact, S
 /// and normal). [`Auto`](crate::Auto) chooses.
 ///
 /// What is no contact is said by type: [`NoContact::PureCouple`] where there is a torque but no
-/// force, [`NoContact::Ambiguous`] where a pure force could only graze the surface at two points,
-/// [`NoContact::BeyondFriction`] where friction, if it is stated, holds no contact,
+/// force, [`NoContact::Ambiguous`] where a force whose line misses could touch at either of two points, and its
+/// torque along the force is too small to tell which ([`with_torque_noise`](Self::with_torque_noise)),
+/// [`NoContact::BeyondFriction`] where friction holds no contact,
 /// [`NoContact::Unresolved`] where a search ended at its bound, or rounding of the wrench hides whether
 /// there is a contact, as of a needle under a large spin torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoftFinger<T: Real> {
-    least_force: T,
+    pub(super) least_force: T,
     /// The least square of a force that takes the short way.
-    least_squared: T,
-    greatest_friction: Option<T>,
-    torque_arm: Option<T>,
+    pub(super) least_squared: T,
+    pub(super) greatest_friction: Option<T>,
+    pub(super) torque_arm: Option<T>,
+    pub(super) torque_noise: T,
 }
 
 impl<T: Real> SoftFinger<T> {
+    /// The friction ratio that no contact may exceed unless another limit is stated: several times that of soft
+    /// rubber on glass, so that no contact of a finger that does not stick is refused.
+    pub const GREATEST_FRICTION: f64 = 10.0;
+
     /// Forces below `least_force` \[N\] are no contact. Take it from the noise of the sensor: three
     /// to five standard deviations of the force at rest. Zero accepts every force but zero.
     ///
@@ -54,45 +57,89 @@ impl<T: Real> SoftFinger<T> {
     /// [`BadShape`] unless the threshold is finite and not negative.
     pub fn new(least_force: T) -> Result<Self, BadShape> {
         let good = least_force >= T::zero() && least_force.is_number();
-        BadShape::check("soft finger", "least force", "finite and not negative", good).map(|()| Self {
+        let unlimited = Self {
             least_force,
-            least_squared: larger(least_force * least_force, ForceLine::least_squared()),
-            greatest_friction: None,
+            least_squared: T::GREATEST,
+            greatest_friction: Some(T::literal(Self::GREATEST_FRICTION)),
             torque_arm: None,
-        })
+            torque_noise: T::zero(),
+        };
+        BadShape::check("soft finger", "least force", "finite and not negative", good)
+            .map(|()| unlimited.taking_the_short_way())
     }
 
-    /// No contact needs a friction ratio above `greatest_friction`, and with a
-    /// [torque arm](Self::with_torque_arm) none needs more for its force and spin torque together:
-    /// `√(|f_t|² + (τ/e)²) ≤ μ f_n` (`docs/theory/friction.md#soft-finger-limit`).
+    /// With the short way open to the forces of which it answers nothing that a limit would refuse: it takes
+    /// none at an angle as flat as 1 in [`flat`], and knows no torque arm and no noise.
+    fn taking_the_short_way(self) -> Self {
+        let flattest = T::one() / flat::<T>();
+        let no_limit =
+            self.greatest_friction.is_none_or(|friction| friction >= flattest && self.torque_arm.is_none());
+        let open = no_limit && self.torque_noise.is_zero();
+        let least_force = self.least_force;
+        let least = larger(least_force * least_force, ForceLine::least_squared());
+        Self { least_squared: if open { least } else { T::GREATEST }, ..self }
+    }
+
+    /// No contact needs a friction ratio above `greatest_friction`, instead of
+    /// [10](Self::GREATEST_FRICTION), and with a [torque arm](Self::with_torque_arm) none needs more for its force
+    /// and spin torque together: `√(|f_t|² + (τ/e)²) ≤ μ f_n` (`docs/theory/friction.md#soft-finger-limit`).
     ///
-    /// State it wherever wrenches may miss; there is none unless it is stated. Without it the noise of a pure force
-    /// whose line misses is taken for a spin torque, and explained by a contact that next to nothing presses: a force
-    /// of 2 N that passes the centre of a sphere of 13 mm at 14 mm, with 1e-9 N·m along it, would press with 2e-7 N
-    /// and spin with 10 mN·m. With it the answer follows from what friction can hold, and not from the last digits of
-    /// `f·m`. It may be generous: no finger holds a ratio of 10.
+    /// A pure force whose line misses has noise along it, which looks like a spin torque; the only contacts that
+    /// explain it are such that next to nothing presses. A force of 2 N that passes the centre of a sphere of 13 mm
+    /// at 14 mm, with 1e-9 N·m along it, would press with 2e-7 N and spin with 10 mN·m. So the answer follows from
+    /// what friction can hold, and not from the last digits of `f·m`.
     ///
-    /// Models without it take a shorter way to simple shapes.
+    /// Below a ratio of 3.4, and with a torque arm, the shorter way to simple shapes is not taken.
     ///
     /// # Errors
     /// [`BadShape`] unless it is finite and not negative.
     pub fn with_greatest_friction(self, greatest_friction: T) -> Result<Self, BadShape> {
         let good = greatest_friction >= T::zero() && greatest_friction.is_number();
         BadShape::check("soft finger", "greatest friction", "finite and not negative", good)
-            // No force takes the short way, which looks at no limit.
-            .map(|()| Self { greatest_friction: Some(greatest_friction), least_squared: T::GREATEST, ..self })
+            .map(|()| Self { greatest_friction: Some(greatest_friction), ..self }.taking_the_short_way())
+    }
+
+    /// Every solution of the equations at which the force presses is a contact, however little it does: for
+    /// whoever looks at friction later. Wrenches that miss are then explained by contacts that no friction holds.
+    #[must_use]
+    pub fn without_friction_limit(self) -> Self {
+        Self { greatest_friction: None, ..self }.taking_the_short_way()
     }
 
     /// The torque arm `e` \[m\] of the contact, by which a spin torque counts as a tangential force: `3πa/16` for
-    /// Hertz's patch of radius `a`, and never more than the radius of the patch. It has a say together with
-    /// [`with_greatest_friction`](Self::with_greatest_friction) only.
+    /// Hertz's patch of radius `a`, and never more than the radius of the patch. It has no say
+    /// [without a friction limit](Self::without_friction_limit).
     ///
     /// # Errors
     /// [`BadShape`] unless it is positive and finite.
     pub fn with_torque_arm(self, torque_arm: T) -> Result<Self, BadShape> {
         let good = torque_arm > T::zero() && torque_arm.is_number();
         BadShape::check("soft finger", "torque arm", "positive and finite", good)
-            .map(|()| Self { torque_arm: Some(torque_arm), ..self })
+            .map(|()| Self { torque_arm: Some(torque_arm), ..self }.taking_the_short_way())
+    }
+
+    /// A torque along the force of at most `torque_noise` \[N·m\] may be noise: three standard deviations of the
+    /// torque, say. Zero, unless it is stated, and then nothing but its rounding is.
+    ///
+    /// It decides where a line of action misses. The spin torque then tells on which of two sides the contact is,
+    /// by its sign; one that is within the noise tells nothing, and the answer is [`NoContact::Ambiguous`], with
+    /// both places. Where the line meets the surface the sign decides nothing, and the answer is the contact.
+    ///
+    /// With it, the shorter way to simple shapes is not taken.
+    ///
+    /// # Errors
+    /// [`BadShape`] unless it is finite and not negative.
+    pub fn with_torque_noise(self, torque_noise: T) -> Result<Self, BadShape> {
+        let good = torque_noise >= T::zero() && torque_noise.is_number();
+        BadShape::check("soft finger", "torque noise", "finite and not negative", good)
+            .map(|()| Self { torque_noise, ..self }.taking_the_short_way())
+    }
+
+    /// How much torque along a force may be noise \[N·m\].
+    #[inline]
+    #[must_use]
+    pub const fn torque_noise(&self) -> T {
+        self.torque_noise
     }
 
     /// The greatest friction ratio that a contact may need, if there is a limit.
@@ -109,198 +156,12 @@ impl<T: Real> SoftFinger<T> {
         self.torque_arm
     }
 
-    /// The friction ratio that a contact needs, if that is more than there is.
-    fn beyond_friction(&self, force: &Vector3<T>, contact: &SoftContact<T>) -> Option<T> {
-        let greatest = self.greatest_friction?;
-        let pressing = -force.dot(&contact.normal);
-        let sliding = length(&(force + contact.normal * pressing));
-        let turning = self.torque_arm.map_or_else(T::zero, |arm| contact.spin_torque / arm);
-        let needed = hypotenuse(sliding, if turning.is_number() { turning } else { T::GREATEST });
-        (!(needed <= greatest * pressing)).then(|| smaller(needed / pressing, T::GREATEST))
-    }
-
     /// The least force that counts as a contact \[N\].
     #[inline]
     #[must_use]
     pub const fn least_force(&self) -> T {
         self.least_force
     }
-}
-
-/// What has been seen of the solutions so far.
-struct Seen<T: Real> {
-    best: Option<(SoftContact<T>, T)>,
-    candidates: u8,
-    outside: Option<Vector3<T>>,
-    /// Of the contacts that friction can't hold the one that needs least, and how much.
-    too_flat: Option<(Vector3<T>, T)>,
-    beyond_range: bool,
-}
-
-impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
-    /// Always in line, with the long way kept out of the registers.
-    #[inline(always)]
-    fn resolve_near(&self, wrench: &Wrench<T>, surface: &S, last: Option<&Vector3<T>>) -> Resolution<T> {
-        if let Some(push) = ForceLine::new(wrench, self.least_squared)
-            && let Some(contact) = surface.sole_soft_contact(&push)
-            && contact.active
-            && is_in_range(&contact)
-        {
-            return Resolution::Contact(contact_at(wrench, &contact, contact.spin_torque));
-        }
-        long_way(wrench, |copy| self.resolve_any(copy, surface, last))
-    }
-}
-
-/// A wrench whose squares stay within the range of the type, times a factor if that was needed.
-struct Scaled<T: Real> {
-    wrench: Wrench<T>,
-    unit: Option<T>,
-}
-
-impl<T: Real> SoftFinger<T> {
-    /// The long way.
-    #[inline(never)]
-    fn resolve_any<S: SoftFingerSurface<T>>(
-        &self,
-        wrench: &Wrench<T>,
-        surface: &S,
-        last: Option<&Vector3<T>>,
-    ) -> Resolution<T> {
-        let most_torque = largest(&wrench.torque());
-        if is_tame(largest(&wrench.force())) && (is_tame(most_torque) || most_torque.is_zero()) {
-            let squared = wrench.force().norm_squared();
-            // A NaN may have hidden behind a number.
-            let torque = wrench.torque();
-            if (squared + torque.x + torque.y + torque.z).is_number() {
-                if !(squared >= self.least_force * self.least_force) {
-                    return Resolution::NoContact(NoContact::BelowThreshold { force: squared.root() });
-                }
-                let scaled = Scaled { wrench: *wrench, unit: None };
-                return self.search(wrench, &scaled, surface, last);
-            }
-        }
-        self.resolve_extreme(wrench, surface, last)
-    }
-
-    /// Tiny, huge, zero, NaN.
-    #[cold]
-    #[inline(never)]
-    fn resolve_extreme<S: SoftFingerSurface<T>>(
-        &self,
-        wrench: &Wrench<T>,
-        surface: &S,
-        last: Option<&Vector3<T>>,
-    ) -> Resolution<T> {
-        if !wrench.is_finite() {
-            return Resolution::NoContact(NoContact::NotFinite);
-        }
-        let (force, torque) = (length(&wrench.force()), length(&wrench.torque()));
-        if !(force >= self.least_force) || !(force > T::zero()) {
-            return Resolution::NoContact(if force > T::zero() || torque.is_zero() {
-                NoContact::BelowThreshold { force }
-            } else {
-                NoContact::PureCouple { torque }
-            });
-        }
-        let unit = larger(largest(&wrench.force()), largest(&wrench.torque())).normalising_factor();
-        let scaled = *wrench * unit;
-        let scaled = Scaled { wrench: scaled, unit: Some(unit) };
-        self.search(wrench, &scaled, surface, last)
-    }
-
-    fn search<S: SoftFingerSurface<T>>(
-        &self,
-        wrench: &Wrench<T>,
-        scaled: &Scaled<T>,
-        surface: &S,
-        last: Option<&Vector3<T>>,
-    ) -> Resolution<T> {
-        let direction = scaled.wrench.force();
-        let mut seen = Seen { best: None, candidates: 0, outside: None, too_flat: None, beyond_range: false };
-        let search = surface.soft_contacts(&scaled.wrench, last, |contact| {
-            if !is_in_range(&contact) {
-                seen.beyond_range = true;
-                return;
-            }
-            if !contact.active {
-                seen.outside = Some(contact.point);
-                return;
-            }
-            if let Some(ratio) = self.beyond_friction(&direction, &contact) {
-                if seen.too_flat.is_none_or(|(_, least)| ratio < least) {
-                    seen.too_flat = Some((contact.point, ratio));
-                }
-                return;
-            }
-            seen.candidates = seen.candidates.saturating_add(1);
-            let incidence = -direction.dot(&contact.normal);
-            let better = match (&seen.best, last) {
-                (None, _) => true,
-                (Some((best, _)), Some(last)) => {
-                    (contact.point - last).norm_squared() < (best.point - last).norm_squared()
-                }
-                (Some((_, best)), None) => incidence > *best,
-            };
-            if better {
-                seen.best = Some((contact, incidence));
-            }
-        });
-        if let Some((contact, _)) = seen.best {
-            let contact = refined(&scaled.wrench, surface, &contact);
-            let spin_torque = scaled.unit.map_or(contact.spin_torque, |unit| {
-                (contact.spin_torque / unit).max(-T::GREATEST).min(T::GREATEST)
-            });
-            let found = contact_at(wrench, &contact, spin_torque);
-            return Resolution::Contact(Contact { alternatives: seen.candidates - 1, ..found });
-        }
-        if seen.beyond_range {
-            return Resolution::NoContact(NoContact::NotFinite);
-        }
-        if let (Some((point, friction_ratio)), Search::Complete) = (seen.too_flat, search) {
-            return Resolution::NoContact(NoContact::BeyondFriction { point, friction_ratio });
-        }
-        Resolution::NoContact(match (search, seen.outside) {
-            (_, Some(point)) => NoContact::OutsideActiveRegion { point },
-            (Search::Grazing([first, second]), _) => NoContact::Ambiguous { first, second },
-            (Search::Incomplete, _) => NoContact::Unresolved,
-            (Search::Complete, _) => why_none(wrench, surface),
-        })
-    }
-}
-
-#[inline]
-fn is_in_range<T: Real>(contact: &SoftContact<T>) -> bool {
-    let c = contact.point;
-    (c.x + c.y + c.z + contact.spin_torque).is_number()
-}
-
-#[inline]
-fn contact_at<T: Real>(wrench: &Wrench<T>, found: &SoftContact<T>, spin_torque: T) -> Contact<T> {
-    Contact {
-        point: found.point,
-        normal: found.normal,
-        force: wrench.force(),
-        spin_torque,
-        gap: T::zero(),
-        alternatives: 0,
-    }
-}
-
-/// The line of action misses, or meets the surface where it pulls.
-#[cold]
-fn why_none<T: Real, S: SoftFingerSurface<T>>(wrench: &Wrench<T>, surface: &S) -> NoContact<T> {
-    let Ok(axis) = wrench.line_of_action() else { return NoContact::NotFinite };
-    let mut pulling = None;
-    surface.crossings(&axis.line, |crossing| {
-        if axis.line.direction.dot(&crossing.normal) >= T::zero() {
-            pulling = Some(crossing.point);
-        }
-    });
-    if let Some(point) = pulling {
-        return NoContact::OnlyPulling { point };
-    }
-    NoContact::Misses { closest: surface.closest_approach(&axis.line) }
 }
 
 stored! {
@@ -310,14 +171,20 @@ stored! {
         least_force: T = model.least_force,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         greatest_friction: Option<T> = model.greatest_friction,
+        #[serde(default, skip_serializing_if = "core::ops::Not::not")]
+        no_friction_limit: bool = model.greatest_friction.is_none(),
         #[serde(default, skip_serializing_if = "Option::is_none")]
         torque_arm_m: Option<T> = model.torque_arm,
+        #[serde(rename = "torque_noise_N_m", default = "T::zero")]
+        torque_noise: T = model.torque_noise,
     },
     SoftFinger::new(least_force)
         .and_then(|model| match greatest_friction {
             Some(friction) => model.with_greatest_friction(friction),
+            None if no_friction_limit => Ok(model.without_friction_limit()),
             None => Ok(model),
         })
+        .and_then(|model| model.with_torque_noise(torque_noise))
         .and_then(|model| match torque_arm_m {
             Some(arm) => model.with_torque_arm(arm),
             None => Ok(model),

@@ -33,7 +33,7 @@ pub(crate) trait Digits {
 impl Digits for LocalSurface {
     fn seen<W: Wide>(&self, point: Three<W>) -> Seen<W> {
         let zero = W::exactly(0.0);
-        let from = |origin: &Vector3<f64>| plus_times(point, exactly(origin), W::exactly(-1.0));
+        let away_from = |origin: &Vector3<f64>| plus_times(point, exactly(origin), W::exactly(-1.0));
         let any = |normal: Three<W>| tangents(&rounded(normal)).0;
         match self {
             Self::Facets => {
@@ -41,22 +41,22 @@ impl Digits for LocalSurface {
             }
             Self::Plane { point: origin, normal } => {
                 let normal = unit(exactly(normal)).1;
-                let height = dot(from(origin), normal);
+                let height = dot(away_from(origin), normal);
                 Seen { height, normal, around: any(normal), curvatures: [0.0; 2] }
             }
             Self::Ball { origin, axis, height, radius } => {
                 let axis = unit(exactly(axis)).1;
-                let (distance, normal) = unit(plus_times(from(origin), axis, W::exactly(-height)));
+                let (distance, normal) = unit(plus_times(away_from(origin), axis, W::exactly(-height)));
                 let curvatures = [1.0 / radius; 2];
                 let height = distance.minus(W::exactly(*radius));
                 Seen { height, normal, around: any(normal), curvatures }
             }
-            Self::Cone { origin, axis, radius, taper: [shrinks, over] } => {
+            Self::Cone { origin, axis, radius, taper: [from, to, over] } => {
                 let axis = unit(exactly(axis)).1;
-                let from_origin = from(origin);
+                let from_origin = away_from(origin);
                 let height = dot(from_origin, axis);
                 let (distance, outward) = unit(plus_times(from_origin, axis, zero.minus(height)));
-                let taper = W::exactly(*shrinks).over(W::exactly(*over));
+                let taper = W::exactly(*from).minus(W::exactly(*to)).over(W::exactly(*over));
                 let (long, normal) = unit(plus_times(outward, axis, taper));
                 let excess = distance.minus(W::exactly(*radius)).plus(taper.times(height));
                 let cosine = 1.0 / long.rounded();
@@ -336,10 +336,14 @@ mod tests {
         for (name, part, near) in [
             ("plane", LocalSurface::Plane { point: origin, normal: axis }, [0.1, 0.5, -0.05]),
             ("ball", LocalSurface::Ball { origin, axis, height: 0.2, radius: 0.7 }, [0.6, -0.3, 0.4]),
-            ("cone", LocalSurface::Cone { origin, axis, radius: 0.5, taper: [0.2, 0.7] }, [0.5, 0.5, 0.2]),
+            (
+                "cone",
+                LocalSurface::Cone { origin, axis, radius: 0.5, taper: [0.5, 0.3, 0.7] },
+                [0.5, 0.5, 0.2],
+            ),
             (
                 "cylinder",
-                LocalSurface::Cone { origin, axis, radius: 0.5, taper: [0.0, 1.0] },
+                LocalSurface::Cone { origin, axis, radius: 0.5, taper: [0.5, 0.5, 1.0] },
                 [-0.4, 0.5, 0.2],
             ),
             (

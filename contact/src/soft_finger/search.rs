@@ -31,7 +31,8 @@ const FEWEST_STARTS: usize = 24;
 ///   `docs/theory/contact.md#surfaces-that-are-not-convex`. It is proper, so its degree can be counted at
 ///   large torques, where the preimages have `n = ±m/|m|`: χ in all, half of them pressing. Contacts cannot
 ///   pass between pressing and pulling, since `f·n = 0` implies `f·m = 0`.) So a ring has an even number of
-///   contacts, as many with either sign.
+///   contacts, as many with either sign. Of a surface of [unknown](Topology::Unknown) topology no such count is
+///   known, and the answer is [`Search::Uncertified`].
 pub fn newton_soft_contacts<T: Real, S: SmoothSurface<T>>(
     surface: &S,
     wrench: &Wrench<T>,
@@ -67,7 +68,7 @@ fn search<T: Real, S: SmoothSurface<T>>(
             for place in line_entries(&problem, surface, wrench).into_iter().flatten() {
                 solutions.start_at(&problem, place);
             }
-            let (mut complete, mut starts) = (true, 0_usize);
+            let (mut complete, mut starts, mut certain) = (true, 0_usize, true);
             for lines in [6_u8, 11] {
                 scatter(&problem, surface, lines, |point| {
                     starts += 1;
@@ -75,7 +76,10 @@ fn search<T: Real, S: SmoothSurface<T>>(
                 });
                 // A surface thinner than the grid has slipped through it.
                 complete = starts >= FEWEST_STARTS;
-                let Topology::Closed { euler_characteristic } = topology else { break };
+                let Topology::Closed { euler_characteristic } = topology else {
+                    certain = false;
+                    break;
+                };
                 complete &= is_pure_force(&wrench.force(), &wrench.torque())
                     || !solutions.contradict(&problem, euler_characteristic);
                 if complete {
@@ -85,7 +89,11 @@ fn search<T: Real, S: SmoothSurface<T>>(
             for state in solutions.states.iter().flatten() {
                 visit(problem.contact(state));
             }
-            if complete { Search::Complete } else { Search::Incomplete }
+            match (complete, certain) {
+                (true, true) => Search::Complete,
+                (true, false) => Search::Uncertified,
+                (false, _) => Search::Incomplete,
+            }
         }
     }
 }

@@ -1,9 +1,10 @@
 //! What a search for soft-finger contacts finds.
 
-use fingertip_surfaces::{ActiveSurface, ForceLine, LocalSurface};
+use fingertip_surfaces::{ActiveSurface, ForceLine};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
+use super::placed::Patch;
 use crate::GeometrySensitivity;
 
 /// One solution of the soft-finger equations `m = c × f + τ n(c)` with `f·n ≤ 0` and `c` on the
@@ -29,6 +30,9 @@ pub enum Search<T: Real> {
     /// The wrench is a pure force whose line misses the surface. The equations hold at these two
     /// points, where the force grazes and the two spin torques are opposite: nothing tells which.
     Grazing([Vector3<T>; 2]),
+    /// What was found has been visited, and the surface says too little of itself
+    /// ([`Topology::Unknown`](fingertip_surfaces::Topology::Unknown)) to know that there is nothing else.
+    Uncertified,
     /// The iteration ended at its bound, or rounding decides: contacts may be missing.
     Incomplete,
 }
@@ -63,7 +67,7 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
     /// of its normal; shapes that tell it so have contacts to the last digit. `None`, as the default
     /// answers, takes normals at their word.
     #[inline]
-    fn patch(&self, point: &Vector3<T>) -> Option<LocalSurface> {
+    fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
         let _ = point;
         None
     }
@@ -115,7 +119,7 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
     }
 
     #[inline]
-    fn patch(&self, point: &Vector3<T>) -> Option<LocalSurface> {
+    fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
         (**self).patch(point)
     }
 

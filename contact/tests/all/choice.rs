@@ -52,8 +52,15 @@ fn expected(told: &Told, friction: Option<f64>, gap: f64, last: Option<f64>) -> 
         None => b.normal.z.total_cmp(&a.normal.z),
     });
     let force = Vector3::z() * -2.0;
-    let contact =
-        |point, normal| Contact { point, normal, force, spin_torque: 0.0, gap: 0.0, alternatives: 0 };
+    let contact = |point, normal| Contact {
+        point,
+        normal,
+        force,
+        spin_torque: 0.0,
+        gap: 0.0,
+        alternatives: 0,
+        searched: false,
+    };
     if let Some(best) = held.first() {
         let alternatives = u8::try_from(held.len() - 1).unwrap();
         return Resolution::Contact(Contact { alternatives, ..contact(best.point, best.normal) });
@@ -164,6 +171,7 @@ fn parts_of_a_contact_are_those_of_its_force() {
         spin_torque: 0.5,
         gap: 0.0,
         alternatives: 0,
+        searched: false,
     };
     for scale in [1e-300, 1.0, 1e300] {
         let pressed = of(Vector3::new(3.0, 0.0, -4.0) * scale);

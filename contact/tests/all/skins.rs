@@ -169,6 +169,7 @@ fn local_hertz_takes_the_curvature_where_it_touches() {
         spin_torque: 0.0,
         gap: 0.0,
         alternatives: 0,
+        searched: false,
     };
     let z = Vector3::z();
     let law = |object, largest| LocalHertz::new(1e6, object, largest).unwrap();

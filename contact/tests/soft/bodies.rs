@@ -16,7 +16,8 @@ use crate::wrenches::{Case, Random};
 fn all<T: Real, S: SoftFingerSurface<T>>(surface: &S, wrench: &Wrench<T>) -> Vec<SoftContact<T>> {
     let mut found = Vec::new();
     let search = surface.soft_contacts(wrench, None, |contact| found.push(contact));
-    assert!(matches!(search, Search::Complete), "{search:?} {wrench:?}");
+    // Of a surface that may not be convex, such as one of revolution, nothing more is known.
+    assert!(matches!(search, Search::Complete | Search::Uncertified), "{search:?} {wrench:?}");
     found
 }
 
@@ -61,7 +62,11 @@ fn comes_back<S: SoftFingerSurface<f64>>(name: &str, body: &S, size: f64, spin: 
         let off = found.iter().map(|c| (c.point - case.point).norm() / size).fold(f64::INFINITY, f64::min);
         assert!(off < tolerance, "{name}: {off:e} {case:?} {found:?}");
         worst.see(off);
-        let contact = SoftFinger::new(0.0).unwrap().resolve_near(&case.wrench, body, Some(&case.point));
+        let contact = SoftFinger::new(0.0).unwrap().without_friction_limit().resolve_near(
+            &case.wrench,
+            body,
+            Some(&case.point),
+        );
         assert!((contact.contact().unwrap().point - case.point).norm() < tolerance * size);
     }
     let worst = worst.get();

@@ -42,7 +42,7 @@ where
 {
     let coarse: Implicit<T, Coarse> = Implicit::new(Coarse { lost, topology }).unwrap();
     let ball = Sphere::centred(RADIUS).unwrap();
-    let model = SoftFinger::new(T::zero()).unwrap();
+    let model = SoftFinger::new(T::zero()).unwrap().without_friction_limit();
     let (mut random, mut worst) = (Random::new(191), 0.0_f64);
     for _ in 0..count {
         let case = Case::random(&mut random, &ball, RADIUS, [1e-3, 30.0], 1.0);

@@ -35,7 +35,7 @@ fn through_skin<T, S, D, L, M>(
 {
     let mut random = Random::new(61);
     let tolerance = 128.0 * T::EPSILON.to_f64();
-    let soft = CompliantSoftFinger::new(SoftFinger::new(T::zero()).unwrap(), *law);
+    let soft = CompliantSoftFinger::new(SoftFinger::new(T::zero()).unwrap().without_friction_limit(), *law);
     let point_model = CompliantPointContact::new(PointContact::new(T::zero()).unwrap(), *law);
     let (mut worst, mut deepest) = (Worst::new(), Worst::new());
     let wide = |v: &Vector3<T>| v.map(Real::to_f64);
@@ -47,7 +47,15 @@ fn through_skin<T, S, D, L, M>(
             random.force(&normal, 0.55, size)
         };
         let pressing = -force.dot(&normal);
-        let at = Contact { point: place, normal, force, spin_torque: 0.0, gap: 0.0, alternatives: 0 };
+        let at = Contact {
+            point: place,
+            normal,
+            force,
+            spin_torque: 0.0,
+            gap: 0.0,
+            alternatives: 0,
+            searched: false,
+        };
         let Indentation { depth, patch } = exact_law.indentation_at(exact, &at, pressing);
         deepest.see(depth);
         let touched = place - normal * depth;
@@ -115,7 +123,7 @@ fn contacts_through_a_skin() {
 fn a_skin_at_extremes() {
     fn any<L: SkinLaw<f64, Sphere<f64>> + Copy>(law: L) -> [usize; 2] {
         let sphere = Sphere::centred(0.013).unwrap();
-        let model = CompliantSoftFinger::new(SoftFinger::new(0.0).unwrap(), law);
+        let model = CompliantSoftFinger::new(SoftFinger::new(0.0).unwrap().without_friction_limit(), law);
         let point = CompliantPointContact::new(PointContact::new(0.0).unwrap(), law);
         let mut random = Random::new(73);
         let (mut contacts, mut reasons) = (0, 0);
@@ -167,7 +175,7 @@ fn the_fixed_point_is_one_or_it_is_said() {
     let mut random = Random::new(79);
     for stiffness in [1e5, 1e4, 3e3, 1e3, 100.0, 1.0] {
         let spring = LinearStiffness::new(stiffness, 0.011).unwrap();
-        let model = CompliantSoftFinger::new(SoftFinger::new(0.0).unwrap(), spring);
+        let model = CompliantSoftFinger::new(SoftFinger::new(0.0).unwrap().without_friction_limit(), spring);
         let (mut unresolved, mut deep) = (0, 0);
         for _ in 0..1000 {
             let (point, normal) = random.place(&ellipsoid, 0.017);
@@ -234,7 +242,11 @@ fn bad_skins_are_refused() {
     }
     let spring = LinearStiffness::new(5e3, 0.013).unwrap();
     for share in [-0.1, 1.1, f64::NAN] {
-        assert!(CompliantSoftFinger::new(SoftFinger::new(0.0).unwrap(), spring).with_share(share).is_err());
+        assert!(
+            CompliantSoftFinger::new(SoftFinger::new(0.0).unwrap().without_friction_limit(), spring)
+                .with_share(share)
+                .is_err()
+        );
     }
 }
 
@@ -260,7 +272,7 @@ fn compliances_are_slopes() {
 fn the_parallel_surface_of_a_sphere_is_a_sphere() {
     let sphere = Sphere::centred(0.013).unwrap();
     let spring = LinearStiffness::new(5000.0, 0.013).unwrap();
-    let model = CompliantSoftFinger::new(SoftFinger::new(0.0).unwrap(), spring);
+    let model = CompliantSoftFinger::new(SoftFinger::new(0.0).unwrap().without_friction_limit(), spring);
     let mut random = Random::new(67);
     for _ in 0..300 {
         let normal = random.direction();
@@ -268,7 +280,12 @@ fn the_parallel_surface_of_a_sphere_is_a_sphere() {
         let wrench = Wrench::on_fingertip(force, (normal * 0.0125).cross(&force) + normal * 0.004);
         let found = model.resolve_indented(&wrench, &sphere, None).unwrap();
         let shrunk = Sphere::centred(0.013 - found.indentation.depth).unwrap();
-        let rigid = *SoftFinger::new(0.0).unwrap().resolve(&wrench, &shrunk).contact().unwrap();
+        let rigid = *SoftFinger::new(0.0)
+            .unwrap()
+            .without_friction_limit()
+            .resolve(&wrench, &shrunk)
+            .contact()
+            .unwrap();
         assert!((rigid.point - found.contact.point).norm() < 1e-14);
         assert!((rigid.spin_torque - found.contact.spin_torque).abs() < 1e-14);
         let patch = found.indentation.patch[0];

@@ -16,7 +16,7 @@ fn lost<T: Real, S: SoftFingerSurface<T>>(
     count: usize,
     normal_of: impl Fn(&Vector3<f64>) -> Vector3<f64>,
 ) -> usize {
-    let model = SoftFinger::new(T::zero()).unwrap();
+    let model = SoftFinger::new(T::zero()).unwrap().without_friction_limit();
     let (mut random, mut lost) = (Random::new(201), 0);
     for spin in SPINS {
         for k in 0..count {
@@ -75,7 +75,7 @@ fn few_contacts_are_lost_in_single_precision() {
 #[test]
 fn a_pure_force_beside_a_body_misses() {
     let body = Superquadric::new(Vector3::new(0.008, 0.010, 0.013), [0.7, 0.8]).unwrap();
-    let model = SoftFinger::new(0.0).unwrap();
+    let model = SoftFinger::new(0.0).unwrap().without_friction_limit();
     for (through, force, gap) in [
         ([0.009, 0.0, 0.0], [0.0, 0.0, -2.0], 0.001),
         ([0.0, 0.0125, 0.0], [0.0, 0.0, 1.5], 0.0025),

@@ -120,7 +120,7 @@ fn nodes_and_edges_are_of_the_surface() {
     let at = |k: usize| 0.25 * k as f64 - 0.5;
     let heights = (0..25).map(|k| 1.0 - at(k % 5).powi(2) - 0.5 * at(k / 5).powi(2)).collect();
     let field = Heightfield::new([-0.5; 2], [0.25; 2], 5, heights).unwrap();
-    let model = SoftFinger::new(0.0).unwrap();
+    let model = SoftFinger::new(0.0).unwrap().without_friction_limit();
     for i in 1..32 {
         for j in 1..32 {
             let (x, y) = (-0.5 + f64::from(i) / 32.0, -0.5 + f64::from(j) / 32.0);

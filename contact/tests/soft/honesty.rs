@@ -65,7 +65,7 @@ fn backward_errors<T: Real>(exact: &Cone<f64>, wrench: &Wrench<T>, contact: &Con
 /// Of wrenches that were made from contacts, none is said to have no contact, and every contact solves
 /// the equations up to rounding.
 fn contacts_come_back<T: Real>(name: &str) {
-    let model = SoftFinger::new(T::zero()).unwrap();
+    let model = SoftFinger::new(T::zero()).unwrap().without_friction_limit();
     for cone in cones::<T>() {
         let exact = widened(&cone);
         for spin in [1.0, 100.0, 1e4] {
@@ -115,7 +115,10 @@ fn contacts_of_cones_are_never_denied() {
 /// Where a wrench of any kind is said in single precision to have no contact, it has none in double.
 #[test]
 fn no_contact_is_true() {
-    let (model, exact_model) = (SoftFinger::new(0.0_f32).unwrap(), SoftFinger::new(0.0_f64).unwrap());
+    let (model, exact_model) = (
+        SoftFinger::new(0.0_f32).unwrap().without_friction_limit(),
+        SoftFinger::new(0.0_f64).unwrap().without_friction_limit(),
+    );
     for cone in cones::<f32>() {
         let (exact, mut random) = (widened(&cone), Random::new(92));
         let (mut none, mut unresolved) = (0, 0);
@@ -147,7 +150,7 @@ fn no_contact_is_true() {
 /// A closed convex body has a contact under every wrench with a spin torque.
 #[test]
 fn closed_needles_never_deny_a_contact() {
-    let model = SoftFinger::new(0.0_f32).unwrap();
+    let model = SoftFinger::new(0.0_f32).unwrap().without_friction_limit();
     let needle =
         Frustum::new(Vector3::new(0.1, -0.1, 0.2), Vector3::new(0.1, 0.2, -1.0), 1.0, 0.0, 0.01).unwrap();
     let (mut random, mut unresolved) = (Random::new(93), 0);
@@ -190,7 +193,7 @@ fn hard_case(random: &mut Random, cone: &Cone<f64>, kind: usize, spin: f64) -> W
 /// they are unresolved, and few are not found.
 #[test]
 fn hard_contacts_of_cones_are_found() {
-    let model = SoftFinger::new(0.0).unwrap();
+    let model = SoftFinger::new(0.0).unwrap().without_friction_limit();
     let mut lost = [[0; 5]; 5];
     for (k, angle) in [0.01, 0.1, 0.5, 1.0, 1.4].into_iter().enumerate() {
         for aside in [0.0, 1.0] {
@@ -230,7 +233,10 @@ fn hard_contacts_of_cones_are_found() {
 /// precision, some change of its numbers by a few units in the last place makes a contact, and some none.
 #[test]
 fn what_is_unresolved_hangs_by_the_last_digits() {
-    let (model, exact_model) = (SoftFinger::new(0.0_f32).unwrap(), SoftFinger::new(0.0_f64).unwrap());
+    let (model, exact_model) = (
+        SoftFinger::new(0.0_f32).unwrap().without_friction_limit(),
+        SoftFinger::new(0.0_f64).unwrap().without_friction_limit(),
+    );
     let (mut unresolved, mut unexplained, mut none) = (0, 0, 0);
     for cone in cones::<f32>() {
         let exact = widened(&cone);

@@ -94,7 +94,11 @@ pub(crate) fn contact_and_jacobian<S: SoftFingerSurface<f64> + SmoothSurface<f64
             (contact, ContactJacobian::of_point_contact(&contact, &case.wrench, &bend).unwrap())
         }
         Model::Soft => {
-            let contact = SoftFinger::new(0.0).unwrap().resolve_near(&case.wrench, surface, near);
+            let contact = SoftFinger::new(0.0).unwrap().without_friction_limit().resolve_near(
+                &case.wrench,
+                surface,
+                near,
+            );
             let contact = *contact.contact().unwrap();
             (contact, ContactJacobian::of_soft_finger_on(&contact, surface).unwrap())
         }
@@ -227,7 +231,7 @@ where
     S: SoftFingerSurface<f64> + SmoothSurface<f64>,
     D: SoftFingerSurface<Dual> + SmoothSurface<Dual>,
 {
-    let model = SoftFinger::new(0.0).unwrap();
+    let model = SoftFinger::new(0.0).unwrap().without_friction_limit();
     let mut random = Random::new(24);
     let (mut corners, mut faces, mut worst) = (0, 0, Worst::new());
     while corners + faces < 150 {

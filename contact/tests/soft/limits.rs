@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use crate::wrenches::{Case, Random};
 
 fn soft_finger() -> SoftFinger<f64> {
-    SoftFinger::new(0.0).unwrap()
+    SoftFinger::new(0.0).unwrap().without_friction_limit()
 }
 
 /// A force along a cylinder that is held at an angle has a part across it, of rounding, and that has no say.
@@ -58,7 +58,7 @@ fn a_contact_beyond_the_end_is_outside() {
                 case.wrench.force().map(T::literal),
                 case.wrench.torque().map(T::literal),
             );
-            match SoftFinger::new(T::zero()).unwrap().resolve(&wrench, &open) {
+            match SoftFinger::new(T::zero()).unwrap().without_friction_limit().resolve(&wrench, &open) {
                 Resolution::Contact(_) if height < 0.006 => inside += 1,
                 Resolution::NoContact(NoContact::OutsideActiveRegion { .. }) if height > 0.006 => {
                     outside += 1

@@ -30,6 +30,7 @@ mod shapes;
 mod skin;
 mod skin_covariance;
 mod solids;
+mod superquadrics;
 mod torus;
 mod uncertainty;
 #[cfg(target_os = "linux")]

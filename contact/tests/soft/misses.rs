@@ -2,7 +2,9 @@
 
 use fingertip_contact::{ContactModel, NoContact, PointContact, Resolution, SoftFinger, SoftFingerSurface};
 use fingertip_surfaces::testing::ball_of_triangles;
-use fingertip_surfaces::{Heightfield, Mesh, Sphere, Torus};
+use fingertip_surfaces::{
+    HalfSpace, Heightfield, Implicit, ImplicitSurface, Mesh, Sphere, Term, Topology, Torus, Trimmed,
+};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -24,7 +26,7 @@ fn a_pure_force_past_a_torus_misses_it() {
 /// A line crosses a shape or not: a pure force along it has contacts or none, and none spins.
 fn as_the_line_says<T: Real, S: SoftFingerSurface<T>>(name: &str, surface: &S) {
     let (mut random, mut missed, mut met) = (Random::new(901), 0, 0);
-    let model = SoftFinger::new(T::zero()).unwrap();
+    let model = SoftFinger::new(T::zero()).unwrap().without_friction_limit();
     for _ in 0..1500 {
         let number = |v: Vector3<f64>| v.map(T::literal);
         let (force, point) = (number(random.direction()), number(random.direction() * 0.02));
@@ -87,7 +89,7 @@ fn pure_forces_touch_where_their_line_enters() {
 fn noise_makes_no_contact_of_a_miss() {
     let sphere = Sphere::<f64>::centred(0.013).unwrap();
     let force = Vector3::new(0.0, 2.0, 0.0);
-    let model = SoftFinger::new(0.0).and_then(|model| model.with_greatest_friction(10.0)).unwrap();
+    let model = SoftFinger::new(0.0).unwrap();
     for noise in [1e-12, 1e-9, 1e-6, 1e-5] {
         let torque = Vector3::new(0.014, 0.0, 0.0).cross(&force) + Vector3::y() * noise;
         let found = model.resolve(&Wrench::on_fingertip(force, torque), &sphere);
@@ -108,7 +110,7 @@ fn the_limit_is_the_ellipse_of_force_and_spin() {
     let (sphere, torus) = (Sphere::<f64>::centred(0.013).unwrap(), Torus::new(0.01, 0.004).unwrap());
     let arm = 0.002;
     let mut random = Random::new(902);
-    let free = SoftFinger::new(0.0).unwrap();
+    let free = SoftFinger::new(0.0).unwrap().without_friction_limit();
     let (mut held, mut refused) = (0, 0);
     for _ in 0..400 {
         let case = Case::random(&mut random, &sphere, 0.013, [0.001, 0.3], 1.0);
@@ -173,4 +175,122 @@ fn limits_that_cannot_be_are_refused() {
         assert!(free.with_greatest_friction(bad).is_err(), "{bad}");
         assert!(free.with_torque_arm(bad).is_err(), "{bad}");
     }
+}
+
+/// Whatever friction a model is given, one that is generous takes the short way to a contact and one that is not the
+/// long one: both say the same.
+#[test]
+fn the_short_way_knows_the_limit() {
+    let sphere = Sphere::<f64>::centred(0.013).unwrap();
+    let (default, mut random) = (SoftFinger::new(0.0).unwrap(), Random::new(904));
+    let (mut held, mut refused) = (0, 0);
+    assert_eq!(default.greatest_friction(), Some(SoftFinger::<f64>::GREATEST_FRICTION));
+    for friction in [0.5, 3.0, 3.3, 3.4, 10.0] {
+        let model = default.with_greatest_friction(friction).unwrap();
+        for _ in 0..300 {
+            let case = Case::random(&mut random, &sphere, 0.013, [0.001, 0.3], 1.0);
+            let ratio = (1.0 - case.incidence.powi(2)).sqrt() / case.incidence;
+            let found = model.resolve(&case.wrench, &sphere);
+            assert_eq!(found.contact().is_some(), ratio <= friction, "{friction} {case:?} {found:?}");
+            (held, refused) =
+                (held + usize::from(ratio <= friction), refused + usize::from(ratio > friction));
+        }
+    }
+    assert!(held > 400 && refused > 100, "{held} {refused}");
+    assert_eq!(default.without_friction_limit().greatest_friction(), None);
+}
+
+/// Where a line misses, a torque along it within the noise may be of either sign: then both places are told. Where
+/// it does not miss, or the torque is beyond the noise, the contact is.
+#[test]
+fn noise_tells_what_is_ambiguous() {
+    let sphere = Sphere::<f64>::centred(0.013).unwrap();
+    let model = SoftFinger::new(0.0).unwrap().without_friction_limit().with_torque_noise(1e-4).unwrap();
+    let force = Vector3::new(0.0, 2.0, 0.0);
+    let beside = |x: f64, along: f64| {
+        Wrench::on_fingertip(force, Vector3::new(x, 0.0, 0.0).cross(&force) + Vector3::y() * along)
+    };
+    for along in [0.0, 1e-12, 9.9e-5, -9.9e-5] {
+        let found = model.resolve(&beside(0.014, along), &sphere);
+        let Resolution::NoContact(NoContact::Ambiguous { first, second }) = found else {
+            panic!("{along} {found:?}")
+        };
+        assert!((first - second).norm() > 1e-3 && (first.norm() - 0.013).abs() < 1e-12, "{first} {second}");
+        // The mirror image: what opposite torques along the force have.
+        assert!((first.z + second.z).abs() < 1e-12 && (first.x - second.x).abs() < 1e-12, "{first} {second}");
+    }
+    assert!(model.resolve(&beside(0.014, 1.01e-4), &sphere).contact().is_some());
+    assert!(model.resolve(&beside(0.0129, 1e-5), &sphere).contact().is_some());
+    // With the limit too, of contacts that it would refuse.
+    let limited = SoftFinger::new(0.0).unwrap().with_torque_noise(1e-4).unwrap();
+    for (along, ambiguous) in [(1e-5, true), (1.01e-4, false)] {
+        let found = limited.resolve(&beside(0.014, along), &sphere);
+        let Resolution::NoContact(reason) = found else { panic!("{found:?}") };
+        assert_eq!(matches!(reason, NoContact::Ambiguous { .. }), ambiguous, "{reason:?}");
+        assert_eq!(matches!(reason, NoContact::BeyondFriction { .. }), !ambiguous, "{reason:?}");
+    }
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        assert!(model.with_torque_noise(bad).is_err(), "{bad}");
+    }
+}
+
+/// A force that presses where a torus is cut off does so, whatever grazing contacts its noise would make.
+#[test]
+fn a_part_that_is_cut_off_is_told_before_what_no_friction_holds() {
+    let torus = Torus::<f64>::new(0.01, 0.004).unwrap();
+    let trimmed = Trimmed::new(torus, HalfSpace::new(Vector3::zeros(), Vector3::x()).unwrap());
+    let (model, mut random, mut outside) = (SoftFinger::new(0.0).unwrap(), Random::new(905), 0);
+    for _ in 0..500 {
+        let (point, normal) = random.place(&torus, 0.014);
+        if point.x > -0.002 {
+            continue;
+        }
+        let force = random.force(&normal, 0.7, 1.0);
+        let torque = point.cross(&force) + force * (random.sign() * 1e-9);
+        let wrench = Wrench::on_fingertip(force, torque);
+        match model.resolve(&wrench, &trimmed) {
+            Resolution::NoContact(NoContact::OutsideActiveRegion { .. }) => outside += 1,
+            // The line goes on, and may press on what is there.
+            Resolution::Contact(contact) => assert!(contact.point.x >= 0.0, "{contact:?}"),
+            found => panic!("{wrench:?} {found:?}"),
+        }
+    }
+    assert!(outside > 100, "{outside}");
+}
+
+/// On a formula of which nothing is known contacts are searched for, and it is said; on one that is known to be
+/// convex there is one.
+#[test]
+fn a_search_is_said_to_be_one() {
+    #[derive(Clone, Copy, Debug)]
+    struct Untold(bool);
+    impl ImplicitSurface<f64> for Untold {
+        fn formula(&self, [x, y, z]: [Term<f64>; 3]) -> Term<f64> {
+            (x / 0.01).square() + (y / 0.012).square() + (z / 0.014).square() - 1.0
+        }
+        fn ball(&self) -> (Vector3<f64>, f64) {
+            (Vector3::zeros(), 0.0141)
+        }
+        fn topology(&self) -> Topology {
+            if self.0 { Topology::Convex } else { Topology::Unknown }
+        }
+    }
+    let [known, unknown] = [true, false].map(|told| Implicit::new(Untold(told)).unwrap());
+    let (model, mut random) = (SoftFinger::new(0.0).unwrap(), Random::new(906));
+    for _ in 0..20 {
+        let case = Case::random(&mut random, &known, 0.013, [0.01, 0.3], 1.0);
+        if case.incidence < 0.2 {
+            continue;
+        }
+        let [told, found] = [model.resolve(&case.wrench, &known), model.resolve(&case.wrench, &unknown)];
+        let (Resolution::Contact(told), Resolution::Contact(found)) = (told, found) else {
+            panic!("{told:?} {found:?}")
+        };
+        assert!(!told.searched && found.searched, "{told:?} {found:?}");
+        assert!((told.point - found.point).norm() < 1e-12, "{told:?} {found:?}");
+    }
+    // A pure force that misses is told by its line, whatever is not known of the surface.
+    let past = Wrench::from_force_at(&Vector3::new(0.03, 0.0, 0.0), Vector3::new(0.0, 0.0, -1.0));
+    let found = model.resolve(&past, &unknown);
+    assert!(matches!(found, Resolution::NoContact(NoContact::Misses { .. })), "{found:?}");
 }

@@ -9,7 +9,8 @@ use crate::wrenches::Random;
 
 fn auto(deviations: &Vector6<f64>) -> Auto<f64> {
     let noise = Matrix6::from_diagonal(&deviations.component_mul(deviations));
-    Auto::new(PointContact::new(0.0).unwrap(), SoftFinger::new(0.0).unwrap(), noise).unwrap()
+    Auto::new(PointContact::new(0.0).unwrap(), SoftFinger::new(0.0).unwrap().without_friction_limit(), noise)
+        .unwrap()
 }
 
 #[test]

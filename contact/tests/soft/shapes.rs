@@ -19,7 +19,11 @@ fn resolve<T: Real, S: SoftFingerSurface<T>>(
     let number = |v: Vector3<f64>| v.map(T::literal);
     let wrench = Wrench::on_fingertip(number(wrench.force()), number(wrench.torque()));
     // On shapes that are not convex the contact nearest to the truth is asked for.
-    SoftFinger::new(T::zero()).unwrap().resolve_near(&wrench, surface, Some(&number(near)))
+    SoftFinger::new(T::zero()).unwrap().without_friction_limit().resolve_near(
+        &wrench,
+        surface,
+        Some(&number(near)),
+    )
 }
 
 /// Error and spin error, relative, of a contact.
@@ -191,7 +195,7 @@ fn straight<T: Real, S: SoftFingerSurface<T> + Exact>(
     goal: f64,
 ) -> Straight {
     let (mut random, mut seen) = (Random::new(19), Straight::default());
-    let model = SoftFinger::new(T::zero()).unwrap();
+    let model = SoftFinger::new(T::zero()).unwrap().without_friction_limit();
     for _ in 0..count {
         let magnitude = random.log_uniform(1e-6, 1e6);
         let case = Case::random(&mut random, smooth, size, [1e-16, 1e4], magnitude);
@@ -294,7 +298,7 @@ straight_test!(torus, 0.0135);
 #[test]
 fn degenerate_wrenches_have_types() {
     let surface = common::sphere::<f64>();
-    let model = SoftFinger::new(0.0).unwrap();
+    let model = SoftFinger::new(0.0).unwrap().without_friction_limit();
     let reason = |force: [f64; 3], torque: [f64; 3]| {
         let wrench = Wrench::on_fingertip(Vector3::from(force), Vector3::from(torque));
         match model.resolve(&wrench, &surface) {
@@ -343,7 +347,7 @@ fn a_pure_force_that_misses_grazes_two_points() {
             let aside = random.direction().cross(&force).normalize() * reach * random.uniform(1.5, 40.0);
             let number = |v: Vector3<f64>| v.map(T::literal);
             let wrench = Wrench::from_force_at(&number(aside), number(force));
-            match SoftFinger::new(T::zero()).unwrap().resolve(&wrench, surface) {
+            match SoftFinger::new(T::zero()).unwrap().without_friction_limit().resolve(&wrench, surface) {
                 Resolution::NoContact(NoContact::Ambiguous { first, second }) => {
                     assert!((first - second).norm_squared().is_number(), "{name} {first} {second}");
                 }
@@ -362,7 +366,9 @@ fn a_pure_force_that_misses_grazes_two_points() {
 #[test]
 fn extreme_numbers_give_no_nan() {
     fn check<T: Real, S: SoftFingerSurface<T>>(surface: &S, wrench: &Wrench<T>) {
-        if let Resolution::Contact(c) = SoftFinger::new(T::zero()).unwrap().resolve(wrench, surface) {
+        if let Resolution::Contact(c) =
+            SoftFinger::new(T::zero()).unwrap().without_friction_limit().resolve(wrench, surface)
+        {
             let sum = c.point.sum() + c.normal.sum() + c.incidence();
             assert!(sum.is_number(), "{c:?} {wrench:?}");
             assert!((c.normal.norm_squared() - T::one()).abs() < T::EPSILON * T::literal(64.0), "{c:?}");

@@ -31,7 +31,8 @@ where
         let (point, normal) = random.place(surface, 0.017);
         let size = random.log_uniform(0.05, 20.0);
         let force = random.force(&normal, 0.6, size);
-        let above = Contact { point, normal, force, spin_torque: 0.0, gap: 0.0, alternatives: 0 };
+        let above =
+            Contact { point, normal, force, spin_torque: 0.0, gap: 0.0, alternatives: 0, searched: false };
         let depth = law.indentation_at(surface, &above, -force.dot(&normal)).depth * share;
         // Not as deep as the tip of a cone is round, or an edge is near; nor near a fold, where two contacts
         // merge and all derivatives grow without bound.
@@ -91,7 +92,11 @@ impl<L: Copy> Model<L> {
     pub(crate) fn both(law: L, share: f64) -> [Self; 2] {
         [
             Self::Point(Compliant::new(PointContact::new(0.0).unwrap(), law).with_share(share).unwrap()),
-            Self::Soft(Compliant::new(SoftFinger::new(0.0).unwrap(), law).with_share(share).unwrap()),
+            Self::Soft(
+                Compliant::new(SoftFinger::new(0.0).unwrap().without_friction_limit(), law)
+                    .with_share(share)
+                    .unwrap(),
+            ),
         ]
     }
 

@@ -55,7 +55,7 @@ pub(crate) fn monte_carlo<S: SoftFingerSurface<f64> + SmoothSurface<f64>>(
     let resolve = |wrench: &Wrench<f64>| -> Contact<f64> {
         let near = Some(&case.point);
         *if soft {
-            SoftFinger::new(0.0).unwrap().resolve_near(wrench, surface, near)
+            SoftFinger::new(0.0).unwrap().without_friction_limit().resolve_near(wrench, surface, near)
         } else {
             PointContact::new(0.0).unwrap().resolve_near(wrench, surface, near)
         }
@@ -136,7 +136,12 @@ fn position_covariance_of_any_load() {
     let covariance = wrench_covariance(&mut random);
     for _ in 0..200 {
         let case = Case::random(&mut random, &surface, 0.017, [1e-3, 10.0], 2.0);
-        let contact = *SoftFinger::new(0.0).unwrap().resolve(&case.wrench, &surface).contact().unwrap();
+        let contact = *SoftFinger::new(0.0)
+            .unwrap()
+            .without_friction_limit()
+            .resolve(&case.wrench, &surface)
+            .contact()
+            .unwrap();
         let of = |contact: &Contact<f64>, scale: f64| {
             ContactCovariance::soft_finger_position(contact, &surface, &(covariance * scale.powi(2)))
         };
@@ -205,7 +210,12 @@ fn uncertain_geometry_matches_monte_carlo() {
     let mut random = Random::new(2);
     let case = Case::random(&mut random, &sphere, 0.017, [0.05, 0.2], 2.0);
     let resolve = |sphere: &Sphere<f64>| {
-        *SoftFinger::new(0.0).unwrap().resolve(&case.wrench, sphere).contact().unwrap()
+        *SoftFinger::new(0.0)
+            .unwrap()
+            .without_friction_limit()
+            .resolve(&case.wrench, sphere)
+            .contact()
+            .unwrap()
     };
     let truth = resolve(&sphere);
     let jacobian = ContactJacobian::of_soft_finger(&truth, &sphere.shape_operator(&truth.point)).unwrap();
@@ -250,7 +260,12 @@ fn worst_cases_are_attained_and_not_exceeded() {
     let mut random = Random::new(13);
     for _ in 0..200 {
         let case = Case::random(&mut random, &surface, 0.017, [1e-3, 1.0], 2.0);
-        let contact = *SoftFinger::new(0.0).unwrap().resolve(&case.wrench, &surface).contact().unwrap();
+        let contact = *SoftFinger::new(0.0)
+            .unwrap()
+            .without_friction_limit()
+            .resolve(&case.wrench, &surface)
+            .contact()
+            .unwrap();
         let bend = surface.shape_operator(&contact.point);
         let jacobian = ContactJacobian::of_soft_finger(&contact, &bend).unwrap();
         let limits = Vector6::from_fn(|i, _| random.uniform(0.1, 1.0) * if i < 3 { 0.01 } else { 1e-4 });

@@ -3,9 +3,10 @@
 use fingertip_wrench::{Line, Real, RigidTransform};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
+use crate::numeric::twofold::{Twofold, difference, dot_with};
 use crate::{
-    ActiveSurface, ClosestApproach, Corner, Crossing, Distance, Extent, Level, Shortcuts, SignedDistance,
-    SmoothSurface, Topology,
+    ActiveSurface, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Level, Shortcuts,
+    SignedDistance, SmoothSurface, Topology,
 };
 
 /// A shape somewhere else in the sensor frame, turned.
@@ -94,12 +95,42 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
 
     #[inline(always)]
     fn shortcuts(&self) -> impl Shortcuts<T> {
-        self.surface.shortcuts().posed(&self.sensor_from_shape)
+        InPlace { posed: self, moved: self.surface.shortcuts().posed(&self.sensor_from_shape) }
     }
 
     #[inline]
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.surface.contains(&self.in_shape(point))
+    }
+}
+
+/// The shortcuts of a shape in another place, which know what moving a point has rounded off.
+struct InPlace<'a, T: Real, S, M> {
+    posed: &'a Posed<T, S>,
+    moved: M,
+}
+
+impl<T: Real, S: ActiveSurface<T>, M: Shortcuts<T>> Shortcuts<T> for InPlace<'_, T, S, M> {
+    const CLOSED_CONVEX: bool = M::CLOSED_CONVEX;
+
+    #[inline(always)]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        self.moved.sole_entry(push)
+    }
+
+    /// That of the point in the frame of the shape, and what rounding took of it on the way there, along the
+    /// normal.
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        let inside = self.posed.in_shape(point);
+        let pose = self.posed.sensor_from_shape();
+        let away = difference(point, &pose.origin());
+        let left = |k: usize| {
+            let axis = pose.rotation().column(k).into_owned();
+            dot_with(away, &axis).minus(Twofold::new(inside[k])).value()
+        };
+        let left = Vector3::new(left(0), left(1), left(2));
+        let surface = &self.posed.surface;
+        surface.shortcuts().surface_residual(&inside) + surface.normal(&inside).dot(&left)
     }
 }
 

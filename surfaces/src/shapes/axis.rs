@@ -5,7 +5,7 @@ use core::hint::select_unpredictable;
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use crate::numeric::twofold::{Twofold, difference, dot, outside_ball};
+use crate::numeric::twofold::{Twofold, difference, dot, dot_with, outside_ball};
 use crate::numeric::vectors::{any_perpendicular, foot, unit_or, within_range};
 use crate::{Crossing, Entry, ForceLine};
 
@@ -252,11 +252,22 @@ impl<T: Real> Axis<T> {
     /// digits.
     pub(super) fn outside_ball_by(&self, point: &Vector3<T>, height: T, radius: T) -> T {
         let scale = radius.normalising_factor();
-        let (radius, height) = (radius * scale, Twofold::new(height * scale));
+        let (radius, height) = (radius * scale, Twofold::new(height * scale).times(self.per_length()));
         let [x, y, z] = difference(&(point * scale), &(self.origin * scale));
         let [ax, ay, az] = [self.direction.x, self.direction.y, self.direction.z].map(Twofold::new);
         let from_centre = [x.minus(ax.times(height)), y.minus(ay.times(height)), z.minus(az.times(height))];
         outside_ball(from_centre, radius) / scale
+    }
+
+    /// The reciprocal of the axis's length, which is a unit vector but for rounding: `1/|a| = (3 − |a|²)/2`.
+    fn per_length(&self) -> Twofold<T> {
+        let axis = [self.direction.x, self.direction.y, self.direction.z].map(Twofold::new);
+        Twofold::new(T::literal(3.0)).minus(dot(axis, axis)).times(Twofold::new(T::literal(0.5)))
+    }
+
+    /// How far a vector reaches along the axis.
+    pub(super) fn height_of(&self, v: [Twofold<T>; 3]) -> Twofold<T> {
+        dot_with(v, &self.direction).times(self.per_length())
     }
 
     /// How far a point is outside the circular cylinder around the axis, with twice the digits.
@@ -270,10 +281,7 @@ impl<T: Real> Axis<T> {
     pub(super) fn outside_cone_by(&self, point: &Vector3<T>, radius: T, taper: Twofold<T>, cosine: T) -> T {
         let scale = (point - self.origin).amax().normalising_factor();
         let from_origin = difference(&(point * scale), &(self.origin * scale));
-        // The axis is a unit vector but for rounding: h/|a| = h·(3 − |a|²)/2.
-        let axis = [self.direction.x, self.direction.y, self.direction.z].map(Twofold::new);
-        let long = Twofold::new(T::literal(3.0)).minus(dot(axis, axis)).times(Twofold::new(T::literal(0.5)));
-        let height = dot(from_origin, axis).times(long);
+        let height = self.height_of(from_origin);
         let radius = Twofold::new(radius * scale).minus(taper.times(height));
         let excess = dot(from_origin, from_origin).minus(height.squared()).minus(radius.squared());
         let outside = excess.value() * cosine / (radius.value() + radius.value()) / scale;

@@ -93,6 +93,20 @@ impl<T: Real> Cone<T> {
         self.half_angle
     }
 
+    /// Sine and cosine of that angle.
+    #[inline]
+    #[must_use]
+    pub const fn half_angle_sin_cos(&self) -> (T, T) {
+        (self.sine, self.cosine)
+    }
+
+    /// How far down from the apex, along the axis, the side is active \[m\]; `None` if it is unbounded.
+    #[inline]
+    #[must_use]
+    pub const fn depth(&self) -> Option<T> {
+        self.depth
+    }
+
     #[inline]
     fn is_active(&self, height: T) -> bool {
         self.depth.is_none_or(|depth| height <= depth)

@@ -8,7 +8,7 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
-use crate::numeric::twofold::{Twofold, difference, dot_with};
+use crate::numeric::twofold::{Twofold, difference};
 use crate::numeric::vectors::{any_perpendicular, hypotenuse, length, unit_or};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Level,
@@ -230,7 +230,7 @@ impl<T: Real> Shortcuts<T> for Frustum<T> {
         let taper = Twofold::difference(self.base_radius, self.top_radius).over(self.height);
         let side = self.axis.outside_cone_by(point, self.base_radius, taper, self.side_cosine);
         let from_base = difference(point, &self.axis.origin);
-        let height = dot_with(from_base, &self.axis.direction);
+        let height = self.axis.height_of(from_base);
         let over_top = height.minus(Twofold::new(self.height)).value();
         let end = over_top.max(-height.value());
         if end.abs() < side.abs() { end } else { side }

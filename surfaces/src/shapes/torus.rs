@@ -5,9 +5,10 @@ use nalgebra::Vector3;
 
 use super::ring::RingLine;
 use crate::numeric::closest::from_distance;
+use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, hypotenuse, is_finite, unit_or};
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Extent, Level, SignedDistance,
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Extent, Level, Shortcuts, SignedDistance,
     SmoothSurface, Topology,
 };
 
@@ -98,6 +99,23 @@ impl<T: Real> ActiveSurface<T> for Torus<T> {
 
     fn contains(&self, point: &Vector3<T>) -> bool {
         self.signed_distance(point).distance < T::zero()
+    }
+
+    #[inline(always)]
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real> Shortcuts<T> for Torus<T> {
+    /// The distance from the ring less the radius of the tube, in units of the ring's.
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        let unit = self.ring_radius.normalising_factor();
+        let [x, y, z] = [point.x, point.y, point.z].map(|x| Twofold::new(x * unit));
+        let radial = x.squared().plus(y.squared()).root();
+        let beyond = radial.minus(Twofold::new(self.ring_radius * unit));
+        let distance = beyond.squared().plus(z.squared()).root();
+        distance.minus(Twofold::new(self.tube_radius * unit)).value() / unit
     }
 }
 

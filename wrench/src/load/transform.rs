@@ -83,7 +83,8 @@ impl<T: Real, To: Frame, From: Frame> RigidTransform<T, To, From> {
     /// # Errors
     /// [`TransformError`] if an entry is not finite, or if the matrix is not a rotation: its
     /// columns may differ from orthonormal by `√ε` (matrices printed with few digits come from
-    /// [`from_axis_angle`](Self::from_axis_angle) or a quaternion more safely).
+    /// [`from_axis_angle`](Self::from_axis_angle) or a quaternion more safely). What is stored is the nearest
+    /// rotation: one that is orthonormal but for rounding.
     pub fn from_matrix(rotation: Matrix3<T>, origin: Vector3<T>) -> Result<Self, TransformError> {
         if !rotation.iter().chain(origin.iter()).all(|x| x.is_number()) {
             return Err(TransformError::NotFinite);
@@ -95,7 +96,7 @@ impl<T: Real, To: Frame, From: Frame> RigidTransform<T, To, From> {
         if rotation.determinant() < T::zero() {
             return Err(TransformError::Reflection);
         }
-        Ok(Self { rotation, origin, frames: PhantomData })
+        Ok(Self { rotation: orthonormal(rotation, defect.amax()), origin, frames: PhantomData })
     }
 
     /// From a rotation vector (axis times angle \[rad\]) and the origin of `From` in `To` \[m\].
@@ -184,6 +185,21 @@ impl<T: Real, A: Frame, B: Frame, C: Frame> Mul<RigidTransform<T, B, C>> for Rig
             frames: PhantomData,
         }
     }
+}
+
+/// The rotation nearest to a matrix whose defect `RᵀR − I` is at most `√ε`; one that is rounding is left as it is.
+///
+/// A step of Newton's method for the polar factor, `R (3 − RᵀR)/2` (Björck & Bowie 1971), squares the defect.
+fn orthonormal<T: Real>(rotation: Matrix3<T>, defect: T) -> Matrix3<T> {
+    if defect <= T::EPSILON * T::literal(4.0) {
+        return rotation;
+    }
+    let mut nearest = rotation;
+    for _ in 0..2 {
+        let three = Matrix3::from_diagonal_element(T::literal(3.0));
+        nearest = nearest * (three - nearest.transpose() * nearest) * T::literal(0.5);
+    }
+    nearest
 }
 
 stored! {

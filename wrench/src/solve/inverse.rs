@@ -74,10 +74,18 @@ impl<T: Real> Inverse<T> {
         Matrix6::from_fn(|axis, gauge| self.matrix[(axis, gauge)] / sensor.nominal()[axis])
     }
 
-    /// Six roundings of a product of six terms, one of the division in [`gain`](Self::gain).
+    /// How far the matrix itself is from the inverse, and the roundings of its product with the signals, counted:
+    /// that adds column after column, so that a term is rounded once, and once with each sum from its own on.
     fn own_error(&self, sensor: &SensorMatrix<T, 6>, gain: &Matrix6<T>) -> OwnError<T, 6> {
-        let per_load = matrix_residual(&Matrix6::identity(), gain, sensor.normalised()).abs();
-        OwnError { per_load, per_signal: gain.abs() * relative_rounding::<T>(7), magnitude: gain.abs() }
+        let nominal = sensor.nominal();
+        let defect = matrix_residual(&Matrix6::from_diagonal(nominal), &self.matrix, sensor.normalised());
+        // Of the divisions, which no solve does.
+        let margin = T::one() + relative_rounding::<T>(2);
+        let per_load = Matrix6::from_fn(|i, j| defect[(i, j)].abs() / nominal[i] * margin);
+        let magnitude = gain.abs() * margin;
+        let roundings = |gauge: usize| relative_rounding::<T>(1 + 5_usize.min(6 - gauge));
+        let per_signal = Matrix6::from_fn(|i, gauge| magnitude[(i, gauge)] * roundings(gauge));
+        OwnError { per_load, per_signal, magnitude }
     }
 }
 

@@ -118,7 +118,13 @@ fn matrices<T: Real>() {
                 let mut shear = Matrix3::<T>::identity();
                 shear[(i, j)] += hair * T::literal(0.4);
                 let near = motion.rotation() * shear;
-                assert_eq!(Motion::from_matrix(near, origin).map(|m| m.rotation()), Ok(near));
+                let stored = Motion::from_matrix(near, origin).expect("a rotation").rotation();
+                assert!((stored - near).amax() <= hair, "{stored} {near}");
+                let defect = (stored.transpose() * stored - Matrix3::identity()).amax();
+                assert!(defect <= T::EPSILON * T::literal(4.0), "{defect:?}");
+                // The nearest: S of R S, symmetric, is what it is off by.
+                let stretch = stored.transpose() * near;
+                assert!((stretch - stretch.transpose()).amax() <= T::EPSILON * T::literal(4.0), "{stretch}");
                 shear[(i, j)] += hair * T::literal(0.8);
                 let skewed = Motion::from_matrix(motion.rotation() * shear, origin);
                 assert_eq!(skewed, Err(TransformError::NotOrthonormal));

@@ -1,0 +1,53 @@
+//! What a surface is near a point, in its place.
+
+use fingertip_surfaces::LocalSurface;
+use fingertip_surfaces::numeric::twofold::Wide;
+use fingertip_wrench::RigidTransform;
+use nalgebra::Vector3;
+
+use super::patch::{Digits, Seen, Three, Way, dot, exactly, plus_times, rounded};
+use super::three::unit;
+
+/// The surface near a point, to the last digit, wherever it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patch {
+    /// What the surface is, in the frame of its shape.
+    pub surface: LocalSurface,
+    /// Where that frame is in the sensor's: the surface is that of the points which the transpose of the rotation
+    /// takes to it, the origin taken off first. `None` where the two frames are one.
+    pub pose: Option<RigidTransform<f64>>,
+}
+
+impl From<LocalSurface> for Patch {
+    fn from(surface: LocalSurface) -> Self {
+        Self { surface, pose: None }
+    }
+}
+
+/// `Rᵀ v`.
+fn turned_back<W: Wide>(pose: &RigidTransform<f64>, v: Three<W>) -> Three<W> {
+    [0, 1, 2].map(|k| dot(exactly(&pose.rotation().column(k).into_owned()), v))
+}
+
+/// `R v`.
+fn turned_out<W: Wide>(pose: &RigidTransform<f64>, v: Three<W>) -> Three<W> {
+    [0, 1, 2].map(|k| dot(exactly(&pose.rotation().row(k).transpose()), v))
+}
+
+impl Digits for Patch {
+    fn seen<W: Wide>(&self, point: Three<W>) -> Seen<W> {
+        let Some(pose) = &self.pose else { return self.surface.seen(point) };
+        let away = plus_times(point, exactly(&pose.origin()), W::exactly(-1.0));
+        let seen = self.surface.seen(turned_back(pose, away));
+        let (_, normal) = unit(turned_out(pose, seen.normal));
+        let around = pose.rotation() * seen.around;
+        let around = around - rounded(normal) * rounded(normal).dot(&around);
+        Seen { normal, around: around.normalize(), ..seen }
+    }
+
+    fn left_by<W: Wide>(&self, point: Three<W>, way: &Vector3<f64>) -> Way {
+        let Some(pose) = &self.pose else { return self.surface.left_by(point, way) };
+        let away = plus_times(point, exactly(&pose.origin()), W::exactly(-1.0));
+        self.surface.left_by(turned_back(pose, away), &pose.rotation().tr_mul(way))
+    }
+}

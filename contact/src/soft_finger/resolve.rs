@@ -1,0 +1,282 @@
+//! From a wrench to the contact of a soft finger, or the reason why there is none.
+
+use fingertip_surfaces::ForceLine;
+use fingertip_surfaces::numeric::vectors::{hypotenuse, is_tame, larger, largest, length, smaller};
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+
+use super::closed_form::is_pure_force;
+use super::refined::refined;
+use crate::model::long_way;
+use crate::{
+    Contact, ContactModel, NoContact, Resolution, Search, SoftContact, SoftFinger, SoftFingerSurface,
+};
+
+/// What has been seen of the solutions so far.
+struct Seen<T: Real> {
+    best: Option<(SoftContact<T>, T)>,
+    candidates: u8,
+    /// A place outside the active region, if friction holds it there.
+    outside: Option<Vector3<T>>,
+    /// One that friction does not hold.
+    outside_too_flat: Option<Vector3<T>>,
+    /// Of the contacts that friction can't hold the one that needs least, and how much.
+    too_flat: Option<(Vector3<T>, T)>,
+    beyond_range: bool,
+}
+
+impl<T: Real, S: SoftFingerSurface<T>> ContactModel<T, S> for SoftFinger<T> {
+    /// Always in line, with the long way kept out of the registers.
+    #[inline(always)]
+    fn resolve_near(&self, wrench: &Wrench<T>, surface: &S, last: Option<&Vector3<T>>) -> Resolution<T> {
+        if let Some(push) = ForceLine::new(wrench, self.least_squared)
+            && let Some(contact) = surface.sole_soft_contact(&push)
+            && contact.active
+            && is_in_range(&contact)
+        {
+            return Resolution::Contact(contact_at(wrench, &contact, contact.spin_torque));
+        }
+        long_way(wrench, |copy| self.resolve_any(copy, surface, last))
+    }
+}
+
+/// A wrench whose squares stay within the range of the type, times a factor if that was needed.
+struct Scaled<T: Real> {
+    wrench: Wrench<T>,
+    unit: Option<T>,
+}
+
+impl<T: Real> SoftFinger<T> {
+    /// The friction ratio that a contact needs, if that is more than there is.
+    fn beyond_friction(&self, force: &Vector3<T>, contact: &SoftContact<T>) -> Option<T> {
+        let greatest = self.greatest_friction?;
+        let pressing = -force.dot(&contact.normal);
+        let sliding = length(&(force + contact.normal * pressing));
+        let turning = self.torque_arm.map_or_else(T::zero, |arm| contact.spin_torque / arm);
+        let needed = hypotenuse(sliding, if turning.is_number() { turning } else { T::GREATEST });
+        (!(needed <= greatest * pressing)).then(|| smaller(needed / pressing, T::GREATEST))
+    }
+
+    /// The long way.
+    #[inline(never)]
+    fn resolve_any<S: SoftFingerSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        last: Option<&Vector3<T>>,
+    ) -> Resolution<T> {
+        let most_torque = largest(&wrench.torque());
+        if is_tame(largest(&wrench.force())) && (is_tame(most_torque) || most_torque.is_zero()) {
+            let squared = wrench.force().norm_squared();
+            // A NaN may have hidden behind a number.
+            let torque = wrench.torque();
+            if (squared + torque.x + torque.y + torque.z).is_number() {
+                if !(squared >= self.least_force * self.least_force) {
+                    return Resolution::NoContact(NoContact::BelowThreshold { force: squared.root() });
+                }
+                let scaled = Scaled { wrench: *wrench, unit: None };
+                return self.search(wrench, &scaled, surface, last);
+            }
+        }
+        self.resolve_extreme(wrench, surface, last)
+    }
+
+    /// Tiny, huge, zero, NaN.
+    #[cold]
+    #[inline(never)]
+    fn resolve_extreme<S: SoftFingerSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        last: Option<&Vector3<T>>,
+    ) -> Resolution<T> {
+        if !wrench.is_finite() {
+            return Resolution::NoContact(NoContact::NotFinite);
+        }
+        let (force, torque) = (length(&wrench.force()), length(&wrench.torque()));
+        if !(force >= self.least_force) || !(force > T::zero()) {
+            return Resolution::NoContact(if force > T::zero() || torque.is_zero() {
+                NoContact::BelowThreshold { force }
+            } else {
+                NoContact::PureCouple { torque }
+            });
+        }
+        let unit = larger(largest(&wrench.force()), largest(&wrench.torque())).normalising_factor();
+        let scaled = *wrench * unit;
+        let scaled = Scaled { wrench: scaled, unit: Some(unit) };
+        self.search(wrench, &scaled, surface, last)
+    }
+
+    fn search<S: SoftFingerSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        scaled: &Scaled<T>,
+        surface: &S,
+        last: Option<&Vector3<T>>,
+    ) -> Resolution<T> {
+        let mut seen = Seen::new();
+        let search = self.look(&scaled.wrench, surface, last, &mut seen);
+        if let Some(pair) = self.either_side(scaled, surface, &seen) {
+            return Resolution::NoContact(pair);
+        }
+        if let Some((contact, _)) = seen.best {
+            let contact = refined(&scaled.wrench, surface, &contact);
+            let spin_torque = scaled.unit.map_or(contact.spin_torque, |unit| {
+                (contact.spin_torque / unit).max(-T::GREATEST).min(T::GREATEST)
+            });
+            let found = contact_at(wrench, &contact, spin_torque);
+            let searched = matches!(search, Search::Uncertified);
+            return Resolution::Contact(Contact { alternatives: seen.candidates - 1, searched, ..found });
+        }
+        Resolution::NoContact(if seen.beyond_range {
+            NoContact::NotFinite
+        } else if let Some(point) = seen.outside {
+            NoContact::OutsideActiveRegion { point }
+        } else {
+            match (search, seen.too_flat, seen.outside_too_flat) {
+                (Search::Complete | Search::Uncertified, Some((point, friction_ratio)), _) => {
+                    NoContact::BeyondFriction { point, friction_ratio }
+                }
+                (_, _, Some(point)) => NoContact::OutsideActiveRegion { point },
+                (Search::Grazing([first, second]), ..) => NoContact::Ambiguous { first, second },
+                // A pure force is told by the crossings of its line, of which none is missing.
+                (Search::Uncertified, ..) if is_pure_force(&wrench.force(), &wrench.torque()) => {
+                    why_none(wrench, surface)
+                }
+                (Search::Incomplete | Search::Uncertified, ..) => NoContact::Unresolved,
+                (Search::Complete, ..) => why_none(wrench, surface),
+            }
+        })
+    }
+
+    /// Sees all solutions of a wrench.
+    fn look<S: SoftFingerSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        last: Option<&Vector3<T>>,
+        seen: &mut Seen<T>,
+    ) -> Search<T> {
+        let direction = wrench.force();
+        surface.soft_contacts(wrench, last, |contact| {
+            if !is_in_range(&contact) {
+                seen.beyond_range = true;
+                return;
+            }
+            let beyond = self.beyond_friction(&direction, &contact);
+            if !contact.active {
+                let place = if beyond.is_some() { &mut seen.outside_too_flat } else { &mut seen.outside };
+                *place = Some(contact.point);
+                return;
+            }
+            if let Some(ratio) = beyond {
+                if seen.too_flat.is_none_or(|(_, least)| ratio < least) {
+                    seen.too_flat = Some((contact.point, ratio));
+                }
+                return;
+            }
+            seen.candidates = seen.candidates.saturating_add(1);
+            let incidence = -direction.dot(&contact.normal);
+            let better = match (&seen.best, last) {
+                (None, _) => true,
+                (Some((best, _)), Some(last)) => {
+                    (contact.point - last).norm_squared() < (best.point - last).norm_squared()
+                }
+                (Some((_, best)), None) => incidence > *best,
+            };
+            if better {
+                seen.best = Some((contact, incidence));
+            }
+        })
+    }
+
+    /// Where a line of action misses and the torque along the force is within the noise: the contact, and the one
+    /// of the opposite torque along the force.
+    #[cold]
+    fn either_side<S: SoftFingerSurface<T>>(
+        &self,
+        scaled: &Scaled<T>,
+        surface: &S,
+        seen: &Seen<T>,
+    ) -> Option<NoContact<T>> {
+        if self.torque_noise.is_zero() {
+            return None;
+        }
+        let (force, torque) = (scaled.wrench.force(), scaled.wrench.torque());
+        let direction = force / length(&force);
+        let along = direction.dot(&torque);
+        let noise = self.torque_noise * scaled.unit.unwrap_or_else(T::one);
+        let first = seen.place()?;
+        if !(along.abs() <= noise) || is_entered(&scaled.wrench, surface) {
+            return None;
+        }
+        let opposite = Wrench::on_fingertip(force, torque - direction * (along + along));
+        let mut other = Seen::new();
+        let _ = self.look(&opposite, surface, None, &mut other);
+        other.place().map(|second| NoContact::Ambiguous { first, second })
+    }
+}
+
+impl<T: Real> Seen<T> {
+    fn new() -> Self {
+        Self {
+            best: None,
+            candidates: 0,
+            outside: None,
+            outside_too_flat: None,
+            too_flat: None,
+            beyond_range: false,
+        }
+    }
+
+    /// Where a contact is, if there is one, or would be if friction held it.
+    fn place(&self) -> Option<Vector3<T>> {
+        self.best.map(|(contact, _)| contact.point).or_else(|| self.too_flat.map(|(point, _)| point))
+    }
+}
+
+#[inline]
+fn is_in_range<T: Real>(contact: &SoftContact<T>) -> bool {
+    let c = contact.point;
+    (c.x + c.y + c.z + contact.spin_torque).is_number()
+}
+
+#[inline]
+fn contact_at<T: Real>(wrench: &Wrench<T>, found: &SoftContact<T>, spin_torque: T) -> Contact<T> {
+    Contact {
+        point: found.point,
+        normal: found.normal,
+        force: wrench.force(),
+        spin_torque,
+        gap: T::zero(),
+        alternatives: 0,
+        searched: false,
+    }
+}
+
+/// Whether the line of action meets the active surface where it presses.
+fn is_entered<T: Real, S: SoftFingerSurface<T>>(wrench: &Wrench<T>, surface: &S) -> bool {
+    let mut entered = false;
+    if let Ok(axis) = wrench.line_of_action() {
+        surface.crossings(&axis.line, |crossing| {
+            entered |= crossing.active && axis.line.direction.dot(&crossing.normal) < T::zero();
+        });
+    }
+    entered
+}
+
+/// The line of action misses, or meets the surface where it pulls.
+#[cold]
+fn why_none<T: Real, S: SoftFingerSurface<T>>(wrench: &Wrench<T>, surface: &S) -> NoContact<T> {
+    let Ok(axis) = wrench.line_of_action() else { return NoContact::NotFinite };
+    let mut pulling = None;
+    surface.crossings(&axis.line, |crossing| {
+        if axis.line.direction.dot(&crossing.normal) >= T::zero() {
+            pulling = Some(crossing.point);
+        }
+    });
+    if let Some(point) = pulling {
+        return NoContact::OnlyPulling { point };
+    }
+    NoContact::Misses { closest: surface.closest_approach(&axis.line) }
+}
