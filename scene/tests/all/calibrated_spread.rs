@@ -24,10 +24,10 @@ pub(crate) fn calibrated(text: &str, file: &CalibrationFile) -> Scene {
 fn fitted() -> CalibrationFile {
     let residual = |i: usize| (0.05 * (1.0 + 0.2 * i as f64)).powi(2);
     let near = |i: usize, j: usize| if i == j { 1.0 } else { 0.3 / (1.0 + i.abs_diff(j) as f64) };
-    let covariance = Covariance {
-        signals: DMatrix::from_fn(6, 6, |i, j| if i == j { residual(i) } else { 0.0 }),
-        loads: DMatrix::from_fn(6, 6, |i, j| 0.05 * near(i, j)),
-    };
+    let covariance = Covariance::product(
+        DMatrix::from_fn(6, 6, |i, j| if i == j { residual(i) } else { 0.0 }),
+        DMatrix::from_fn(6, 6, |i, j| 0.05 * near(i, j)),
+    );
     CalibrationFile { covariance: Some(covariance), ..file(6) }
 }
 
@@ -40,7 +40,7 @@ fn the_covariance_of_a_fit_is_in_the_ellipse_of_every_contact() {
         (Scene::from_text(&uncertain).unwrap().pipeline(), calibrated(&uncertain, &file).pipeline());
     let without = uncertain.replace("[uncertainty]", "[uncertainty]\ncalibration = false");
     let mut left_out = calibrated(&without, &file).pipeline();
-    let Covariance { signals, loads } = file.covariance.as_ref().unwrap();
+    let Covariance { signals, loads, .. } = file.covariance.as_ref().unwrap();
     let solver = GaussianElimination::new(&file.sensor_matrix::<6>().unwrap()).unwrap();
     let per_load = |i: usize, j: usize| loads[(i, j)] / (NOMINAL[i] * NOMINAL[j]);
     let rows = core::array::from_fn(|gauge| Matrix6::from_fn(per_load) * signals[(gauge, gauge)]);

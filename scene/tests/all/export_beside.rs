@@ -69,10 +69,10 @@ pub(crate) fn calibration(gauges: usize) -> CalibrationFile {
     let mut file = CalibrationFile::new(matrix, nominal, zero, SignalUnit::Volt).unwrap();
     if gauges == 6 {
         let near = |i: usize, j: usize| if i == j { 1.0 } else { 0.2 / (1.0 + i.abs_diff(j) as f64) };
-        file.covariance = Some(Covariance {
-            signals: DMatrix::from_fn(6, 6, |i, j| 1e-4 * near(i, j)),
-            loads: DMatrix::from_fn(6, 6, |i, j| 0.03 * near(i, j)),
-        });
+        file.covariance = Some(Covariance::product(
+            DMatrix::from_fn(6, 6, |i, j| 1e-4 * near(i, j)),
+            DMatrix::from_fn(6, 6, |i, j| 0.03 * near(i, j)),
+        ));
         file.temperature = Some(Temperature {
             reference_celsius: 22.0,
             range_celsius: [15.0, 45.0],
