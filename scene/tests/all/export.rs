@@ -58,7 +58,7 @@ fn modules_with_a_calibration_are_what_is_exported_today() {
     let skinned = Scene::from_text(SKINNED).unwrap();
     holds(
         "carries",
-        &Scene::from_text(crate::export_beside::CARRIES).unwrap().to_rust(Scalar::F64, None).unwrap(),
+        &Scene::from_text(crate::export_before::CARRIES).unwrap().to_rust(Scalar::F64, None).unwrap(),
     );
     holds("skinned", &skinned.to_rust(Scalar::F64, None).unwrap());
     holds("skinned_six_gauges", &skinned.to_rust(Scalar::F64, Some(&calibration(6))).unwrap());
@@ -141,7 +141,7 @@ fn the_examples_give_the_bits_of_the_pipeline() {
 
 #[test]
 fn every_choice_gives_the_bits_of_the_pipeline() {
-    // Filters are not of the pipeline but stand before it: `export_beside` tests them.
+    // Filters are not of the pipeline but stand before it: `export_before` tests them.
     let mut entries = entries().filter(|entry| entry.section != "filter");
     macro_rules! each {
         ($($name:ident),* $(,)?) => {
