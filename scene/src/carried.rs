@@ -130,6 +130,14 @@ impl<T: Real> Carried<T> {
         }
     }
 
+    pub(crate) const fn body(&self) -> &Payload<T> {
+        &self.body
+    }
+
+    pub(crate) const fn bias(&self) -> &Wrench<T> {
+        &self.bias
+    }
+
     /// A wrench without what the body does to the sensor.
     #[inline]
     #[must_use]

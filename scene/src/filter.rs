@@ -90,6 +90,11 @@ impl<T: Real> Filter<T> {
         self.delay
     }
 
+    /// Those of what left, and of what entered.
+    pub(crate) const fn coefficients(&self) -> ([T; 2], [T; 3]) {
+        (self.a, self.b)
+    }
+
     /// The next wrench, filtered. A wrench that is not finite is given back as it is and forgotten.
     #[inline]
     pub(crate) fn follow(&mut self, wrench: Wrench<T>) -> Wrench<T> {

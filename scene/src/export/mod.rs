@@ -1,5 +1,6 @@
 //! A scene as what runs without files: Rust with the typed pipeline, or JSON.
 
+mod before;
 mod beside;
 mod calibrated;
 mod followed;

@@ -18,11 +18,13 @@ use crate::input::Convention;
 use crate::scene::Scene;
 
 /// The sections that are exported, or that are of no sample: how recordings are read, and how points are drawn.
-const KNOWN: [&str; 15] = [
+const KNOWN: [&str; 17] = [
     "version",
     "name",
     "input",
     "sensor",
+    "payload",
+    "filter",
     "surface",
     "pose",
     "map",
@@ -37,10 +39,11 @@ const KNOWN: [&str; 15] = [
 ];
 
 /// What can be wrong with numbers: where it shows that it can, its variant, its type, and what it is of.
-const FAULTS: [(&str, &str, &str, &str); 9] = [
+const FAULTS: [(&str, &str, &str, &str); 10] = [
     ("", "Shape", "surfaces::BadShape", "A shape, a contact model or an uncertainty."),
     ("friction::", "Friction", "friction::BadParameter", "A friction, a detector or a grip."),
     ("contact::Tracker::new", "Track", "contact::BadTrack", "What follows a contact over time."),
+    ("wrench::Payload::new", "Payload", "wrench::BadPayload", "What the sensor carries."),
     ("RigidTransform::from_matrix", "Pose", "wrench::TransformError", "A pose."),
     ("surfaces::Mesh::new", "Mesh", "surfaces::MeshError", "A mesh."),
     ("calibration::sensor_matrix", "Sensor", "wrench::SensorMatrixError", "The sensor matrix."),
@@ -61,6 +64,8 @@ struct Stages {
     limit: Option<Typed>,
     detector: Option<Typed>,
     solved: Option<Solved>,
+    /// The expression of the wrench that goes in.
+    given: String,
 }
 
 /// A module, and what those who call it must know.
@@ -102,6 +107,7 @@ pub(super) fn of<T: Real + DeserializeOwned>(
     let contact = needed("contact")?;
     let uncertainty = uncertainty::<T>(scene, &resolved, calibration)?;
     let mut writer = Writer::<T>::new();
+    let (mut beside, given) = writer.before(&pipeline, calibration.is_some())?;
     let stages = Stages {
         surface: writer.placed(&needed("surface")?, &scene.pose)?,
         model: writer.model(&contact, uncertainty.as_ref())?,
@@ -117,8 +123,8 @@ pub(super) fn of<T: Real + DeserializeOwned>(
             Some(file) => Some(writer.solved(file, scalar, scene.convention())?),
             None => None,
         },
+        given,
     };
-    let mut beside = Vec::new();
     if let Some(uncertainty) = &uncertainty {
         beside.push(writer.uncertainty(uncertainty, &contact)?);
     }
@@ -214,7 +220,7 @@ fn header<T: Real>(scene: &Scene, stages: &Stages, beside: &[Beside], items: &st
 fn usage<T: Real>(scene: &Scene, stages: &Stages, beside: &[Beside]) -> String {
     let sense = match &stages.solved {
         Some(solved) => format!("let touch = tip.sense(&reading, step); // reading: {}", solved.reading),
-        None => "let touch = tip.sense_wrench(load(force, torque), step);".to_owned(),
+        None => format!("let touch = tip.sense_wrench({}, step);", stages.given),
     };
     let mut text = format!(
         "Once, and then for each sample, `time_step` seconds after the one before:\n\n    \
@@ -322,7 +328,7 @@ fn items<T: Real>(scene: &Scene, stages: &Stages, beside: &[Beside], statics: &[
 
 /// The type of the pipeline, and the function that makes it.
 fn pipeline(stages: &Stages) -> String {
-    let Stages { surface, model, limit, detector, solved } = stages;
+    let Stages { surface, model, limit, detector, solved, .. } = stages;
     let present = |stage: &Option<Typed>| {
         stage.as_ref().map_or_else(|| "Absent".to_owned(), |stage| format!("Present<{}>", stage.of))
     };

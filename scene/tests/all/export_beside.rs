@@ -282,10 +282,15 @@ fn a_calibration_of_the_scene_goes_into_its_module() {
     let text = scene(limited).to_rust(fingertip_scene::Scalar::F64, None).unwrap();
     assert!(text.contains(".with_greatest_friction(10.0)?.with_torque_arm(0.003)?"), "{text}");
     for (more, words) in [
-        ("[payload]\nmass_kg = 0.1\n", "the section [payload] has no type"),
         ("[contact]\nleast_force_deviations = 5.0\n", "that the rest tells"),
         ("[uncertainty]\n", "that the rest tells"),
+        ("SENSOR[payload]\nmass_kg = 0.1\n", "a [payload] or a [filter] behind the gauges"),
+        (
+            "SENSOR[filter]\nkind = \"low_pass\"\ncutoff_Hz = 9.0\n",
+            "a [payload] or a [filter] behind the gauges",
+        ),
     ] {
+        let more = &more.replace("SENSOR", &sensor);
         let error = scene(more).to_rust(fingertip_scene::Scalar::F64, None).unwrap_err().to_string();
         assert!(error.contains(words), "{error}");
         // As JSON all can be written, and read again.

@@ -6,6 +6,7 @@
 mod calibrated_spread;
 mod choices;
 mod export;
+mod export_before;
 mod export_beside;
 mod export_c;
 #[allow(dead_code, unreachable_pub)]

@@ -61,6 +61,10 @@ impl CLibrary {
             let what = format!("the section [{section}], of which a touch for C tells nothing,");
             return Err(ExportError::NoType { what });
         }
+        if let Some(section) = ["payload", "filter"].into_iter().find(|section| has(section)) {
+            let what = format!("the section [{section}], for which the functions for C have no place,");
+            return Err(ExportError::NoType { what });
+        }
         let Module { text, gauges, is_warm, range, has_limit, has_detector, features } =
             module_of::<T>(scene, scalar, calibration)?;
         let has_grip = has("grip") && has_limit;

@@ -1,5 +1,199 @@
 //! Every choice of the registry, exported.
 
+pub mod filter_low_pass {
+    // scene: a fingertip as a type, in f64.
+    //
+    // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
+    //
+    //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
+    //   filter       low_pass, noise above a frequency is taken off the wrench, by a Butterworth filter of second
+    //                order; cutoff_Hz = 50.0; what changes slowly comes 4.5 ms late
+    //   surface      sphere, a sphere, or a part of it around a pole; radius_m = 0.013
+    //
+    // It needs neither heap nor standard library, and in Cargo.toml:
+    //
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   nalgebra = { version = "0.35", default-features = false }
+    //
+    // With a standard library, "std" in the place of "libm".
+    //
+    // Once, and then for each sample, `time_step` seconds after the one before:
+    //
+    //     let (mut tip, mut last) = (tip()?, None);
+    //
+    //     let step = fingertip::Step::of(time_step).with_last(last);
+    //     let touch = tip.sense_wrench(filter.follow(load(force, torque)), step);
+    //     last = touch.point();
+    //
+    // `let mut filter = Filter::default()` is the filter; after a pause, `filter.start_anew()`.
+
+    use fingertip::{Absent, Fingertip};
+    use fingertip::{contact, surfaces, wrench};
+    use nalgebra::{Vector3, Vector6};
+
+    /// The pipeline.
+    pub type Tip = Fingertip<
+        Absent,
+        surfaces::Sphere<f64>,
+        contact::PointContact<f64>,
+        Absent,
+        Absent,
+    >;
+
+    /// Makes the pipeline.
+    ///
+    /// # Errors
+    /// Never for the numbers below.
+    #[allow(clippy::approx_constant)]
+    pub fn tip() -> Result<Tip, BadTip> {
+        let surface = surfaces::Sphere::new(Vector3::zeros(), 0.013)?;
+        let model = contact::PointContact::new(0.0)?;
+        Ok(Fingertip::builder()
+            .contact(surface, model)
+            .build())
+    }
+
+    /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
+    pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
+        wrench::Wrench::on_fingertip(force, torque)
+    }
+
+    /// A filter of second order on each component of the wrench: what changes slowly comes 0.004464496510753556 s late.
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    pub struct Filter {
+        /// The first wrench, from which all are counted, and what is held of those before.
+        state: Option<[Vector6<f64>; 3]>,
+    }
+
+    impl Filter {
+        /// The next wrench, filtered. One that is not finite is given back as it is and forgotten.
+        pub fn follow(&mut self, wrench: wrench::Wrench<f64>) -> wrench::Wrench<f64> {
+            if !wrench.is_finite() {
+                return wrench;
+            }
+            let components = wrench.components();
+            let fresh = [components, Vector6::zeros(), Vector6::zeros()];
+            let [first, one, two] = self.state.get_or_insert(fresh);
+            let entering = components - *first;
+            let leaving = *one + entering * 0.020083365564211256;
+            *one = *two + entering * 0.04016673112842251 - leaving * -1.561018075800718;
+            *two = entering * 0.020083365564211256 - leaving * 0.641351538057563;
+            let filtered = wrench::Wrench::from_components(&(leaving + *first));
+            if filtered.is_finite() {
+                return filtered;
+            }
+            // Differences of huge wrenches overflow.
+            self.state = None;
+            wrench
+        }
+
+        /// As after a pause: the next wrench is the first.
+        pub fn start_anew(&mut self) {
+            self.state = None;
+        }
+    }
+
+    /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
+    pub type BadTip = surfaces::BadShape;
+}
+
+pub mod filter_notch {
+    // scene: a fingertip as a type, in f64.
+    //
+    // Written by `fingertip export` (fingertip-scene 0.1.0). Change the scene and export it again rather than this.
+    //
+    //   input        convention = "on_fingertip", sample_rate_Hz = 1000.0
+    //   filter       notch, a hum of one frequency is taken off the wrench; frequency_Hz = 50.0, width_Hz = 10.0;
+    //                what changes slowly comes 0.6 ms late
+    //   surface      sphere, a sphere, or a part of it around a pole; radius_m = 0.013
+    //
+    // It needs neither heap nor standard library, and in Cargo.toml:
+    //
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   nalgebra = { version = "0.35", default-features = false }
+    //
+    // With a standard library, "std" in the place of "libm".
+    //
+    // Once, and then for each sample, `time_step` seconds after the one before:
+    //
+    //     let (mut tip, mut last) = (tip()?, None);
+    //
+    //     let step = fingertip::Step::of(time_step).with_last(last);
+    //     let touch = tip.sense_wrench(filter.follow(load(force, torque)), step);
+    //     last = touch.point();
+    //
+    // `let mut filter = Filter::default()` is the filter; after a pause, `filter.start_anew()`.
+
+    use fingertip::{Absent, Fingertip};
+    use fingertip::{contact, surfaces, wrench};
+    use nalgebra::{Vector3, Vector6};
+
+    /// The pipeline.
+    pub type Tip = Fingertip<
+        Absent,
+        surfaces::Sphere<f64>,
+        contact::PointContact<f64>,
+        Absent,
+        Absent,
+    >;
+
+    /// Makes the pipeline.
+    ///
+    /// # Errors
+    /// Never for the numbers below.
+    #[allow(clippy::approx_constant)]
+    pub fn tip() -> Result<Tip, BadTip> {
+        let surface = surfaces::Sphere::new(Vector3::zeros(), 0.013)?;
+        let model = contact::PointContact::new(0.0)?;
+        Ok(Fingertip::builder()
+            .contact(surface, model)
+            .build())
+    }
+
+    /// The load on the fingertip of a force [N] and a torque [N·m] as the sensor reports them.
+    pub fn load(force: Vector3<f64>, torque: Vector3<f64>) -> wrench::Wrench<f64> {
+        wrench::Wrench::on_fingertip(force, torque)
+    }
+
+    /// A filter of second order on each component of the wrench: what changes slowly comes 0.0006313751514675032 s late.
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    pub struct Filter {
+        /// The first wrench, from which all are counted, and what is held of those before.
+        state: Option<[Vector6<f64>; 3]>,
+    }
+
+    impl Filter {
+        /// The next wrench, filtered. One that is not finite is given back as it is and forgotten.
+        pub fn follow(&mut self, wrench: wrench::Wrench<f64>) -> wrench::Wrench<f64> {
+            if !wrench.is_finite() {
+                return wrench;
+            }
+            let components = wrench.components();
+            let fresh = [components, Vector6::zeros(), Vector6::zeros()];
+            let [first, one, two] = self.state.get_or_insert(fresh);
+            let entering = components - *first;
+            let leaving = *one + entering * 0.9700245916226969;
+            *one = *two + entering * -1.8450964176586222 - leaving * -1.8450964176586222;
+            *two = entering * 0.9700245916226969 - leaving * 0.9400491832453938;
+            let filtered = wrench::Wrench::from_components(&(leaving + *first));
+            if filtered.is_finite() {
+                return filtered;
+            }
+            // Differences of huge wrenches overflow.
+            self.state = None;
+            wrench
+        }
+
+        /// As after a pause: the next wrench is the first.
+        pub fn start_anew(&mut self) {
+            self.state = None;
+        }
+    }
+
+    /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
+    pub type BadTip = surfaces::BadShape;
+}
+
 pub mod surface_plane {
     // scene: a fingertip as a type, in f64.
     //

@@ -5,6 +5,8 @@ pub(crate) mod auto_capsule;
 #[rustfmt::skip]
 pub(crate) mod capsule;
 #[rustfmt::skip]
+pub(crate) mod carries;
+#[rustfmt::skip]
 pub(crate) mod choices;
 #[rustfmt::skip]
 pub(crate) mod ellipsoid;
