@@ -111,7 +111,9 @@ pub(crate) fn run(arguments: &RefineArguments) -> Result<(), CliError> {
     if let Some(output) = &arguments.output {
         let matrix = pseudo_inverse(&mended.loads_per_signal)
             .ok_or_else(|| bad(path, &"the mended matrix is singular"))?;
-        let mut better = CalibrationFile { matrix, covariance: None, ..file };
+        let covariance =
+            file.covariance.as_ref().and_then(|before| mended.covariance_after(&file.matrix, before));
+        let mut better = CalibrationFile { matrix, covariance, ..file };
         better.provenance.method.push_str("; refined by point contacts");
         better.quality = Quality {
             verdict: Verdict::Unchecked,

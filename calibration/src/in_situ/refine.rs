@@ -2,8 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::file::{Covariance, of_pseudo_inverse};
 use crate::fit::FitError;
-use crate::linear::{Singular, Triangular};
+use crate::linear::{Singular, Triangular, pseudo_inverse};
 
 /// What mending a calibration gave.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +14,10 @@ pub struct Refined {
     /// Standard deviations of these, by the deviations that were given, to first order; directions that
     /// are not observed add nothing, since they stay as they were.
     pub deviations: DMatrix<f64>,
+    /// Covariance of these, entries row by row, likewise.
+    pub covariance: DMatrix<f64>,
+    /// An orthonormal basis, as columns, of what is not observed: combinations of the entries, row by row.
+    pub kept: DMatrix<f64>,
     /// RMS of the pitch `f·m / (|f||m|)` of the touches, before and after: 0 for point contacts.
     pub pitch: (f64, f64),
     /// How many directions of the 6 × gauges numbers neither touches nor known loads show: they stay as
@@ -93,18 +98,55 @@ pub fn refine(
     }
     let (singular, _) = reduced(&jacobian, &residual)?;
     let threshold = 1e-9 * singular.values.max();
-    let mut variances = DVector::zeros(6 * gauges);
-    for (k, value) in singular.values.iter().enumerate().filter(|(_, value)| **value > threshold) {
-        variances += singular.right.column(k).map(|x| (x / value).powi(2));
+    let mut covariance = DMatrix::zeros(6 * gauges, 6 * gauges);
+    let mut kept = Vec::new();
+    for (k, value) in singular.values.iter().enumerate() {
+        let direction = singular.right.column(k);
+        if *value > threshold {
+            covariance += direction * direction.transpose() / (value * value);
+        } else {
+            kept.push(direction.into_owned());
+        }
     }
-    let deviations = DMatrix::from_row_slice(6, gauges, variances.map(f64::sqrt).as_slice());
+    let deviations = covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
     Ok(Refined {
-        deviations,
+        deviations: DMatrix::from_row_slice(6, gauges, deviations.as_slice()),
+        covariance,
+        kept: if kept.is_empty() { DMatrix::zeros(6 * gauges, 0) } else { DMatrix::from_columns(&kept) },
         pitch: (pitch(touches, start), pitch(touches, &map)),
         loads_per_signal: map,
         unobserved,
         iterations,
     })
+}
+
+impl Refined {
+    /// Covariance of the normalised matrix that a calibration has after it was mended, from that of the calibration before,
+    /// gauges × 6 `matrix` and `covariance`: of what was observed by this, of what was kept by that, to first order. One
+    /// reading is as noisy as before. `None` for a matrix of another size or of deficient rank.
+    #[must_use]
+    pub fn covariance_after(&self, matrix: &DMatrix<f64>, covariance: &Covariance) -> Option<Covariance> {
+        let (gauges, count) = (self.loads_per_signal.ncols(), self.loads_per_signal.len());
+        if matrix.shape() != (gauges, 6) || covariance.signals.shape() != (gauges, gauges) {
+            return None;
+        }
+        // Of the map before: it is the pseudo-inverse of the matrix, which both transposed have independent rows.
+        // Entry (i, j) of the map, or of the transposed matrix, stands at (j, i) of its transpose, gauges × 6.
+        let place = |entry: usize| (entry % gauges) * 6 + entry / gauges;
+        let transposed = |of: &DMatrix<f64>| DMatrix::from_fn(count, count, |a, b| of[(place(a), place(b))]);
+        let all = covariance.all();
+        if all.shape() != (count, count) {
+            return None;
+        }
+        let before = pseudo_inverse(matrix)?;
+        let of_transposed = of_pseudo_inverse(&matrix.transpose(), &before.transpose(), &transposed(&all));
+        let of_before = transposed(&of_transposed);
+        let kept = &self.kept * self.kept.transpose();
+        let of_map = &self.covariance + &kept * of_before * &kept;
+        let mended = pseudo_inverse(&self.loads_per_signal)?;
+        let entries = of_pseudo_inverse(&self.loads_per_signal, &mended, &of_map);
+        Some(Covariance::of_entries(covariance.signals.clone(), entries))
+    }
 }
 
 /// What is to vanish: the pitches of the touches, and what the known loads are off by.

@@ -1,5 +1,6 @@
 //! What ordinary touches tell: errors as stated, and the same in any units, order and frame.
 
+use fingertip_calibration::file::Covariance;
 use fingertip_calibration::in_situ::{PointContactForm, angle_between, form_of, refine};
 use fingertip_calibration::nalgebra::DMatrix;
 use rand::SeedableRng as _;
@@ -136,6 +137,49 @@ fn what_nothing_asks_for_is_not_changed() {
     let same = refine(&start, &none, 1e-2, &none, &none, 1e-2).unwrap();
     assert_eq!((same.unobserved, &same.loads_per_signal), (36, &start));
     assert_eq!((same.deviations, same.pitch), (DMatrix::zeros(6, 6), (0.0, 0.0)));
+}
+
+/// What is not observed is as uncertain as before; what is, by the touches and loads alone.
+#[test]
+fn the_covariance_after_is_of_both() {
+    let random = &mut Pcg64Mcg::seed_from_u64(58);
+    for gauges in [6, 8] {
+        let matrix = sensor(random, 6, gauges).transpose();
+        let root = gaussians(random, gauges, gauges);
+        let loads = gaussians(random, 9, 6);
+        let before = Covariance::product(&root * root.transpose(), loads.transpose() * &loads);
+        let start = (matrix.transpose() * &matrix).try_inverse().unwrap() * matrix.transpose();
+        let none = DMatrix::zeros(0, gauges);
+        let same = refine(&start, &none, 1e-2, &none, &DMatrix::zeros(0, 6), 1e-2).unwrap();
+        let after = same.covariance_after(&matrix, &before).unwrap();
+        assert_eq!(after.signals, before.signals);
+        if gauges == 6 {
+            assert!((after.all() - before.all()).largest() < 1e-9 * before.all().largest());
+        }
+        // What it does to a load is the same of any number of gauges.
+        let (load, signals) = (gaussians(random, 6, 1).column(0).into_owned(), &start);
+        let of_load = |of: &Covariance| signals * of.of_signals(&load) * signals.transpose();
+        let (found, expected) = (of_load(&after), of_load(&before));
+        assert!((found - &expected).largest() < 1e-9 * expected.largest(), "{gauges}");
+        assert_eq!(same.covariance_after(&matrix.transpose(), &before).is_none(), gauges != 6);
+    }
+    // Six known loads observe all of it: of each row of the map (VᵀV)⁻¹σ².
+    let truth = sensor(random, 6, 6);
+    let known = gaussians(random, 9, 6);
+    let fit =
+        refine(&truth, &DMatrix::zeros(0, 6), 1e-3, &known, &(&known * truth.transpose()), 1e-3).unwrap();
+    let spread = (known.transpose() * &known).try_inverse().unwrap() * 1e-6;
+    assert_eq!((fit.unobserved, fit.kept.ncols()), (0, 0));
+    let expected = DMatrix::identity(6, 6).kronecker(&spread);
+    assert!((&fit.covariance - &expected).largest() < 1e-9 * expected.largest());
+    let matrix = truth.clone().try_inverse().unwrap();
+    let vague = Covariance::product(DMatrix::identity(6, 6), DMatrix::identity(6, 6));
+    let after = fit.covariance_after(&matrix, &vague).unwrap();
+    // C δB C of a load x, with δB of rows alike: C Cᵀ · (C x)ᵀ spread (C x).
+    let load = gaussians(random, 6, 1).column(0).into_owned();
+    let reading = &matrix * &load;
+    let expected = &matrix * matrix.transpose() * reading.dot(&(&spread * &reading));
+    assert!((after.of_signals(&load) - &expected).largest() < 1e-9 * expected.largest());
 }
 
 /// What is to vanish, by the statement of `refine`: `Σ (fᵀm / (|f||m|) / σ)² + Σ |B V − P|² / σ²`, with the sizes

@@ -64,8 +64,8 @@ fn of_payloads(trials: usize) {
                 Some((errors, widths))
             });
             let what = format!("payload in {count} poses, noise {name}");
-            // Few poses tell little of the least noisy of unlike components.
-            if name == "alike" || count >= 30 {
+            // Poses tell little of the least noisy of unlike components: its intervals are too wide.
+            if name == "alike" {
                 coverage.holds(&what);
             } else {
                 coverage.holds_at_least(&what);
