@@ -7,5 +7,6 @@ mod triangular;
 
 pub use factors::{Factors, Unobserved};
 pub use pairs::pairs;
+pub(crate) use singular::quick_inverse;
 pub use singular::{Singular, pseudo_inverse};
 pub use triangular::Triangular;

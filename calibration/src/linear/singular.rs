@@ -62,15 +62,19 @@ impl Singular {
     }
 }
 
-/// Of columns of unit norm, at least as many rows: `R⁻¹ Qᵀ`, which is as exact as the way by singular values and
-/// takes a tenth of the time. `None` if a column lies so near the span of those before it that the rank must be looked at.
-fn well_conditioned_inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    /// Of six columns whose parts across the others are larger, no singular value is below a millionth.
+/// As [`pseudo_inverse`], but for rounding, in a tenth of the time where the matrix is well conditioned: `R⁻¹ Qᵀ`.
+#[must_use]
+pub(crate) fn quick_inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    /// Of six columns of unit norm whose parts across the others are larger, no singular value is below a millionth.
     const APART: f64 = 1e-3;
+    let norms = DVector::from_iterator(matrix.ncols(), matrix.column_iter().map(|column| column.norm()));
+    if matrix.nrows() < matrix.ncols() || matrix.ncols() > 6 || !norms.iter().all(|norm| *norm > 0.0) {
+        return pseudo_inverse(matrix);
+    }
     let qr = matrix.clone().qr();
     let right = qr.r();
-    if matrix.ncols() > 6 || right.diagonal().iter().any(|part| !(part.abs() > APART)) {
-        return None;
+    if !right.diagonal().iter().zip(&norms).all(|(part, norm)| part.abs() > APART * norm) {
+        return pseudo_inverse(matrix);
     }
     right.solve_upper_triangular(&qr.q().transpose())
 }
@@ -95,12 +99,6 @@ pub fn pseudo_inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let mut equilibrated = matrix.clone();
     for (mut column, norm) in equilibrated.column_iter_mut().zip(&norms) {
         column /= *norm;
-    }
-    if let Some(mut inverse) = well_conditioned_inverse(&equilibrated) {
-        for (mut row, norm) in inverse.row_iter_mut().zip(&norms) {
-            row /= *norm;
-        }
-        return Some(inverse);
     }
     let singular = Singular::new(&equilibrated)?;
     if singular.rank() < singular.values.len() {

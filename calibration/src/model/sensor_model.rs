@@ -6,7 +6,7 @@ use super::{Direction, Options};
 use crate::Axis;
 use crate::file::{CalibrationFile, Covariance, FileError, Provenance, SignalUnit, of_pseudo_inverse};
 use crate::fit::Fit;
-use crate::linear::{Singular, pairs, pseudo_inverse};
+use crate::linear::{Singular, pairs, pseudo_inverse, quick_inverse};
 use crate::loads::LoadTable;
 
 /// A fitted sensor: what turns readings into loads.
@@ -92,7 +92,7 @@ impl SensorModel {
         let mut loads = match self.direction {
             Direction::SignalsFromLoads => {
                 let matrix = coefficients.rows(0, axes).transpose();
-                let inverse = pseudo_inverse(&matrix)?;
+                let inverse = quick_inverse(&matrix)?;
                 let mut signals = signals.clone();
                 if self.bias {
                     for mut row in signals.row_iter_mut() {

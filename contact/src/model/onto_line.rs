@@ -32,18 +32,19 @@ pub(super) fn onto_line<T: Real, S: ActiveSurface<T>>(
     if incidence * incidence < T::literal(0.25) * T::EPSILON {
         return (point, normal);
     }
-    let scale = largest(&wrench.force()).normalising_factor();
+    let scale = reach(&wrench.force()).normalising_factor();
     let (f, m) = (wrench.force() * scale, wrench.torque() * scale);
     let (mut place, mut outward, mut before) = (point, normal, T::GREATEST);
-    for _ in 0..STEPS {
+    // The line is no farther away than that: the force is 1 or more in its own unit.
+    let size = reach(&point) + reach(&m);
+    let allowed = T::literal(64.0) * T::EPSILON * size / incidence;
+    // Kept from being unrolled: it is code for few samples.
+    for _ in 0..core::hint::black_box(STEPS) {
         let off = off_line(&f, &m, &place);
         let outside = surface.shortcuts().surface_residual(&place);
         let step = off - f * ((outside + outward.dot(&off)) / outward.dot(&f));
-        // The line is no farther away than that: the force is 1 or more in its own unit.
-        let size = largest(&place) + largest(&m);
-        let allowed = T::literal(64.0) * T::EPSILON * size / incidence;
+        let size = reach(&step);
         // False for a NaN, too.
-        let size = largest(&step);
         if !(size <= allowed && size <= before * T::literal(0.75)) {
             break;
         }
@@ -55,11 +56,14 @@ pub(super) fn onto_line<T: Real, S: ActiveSurface<T>>(
             break;
         }
         outward = turned;
-        if size <= T::EPSILON * largest(&place) {
-            break;
-        }
     }
     (place, outward)
+}
+
+/// Kept out of line, as it is asked often for few samples.
+#[inline(never)]
+fn reach<T: Real>(vector: &Vector3<T>) -> T {
+    largest(vector)
 }
 
 /// By how much a point is off the line of a force: `f × (m − x × f)/|f|²`.

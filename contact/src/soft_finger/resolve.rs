@@ -75,7 +75,7 @@ impl<T: Real> SoftFinger<T> {
                     return Resolution::NoContact(NoContact::BelowThreshold { force: squared.root() });
                 }
                 let scaled = Scaled { wrench: *wrench, unit: None };
-                return self.search(wrench, &scaled, surface, last);
+                return self.settled(wrench, &scaled, surface, last);
             }
         }
         self.resolve_extreme(wrench, surface, last)
@@ -104,9 +104,21 @@ impl<T: Real> SoftFinger<T> {
         let unit = larger(largest(&wrench.force()), largest(&wrench.torque())).normalising_factor();
         let scaled = *wrench * unit;
         let scaled = Scaled { wrench: scaled, unit: Some(unit) };
-        self.search(wrench, &scaled, surface, last)
+        self.settled(wrench, &scaled, surface, last)
     }
 
+    fn settled<S: SoftFingerSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        scaled: &Scaled<T>,
+        surface: &S,
+        last: Option<&Vector3<T>>,
+    ) -> Resolution<T> {
+        let found = self.search(wrench, scaled, surface, last);
+        if self.torque_noise.is_zero() { found } else { self.either_side(found, scaled, surface) }
+    }
+
+    #[inline(never)]
     fn search<S: SoftFingerSurface<T>>(
         &self,
         wrench: &Wrench<T>,
@@ -116,9 +128,6 @@ impl<T: Real> SoftFinger<T> {
     ) -> Resolution<T> {
         let mut seen = Seen::new();
         let search = self.look(&scaled.wrench, surface, last, &mut seen);
-        if let Some(pair) = self.either_side(scaled, surface, &seen) {
-            return Resolution::NoContact(pair);
-        }
         if let Some((contact, _)) = seen.best {
             let contact = refined(&scaled.wrench, surface, &contact);
             let spin_torque = scaled.unit.map_or(contact.spin_torque, |unit| {
@@ -133,18 +142,17 @@ impl<T: Real> SoftFinger<T> {
         } else if let Some(point) = seen.outside {
             NoContact::OutsideActiveRegion { point }
         } else {
+            // A pure force is told by the crossings of its line, of which none is missing.
+            let is_told = || is_pure_force(&wrench.force(), &wrench.torque());
             match (search, seen.too_flat, seen.outside_too_flat) {
                 (Search::Complete | Search::Uncertified, Some((point, friction_ratio)), _) => {
                     NoContact::BeyondFriction { point, friction_ratio }
                 }
                 (_, _, Some(point)) => NoContact::OutsideActiveRegion { point },
                 (Search::Grazing([first, second]), ..) => NoContact::Ambiguous { first, second },
-                // A pure force is told by the crossings of its line, of which none is missing.
-                (Search::Uncertified, ..) if is_pure_force(&wrench.force(), &wrench.torque()) => {
-                    why_none(wrench, surface)
-                }
-                (Search::Incomplete | Search::Uncertified, ..) => NoContact::Unresolved,
-                (Search::Complete, ..) => why_none(wrench, surface),
+                (Search::Incomplete, ..) => NoContact::Unresolved,
+                (Search::Uncertified, ..) if !is_told() => NoContact::Unresolved,
+                (Search::Complete | Search::Uncertified, ..) => why_none(wrench, surface),
             }
         })
     }
@@ -190,31 +198,47 @@ impl<T: Real> SoftFinger<T> {
         })
     }
 
-    /// Where a line of action misses and the torque along the force is within the noise: the contact, and the one
-    /// of the opposite torque along the force.
+    /// Where a line of action misses and the torque along the force is within the noise: the contact that was found, and
+    /// the one of the opposite torque along the force.
     #[cold]
+    #[inline(never)]
     fn either_side<S: SoftFingerSurface<T>>(
         &self,
+        found: Resolution<T>,
         scaled: &Scaled<T>,
         surface: &S,
-        seen: &Seen<T>,
-    ) -> Option<NoContact<T>> {
-        if self.torque_noise.is_zero() {
-            return None;
-        }
-        let (force, torque) = (scaled.wrench.force(), scaled.wrench.torque());
-        let direction = force / length(&force);
-        let along = direction.dot(&torque);
+    ) -> Resolution<T> {
         let noise = self.torque_noise * scaled.unit.unwrap_or_else(T::one);
-        let first = seen.place()?;
-        if !(along.abs() <= noise) || is_entered(&scaled.wrench, surface) {
-            return None;
+        let (force, torque) = (scaled.wrench.force(), scaled.wrench.torque());
+        if !(force.dot(&torque).abs() <= noise * length(&force)) {
+            return found;
         }
-        let opposite = Wrench::on_fingertip(force, torque - direction * (along + along));
-        let mut other = Seen::new();
-        let _ = self.look(&opposite, surface, None, &mut other);
-        other.place().map(|second| NoContact::Ambiguous { first, second })
+        let Some(first) = place(&found).filter(|_| !is_entered(&scaled.wrench, surface)) else {
+            return found;
+        };
+        let opposite = Scaled { wrench: mirrored(&scaled.wrench), unit: scaled.unit };
+        match place(&self.search(&opposite.wrench, &opposite, surface, None)) {
+            Some(second) => Resolution::NoContact(NoContact::Ambiguous { first, second }),
+            None => found,
+        }
     }
+}
+
+/// Where a contact is, or would be if friction held it.
+fn place<T: Real>(resolution: &Resolution<T>) -> Option<Vector3<T>> {
+    match resolution {
+        Resolution::Contact(contact) => Some(contact.point),
+        Resolution::NoContact(NoContact::BeyondFriction { point, .. }) => Some(*point),
+        Resolution::NoContact(_) => None,
+    }
+}
+
+/// The wrench with the opposite torque along its force.
+fn mirrored<T: Real>(wrench: &Wrench<T>) -> Wrench<T> {
+    let (force, torque) = (wrench.force(), wrench.torque());
+    let direction = force / length(&force);
+    let along = direction.dot(&torque);
+    Wrench::on_fingertip(force, torque - direction * (along + along))
 }
 
 impl<T: Real> Seen<T> {
@@ -227,11 +251,6 @@ impl<T: Real> Seen<T> {
             too_flat: None,
             beyond_range: false,
         }
-    }
-
-    /// Where a contact is, if there is one, or would be if friction held it.
-    fn place(&self) -> Option<Vector3<T>> {
-        self.best.map(|(contact, _)| contact.point).or_else(|| self.too_flat.map(|(point, _)| point))
     }
 }
 

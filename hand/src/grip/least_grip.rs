@@ -161,10 +161,16 @@ impl<T: Real, const N: usize, const ROWS: usize> LeastGrip<T, N, ROWS> {
             Ending::Solved => {
                 let mut iterate = iterate;
                 iterate.rescale(T::one() / iterate.tau);
+                let grip = held(grasp, &program, &iterate, per_newton, steps);
+                // Of forces near the end of the range a torque may lie beyond it.
+                if !is_finite(&grip) {
+                    self.last = None;
+                    return GripOutcome::NotFinite;
+                }
                 let wrench = program.wrench;
                 let length = grasp.length();
                 self.last = Some(Last { iterate, counts, per_newton, length, wrench });
-                GripOutcome::Held(held(grasp, &program, &iterate, per_newton, steps))
+                GripOutcome::Held(grip)
             }
             Ending::Infeasible => {
                 self.last = None;
@@ -237,6 +243,12 @@ fn held<T: Real, const N: usize, const ROWS: usize, F: Frame>(
     let cost = program.cost(iterate) / unit;
     let least_cost = program.lower_bound(iterate) / unit;
     Grip { forces, cost, least_cost, imbalance, steps }
+}
+
+fn is_finite<T: Real, const N: usize, F: Frame>(grip: &Grip<T, N, F>) -> bool {
+    grip.forces.iter().all(ContactForce::is_finite)
+        && grip.imbalance.is_finite()
+        && (grip.cost + grip.least_cost).is_number()
 }
 
 fn cannot_hold<T: Real, const N: usize, const ROWS: usize, F: Frame>(

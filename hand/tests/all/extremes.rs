@@ -290,6 +290,7 @@ fn finite_or_said<T: Real, F: Frame>(found: &GripOutcome<T, 3, F>) -> bool {
             grip.cost.is_number()
                 && grip.least_cost.is_number()
                 && grip.forces.iter().all(ContactForce::is_finite)
+                && grip.imbalance.is_finite()
         }
         GripOutcome::CannotHold(why) => {
             !(why.velocity.iter().chain(why.turning.iter()).any(|x| x.to_f64().is_nan())
