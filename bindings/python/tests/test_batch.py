@@ -44,8 +44,8 @@ def test_all_at_once_is_one_by_one(wrenches, shape, detector):
     slip = {"detector": detector, "noise_N": 0.01}
     scene = Scene.from_dict({**SECTIONS, "surface": shape, "slip": slip})
     wanted = one_by_one(scene, wrenches, np.full(len(wrenches), 1e-3))
-    # A loop in vectors rounds as it likes.
-    assert_same(Fingertip(scene).sense_all(wrenches, 1e-3), wanted, 1e-12)
+    # A loop in vectors rounds as it likes, and does not mend what a flat angle makes of rounding.
+    assert_same(Fingertip(scene).sense_all(wrenches, 1e-3), wanted, 1e-8)
     steps = np.random.default_rng(4).uniform(1e-4, 2e-3, len(wrenches))
     exactly = one_by_one(scene, wrenches, steps)
     assert Fingertip(scene).sense_all(wrenches, steps) == exactly

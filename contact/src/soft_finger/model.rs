@@ -15,7 +15,7 @@ use crate::model::flat;
 /// `docs/theory/contact.md#contact-centroid`).
 ///
 /// On a convex surface there is at most one such point; a shape that is not convex may have
-/// several, and [`Contact::alternatives`] counts the others. Those that would need more friction than
+/// several, and [`Contact::alternatives`](crate::Contact::alternatives) counts the others. Those that would need more friction than
 /// [`with_greatest_friction`](Self::with_greatest_friction) allows are set aside. Of the rest the one
 /// nearest to the last contact is taken if one is given, otherwise the one where the force presses most
 /// squarely.
@@ -29,11 +29,11 @@ use crate::model::flat;
 /// (`docs/theory/contact.md#errors-of-a-soft-finger`; the factor is the tangent of the angle between force
 /// and normal). [`Auto`](crate::Auto) chooses.
 ///
-/// What is no contact is said by type: [`NoContact::PureCouple`] where there is a torque but no
-/// force, [`NoContact::Ambiguous`] where a force whose line misses could touch at either of two points, and its
+/// What is no contact is said by type: [`NoContact::PureCouple`](crate::NoContact::PureCouple) where there is a torque but no
+/// force, [`NoContact::Ambiguous`](crate::NoContact::Ambiguous) where a force whose line misses could touch at either of two points, and its
 /// torque along the force is too small to tell which ([`with_torque_noise`](Self::with_torque_noise)),
-/// [`NoContact::BeyondFriction`] where friction holds no contact,
-/// [`NoContact::Unresolved`] where a search ended at its bound, or rounding of the wrench hides whether
+/// [`NoContact::BeyondFriction`](crate::NoContact::BeyondFriction) where friction holds no contact,
+/// [`NoContact::Unresolved`](crate::NoContact::Unresolved) where a search ended at its bound, or rounding of the wrench hides whether
 /// there is a contact, as of a needle under a large spin torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoftFinger<T: Real> {
@@ -122,7 +122,7 @@ impl<T: Real> SoftFinger<T> {
     /// torque, say. Zero, unless it is stated, and then nothing but its rounding is.
     ///
     /// It decides where a line of action misses. The spin torque then tells on which of two sides the contact is,
-    /// by its sign; one that is within the noise tells nothing, and the answer is [`NoContact::Ambiguous`], with
+    /// by its sign; one that is within the noise tells nothing, and the answer is [`NoContact::Ambiguous`](crate::NoContact::Ambiguous), with
     /// both places. Where the line meets the surface the sign decides nothing, and the answer is the contact.
     ///
     /// With it, the shorter way to simple shapes is not taken.
