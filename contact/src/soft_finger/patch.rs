@@ -24,7 +24,6 @@ pub(crate) struct Seen<W> {
 pub(crate) trait Digits {
     /// The part as it is next to a point.
     fn seen<W: Wide>(&self, point: Three<W>) -> Seen<W>;
-
     /// Where a way from a point leaves this part of a surface whose curvature jumps between parts: the share of
     /// the way up to there, and what is behind.
     fn left_by<W: Wide>(&self, point: Three<W>, way: &Vector3<f64>) -> Way;
