@@ -26,4 +26,5 @@ mod said_of_scenes;
 mod scenes;
 mod shapes;
 mod streams;
+mod toolchains;
 mod whole_files;
