@@ -133,6 +133,10 @@ fn build_tests(
         options.packages.clone()
     };
     asked.extend(options.judges.iter().cloned());
+    let chosen = packages.iter().filter(|package| options.packages.contains(&package.name));
+    asked.extend(chosen.flat_map(workspace::Package::judges).cloned());
+    asked.sort();
+    asked.dedup();
     for _ in 0..12 {
         let places = tree::write(root, &copy, files, faults)?;
         match build::tests(&copy, &asked, &places)? {

@@ -26,11 +26,31 @@ const NOT: &[&str] = &["/tests/", "/testing/", "/testing.rs", "_tests.rs", "/fuz
 pub struct Package {
     pub name: String,
     manifest_path: PathBuf,
+    /// `package.metadata` of the manifest; most packages have none.
+    metadata: Option<Notes>,
+}
+
+/// What a manifest says to tools.
+#[derive(Debug, Deserialize)]
+struct Notes {
+    mutants: Option<Mutants>,
+}
+
+#[derive(Debug, Deserialize)]
+struct Mutants {
+    /// Packages whose tests are this one's, too, since they can use what this one must not.
+    judges: Vec<String>,
 }
 
 impl Package {
     pub fn folder(&self) -> &Path {
         self.manifest_path.parent().unwrap_or(Path::new("."))
+    }
+
+    /// The other packages whose tests judge this one: `[package.metadata.mutants] judges`.
+    pub fn judges(&self) -> &[String] {
+        let mutants = self.metadata.as_ref().and_then(|notes| notes.mutants.as_ref());
+        mutants.map_or(&[], |mutants| &mutants.judges)
     }
 }
 
