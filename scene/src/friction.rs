@@ -11,6 +11,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::fault::SceneProblem;
+use crate::stages::lent;
 
 /// `[friction]` of a scene: Coulomb's limit unless `limit` names another.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -231,9 +232,14 @@ pub struct Friction<T: Real>(pub Option<Limit<T>>);
 impl<T: Real> GripStage<T> for Friction<T> {
     type Reading = Option<SlipMargin<T>>;
 
-    #[inline]
+    // The commonest within the caller: what a call returns in memory is waited for (see `stages`).
+    #[inline(always)]
     fn judge(&self, force: &ContactForce<T>) -> Self::Reading {
-        self.0.as_ref().map(|limit| limit.slip_margin(force))
+        Some(match self.0.as_ref()? {
+            Limit::Coulomb(limit) => limit.slip_margin(force),
+            Limit::SoftFinger(limit) => limit.slip_margin(force),
+            other => other.slip_margin(&lent(force)),
+        })
     }
 
     #[inline]

@@ -122,11 +122,12 @@ impl<T: Real> Pipeline<T> {
             Some(filter) => filter.follow(wrench),
             None => wrench,
         };
-        let before = self.last;
-        self.felt.touch = self.stages.sense(wrench, Step::of(time_step).with_last(before));
-        self.last = self.felt.touch.point();
         if self.has_more {
+            let before = self.last;
+            self.stages.sense(&wrench, time_step, &mut self.last, &mut self.felt.touch);
             self.say_more(before, time_step);
+        } else {
+            self.stages.sense(&wrench, time_step, &mut self.last, &mut self.felt.touch);
         }
         &self.felt
     }

@@ -9,6 +9,7 @@ use fingertip::wrench::{ContactForce, Real};
 use serde::{Deserialize, Serialize};
 
 use crate::fault::SceneProblem;
+use crate::stages::lent;
 
 /// How many samples the likelihood ratio looks back over.
 pub(crate) const WINDOW: usize = 32;
@@ -141,12 +142,12 @@ macro_rules! each_detector {
 }
 
 impl<T: Real> SlipDetector<T> for Detector<T> {
-    #[inline]
+    #[inline(never)]
     fn update(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict {
         each_detector!(self, detector => detector.update(force, time_step))
     }
 
-    #[inline]
+    #[inline(never)]
     fn update_open(&mut self, time_step: T) -> SlipVerdict {
         each_detector!(self, detector => detector.update_open(time_step))
     }
@@ -181,11 +182,12 @@ impl<T: Real> SlipWatch<T> {
 impl<T: Real> SlipStage<T> for SlipWatch<T> {
     type Verdict = Option<SlipVerdict>;
 
-    #[inline]
+    // Nothing is called where nothing watches.
+    #[inline(always)]
     fn follow(&mut self, force: Option<&ContactForce<T>>, time_step: T) -> Self::Verdict {
         let detector = self.0.as_mut()?;
         Some(match force {
-            Some(force) => detector.update(force, time_step),
+            Some(force) => detector.update(&lent(force), time_step),
             None => detector.update_open(time_step),
         })
     }

@@ -1,9 +1,10 @@
 //! The stages of a pipeline: as types for the commonest scenes, chosen call by call for all others.
 
-use fingertip::contact::{PointContact, SoftFinger};
-use fingertip::surfaces::{Cylinder, DynSurface, Ellipsoid, Plane, SphericalCap};
-use fingertip::wrench::{Real, Uncompensated, Wrench};
+use fingertip::contact::{ContactModel, PointContact, SoftFinger};
+use fingertip::surfaces::{Capsule, Cylinder, DynSurface, Ellipsoid, Plane, SphericalCap};
+use fingertip::wrench::{ContactForce, Real, TangentialForce, Uncompensated, Wrench};
 use fingertip::{Absent, AnyTouch, Fingertip, Step};
+use nalgebra::Vector3;
 
 use crate::friction::Friction;
 use crate::model::Model;
@@ -40,9 +41,43 @@ stages! {
     PointOnSphere: SphericalCap, PointContact;
     PointOnCylinder: Cylinder, PointContact;
     PointOnEllipsoid: Ellipsoid, PointContact;
+    PointOnCapsule: Capsule, PointContact;
     SoftFingerOnSphere: SphericalCap, SoftFinger;
     SoftFingerOnCylinder: Cylinder, SoftFinger;
     SoftFingerOnEllipsoid: Ellipsoid, SoftFinger;
+    SoftFingerOnCapsule: Capsule, SoftFinger;
+}
+
+/// One sample, written where it is kept, of force and torque along `x`, `y` and `z`.
+///
+/// A processor works on the next sample while it ends this one, unless it has to read what was just stored in other pieces,
+/// or has more to store than it can hold back: either makes a sample take twice as long. So the wrench comes in registers,
+/// as pairs do, its copy in the touch is left to the caller, and nothing is returned to be copied.
+// Not inlined: the compiler then knows that what is written is not what is read.
+#[inline(never)]
+fn sense_into<T: Real, Surface, Assumption: ContactModel<T, Surface>>(
+    tip: &mut On<T, Surface, Assumption>,
+    (fx, tx): (T, T),
+    (fy, ty): (T, T),
+    (fz, tz): (T, T),
+    time_step: T,
+    last: &mut Option<Vector3<T>>,
+    touch: &mut AnyTouch<T>,
+) {
+    let wrench = Wrench::on_fingertip(Vector3::new(fx, fy, fz), Vector3::new(tx, ty, tz));
+    let felt = tip.sense_wrench(wrench, Step::of(time_step).with_last(*last));
+    *last = felt.point();
+    (touch.resolution, touch.force) = (felt.resolution, felt.force);
+    (touch.grip, touch.slip) = (felt.grip, felt.slip);
+}
+
+/// A copy by components, for what is called out of line: a force whose address is taken stays in memory, and what is told of
+/// it would come from there. The compiler sees through a copy in one piece.
+#[inline(always)]
+pub(crate) fn lent<T: Real>(force: &ContactForce<T>) -> ContactForce<T> {
+    let [x, y, z] = force.tangential.vector().into();
+    let tangential = TangentialForce::of_magnitude(Vector3::new(x, y, z), force.tangential.magnitude());
+    ContactForce { normal: force.normal, tangential, spin: force.spin }
 }
 
 impl<T: Real> Stages<T> {
@@ -70,6 +105,7 @@ impl<T: Real> Stages<T> {
             (DynSurface::Ellipsoid(ellipsoid), Model::Point(point)) => {
                 of!(PointOnEllipsoid, ellipsoid, point)
             }
+            (DynSurface::Capsule(capsule), Model::Point(point)) => of!(PointOnCapsule, capsule, point),
             (DynSurface::Sphere(cap), Model::SoftFinger(soft)) => of!(SoftFingerOnSphere, cap, soft),
             (DynSurface::Cylinder(cylinder), Model::SoftFinger(soft)) => {
                 of!(SoftFingerOnCylinder, cylinder, soft)
@@ -77,13 +113,26 @@ impl<T: Real> Stages<T> {
             (DynSurface::Ellipsoid(ellipsoid), Model::SoftFinger(soft)) => {
                 of!(SoftFingerOnEllipsoid, ellipsoid, soft)
             }
+            (DynSurface::Capsule(capsule), Model::SoftFinger(soft)) => {
+                of!(SoftFingerOnCapsule, capsule, soft)
+            }
             (surface, model) => of!(Any, surface, model),
         }
     }
 
+    /// Takes a wrench and the time since the one before, and writes what is felt, and the contact in the place of the
+    /// last one.
     #[inline]
-    pub(crate) fn sense(&mut self, wrench: Wrench<T>, step: Step<T>) -> AnyTouch<T> {
-        each!(self, tip => tip.sense_wrench(wrench, step))
+    pub(crate) fn sense(
+        &mut self,
+        wrench: &Wrench<T>,
+        time_step: T,
+        last: &mut Option<Vector3<T>>,
+        touch: &mut AnyTouch<T>,
+    ) {
+        touch.wrench = *wrench;
+        let [x, y, z] = [0, 1, 2].map(|axis| (wrench.force()[axis], wrench.torque()[axis]));
+        each!(self, tip => sense_into(tip, x, y, z, time_step, last, touch));
     }
 
     pub(crate) const fn friction(&self) -> &Friction<T> {
