@@ -185,9 +185,14 @@ mod tests {
     #[test]
     fn sessions_stay_as_they_are() {
         let mut unchanged = Unchanged::new(env!("CARGO_MANIFEST_DIR"), "tests/unchanged/sessions.txt");
-        for name in ["paper_sphere", "capsule", "nano17_cylinder", "ellipsoid", "gauges"] {
-            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../examples/scenes/{name}.toml"));
-            let scene = Scene::load(&path).unwrap();
+        let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scenes");
+        let mut scenes: Vec<_> = ["paper_sphere", "capsule", "nano17_cylinder", "ellipsoid", "gauges"]
+            .map(|name| (name, Scene::load(&examples.join(format!("{name}.toml"))).unwrap()))
+            .into();
+        let gauges = std::fs::read_to_string(examples.join("gauges.toml")).unwrap();
+        let zeroed = gauges.replace("range = [", "zero = [0.5, -0.25, 0.125, 0.0625, 1.0, -1.0]\nrange = [");
+        scenes.push(("gauges with a zero", Scene::from_text(&zeroed).unwrap()));
+        for (name, scene) in scenes {
             let single = scene.to_c(Scalar::F32, None, "tip").unwrap();
             let double = scene.to_c(Scalar::F64, None, "tip").unwrap();
             let sessions =

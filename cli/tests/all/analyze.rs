@@ -321,3 +321,27 @@ fn a_recording_without_a_header_is_read_by_the_numbers_of_its_columns() {
     let error = folder.fail(1, &with(&["--no-report", "--overwrite"]));
     assert!(error.contains("no column 9") || error.contains("9"), "{error}");
 }
+
+/// Without a time column, the rate of the scene is the clock: of what is told, and of what takes time.
+#[test]
+fn a_rate_stands_for_a_time_column() {
+    let timed: String = (0..60).map(|k| push(f64::from(k) * 0.01, 0.02 * f64::from(k))).collect();
+    let folder = folder(&timed);
+    let scene = SCENE.replace("version = 1\n[input]\n", "version = 2\n[input]\nsample_rate_Hz = 100.0\n");
+    folder.write("scene.toml", &format!("{scene}[grip]\nsafety = 1.5\nleast_N = 0.2\ngreatest_N = 20.0\nrise_N_per_s = 2.0\nfall_N_per_s = 0.5\n"));
+    folder.succeed(&ANALYZE);
+    let by_column = Contacts::parse(&folder.read("contacts.csv"));
+    let untimed: String =
+        timed.lines().map(|line| line.split_once(',').unwrap().1.to_owned() + "\n").collect();
+    folder.write("touch.csv", &format!("{}{untimed}", HEADER.replace("t_s,", "")));
+    folder.succeed(&ANALYZE);
+    let by_rate = Contacts::parse(&folder.read("contacts.csv"));
+    assert_eq!(by_rate.words("slip"), by_column.words("slip"));
+    let commands = by_rate.numbers("grip_N");
+    assert!(commands[59] > commands[1] + 0.1, "the command rises with time: {commands:?}");
+    for name in ["t_s", "grip_N"] {
+        for (rate, column) in by_rate.numbers(name).iter().zip(by_column.numbers(name)) {
+            assert!((rate - column).abs() < 1e-9, "{name}: {rate} for {column}");
+        }
+    }
+}

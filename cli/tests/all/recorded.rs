@@ -274,6 +274,18 @@ fn a_sensor_that_goes_is_an_error() {
     assert_eq!(Contacts::parse(&folder.read("a.csv")).len(), 40);
 }
 
+/// One that goes before it said anything left no recording to speak of.
+#[test]
+fn a_sensor_that_says_nothing_is_an_error() {
+    let folder = Folder::new();
+    let listener = std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap();
+    let address = format!("bota+tcp://{}", listener.local_addr().unwrap());
+    let sensor = std::thread::spawn(move || drop(listener.accept().unwrap()));
+    let error = folder.fail(1, &["record", &address, "-o", "a.csv", "--silence", "60"]);
+    sensor.join().unwrap();
+    assert!(error.contains("the line was closed") && !error.contains("after the first sample"), "{error}");
+}
+
 /// However high the rate, it begins at once.
 #[test]
 fn a_fast_simulation_begins() {

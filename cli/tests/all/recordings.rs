@@ -103,6 +103,10 @@ fn a_cut_text_loses_its_last_line() {
         "{said}"
     );
     assert_eq!(folder.read("whole.csv"), format!("{HEADER}0,-2,0,0,0,0,0\n1,-2,0,0,0,0,0\n"));
+    folder.write("short.csv", &format!("{HEADER}0,-2,0,0,0,0,0\n1,-2,0,0,0,0,0\n2,-2,0,0,0,0,0"));
+    let said = folder.succeed(&["recover", "short.csv", "ended.csv"]);
+    assert!(said.starts_with("3 rows recovered\nThe file was whole.\n"), "{said}");
+    assert!(folder.read("ended.csv").ends_with("\n2,-2,0,0,0,0,0\n"));
     let said = folder.succeed(&["convert", "cut.csv", "cut.mcap"]);
     assert!(said.contains("2 wrenches") && said.contains("line 4, the last"), "{said}");
     folder.write("loads.csv", "fx_N;v1_V\n0;0\n1;1\n2;2.01\n\n3;2.99\n4;4\n5;");
