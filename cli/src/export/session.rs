@@ -187,7 +187,7 @@ mod tests {
         let mut unchanged = Unchanged::new(env!("CARGO_MANIFEST_DIR"), "tests/unchanged/sessions.txt");
         let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scenes");
         let mut scenes: Vec<_> = ["paper_sphere", "capsule", "nano17_cylinder", "ellipsoid", "gauges"]
-            .map(|name| (name, Scene::load(&examples.join(format!("{name}.toml"))).unwrap()))
+            .map(|name| (name, Scene::load(examples.join(format!("{name}.toml"))).unwrap()))
             .into();
         let gauges = std::fs::read_to_string(examples.join("gauges.toml")).unwrap();
         let zeroed = gauges.replace("range = [", "zero = [0.5, -0.25, 0.125, 0.0625, 1.0, -1.0]\nrange = [");

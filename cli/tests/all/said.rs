@@ -145,6 +145,7 @@ fn of_a_payload() {
 
 #[test]
 fn of_surfaces() {
+    const KNOWN: &str = "version = 1\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.01\n";
     let folder = Folder::new();
     for shape in ["sphere", "ellipsoid", "aligned-ellipsoid", "cylinder", "plane", "pivot", "pose"] {
         let data = surface::touches(if shape == "aligned-ellipsoid" { "sphere" } else { shape });
@@ -154,7 +155,7 @@ fn of_surfaces() {
             // A point is no surface, and a pose is that of one.
             "pivot" => {}
             "pose" => {
-                folder.write("known.toml", "version = 1\n[surface]\nshape = \"sphere\"\nradius_m = 0.01\n");
+                folder.write("known.toml", KNOWN);
                 command.extend(["--scene", "known.toml", "-o", "scene.toml"]);
             }
             _ => command.extend(["-o", "scene.toml"]),
@@ -165,6 +166,7 @@ fn of_surfaces() {
         let opposite = negated(&folder.read("touches.csv"));
         let scene = folder.read("scene.toml");
         folder.write("touches.csv", &opposite);
+        folder.write("known.toml", &KNOWN.replace("on_fingertip", "reaction"));
         command.push("--reaction");
         assert_eq!(folder.succeed(&command), said);
         assert_eq!(folder.read("scene.toml"), scene.replace("on_fingertip", "reaction"));

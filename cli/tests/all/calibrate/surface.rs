@@ -127,7 +127,75 @@ fn mistakes_are_named() {
     folder.write("known.toml", "version = 1\n[pose]\n");
     let command = ["geometry", "pose", "posed.csv", "--scene", "known.toml", "-o", "scene.toml"];
     let error = folder.fail(1, &command);
-    assert!(error.contains("known.toml") && error.contains("[pose] already"), "{error}");
+    assert!(error.contains("known.toml") && error.contains("missing field `input`"), "{error}");
+    folder.write("known.toml", KNOWN);
+    let error = folder.fail(1, &[&command[..], &["--reaction"]].concat());
+    assert!(error.contains("known.toml") && error.contains("against --reaction"), "{error}");
+}
+
+const KNOWN: &str = "# Our gripper.
+version = 2
+name = \"left finger\"
+
+[input]
+convention = \"on_fingertip\" # as the driver says
+
+# What touches.
+[surface]
+shape = \"sphere\"
+radius_m = 0.01 # from the drawing
+
+[pose]
+translation_m = [0.0, 0.0, 0.5]
+
+[friction] # rubber
+static_coefficient = 0.8
+";
+
+/// What is found goes where it belongs in a scene; the rest, comments too, stays.
+#[test]
+fn a_scene_takes_what_was_found_of_it() {
+    let folder = Folder::new();
+    folder.write("known.toml", KNOWN);
+    let find = |shape: &str, of: &str, more: &[&str]| {
+        folder.write("touches.csv", &touches(of));
+        let command = ["geometry", shape, "touches.csv", "--scene", "known.toml", "-o", "scene.toml"];
+        folder.succeed(&[&command[..], more].concat());
+        folder.succeed(&["scene", "check", "scene.toml"]);
+        folder.read("scene.toml")
+    };
+    let posed = find("pose", "pose", &[]);
+    let (start, rest) = posed.split_once("[pose]\n").unwrap();
+    assert_eq!(start, KNOWN.split_once("[pose]\n").unwrap().0);
+    let (pose, friction) = rest.split_once("\n[friction]").unwrap();
+    assert_eq!(friction, " # rubber\nstatic_coefficient = 0.8\n");
+    assert!(pose.starts_with("translation_m = [") && pose.contains("rotation_deg = ["), "{pose}");
+    assert!(!pose.contains("0.5]"), "{pose}");
+
+    let round = find("sphere", "sphere", &[]);
+    assert!(
+        !round.contains("[pose]") && round.contains("# What touches.\n[surface]\nshape = \"sphere\"\n"),
+        "{round}"
+    );
+    assert!(
+        !round.contains("drawing") && round.contains("centre_m = [") && round.contains("# rubber"),
+        "{round}"
+    );
+    // One that has the section in a line of its own, and says that it reports reactions.
+    let reaction = KNOWN
+        .replace("on_fingertip", "reaction")
+        .replace("[surface]\nshape = \"sphere\"\nradius_m = 0.01 # from the drawing\n", "");
+    folder.write(
+        "known.toml",
+        &reaction.replace("name =", "surface = { shape = \"sphere\", radius_m = 0.01 }\nname ="),
+    );
+    let opposite = find("sphere", "sphere", &[]);
+    let radius = |text: &str| -> f64 {
+        let (_, rest) = text.split_once("radius_m = ").unwrap();
+        rest.split([' ', ',', '\n']).next().unwrap().parse().unwrap()
+    };
+    assert!((radius(&opposite) + radius(&round)).abs() > 1e-3, "wrenches are turned round");
+    assert!(opposite.contains("convention = \"reaction\""), "{opposite}");
 }
 
 /// Without friction the radius does not show, and the error says what to do.

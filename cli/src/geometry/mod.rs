@@ -1,6 +1,7 @@
 //! `fingertip geometry`: the shape of the fingertip's surface from touches, as a scene.
 
-use std::fs;
+mod written;
+
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
@@ -15,6 +16,7 @@ use nalgebra::{Rotation3, Vector3};
 use crate::calibrate::files::{bad, read_columns};
 use crate::error::CliError;
 use crate::output::{Outputs, Overwrite};
+use written::Known;
 
 #[derive(Debug, Args)]
 #[command(after_help = "Columns of TOUCHES.csv: fx_N … tz_Nm, the load on the sensor; and\n  \
@@ -43,17 +45,17 @@ pub(crate) struct GeometryArguments {
         default_value = "0,0,1"
     )]
     outward: Vec<f64>,
-    /// The wrenches are what the fingertip does to the world, not the load on it
+    /// The wrenches are what the fingertip does to the world, not the load on it; a --scene says it itself
     #[arg(long)]
     reaction: bool,
     /// Standard deviations of a force and of a torque; without them forces are taken as exact, and sizes come out
     /// too small where they are not
     #[arg(long, value_delimiter = ',', value_name = "N,N·m")]
     noise: Option<Vec<f64>>,
-    /// The scene whose surface has the pose, for `pose -o`
+    /// A scene, from which -o takes all but the surface; of a pose all but that
     #[arg(long, value_name = "SCENE.toml")]
     scene: Option<PathBuf>,
-    /// Where to write a scene with the surface
+    /// Where to write a scene with what was found
     #[arg(short, long, value_name = "SCENE.toml")]
     output: Option<PathBuf>,
 }
@@ -93,8 +95,10 @@ pub(crate) fn run(arguments: &GeometryArguments) -> Result<(), CliError> {
     let outputs =
         Outputs::guard(arguments.overwrite, "output", inputs.into_iter().flatten(), &arguments.output)?;
     let path = &arguments.touches;
+    let known = arguments.scene.as_deref().map(Known::read).transpose()?;
+    let reaction = Known::reaction(known.as_ref(), arguments.reaction)?;
     let columns = read_columns("table of touches", path)?;
-    let found = find(arguments, &columns).map_err(|message| bad(path, &message))?;
+    let found = find(arguments, &columns, reaction).map_err(|message| bad(path, &message))?;
     let mut text = found.lines.join("\n");
     text.push_str("\n± is half of an interval of 95 %\n");
     text.push_str(&format!("{} touches; {:.3e} N·m of torque are left (RMS)\n", columns.rows(), found.rms));
@@ -112,41 +116,15 @@ pub(crate) fn run(arguments: &GeometryArguments) -> Result<(), CliError> {
         text.push_str(&format!("not observed: {what}\n"));
     }
     if let Some(output) = &arguments.output {
-        outputs.write("scene", output, &scene(arguments, &found)?)?;
+        let text = written::scene(arguments, known, reaction, &found.scene)?;
+        outputs.write("scene", output, &text)?;
     }
     outputs.say(&text, &[])
 }
 
-/// A whole scene, with what was found in it.
-fn scene(arguments: &GeometryArguments, found: &Found) -> Result<String, CliError> {
-    match (arguments.shape, &arguments.scene) {
-        (FittedShape::Pivot, _) => {
-            Err(bad(&arguments.touches, &"a pivot is no surface: there is no scene to write (-o)"))
-        }
-        (FittedShape::Pose, None) => {
-            Err(bad(&arguments.touches, &"a pose alone is no scene: name that of the surface (--scene)"))
-        }
-        (FittedShape::Pose, Some(path)) => {
-            let known = fs::read_to_string(path).map_err(|source| CliError::read("scene", path, source))?;
-            if known.lines().any(|line| line.trim_start().starts_with("[pose]")) {
-                return Err(bad(path, &"it has a [pose] already: take it out"));
-            }
-            Ok(format!("{}\n\n{}", known.trim_end(), found.scene))
-        }
-        _ => {
-            let convention = if arguments.reaction { "reaction" } else { "on_fingertip" };
-            Ok(format!(
-                "version = 1\n\n[input]\nconvention = \"{convention}\"\n# Where a recording has no time, as touches \
-                 have none: the rate of the sensor.\nsample_rate_Hz = 1.0\n\n{}",
-                found.scene
-            ))
-        }
-    }
-}
-
-fn find(arguments: &GeometryArguments, columns: &Columns) -> Result<Found, String> {
+fn find(arguments: &GeometryArguments, columns: &Columns, reaction: bool) -> Result<Found, String> {
     let loads = columns.wrenches().map_err(text)?;
-    let sign = if arguments.reaction { -1.0 } else { 1.0 };
+    let sign = if reaction { -1.0 } else { 1.0 };
     let wrenches: Vec<Wrench<f64>> =
         loads.iter().map(|load| Wrench::from_components(&(load * sign))).collect();
     let touches = || -> Result<Vec<Touch>, String> {
