@@ -2,6 +2,7 @@
 //!
 //! What is read becomes a shape as it could stand in the scene itself, so that all that scenes can do can be done with it.
 
+mod collada;
 mod robot;
 mod shapes;
 mod xml;
@@ -110,8 +111,18 @@ pub enum UrdfFault {
         /// Why not.
         source: MeshError,
     },
+    /// A Collada file that gives no mesh.
+    #[error("mesh {path} of link {link:?}: {fault}", path = .path.display())]
+    Collada {
+        /// The link.
+        link: String,
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        fault: Box<UrdfFault>,
+    },
     /// A mesh in a format that is not read.
-    #[error("mesh {path} of link {link:?} is neither .stl nor .obj; convert it", path = .path.display())]
+    #[error("mesh {path} of link {link:?} is neither .stl nor .obj nor .dae; convert it", path = .path.display())]
     MeshFormat {
         /// The link.
         link: String,

@@ -7,9 +7,10 @@ use nalgebra::Isometry3;
 use roxmltree::Node;
 use toml::{Table, Value};
 
+use super::collada;
 use super::robot::origin;
-use super::xml::{child, numbers, numbers_or, positive, text, wrong};
-use super::{UrdfFault, numbers as list, table};
+use super::xml::{child, numbers, numbers_or, parse, positive, text, wrong};
+use super::{UrdfFault, numbers as list, read_text, table};
 
 /// The shapes of a link and where they lie in its frame; `robot` is the file that describes it.
 pub(super) fn of_link(
@@ -61,7 +62,7 @@ fn shape(collision: Node<'_, '_>, link: &str, robot: &Path) -> Result<Table, Urd
 fn mesh(node: Node<'_, '_>, link: &str, robot: &Path) -> Result<Table, UrdfFault> {
     let path = found(text(node, "filename")?, link, robot)?;
     let is = |ending: &str| path.extension().is_some_and(|name| name.eq_ignore_ascii_case(ending));
-    if !is("stl") && !is("obj") {
+    if !["stl", "obj", "dae"].into_iter().any(is) {
         return Err(UrdfFault::MeshFormat { link: link.to_owned(), path });
     }
     let scale = numbers_or(node, "scale", [1.0; 3])?;
@@ -69,8 +70,18 @@ fn mesh(node: Node<'_, '_>, link: &str, robot: &Path) -> Result<Table, UrdfFault
         let message = "`scale` of <mesh> must be three positive numbers; mirror the file itself".to_owned();
         return Err(wrong(node, message));
     }
-    let (vertices, triangles) = Mesh::<f64>::parts_from_file(&path, 1.0)
-        .map_err(|source| UrdfFault::Mesh { link: link.to_owned(), path, source })?;
+    let (vertices, triangles) = if is("dae") {
+        let read = || collada::read(&parse(&read_text(&path)?)?);
+        let fault =
+            |fault| UrdfFault::Collada { link: link.to_owned(), path: path.clone(), fault: Box::new(fault) };
+        read().map_err(fault)?
+    } else {
+        Mesh::<f64>::parts_from_file(&path, 1.0).map_err(|source| UrdfFault::Mesh {
+            link: link.to_owned(),
+            path,
+            source,
+        })?
+    };
     let [x, y, z] = scale;
     let vertices = vertices.iter().map(|v| list(&[v.x * x, v.y * y, v.z * z])).collect();
     let corners = |triangle: &[u32; 3]| Value::Array(triangle.iter().map(|i| i64::from(*i).into()).collect());

@@ -5,6 +5,7 @@
 
 mod calibrated_spread;
 mod choices;
+mod collada;
 mod export;
 mod export_before;
 mod export_beside;

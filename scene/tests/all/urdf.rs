@@ -166,7 +166,7 @@ fn what_cannot_be_is_named() {
         (&with(r#"<torus/>"#), tip, "is a <torus>, which is no box"),
         (&with(""), tip, "has no <geometry>"),
         (&with(r#"<mesh filename="tip.dae"/>"#), tip, "is not there"),
-        (&with(r#"<mesh filename="hand.urdf"/>"#), tip, "is neither .stl nor .obj"),
+        (&with(r#"<mesh filename="hand.urdf"/>"#), tip, "is neither .stl nor .obj nor .dae"),
         (&ball.replace("child link=\"sensor\"", "child link=\"tip\""), tip, "one may hold it"),
         (&ball.replace("parent link=\"palm\"", "parent link=\"tip\""), tip, "lead round in a circle"),
     ] {
