@@ -100,6 +100,13 @@ mod tests {
         for bad in [skew, indefinite, mute, -Matrix6::identity(), Matrix6::repeat(f64::NAN)] {
             assert_eq!(WrenchNoise::with_covariance(&bad).unwrap_err(), GeometryError::BadNoise);
         }
+        // However small the noise: two components that go together by more than all, or one way only.
+        let quiet = Matrix6::from_diagonal_element(1e-10);
+        for (there, back) in [(1.0 + 1e-6, 1.0 + 1e-6), (0.5, 0.5 + 1e-6)] {
+            let mut bad = quiet;
+            (bad[(0, 1)], bad[(1, 0)]) = (there * 1e-10, back * 1e-10);
+            assert_eq!(WrenchNoise::with_covariance(&bad).unwrap_err(), GeometryError::BadNoise, "{there}");
+        }
         let mut related = Matrix6::from_diagonal_element(1e-4);
         (related[(0, 4)], related[(4, 0)]) = (5e-5, 5e-5);
         assert_eq!(WrenchNoise::with_covariance(&related).unwrap().mixed[(0, 1)], 5e-5);
