@@ -181,7 +181,8 @@ impl Rows {
 
 /// What a recording shows, in a dictionary that `fingertip.Analysis` is made of.
 #[pyfunction]
-#[pyo3(signature = (path, scene, sensor, topics, celsius))]
+#[pyo3(signature = (path, scene, sensor, topics, celsius, start, end))]
+#[allow(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn analyze_rows<'py>(
     py: Python<'py>,
     path: PathBuf,
@@ -189,8 +190,10 @@ pub(crate) fn analyze_rows<'py>(
     sensor: Option<String>,
     topics: Vec<String>,
     celsius: Option<f64>,
+    start: Option<f64>,
+    end: Option<f64>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let recorded = Recorded { path, sensor, topics, celsius };
+    let recorded = Recorded { path, sensor, topics, celsius, start, end };
     let mut rows = Rows::default();
     let (of, file) = (scene.scene(), scene.path());
     let analysis = py

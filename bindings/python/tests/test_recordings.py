@@ -174,3 +174,15 @@ def test_sections_of_the_scene_are_used(recorded):
     with pytest.raises(fingertip.RecordingError, match="rest"):
         long = {**SECTIONS, "input": {"convention": "on_fingertip", "rest_s": 1e4}}
         fingertip.analyze(path, Scene.from_dict(long))
+
+
+def test_a_part_of_a_recording_is_that_part(recorded):
+    path, scene, _, _ = recorded
+    whole = fingertip.analyze(path, scene)
+    time = whole.columns["t_s"]
+    part = fingertip.analyze(path, scene, start=1.0, end=2.0)
+    within = (time - time[0] >= 1.0) & (time - time[0] <= 2.0)
+    assert np.array_equal(part.columns["t_s"], time[within])
+    assert np.array_equal(part.columns["x_m"], whole.columns["x_m"][within], equal_nan=True)
+    with pytest.raises(fingertip.RecordingError, match="--start 1000 must be before the end of the recording"):
+        fingertip.analyze(path, scene, start=1000.0)

@@ -1,11 +1,12 @@
 //! A recording that is read ahead, on a thread of its own.
 
+use core::ops::ControlFlow;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
+use fingertip_recordings::RowBlock;
 use fingertip_recordings::health::Health;
-use fingertip_recordings::{RecordingError, RowBlock};
 
 use crate::error::CliError;
 use crate::health::WatchedRows;
@@ -19,8 +20,8 @@ const BLOCKS: usize = 3;
 /// What the thread that reads needs for its calls is far less, of whatever format \[bytes\].
 const STACK: usize = 512 << 10;
 
-/// Reads a recording to its end and looks at the health of its sensor, while `each` works on blocks of its rows in their
-/// order on this thread.
+/// Reads a recording to its end, or until `each` has enough, and looks at the health of its sensor, while `each` works on
+/// blocks of its rows in their order on this thread.
 ///
 /// # Errors
 /// The first one that reading row by row would meet: what `each` says of a row comes before what reading says of a later
@@ -28,7 +29,7 @@ const STACK: usize = 512 << 10;
 pub(super) fn read(
     reader: &mut Rows,
     watched: WatchedRows,
-    mut each: impl FnMut(&RowBlock) -> Result<(), CliError>,
+    mut each: impl FnMut(&RowBlock) -> Result<ControlFlow<()>, CliError>,
 ) -> Result<Health, CliError> {
     let (full, blocks) = sync_channel(BLOCKS);
     let (used, free) = sync_channel(BLOCKS + 2);
@@ -38,13 +39,18 @@ pub(super) fn read(
             .stack_size(STACK)
             .spawn_scoped(scope, move || read_ahead(reader, watched, &full, &free))
             .map_err(|source| CliError::read("recording", Path::new(&file), source))?;
+        let mut has_enough = false;
         for block in blocks {
-            each(&block)?;
+            has_enough = each(&block)?.is_break();
+            if has_enough {
+                break;
+            }
             // At the end nobody takes it.
             let _ = used.send(block);
         }
         match reading.join() {
-            Ok(read) => Ok(read?.finish()),
+            // What is wrong behind what was asked for does not matter.
+            Ok((watched, read)) => (if has_enough { Ok(()) } else { read }).map(|()| watched.finish()),
             Err(panic) => std::panic::resume_unwind(panic),
         }
     })
@@ -56,7 +62,7 @@ fn read_ahead(
     mut watched: WatchedRows,
     full: &SyncSender<RowBlock>,
     free: &Receiver<RowBlock>,
-) -> Result<WatchedRows, RecordingError> {
+) -> (WatchedRows, Result<(), CliError>) {
     let rows = ROWS.min(VALUES / reader.layout().columns().len().max(1)).max(1);
     loop {
         let mut block = free.try_recv().unwrap_or_default();
@@ -64,8 +70,9 @@ fn read_ahead(
         block.rows().for_each(|row| watched.add(&row));
         // The rows before a bad one are worked on before it is told.
         let is_taken = block.is_empty() || full.send(block).is_ok();
-        if !more? || !is_taken {
-            return Ok(watched);
+        match more {
+            Ok(true) if is_taken => {}
+            more => return (watched, more.map(drop).map_err(CliError::from)),
         }
     }
 }

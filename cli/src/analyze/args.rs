@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::span::Span;
 use crate::output::Overwrite;
 
 #[derive(Debug, Args)]
@@ -32,6 +33,8 @@ pub(crate) struct AnalyzeArguments {
     /// Of an MCAP file, this topic alone; several times for several
     #[arg(long = "topic", value_name = "TOPIC")]
     pub(crate) topics: Vec<String>,
+    #[command(flatten)]
+    pub(crate) span: Span,
     /// Where to write one row per sample; `-` is the standard output, and the summary then goes to
     /// the standard error
     #[arg(long, value_name = "FILE", default_value = "contacts.csv")]
@@ -42,6 +45,9 @@ pub(crate) struct AnalyzeArguments {
     /// Write no report
     #[arg(long)]
     pub(crate) no_report: bool,
+    /// Print the summary as JSON, in a line: counts, quantiles, slips, faults, notes, in SI units
+    #[arg(long)]
+    pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) overwrite: Overwrite,
 }

@@ -10,6 +10,7 @@ use fingertip_scene::{Felt, Scene};
 use super::args::AnalyzeArguments;
 use super::array::Fused;
 use super::sink::Sink;
+use super::span::Span;
 use super::{Analysed, analysed};
 use crate::error::CliError;
 use crate::observe::Status;
@@ -50,6 +51,10 @@ pub struct Recorded {
     pub topics: Vec<String>,
     /// Temperature of the whole recording \[°C\], for a calibration that drifts with it.
     pub celsius: Option<f64>,
+    /// What comes earlier behind the first row \[s\] is left out; a rest at the start is taken as ever.
+    pub start: Option<f64>,
+    /// What comes later behind the first row \[s\] is left out.
+    pub end: Option<f64>,
 }
 
 impl Recorded {
@@ -62,9 +67,11 @@ impl Recorded {
             celsius: self.celsius,
             sensor: self.sensor.clone(),
             topics: self.topics.clone(),
+            span: Span { start: self.start, end: self.end },
             output: PathBuf::new(),
             report: PathBuf::new(),
             no_report: true,
+            json: false,
             overwrite: Overwrite::default(),
         }
     }

@@ -6,13 +6,17 @@ mod array;
 mod cells;
 mod contacts;
 mod files;
+mod json;
 pub mod library;
 mod payload;
 mod recorded;
 mod sink;
 mod source;
+mod span;
 mod volts;
 mod wrenches;
+
+use core::ops::ControlFlow;
 
 use fingertip_recordings::Quality;
 use fingertip_scene::{Pipeline, Scene};
@@ -30,6 +34,7 @@ use array::{Array, Fused};
 use contacts::ContactWriter;
 use sink::Sink;
 use source::{Reading, Source};
+use span::{Place, Window};
 
 pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let scene = scene::load(&arguments.scene)?;
@@ -39,7 +44,7 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
         let places = scene.array_places().unwrap_or(0);
         ContactWriter::create(&arguments.output, &outputs, scene.tells(), places)
     };
-    let Analysed { sink: contacts, source, observations, findings, .. } =
+    let Analysed { sink: contacts, source, observations, quality, findings } =
         analysed(&scene, arguments, create)?;
     contacts.finish()?;
     let report = (!arguments.no_report).then_some(arguments.report.as_path());
@@ -50,6 +55,17 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
             calibrated: source.is_calibrated(),
         };
         outputs.write("report", path, &report::of_recording(&findings, &observations, &scene, &given))?;
+    }
+    if arguments.json {
+        let recording = arguments.recording.as_path();
+        let told = json::Told {
+            recording,
+            scene: &scene,
+            source: &source,
+            observations: &observations,
+            quality: &quality,
+        };
+        return outputs.print(&told.line(&outputs.names()));
     }
     outputs.say(&findings.to_string(), &[])
 }
@@ -69,18 +85,23 @@ fn analysed<S: Sink>(
     arguments: &AnalyzeArguments,
     sink: impl FnOnce() -> Result<S, CliError>,
 ) -> Result<Analysed<S>, CliError> {
+    arguments.span.check()?;
     let recording = arguments.recording.as_path();
-    let mut notes = Vec::new();
+    let mut notes = Vec::from_iter(arguments.span.note());
     let opened = Opened::open(recording, &arguments.topics, files::of(scene), &mut notes)?;
     let Opened { rows: mut reader, bar, .. } = opened;
     let mut source = Source::new(&mut reader, scene, arguments, notes)?;
     let array = scene.array_places().map(|places| Array::new(places, &mut reader)).transpose()?;
     let mut sink = sink()?;
-    let pass = Pass { scene, reader: &mut reader, source: &mut source, array, sink: &mut sink };
+    let window = Window::new(arguments.span);
+    let pass = Pass { scene, reader: &mut reader, source: &mut source, array, window, sink: &mut sink };
     let observations = pass.run()?;
     bar.finish_and_clear();
     let quality = *reader.quality();
     if observations.rows() == 0 {
+        if let Some(start) = arguments.span.start.filter(|_| source.has_rows()) {
+            return Err(CliError::option("--start", start, "must be before the end of the recording"));
+        }
         return Err(CliError::NoRows { path: recording.to_owned() });
     }
     let findings = summary::of_recording(&Run {
@@ -111,6 +132,7 @@ struct Pass<'a, S> {
     reader: &'a mut Rows,
     source: &'a mut Source,
     array: Option<Array>,
+    window: Window,
     sink: &'a mut S,
 }
 
@@ -124,13 +146,22 @@ impl<S: Sink> Pass<'_, S> {
         let mut watched =
             watched.map_err(|problem| CliError::Recording(self.reader.header_error(problem)))?;
         watched.limit(sensor, self.scene.calibration().and_then(|file| file.range));
-        let Self { scene, reader, source, mut array, sink } = self;
+        let Self { scene, reader, source, mut array, mut window, sink } = self;
         let mut fused = Fused::default();
         let health = ahead::read(reader, watched, |block| {
             for row in block.rows() {
                 let (time, time_step) = source.clock(&row);
                 if row.marks().gap {
                     pipeline.start_anew();
+                }
+                match window.place(time) {
+                    Place::Behind => return Ok(ControlFlow::Break(())),
+                    Place::Before => {
+                        // It may be part of the rest.
+                        let _ = source.read(&row, time)?;
+                        continue;
+                    }
+                    Place::Within => {}
                 }
                 match source.read(&row, time)? {
                     Reading::Wrench(wrench) => {
@@ -151,9 +182,12 @@ impl<S: Sink> Pass<'_, S> {
                     }
                 }
             }
-            Ok(())
+            Ok(ControlFlow::Continue(()))
         })?;
         if let Some(rest) = source.unfinished_rest() {
+            if let Some(end) = window.end() {
+                return Err(CliError::option("--end", end, "must be behind `rest_s` of the scene"));
+            }
             return Err(CliError::RestTooLong {
                 path: reader.file().into(),
                 rest,

@@ -158,6 +158,11 @@ impl Source {
         }
     }
 
+    /// Whether the recording had any row.
+    pub(super) const fn has_rows(&self) -> bool {
+        self.rows > 0
+    }
+
     /// The seconds of rest that the recording was too short for.
     pub(super) fn unfinished_rest(&self) -> Option<f64> {
         self.rest.filter(|_| self.rows > 0)

@@ -98,6 +98,11 @@ impl Outputs {
         print(text)
     }
 
+    /// The names of what was written.
+    pub(crate) fn names(&self) -> Vec<String> {
+        self.written.borrow().iter().map(|path| path.display().to_string()).collect()
+    }
+
     /// The line that names what was written.
     pub(crate) fn written(&self) -> String {
         written(self.written.borrow().iter())

@@ -345,3 +345,71 @@ fn a_rate_stands_for_a_time_column() {
         }
     }
 }
+
+/// A part of a recording gives the rows that the whole gives there; the rest at its start is taken before.
+#[test]
+fn a_part_of_a_recording_is_analysed() {
+    let mut rows: String =
+        (0..100).map(|k| format!("{},0.3,0.1,-0.2,0,0,0\n", 5.0 + f64::from(k) * 0.01)).collect();
+    rows += &(100..300).map(|k| push(5.0 + f64::from(k) * 0.01, 0.002 * f64::from(k))).collect::<String>();
+    let folder = folder(&rows);
+    folder.write("scene.toml", &SCENE.replace("[input]\n", "[input]\nrest_s = 0.9\n"));
+    folder.succeed(&ANALYZE);
+    let whole = folder.read("contacts.csv");
+    let said = folder.succeed(&with(&["--start", "1.5", "--end", "2.5"]));
+    assert!(
+        said.contains("Note: only what was recorded from 1.5 s to 2.5 s behind the first row."),
+        "{said}"
+    );
+    let part = folder.read("contacts.csv");
+    let time = |line: &str| line.split(',').next().unwrap().parse::<f64>().unwrap();
+    let between = |line: &&str| (6.5 - 1e-12..=7.5 + 1e-12).contains(&time(line));
+    let expected: Vec<&str> = whole.lines().skip(1).filter(between).collect();
+    assert!(expected.len() >= 99 && part.lines().skip(1).eq(expected.iter().copied()), "{part}");
+    // What comes behind the end is not even read.
+    folder.write("touch.csv", &format!("{HEADER}{rows}9,broken\n"));
+    folder.succeed(&with(&["--end", "1.5", "--start", "1.2"]));
+    for (options, says) in [
+        (["--start=4", "--end=5"], "--start 4 must be before the end of the recording"),
+        (["--start=0.1", "--end=0.5"], "--end 0.5 must be behind `rest_s` of the scene"),
+        (["--start=2", "--end=1"], "--end 1 must not be before --start"),
+        (["--start=0", "--end=nan"], "--end NaN must be a number of seconds behind the first row"),
+        (["--start=-1", "--end=1"], "--start -1 must be a number of seconds behind the first row"),
+    ] {
+        folder.write("touch.csv", &format!("{HEADER}{rows}"));
+        let output = folder.run(&with(&options));
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(!output.status.success() && error.contains(says), "{error}");
+    }
+}
+
+/// For programs: one line, with the numbers of the text.
+#[test]
+fn the_summary_comes_as_json() {
+    let rows: String = (0..300).map(|k| push(f64::from(k) * 0.01, 0.005 * f64::from(k))).collect();
+    let folder = folder(&format!("{rows}2.99,0,0,-2,0,0,0\n3.0,0,0,-0.1,0,0,0\n"));
+    let line = folder.succeed(&with(&["--json", "--no-report"]));
+    assert_eq!(line.lines().count(), 1);
+    let told: serde_json::Value = serde_json::from_str(&line).unwrap();
+    assert_eq!(told["recording"], "touch.csv");
+    assert_eq!(told["samples"], 302);
+    let contacts = Contacts::parse(&folder.read("contacts.csv"));
+    let statuses = contacts.words("status");
+    for (word, samples) in told["outcomes"].as_object().unwrap() {
+        assert_eq!(
+            samples.as_u64().unwrap() as usize,
+            statuses.iter().filter(|status| *status == word).count()
+        );
+    }
+    assert_eq!((&told["first_time_s"], &told["last_time_s"]), (&0.0.into(), &3.0.into()));
+    let normal = &told["distributions"]["normal_N"];
+    assert!((normal["median"].as_f64().unwrap() - 2.0).abs() < 0.05, "{normal}");
+    assert_eq!(told["slips"]["count"], 1);
+    assert!((told["slips"]["first"][0]["ratio"].as_f64().unwrap() - 0.5).abs() < 0.02, "{told}");
+    assert_eq!(told["faults"]["times that do not advance"]["first_lines"][0], 302, "{told}");
+    assert_eq!(told["written"][0], "contacts.csv");
+    // Beside rows on the standard output it goes where words go.
+    let output = folder.run(&with(&["--json", "--no-report", "--output", "-"]));
+    assert!(String::from_utf8(output.stdout).unwrap().starts_with("t_s,"));
+    serde_json::from_slice::<serde_json::Value>(&output.stderr).unwrap();
+}

@@ -48,8 +48,8 @@ pub(super) fn read(document: &Document<'_>) -> Result<Parts, UrdfFault> {
         Some(shown) => mesh.add_nodes(mesh.meant(shown)?, &whole, 0)?,
         // A library of geometries and nothing that places them.
         None => {
-            let meshes = document.descendants().filter(|node| node.has_tag_name("geometry"));
-            meshes.map(|geometry| mesh.add_geometry(geometry, &whole)).collect::<Result<(), _>>()?;
+            let mut meshes = document.descendants().filter(|node| node.has_tag_name("geometry"));
+            meshes.try_for_each(|geometry| mesh.add_geometry(geometry, &whole))?;
         }
     }
     if mesh.parts.1.is_empty() {

@@ -671,7 +671,13 @@ class Tracked:
     def velocity_covariance(self) -> _Numbers: ...
 
 def analyze_rows(
-    path: str | os.PathLike[str], scene: Scene, sensor: str | None, topics: Sequence[str], celsius: float | None
+    path: str | os.PathLike[str],
+    scene: Scene,
+    sensor: str | None,
+    topics: Sequence[str],
+    celsius: float | None,
+    start: float | None,
+    end: float | None,
 ) -> dict[str, Any]: ...
 def calibrate_table(loads: npt.ArrayLike, signals: npt.ArrayLike, options: Mapping[str, Any]) -> Calibration: ...
 def conditioning(matrix: npt.ArrayLike, nominal: npt.ArrayLike) -> tuple[_Numbers, float, _Numbers | None]: ...

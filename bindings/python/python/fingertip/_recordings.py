@@ -241,6 +241,8 @@ def analyze(
     sensor: str | None = None,
     topics: Iterable[str] = (),
     celsius: float | None = None,
+    start: float | None = None,
+    end: float | None = None,
 ) -> Analysis:
     """Contacts from a recording, as the command `fingertip analyze` finds them.
 
@@ -258,10 +260,14 @@ def analyze(
         Of an MCAP file, these topics alone.
     celsius : float, optional
         Temperature of the whole recording, for a calibration that drifts with it.
+    start, end : float, optional
+        What comes earlier or later than so many seconds behind the first row is left out; a rest at the start is taken
+        as ever.
 
     Raises
     ------
     RecordingError
         With the sentence that the command says.
     """
-    return Analysis(**_native.analyze_rows(os.fspath(recording), scene, sensor, list(topics), celsius))
+    rows = _native.analyze_rows(os.fspath(recording), scene, sensor, list(topics), celsius, start, end)
+    return Analysis(**rows)
