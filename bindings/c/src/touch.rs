@@ -182,3 +182,31 @@ pub extern "C" fn ft_resolution_text(resolution: u32) -> *const c_char {
     };
     text.as_ptr()
 }
+
+#[cfg(test)]
+mod tests {
+    use fingertip::contact::NoContact;
+    use nalgebra::Vector3;
+
+    use super::reason;
+
+    /// The numbers of the header are those that libraries of one scene give, too.
+    #[test]
+    fn reasons_have_their_numbers() {
+        let point = Vector3::zeros();
+        for why in [
+            NoContact::NotFinite,
+            NoContact::BelowThreshold { force: 0.0 },
+            NoContact::Misses { closest: None },
+            NoContact::OnlyPulling { point },
+            NoContact::BeyondFriction { point, friction_ratio: 1.0 },
+            NoContact::OutsideActiveRegion { point },
+            NoContact::PureCouple { torque: 1.0 },
+            NoContact::Ambiguous { first: point, second: point },
+            NoContact::Unresolved,
+            NoContact::NotOneContact { pitch: 1.0, excess: 4.0 },
+        ] {
+            assert_eq!(reason(&why) as u32, why.number(), "{why}");
+        }
+    }
+}

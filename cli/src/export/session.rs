@@ -154,7 +154,7 @@ fn fold<T: Real>(felt: &Felt<T>, library: &CLibrary) -> u32 {
         numbers.push(felt.grip_force.unwrap_or(zero));
     }
     let mut words = vec![
-        CLibrary::resolution(&touch.resolution),
+        touch.resolution.into_result().map_or_else(|why| why.number(), |_| 0),
         touch.slip.map_or(0, |slip| slip as u32),
         u32::from(margin.is_some()),
         contact.map_or(0, |contact| u32::from(contact.alternatives)),

@@ -149,6 +149,33 @@ pub enum NoContact<T: Real> {
     },
 }
 
+impl<T: Real> NoContact<T> {
+    /// The number that stands for the reason where there are no enumerations of Rust, as in C: from 1, since 0 is a
+    /// contact. A number keeps its meaning.
+    ///
+    /// ```
+    /// use fingertip_contact::NoContact;
+    ///
+    /// assert_eq!(NoContact::<f32>::NotFinite.number(), 1);
+    /// ```
+    #[inline]
+    #[must_use]
+    pub const fn number(&self) -> u32 {
+        match self {
+            Self::NotFinite => 1,
+            Self::BelowThreshold { .. } => 2,
+            Self::Misses { .. } => 3,
+            Self::OnlyPulling { .. } => 4,
+            Self::BeyondFriction { .. } => 5,
+            Self::OutsideActiveRegion { .. } => 6,
+            Self::PureCouple { .. } => 7,
+            Self::Ambiguous { .. } => 8,
+            Self::Unresolved => 9,
+            Self::NotOneContact { .. } => 10,
+        }
+    }
+}
+
 /// Says how far a line passes, if that is known.
 fn by_how_much<T: Real>(closest: &Option<ClosestApproach<T>>) -> impl fmt::Display {
     let gap = closest.map(|closest| closest.gap);

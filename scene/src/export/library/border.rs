@@ -11,7 +11,7 @@ mod scene;
 
 use core::mem::MaybeUninit;
 
-use fingertip::contact::{NoContact, Resolution};
+use fingertip::contact::Resolution;
 use nalgebra::Vector3;
 
 #[repr(C)]
@@ -70,22 +70,6 @@ fn on_panic(_: &core::panic::PanicInfo<'_>) -> ! {
     loop {}
 }
 
-fn reason(why: &NoContact<REAL>) -> u32 {
-    match why {
-        NoContact::NotFinite => 1,
-        NoContact::BelowThreshold { .. } => 2,
-        NoContact::Misses { .. } => 3,
-        NoContact::OnlyPulling { .. } => 4,
-        NoContact::BeyondFriction { .. } => 5,
-        NoContact::OutsideActiveRegion { .. } => 6,
-        NoContact::PureCouple { .. } => 7,
-        NoContact::Ambiguous { .. } => 8,
-        NoContact::Unresolved => 9,
-        NoContact::NotOneContact { .. } => 10,
-        _ => 11,
-    }
-}
-
 impl State {
     fn start_anew(&mut self) {
         self.last = None;
@@ -141,7 +125,7 @@ CHECK    let time_step = if time_step > 0.0 { time_step } else { 0.0 };
 SENSE    state.last = felt.point();
 GRIP_COMMAND    let (contact, why) = match &felt.resolution {
         Resolution::Contact(contact) => (Some(contact), 0),
-        Resolution::NoContact(why) => (None, reason(why)),
+        Resolution::NoContact(why) => (None, why.number()),
     };
     let force = felt.force.as_ref();
     let margin: Option<(REAL, REAL)> = MARGIN;

@@ -3,7 +3,6 @@
 mod border;
 mod header;
 
-use fingertip::contact::{NoContact, Resolution};
 use fingertip::wrench::Real;
 use fingertip_calibration::file::{CalibrationFile, Scalar};
 use serde::de::DeserializeOwned;
@@ -131,25 +130,6 @@ impl CLibrary {
         digits.fold(None, |number: Option<usize>, digit| {
             number.unwrap_or(0).checked_mul(10)?.checked_add(usize::from(digit - b'0'))
         })
-    }
-
-    /// The number that stands for a resolution in the header.
-    #[must_use]
-    pub fn resolution<T: Real>(resolution: &Resolution<T>) -> u32 {
-        let Resolution::NoContact(why) = resolution else { return 0 };
-        match why {
-            NoContact::NotFinite => 1,
-            NoContact::BelowThreshold { .. } => 2,
-            NoContact::Misses { .. } => 3,
-            NoContact::OnlyPulling { .. } => 4,
-            NoContact::BeyondFriction { .. } => 5,
-            NoContact::OutsideActiveRegion { .. } => 6,
-            NoContact::PureCouple { .. } => 7,
-            NoContact::Ambiguous { .. } => 8,
-            NoContact::Unresolved => 9,
-            NoContact::NotOneContact { .. } => 10,
-            _ => 11,
-        }
     }
 
     /// How many numbers a sample is: gauges, or the six of a wrench.
