@@ -15,6 +15,7 @@ mod formula;
 mod front;
 mod fusion;
 mod hostile;
+mod keys;
 mod noise;
 mod parts;
 mod sensor;
