@@ -3,6 +3,7 @@
 //!
 //! `mdbook build book` calls `fingertip-book preprocess`; `.ci/book` the rest.
 
+mod built;
 mod failure;
 mod links;
 mod pages;
@@ -47,6 +48,12 @@ enum Command {
         #[arg(long)]
         keep: bool,
     },
+    /// Checks the links of the book as it was built
+    Links {
+        /// Where it was built
+        #[arg(default_value = "target/book")]
+        folder: PathBuf,
+    },
     /// Mends the links of the book, as a preprocessor of mdBook
     Preprocess {
         /// What mdBook asks first: `supports RENDERER`
@@ -59,6 +66,10 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Reference { check } => pages::settle(&reference::pages()?, "reference", check),
         Command::Pictures { check } => pages::settle(&pictures::pictures()?, "pictures", check),
         Command::Walk { tutorials, keep } => walk::walk(&tutorials, keep),
+        Command::Links { folder } => {
+            let folder = folder.canonicalize().map_err(Failure::file(&folder))?;
+            built::check(&folder)
+        }
         Command::Preprocess { question } if question.is_empty() => links::preprocess(),
         // Links are the same for every renderer.
         Command::Preprocess { .. } => Ok(()),
