@@ -1,6 +1,6 @@
 //! The registry's keys beside those that the parser knows, and beside those that it wants.
 
-use std::collections::BTreeSet;
+use alloc::collections::BTreeSet;
 use std::path::Path;
 
 use fingertip_scene::Scene;

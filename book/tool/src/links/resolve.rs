@@ -1,7 +1,8 @@
 //! One page with its links mended.
 
+use core::ops::Range;
 use std::collections::{HashMap, HashSet};
-use std::ops::Range;
+
 use std::path::{Path, PathBuf};
 
 use pulldown_cmark::{Event, LinkType, Tag};

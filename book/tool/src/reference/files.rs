@@ -79,6 +79,6 @@ pub(super) fn contacts() -> String {
         let _ = writeln!(text, "| `{name}` | {says} |");
     }
     let (name, says) = FUSED_DISAGREEMENT;
-    let _ = write!(text, "\nAnd once, `{name}`: {}\n", format!("{says}."));
+    let _ = writeln!(text, "\nAnd once, `{name}`: {says}.");
     text
 }
