@@ -73,7 +73,7 @@ fn main() -> Result<(), Failure> {
          Hollow marks are f32, full ones f64."
     );
     if let Some(file) = book {
-        std::fs::write(file, multiples::page(&introduction, page.groups(), &parts))?;
+        std::fs::write(file, multiples::page(&format!("{machine}{pace}"), page.groups(), &parts))?;
     }
     let mut text = format!("# Error against run time\n\n{introduction}\n");
     for (title, said) in parts {

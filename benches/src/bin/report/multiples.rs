@@ -18,13 +18,15 @@ const FRAME: (f64, f64, f64, f64) = (42.0, 292.0, 8.0, 186.0);
 const COLOURS: usize = 9;
 
 /// The page: what is said of each part, its diagrams, and where they come from.
-pub(crate) fn page(introduction: &str, groups: &[Group], parts: &[Part]) -> String {
+pub(crate) fn page(machine: &str, groups: &[Group], parts: &[Part]) -> String {
     let mut text = format!(
         "<!-- Written by the report of the benches: cargo run --release -p fingertip-benches --bin report -- --book \
-         book/src/measures.md -->\n\n# Measures\n\n{introduction}\n\nWritten by `cargo run --release -p fingertip-benches \
+         book/src/measures.md -->\n\n# Measures\n\nMeasured on: {machine}. Times are medians of short \
+         batches. Written by `cargo run --release -p fingertip-benches \
          --bin report`, which also writes larger diagrams and all numbers. Errors are against arithmetic of 220 bits, the \
          truth from which an input was made, or a stiff solver. Where there is a dashed line, less is better on both axes, \
-         and nothing lies below and left of it.\n"
+         and nothing lies below and left of it. What a scene costs on a microcontroller is counted in \
+         [its firmware](../../examples/cortex-m4/README.md).\n"
     );
     for ((title, diagrams), (_, said)) in groups.iter().zip(parts) {
         // Writing to a String cannot fail.
