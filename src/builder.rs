@@ -5,6 +5,20 @@ use fingertip_wrench::Uncompensated;
 use crate::{Absent, Fingertip, Present};
 
 /// Chooses the stages of a [`Fingertip`]; what is not chosen is left out.
+///
+/// ```
+/// use fingertip::prelude::*;
+///
+/// // Friction that is chosen at run time, in a box; no detector.
+/// let friction: Box<dyn FrictionModel<f64>> = Box::new(Coulomb::new(0.5)?);
+/// let mut tip = Fingertip::builder()
+///     .contact(Sphere::centred(13e-3)?, PointContact::new(0.1)?)
+///     .friction(friction)
+///     .build();
+/// let push = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 13e-3), Vector3::new(0.5, 0.0, -2.0));
+/// assert!(tip.sense_wrench(push, 1e-3).grip.is_some_and(|margin| margin.newtons > 0.4));
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Payload> {

@@ -6,7 +6,9 @@ mod batch;
 mod builder;
 #[cfg(all(feature = "batch", feature = "friction"))]
 mod columns;
+mod error;
 mod pipeline;
+pub mod prelude;
 mod stage;
 mod step;
 #[cfg(feature = "friction")]
@@ -19,10 +21,13 @@ pub use fingertip_friction as friction;
 pub use fingertip_hand as hand;
 pub use fingertip_surfaces as surfaces;
 pub use fingertip_wrench as wrench;
+/// The vectors and matrices of all interfaces, in the version that they have.
+pub use nalgebra;
 
 #[cfg(all(feature = "batch", feature = "friction"))]
 pub use batch::Touches;
 pub use builder::FingertipBuilder;
+pub use error::Error;
 pub use pipeline::{Fingertip, Touch};
 pub use stage::{Absent, GripStage, Present, SlipStage};
 pub use step::Step;

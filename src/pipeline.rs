@@ -10,6 +10,22 @@ use crate::{Absent, FingertipBuilder, GripStage, SlipStage, Step};
 ///
 /// The stages are types, so that a scene compiles and runs only what it needs: an [`Absent`] stage
 /// takes no memory and no time. Made by [`Fingertip::builder`].
+///
+/// ```
+/// use fingertip::prelude::*;
+///
+/// // Six signals of which each is one component: 30 N or 0.3 N·m a volt.
+/// let nominal = Vector6::new(30.0, 30.0, 30.0, 0.3, 0.3, 0.3);
+/// let sensor = SensorMatrix::new(fingertip::nalgebra::SMatrix::identity(), nominal)?;
+/// let mut tip = Fingertip::builder()
+///     .solver(GaussianElimination::new(&sensor)?)
+///     .contact(Sphere::centred(13e-3)?, PointContact::new(0.1)?)
+///     .build();
+/// let volts = Vector6::new(0.0, 0.0, -0.1, 0.0, 0.0, 0.0);
+/// let touch = tip.sense(&volts, 1e-3);
+/// assert!(touch.force.is_some_and(|force| (force.normal - 3.0_f64).abs() < 1e-12));
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fingertip<
     Solver,
@@ -30,6 +46,20 @@ pub struct Fingertip<
 }
 
 /// What one sample says.
+///
+/// ```
+/// use fingertip::prelude::*;
+///
+/// let mut tip = Fingertip::builder()
+///     .contact(Sphere::centred(13e-3)?, PointContact::new(0.1)?)
+///     .friction(Coulomb::new(0.5)?)
+///     .build();
+/// let push = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 13e-3), Vector3::new(0.5, 0.0, -2.0));
+/// let Touch { resolution, force, grip, .. } = tip.sense_wrench(push, 1e-3);
+/// assert!(resolution.contact().is_some() && grip.is_some());
+/// assert!(force.is_some_and(|force| (force.tangential_magnitude() - 0.5_f64).abs() < 1e-12));
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

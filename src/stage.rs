@@ -5,14 +5,64 @@ use fingertip_friction::{FrictionModel, SlipDetector, SlipMargin, SlipVerdict};
 use fingertip_wrench::{Compensation, ContactForce, Real, Wrench};
 
 /// A stage that is left out: zero-sized, and its calls vanish.
+///
+/// ```
+/// use fingertip::prelude::*;
+/// use fingertip::{Absent, Fingertip};
+///
+/// type Bare = Fingertip<Absent, Sphere<f64>, PointContact<f64>>;
+/// let bare: Bare = Fingertip::builder().contact(Sphere::centred(13e-3)?, PointContact::new(0.1)?).build();
+/// assert_eq!(size_of_val(&bare), size_of::<(Sphere<f64>, PointContact<f64>)>());
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Absent;
 
-/// A stage that is there.
+/// A stage that is there, in types that are written out.
+///
+/// ```
+/// use fingertip::prelude::*;
+/// use fingertip::{Absent, Present};
+///
+/// struct Finger {
+///     tip: Fingertip<Absent, Sphere<f64>, PointContact<f64>, Present<Coulomb<f64>>>,
+/// }
+///
+/// let (ball, model) = (Sphere::centred(13e-3)?, PointContact::new(0.1)?);
+/// let mut finger = Finger { tip: Fingertip::builder().contact(ball, model).friction(Coulomb::new(0.5)?).build() };
+/// let push = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -1.0), Vector3::zeros());
+/// assert!(finger.tip.sense_wrench(push, 1e-3).grip.is_some());
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Present<Stage>(pub Stage);
 
 /// Judges the contact force of one sample. Every friction model is one, wrapped in [`Present`].
+///
+/// ```
+/// use fingertip::prelude::*;
+///
+/// /// Tells how hard it presses, and nothing else.
+/// struct Scales;
+///
+/// impl GripStage<f64> for Scales {
+///     type Reading = f64;
+///
+///     fn judge(&self, force: &ContactForce<f64>) -> f64 {
+///         force.normal
+///     }
+/// }
+///
+/// let (ball, model) = (Sphere::centred(13e-3)?, PointContact::new(0.1)?);
+/// let mut tip = Fingertip::builder().contact(ball, model).friction_stage(Scales).build();
+/// let push = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -2.0), Vector3::zeros());
+/// assert_eq!(tip.sense_wrench(push, 1e-3).grip, Some(2.0));
+/// # Ok::<(), Error>(())
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` cannot judge a contact force of `{T}`",
+    note = "give a friction model to `.friction(…)`, which wraps it in `Present`, or a `GripStage` to `.friction_stage(…)`"
+)]
 pub trait GripStage<T: Real> {
     /// What it says of a contact.
     type Reading;
@@ -31,6 +81,33 @@ pub trait GripStage<T: Real> {
 
 /// Follows the contact force from sample to sample. Every slip detector is one,
 /// wrapped in [`Present`].
+///
+/// ```
+/// use fingertip::prelude::*;
+///
+/// /// Counts the samples of a touch.
+/// #[derive(Default)]
+/// struct Count(u32);
+///
+/// impl SlipStage<f64> for Count {
+///     type Verdict = u32;
+///
+///     fn follow(&mut self, force: Option<&ContactForce<f64>>, _: f64) -> u32 {
+///         self.0 = if force.is_some() { self.0 + 1 } else { 0 };
+///         self.0
+///     }
+/// }
+///
+/// let (ball, model) = (Sphere::centred(13e-3)?, PointContact::new(0.1)?);
+/// let mut tip = Fingertip::builder().contact(ball, model).slip_stage(Count::default()).build();
+/// let push = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -2.0), Vector3::zeros());
+/// assert_eq!([tip.sense_wrench(push, 1e-3).slip, tip.sense_wrench(push, 1e-3).slip], [1, 2]);
+/// # Ok::<(), Error>(())
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` cannot follow contact forces of `{T}`",
+    note = "give a slip detector to `.slip_detector(…)`, which wraps it in `Present`, or a `SlipStage` to `.slip_stage(…)`"
+)]
 pub trait SlipStage<T: Real> {
     /// What it says after a sample.
     type Verdict;

@@ -21,7 +21,13 @@ fn the_quick_report_writes_its_files() {
     if folder.exists() {
         std::fs::remove_dir_all(&folder).unwrap();
     }
-    let ran = Command::new(env!("CARGO_BIN_EXE_report")).arg("--quick").arg("--out").arg(&folder).status();
+    let ran = Command::new(env!("CARGO_BIN_EXE_report"))
+        .arg("--quick")
+        .arg("--out")
+        .arg(&folder)
+        .arg("--book")
+        .arg(folder.with_extension("md"))
+        .status();
     assert!(ran.unwrap().success());
     let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
     let page = read("report.html");
@@ -44,6 +50,9 @@ fn the_quick_report_writes_its_files() {
         .collect();
     assert!(diagrams.len() >= 20, "{diagrams:?}");
     assert_eq!(page.matches("<svg").count(), diagrams.len(), "{diagrams:?}");
+    let book = std::fs::read_to_string(folder.with_extension("md")).unwrap();
+    assert_eq!(book.matches("<svg").count(), diagrams.len());
+    assert!(!book.contains("NaN") && !book.contains("inf,"), "a point of the book's page is none");
     for name in &diagrams {
         assert!(page.contains(&read(name)), "{name} is not on the page");
     }

@@ -11,6 +11,7 @@ mod convert;
 mod demo;
 mod design;
 mod error;
+mod exit;
 mod export;
 mod felt;
 mod gauge_rows;
@@ -42,9 +43,11 @@ use std::ffi::OsString;
 
 use clap::{CommandFactory, Parser};
 
+pub use analyze::columns as contact_columns;
 pub use analyze::library;
 use args::{Arguments, Command};
 use error::CliError;
+pub use exit::EXIT_CODES;
 
 /// Runs the command with the arguments that a shell gives it, the name of the program first, and gives its exit code.
 /// What it says goes to the standard streams, `--help` and what is wrong with the arguments too.
@@ -56,7 +59,7 @@ pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) ->
         Err(told) => {
             // As clap does where it ends the program itself: a stream that is closed is no reason to fail.
             let _ = told.print();
-            return u8::try_from(told.exit_code()).unwrap_or(2);
+            return u8::try_from(told.exit_code()).unwrap_or(exit::USAGE);
         }
     };
     stop::guard(&command);
@@ -86,10 +89,10 @@ pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) ->
     };
     match done {
         // Whoever reads our output may stop when they have seen enough.
-        Ok(()) | Err(CliError::ClosedPipe) => 0,
+        Ok(()) | Err(CliError::ClosedPipe) => exit::DONE,
         Err(error) => {
             eprintln!("error: {}", output::printable(&error.to_string()));
-            1
+            exit::FAILED
         }
     }
 }

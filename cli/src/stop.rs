@@ -4,16 +4,14 @@ use alloc::sync::Arc;
 use core::sync::atomic::{AtomicBool, Ordering};
 
 use crate::args::Command;
+use crate::exit::INTERRUPTED;
 use crate::output::remove_unfinished;
-
-/// What shells say of a program that Ctrl-C has ended.
-const INTERRUPTED: i32 = 130;
 
 /// Has Ctrl-C take away what is half written, where the command does not listen to it by itself.
 pub(crate) fn guard(command: &Command) {
     if !matches!(command, Command::Record(_) | Command::Live(_) | Command::Simulate(_)) {
         // Without it the half stays under a name that says so.
-        let _ = ctrlc::set_handler(|| remove_unfinished(|| std::process::exit(INTERRUPTED)));
+        let _ = ctrlc::set_handler(|| remove_unfinished(|| std::process::exit(INTERRUPTED.into())));
     }
 }
 

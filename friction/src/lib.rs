@@ -2,6 +2,8 @@
 #![doc = include_str!("../README.md")]
 
 mod bad_parameter;
+#[cfg(feature = "std")]
+mod boxed;
 mod dynamics;
 mod estimate;
 mod grip;

@@ -67,7 +67,7 @@ impl From<SceneProblem> for SceneFault {
 #[non_exhaustive]
 pub enum SceneProblem {
     /// A key is wrong, missing or not known.
-    #[error("{key}{message} (the keys are explained in examples/scenes/README.md)")]
+    #[error("{key}{message} (the keys are explained in book/src/reference/scene.md)")]
     Key {
         /// Which, with a colon, or nothing where the message names it.
         key: String,

@@ -138,6 +138,10 @@ pub struct ClosestApproach<T: Real> {
 /// SurfaceLaws::around(Vector3::zeros(), 1.0).check(&Ball)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no surface of `{T}`",
+    note = "a shape of your own implements `ActiveSurface::crossings`; its scalar must be that of the wrench"
+)]
 pub trait ActiveSurface<T: Real> {
     /// Calls `visit` for every point where the line passes through the surface.
     fn crossings(&self, line: &Line<T>, visit: impl FnMut(Crossing<T>));

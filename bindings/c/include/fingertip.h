@@ -531,7 +531,7 @@ ft_status ft_sense_all(struct ft_tip *tip,
                        double time_step,
                        const struct ft_touch_columns *touches);
 
-// Makes a fingertip of the text of a scene (examples/scenes/README.md has its keys). Files that it names are looked for
+// Makes a fingertip of the text of a scene (book/src/reference/scene.md has its keys). Files that it names are looked for
 // in the working directory.
 //
 // `error` may be NULL. It tells why there is no fingertip, and of one that was made, with FT_OK, what in the scene can

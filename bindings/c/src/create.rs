@@ -9,7 +9,7 @@ use crate::fault::ft_status;
 use crate::message::ft_error;
 use crate::tip::ft_tip;
 
-/// Makes a fingertip of the text of a scene (examples/scenes/README.md has its keys). Files that it names are looked for
+/// Makes a fingertip of the text of a scene (book/src/reference/scene.md has its keys). Files that it names are looked for
 /// in the working directory.
 ///
 /// `error` may be NULL. It tells why there is no fingertip, and of one that was made, with FT_OK, what in the scene can

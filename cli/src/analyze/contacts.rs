@@ -9,49 +9,13 @@ use fingertip_scene::{Felt, Tells};
 
 use super::array::Fused;
 use super::cells::Cells;
+use super::columns::{CONTACT_COLUMNS, FUSED_COLUMNS, FUSED_DISAGREEMENT};
 use crate::error::CliError;
 use crate::observe::Status;
 use crate::output::{Outputs, Whole};
 
-/// The columns; units are in the names. Where a sample has no value, the cell is empty.
-const HEADER: &str = "t_s,status,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,x_m,y_m,z_m,nx,ny,nz,\
-                      normal_N,tangential_N,ratio,margin_N,gap_m,slip";
-/// Whether a scene asks for some columns.
-type IsTold = fn(&Tells) -> bool;
-/// What a scene that asks for more has behind it, in this order.
-const MORE: [(IsTold, &[&str]); 7] = [
-    (|tells| tells.spin_torque, &["spin_Nm"]),
-    (
-        |tells| tells.spread,
-        &["ellipse_a_m", "ellipse_b_m", "ellipse_x", "ellipse_y", "ellipse_z", "normal_deviation_N"],
-    ),
-    (
-        |tells| tells.tracked,
-        &[
-            "track",
-            "track_x_m",
-            "track_y_m",
-            "track_z_m",
-            "track_vx_m_per_s",
-            "track_vy_m_per_s",
-            "track_vz_m_per_s",
-            "track_deviation_m",
-            "track_surprise",
-        ],
-    ),
-    (
-        |tells| tells.happened,
-        &["event", "event_since_s", "impact_peak_N", "impact_x_Ns", "impact_y_Ns", "impact_z_Ns"],
-    ),
-    (|tells| tells.slip_probability, &["slip_probability"]),
-    (|tells| tells.friction, &["mu_static", "mu_static_deviation", "mu_kinetic", "mu_kinetic_deviation"]),
-    (|tells| tells.grip_force, &["grip_N"]),
-];
 /// Cells behind the wrench.
 const CONTACT_CELLS: usize = 11;
-/// Of each place of an array: point, force, standard deviation of the force in the direction that is told worst, and how
-/// much of it the wrench told.
-const FUSED: [&str; 8] = ["x_m", "y_m", "z_m", "fx_N", "fy_N", "fz_N", "deviation_N", "share_from_wrench"];
 /// Commas of cells that have no value.
 const COMMAS: [u8; 64] = [b','; 64];
 
@@ -78,20 +42,20 @@ impl ContactWriter {
     ) -> Result<Self, CliError> {
         let out = outputs.create("contacts", path)?;
         let mut cells = Cells::default();
-        cells.put(HEADER.as_bytes());
-        let mut more = 0;
-        for column in MORE.iter().filter(|(of, _)| of(&tells)).flat_map(|(_, columns)| *columns) {
-            cells.put(format!(",{column}").as_bytes());
-            more += 1;
+        let (mut names, mut more) = (Vec::new(), 0);
+        for columns in CONTACT_COLUMNS.iter().filter(|columns| (columns.asked)(&tells)) {
+            names.extend_from_slice(columns.names);
+            more += if columns.of.is_empty() { 0 } else { columns.names.len() };
         }
+        cells.put(names.join(",").as_bytes());
         for place in 1..=places {
-            for column in FUSED {
+            for (column, _) in FUSED_COLUMNS {
                 cells.put(format!(",fused{place}_{column}").as_bytes());
             }
-            more += FUSED.len();
+            more += FUSED_COLUMNS.len();
         }
         if places > 0 {
-            cells.put(b",fused_disagreement");
+            cells.put(format!(",{}", FUSED_DISAGREEMENT.0).as_bytes());
             more += 1;
         }
         cells.put(b"\n");
@@ -184,7 +148,7 @@ impl ContactWriter {
             let contact =
                 fused.touch.as_ref().zip(*place).and_then(|(touch, own)| touch.contacts.get(own)?.as_ref());
             let Some(contact) = contact else {
-                self.empty(FUSED.len());
+                self.empty(FUSED_COLUMNS.len());
                 continue;
             };
             self.cells(contact.point.as_ref());

@@ -4,6 +4,7 @@ mod ahead;
 pub(crate) mod args;
 mod array;
 mod cells;
+pub mod columns;
 mod contacts;
 mod files;
 mod json;

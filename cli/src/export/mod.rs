@@ -18,7 +18,7 @@ use crate::scene;
 /// A scene as a Rust module, as JSON, or as a library for C.
 #[derive(Debug, Args)]
 pub(crate) struct ExportArguments {
-    /// The scene (examples/scenes/README.md), or `sim` for that of the simulated fingertip
+    /// The scene (book/src/reference/scene.md), or `sim` for that of the simulated fingertip
     #[arg(value_name = "SCENE.toml")]
     scene: PathBuf,
     /// Write a Rust module with the typed pipeline and a function that makes it: no files, no standard library, no heap

@@ -33,7 +33,7 @@ pub(crate) struct LiveArguments {
     /// temperature_C
     #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true)]
     pub(crate) celsius: Option<f64>,
-    /// The scene, for contact and slip: examples/scenes/README.md; `sim` is that of the simulated fingertip.
+    /// The scene, for contact and slip: book/src/reference/scene.md; `sim` is that of the simulated fingertip.
     /// Its rest_s gives the zero
     #[arg(long, value_name = "SCENE.toml")]
     pub(crate) scene: Option<PathBuf>,

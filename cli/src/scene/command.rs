@@ -94,7 +94,7 @@ fn entry(section: &str, option: &str, name: &str) -> Result<&'static Entry, CliE
 fn write_scene(init: &InitArguments) -> Result<(), CliError> {
     let outputs = Outputs::guard(init.overwrite, "scene", [], [&init.output])?;
     let mut text = format!(
-        "# The keys are explained in examples/scenes/README.md of fingertip.\nversion = {VERSION}\n\n[input]\n\
+        "# The keys are explained in book/src/reference/scene.md of fingertip.\nversion = {VERSION}\n\n[input]\n\
          # Whose load is recorded: \"on_fingertip\", what the environment does to the fingertip, or \"reaction\".\n\
          convention = \"on_fingertip\"\n# Where the recording has no time.\nsample_rate_Hz = 1000.0\n"
     );

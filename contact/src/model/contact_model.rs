@@ -6,6 +6,10 @@ use nalgebra::Vector3;
 use crate::{Contact, Resolution};
 
 /// An assumption about what the contact can transmit, and how to find the contact under it.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` finds no contact of `{T}` on `{S}`",
+    note = "a point contact takes any `ActiveSurface`, a soft finger any `SoftFingerSurface`; both must be of one scalar"
+)]
 pub trait ContactModel<T: Real, S> {
     /// The contact that explains the wrench. `last` is the contact point of the sample before, if
     /// the caller wants continuity where several points explain the wrench.

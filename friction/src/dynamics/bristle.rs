@@ -3,7 +3,7 @@
 use fingertip_wrench::Real;
 use nalgebra::SVector;
 
-use crate::{Advanced, BristleLaw, Exponential, Integrator};
+use crate::{Advanced, BristleLaw, Coupled, Drive, Exponential, Integrator, StepForce};
 
 /// A friction law with its state: the deflection z \[m\].
 ///
@@ -15,6 +15,17 @@ use crate::{Advanced, BristleLaw, Exponential, Integrator};
 /// taken as the mean over the step and limited, step by step, to what keeps
 /// `h F·v ≥ ½σ₀(|z⁺|² − |z|²)`: with the plain term LuGre itself can give energy at speeds above
 /// `4(σ₁+σ₂)g/σ₁²` (`docs/theory/friction.md#passivity`; on passivity also Barabanov & Ortega 2000).
+///
+/// ```
+/// use fingertip_friction::{Bristle, Dahl};
+/// use nalgebra::Vector2;
+///
+/// let mut friction = Bristle::<f64, _, 2>::new(Dahl::new(1e5, 0.5)?);
+/// friction.set_load(2.0);
+/// let force = friction.step(&Vector2::new(1e-3, 0.0), 1e-4).end;
+/// assert!(force.x > 0.0 && force.y == 0.0 && friction.energy() > 0.0);
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bristle<T: Real, Law, const D: usize, Method = Exponential> {
     law: Law,
@@ -23,44 +34,8 @@ pub struct Bristle<T: Real, Law, const D: usize, Method = Exponential> {
     _method: core::marker::PhantomData<Method>,
 }
 
-/// Friction over one step of a prescribed motion \[N\], along the motion that it opposes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepForce<T: Real, const D: usize> {
-    /// The mean over the step, its damping limited to what keeps it passive.
-    pub mean: SVector<T, D>,
-    /// At the end of the step, `σ₀z + σ₁ż + σ₂v` of the law.
-    pub end: SVector<T, D>,
-}
-
-impl<T: Real, const D: usize> StepForce<T, D> {
-    const fn constant(force: SVector<T, D>) -> Self {
-        Self { mean: force, end: force }
-    }
-}
-
 /// Parts of a step in which the share that slides changes, beside the last.
 const PARTS: u8 = 16;
-
-/// What acts on a body that friction holds, besides friction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Drive<T: Real, const D: usize> {
-    /// Mass \[kg\] in each direction (for spin: inertia over the arm squared).
-    pub mass: SVector<T, D>,
-    /// Force \[N\] at the end of the step, were the body to stay where it is.
-    pub force: SVector<T, D>,
-    /// Stiffness of the spring that this force comes from \[N/m\], so that it is taken implicitly;
-    /// zero for a force that does not depend on the position.
-    pub stiffness: T,
-}
-
-/// The end of a step of a body held by friction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Coupled<T: Real, const D: usize> {
-    /// Velocity at the end of the step.
-    pub velocity: SVector<T, D>,
-    /// Friction force, along the motion that it opposes.
-    pub friction: SVector<T, D>,
-}
 
 impl<T: Real, Law: BristleLaw<T>, const D: usize> Bristle<T, Law, D> {
     /// Unstrained, with the exponential step.

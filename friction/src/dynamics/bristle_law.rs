@@ -15,6 +15,18 @@ use crate::{BadParameter, Stribeck};
 /// # For implementers
 /// `steady` lies between a positive bound and `greatest`, and `plastic_share` in \[0, 1\]:
 /// boundedness and passivity of the integrators rest on just that.
+///
+/// ```
+/// use fingertip_friction::{Bristle, BristleLaw, Dahl, LuGre};
+///
+/// fn greatest(law: &impl BristleLaw<f64>) -> f64 {
+///     law.greatest()
+/// }
+///
+/// assert!((greatest(&Dahl::new(1e5, 0.5)?) - 0.5).abs() < 1e-12);
+/// assert!(greatest(&LuGre::reference()?) > 0.0);
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 pub trait BristleLaw<T: Real> {
     /// σ₀ \[N/m\].
     fn stiffness(&self) -> T;
@@ -73,12 +85,42 @@ macro_rules! slides_by_lugre {
 }
 
 /// Dahl's law (1968): LuGre without Stribeck effect and damping.
+///
+/// ```
+/// use fingertip_friction::{Bristle, Dahl};
+/// use nalgebra::Vector1;
+///
+/// let mut friction = Bristle::<f64, _, 1>::new(Dahl::new(1e5, 0.5)?);
+/// friction.set_load(2.0); // N
+/// let mut force = 0.0;
+/// for _ in 0..1000 {
+///     force = friction.step(&Vector1::new(0.01), 1e-4).end[0];
+/// }
+/// // Slid for a millimetre: about what friction holds of 2 N.
+/// assert!((0.8..1.2).contains(&force), "{force}");
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dahl<T: Real> {
     sliding: LuGre<T>,
 }
 
 /// The LuGre law (Canudas de Wit, Olsson, Åström & Lischinsky 1995).
+///
+/// ```
+/// use fingertip_friction::{Bristle, LuGre, Stribeck};
+/// use nalgebra::Vector1;
+///
+/// let mut friction = Bristle::<f64, _, 1>::new(LuGre::new(1e5, 300.0, 0.4, Stribeck::new(0.45, 0.55, 1e-3)?)?);
+/// friction.set_load(2.0); // N
+/// let mut force = 0.0;
+/// for _ in 0..1000 {
+///     force = friction.step(&Vector1::new(0.01), 1e-4).end[0];
+/// }
+/// // Slid for a millimetre: about what friction holds of 2 N.
+/// assert!((0.8..1.2).contains(&force), "{force}");
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LuGre<T: Real> {
     stiffness: T,
@@ -89,6 +131,21 @@ pub struct LuGre<T: Real> {
 
 /// The elasto-plastic law (Dupont, Hayward, Armstrong & Altpeter 2002): LuGre with a purely elastic
 /// range, so that it does not creep under a load that stays below break-away.
+///
+/// ```
+/// use fingertip_friction::{Bristle, ElastoPlastic, LuGre, Stribeck};
+/// use nalgebra::Vector1;
+///
+/// let mut friction = Bristle::<f64, _, 1>::new(ElastoPlastic::new(LuGre::new(1e5, 300.0, 0.4, Stribeck::new(0.45, 0.55, 1e-3)?)?, 0.5)?);
+/// friction.set_load(2.0); // N
+/// let mut force = 0.0;
+/// for _ in 0..1000 {
+///     force = friction.step(&Vector1::new(0.01), 1e-4).end[0];
+/// }
+/// // Slid for a millimetre: about what friction holds of 2 N.
+/// assert!((0.8..1.2).contains(&force), "{force}");
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElastoPlastic<T: Real> {
     sliding: LuGre<T>,
@@ -209,6 +266,21 @@ impl<T: Real> BristleLaw<T> for ElastoPlastic<T> {
 
 /// Dry friction on a Stribeck curve with a stiff elastic contact: meant for
 /// [`ReturnMap`](crate::ReturnMap), with which it sticks below F_s and slides at `g(v) + σ₂v`.
+///
+/// ```
+/// use fingertip_friction::{Bristle, Stribeck, StribeckFriction};
+/// use nalgebra::Vector1;
+///
+/// let mut friction = Bristle::<f64, _, 1>::new(StribeckFriction::new(1e5, 0.0, Stribeck::new(0.45, 0.55, 1e-3)?)?);
+/// friction.set_load(2.0); // N
+/// let mut force = 0.0;
+/// for _ in 0..1000 {
+///     force = friction.step(&Vector1::new(0.01), 1e-4).end[0];
+/// }
+/// // Slid for a millimetre: about what friction holds of 2 N.
+/// assert!((0.8..1.2).contains(&force), "{force}");
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StribeckFriction<T: Real> {
     sliding: LuGre<T>,

@@ -32,17 +32,53 @@ pub struct Advanced<T: Real, const D: usize> {
 
 /// Exact for a constant velocity and a constant `α`: `z⁺ = z e^{−λh} + v h φ₁(λh)`, and the mean
 /// `z φ₁(λh) + v h φ₂(λh)`.
+///
+/// ```
+/// use fingertip_friction::{Bristle, Dahl, Exponential};
+/// use nalgebra::Vector1;
+///
+/// let mut friction = Bristle::<f64, _, 1, Exponential>::with_method(Dahl::new(1e5, 0.5)?);
+/// friction.set_load(2.0);
+/// for _ in 0..1000 {
+///     assert!(friction.step(&Vector1::new(0.01), 1e-4).end[0] <= 1.0 + 1e-9);
+/// }
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Exponential;
 
 /// Backward Euler: `z⁺ = (z + hv)/(1 + hλ)`. First order, without an exponential. The mean that goes with it is `z⁺`.
+///
+/// ```
+/// use fingertip_friction::{Bristle, Dahl, Implicit};
+/// use nalgebra::Vector1;
+///
+/// let mut friction = Bristle::<f64, _, 1, Implicit>::with_method(Dahl::new(1e5, 0.5)?);
+/// friction.set_load(2.0);
+/// for _ in 0..1000 {
+///     assert!(friction.step(&Vector1::new(0.01), 1e-4).end[0] <= 1.0 + 1e-9);
+/// }
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Implicit;
 
 /// The rate-independent limit: elastic up to `g/σ₀`, then slides along (radial return). The mean is taken for
 /// `z⁺`: in this limit the deflection arrives at once.
+///
+/// ```
+/// use fingertip_friction::{Bristle, Dahl, ReturnMap};
+/// use nalgebra::Vector1;
+///
+/// let mut friction = Bristle::<f64, _, 1, ReturnMap>::with_method(Dahl::new(1e5, 0.5)?);
+/// friction.set_load(2.0);
+/// for _ in 0..1000 {
+///     assert!(friction.step(&Vector1::new(0.01), 1e-4).end[0] <= 1.0 + 1e-9);
+/// }
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ReturnMap;

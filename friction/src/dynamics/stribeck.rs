@@ -7,6 +7,14 @@ use crate::bad_parameter::positive;
 
 /// Stribeck's curve `g(v) = F_c + (F_s − F_c) e^{−(v/v_s)²}`: the friction force of steady sliding
 /// without its viscous part (`docs/theory/friction.md#bristle-laws`).
+///
+/// ```
+/// use fingertip_friction::Stribeck;
+///
+/// let curve = Stribeck::new(0.45, 0.55, 1e-3)?; // sliding, breaking away, and the speed between [m/s]
+/// assert!((curve.at(0.0) - 0.55_f64).abs() < 1e-12 && curve.at(0.1) < 0.4501);
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stribeck<T: Real> {
     kinetic: T,

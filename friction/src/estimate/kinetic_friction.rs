@@ -15,6 +15,19 @@ use crate::{BadParameter, Cusum, ForceNoise, FrictionEstimate, NormalForceGate};
 /// is taken off: stated too great by `δ` (in variance), the coefficient is low by `δ/f_t²` of itself.
 /// A two-sided cumulative sum of the residuals notices another surface, whereupon the sums start
 /// anew.
+///
+/// ```
+/// use fingertip_friction::{ForceNoise, KineticFriction};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let mut friction = KineticFriction::new(ForceNoise::isotropic(0.01)?, 0.1)?; // averaged over 0.1 s of sliding
+/// for _ in 0..200 {
+///     friction.observe(&ContactForce::new(2.0, Vector3::x() * 0.9, 0.0), 1e-3);
+/// }
+/// assert!(friction.estimate().is_some_and(|estimate| (estimate.coefficient - 0.45_f64).abs() < 0.01));
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KineticFriction<T> {
     noise: ForceNoise<T>,

@@ -12,6 +12,22 @@ const HALF: usize = 2;
 const MEAN: usize = 2 * HALF + 1;
 
 /// A friction coefficient with its standard deviation.
+///
+/// ```
+/// use fingertip_friction::{ForceNoise, FrictionEstimate, StaticFriction};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let noise = ForceNoise::isotropic(0.01)?;
+/// let mut friction = StaticFriction::<f64>::with_noise(noise)?;
+/// // Pulled ever harder, until it slips at a ratio of 0.5.
+/// for step in 0..=100 {
+///     friction.observe(&ContactForce::new(2.0, Vector3::x() * (0.01 * f64::from(step)), 0.0));
+/// }
+/// let Some(FrictionEstimate { coefficient, deviation, .. }) = friction.onset() else { panic!("it has slipped") };
+/// assert!((coefficient - 0.5).abs() < 0.05 && deviation > 0.0);
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FrictionEstimate<T> {
@@ -49,6 +65,21 @@ impl<T: Real> FrictionEstimate<T> {
 ///
 /// Break-away falls with the rate of the force, so that peaks of one surface scatter by more than
 /// the noise: `scatter` is that part.
+///
+/// ```
+/// use fingertip_friction::{ForceNoise, StaticFriction};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let noise = ForceNoise::isotropic(0.01)?;
+/// let mut friction = StaticFriction::<f64>::with_noise(noise)?;
+/// // Pulled ever harder, until it slips at a ratio of 0.5.
+/// for step in 0..=100 {
+///     friction.observe(&ContactForce::new(2.0, Vector3::x() * (0.01 * f64::from(step)), 0.0));
+/// }
+/// assert!(friction.onset().is_some_and(|estimate| (estimate.coefficient - 0.5).abs() < 0.05));
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StaticFriction<T, const N: usize = 64> {
     noise: ForceNoise<T>,

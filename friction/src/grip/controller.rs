@@ -6,6 +6,14 @@ use crate::bad_parameter::{not_negative, positive};
 use crate::{BadParameter, FrictionModel, SlipVerdict};
 
 /// Limits and habits of a gripping finger; [`GripController::new`] validates them.
+///
+/// ```
+/// use fingertip_friction::{GripController, GripSettings};
+///
+/// let settings = GripSettings { safety: 1.5, least: 0.3, greatest: 15.0, rise: 200.0, fall: 2.0, slip_boost: 1.25 };
+/// assert!(GripController::new(settings).is_ok());
+/// assert!(GripController::new(GripSettings { safety: 0.5, ..settings }).is_err());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GripSettings<T> {
@@ -28,6 +36,23 @@ pub struct GripSettings<T> {
 ///
 /// The people's grip does the same (Johansson & Westling 1984). A boost after slip decays at the
 /// falling rate.
+///
+/// ```
+/// use fingertip_friction::{Coulomb, GripController, GripSettings, SlipVerdict};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let mut grip = GripController::new(GripSettings {
+///     safety: 1.5, least: 0.3, greatest: 15.0, rise: 200.0, fall: 2.0, slip_boost: 1.25,
+/// })?;
+/// let force = ContactForce::new(2.0, Vector3::new(1.0, 0.0, 0.0), 0.0);
+/// let mut command = 0.0;
+/// for _ in 0..100 {
+///     command = grip.command(&Coulomb::new(0.5)?, &force, SlipVerdict::Holding, 1e-3);
+/// }
+/// assert!((command - 3.0_f64).abs() < 1e-9); // 1 N over 0.5, with a reserve of half
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GripController<T> {
     settings: GripSettings<T>,

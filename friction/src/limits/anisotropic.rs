@@ -14,6 +14,18 @@ use crate::{BadParameter, FrictionLimit, FrictionModel, SlipDirection, SlipMargi
 /// distance to its supporting planes (a bounded search in one variable, some 40 steps of a square
 /// root and two divisions). The spin torque is not limited. A tangential force outside the plane of
 /// the two directions (there should be none) counts against the lower coefficient.
+///
+/// ```
+/// use fingertip_friction::{AnisotropicCoulomb, FrictionLimit};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// // Along the grain of wood, and across it.
+/// let wood = AnisotropicCoulomb::new([Vector3::x(), Vector3::y()], [0.3, 0.6])?;
+/// let pulled = |sideways| ContactForce::new(2.0, sideways, 0.0);
+/// assert!(!wood.holds(&pulled(Vector3::new(1.0, 0.0, 0.0))) && wood.holds(&pulled(Vector3::new(0.0, 1.0, 0.0))));
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AnisotropicCoulomb<T: Real> {
     /// The direction of the lower coefficient first.

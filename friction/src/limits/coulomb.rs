@@ -10,6 +10,17 @@ use crate::{BadParameter, FrictionLimit, FrictionModel, SlipDirection, SlipMargi
 ///
 /// The margin is the signed Euclidean distance of the contact force to the cone:
 /// `(μ f_n − |f_t|)/√(1+μ²)`, and minus the length of the force where the apex is nearest.
+///
+/// ```
+/// use fingertip_friction::{Coulomb, FrictionModel};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let force = ContactForce::new(2.0, Vector3::new(0.5, 0.0, 0.0), 0.0); // 2 N of push, 0.5 N sideways
+/// let margin = Coulomb::new(0.5)?.slip_margin(&force);
+/// assert!((margin.utilisation - 0.5_f64).abs() < 1e-12); // half of what friction holds is used
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coulomb<T: Real> {
     cone: Cone<T>,

@@ -4,6 +4,14 @@ use crate::PressureDistribution;
 
 /// One point of a limit curve: tangential force over `μN` and spin torque over `μN` times the
 /// torque arm, and the place of the centre of rotation that belongs to it.
+///
+/// ```
+/// use fingertip_friction::{LimitCurve, LimitPoint, PressureDistribution};
+///
+/// // A patch that turns about its own middle holds all its torque, and no force.
+/// let LimitPoint { force, torque, .. } = LimitCurve::new(PressureDistribution::Uniform).point(0.0);
+/// assert!(force.abs() < 1e-6 && (torque - 1.0).abs() < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LimitPoint {
     /// `|f_t|/(μN)`, 0 to 1.
@@ -26,6 +34,15 @@ pub struct LimitPoint {
 ///
 /// and one integral over the radius is left, done by the double-exponential rule on both sides of
 /// `r = d`, where `K` has its logarithmic singularity. Errors are below 1e-9.
+///
+/// ```
+/// use fingertip_friction::{LimitCurve, PressureDistribution};
+///
+/// let curve = LimitCurve::new(PressureDistribution::Hertz).table(9);
+/// assert_eq!(curve.len(), 9);
+/// // More torque, less force.
+/// assert!(curve.is_sorted_by(|a, b| (a.torque <= b.torque) == (a.force >= b.force)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LimitCurve {
     pressure: PressureDistribution,

@@ -16,6 +16,15 @@ use crate::{BadParameter, FrictionLimit, FrictionModel, SlipDirection, SlipMargi
 /// the contact holds, no change of the contact force shorter than it (in the norm
 /// `√(|δf_t|² + (δτ/e)² + δf_n²)` with `e` at the present normal force) makes it slip. Outside, it
 /// is minus the distance to the cone with the present arm.
+///
+/// ```
+/// use fingertip_friction::LoadDependentLimit;
+///
+/// // The arm is 3 mm at 1 N, and grows with the cube root of the force, as an elastic patch does.
+/// let limit = LoadDependentLimit::new(0.5, 3e-3, 1.0, 1.0 / 3.0)?;
+/// assert!((limit.arm_at(8.0) - 6e-3_f64).abs() < 1e-6);
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadDependentLimit<T: Real> {
     cone: Cone<T>,

@@ -4,6 +4,17 @@ use fingertip_wrench::{ContactForce, Real};
 use nalgebra::Vector3;
 
 /// How far a contact force is from slipping.
+///
+/// ```
+/// use fingertip_friction::{Coulomb, FrictionModel, SlipMargin};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let force = ContactForce::new(2.0, Vector3::new(0.5, 0.0, 0.0), 0.0); // 2 N of push, 0.5 N sideways
+/// let SlipMargin { newtons, utilisation } = Coulomb::new(0.5)?.slip_margin(&force);
+/// assert!(newtons > 0.4 && utilisation < 1.0); // it holds
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SlipMargin<T> {
@@ -28,6 +39,18 @@ impl<T: Real> SlipMargin<T> {
 /// tangential force and spin torque. It is scaled so that `|velocity|² + (arm·spin)² = 1`, where
 /// the arm is the model's ratio of the greatest spin torque to the greatest tangential force (zero
 /// spin for a model without one).
+///
+/// ```
+/// use fingertip_friction::{Coulomb, FrictionLimit};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let force = ContactForce::new(2.0, Vector3::new(0.5, 0.0, 0.0), 0.0); // 2 N of push, 0.5 N sideways
+/// let slip = Coulomb::new(0.1)?.slip_direction(&force);
+/// // Friction pulls the fingertip along x, so it slides against x.
+/// assert!(slip.is_some_and(|slip| slip.velocity.x < 0.0 && slip.spin == 0.0));
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -47,6 +70,21 @@ pub struct SlipDirection<T: Real> {
 /// # For users
 /// Both calls are total: for a contact that does not press, the margin is negative (or zero) and
 /// the utilisation saturates. Input that is not finite gives a margin of minus the largest number.
+///
+/// ```
+/// use fingertip_friction::{Coulomb, FrictionModel, SoftFingerLimit};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// fn grip(limit: &dyn FrictionModel<f64>, force: &ContactForce<f64>) -> f64 {
+///     limit.least_normal_force(force, 1.5)
+/// }
+///
+/// let force = ContactForce::new(2.0, Vector3::new(0.5, 0.0, 0.0), 1e-3);
+/// // A limit that knows the spin torque asks for more.
+/// assert!(grip(&SoftFingerLimit::new(0.5, 3e-3)?, &force) > grip(&Coulomb::new(0.5)?, &force));
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 pub trait FrictionModel<T: Real> {
     /// How far the force is from the limit.
     fn slip_margin(&self, force: &ContactForce<T>) -> SlipMargin<T>;
@@ -63,6 +101,16 @@ pub trait FrictionModel<T: Real> {
 /// [`project`](Self::project) must return a force inside the limit (to rounding), and the force
 /// itself where it holds already; what is not finite, or cannot be held by any pressing force,
 /// becomes no force.
+///
+/// ```
+/// use fingertip_friction::{Coulomb, FrictionLimit};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let force = ContactForce::new(2.0, Vector3::new(0.5, 0.0, 0.0), 0.0); // 2 N of push, 0.5 N sideways
+/// assert!(Coulomb::new(0.5)?.holds(&force) && !Coulomb::new(0.2)?.holds(&force));
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 pub trait FrictionLimit<T: Real>: FrictionModel<T> {
     /// `true` if the contact holds, the limit included.
     #[inline]

@@ -3,6 +3,13 @@
 use crate::BadParameter;
 
 /// An axially symmetric pressure on a circular patch; `x` is the radius over that of the patch.
+///
+/// ```
+/// use fingertip_friction::PressureDistribution;
+///
+/// // A patch that is pressed evenly holds more spin torque than one that is pressed in its middle.
+/// assert!(PressureDistribution::Uniform.relative_arm() > PressureDistribution::Hertz.relative_arm());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(remote = "Self"))]

@@ -15,6 +15,17 @@ use crate::{BadParameter, FrictionLimit, FrictionModel, PressureDistribution, Sl
 /// matters.
 ///
 /// The margin is the signed distance in the norm `√(|δf_t|² + (δτ/e)² + δf_n²)`.
+///
+/// ```
+/// use fingertip_friction::{FrictionLimit, SoftFingerLimit};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let tip = SoftFingerLimit::new(0.5, 3e-3)?; // μ, and greatest spin torque over greatest tangential force [m]
+/// assert!(tip.holds(&ContactForce::new(2.0, Vector3::zeros(), 2.9e-3)));
+/// assert!(!tip.holds(&ContactForce::new(2.0, Vector3::new(0.8, 0.0, 0.0), 2.9e-3)));
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoftFingerLimit<T: Real> {
     cone: Cone<T>,
@@ -27,6 +38,16 @@ pub struct SoftFingerLimit<T: Real> {
 ///
 /// The margin is the signed distance in the norm `√((|δf_t|^q + |δτ/e|^q)^(2/q) + δf_n²)`, which
 /// exceeds the Euclidean length of the same change by at most `2^(1/q−1/2)` (6 % at q = 1.72).
+///
+/// ```
+/// use fingertip_friction::{FrictionLimit, PowerLimit, PressureDistribution};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let patch = PowerLimit::for_patch(0.5, 4e-3, PressureDistribution::Hertz)?;
+/// assert!(patch.holds(&ContactForce::new(2.0, Vector3::new(0.6, 0.0, 0.0), 1e-3)));
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerLimit<T: Real> {
     cone: Cone<T>,

@@ -12,6 +12,18 @@ use crate::{BadParameter, ForceNoise};
 /// (`docs/theory/friction.md#uncertain-friction`).
 ///
 /// First order: `z = (μN − |f_t|)/√(σ_t² + μ²σ_n² + N²σ_μ²)`, and slip with probability Φ(−z).
+///
+/// ```
+/// use fingertip_friction::UncertainCoulomb;
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let force = ContactForce::new(2.0, Vector3::new(0.5, 0.0, 0.0), 0.0); // 2 N of push, 0.5 N sideways
+/// let friction = UncertainCoulomb::new(0.5, 0.05, None)?;
+/// assert!(friction.slip_probability(&force) < 1e-3); // the ratio is 0.25, five deviations below
+/// assert!(friction.quantile(0.01) < 0.5);
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UncertainCoulomb<T> {
     coefficient: T,

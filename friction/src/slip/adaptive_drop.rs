@@ -51,6 +51,18 @@ const SETTLING: u8 = 64;
 /// first sample of its life may be taken for noise: the line rebounds after a drop that was not called. Let it feel a
 /// second of hold first. Where a converter's steps are several times the noise, slips that follow each other within a tenth
 /// of a second are taken for these steps: a fourth to a half of them is found.
+///
+/// ```
+/// use fingertip_friction::{AdaptiveDropDetector, ForceNoise, SlipDetector, SlipVerdict};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let mut detector = AdaptiveDropDetector::new(ForceNoise::isotropic(0.01)?, 1.0, 1000.0)?;
+/// let force = ContactForce::new(2.0, Vector3::new(0.9, 0.0, 0.0), 0.0);
+/// // It learns the noise first.
+/// assert_ne!(detector.update(&force, 1e-3), SlipVerdict::Slipping);
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdaptiveDropDetector<T> {
     tracker: RatioTracker<T>,

@@ -14,6 +14,15 @@ use crate::bad_parameter::{not_negative, positive};
 /// allowance `k` is half the smallest change of the mean worth finding; the threshold `h` sets the
 /// rate of false alarms ([`for_false_alarms`](Self::for_false_alarms),
 /// `docs/theory/friction.md#cumulative-sum`).
+///
+/// ```
+/// use fingertip_friction::Cusum;
+///
+/// let mut sum = Cusum::new(0.5, 5.0)?; // what a sample may be without counting, and where it alarms
+/// assert!((0..100).all(|_| !sum.add(0.4_f64)));
+/// assert!((0..10).any(|_| sum.add(1.5)));
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cusum<T> {
     allowance: T,

@@ -45,6 +45,25 @@ use crate::{BadParameter, Cusum, ForceNoise, SlipDetector, SlipVerdict};
 ///   three and 2 % of those by two. A friction ratio falling from 0.5 to 0.4 is five deviations at
 ///   56 times the noise in normal force, so press harder or average the sensor. A longer window
 ///   does not help: by the tenth sample the tracker's forecast has come down too.
+///
+/// ```
+/// use fingertip_friction::{DropDetector, ForceNoise, SlipDetector, SlipVerdict};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let mut detector = DropDetector::new(ForceNoise::isotropic(0.01)?)?;
+/// let pull = |sideways| ContactForce::new(2.0, Vector3::new(sideways, 0.0, 0.0), 0.0);
+/// let mut verdict = SlipVerdict::Holding;
+/// // The ratio rises to one half, and falls: it slips.
+/// for sample in 0..120 {
+///     let sideways = if sample < 100 { 0.01 * f64::from(sample) } else { 0.8 };
+///     if verdict != SlipVerdict::Slipping {
+///         verdict = detector.update(&pull(sideways), 1e-3);
+///     }
+/// }
+/// assert_eq!(verdict, SlipVerdict::Slipping);
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DropDetector<T> {
     tracker: RatioTracker<T>,

@@ -6,6 +6,15 @@ use crate::BadParameter;
 use crate::bad_parameter::positive;
 
 /// Standard deviations of the noise of a contact force.
+///
+/// ```
+/// use fingertip_friction::ForceNoise;
+///
+/// let noise = ForceNoise::isotropic(0.01)?; // N
+/// // The ratio of 2 N is known to half a percent, that of 0.1 N to a tenth.
+/// assert!(noise.ratio_deviation(2.0, 0.3) < 0.006 && noise.ratio_deviation(0.1, 0.3) > 0.1_f64);
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceNoise<T> {
     /// Of the normal force \[N\].
@@ -40,6 +49,17 @@ impl<T: Real> ForceNoise<T> {
 }
 
 /// Lets a sample through only when the normal force stands well above its noise.
+///
+/// ```
+/// use fingertip_friction::{ForceNoise, NormalForceGate};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.01)?);
+/// assert!((gate.least() - 0.1_f64).abs() < 1e-12);
+/// assert_eq!(gate.ratio(&ContactForce::new(0.05, Vector3::x() * 0.02, 0.0)), None); // too light to be judged
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalForceGate<T> {
     least: T,

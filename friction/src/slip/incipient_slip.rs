@@ -17,6 +17,23 @@ const PLACES: usize = 4;
 /// mean stiffness since the motion last turned (the mean itself falls as the patch lets go): below
 /// the warning share it warns, below a fifth it calls slip. Only motion is judged, so that rest
 /// gives no alarm whatever the force does.
+///
+/// ```
+/// use fingertip_friction::{ForceNoise, IncipientSlip, NormalForceGate, SlipVerdict};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.001)?);
+/// let mut slip = IncipientSlip::new(gate, 4e-6, 0.65)?;
+/// // A pad of 50 kN/m under a tip that moves by a micrometre a sample: it sticks.
+/// for step in 0..100 {
+///     let moved = Vector3::new(1e-6 * f64::from(step), 0.0, 0.0);
+///     let force = ContactForce::new(10.0, -moved * 5e4, 0.0);
+///     assert_ne!(slip.update(&force, &moved), SlipVerdict::Slipping);
+/// }
+/// assert!(slip.stiffness().is_some_and(|stiffness| (stiffness - 5e4).abs() < 1e3));
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IncipientSlip<T: Real> {
     gate: NormalForceGate<T>,

@@ -17,6 +17,15 @@ use crate::{BadParameter, ForceNoise, SlipDetector, SlipVerdict};
 /// lies below all of it, the root being concave; so a sum that passes the bound has passed the line,
 /// and then so has Page's cumulative sum with the line's slope as allowance, which costs one
 /// addition. Only while that is above the line's intercept are the sums looked at.
+///
+/// ```
+/// use fingertip_friction::LikelihoodRatio;
+///
+/// let mut test = LikelihoodRatio::<f64, 16>::new(10.0)?; // the threshold, over the last 16 samples
+/// assert!((0..100).all(|_| !test.add(0.0)));
+/// assert!((0..16).any(|_| test.add(3.0)));
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LikelihoodRatio<T, const W: usize> {
     /// The last samples, newest at `next − 1`.
@@ -109,6 +118,26 @@ test_of_falls! { LikelihoodRatio<T, W>, [T: Real, const W: usize] }
 /// Finds slip as a fall of the friction ratio of unknown size: [`LikelihoodRatio`] on the same
 /// evidence as [`DropDetector`](crate::DropDetector), with the same start, and as little proof against noise that is not
 /// white, or stronger than stated: its rate of false alarms is that of white noise of the stated size.
+///
+/// ```
+/// use fingertip_friction::{ForceNoise, LikelihoodRatioDetector, SlipDetector, SlipVerdict};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// // One false alarm a minute, at 1 kHz.
+/// let mut detector = LikelihoodRatioDetector::<f64, 16>::new(ForceNoise::isotropic(0.01)?, 1.0, 1000.0)?;
+/// let pull = |sideways| ContactForce::new(2.0, Vector3::new(sideways, 0.0, 0.0), 0.0);
+/// let mut verdict = SlipVerdict::Holding;
+/// // The ratio rises to one half, and falls: it slips.
+/// for sample in 0..120 {
+///     let sideways = if sample < 100 { 0.01 * f64::from(sample) } else { 0.8 };
+///     if verdict != SlipVerdict::Slipping {
+///         verdict = detector.update(&pull(sideways), 1e-3);
+///     }
+/// }
+/// assert_eq!(verdict, SlipVerdict::Slipping);
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LikelihoodRatioDetector<T, const W: usize> {
     tracker: RatioTracker<T>,

@@ -3,6 +3,21 @@
 use fingertip_wrench::{ContactForce, Real};
 
 /// What a detector says after a sample.
+///
+/// ```
+/// use fingertip_friction::{ForceNoise, NormalForceGate, RatioThreshold, SlipDetector, SlipVerdict};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.01)?);
+/// let mut detector = RatioThreshold::new(gate, 0.5, 0.8)?;
+/// let mut judged = |normal, sideways: f64| detector.update(&ContactForce::new(normal, Vector3::x() * sideways, 0.0), 1e-3);
+/// assert_eq!(judged(0.05, 0.0), SlipVerdict::NotPressing);
+/// assert_eq!(judged(2.0, 0.5), SlipVerdict::Holding);
+/// assert_eq!(judged(2.0, 0.9), SlipVerdict::Warning);
+/// assert_eq!(judged(2.0, 1.1), SlipVerdict::Slipping);
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -24,6 +39,26 @@ pub enum SlipVerdict {
 /// One update is bounded work without allocation; the state is part of the value, so that cloning
 /// a detector clones its memory. A sample that is not finite must leave the state as it was and
 /// answer [`SlipVerdict::NotPressing`].
+///
+/// ```
+/// use fingertip_friction::{DropDetector, ForceNoise, SlipDetector, SlipVerdict};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let mut chosen = DropDetector::new(ForceNoise::isotropic(0.01)?)?;
+/// let detector: &mut dyn SlipDetector<f64> = &mut chosen;
+/// let pull = |sideways| ContactForce::new(2.0, Vector3::new(sideways, 0.0, 0.0), 0.0);
+/// let mut verdict = SlipVerdict::Holding;
+/// // The ratio rises to one half, and falls: it slips.
+/// for sample in 0..120 {
+///     let sideways = if sample < 100 { 0.01 * f64::from(sample) } else { 0.8 };
+///     if verdict != SlipVerdict::Slipping {
+///         verdict = detector.update(&pull(sideways), 1e-3);
+///     }
+/// }
+/// assert_eq!(verdict, SlipVerdict::Slipping);
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 pub trait SlipDetector<T: Real> {
     /// Takes the contact force of one sample and the time since the one before \[s\].
     fn update(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict;

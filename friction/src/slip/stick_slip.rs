@@ -5,6 +5,22 @@ use fingertip_wrench::{ContactForce, Real, stored};
 use crate::{DropDetector, SlipDetector, SlipVerdict};
 
 /// A periodic stick-slip motion.
+///
+/// ```
+/// use fingertip_friction::{DropDetector, ForceNoise, SlipDetector, StickSlip, StickSlipDetector};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let mut detector = StickSlipDetector::new(DropDetector::new(ForceNoise::isotropic(0.01)?)?);
+/// for sample in 0..500 {
+///     // A saw: the ratio rises for 50 ms, and falls.
+///     let ratio = 0.4 + 0.004 * f64::from(sample % 50);
+///     detector.update(&ContactForce::new(2.0, Vector3::x() * (2.0 * ratio), 0.0), 1e-3);
+/// }
+/// let Some(StickSlip { period, spread }) = detector.motion() else { panic!("it sticks and slips") };
+/// assert!((period - 0.05_f64).abs() < 1e-3 && spread < 0.2);
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StickSlip<T> {
@@ -16,6 +32,21 @@ pub struct StickSlip<T> {
 
 /// Watches the drops of a [`DropDetector`] and calls them stick-slip when three periods in a row
 /// differ by less than 20 % of their mean.
+///
+/// ```
+/// use fingertip_friction::{DropDetector, ForceNoise, SlipDetector, StickSlipDetector};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let mut detector = StickSlipDetector::new(DropDetector::new(ForceNoise::isotropic(0.01)?)?);
+/// for sample in 0..500 {
+///     // A saw: the ratio rises for 50 ms, and falls.
+///     let ratio = 0.4 + 0.004 * f64::from(sample % 50);
+///     detector.update(&ContactForce::new(2.0, Vector3::x() * (2.0 * ratio), 0.0), 1e-3);
+/// }
+/// assert!(detector.motion().is_some_and(|motion| (motion.period - 0.05).abs() < 1e-3));
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StickSlipDetector<T> {
     drops: DropDetector<T>,

@@ -7,6 +7,18 @@ use crate::{BadParameter, NormalForceGate, SlipDetector, SlipVerdict};
 
 /// Warns when the friction ratio passes a safe share of the static coefficient, and says slip at
 /// the coefficient itself.
+///
+/// ```
+/// use fingertip_friction::{ForceNoise, NormalForceGate, RatioThreshold, SlipDetector, SlipVerdict};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.01)?);
+/// let mut detector = RatioThreshold::new(gate, 0.5, 0.8)?; // μ, and warn at four fifths of it
+/// let force = ContactForce::new(2.0, Vector3::new(0.9, 0.0, 0.0), 0.0);
+/// assert_eq!(detector.update(&force, 1e-3), SlipVerdict::Warning);
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RatioThreshold<T> {
     gate: NormalForceGate<T>,

@@ -79,18 +79,3 @@ fn the_registry_has_all_that_the_parser_knows() {
         assert_eq!(entered, known, "[{section}]");
     }
 }
-
-/// Every choice stands in the page that explains scenes, with its keys.
-#[test]
-fn the_page_explains_every_choice() {
-    let page = include_str!("../../../examples/scenes/README.md");
-    for entry in entries() {
-        assert!(page.contains(&format!("\"{}\"", entry.name)), "{} of [{}]", entry.name, entry.section);
-        if matches!(entry.name, "posed" | "trimmed" | "compound" | "revolution") {
-            continue;
-        }
-        for key in entry.example.lines().filter_map(|line| line.split_once(" =")) {
-            assert!(page.contains(&format!("`{}`", key.0)), "{} of {}", key.0, entry.name);
-        }
-    }
-}

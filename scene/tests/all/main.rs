@@ -3,6 +3,8 @@
 // Helpers of tests are tests too.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+extern crate alloc;
+
 mod calibrated_spread;
 mod choices;
 mod collada;
@@ -16,6 +18,7 @@ mod formula;
 mod front;
 mod fusion;
 mod hostile;
+mod keys;
 mod noise;
 mod parts;
 mod sensor;

@@ -14,6 +14,10 @@ use crate::{Real, SensorMatrix, Wrench};
 /// # For implementers
 /// `solve` shall be free of allocation, of loops that depend on the data and of branches that
 /// depend on the data beyond the pivot order chosen at construction.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not turn {N} signals of `{T}` into a wrench",
+    note = "give a solver for as many signals to `.solver(…)`, or take wrenches by `sense_wrench`"
+)]
 pub trait WrenchSolver<T: Real, const N: usize> {
     /// The wrench \[N, N·m\] about the origin of the sensor frame, from the signals after tare and
     /// thermal compensation (same unit as the sensor matrix).

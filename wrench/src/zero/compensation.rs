@@ -9,6 +9,10 @@ use nalgebra::SVector;
 ///
 /// The raw reading is a type of its own, since some compensations take more than what they correct: a
 /// dummy gauge, a temperature, the motion of the sensor.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` takes nothing off `{V}`",
+    note = "a zero is for as many signals as the solver takes: give a `Tare` or a `DummyGauge` of them to `.zero(…)`"
+)]
 pub trait Compensation<V> {
     /// One raw reading.
     type Raw;

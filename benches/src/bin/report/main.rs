@@ -1,10 +1,11 @@
 //! Error against run time, and the stability of every routine.
 //!
-//! `cargo run --release -p fingertip-benches --bin report [-- --quick] [--out FOLDER]`
+//! `cargo run --release -p fingertip-benches --bin report [-- --quick] [--out FOLDER] [--book FILE]`
 //!
 //! Writes `report.html` (diagrams, tables), `report.md` (one page for people in a hurry), and the
 //! diagrams and data as SVG and CSV, by default into `target/report`. `--quick` takes seconds and
-//! only shows that everything works; its times are rough.
+//! only shows that everything works; its times are rough. `--book FILE` also writes the page of the book that has all
+//! diagrams as small multiples.
 //!
 //! Times are by calibrated repetition (`timing`); errors are against arithmetic of 220 bits
 //! (`reference`), the truth from which an input was made, or a stiff solver.
@@ -12,6 +13,7 @@
 extern crate alloc;
 
 mod machine;
+mod multiples;
 mod page;
 mod pareto;
 mod plots;
@@ -38,17 +40,21 @@ type Failure = Box<dyn Error>;
 struct Options {
     effort: Effort,
     folder: PathBuf,
+    book: Option<PathBuf>,
 }
 
 fn options() -> Result<Options, Failure> {
-    let mut options = Options { effort: Effort { quick: false }, folder: PathBuf::from("target/report") };
+    let mut options =
+        Options { effort: Effort { quick: false }, folder: PathBuf::from("target/report"), book: None };
     let mut arguments = std::env::args_os().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.to_str() {
             Some("--quick") => options.effort.quick = true,
             Some("--out") => options.folder = arguments.next().ok_or("--out wants a folder")?.into(),
+            Some("--book") => options.book = Some(arguments.next().ok_or("--book wants a file")?.into()),
             _ => {
-                return Err(format!("unknown option {argument:?}; there are --quick and --out FOLDER").into());
+                let known = "--quick, --out FOLDER and --book FILE";
+                return Err(format!("unknown option {argument:?}; there are {known}").into());
             }
         }
     }
@@ -56,7 +62,7 @@ fn options() -> Result<Options, Failure> {
 }
 
 fn main() -> Result<(), Failure> {
-    let Options { effort, folder } = options()?;
+    let Options { effort, folder, book } = options()?;
     std::fs::create_dir_all(&folder)?;
     let machine = machine::name();
     let mut page = Page::default();
@@ -66,6 +72,9 @@ fn main() -> Result<(), Failure> {
         "Measured on: {machine}. Times are medians of short batches, with quartiles as bars.{pace} \
          Hollow marks are f32, full ones f64."
     );
+    if let Some(file) = book {
+        std::fs::write(file, multiples::page(&format!("{machine}{pace}"), page.groups(), &parts))?;
+    }
     let mut text = format!("# Error against run time\n\n{introduction}\n");
     for (title, said) in parts {
         text += &format!("\n## {title}\n\n{said}");

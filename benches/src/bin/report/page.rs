@@ -5,6 +5,7 @@ use std::path::Path;
 use fingertip_calibration::page::{self, Figure};
 
 use crate::Failure;
+use crate::multiples::Group;
 use crate::plots::Diagram;
 use crate::table::Table;
 
@@ -13,6 +14,7 @@ use crate::table::Table;
 pub(crate) struct Page {
     parts: Vec<Part>,
     files: Vec<(String, String)>,
+    groups: Vec<Group>,
 }
 
 enum Part {
@@ -27,6 +29,7 @@ enum Part {
 impl Page {
     pub(crate) fn heading(&mut self, text: &str) {
         self.parts.push(Part::Heading(text.to_owned()));
+        self.groups.push((text.to_owned(), Vec::new()));
     }
 
     pub(crate) fn subheading(&mut self, text: &str) {
@@ -50,11 +53,19 @@ impl Page {
     }
 
     pub(crate) fn diagram(&mut self, name: &str, diagram: &Diagram) -> Result<(), Failure> {
+        if let Some((_, diagrams)) = self.groups.last_mut() {
+            diagrams.push(diagram.clone());
+        }
         let svg = diagram.svg()?;
         self.files.push((format!("{name}.svg"), svg.clone()));
         let title = diagram.title.to_string();
         self.parts.push(Part::Diagram(Figure { title, svg, on_white: true, ..Figure::default() }));
         Ok(())
+    }
+
+    /// The diagrams of each part.
+    pub(crate) fn groups(&self) -> &[Group] {
+        &self.groups
     }
 
     /// Writes the page, its diagrams and its data.

@@ -70,7 +70,7 @@ pub(crate) struct Diagram {
 }
 
 /// Full decades around the numbers.
-fn decades(values: impl Iterator<Item = f64>) -> Range<f64> {
+pub(crate) fn decades(values: impl Iterator<Item = f64>) -> Range<f64> {
     let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
     for x in values.filter(|x| *x > 0.0 && x.is_finite()) {
         low = low.min(x);
@@ -84,7 +84,8 @@ fn decades(values: impl Iterator<Item = f64>) -> Range<f64> {
     10_f64.powf(floor)..10_f64.powf(ceiling.max(floor + 1.0))
 }
 
-fn tick(x: f64) -> String {
+/// A number beside an axis.
+pub(crate) fn tick(x: f64) -> String {
     if (1e-3..1e5).contains(&x) { format!("{}", (x * 1e6).round() / 1e6) } else { format!("{x:.0e}") }
 }
 

@@ -1,4 +1,8 @@
 // Draws the solid of the element around this script, and lets it be turned.
+//
+// A page may change the attributes of the element and send it "redraw"; hang lines and dots on it as `marks` (those that are `through` show
+// through the solid, too); and take hold
+// of the pointer by `grab`, a function of a line of sight (a point and a direction) that says whether it does.
 (host => {
   const canvas = document.createElement("canvas"), ink = canvas.getContext("2d");
   if (!ink) return;
@@ -7,15 +11,21 @@
   canvas.setAttribute("aria-label", "The surface with contacts, to be turned with the arrow keys");
   const given = host.dataset;
   const points = text => text ? text.split(";").map(item => item ? item.split(",").map(Number) : null) : [];
-  const columns = +given.columns, net = points(given.net), axes = points(given.axes);
-  const [centre] = points(given.centre), reach = +given.reach;
-  const contacts = given.contacts.split("|").map(points);
-  const facets = [];
-  for (let first = 0; first + columns < net.length; first++) {
-    const row = first - first % columns, next = row + (first + 1) % columns;
-    const corners = [first, first + columns, next + columns, next].map(place => net[place]);
-    if (corners.every(corner => corner)) facets.push(corners);
-  }
+  let axes, centre, reach, contacts, facets;
+  const read = () => {
+    const columns = +given.columns, net = points(given.net);
+    axes = points(given.axes);
+    [centre] = points(given.centre);
+    reach = +given.reach;
+    contacts = given.contacts.split("|").map(points);
+    facets = [];
+    for (let first = 0; first + columns < net.length; first++) {
+      const row = first - first % columns, next = row + (first + 1) % columns;
+      const corners = [first, first + columns, next + columns, next].map(place => net[place]);
+      if (corners.every(corner => corner)) facets.push(corners);
+    }
+  };
+  read();
   const reset = () => ({ frame: points(given.view), zoom: 1 });
   let { frame, zoom } = reset();
 
@@ -32,13 +42,15 @@
     return Math.floor(Math.min(7.9, 8 * (normal[2] < 0 ? 0.35 * Math.abs(light) : Math.max(0, light))));
   };
 
+  const pixels = () => zoom * (Math.min(canvas.clientWidth, canvas.clientHeight) / 2 - 6) / reach;
+
   const draw = () => {
     const dense = window.devicePixelRatio || 1, wide = canvas.clientWidth, high = canvas.clientHeight;
     canvas.width = wide * dense;
     canvas.height = high * dense;
     ink.setTransform(dense, 0, 0, dense, 0, 0);
     const style = getComputedStyle(host), colour = name => style.getPropertyValue("--" + name).trim();
-    const scale = zoom * (Math.min(wide, high) / 2 - 6) / reach;
+    const scale = pixels();
     const place = ([x, y]) => [wide / 2 + scale * x, high / 2 - scale * y];
     const colours = [0, 1, 2, 3, 4, 5, 6, 7].map(i => colour("s" + i));
     const items = facets.map(facet => {
@@ -61,6 +73,34 @@
         ink.arc(...place(point), 2.2, 0, 7);
         ink.fill();
       }]));
+    });
+    (host.marks || []).forEach(({ line, kind, wide = 2, through = false }) => {
+      const tint = colour(kind), at = line.map(seen);
+      if (through) items.push([Infinity, () => {
+        ink.strokeStyle = tint;
+        ink.lineWidth = wide;
+        ink.setLineDash([2, 4]);
+        ink.beginPath();
+        at.forEach(point => ink.lineTo(...place(point)));
+        ink.stroke();
+        ink.setLineDash([]);
+      }]);
+      if (at.length == 1) items.push([at[0][2] + 0.08 * reach, () => {
+        ink.fillStyle = tint;
+        ink.beginPath();
+        ink.arc(...place(at[0]), wide, 0, 7);
+        ink.fill();
+      }]);
+      for (let piece = 1; piece < at.length; piece++) {
+        const ends = [at[piece - 1], at[piece]];
+        items.push([mean(ends) + 0.05 * reach, () => {
+          ink.strokeStyle = tint;
+          ink.lineWidth = wide;
+          ink.beginPath();
+          ends.forEach(end => ink.lineTo(...place(end)));
+          ink.stroke();
+        }]);
+      }
     });
     axes.forEach((tip, kind) => {
       const line = colour("abc"[kind]), at = share => seen(tip.map(value => value * share));
@@ -99,11 +139,23 @@
     soon();
   };
   const closer = factor => { zoom = Math.min(20, Math.max(0.3, zoom * factor)); soon(); };
-  let held = null;
-  canvas.onpointerdown = event => { canvas.setPointerCapture(event.pointerId); held = [event.clientX, event.clientY]; };
+  // From the viewer into the picture.
+  const sight = event => {
+    const box = canvas.getBoundingClientRect(), scale = pixels();
+    const x = (event.clientX - box.left - box.width / 2) / scale, y = (box.height / 2 - event.clientY + box.top) / scale;
+    const from = centre.map((value, i) => value + frame[0][i] * x + frame[1][i] * y + frame[2][i] * 4 * reach);
+    return [from, frame[2].map(value => -value)];
+  };
+  let held = null, grabbed = false;
+  canvas.onpointerdown = event => {
+    canvas.setPointerCapture(event.pointerId);
+    held = [event.clientX, event.clientY];
+    grabbed = host.grab ? host.grab(...sight(event)) : false;
+  };
   canvas.onpointerup = canvas.onpointercancel = () => { held = null; };
   canvas.onpointermove = event => {
     if (!held) return;
+    if (grabbed) return void host.grab(...sight(event));
     turn((event.clientX - held[0]) / 120, (event.clientY - held[1]) / 120);
     held = [event.clientX, event.clientY];
   };
@@ -116,6 +168,7 @@
     else return;
     event.preventDefault();
   };
+  host.addEventListener("redraw", () => { read(); soon(); });
   host.append(canvas);
   host.classList.add("turns");
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", soon);

@@ -2,7 +2,22 @@
 //! it has in a file, with an example that works.
 //!
 //! Files, documentation and `--help` read this list. A new choice is known to all of them by one [`Entry`], and a test
-//! fails if a choice has none.
+//! fails if a choice has none. [`keys`] has every key with its meaning; a test compares them with those that the parser
+//! knows.
+
+// Before the files that use it.
+macro_rules! keys {
+    ($list:ident, $about:literal: $($section:literal $choice:literal: { $($need:ident $name:literal, $says:literal;)* })*) => {
+        #[doc = $about]
+        pub(super) const $list: &[Key] = &[$($(
+            Key { section: $section, choice: $choice, name: $name, need: $need, says: $says }
+        ),*),*];
+    };
+}
+
+mod choice_keys;
+mod keys;
+mod shape_keys;
 
 /// One choice of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +42,51 @@ impl Entry {
         let end = if example.is_empty() { "" } else { "\n" };
         format!("[{section}]\n{key} = \"{name}\"\n{example}{end}")
     }
+}
+
+/// Whether a file must have something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// A file without it is refused.
+    Required,
+    /// It may be left out; what it says tells what holds then, or when it is needed after all.
+    Optional,
+}
+
+/// A section of a scene file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Section {
+    /// Its name, as `contact.skin`; empty for what stands above all sections.
+    pub name: &'static str,
+    /// Whether a scene must have it.
+    pub need: Need,
+    /// What it is for.
+    pub says: &'static str,
+}
+
+/// A key of a section.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Key {
+    /// The section, as `contact.skin`.
+    pub section: &'static str,
+    /// The choice that has it, as `sphere`; empty for a key of the whole section.
+    pub choice: &'static str,
+    /// Its name, with the unit.
+    pub name: &'static str,
+    /// Whether the section, or the choice, must have it.
+    pub need: Need,
+    /// What it means.
+    pub says: &'static str,
+}
+
+/// All keys, section by section.
+pub fn keys() -> impl Iterator<Item = &'static Key> {
+    [keys::KEYS, choice_keys::KEYS, shape_keys::KEYS].into_iter().flatten()
+}
+
+/// All sections, in the order in which a sample passes them.
+pub fn sections() -> impl Iterator<Item = &'static Section> {
+    keys::SECTIONS.iter()
 }
 
 /// All choices, section by section.

@@ -1,0 +1,1 @@
+../../../cli/src/report/solid/solid.js

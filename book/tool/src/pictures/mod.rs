@@ -1,0 +1,43 @@
+//! The pictures of the book, drawn by what the library computes.
+
+mod frames;
+mod margin;
+mod sides;
+mod svg;
+
+use fingertip::contact::{Contact, ContactModel, PointContact};
+use fingertip::surfaces::Sphere;
+use fingertip::wrench::Wrench;
+use nalgebra::Vector3;
+
+use crate::failure::Failure;
+use crate::pages::Made;
+use svg::Point;
+
+/// Radius of the ball that all pictures have \[m\].
+const RADIUS: f64 = 13e-3;
+
+/// All pictures.
+pub(crate) fn pictures() -> Result<Vec<Made>, Failure> {
+    Ok(vec![
+        Made { path: "pictures/line-of-action.svg", text: sides::line_of_action()? },
+        Made { path: "pictures/both-sides.svg", text: sides::both_sides()? },
+        Made { path: "pictures/frames.svg", text: frames::frames() },
+        Made { path: "pictures/turned.svg", text: frames::turned() },
+        Made { path: "pictures/margin.svg", text: margin::margin()? },
+        Made { path: "pictures/grazing.svg", text: sides::grazing()? },
+    ])
+}
+
+/// The contact of a wrench on the ball.
+fn contact(wrench: &Wrench<f64>) -> Result<Contact<f64>, Failure> {
+    let told = |error: &dyn core::fmt::Display| Failure::Command(error.to_string());
+    let ball = Sphere::centred(RADIUS).map_err(|error| told(&error))?;
+    let model = PointContact::new(0.01).map_err(|error| told(&error))?;
+    model.resolve(wrench, &ball).into_result().map_err(|reason| told(&reason))
+}
+
+/// Where a point of the plane of x and z is drawn \[mm\].
+fn drawn(point: &Vector3<f64>) -> Point {
+    Point::new(point.x, point.z) * 1e3
+}
