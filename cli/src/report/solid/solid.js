@@ -1,4 +1,5 @@
-// Draws the solid of the element around this script, and lets it be turned.
+// Draws the solid of the element around this script, and lets it be turned. `live` of the element takes what is to be
+// drawn with it from then on: dots, lines and filled shapes of points, each with the name of its colour.
 (host => {
   const canvas = document.createElement("canvas"), ink = canvas.getContext("2d");
   if (!ink) return;
@@ -16,6 +17,7 @@
     const corners = [first, first + columns, next + columns, next].map(place => net[place]);
     if (corners.every(corner => corner)) facets.push(corners);
   }
+  let live = [];
   const reset = () => ({ frame: points(given.view), zoom: 1 });
   let { frame, zoom } = reset();
 
@@ -82,6 +84,19 @@
         ink.fillText("xyz"[kind], x, y + 4);
       }]);
     });
+    live.forEach(({ at, kind, colour: name, wide = 1, alpha = 1, lift = 0 }) => {
+      const corners = at.map(seen), tone = colour(name);
+      items.push([mean(corners) + lift * reach, () => {
+        ink.globalAlpha = alpha;
+        ink.fillStyle = ink.strokeStyle = tone;
+        ink.lineWidth = wide;
+        ink.beginPath();
+        if (kind === "dots" || kind === "ring") corners.forEach(corner => ink.arc(...place(corner), kind === "ring" ? 5 : 2.2, 0, 7));
+        else corners.forEach(corner => ink.lineTo(...place(corner)));
+        kind === "fill" || kind === "dots" ? ink.fill() : ink.stroke();
+        ink.globalAlpha = 1;
+      }]);
+    });
     items.sort((one, other) => one[0] - other[0]).forEach(item => item[1]());
   };
 
@@ -117,6 +132,8 @@
     event.preventDefault();
   };
   host.append(canvas);
+  host.reach = reach;
+  host.live = parts => { live = parts; soon(); };
   host.classList.add("turns");
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", soon);
   new ResizeObserver(soon).observe(canvas);
