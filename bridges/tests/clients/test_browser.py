@@ -110,7 +110,7 @@ def test_the_page_shows_what_is_felt_and_commands(live, tmp_path):
 
     async def work(tab):
         await tab.call("Page.navigate", url=command)
-        await tab.until("document.getElementById('live-light').textContent === 'live'")
+        await tab.until("document.getElementById('live-light')?.textContent === 'live'")
         await tab.until("[...document.querySelectorAll('#live-table td')].some(cell => cell.textContent === 'contact')")
         assert await tab.value(COLOURS) > 20
         for name, width, height, dark in [("light", 1200, 1400, False), ("dark", 1200, 1400, True), ("phone", 390, 2500, False)]:
@@ -135,10 +135,10 @@ def test_the_page_shows_what_is_felt_and_commands(live, tmp_path):
         await tab.value("document.getElementById('live-hold').click()")
         # A zero, by its button.
         await tab.value("document.getElementById('live-tare').click()")
-        await tab.until("document.getElementById('live-light').textContent.startsWith('taking the zero')")
-        await tab.until("['live', 'slipping'].includes(document.getElementById('live-light').textContent)")
+        await tab.until("document.getElementById('live-light')?.textContent?.startsWith('taking the zero')")
+        await tab.until("['live', 'slipping'].includes(document.getElementById('live-light')?.textContent)")
         one.kill()
-        await tab.until("document.getElementById('live-light').textContent === 'not connected'")
+        await tab.until("document.getElementById('live-light')?.textContent === 'not connected'")
         errors = [one for one in tab.complaints if "ERR_CONNECTION_REFUSED" not in json.dumps(one) and "WebSocket connection" not in json.dumps(one)]
         assert not errors, errors[:3]
 
@@ -154,7 +154,7 @@ def test_an_hour_leaves_memory_as_it_was(live, folder, rows, tmp_path):
 
     async def work(tab):
         await tab.call("Page.navigate", url=watch)
-        await tab.until("document.getElementById('live-light').textContent === 'live'")
+        await tab.until("document.getElementById('live-light')?.textContent === 'live'")
         await asyncio.sleep(5)
 
         async def heap():

@@ -205,7 +205,8 @@ def test_clients_of_ill_will_cost_nobody_else_a_sample(live, folder, rows):
         await slow[1][0].send(b"\x02" + b"\xff" * 100)
         touches = []
         while len(touches) < 6000:
-            touches.append((now(), read_touch((await data(stream))[2])))
+            message = (await data(stream))[2]
+            touches.append((now(), read_touch(message)))
         memory = one.memory()
         for connection in kept:
             connection.close()
