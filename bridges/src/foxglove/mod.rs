@@ -176,7 +176,8 @@ impl Logging {
         let (mut surface, mut drawn) = (None::<Instant>, None::<Instant>);
         let is_due =
             |last: Option<Instant>, period: Duration| last.is_none_or(|last| last.elapsed() >= period);
-        while !self.ends.load(Ordering::Relaxed) {
+        // What is there when the stream has ended is still sent.
+        while !self.ends.load(Ordering::Relaxed) || (!samples.is_empty() && self.hub.is_closed()) {
             samples.clear();
             let news = reader.wait(&mut samples, NAP);
             self.missed.store(reader.missed(), Ordering::Relaxed);

@@ -75,7 +75,8 @@ impl Publishing {
         if about.has_scene {
             send(&self.fixed, frames::surface(about));
         }
-        while !shared.ends.load(Ordering::Relaxed) {
+        // What is there when the stream has ended is still sent.
+        while !shared.ends.load(Ordering::Relaxed) || (!samples.is_empty() && self.hub.is_closed()) {
             samples.clear();
             let news = reader.wait(&mut samples, NAP);
             shared.missed.store(reader.missed(), Ordering::Relaxed);

@@ -140,6 +140,10 @@ pub(super) fn serve(mut stream: TcpStream, shared: &Shared) {
         Ok(read) => read,
         Err(status) => return refuse(&mut stream, status, "This is no request that is understood here.\n"),
     };
+    if request.path == "/favicon.ico" {
+        // Browsers ask by themselves, and without a token: that is nobody who was refused.
+        return answer(&mut stream, "404 Not Found", "text/plain", "default-src 'none'", "There is none.\n");
+    }
     let right = match shared.guard.admit(&request.token, &request.host, request.origin.as_deref()) {
         Ok(right) => right,
         Err(Denied::Token) => {

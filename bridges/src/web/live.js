@@ -102,14 +102,14 @@
       const point = touch.point.map(value => value * 1e3), reach = solid.reach, along = (from, direction, length) => from.map((value, i) => value + direction[i] * length);
       // As long as the greatest force of the curves is a good length.
       const greatest = samples.reduce((most, sample) => sample.contact ? Math.max(most, size(sample.contact.force)) : most, 0);
-      const force = size(touch.force), scale = 0.75 * reach / nice(Math.max(greatest, 1e-9));
+      const force = size(touch.force), scale = 0.4 * reach / nice(Math.max(greatest, 1e-9));
       const used = last.margin ? last.margin.utilisation : 0, colour = used >= 1 || last.slip === "slipping" ? "alarm" : used > 0.8 || last.slip === "warning" ? "b" : "c";
       const normal = touch.normal, helper = Math.abs(normal[0]) < 0.6 ? [1, 0, 0] : [0, 1, 0];
       const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
       const unit = list => list.map(value => value / (size(list) || 1));
       const right = unit(cross(normal, helper)), up = cross(normal, right);
       if (about.coefficient) {
-        const length = Math.max(0.12 * reach, touch.normal_force * scale), radius = about.coefficient * length, far = along(point, normal, length);
+        const length = Math.max(0.1 * reach, touch.normal_force * scale), radius = about.coefficient * length, far = along(point, normal, length);
         const rim = place => { const angle = place / 24 * 2 * Math.PI; return along(along(far, right, radius * Math.cos(angle)), up, radius * Math.sin(angle)); };
         for (let place = 0; place < 24; place++) parts.push({ at: [point, rim(place), rim(place + 1)], kind: "fill", colour, alpha: 0.16, lift: 0.02 });
         parts.push({ at: Array.from({ length: 25 }, (_, place) => rim(place)), kind: "line", colour, wide: 1.2, lift: 0.03 });

@@ -22,6 +22,7 @@ use core::time::Duration;
 use std::io;
 use std::net::{Shutdown, TcpListener, TcpStream};
 use std::thread::{self, JoinHandle};
+use std::time::Instant;
 
 use thiserror::Error;
 
@@ -102,6 +103,9 @@ pub struct Server {
     tokens: Tokens,
     thread: Option<JoinHandle<()>>,
 }
+
+/// How long readers have to take what is left when there is no more.
+const REST: Duration = Duration::from_secs(1);
 
 /// One connection of those that there is room for.
 struct Place(Arc<Shared>);
@@ -184,6 +188,13 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
+        let begun = Instant::now();
+        while self.shared.hub.is_closed()
+            && self.shared.connections.load(Ordering::Relaxed) > 0
+            && begun.elapsed() < REST
+        {
+            thread::sleep(Duration::from_millis(5));
+        }
         self.shared.ends.store(true, Ordering::Relaxed);
         // So that the listener hears of it.
         let _ = TcpStream::connect_timeout(&self.address, Duration::from_secs(1));

@@ -5,6 +5,7 @@ import base64
 import json
 import os
 import shutil
+import socket
 import subprocess
 import urllib.request
 from pathlib import Path
@@ -105,7 +106,10 @@ def browse(folder, work):
 
 
 def test_the_page_shows_what_is_felt_and_commands(live, tmp_path):
-    one = live("--web=127.0.0.1:0")
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        arguments = [f"--web=127.0.0.1:{free.getsockname()[1]}", "--web-tokens", tmp_path / "tokens"]
+    one = live(*arguments)
     command = one.line(r"Command: +(\S+)")
 
     async def work(tab):
@@ -139,6 +143,9 @@ def test_the_page_shows_what_is_felt_and_commands(live, tmp_path):
         await tab.until("['live', 'slipping'].includes(document.getElementById('live-light')?.textContent)")
         one.kill()
         await tab.until("document.getElementById('live-light')?.textContent === 'not connected'")
+        # And started anew: the page finds it.
+        live(*arguments).line(r"Command: +(\S+)")
+        await tab.until("['live', 'slipping'].includes(document.getElementById('live-light')?.textContent)")
         errors = [one for one in tab.complaints if "ERR_CONNECTION_REFUSED" not in json.dumps(one) and "WebSocket connection" not in json.dumps(one)]
         assert not errors, errors[:3]
 

@@ -76,30 +76,10 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
     }
     let named = scene.as_ref().and_then(|scene| scene.sensor_name().map(str::to_owned));
     let seconds = arguments.tare.or_else(|| scene.as_ref().and_then(Scene::rest));
-    let scene_file = arguments.scene.as_deref().unwrap_or(Path::new("sim"));
-    let calibration = match &arguments.calibration {
-        // What a device reports are wrenches already.
-        Some(_) if !simulated && arguments.replay.is_none() => return Err(fault(SensorError::NotGauges)),
-        Some(path) => Some(Calibration::read(path)?),
-        None if simulated || arguments.replay.is_some() => {
-            let of_scene = scene.as_ref().and_then(Scene::calibration).cloned();
-            of_scene.map(|file| Calibration::of_scene(file, scene_file))
-        }
-        None => None,
-    };
-    if let Some(celsius) = arguments.celsius.filter(|_| calibration.is_none()) {
-        let needs = "is for readings of gauges, with --calibration or [sensor] of the scene";
-        return Err(CliError::option("--celsius", celsius, needs));
-    }
+    let calibration = calibration(arguments, simulated, scene.as_ref(), &source)?;
     let celsius = arguments.celsius.or_else(|| scene.as_ref().and_then(Scene::celsius));
-    if scene.as_ref().is_some_and(|scene| scene.carried().is_some()) {
-        eprintln!("note: the weight of [payload] is not taken off: nothing tells how a live sensor lies");
-    }
-    if scene.as_ref().is_some_and(Scene::awaits_noise) && calibration.is_some() {
-        eprintln!(
-            "note: nothing tells the noise of gauges live, which the scene asks for: no force is a contact until a \
-                   zero is taken (key t)"
-        );
+    if let Some(scene) = &scene {
+        note_what_is_left_out(scene, calibration.is_some());
     }
     let hub = Hub::new(bridges::about(&source, scene.as_ref()));
     let mut bridges = Bridges::start(&arguments.bridges, &hub, scene.as_ref())?;
@@ -139,6 +119,46 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
     }
     shown.map_err(CliError::Terminal)?;
     read.map_err(fault)
+}
+
+/// What turns readings of gauges into wrenches, where it is such that come.
+fn calibration(
+    arguments: &LiveArguments,
+    simulated: bool,
+    scene: Option<&Scene>,
+    source: &str,
+) -> Result<Option<Calibration>, CliError> {
+    let scene_file = arguments.scene.as_deref().unwrap_or(Path::new("sim"));
+    let calibration = match &arguments.calibration {
+        // What a device reports are wrenches already.
+        Some(_) if !simulated && arguments.replay.is_none() => {
+            return Err(CliError::sensor(source, SensorError::NotGauges));
+        }
+        Some(path) => Some(Calibration::read(path)?),
+        None if simulated || arguments.replay.is_some() => {
+            let of_scene = scene.and_then(Scene::calibration).cloned();
+            of_scene.map(|file| Calibration::of_scene(file, scene_file))
+        }
+        None => None,
+    };
+    if let Some(celsius) = arguments.celsius.filter(|_| calibration.is_none()) {
+        let needs = "is for readings of gauges, with --calibration or [sensor] of the scene";
+        return Err(CliError::option("--celsius", celsius, needs));
+    }
+    Ok(calibration)
+}
+
+/// Says what of a scene does not count live.
+fn note_what_is_left_out(scene: &Scene, of_gauges: bool) {
+    if scene.carried().is_some() {
+        eprintln!("note: the weight of [payload] is not taken off: nothing tells how a live sensor lies");
+    }
+    if scene.awaits_noise() && of_gauges {
+        eprintln!(
+            "note: nothing tells the noise of gauges live, which the scene asks for: no force is a contact until a \
+                   zero is taken (key t)"
+        );
+    }
 }
 
 /// Opens the source. `how` gauges become wrenches, and `named` is their sensor by the scene.

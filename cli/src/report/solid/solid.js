@@ -17,8 +17,8 @@
     const corners = [first, first + columns, next + columns, next].map(place => net[place]);
     if (corners.every(corner => corner)) facets.push(corners);
   }
-  let live = [];
-  const reset = () => ({ frame: points(given.view), zoom: 1 });
+  let live = [], far = 1;
+  const reset = () => ({ frame: points(given.view), zoom: far });
   let { frame, zoom } = reset();
 
   const minus = (a, b) => a.map((value, i) => value - b[i]);
@@ -133,7 +133,8 @@
   };
   host.append(canvas);
   host.reach = reach;
-  host.live = parts => { live = parts; soon(); };
+  // From a little farther away, so that there is room for a force.
+  host.live = parts => { if (far === 1) zoom *= far = 0.8; live = parts; soon(); };
   host.classList.add("turns");
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", soon);
   new ResizeObserver(soon).observe(canvas);
