@@ -79,7 +79,7 @@ int main(int, char** arguments) {
     CHECK(is_press(feeler.update(plus(press, bias), 1e-3)));
 
     auto missing = Feeler::from_file(path + ".none", 1.0);
-    CHECK(!missing && missing.error().status == FT_UNREADABLE);
+    CHECK(!missing && missing.error().status() == FT_UNREADABLE);
     std::remove(path.c_str());
     if (failed == 0) std::puts("all hold");
     return failed == 0 ? 0 : 1;
