@@ -4,7 +4,7 @@
   const solid = document.querySelector(".solid"), token = new URLSearchParams(location.search).get("token") || "";
   const SPAN = 10, TRAIL = 300, ROOM = 60000;
   let about = {}, source = {}, socket = null, held = false, wait = 500, missed = 0;
-  let samples = [], last = null, trail = [], spins = false, delays = [], rate = 0, counted = null;
+  let samples = [], last = null, trail = [], spins = false, greatest = 0, delays = [], rate = 0, counted = null;
 
   // What is known of a number, with its digits and unit.
   const number = (value, unit, digits = 3) =>
@@ -101,8 +101,7 @@
     if (touch) {
       const point = touch.point.map(value => value * 1e3), reach = solid.reach, along = (from, direction, length) => from.map((value, i) => value + direction[i] * length);
       // As long as the greatest force of the curves is a good length.
-      const greatest = samples.reduce((most, sample) => sample.contact ? Math.max(most, size(sample.contact.force)) : most, 0);
-      const force = size(touch.force), scale = 0.4 * reach / nice(Math.max(greatest, 1e-9));
+      const force = size(touch.force), scale = 0.4 * reach / nice(Math.max(greatest, force, 1e-9));
       const used = last.margin ? last.margin.utilisation : 0, colour = used >= 1 || last.slip === "slipping" ? "alarm" : used > 0.8 || last.slip === "warning" ? "b" : "c";
       const normal = touch.normal, helper = Math.abs(normal[0]) < 0.6 ? [1, 0, 0] : [0, 1, 0];
       const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -132,8 +131,12 @@
   };
 
   // Ten seconds of a canvas, as wide as it is; each column from its least to its greatest value.
-  const pick = { force: s => (s.load || s.wrench).slice(0, 3), torque: s => (s.load || s.wrench).slice(3).map(value => value * 1e3),
-    contact: s => s.contact ? [s.contact.normal_force, size(s.contact.tangential_force)] : [NaN, NaN], margin: s => [s.contact && s.margin ? s.margin.newtons : NaN] };
+  const load = sample => sample.load || sample.wrench;
+  const pick = {
+    force: [0, 1, 2].map(axis => sample => load(sample)[axis]), torque: [3, 4, 5].map(axis => sample => load(sample)[axis] * 1e3),
+    contact: [sample => sample.contact ? sample.contact.normal_force : NaN, sample => sample.contact ? size(sample.contact.tangential_force) : NaN],
+    margin: [sample => sample.contact && sample.margin ? sample.margin.newtons : NaN],
+  };
   const curve = canvas => {
     const ink = canvas.getContext("2d");
     if (!ink) return;
@@ -143,18 +146,19 @@
     ink.clearRect(0, 0, wide, high);
     const style = getComputedStyle(canvas), colour = name => style.getPropertyValue("--" + name).trim();
     const left = 40, right = wide - 4, top = 8, bottom = high - 18, now = last ? last.t : 0, columns = Math.max(1, Math.floor(right - left));
-    const of = pick[canvas.dataset.of], lows = [], highs = [];
+    const of = pick[canvas.dataset.of], lows = of.map(() => []), highs = of.map(() => []);
     let low = 0, most = 0;
     for (const sample of samples) {
       const column = Math.floor((sample.t - now + SPAN) / SPAN * columns);
       if (column < 0 || column > columns) continue;
-      of(sample).forEach((value, kind) => {
-        if (!Number.isFinite(value)) return;
-        (lows[kind] ||= [])[column] = Math.min(lows[kind][column] ?? Infinity, value);
-        (highs[kind] ||= [])[column] = Math.max(highs[kind][column] ?? -Infinity, value);
-        low = Math.min(low, value);
-        most = Math.max(most, value);
-      });
+      for (let kind = 0; kind < of.length; kind++) {
+        const value = of[kind](sample);
+        if (!Number.isFinite(value)) continue;
+        if (!(lows[kind][column] <= value)) lows[kind][column] = value;
+        if (!(highs[kind][column] >= value)) highs[kind][column] = value;
+        if (value < low) low = value;
+        if (value > most) most = value;
+      }
     }
     const above = most > 0 ? nice(most) : low < 0 ? 0 : 1, below = low < -0.02 * above ? -nice(-low) : 0;
     const y = value => bottom - (value - below) / (above - below) * (bottom - top);
@@ -196,12 +200,20 @@
   };
   const canvases = [...document.querySelectorAll(".curve-of")];
 
-  let asked = false, tabled = 0;
+  // The view as often as the screen shows it; curves and table as often as they can be read.
+  let asked = false, tabled = 0, curved = 0;
   const soon = () => { if (!asked) { asked = true; requestAnimationFrame(frame); } };
   const frame = () => {
     asked = false;
-    if (!held) { view(); canvases.forEach(curve); }
-    if (performance.now() - tabled > 250) { tabled = performance.now(); if (!held) table(); head(); tell(); }
+    if (!held) view();
+    if (!held && performance.now() - curved > 50) { curved = performance.now(); canvases.forEach(curve); }
+    if (performance.now() - tabled > 250) {
+      tabled = performance.now();
+      greatest = samples.reduce((most, sample) => sample.contact ? Math.max(most, size(sample.contact.force)) : most, 0);
+      if (!held) table();
+      head();
+      tell();
+    }
     if (last && last.fresh) {
       last.fresh = false;
       delays.push((performance.timeOrigin + performance.now()) / 1e3 - last.stamp);

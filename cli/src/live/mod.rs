@@ -122,12 +122,12 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
 }
 
 /// What turns readings of gauges into wrenches, where it is such that come.
-fn calibration(
-    arguments: &LiveArguments,
+fn calibration<'a>(
+    arguments: &'a LiveArguments,
     simulated: bool,
     scene: Option<&Scene>,
     source: &str,
-) -> Result<Option<Calibration>, CliError> {
+) -> Result<Option<Calibration<'a>>, CliError> {
     let scene_file = arguments.scene.as_deref().unwrap_or(Path::new("sim"));
     let calibration = match &arguments.calibration {
         // What a device reports are wrenches already.
