@@ -4,7 +4,7 @@
   const solid = document.querySelector(".solid"), token = new URLSearchParams(location.search).get("token") || "";
   const SPAN = 10, TRAIL = 300, ROOM = 60000;
   let about = {}, source = {}, socket = null, held = false, wait = 500, missed = 0;
-  let samples = [], last = null, trail = [], spins = false, greatest = 0, delays = [], rate = 0, counted = null;
+  let samples = [], last = null, trail = [], spins = false, greatest = 0, slipped = -Infinity, slipCount = 0, delays = [], rate = 0, counted = null;
 
   // What is known of a number, with its digits and unit.
   const number = (value, unit, digits = 3) =>
@@ -23,17 +23,20 @@
     return { waiting: ["", "waiting for the first sample"], running: ["good", "live"], resting: ["suspect", "taking the zero: do not touch"],
       lost: ["bad", "sensor lost, connecting anew"], ended: ["", "the recording is over"] }[source.health] || ["", "…"];
   };
+  // A slip of milliseconds is shown for half a second; calls in quick succession are one slip.
+  const recent = () => last && last.t >= slipped && last.t - slipped < 0.5;
+  const verdict = () => last && last.slip ? slips[recent() ? "slipping" : last.slip] : "–";
   const state = () => !last ? "nothing yet" : last.contact ? "contact" : about.has_scene ? `no contact: ${reasons[last.status] || last.status}` : "no scene";
   const sentence = () => {
     if (!last || source.health !== "running" || !about.has_scene) return health()[1];
     if (!last.contact) return state();
-    return `Contact at ${fixed(last.contact.point, 1e3, 1)} mm, pressed with ${number(last.contact.normal_force, "N", 2)}${last.slip ? ", " + slips[last.slip] : ""}`;
+    return `Contact at ${fixed(last.contact.point, 1e3, 1)} mm, pressed with ${number(last.contact.normal_force, "N", 2)}${last.slip ? ", " + verdict() : ""}`;
   };
   // Whoever listens hears a change at once, and numbers every five seconds.
   let heard = "", when = 0;
   const say = text => { by("said").textContent = text; when = performance.now(); };
   const tell = () => {
-    const kind = [health()[1], state(), last && last.slip].join();
+    const kind = [health()[1], state(), verdict()].join();
     if (kind !== heard && performance.now() - when > 1000 || performance.now() - when > 5000) { heard = kind; if (by("said").textContent !== sentence()) say(sentence()); }
   };
 
@@ -50,7 +53,7 @@
       const ratio = touch && tangential / touch.normal_force;
       list.push(["Friction ratio", touch ? number(ratio, about.coefficient ? `of ${about.coefficient.toPrecision(3)}` : "") : "–"]);
       list.push(["Slip margin", last && last.margin && touch ? number(last.margin.newtons, "N") : "–", touch && last.margin && last.margin.newtons < 0]);
-      if (about.watches_slip) list.push(["Slip", last && last.slip ? slips[last.slip] : "–", last && last.slip === "slipping"]);
+      if (about.watches_slip) list.push(["Slip", verdict(), recent()], ["Slips", String(slipCount)]);
       spins ||= Boolean(touch && touch.spin_torque);
       if (spins) list.push(["Spin torque", touch ? number(touch.spin_torque * 1e3, "mN m", 2) : "–"]);
     }
@@ -82,7 +85,7 @@
   };
   const head = () => {
     const [kind, word] = health(), light = by("light");
-    const slipping = last && last.slip === "slipping" && source.health === "running";
+    const slipping = recent() && source.health === "running";
     light.className = "light " + (slipping ? "bad" : kind);
     light.textContent = slipping ? "slipping" : word;
     by("source").textContent = about.source || "";
@@ -102,7 +105,7 @@
       const point = touch.point.map(value => value * 1e3), reach = solid.reach, along = (from, direction, length) => from.map((value, i) => value + direction[i] * length);
       // As long as the greatest force of the curves is a good length.
       const force = size(touch.force), scale = 0.4 * reach / nice(Math.max(greatest, force, 1e-9));
-      const used = last.margin ? last.margin.utilisation : 0, colour = used >= 1 || last.slip === "slipping" ? "alarm" : used > 0.8 || last.slip === "warning" ? "b" : "c";
+      const used = last.margin ? last.margin.utilisation : 0, colour = used >= 1 || recent() ? "alarm" : used > 0.8 || last.slip === "warning" ? "b" : "c";
       const normal = touch.normal, helper = Math.abs(normal[0]) < 0.6 ? [1, 0, 0] : [0, 1, 0];
       const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
       const unit = list => list.map(value => value / (size(list) || 1));
@@ -222,15 +225,19 @@
   };
 
   const take = message => {
-    if (message.hello) { about = message.hello; samples = []; trail = []; missed = 0; last = null; spins = false; counted = null; delays = []; }
+    if (message.hello) { about = message.hello; samples = []; trail = []; missed = 0; last = null; spins = false; slipped = -Infinity; slipCount = 0; counted = null; delays = []; }
     if (message.status) source = message.status;
-    if (message.did === "reset") trail = [];
+    if (message.did === "reset") { trail = []; slipCount = 0; }
     if (message.refused) say(message.refused);
     if (message.samples && message.samples.length) {
       missed += message.missed;
       for (const sample of message.samples) {
         // A recording that begins anew.
         if (last && sample.t < last.t) samples = [];
+        if (sample.slip === "slipping") {
+          if (!(last && last.slip === "slipping") && !(sample.t - slipped <= 0.05)) slipCount++;
+          slipped = sample.t;
+        }
         last = sample;
         samples.push(sample);
       }

@@ -261,7 +261,7 @@ mod tests {
         assert_eq!((felt.margin, felt.slip), (touch.grip.flatten(), touch.slip));
         assert_eq!(
             (status.health, status.faults, status.lost),
-            (fingertip_bridges::Health::Ended, 1, Some(3))
+            (fingertip_bridges::Health::Ended, 1, Some(2))
         );
     }
 
