@@ -11,25 +11,29 @@ use crate::{Pressed, Sample};
 const NAME: &str = "fingertip";
 
 /// When it was made, and in which frame.
-pub(crate) fn header(sample: &Sample, frame: &str) -> Header {
+#[must_use]
+pub fn header(sample: &Sample, frame: &str) -> Header {
     let seconds = i32::try_from(sample.stamp.as_secs()).unwrap_or(i32::MAX);
     Header { seconds, nanoseconds: sample.stamp.subsec_nanos(), frame: frame.to_owned() }
 }
 
 /// `geometry_msgs/msg/WrenchStamped`: as the sensor reports it, less its zero.
-pub(crate) fn wrench(sample: &Sample, header: &Header) -> Vec<u8> {
+#[must_use]
+pub fn wrench(sample: &Sample, header: &Header) -> Vec<u8> {
     Recorded::Wrench(sample.wrench).emit(header)
 }
 
 /// `tactile_msgs/msg/TactileContact`.
-pub(crate) fn contact(contact: &Pressed, header: &Header) -> Vec<u8> {
+#[must_use]
+pub fn contact(contact: &Pressed, header: &Header) -> Vec<u8> {
     let wrench = Wrench::on_fingertip(contact.force, contact.normal * contact.spin_torque);
     let Pressed { point, normal, .. } = *contact;
     Recorded::Contact(RecordedContact { name: NAME.to_owned(), position: point, normal, wrench }).emit(header)
 }
 
 /// `fingertip_msgs/msg/Touch`; `None` without a scene.
-pub(crate) fn touch(sample: &Sample, header: &Header) -> Option<Vec<u8>> {
+#[must_use]
+pub fn touch(sample: &Sample, header: &Header) -> Option<Vec<u8>> {
     Some(Recorded::Touch(recorded_touch(sample)?).emit(header))
 }
 

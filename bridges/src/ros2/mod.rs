@@ -86,13 +86,17 @@ pub enum NodeError {
     /// The domain is none.
     #[error("domain {0} is none; give one from 0 to 232")]
     Domain(u16),
+    /// No network interface of this computer has the address.
+    #[error("no network interface here has the address {0}; give one that `ip address` shows, or 127.0.0.1")]
+    Interface(IpAddr),
     /// A name is none.
-    #[error("“{name}” is no name of ROS 2: {why}; give one such as {example}")]
+    #[error(
+        "“{name}” is no name of ROS 2: it begins with a slash, has letters, digits and _ between slashes, and does not end \
+         with one; give one such as {example}"
+    )]
     Name {
         /// The name.
         name: String,
-        /// Why not.
-        why: String,
         /// One that is.
         example: &'static str,
     },

@@ -1,6 +1,7 @@
 //! The participant of DDS, and names in it.
 
 use core::fmt::Display;
+use std::net::UdpSocket;
 
 use ros2_client::{Context, MessageTypeName, Name, NodeName, NodeOptions, Publisher, QosProfile};
 use rustdds::{DomainParticipantBuilder, Topic};
@@ -20,11 +21,8 @@ pub(super) fn refused(what: &'static str) -> impl Fn(&dyn Display) -> NodeError 
 
 /// A name of a topic or service.
 pub(super) fn name(namespace: &str, base: &str) -> Result<Name, NodeError> {
-    Name::new(namespace, base).map_err(|why| NodeError::Name {
-        name: format!("{namespace}/{base}"),
-        why: format!("{why:?}"),
-        example: "/fingertip",
-    })
+    Name::new(namespace, base)
+        .map_err(|_| NodeError::Name { name: format!("{namespace}/{base}"), example: "/fingertip" })
 }
 
 impl Participant {
@@ -34,11 +32,12 @@ impl Participant {
         if *domain > 232 {
             return Err(NodeError::Domain(*domain));
         }
-        let node_name = NodeName::new(namespace, base).map_err(|why| NodeError::Name {
-            name: namespace.clone(),
-            why: format!("{why:?}"),
-            example: "/fingertip",
-        })?;
+        // The library would say nothing, and reach nobody.
+        if UdpSocket::bind((*interface, 0)).is_err() {
+            return Err(NodeError::Interface(*interface));
+        }
+        let node_name = NodeName::new(namespace, base)
+            .map_err(|_| NodeError::Name { name: namespace.clone(), example: "/fingertip" })?;
         let participant = DomainParticipantBuilder::new(*domain)
             .with_only_networks([*interface])
             .same_host_loopback(true)

@@ -77,11 +77,8 @@ impl WrenchSource {
     /// # Errors
     /// [`NodeError`].
     pub fn open(topic: &str, options: &Options) -> Result<Self, NodeError> {
-        let name = Name::parse(topic).map_err(|why| NodeError::Name {
-            name: topic.to_owned(),
-            why: format!("{why:?}"),
-            example: "/ft_sensor/wrench",
-        })?;
+        let name = Name::parse(topic)
+            .map_err(|_| NodeError::Name { name: topic.to_owned(), example: "/ft_sensor/wrench" })?;
         let mut participant = Participant::new(options, "source")?;
         let qos = QosProfile::subscription_default().history(History::KeepLast { depth: 1000 });
         let topic = participant.topic(&name, ["geometry_msgs", "WrenchStamped"], &qos)?;

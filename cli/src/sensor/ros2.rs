@@ -63,6 +63,7 @@ mod tests {
             ("ros2:///a?interface=x", "interface=x is no address"),
             ("ros2:///a?domain=x", "domain=x is not a whole number"),
             ("ros2:///a?domain=233", "domain 233 is none"),
+            ("ros2:///a?interface=192.0.2.1", "no network interface here has the address 192.0.2.1"),
         ] {
             let error = open(&address(text).unwrap()).err().unwrap().to_string();
             assert!(error.contains(expected), "{text}: {error}");
