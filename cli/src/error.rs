@@ -129,6 +129,10 @@ pub(crate) enum CliError {
     /// The simulated sensor cannot be served.
     #[error("cannot simulate: {message}")]
     Simulate { message: String },
+    /// What a live view is served by cannot be.
+    #[error("{bridge}: {message}")]
+    #[cfg(any(feature = "web", feature = "foxglove", feature = "ros2"))]
+    Bridge { bridge: &'static str, message: String },
     /// The terminal does not do what a live view needs.
     #[error("terminal: {0}; `fingertip live` needs a terminal, `fingertip record` does not")]
     Terminal(io::Error),

@@ -38,6 +38,12 @@ impl SceneFeel {
         self.pipeline.awaits_noise()
     }
 
+    /// Forgets the samples before: the next one is as after a gap. What was learnt of the friction stays.
+    pub(crate) fn start_anew(&mut self) {
+        self.pipeline.start_anew();
+        self.last = None;
+    }
+
     /// What a sample means; `None` while the zero is taken.
     pub(crate) fn feel(&mut self, time: f64, reported: &Wrench<f64>) -> Result<Option<SceneTouch>, NoZero> {
         let Some(tared) = self.rest.take(time, reported)? else { return Ok(None) };

@@ -58,6 +58,7 @@ fn holds(recorded: &Recorded) -> String {
         Recorded::Wrench(_) => "wrenches [N, N·m]".to_owned(),
         Recorded::Signals(signals) => format!("{} signals [{}]", signals.values.len(), signals.unit),
         Recorded::Contact(_) => "contacts".to_owned(),
+        Recorded::Touch(_) => "touches: contact, forces, margin, slip".to_owned(),
         _ => "messages of a type that is not read".to_owned(),
     }
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::bridges::BridgeArguments;
 use crate::sensor::{self, Address};
 
 #[derive(Debug, Args)]
@@ -46,4 +47,6 @@ pub(crate) struct LiveArguments {
     /// End when a lost sensor falls silent, instead of connecting anew
     #[arg(long)]
     pub(crate) no_reconnect: bool,
+    #[command(flatten)]
+    pub(crate) bridges: BridgeArguments,
 }

@@ -1,14 +1,15 @@
 //! `fingertip live`: what a fingertip feels, in the terminal.
 
 pub(crate) mod args;
+mod bridges;
 mod forces;
 mod map;
+mod reader;
 mod slip;
 mod state;
 mod view;
 
 use alloc::sync::Arc;
-use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
@@ -17,32 +18,27 @@ use std::thread;
 use std::time::Instant;
 
 use args::LiveArguments;
+use bridges::Bridges;
+use fingertip_bridges::{Command, Hub};
 use ratatui::DefaultTerminal;
 use ratatui::crossterm::event::{self, Event as Input, KeyCode, KeyEventKind, KeyModifiers};
-use state::{Health, State};
+use state::State;
 
 use crate::calibrated::Calibration;
 use crate::error::CliError;
 use crate::felt::{Rest, SceneFeel};
-use crate::health::{of_wrench, seen};
-use crate::output::printable;
+use crate::output::{print, printable};
 use crate::scene;
-use crate::sensor::{self, Calibrating, Event, GaugesOf, SensorError, Stream, StreamOptions};
+use crate::sensor::{self, Calibrating, GaugesOf, SensorError, Stream, StreamOptions};
 use crate::stop::Stop;
-use fingertip::wrench::Wrench;
-use fingertip_recordings::health::{Depth, HealthWatch};
 use fingertip_scene::{Limit, Scene};
 
-/// How long a zero takes that is asked for by a key \[s\].
-const ZERO: f64 = 1.0;
-/// Behind so many samples the health of the sensor is judged again.
-const HEALTH_PERIOD: u64 = 2048;
-
-/// What the reader of samples and the view share.
+/// What the reader of samples, the view and the bridges share.
 struct Shared {
     state: Mutex<State>,
     stop: Stop,
-    tare: AtomicBool,
+    /// Where every sample goes, and where a zero is asked for.
+    hub: Hub,
 }
 
 impl Shared {
@@ -53,7 +49,8 @@ impl Shared {
 }
 
 pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
-    if !io::stdout().is_terminal() {
+    let has_view = io::stdout().is_terminal();
+    if !has_view && !arguments.bridges.any() {
         return Err(CliError::Terminal(io::Error::other("the standard output is none")));
     }
     let source = match &arguments.replay {
@@ -79,42 +76,25 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
     }
     let named = scene.as_ref().and_then(|scene| scene.sensor_name().map(str::to_owned));
     let seconds = arguments.tare.or_else(|| scene.as_ref().and_then(Scene::rest));
-    let scene_file = arguments.scene.as_deref().unwrap_or(Path::new("sim"));
-    let calibration = match &arguments.calibration {
-        // What a device reports are wrenches already.
-        Some(_) if !simulated && arguments.replay.is_none() => return Err(fault(SensorError::NotGauges)),
-        Some(path) => Some(Calibration::read(path)?),
-        None if simulated || arguments.replay.is_some() => {
-            let of_scene = scene.as_ref().and_then(Scene::calibration).cloned();
-            of_scene.map(|file| Calibration::of_scene(file, scene_file))
-        }
-        None => None,
-    };
-    if let Some(celsius) = arguments.celsius.filter(|_| calibration.is_none()) {
-        let needs = "is for readings of gauges, with --calibration or [sensor] of the scene";
-        return Err(CliError::option("--celsius", celsius, needs));
-    }
+    let calibration = calibration(arguments, simulated, scene.as_ref(), &source)?;
     let celsius = arguments.celsius.or_else(|| scene.as_ref().and_then(Scene::celsius));
-    if scene.as_ref().is_some_and(|scene| scene.carried().is_some()) {
-        eprintln!("note: the weight of [payload] is not taken off: nothing tells how a live sensor lies");
+    if let Some(scene) = &scene {
+        note_what_is_left_out(scene, calibration.is_some());
     }
-    if scene.as_ref().is_some_and(Scene::awaits_noise) && calibration.is_some() {
-        eprintln!(
-            "note: nothing tells the noise of gauges live, which the scene asks for: no force is a contact until a \
-                   zero is taken (key t)"
-        );
-    }
+    let hub = Hub::new(bridges::about(&source, scene.as_ref()));
+    let mut bridges = Bridges::start(&arguments.bridges, &hub, scene.as_ref())?;
+    state.served = bridges.addresses().to_vec();
     // The rest of gauges is taken of their readings.
     let rest = Rest::new(seconds.filter(|_| calibration.is_none()));
     let feel = scene.map(|scene| SceneFeel::new(&scene, true));
     // Before the terminal is taken, so that what is wrong is said in plain lines.
     let gauges = calibration.as_ref().map(|calibration| Calibrating { calibration, rest: seconds, celsius });
     let stream = open(arguments, gauges, named.as_deref())?;
-    let shared =
-        Arc::new(Shared { state: Mutex::new(state), stop: Stop::listen(), tare: AtomicBool::new(false) });
+    print(&bridges.addresses().iter().map(|line| format!("{line}\n")).collect::<String>())?;
+    let shared = Arc::new(Shared { state: Mutex::new(state), stop: Stop::listen(), hub });
     let reading = Arc::clone(&shared);
     let reader = thread::Builder::new().name("samples".to_owned()).spawn(move || {
-        let read = read(&reading, stream, rest, feel);
+        let read = reader::read(&reading, stream, rest, feel);
         if read.is_err() {
             // The view ends with it, and it is said when the terminal is as it was.
             reading.stop.ask();
@@ -123,15 +103,62 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
     });
     let reader = reader.map_err(|error| fault(SensorError::Thread(error)))?;
 
-    let shown = ratatui::try_init().and_then(|terminal| show(terminal, &shared, arguments.frames));
-    ratatui::restore();
+    let shown = if has_view {
+        let shown = ratatui::try_init().and_then(|terminal| show(terminal, &shared, arguments.frames));
+        ratatui::restore();
+        shown
+    } else {
+        wait(&shared);
+        Ok(())
+    };
     shared.stop.ask();
     let read = reader.join().unwrap_or(Err(SensorError::Died));
+    bridges.end().iter().for_each(|line| eprintln!("note: {line}"));
     for fault in &shared.state().seen {
         eprintln!("warning: {}", printable(fault));
     }
     shown.map_err(CliError::Terminal)?;
     read.map_err(fault)
+}
+
+/// What turns readings of gauges into wrenches, where it is such that come.
+fn calibration<'a>(
+    arguments: &'a LiveArguments,
+    simulated: bool,
+    scene: Option<&Scene>,
+    source: &str,
+) -> Result<Option<Calibration<'a>>, CliError> {
+    let scene_file = arguments.scene.as_deref().unwrap_or(Path::new("sim"));
+    let calibration = match &arguments.calibration {
+        // What a device reports are wrenches already.
+        Some(_) if !simulated && arguments.replay.is_none() => {
+            return Err(CliError::sensor(source, SensorError::NotGauges));
+        }
+        Some(path) => Some(Calibration::read(path)?),
+        None if simulated || arguments.replay.is_some() => {
+            let of_scene = scene.and_then(Scene::calibration).cloned();
+            of_scene.map(|file| Calibration::of_scene(file, scene_file))
+        }
+        None => None,
+    };
+    if let Some(celsius) = arguments.celsius.filter(|_| calibration.is_none()) {
+        let needs = "is for readings of gauges, with --calibration or [sensor] of the scene";
+        return Err(CliError::option("--celsius", celsius, needs));
+    }
+    Ok(calibration)
+}
+
+/// Says what of a scene does not count live.
+fn note_what_is_left_out(scene: &Scene, of_gauges: bool) {
+    if scene.carried().is_some() {
+        eprintln!("note: the weight of [payload] is not taken off: nothing tells how a live sensor lies");
+    }
+    if scene.awaits_noise() && of_gauges {
+        eprintln!(
+            "note: nothing tells the noise of gauges live, which the scene asks for: no force is a contact until a \
+                   zero is taken (key t)"
+        );
+    }
 }
 
 /// Opens the source. `how` gauges become wrenches, and `named` is their sensor by the scene.
@@ -169,68 +196,11 @@ fn open(
     Stream::new(Box::new(again), options).map_err(fault)
 }
 
-/// Takes samples until it is asked to end.
-fn read(
-    shared: &Shared,
-    mut stream: Stream,
-    mut rest: Rest,
-    mut feel: Option<SceneFeel>,
-) -> Result<(), SensorError> {
-    let mut watch = HealthWatch::new(of_wrench(""), Depth::Brief);
-    while !shared.stop.is_asked() {
-        if shared.tare.swap(false, Ordering::Relaxed) {
-            rest = Rest::new(Some(ZERO));
-        }
-        match stream.next()? {
-            Event::Sample(time, reading) => {
-                match rest.take(time, watched(&mut watch, shared, time, &reading.wrench))? {
-                    Some(wrench) => {
-                        let touch = match &mut feel {
-                            Some(feel) => {
-                                if let Some(noise) = rest.noise().filter(|_| feel.awaits_noise()) {
-                                    feel.know_noise(&noise);
-                                }
-                                feel.feel(time, &wrench)?
-                            }
-                            None => None,
-                        };
-                        let mut state = shared.state();
-                        state.sample(time, &wrench, touch, Instant::now());
-                        state.losses = stream.losses();
-                    }
-                    None => shared.state().health = Health::Resting,
-                }
-            }
-            Event::Fault(why) => {
-                let mut state = shared.state();
-                state.faults += 1;
-                state.last_fault = Some(why);
-                state.losses = stream.losses();
-            }
-            Event::Nothing => shared.state().reconnections = stream.reconnections(),
-            Event::Lost(why) => shared.state().health = Health::Lost(why),
-            Event::End => {
-                shared.state().health = Health::Ended;
-                return Ok(());
-            }
-        }
+/// Without a terminal: until it is asked to end, or there are no more samples.
+fn wait(shared: &Shared) {
+    while !shared.stop.is_asked() && !shared.hub.is_closed() {
+        thread::sleep(Duration::from_millis(20));
     }
-    Ok(())
-}
-
-/// Looks at the health of the sensor, and every so often says what it sees.
-fn watched<'a>(
-    watch: &mut HealthWatch,
-    shared: &Shared,
-    time: f64,
-    wrench: &'a Wrench<f64>,
-) -> &'a Wrench<f64> {
-    watch.add(Some(time), wrench.components().as_slice());
-    if watch.samples().is_multiple_of(HEALTH_PERIOD) {
-        let seen = seen(&watch.finish());
-        shared.state().seen = seen;
-    }
-    wrench
 }
 
 /// Draws until the user has seen enough.
@@ -258,7 +228,7 @@ fn show(mut terminal: DefaultTerminal, shared: &Shared, frames: f64) -> io::Resu
                     KeyCode::Char('q') | KeyCode::Esc => return Ok(()),
                     KeyCode::Char('c') if key.modifiers.contains(KeyModifiers::CONTROL) => return Ok(()),
                     KeyCode::Char(' ') => held = if held.is_some() { None } else { Some(state.clone()) },
-                    KeyCode::Char('t') => shared.tare.store(true, Ordering::Relaxed),
+                    KeyCode::Char('t') => shared.hub.ask(Command::Tare),
                     KeyCode::Char('r') => shared.state().forget(),
                     _ => {}
                 },
@@ -269,92 +239,4 @@ fn show(mut terminal: DefaultTerminal, shared: &Shared, frames: f64) -> io::Resu
         }
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use alloc::sync::Arc;
-    use core::sync::atomic::{AtomicBool, Ordering};
-    use core::time::Duration;
-    use std::path::Path;
-    use std::sync::Mutex;
-
-    use nalgebra::Vector6;
-
-    use super::{Health, Rest, Shared, State, Stop, Stream, StreamOptions, Wrench, read};
-    use crate::felt::SceneFeel;
-    use crate::sensor::{Feed, Losses, Next, Reading, SensorError};
-
-    /// Gives what it is told to, and asks for something at one of its samples.
-    struct Told {
-        samples: Vec<Next>,
-        given: usize,
-        shared: Arc<Shared>,
-        tare_at: usize,
-    }
-
-    impl Feed for Told {
-        fn next(&mut self) -> Result<Next, SensorError> {
-            if self.given == self.tare_at {
-                self.shared.tare.store(true, Ordering::Relaxed);
-            }
-            self.given += 1;
-            Ok(self.samples.get(self.given - 1).cloned().unwrap_or(Next::End))
-        }
-        fn losses(&self) -> Losses {
-            Losses { lost: Some(self.given as u64), ..Losses::default() }
-        }
-    }
-
-    fn sample(time: f64, value: f64) -> Next {
-        let wrench = Wrench::from_components(&Vector6::repeat(value));
-        Next::Reading(Reading { time: Some(time), wrench, volts: None })
-    }
-
-    /// What the view has to show when the samples have been read.
-    fn shown(samples: Vec<Next>, rest: Option<f64>, tare_at: usize, feel: Option<SceneFeel>) -> State {
-        let shared = Arc::new(Shared {
-            state: Mutex::new(State::new("test".to_owned())),
-            stop: Stop::default(),
-            tare: AtomicBool::new(false),
-        });
-        let mut feed =
-            Some(Box::new(Told { samples, given: 0, shared: Arc::clone(&shared), tare_at }) as Box<dyn Feed>);
-        let options = StreamOptions { silence: Duration::from_secs(3600), reconnect: false };
-        let stream = Stream::new(Box::new(move || feed.take().ok_or(SensorError::Over)), options).unwrap();
-        read(&shared, stream, Rest::new(rest), feel).unwrap();
-        shared.state().clone()
-    }
-
-    #[test]
-    fn samples_are_shown_less_their_zero() {
-        let samples = |count: u32| (0..count).map(|i| sample(f64::from(i), f64::from(i))).collect::<Vec<_>>();
-        let state = shown(samples(5), None, usize::MAX, None);
-        assert_eq!((state.samples, state.time, state.losses.lost), (5, 4.0, Some(5)));
-        assert_eq!(state.wrench.unwrap().force().x, 4.0);
-        assert_eq!(state.health, Health::Ended);
-        // A rest of two seconds holds the samples at 0 s and 1 s.
-        let state = shown(samples(5), Some(2.0), usize::MAX, None);
-        assert_eq!((state.samples, state.wrench.unwrap().force().x), (3, 3.5));
-        // A zero is asked for while the third sample comes: what comes in the second behind it is not shown.
-        let mut close = samples(3);
-        close.extend((0..40).map(|i| sample(3.0 + 0.1 * f64::from(i), 7.0)));
-        let state = shown(close, None, 2, None);
-        assert_eq!((state.samples, state.wrench.unwrap().force().x), (3 + 30, 0.0));
-    }
-
-    #[test]
-    fn faults_are_counted_and_the_last_is_kept() {
-        let faults = ["one", "two"].map(|why| Next::Fault(why.to_owned()));
-        let state = shown([vec![sample(0.0, 1.0)], faults.to_vec()].concat(), None, usize::MAX, None);
-        assert_eq!((state.faults, state.last_fault.as_deref(), state.losses.lost), (2, Some("two"), Some(3)));
-    }
-
-    #[test]
-    fn a_scene_makes_a_touch_of_a_sample() {
-        let scene = crate::scene::load_or_simulated(Path::new("sim")).unwrap();
-        let state = shown(vec![sample(0.0, -1.0)], None, usize::MAX, Some(SceneFeel::new(&scene, true)));
-        assert!(state.touch.is_some());
-        assert!(shown(vec![sample(0.0, -1.0)], None, usize::MAX, None).touch.is_none());
-    }
 }

@@ -32,6 +32,8 @@ pub(super) enum Health {
 #[derive(Clone, Debug)]
 pub(super) struct State {
     pub(super) source: String,
+    /// Where else it can be seen.
+    pub(super) served: Vec<String>,
     pub(super) health: Health,
     /// How contacts are drawn; nothing without a scene.
     pub(super) projection: Option<Projection>,
@@ -65,6 +67,7 @@ impl State {
     pub(super) fn new(source: String) -> Self {
         Self {
             source,
+            served: Vec::new(),
             health: Health::Waiting,
             projection: None,
             coefficient: None,
@@ -125,9 +128,14 @@ impl State {
         self.touch = touch;
     }
 
+    /// Where the contact of the last sample lies with 95 %.
+    pub(super) fn ellipse_now(&self) -> Option<ConfidenceEllipse<f64>> {
+        self.touch.as_ref().and_then(|touch| ellipse(touch, &self.noise))
+    }
+
     /// What is worked out once per picture.
     pub(super) fn refresh(&mut self) {
-        self.ellipse = self.touch.as_ref().and_then(|touch| ellipse(touch, &self.noise));
+        self.ellipse = self.ellipse_now();
         let contact = self.touch.as_ref().and_then(|touch| touch.resolution.contact());
         if let (Some(contact), Some(projection)) = (contact, &self.projection) {
             let place = projection.project(&contact.point);

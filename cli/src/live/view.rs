@@ -22,13 +22,18 @@ pub(super) fn draw(frame: &mut Frame<'_>, state: &State, held: bool) {
         frame.render_widget(Paragraph::new(in_a_word(state)), area);
         return;
     }
-    let [head, body, link, keys] = Layout::vertical([
+    // Addresses stand above all else, as long as they leave room for the rest.
+    let served = u16::try_from(state.served.len()).unwrap_or(0).min(area.height.saturating_sub(LEAST.1) / 2);
+    let [head, addresses, body, link, keys] = Layout::vertical([
         Constraint::Length(1),
+        Constraint::Length(served),
         Constraint::Min(0),
         Constraint::Length(1),
         Constraint::Length(1),
     ])
     .areas(area);
+    let lines: Vec<Line<'_>> = state.served.iter().map(|address| Line::raw(address.as_str())).collect();
+    frame.render_widget(Paragraph::new(lines).fg(Color::Cyan), addresses);
     frame.render_widget(Paragraph::new(title(state, held)), head);
     frame.render_widget(Paragraph::new(statistics(state)), link);
     let help = "q ends  space holds  t zero (1 s)  r forgets trail and scale";
@@ -216,6 +221,19 @@ mod tests {
         plain.sample(0.0, &Wrench::on_fingertip(Vector3::x(), Vector3::zeros()), None, Instant::now());
         let text = picture(&plain, (80, 24));
         assert!(text.contains("--scene") && !text.contains('●'), "{text}");
+    }
+
+    #[test]
+    fn addresses_are_shown_where_there_is_room() {
+        let mut state = pressed(Vector3::new(-1.5, -1.2, 0.3), 100);
+        state.served = vec!["Watch: http://a".to_owned(), "Command: http://b".to_owned()];
+        let text = picture(&state, (80, 24));
+        assert!(
+            text.contains("Watch: http://a")
+                && text.contains("Command: http://b")
+                && text.contains("holding")
+        );
+        assert!(!picture(&state, (80, 8)).contains("http"));
     }
 
     #[test]

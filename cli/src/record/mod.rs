@@ -165,7 +165,8 @@ impl<'a> Recording<'a> {
         let Some(output) = &mut self.output else { return Ok(()) };
         // Whole nanoseconds, as MCAP has them: so both formats hold the same.
         let written = ((time + self.epoch) * 1e9).round() / 1e9;
-        let row = Row { time: written, wrench: &wrench, volts: reading.volts.as_ref(), contact };
+        let touch = touch.as_ref().and_then(|touch| output::touch(self.samples, time, touch));
+        let row = Row { time: written, wrench: &wrench, volts: reading.volts.as_ref(), contact, touch };
         output.write(&row)?;
         self.samples += 1;
         self.contacts += u64::from(contact.is_some());

@@ -4,24 +4,28 @@ use std::path::PathBuf;
 
 use fingertip::contact::Resolution;
 use fingertip::wrench::Wrench;
-use fingertip_recordings::mcap::{McapWriter, RecordedContact, RecordedSignals, Topic};
+use fingertip_bridges::messages::recorded_touch;
+use fingertip_bridges::{Felt, Sample};
+use fingertip_recordings::mcap::{McapWriter, RecordedContact, RecordedSignals, RecordedTouch, Topic};
 use fingertip_recordings::{ContactCells, RecordingWriter, Schema, SignalUnit};
 
 use super::args::RecordArguments;
 use crate::error::CliError;
-use crate::observe::SceneTouch;
+use crate::observe::{SceneTouch, Status};
 use crate::output::{Outputs, Whole};
 use crate::recording_file::{FRAME, Kind, csv, mcap};
 use crate::sensor::Volts;
 
 /// One row.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Row<'a> {
     /// \[s\]
     pub(super) time: f64,
     pub(super) wrench: &'a Wrench<f64>,
     pub(super) volts: Option<&'a Volts>,
     pub(super) contact: Option<ContactCells>,
+    /// All that was felt, for MCAP.
+    pub(super) touch: Option<RecordedTouch>,
 }
 
 /// The contact of a touch, with the load at its point.
@@ -29,6 +33,12 @@ pub(super) fn contact(touch: &SceneTouch) -> Option<ContactCells> {
     let Resolution::Contact(contact) = &touch.resolution else { return None };
     let wrench = Wrench::on_fingertip(contact.force, contact.normal * contact.spin_torque);
     Some(ContactCells { position: contact.point, normal: contact.normal, wrench })
+}
+
+/// All that was felt, with the number of the sample.
+pub(super) fn touch(number: u64, time: f64, touch: &SceneTouch) -> Option<RecordedTouch> {
+    let felt = Felt::of(touch, Status::of(&touch.resolution).word(), None);
+    recorded_touch(&Sample { number, ..Sample::new(time, touch.wrench, Some(felt)) })
 }
 
 /// Writes rows. A file that is finished is whole, whatever ended the recording.
@@ -46,7 +56,8 @@ enum Writer {
         wrench: Topic,
         /// Of the gauges, and of the dummy gauge.
         signals: Option<[Topic; 2]>,
-        contact: Option<Topic>,
+        /// Of contacts, and of all that is felt.
+        contact: Option<[Topic; 2]>,
     },
 }
 
@@ -82,8 +93,12 @@ impl Output {
                     } else {
                         None
                     };
-                    let contact =
-                        if has_contacts { Some(writer.contacts("/fingertip/contact", FRAME)?) } else { None };
+                    let contact = if has_contacts {
+                        let contact = writer.contacts("/fingertip/contact", FRAME)?;
+                        Some([contact, writer.touches("/fingertip/touch", FRAME)?])
+                    } else {
+                        None
+                    };
                     Ok(Writer::Mcap { writer: Box::new(writer), wrench, signals, contact })
                 };
                 open().map_err(|error| mcap(path, &error))?
@@ -115,7 +130,7 @@ impl Output {
                         }
                     }
                     writer.write_wrench(*wrench, row.time, row.wrench)?;
-                    if let (Some(topic), Some(ContactCells { position, normal, wrench })) =
+                    if let (Some([topic, _]), Some(ContactCells { position, normal, wrench })) =
                         (*contact, row.contact)
                     {
                         let name = "fingertip".to_owned();
@@ -124,6 +139,9 @@ impl Output {
                             row.time,
                             RecordedContact { name, position, normal, wrench },
                         )?;
+                    }
+                    if let (Some([_, topic]), Some(touch)) = (*contact, &row.touch) {
+                        writer.write_touch(topic, row.time, touch.clone())?;
                     }
                     Ok(())
                 };

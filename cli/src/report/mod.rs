@@ -49,6 +49,19 @@ pub(crate) fn of_scene(scene: &Scene) -> String {
     page(&findings, figure.into_iter().collect(), &[used], "")
 }
 
+/// The solid that turns, for a page that shows samples as they come.
+#[cfg(feature = "web")]
+pub(crate) fn live_view(scene: &Scene) -> String {
+    solid::element(scene.surface(), scene.projection())
+}
+
+/// The surface for what draws it in its own way.
+#[cfg(any(feature = "foxglove", feature = "ros2"))]
+pub(crate) fn net(scene: &Scene) -> fingertip_bridges::Net {
+    let (points, columns) = solid::net(scene.surface(), scene.projection());
+    fingertip_bridges::Net { points, columns }
+}
+
 /// The report of a run with figures of its own before the usual ones.
 pub(crate) fn with_figures(
     findings: &Findings,

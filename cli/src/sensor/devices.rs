@@ -8,10 +8,17 @@ use fingertip_simulation::DEVICE as SIMULATED;
 use super::error::SensorError;
 use super::{Feed, SourceFeed, simulated};
 
+/// The devices of the library, and what this program opens itself.
+fn known() -> Vec<&'static Device> {
+    let known = devices().iter().copied();
+    #[cfg(feature = "ros2")]
+    let known = known.chain([&super::ros2::DEVICE]);
+    known.chain([&SIMULATED]).collect()
+}
+
 /// An address on the command line.
 pub(crate) fn address(text: &str) -> Result<Address, AddressError> {
-    let known: Vec<&'static Device> = devices().iter().copied().chain([&SIMULATED]).collect();
-    Address::parse(text, &known)
+    Address::parse(text, &known())
 }
 
 /// Whether it is the simulated fingertip in this process.
@@ -24,6 +31,10 @@ pub(crate) fn open(address: &Address) -> Result<Box<dyn Feed>, SensorError> {
     if is_simulated(address) {
         return simulated::open(address);
     }
+    #[cfg(feature = "ros2")]
+    if super::ros2::is(address) {
+        return super::ros2::open(address);
+    }
     let losses = |sensor: &fingertip_drivers::devices::OpenSensor| sensor.losses();
     Ok(Box::new(SourceFeed { source: fingertip_drivers::devices::open(address)?, losses }))
 }
@@ -31,7 +42,7 @@ pub(crate) fn open(address: &Address) -> Result<Box<dyn Feed>, SensorError> {
 /// What addresses look like, for the help.
 pub(crate) fn help() -> String {
     let mut text = String::from("Addresses of sensors: NAME://PLACE?KEY=VALUE&…\n");
-    for device in devices().iter().chain([&&SIMULATED]) {
+    for device in known() {
         let Some(example) = device.example() else { continue };
         let _ = write!(text, "\n  {example}\n      {}", device.title);
         if let Link::Serial { baud } = device.link {
@@ -79,6 +90,7 @@ mod tests {
             assert!(error.contains(expected), "{text}: {error}");
         }
         assert!(address("bota").unwrap_err().to_string().contains("bota:///dev/ttyUSB0"));
-        assert!(address("x").unwrap_err().to_string().ends_with("dynpick, optoforce, resense, sim"));
+        let known = address("x").unwrap_err().to_string();
+        assert!(known.contains("dynpick, optoforce, resense, ") && known.ends_with(", sim"), "{known}");
     }
 }

@@ -6,6 +6,8 @@ mod gauge_sources;
 mod gauges;
 mod losses;
 mod replay;
+#[cfg(feature = "ros2")]
+mod ros2;
 mod simulated;
 mod stream;
 
@@ -19,6 +21,8 @@ pub(crate) use fingertip_drivers::devices::{Address, Losses};
 pub(crate) use gauges::{Calibrating, GaugesOf, calibrated};
 pub(crate) use losses::said as losses_said;
 pub(crate) use replay::open as replay;
+#[cfg(feature = "ros2")]
+pub(crate) use ros2::ros_domain;
 pub(crate) use stream::{Event, Stream, StreamOptions};
 
 /// The gauges of the simulated fingertip, its dummy gauge last \[V\].

@@ -80,6 +80,22 @@ impl<'a> CdrReader<'a> {
         self.number().map(u32::from_le_bytes)
     }
 
+    /// A `uint8`.
+    ///
+    /// # Errors
+    /// [`CdrError::Short`].
+    pub fn u8(&mut self) -> Result<u8, CdrError> {
+        self.number().map(u8::from_le_bytes)
+    }
+
+    /// A `uint64`.
+    ///
+    /// # Errors
+    /// [`CdrError::Short`].
+    pub fn u64(&mut self) -> Result<u64, CdrError> {
+        self.number().map(u64::from_le_bytes)
+    }
+
     /// A `float64`.
     ///
     /// # Errors
@@ -153,6 +169,21 @@ impl CdrWriter {
 
     /// A `uint32`.
     pub fn u32(&mut self, number: u32) {
+        self.number(number.to_le_bytes());
+    }
+
+    /// A `uint8`.
+    pub fn u8(&mut self, number: u8) {
+        self.number([number]);
+    }
+
+    /// A `uint64`.
+    pub fn u64(&mut self, number: u64) {
+        self.number(number.to_le_bytes());
+    }
+
+    /// A `float32`.
+    pub fn f32(&mut self, number: f32) {
         self.number(number.to_le_bytes());
     }
 
@@ -231,6 +262,8 @@ mod tests {
             writer.string(&text);
             writer.f64_sequence(&numbers);
             writer.u32(b);
+            writer.u8(7);
+            writer.u64(u64::from(b) << 32 | 5);
             writer.f64s([0.5, -2.0]);
             let message = writer.into_message();
             let mut reader = CdrReader::new(&message).unwrap();
@@ -238,6 +271,7 @@ mod tests {
             prop_assert_eq!(reader.string(), Ok(text.as_str()));
             prop_assert_eq!(reader.f64_sequence(), Ok(numbers));
             prop_assert_eq!(reader.u32(), Ok(b));
+            prop_assert_eq!((reader.u8(), reader.u64()), (Ok(7), Ok(u64::from(b) << 32 | 5)));
             prop_assert_eq!(reader.f64s(), Ok([0.5, -2.0]));
         }
 

@@ -4,7 +4,8 @@ use fingertip_wrench::Wrench;
 use nalgebra::Vector3;
 
 use super::cdr::{CdrError, CdrReader, CdrWriter};
-use super::definitions::{CONTACT, SIGNALS, WRENCH};
+use super::definitions::{CONTACT, SIGNALS, TOUCH, WRENCH};
+use super::touch::RecordedTouch;
 
 /// When and where: the header of every message.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -50,7 +51,8 @@ impl Header {
         u64::try_from(self.seconds).unwrap_or(0) * 1_000_000_000 + u64::from(self.nanoseconds)
     }
 
-    fn write(&self, to: &mut CdrWriter) {
+    /// Writes it, as the first field of a message.
+    pub fn write(&self, to: &mut CdrWriter) {
         to.i32(self.seconds);
         to.u32(self.nanoseconds);
         to.string(&self.frame);
@@ -93,15 +95,17 @@ pub enum Recorded {
     Signals(RecordedSignals),
     /// A contact.
     Contact(RecordedContact),
+    /// All that was felt.
+    Touch(RecordedTouch),
     /// A message of another type, passed over.
     Other,
 }
 
-fn write_wrench(to: &mut CdrWriter, wrench: &Wrench<f64>) {
+pub(super) fn write_wrench(to: &mut CdrWriter, wrench: &Wrench<f64>) {
     to.f64s(wrench.components().iter().copied());
 }
 
-fn read_wrench(from: &mut CdrReader<'_>) -> Result<Wrench<f64>, CdrError> {
+pub(super) fn read_wrench(from: &mut CdrReader<'_>) -> Result<Wrench<f64>, CdrError> {
     let components: [f64; 6] = from.f64s()?;
     Ok(Wrench::from_components(&components.into()))
 }
@@ -124,6 +128,7 @@ impl Recorded {
                 to.f64s(contact.normal.iter().copied());
                 write_wrench(&mut to, &contact.wrench);
             }
+            Self::Touch(touch) => touch.write(&mut to),
             Self::Other => return Vec::new(),
         }
         to.into_message()
@@ -135,7 +140,7 @@ impl Recorded {
     /// # Errors
     /// [`CdrError`].
     pub fn parse(name: &str, message: &[u8]) -> Result<(Header, Self), CdrError> {
-        if ![WRENCH.name, SIGNALS.name, CONTACT.name].contains(&name) {
+        if ![WRENCH.name, SIGNALS.name, CONTACT.name, TOUCH.name].contains(&name) {
             return Ok((Header::default(), Self::Other));
         }
         let from = &mut CdrReader::new(message)?;
@@ -144,6 +149,8 @@ impl Recorded {
             Self::Wrench(read_wrench(from)?)
         } else if name == SIGNALS.name {
             Self::Signals(RecordedSignals { unit: from.string()?.to_owned(), values: from.f64_sequence()? })
+        } else if name == TOUCH.name {
+            Self::Touch(RecordedTouch::read(from)?)
         } else {
             Self::Contact(RecordedContact {
                 name: from.string()?.to_owned(),
@@ -172,7 +179,11 @@ mod tests {
             let wrench = Wrench::from_components(&components.into());
             let contact = RecordedContact { name: frame.clone(), position: Vector3::new(a, b, c), normal: Vector3::new(d, e, f), wrench };
             let signals = RecordedSignals { unit: "V".to_owned(), values };
-            for (name, recorded) in [(WRENCH.name, Recorded::Wrench(wrench)), (SIGNALS.name, Recorded::Signals(signals)), (CONTACT.name, Recorded::Contact(contact))] {
+            let touch = RecordedTouch {
+                number: 1 << 40, time, status: frame.clone(), load: wrench, point: contact.position, normal: contact.normal,
+                normal_force: a, tangential_force: contact.normal, spin_torque: b, margin: c, utilisation: d, slip: 3,
+            };
+            for (name, recorded) in [(WRENCH.name, Recorded::Wrench(wrench)), (SIGNALS.name, Recorded::Signals(signals)), (CONTACT.name, Recorded::Contact(contact)), (TOUCH.name, Recorded::Touch(touch))] {
                 let message = recorded.emit(&header);
                 prop_assert_eq!(Recorded::parse(name, &message), Ok((header.clone(), recorded)));
                 // Cut anywhere, it is none.
@@ -183,8 +194,8 @@ mod tests {
         }
 
         #[test]
-        fn any_bytes_are_a_message_or_none(message in prop::collection::vec(any::<u8>(), 0..150), which in 0_usize..3) {
-            let name = [WRENCH.name, SIGNALS.name, CONTACT.name][which];
+        fn any_bytes_are_a_message_or_none(message in prop::collection::vec(any::<u8>(), 0..150), which in 0_usize..4) {
+            let name = [WRENCH.name, SIGNALS.name, CONTACT.name, TOUCH.name][which];
             let _ = Recorded::parse(name, &message);
             let _ = Recorded::parse(name, &[&[0, 1, 0, 0][..], &message].concat());
         }

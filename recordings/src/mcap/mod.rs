@@ -6,6 +6,7 @@
 //! | wrench | `geometry_msgs/msg/WrenchStamped` |
 //! | signals | `fingertip_msgs/msg/Signals`: header, unit, values |
 //! | contact | `tactile_msgs/msg/TactileContact`: header, name, position, normal, wrench |
+//! | touch | `fingertip_msgs/msg/Touch`: header, contact, forces, margin, slip |
 //!
 //! Times are seconds, as everywhere; in the file they are whole nanoseconds from 0 to 2³¹ s. Files are
 //! written in chunks with checksums and an index; with the feature `compression` they are read and written packed by
@@ -40,12 +41,15 @@ mod messages;
 mod reader;
 mod records;
 mod recover;
+mod touch;
 mod writer;
 
 pub use cdr::{CdrError, CdrReader, CdrWriter};
 pub use compression::Compression;
+pub use definitions::{Definition, definitions};
 pub use error::McapError;
 pub use messages::{Header, Recorded, RecordedContact, RecordedSignals};
 pub use reader::{Entry, McapReader};
 pub use recover::{Recovered, recover};
+pub use touch::RecordedTouch;
 pub use writer::{McapWriter, Topic};

@@ -9,9 +9,10 @@ use ::mcap::{WriteOptions, Writer};
 use fingertip_wrench::Wrench;
 
 use super::compression::Compression;
-use super::definitions::{CONTACT, Definition, SIGNALS, WRENCH};
+use super::definitions::{CONTACT, Definition, SIGNALS, TOUCH, WRENCH};
 use super::error::McapError;
 use super::messages::{Header, Recorded, RecordedContact, RecordedSignals};
+use super::touch::RecordedTouch;
 
 /// A topic of a file that is being written, from the writer that made it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,6 +100,14 @@ impl<W: Write + Seek> McapWriter<W> {
         self.topic(name, frame, &CONTACT)
     }
 
+    /// A topic of all that is felt, in a frame of that name.
+    ///
+    /// # Errors
+    /// [`McapError::File`].
+    pub fn touches(&mut self, name: &str, frame: &str) -> Result<Topic, McapError> {
+        self.topic(name, frame, &TOUCH)
+    }
+
     /// Writes a wrench at a time \[s\].
     ///
     /// # Errors
@@ -131,6 +140,14 @@ impl<W: Write + Seek> McapWriter<W> {
         contact: RecordedContact,
     ) -> Result<(), McapError> {
         self.write(topic, time, &CONTACT, &Recorded::Contact(contact))
+    }
+
+    /// Writes all that was felt at a time \[s\].
+    ///
+    /// # Errors
+    /// As [`write_wrench`](Self::write_wrench).
+    pub fn write_touch(&mut self, topic: Topic, time: f64, touch: RecordedTouch) -> Result<(), McapError> {
+        self.write(topic, time, &TOUCH, &Recorded::Touch(touch))
     }
 
     fn write(

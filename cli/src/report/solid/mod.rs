@@ -43,6 +43,19 @@ pub(super) fn figure(surface: &DynSurface<f64>, observations: &Observations) -> 
     drawn(surface, observations.projection(), observations.map.kept(), shown)
 }
 
+/// The surface alone, as an element of a page whose script gives it what is to be drawn with it; nothing where there is
+/// nothing to be seen.
+#[cfg(feature = "web")]
+pub(super) fn element(surface: &DynSurface<f64>, projection: &Projection) -> String {
+    drawn(surface, projection, &[], "").map_or_else(String::new, |figure| figure.svg)
+}
+
+/// The surface as a net of points \[m\], with how many stand in a row.
+#[cfg(any(feature = "foxglove", feature = "ros2"))]
+pub(super) fn net(surface: &DynSurface<f64>, projection: &Projection) -> (Vec<Option<Vector3<f64>>>, usize) {
+    (Net::of(surface, projection, &[]).points, COLUMNS)
+}
+
 /// The surface alone, where its region and the sensor's axes are what one wants to see.
 pub(super) fn of_scene(surface: &DynSurface<f64>, projection: &Projection) -> Option<Figure> {
     drawn(surface, projection, &[], "The active surface and the axes of the sensor.")

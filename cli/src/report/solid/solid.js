@@ -1,8 +1,9 @@
 // Draws the solid of the element around this script, and lets it be turned.
 //
-// A page may change the attributes of the element and send it "redraw"; hang lines and dots on it as `marks` (those that are `through` show
-// through the solid, too); and take hold
-// of the pointer by `grab`, a function of a line of sight (a point and a direction) that says whether it does.
+// A page may change the attributes of the element and send it "redraw"; hang lines and dots on it as `marks` (those that are
+// `through` show through the solid, too); give `live` of the element what is to be drawn with it from then on: dots, lines
+// and filled shapes of points, each with the name of its colour; and take hold of the pointer by `grab`, a function of a
+// line of sight (a point and a direction) that says whether it does.
 (host => {
   const canvas = document.createElement("canvas"), ink = canvas.getContext("2d");
   if (!ink) return;
@@ -26,7 +27,8 @@
     }
   };
   read();
-  const reset = () => ({ frame: points(given.view), zoom: 1 });
+  let live = [], far = 1;
+  const reset = () => ({ frame: points(given.view), zoom: far });
   let { frame, zoom } = reset();
 
   const minus = (a, b) => a.map((value, i) => value - b[i]);
@@ -122,6 +124,19 @@
         ink.fillText("xyz"[kind], x, y + 4);
       }]);
     });
+    live.forEach(({ at, kind, colour: name, wide = 1, alpha = 1, lift = 0 }) => {
+      const corners = at.map(seen), tone = colour(name);
+      items.push([mean(corners) + lift * reach, () => {
+        ink.globalAlpha = alpha;
+        ink.fillStyle = ink.strokeStyle = tone;
+        ink.lineWidth = wide;
+        ink.beginPath();
+        if (kind === "dots" || kind === "ring") corners.forEach(corner => ink.arc(...place(corner), kind === "ring" ? 5 : 2.2, 0, 7));
+        else corners.forEach(corner => ink.lineTo(...place(corner)));
+        kind === "fill" || kind === "dots" ? ink.fill() : ink.stroke();
+        ink.globalAlpha = 1;
+      }]);
+    });
     items.sort((one, other) => one[0] - other[0]).forEach(item => item[1]());
   };
 
@@ -170,6 +185,9 @@
   };
   host.addEventListener("redraw", () => { read(); soon(); });
   host.append(canvas);
+  host.reach = reach;
+  // From a little farther away, so that there is room for a force.
+  host.live = parts => { if (far === 1) zoom *= far = 0.8; live = parts; soon(); };
   host.classList.add("turns");
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", soon);
   new ResizeObserver(soon).observe(canvas);

@@ -1,0 +1,76 @@
+//! The participant of DDS, and names in it.
+
+use core::fmt::Display;
+use std::net::UdpSocket;
+
+use ros2_client::{Context, MessageTypeName, Name, NodeName, NodeOptions, Publisher, QosProfile};
+use rustdds::{DomainParticipantBuilder, Topic};
+
+use super::raw::Raw;
+use super::{NodeError, Options};
+
+/// A node of ROS 2.
+pub(super) struct Participant {
+    pub(super) node: ros2_client::Node,
+}
+
+/// What DDS does not do, and why.
+pub(super) fn refused(what: &'static str) -> impl Fn(&dyn Display) -> NodeError {
+    move |why| NodeError::Dds { what, why: why.to_string() }
+}
+
+/// A name of a topic or service.
+pub(super) fn name(namespace: &str, base: &str) -> Result<Name, NodeError> {
+    Name::new(namespace, base)
+        .map_err(|_| NodeError::Name { name: format!("{namespace}/{base}"), example: "/fingertip" })
+}
+
+impl Participant {
+    /// Joins the domain. `base` is what the node is called below the namespace.
+    pub(super) fn new(options: &Options, base: &str) -> Result<Self, NodeError> {
+        let Options { namespace, domain, interface, .. } = options;
+        if *domain > 232 {
+            return Err(NodeError::Domain(*domain));
+        }
+        // The library would say nothing, and reach nobody.
+        if UdpSocket::bind((*interface, 0)).is_err() {
+            return Err(NodeError::Interface(*interface));
+        }
+        let node_name = NodeName::new(namespace, base)
+            .map_err(|_| NodeError::Name { name: namespace.clone(), example: "/fingertip" })?;
+        let participant = DomainParticipantBuilder::new(*domain)
+            .with_only_networks([*interface])
+            .same_host_loopback(true)
+            .build()
+            .map_err(|why| refused("join the domain")(&why))?;
+        let context = Context::from_domain_participant(participant);
+        let context = context.map_err(|why| refused("make a context")(&why))?;
+        // Nobody spins it: there are neither parameters nor a log.
+        let node_options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
+        let node = context.new_node(node_name, node_options);
+        let node = node.map_err(|why| NodeError::Dds { what: "make a node", why: format!("{why:?}") })?;
+        Ok(Self { node })
+    }
+
+    pub(super) fn topic(
+        &self,
+        name: &Name,
+        [package, kind]: [&str; 2],
+        qos: &QosProfile,
+    ) -> Result<Topic, NodeError> {
+        let topic = self.node.create_topic(name, MessageTypeName::new(package, kind), qos);
+        topic.map_err(|why| refused("make a topic")(&why))
+    }
+
+    /// Of messages that are CDR already.
+    pub(super) fn publisher(
+        &mut self,
+        name: &Name,
+        kind: [&str; 2],
+        qos: &QosProfile,
+    ) -> Result<Publisher<Raw>, NodeError> {
+        let topic = self.topic(name, kind, qos)?;
+        let publisher = self.node.create_publisher(&topic, Some(qos.clone()));
+        publisher.map_err(|why| refused("publish")(&why))
+    }
+}

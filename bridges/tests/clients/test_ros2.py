@@ -1,0 +1,321 @@
+"""ROS 2, with PyPI `cyclonedds` as the other side, on loopback alone."""
+
+import os
+import time
+from dataclasses import dataclass
+from math import isnan
+
+# Before the library is loaded.
+os.environ["CYCLONEDDS_URI"] = (
+    '<CycloneDDS><Domain Id="any"><General><AllowMulticast>false</AllowMulticast><Interfaces>'
+    '<NetworkInterface address="127.0.0.1" multicast="false"/></Interfaces></General><Discovery>'
+    "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>20</MaxAutoParticipantIndex>"
+    '<Peers><Peer Address="127.0.0.1"/></Peers></Discovery></Domain></CycloneDDS>'
+)
+
+from conftest import check_consecutive, close, now, said  # noqa: E402
+from cyclonedds.core import Policy, Qos  # noqa: E402
+from cyclonedds.domain import DomainParticipant  # noqa: E402
+from cyclonedds.idl import IdlStruct  # noqa: E402
+from cyclonedds.idl.types import array, float32, float64, int32, sequence, uint8, uint32, uint64  # noqa: E402
+from cyclonedds.pub import DataWriter  # noqa: E402
+from cyclonedds.sub import DataReader  # noqa: E402
+from cyclonedds.topic import Topic  # noqa: E402
+from cyclonedds.util import duration  # noqa: E402
+
+DOMAIN = 100 + os.getpid() % 100
+SENSOR = Qos(Policy.Reliability.BestEffort, Policy.History.KeepLast(20_000))
+RELIABLE = Qos(Policy.Reliability.Reliable(duration(seconds=1)), Policy.History.KeepLast(20_000))
+KEPT = Qos(Policy.Reliability.Reliable(duration(seconds=1)), Policy.Durability.TransientLocal, Policy.History.KeepLast(10))
+
+
+@dataclass
+class Header(IdlStruct, typename="std_msgs::msg::dds_::Header_"):
+    sec: int32
+    nanosec: uint32
+    frame_id: str
+
+    def stamp(self):
+        return self.sec + self.nanosec * 1e-9
+
+
+@dataclass
+class WrenchStamped(IdlStruct, typename="geometry_msgs::msg::dds_::WrenchStamped_"):
+    header: Header
+    wrench: array[float64, 6]
+
+
+@dataclass
+class PointStamped(IdlStruct, typename="geometry_msgs::msg::dds_::PointStamped_"):
+    header: Header
+    point: array[float64, 3]
+
+
+@dataclass
+class TactileContact(IdlStruct, typename="tactile_msgs::msg::dds_::TactileContact_"):
+    header: Header
+    name: str
+    position: array[float64, 3]
+    normal: array[float64, 3]
+    wrench: array[float64, 6]
+
+
+@dataclass
+class Touch(IdlStruct, typename="fingertip_msgs::msg::dds_::Touch_"):
+    header: Header
+    number: uint64
+    time: float64
+    status: str
+    load: array[float64, 6]
+    point: array[float64, 3]
+    normal: array[float64, 3]
+    normal_force: float64
+    tangential_force: array[float64, 3]
+    spin_torque: float64
+    margin: float64
+    utilisation: float64
+    slip: uint8
+
+
+@dataclass
+class Transform(IdlStruct, typename="geometry_msgs::msg::dds_::TransformStamped_"):
+    header: Header
+    child_frame_id: str
+    translation: array[float64, 3]
+    rotation: array[float64, 4]
+
+
+@dataclass
+class TFMessage(IdlStruct, typename="tf2_msgs::msg::dds_::TFMessage_"):
+    transforms: sequence[Transform]
+
+
+@dataclass
+class Vector(IdlStruct, typename="geometry_msgs::msg::dds_::Point_"):
+    xyz: array[float64, 3]
+
+
+@dataclass
+class Colour(IdlStruct, typename="std_msgs::msg::dds_::ColorRGBA_"):
+    rgba: array[float32, 4]
+
+
+@dataclass
+class Place(IdlStruct, typename="visualization_msgs::msg::dds_::UVCoordinate_"):
+    uv: array[float32, 2]
+
+
+@dataclass
+class Marker(IdlStruct, typename="visualization_msgs::msg::dds_::Marker_"):
+    header: Header
+    ns: str
+    id: int32
+    type: int32
+    action: int32
+    pose: array[float64, 7]
+    scale: array[float64, 3]
+    color: Colour
+    lifetime_sec: int32
+    lifetime_nanosec: uint32
+    frame_locked: bool
+    points: sequence[Vector]
+    colors: sequence[Colour]
+    texture_resource: str
+    texture_header: Header
+    texture_format: str
+    texture_data: sequence[uint8]
+    uv_coordinates: sequence[Place]
+    text: str
+    mesh_resource: str
+    mesh_file_name: str
+    mesh_file_data: sequence[uint8]
+    mesh_use_embedded_materials: bool
+
+
+@dataclass
+class MarkerArray(IdlStruct, typename="visualization_msgs::msg::dds_::MarkerArray_"):
+    markers: sequence[Marker]
+
+
+@dataclass
+class Request(IdlStruct, typename="std_srvs::srv::dds_::Trigger_Request_"):
+    guid: array[uint8, 8]
+    high: int32
+    low: uint32
+    nothing: uint8
+
+
+@dataclass
+class Response(IdlStruct, typename="std_srvs::srv::dds_::Trigger_Response_"):
+    guid: array[uint8, 8]
+    high: int32
+    low: uint32
+    success: bool
+    message: str
+
+
+class Peer:
+    """The other side: a participant on loopback."""
+
+    def __init__(self):
+        self.participant = DomainParticipant(DOMAIN)
+
+    def reader(self, name, kind, qos=SENSOR):
+        return DataReader(self.participant, Topic(self.participant, name, kind, qos=qos), qos=qos)
+
+    def writer(self, name, kind, qos=RELIABLE):
+        return DataWriter(self.participant, Topic(self.participant, name, kind, qos=qos), qos=qos)
+
+
+def gather(reader, count, seconds=40):
+    """So many messages, with the time at which each came."""
+    got, ends = [], time.monotonic() + seconds
+    while len(got) < count:
+        assert time.monotonic() < ends, f"{len(got)} of {count}"
+        got += [(now(), message) for message in reader.take(1000)] or [time.sleep(0.0002)] * 0
+    return got
+
+
+def start(live, folder, *more, source=None):
+    source = source or ["--replay", folder / "touch.csv"]
+    environment = {"ROS_DOMAIN_ID": str(DOMAIN), "RMW_IMPLEMENTATION": "rmw_cyclonedds_cpp"}
+    one = live(*source, "--scene", folder / "scene.toml", "--ros2", *more, environment=environment)
+    one.line(r"ROS 2: +(\S+)")
+    return one
+
+
+def test_ten_thousand_samples_come_whole(live, folder, rows):
+    peer = Peer()
+    kinds = {"touch": Touch, "wrench": WrenchStamped, "contact": TactileContact, "point": PointStamped}
+    readers = [peer.reader(f"rt/fingertip/{name}", kind, RELIABLE) for name, kind in kinds.items()]
+    touches, wrenches, contacts, points = readers
+    one = start(live, folder, "--ros-reliable")
+    got = gather(touches, 10_000)
+    check_consecutive([touch.number for _, touch in got], 10_000)
+    by_stamp = {}
+    for _, touch in got:
+        row = rows[touch.number]
+        by_stamp[(touch.header.sec, touch.header.nanosec)] = row
+        assert touch.time == row.time and touch.load == row.wrench and touch.header.frame_id == "fingertip_sensor"
+        assert touch.status == "contact" and close(touch.point, row.point, 1e-9) and close(touch.normal, row.normal, 1e-9)
+        assert abs(touch.normal_force - row.normal_force) < 1e-9 and touch.slip in (1, 2, 3, 4)
+        assert abs(touch.utilisation - row.utilisation) < 1e-9 and not isnan(touch.margin)
+    # The others are of the same samples.
+    row_of = lambda message: by_stamp.get((message.header.sec, message.header.nanosec))
+    counts = [0, 0, 0]
+    for _, message in gather(wrenches, 9000):
+        if row := row_of(message):
+            counts[0] += message.wrench == row.wrench
+    for _, message in gather(contacts, 9000):
+        if row := row_of(message):
+            counts[1] += message.name == "fingertip" and close(message.position, row.point, 1e-9)
+    for _, message in gather(points, 9000):
+        if row := row_of(message):
+            counts[2] += close(message.point, row.point, 1e-9)
+    assert min(counts) >= 9000, counts
+    said("ros2, from sample to client", [when - touch.header.stamp() for when, touch in got])
+    one.end()
+
+
+def test_best_effort_is_as_sensors_send(live, folder, rows):
+    """What is lost on the way shows as a gap of numbers, and what comes is right."""
+    peer = Peer()
+    touches = peer.reader("rt/fingertip/touch", Touch)
+    one = start(live, folder)
+    got = [touch for _, touch in gather(touches, 5000)]
+    assert all(touch.load == rows[touch.number].wrench for touch in got)
+    lost = got[-1].number - got[0].number + 1 - len(got)
+    print(f"\nros2, best effort: {lost} lost of {len(got) + lost}")
+    assert lost < 250
+    one.end()
+
+
+def call(writer, reader, number, seconds=15):
+    ends = time.monotonic() + seconds
+    while not writer.get_matched_subscriptions() or not reader.get_matched_publications():
+        assert time.monotonic() < ends, "no service"
+        time.sleep(0.05)
+    request = Request([number] * 8, 0, number, 0)
+    writer.write(request)
+    while True:
+        assert time.monotonic() < ends, "no answer"
+        for answer in reader.take(10):
+            if list(answer.guid) == [number] * 8 and answer.low == number:
+                return answer
+        time.sleep(0.01)
+
+
+def test_services_take_a_zero_and_forget(live, folder, rows):
+    peer = Peer()
+    one = start(live, folder)
+    service = lambda name: (
+        peer.writer(f"rq/fingertip/{name}Request", Request), peer.reader(f"rr/fingertip/{name}Reply", Response, RELIABLE)
+    )
+    touches = peer.reader("rt/fingertip/touch", Touch)
+    answer = call(*service("tare"), 7)
+    assert answer.success, answer
+    numbers = answer.message.removeprefix("zero taken off: ").replace(" N,", "").replace(" N m", "").split()
+    zero = [float(number) for number in numbers]
+    touches.take(5000)
+    touch = gather(touches, 1)[0][1]
+    assert close([a + b for a, b in zip(touch.load, zero)], rows[round(touch.time * 1000)].wrench, 1e-12)
+    assert call(*service("reset"), 8).success
+    one.end()
+
+
+def test_markers_and_frames_are_those_of_the_surface(live, folder, rows):
+    peer = Peer()
+    markers = peer.reader("rt/fingertip/markers", MarkerArray, RELIABLE)
+    frames, fixed = peer.reader("rt/tf", TFMessage, RELIABLE), peer.reader("rt/tf_static", TFMessage, KEPT)
+    one = start(live, folder)
+    by_id = {}
+    while 0 not in by_id:
+        by_id |= {marker.id: marker for _, message in gather(markers, 1) for marker in message.markers}
+    surface = by_id[0]
+    assert len(surface.points) % 3 == 0 and len(surface.points) > 1000 and surface.type == 11
+    assert all(abs(sum(x * x for x in point.xyz) ** 0.5 - 0.013) < 2e-4 for point in surface.points)
+    ball, arrow = by_id[1], by_id[2]
+    assert abs(sum(x * x for x in ball.pose[:3]) ** 0.5 - 0.013) < 1e-9 and len(arrow.points) == 2
+    frame = gather(frames, 1)[0][1].transforms[0]
+    assert frame.child_frame_id == "fingertip_sensor_contact" and frame.header.frame_id == "fingertip_sensor"
+    i, j, k, w = frame.rotation
+    third = [2 * (i * k + j * w), 2 * (j * k - i * w), 1 - 2 * (i * i + j * j)]
+    assert close([0.013 * x for x in third], frame.translation, 1e-9)
+    assert gather(fixed, 1)[0][1].transforms[0].child_frame_id == "fingertip_sensor_surface"
+    one.end()
+
+
+def test_wrenches_of_another_driver_are_a_source(live, folder, rows):
+    peer = Peer()
+    driver = peer.writer("rt/ft_sensor/wrench", WrenchStamped)
+    touches = peer.reader("rt/fingertip/touch", Touch)
+    one = start(live, folder, source=["ros2:///ft_sensor/wrench"])
+    while not driver.get_matched_subscriptions() or not touches.get_matched_publications():
+        time.sleep(0.05)
+    got = []
+    for number in range(3000):
+        driver.write(WrenchStamped(Header(1000 + number // 1000, number % 1000 * 1_000_000, "ft"), rows[number].wrench))
+        time.sleep(0.001)
+        got += touches.take(100)
+    ends = time.monotonic() + 5
+    while len(got) < 3000 and time.monotonic() < ends:
+        got += touches.take(100)
+    times = [touch.time for touch in got]
+    assert len(got) > 2900 and all(b > a for a, b in zip(times, times[1:])), len(got)
+    # The time of a touch counts from the first message that was taken.
+    first = next(number for number in range(3000) if rows[number].wrench == got[0].load)
+    for touch in got:
+        number = first + round((touch.time - got[0].time) * 1000)
+        assert touch.load == rows[number].wrench and close(touch.point, rows[number].point, 1e-9)
+    print(f"\nros2 as a source: {len(got)} of 3000, from message {first} on")
+    one.end()
+
+
+def test_a_node_that_was_killed_comes_back(live, folder):
+    peer = Peer()
+    touches = peer.reader("rt/fingertip/touch", Touch)
+    for _ in range(2):
+        one = start(live, folder)
+        gather(touches, 100)
+        one.kill()
+        touches.take(20_000)
