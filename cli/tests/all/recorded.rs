@@ -65,7 +65,7 @@ fn both_formats_hold_the_same_contacts_too() {
         }
     }
     let mut reader = McapReader::new(BufReader::new(File::open(folder.path("a.mcap")).unwrap())).unwrap();
-    let (mut wrenches, mut touched, mut gauges, mut dummies) = (0, Vec::new(), 0, 0);
+    let (mut wrenches, mut touched, mut gauges, mut dummies, mut touches) = (0, Vec::new(), 0, 0, 0);
     while let Some(entry) = reader.next_entry().unwrap() {
         match entry.recorded {
             Recorded::Wrench(wrench) => {
@@ -74,6 +74,17 @@ fn both_formats_hold_the_same_contacts_too() {
                 wrenches += 1;
             }
             Recorded::Contact(contact) => touched.push(contact.position.x),
+            Recorded::Touch(touch) => {
+                // All of it in one message: the load, and the contact or none.
+                let row = touches;
+                assert_eq!((touch.number, touch.time), (row as u64, column("t_s")[row]));
+                assert_eq!(touch.load.force().x, column("fx_N")[row]);
+                let at = column("contact_x_m")[row];
+                assert_eq!(touch.status == "contact", at.is_finite());
+                assert!(touch.point.x == at || (touch.point.x.is_nan() && at.is_nan()), "row {row}");
+                assert_eq!(touch.normal_force.is_finite(), at.is_finite());
+                touches += 1;
+            }
             Recorded::Signals(signals) if signals.values.len() == 6 => {
                 assert_eq!((signals.values[5], signals.unit.as_str()), (column("v6_V")[gauges], "V"));
                 gauges += 1;
@@ -85,7 +96,7 @@ fn both_formats_hold_the_same_contacts_too() {
             _ => panic!("what is this?"),
         }
     }
-    assert_eq!((wrenches, gauges, dummies), (751, 751, 751));
+    assert_eq!((wrenches, gauges, dummies, touches), (751, 751, 751, 751));
     let expected: Vec<f64> = column("contact_x_m").into_iter().filter(|x| x.is_finite()).collect();
     assert_eq!(touched, expected);
 }
