@@ -88,10 +88,12 @@ fn figure(diagram: &Diagram, methods: &[String]) -> String {
     let mut svg = String::new();
     for value in ticks(x.start, x.end) {
         let at = across(value);
+        // The last label ends where the picture does.
+        let (middle, anchor) = if at > right - 1.0 { (SIZE.0 - 1.0, "end") } else { (at, "middle") };
         let _ = writeln!(
             svg,
-            "<line class=\"grid\" x1=\"{at:.1}\" y1=\"{top}\" x2=\"{at:.1}\" y2=\"{bottom}\"/><text x=\"{at:.1}\" \
-             y=\"{:.0}\" text-anchor=\"middle\">{}</text>",
+            "<line class=\"grid\" x1=\"{at:.1}\" y1=\"{top}\" x2=\"{at:.1}\" y2=\"{bottom}\"/><text x=\"{middle:.1}\" \
+             y=\"{:.0}\" text-anchor=\"{anchor}\">{}</text>",
             bottom + 14.0,
             tick(value)
         );

@@ -38,9 +38,9 @@ pub(super) fn line_of_action() -> Result<String, Failure> {
     touched(&mut svg, Point::zeros(), &wrench)?;
     let foot = wrench.force().cross(&wrench.torque()) / wrench.force().norm_squared();
     svg.line("measure", Point::zeros(), drawn(&foot));
-    svg.text("label", drawn(&foot) * 0.5 + Point::new(-1.0, -0.6), "end", "|m| / |f|");
+    svg.text("label", drawn(&foot) * 0.5 + Point::new(1.2, 0.4), "start", "|m| / |f|");
     svg.text("label force", Point::new(17.0, 20.4), "start", "force f on the fingertip");
-    svg.text("label contact", Point::new(6.6, 11.0), "start", "contact");
+    svg.text("label contact", Point::new(8.6, 12.4), "start", "contact");
     svg.text("label normal", Point::new(7.4, 20.4), "end", "outward normal");
     svg.text("label", Point::new(1.4, -0.6), "start", "sensor");
     Ok(svg.figure(
