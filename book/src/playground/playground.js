@@ -76,10 +76,12 @@
     Object.assign(host.dataset, { columns: 40, net: text(net), axes: text(axes), centre: "0,0,0", reach, contacts: "" });
   };
 
-  const arrow = (kind, from, to, wide) => {
+  const line = (colour, at, wide, through = false) => ({ kind: "line", colour, at, wide, through, lift: 0.05 });
+  const dot = (colour, at, wide) => ({ kind: "dot", colour, at: [at], wide, lift: 0.08 });
+  const arrow = (colour, from, to, wide) => {
     const along = unit(to.map((value, i) => value - from[i])), head = 0.06 * reach;
     const side = unit(cross(along, Math.abs(along[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0])), back = far(to, along, -head);
-    return [{ kind, line: [from, to], wide }, { kind, line: [far(back, side, 0.4 * head), to, far(back, side, -0.4 * head)], wide }];
+    return [line(colour, [from, to], wide), line(colour, [far(back, side, 0.4 * head), to, far(back, side, -0.4 * head)], wide)];
   };
 
   const rows = of("felt").tBodies[0];
@@ -106,22 +108,22 @@
   const feel = () => {
     const told = tip.touch(), found = told === 0;
     const at = three(0).map(value => value * mm), force = three(3), along = unit(force), foot = three(27).map(value => value * mm);
-    const marks = [{ kind: "line", line: Array.from({ length: 41 }, (_, i) => far(foot, along, reach * (i / 20 - 1))), wide: 1, through: true }];
+    const marks = [line("line", Array.from({ length: 41 }, (_, i) => far(foot, along, reach * (i / 20 - 1))), 1, true)];
     const length = reach * (0.3 + 0.35 * Math.min(1, size(force) / 6));
-    marks.push(...arrow("force", far(at, along, -length), at, 3), { kind: "true", line: [at], wide: 3 });
+    marks.push(...arrow("force", far(at, along, -length), at, 3), dot("true", at, 3));
     let mistake = NaN;
     if (found) {
       const contact = three(9).map(value => value * mm), normal = three(12);
       mistake = size(contact.map((value, i) => value - at[i])) / mm;
       const a = three(21).map(value => value * tip.value(19) * mm), b = three(24).map(value => value * tip.value(20) * mm);
-      if ([...a, ...b].every(Number.isFinite)) marks.push({ kind: "ellipse", line: ring(contact, a, b), wide: 2 });
+      if ([...a, ...b].every(Number.isFinite)) marks.push(line("ellipse", ring(contact, a, b), 2));
       const side = unit(cross(normal, Math.abs(normal[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0])), other = cross(normal, side);
       const high = 0.22 * reach, broad = high * friction, rim = ring(far(contact, normal, high), side.map(v => v * broad), other.map(v => v * broad));
-      marks.push({ kind: "cone", line: rim, wide: 1.5 });
-      for (let i = 0; i < 48; i += 6) marks.push({ kind: "cone", line: [contact, rim[i]], wide: 1 });
-      marks.push({ kind: "found", line: [contact], wide: 4.5 });
+      marks.push(line("cone", rim, 1.5));
+      for (let i = 0; i < 48; i += 6) marks.push(line("cone", [contact, rim[i]], 1));
+      marks.push(dot("found", contact, 4.5));
     }
-    host.marks = marks;
+    if (host.live) host.live(marks);
     show(found, mistake);
     const margin = tip.value(18);
     verdict.textContent = !found ? reasons[told] : margin < 0 ? "Contact; it slips." : "Contact; it holds.";
@@ -154,6 +156,7 @@
   feel();
   const script = document.createElement("script");
   script.src = "playground/solid.js";
+  script.onload = feel;
   host.append(script);
   // The colours of the drawing are those of the theme that the reader chooses.
   new MutationObserver(() => host.dispatchEvent(new Event("redraw"))).observe(document.documentElement, { attributeFilter: ["class"] });

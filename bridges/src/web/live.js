@@ -99,7 +99,11 @@
   // What stands on the surface: trail, ellipse, cone and arrow, in millimetres.
   const view = () => {
     if (!solid || !solid.live) return;
-    const parts = trail.map((point, place) => ({ at: [point], kind: "dots", colour: "a", lift: 0.05, alpha: 0.15 + 0.6 * place / trail.length }));
+    if (!solid.dataset.zoom) {
+      solid.dataset.zoom = 0.8;
+      solid.dispatchEvent(new Event("reset"));
+    }
+    const parts = trail.map((point, place) => ({ at: [point], kind: "dot", colour: "a", wide: 2.2, lift: 0.05, alpha: 0.15 + 0.6 * place / trail.length }));
     const touch = last && last.contact;
     if (touch) {
       const point = touch.point.map(value => value * 1e3), reach = solid.reach, along = (from, direction, length) => from.map((value, i) => value + direction[i] * length);

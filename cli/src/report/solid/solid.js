@@ -1,9 +1,10 @@
 // Draws the solid of the element around this script, and lets it be turned.
 //
-// A page may change the attributes of the element and send it "redraw"; hang lines and dots on it as `marks` (those that are
-// `through` show through the solid, too); give `live` of the element what is to be drawn with it from then on: dots, lines
-// and filled shapes of points, each with the name of its colour; and take hold of the pointer by `grab`, a function of a
-// line of sight (a point and a direction) that says whether it does.
+// A page may change the attributes of the element and send it "redraw". To `live` of the element it gives what is to be
+// drawn with it from then on: lines, filled shapes, dots and rings of points `at`, each with the name of its `colour`, `wide`
+// or with that radius, and lifted out of the surface by a share of its reach; a line that is `through` shows behind the
+// solid, too. It may take hold of the pointer by `grab`, a function of a line of sight (a point and a direction) that says
+// whether it does.
 (host => {
   const canvas = document.createElement("canvas"), ink = canvas.getContext("2d");
   if (!ink) return;
@@ -27,9 +28,10 @@
     }
   };
   read();
-  let live = [], far = 1;
-  const reset = () => ({ frame: points(given.view), zoom: far });
-  let { frame, zoom } = reset();
+  let live = [], frame, zoom;
+  // A page may ask for `data-zoom` below 1, so that there is room for a force.
+  const reset = () => { frame = points(given.view); zoom = +given.zoom || 1; };
+  reset();
 
   const minus = (a, b) => a.map((value, i) => value - b[i]);
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -76,34 +78,6 @@
         ink.fill();
       }]));
     });
-    (host.marks || []).forEach(({ line, kind, wide = 2, through = false }) => {
-      const tint = colour(kind), at = line.map(seen);
-      if (through) items.push([Infinity, () => {
-        ink.strokeStyle = tint;
-        ink.lineWidth = wide;
-        ink.setLineDash([2, 4]);
-        ink.beginPath();
-        at.forEach(point => ink.lineTo(...place(point)));
-        ink.stroke();
-        ink.setLineDash([]);
-      }]);
-      if (at.length == 1) items.push([at[0][2] + 0.08 * reach, () => {
-        ink.fillStyle = tint;
-        ink.beginPath();
-        ink.arc(...place(at[0]), wide, 0, 7);
-        ink.fill();
-      }]);
-      for (let piece = 1; piece < at.length; piece++) {
-        const ends = [at[piece - 1], at[piece]];
-        items.push([mean(ends) + 0.05 * reach, () => {
-          ink.strokeStyle = tint;
-          ink.lineWidth = wide;
-          ink.beginPath();
-          ends.forEach(end => ink.lineTo(...place(end)));
-          ink.stroke();
-        }]);
-      }
-    });
     axes.forEach((tip, kind) => {
       const line = colour("abc"[kind]), at = share => seen(tip.map(value => value * share));
       for (let piece = 0; piece < 24; piece++) {
@@ -124,18 +98,27 @@
         ink.fillText("xyz"[kind], x, y + 4);
       }]);
     });
-    live.forEach(({ at, kind, colour: name, wide = 1, alpha = 1, lift = 0 }) => {
+    live.forEach(({ at, kind, colour: name, wide = 2, alpha = 1, lift = 0, through = false }) => {
       const corners = at.map(seen), tone = colour(name);
-      items.push([mean(corners) + lift * reach, () => {
+      const push = (depth, points, dashes) => items.push([depth, () => {
         ink.globalAlpha = alpha;
         ink.fillStyle = ink.strokeStyle = tone;
         ink.lineWidth = wide;
+        ink.setLineDash(dashes);
         ink.beginPath();
-        if (kind === "dots" || kind === "ring") corners.forEach(corner => ink.arc(...place(corner), kind === "ring" ? 5 : 2.2, 0, 7));
-        else corners.forEach(corner => ink.lineTo(...place(corner)));
-        kind === "fill" || kind === "dots" ? ink.fill() : ink.stroke();
+        if (kind === "dot" || kind === "ring") points.forEach(point => ink.arc(...place(point), kind === "ring" ? 5 : wide, 0, 7));
+        else points.forEach(point => ink.lineTo(...place(point)));
+        kind === "fill" || kind === "dot" ? ink.fill() : ink.stroke();
+        ink.setLineDash([]);
         ink.globalAlpha = 1;
       }]);
+      if (through) push(Infinity, corners, [2, 4]);
+      if (kind !== "line") push(mean(corners) + lift * reach, corners, []);
+      // Piece by piece, since it may lie before the solid in part.
+      else for (let piece = 1; piece < corners.length; piece++) {
+        const ends = [corners[piece - 1], corners[piece]];
+        push(mean(ends) + lift * reach, ends, []);
+      }
     });
     items.sort((one, other) => one[0] - other[0]).forEach(item => item[1]());
   };
@@ -175,7 +158,7 @@
     held = [event.clientX, event.clientY];
   };
   canvas.addEventListener("wheel", event => { event.preventDefault(); closer(Math.exp(-event.deltaY / 600)); }, { passive: false });
-  canvas.ondblclick = () => { ({ frame, zoom } = reset()); soon(); };
+  canvas.ondblclick = () => { reset(); soon(); };
   canvas.onkeydown = event => {
     const keys = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }, zooms = { "+": 1.2, "-": 1 / 1.2 };
     if (keys[event.key]) turn(...keys[event.key].map(step => step / 6));
@@ -186,8 +169,8 @@
   host.addEventListener("redraw", () => { read(); soon(); });
   host.append(canvas);
   host.reach = reach;
-  // From a little farther away, so that there is room for a force.
-  host.live = parts => { if (far === 1) zoom *= far = 0.8; live = parts; soon(); };
+  host.addEventListener("reset", canvas.ondblclick);
+  host.live = parts => { live = parts; soon(); };
   host.classList.add("turns");
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", soon);
   new ResizeObserver(soon).observe(canvas);
