@@ -2,7 +2,6 @@
 //! colours that follow the theme of the page.
 
 use core::fmt::Write;
-use std::collections::BTreeSet;
 
 use crate::pareto::front;
 use crate::plots::{Diagram, Series, decades, tick};
@@ -51,8 +50,10 @@ fn method(series: &Series) -> String {
 }
 
 fn methods(diagrams: &[Diagram]) -> Vec<String> {
-    let names: BTreeSet<String> = diagrams.iter().flat_map(|diagram| &diagram.series).map(method).collect();
-    names.into_iter().collect()
+    let mut names: Vec<String> = diagrams.iter().flat_map(|diagram| &diagram.series).map(method).collect();
+    names.sort();
+    names.dedup();
+    names
 }
 
 fn class(series: &Series, methods: &[String]) -> String {
