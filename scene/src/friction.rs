@@ -11,7 +11,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::fault::SceneProblem;
-use crate::stages::lent;
+use crate::lent::lent;
 
 /// `[friction]` of a scene: Coulomb's limit unless `limit` names another.
 #[derive(Clone, Debug, PartialEq, Serialize)]

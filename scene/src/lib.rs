@@ -18,6 +18,7 @@ mod front;
 mod fusion;
 mod grip;
 mod input;
+mod lent;
 mod meaning;
 mod model;
 mod noise;

@@ -9,7 +9,7 @@ use fingertip::wrench::{ContactForce, Real};
 use serde::{Deserialize, Serialize};
 
 use crate::fault::SceneProblem;
-use crate::stages::lent;
+use crate::lent::lent;
 
 /// How many samples the likelihood ratio looks back over.
 pub(crate) const WINDOW: usize = 32;

@@ -2,7 +2,7 @@
 
 use fingertip::contact::{ContactModel, PointContact, SoftFinger};
 use fingertip::surfaces::{Capsule, Cylinder, DynSurface, Ellipsoid, Plane, SphericalCap};
-use fingertip::wrench::{ContactForce, Real, TangentialForce, Uncompensated, Wrench};
+use fingertip::wrench::{Real, Uncompensated, Wrench};
 use fingertip::{Absent, AnyTouch, Fingertip, Step};
 use nalgebra::Vector3;
 
@@ -69,15 +69,6 @@ fn sense_into<T: Real, Surface, Assumption: ContactModel<T, Surface>>(
     *last = felt.point();
     (touch.resolution, touch.force) = (felt.resolution, felt.force);
     (touch.grip, touch.slip) = (felt.grip, felt.slip);
-}
-
-/// A copy by components, for what is called out of line: a force whose address is taken stays in memory, and what is told of
-/// it would come from there. The compiler sees through a copy in one piece.
-#[inline(always)]
-pub(crate) fn lent<T: Real>(force: &ContactForce<T>) -> ContactForce<T> {
-    let [x, y, z] = force.tangential.vector().into();
-    let tangential = TangentialForce::of_magnitude(Vector3::new(x, y, z), force.tangential.magnitude());
-    ContactForce { normal: force.normal, tangential, spin: force.spin }
 }
 
 impl<T: Real> Stages<T> {

@@ -4,6 +4,7 @@
 //! there. A string is its length with the closing zero, and its bytes; a sequence its count, and its
 //! elements.
 
+use fingertip_wrench::Wrench;
 use thiserror::Error;
 
 /// Bytes that are not the message that is read.
@@ -116,6 +117,12 @@ impl<'a> CdrReader<'a> {
         Ok(numbers)
     }
 
+    /// A `geometry_msgs/Wrench`.
+    pub(super) fn wrench(&mut self) -> Result<Wrench<f64>, CdrError> {
+        let components: [f64; 6] = self.f64s()?;
+        Ok(Wrench::from_components(&components.into()))
+    }
+
     /// A sequence of `float64`.
     ///
     /// # Errors
@@ -190,6 +197,11 @@ impl CdrWriter {
     /// A `float64`.
     pub fn f64(&mut self, number: f64) {
         self.number(number.to_le_bytes());
+    }
+
+    /// A `geometry_msgs/Wrench`.
+    pub(super) fn wrench(&mut self, wrench: &Wrench<f64>) {
+        self.f64s(wrench.components().iter().copied());
     }
 
     /// Some `float64` one after another.

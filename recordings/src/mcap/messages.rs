@@ -101,15 +101,6 @@ pub enum Recorded {
     Other,
 }
 
-pub(super) fn write_wrench(to: &mut CdrWriter, wrench: &Wrench<f64>) {
-    to.f64s(wrench.components().iter().copied());
-}
-
-pub(super) fn read_wrench(from: &mut CdrReader<'_>) -> Result<Wrench<f64>, CdrError> {
-    let components: [f64; 6] = from.f64s()?;
-    Ok(Wrench::from_components(&components.into()))
-}
-
 impl Recorded {
     /// The message in CDR; empty for another type.
     #[must_use]
@@ -117,7 +108,7 @@ impl Recorded {
         let mut to = CdrWriter::default();
         header.write(&mut to);
         match self {
-            Self::Wrench(wrench) => write_wrench(&mut to, wrench),
+            Self::Wrench(wrench) => to.wrench(wrench),
             Self::Signals(signals) => {
                 to.string(&signals.unit);
                 to.f64_sequence(&signals.values);
@@ -126,7 +117,7 @@ impl Recorded {
                 to.string(&contact.name);
                 to.f64s(contact.position.iter().copied());
                 to.f64s(contact.normal.iter().copied());
-                write_wrench(&mut to, &contact.wrench);
+                to.wrench(&contact.wrench);
             }
             Self::Touch(touch) => touch.write(&mut to),
             Self::Other => return Vec::new(),
@@ -146,7 +137,7 @@ impl Recorded {
         let from = &mut CdrReader::new(message)?;
         let header = Header::read(from)?;
         let recorded = if name == WRENCH.name {
-            Self::Wrench(read_wrench(from)?)
+            Self::Wrench(from.wrench()?)
         } else if name == SIGNALS.name {
             Self::Signals(RecordedSignals { unit: from.string()?.to_owned(), values: from.f64_sequence()? })
         } else if name == TOUCH.name {
@@ -156,7 +147,7 @@ impl Recorded {
                 name: from.string()?.to_owned(),
                 position: from.f64s::<3>()?.into(),
                 normal: from.f64s::<3>()?.into(),
-                wrench: read_wrench(from)?,
+                wrench: from.wrench()?,
             })
         };
         Ok((header, recorded))

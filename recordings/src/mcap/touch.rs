@@ -4,7 +4,6 @@ use fingertip_wrench::Wrench;
 use nalgebra::Vector3;
 
 use super::cdr::{CdrError, CdrReader, CdrWriter};
-use super::messages::{read_wrench, write_wrench};
 
 /// What a fingertip felt, in the frame of its sensor. What there is none of is NaN.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +39,7 @@ impl RecordedTouch {
         to.u64(self.number);
         to.f64(self.time);
         to.string(&self.status);
-        write_wrench(to, &self.load);
+        to.wrench(&self.load);
         to.f64s(self.point.iter().copied());
         to.f64s(self.normal.iter().copied());
         to.f64(self.normal_force);
@@ -54,7 +53,7 @@ impl RecordedTouch {
             number: from.u64()?,
             time: from.f64()?,
             status: from.string()?.to_owned(),
-            load: read_wrench(from)?,
+            load: from.wrench()?,
             point: from.f64s::<3>()?.into(),
             normal: from.f64s::<3>()?.into(),
             normal_force: from.f64()?,

@@ -5,7 +5,9 @@ use core::fmt::Write;
 
 use crate::pareto::front;
 use crate::plots::{Diagram, Series, decades, tick};
-use crate::sections::Part;
+
+/// A title, and what the page for people in a hurry says under it, as Markdown.
+pub(crate) type Part = (String, String);
 
 /// A part of the report with its diagrams.
 pub(crate) type Group = (String, Vec<Diagram>);

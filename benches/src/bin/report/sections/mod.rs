@@ -8,11 +8,9 @@ mod solvers;
 mod stability;
 
 use crate::Failure;
+use crate::multiples::Part;
 use crate::page::Page;
 use crate::timing::Effort;
-
-/// A title, and what the page for people in a hurry says under it, as Markdown.
-pub(crate) type Part = (String, String);
 
 /// What writes one part.
 type Section = fn(&mut Page, Effort) -> Result<Part, Failure>;
