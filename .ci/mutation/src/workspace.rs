@@ -85,13 +85,11 @@ pub fn files(root: &Path) -> Result<Vec<String>, Failure> {
     Ok(names)
 }
 
-/// The package that holds a file: the one with the deepest folder above it.
+/// The package that holds a file: the one of the nearest manifest above it. `None` in what the workspace leaves out.
 pub fn package_of<'a>(root: &Path, packages: &'a [Package], file: &str) -> Option<&'a Package> {
     let file = root.join(file);
-    packages
-        .iter()
-        .filter(|package| file.starts_with(package.folder()))
-        .max_by_key(|package| package.folder().components().count())
+    let folder = file.ancestors().skip(1).find(|folder| folder.join("Cargo.toml").is_file())?;
+    packages.iter().find(|package| package.folder() == folder)
 }
 
 /// Whether faults may be put into a file at all.
@@ -106,4 +104,19 @@ pub fn is_source(file: &str) -> bool {
 /// Whether a file is drawn from when no package is asked for.
 pub fn is_hot(file: &str) -> bool {
     HOT.iter().any(|start| file.starts_with(start))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_crate_that_the_workspace_leaves_out_belongs_to_none_of_its_packages() {
+        let root = std::fs::canonicalize(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).expect("a folder");
+        let packages = packages(&root).expect("a workspace");
+        let name = |file| package_of(&root, &packages, file).map(|package| package.name.as_str());
+        assert_eq!(name("src/lib.rs"), Some("fingertip"));
+        assert_eq!(name("book/tool/src/main.rs"), Some("fingertip-book"));
+        assert_eq!(name("book/playground/src/play.rs"), None);
+    }
 }
