@@ -30,6 +30,8 @@
 extern crate alloc;
 
 mod about;
+#[cfg(any(feature = "foxglove", feature = "ros2"))]
+mod drawn;
 mod hub;
 #[cfg(feature = "recordings")]
 pub mod messages;
@@ -48,6 +50,6 @@ pub mod web;
 pub use about::{About, Net};
 pub use hub::{Command, Hub, NoZero};
 pub use publisher::Publisher;
-pub use sample::{Felt, Pressed, Sample, slip_word};
+pub use sample::{Felt, Pressed, Sample};
 pub use status::{Health, Status, Zero};
 pub use subscription::{News, Subscription};

@@ -99,14 +99,3 @@ impl Felt {
         Self { status, load: touch.wrench, contact, margin: touch.grip.flatten(), slip: touch.slip }
     }
 }
-
-/// A verdict as a word.
-#[must_use]
-pub const fn slip_word(verdict: SlipVerdict) -> &'static str {
-    match verdict {
-        SlipVerdict::NotPressing => "not_pressing",
-        SlipVerdict::Holding => "holding",
-        SlipVerdict::Warning => "warning",
-        SlipVerdict::Slipping => "slipping",
-    }
-}

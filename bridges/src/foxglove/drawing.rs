@@ -1,7 +1,5 @@
 //! The fingertip as a scene of Foxglove: the surface, and the contact with its force on it. Lengths in metres.
 
-use core::f64::consts::TAU;
-
 use foxglove::messages::line_primitive::Type;
 use foxglove::messages::scene_entity_deletion::Type as Deleted;
 use foxglove::messages::{
@@ -10,18 +8,15 @@ use foxglove::messages::{
 };
 use nalgebra::{UnitQuaternion, Vector3 as Vector};
 
+use crate::drawn::{Colour, FORCE, NEWTON, SURFACE, colour, rim, ring};
 use crate::{About, Pressed, Sample};
 
-/// Length of the arrow of a newton \[m\].
-const NEWTON: f64 = 0.004;
 /// Corners of a ring.
 const CORNERS: u32 = 32;
 
-const SURFACE: Color = Color { r: 0.72, g: 0.75, b: 0.79, a: 0.8 };
-const FORCE: Color = Color { r: 0.1, g: 0.11, b: 0.13, a: 1.0 };
-const HOLDING: Color = Color { r: 0.0, g: 0.5, b: 0.37, a: 1.0 };
-const NEAR: Color = Color { r: 0.78, g: 0.32, b: 0.05, a: 1.0 };
-const SLIPPING: Color = Color { r: 0.78, g: 0.12, b: 0.27, a: 1.0 };
+fn painted([r, g, b, a]: Colour) -> Color {
+    Color { r, g, b, a }
+}
 
 fn point(at: &Vector<f64>) -> Point3 {
     Point3 { x: at.x, y: at.y, z: at.z }
@@ -55,8 +50,12 @@ pub(super) fn surface(about: &About) -> SceneUpdate {
         return SceneUpdate::default();
     }
     let pose = Some(pose(&Vector::zeros(), &Vector::x()));
-    let triangles =
-        TriangleListPrimitive { pose, points, color: Some(SURFACE), ..TriangleListPrimitive::default() };
+    let triangles = TriangleListPrimitive {
+        pose,
+        points,
+        color: Some(painted(SURFACE)),
+        ..TriangleListPrimitive::default()
+    };
     SceneUpdate {
         deletions: Vec::new(),
         entities: vec![SceneEntity { triangles: vec![triangles], ..entity("surface", about) }],
@@ -73,12 +72,7 @@ pub(super) fn contact(sample: &Sample, about: &About) -> SceneUpdate {
         };
         return SceneUpdate { deletions: vec![deletion], entities: Vec::new() };
     };
-    let used = sample.felt.and_then(|felt| felt.margin).map_or(0.0, |margin| margin.utilisation);
-    let colour = match used {
-        used if used >= 1.0 => SLIPPING,
-        used if used > 0.8 => NEAR,
-        _ => HOLDING,
-    };
+    let colour = painted(colour(sample));
     let length = NEWTON * contact.force.norm();
     let head = (0.3 * length).min(0.003);
     let arrow = contact.force.try_normalize(0.0).map(|along| ArrowPrimitive {
@@ -87,14 +81,14 @@ pub(super) fn contact(sample: &Sample, about: &About) -> SceneUpdate {
         shaft_diameter: 0.25 * head,
         head_length: head,
         head_diameter: 0.6 * head,
-        color: Some(FORCE),
+        color: Some(painted(FORCE)),
     });
     let ball = SpherePrimitive {
         pose: Some(pose(&contact.point, &Vector::x())),
         size: Some(Vector3 { x: 1e-3, y: 1e-3, z: 1e-3 }),
         color: Some(colour),
     };
-    let rings = [ellipse(contact), about.coefficient.and_then(|coefficient| cone(contact, coefficient))];
+    let rings = [ellipse(contact), about.coefficient.map(|coefficient| cone(contact, coefficient))];
     let lines = rings.into_iter().flatten().map(|(kind, points)| LinePrimitive {
         r#type: kind.into(),
         pose: Some(pose(&Vector::zeros(), &Vector::x())),
@@ -115,32 +109,18 @@ pub(super) fn contact(sample: &Sample, about: &About) -> SceneUpdate {
 
 type Lines = (Type, Vec<Vector<f64>>);
 
-fn ring(middle: &Vector<f64>, one: &Vector<f64>, other: &Vector<f64>) -> Vec<Vector<f64>> {
-    let angle = |corner: u32| TAU * f64::from(corner) / f64::from(CORNERS);
-    (0..CORNERS).map(|corner| middle + one * angle(corner).cos() + other * angle(corner).sin()).collect()
-}
-
 /// Where the contact lies with 95 %.
 fn ellipse(contact: &Pressed) -> Option<Lines> {
     let ellipse = contact.ellipse?;
     let ([a, b], [along, across]) = (ellipse.semi_axes, ellipse.directions);
-    Some((Type::LineLoop, ring(&contact.point, &(along * a), &(across * b))))
+    Some((Type::LineLoop, ring(&contact.point, &(along * a), &(across * b), CORNERS)))
 }
 
 /// The limit of friction: its rim at the height of the normal force, and lines to the contact.
-fn cone(contact: &Pressed, coefficient: f64) -> Option<Lines> {
-    let length = NEWTON * contact.normal_force;
-    let least = contact.normal.map(f64::abs).imin();
-    let helper = [Vector::x(), Vector::y(), Vector::z()].into_iter().nth(least)?;
-    let right = contact.normal.cross(&helper).try_normalize(0.0)?;
-    let up = contact.normal.cross(&right);
-    let rim = ring(
-        &(contact.point + contact.normal * length),
-        &(right * (coefficient * length)),
-        &(up * (coefficient * length)),
-    );
+fn cone(contact: &Pressed, coefficient: f64) -> Lines {
+    let rim = rim(contact, coefficient, CORNERS);
     let next = rim.iter().cycle().skip(1);
     let around = rim.iter().zip(next).flat_map(|(one, other)| [*one, *other]);
     let down = rim.iter().step_by(8).flat_map(|corner| [*corner, contact.point]);
-    Some((Type::LineList, around.chain(down).collect()))
+    (Type::LineList, around.chain(down).collect())
 }

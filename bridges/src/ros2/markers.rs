@@ -1,14 +1,12 @@
 //! Surface, contact, force and the limit of friction for RViz: `visualization_msgs/msg/MarkerArray`.
 
-use core::f64::consts::TAU;
-
 use fingertip_recordings::mcap::{CdrWriter, Header};
 use nalgebra::Vector3;
 
+use crate::drawn::{Colour, FORCE, NEWTON, SURFACE, colour, rim};
 use crate::{About, Sample};
 
-/// Length of the arrow of a newton \[m\].
-const NEWTON: f64 = 0.004;
+/// Corners of a ring.
 const CORNERS: u32 = 24;
 
 /// Kinds and actions of `visualization_msgs/msg/Marker`.
@@ -26,18 +24,19 @@ struct Marker<'a> {
     action: i32,
     at: Vector3<f64>,
     scale: [f64; 3],
-    colour: [f32; 4],
+    colour: Colour,
     points: &'a [Vector3<f64>],
 }
 
 impl Marker<'_> {
+    #[expect(clippy::cast_possible_truncation, reason = "single precision is what the message holds")]
     fn write(&self, header: &Header, to: &mut CdrWriter) {
         header.write(to);
         to.string("fingertip");
         [self.id, self.kind, self.action].into_iter().for_each(|number| to.i32(number));
         to.f64s(self.at.iter().copied().chain([0.0, 0.0, 0.0, 1.0]));
         to.f64s(self.scale);
-        self.colour.into_iter().for_each(|part| to.f32(part));
+        self.colour.into_iter().for_each(|part| to.f32(part as f32));
         // For ever, and fixed to its frame.
         to.i32(0);
         to.u32(0);
@@ -67,28 +66,15 @@ pub(super) fn markers(sample: &Sample, about: &About, header: &Header, with_surf
     let none = Vector3::zeros();
     let contact = sample.contact();
     let action = if contact.is_some() { ADD } else { DELETE };
-    let used = sample.felt.and_then(|felt| felt.margin).map_or(0.0, |margin| margin.utilisation);
-    let colour = match used {
-        used if used >= 1.0 => [0.78, 0.12, 0.27, 1.0],
-        used if used > 0.8 => [0.78, 0.32, 0.05, 1.0],
-        _ => [0.0, 0.5, 0.37, 1.0],
-    };
+    let colour = colour(sample);
     let arrow = contact.map_or([none; 2], |contact| [contact.point - contact.force * NEWTON, contact.point]);
-    let rim = contact.zip(about.coefficient).map_or_else(Vec::new, |(contact, coefficient)| {
-        let length = NEWTON * contact.normal_force;
-        let helper = if contact.normal.x.abs() < 0.6 { Vector3::x() } else { Vector3::y() };
-        let right = contact.normal.cross(&helper).try_normalize(0.0).unwrap_or_else(Vector3::x);
-        let up = contact.normal.cross(&right);
-        let far = contact.point + contact.normal * length;
-        let corner = |place: u32| {
-            let (sin, cos) = (TAU * f64::from(place) / f64::from(CORNERS)).sin_cos();
-            far + (right * cos + up * sin) * (coefficient * length)
-        };
-        (0..=CORNERS).map(corner).collect()
-    });
+    let mut rim = contact
+        .zip(about.coefficient)
+        .map_or_else(Vec::new, |(contact, coefficient)| rim(contact, coefficient, CORNERS));
+    // Back to where it began.
+    rim.extend(rim.first().copied());
     let rim_action = if rim.is_empty() { DELETE } else { ADD };
     let at = contact.map_or(none, |contact| contact.point);
-    let dark = [0.1, 0.11, 0.13, 1.0];
     let list = [
         Marker { id: 1, kind: SPHERE, action, at, scale: [1e-3; 3], colour, points: &[] },
         Marker {
@@ -97,7 +83,7 @@ pub(super) fn markers(sample: &Sample, about: &About, header: &Header, with_surf
             action,
             at: none,
             scale: [6e-4, 1.5e-3, 2e-3],
-            colour: dark,
+            colour: FORCE,
             points: &arrow,
         },
         Marker {
@@ -115,7 +101,7 @@ pub(super) fn markers(sample: &Sample, about: &About, header: &Header, with_surf
             action: ADD,
             at: none,
             scale: [1.0; 3],
-            colour: [0.72, 0.75, 0.79, 0.8],
+            colour: SURFACE,
             points: &corners,
         },
     ];

@@ -1,9 +1,10 @@
 //! What is sent, in JSON. A number that is none is `null`.
 
+use fingertip::friction::SlipVerdict;
 use serde::Serialize;
 use serde_json::json;
 
-use crate::{About, Felt, Health, Sample, Status, slip_word};
+use crate::{About, Felt, Health, Sample, Status};
 
 /// What a connection is told first.
 pub(super) fn hello(about: &About, commands: bool) -> String {
@@ -116,7 +117,7 @@ impl ShownFelt {
             load: felt.load.components().into(),
             contact,
             margin,
-            slip: felt.slip.map(slip_word),
+            slip: felt.slip.map(SlipVerdict::word),
         }
     }
 }

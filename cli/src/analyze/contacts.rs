@@ -90,13 +90,7 @@ impl ContactWriter {
             }
             _ => self.empty(CONTACT_CELLS),
         }
-        self.word(match touch.slip {
-            None => "",
-            Some(SlipVerdict::NotPressing) => "not_pressing",
-            Some(SlipVerdict::Holding) => "holding",
-            Some(SlipVerdict::Warning) => "warning",
-            Some(SlipVerdict::Slipping) => "slipping",
-        });
+        self.word(touch.slip.map_or("", SlipVerdict::word));
         self.more(felt);
         if let Some(fused) = fused {
             self.fused(fused);

@@ -81,9 +81,9 @@ impl Outputs {
         for note in notes {
             text.push_str(&format!("note: {note}\n"));
         }
-        let files = self.written.borrow();
-        if !files.is_empty() {
-            text.push_str(&format!("\n{}", written(files.iter())));
+        let written = self.written();
+        if !written.is_empty() {
+            text.push_str(&format!("\n{written}"));
         }
         self.print(&text)
     }
@@ -105,7 +105,8 @@ impl Outputs {
 
     /// The line that names what was written.
     pub(crate) fn written(&self) -> String {
-        written(self.written.borrow().iter())
+        let names = self.names();
+        if names.is_empty() { String::new() } else { format!("Written: {}\n", names.join(", ")) }
     }
 }
 
@@ -118,9 +119,4 @@ pub(crate) fn print(text: &str) -> Result<(), CliError> {
 pub(crate) fn print_exactly(text: &str) -> Result<(), CliError> {
     let mut stdout = io::stdout();
     stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(CliError::stdout)
-}
-
-fn written<'a>(files: impl Iterator<Item = &'a PathBuf>) -> String {
-    let list: Vec<String> = files.map(|path| path.display().to_string()).collect();
-    if list.is_empty() { String::new() } else { format!("Written: {}\n", list.join(", ")) }
 }

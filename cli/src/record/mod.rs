@@ -9,7 +9,7 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 use indicatif::ProgressBar;
 
 use args::RecordArguments;
-use output::{Output, Row};
+use output::{Numbered, Output, Row};
 
 use crate::error::CliError;
 use crate::felt::{NoZero, Rest, SceneFeel};
@@ -165,7 +165,7 @@ impl<'a> Recording<'a> {
         let Some(output) = &mut self.output else { return Ok(()) };
         // Whole nanoseconds, as MCAP has them: so both formats hold the same.
         let written = ((time + self.epoch) * 1e9).round() / 1e9;
-        let touch = touch.as_ref().and_then(|touch| output::touch(self.samples, time, touch));
+        let touch = touch.as_ref().map(|touch| Numbered { number: self.samples, time, touch });
         let row = Row { time: written, wrench: &wrench, volts: reading.volts.as_ref(), contact, touch };
         output.write(&row)?;
         self.samples += 1;

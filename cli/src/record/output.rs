@@ -17,15 +17,23 @@ use crate::recording_file::{FRAME, Kind, csv, mcap};
 use crate::sensor::Volts;
 
 /// One row.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Row<'a> {
     /// \[s\]
     pub(super) time: f64,
     pub(super) wrench: &'a Wrench<f64>,
     pub(super) volts: Option<&'a Volts>,
     pub(super) contact: Option<ContactCells>,
-    /// All that was felt, for MCAP.
-    pub(super) touch: Option<RecordedTouch>,
+    /// All that was felt, which MCAP holds.
+    pub(super) touch: Option<Numbered<'a>>,
+}
+
+/// What was felt of a sample, with its number and its time on the clock of the sensor \[s\].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Numbered<'a> {
+    pub(super) number: u64,
+    pub(super) time: f64,
+    pub(super) touch: &'a SceneTouch,
 }
 
 /// The contact of a touch, with the load at its point.
@@ -35,10 +43,12 @@ pub(super) fn contact(touch: &SceneTouch) -> Option<ContactCells> {
     Some(ContactCells { position: contact.point, normal: contact.normal, wrench })
 }
 
-/// All that was felt, with the number of the sample.
-pub(super) fn touch(number: u64, time: f64, touch: &SceneTouch) -> Option<RecordedTouch> {
-    let felt = Felt::of(touch, Status::of(&touch.resolution).word(), None);
-    recorded_touch(&Sample { number, ..Sample::new(time, touch.wrench, Some(felt)) })
+impl Numbered<'_> {
+    fn recorded(&self) -> Option<RecordedTouch> {
+        let Self { number, time, touch } = *self;
+        let felt = Felt::of(touch, Status::of(&touch.resolution).word(), None);
+        recorded_touch(&Sample { number, ..Sample::new(time, touch.wrench, Some(felt)) })
+    }
 }
 
 /// Writes rows. A file that is finished is whole, whatever ended the recording.
@@ -140,8 +150,9 @@ impl Output {
                             RecordedContact { name, position, normal, wrench },
                         )?;
                     }
-                    if let (Some([_, topic]), Some(touch)) = (*contact, &row.touch) {
-                        writer.write_touch(topic, row.time, touch.clone())?;
+                    let touch = row.touch.as_ref().and_then(Numbered::recorded);
+                    if let (Some([_, topic]), Some(touch)) = (*contact, touch) {
+                        writer.write_touch(topic, row.time, touch)?;
                     }
                     Ok(())
                 };

@@ -33,6 +33,25 @@ pub enum SlipVerdict {
     Slipping,
 }
 
+impl SlipVerdict {
+    /// The word that files and messages have for it.
+    ///
+    /// ```
+    /// use fingertip_friction::SlipVerdict;
+    ///
+    /// assert_eq!(SlipVerdict::NotPressing.word(), "not_pressing");
+    /// ```
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::NotPressing => "not_pressing",
+            Self::Holding => "holding",
+            Self::Warning => "warning",
+            Self::Slipping => "slipping",
+        }
+    }
+}
+
 /// Finds slip in a stream of contact forces.
 ///
 /// # For implementers
