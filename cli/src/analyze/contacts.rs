@@ -72,17 +72,14 @@ impl ContactWriter {
         let touch = &felt.touch;
         self.time(time);
         self.word(Status::of(&touch.resolution).word());
-        self.cells(touch.wrench.force().as_ref());
-        self.cells(touch.wrench.torque().as_ref());
+        self.cells(&touch.wrench.components().into());
         match (&touch.resolution, &touch.force) {
             (Resolution::Contact(contact), Some(force)) => {
-                self.cells(contact.point.as_ref());
-                self.cells(contact.normal.as_ref());
-                self.cell(force.normal);
-                self.cell(force.tangential_magnitude());
-                self.cell(force.friction_ratio().unwrap_or(f64::NAN));
-                self.cell(touch.grip.flatten().map_or(f64::NAN, |margin| margin.newtons));
-                self.cell(contact.gap);
+                let ([x, y, z], [nx, ny, nz]) = (contact.point.into(), contact.normal.into());
+                let ratio = force.friction_ratio().unwrap_or(f64::NAN);
+                let margin = touch.grip.flatten().map_or(f64::NAN, |margin| margin.newtons);
+                let (normal, tangential) = (force.normal, force.tangential_magnitude());
+                self.cells(&[x, y, z, nx, ny, nz, normal, tangential, ratio, margin, contact.gap]);
             }
             (Resolution::NoContact(NoContact::Misses { closest: Some(closest) }), _) => {
                 self.empty(CONTACT_CELLS - 1);
@@ -108,8 +105,8 @@ impl ContactWriter {
         if self.tells.spread {
             match &felt.spread {
                 Some(spread) => {
-                    spread.ellipse.semi_axes.iter().for_each(|axis| self.cell(*axis));
-                    self.cells(spread.ellipse.directions[0].as_ref());
+                    self.cells(&spread.ellipse.semi_axes);
+                    self.cells::<3>(spread.ellipse.directions[0].as_ref());
                     self.cell(spread.normal_force);
                 }
                 None => self.empty(6),
@@ -145,8 +142,8 @@ impl ContactWriter {
                 self.empty(FUSED_COLUMNS.len());
                 continue;
             };
-            self.cells(contact.point.as_ref());
-            self.cells(contact.force.as_ref());
+            self.cells::<3>(contact.point.as_ref());
+            self.cells::<3>(contact.force.as_ref());
             self.cell(contact.force_covariance.symmetric_eigenvalues().max().max(0.0).sqrt());
             self.cell(contact.share_from_wrench);
         }
@@ -166,8 +163,8 @@ impl ContactWriter {
             Continuity::Doubted => "doubted",
             Continuity::Bridged => "bridged",
         });
-        self.cells(tracked.point.as_ref());
-        self.cells(tracked.velocity.as_ref());
+        self.cells::<3>(tracked.point.as_ref());
+        self.cells::<3>(tracked.velocity.as_ref());
         self.cell(tracked.deviation());
         self.cell(tracked.surprise);
     }
@@ -184,7 +181,7 @@ impl ContactWriter {
         match happened.and_then(|happened| happened.impact) {
             Some(impact) => {
                 self.cell(impact.peak);
-                self.cells(impact.impulse.as_ref());
+                self.cells::<3>(impact.impulse.as_ref());
             }
             None => self.empty(4),
         }
@@ -207,20 +204,23 @@ impl ContactWriter {
         }
     }
 
+    /// Cells of a number each. All are made before the first is copied: a processor that reads bytes which it has just
+    /// written in other pieces waits for them.
     #[inline]
-    fn cells(&mut self, values: &[f64; 3]) {
-        values.iter().for_each(|value| self.cell(*value));
+    #[expect(clippy::cast_possible_truncation, reason = "single precision is what the file holds")]
+    fn cells<const N: usize>(&mut self, values: &[f64; N]) {
+        let mut buffers = [(); N].map(|()| zmij::Buffer::new());
+        let mut texts = [""; N];
+        for ((text, buffer), value) in texts.iter_mut().zip(&mut buffers).zip(values) {
+            let single = *value as f32;
+            *text = if single.is_finite() { buffer.format_finite(single) } else { "" };
+        }
+        texts.iter().for_each(|text| self.cells.put_cell(text.as_bytes()));
     }
 
     #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "single precision is what the file holds")]
     fn cell(&mut self, value: f64) {
-        let single = value as f32;
-        if single.is_finite() {
-            self.cells.put_cell(zmij::Buffer::new().format_finite(single).as_bytes());
-        } else {
-            self.cells.put(b",");
-        }
+        self.cells(&[value]);
     }
 
     #[inline]
