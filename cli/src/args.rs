@@ -21,6 +21,7 @@ use crate::refine::RefineArguments;
 use crate::scene::command::SceneArguments;
 use crate::serve::args::SimulateArguments;
 use crate::shell::{CompletionsArguments, ManArguments};
+use crate::verbosity::Verbosity;
 
 /// From the strain gauges behind a fingertip to contact, force and slip.
 #[derive(Debug, Parser)]
@@ -29,6 +30,8 @@ use crate::shell::{CompletionsArguments, ManArguments};
     after_help = "Exit codes: 0 done, 1 an input is bad or an output cannot be written, 2 wrong usage, 130 interrupted."
 )]
 pub(crate) struct Arguments {
+    #[command(flatten)]
+    pub(crate) verbosity: Verbosity,
     #[command(subcommand)]
     pub(crate) command: Command,
 }

@@ -9,8 +9,9 @@ use fingertip_recordings::{ReaderOptions, RecordingReader};
 use tempfile::NamedTempFile;
 
 use crate::error::CliError;
-use crate::output::is_standard;
+use crate::output::{is_standard, shown};
 use crate::recording_file::{Kind, mcap};
+use crate::verbosity::detail;
 
 /// How an MCAP file begins.
 const MCAP: &[u8] = b"\x89MCAP0\r\n";
@@ -64,6 +65,7 @@ impl Input {
             return Ok(Self { path, kind: Kind::Mcap, from: From::Kept(kept) });
         }
         let meta = fs::metadata(&path).map_err(fault)?;
+        detail(|| format!("reads recording {}: {} bytes", shown(&path), meta.len()));
         if meta.is_dir() {
             let bag = path.join("metadata.yaml").exists();
             return Err(if bag {
@@ -81,6 +83,21 @@ impl Input {
             Kind::of(&path).unwrap_or(Kind::Csv)
         };
         Ok(Self { path, kind, from: From::File })
+    }
+
+    /// Has what can be read but once kept, to be read twice.
+    pub(crate) fn keep(&mut self) -> Result<(), CliError> {
+        if self.length().is_none() && !matches!(self.from, From::Kept(_)) {
+            let mut kept = NamedTempFile::new().map_err(|source| self.fault(source))?;
+            let mut text = self.text()?;
+            io::copy(&mut text, &mut kept).map_err(|source| self.fault(source))?;
+            self.from = From::Kept(kept);
+        }
+        Ok(())
+    }
+
+    fn fault(&self, source: io::Error) -> CliError {
+        CliError::read("recording", &self.path, source)
     }
 
     pub(crate) const fn kind(&self) -> Kind {
@@ -111,7 +128,7 @@ impl Input {
             From::Kept(kept) => kept.reopen(),
             From::File | From::Stdin(_) => File::open(&self.path),
         };
-        file.map_err(|source| CliError::read("recording", &self.path, source))
+        file.map_err(|source| self.fault(source))
     }
 
     /// The rows of a CSV.
@@ -132,7 +149,7 @@ impl Input {
 
     /// What messages call it.
     pub(crate) fn name(&self) -> String {
-        if is_standard(&self.path) { "standard input".to_owned() } else { self.path.display().to_string() }
+        shown(&self.path)
     }
 }
 

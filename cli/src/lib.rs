@@ -34,10 +34,12 @@ mod report;
 mod scene;
 mod sensor;
 mod serve;
+mod several;
 mod shell;
 mod stop;
 mod summary;
 mod table;
+mod verbosity;
 
 use std::ffi::OsString;
 
@@ -54,8 +56,8 @@ pub use exit::EXIT_CODES;
 ///
 /// Programs that have the command within them call this, as the Python package does.
 pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) -> u8 {
-    let command = match Arguments::try_parse_from(arguments) {
-        Ok(arguments) => arguments.command,
+    let Arguments { verbosity, command } = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
         Err(told) => {
             // As clap does where it ends the program itself: a stream that is closed is no reason to fail.
             let _ = told.print();
@@ -63,6 +65,7 @@ pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) ->
         }
     };
     stop::guard(&command);
+    let took = verbosity.take_effect();
     let done = match command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Analyze(arguments) => analyze::run(&arguments),
@@ -87,6 +90,7 @@ pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) ->
         Command::Completions(arguments) => shell::completions(&arguments, Arguments::command()),
         Command::Man(arguments) => shell::man(&arguments, Arguments::command()),
     };
+    took.tell();
     match done {
         // Whoever reads our output may stop when they have seen enough.
         Ok(()) | Err(CliError::ClosedPipe) => exit::DONE,

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::calibrate::files::{bad, open, read_columns, read_loads};
 use crate::error::CliError;
-use crate::output::{Outputs, Overwrite};
+use crate::output::{Outputs, Overwrite, shown};
 
 #[derive(Debug, Args)]
 #[command(after_help = "Without arms, three components are found, up to one rotation of all of them; with \
@@ -201,7 +201,7 @@ fn to_file(found: &Found, unit: SignalUnit, source: &Path, samples: usize) -> Re
     let mut file = CalibrationFile::new(matrix, found.nominal.clone(), zero, unit)?;
     file.noise = found.noise.is_finite().then(|| vec![found.noise; file.gauges()]);
     file.provenance.method = "shape from motion".to_owned();
-    file.provenance.source = source.display().to_string();
+    file.provenance.source = shown(source);
     file.quality = Quality {
         verdict: Verdict::Unchecked,
         reasons: vec!["from a weight in unknown directions: check it on known loads".to_owned()],

@@ -2,12 +2,15 @@
 
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 
+use crate::verbosity::is_quiet;
+
 /// Shorter files are done before a bar could be read.
 const WORTH_A_BAR: u64 = 16 << 20;
 
 /// A bar on the standard error, if that is a terminal and the recording is long: of `length` bytes, if that is known.
 pub(crate) fn bar(length: Option<u64>) -> ProgressBar {
-    let Some(length) = length.filter(|length| *length > WORTH_A_BAR) else { return ProgressBar::hidden() };
+    let worth_it = |length: &u64| *length > WORTH_A_BAR && !is_quiet();
+    let Some(length) = length.filter(worth_it) else { return ProgressBar::hidden() };
     let bar = ProgressBar::new(length).with_finish(ProgressFinish::AndClear);
     let style = "{wide_bar} {bytes} of {total_bytes}, {bytes_per_sec}, {eta} left";
     match ProgressStyle::with_template(style) {

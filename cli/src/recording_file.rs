@@ -1,5 +1,7 @@
 //! The file of a recording that is written: CSV or MCAP, by its ending; and what is wrong with one.
 
+use core::error::Error;
+use std::io;
 use std::path::Path;
 
 use clap::ValueEnum;
@@ -7,7 +9,7 @@ use fingertip_recordings::mcap::{Compression, McapError};
 use fingertip_recordings::{RecordingError, SignalUnit};
 
 use crate::error::CliError;
-use crate::output::is_standard;
+use crate::output::{is_standard, shown};
 use crate::table::count;
 
 /// Name of the frame in MCAP files.
@@ -71,6 +73,11 @@ pub(crate) fn csv(path: &Path, error: RecordingError) -> CliError {
 
 /// An error of an MCAP file, with its name.
 pub(crate) fn mcap(path: &Path, error: &McapError) -> CliError {
+    let causes = core::iter::successors(Some(error as &dyn Error), |&cause| cause.source());
+    let is_closed = |cause: &io::Error| cause.kind() == io::ErrorKind::BrokenPipe;
+    if causes.filter_map(|cause| cause.downcast_ref()).any(is_closed) {
+        return CliError::ClosedPipe;
+    }
     CliError::Mcap { path: path.to_owned(), message: error.to_string() }
 }
 
@@ -79,7 +86,7 @@ pub(crate) fn cut(path: &Path, messages: u64) -> String {
     format!(
         "{} ends in the middle: it was cut, or its recorder was killed; its {} whole messages were read (`fingertip \
          recover` writes them anew)",
-        path.display(),
+        shown(path),
         count(messages)
     )
 }

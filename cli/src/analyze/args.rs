@@ -9,9 +9,10 @@ use crate::output::Overwrite;
 
 #[derive(Debug, Args)]
 pub(crate) struct AnalyzeArguments {
-    /// The recording: CSV with units in the column names (fx_N, tz_Nmm, v1_V, t_s), or MCAP (.mcap)
-    #[arg(value_name = "FILE")]
-    pub(crate) recording: PathBuf,
+    /// The recording: CSV with units in the column names (fx_N, tz_Nmm, v1_V, t_s), or MCAP (.mcap); `-` is the standard
+    /// input. Of several, each writes files of its own: RUN.csv writes RUN.contacts.csv and RUN.report.html
+    #[arg(value_name = "FILE", required = true)]
+    pub(crate) recordings: Vec<PathBuf>,
     /// The scene: surface, pose, thresholds, friction (book/src/reference/scene.md)
     #[arg(long, value_name = "SCENE.toml")]
     pub(crate) scene: PathBuf,

@@ -1,23 +1,44 @@
 //! The files of a run, and what is said at its end.
 
+use std::path::PathBuf;
+
 use fingertip_recordings::ReaderOptions;
 use fingertip_scene::Scene;
 
 use super::args::AnalyzeArguments;
 use crate::error::CliError;
-use crate::output::Outputs;
+use crate::output::{Outputs, is_standard};
+use crate::several::file_of;
 
-/// Refuses to write over what is read.
-pub(super) fn guard(arguments: &AnalyzeArguments) -> Result<Outputs, CliError> {
-    let inputs = [
-        Some(&arguments.recording),
-        Some(&arguments.scene),
-        arguments.calibration.as_ref(),
-        arguments.payload.as_ref(),
-    ];
-    let report = (!arguments.no_report).then_some(&arguments.report);
-    let outputs = core::iter::once(&arguments.output).chain(report);
-    Outputs::guard(arguments.overwrite, "output", inputs.into_iter().flatten(), outputs)
+/// The files that one recording writes.
+#[derive(Debug)]
+pub(super) struct Files {
+    pub(super) output: PathBuf,
+    /// `None` if there is to be none.
+    pub(super) report: Option<PathBuf>,
+    pub(super) outputs: Outputs,
+}
+
+impl Files {
+    /// Of each recording. Refuses to write over what is read, and twice into one file.
+    pub(super) fn of(arguments: &AnalyzeArguments) -> Result<Vec<Self>, CliError> {
+        let recordings = &arguments.recordings;
+        if recordings.len() > 1 && is_standard(&arguments.output) {
+            return Err(CliError::SharedStdout);
+        }
+        let named = |recording: &PathBuf| {
+            let report = || file_of(recording, recordings, &arguments.report);
+            let output = file_of(recording, recordings, &arguments.output);
+            (output, (!arguments.no_report).then(report))
+        };
+        let all: Vec<(PathBuf, Option<PathBuf>)> = recordings.iter().map(named).collect();
+        let options = [Some(&arguments.scene), arguments.calibration.as_ref(), arguments.payload.as_ref()];
+        let inputs = recordings.iter().chain(options.into_iter().flatten());
+        let every = all.iter().flat_map(|(output, report)| core::iter::once(output).chain(report));
+        let outputs = Outputs::guard(arguments.overwrite, "output", inputs, every)?;
+        let files = |(output, report)| Self { output, report, outputs: outputs.part() };
+        Ok(all.into_iter().map(files).collect())
+    }
 }
 
 /// How the recordings of a scene are read.

@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 
 use super::source::Source;
 use crate::observe::{Observations, Quantiles, Status};
+use crate::output::shown;
 
 /// What there is to tell.
 pub(super) struct Told<'a> {
@@ -46,7 +47,7 @@ impl Told<'_> {
                 json!({ "count": observations.slips.count(), "first": slips })
             });
         let summary = json!({
-            "recording": recording.display().to_string(),
+            "recording": shown(recording),
             "scene": scene.name(),
             "sensor": source.sensor(),
             "samples": observations.rows(),

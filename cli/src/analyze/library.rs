@@ -60,7 +60,7 @@ pub struct Recorded {
 impl Recorded {
     fn arguments(&self, scene: &Path) -> AnalyzeArguments {
         AnalyzeArguments {
-            recording: self.path.clone(),
+            recordings: vec![self.path.clone()],
             scene: scene.to_owned(),
             calibration: None,
             payload: None,
@@ -153,7 +153,7 @@ pub fn analyze(
 ) -> Result<Analysis, Failure> {
     let arguments = recorded.arguments(scene_file);
     let Analysed { source, observations, quality, findings, .. } =
-        analysed(scene, &arguments, || Ok(Each(each)))?;
+        analysed(scene, &recorded.path, &arguments, || Ok(Each(each)))?;
     let given = Given { calibration: None, payload: None, calibrated: source.is_calibrated() };
     Ok(Analysis {
         sensor: source.sensor().to_owned(),

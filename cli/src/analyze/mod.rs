@@ -18,6 +18,7 @@ mod volts;
 mod wrenches;
 
 use core::ops::ControlFlow;
+use std::path::Path;
 
 use fingertip_recordings::Quality;
 use fingertip_scene::{Pipeline, Scene};
@@ -28,44 +29,49 @@ use crate::observe::{Observations, Status};
 use crate::opened::{Opened, Rows};
 use crate::report::{self, used::Given};
 use crate::scene;
+use crate::several;
 use crate::summary::{self, Findings, Run};
 use crate::table::number;
 use args::AnalyzeArguments;
 use array::{Array, Fused};
 use contacts::ContactWriter;
+use files::Files;
 use sink::Sink;
 use source::{Reading, Source};
 use span::{Place, Window};
 
 pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
+    let all = Files::of(arguments)?;
     let scene = scene::load(&arguments.scene)?;
     let scene = scene::with(scene, arguments.calibration.as_deref(), arguments.payload.as_deref())?;
-    let outputs = files::guard(arguments)?;
+    let mut each = all.iter();
+    several::each(&arguments.recordings, |recording| match each.next() {
+        Some(files) => one(recording, &scene, arguments, files),
+        None => Ok(()),
+    })
+}
+
+/// One of the recordings.
+fn one(recording: &Path, scene: &Scene, arguments: &AnalyzeArguments, files: &Files) -> Result<(), CliError> {
+    let Files { output, report, outputs } = files;
     let create = || {
         let places = scene.array_places().unwrap_or(0);
-        ContactWriter::create(&arguments.output, &outputs, scene.tells(), places)
+        ContactWriter::create(output, outputs, scene.tells(), places)
     };
     let Analysed { sink: contacts, source, observations, quality, findings } =
-        analysed(&scene, arguments, create)?;
+        analysed(scene, recording, arguments, create)?;
     contacts.finish()?;
-    let report = (!arguments.no_report).then_some(arguments.report.as_path());
     if let Some(path) = report {
         let given = Given {
             calibration: arguments.calibration.as_deref(),
             payload: arguments.payload.as_deref(),
             calibrated: source.is_calibrated(),
         };
-        outputs.write("report", path, &report::of_recording(&findings, &observations, &scene, &given))?;
+        outputs.write("report", path, &report::of_recording(&findings, &observations, scene, &given))?;
     }
     if arguments.json {
-        let recording = arguments.recording.as_path();
-        let told = json::Told {
-            recording,
-            scene: &scene,
-            source: &source,
-            observations: &observations,
-            quality: &quality,
-        };
+        let told =
+            json::Told { recording, scene, source: &source, observations: &observations, quality: &quality };
         return outputs.print(&told.line(&outputs.names()));
     }
     outputs.say(&findings.to_string(), &[])
@@ -83,15 +89,15 @@ struct Analysed<S> {
 /// Reads a recording to its end. The sink is made when the recording is known to be one of this scene.
 fn analysed<S: Sink>(
     scene: &Scene,
+    recording: &Path,
     arguments: &AnalyzeArguments,
     sink: impl FnOnce() -> Result<S, CliError>,
 ) -> Result<Analysed<S>, CliError> {
     arguments.span.check()?;
-    let recording = arguments.recording.as_path();
     let mut notes = Vec::from_iter(arguments.span.note());
     let opened = Opened::open(recording, &arguments.topics, files::of(scene), &mut notes)?;
     let Opened { rows: mut reader, bar, .. } = opened;
-    let mut source = Source::new(&mut reader, scene, arguments, notes)?;
+    let mut source = Source::new(&mut reader, scene, recording, arguments, notes)?;
     let array = scene.array_places().map(|places| Array::new(places, &mut reader)).transpose()?;
     let mut sink = sink()?;
     let window = Window::new(arguments.span);

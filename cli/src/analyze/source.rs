@@ -1,6 +1,6 @@
 //! From the rows of a recording to wrenches on the fingertip.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use fingertip::wrench::Wrench;
 use fingertip_recordings::{HeaderProblem, Row};
@@ -55,6 +55,7 @@ impl Source {
     pub(super) fn new(
         reader: &mut Rows,
         scene: &Scene,
+        recording: &Path,
         arguments: &AnalyzeArguments,
         mut notes: Vec<String>,
     ) -> Result<Self, CliError> {
@@ -64,10 +65,7 @@ impl Source {
         let layout = reader.layout();
         let has_time = layout.has_time();
         if !has_time && scene.sample_rate().is_none() {
-            return Err(CliError::NoTime {
-                path: arguments.recording.clone(),
-                scene: arguments.scene.clone(),
-            });
+            return Err(CliError::NoTime { path: recording.to_owned(), scene: arguments.scene.clone() });
         }
         let header = |problem: HeaderProblem| CliError::Recording(reader.header_error(problem));
         let sensor = arguments.sensor.as_deref().or(scene.sensor_name());
@@ -89,7 +87,7 @@ impl Source {
             volts::open(layout, sensor, calibration, has_rest, temperature, &mut notes, header)?
         } else {
             if layout.wrenches().is_empty() && sensor.is_none() {
-                return Err(CliError::NeedsCalibration { path: arguments.recording.clone() });
+                return Err(CliError::NeedsCalibration { path: recording.to_owned() });
             }
             Box::new(Wrenches::new(layout, sensor).map_err(header)?)
         };
@@ -114,7 +112,7 @@ impl Source {
             convention: scene.convention(),
             rest: scene.rest(),
             sample_interval: if has_time { None } else { scene.sample_rate().map(f64::recip) },
-            recording: arguments.recording.clone(),
+            recording: recording.to_owned(),
             calibrated: calibration.is_some(),
             rows: 0,
             first_time: None,

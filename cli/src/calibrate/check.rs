@@ -7,7 +7,7 @@ use super::args::CheckArguments;
 use super::files::{bad, read_calibration, read_loads, read_payload, write_reports};
 use super::limits;
 use crate::error::CliError;
-use crate::output::Outputs;
+use crate::output::{Outputs, shown};
 
 /// An error if the calibration does not hold.
 pub(crate) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
@@ -51,8 +51,8 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
     let of = [
         ("serial number", file.provenance.serial.clone()),
         ("date of the calibration", file.provenance.date.clone()),
-        ("calibration", arguments.calibration.display().to_string()),
-        ("loads", arguments.loads.display().to_string()),
+        ("calibration", shown(&arguments.calibration)),
+        ("loads", shown(&arguments.loads)),
     ];
     write_reports(&report, "Check", &of, arguments.html.as_ref(), arguments.json.as_ref(), &outputs)?;
     outputs.say(&report.to_string(), &notes)?;

@@ -9,8 +9,9 @@ use fingertip_calibration::loads::{Columns, LoadReader, LoadTable};
 use fingertip_calibration::report::Report;
 
 use crate::error::CliError;
-use crate::output::{Outputs, is_standard};
+use crate::output::{Outputs, is_standard, shown};
 use crate::progress::bar;
+use crate::verbosity::detail;
 
 /// What is wrong with a table, in an error that names its file.
 pub(crate) fn bad(path: &Path, message: &impl ToString) -> CliError {
@@ -28,14 +29,14 @@ pub(crate) fn read_loads(path: &Path, notes: &mut Vec<String>) -> Result<LoadTab
 /// What to mind of a table that was read.
 pub(super) fn of_reading<R: Read>(path: &Path, reader: &LoadReader<R>) -> Vec<String> {
     let ignored = reader.ignored();
-    let unused = (!ignored.is_empty())
-        .then(|| format!("{}: columns not used: {}", path.display(), ignored.join(", ")));
+    let unused =
+        (!ignored.is_empty()).then(|| format!("{}: columns not used: {}", shown(path), ignored.join(", ")));
     unused.into_iter().chain(reader.cut_line().map(|line| cut(path, line))).collect()
 }
 
 /// That a file was cut in its last line.
 pub(crate) fn cut(path: &Path, line: u64) -> String {
-    format!("{}: the file was cut in line {line}, its last, which is left out", path.display())
+    format!("{}: the file was cut in line {line}, its last, which is left out", shown(path))
 }
 
 /// A table whose columns are taken by name.
@@ -51,13 +52,30 @@ pub(crate) fn open(what: &'static str, path: &Path) -> Result<Box<dyn Read>, Cli
     let fault = |source| CliError::read(what, path, source);
     let file = fs::File::open(path).map_err(fault)?;
     let meta = file.metadata().map_err(fault)?;
+    detail(|| format!("reads {what} {}: {} bytes", shown(path), meta.len()));
     Ok(Box::new(bar(meta.is_file().then_some(meta.len())).wrap_read(file)))
 }
 
 /// All of a text; `-` is the standard input.
-fn text(what: &'static str, path: &Path) -> Result<String, CliError> {
-    let read = if is_standard(path) { io::read_to_string(io::stdin()) } else { fs::read_to_string(path) };
-    read.map_err(|source| CliError::read(what, path, source))
+pub(crate) fn text(what: &'static str, path: &Path) -> Result<String, CliError> {
+    let not_text = |_| io::ErrorKind::InvalidData.into();
+    String::from_utf8(bytes(what, path)?)
+        .map_err(not_text)
+        .map_err(|source| CliError::read(what, path, source))
+}
+
+/// All of a file; `-` is the standard input.
+pub(super) fn bytes(what: &'static str, path: &Path) -> Result<Vec<u8>, CliError> {
+    let mut bytes = Vec::new();
+    let fault = |source| CliError::read(what, path, source);
+    let read = if is_standard(path) {
+        io::stdin().read_to_end(&mut bytes)
+    } else {
+        fs::File::open(path).and_then(|mut file| file.read_to_end(&mut bytes))
+    };
+    read.map_err(fault)?;
+    detail(|| format!("reads {what} {}: {} bytes", shown(path), bytes.len()));
+    Ok(bytes)
 }
 
 /// Our TOML, or ATI's `.cal` by its extension.

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use super::args::{CalibrateArguments, SensorAxis};
 use super::files::{bad, open};
 use crate::error::CliError;
-use crate::output::Outputs;
+use crate::output::{Outputs, shown};
 
 const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
@@ -67,7 +67,7 @@ pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), Cli
     }
     file.provenance.serial.clone_from(&arguments.serial);
     file.provenance.date.clone_from(&arguments.date);
-    file.provenance.source = path.display().to_string();
+    file.provenance.source = shown(path);
     outputs.write("payload", &output, &file.to_toml().map_err(|error| fault(&error))?)?;
     text.insert_str(0, &format!("{} poses, condition number {:.1}\n", poses.len(), fit.condition_number));
     text.push_str(&format!(

@@ -1,6 +1,5 @@
 //! `fingertip import`: the calibrations of others.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -9,9 +8,12 @@ use fingertip_calibration::file::{
 };
 use fingertip_calibration::units::{ForceUnit, TorqueUnit};
 
-use super::files::read_calibration;
+use super::files::{bytes, read_calibration};
 use crate::error::CliError;
-use crate::output::{Outputs, Overwrite};
+use crate::output::{Outputs, Overwrite, is_standard, shown};
+
+/// How a file of NumPy begins.
+const NPY: &[u8] = b"\x93NUMPY";
 
 /// Which way a plain matrix goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -61,18 +63,22 @@ pub(crate) fn run(arguments: &ImportArguments) -> Result<(), CliError> {
     let outputs = Outputs::guard(arguments.overwrite, "output", [&arguments.from], [&arguments.output])?;
     let path = arguments.from.as_path();
     let fault = |message: String| CliError::Calibration { path: path.to_owned(), message };
-    let mut file = match ending(path).as_deref() {
-        Some("npy") => {
-            let bytes = fs::read(path).map_err(|source| CliError::read("matrix", path, source))?;
-            plain(arguments, plain_npy(&bytes)).map_err(fault)?
-        }
-        Some("csv" | "txt") => {
-            let text = fs::read_to_string(path).map_err(|source| CliError::read("matrix", path, source))?;
-            plain(arguments, plain_csv(&text)).map_err(fault)?
-        }
-        _ => read_calibration(path)?,
+    // What comes by the standard input has no ending: it is a matrix if it is said which way that goes.
+    let is_plain = match ending(path).as_deref() {
+        Some(ending) => ["npy", "csv", "txt"].contains(&ending),
+        None => is_standard(path) && arguments.matrix.is_some(),
     };
-    file.provenance.source = path.display().to_string();
+    let mut file = if is_plain {
+        let bytes = bytes("matrix", path)?;
+        let matrix = match core::str::from_utf8(&bytes) {
+            Ok(text) if !bytes.starts_with(NPY) => plain_csv(text),
+            _ => plain_npy(&bytes),
+        };
+        plain(arguments, matrix).map_err(fault)?
+    } else {
+        read_calibration(path)?
+    };
+    file.provenance.source = shown(path);
     let text = file.to_toml().map_err(|error| fault(error.to_string()))?;
     outputs.write("calibration", &arguments.output, &text)?;
     let said = format!("A calibration of {} gauges for {} components.\n", file.gauges(), file.axes.len());

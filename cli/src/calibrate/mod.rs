@@ -18,7 +18,7 @@ use fingertip_calibration::model::{Direction, Limits, Method, Options};
 
 use crate::error::CliError;
 use crate::health::{of_table, seen_in_loads};
-use crate::output::Outputs;
+use crate::output::{Outputs, shown};
 use args::{CalibrateArguments, FitMethod};
 use files::{bad, read_calibration, read_loads, read_payload, write_reports};
 
@@ -59,7 +59,7 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
     let file = calibration.to_file().map_err(|error| fault(&error))?;
     write_calibration(file, arguments, &output, &outputs)?;
     let title = if arguments.serial.is_empty() { "Calibration" } else { &arguments.serial };
-    let loads: Vec<String> = arguments.loads.iter().map(|path| path.display().to_string()).collect();
+    let loads: Vec<String> = arguments.loads.iter().map(|path| shown(path)).collect();
     let of = [
         ("serial number", arguments.serial.clone()),
         ("date", arguments.date.clone()),
@@ -105,7 +105,7 @@ fn write_calibration(
     let fault = |error: &dyn core::fmt::Display| bad(&first, &error);
     file.provenance.serial.clone_from(&arguments.serial);
     file.provenance.date.clone_from(&arguments.date);
-    let sources: Vec<String> = arguments.loads.iter().map(|path| path.display().to_string()).collect();
+    let sources: Vec<String> = arguments.loads.iter().map(|path| shown(path)).collect();
     file.provenance.source = sources.join(", ");
     file.range = range(arguments);
     outputs.write("calibration", output, &file.to_toml().map_err(|error| fault(&error))?)?;

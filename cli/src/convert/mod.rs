@@ -102,7 +102,7 @@ pub(crate) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
         [] => text.push_str("Nothing was lost.\n"),
         lost => text.push_str(&format!("Lost: {}\n", lost.join("; "))),
     }
-    outputs.print(&text)
+    outputs.tell(&text)
 }
 
 fn fault(path: &Path, message: impl Display) -> CliError {

@@ -15,6 +15,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::error::CliError;
 use crate::output::Outputs;
 use crate::report;
+use crate::verbosity::is_quiet;
 use args::DesignArguments;
 use task::Task;
 
@@ -135,6 +136,9 @@ fn trials(
 
 /// A bar on the standard error, if that is a terminal.
 fn bar(starts: usize) -> Option<ProgressBar> {
+    if is_quiet() {
+        return None;
+    }
     let bar = ProgressBar::new(starts as u64);
     bar.set_style(ProgressStyle::with_template("{wide_bar} start {pos} of {len}, best {msg}").ok()?);
     Some(bar)

@@ -87,5 +87,5 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     for (what, path, text) in &files {
         outputs.write(what, path, text)?;
     }
-    outputs.print(&outputs.written())
+    outputs.tell(&outputs.written())
 }

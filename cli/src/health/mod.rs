@@ -5,7 +5,7 @@ mod page;
 mod pictures;
 mod words;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use fingertip_recordings::health::{Depth, Health, Level};
@@ -16,6 +16,7 @@ use crate::error::CliError;
 use crate::gauge_rows::KnownTemperature;
 use crate::opened::Opened;
 use crate::output::{Outputs, Overwrite};
+use crate::several::{self, file_of};
 pub(crate) use columns::{WatchedRows, of_table, of_wrench};
 pub(crate) use words::{seen, seen_in_loads};
 
@@ -24,9 +25,10 @@ pub(crate) use words::{seen, seen_in_loads};
 Best is a recording of some seconds in which the sensor rests: that tells its noise, drift and lines. One with
 loads tells which channels are dead, stuck or clipped. Exit code 1: readings are wrong.")]
 pub(crate) struct HealthArguments {
-    /// The recording: .csv or .mcap; `-` is the standard input
-    #[arg(value_name = "FILE")]
-    recording: PathBuf,
+    /// The recording: .csv or .mcap; `-` is the standard input. Of several, each writes files of its own: RUN.csv with
+    /// --html page.html writes RUN.page.html
+    #[arg(value_name = "FILE", required = true)]
+    recordings: Vec<PathBuf>,
     /// The calibration, for a recording of signals: TOML, or an ATI .cal; figures are then given of the wrench, too
     #[arg(long, value_name = "CAL")]
     calibration: Option<PathBuf>,
@@ -54,42 +56,57 @@ pub(crate) struct HealthArguments {
 }
 
 pub(crate) fn run(arguments: &HealthArguments) -> Result<(), CliError> {
-    let path = &arguments.recording;
-    let inputs = [Some(path), arguments.calibration.as_ref()];
-    let files = [arguments.html.as_ref(), arguments.json.as_ref()];
-    let outputs = Outputs::guard(
-        arguments.overwrite,
-        "output",
-        inputs.into_iter().flatten(),
-        files.into_iter().flatten(),
-    )?;
     if let Some(rate) = arguments.rate.filter(|rate| !(*rate > 0.0 && rate.is_finite())) {
         return Err(CliError::option("--rate", rate, "must be a number of samples a second above 0"));
     }
+    let files = |recording: &PathBuf| {
+        let own = |file: &PathBuf| file_of(recording, &arguments.recordings, file);
+        [arguments.html.as_ref().map(own), arguments.json.as_ref().map(own)]
+    };
+    let all: Vec<[Option<PathBuf>; 2]> = arguments.recordings.iter().map(files).collect();
+    let inputs = arguments.recordings.iter().chain(&arguments.calibration);
+    let outputs = Outputs::guard(arguments.overwrite, "output", inputs, all.iter().flatten().flatten())?;
+    let mut each = all.into_iter();
+    several::each(&arguments.recordings, |recording| match each.next() {
+        Some(files) => one(recording, arguments, files, &outputs.part()),
+        None => Ok(()),
+    })
+}
+
+/// One of the recordings.
+fn one(
+    recording: &Path,
+    arguments: &HealthArguments,
+    [html, json]: [Option<PathBuf>; 2],
+    outputs: &Outputs,
+) -> Result<(), CliError> {
     let mut notes = Vec::new();
-    let (health, name) = watched(arguments, &mut notes)?;
+    let (health, name) = watched(recording, arguments, &mut notes)?;
     let findings = words::findings(&health, &name, notes);
-    if let Some(path) = &arguments.html {
+    if let Some(path) = &html {
         outputs.write("report", path, &page::of(&health, &findings))?;
     }
-    if let Some(path) = &arguments.json {
-        let json = serde_json::to_string_pretty(&health);
-        let json = json.map_err(|error| CliError::write("report", path, error.into()))?;
-        outputs.write("report", path, &(json + "\n"))?;
+    if let Some(path) = &json {
+        let text = serde_json::to_string_pretty(&health);
+        let text = text.map_err(|error| CliError::write("report", path, error.into()))?;
+        outputs.write("report", path, &(text + "\n"))?;
     }
     outputs.say(&findings.to_string(), &[])?;
     let worst = health.findings.first().filter(|finding| finding.level == Level::Bad);
     match worst {
-        Some(worst) => Err(CliError::Unhealthy { path: path.clone(), reason: worst.said.clone() }),
+        Some(worst) => Err(CliError::Unhealthy { path: recording.to_owned(), reason: worst.said.clone() }),
         None => Ok(()),
     }
 }
 
 /// Everything that the recording shows, and its name.
-fn watched(arguments: &HealthArguments, notes: &mut Vec<String>) -> Result<(Health, String), CliError> {
+fn watched(
+    recording: &Path,
+    arguments: &HealthArguments,
+    notes: &mut Vec<String>,
+) -> Result<(Health, String), CliError> {
     let options = ReaderOptions::default();
-    let Opened { rows: mut reader, bar, name } =
-        Opened::open(&arguments.recording, &arguments.topics, options, notes)?;
+    let Opened { rows: mut reader, bar, name } = Opened::open(recording, &arguments.topics, options, notes)?;
     let temperature = arguments
         .celsius
         .map(KnownTemperature::Constant)
@@ -119,7 +136,7 @@ fn watched(arguments: &HealthArguments, notes: &mut Vec<String>) -> Result<(Heal
     }
     bar.finish_and_clear();
     if rows.samples() == 0 {
-        return Err(CliError::NoRows { path: arguments.recording.clone() });
+        return Err(CliError::NoRows { path: recording.to_owned() });
     }
     Ok((rows.finish(), name))
 }

@@ -44,13 +44,16 @@ pub(super) fn check(
     inputs: &[&Path],
     outputs: &[&Path],
 ) -> Result<(), CliError> {
+    if inputs.iter().filter(|input| is_standard(input)).count() > 1 {
+        return Err(CliError::StdinTwice);
+    }
     let inputs: Vec<Place> = inputs.iter().filter_map(|input| Place::of(input)).collect();
     let mut taken: Vec<(Place, &Path)> = Vec::new();
     let mut standard = false;
     for output in outputs {
         if is_standard(output) {
             if standard {
-                return Err(CliError::OneFile { first: output.into(), second: output.into() });
+                return Err(CliError::StdoutTwice);
             }
             standard = true;
         }

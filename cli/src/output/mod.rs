@@ -2,7 +2,7 @@
 
 mod guard;
 mod printable;
-pub(crate) mod standard;
+mod standard;
 mod unfinished;
 mod whole;
 
@@ -13,11 +13,12 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 pub(crate) use printable::printable;
-pub(crate) use standard::is_standard;
+pub(crate) use standard::{is_standard, shown};
 pub(crate) use unfinished::remove_all as remove_unfinished;
 pub(crate) use whole::Whole;
 
 use crate::error::CliError;
+use crate::verbosity::is_quiet;
 
 /// What every command that writes files asks.
 #[derive(Clone, Copy, Debug, Default, Args)]
@@ -59,6 +60,11 @@ impl Outputs {
         Ok(Self { overwrite, to_stdout, written: RefCell::default() })
     }
 
+    /// The same of a part of the run that speaks of its own files alone.
+    pub(crate) fn part(&self) -> Self {
+        Self { written: RefCell::default(), ..*self }
+    }
+
     /// Begins a file. It appears when it is finished, and is then among those that [`say`](Self::say) names.
     pub(crate) fn create(&self, what: &'static str, path: &Path) -> Result<Whole, CliError> {
         let file = Whole::create(what, path, self.overwrite)?;
@@ -75,7 +81,7 @@ impl Outputs {
         file.finish()
     }
 
-    /// Prints a text, what to mind, and what was written.
+    /// Prints a text, what to mind, and what was written; if anything was, unless the run is to be quiet.
     pub(crate) fn say(&self, text: &str, notes: &[String]) -> Result<(), CliError> {
         let mut text = text.to_owned();
         for note in notes {
@@ -85,7 +91,13 @@ impl Outputs {
         if !written.is_empty() {
             text.push_str(&format!("\n{written}"));
         }
-        self.print(&text)
+        self.tell(&text)
+    }
+
+    /// Prints what is said of files that were written, unless the run is to be quiet.
+    pub(crate) fn tell(&self, text: &str) -> Result<(), CliError> {
+        let is_beside = self.to_stdout || !self.written.borrow().is_empty();
+        if is_beside && is_quiet() { Ok(()) } else { self.print(text) }
     }
 
     /// Prints to the standard output, or to the standard error if the former is one of the files.

@@ -10,6 +10,7 @@ use tempfile::{Builder, NamedTempFile};
 use super::standard::is_standard;
 use super::unfinished::Unfinished;
 use crate::error::CliError;
+use crate::verbosity::detail;
 
 /// A file that is written beside its place, as `name.unfinished-….ending`, and takes it when it is
 /// [finished](Self::finish); until then, and if it never is, whatever was there stays. Devices and pipes are written
@@ -60,7 +61,12 @@ impl Whole {
     /// Puts the file into its place.
     pub(crate) fn finish(self) -> Result<(), CliError> {
         let Self { out, what, path, overwrite } = self;
-        out.finish(overwrite).map_err(|source| CliError::write(what, &path, source))
+        out.finish(overwrite).map_err(|source| CliError::write(what, &path, source))?;
+        detail(|| match fs::metadata(&path) {
+            Ok(meta) => format!("wrote {what} {}: {} bytes", path.display(), meta.len()),
+            Err(_) => format!("wrote {what}"),
+        });
+        Ok(())
     }
 }
 

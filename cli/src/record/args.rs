@@ -47,7 +47,4 @@ pub(crate) struct RecordArguments {
     /// How long a sensor may be silent before it is lost
     #[arg(long, value_name = "S", default_value_t = 3.0)]
     pub(crate) silence: f64,
-    /// Print nothing but errors
-    #[arg(short, long)]
-    pub(crate) quiet: bool,
 }

@@ -19,6 +19,7 @@ use crate::scene::load_or_simulated;
 use crate::sensor::{self, Event, Reading, SensorError, Stream, StreamOptions};
 use crate::stop::Stop;
 use crate::table::{count, number, short};
+use crate::verbosity::is_quiet;
 
 /// How often the terminal is told how far it is.
 const NEWS: Duration = Duration::from_millis(500);
@@ -78,9 +79,7 @@ pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
     let summary = recording.finish(&stream)?;
     match (ended, summary) {
         (ended, Some(summary)) => {
-            if !arguments.quiet {
-                outputs.print(&summary)?;
-            }
+            outputs.tell(&summary)?;
             ended
         }
         (Ok(()), None) => Err(fault(SensorError::NoSample)),
@@ -102,6 +101,7 @@ struct Recording<'a> {
     faults: u64,
     first: Option<f64>,
     last: f64,
+    is_quiet: bool,
     /// On the standard error, if that is a terminal.
     news: Option<ProgressBar>,
     told: Instant,
@@ -109,9 +109,11 @@ struct Recording<'a> {
 
 impl<'a> Recording<'a> {
     fn new(arguments: &'a RecordArguments, outputs: &'a Outputs) -> Self {
+        let is_quiet = is_quiet();
         Self {
             arguments,
             outputs,
+            is_quiet,
             output: None,
             rest: Rest::new(arguments.tare),
             epoch: 0.0,
@@ -122,7 +124,7 @@ impl<'a> Recording<'a> {
             faults: 0,
             first: None,
             last: f64::NEG_INFINITY,
-            news: (!arguments.quiet).then(ProgressBar::new_spinner),
+            news: (!is_quiet).then(ProgressBar::new_spinner),
             told: Instant::now(),
         }
     }
@@ -187,7 +189,7 @@ impl<'a> Recording<'a> {
     fn fault(&mut self, why: &str) -> Option<String> {
         self.faults += 1;
         let last = if self.faults == FAULTS_SHOWN { " (further ones are only counted)" } else { "" };
-        (self.faults <= FAULTS_SHOWN && !self.arguments.quiet).then(|| format!("{why}{last}"))
+        (self.faults <= FAULTS_SHOWN && !self.is_quiet).then(|| format!("{why}{last}"))
     }
 
     /// Prints a warning, above the line of news.
@@ -353,9 +355,9 @@ mod tests {
 
     #[test]
     fn one_sample_has_no_rate_and_none_no_file() {
-        let one = arguments("one", &["--quiet"]);
+        let one = arguments("one", &[]);
         let of_one = outputs(&one);
-        let mut recording = Recording::new(&one, &of_one);
+        let mut recording = Recording { is_quiet: true, ..Recording::new(&one, &of_one) };
         assert!(recording.finish(&over()).unwrap().is_none());
         assert_eq!(recording.fault("cut"), None);
         recording.take(4.0, &reading(1.0), None).unwrap();

@@ -9,7 +9,7 @@ use fingertip_scene::{Scene, VERSION};
 
 use super::{load, load_or_simulated};
 use crate::error::CliError;
-use crate::output::{self, Outputs, Overwrite};
+use crate::output::{self, Outputs, Overwrite, shown};
 use crate::report;
 
 /// What to do with scenes.
@@ -124,12 +124,12 @@ fn write_scene(init: &InitArguments) -> Result<(), CliError> {
         CliError::Scene(fingertip_scene::SceneError::Fault { path: init.output.clone(), fault })
     })?;
     outputs.write("scene", &init.output, &text)?;
-    outputs.print(&outputs.written())
+    outputs.tell(&outputs.written())
 }
 
 fn check(path: &Path) -> Result<(), CliError> {
     let scene = load(path)?;
-    let mut text = format!("{}: {}\n", path.display(), scene.name());
+    let mut text = format!("{}: {}\n", shown(path), scene.name());
     for line in scene.meaning() {
         let _ = writeln!(text, "  {line}");
     }
@@ -143,7 +143,7 @@ fn show(path: &PathBuf, output: &PathBuf, overwrite: Overwrite) -> Result<(), Cl
     let outputs = Outputs::guard(overwrite, "page", [path], [output])?;
     let scene = load_or_simulated(path)?;
     outputs.write("page", output, &report::of_scene(&scene))?;
-    outputs.print(&outputs.written())
+    outputs.tell(&outputs.written())
 }
 
 fn choices(section: Option<&str>) -> Result<(), CliError> {

@@ -10,11 +10,18 @@ use fingertip_scene::{BadCarried, BadSensor, Scene, SceneError, SceneProblem};
 
 pub(crate) use simulated::least_static_coefficient;
 
-use crate::calibrate::files::bad;
+use crate::calibrate::files::{bad, text};
 use crate::error::CliError;
+use crate::output::{is_standard, shown};
+use crate::verbosity::detail;
 
-/// Reads and checks a scene.
+/// Reads and checks a scene; `-` is the standard input, whose files are looked for where the command runs.
 pub(crate) fn load(path: &Path) -> Result<Scene, CliError> {
+    if is_standard(path) {
+        let fault = |fault| CliError::Scene(SceneError::Fault { path: shown(path).into(), fault });
+        return Scene::parse(&text("scene", path)?, "scene", Path::new("")).map_err(fault);
+    }
+    detail(|| format!("reads scene {}", shown(path)));
     Scene::load(path).map_err(|error| match error {
         SceneError::Unreadable { path, source } => CliError::read("scene", &path, source),
         other => CliError::Scene(other),

@@ -1,6 +1,5 @@
 //! What the simulated sensor feels: the true load of a scenario, and noise.
 
-use std::fs;
 use std::path::Path;
 
 use fingertip::wrench::Wrench;
@@ -11,7 +10,9 @@ use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64Mcg;
 
 use super::args::{Scenario, SimulateArguments};
+use crate::calibrate::files::text;
 use crate::error::CliError;
+use crate::output::shown;
 
 /// Torque noise per force noise \[m\]: what a small six-axis sensor has.
 const NOISE_ARM: f64 = 5e-3;
@@ -77,9 +78,9 @@ impl Load {
 }
 
 fn read(path: &Path) -> Result<Script, CliError> {
-    let text = fs::read_to_string(path).map_err(|source| CliError::read("script", path, source))?;
+    let text = text("script", path)?;
     toml::from_str(&text)
-        .map_err(|error| CliError::Simulate { message: format!("script {}: {error}", path.display()) })
+        .map_err(|error| CliError::Simulate { message: format!("script {}: {error}", shown(path)) })
 }
 
 fn script(scenario: Scenario) -> Script {

@@ -190,6 +190,96 @@ fn recordings_come_and_go_through_pipes() {
     assert_eq!(Contacts::parse(&String::from_utf8(output.stdout).unwrap()).len(), 5);
     let error = folder.fail(1, &["convert", "a.csv", "-"]);
     assert!(error.contains("the same kind"), "{error}");
+    let whole = with_stdin(&folder, &["recover", "-", "-"], "a.mcap").stdout;
+    fs::write(folder.path("b.mcap"), whole).unwrap();
+    assert!(folder.succeed(&["info", "b.mcap"]).starts_with("b.mcap: MCAP, 400 messages\n"));
+    let whole = with_stdin(&folder, &["recover", "-", "-"], "a.csv").stdout;
+    assert_eq!(String::from_utf8(whole).unwrap(), folder.read("a.csv"));
+    let json = with_stdin(&folder, &["export", "-", "--json", "-"], "scene.toml").stdout;
+    assert_eq!(String::from_utf8(json).unwrap(), folder.succeed(&["export", "scene.toml", "--json", "-"]));
+    let said = with_stdin(&folder, &["scene", "check", "-"], "scene.toml").stdout;
+    assert!(String::from_utf8(said).unwrap().starts_with("standard input: "));
+    folder.write(
+        "matrix.csv",
+        "1,0,0,0,0,0\n0,1,0,0,0,0\n0,0,1,0,0,0\n0,0,0,1,0,0\n0,0,0,0,1,0\n0,0,0,0,0,1\n",
+    );
+    let units = ["--signal", "V", "--force", "N", "--torque", "Nm", "--full-scale", "30,0.3"];
+    let import: Vec<&str> =
+        ["import", "-", "--matrix", "load-per-signal", "-o", "-"].into_iter().chain(units).collect();
+    let toml = String::from_utf8(with_stdin(&folder, &import, "matrix.csv").stdout).unwrap();
+    assert!(toml.contains("source = \"standard input\""), "{toml}");
+    let error = folder.fail(1, &["analyze", "-", "--scene", "-"]);
+    assert!(error.contains("the standard input can be read once"), "{error}");
+}
+
+/// Each has files of its own, and one that is bad does not keep the others from being done.
+#[test]
+fn several_recordings_are_analysed_one_by_one() {
+    let folder = Folder::new();
+    folder.write("scene.toml", SCENE);
+    two_wrists(&folder, "a.mcap", 200, Compression::None);
+    folder.succeed(&["convert", "a.mcap", "first.csv", "--topic", "/left/ft"]);
+    folder.succeed(&["convert", "a.mcap", "second.csv", "--topic", "/right/ft"]);
+    folder.write("bad.csv", "nothing\n");
+    let scene = ["--scene", "scene.toml"];
+    let all = ["analyze", "first.csv", "bad.csv", "second.csv"];
+    let error = folder.fail(1, &[&all[..], &scene].concat());
+    assert!(
+        error.contains("bad.csv")
+            && error.ends_with("error: 1 of 3 recordings failed; the others were done\n")
+    );
+    for name in ["first", "second"] {
+        let recording = format!("{name}.csv");
+        folder.succeed(&[&["analyze", &recording, "--overwrite"], &scene[..]].concat());
+        assert_eq!(folder.read(&format!("{name}.contacts.csv")), folder.read("contacts.csv"), "{name}");
+        assert_eq!(folder.read(&format!("{name}.report.html")), folder.read("report.html"), "{name}");
+    }
+    assert!(!folder.path("bad.contacts.csv").exists() && !folder.path("bad.report.html").exists());
+    let lines = folder
+        .succeed(&[&["analyze", "first.csv", "second.csv", "--json", "--overwrite"], &scene[..]].concat());
+    assert_eq!(lines.lines().filter(|line| line.starts_with('{') && line.ends_with('}')).count(), 2);
+    let error =
+        folder.fail(1, &[&["analyze", "first.csv", "second.csv", "--output", "-"], &scene[..]].concat());
+    assert!(error.contains("cannot share the standard output"), "{error}");
+    let error =
+        folder.fail(1, &[&["analyze", "first.csv", "./first.csv", "--overwrite"], &scene[..]].concat());
+    assert!(error.contains("are the same file"), "{error}");
+    // The same of `health`.
+    folder.run(&["health", "first.csv", "second.csv", "--html", "page.html", "--json", "all.json"]);
+    for name in ["first", "second"] {
+        assert!(folder.read(&format!("{name}.page.html")).contains(&format!("{name}.csv")));
+        assert!(folder.read(&format!("{name}.all.json")).contains("\"samples\": 200"));
+    }
+}
+
+#[test]
+fn a_run_says_as_much_as_is_asked_for() {
+    let folder = Folder::new();
+    folder.write("scene.toml", SCENE);
+    two_wrists(&folder, "a.mcap", 50, Compression::None);
+    folder.succeed(&["convert", "a.mcap", "a.csv", "--topic", "/left/ft"]);
+    let analyze = ["analyze", "a.csv", "--scene", "scene.toml", "--overwrite"];
+    let quiet = folder.run(&[&analyze[..], &["-q"]].concat());
+    assert!(quiet.status.success() && quiet.stdout.is_empty() && quiet.stderr.is_empty(), "{quiet:?}");
+    assert!(!folder.read("contacts.csv").is_empty());
+    let to_stdout = folder.run(&[&["--quiet"], &analyze[..], &["--no-report", "--output", "-"]].concat());
+    assert_eq!(String::from_utf8(to_stdout.stdout).unwrap(), folder.read("contacts.csv"));
+    assert!(to_stdout.stderr.is_empty());
+    // What a command is asked for is said all the same.
+    assert_eq!(folder.succeed(&["info", "a.csv", "-q"]), folder.succeed(&["info", "a.csv"]));
+    assert!(folder.fail(1, &["info", "none.csv", "-q"]).contains("none.csv"));
+    let verbose = folder.run(&[&analyze[..], &["-v"]].concat());
+    assert_eq!(verbose.stdout, folder.run(&analyze).stdout);
+    let said = String::from_utf8(verbose.stderr).unwrap();
+    let lines: Vec<&str> = said.lines().collect();
+    let bytes = |name: &str| fs::metadata(folder.path(name)).unwrap().len();
+    let [scene, recording, contacts, report, took] = lines[..] else { panic!("{said}") };
+    assert_eq!(scene, "reads scene scene.toml");
+    assert_eq!(recording, format!("reads recording a.csv: {} bytes", bytes("a.csv")));
+    assert_eq!(contacts, format!("wrote contacts contacts.csv: {} bytes", bytes("contacts.csv")));
+    assert_eq!(report, format!("wrote report report.html: {} bytes", bytes("report.html")));
+    assert!(took.starts_with("took ") && took.ends_with(" s"), "{took}");
+    assert!(folder.fail(2, &["info", "a.csv", "-q", "-v"]).contains("cannot be used with"));
 }
 
 #[test]

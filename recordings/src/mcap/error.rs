@@ -12,7 +12,7 @@ pub enum McapError {
     #[error("the file ends in the middle: it was cut, or its recorder was killed")]
     Cut,
     /// The file is damaged or packed in a way that is not read, or the system refuses.
-    #[error("MCAP: {0}")]
+    #[error("MCAP: {}", said(.0))]
     File(#[from] ::mcap::McapError),
     /// A length in a record is beyond its bytes.
     #[error("MCAP: {what} says {stated} bytes where {found} are left")]
@@ -65,5 +65,13 @@ impl McapError {
 impl From<std::io::Error> for McapError {
     fn from(error: std::io::Error) -> Self {
         Self::File(error.into())
+    }
+}
+
+/// What the library says, or what the system has told it.
+fn said(error: &::mcap::McapError) -> String {
+    match error {
+        ::mcap::McapError::Io(refused) => refused.to_string(),
+        other => other.to_string(),
     }
 }
