@@ -124,6 +124,29 @@ fn bad_numbers<T: Real>() {
     assert_eq!(found, GripOutcome::Undecided);
 }
 
+/// What leaves the range of the type in the units of the load is said, whichever number it is.
+#[test]
+fn what_leaves_the_range_is_said() {
+    let grasp = two(true, 0.5, 0.02);
+    let weight = Wrench::on_fingertip(-Vector3::z() * 1e-20, Vector3::zeros());
+    let far = FingerLimits::<f64, 2>::none().with_greatest_normal(1e300).unwrap();
+    assert_eq!(LeastGrip::new().solve(&grasp, &[far; 2], &weight), GripOutcome::NotFinite);
+    let mut jacobian = SMatrix::<f64, 6, 1>::zeros();
+    jacobian[0] = 1.0;
+    let strong = FingerLimits::<f64, 2>::none().with_joint_torques(&jacobian, &[1e300]).unwrap();
+    assert_eq!(LeastGrip::new().solve(&grasp, &[strong; 2], &weight), GripOutcome::NotFinite);
+    jacobian[0] = 1e308;
+    jacobian[1] = 1e308;
+    let steep = FingerLimits::<f64, 2>::none().with_joint_torques(&jacobian, &[1.0]).unwrap();
+    let leaning = Vector3::new(1.0, 1.0, 0.0);
+    let leans =
+        |side: f64| Place { point: Vector3::x() * side, normal: -leaning * side, friction: 5.0, arm: None };
+    let grasp = Grasp::new([leans(-0.02).contact(), leans(0.02).contact()].map(Some));
+    let weight = Wrench::on_fingertip(-Vector3::z(), Vector3::zeros());
+    assert_eq!(LeastGrip::new().solve(&grasp, &[steep; 2], &weight), GripOutcome::NotFinite);
+    assert_eq!(grasp.reach(&[steep; 2], &weight, &weight), Reach::Unknown);
+}
+
 #[test]
 fn bad_numbers_are_said() {
     bad_numbers::<f64>();
@@ -135,7 +158,16 @@ fn constructors_name_what_is_wrong() {
     let (at, z) = (Vector3::<f64>::zeros(), Vector3::z());
     type Contact = GraspContact<f64, Hand>;
     assert_eq!(Contact::point(at, z, 0.0), Err(BadContact::BadFriction));
-    assert_eq!(Contact::soft(at, z, 0.5, f64::NAN), Err(BadContact::BadArm));
+    for bad in [f64::NAN, f64::INFINITY, -1.0, 0.0] {
+        assert_eq!(Contact::point(at, z, bad), Err(BadContact::BadFriction));
+        assert_eq!(Contact::soft(at, z, 0.5, bad), Err(BadContact::BadArm));
+        assert_eq!(Contact::point(at, z, 0.5).unwrap().with_safety(bad), Err(BadContact::BadSafety));
+        let finger = FingerLimits::<f64, 2>::none();
+        assert!(finger.with_greatest_normal(bad).is_err() && finger.with_least_normal(bad).is_err());
+        assert!(finger.with_cost(bad).is_err());
+    }
+    assert_eq!(Contact::point(at, z, 0.5).unwrap().with_safety(1.0), Contact::point(at, z, 0.5));
+    assert_eq!(Contact::point(at, z, 1e-300).unwrap().with_safety(1e300), Err(BadContact::BadSafety));
     assert_eq!(Contact::point(at, z, 0.5).unwrap().with_safety(0.9), Err(BadContact::BadSafety));
     let sure = UncertainCoulomb::new(0.6, 0.1, None).unwrap();
     let contact = Contact::with_uncertain(at, z, &sure, 0.01).unwrap();
@@ -145,7 +177,19 @@ fn constructors_name_what_is_wrong() {
     let limits = FingerLimits::<f64, 2>::none().with_least_normal(1.0).unwrap();
     let error = limits.with_greatest_normal(0.5).unwrap_err();
     assert_eq!(error.to_string(), "the greatest normal force must be at least the least normal force");
+    // Just as much is a grip of one force.
+    assert!(limits.with_greatest_normal(1.0).is_ok());
     let jacobian = SMatrix::<f64, 6, 1>::zeros();
+    assert!(
+        FingerLimits::<f64, 3>::none()
+            .with_least_normal(1.0)
+            .unwrap()
+            .with_joint_torques(&jacobian, &[1.0])
+            .is_ok()
+    );
+    let jointed = FingerLimits::<f64, 3>::none().with_joint_torques(&jacobian, &[1.0]).unwrap();
+    let both = jointed.with_least_normal(1.0).unwrap().with_greatest_normal(2.0);
+    assert_eq!(both, Err(BadLimit::NoRoom { room: 3, needed: 4 }));
     let error = limits.with_joint_torques(&jacobian, &[1.0]).unwrap_err();
     assert_eq!(error, BadLimit::NoRoom { room: 2, needed: 3 });
     assert_eq!(error.to_string(), "the limits of a finger need 3 rows, and its type has 2");

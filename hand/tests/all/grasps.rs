@@ -180,7 +180,9 @@ fn covariance_moves_with_the_frame() {
         points += error * error.transpose();
     }
     assert!((points - moved.point_covariance).amax() < 1e-14);
-    let both = UncertainWrench::total(&[Some(moved.load), None, Some(moved.load)]);
+    let felt = Vector6::from_fn(|i, _| 1.0 + i as f64);
+    let other = UncertainWrench { wrench: Wrench::from_components(&felt), ..moved.load };
+    let both = UncertainWrench::total(&[Some(other), None, Some(other)]);
     assert!((both.covariance - sum * 2.0).amax() < 1e-13 * sum.amax());
-    assert_eq!(Vector6::zeros(), both.wrench.components());
+    assert_eq!(felt * 2.0, both.wrench.components());
 }
