@@ -56,6 +56,15 @@ fn bearing_and_internal_forces_add_up_and_are_the_pseudo_inverse() {
         assert!((bearing - whole).force().norm() < 1e-9 * size);
         assert!((bearing - whole).torque().norm() < 1e-9 * size);
         assert!(internal.force().norm() < 1e-9 * size && internal.torque().norm() < 1e-9 * size);
+        for ((all, bearing), internal) in forces.iter().zip(&parts.bearing).zip(&parts.internal) {
+            assert!((bearing.normal + internal.normal - all.normal).abs() < 1e-9 * size);
+            let tangential =
+                bearing.tangential.vector() + internal.tangential.vector() - all.tangential.vector();
+            assert!(
+                tangential.norm() < 1e-9 * size
+                    && (bearing.spin + internal.spin - all.spin).abs() < 1e-9 * size
+            );
+        }
         // The length of the bearing part is that of the pseudo-inverse of a matrix that is built otherwise.
         let map = dense(&grasp);
         let about = whole.torque_about(&grasp.centre()) / grasp.length();

@@ -48,3 +48,28 @@ fn what_is_held_is_as_exact_as_asked() {
         as_exact_as_asked::<f32>(tolerance);
     }
 }
+
+/// A hand that lets go of much and takes up little, or the other way, gets as exact an answer as one that starts anew.
+#[test]
+fn what_was_held_before_does_not_blunt_the_next() {
+    let mut rng = Pcg64Mcg::seed_from_u64(35);
+    let touching = 4;
+    let grasp = Grasp::new(places::<4>(&mut rng, touching).map(|p| p.map(|p| p.contact::<f64>())));
+    let limits = [FingerLimits::<f64, 0>::none(); 4];
+    let load = Wrench::from_force_at(&grasp.centre(), grasp.contacts()[0].unwrap().normal() * -1.0);
+    let unit = LeastGrip::new().solve(&grasp, &limits, &load).grip().unwrap().cost;
+    for power in -20..=20 {
+        for other in [-power, power / 2, power + 1, power + 3, power - 4] {
+            let (first, second) = (2_f64.powi(power), 2_f64.powi(other));
+            let mut least = LeastGrip::new();
+            assert!(least.solve(&grasp, &limits, &(load * first)).grip().is_some());
+            let found = least.solve(&grasp, &limits, &(load * second));
+            let grip = found.grip().unwrap();
+            assert!((grip.cost / (unit * second) - 1.0).abs() < 1e-7, "{first} {second}: {}", grip.cost);
+            assert!(
+                grip.gap() < 1e-7 && grip.imbalance.force().amax() < 1e-7 * second,
+                "{first} {second}: {grip:?}"
+            );
+        }
+    }
+}
