@@ -139,7 +139,7 @@ fn six_soft_fingers_by_formula() {
 fn the_certificate_is_that_of_its_axes() {
     let mut rng = Pcg64Mcg::seed_from_u64(54);
     let (mut closed, mut one_sided) = (0, 0);
-    while closed < 24 {
+    while closed < 12 {
         let grasp = Grasp::new(places::<4>(&mut rng, 4).map(|p| p.map(|p| p.contact::<f64>())));
         if grasp.force_closure() != Some(true) {
             continue;
@@ -161,7 +161,7 @@ fn the_certificate_is_that_of_its_axes() {
             assert!((ball.certified / certified - 1.0).abs() < 1e-4, "{} {certified}", ball.certified);
         }
     }
-    assert!(one_sided > 50, "{one_sided}");
+    assert!(one_sided > 25, "{one_sided}");
 }
 
 /// The same ball in the same metric, wherever the grasp is, however it is turned, and in any unit of length.
@@ -169,7 +169,7 @@ fn the_certificate_is_that_of_its_axes() {
 fn ball_moves_with_its_grasp() {
     let mut rng = Pcg64Mcg::seed_from_u64(51);
     let mut closed = 0;
-    for _ in 0..25 {
+    for _ in 0..10 {
         let grasp = Grasp::new(places::<4>(&mut rng, 4).map(|p| p.map(|p| p.contact::<f64>())));
         let turn: RigidTransform<f64, TestHand, TestHand> =
             RigidTransform::from_axis_angle(vector(&mut rng) * 3.0, vector(&mut rng)).unwrap();
@@ -190,7 +190,7 @@ fn ball_moves_with_its_grasp() {
             closed += u32::from(here.found > 0.0);
         }
     }
-    assert!(closed > 15, "{closed}");
+    assert!(closed > 5, "{closed}");
 }
 
 /// No search from other starts, by other steps, finds much less; the mean says how often it finds anything less.
@@ -198,7 +198,7 @@ fn ball_moves_with_its_grasp() {
 fn another_search_finds_nothing_less() {
     let mut rng = Pcg64Mcg::seed_from_u64(52);
     let (mut closed, mut sum) = (0, 0.0);
-    while closed < 24 {
+    while closed < 14 {
         let grasp = Grasp::new(places::<4>(&mut rng, 4).map(|p| p.map(|p| p.contact::<f64>())));
         for metric in [Metric::Total { length: 0.03 }, Metric::Each { length: 0.03 }] {
             let ball = grasp.ball(metric).unwrap();
@@ -207,7 +207,7 @@ fn another_search_finds_nothing_less() {
             }
             closed += 1;
             let mut least = f64::MAX;
-            for _ in 0..60 {
+            for _ in 0..40 {
                 let mut u = Vector6::from_fn(|_, _| rng.random_range(-1.0..1.0)).normalize();
                 let mut step = 0.3;
                 let mut here = support(&grasp, &u, metric);
@@ -232,7 +232,7 @@ fn another_search_finds_nothing_less() {
 fn without_closure_a_load_is_told_that_none_holds() {
     let mut rng = Pcg64Mcg::seed_from_u64(53);
     let mut open = 0;
-    for _ in 0..150 {
+    for _ in 0..100 {
         let touching = rng.random_range(1..=4);
         let grasp = Grasp::new(places::<4>(&mut rng, touching).map(|p| p.map(|p| p.contact::<f64>())));
         if grasp.force_closure() != Some(false) {
@@ -249,7 +249,7 @@ fn without_closure_a_load_is_told_that_none_holds() {
         let found = LeastGrip::new().solve(&grasp, &[FingerLimits::<f64, 0>::none(); 4], &load);
         assert!(matches!(found, GripOutcome::CannotHold(_)), "{found:?}");
     }
-    assert!(open > 60, "{open}");
+    assert!(open > 40, "{open}");
 }
 
 /// A certificate is never more than what is borne, friction without bound or without any: where its squares leave the
@@ -276,7 +276,7 @@ fn extreme_friction_is_not_overstated() {
 fn single_precision_finds_the_same_ball() {
     let mut rng = Pcg64Mcg::seed_from_u64(55);
     let (mut closed, mut certified) = (0, 0);
-    for _ in 0..40 {
+    for _ in 0..16 {
         let places = places::<4>(&mut rng, 4);
         let wide = Grasp::new(places.map(|p| p.map(|p| p.contact::<f64>())));
         let single = Grasp::new(places.map(|p| p.map(|p| p.contact::<f32>())));
@@ -297,5 +297,5 @@ fn single_precision_finds_the_same_ball() {
         }
     }
     // Where a program is not decided there is no certificate.
-    assert!(closed > 10 && certified * 10 > closed * 7, "{certified} of {closed}");
+    assert!(closed > 4 && certified * 10 > closed * 7, "{certified} of {closed}");
 }

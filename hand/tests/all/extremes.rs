@@ -7,7 +7,7 @@ use fingertip_hand::{
     Reach,
 };
 use fingertip_wrench::{ContactForce, Frame, Real, Wrench};
-use nalgebra::{Matrix6, SMatrix, Vector3};
+use nalgebra::{SMatrix, Vector3};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -375,9 +375,10 @@ proptest! {
         let _ = grasp.force_closure();
         let reach = grasp.reach(&limits, &load, &Wrench::on_fingertip(vector(0), vector(3)));
         prop_assert!(!matches!(reach, Reach::Times(times) if times.is_nan()));
-        if let Some(ball) = grasp.ball(Metric::Total { length: numbers[7].abs() }) {
+        // One in eight, since it takes some hundred programs.
+        let metric = Metric::Total { length: numbers[7].abs() };
+        if numbers[35].to_bits() % 8 == 3 && let Some(ball) = grasp.ball(metric) {
             prop_assert!(!(ball.found.is_nan() || ball.certified.is_nan()));
         }
-        let _ = Matrix6::<f64>::zeros();
     }
 }

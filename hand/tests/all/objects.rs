@@ -98,7 +98,21 @@ fn refuses<T: Real>() {
     }
     assert!(!weight.observe(&load(1.0, Matrix6::zeros()), &down));
     assert!(!weight.observe(&load(1.0, -one), &down));
+    // Two components that tell the same but for rounding, in any unit.
+    for unit in [2_f64.powi(-50), 1.0, 2_f64.powi(50)] {
+        for (more, tells) in [(T::EPSILON * T::literal(0.9), false), (T::EPSILON * T::literal(64.0), true)] {
+            let mut alike = one;
+            (alike[(4, 5)], alike[(5, 4)], alike[(5, 5)]) = (T::one(), T::one(), T::one() + more);
+            let mut other = ObjectWeight::<T>::new();
+            assert_eq!(other.observe(&load(1.0, alike * T::literal(unit)), &down), tells, "{unit}");
+        }
+    }
     assert_eq!(weight, ObjectWeight::new());
+    // So little gravity that the deviation leaves the range, though the mass does not.
+    let mut weightless = weight;
+    let little = down * (T::LEAST_NORMAL * T::literal(0.01));
+    assert!(weightless.observe(&load(0.0, one), &little));
+    assert!(weightless.mass().is_none());
     // Without gravity nothing is learnt of the mass.
     assert!(weight.observe(&load(1.0, one), &Vector3::zeros()));
     assert!(weight.mass().is_none());
