@@ -230,3 +230,37 @@ fn reach_without_a_disturbance_and_in_any_units() {
         }
     }
 }
+
+/// Two points whose line runs along the edge of both friction cones: what is across it takes the more force the less is
+/// pressed into the cones, without bound. With a little pressed in there is no end, with a little pulled out there is
+/// nothing, and with neither no number of times is made up.
+#[test]
+fn at_the_edge_of_friction_no_reach_is_made_up() {
+    let mut unknown = 0;
+    for friction in [0.2, 0.5, 1.0] {
+        for turn in 0..12 {
+            let axis = Vector3::new(0.3, -0.5, 0.8).normalize();
+            let turn =
+                nalgebra::Rotation3::from_axis_angle(&nalgebra::Unit::new_normalize(axis), f64::from(turn));
+            let at = |side: f64| {
+                let inward = turn * Vector3::new(-side, friction, 0.0);
+                GraspContact::<f64, Hand>::point(turn * Vector3::x() * (0.03 * side), inward, friction).ok()
+            };
+            let grasp = Grasp::new([at(-1.0), at(1.0)]);
+            let none = [FingerLimits::<f64, 0>::none(); 2];
+            let across = Wrench::on_fingertip(turn * Vector3::z(), Vector3::zeros());
+            let pressed =
+                |newtons: f64| Wrench::on_fingertip(turn * Vector3::y() * -newtons, Vector3::zeros());
+            let pressed_in = grasp.reach(&none, &pressed(0.1), &across);
+            assert!(matches!(pressed_in, Reach::Unlimited | Reach::Unknown), "{friction}: {pressed_in:?}");
+            let pulled_out = grasp.reach(&none, &pressed(-0.1), &across);
+            assert!(matches!(pulled_out, Reach::NotHeld | Reach::Unknown), "{friction}: {pulled_out:?}");
+            match grasp.reach(&none, &pressed(0.0), &across) {
+                Reach::Times(times) => assert!(times < 1e-3, "{friction}: {times}"),
+                Reach::Unknown => unknown += 1,
+                other => panic!("{friction}: {other:?}"),
+            }
+        }
+    }
+    println!("{unknown} unknown");
+}
