@@ -45,6 +45,8 @@ mod trace;
 #[cfg(test)]
 mod trace_tests;
 mod watch;
+#[cfg(test)]
+mod watch_tests;
 mod zero_steps;
 
 pub use channel::{Kind, WatchedChannel};

@@ -171,12 +171,12 @@ impl HealthWatch {
     /// Zero steps, sensor by sensor.
     fn steps(&self, quiet: &[Quiet]) -> Vec<zero_steps::ZeroStep> {
         let mut steps = Vec::new();
-        for (number, channel) in self.channels.iter().enumerate().filter(|(_, channel)| !channel.is_derived) {
-            let is_first = !self.channels.iter().take(number).any(|before| before.is_beside(channel));
-            if is_first {
-                let beside =
-                    |(other, watched): (usize, &WatchedChannel)| watched.is_beside(channel).then_some(other);
-                let members: Vec<usize> = self.channels.iter().enumerate().filter_map(beside).collect();
+        let own = || self.channels.iter().enumerate().filter(|(_, channel)| !channel.is_derived);
+        for (number, channel) in own() {
+            let beside = || own().filter(|(_, other)| other.is_beside(channel)).map(|(other, _)| other);
+            // Once for all that are beside each other.
+            if beside().next() == Some(number) {
+                let members: Vec<usize> = beside().collect();
                 steps.extend(zero_steps::find(&self.trace, quiet, &members));
             }
         }
