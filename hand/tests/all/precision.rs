@@ -73,3 +73,31 @@ fn what_was_held_before_does_not_blunt_the_next() {
         }
     }
 }
+
+/// Where limits are what holds the forces, a start from the last solution saves as many steps as where friction does.
+#[test]
+fn limits_that_are_met_are_started_from() {
+    let mut rng = Pcg64Mcg::seed_from_u64(36);
+    let (mut warm_steps, mut cold_steps, mut met) = (0, 0, 0);
+    for _ in 0..60 {
+        let grasp = Grasp::new(places::<4>(&mut rng, 4).map(|p| p.map(|p| p.contact::<f64>())));
+        let limits = FingerLimits::<f64, 2>::none().with_least_normal(1.0).unwrap();
+        let limits = [limits.with_greatest_normal(60.0).unwrap(); 4];
+        let mut warm = LeastGrip::new();
+        let load = Wrench::from_force_at(&grasp.centre(), vector(&mut rng));
+        for sample in 0..12 {
+            let load = load * (1.0 + 1e-3 * f64::from(sample));
+            let (again, fresh) =
+                (warm.solve(&grasp, &limits, &load), LeastGrip::new().solve(&grasp, &limits, &load));
+            if let (GripOutcome::Held(again), GripOutcome::Held(fresh)) = (again, fresh) {
+                assert!((again.cost / fresh.cost - 1.0).abs() < 1e-7);
+                met += u32::from(again.forces.iter().any(|force| force.normal < 1.0 + 1e-6));
+                if sample > 0 {
+                    (warm_steps, cold_steps) = (warm_steps + again.steps, cold_steps + fresh.steps);
+                }
+            }
+        }
+    }
+    println!("{warm_steps} steps warm, {cold_steps} cold; {met} met");
+    assert!(met > 100 && warm_steps * 2 < cold_steps, "{met} {warm_steps} {cold_steps}");
+}
