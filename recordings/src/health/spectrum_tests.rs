@@ -99,6 +99,9 @@ fn joined_stretches_count_once_each() {
     let mean: Vec<f64> =
         (0..=LENGTH / 2).map(|b| each.iter().map(|p| p[b]).sum::<f64>() / count as f64).collect();
     same(&spectra.mean(0, 0, u64::MAX).unwrap().powers, &mean);
+    // Joined in pairs from the first on: all alike but the last.
+    let (last, whole) = spectra.segments.split_last().unwrap();
+    assert!(whole.iter().all(|segment| segment.stretches == 4) && last.stretches == 2);
     let mut at = 0;
     for segment in &spectra.segments {
         assert_eq!(segment.from, at);

@@ -310,8 +310,16 @@ fn steps_of_the_zero_are_told_exactly() {
     let quiet = [0, 1].map(|_| Quiet { variance: 1.0, step: 0.0, votes: true });
     assert_eq!(zero_steps::find(&trace, &quiet, &[0, 1]), []);
     assert_eq!((step(20, [30.0, 0.0]), step(1580, [30.0, 0.0])), (vec![], vec![]));
-    // A step of seven deviations may be noise.
+    // A step of five deviations may be noise.
     assert_eq!(step(805, [5.0, 0.0]), []);
+    // Where noise hides in the steps of the converter, eight deviations of √(1/12) and three steps are none: 5.31.
+    for (size, count) in [(5.3, 0), (5.32, 1), (-5.3, 0), (-5.32, 1)] {
+        let readings: Vec<[f64; 2]> =
+            (0..800).map(|i| [if i < 405 { 7.0 } else { 7.0 + size }, 0.0]).collect();
+        let quiet = [0, 1].map(|_| Quiet { variance: 1.0 / 12.0, step: 1.0, votes: true });
+        let found = zero_steps::find(&self::trace(&readings, 2048), &quiet, &[0, 1]);
+        assert_eq!(found.len(), count, "{size}: {found:?}");
+    }
 }
 
 /// Correlations of changes are those of all readings; weak ones, and those of few readings, are not told.
