@@ -156,6 +156,14 @@ fn a_gauge_that_loads_do_not_move_is_said() {
     assert_eq!(loaded(Kind::Signal, 3.1, 101.0, 3), []);
     assert_eq!(loaded(Kind::Signal, 2.9, 99.0, 3), []);
     assert_eq!(loaded(Kind::Signal, 2.9, 101.0, 2), []);
+    // A course from 100 to 103 is three deviations to the last bit, and moved.
+    let three = said(Kind::Signal, |h| {
+        for channel in &mut h.channels {
+            channel.course = course([100.0, 100.0, 400.0]);
+        }
+        h.channels[3].course = course([100.0, 103.0, 101.0]);
+    });
+    assert_eq!(three, []);
     // A load may well leave a component of the wrench where it is.
     assert_eq!(loaded(Kind::Force, 2.9, 101.0, 3), []);
     // Twice the noise, half the deviations.

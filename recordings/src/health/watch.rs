@@ -217,8 +217,7 @@ impl HealthWatch {
     fn course(&self, number: usize) -> Vec<Excursion> {
         let length = self.trace.blocks.len().div_ceil(Self::COURSE).max(1);
         let part = |blocks: &[Block]| {
-            let cells =
-                || blocks.iter().filter_map(|block| block.cells.get(number)).filter(|cell| cell.count > 0);
+            let cells = || blocks.iter().filter_map(|block| block.cells.get(number));
             let count: f64 = cells().map(|cell| f64::from(cell.count)).sum();
             let (first, last) = (blocks.first()?, blocks.last()?);
             (count > 0.0).then(|| Excursion {

@@ -210,3 +210,22 @@ fn steps_are_those_of_each_sensor() {
     ];
     assert_eq!(found, wanted);
 }
+
+/// Readings to both sides of a gap are not one stretch: what would stick if it were, does not.
+#[test]
+fn nothing_sticks_across_a_gap() {
+    let sticks = |held: usize, gap: bool| {
+        let mut readings = noise(7, 4000);
+        readings[2000..2000 + held].iter_mut().for_each(|reading| reading[0] = 3.125);
+        let mut watch = HealthWatch::new(gauges(&["a", "b"]), Depth::Brief);
+        for (i, reading) in readings.iter().enumerate() {
+            let late = if gap && i >= 2000 + held / 2 { 1.0 } else { 0.0 };
+            watch.add(Some(i as f64 * 0.01 + late), reading);
+        }
+        watch.finish().channels[0].at_fault > 0
+    };
+    let fewest = (2..200).find(|held| sticks(*held, false)).unwrap();
+    assert!(fewest > 2 && sticks(2 * fewest, false));
+    assert!(!sticks(fewest, true) && !sticks(2 * fewest - 2, true), "{fewest}");
+    assert!(sticks(2 * fewest + 2, true), "{fewest}");
+}
