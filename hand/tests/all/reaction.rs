@@ -163,6 +163,24 @@ fn a_finger_that_does_not_touch_keeps_its_command() {
     }
 }
 
+/// A contact whose friction, safety considered, is too small for a number holds nothing: its finger keeps its command.
+#[test]
+fn a_contact_without_friction_is_left_out() {
+    let limits = FingerLimits::<f64, 1>::none().with_least_normal(0.7).unwrap();
+    let mut hand = HandController::new(HandSettings { safety: 3.0, ..settings() }, [limits; 3]).unwrap();
+    let contact = GraspContact::point(Vector3::y() * 0.02, -Vector3::y(), 5e-324).unwrap();
+    let force = ContactForce::new(1.0, Vector3::zeros(), 0.0);
+    let slippery = Some(FingerSample { contact, force, slip: SlipVerdict::Holding });
+    for _ in 0..5 {
+        let holding = [-1.0, 1.0].map(|side| finger(side, pressed(), SlipVerdict::Holding));
+        let found = hand.command(&[holding[0], slippery, holding[1]], &(weight() * 3.0), STEP);
+        assert_eq!((found.state, found.normal[1]), (HandState::Holding, 0.7));
+    }
+    let mut alone = HandController::new(HandSettings { safety: 3.0, ..settings() }, [limits; 1]).unwrap();
+    let found = alone.command(&[slippery], &weight(), STEP);
+    assert_eq!((found.state, found.normal), (HandState::Blind, [0.7]));
+}
+
 /// Friction after so many slips, and never below the least (of a contact that has less, its own): with equal fingers the
 /// command is half of the weight, times safety, over it.
 #[test]
