@@ -80,7 +80,12 @@ fn all_fingers_at_one_point_and_none() {
     for load in [-pressed, Wrench::on_fingertip(-Vector3::z(), Vector3::zeros())] {
         assert!(matches!(LeastGrip::new().solve(&grasp, &none, &load), GripOutcome::CannotHold(_)));
     }
+    // Where there is no distance a torque counts by the metre.
+    assert_eq!(grasp.length(), 1.0);
+    let twisted = pressed + Wrench::on_fingertip(Vector3::zeros(), Vector3::z());
+    assert!(matches!(LeastGrip::new().solve(&grasp, &none, &twisted), GripOutcome::CannotHold(_)));
     let nothing = Grasp::<f64, 3, TestHand>::new([None; 3]);
+    assert_eq!(nothing.length(), 1.0);
     let found = LeastGrip::new().solve(&nothing, &none, &pressed);
     let GripOutcome::CannotHold(why) = found else { panic!("{found:?}") };
     assert!(why.power(&pressed) > 0.0 && why.excess > 0.0);
@@ -190,6 +195,11 @@ fn constructors_name_what_is_wrong() {
     let jointed = FingerLimits::<f64, 3>::none().with_joint_torques(&jacobian, &[1.0]).unwrap();
     let both = jointed.with_least_normal(1.0).unwrap().with_greatest_normal(2.0);
     assert_eq!(both, Err(BadLimit::NoRoom { room: 3, needed: 4 }));
+    let full =
+        FingerLimits::<f64, 3>::none().with_least_normal(1.0).unwrap().with_greatest_normal(2.0).unwrap();
+    assert_eq!(full.with_joint_torques(&jacobian, &[1.0]), Err(BadLimit::NoRoom { room: 3, needed: 4 }));
+    let half = FingerLimits::<f64, 2>::none().with_greatest_normal(2.0).unwrap();
+    assert_eq!(half.with_joint_torques(&jacobian, &[1.0]), Err(BadLimit::NoRoom { room: 2, needed: 3 }));
     let error = limits.with_joint_torques(&jacobian, &[1.0]).unwrap_err();
     assert_eq!(error, BadLimit::NoRoom { room: 2, needed: 3 });
     assert_eq!(error.to_string(), "the limits of a finger need 3 rows, and its type has 2");

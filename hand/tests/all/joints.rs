@@ -1,7 +1,8 @@
 //! Limits of joints, against another's solver and by what a joint feels.
 
-use fingertip_hand::{FingerLimits, Grasp, GripOutcome, LeastGrip};
-use nalgebra::{SMatrix, Vector6};
+use fingertip_hand::{FingerLimits, Grasp, GraspContact, GripOutcome, LeastGrip, Reach};
+use fingertip_wrench::Wrench;
+use nalgebra::{SMatrix, Vector3, Vector6};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -76,4 +77,21 @@ fn limits_of_joints_agree_with_clarabel() {
     }
     println!("{held} {not} {at_limit}");
     assert!(held > 150 && not > 150 && at_limit > 15, "{held} {not} {at_limit}");
+}
+
+/// From nothing, with nothing but joints to limit it, by formula: two drives of 10 N with friction 0.5 carry 10 N.
+#[test]
+fn joints_alone_limit_the_reach() {
+    let at = |side: f64| {
+        GraspContact::<f64, TestHand>::point(Vector3::x() * (side * 0.02), -Vector3::x() * side, 0.5)
+    };
+    let grasp = Grasp::new([at(-1.0).ok(), at(1.0).ok()]);
+    let mut jacobian = SMatrix::<f64, 6, 1>::zeros();
+    jacobian[0] = 1.0;
+    let limits = [FingerLimits::<f64, 2>::none().with_joint_torques(&jacobian, &[10.0]).unwrap(); 2];
+    for newtons in [1e-6, 1.0, 1e6] {
+        let down = Wrench::on_fingertip(-Vector3::z() * newtons, Vector3::zeros());
+        let Reach::Times(times) = grasp.reach(&limits, &Wrench::zero(), &down) else { panic!("{newtons}") };
+        assert!((times * newtons - 10.0).abs() < 1e-5, "{newtons}: {times}");
+    }
 }

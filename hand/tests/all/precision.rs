@@ -49,6 +49,49 @@ fn what_is_held_is_as_exact_as_asked() {
     }
 }
 
+/// The stated least cost is one however roughly the grip was looked for: none that a finer search finds is below it.
+#[test]
+fn the_least_cost_is_a_bound_at_any_tolerance() {
+    let mut rng = Pcg64Mcg::seed_from_u64(37);
+    let (mut held, mut rough) = (0, 0);
+    for index in 0..1_000 {
+        let crate::support::Problem { grasp, limits, load } = crate::support::problem::<5>(&mut rng);
+        let GripOutcome::Held(fine) = LeastGrip::new().solve(&grasp, &limits, &load) else { continue };
+        for tolerance in [1e-1, 1e-2, 1e-3] {
+            let mut least = LeastGrip::with_precision(Precision { tolerance, steps: 30 });
+            let GripOutcome::Held(grip) = least.solve(&grasp, &limits, &load) else { continue };
+            held += 1;
+            rough += u32::from(grip.gap() > 1e-4);
+            assert!(
+                grip.least_cost <= fine.cost * (1.0 + 1e-7),
+                "{index}: {} {}",
+                grip.least_cost,
+                fine.cost
+            );
+        }
+    }
+    assert!(held > 600 && rough > 300, "{held} {rough}");
+}
+
+/// What is forgotten is not started from: the answer is that of a new one to the last bit.
+#[test]
+fn what_is_forgotten_is_not_started_from() {
+    let mut rng = Pcg64Mcg::seed_from_u64(38);
+    let mut differ = 0;
+    for _ in 0..30 {
+        let grasp = Grasp::new(places::<4>(&mut rng, 4).map(|p| p.map(|p| p.contact::<f64>())));
+        let limits = [FingerLimits::<f64, 0>::none(); 4];
+        let load = Wrench::from_force_at(&grasp.centre(), vector(&mut rng));
+        let mut least = LeastGrip::new();
+        let fresh = least.solve(&grasp, &limits, &load);
+        let again = least.solve(&grasp, &limits, &load);
+        differ += u32::from(again != fresh);
+        least.forget();
+        assert_eq!(least.solve(&grasp, &limits, &load), fresh);
+    }
+    assert!(differ > 10, "{differ}");
+}
+
 /// A hand that lets go of much and takes up little, or the other way, gets as exact an answer as one that starts anew.
 #[test]
 fn what_was_held_before_does_not_blunt_the_next() {
