@@ -144,3 +144,36 @@ fn limits_that_are_met_are_started_from() {
     println!("{warm_steps} steps warm, {cold_steps} cold; {met} met");
     assert!(met > 100 && warm_steps * 2 < cold_steps, "{met} {warm_steps} {cold_steps}");
 }
+
+/// Where a start from the last solution comes to no end within the steps that are allowed, it is begun anew, and the steps
+/// that were lost count.
+#[test]
+fn steps_that_were_lost_are_counted() {
+    let mut rng = Pcg64Mcg::seed_from_u64(39);
+    let mut anew = 0;
+    for _ in 0..400 {
+        let grasp = Grasp::new(places::<4>(&mut rng, 4).map(|p| p.map(|p| p.contact::<f64>())));
+        let limits = [FingerLimits::<f64, 0>::none(); 4];
+        let precision = Precision { tolerance: 1e-8, steps: 9 };
+        let load = |rng: &mut Pcg64Mcg| Wrench::from_force_at(&grasp.centre(), vector(rng).normalize());
+        let (first, second) = (load(&mut rng), load(&mut rng));
+        let mut least = LeastGrip::with_precision(precision);
+        least.solve(&grasp, &limits, &first);
+        let again = least.solve(&grasp, &limits, &second);
+        let fresh = LeastGrip::with_precision(precision).solve(&grasp, &limits, &second);
+        if let (GripOutcome::Held(again), GripOutcome::Held(fresh)) = (again, fresh) {
+            assert!(again.steps <= 2 * precision.steps);
+            if again.forces == fresh.forces && least != LeastGrip::with_precision(precision) {
+                anew += u32::from(again.steps > fresh.steps);
+                assert!(
+                    again.steps == fresh.steps || again.steps > precision.steps,
+                    "{} {}",
+                    again.steps,
+                    fresh.steps
+                );
+            }
+        }
+    }
+    println!("{anew} anew");
+    assert!(anew > 0);
+}
