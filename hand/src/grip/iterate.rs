@@ -70,7 +70,6 @@ impl<T: Real, const N: usize, const ROWS: usize> Iterate<T, N, ROWS> {
                 row.price += up;
             }
         }
-        self.tau = T::one();
         self.kappa = up;
     }
 

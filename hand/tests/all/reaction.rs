@@ -163,6 +163,24 @@ fn a_finger_that_does_not_touch_keeps_its_command() {
     }
 }
 
+/// What has forgotten the object is as new, where no command could move meanwhile.
+#[test]
+fn what_forgets_friction_is_as_new() {
+    let settings = HandSettings { rise: 1e-300, fall: 1e-300, ..settings() };
+    let limits = [FingerLimits::<f64, 1>::none().with_least_normal(9.0).unwrap(); 2];
+    let new = HandController::new(settings, limits).unwrap();
+    let mut hand = new;
+    let found = hand.command(
+        &[-1.0, 1.0].map(|side| finger(side, pressed(), SlipVerdict::Slipping)),
+        &weight(),
+        STEP,
+    );
+    assert_eq!((found.state, found.normal), (HandState::Holding, [9.0; 2]));
+    assert!(hand != new);
+    hand.forget_friction();
+    assert_eq!(hand, new);
+}
+
 /// A contact whose friction, safety considered, is too small for a number holds nothing: its finger keeps its command.
 #[test]
 fn a_contact_without_friction_is_left_out() {
