@@ -229,3 +229,34 @@ fn nothing_sticks_across_a_gap() {
     assert!(!sticks(fewest, true) && !sticks(2 * fewest - 2, true), "{fewest}");
     assert!(sticks(2 * fewest + 2, true), "{fewest}");
 }
+
+/// A level that is another one behind a gap made no step; without the gap it did.
+#[test]
+fn nothing_jumps_across_a_gap() {
+    for gap in [false, true] {
+        let mut readings = noise(8, 3200);
+        readings[1605..].iter_mut().for_each(|reading| reading[0] += 20.0);
+        let mut watch = HealthWatch::new(gauges(&["a", "b"]), Depth::Brief);
+        for (i, reading) in readings.iter().enumerate() {
+            let late = if gap && i >= 1605 { 1.0 } else { 0.0 };
+            watch.add(Some(i as f64 * 0.01 + late), reading);
+        }
+        assert_eq!(watch.finish().steps.len(), usize::from(!gap));
+    }
+}
+
+/// Noise in common is looked for among the gauges of one sensor, not beyond, and not in a wrench, whose components share it.
+#[test]
+fn noise_in_common_is_that_of_one_sensor() {
+    let couplings = |kind, sensors: [&str; 2]| {
+        let channel = |sensor: &str| WatchedChannel::new("x", "V", kind).of_sensor(sensor);
+        let mut watch = HealthWatch::new(sensors.map(channel).to_vec(), Depth::Full);
+        noise(9, 8000)
+            .iter()
+            .for_each(|reading| watch.add(None, &[reading[0], reading[0] + 0.5 * reading[1]]));
+        watch.finish().couplings.len()
+    };
+    assert_eq!(couplings(Kind::Signal, ["l", "l"]), 1);
+    assert_eq!(couplings(Kind::Signal, ["l", "r"]), 0);
+    assert_eq!(couplings(Kind::Force, ["l", "l"]), 0);
+}
