@@ -96,3 +96,28 @@ impl GeometryError {
         Err(Self::Undetermined { what: name.to_owned(), reason, motion: motion(name) })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::GeometryError;
+
+    fn reason(refused: Result<(), GeometryError>) -> Option<String> {
+        match refused.err()? {
+            GeometryError::Undetermined { what, reason, .. } => Some(format!("{what}: {reason}")),
+            other => Some(other.to_string()),
+        }
+    }
+
+    /// Lengths are said in millimetres and angles in degrees.
+    #[test]
+    fn intervals_are_said_in_their_units() {
+        let width = |name, width, size| reason(GeometryError::check_width(name, width, size));
+        assert_eq!(width("radius", 0.0099, 0.01), None);
+        assert_eq!(width("radius", 0.01, 0.01).unwrap(), "radius: they leave ± 10.00 mm (95 %)");
+        assert_eq!(width("tilt about x", 0.2, 0.1).unwrap(), "tilt about x: they leave ± 11.46° (95 %)");
+        assert_eq!(width("turn about z", 0.2, 0.1).unwrap(), "turn about z: they leave ± 11.46° (95 %)");
+        assert_eq!(width("radius", f64::NAN, 0.01).unwrap(), "radius: they leave ± NaN mm (95 %)");
+        let negative = reason(Err(GeometryError::negative("height", -0.0015)));
+        assert_eq!(negative.unwrap(), "height: the torques ask for -1.50 mm");
+    }
+}

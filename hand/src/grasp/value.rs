@@ -68,7 +68,7 @@ impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
     }
 
     /// The length \[m\] by which torques are divided where they are compared with forces: a power of two near the
-    /// greatest distance of a contact from the [centre](Self::centre).
+    /// greatest distance of a contact from the [centre](Self::centre); 1 where there is none.
     #[must_use]
     pub const fn length(&self) -> T {
         self.length

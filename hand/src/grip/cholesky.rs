@@ -58,3 +58,42 @@ impl<T: Real> Cholesky<T> {
         x
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Cholesky;
+    use nalgebra::{Matrix6, Vector6};
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+
+    /// Against nalgebra's, to the few rounding errors of the trace that are added; and where directions are missing, what
+    /// lies in the others.
+    #[test]
+    fn what_is_solved_is_solved() {
+        let mut rng = Pcg64Mcg::seed_from_u64(4);
+        for _ in 0..200 {
+            let root = Matrix6::<f64>::from_fn(|_, _| rng.random_range(-1.0..1.0));
+            let matrix = root * root.transpose() + Matrix6::identity() * 0.01;
+            let right = Vector6::from_fn(|_, _| rng.random_range(-1.0..1.0));
+            let exact = matrix.cholesky().unwrap().solve(&right);
+            let found = Cholesky::new(&matrix).solve(&right);
+            assert!((found - exact).norm() < 1e-10 * exact.norm(), "{found} {exact}");
+            // A shift of a few rounding errors and no more.
+            let cholesky = Cholesky::new(&matrix);
+            let mut lower = cholesky.lower;
+            lower.fill_upper_triangle(0.0, 1);
+            cholesky.inverse.iter().enumerate().for_each(|(i, x)| lower[(i, i)] = x.recip());
+            let off = lower * lower.transpose() - matrix;
+            assert!(off.amax() < 8.0 * f64::EPSILON * matrix.trace() && off.trace() > 0.0, "{off}");
+        }
+        for missing in 0..6 {
+            let mut matrix = Matrix6::<f64>::identity() * 3.0;
+            matrix[(missing, missing)] = 0.0;
+            let right = Vector6::from_element(6.0);
+            let found = Cholesky::new(&matrix).solve(&right);
+            assert!((0..6).all(|i| (i == missing) == (found[i] > 1e12)), "{found}");
+            assert!((0..6).all(|i| i == missing || (found[i] - 2.0).abs() < 1e-12), "{found}");
+        }
+        assert!(Cholesky::new(&Matrix6::<f64>::zeros()).solve(&Vector6::zeros()).iter().all(|x| *x == 0.0));
+    }
+}

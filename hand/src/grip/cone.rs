@@ -135,3 +135,103 @@ impl<T: Real> Scaling<T> {
         Vector4::new(w.x * v.x + inner, v.y + along * w.y, v.z + along * w.z, v.w + along * w.w)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Scaling, det, divide, product, step_to_boundary, tail};
+    use nalgebra::Vector4;
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+
+    /// A vector inside the cone, its distance from the border relative to its size down to the sixth power of ten.
+    fn inside(rng: &mut Pcg64Mcg) -> Vector4<f64> {
+        let direction = Vector4::from_fn(|_, _| rng.random_range(-1.0..1.0));
+        let margin = 10.0_f64.powf(rng.random_range(-6.0..0.0));
+        let mut v = direction * 10.0_f64.powf(rng.random_range(-2.0..2.0));
+        v.x = tail(&v) * (1.0 + margin);
+        v
+    }
+
+    /// The law of the scaling by which it is made, `W z = W⁻¹ y`, in all the forms in which it is asked.
+    #[test]
+    fn scalings_take_each_to_the_other() {
+        let mut rng = Pcg64Mcg::seed_from_u64(1);
+        for _ in 0..500 {
+            let (y, z) = (inside(&mut rng), inside(&mut rng));
+            let scaling = Scaling::new(&y, &z);
+            let near = |a: &Vector4<f64>, b: &Vector4<f64>, size: f64| (a - b).norm() < 1e-6 * size;
+            assert!(near(&scaling.apply(&z), &scaling.undo(&y), scaling.point.norm()));
+            assert!(near(&scaling.point, &scaling.apply(&z), scaling.point.norm()));
+            assert!(near(&scaling.undo(&scaling.apply(&y)), &y, y.norm() * scaling.w.norm_squared()));
+            let matrix = scaling.matrix();
+            assert!(near(&(matrix * y), &scaling.apply(&y), matrix.norm() * y.norm()));
+            assert!((matrix - matrix.transpose()).amax() < 1e-12 * matrix.amax());
+            assert!(
+                (scaling.w.x * scaling.w.x - tail(&scaling.w).powi(2) - 1.0).abs()
+                    < 1e-12 * scaling.w.norm_squared()
+            );
+        }
+    }
+
+    #[test]
+    fn division_undoes_the_product() {
+        let mut rng = Pcg64Mcg::seed_from_u64(2);
+        for _ in 0..500 {
+            let (u, x) = (inside(&mut rng), Vector4::from_fn(|_, _| rng.random_range(-1.0..1.0)));
+            // The product with a vector as a matrix, whose determinant is u₀²·det u.
+            let off = divide(&u, &product(&u, &x)) - x;
+            assert!(off.norm() < 1e-13 * u.norm_squared() / det(&u), "{off}");
+            assert_eq!(product(&u, &x), product(&x, &u));
+        }
+        assert_eq!(
+            product(&Vector4::new(2.0, 3.0, 5.0, 7.0), &Vector4::new(1.0, 2.0, 1.0, 3.0)),
+            Vector4::new(34.0, 7.0, 7.0, 13.0)
+        );
+    }
+
+    /// By bisection: the last place inside. And where both ends of the ray are inside, and the whole of it.
+    #[test]
+    fn steps_end_at_the_border() {
+        let mut rng = Pcg64Mcg::seed_from_u64(3);
+        let (mut bounded, mut free) = (0, 0);
+        for _ in 0..2_000 {
+            let y = inside(&mut rng);
+            let d = Vector4::from_fn(|_, _| rng.random_range(-1.0..1.0))
+                * 10.0_f64.powf(rng.random_range(-2.0..2.0));
+            let holds = |step: f64| {
+                let at = y + d * step;
+                at.x >= tail(&at)
+            };
+            let step = step_to_boundary(&y, &d, 2.0);
+            if holds(2.0) {
+                free += 1;
+                assert!(step > 2.0 * (1.0 - 1e-9));
+                continue;
+            }
+            bounded += 1;
+            let (mut low, mut high) = (0.0, 2.0);
+            for _ in 0..80 {
+                let middle = 0.5 * (low + high);
+                if holds(middle) { low = middle } else { high = middle }
+            }
+            assert!((step - low).abs() < 1e-9 * low.max(1e-6), "{step} {low}");
+        }
+        assert!(bounded > 500 && free > 200, "{bounded} {free}");
+    }
+
+    /// Along the border and almost along it, where the equation of the step is almost linear.
+    #[test]
+    fn steps_along_the_border_lose_no_digits() {
+        let y = Vector4::new(1.0, 0.0, 0.0, 0.0);
+        for slack in [0.0_f64, 1e-300, 1e-17, 1e-12, 1e-9, -1e-9, -1e-12] {
+            // 1 − α = α(1 − slack).
+            let d = Vector4::new(-1.0, 0.0, 1.0 - slack, 0.0);
+            let step = step_to_boundary(&y, &d, 2.0);
+            assert!((step - 1.0 / (2.0 - slack)).abs() < 1e-15, "{slack}: {step}");
+        }
+        assert_eq!(step_to_boundary(&y, &Vector4::new(1.0, 1.0, 0.0, 0.0), 2.0), 2.0);
+        assert_eq!(step_to_boundary(&y, &Vector4::new(0.0, 0.0, 0.0, 1.0), 2.0), 1.0);
+        assert_eq!(step_to_boundary(&y, &Vector4::new(-4.0, 0.0, 0.0, 0.0), 2.0), 0.25);
+        assert_eq!(step_to_boundary(&y, &Vector4::zeros(), 2.0), 2.0);
+    }
+}

@@ -70,7 +70,6 @@ impl<T: Real, const N: usize, const ROWS: usize> Iterate<T, N, ROWS> {
                 row.price += up;
             }
         }
-        self.tau = T::one();
         self.kappa = up;
     }
 
@@ -82,5 +81,52 @@ impl<T: Real, const N: usize, const ROWS: usize> Iterate<T, N, ROWS> {
         self.twist *= factor;
         self.tau *= factor;
         self.kappa *= factor;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Iterate;
+
+    /// Each number has a say: none may be on the border, beyond it, infinite or no number.
+    #[test]
+    fn what_is_inside_is_inside_in_every_number() {
+        type Change = fn(&mut Iterate<f64, 2, 1>, f64);
+        let positive: [Change; 12] = [
+            |i, x| i.tau = x,
+            |i, x| i.kappa = x,
+            |i, x| i.blocks.fingers[1].y.x = x,
+            |i, x| i.blocks.fingers[0].z.x = x,
+            |i, x| i.blocks.fingers[1].rows[0].slack = x,
+            |i, x| i.blocks.fingers[0].rows[0].price = x,
+            |i, x| i.blocks.extra.y.x = x,
+            |i, x| i.blocks.extra.z.x = x,
+            // A tail as long as the first number less one.
+            |i, x| i.blocks.fingers[0].y.y = 1.0 - x,
+            |i, x| i.blocks.fingers[1].z.w = x - 1.0,
+            |i, x| i.blocks.extra.y.z = 1.0 - x,
+            |i, x| i.blocks.extra.z.y = 1.0 - x,
+        ];
+        let middle = Iterate::<f64, 2, 1>::middle();
+        assert!(middle.is_inside());
+        for (place, change) in positive.iter().enumerate() {
+            let inside = |x: f64| {
+                let mut at = middle;
+                change(&mut at, x);
+                at.is_inside()
+            };
+            assert!(inside(0.5) && inside(1.0), "{place}");
+            for bad in [0.0, -0.5, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                assert!(!inside(bad), "{place}: {bad}");
+            }
+        }
+        for place in 0..6 {
+            let twisted = |x: f64| {
+                let mut at = middle;
+                at.twist[place] = x;
+                at.is_inside()
+            };
+            assert!(twisted(-3.0) && !twisted(f64::NAN) && !twisted(f64::INFINITY));
+        }
     }
 }

@@ -183,6 +183,11 @@ impl<T: Real, const N: usize, const ROWS: usize> LeastGrip<T, N, ROWS> {
         }
     }
 
+    /// The twist that proves the last cost to be least, of any length, in the units of the grasp map.
+    pub(crate) fn twist(&self) -> Option<Vector6<T>> {
+        self.last.as_ref().map(|last| last.iterate.twist)
+    }
+
     /// A power of two that brings forces near 1: that of the last call while it does.
     fn per_newton(&self, size: T) -> T {
         match &self.last {
@@ -248,7 +253,8 @@ fn held<T: Real, const N: usize, const ROWS: usize, F: Frame>(
 fn is_finite<T: Real, const N: usize, F: Frame>(grip: &Grip<T, N, F>) -> bool {
     grip.forces.iter().all(ContactForce::is_finite)
         && grip.imbalance.is_finite()
-        && (grip.cost + grip.least_cost).is_number()
+        && grip.cost.is_number()
+        && grip.least_cost.is_number()
 }
 
 fn cannot_hold<T: Real, const N: usize, const ROWS: usize, F: Frame>(

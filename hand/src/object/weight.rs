@@ -96,7 +96,7 @@ impl<T: Real> ObjectWeight<T> {
         // The mass is the last unknown: its row of the triangle holds what is known of it alone.
         let (diagonal, right) = (self.triangle.m44, self.right.w);
         let (mass, deviation) = (right / diagonal, T::one() / diagonal.abs());
-        (mass.is_number() && deviation.is_number() && diagonal != T::zero()).then_some((mass, deviation))
+        (mass.is_number() && deviation.is_number()).then_some((mass, deviation))
     }
 
     /// Mass and centre; `None` until the object was felt in two orientations, or if the mass is not positive.

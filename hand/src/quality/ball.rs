@@ -1,7 +1,7 @@
 //! Ferrari and Canny's ball: the least disturbance that a grasp cannot resist, whatever its direction.
 
 use fingertip_wrench::{Frame, Real, Wrench};
-use nalgebra::{Vector3, Vector6};
+use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::grasp::Spectrum;
 use crate::{FingerLimits, Grasp, GripOutcome, LeastGrip, Reach};
@@ -44,19 +44,18 @@ impl<T: Real> Metric<T> {
 pub struct GraspBall<T: Real, F: Frame> {
     /// The radius is at least this \[N\]: certified, from what the grasp bears along six axes, both ways.
     pub certified: T,
-    /// The radius is at most this \[N\]: found by a search from 24 starts, usually the radius itself; 2 % too
-    /// much was seen.
+    /// The radius is at most this \[N\]: found by a search from 24 starts, usually the radius itself.
     pub found: T,
     /// The load of that size that is borne least: of unit length in the metric, about the origin of the frame.
     pub weakest: Wrench<T, F>,
 }
 
-/// How many steps from each start.
-const STEPS: usize = 120;
+/// How many cone programs from each start, at most: three or four are usual.
+const STEPS: usize = 12;
 
 impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
     /// The quality of Ferrari & Canny 1992 with round friction cones (`docs/theory/hand.md#ferrari-and-cannys-ball`):
-    /// zero without force closure; `None` if the metric's length is not positive and finite. It takes some dozen cone
+    /// zero without force closure; `None` if the metric's length is not positive and finite. It takes some hundred cone
     /// programs: for planning, not for every sample.
     ///
     /// ```
@@ -80,29 +79,19 @@ impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
         if let Some(weakest) = self.not_borne(length) {
             return Some(GraspBall { certified: T::zero(), found: T::zero(), weakest });
         }
-        let ratio = self.length() / length;
-        let mut best = (T::GREATEST, Vector6::zeros());
         // Axes, and the wrenches that the map itself bears best and worst.
         let spectrum = Spectrum::new(self.blocks().flatten());
-        let axes = nalgebra::Matrix6::identity();
+        let axes = Matrix6::identity();
         let starts = axes.column_iter().chain(spectrum.directions.column_iter());
+        let mut best = (T::GREATEST, Vector6::x());
         for start in starts.flat_map(|start| [start.into_owned(), -start]) {
-            let mut direction = start;
-            for step in 0..STEPS {
-                let (support, wrench) = self.support(&direction, ratio, metric);
-                if support < best.0 {
-                    best = (support, direction);
-                }
-                // Down the subgradient in the sphere's tangent, by less and less.
-                let along = wrench - direction * support;
-                let size = along.norm_squared().root();
-                if !(size > T::EPSILON * wrench.amax()) {
-                    break;
-                }
-                let share = T::literal(0.5 / (1.0 + 0.15 * (step * step) as f64));
-                let next = direction - along * (share / size);
-                direction = next / next.norm_squared().root();
-            }
+            best = self.descend(start, metric, best);
+        }
+        // Where many planes meet a wrench at once, its neighbours tell which of them lead on.
+        let (_, middle) = best;
+        for tilt in axes.column_iter().flat_map(|axis| [axis * T::literal(0.05), axis * T::literal(-0.05)]) {
+            let start = middle + tilt;
+            best = self.descend(start / start.norm_squared().root(), metric, best);
         }
         let (found, direction) = best;
         let found = found.max(T::zero());
@@ -110,6 +99,25 @@ impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
             if found > T::zero() { self.certify(&direction, metric).min(found) } else { T::zero() };
         let weakest = -self.wrench_along(&direction, length);
         Some(GraspBall { certified, found, weakest })
+    }
+
+    /// From a direction to those of the planes that end what is borne along it, as long as they are borne less: the least
+    /// of all, of the best so far and these.
+    fn descend(&self, start: Vector6<T>, metric: Metric<T>, best: (T, Vector6<T>)) -> (T, Vector6<T>) {
+        let (mut best, mut direction, mut last) = (best, start, T::GREATEST);
+        for _ in 0..STEPS {
+            let support = self.support(&direction, metric);
+            if support < best.0 {
+                best = (support, direction);
+            }
+            if !(support < last * (T::one() - T::EPSILON.root())) {
+                break;
+            }
+            last = support;
+            let Some(next) = self.borne_least_beside(&direction, metric) else { break };
+            direction = next;
+        }
+        best
     }
 
     /// A load of unit length that no forces bear, if there is one. Then one along an axis is not borne either, and its
@@ -143,35 +151,31 @@ impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
         Wrench::on_fingertip(force, torque + self.centre().cross(&force))
     }
 
-    /// The most that 1 N of effort gives along a unit wrench on the object, and the wrench that does.
-    fn support(&self, direction: &Vector6<T>, ratio: T, metric: Metric<T>) -> (T, Vector6<T>) {
+    /// The most that 1 N of effort gives along a unit wrench on the object.
+    fn support(&self, direction: &Vector6<T>, metric: Metric<T>) -> T {
         let mut weighed = *direction;
         for torque in weighed.iter_mut().skip(3) {
-            *torque *= ratio;
+            *torque *= self.length() / metric.length();
         }
-        let (mut most, mut sum) = (T::zero(), Vector6::zeros());
-        for map in self.blocks().flatten() {
+        let gains = self.blocks().flatten().map(|map| {
             let pull = map.tr_mul(&weighed);
-            let sideways = (pull.y * pull.y + pull.z * pull.z + pull.w * pull.w).root();
-            let gain = pull.x + sideways;
-            let mut force = pull / if sideways > T::zero() { sideways } else { T::one() };
-            force.x = T::one();
-            match metric {
-                Metric::Total { .. } if gain > most => {
-                    most = gain;
-                    sum = map * force;
-                }
-                Metric::Each { .. } if gain > T::zero() => {
-                    most += gain;
-                    sum += map * force;
-                }
-                _ => {}
-            }
+            pull.x + (pull.y * pull.y + pull.z * pull.z + pull.w * pull.w).root()
+        });
+        match metric {
+            Metric::Total { .. } => gains.fold(T::zero(), T::max),
+            Metric::Each { .. } => gains.fold(T::zero(), |sum, gain| sum + gain.max(T::zero())),
         }
-        for torque in sum.iter_mut().skip(3) {
-            *torque *= ratio;
+    }
+
+    /// Of the planes that bound what 1 N of effort gives, the one that a unit wrench on the object meets first, as its
+    /// normal: nothing beside that wrench is nearer.
+    fn borne_least_beside(&self, direction: &Vector6<T>, metric: Metric<T>) -> Option<Vector6<T>> {
+        let mut normal = self.radius(&-direction, metric).1?;
+        for torque in normal.iter_mut().skip(3) {
+            *torque *= metric.length() / self.length();
         }
-        (most, sum)
+        let next = normal / normal.norm_squared().root();
+        next.iter().all(|x| x.is_number()).then_some(next)
     }
 
     /// The ball inside the hull of what is borne along six axes, one of them given, both ways.
@@ -180,41 +184,37 @@ impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
         let mut mirror = *direction;
         let sign = if mirror.x > T::zero() { T::one() } else { -T::one() };
         mirror.x += sign;
-        let square = mirror.norm_squared();
+        let axes =
+            Matrix6::identity() - mirror * mirror.transpose() * (T::literal(2.0) / mirror.norm_squared());
         let mut sum = T::zero();
-        for axis in 0..6 {
-            let mut unit = Vector6::<T>::zeros();
-            for (i, x) in unit.iter_mut().enumerate() {
-                *x = if i == axis { T::one() } else { T::zero() };
-            }
-            let unit = unit - mirror * (T::literal(2.0) * mirror.dot(&unit) / square);
-            let shortest = self.radius(&unit, metric).min(self.radius(&-unit, metric));
-            if !(shortest > T::zero()) {
-                return T::zero();
-            }
+        for axis in axes.column_iter() {
+            let (there, back) = (axis.into_owned(), -axis.into_owned());
+            let shortest = self.radius(&there, metric).0.min(self.radius(&back, metric).0);
             sum += T::one() / (shortest * shortest);
         }
         let radius = T::one() / sum.root();
         if radius.is_number() { radius } else { T::zero() }
     }
 
-    /// How much of a unit load 1 N of effort bears.
-    fn radius(&self, direction: &Vector6<T>, metric: Metric<T>) -> T {
+    /// How much of a unit load 1 N of effort bears, and the normal, in the units of the grasp map, of the plane that ends
+    /// it: the dual of the program.
+    fn radius(&self, direction: &Vector6<T>, metric: Metric<T>) -> (T, Option<Vector6<T>>) {
         let load = self.wrench_along(direction, metric.length());
         match metric {
             Metric::Total { .. } => {
-                match LeastGrip::<T, N, 0>::new().solve(self, &[FingerLimits::none(); N], &load) {
-                    GripOutcome::Held(grip) if grip.cost > T::zero() => T::one() / grip.cost,
-                    _ => T::zero(),
+                let mut least = LeastGrip::<T, N, 0>::new();
+                match least.solve(self, &[FingerLimits::none(); N], &load) {
+                    GripOutcome::Held(grip) if grip.cost > T::zero() => (T::one() / grip.cost, least.twist()),
+                    _ => (T::zero(), None),
                 }
             }
             Metric::Each { .. } => {
                 let Ok(limits) = FingerLimits::<T, 1>::none().with_greatest_normal(T::one()) else {
-                    return T::zero();
+                    return (T::zero(), None);
                 };
-                match self.reach(&[limits; N], &Wrench::zero(), &load) {
-                    Reach::Times(times) => times,
-                    _ => T::zero(),
+                match self.reach_and_twist(&[limits; N], &Wrench::zero(), &load) {
+                    (Reach::Times(times), twist) => (times, Some(twist)),
+                    _ => (T::zero(), None),
                 }
             }
         }

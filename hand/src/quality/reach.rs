@@ -47,10 +47,22 @@ impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
         load: &Wrench<T, F>,
         disturbance: &Wrench<T, F>,
     ) -> Reach<T> {
+        self.reach_and_twist(limits, load, disturbance).0
+    }
+
+    /// The [reach](Self::reach) with the twist that proves it, of any length, in the units of the grasp map; nothing where
+    /// it is not finite.
+    pub(crate) fn reach_and_twist<const ROWS: usize>(
+        &self,
+        limits: &[FingerLimits<T, ROWS>; N],
+        load: &Wrench<T, F>,
+        disturbance: &Wrench<T, F>,
+    ) -> (Reach<T>, Vector6<T>) {
+        let none = Vector6::zeros();
         let (wanted, along) = (-self.normalised(load), self.normalised(disturbance));
         let size = along.amax();
         if !wanted.iter().chain(along.iter()).all(|x| x.is_number()) {
-            return Reach::Unknown;
+            return (Reach::Unknown, none);
         }
         let mut unit = wanted.amax();
         for limits in self.contacts().iter().zip(limits).filter_map(|(contact, l)| contact.and(Some(l))) {
@@ -60,7 +72,7 @@ impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
         let per_newton = unit.normalising_factor();
         let Some(Assembled { mut program, .. }) = assemble(self, limits, &(wanted * per_newton), per_newton)
         else {
-            return Reach::Unknown;
+            return (Reach::Unknown, none);
         };
         if size > T::zero() {
             // Only the disturbance counts: as much of it as can be.
@@ -81,14 +93,16 @@ impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
                 // What an imbalance is worth: near a reach that takes forces without bound it is worth much.
                 let imbalance = program.equilibrium(&iterate).component_mul(&iterate.twist).abs().sum();
                 if imbalance / (iterate.tau * iterate.tau) > tolerance.root() * found.max(tolerance.root()) {
-                    return Reach::Unknown;
+                    return (Reach::Unknown, none);
                 }
                 let times = found / per_newton * size.normalising_factor();
-                if times.is_number() { Reach::Times(times.max(T::zero())) } else { Reach::Unlimited }
+                let times =
+                    if times.is_number() { Reach::Times(times.max(T::zero())) } else { Reach::Unlimited };
+                (times, iterate.twist)
             }
-            Ending::Solved | Ending::Unbounded => Reach::Unlimited,
-            Ending::Infeasible => Reach::NotHeld,
-            Ending::Undecided => Reach::Unknown,
+            Ending::Solved | Ending::Unbounded => (Reach::Unlimited, none),
+            Ending::Infeasible => (Reach::NotHeld, none),
+            Ending::Undecided => (Reach::Unknown, none),
         }
     }
 }

@@ -7,7 +7,7 @@ use fingertip_hand::{
     Reach,
 };
 use fingertip_wrench::{ContactForce, Frame, Real, Wrench};
-use nalgebra::{Matrix6, SMatrix, Vector3};
+use nalgebra::{SMatrix, Vector3};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -80,7 +80,12 @@ fn all_fingers_at_one_point_and_none() {
     for load in [-pressed, Wrench::on_fingertip(-Vector3::z(), Vector3::zeros())] {
         assert!(matches!(LeastGrip::new().solve(&grasp, &none, &load), GripOutcome::CannotHold(_)));
     }
+    // Where there is no distance a torque counts by the metre.
+    assert_eq!(grasp.length(), 1.0);
+    let twisted = pressed + Wrench::on_fingertip(Vector3::zeros(), Vector3::z());
+    assert!(matches!(LeastGrip::new().solve(&grasp, &none, &twisted), GripOutcome::CannotHold(_)));
     let nothing = Grasp::<f64, 3, TestHand>::new([None; 3]);
+    assert_eq!(nothing.length(), 1.0);
     let found = LeastGrip::new().solve(&nothing, &none, &pressed);
     let GripOutcome::CannotHold(why) = found else { panic!("{found:?}") };
     assert!(why.power(&pressed) > 0.0 && why.excess > 0.0);
@@ -124,6 +129,29 @@ fn bad_numbers<T: Real>() {
     assert_eq!(found, GripOutcome::Undecided);
 }
 
+/// What leaves the range of the type in the units of the load is said, whichever number it is.
+#[test]
+fn what_leaves_the_range_is_said() {
+    let grasp = two(true, 0.5, 0.02);
+    let weight = Wrench::on_fingertip(-Vector3::z() * 1e-20, Vector3::zeros());
+    let far = FingerLimits::<f64, 2>::none().with_greatest_normal(1e300).unwrap();
+    assert_eq!(LeastGrip::new().solve(&grasp, &[far; 2], &weight), GripOutcome::NotFinite);
+    let mut jacobian = SMatrix::<f64, 6, 1>::zeros();
+    jacobian[0] = 1.0;
+    let strong = FingerLimits::<f64, 2>::none().with_joint_torques(&jacobian, &[1e300]).unwrap();
+    assert_eq!(LeastGrip::new().solve(&grasp, &[strong; 2], &weight), GripOutcome::NotFinite);
+    jacobian[0] = 1e308;
+    jacobian[1] = 1e308;
+    let steep = FingerLimits::<f64, 2>::none().with_joint_torques(&jacobian, &[1.0]).unwrap();
+    let leaning = Vector3::new(1.0, 1.0, 0.0);
+    let leans =
+        |side: f64| Place { point: Vector3::x() * side, normal: -leaning * side, friction: 5.0, arm: None };
+    let grasp = Grasp::new([leans(-0.02).contact(), leans(0.02).contact()].map(Some));
+    let weight = Wrench::on_fingertip(-Vector3::z(), Vector3::zeros());
+    assert_eq!(LeastGrip::new().solve(&grasp, &[steep; 2], &weight), GripOutcome::NotFinite);
+    assert_eq!(grasp.reach(&[steep; 2], &weight, &weight), Reach::Unknown);
+}
+
 #[test]
 fn bad_numbers_are_said() {
     bad_numbers::<f64>();
@@ -135,7 +163,16 @@ fn constructors_name_what_is_wrong() {
     let (at, z) = (Vector3::<f64>::zeros(), Vector3::z());
     type Contact = GraspContact<f64, Hand>;
     assert_eq!(Contact::point(at, z, 0.0), Err(BadContact::BadFriction));
-    assert_eq!(Contact::soft(at, z, 0.5, f64::NAN), Err(BadContact::BadArm));
+    for bad in [f64::NAN, f64::INFINITY, -1.0, 0.0] {
+        assert_eq!(Contact::point(at, z, bad), Err(BadContact::BadFriction));
+        assert_eq!(Contact::soft(at, z, 0.5, bad), Err(BadContact::BadArm));
+        assert_eq!(Contact::point(at, z, 0.5).unwrap().with_safety(bad), Err(BadContact::BadSafety));
+        let finger = FingerLimits::<f64, 2>::none();
+        assert!(finger.with_greatest_normal(bad).is_err() && finger.with_least_normal(bad).is_err());
+        assert!(finger.with_cost(bad).is_err());
+    }
+    assert_eq!(Contact::point(at, z, 0.5).unwrap().with_safety(1.0), Contact::point(at, z, 0.5));
+    assert_eq!(Contact::point(at, z, 1e-300).unwrap().with_safety(1e300), Err(BadContact::BadSafety));
     assert_eq!(Contact::point(at, z, 0.5).unwrap().with_safety(0.9), Err(BadContact::BadSafety));
     let sure = UncertainCoulomb::new(0.6, 0.1, None).unwrap();
     let contact = Contact::with_uncertain(at, z, &sure, 0.01).unwrap();
@@ -145,7 +182,24 @@ fn constructors_name_what_is_wrong() {
     let limits = FingerLimits::<f64, 2>::none().with_least_normal(1.0).unwrap();
     let error = limits.with_greatest_normal(0.5).unwrap_err();
     assert_eq!(error.to_string(), "the greatest normal force must be at least the least normal force");
+    // Just as much is a grip of one force.
+    assert!(limits.with_greatest_normal(1.0).is_ok());
     let jacobian = SMatrix::<f64, 6, 1>::zeros();
+    assert!(
+        FingerLimits::<f64, 3>::none()
+            .with_least_normal(1.0)
+            .unwrap()
+            .with_joint_torques(&jacobian, &[1.0])
+            .is_ok()
+    );
+    let jointed = FingerLimits::<f64, 3>::none().with_joint_torques(&jacobian, &[1.0]).unwrap();
+    let both = jointed.with_least_normal(1.0).unwrap().with_greatest_normal(2.0);
+    assert_eq!(both, Err(BadLimit::NoRoom { room: 3, needed: 4 }));
+    let full =
+        FingerLimits::<f64, 3>::none().with_least_normal(1.0).unwrap().with_greatest_normal(2.0).unwrap();
+    assert_eq!(full.with_joint_torques(&jacobian, &[1.0]), Err(BadLimit::NoRoom { room: 3, needed: 4 }));
+    let half = FingerLimits::<f64, 2>::none().with_greatest_normal(2.0).unwrap();
+    assert_eq!(half.with_joint_torques(&jacobian, &[1.0]), Err(BadLimit::NoRoom { room: 2, needed: 3 }));
     let error = limits.with_joint_torques(&jacobian, &[1.0]).unwrap_err();
     assert_eq!(error, BadLimit::NoRoom { room: 2, needed: 3 });
     assert_eq!(error.to_string(), "the limits of a finger need 3 rows, and its type has 2");
@@ -331,9 +385,10 @@ proptest! {
         let _ = grasp.force_closure();
         let reach = grasp.reach(&limits, &load, &Wrench::on_fingertip(vector(0), vector(3)));
         prop_assert!(!matches!(reach, Reach::Times(times) if times.is_nan()));
-        if let Some(ball) = grasp.ball(Metric::Total { length: numbers[7].abs() }) {
+        // One in eight, since it takes some hundred programs.
+        let metric = Metric::Total { length: numbers[7].abs() };
+        if numbers[35].to_bits() % 8 == 3 && let Some(ball) = grasp.ball(metric) {
             prop_assert!(!(ball.found.is_nan() || ball.certified.is_nan()));
         }
-        let _ = Matrix6::<f64>::zeros();
     }
 }

@@ -56,6 +56,15 @@ fn bearing_and_internal_forces_add_up_and_are_the_pseudo_inverse() {
         assert!((bearing - whole).force().norm() < 1e-9 * size);
         assert!((bearing - whole).torque().norm() < 1e-9 * size);
         assert!(internal.force().norm() < 1e-9 * size && internal.torque().norm() < 1e-9 * size);
+        for ((all, bearing), internal) in forces.iter().zip(&parts.bearing).zip(&parts.internal) {
+            assert!((bearing.normal + internal.normal - all.normal).abs() < 1e-9 * size);
+            let tangential =
+                bearing.tangential.vector() + internal.tangential.vector() - all.tangential.vector();
+            assert!(
+                tangential.norm() < 1e-9 * size
+                    && (bearing.spin + internal.spin - all.spin).abs() < 1e-9 * size
+            );
+        }
         // The length of the bearing part is that of the pseudo-inverse of a matrix that is built otherwise.
         let map = dense(&grasp);
         let about = whole.torque_about(&grasp.centre()) / grasp.length();
@@ -180,7 +189,9 @@ fn covariance_moves_with_the_frame() {
         points += error * error.transpose();
     }
     assert!((points - moved.point_covariance).amax() < 1e-14);
-    let both = UncertainWrench::total(&[Some(moved.load), None, Some(moved.load)]);
+    let felt = Vector6::from_fn(|i, _| 1.0 + i as f64);
+    let other = UncertainWrench { wrench: Wrench::from_components(&felt), ..moved.load };
+    let both = UncertainWrench::total(&[Some(other), None, Some(other)]);
     assert!((both.covariance - sum * 2.0).amax() < 1e-13 * sum.amax());
-    assert_eq!(Vector6::zeros(), both.wrench.components());
+    assert_eq!(felt * 2.0, both.wrench.components());
 }

@@ -66,6 +66,10 @@ fn check_cannot<const N: usize>(problem: &Problem<N>, why: &fingertip_hand::Cann
         }
     }
     assert!(power > most, "the load's power {power} is more than the fingers take up, {most}");
+    // What it would need is a number, beyond what all limits allow together.
+    let touching = || grasp.contacts().iter().zip(limits).filter(|(contact, _)| contact.is_some());
+    let allowed: Option<f64> = touching().map(|(_, limits)| limits.greatest_normal()).sum();
+    assert!(why.needs.is_finite() && allowed.is_none_or(|allowed| why.needs > allowed), "{}", why.needs);
     // Without limits it takes out of all proportion.
     assert!((power - most) / slope.max(1e-300) > 1e6 * load.force().norm(), "{power} {most} {slope}");
 }

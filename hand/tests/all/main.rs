@@ -4,9 +4,13 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod ball;
 mod extremes;
+mod freedoms;
 mod grasps;
+mod joints;
 mod least_grip;
 mod objects;
+mod precision;
 mod quality;
 mod reaction;

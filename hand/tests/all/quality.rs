@@ -6,6 +6,7 @@ use nalgebra::{Vector3, Vector6};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+use crate::support::clarabel_oracle::{self, OracleReach};
 use crate::support::{Problem, TestHand, places, problem, vector};
 
 /// Just below the reach the least grip exists; just above it does not.
@@ -158,4 +159,108 @@ fn margins_are_those_of_the_contacts() {
     assert_eq!(nothing.ball(Metric::Total { length: 0.03 }).unwrap().found, 0.0);
     assert!(nothing.ball(Metric::Each { length: f64::NAN }).is_none());
     assert!(nothing.ball(Metric::Each { length: 0.0 }).is_none());
+}
+
+/// The reach is what another's solver finds for it.
+#[test]
+fn reach_agrees_with_clarabel() {
+    let mut rng = Pcg64Mcg::seed_from_u64(15);
+    let (mut finite, mut unlimited, mut not, mut unclear) = (0, 0, 0, 0);
+    for index in 0..500 {
+        let Problem { grasp, limits, load } = problem::<5>(&mut rng);
+        let about = grasp.centre() + vector(&mut rng) * 0.02;
+        let disturbance = Wrench::from_force_at(&about, vector(&mut rng)) * 10_f64.powi(index % 7 - 3);
+        let ours = grasp.reach(&limits, &load, &disturbance);
+        match (ours, clarabel_oracle::reach(&grasp, &limits, &load, &disturbance)) {
+            (Reach::Times(ours), OracleReach::Times(theirs)) => {
+                finite += 1;
+                let scale = ours + load.force().norm() / disturbance.force().norm();
+                assert!((ours - theirs).abs() < 1e-4 * scale, "{index}: {ours} {theirs}");
+            }
+            (Reach::Unlimited, OracleReach::Unlimited) => unlimited += 1,
+            (Reach::NotHeld, OracleReach::NotHeld) => not += 1,
+            (Reach::Unknown, _) | (_, OracleReach::Unclear) => unclear += 1,
+            (ours, oracle) => panic!("{index}: {ours:?}, but {oracle:?}"),
+        }
+    }
+    println!("{finite} finite, {unlimited} unlimited, {not} not held, {unclear} unclear");
+    assert!(
+        finite > 100 && unlimited > 20 && not > 50 && unclear <= 10,
+        "{finite} {unlimited} {not} {unclear}"
+    );
+}
+
+/// Without a disturbance the reach tells whether the load is held; in proportion, in any unit of force and length.
+#[test]
+fn reach_without_a_disturbance_and_in_any_units() {
+    let mut rng = Pcg64Mcg::seed_from_u64(16);
+    let (mut held, mut not) = (0, 0);
+    for _ in 0..100 {
+        let Problem { grasp, limits, load } = problem::<5>(&mut rng);
+        let reach = grasp.reach(&limits, &load, &Wrench::zero());
+        match LeastGrip::new().solve(&grasp, &limits, &load) {
+            GripOutcome::Held(_) => {
+                held += 1;
+                assert_eq!(reach, Reach::Unlimited);
+            }
+            _ => {
+                not += 1;
+                assert_eq!(reach, Reach::NotHeld);
+            }
+        }
+    }
+    assert!(held > 30 && not > 10, "{held} {not}");
+    for size in [1e-150, 1e-9, 1.0, 1e9, 1e150] {
+        for newtons in [1e-150, 1e-6, 1.0, 1e6, 1e150] {
+            let at = |x: f64| {
+                GraspContact::<f64, Hand>::soft(Vector3::x() * x, -Vector3::x() * x, 0.5, 0.1 * size)
+            };
+            let grasp = Grasp::new([at(-size).ok(), at(size).ok()]);
+            let limits = [FingerLimits::<f64, 1>::none().with_greatest_normal(10.0 * newtons).unwrap(); 2];
+            let down = |times: f64| Wrench::on_fingertip(-Vector3::z() * (newtons * times), Vector3::zeros());
+            // Two fingers of 10 with friction 0.5 carry 10: 2 now, and four times 2 more.
+            let Reach::Times(more) = grasp.reach(&limits, &down(2.0), &down(2.0)) else {
+                panic!("{size} {newtons}")
+            };
+            assert!((more - 4.0).abs() < 1e-6, "{size} {newtons}: {more}");
+            // Of what exceeds the limit the other way, nothing; a load beyond them is not held.
+            assert_eq!(grasp.reach(&limits, &down(12.0), &down(1.0)), Reach::NotHeld);
+            let Reach::Times(back) = grasp.reach(&limits, &down(12.0), &down(-1.0)) else { panic!() };
+            assert!((back - 22.0).abs() < 1e-5, "{size} {newtons}: {back}");
+        }
+    }
+}
+
+/// Two points whose line runs along the edge of both friction cones: what is across it takes the more force the less is
+/// pressed into the cones, without bound. With a little pressed in there is no end, with a little pulled out there is
+/// nothing, and with neither no number of times is made up.
+#[test]
+fn at_the_edge_of_friction_no_reach_is_made_up() {
+    let mut unknown = 0;
+    for friction in [0.2, 0.5, 1.0] {
+        for turn in 0..12 {
+            let axis = Vector3::new(0.3, -0.5, 0.8).normalize();
+            let turn =
+                nalgebra::Rotation3::from_axis_angle(&nalgebra::Unit::new_normalize(axis), f64::from(turn));
+            let at = |side: f64| {
+                let inward = turn * Vector3::new(-side, friction, 0.0);
+                GraspContact::<f64, Hand>::point(turn * Vector3::x() * (0.03 * side), inward, friction).ok()
+            };
+            let grasp = Grasp::new([at(-1.0), at(1.0)]);
+            let none = [FingerLimits::<f64, 0>::none(); 2];
+            let across = Wrench::on_fingertip(turn * Vector3::z(), Vector3::zeros());
+            let pressed =
+                |newtons: f64| Wrench::on_fingertip(turn * Vector3::y() * -newtons, Vector3::zeros());
+            let pressed_in = grasp.reach(&none, &pressed(0.1), &across);
+            assert!(matches!(pressed_in, Reach::Unlimited | Reach::Unknown), "{friction}: {pressed_in:?}");
+            let pulled_out = grasp.reach(&none, &pressed(-0.1), &across);
+            assert!(matches!(pulled_out, Reach::NotHeld | Reach::Unknown), "{friction}: {pulled_out:?}");
+            match grasp.reach(&none, &pressed(0.0), &across) {
+                Reach::Times(times) => assert!(times < 1e-3, "{friction}: {times}"),
+                Reach::Unknown => unknown += 1,
+                other => panic!("{friction}: {other:?}"),
+            }
+        }
+    }
+    println!("{unknown} unknown");
 }

@@ -105,10 +105,6 @@ impl Cell {
         if next.count == 0 {
             return;
         }
-        if self.count == 0 {
-            *self = *next;
-            return;
-        }
         let change = next.mean - self.mean;
         if let Some((sum, pairs)) = self.allan.get_mut(octave).filter(|_| self.count == next.count) {
             *sum += change * change;

@@ -115,3 +115,27 @@ pub(super) fn digits(value: f64) -> String {
     let text = format!("{value:.places$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::digits;
+
+    #[test]
+    fn numbers_have_three_digits() {
+        for (number, said) in [
+            (0.0, "0"),
+            (1.0, "1"),
+            (-12.345, "-12.3"),
+            (0.001, "0.001"),
+            (0.000_999, "9.99e-4"),
+            (99_999.0, "99999"),
+            (100_000.0, "1.00e5"),
+            (-123_456.0, "-1.23e5"),
+            (0.012_345, "0.0123"),
+            (250.0, "250"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(digits(number), said);
+        }
+    }
+}

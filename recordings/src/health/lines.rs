@@ -37,7 +37,9 @@ pub(super) fn find(powers: &[f64], stretches: u32, rate: f64) -> Vec<SpectralLin
     let mut lines = Vec::new();
     for bin in SPREAD + 1..powers.len().saturating_sub(SPREAD) {
         let at = |k: usize| powers.get(k).copied().unwrap_or(0.0);
-        let is_peak = (bin - SPREAD..=bin + SPREAD).all(|other| at(other) <= at(bin));
+        // Of two that are alike, as for a swing between them, the first.
+        let is_peak = (bin - SPREAD..bin).all(|before| at(before) < at(bin))
+            && (bin + 1..=bin + SPREAD).all(|behind| at(behind) <= at(bin));
         let floor = around(powers, bin);
         if !is_peak || !(at(bin) > threshold * floor) {
             continue;

@@ -23,18 +23,30 @@
 mod block;
 mod channel;
 mod channel_judge;
+#[cfg(test)]
+mod channel_judge_tests;
 mod coupling;
 mod drift;
 mod finding;
 mod held;
 mod lines;
+#[cfg(test)]
+mod made;
 mod noise;
 mod report;
 mod rest;
 mod sensor_judge;
+#[cfg(test)]
+mod sensor_judge_tests;
 mod spectrum;
+#[cfg(test)]
+mod spectrum_tests;
 mod trace;
+#[cfg(test)]
+mod trace_tests;
 mod watch;
+#[cfg(test)]
+mod watch_tests;
 mod zero_steps;
 
 pub use channel::{Kind, WatchedChannel};

@@ -29,7 +29,11 @@ const SIDE: usize = 4;
 
 /// The variance that a quantile of estimates tells: the share below it, and as many normal deviations. χ² over its degrees
 /// of freedom by Wilson & Hilferty's cube.
-fn variance_at(mut estimates: Vec<f64>, degrees: f64, (share, deviations): (f64, f64)) -> Option<f64> {
+pub(super) fn variance_at(
+    mut estimates: Vec<f64>,
+    degrees: f64,
+    (share, deviations): (f64, f64),
+) -> Option<f64> {
     if estimates.is_empty() {
         return None;
     }

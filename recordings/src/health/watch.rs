@@ -171,12 +171,12 @@ impl HealthWatch {
     /// Zero steps, sensor by sensor.
     fn steps(&self, quiet: &[Quiet]) -> Vec<zero_steps::ZeroStep> {
         let mut steps = Vec::new();
-        for (number, channel) in self.channels.iter().enumerate().filter(|(_, channel)| !channel.is_derived) {
-            let is_first = !self.channels.iter().take(number).any(|before| before.is_beside(channel));
-            if is_first {
-                let beside =
-                    |(other, watched): (usize, &WatchedChannel)| watched.is_beside(channel).then_some(other);
-                let members: Vec<usize> = self.channels.iter().enumerate().filter_map(beside).collect();
+        let own = || self.channels.iter().enumerate().filter(|(_, channel)| !channel.is_derived);
+        for (number, channel) in own() {
+            let beside = || own().filter(|(_, other)| other.is_beside(channel)).map(|(other, _)| other);
+            // Once for all that are beside each other.
+            if beside().next() == Some(number) {
+                let members: Vec<usize> = beside().collect();
                 steps.extend(zero_steps::find(&self.trace, quiet, &members));
             }
         }
@@ -217,8 +217,7 @@ impl HealthWatch {
     fn course(&self, number: usize) -> Vec<Excursion> {
         let length = self.trace.blocks.len().div_ceil(Self::COURSE).max(1);
         let part = |blocks: &[Block]| {
-            let cells =
-                || blocks.iter().filter_map(|block| block.cells.get(number)).filter(|cell| cell.count > 0);
+            let cells = || blocks.iter().filter_map(|block| block.cells.get(number));
             let count: f64 = cells().map(|cell| f64::from(cell.count)).sum();
             let (first, last) = (blocks.first()?, blocks.last()?);
             (count > 0.0).then(|| Excursion {

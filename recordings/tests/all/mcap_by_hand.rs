@@ -1,6 +1,8 @@
 //! MCAP files whose every byte is written here, after the specification of the format.
 
-use fingertip_recordings::mcap::{Entry, McapError, McapReader, Recorded};
+use std::io::Cursor;
+
+use fingertip_recordings::mcap::{Compression, Entry, McapError, McapReader, Recorded, recover};
 use fingertip_test_support::mcap::{
     channel, data_end, definitions, file, message, record, schema, string, wrench,
 };
@@ -172,4 +174,26 @@ fn a_length_beyond_its_record_is_an_error_before_anything_is_allocated_for_it() 
         let error = entries(&file(&[record(opcode, &vec![0; length])])).unwrap_err();
         assert!(matches!(error, McapError::Length { .. }), "{opcode} {length}: {error}");
     }
+}
+
+/// Messages of channels that nothing describes, channels of schemas that nothing does, and records whose lengths cannot be
+/// are counted one by one; the rest is recovered.
+#[test]
+fn records_that_cannot_be_read_are_counted() {
+    let damaged = changed(&channel(2, 1, "/t", "cdr"), 4, u32::MAX);
+    let parts = [
+        definitions(),
+        message(9, 0, &wrench()),
+        message(1, 0, &wrench()),
+        channel(3, 8, "/u", "cdr"),
+        message(3, 0, &wrench()),
+        damaged,
+        message(1, 1, &wrench()),
+        data_end(),
+    ];
+    let (recovered, anew) =
+        recover(file(&parts).as_slice(), Cursor::new(Vec::new()), Compression::None).unwrap();
+    assert_eq!((recovered.messages, recovered.damaged_records, recovered.damaged_chunks), (2, 4, 0));
+    assert!(!recovered.cut);
+    assert_eq!(entries(anew.get_ref()).unwrap(), [expected(), expected()]);
 }

@@ -186,3 +186,13 @@ fn rows_of_blocks_are_those_that_come_one_by_one() {
         }
     }
 }
+
+/// A dot parts words behind a force or a torque, as topics of ROS are written.
+#[test]
+fn a_dot_parts_force_and_axis() {
+    let file = "t_s,force.x_N,force.y_N,force.z_N,torque.x_Nm,torque.y_Nm,torque.z_Nm\n0,1,2,3,4,5,6\n";
+    let mut reader = RecordingReader::new("test.csv", file.as_bytes()).unwrap();
+    let sensor = reader.layout().only_wrench().unwrap().clone();
+    let row = reader.next_row().unwrap().unwrap();
+    assert_eq!(row.wrench(&sensor).unwrap().components().as_slice(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+}
