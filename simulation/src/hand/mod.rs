@@ -22,7 +22,7 @@ pub use finger::FingerPlace;
 pub use gripping::{Felt, GrippingHand, GrippingSettings};
 pub use object::HeldObject;
 pub use script::{HandMotion, HandScript, HandSegment};
-pub use session::standard_hand;
+pub use session::{play_standard_hand, standard_hand};
 pub use skin::SkinSettings;
 pub use weighing::Weighing;
 pub use world::{HandOptions, HandSample, HandTruth, SimulatedHand, TrueTouch, World};

@@ -4,9 +4,10 @@ use fingertip_surfaces::CappedCylinder;
 use nalgebra::Vector3;
 
 use super::finger::FingerPlace;
+use super::gripping::{Felt, GrippingHand, GrippingSettings};
 use super::object::HeldObject;
 use super::script::HandScript;
-use super::world::{HandOptions, SimulatedHand};
+use super::world::{HandOptions, HandSample, SimulatedHand};
 use crate::error::SimulationError;
 use crate::fingertip::Options;
 
@@ -45,4 +46,17 @@ pub fn standard_hand(seed: u64) -> Result<SimulatedHand<CappedCylinder<f64>, 3>,
         .open(0.5);
     let options = HandOptions { sensors: Options { seed, ..Options::default() }, ..HandOptions::default() };
     SimulatedHand::new(HeldObject::cylinder(0.03, 0.05, 0.2)?, FingerPlace::ring(0.05), &script, options)
+}
+
+/// Plays the [session](standard_hand) as [`GrippingHand::play`] does. No generic function, so that it is compiled here, as
+/// fast as this crate is.
+///
+/// # Errors
+/// [`SimulationError`] for settings out of range.
+pub fn play_standard_hand(
+    seed: u64,
+    settings: &GrippingSettings<3>,
+    each: &mut dyn FnMut(&HandSample<3>, &Felt<3>, &GrippingHand<3>),
+) -> Result<(), SimulationError> {
+    GrippingHand::play(&mut standard_hand(seed)?, settings, each).map(|_| ())
 }

@@ -7,7 +7,8 @@ use fingertip::friction::{SlipMargin, SlipVerdict};
 use fingertip::hand::{Grasp, HandState, ObjectWeight};
 use fingertip::wrench::ContactForce;
 use fingertip_simulation::hand::{
-    Felt, GrippingHand, GrippingSettings, HandSample, HandSegment, Weighing, standard_hand,
+    Felt, GrippingHand, GrippingSettings, HandSample, HandSegment, Weighing, play_standard_hand,
+    standard_hand,
 };
 
 use super::args::DemoArguments;
@@ -65,14 +66,14 @@ pub(super) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
 }
 
 fn play(seed: u64) -> Result<Outcome, CliError> {
-    let mut hand = standard_hand(seed).map_err(fault)?;
+    let hand = standard_hand(seed).map_err(fault)?;
     let phases: Vec<_> = hand.phases().collect();
     let (mut moments, mut masses) = (Vec::new(), Vec::new());
     let mut scales = Scales::default();
     let mut held_at = None;
     let settings = GrippingSettings::default();
     let frictions = hand.options().skins.map(|skin| skin.static_friction);
-    GrippingHand::play(&mut hand, &settings, |sample, felt, gripping| {
+    play_standard_hand(seed, &settings, &mut |sample, felt, gripping| {
         if let Some(mass) = scales.weigh(sample, felt, gripping, &phases) {
             masses.push(mass);
         }
