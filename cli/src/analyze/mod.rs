@@ -7,6 +7,7 @@ mod cells;
 pub mod columns;
 mod contacts;
 mod files;
+mod hand;
 mod json;
 pub mod library;
 mod payload;
@@ -38,6 +39,9 @@ use source::{Reading, Source};
 use span::{Place, Window};
 
 pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
+    if hand::is_hand(&arguments.scene) {
+        return hand::run(arguments);
+    }
     let scene = scene::load(&arguments.scene)?;
     let scene = scene::with(scene, arguments.calibration.as_deref(), arguments.payload.as_deref())?;
     let outputs = files::guard(arguments)?;
