@@ -23,6 +23,13 @@ pub enum SimulationError {
         /// What is wrong.
         problem: ScriptProblem,
     },
+    /// A contact of a hand or what it grips with is out of range.
+    #[cfg(feature = "hand")]
+    #[error("in the simulated hand, {reason}")]
+    Hand {
+        /// What is wrong, as a sentence that names the parameter.
+        reason: String,
+    },
     /// The beam or its gauges make no sensor.
     #[error(transparent)]
     Layout(#[from] LayoutError),
@@ -50,6 +57,15 @@ pub enum ScriptProblem {
     /// Nothing touches.
     #[error("nothing touches here; press first")]
     NotInContact,
+    /// A motion of a hand is not finite.
+    #[error("the motion of the hand must be finite")]
+    BadMotion,
+    /// What is poured is no mass, or its place is not finite.
+    #[error("the mass that is poured in must be positive and finite, and its place finite")]
+    BadMass,
+    /// A push is not finite.
+    #[error("the force of a push and its place must be finite")]
+    BadPush,
     /// Something touches already.
     #[error("something touches already; release first")]
     AlreadyInContact,

@@ -5,15 +5,14 @@ use core::convert::Infallible;
 use fingertip_surfaces::Sphere;
 use fingertip_wrench::{GaugesAndDummy, SensorMatrix, Wrench};
 use nalgebra::{SVector, Vector6};
-use rand::SeedableRng;
-use rand_pcg::Pcg64Mcg;
 
 use crate::design::Design;
 use crate::electronics::Electronics;
 use crate::error::{SimulationError, positive};
-use crate::imperfections::{BuiltSensor, Imperfections};
+use crate::imperfections::Imperfections;
 use crate::script::Script;
-use crate::thermal_drift::{Temperature, ThermalDrift};
+use crate::sensor::{Converted, SimulatedSensor};
+use crate::thermal_drift::ThermalDrift;
 use crate::timeline::{Phase, Timeline, TrueContact};
 use fingertip_drivers::{Sample, Source};
 
@@ -89,16 +88,10 @@ impl SimulatedSample {
 /// [`Source`] of seven channels (six gauges and the dummy gauge).
 #[derive(Clone, Debug)]
 pub struct SimulatedFingertip {
-    options: Options,
+    sensor: SimulatedSensor,
     sphere: Sphere<f64>,
-    built: BuiltSensor,
-    nominal_matrix: SensorMatrix<f64, 6>,
     timeline: Timeline,
-    random: Pcg64Mcg,
-    temperature: Temperature,
-    samples: u64,
     phase: usize,
-    dummy: f64,
 }
 
 impl SimulatedFingertip {
@@ -109,45 +102,26 @@ impl SimulatedFingertip {
     pub fn new(script: &Script, options: Options) -> Result<Self, SimulationError> {
         positive(options.sample_rate, "sample rate")?;
         let sphere = options.design.sphere()?;
-        let electronics = options.electronics.checked()?;
-        let drift = options.thermal_drift.checked()?;
         let timeline = Timeline::new(script, &options.design)?;
-        let mut random = Pcg64Mcg::seed_from_u64(options.seed);
-        let built =
-            BuiltSensor::new(&options.design, &electronics, &drift, &options.imperfections, &mut random)?;
-        let nominal_matrix =
-            options.design.layout()?.sensor_matrix(electronics.gain(), options.design.nominal_loads())?;
-        let temperature = Temperature::new(drift, options.sample_rate);
-        Ok(Self {
-            options,
-            sphere,
-            built,
-            nominal_matrix,
-            timeline,
-            random,
-            temperature,
-            samples: 0,
-            phase: 0,
-            dummy: 0.0,
-        })
+        Ok(Self { sensor: SimulatedSensor::new(options)?, sphere, timeline, phase: 0 })
     }
 
     /// The sensor matrix \[V\] as a calibration found it: what a user of the sensor has.
     #[must_use]
     pub const fn calibrated_matrix(&self) -> &SensorMatrix<f64, 6> {
-        &self.built.calibrated_matrix
+        self.sensor.calibrated_matrix()
     }
 
     /// The sensor matrix \[V\] of the gauges where they really are.
     #[must_use]
     pub const fn true_matrix(&self) -> &SensorMatrix<f64, 6> {
-        &self.built.true_matrix
+        self.sensor.true_matrix()
     }
 
     /// The sensor matrix \[V\] of the drawing, as one has it before any calibration.
     #[must_use]
     pub const fn nominal_matrix(&self) -> &SensorMatrix<f64, 6> {
-        &self.nominal_matrix
+        self.sensor.nominal_matrix()
     }
 
     /// The fingertip's surface.
@@ -159,7 +133,7 @@ impl SimulatedFingertip {
     /// What was chosen.
     #[must_use]
     pub const fn options(&self) -> &Options {
-        &self.options
+        self.sensor.options()
     }
 
     /// The segments of the script with their times.
@@ -179,31 +153,6 @@ impl SimulatedFingertip {
     pub fn duration(&self) -> f64 {
         self.timeline.end()
     }
-
-    /// What the electronics make of a load and a temperature, and whether a channel saturates.
-    fn read(&mut self, wrench: &Wrench<f64>, temperature: f64) -> (SVector<f64, 7>, bool) {
-        let electronics = &self.options.electronics;
-        let strains = self.built.strains * wrench.components();
-        // The dummy gauge carries no load.
-        let mut raw = strains.push(0.0);
-        let mut any_saturated = false;
-        for (channel, value) in raw.iter_mut().enumerate() {
-            let of = |values: &[f64; 7]| values.get(channel).copied().unwrap_or_default();
-            let strain = *value + of(&self.built.apparent_strain) * temperature;
-            let bridge = electronics.bridge(strain) * of(&self.built.gains);
-            let input = bridge + of(&self.built.unbalance) + of(&self.built.offset_drift) * temperature;
-            let (volts, saturated) = electronics.sample(input, &mut self.random);
-            *value = volts;
-            any_saturated |= saturated;
-        }
-        // First-order average, started with the plain mean so that it is as good from the first.
-        let settled = electronics.dummy_averaging * self.options.sample_rate;
-        #[allow(clippy::cast_precision_loss, reason = "exact for 10^15 samples")]
-        let weight = 1.0 / (self.samples as f64).min(settled).max(1.0);
-        self.dummy += (raw[6] - self.dummy) * weight;
-        raw[6] = self.dummy;
-        (raw, any_saturated)
-    }
 }
 
 impl Iterator for SimulatedFingertip {
@@ -211,8 +160,7 @@ impl Iterator for SimulatedFingertip {
 
     /// The next sample, or `None` at the end of the script.
     fn next(&mut self) -> Option<SimulatedSample> {
-        #[allow(clippy::cast_precision_loss, reason = "exact for 10^15 samples")]
-        let time = self.samples as f64 / self.options.sample_rate;
+        let time = self.sensor.time();
         let phase = loop {
             let phase = self.timeline.phases.get(self.phase)?;
             if time < phase.end {
@@ -220,12 +168,10 @@ impl Iterator for SimulatedFingertip {
             }
             self.phase += 1;
         };
-        self.samples += 1;
         let (load, slipping) = phase.load(time);
-        let contact = load.contact(self.options.design.sphere_radius);
+        let contact = load.contact(self.sensor.options().design.sphere_radius);
         let wrench = contact.map_or_else(Wrench::zero, |contact| contact.wrench());
-        let temperature = self.temperature.next(time, &mut self.random);
-        let (raw, saturated) = self.read(&wrench, temperature);
+        let Converted { time, raw, temperature, saturated } = self.sensor.convert(&wrench);
         let truth = Truth { wrench, contact, temperature, slipping, phase: self.phase, saturated };
         Some(SimulatedSample { time, raw, truth })
     }

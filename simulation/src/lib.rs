@@ -6,9 +6,12 @@ mod device;
 mod electronics;
 mod error;
 mod fingertip;
+#[cfg(feature = "hand")]
+pub mod hand;
 mod imperfections;
 mod score;
 mod script;
+mod sensor;
 mod session;
 mod surface_point;
 mod thermal_drift;

@@ -7,13 +7,14 @@ use clap::Args;
 use super::span::Span;
 use crate::output::Overwrite;
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(crate) struct AnalyzeArguments {
     /// The recording: CSV with units in the column names (fx_N, tz_Nmm, v1_V, t_s), or MCAP (.mcap); `-` is the standard
     /// input. Of several, each writes files of its own: RUN.csv writes RUN.contacts.csv and RUN.report.html
     #[arg(value_name = "FILE", required = true)]
     pub(crate) recordings: Vec<PathBuf>,
-    /// The scene: surface, pose, thresholds, friction (book/src/reference/scene.md)
+    /// The scene: surface, pose, thresholds, friction (book/src/reference/scene.md); or a hand scene, which names those
+    /// of several fingers (examples/hands/two_pads.toml)
     #[arg(long, value_name = "SCENE.toml")]
     pub(crate) scene: PathBuf,
     /// The calibration, for a recording of volts: TOML as `calibrate` writes it, or an ATI .cal; in the place of

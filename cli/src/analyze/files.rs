@@ -20,8 +20,9 @@ pub(super) struct Files {
 }
 
 impl Files {
-    /// Of each recording. Refuses to write over what is read, and twice into one file.
-    pub(super) fn of(arguments: &AnalyzeArguments) -> Result<Vec<Self>, CliError> {
+    /// Of each recording. Refuses to write over what is read, of which there is `more` than the command line names, and
+    /// twice into one file.
+    pub(super) fn of(arguments: &AnalyzeArguments, more: &[&PathBuf]) -> Result<Vec<Self>, CliError> {
         let recordings = &arguments.recordings;
         if recordings.len() > 1 && is_standard(&arguments.output) {
             return Err(CliError::SharedStdout);
@@ -33,7 +34,7 @@ impl Files {
         };
         let all: Vec<(PathBuf, Option<PathBuf>)> = recordings.iter().map(named).collect();
         let options = [Some(&arguments.scene), arguments.calibration.as_ref(), arguments.payload.as_ref()];
-        let inputs = recordings.iter().chain(options.into_iter().flatten());
+        let inputs = recordings.iter().chain(options.into_iter().flatten()).chain(more.iter().copied());
         let every = all.iter().flat_map(|(output, report)| core::iter::once(output).chain(report));
         let outputs = Outputs::guard(arguments.overwrite, "output", inputs, every)?;
         let files = |(output, report)| Self { output, report, outputs: outputs.part() };

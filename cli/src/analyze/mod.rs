@@ -7,6 +7,7 @@ mod cells;
 pub mod columns;
 mod contacts;
 mod files;
+mod hand;
 mod json;
 pub mod library;
 mod payload;
@@ -41,7 +42,10 @@ use source::{Reading, Source};
 use span::{Place, Window};
 
 pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
-    let all = Files::of(arguments)?;
+    if hand::is_hand(&arguments.scene) {
+        return hand::run(arguments);
+    }
+    let all = Files::of(arguments, &[])?;
     let scene = scene::load(&arguments.scene)?;
     let scene = scene::with(scene, arguments.calibration.as_deref(), arguments.payload.as_deref())?;
     let mut each = all.iter();

@@ -14,6 +14,9 @@ pub(crate) struct DemoArguments {
     /// Seed of the noise: the same seed gives the same report
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
+    /// Simulate a hand of three fingertips that lifts, tilts, fills and hands over a jar
+    #[arg(long, conflicts_with_all = ["recording", "calibration"])]
+    pub(crate) hand: bool,
     /// Also write the simulated volts, a recording to try `analyze` on
     #[arg(long, value_name = "FILE")]
     pub(crate) recording: Option<PathBuf>,

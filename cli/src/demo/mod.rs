@@ -5,6 +5,7 @@ pub(crate) mod args;
 mod export;
 mod figures;
 mod findings;
+mod hand;
 mod rest;
 
 use fingertip::Fingertip;
@@ -53,6 +54,9 @@ struct Outcome {
 }
 
 pub(crate) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
+    if arguments.hand {
+        return hand::run(arguments);
+    }
     let paths = [Some(&arguments.out), arguments.recording.as_ref(), arguments.calibration.as_ref()];
     let outputs = Outputs::guard(arguments.overwrite, "output", [], paths.into_iter().flatten())?;
     let outcome = play(arguments, &outputs)?;

@@ -144,3 +144,33 @@ fn its_volts_analyzed_give_the_true_contacts() {
     let error = folder.fail(1, &analyze);
     assert!(error.contains("calibration.toml") && error.contains("checksum"), "{error}");
 }
+
+#[test]
+fn a_simulated_hand_weighs_what_it_holds_and_keeps_it() {
+    let folder = Folder::new();
+    let text = folder.succeed(&["demo", "--hand"]);
+    // "201 ± 2.41 g for 200 g": within three per cent, and three of the deviations that are stated.
+    let line = text.lines().find(|line| line.starts_with("It weighed")).unwrap();
+    let masses: Vec<Vec<f64>> = line
+        .trim_start_matches("It weighed ")
+        .split(", ")
+        .map(|mass| mass.split_whitespace().filter_map(|word| word.parse().ok()).collect())
+        .collect();
+    assert_eq!(masses.iter().map(|mass| mass[2]).collect::<Vec<_>>(), [200.0, 300.0, 300.0, 300.0], "{line}");
+    for mass in &masses {
+        let error = (mass[0] - mass[2]).abs();
+        assert!(error < 0.03 * mass[2] && error < 3.0 * mass[1], "{line}");
+    }
+    // It was not lost: "in the hand the jar moved by 0.121 mm at most."
+    let (_, moved) = text.split_once("the jar moved by ").unwrap();
+    assert!(moved.split_once(" mm").unwrap().0.parse::<f64>().unwrap() < 1.0, "{moved}");
+    let report = folder.read("report.html");
+    for title in ["Normal forces", "Friction left", "What it weighs", "moves in the hand"] {
+        assert!(report.contains(title), "{title}");
+    }
+    assert!(!report.contains("NaN"));
+    folder.succeed(&["demo", "--hand", "--out", "again.html"]);
+    assert_eq!(folder.read("again.html"), report);
+    folder.succeed(&["demo", "--hand", "--seed", "2", "--out", "other.html"]);
+    assert_ne!(folder.read("other.html"), report);
+}

@@ -14,6 +14,7 @@ mod design;
 mod exports;
 mod foreign_readers;
 mod fused;
+mod hand;
 mod health;
 mod live;
 mod nano17;

@@ -1,6 +1,7 @@
 //! The tests of the crate from outside, as one program: each program more is linked again.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "helpers of tests")]
 
+mod hand;
 mod health;
 mod prototype;
 mod simulated_flaws;

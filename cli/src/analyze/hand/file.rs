@@ -1,0 +1,185 @@
+//! The hand scene: which sensors of a recording are the fingertips of one hand, and where they are.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use fingertip::hand::{FingerLimits, Hand};
+use fingertip::wrench::{RigidTransform, Sensor};
+use fingertip_scene::{Limit, Scene};
+use nalgebra::Vector3;
+use serde::Deserialize;
+
+use crate::error::CliError;
+use crate::scene;
+
+/// Most fingers of a hand.
+pub(super) const MOST: usize = 8;
+
+/// A hand scene, as it stands in a file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct HandFile {
+    version: u32,
+    #[serde(default)]
+    name: String,
+    #[serde(default)]
+    hand: HandSection,
+    finger: Vec<FingerSection>,
+}
+
+/// `[hand]`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct HandSection {
+    sensors_in: SensorsIn,
+    safety: f64,
+}
+
+impl Default for HandSection {
+    fn default() -> Self {
+        Self { sensors_in: SensorsIn::Fingers, safety: 1.0 }
+    }
+}
+
+/// On which side of the contacts the sensors are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum SensorsIn {
+    /// In the fingertips: their normals point into the object.
+    Fingers,
+    /// In the object, whose pads are pressed by bare fingers: their normals point at the fingers.
+    Object,
+}
+
+/// `[[finger]]`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FingerSection {
+    name: String,
+    scene: PathBuf,
+    sensor: Option<String>,
+    #[serde(rename = "translation_m", default)]
+    translation: [f64; 3],
+    #[serde(rename = "rotation_deg", default)]
+    rotation: [f64; 3],
+    pose_columns: Option<String>,
+    friction: Option<f64>,
+    #[serde(rename = "torque_arm_m")]
+    arm: Option<f64>,
+    #[serde(rename = "least_normal_N")]
+    least_normal: Option<f64>,
+    #[serde(rename = "greatest_normal_N")]
+    greatest_normal: Option<f64>,
+}
+
+/// A hand scene that was checked.
+pub(super) struct HandScene {
+    pub(super) name: String,
+    pub(super) sensors_in: SensorsIn,
+    pub(super) safety: f64,
+    pub(super) fingers: Vec<FingerScene>,
+}
+
+/// One finger of it.
+pub(super) struct FingerScene {
+    pub(super) name: String,
+    pub(super) path: PathBuf,
+    pub(super) scene: Scene,
+    /// The prefix of its columns, if the hand scene gives it.
+    pub(super) sensor: Option<String>,
+    pub(super) pose: RigidTransform<f64, Hand, Sensor>,
+    /// The prefix of the columns of its pose, before `_x_m` and the others.
+    pub(super) pose_columns: Option<String>,
+    pub(super) friction: f64,
+    /// The torque arm of a soft contact \[m\].
+    pub(super) arm: Option<f64>,
+    pub(super) limits: FingerLimits<f64, 2>,
+}
+
+/// Whether a file is a hand scene: it has a key `finger`. A file that cannot be read is none, and is told of where it
+/// is read as a scene.
+pub(super) fn is_hand(path: &Path) -> bool {
+    let text = fs::read_to_string(path).unwrap_or_default();
+    text.parse::<toml::Table>().is_ok_and(|table| table.contains_key("finger"))
+}
+
+/// Reads and checks a hand scene with the scenes of its fingers, which are named from its folder.
+pub(super) fn load(path: &Path) -> Result<HandScene, CliError> {
+    let bad = |message: String| CliError::Calibrate { path: path.to_owned(), message };
+    let text = fs::read_to_string(path).map_err(|source| CliError::read("scene", path, source))?;
+    let file: HandFile = toml::from_str(&text).map_err(|error| bad(error.to_string()))?;
+    if file.version != 1 {
+        return Err(bad(format!(
+            "has version {}; this program knows hand scenes of version 1",
+            file.version
+        )));
+    }
+    if !(1..=MOST).contains(&file.finger.len()) {
+        return Err(bad(format!("has {} [[finger]]; a hand has 1 to {MOST}", file.finger.len())));
+    }
+    let HandSection { sensors_in, safety } = file.hand;
+    if !(safety >= 1.0 && safety.is_finite()) {
+        return Err(bad(format!("safety = {safety} of [hand] must be at least 1 and finite")));
+    }
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut fingers: Vec<FingerScene> = Vec::new();
+    for section in file.finger {
+        let named = |message: String| bad(format!("finger {:?}: {message}", section.name));
+        let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        if section.name.is_empty() || !section.name.chars().all(plain) {
+            return Err(named(
+                "its name must be of letters, digits and _, since columns are named by it".to_owned(),
+            ));
+        }
+        if fingers.iter().any(|other| other.name == section.name) {
+            return Err(named("another finger has this name; give each its own".to_owned()));
+        }
+        fingers.push(finger(section, folder, &bad)?);
+    }
+    Ok(HandScene { name: file.name, sensors_in, safety, fingers })
+}
+
+fn finger(
+    section: FingerSection,
+    folder: &Path,
+    bad: &impl Fn(String) -> CliError,
+) -> Result<FingerScene, CliError> {
+    let name = section.name;
+    let named = |message: String| bad(format!("finger {name:?}: {message}"));
+    let path = folder.join(&section.scene);
+    let scene = scene::load(&path)?;
+    let friction = section.friction.or(scene.limit().map(Limit::coefficient)).ok_or_else(|| {
+        named(format!("neither `friction` here nor [friction] of {} says how much it holds", path.display()))
+    })?;
+    let of_scene = match scene.limit() {
+        Some(Limit::SoftFinger(limit)) => Some(limit.arm()),
+        _ => None,
+    };
+    let arm = section.arm.or(of_scene);
+    for (value, key) in [(Some(friction), "friction"), (arm, "torque_arm_m")] {
+        if value.is_some_and(|value| !(value > 0.0 && value.is_finite())) {
+            return Err(named(format!("`{key}` must be positive and finite")));
+        }
+    }
+    let mut limits = FingerLimits::none();
+    if let Some(newtons) = section.greatest_normal {
+        limits = limits
+            .with_greatest_normal(newtons)
+            .map_err(|error| named(format!("`greatest_normal_N`: {error}")))?;
+    }
+    if let Some(newtons) = section.least_normal {
+        limits =
+            limits.with_least_normal(newtons).map_err(|error| named(format!("`least_normal_N`: {error}")))?;
+    }
+    let fixed = section.translation != [0.0; 3] || section.rotation != [0.0; 3];
+    if fixed && section.pose_columns.is_some() {
+        return Err(named(
+            "its pose is either fixed or in columns; leave `pose_columns` or the others out".to_owned(),
+        ));
+    }
+    let rotation = Vector3::from(section.rotation).map(f64::to_radians);
+    let pose = RigidTransform::from_axis_angle(rotation, section.translation.into())
+        .map_err(|_| named("`translation_m` and `rotation_deg` must be finite".to_owned()))?;
+    let (sensor, pose_columns) = (section.sensor, section.pose_columns);
+    Ok(FingerScene { name, path, scene, sensor, pose, pose_columns, friction, arm, limits })
+}

@@ -1,0 +1,110 @@
+//! What a row says of all fingers together.
+
+use fingertip::hand::{FingerLimits, Grasp, GraspContact, GripOutcome, Hand, LeastGrip};
+use fingertip::wrench::{ContactForce, RigidTransform, Sensor, Wrench};
+use fingertip_scene::Felt;
+
+use super::file::{FingerScene, MOST, SensorsIn};
+
+/// What the fingers feel in a row, in the frame of the hand.
+pub(super) struct Fingers {
+    contacts: [Option<GraspContact<f64>>; MOST],
+    forces: [ContactForce<f64>; MOST],
+    load: Wrench<f64, Hand>,
+}
+
+/// What all that means.
+pub(super) struct Grasped {
+    pub(super) contacts: [Option<GraspContact<f64>>; MOST],
+    pub(super) forces: [ContactForce<f64>; MOST],
+    /// What the object loads the fingers with, of whatever they feel.
+    pub(super) load: Wrench<f64, Hand>,
+    /// How far each contact is from slipping \[N\].
+    pub(super) margins: [Option<f64>; MOST],
+    /// The sum of the normal forces \[N\].
+    pub(super) grip: f64,
+    /// The part of it with which the object is squeezed \[N\].
+    pub(super) squeeze: f64,
+    /// The least sum of normal forces that holds the load, and each finger's \[N\].
+    pub(super) least: Option<(f64, [f64; MOST])>,
+    pub(super) held: &'static str,
+}
+
+impl Fingers {
+    pub(super) fn none() -> Self {
+        Self { contacts: [None; MOST], forces: [ContactForce::zero(); MOST], load: Wrench::zero() }
+    }
+
+    /// Takes in what a finger feels, with its pose in the hand. A sensor in the object feels what the finger does to
+    /// the object: the finger feels the opposite, and its normal is the other one.
+    pub(super) fn add(
+        &mut self,
+        index: usize,
+        finger: &FingerScene,
+        sensors_in: SensorsIn,
+        pose: &RigidTransform<f64, Hand, Sensor>,
+        felt: &Felt<f64>,
+    ) {
+        let sign = if sensors_in == SensorsIn::Fingers { 1.0 } else { -1.0 };
+        let wrench = felt.touch.wrench.expressed_in(pose);
+        self.load = self.load + Wrench::on_fingertip(wrench.force() * sign, wrench.torque() * sign);
+        let Some(contact) = felt.contact() else { return };
+        let force = contact.contact_force();
+        let (point, normal) = (contact.point, contact.normal * sign);
+        let place = match finger.arm {
+            Some(arm) => GraspContact::soft(point, normal, finger.friction, arm),
+            None => GraspContact::point(point, normal, finger.friction),
+        };
+        let Ok(place) = place else { return };
+        if let (Some(to), Some(of)) = (self.contacts.get_mut(index), self.forces.get_mut(index)) {
+            *to = Some(place.expressed_in(pose));
+            // A torque about the normal keeps its sign where both are reversed.
+            *of =
+                ContactForce::new(force.normal, pose.rotate(&(force.tangential.vector() * sign)), force.spin);
+        }
+    }
+}
+
+impl Grasped {
+    /// The program starts from the last row's solution.
+    pub(super) fn of(
+        fingers: Fingers,
+        limits: &[FingerLimits<f64, 2>; MOST],
+        safety: f64,
+        program: &mut LeastGrip<f64, MOST, 2>,
+    ) -> Self {
+        let Fingers { contacts, forces, load } = fingers;
+        let grasp = Grasp::new(contacts);
+        let margins = grasp.slip_margins(&forces).map(|margin| margin.map(|margin| margin.newtons));
+        let touching = |forces: &[ContactForce<f64>; MOST]| -> f64 {
+            forces.iter().zip(&contacts).filter_map(|(f, contact)| contact.map(|_| f.normal)).sum()
+        };
+        let (grip, squeeze) = (touching(&forces), touching(&grasp.split(&forces).internal));
+        // A safety that leaves no friction leaves no contact: it was checked, and friction is not that small.
+        let careful = contacts.map(|contact| contact.and_then(|contact| contact.with_safety(safety).ok()));
+        let (least, held) = if grasp.touching() == 0 {
+            (None, "")
+        } else {
+            match program.solve(&Grasp::new(careful), limits, &load) {
+                GripOutcome::Held(grip) => {
+                    let each = grip.forces.map(|force| force.normal);
+                    (Some((each.iter().sum(), each)), "held")
+                }
+                GripOutcome::CannotHold(_) => (None, "cannot_hold"),
+                GripOutcome::NotFinite => (None, "not_finite"),
+                GripOutcome::Undecided => (None, "undecided"),
+            }
+        };
+        Self { contacts, forces, load, margins, grip, squeeze, least, held }
+    }
+
+    /// The least of the margins \[N\].
+    pub(super) fn least_margin(&self) -> Option<f64> {
+        self.margins.iter().flatten().copied().reduce(f64::min)
+    }
+
+    /// How many fingers touch.
+    pub(super) fn touching(&self) -> usize {
+        self.contacts.iter().flatten().count()
+    }
+}

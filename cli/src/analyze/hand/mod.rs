@@ -1,0 +1,225 @@
+//! `fingertip analyze` with a hand scene: several sensors of one recording, which hold one object together.
+
+mod file;
+mod grasped;
+mod page;
+mod table;
+
+use std::path::{Path, PathBuf};
+
+use fingertip::hand::{FingerLimits, Hand, LeastGrip};
+use fingertip::wrench::{RigidTransform, Sensor};
+use fingertip_recordings::{NumberColumn, Row};
+use fingertip_scene::Pipeline;
+use nalgebra::Vector3;
+
+use super::args::AnalyzeArguments;
+use super::files::{self, Files};
+use super::know_noise;
+use super::source::{Reading, Source};
+use super::span::{Place, Window};
+use crate::error::CliError;
+use crate::observe::Status;
+use crate::opened::{Opened, Rows};
+use crate::report;
+use crate::several;
+use file::{FingerScene, HandScene, MOST};
+use grasped::{Fingers, Grasped};
+use page::Seen;
+use table::GraspWriter;
+
+/// What a pose is told by, behind the prefix of its columns.
+const POSE: [&str; 7] = ["x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"];
+
+/// Whether a file is a hand scene.
+pub(super) fn is_hand(path: &Path) -> bool {
+    file::is_hand(path)
+}
+
+pub(super) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
+    refuse(arguments)?;
+    arguments.span.check()?;
+    let scene = file::load(&arguments.scene)?;
+    let fingers: Vec<&PathBuf> = scene.fingers.iter().map(|finger| &finger.path).collect();
+    let mut each = Files::of(arguments, &fingers)?.into_iter();
+    several::each(&arguments.recordings, |recording| match each.next() {
+        Some(files) => one(recording, &scene, arguments, &files),
+        None => Ok(()),
+    })
+}
+
+/// One of the recordings.
+fn one(
+    recording: &Path,
+    scene: &HandScene,
+    arguments: &AnalyzeArguments,
+    files: &Files,
+) -> Result<(), CliError> {
+    let Files { output, report, outputs } = files;
+    let mut notes = Vec::from_iter(arguments.span.note());
+    let first = scene.fingers.first().map(|finger| files::of(&finger.scene)).unwrap_or_default();
+    let Opened { rows: mut reader, bar, .. } = Opened::open(recording, &arguments.topics, first, &mut notes)?;
+    let mut tips = Vec::with_capacity(scene.fingers.len());
+    for finger in &scene.fingers {
+        tips.push(Tip::new(finger, recording, arguments, &mut reader)?);
+    }
+    let mut writer = GraspWriter::create(output, outputs, scene)?;
+    let mut seen = Seen::new(scene);
+    read(scene, &mut tips, &mut reader, Window::new(arguments.span), &mut writer, &mut seen)?;
+    bar.finish_and_clear();
+    for (tip, finger) in tips.iter().zip(&scene.fingers) {
+        if let Some(rest) = tip.source.unfinished_rest() {
+            let (path, rows) = (recording.to_owned(), seen.rows());
+            return Err(CliError::RestTooLong { path, rest, rows });
+        }
+        notes.extend(tip.source.notes().iter().map(|note| format!("finger {}: {note}", finger.name)));
+    }
+    if seen.rows() == 0 {
+        return Err(CliError::NoRows { path: recording.to_owned() });
+    }
+    writer.finish()?;
+    let findings = seen.findings(recording, notes);
+    if let Some(path) = report {
+        let page = report::of_design(&findings, seen.figures());
+        outputs.write("report", path, &page)?;
+    }
+    outputs.say(&findings.to_string(), &[])
+}
+
+/// What a hand scene has no place for on the command line.
+fn refuse(arguments: &AnalyzeArguments) -> Result<(), CliError> {
+    let of_finger = "is said for each finger by a hand scene: put it into the scene of the finger";
+    let path = |path: &PathBuf| path.display().to_string();
+    let given = [
+        (
+            "--sensor",
+            arguments.sensor.clone(),
+            "is said for each finger by a hand scene: set `sensor` of [[finger]]",
+        ),
+        ("--calibration", arguments.calibration.as_ref().map(path), of_finger),
+        ("--payload", arguments.payload.as_ref().map(path), of_finger),
+        (
+            "--json",
+            arguments.json.then(String::new),
+            "is not there for a hand scene yet: read the table that --output names",
+        ),
+    ];
+    match given.into_iter().find_map(|(option, value, problem)| Some((option, value?, problem))) {
+        Some((option, value, problem)) => Err(CliError::option(option, value, problem)),
+        None => Ok(()),
+    }
+}
+
+/// A fingertip: from the rows to what it feels, and where it is.
+struct Tip {
+    source: Source,
+    pipeline: Pipeline<f64>,
+    /// The columns of its pose, where it is not fixed.
+    pose: Option<[NumberColumn; 7]>,
+}
+
+impl Tip {
+    fn new(
+        finger: &FingerScene,
+        recording: &Path,
+        arguments: &AnalyzeArguments,
+        reader: &mut Rows,
+    ) -> Result<Self, CliError> {
+        let sensor = finger.sensor.clone().or_else(|| finger.scene.sensor_name().map(str::to_owned));
+        let of_finger = AnalyzeArguments { sensor, scene: finger.path.clone(), ..arguments.clone() };
+        let source = Source::new(reader, &finger.scene, recording, &of_finger, Vec::new())?;
+        let pose = match &finger.pose_columns {
+            Some(prefix) => Some(pose_columns(prefix, finger, reader)?),
+            None => None,
+        };
+        Ok(Self { source, pipeline: finger.scene.pipeline(), pose })
+    }
+
+    /// Its pose in a row; `None` if a number is missing or the quaternion is none.
+    fn pose(&self, finger: &FingerScene, row: &Row<'_>) -> Option<RigidTransform<f64, Hand, Sensor>> {
+        let Some(columns) = &self.pose else { return Some(finger.pose) };
+        let mut numbers = [0.0; 7];
+        for (number, column) in numbers.iter_mut().zip(columns) {
+            *number = row.number(column)?;
+        }
+        let [x, y, z, wxyz @ ..] = numbers;
+        RigidTransform::from_quaternion(wxyz, Vector3::new(x, y, z)).ok()
+    }
+}
+
+fn pose_columns(
+    prefix: &str,
+    finger: &FingerScene,
+    reader: &mut Rows,
+) -> Result<[NumberColumn; 7], CliError> {
+    let names = POSE.map(|part| format!("{prefix}_{part}"));
+    let columns = names.each_ref().map(|name| reader.watch(name));
+    if let [Some(x), Some(y), Some(z), Some(qw), Some(qx), Some(qy), Some(qz)] = columns {
+        return Ok([x, y, z, qw, qx, qy, qz]);
+    }
+    let message = format!(
+        "has no columns {}, which tell where the sensor of the finger {:?} is in the hand; add them, or give it a fixed \
+         pose by `translation_m` and `rotation_deg` in the place of `pose_columns`",
+        names.join(", "),
+        finger.name
+    );
+    Err(CliError::Calibrate { path: reader.file().into(), message })
+}
+
+/// Reads a recording to its end.
+fn read(
+    scene: &HandScene,
+    tips: &mut [Tip],
+    reader: &mut Rows,
+    mut window: Window,
+    writer: &mut GraspWriter,
+    seen: &mut Seen,
+) -> Result<(), CliError> {
+    let mut limits = [FingerLimits::none(); MOST];
+    for (limits, finger) in limits.iter_mut().zip(&scene.fingers) {
+        *limits = finger.limits;
+    }
+    let mut program = LeastGrip::new();
+    let mut statuses = vec![Status::UnusableRow; tips.len()];
+    while let Some(row) = reader.next_row()? {
+        let mut time = f64::NAN;
+        let mut fingers = Fingers::none();
+        let mut place = Place::Within;
+        // Of all fingers, or of none: a load that lacks a finger's is no load.
+        let mut whole = true;
+        for (index, ((tip, finger), status)) in
+            tips.iter_mut().zip(&scene.fingers).zip(&mut statuses).enumerate()
+        {
+            let (now, time_step) = tip.source.clock(&row);
+            if index == 0 {
+                time = now;
+                place = window.place(now);
+            }
+            if row.marks().gap {
+                tip.pipeline.start_anew();
+            }
+            let pose = tip.pose(finger, &row);
+            match (tip.source.read(&row, now)?, pose) {
+                (Reading::Wrench(wrench), Some(pose)) if place == Place::Within => {
+                    if tip.pipeline.awaits_noise() {
+                        know_noise(&mut tip.pipeline, &mut tip.source, &finger.scene)?;
+                    }
+                    let felt = tip.pipeline.sense(wrench, time_step);
+                    *status = Status::of(&felt.touch.resolution);
+                    fingers.add(index, finger, scene.sensors_in, &pose, felt);
+                }
+                (Reading::Without(why), _) => (*status, whole) = (why, false),
+                _ => (*status, whole) = (Status::UnusableRow, false),
+            }
+        }
+        match place {
+            Place::Before => continue,
+            Place::Behind => break,
+            Place::Within => {}
+        }
+        let grasped = whole.then(|| Grasped::of(fingers, &limits, scene.safety, &mut program));
+        writer.write(time, &statuses, grasped.as_ref())?;
+        seen.add(time, grasped.as_ref());
+    }
+    Ok(())
+}

@@ -1,0 +1,109 @@
+//! The table of a grasp: one row per sample.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::file::{HandScene, MOST};
+use super::grasped::Grasped;
+use crate::error::CliError;
+use crate::observe::Status;
+use crate::output::{Outputs, Whole};
+
+/// The columns of each finger, behind its name.
+const OF_FINGER: [&str; 7] = ["status", "x_m", "y_m", "z_m", "normal_N", "margin_N", "least_normal_N"];
+
+/// The columns of the whole, behind those of the fingers.
+const OF_GRASP: [&str; 11] = [
+    "load_fx_N",
+    "load_fy_N",
+    "load_fz_N",
+    "load_tx_Nm",
+    "load_ty_Nm",
+    "load_tz_Nm",
+    "grip_N",
+    "squeeze_N",
+    "margin_N",
+    "least_grip_N",
+    "held",
+];
+
+/// Writes one row per sample; a cell without a value is empty, numbers are in single precision.
+pub(super) struct GraspWriter {
+    out: Whole,
+    path: PathBuf,
+    line: String,
+}
+
+impl GraspWriter {
+    pub(super) fn create(path: &Path, outputs: &Outputs, scene: &HandScene) -> Result<Self, CliError> {
+        let out = outputs.create("grasp", path)?;
+        let mut names = vec!["t_s".to_owned()];
+        for finger in &scene.fingers {
+            names.extend(OF_FINGER.iter().map(|column| format!("{}_{column}", finger.name)));
+        }
+        names.extend(OF_GRASP.iter().map(|column| (*column).to_owned()));
+        let mut writer = Self { out, path: path.to_owned(), line: names.join(",") };
+        writer.end_line()?;
+        Ok(writer)
+    }
+
+    pub(super) fn write(
+        &mut self,
+        time: f64,
+        statuses: &[Status],
+        grasped: Option<&Grasped>,
+    ) -> Result<(), CliError> {
+        self.line = if time.is_finite() { format!("{time:.9}") } else { String::new() };
+        for (index, status) in statuses.iter().enumerate().take(MOST) {
+            self.word(status.word());
+            let touch = grasped.and_then(|all| {
+                let contact = (*all.contacts.get(index)?)?;
+                let least = all.least.and_then(|(_, each)| each.get(index).copied());
+                Some((contact.place(), all.forces.get(index)?.normal, *all.margins.get(index)?, least))
+            });
+            match touch {
+                Some((place, normal, margin, least)) => {
+                    place.iter().for_each(|x| self.number(Some(*x)));
+                    [Some(normal), margin, least].into_iter().for_each(|x| self.number(x));
+                }
+                None => (1..OF_FINGER.len()).for_each(|_| self.number(None)),
+            }
+        }
+        match grasped {
+            Some(all) => {
+                all.load.components().iter().for_each(|x| self.number(Some(*x)));
+                let touches = all.touching() > 0;
+                self.number(touches.then_some(all.grip));
+                self.number(touches.then_some(all.squeeze));
+                self.number(all.least_margin());
+                self.number(all.least.map(|(sum, _)| sum));
+                self.word(all.held);
+            }
+            None => OF_GRASP.iter().for_each(|_| self.number(None)),
+        }
+        self.end_line()
+    }
+
+    pub(super) fn finish(self) -> Result<(), CliError> {
+        self.out.finish()
+    }
+
+    fn word(&mut self, word: &str) {
+        self.line.push(',');
+        self.line.push_str(word);
+    }
+
+    fn number(&mut self, value: Option<f64>) {
+        match value.filter(|value| value.is_finite()) {
+            #[allow(clippy::cast_possible_truncation, reason = "no force sensor comes near single precision")]
+            Some(value) => self.word(&(value as f32).to_string()),
+            None => self.line.push(','),
+        }
+    }
+
+    fn end_line(&mut self) -> Result<(), CliError> {
+        self.line.push('\n');
+        let written = self.out.write_all(self.line.as_bytes());
+        written.map_err(|source| CliError::write("grasp", &self.path, source))
+    }
+}

@@ -1,0 +1,152 @@
+//! The session of the hand in pictures.
+
+use super::{FINGERS, Moment, Outcome};
+use crate::observe::Point;
+use crate::report::{Axis, Chart, Figure};
+
+const CLASSES: [&str; FINGERS] = ["a", "b", "c"];
+/// Samples of one point of a curve.
+const THINNED: usize = 4;
+
+pub(super) fn of(outcome: &Outcome) -> Vec<Figure> {
+    vec![forces(outcome), margins(outcome), mass(outcome), movement(outcome)]
+}
+
+fn time_axis(outcome: &Outcome) -> Axis {
+    let ends = [outcome.moments.first(), outcome.moments.last()].map(|end| end.map_or(0.0, |end| end.time));
+    Axis::linear("time / s", 0.0, ends[1].max(1.0))
+}
+
+/// A curve of what moments have, broken where they have it not.
+fn pieces(outcome: &Outcome, value: impl Fn(&Moment) -> Option<f64>) -> Vec<Vec<Point>> {
+    let mut pieces = vec![Vec::new()];
+    for moment in outcome.moments.iter().step_by(THINNED) {
+        match (value(moment), pieces.last_mut()) {
+            (Some(value), Some(piece)) => piece.push(Point { time: moment.time, value }),
+            (None, Some(piece)) if !piece.is_empty() => pieces.push(Vec::new()),
+            _ => {}
+        }
+    }
+    pieces
+}
+
+fn greatest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, f64::max)
+}
+
+/// Where the segments of the script begin.
+fn starts(outcome: &Outcome) -> impl Iterator<Item = f64> {
+    outcome.phases.iter().map(|(_, start)| *start)
+}
+
+fn forces(outcome: &Outcome) -> Figure {
+    let top = greatest(outcome.moments.iter().flat_map(|moment| moment.felt));
+    let y = Axis::rounded("normal force / N", 0.0, top.max(1.0));
+    let mut chart = Chart::new("Normal forces", time_axis(outcome), y);
+    chart.marks("grid", starts(outcome));
+    for index in 0..FINGERS {
+        let commanded = pieces(outcome, |moment| moment.commanded.and_then(|all| all.get(index).copied()));
+        chart.curve("e wide", &commanded);
+    }
+    for (index, class) in CLASSES.into_iter().enumerate() {
+        chart.curve(class, &pieces(outcome, |moment| moment.felt.get(index).copied()));
+    }
+    let mut keys: Vec<_> =
+        CLASSES.into_iter().zip(1..).map(|(class, finger)| (class, format!("finger {finger}"))).collect();
+    keys.push(("e", "commanded".to_owned()));
+    Figure {
+        title: "Normal forces".to_owned(),
+        svg: chart.finish(),
+        keys,
+        caption: "As the sensors feel them, and as the controller wants them for the load of that sample. Lines upright \
+                  are where a segment of the script begins."
+            .to_owned(),
+        on_white: false,
+    }
+}
+
+fn margins(outcome: &Outcome) -> Figure {
+    let percent = |share: f64| (100.0 * share).max(-20.0);
+    let mut chart =
+        Chart::new("Friction left", time_axis(outcome), Axis::linear("friction left / %", -20.0, 100.0));
+    chart.marks("grid", starts(outcome));
+    chart.level("level", 0.0);
+    chart.curve("a", &pieces(outcome, |moment| moment.left.map(|(felt, _)| percent(felt))));
+    chart.curve("e wide", &pieces(outcome, |moment| moment.left.map(|(_, truth)| percent(truth))));
+    let calls = outcome.moments.iter().filter(|moment| moment.slip.0).map(|moment| moment.time);
+    chart.marks("mark", calls);
+    Figure {
+        title: "Friction left at the contact that has least".to_owned(),
+        svg: chart.finish(),
+        keys: vec![
+            ("a", "felt, of the friction that is believed".to_owned()),
+            ("e", "true".to_owned()),
+            ("d", "slip called".to_owned()),
+        ],
+        caption: "At zero a contact slips. The hand believes in a friction of 0.5, and there is 0.6. A slip that is \
+                  called where none is comes of a load that is taken off: it makes the grip firmer than it need be."
+            .to_owned(),
+        on_white: false,
+    }
+}
+
+fn mass(outcome: &Outcome) -> Figure {
+    const GRAMS: f64 = 1e3;
+    let top = greatest(outcome.masses.iter().map(|mass| mass.truth)) * GRAMS;
+    let mut chart = Chart::new("Mass", time_axis(outcome), Axis::rounded("mass / g", 0.0, 1.2 * top));
+    chart.marks("grid", starts(outcome));
+    let mut curves: [Vec<Vec<Point>>; 4] = Default::default();
+    let mut before: Option<f64> = None;
+    for mass in &outcome.masses {
+        let parted = before.is_none_or(|before| mass.time - before > 0.05);
+        before = Some(mass.time);
+        let values =
+            [mass.truth, mass.found, mass.found - 2.0 * mass.deviation, mass.found + 2.0 * mass.deviation];
+        for (curve, value) in curves.iter_mut().zip(values) {
+            if parted {
+                curve.push(Vec::new());
+            }
+            if let Some(piece) = curve.last_mut() {
+                piece.push(Point { time: mass.time, value: value * GRAMS });
+            }
+        }
+    }
+    for (class, curve) in ["e", "a wide", "b", "b"].into_iter().zip(&curves) {
+        chart.curve(class, curve);
+    }
+    Figure {
+        title: "What it weighs".to_owned(),
+        svg: chart.finish(),
+        keys: vec![
+            ("e", "true".to_owned()),
+            ("a", "found".to_owned()),
+            ("b", "two standard deviations".to_owned()),
+        ],
+        caption:
+            "From the beginning of a lift or the end of a pour on. Most of the deviation is the scale of the \
+                  sensors' calibrations, so it does not shrink with time."
+                .to_owned(),
+        on_white: false,
+    }
+}
+
+fn movement(outcome: &Outcome) -> Figure {
+    const MILLIMETRES: f64 = 1e3;
+    let top = greatest(outcome.moments.iter().filter_map(|moment| moment.moved)) * MILLIMETRES;
+    let mut chart = Chart::new(
+        "Movement in the hand",
+        time_axis(outcome),
+        Axis::rounded("moved in the hand / mm", 0.0, top.max(0.1)),
+    );
+    chart.marks("grid", starts(outcome));
+    chart.curve("a", &pieces(outcome, |moment| moment.moved.map(|moved| moved * MILLIMETRES)));
+    Figure {
+        title: "How far the object moves in the hand".to_owned(),
+        svg: chart.finish(),
+        keys: Vec::new(),
+        caption:
+            "The truth, from where it first left the table: the skins of the fingertips give under load."
+                .to_owned(),
+        on_white: false,
+    }
+}

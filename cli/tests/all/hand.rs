@@ -1,0 +1,192 @@
+//! `fingertip analyze` with a hand scene.
+
+use fingertip_test_support::recording;
+
+use crate::common::{Contacts, Folder, scene};
+
+const SPHERE: &str = r#"
+version = 1
+[input]
+convention = "on_fingertip"
+sample_rate_Hz = 100.0
+[surface]
+shape = "sphere"
+radius_m = 0.01
+[contact]
+least_force_N = 0.05
+"#;
+
+/// Two fingertips, of which the left one presses along +x and the right one along −x, each in its own frame along +z.
+const HAND: &str = r#"
+version = 1
+name = "Two tips"
+[hand]
+safety = 1.25
+[[finger]]
+name = "left"
+scene = "tip.toml"
+sensor = "L"
+translation_m = [-0.03, 0.0, 0.0]
+rotation_deg = [0.0, 90.0, 0.0]
+friction = 0.5
+greatest_normal_N = 10.0
+[[finger]]
+name = "right"
+scene = "tip.toml"
+sensor = "R"
+translation_m = [0.03, 0.0, 0.0]
+rotation_deg = [0.0, -90.0, 0.0]
+friction = 0.5
+greatest_normal_N = 10.0
+"#;
+
+const HEADER: &str =
+    "L_Fx_N,L_Fy_N,L_Fz_N,L_Tx_Nm,L_Ty_Nm,L_Tz_Nm,R_Fx_N,R_Fy_N,R_Fz_N,R_Tx_Nm,R_Ty_Nm,R_Tz_Nm";
+
+/// The object presses each tip by `normal` at its top, and hangs on them by `weight` along y (both frames keep y).
+fn row(normal: f64, weight: f64) -> String {
+    let half = -0.5 * weight;
+    // At (0, 0, 1 cm): the torque is point × force.
+    let one = format!("0,{half},{},{},0,0", -normal, -0.01 * half);
+    format!("{one},{one}")
+}
+
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.write("tip.toml", SPHERE);
+    folder.write("hand.toml", HAND);
+    folder
+}
+
+#[test]
+fn two_fingertips_are_one_grasp() {
+    let folder = folder();
+    let rows = [row(4.0, 2.0), row(1.5, 2.0), row(4.0, 30.0), row(0.0, 0.0)];
+    folder.write("grip.csv", &format!("{HEADER}\n{}\n", rows.join("\n")));
+    let text = folder.succeed(&["analyze", "grip.csv", "--scene", "hand.toml", "--output", "grasp.csv"]);
+    assert!(text.contains("Two tips in grip.csv"), "{text}");
+    let grasp = Contacts::parse(&folder.read("grasp.csv"));
+    assert_eq!(grasp.len(), 4);
+    let at = |name: &str| grasp.numbers(name);
+    let close = |a: f64, b: f64| (a - b).abs() < 1e-4 * (1.0 + b.abs());
+    assert_eq!(grasp.words("left_status"), ["contact", "contact", "contact", "below_threshold"]);
+    // The contacts are 2 cm from the middle, on either side.
+    assert!(close(at("left_x_m")[0], -0.02) && close(at("right_x_m")[0], 0.02), "{:?}", at("left_x_m"));
+    // The load is the weight alone: what squeezes cancels.
+    assert!(
+        close(at("load_fx_N")[0], 0.0) && close(at("load_fy_N")[0], -2.0) && close(at("load_fz_N")[0], 0.0)
+    );
+    assert!(close(at("load_tx_Nm")[0], 0.0) && close(at("load_tz_Nm")[0], 0.0));
+    assert!(close(at("grip_N")[0], 8.0) && close(at("squeeze_N")[0], 8.0));
+    // One newton at each, friction 0.5 with a safety of 1.25: 2.5 N each.
+    assert!(close(at("least_grip_N")[0], 5.0) && close(at("left_least_normal_N")[0], 2.5));
+    // Coulomb's margin, the distance from the cone: (μ n − t)/√(1 + μ²).
+    let margin = |normal: f64| (0.5 * normal - 1.0) / 1.25_f64.sqrt();
+    assert!(
+        close(at("margin_N")[0], margin(4.0)) && close(at("margin_N")[1], margin(1.5)),
+        "{:?}",
+        at("margin_N")
+    );
+    // Fingers of ten newtons carry 8 N with this safety.
+    assert_eq!(grasp.words("held"), ["held", "held", "cannot_hold", ""]);
+    let report = folder.read("report.html");
+    assert!(report.contains("Grip, and the least that holds") && !report.contains("NaN"));
+}
+
+#[test]
+fn poses_can_be_in_columns_and_sensors_in_the_object() {
+    let folder = folder();
+    let half = core::f64::consts::FRAC_1_SQRT_2;
+    let fixed = "translation_m = [-0.03, 0.0, 0.0]\nrotation_deg = [0.0, 90.0, 0.0]";
+    folder.write("moving.toml", &HAND.replace(fixed, "pose_columns = \"left\""));
+    let pose = "left_x_m,left_y_m,left_z_m,left_qw,left_qx,left_qy,left_qz";
+    // The second row has no pose of the left one.
+    let rows = [
+        format!("{},-0.03,0,0,{half},0,{half},0", row(4.0, 2.0)),
+        format!("{},-0.03,0,0,0,0,0,0", row(4.0, 2.0)),
+    ];
+    folder.write("grip.csv", &format!("{HEADER},{pose}\n{}\n", rows.join("\n")));
+    folder.succeed(&["analyze", "grip.csv", "--scene", "moving.toml", "--output", "moving.csv"]);
+    folder.succeed(&["analyze", "grip.csv", "--scene", "hand.toml", "--output", "fixed.csv", "--overwrite"]);
+    let (moving, fixed) =
+        (Contacts::parse(&folder.read("moving.csv")), Contacts::parse(&folder.read("fixed.csv")));
+    // The quaternion and the rotation vector are the same turn, to rounding.
+    for column in ["left_x_m", "left_z_m", "load_fx_N", "load_fy_N", "load_tx_Nm", "least_grip_N", "margin_N"]
+    {
+        let (moving, fixed) = (moving.numbers(column)[0], fixed.numbers(column)[0]);
+        assert!((moving - fixed).abs() < 1e-6, "{column}: {moving} and {fixed}");
+    }
+    assert_eq!(moving.words("left_status"), ["contact", "unusable_row"]);
+    assert_eq!(moving.words("held"), ["held", ""]);
+
+    // The same wrenches on pads of an object that is held from outside: the load is the opposite.
+    let object = HAND.replace("[hand]", "[hand]\nsensors_in = \"object\"");
+    folder.write("object.toml", &object);
+    folder.succeed(&[
+        "analyze",
+        "grip.csv",
+        "--scene",
+        "object.toml",
+        "--output",
+        "object.csv",
+        "--overwrite",
+    ]);
+    let object = Contacts::parse(&folder.read("object.csv"));
+    assert!((object.numbers("load_fy_N")[0] - 2.0).abs() < 1e-5);
+    assert!((object.numbers("squeeze_N")[0] - 8.0).abs() < 1e-4);
+    assert_eq!(object.words("held")[0], "held");
+}
+
+#[test]
+fn what_is_wrong_with_a_hand_scene_is_said_with_its_mend() {
+    let folder = folder();
+    folder.write("grip.csv", &format!("{HEADER}\n{}\n", row(4.0, 2.0)));
+    for (from, to, said) in [
+        ("version = 1\n", "version = 7\n", "hand scenes of version 1"),
+        ("safety = 1.25", "safety = 0.5", "safety = 0.5 of [hand] must be at least 1"),
+        ("name = \"right\"", "name = \"left\"", "another finger has this name"),
+        ("name = \"right\"", "name = \"a,b\"", "letters, digits and _"),
+        ("friction = 0.5\n", "", "neither `friction` here nor [friction]"),
+        ("friction = 0.5", "friction = -1.0", "`friction` must be positive"),
+        ("sensor = \"R\"", "sensor = \"R\"\npose_columns = \"right\"", "either fixed or in columns"),
+        ("sensor = \"L\"", "sensor = \"L\"\ncolour = \"red\"", "colour"),
+        ("sensor = \"R\"", "sensor = \"Q\"", "Q"),
+        ("scene = \"tip.toml\"", "scene = \"none.toml\"", "none.toml"),
+    ] {
+        folder.write("bad.toml", &HAND.replace(from, to));
+        let text = folder.fail(1, &["analyze", "grip.csv", "--scene", "bad.toml"]);
+        assert!(text.contains(said), "{said}:\n{text}");
+    }
+    let text = folder.fail(1, &["analyze", "grip.csv", "--scene", "hand.toml", "--sensor", "L"]);
+    assert!(text.contains("set `sensor` of [[finger]]"), "{text}");
+    assert!(!folder.path("contacts.csv").exists());
+}
+
+#[test]
+fn two_real_pads_are_one_grasp() {
+    let Some(recording) = recording("nano17_three_finger/roll.csv") else { return };
+    let recording = recording.display().to_string();
+    let folder = Folder::new();
+    let hand = scene("../hands/two_pads.toml");
+    folder.succeed(&["analyze", &recording, "--scene", &hand, "--output", "grasp.csv"]);
+    let grasp = Contacts::parse(&folder.read("grasp.csv"));
+    assert_eq!(grasp.len(), 1602);
+    let (thumb, ring) = (grasp.words("thumb_status"), grasp.words("ring_status"));
+    let both: Vec<usize> =
+        (0..grasp.len()).filter(|row| thumb[*row] == "contact" && ring[*row] == "contact").collect();
+    assert!(both.len() > 1200, "{}", both.len());
+    let at = |name: &str| grasp.numbers(name);
+    let (grip, squeeze, first, second) =
+        (at("grip_N"), at("squeeze_N"), at("thumb_normal_N"), at("ring_normal_N"));
+    for row in &both {
+        assert!((grip[*row] - first[*row] - second[*row]).abs() < 1e-4, "row {row}");
+        // Pads that are opposite squeeze by no more than they press.
+        assert!(squeeze[*row] <= grip[*row] * 1.05 + 0.05, "row {row}: {} of {}", squeeze[*row], grip[*row]);
+    }
+    // The places are on the cylinder of 40 mm, opposite to each other.
+    let radius = |x: &str, z: &str, row: usize| at(x)[row].hypot(at(z)[row]);
+    for row in both.iter().step_by(100) {
+        assert!((radius("thumb_x_m", "thumb_z_m", *row) - 0.04).abs() < 1e-6);
+        assert!(at("thumb_z_m")[*row] > 0.0 && at("ring_z_m")[*row] < 0.0);
+    }
+}

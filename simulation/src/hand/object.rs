@@ -1,0 +1,83 @@
+//! What a hand holds.
+
+use fingertip_surfaces::{CappedCylinder, RoundedBox};
+use nalgebra::Vector3;
+
+use super::body::Inertial;
+use crate::error::SimulationError;
+
+/// A rigid object: its shape, what it is made of, and the places with which it stands on a table.
+///
+/// Any shape that knows the [distance of a point](fingertip_surfaces::SignedDistance) will do.
+///
+/// ```
+/// use fingertip_simulation::hand::HeldObject;
+///
+/// let jar = HeldObject::cylinder(0.03, 0.05, 0.2)?;
+/// assert_eq!(jar.made_of.mass, 0.2);
+/// // It stands on the rim of its bottom, 5 cm below its origin.
+/// assert!(jar.feet.iter().all(|foot| (foot.z + 0.05).abs() < 1e-15));
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct HeldObject<Shape> {
+    /// Its shape, in its own frame.
+    pub shape: Shape,
+    /// What it is made of before anything is poured in.
+    pub made_of: Inertial,
+    /// The places with which it stands \[m\].
+    pub feet: Vec<Vector3<f64>>,
+}
+
+fn checked<Shape>(object: HeldObject<Shape>) -> Result<HeldObject<Shape>, SimulationError> {
+    if object.made_of.is_good() && object.feet.iter().flatten().all(|x| x.is_finite()) {
+        Ok(object)
+    } else {
+        let (parameter, requirement) = ("object", "of a positive mass and inertia, with finite places");
+        Err(SimulationError::BadParameter { parameter, requirement })
+    }
+}
+
+impl HeldObject<CappedCylinder<f64>> {
+    /// A full upright cylinder of a radius, half its height \[m\] and a mass \[kg\]; it stands on eight places of its
+    /// rim.
+    ///
+    /// # Errors
+    /// [`SimulationError`] unless all are positive and finite.
+    pub fn cylinder(radius: f64, half_height: f64, mass: f64) -> Result<Self, SimulationError> {
+        let shape = CappedCylinder::new(Vector3::zeros(), Vector3::z(), radius, half_height)
+            .map_err(|error| SimulationError::Hand { reason: error.to_string() })?;
+        let rim = |i: u8| {
+            let angle = f64::from(i) * core::f64::consts::FRAC_PI_4;
+            Vector3::new(radius * angle.cos(), radius * angle.sin(), -half_height)
+        };
+        let made_of = Inertial::cylinder(radius, half_height, mass);
+        checked(Self { shape, made_of, feet: (0..8).map(rim).collect() })
+    }
+}
+
+impl HeldObject<RoundedBox<f64>> {
+    /// A full box of half extents and edges of a radius \[m\], and a mass \[kg\] (its inertia is that of sharp edges);
+    /// it stands on the four corners of the flat of its bottom.
+    ///
+    /// # Errors
+    /// [`SimulationError`] unless the box is one and its mass positive and finite.
+    pub fn cuboid(half_extents: Vector3<f64>, rounding: f64, mass: f64) -> Result<Self, SimulationError> {
+        let shape = RoundedBox::new(half_extents, rounding)
+            .map_err(|error| SimulationError::Hand { reason: error.to_string() })?;
+        let flat = half_extents - Vector3::new(rounding, rounding, 0.0);
+        let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+        let feet = corners.map(|(x, y)| Vector3::new(x * flat.x, y * flat.y, -flat.z)).to_vec();
+        checked(Self { shape, made_of: Inertial::cuboid(&half_extents, mass), feet })
+    }
+}
+
+impl<Shape> HeldObject<Shape> {
+    /// Of another shape, or made of something else.
+    ///
+    /// # Errors
+    /// [`SimulationError`] unless the mass is positive, the inertia positive definite, and all finite.
+    pub fn new(shape: Shape, made_of: Inertial, feet: Vec<Vector3<f64>>) -> Result<Self, SimulationError> {
+        checked(Self { shape, made_of, feet })
+    }
+}
