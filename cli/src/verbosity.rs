@@ -18,10 +18,10 @@ const VERBOSE: u8 = 2;
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub(crate) struct Verbosity {
     /// Show no progress, and say nothing of a run that writes files, but errors
-    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    #[arg(short, long, global = true, conflicts_with = "verbose", display_order = 900)]
     quiet: bool,
     /// Say on the standard error what is read and written, and how long it took
-    #[arg(short, long, global = true)]
+    #[arg(short, long, global = true, display_order = 901)]
     verbose: bool,
 }
 
