@@ -5,18 +5,19 @@ use std::path::{Path, PathBuf};
 use crate::error::CliError;
 use crate::output::{is_standard, printable, shown};
 
-/// Does the same with each recording. One that is bad does not keep the others from being done: what is wrong is said at
-/// once, and at the end how many were.
-pub(crate) fn each(
+/// Does the same with each recording and its own files. One that is bad does not keep the others from being done: what
+/// is wrong is said at once, and at the end how many were.
+pub(crate) fn each<F>(
     recordings: &[PathBuf],
-    mut run: impl FnMut(&Path) -> Result<(), CliError>,
+    files: &[F],
+    run: impl Fn(&Path, &F) -> Result<(), CliError>,
 ) -> Result<(), CliError> {
-    if let [recording] = recordings {
-        return run(recording);
+    if let ([recording], [files]) = (recordings, files) {
+        return run(recording, files);
     }
     let mut bad = 0;
-    for recording in recordings {
-        match run(recording) {
+    for (recording, files) in recordings.iter().zip(files) {
+        match run(recording, files) {
             Ok(()) => {}
             // Nobody is there to be told of the others.
             Err(CliError::ClosedPipe) => return Err(CliError::ClosedPipe),

@@ -48,11 +48,7 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     let all = Files::of(arguments, &[])?;
     let scene = scene::load(&arguments.scene)?;
     let scene = scene::with(scene, arguments.calibration.as_deref(), arguments.payload.as_deref())?;
-    let mut each = all.iter();
-    several::each(&arguments.recordings, |recording| match each.next() {
-        Some(files) => one(recording, &scene, arguments, files),
-        None => Ok(()),
-    })
+    several::each(&arguments.recordings, &all, |recording, files| one(recording, &scene, arguments, files))
 }
 
 /// One of the recordings.

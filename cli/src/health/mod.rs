@@ -66,10 +66,8 @@ pub(crate) fn run(arguments: &HealthArguments) -> Result<(), CliError> {
     let all: Vec<[Option<PathBuf>; 2]> = arguments.recordings.iter().map(files).collect();
     let inputs = arguments.recordings.iter().chain(&arguments.calibration);
     let outputs = Outputs::guard(arguments.overwrite, "output", inputs, all.iter().flatten().flatten())?;
-    let mut each = all.into_iter();
-    several::each(&arguments.recordings, |recording| match each.next() {
-        Some(files) => one(recording, arguments, files, &outputs.part()),
-        None => Ok(()),
+    several::each(&arguments.recordings, &all, |recording, files| {
+        one(recording, arguments, files, &outputs.part())
     })
 }
 
@@ -77,16 +75,16 @@ pub(crate) fn run(arguments: &HealthArguments) -> Result<(), CliError> {
 fn one(
     recording: &Path,
     arguments: &HealthArguments,
-    [html, json]: [Option<PathBuf>; 2],
+    [html, json]: &[Option<PathBuf>; 2],
     outputs: &Outputs,
 ) -> Result<(), CliError> {
     let mut notes = Vec::new();
     let (health, name) = watched(recording, arguments, &mut notes)?;
     let findings = words::findings(&health, &name, notes);
-    if let Some(path) = &html {
+    if let Some(path) = html {
         outputs.write("report", path, &page::of(&health, &findings))?;
     }
-    if let Some(path) = &json {
+    if let Some(path) = json {
         let text = serde_json::to_string_pretty(&health);
         let text = text.map_err(|error| CliError::write("report", path, error.into()))?;
         outputs.write("report", path, &(text + "\n"))?;

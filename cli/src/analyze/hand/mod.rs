@@ -41,11 +41,8 @@ pub(super) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     arguments.span.check()?;
     let scene = file::load(&arguments.scene)?;
     let fingers: Vec<&PathBuf> = scene.fingers.iter().map(|finger| &finger.path).collect();
-    let mut each = Files::of(arguments, &fingers)?.into_iter();
-    several::each(&arguments.recordings, |recording| match each.next() {
-        Some(files) => one(recording, &scene, arguments, &files),
-        None => Ok(()),
-    })
+    let all = Files::of(arguments, &fingers)?;
+    several::each(&arguments.recordings, &all, |recording, files| one(recording, &scene, arguments, files))
 }
 
 /// One of the recordings.
