@@ -48,7 +48,10 @@ fn commands_in(help: &str) -> Vec<&str> {
 /// Every command with its help.
 pub(super) fn page() -> Result<String, Failure> {
     let help = said(&["--help"])?;
-    let mut text = format!("# The command\n\n```text\n{help}\n```\n");
+    let mut text = format!(
+        "# The command\n\nWith all its bridges, which a build has that asks for them: \
+         `cargo install fingertip-cli --features web,foxglove,ros2`.\n\n```text\n{help}\n```\n"
+    );
     for name in commands_in(&help) {
         let own = said(&[name, "--help"])?;
         let _ = write!(text, "\n## `fingertip {name}`\n\n```text\n{own}\n```\n");
