@@ -24,16 +24,8 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
     let grasp = Grasp::new(contacts);
     println!("force closure: {:?}", grasp.force_closure());
 
-    let settings = HandSettings {
-        safety: 1.3,
-        rise: 200.0,
-        fall: 2.0,
-        at_slip: 0.8,
-        least_friction: 0.1,
-        greatest_ratio: 3.0,
-    };
     let limits = FingerLimits::<f64, 2>::none().with_least_normal(0.3)?.with_greatest_normal(15.0)?;
-    let mut hand = HandController::new(settings, [limits; 3])?;
+    let mut hand = HandController::new(HandSettings::default(), [limits; 3])?;
     let mut weight = ObjectWeight::new();
     let noise = Matrix6::from_diagonal(&[4e-4, 4e-4, 4e-4, 4e-8, 4e-8, 4e-8].into());
 

@@ -7,7 +7,7 @@ use fingertip_recordings::Quality;
 use fingertip_scene::{Limit, Scene};
 
 use crate::observe::{Observations, Quantiles, Status};
-use crate::output::{is_standard, shown};
+use crate::output::name_of;
 use crate::table::{Table, count, number, number_or_dash, percent, short};
 
 /// The result of a run, to be read by a human.
@@ -56,8 +56,7 @@ const LISTED_SLIPS: usize = 20;
 /// Tells of a recording.
 pub(crate) fn of_recording(run: &Run<'_>) -> Findings {
     let Run { recording, scene, observations, quality, .. } = run;
-    let named = recording.file_name().filter(|_| !is_standard(recording));
-    let name = named.map_or_else(|| shown(recording), |name| name.to_string_lossy().into_owned());
+    let name = name_of(recording);
     let sensor = if run.sensor.is_empty() { String::new() } else { format!(", sensor {}", run.sensor) };
     let mut findings = Findings {
         title: format!("Contacts in {name}{sensor}"),

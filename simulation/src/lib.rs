@@ -9,6 +9,7 @@ mod fingertip;
 #[cfg(feature = "hand")]
 pub mod hand;
 mod imperfections;
+mod ramp;
 mod score;
 mod script;
 mod sensor;

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use crate::design::Design;
 use crate::error::{ScriptProblem, SimulationError};
+use crate::ramp::smooth;
 use crate::script::{Script, Segment};
 use crate::surface_point::{SurfacePoint, great_circle, turned};
 
@@ -181,8 +182,7 @@ impl Phase {
     /// The load at a time of this phase, and whether it slips.
     pub(super) fn load(&self, time: f64) -> (Load, bool) {
         let since = time - self.start;
-        let share = (since / (self.end - self.start)).clamp(0.0, 1.0);
-        let smooth = share * share * (3.0 - 2.0 * share);
+        let smooth = smooth(since / (self.end - self.start));
         let (from, to) = (&self.from, &self.to);
         let load = match self.segment {
             Segment::Rest { .. } | Segment::Hold { .. } => *from,

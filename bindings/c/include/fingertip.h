@@ -591,7 +591,7 @@ ft_status ft_hand_least_grip(struct ft_hand *hand,
                              const struct ft_wrench *load,
                              struct ft_grip *grip);
 
-// A safety of 1.5, 200 N/s up and 2 N/s down, friction taken as 0.8 times as large at each slip and never below 0.1,
+// A safety of 1.3, 200 N/s up and 2 N/s down, friction taken as 0.8 times as large at each slip and never below 0.1,
 // and no contact beyond a friction ratio of 3.
 struct ft_hand_settings ft_hand_settings_defaults(void);
 

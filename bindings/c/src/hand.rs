@@ -87,18 +87,13 @@ pub struct ft_hand_order {
     pub turning: [f64; 3],
 }
 
-/// A safety of 1.5, 200 N/s up and 2 N/s down, friction taken as 0.8 times as large at each slip and never below 0.1,
+/// A safety of 1.3, 200 N/s up and 2 N/s down, friction taken as 0.8 times as large at each slip and never below 0.1,
 /// and no contact beyond a friction ratio of 3.
 #[unsafe(no_mangle)]
 pub extern "C" fn ft_hand_settings_defaults() -> ft_hand_settings {
-    ft_hand_settings {
-        safety: 1.5,
-        rise: 200.0,
-        fall: 2.0,
-        at_slip: 0.8,
-        least_friction: 0.1,
-        greatest_ratio: 3.0,
-    }
+    let HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio } =
+        HandSettings::default();
+    ft_hand_settings { safety, rise, fall, at_slip, least_friction, greatest_ratio }
 }
 
 /// Makes a hand of 1 to FT_MAX_FINGERS fingers; it begins with the least normal forces of their limits. `limits` has

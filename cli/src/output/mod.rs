@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 pub(crate) use printable::printable;
-pub(crate) use standard::{is_standard, shown};
+pub(crate) use standard::{is_standard, name_of, shown};
 pub(crate) use unfinished::remove_all as remove_unfinished;
 pub(crate) use whole::Whole;
 

@@ -5,6 +5,7 @@ use std::path::Path;
 use fingertip_calibration::file::CalibrationFile;
 use fingertip_scene::Scene;
 
+use crate::output::name_of;
 use crate::table::{Table, count, short};
 
 /// What the command line gave beside the scene, and what came of it.
@@ -36,10 +37,10 @@ pub(crate) fn table(scene: &Scene, given: &Given<'_>) -> Table {
         }
     }
     if let Some(path) = given.payload {
-        row("payload", &file_name(path));
+        row("payload", &name_of(path));
     }
     if let Some(file) = scene.calibration().filter(|_| given.calibrated) {
-        row("calibration", &given.calibration.map(file_name).unwrap_or_default());
+        row("calibration", &given.calibration.map(name_of).unwrap_or_default());
         let from = &file.provenance;
         row("calibrated sensor", &from.serial);
         row("calibrated on", &from.date);
@@ -48,10 +49,6 @@ pub(crate) fn table(scene: &Scene, given: &Given<'_>) -> Table {
         row("calibration quality", &quality(file));
     }
     table
-}
-
-fn file_name(path: &Path) -> String {
-    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
 fn quality(file: &CalibrationFile) -> String {

@@ -4,6 +4,17 @@ use fingertip_wrench::Real;
 use thiserror::Error;
 
 /// Limits and habits of a hand; [`HandController::new`](crate::HandController::new) validates them.
+///
+/// Where nothing is known of the hand there is a default for each: presses by 1.3 times what friction needs, which is what
+/// people do (Johansson & Westling 1984), rises by 200 N/s and falls by 2 N/s, takes friction as 0.8 times as large at each
+/// slip and never below 0.1, and believes no contact beyond a friction ratio of 3.
+///
+/// ```
+/// use fingertip_hand::HandSettings;
+///
+/// let careful = HandSettings::<f32> { safety: 2.0, ..HandSettings::default() };
+/// assert_eq!((careful.safety, careful.fall), (2.0, 2.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HandSettings<T> {
     /// Factor of safety on friction, at least 1.
@@ -19,6 +30,19 @@ pub struct HandSettings<T> {
     /// The greatest friction ratio that a contact can have: a contact that asks for more is implausible, and its
     /// force is not used.
     pub greatest_ratio: T,
+}
+
+impl<T: Real> Default for HandSettings<T> {
+    fn default() -> Self {
+        Self {
+            safety: T::literal(1.3),
+            rise: T::literal(200.0),
+            fall: T::literal(2.0),
+            at_slip: T::literal(0.8),
+            least_friction: T::literal(0.1),
+            greatest_ratio: T::literal(3.0),
+        }
+    }
 }
 
 /// Why settings are none.

@@ -44,14 +44,7 @@ impl<const K: usize> Default for GrippingSettings<K> {
         Self {
             friction: [0.5; K],
             arm: 3e-3,
-            hand: HandSettings {
-                safety: 1.3,
-                rise: 200.0,
-                fall: 2.0,
-                at_slip: 0.8,
-                least_friction: 0.1,
-                greatest_ratio: 3.0,
-            },
+            hand: HandSettings::default(),
             normal: (0.5, 20.0),
             bandwidth: 150.0,
             stiffness: 5000.0,

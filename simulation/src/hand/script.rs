@@ -4,6 +4,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::body::Inertial;
 use crate::error::{ScriptProblem, SimulationError};
+use crate::ramp::smooth;
 
 /// One thing that happens. The hand moves along `10u³ − 15u⁴ + 6u⁵`, so that velocity and acceleration have no steps;
 /// everything else follows `3u² − 2u³`.
@@ -259,11 +260,6 @@ impl HandTimeline {
 fn quintic(u: f64) -> [f64; 3] {
     let rest = 1.0 - u;
     [u * u * u * (10.0 + u * (6.0 * u - 15.0)), 30.0 * u * u * rest * rest, 60.0 * u * rest * (1.0 - 2.0 * u)]
-}
-
-fn smooth(u: f64) -> f64 {
-    let u = u.clamp(0.0, 1.0);
-    u * u * (3.0 - 2.0 * u)
 }
 
 impl Phase {

@@ -50,7 +50,7 @@ pub(super) fn page() -> Result<String, Failure> {
     let help = said(&["--help"])?;
     let mut text = format!(
         "# The command\n\nWith all its bridges, which a build has that asks for them: \
-         `cargo install fingertip-cli --features web,foxglove,ros2`.\n\n```text\n{help}\n```\n"
+         `cargo install --path cli --features web,foxglove,ros2`.\n\n```text\n{help}\n```\n"
     );
     for name in commands_in(&help) {
         let own = said(&[name, "--help"])?;

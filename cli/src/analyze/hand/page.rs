@@ -5,6 +5,7 @@ use std::path::Path;
 use super::file::{HandScene, MOST};
 use super::grasped::Grasped;
 use crate::observe::{Quantiles, Trace};
+use crate::output::name_of;
 use crate::report::{Axis, Chart, Figure};
 use crate::summary::Findings;
 use crate::table::{Table, count, number, number_or_dash, percent};
@@ -112,7 +113,7 @@ impl Seen {
 
     /// In words and tables.
     pub(super) fn findings(&self, recording: &Path, mut notes: Vec<String>) -> Findings {
-        let name = recording.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let name = name_of(recording);
         let title = if self.title.is_empty() {
             format!("A hand in {name}")
         } else {
