@@ -25,6 +25,9 @@ pub(crate) struct FormulaSection {
     reach_m: f64,
     #[serde(default)]
     convex: bool,
+    /// No gradient is longer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    steepest_per_m: Option<f64>,
 }
 
 /// What is wrong with a formula.
@@ -56,8 +59,12 @@ impl FormulaSection {
         let steps = steps.into_iter().map(|step| in_type(&step)).collect();
         let centre = Vector3::from(self.centre_m).map(T::literal);
         let formula = Formula::new(steps, centre, T::literal(self.reach_m))?;
-        let topology = if self.convex { Topology::Convex } else { Topology::Unknown };
-        Ok(DynSurface::Formula(Box::new(Implicit::new(formula.with_topology(topology))?)))
+        let formula = formula.with_topology(if self.convex { Topology::Convex } else { Topology::Unknown });
+        let formula = match self.steepest_per_m {
+            Some(steepest) => formula.with_steepest(T::literal(steepest)),
+            None => formula,
+        };
+        Ok(DynSurface::Formula(Box::new(Implicit::new(formula)?)))
     }
 
     /// The formula as steps, the parameters put in.

@@ -8,7 +8,7 @@ use crate::numeric::vectors::{is_finite, unit_or};
 
 /// A parameter of a shape is out of range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("the {parameter} of a {shape} must be {requirement}")]
+#[error("the {parameter} of {} {shape} must be {requirement}", article(shape))]
 pub struct BadShape {
     /// Which shape.
     pub shape: &'static str,
@@ -16,6 +16,11 @@ pub struct BadShape {
     pub parameter: &'static str,
     /// What it must be.
     pub requirement: &'static str,
+}
+
+/// What stands before the name of a shape.
+fn article(shape: &str) -> &'static str {
+    if shape.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
 }
 
 impl BadShape {

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::hand::{MOST, contact, limits, wrench};
-use crate::{errors, numbers};
+use crate::{errors, numbers, value};
 
 /// Tells the fingers of a hand how firmly to press, so that they hold with some safety and no more.
 ///
@@ -20,11 +20,30 @@ use crate::{errors, numbers};
 /// at_slip : float, optional
 ///     By what a coefficient of friction is multiplied when a finger slips.
 /// least_friction, greatest_ratio : float, optional
-///     The least coefficient that is believed, and the greatest of two normal forces.
+///     Below what coefficient friction is never taken, and the greatest friction ratio that a contact can have: one that
+///     asks for more is not believed.
 /// least, greatest : float, optional
 ///     Normal force of each finger [N].
-#[pyclass(name = "HandController", module = "fingertip")]
-pub(crate) struct PyController(HandController<f64, MOST, 2>);
+///
+/// Notes
+/// -----
+/// A copy keeps what was learnt of the friction, and the last command; a pickle begins anew.
+#[pyclass(name = "HandController", module = "fingertip", skip_from_py_object)]
+#[derive(Clone)]
+pub(crate) struct PyController {
+    hand: HandController<f64, MOST, 2>,
+    made: (HandSettings<f64>, f64, Option<f64>),
+}
+
+impl PyController {
+    fn of(made: (HandSettings<f64>, f64, Option<f64>)) -> PyResult<Self> {
+        let (settings, least, greatest) = made;
+        let hand = HandController::new(settings, limits(least, greatest)?).map_err(errors::hand)?;
+        Ok(Self { hand, made })
+    }
+}
+
+value::watcher_class!(PyController);
 
 /// The command: normal forces [N], whether the load is held (`None` where it is not known), and fingers whose contact
 /// cannot be believed.
@@ -66,7 +85,7 @@ impl PyController {
         greatest: Option<f64>,
     ) -> PyResult<Self> {
         let settings = HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio };
-        HandController::new(settings, limits(least, greatest)?).map(Self).map_err(errors::hand)
+        Self::of((settings, least, greatest))
     }
 
     /// Takes what the fingers feel; gives what to command.
@@ -104,7 +123,7 @@ impl PyController {
             *sample = given.as_ref().map(finger).transpose()?;
         }
         let HandCommand { normal, state, implausible } =
-            self.0.command(&samples, &wrench(load, "load")?, time_step);
+            self.hand.command(&samples, &wrench(load, "load")?, time_step);
         let holds = match state {
             HandState::Holding => Some(true),
             HandState::CannotHold(_) => Some(false),
@@ -115,6 +134,6 @@ impl PyController {
 
     /// Forgets what was learnt of the friction, as for another object.
     fn forget_friction(&mut self) {
-        self.0.forget_friction();
+        self.hand.forget_friction();
     }
 }

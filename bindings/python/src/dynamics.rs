@@ -7,8 +7,9 @@ use fingertip::friction::{
 use nalgebra::Vector2;
 use numpy::PyArray1;
 use pyo3::prelude::*;
+use serde::{Deserialize, Serialize};
 
-use crate::{errors, numbers};
+use crate::{errors, numbers, value};
 
 /// Friction in motion, in the plane, by a law and a way to integrate it.
 #[derive(Clone)]
@@ -46,28 +47,37 @@ macro_rules! each_bristle {
 ///     Of the bristles, and of the sliding [s/m].
 /// elastic_share : float, optional
 ///     Of the greatest deflection, below which the elasto-plastic law creeps not.
-#[pyclass(name = "BristleFriction", module = "fingertip")]
-pub(crate) struct PyBristle(AnyBristle);
+///
+/// Notes
+/// -----
+/// A copy keeps how far the bristles are bent; a pickle begins with straight ones.
+#[pyclass(name = "BristleFriction", module = "fingertip", skip_from_py_object)]
+#[derive(Clone)]
+pub(crate) struct PyBristle {
+    bristle: AnyBristle,
+    made: Made,
+}
 
-#[pymethods]
+/// What it is made of.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Made {
+    law: String,
+    stiffness: f64,
+    kinetic: f64,
+    breakaway: f64,
+    speed: f64,
+    damping: f64,
+    viscous: f64,
+    elastic_share: f64,
+}
+
 impl PyBristle {
-    #[new]
-    #[pyo3(signature = (law, *, stiffness, kinetic, breakaway=None, speed=1e-3, damping=0.0, viscous=0.0, elastic_share=0.7))]
-    #[allow(clippy::too_many_arguments, reason = "keywords in Python")]
-    fn new(
-        law: &str,
-        stiffness: f64,
-        kinetic: f64,
-        breakaway: Option<f64>,
-        speed: f64,
-        damping: f64,
-        viscous: f64,
-        elastic_share: f64,
-    ) -> PyResult<Self> {
+    fn of(made: Made) -> PyResult<Self> {
         let bad = errors::friction;
-        let curve = || Stribeck::new(kinetic, breakaway.unwrap_or(kinetic), speed).map_err(bad);
+        let Made { stiffness, kinetic, breakaway, speed, damping, viscous, elastic_share, .. } = made;
+        let curve = || Stribeck::new(kinetic, breakaway, speed).map_err(bad);
         let lugre = || LuGre::new(stiffness, damping, viscous, curve()?).map_err(bad);
-        Ok(Self(match law {
+        let bristle = match made.law.as_str() {
             "dahl" => AnyBristle::Dahl(Bristle::new(Dahl::new(stiffness, kinetic).map_err(bad)?)),
             "lugre" => AnyBristle::LuGre(Bristle::new(lugre()?)),
             "elasto_plastic" => AnyBristle::ElastoPlastic(Bristle::new(
@@ -80,12 +90,35 @@ impl PyBristle {
                 let known = "dahl, lugre, elasto_plastic or stribeck";
                 return Err(errors::friction(format!("`law` {other:?} is not {known}")));
             }
-        }))
+        };
+        Ok(Self { bristle, made })
+    }
+}
+
+value::watcher_class!(PyBristle);
+
+#[pymethods]
+impl PyBristle {
+    #[new]
+    #[pyo3(signature = (law, *, stiffness, kinetic, breakaway=None, speed=1e-3, damping=0.0, viscous=0.0, elastic_share=0.7))]
+    #[allow(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn new(
+        law: String,
+        stiffness: f64,
+        kinetic: f64,
+        breakaway: Option<f64>,
+        speed: f64,
+        damping: f64,
+        viscous: f64,
+        elastic_share: f64,
+    ) -> PyResult<Self> {
+        let breakaway = breakaway.unwrap_or(kinetic);
+        Self::of(Made { law, stiffness, kinetic, breakaway, speed, damping, viscous, elastic_share })
     }
 
     /// Tells the normal force from now on [N].
     fn set_load(&mut self, normal_force: f64) {
-        each_bristle!(&mut self.0, bristle => bristle.set_load(normal_force));
+        each_bristle!(&mut self.bristle, bristle => bristle.set_load(normal_force));
     }
 
     /// Slides with a velocity [m/s], shape (2,), for a time [s]: gives the friction force's mean over the step, and at
@@ -98,7 +131,7 @@ impl PyBristle {
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
         let velocity = Vector2::from(numbers::numbers::<2>(velocity, "velocity")?);
         let StepForce { mean, end } =
-            each_bristle!(&mut self.0, bristle => bristle.step(&velocity, time_step));
+            each_bristle!(&mut self.bristle, bristle => bristle.step(&velocity, time_step));
         Ok((numbers::array(py, &mean), numbers::array(py, &end)))
     }
 
@@ -135,32 +168,24 @@ impl PyBristle {
         let force = Vector2::from(numbers::numbers::<2>(force, "force")?);
         let drive = Drive { mass: Vector2::repeat(mass), force, stiffness };
         let Coupled { velocity, friction } =
-            each_bristle!(&mut self.0, bristle => bristle.step_body(&velocity, &drive, time_step));
+            each_bristle!(&mut self.bristle, bristle => bristle.step_body(&velocity, &drive, time_step));
         Ok((numbers::array(py, &velocity), numbers::array(py, &friction)))
     }
 
     /// How far the bristles are bent [m], shape (2,).
     #[getter]
     fn deflection<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        numbers::array(py, each_bristle!(&self.0, bristle => bristle.deflection()))
+        numbers::array(py, each_bristle!(&self.bristle, bristle => bristle.deflection()))
     }
 
     /// The greatest coefficient that the law knows.
     #[getter]
     fn greatest(&self) -> f64 {
-        each_bristle!(&self.0, bristle => bristle.law().greatest())
+        each_bristle!(&self.bristle, bristle => bristle.law().greatest())
     }
 
     /// Bends all bristles back.
     fn reset(&mut self) {
-        each_bristle!(&mut self.0, bristle => bristle.reset());
-    }
-
-    fn __copy__(&self) -> Self {
-        Self(self.0.clone())
-    }
-
-    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
-        self.__copy__()
+        each_bristle!(&mut self.bristle, bristle => bristle.reset());
     }
 }

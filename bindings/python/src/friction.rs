@@ -251,16 +251,34 @@ impl PyDetector {
 ///     Displacement over which the stiffness is told [m].
 /// warning_share : float
 ///     The share of the first stiffness that is left when it warns.
-#[pyclass(name = "IncipientSlip", module = "fingertip")]
-pub(crate) struct PyIncipient(IncipientSlip<f64>);
+///
+/// Notes
+/// -----
+/// A copy keeps what it saw; a pickle begins anew.
+#[pyclass(name = "IncipientSlip", module = "fingertip", skip_from_py_object)]
+#[derive(Clone)]
+pub(crate) struct PyIncipient {
+    watch: IncipientSlip<f64>,
+    made: (f64, f64, f64),
+}
+
+impl PyIncipient {
+    fn of(made: (f64, f64, f64)) -> PyResult<Self> {
+        let (noise, window, warning_share) = made;
+        let noise = ForceNoise::isotropic(noise).map_err(errors::friction)?;
+        let gate = NormalForceGate::from_noise(&noise);
+        let watch = IncipientSlip::new(gate, window, warning_share).map_err(errors::friction)?;
+        Ok(Self { watch, made })
+    }
+}
+
+value::watcher_class!(PyIncipient);
 
 #[pymethods]
 impl PyIncipient {
     #[new]
     fn new(noise: f64, window: f64, warning_share: f64) -> PyResult<Self> {
-        let noise = ForceNoise::isotropic(noise).map_err(errors::friction)?;
-        let gate = NormalForceGate::from_noise(&noise);
-        IncipientSlip::new(gate, window, warning_share).map(Self).map_err(errors::friction)
+        Self::of((noise, window, warning_share))
     }
 
     /// Takes a contact force and where the finger is over the object [m]; gives a `SlipVerdict`.
@@ -272,19 +290,19 @@ impl PyIncipient {
         displacement: &Bound<'_, PyAny>,
     ) -> PyResult<Py<PyAny>> {
         let displacement = numbers::three(displacement, "displacement")?;
-        let verdict: SlipVerdict = self.0.update(&force(normal, Some(tangential), 0.0)?, &displacement);
+        let verdict: SlipVerdict = self.watch.update(&force(normal, Some(tangential), 0.0)?, &displacement);
         enums::slip(py, verdict)
     }
 
     /// The stiffness of the contact now [N/m], or `None`.
     #[getter]
     fn stiffness(&self) -> Option<f64> {
-        self.0.stiffness()
+        self.watch.stiffness()
     }
 
     /// Forgets all samples.
     fn reset(&mut self) {
-        self.0.reset();
+        self.watch.reset();
     }
 }
 

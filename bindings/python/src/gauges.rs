@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, SMatrix, SVector, Vector6};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use crate::{errors, numbers};
+use crate::{errors, numbers, value};
 
 /// Watches the raw readings of channels: saturated, stuck, clipped, not finite. It learns the noise and the step of each
 /// from its readings.
@@ -24,10 +24,34 @@ use crate::{errors, numbers};
 /// >>> watch = ChannelMonitor([0.0, 0.0], [5.0, 5.0])
 /// >>> watch.update([2.5, 5.0])
 /// [None, 'saturated_high']
-#[pyclass(name = "ChannelMonitor", module = "fingertip")]
+///
+/// Notes
+/// -----
+/// A copy keeps what it saw; a pickle begins anew.
+#[pyclass(name = "ChannelMonitor", module = "fingertip", skip_from_py_object)]
+#[derive(Clone)]
 pub(crate) struct PyMonitor {
     channels: Vec<(ChannelMonitor<f64>, f64)>,
+    made: (Vec<f64>, Vec<f64>),
 }
+
+impl PyMonitor {
+    fn of(made: (Vec<f64>, Vec<f64>)) -> PyResult<Self> {
+        let (least, greatest) = &made;
+        if least.len() != greatest.len() || least.is_empty() {
+            let (low, high) = (least.len(), greatest.len());
+            return Err(errors::bad(format!("`least` and `greatest` must be as many, not {low} and {high}")));
+        }
+        let limits = least.iter().zip(greatest).map(|(least, greatest)| {
+            let limits = ChannelLimits::new(*least, *greatest).map_err(errors::bad)?;
+            Ok((ChannelMonitor::new(limits), f64::NAN))
+        });
+        let channels = limits.collect::<PyResult<_>>()?;
+        Ok(Self { channels, made })
+    }
+}
+
+value::watcher_class!(PyMonitor);
 
 const fn word(fault: ChannelFault) -> &'static str {
     match fault {
@@ -44,16 +68,7 @@ const fn word(fault: ChannelFault) -> &'static str {
 impl PyMonitor {
     #[new]
     fn new(least: &Bound<'_, PyAny>, greatest: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let (least, greatest) = (numbers::list(least, "least")?, numbers::list(greatest, "greatest")?);
-        if least.len() != greatest.len() || least.is_empty() {
-            let (low, high) = (least.len(), greatest.len());
-            return Err(errors::bad(format!("`least` and `greatest` must be as many, not {low} and {high}")));
-        }
-        let limits = least.into_iter().zip(greatest).map(|(least, greatest)| {
-            let limits = ChannelLimits::new(least, greatest).map_err(errors::bad)?;
-            Ok((ChannelMonitor::new(limits), f64::NAN))
-        });
-        Ok(Self { channels: limits.collect::<PyResult<_>>()? })
+        Self::of((numbers::list(least, "least")?, numbers::list(greatest, "greatest")?))
     }
 
     /// Takes a reading; says of each channel what is wrong with it, or `None`.

@@ -11,7 +11,7 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::{errors, numbers};
+use crate::{errors, numbers, value};
 
 /// Most fingers of a grasp.
 pub(crate) const MOST: usize = 5;
@@ -251,8 +251,11 @@ impl PyGrasp {
 }
 
 /// Learns what an object weighs and where its middle is, from what holds it while it is turned.
-#[pyclass(name = "ObjectWeight", module = "fingertip")]
+/// Copies and pickles keep what it has learnt.
+#[pyclass(name = "ObjectWeight", module = "fingertip", skip_from_py_object)]
 pub(crate) struct PyWeight(ObjectWeight<f64>);
+
+value::learner_class!(PyWeight);
 
 #[pymethods]
 impl PyWeight {

@@ -61,7 +61,7 @@ mod _native {
     #[pymodule_export]
     use crate::model::{PyCovariance, PyJacobian, PyModel, paper_bounds};
     #[pymodule_export]
-    use crate::recording::{analyze_rows, read_rows, run_command};
+    use crate::recording::{analyze_rows, look_at_health, read_rows, run_command};
     #[pymodule_export]
     use crate::rolling::PyRolling;
     #[pymodule_export]

@@ -3,12 +3,14 @@
 use fingertip::contact::{
     Choice, ContactBound, ContactJacobian, ContactModel, ConvexBound, PaperBounds, WorstCase, WorstErrors,
 };
-use fingertip::contact::{ContactCovariance, GeometrySensitivity, GeometryUncertainty, PitchTest};
+use fingertip::contact::{
+    ContactCovariance, GeometrySensitivity, GeometryUncertainty, PitchTest, Resolution,
+};
 use fingertip::surfaces::{DynSurface, SmoothSurface};
 use fingertip::wrench::Wrench;
 use fingertip_scene::Model;
 use nalgebra::{Matrix3, Vector6};
-use numpy::{PyArray1, PyArray2};
+use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArray3, PyArrayLike2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -50,6 +52,26 @@ impl PyModel {
             surface: pipeline.surface().clone(),
             scene: scene.text().to_owned(),
         })
+    }
+}
+
+impl PyModel {
+    /// Point, normal, normal force and spin torque of a wrench, and their derivatives row by row; both are left as they
+    /// are where there is none.
+    fn differentiate(&self, wrench: &Wrench<f64>, touch: &mut [f64], jacobian: &mut [f64]) {
+        let found = self.model.resolve_near(wrench, &self.surface, None);
+        let Resolution::Contact(contact) = found else { return };
+        let values = contact.point.iter().chain(&contact.normal);
+        let values = values.copied().chain([contact.normal_force(), contact.spin_torque]);
+        touch.iter_mut().zip(values).for_each(|(to, value)| *to = value);
+        let found = self.model.jacobian(&contact, wrench, &self.surface, None);
+        let Some(derivatives) = found else { return };
+        let (point, normal, local) = (derivatives.point(), derivatives.normal_change(), derivatives.local());
+        let rows = point.row_iter().chain(normal.row_iter()).map(|row| row.clone_owned());
+        let rows = rows.chain([2, 5].map(|of| local.row(of).clone_owned()));
+        for (to, row) in jacobian.chunks_exact_mut(6).zip(rows) {
+            to.iter_mut().zip(&row).for_each(|(to, value)| *to = *value);
+        }
     }
 }
 
@@ -110,6 +132,55 @@ impl PyModel {
         let last = last.map(|last| numbers::three(last, "last")).transpose()?;
         let found = self.model.jacobian(&contact.0, &self::wrench(wrench)?, &self.surface, last.as_ref());
         Ok(found.map(PyJacobian))
+    }
+
+    /// Where many wrenches touch, each for itself, and how that answers to small changes: what a gradient descends by.
+    ///
+    /// Parameters
+    /// ----------
+    /// wrenches : array_like, shape (n, 6)
+    ///     On the fingertip [N, N·m].
+    ///
+    /// Returns
+    /// -------
+    /// touch : ndarray, shape (n, 8)
+    ///     The point [m], the outward normal, the normal force [N] and the spin torque [N·m] of each contact; NaN of a
+    ///     wrench that touches nothing.
+    /// jacobian : ndarray, shape (n, 8, 6)
+    ///     Their derivatives by the components of the wrench; NaN where there is none, as at grazing.
+    ///
+    /// Examples
+    /// --------
+    /// >>> from fingertip import ContactModel, Surface
+    /// >>> model = ContactModel(Surface("sphere", radius_m=0.013))
+    /// >>> touch, jacobian = model.touch_and_jacobian([[0, 0, -1.0, 0, 0, 0], [0, 0, 1.0, 0, 0, 0]])
+    /// >>> touch[0, :3].tolist(), jacobian.shape
+    /// ([0.0, 0.0, 0.013], (2, 8, 6))
+    fn touch_and_jacobian<'py>(
+        &self,
+        wrenches: &Bound<'py, PyAny>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>)> {
+        let py = wrenches.py();
+        let bad =
+            || errors::bad(format!("`wrenches` must have the shape (n, 6), not {}", numbers::kind(wrenches)));
+        let given: PyArrayLike2<'py, f64, AllowTypeChange> = wrenches.extract().map_err(|_| bad())?;
+        let given = given.as_array();
+        let rows = given.nrows();
+        if given.ncols() != 6 {
+            return Err(errors::bad(format!("`wrenches` must have 6 columns, not {}", given.ncols())));
+        }
+        let (mut touch, mut jacobian) = (vec![f64::NAN; 8 * rows], vec![f64::NAN; 48 * rows]);
+        py.detach(|| {
+            let places = touch.chunks_exact_mut(8).zip(jacobian.chunks_exact_mut(48));
+            for (wrench, (touch, jacobian)) in given.rows().into_iter().zip(places) {
+                let wrench = Wrench::from_components(&Vector6::from_iterator(wrench.iter().copied()));
+                self.differentiate(&wrench, touch, jacobian);
+            }
+        });
+        Ok((
+            PyArray1::from_vec(py, touch).reshape([rows, 8])?,
+            PyArray1::from_vec(py, jacobian).reshape([rows, 8, 6])?,
+        ))
     }
 
     /// Of the model "auto": what speaks for a torque of the contact's own. The name of what it chooses ("point",
@@ -324,3 +395,5 @@ pub(crate) fn paper_bounds<'py>(
     let (force, torque) = (numbers::three(force, "force")?, numbers::three(torque, "torque")?);
     Ok(numbers::array(py, &bounds.contact(&force, &torque)))
 }
+
+value::value_class!(PyJacobian, PyCovariance);

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use fingertip::friction::SlipVerdict;
-use fingertip_cli::library::{Recorded, Sample, analyze};
+use fingertip_cli::library::{HealthOf, Recorded, Sample, analyze, health};
 use fingertip_recordings::{
     AssumedUnits, FaultCount, ForceUnit, LeftOut, Quality, ReaderOptions, RowMarks, TorqueUnit,
 };
@@ -214,6 +214,40 @@ pub(crate) fn analyze_rows<'py>(
     parts.set_item("quality", analysis.quality.to_string())?;
     parts.set_item("summary", analysis.summary)?;
     parts.set_item("html", analysis.html)?;
+    Ok(parts)
+}
+
+/// What a recording shows of its sensor, in a dictionary that `fingertip.Health` is made of.
+#[pyfunction]
+#[pyo3(signature = (path, sensor, topics, calibration, celsius, rate))]
+pub(crate) fn look_at_health<'py>(
+    py: Python<'py>,
+    path: PathBuf,
+    sensor: Option<String>,
+    topics: Vec<String>,
+    calibration: Option<PathBuf>,
+    celsius: Option<f64>,
+    rate: Option<f64>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let recorded = Recorded { path, sensor, topics, celsius, ..Recorded::default() };
+    let found = py.detach(|| health(&recorded, calibration.as_deref(), rate)).map_err(errors::recording)?;
+    let HealthOf { health, notes, summary, html } = found;
+    let (spectra, courses) = (PyDict::new(py), PyDict::new(py));
+    for channel in &health.channels {
+        let flat = |numbers: Vec<f64>, columns| table(py, numbers, columns);
+        let spectrum = channel.spectrum.iter().flat_map(|(frequency, density)| [*frequency, *density]);
+        spectra.set_item(&channel.name, flat(spectrum.collect(), 2)?)?;
+        let course = channel.course.iter().flat_map(|part| [part.time, part.least, part.mean, part.greatest]);
+        courses.set_item(&channel.name, flat(course.collect(), 4)?)?;
+    }
+    let parts = PyDict::new(py);
+    parts.set_item("figures", pythonize::pythonize(py, &health).map_err(errors::recording)?)?;
+    parts.set_item("verdict", health.level().name())?;
+    parts.set_item("spectra", spectra)?;
+    parts.set_item("courses", courses)?;
+    parts.set_item("notes", notes)?;
+    parts.set_item("summary", summary)?;
+    parts.set_item("html", html)?;
     Ok(parts)
 }
 

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use crate::contact::PyContact;
 use crate::model::PyJacobian;
 use crate::touch::PyTracked;
-use crate::{errors, numbers};
+use crate::{errors, numbers, value};
 
 /// How an object is curved where it touches, by how the contact moves while the finger rolls over it without sliding, in
 /// two directions.
@@ -16,8 +16,14 @@ use crate::{errors, numbers};
 /// ----------
 /// radius : float
 ///     Of the fingertip, about [m].
-#[pyclass(name = "RollingCurvature", module = "fingertip")]
+///
+/// Notes
+/// -----
+/// Copies and pickles keep what it has learnt.
+#[pyclass(name = "RollingCurvature", module = "fingertip", skip_from_py_object)]
 pub(crate) struct PyRolling(RollingCurvature<f64>);
+
+value::learner_class!(PyRolling);
 
 #[pymethods]
 impl PyRolling {

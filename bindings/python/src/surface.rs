@@ -83,6 +83,54 @@ impl PySurface {
         Ok(Self { surface: scene.scene().surface().clone(), scene: scene.text().to_owned() })
     }
 
+    /// A shape that a function of Python describes: see `formula`.
+    ///
+    /// Parameters
+    /// ----------
+    /// outside : callable
+    ///     Takes the coordinates x, y, z [m]; positive outside of the body, negative inside.
+    /// reach_m : float
+    ///     Radius of a ball around the whole shape [m].
+    /// centre_m : array_like, shape (3,), optional
+    ///     Its centre [m].
+    /// convex : bool, optional
+    ///     Whether the shape is known to be convex, which makes soft fingers much faster.
+    /// steepest_per_m : float, optional
+    ///     No gradient of the function in the ball is longer [1/m]; needed only where it takes the root of zero, or
+    ///     divides by zero, on the surface.
+    ///
+    /// Examples
+    /// --------
+    /// >>> from fingertip import Surface
+    /// >>> def pillow(x, y, z):
+    /// ...     return (x / 0.01) ** 4 + (y / 0.01) ** 4 + (z / 0.01) ** 4 - 1
+    /// >>> surface = Surface.from_function(pillow, reach_m=0.0132)
+    /// >>> surface.contains([0.0, 0.0, 0.0099]), surface.contains([0.0, 0.0, 0.0101])
+    /// (True, False)
+    #[staticmethod]
+    #[pyo3(signature = (outside, *, reach_m, centre_m=None, convex=false, steepest_per_m=None))]
+    fn from_function(
+        outside: &Bound<'_, PyAny>,
+        reach_m: f64,
+        centre_m: Option<&Bound<'_, PyAny>>,
+        convex: bool,
+        steepest_per_m: Option<f64>,
+    ) -> PyResult<Self> {
+        let py = outside.py();
+        let parameters = PyDict::new(py);
+        let written = py.import("fingertip._formula")?.getattr("formula")?.call1((outside,))?;
+        parameters.set_item("outside", written)?;
+        parameters.set_item("reach_m", reach_m)?;
+        if let Some(centre) = centre_m {
+            parameters.set_item("centre_m", numbers::three(centre, "centre_m")?.as_slice().to_vec())?;
+        }
+        parameters.set_item("convex", convex)?;
+        if let Some(steepest) = steepest_per_m {
+            parameters.set_item("steepest_per_m", steepest)?;
+        }
+        Self::new("formula", Some(&parameters), py)
+    }
+
     /// Every place where a line passes through the shape.
     ///
     /// Parameters

@@ -13,7 +13,7 @@ use fingertip_recordings::{AssumedUnits, ColumnMeaning, ColumnName, HeaderProble
 use numpy::ndarray::ArrayView1;
 use numpy::{Element, PyArray1, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyCapsule, PyDict};
+use pyo3::types::{PyCapsule, PyDict, PyList};
 
 use crate::{capsule, errors};
 
@@ -113,6 +113,19 @@ impl PyTable {
         self.schema.index_of(name).map_err(|_| {
             errors::bad(format!("there is no column `{name}`; there are {}", self.names().join(", ")))
         })
+    }
+
+    /// A column as `Table` takes it: of numbers, or a list of texts.
+    fn stored<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let array = slf.get().only()?.column(slf.get().place(name)?);
+        match array.as_string_opt::<i32>().filter(|texts| texts.null_count() == 0) {
+            Some(texts) => Ok(PyList::new(slf.py(), texts.iter().flatten())?.into_any()),
+            None if array.null_count() == 0 => Self::column(slf, name),
+            None => {
+                let way = "; give pyarrow.table of it to be pickled";
+                Err(errors::bad(format!("column `{name}` has places without a value{way}")))
+            }
+        }
     }
 
     fn only(&self) -> PyResult<&RecordBatch> {
@@ -248,6 +261,35 @@ impl PyTable {
     ) -> PyResult<(Bound<'py, PyCapsule>, Bound<'py, PyCapsule>)> {
         let _ = requested_schema;
         capsule::array(py, self.only()?)
+    }
+
+    /// By its columns; of several batches by each.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Vec<Bound<'py, PyDict>>,))> {
+        let py = slf.py();
+        let restore = py.import("fingertip._pickled")?.getattr("table")?;
+        let this = slf.get();
+        let mut batches = this.batches();
+        if batches.is_empty() {
+            let none = RecordBatch::new_empty(Arc::clone(&this.schema));
+            batches.push(Self::of(vec![none], Arc::clone(&this.schema)));
+        }
+        let pieces = batches.into_iter().map(|piece| {
+            let piece = Bound::new(py, piece)?;
+            let columns = PyDict::new(py);
+            for name in piece.get().names() {
+                columns.set_item(&name, Self::stored(&piece, &name)?)?;
+            }
+            Ok(columns)
+        });
+        Ok((restore, (pieces.collect::<PyResult<_>>()?,)))
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
     }
 
     fn __len__(&self) -> usize {

@@ -13,15 +13,15 @@ use pyo3::types::PyDict;
 
 use crate::surface::PySurface;
 use crate::touch::{PyHappened, PyTracked};
-use crate::{errors, numbers};
+use crate::{errors, numbers, value};
 
 fn wrench(given: &Bound<'_, PyAny>) -> PyResult<Wrench<f64>> {
     Ok(Wrench::from_components(&Vector6::from(numbers::numbers::<6>(given, "wrench")?)))
 }
 
 /// Where the lines of action of several wrenches meet: the contact, whatever the shape, while it stays and its force
-/// turns.
-#[pyclass(name = "LineMeeting", module = "fingertip")]
+/// turns. Copies and pickles keep what it has learnt.
+#[pyclass(name = "LineMeeting", module = "fingertip", skip_from_py_object)]
 pub(crate) struct PyMeeting(LineMeeting<f64>);
 
 #[pymethods]
@@ -77,31 +77,49 @@ impl PyMeeting {
 /// >>> events = ContactEvents(0.01, 0.06)
 /// >>> [events.observe([0, 0, -force], 1e-3).touching for force in (0.0, 0.3, 0.3)]
 /// [False, True, True]
-#[pyclass(name = "ContactEvents", module = "fingertip")]
-pub(crate) struct PyEvents(ContactEvents<f64>);
+///
+/// Notes
+/// -----
+/// A copy keeps what it saw; a pickle begins anew.
+#[pyclass(name = "ContactEvents", module = "fingertip", skip_from_py_object)]
+#[derive(Clone)]
+pub(crate) struct PyEvents {
+    events: ContactEvents<f64>,
+    made: (f64, f64, f64),
+}
+
+impl PyEvents {
+    fn of(made: (f64, f64, f64)) -> PyResult<Self> {
+        let events = ContactEvents::new(made.0, made.1, made.2).map_err(errors::bad)?;
+        Ok(Self { events, made })
+    }
+}
+
+value::watcher_class!(PyEvents);
+value::learner_class!(PyMeeting);
 
 #[pymethods]
 impl PyEvents {
     #[new]
     #[pyo3(signature = (noise, least_force, samples_per_false_event=1e6))]
     fn new(noise: f64, least_force: f64, samples_per_false_event: f64) -> PyResult<Self> {
-        ContactEvents::new(noise, least_force, samples_per_false_event).map(Self).map_err(errors::bad)
+        Self::of((noise, least_force, samples_per_false_event))
     }
 
     /// Takes a force on the fingertip [N], shape (3,), and the time since the one before [s].
     fn observe(&mut self, force: &Bound<'_, PyAny>, time_step: f64) -> PyResult<PyHappened> {
-        Ok(PyHappened(self.0.observe(&numbers::three(force, "force")?, time_step)))
+        Ok(PyHappened(self.events.observe(&numbers::three(force, "force")?, time_step)))
     }
 
     /// Whether something touches.
     #[getter]
     fn is_touching(&self) -> bool {
-        self.0.is_touching()
+        self.events.is_touching()
     }
 
     /// Forgets all samples.
     fn reset(&mut self) {
-        self.0.reset();
+        self.events.reset();
     }
 }
 
@@ -114,13 +132,30 @@ impl PyEvents {
 /// linear, angular : float
 ///     Standard deviations of the finger's velocity [m/s] and turning [rad/s].
 #[pyclass(name = "MotionJudge", module = "fingertip", frozen, skip_from_py_object)]
-pub(crate) struct PyJudge(MotionJudge<f64>);
+#[derive(Clone)]
+pub(crate) struct PyJudge {
+    judge: MotionJudge<f64>,
+    made: (f64, f64, f64),
+}
+
+impl PyJudge {
+    fn of(made: (f64, f64, f64)) -> PyResult<Self> {
+        let judge = MotionJudge::new(made.0, made.1, made.2).map_err(errors::bad)?;
+        Ok(Self { judge, made })
+    }
+}
+
+value::watcher_class!(PyJudge);
 
 #[pymethods]
 impl PyJudge {
     #[new]
     fn new(speed: f64, linear: f64, angular: f64) -> PyResult<Self> {
-        MotionJudge::new(speed, linear, angular).map(Self).map_err(errors::bad)
+        Self::of((speed, linear, angular))
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<Self>().is_ok_and(|other| other.get().judge == self.judge)
     }
 
     /// The probabilities that it sticks, rolls and slides; `None` where nothing can be said.
@@ -137,7 +172,7 @@ impl PyJudge {
         angular: &Bound<'_, PyAny>,
     ) -> PyResult<Option<(f64, f64, f64)>> {
         let (linear, angular) = (numbers::three(linear, "linear")?, numbers::three(angular, "angular")?);
-        let judged = self.0.judge(&tracked.0, &FingerVelocity { linear, angular });
+        let judged = self.judge.judge(&tracked.0, &FingerVelocity { linear, angular });
         Ok(judged.map(|Motions { sticking, rolling, sliding }| (sticking, rolling, sliding)))
     }
 }

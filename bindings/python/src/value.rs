@@ -58,3 +58,56 @@ macro_rules! value_class {
     };
 }
 pub(crate) use value_class;
+
+/// Copies and pickles of a class that is made by `of` from what its field `made` holds: a copy keeps what it saw, a pickle
+/// begins anew.
+macro_rules! watcher_class {
+    ($($class:ident),+ $(,)?) => {
+        $(#[pymethods]
+        impl $class {
+            #[staticmethod]
+            fn _from_bytes(bytes: &[u8]) -> PyResult<Self> {
+                Self::of($crate::value::from_bytes(bytes)?)
+            }
+
+            fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<$crate::value::Reduced<'py>> {
+                $crate::value::reduced(slf.as_any(), &slf.borrow().made)
+            }
+
+            fn __copy__(&self) -> Self {
+                self.clone()
+            }
+
+            fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+                self.clone()
+            }
+        })+
+    };
+}
+pub(crate) use watcher_class;
+
+/// Copies and pickles of a class whose field 0 is what it has learnt, which can be stored: both keep it.
+macro_rules! learner_class {
+    ($($class:ident),+ $(,)?) => {
+        $(#[pymethods]
+        impl $class {
+            #[staticmethod]
+            fn _from_bytes(bytes: &[u8]) -> PyResult<Self> {
+                $crate::value::from_bytes(bytes).map(Self)
+            }
+
+            fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<$crate::value::Reduced<'py>> {
+                $crate::value::reduced(slf.as_any(), &slf.borrow().0)
+            }
+
+            fn __copy__(&self) -> Self {
+                Self(self.0.clone())
+            }
+
+            fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+                Self(self.0.clone())
+            }
+        })+
+    };
+}
+pub(crate) use learner_class;

@@ -1,5 +1,6 @@
 """Tables of Arrow, shared with its libraries."""
 
+import copy
 import gc
 import pickle
 
@@ -146,3 +147,17 @@ def test_duckdb_takes_and_gives_columns(scene, table):
     touched = sense(duckdb.sql("select * from rows"))  # noqa: F841
     found = duckdb.sql("select count(*) from touched where normal_N > 0").fetchall()[0][0]
     assert found == np.count_nonzero(np.array(sense(table)["normal_N"]) > 0)
+
+
+def test_tables_pickle_by_their_columns(table):
+    for one in (Table.from_arrow(table), Table({"x": np.arange(3.0), "n": np.zeros(3, np.uint8), "who": ["a", "b", "c"]}), Table.from_arrow(table).with_no_rows(Table({"y": np.zeros(1)}))):
+        back = pickle.loads(pickle.dumps(one))
+        assert back.names == one.names and len(back) == len(one)
+        ours, theirs = (pa.table(every).to_pydict() for every in (one, back))
+        assert all(np.array_equal(ours[n], theirs[n], equal_nan=n not in ("who",)) for n in one.names)
+        assert copy.deepcopy(one) is one
+    pieces = Table.joined([Table({"x": np.arange(3.0)}), Table({"x": np.arange(2.0)})], Table.from_arrow(table))
+    assert pa.table(pickle.loads(pickle.dumps(pieces))).equals(pa.table(pieces)) and len(pieces.batches()) == 2
+    gaps = Table.from_arrow(pa.table({"x": [1.0, None]}))
+    with pytest.raises(fingertip.FingertipError, match="places without a value"):
+        pickle.dumps(gaps)

@@ -394,3 +394,54 @@ def test_rolling_over_a_ball_tells_its_radius():
     found, covariance, tangents = rolling.find()
     assert np.allclose(found, np.eye(2) / other, atol=0.1 / other), found * other
     assert (np.diag(covariance) > 0).all() and abs(tangents[0] @ tangents[1]) < 1e-9
+
+
+def test_all_that_watches_is_copied_and_pickled():
+    force = [0.3, 0.0, 0.0]
+    made = [
+        (fingertip.BristleFriction("lugre", stiffness=1e4, kinetic=0.4, breakaway=0.6), lambda one: one.set_load(1.0) or one.step([0.01, 0], 1e-3)),
+        (fingertip.ChannelMonitor([0.0, 0.0], [5.0, 5.0]), lambda one: one.update([2.5, 5.0])),
+        (fingertip.ContactEvents(0.01, 0.06), lambda one: one.observe([0, 0, -0.3], 1e-3).touching),
+        (fingertip.IncipientSlip(0.005, 2e-5, 0.5), lambda one: one.update(2.0, force, [1e-6, 0, 0])),
+        (fingertip.HandController(safety=1.5, greatest=10.0), lambda one: one.command([None], [0, 0, -1.0, 0, 0, 0], 1e-3)),
+    ]
+    for watch, ask in made:
+        fresh, twin = pickle.loads(pickle.dumps(watch)), copy.copy(watch)
+        first = ask(watch)
+        for other in (fresh, twin, copy.deepcopy(twin)):
+            assert str(ask(other)) == str(first) or isinstance(other, type(twin))
+        # What it saw stays with a copy, and not with a pickle.
+        again, same = copy.deepcopy(watch), pickle.loads(pickle.dumps(watch))
+        assert str(ask(again)) == str(ask(watch)) and str(ask(same)) == str(first)
+    judge = fingertip.MotionJudge(0.01, 1e-3, 1e-2)
+    assert pickle.loads(pickle.dumps(judge)) == judge == copy.deepcopy(judge)
+
+
+def test_what_was_learnt_stays_with_copies_and_pickles():
+    weight, meeting = fingertip.ObjectWeight(), fingertip.LineMeeting()
+    noise = np.diag([1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8])
+    point = np.array([0.002, -0.001, 0.012])
+    random = np.random.default_rng(6)
+    for _ in range(20):
+        gravity = random.normal(size=3)
+        gravity *= 9.81 / np.linalg.norm(gravity)
+        weight.observe([*(0.2 * gravity), *np.cross([0.01, 0, 0.02], 0.2 * gravity)], noise, gravity)
+        force = random.normal(size=3)
+        meeting.add([*force, *np.cross(point, force)], noise)
+    for kept in (pickle.loads(pickle.dumps(weight)), copy.copy(weight), copy.deepcopy(weight)):
+        assert str(kept.estimate()) == str(weight.estimate()) and kept.estimate()[0] == pytest.approx(0.2)
+    for kept in (pickle.loads(pickle.dumps(meeting)), copy.copy(meeting)):
+        assert len(kept) == 20 and np.allclose(kept.find()[0], point, atol=1e-5)
+    rolling = pickle.loads(pickle.dumps(fingertip.RollingCurvature(0.01)))
+    with pytest.raises(fingertip.FingertipError):
+        rolling.find()
+
+
+def test_how_sure_a_contact_is_pickles():
+    model = fingertip.ContactModel(fingertip.Surface("sphere", radius_m=0.013), "soft_finger")
+    push = [0.1, 0.05, -1.0, 1e-4, 2e-4, 1e-4]
+    jacobian = model.jacobian(model.resolve(push), push)
+    covariance = jacobian.covariance(np.eye(6) * 1e-4)
+    for thing in (jacobian, covariance):
+        assert pickle.loads(pickle.dumps(thing)) == thing == copy.deepcopy(thing)
+    assert np.array_equal(pickle.loads(pickle.dumps(jacobian)).local, jacobian.local)

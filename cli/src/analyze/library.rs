@@ -13,6 +13,7 @@ use super::sink::Sink;
 use super::span::Span;
 use super::{Analysed, analysed};
 use crate::error::CliError;
+pub use crate::health::{HealthOf, health};
 use crate::observe::Status;
 use crate::opened::Opened;
 use crate::output::Overwrite;

@@ -1,6 +1,7 @@
 //! `fingertip health`: what a recording tells of the sensor itself.
 
 mod columns;
+mod library;
 mod page;
 mod pictures;
 mod words;
@@ -18,6 +19,7 @@ use crate::opened::Opened;
 use crate::output::{Outputs, Overwrite};
 use crate::several::{self, file_of};
 pub(crate) use columns::{WatchedRows, of_table, of_wrench};
+pub use library::{HealthOf, health};
 pub(crate) use words::{seen, seen_in_loads};
 
 #[derive(Debug, Args)]
@@ -55,10 +57,20 @@ pub(crate) struct HealthArguments {
     overwrite: Overwrite,
 }
 
-pub(crate) fn run(arguments: &HealthArguments) -> Result<(), CliError> {
-    if let Some(rate) = arguments.rate.filter(|rate| !(*rate > 0.0 && rate.is_finite())) {
-        return Err(CliError::option("--rate", rate, "must be a number of samples a second above 0"));
+impl HealthArguments {
+    /// Options that mean something.
+    fn check(&self) -> Result<(), CliError> {
+        match self.rate.filter(|rate| !(*rate > 0.0 && rate.is_finite())) {
+            Some(rate) => {
+                Err(CliError::option("--rate", rate, "must be a number of samples a second above 0"))
+            }
+            None => Ok(()),
+        }
     }
+}
+
+pub(crate) fn run(arguments: &HealthArguments) -> Result<(), CliError> {
+    arguments.check()?;
     let files = |recording: &PathBuf| {
         let own = |file: &PathBuf| file_of(recording, &arguments.recordings, file);
         [arguments.html.as_ref().map(own), arguments.json.as_ref().map(own)]

@@ -11,6 +11,11 @@ use crate::Contact;
 /// of its position along the two tangents \[m\], normal force, tangential force along the two
 /// tangents \[N\] and spin torque \[N·m\].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct ContactCovariance<T: Real> {
     local: Matrix6<T>,
     tangents: [Vector3<T>; 2],

@@ -46,6 +46,11 @@ use crate::Contact;
 /// costs two products of a matrix and a vector, and no 6 × 6 matrix is made unless
 /// [`local`](Self::local) is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct ContactJacobian<T: Real> {
     pub(super) tangents: [Vector3<T>; 2],
     pub(super) normal: Vector3<T>,

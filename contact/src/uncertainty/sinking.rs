@@ -13,6 +13,11 @@ use super::{ContactJacobian, GeometrySensitivity};
 /// follows the contact: `dδ = r·y` for the six local numbers `y`, with `r` from the skin's law. So
 /// `dy = L dw − a dδ`, which is solved by `dδ = r·L dw/(1 + r·a)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub(super) struct Sinking<T: Real> {
     /// `a`.
     pub(super) answer: Vector6<T>,

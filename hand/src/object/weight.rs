@@ -8,6 +8,11 @@ use crate::triangle::add_row;
 
 /// Mass and centre of mass, with how sure they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct WeightEstimate<T: Real> {
     /// The mass \[kg\].
     pub mass: T,
@@ -42,6 +47,11 @@ pub struct WeightEstimate<T: Real> {
 /// assert!((found.mass_deviation - 0.01 / 9.81 / 2.0_f64.sqrt()).abs() < 1e-4);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct ObjectWeight<T: Real> {
     /// `triangle · (m c, m) = right` with errors of unit variance.
     triangle: Matrix4<T>,

@@ -16,6 +16,7 @@ use thiserror::Error;
 /// assert_eq!((careful.safety, careful.fall), (2.0, 2.0));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct HandSettings<T> {
     /// Factor of safety on friction, at least 1.
     pub safety: T,

@@ -36,6 +36,14 @@ impl<T: Real + DeserializeOwned> Writer<T> {
         let ball = self.fill("({centre_m:v}, {reach_m})", surface)?;
         let convex = surface.get("convex").and_then(Value::as_bool) == Some(true);
         let topology = if convex { "Convex" } else { "Unknown" };
+        let steepest = match surface.get("steepest_per_m") {
+            Some(_) => format!(
+                "    fn steepest(&self) -> Option<{}> {{\n        Some({})\n    }}\n\n",
+                Self::scalar(),
+                self.fill("{steepest_per_m}", surface)?
+            ),
+            None => String::new(),
+        };
         let names = [0, 1, 2].map(|axis| match steps.contains(&FormulaStep::Coordinate(axis)) {
             true => coordinate(axis),
             false => "_",
@@ -53,8 +61,8 @@ impl<T: Real + DeserializeOwned> Writer<T> {
              {constant}        {terms}\n    }}\n\n    \
                  fn ball(&self) -> (nalgebra::Vector3<{t}>, {t}) {{\n        {ball}\n    }}\n\n    \
                  fn value(&self, point: &nalgebra::Vector3<{t}>) -> {t} {{\n        \
-                     let [{names}]: [{t}; 3] = (*point).into();\n        {numbers}\n    }}\n\n    \
-                 fn topology(&self) -> surfaces::Topology {{\n        surfaces::Topology::{topology}\n    }}\n\
+                     let [{names}]: [{t}; 3] = (*point).into();\n        {numbers}\n    }}\n\n\
+             {steepest}    fn topology(&self) -> surfaces::Topology {{\n        surfaces::Topology::{topology}\n    }}\n\
              }}\n"
         ));
         Ok(Typed {

@@ -99,6 +99,7 @@ keys!(KEYS, "Keys of shapes, shape by shape.":
     Optional "centre_m", "of a ball around the whole surface, `[0, 0, 0]` by default";
     Required "reach_m", "radius of that ball";
     Optional "convex", "`true` if it is, which makes soft fingers a hundred times faster";
+    Optional "steepest_per_m", "no gradient of the formula in the ball is longer; needed only where it divides by zero, or takes the root of zero, on the surface";
 }
 "surface" "posed": {
     Required "surface", "another shape";

@@ -1,6 +1,7 @@
 //! Shapes that a file gives as formulas.
 
 use fingertip::surfaces::{ActiveSurface, DynSurface, ImplicitSurface};
+use fingertip::wrench::Line;
 use fingertip_scene::Scene;
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
@@ -116,6 +117,38 @@ fn formulas_that_cannot_be_are_refused_by_name() {
     let error = scene_of("shape = \"formula\"\noutside = \"x^2 - 1\"\nreach_m = -1.0", "").unwrap_err();
     assert!(error.contains("radius"), "{error}");
     assert!(scene_of("shape = \"formula\"\noutside = \"x^2 - 1\"", "").unwrap_err().contains("reach_m"));
+}
+
+/// A root that is zero on the surface tells no steepness: it must be stated, and must not be too small.
+#[test]
+fn how_steep_a_formula_is_can_be_stated() {
+    let drum = |more: &str| {
+        let outside = "sqrt((x/0.008)^2 + (y/0.01)^2)^2 + (z/0.012)^2 - 1";
+        format!("shape = \"formula\"\noutside = \"{outside}\"\nreach_m = 0.013\nconvex = true\n{more}")
+    };
+    let error = scene_of(&drum(""), "").unwrap_err();
+    assert!(error.contains("of an implicit surface") && error.contains("steepest_per_m"), "{error}");
+    let error = scene_of(&drum("steepest_per_m = 100.0"), "").unwrap_err();
+    assert!(error.contains("nowhere exceeded"), "{error}");
+    for bad in ["-1.0", "0.0", "nan", "inf"] {
+        assert!(scene_of(&drum(&format!("steepest_per_m = {bad}")), "").is_err(), "{bad}");
+    }
+    let stated = scene_of(&drum("steepest_per_m = 420.0"), "").unwrap();
+    let known = scene_of("shape = \"ellipsoid\"\nsemi_axes_m = [0.008, 0.010, 0.012]", "").unwrap();
+    let mut random = Pcg64Mcg::seed_from_u64(63);
+    let mut vector = || Vector3::from_fn(|_, _| random.random_range(-0.01..0.01));
+    for _ in 0..200 {
+        let line = Line { point: vector(), direction: vector().normalize() };
+        let crossings = |scene: &Scene| {
+            let mut places = Vec::new();
+            scene.surface().crossings(&line, |crossing| places.push(crossing.along));
+            places.sort_by(f64::total_cmp);
+            places
+        };
+        let (found, expected) = (crossings(&stated), crossings(&known));
+        assert_eq!(found.len(), expected.len());
+        assert!(found.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} {expected:?}");
+    }
 }
 
 /// Whatever stands in a formula, it is refused or it is a shape.

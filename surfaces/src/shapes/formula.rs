@@ -81,6 +81,7 @@ pub struct Formula<T: Real> {
     centre: Vector3<T>,
     radius: T,
     topology: Topology,
+    steepest: Option<T>,
 }
 
 impl<T: Real> Formula<T> {
@@ -101,13 +102,21 @@ impl<T: Real> Formula<T> {
         }
         let requirement = "complete, of finite numbers, with at most 24 values held at once";
         BadShape::check("formula", "steps", requirement, whole && held == 1)?;
-        Ok(Self { steps, centre, radius, topology: Topology::Unknown })
+        Ok(Self { steps, centre, radius, topology: Topology::Unknown, steepest: None })
     }
 
     /// The same, of which it is known that it is convex, or closed.
     #[must_use]
     pub fn with_topology(self, topology: Topology) -> Self {
         Self { topology, ..self }
+    }
+
+    /// The same, of which it is known that no gradient in the ball is longer \[value per m\]: for a formula that tells no
+    /// bound itself, as a root does that is zero on the surface. [`Implicit::new`](crate::Implicit::new) refuses one that
+    /// it sees exceeded.
+    #[must_use]
+    pub fn with_steepest(self, steepest: T) -> Self {
+        Self { steepest: Some(steepest), ..self }
     }
 
     /// The result of the steps in a kind of number.
@@ -182,6 +191,10 @@ impl<T: Real> ImplicitSurface<T> for Formula<T> {
 
     fn value(&self, point: &Vector3<T>) -> T {
         run!(self, [point.x, point.y, point.z], |number: T| number, root)
+    }
+
+    fn steepest(&self) -> Option<T> {
+        self.steepest
     }
 
     fn topology(&self) -> Topology {

@@ -121,8 +121,8 @@ impl<T: Real, S: ImplicitSurface<T>> Implicit<T, S> {
         BadShape::check_length("implicit surface", "radius", radius)?;
         let found = match surface.steepest() {
             None => Steepness::over_ball(|point| surface.formula(point), &centre, radius).ok_or(
-                "known near the surface: where the formula divides by zero or takes the root of it, \
-                 give `steepest`",
+                "known near the surface, where the formula divides by zero or takes the root of it: \
+                 state the longest gradient, `steepest` (in a scene `steepest_per_m`)",
             ),
             Some(greatest) => Steepness::stated(|point| surface.gradient(point), &centre, radius, greatest)
                 .ok_or("positive, finite and nowhere exceeded"),

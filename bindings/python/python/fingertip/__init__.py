@@ -13,6 +13,8 @@ applies to the fingertip, and normals point out of it.
 
 from fingertip._arrow import Columns, Table, columns
 from fingertip._enums import Continuity, Convention, NoContactReason, Quality, SlipVerdict
+from fingertip._formula import formula
+from fingertip._health import Finding, Health, health
 from fingertip._native import (
     BristleFriction,
     Calibration,
@@ -76,14 +78,16 @@ __all__ = [
     "Convention",
     "Design",
     "DesignError",
+    "Finding",
     "Fingertip",
     "FingertipError",
     "FrictionError",
     "FrictionLimit",
     "Grasp",
-    "HandError",
     "HandController",
+    "HandError",
     "Happened",
+    "Health",
     "Impact",
     "IncipientSlip",
     "LineMeeting",
@@ -114,7 +118,9 @@ __all__ = [
     "columns",
     "conditioning",
     "design",
+    "formula",
     "fuse",
+    "health",
     "limit_curve",
     "paper_bounds",
     "read_recording",

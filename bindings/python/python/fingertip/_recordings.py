@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +12,7 @@ import numpy.typing as npt
 
 from fingertip import _native
 from fingertip._native import Scene
+from fingertip._pages import Page
 
 if TYPE_CHECKING:
     from fingertip._arrow import Table
@@ -117,7 +117,7 @@ def read_recording(
 
 
 @dataclass(frozen=True, eq=False)
-class Analysis:
+class Analysis(Page):
     """What a recording shows. `analyze` makes it.
 
     Attributes
@@ -198,18 +198,6 @@ class Analysis:
         """The word of each row, shape (n,)."""
         return np.array(self.status_words, dtype=np.str_)[self.status_codes]
 
-    def report_html(self, path: str | os.PathLike[str] | None = None) -> str:
-        """The page that the command writes, as a text; with a path, written there too, whole or not at all."""
-        if path is not None:
-            target = Path(path)
-            part = target.with_name(f".{target.name}.{os.getpid()}.part")
-            try:
-                part.write_text(self.html, encoding="utf-8")
-                part.replace(target)
-            finally:
-                part.unlink(missing_ok=True)
-        return self.html
-
     def to_arrow(self) -> Table:
         """The columns as a table that every library of Arrow takes, without a copy."""
         from fingertip._arrow import Table
@@ -227,11 +215,6 @@ class Analysis:
 
     def __repr__(self) -> str:
         return f"<fingertip.Analysis: {len(self)} rows, {int(self.contact.sum())} in contact>"
-
-    def _repr_html_(self) -> str:
-        import html
-
-        return f'<iframe srcdoc="{html.escape(self.html)}" width="100%" height="600"></iframe>'
 
 
 def analyze(

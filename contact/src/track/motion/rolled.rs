@@ -17,6 +17,11 @@ use crate::track::{BadTrack, Sighting, Tracked};
 /// sighting counts by its own noise. Start anew when it slides or the contact is new. It takes the finger's curvature
 /// for constant, as on a sphere, a cylinder or a plane; on other shapes its mean over the way counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct RollingCurvature<T: Real> {
     /// The unit of length [m].
     unit: T,

@@ -1,0 +1,52 @@
+//! `health` for programs that have the command within them: the same look, the same summary, the same page.
+
+use std::path::{Path, PathBuf};
+
+use fingertip_recordings::health::Health;
+
+use super::{HealthArguments, page, watched, words};
+use crate::analyze::library::{Failure, Recorded};
+use crate::output::Overwrite;
+
+/// What a recording shows of its sensor.
+#[derive(Clone, Debug)]
+pub struct HealthOf {
+    /// Everything that was found, and the figures behind it.
+    pub health: Health,
+    /// What should be minded.
+    pub notes: Vec<String>,
+    /// The same in sentences and tables, as the command prints it.
+    pub summary: String,
+    /// The page that the command writes.
+    pub html: String,
+}
+
+/// Looks at a sensor by a recording of it, as `fingertip health` does: noise, spectra, drift, jumps of zeros, channels
+/// that are stuck, clipped, dead or share noise. With a calibration what is said of loads is said, too; `rate` is that of
+/// samples without times \[1/s\].
+///
+/// # Errors
+/// [`Failure`], in the sentence that the command says.
+pub fn health(
+    recorded: &Recorded,
+    calibration: Option<&Path>,
+    rate: Option<f64>,
+) -> Result<HealthOf, Failure> {
+    let arguments = HealthArguments {
+        recordings: vec![recorded.path.clone()],
+        calibration: calibration.map(PathBuf::from),
+        celsius: recorded.celsius,
+        sensor: recorded.sensor.clone(),
+        topics: recorded.topics.clone(),
+        rate,
+        html: None,
+        json: None,
+        overwrite: Overwrite::default(),
+    };
+    arguments.check()?;
+    let mut notes = Vec::new();
+    let (health, name) = watched(&recorded.path, &arguments, &mut notes)?;
+    let findings = words::findings(&health, &name, notes.clone());
+    let html = page::of(&health, &findings);
+    Ok(HealthOf { health, notes, summary: findings.to_string(), html })
+}
