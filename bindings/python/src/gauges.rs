@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, SMatrix, SVector, Vector6};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use crate::{errors, numbers, value};
+use crate::{enums, errors, numbers, value};
 
 /// Watches the raw readings of channels: saturated, stuck, clipped, not finite. It learns the noise and the step of each
 /// from its readings.
@@ -23,7 +23,7 @@ use crate::{errors, numbers, value};
 /// >>> from fingertip import ChannelMonitor
 /// >>> watch = ChannelMonitor([0.0, 0.0], [5.0, 5.0])
 /// >>> watch.update([2.5, 5.0])
-/// [None, 'saturated_high']
+/// [None, <ChannelFault.SATURATED_HIGH: 'saturated_high'>]
 ///
 /// Notes
 /// -----
@@ -71,9 +71,9 @@ impl PyMonitor {
         Self::of((numbers::list(least, "least")?, numbers::list(greatest, "greatest")?))
     }
 
-    /// Takes a reading; says of each channel what is wrong with it, or `None`.
-    fn update(&mut self, reading: &Bound<'_, PyAny>) -> PyResult<Vec<Option<&'static str>>> {
-        let readings = numbers::list(reading, "reading")?;
+    /// Takes a reading; says of each channel what is wrong with it, a `ChannelFault`, or `None`.
+    fn update<'py>(&mut self, reading: &Bound<'py, PyAny>) -> PyResult<Vec<Option<Bound<'py, PyAny>>>> {
+        let (py, readings) = (reading.py(), numbers::list(reading, "reading")?);
         let (found, channels) = (readings.len(), self.channels.len());
         if found != channels {
             return Err(errors::bad(format!("`reading` must have {channels} numbers, not {found}")));
@@ -87,7 +87,9 @@ impl PyMonitor {
             channel.1 = reading;
             channel.0.update(reading, others).map(word)
         });
-        Ok(each.collect())
+        let each: Vec<Option<&str>> = each.collect();
+        let member = |word: Option<&str>| word.map(|word| enums::named(py, "ChannelFault", word)).transpose();
+        each.into_iter().map(member).collect()
     }
 
     /// Standard deviation of a reading of each channel at rest; `None` until its readings have told it.

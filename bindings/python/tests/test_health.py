@@ -32,7 +32,7 @@ def test_it_is_what_the_command_finds(rest, tmp_path):
     assert run_command(["fingertip", "health", str(rest), "--json", str(written)]) == 1
     figures = json.loads(written.read_text())
     assert json.loads(json.dumps(found.figures)) == figures
-    assert found.verdict == "bad" and found.findings[0].level == "bad"
+    assert found.verdict is fingertip.HealthLevel.BAD and found.findings[0].level is found.verdict
     kinds = {finding.what: finding for finding in found.findings}
     assert kinds["dead"].channels == ("ty_Nm",) and kinds["hum"].channels == ("fz_N",)
     assert found.channels["fx_N"]["noise"]["deviation"] == pytest.approx(0.01, rel=0.05)

@@ -335,7 +335,7 @@ def test_channels_are_watched():
     assert watch.noise[0] == pytest.approx(0.1, rel=0.2) and watch.noise[1] == pytest.approx(0.05, rel=0.2)
     for _ in range(500):
         faults = watch.update([2.5 + random.normal(0, 0.1), 1.234, 5.0])
-    assert faults == [None, "stuck", "saturated_high"]
+    assert faults == [None, fingertip.ChannelFault.STUCK, "saturated_high"]
     assert watch.update([np.nan, 1.0, 2.0])[0] == "not_finite"
     with pytest.raises(fingertip.FingertipError, match="3 numbers, not 2"):
         watch.update([1.0, 2.0])

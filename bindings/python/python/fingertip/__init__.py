@@ -12,7 +12,7 @@ applies to the fingertip, and normals point out of it.
 """
 
 from fingertip._arrow import Columns, Table, columns
-from fingertip._enums import Continuity, Convention, NoContactReason, Quality, SlipVerdict
+from fingertip._enums import ChannelFault, Continuity, Convention, HealthLevel, NoContactReason, Quality, SlipVerdict
 from fingertip._formula import formula
 from fingertip._health import Finding, Health, health
 from fingertip._native import (
@@ -67,6 +67,7 @@ __all__ = [
     "BristleFriction",
     "Calibration",
     "CalibrationError",
+    "ChannelFault",
     "ChannelMonitor",
     "Columns",
     "Contact",
@@ -89,6 +90,7 @@ __all__ = [
     "Happened",
     "Health",
     "Impact",
+    "HealthLevel",
     "IncipientSlip",
     "LineMeeting",
     "MotionJudge",

@@ -66,3 +66,33 @@ class Quality(str, Enum):
     """Checked, and not: the reasons stand beside it."""
     UNCHECKED = "unchecked"
     """Nobody has checked it."""
+
+
+class ChannelFault(str, Enum):
+    """What is wrong with a reading of a channel."""
+
+    NOT_FINITE = "not_finite"
+    """It is no number."""
+    SATURATED_LOW = "saturated_low"
+    """It is at or below the lower end of the linear range."""
+    SATURATED_HIGH = "saturated_high"
+    """It is at or above the upper end."""
+    PLATEAU_LOW = "plateau_low"
+    """It stays at its lowest value."""
+    PLATEAU_HIGH = "plateau_high"
+    """It stays at its highest value."""
+    STUCK = "stuck"
+    """It stays where noise would not let it."""
+
+
+class HealthLevel(str, Enum):
+    """How bad something is that was found of a sensor."""
+
+    SOUND = "sound"
+    """Nothing is."""
+    NOTE = "note"
+    """Good to know."""
+    SUSPECT = "suspect"
+    """Somebody should look at it."""
+    BAD = "bad"
+    """Readings are wrong."""

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fingertip import _native
+from fingertip._enums import HealthLevel
 from fingertip._pages import Page
 
 Numbers = npt.NDArray[np.float64]
@@ -24,8 +25,8 @@ class Finding:
     ----------
     what : str
         Its kind, such as "stuck", "hum" or "zero_step".
-    level : str
-        How bad it is: "note", "suspect" or "bad".
+    level : HealthLevel
+        How bad it is.
     channels : tuple of str
         The names of the channels; empty if it is of all.
     at : float or None
@@ -37,14 +38,14 @@ class Finding:
     """
 
     what: str
-    level: str
+    level: HealthLevel
     channels: tuple[str, ...]
     at: float | None
     size: float | None
     said: str
 
     def __str__(self) -> str:
-        return f"{self.level}: {self.said}"
+        return f"{self.level.value}: {self.said}"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -53,8 +54,8 @@ class Health(Page):
 
     Attributes
     ----------
-    verdict : str
-        The worst of what was found: "sound", "note", "suspect" or "bad".
+    verdict : HealthLevel
+        The worst of what was found.
     figures : dict
         All figures, as the command writes them by `--json`: samples, rate, rest, channels, zeros that jumped, channels that
         share noise.
@@ -70,7 +71,7 @@ class Health(Page):
         The page that the command writes.
     """
 
-    verdict: str
+    verdict: HealthLevel
     figures: Mapping[str, Any]
     spectra: Mapping[str, Numbers]
     courses: Mapping[str, Numbers]
@@ -81,8 +82,10 @@ class Health(Page):
     @property
     def findings(self) -> list[Finding]:
         """What is wrong and what is good to know, worst first."""
+        kinds = {"channels": tuple, "level": HealthLevel}
         return [
-            Finding(**{**found, "channels": tuple(found["channels"])}) for found in self.figures["findings"]
+            Finding(**{name: kinds.get(name, lambda value: value)(value) for name, value in found.items()})
+            for found in self.figures["findings"]
         ]
 
     @property
@@ -95,7 +98,7 @@ class Health(Page):
 
     def __repr__(self) -> str:
         said = "".join(f"; {finding}" for finding in self.findings[:3])
-        return f"<fingertip.Health: {self.verdict}{said}>"
+        return f"<fingertip.Health: {self.verdict.value}{said}>"
 
 
 def health(
@@ -149,4 +152,4 @@ def health(
     """
     calibration = None if calibration is None else os.fspath(calibration)
     found = _native.look_at_health(os.fspath(recording), sensor, list(topics), calibration, celsius, rate)
-    return Health(**found)
+    return Health(**{**found, "verdict": HealthLevel(found["verdict"])})

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from typing_extensions import disjoint_base
 
-from fingertip._enums import Continuity, Convention, NoContactReason, Quality, SlipVerdict
+from fingertip._enums import ChannelFault, Continuity, Convention, NoContactReason, Quality, SlipVerdict
 from fingertip._touches import Touches
 
 _Numbers = npt.NDArray[np.float64]
@@ -151,7 +151,7 @@ class ChannelMonitor:
     def noise(self) -> list[float | None]: ...
     @property
     def step(self) -> list[float | None]: ...
-    def update(self, reading: npt.ArrayLike) -> list[str | None]: ...
+    def update(self, reading: npt.ArrayLike) -> list[ChannelFault | None]: ...
 
 @final
 class Contact:
