@@ -1,7 +1,7 @@
 //! `fingertip.Fingertip`.
 
 use fingertip::wrench::{Motion, Wrench};
-use fingertip_scene::{ArrayReading, NoWrench, RestWatch};
+use fingertip_scene::{ArrayReading, NoWrench};
 use nalgebra::{DMatrix, Vector3, Vector6};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyUserWarning};
@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::pipe::{Beside, Pipe, each};
+use crate::rest::Rested;
 use crate::scene::PyScene;
 use crate::touch::PyTouch;
 use crate::track;
@@ -48,15 +49,6 @@ pub(crate) struct PyFingertip {
     pub(crate) sign: f64,
     /// The readings of the last rest, and what was known beside them.
     rested: Option<Rested>,
-}
-
-/// The last rest, to take the zero again in a pickle that was loaded.
-#[derive(Clone)]
-struct Rested {
-    readings: DMatrix<f64>,
-    gravity: Option<Vector3<f64>>,
-    celsius: Option<f64>,
-    dummy: Option<Vec<f64>>,
 }
 
 /// What `__reduce__` gives: class, arguments, state.
@@ -111,38 +103,6 @@ impl PyFingertip {
             Some(motion) => self.pipe.sense_moving(wrench, motion, time_step).map(PyTouch),
             None => Err(errors::reading(NoWrench::NoMotion)),
         }
-    }
-
-    /// Takes the zero of a rest; gives what may be wrong with it, and the noise of the wrench.
-    fn take_zero(&mut self, rested: &Rested) -> PyResult<(Option<String>, Option<Vector6<f64>>)> {
-        let Rested { readings, gravity, celsius, dummy } = rested;
-        let found = if self.gauges.is_some() {
-            for (index, row) in readings.row_iter().enumerate() {
-                let gauges: Vec<f64> = row.iter().copied().collect();
-                let dummy = dummy.as_ref().and_then(|dummy| dummy.get(index).copied());
-                // A reading that cannot be used is passed over, as in a recording.
-                let _ = self.pipe.rest(&gauges, &Beside { motion: None, celsius: *celsius, dummy });
-            }
-            self.pipe.end_rest()?
-        } else {
-            let mut watch = RestWatch::<f64, 6>::default();
-            for row in readings.row_iter() {
-                let reading = Vector6::from_iterator(row.iter().copied());
-                watch.add(&reading, &reading, &Wrench::from_components(&reading));
-            }
-            self.zero = *watch.tare().map_err(errors::reading)?.zero();
-            let name = |axis: usize| {
-                ["fx", "fy", "fz", "tx", "ty", "tz"].get(axis).map_or(String::new(), |n| (*n).into())
-            };
-            (watch.doubt(name).map(|doubt| doubt.to_string()), watch.noise())
-        };
-        if let Some(gravity) = gravity {
-            self.pipe.rest_carried(gravity);
-        }
-        if let (_, Some(noise)) = &found {
-            self.pipe.know_noise(noise)?;
-        }
-        Ok(found)
     }
 }
 

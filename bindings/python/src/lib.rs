@@ -24,6 +24,7 @@ mod model;
 mod numbers;
 mod pipe;
 mod recording;
+mod rest;
 mod rolling;
 mod scene;
 mod simulation;
