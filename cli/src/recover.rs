@@ -1,6 +1,6 @@
 //! `fingertip recover`: a whole recording from one that was cut or is damaged.
 
-use std::io::{self, BufRead, BufReader, Seek, Write};
+use std::io::{BufRead, BufReader, Write};
 use std::path::PathBuf;
 
 use clap::Args;
@@ -9,7 +9,7 @@ use fingertip_recordings::mcap::recover;
 
 use crate::error::CliError;
 use crate::input::Input;
-use crate::output::{Outputs, Overwrite, is_standard};
+use crate::output::{Outputs, Overwrite};
 use crate::recording_file::{Kind, Packing, mcap};
 use crate::table::count;
 
@@ -46,21 +46,9 @@ pub(crate) fn run(arguments: &RecoverArguments) -> Result<(), CliError> {
 
 fn messages(arguments: &RecoverArguments, input: &Input, outputs: &Outputs) -> Result<String, CliError> {
     let path = arguments.output.as_path();
-    let fault = |source| CliError::write("recording", path, source);
-    let mut file = outputs.create("recording", path)?;
-    let compression = arguments.compression.into();
+    let file = outputs.create("recording", path)?.seekable()?;
     let failed = |error| mcap(input.path(), &error);
-    let found = if is_standard(path) {
-        // Lengths are written into what stands before: a stream cannot go back.
-        let whole = tempfile::tempfile().map_err(fault)?;
-        let (found, mut whole) = recover(input.messages()?, whole, compression).map_err(failed)?;
-        whole.rewind().and_then(|()| io::copy(&mut whole, &mut file)).map_err(fault)?;
-        found
-    } else {
-        let (found, written) = recover(input.messages()?, file, compression).map_err(failed)?;
-        file = written;
-        found
-    };
+    let (found, file) = recover(input.messages()?, file, arguments.compression.into()).map_err(failed)?;
     if found.messages == 0 {
         let message = "no message in it is whole; there is nothing to recover".to_owned();
         return Err(CliError::Mcap { path: input.path().to_owned(), message });

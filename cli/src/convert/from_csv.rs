@@ -33,9 +33,8 @@ pub(super) fn convert(
         ));
     }
     let failed = |error: McapError| mcap(output, &error);
-    let writer =
-        McapWriter::with_compression(outputs.create("recording", output)?, arguments.compression.into())
-            .map_err(failed)?;
+    let file = outputs.create("recording", output)?.seekable()?;
+    let writer = McapWriter::with_compression(file, arguments.compression.into()).map_err(failed)?;
     let mut topics = Topics::open(writer, &layout).map_err(failed)?;
     let (mut rows, mut timeless, mut rounded) = (0_u64, 0, 0);
     while let Some(row) = reader.next_row()? {

@@ -14,7 +14,8 @@ use crate::verbosity::detail;
 
 /// A file that is written beside its place, as `name.unfinished-….ending`, and takes it when it is
 /// [finished](Self::finish); until then, and if it never is, whatever was there stays. Devices and pipes are written
-/// where they are, and `-` is the standard output.
+/// where they are, and `-` is the standard output; what must go back in them to write is collected first
+/// ([`seekable`](Self::seekable)).
 #[derive(Debug)]
 pub(crate) struct Whole {
     out: Out,
@@ -25,9 +26,18 @@ pub(crate) struct Whole {
 
 #[derive(Debug)]
 enum Out {
-    Beside { file: BufWriter<NamedTempFile>, place: PathBuf, listed: Unfinished },
+    Beside {
+        file: BufWriter<NamedTempFile>,
+        place: PathBuf,
+        listed: Unfinished,
+    },
     Device(BufWriter<File>),
     Stdout(io::Stdout),
+    /// A stream that cannot go back, and what will be written into it.
+    Collected {
+        whole: BufWriter<File>,
+        stream: Box<Self>,
+    },
 }
 
 /// Files that links may lead through.
@@ -56,6 +66,16 @@ impl Whole {
             Out::open(path, overwrite).map_err(|source| CliError::write(what, path, source))?
         };
         Ok(Self { out, what, path: path.to_owned(), overwrite })
+    }
+
+    /// For a format that writes lengths into what stands before: a stream, which cannot go back, is given all at the end.
+    pub(crate) fn seekable(mut self) -> Result<Self, CliError> {
+        if self.stream_position().is_err() {
+            let fault = |source| CliError::write(self.what, &self.path, source);
+            let whole = tempfile::tempfile().map_err(fault)?;
+            self.out = Out::Collected { whole: BufWriter::new(whole), stream: Box::new(self.out) };
+        }
+        Ok(self)
     }
 
     /// Puts the file into its place.
@@ -107,6 +127,11 @@ impl Out {
         match self {
             Self::Stdout(mut stdout) => stdout.flush(),
             Self::Device(mut file) => file.flush(),
+            Self::Collected { mut whole, mut stream } => {
+                whole.rewind()?;
+                io::copy(whole.get_mut(), &mut stream)?;
+                stream.finish(overwrite)
+            }
             Self::Beside { file, place, listed } => {
                 let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
                 // A name must not be on the disk before what it names.
@@ -127,21 +152,33 @@ fn plain(error: io::Error) -> io::Error {
     error.kind().into()
 }
 
-impl Write for Whole {
+impl Write for Out {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match &mut self.out {
-            Out::Beside { file, .. } => file.write(bytes),
-            Out::Device(file) => file.write(bytes),
-            Out::Stdout(stdout) => stdout.write(bytes),
+        match self {
+            Self::Beside { file, .. } => file.write(bytes),
+            Self::Device(file) => file.write(bytes),
+            Self::Stdout(stdout) => stdout.write(bytes),
+            Self::Collected { whole, .. } => whole.write(bytes),
         }
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        match &mut self.out {
-            Out::Beside { file, .. } => file.flush(),
-            Out::Device(file) => file.flush(),
-            Out::Stdout(stdout) => stdout.flush(),
+        match self {
+            Self::Beside { file, .. } => file.flush(),
+            Self::Device(file) => file.flush(),
+            Self::Stdout(stdout) => stdout.flush(),
+            Self::Collected { whole, .. } => whole.flush(),
         }
+    }
+}
+
+impl Write for Whole {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.out.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
     }
 }
 
@@ -151,6 +188,7 @@ impl Seek for Whole {
             Out::Beside { file, .. } => file.seek(to),
             Out::Device(file) => file.seek(to),
             Out::Stdout(_) => Err(io::ErrorKind::NotSeekable.into()),
+            Out::Collected { whole, .. } => whole.seek(to),
         }
     }
 }

@@ -94,6 +94,7 @@ impl Output {
                 Writer::Csv(RecordingWriter::new(file, &schema).map_err(|error| csv(path, error))?)
             }
             Kind::Mcap => {
+                let file = file.seekable()?;
                 let open = || {
                     let mut writer = McapWriter::with_compression(file, arguments.compression.into())?;
                     let wrench = writer.wrenches("/fingertip/wrench", FRAME)?;

@@ -212,6 +212,34 @@ fn recordings_come_and_go_through_pipes() {
     assert!(error.contains("the standard input can be read once"), "{error}");
 }
 
+/// The lengths in an MCAP file are known when its parts are whole: a pipe, which cannot go back, gets all at the end.
+#[cfg(unix)]
+#[test]
+fn an_mcap_file_goes_into_a_named_pipe() {
+    let folder = Folder::new();
+    two_wrists(&folder, "a.mcap", 200, Compression::None);
+    folder.succeed(&["convert", "a.mcap", "a.csv", "--topic", "/left/ft"]);
+    folder.succeed(&["convert", "a.csv", "b.mcap"]);
+    folder.succeed(&["recover", "a.mcap", "c.mcap"]);
+    folder.succeed(&["record", "sim", "-o", "d.mcap", "--samples", "50"]);
+    let made = std::process::Command::new("mkfifo").arg(folder.path("pipe.mcap")).status().unwrap();
+    assert!(made.success());
+    let through = |arguments: &[&str]| {
+        std::thread::scope(|scope| {
+            let reader = scope.spawn(|| fs::read(folder.path("pipe.mcap")).unwrap());
+            folder.succeed(arguments);
+            reader.join().unwrap()
+        })
+    };
+    let file = |name: &str| fs::read(folder.path(name)).unwrap();
+    assert_eq!(through(&["convert", "a.csv", "pipe.mcap"]), file("b.mcap"));
+    assert_eq!(through(&["recover", "a.mcap", "pipe.mcap"]), file("c.mcap"));
+    fs::write(folder.path("e.mcap"), through(&["record", "sim", "-o", "pipe.mcap", "--samples", "50"]))
+        .unwrap();
+    let said = |name: &str| folder.succeed(&["info", name]).split_once('\n').unwrap().0.replace(name, "");
+    assert_eq!(said("e.mcap"), said("d.mcap"));
+}
+
 /// Each has files of its own, and one that is bad does not keep the others from being done.
 #[test]
 fn several_recordings_are_analysed_one_by_one() {
