@@ -46,6 +46,11 @@ pub enum MeshError {
         /// Counted from 1.
         line: usize,
     },
+    /// What a file's unit is in metres is NaN, infinite, zero or negative.
+    #[error(
+        "the unit of the mesh file must be a positive, finite number of metres: 0.001 for a file in millimetres"
+    )]
+    BadUnit,
     /// The file is not UTF-8 text.
     #[error("the mesh file is not text")]
     NotText,

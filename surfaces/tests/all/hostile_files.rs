@@ -71,12 +71,25 @@ fn units_that_are_none() {
     let corners = [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
     let whole = as_obj(&corners, &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]);
     assert!(Mesh::from_obj(&whole, 1e-3).is_ok());
-    for unit in [0.0, f64::NAN, f64::INFINITY, 1e-320, 1e308] {
-        assert!(Mesh::from_obj(&whole, unit).is_err(), "{unit}");
+    for unit in [0.0, -0.0, -1e-3, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert_eq!(Mesh::from_obj(&whole, unit), Err(MeshError::BadUnit), "{unit}");
+        // Whatever is in the file.
+        assert_eq!(Mesh::from_stl(&binary(1, 1), unit), Err(MeshError::BadUnit), "{unit}");
+        assert_eq!(Mesh::from_obj("", unit), Err(MeshError::BadUnit), "{unit}");
+        let file = std::env::temp_dir().join(format!("fingertip_unit_{}.obj", std::process::id()));
+        std::fs::write(&file, &whole).unwrap();
+        let (read, parts) = (Mesh::from_file(&file, unit), Mesh::parts_from_file(&file, unit));
+        std::fs::remove_file(&file).unwrap();
+        assert_eq!((read, parts), (Err(MeshError::BadUnit), Err(MeshError::BadUnit)), "{unit}");
     }
-    // A mirror image has its faces turned outward again.
-    let mirrored = Mesh::from_obj(&whole, -1.0).unwrap();
-    mesh_file::check_mesh(&mirrored);
+    // Too small or too large for single precision.
+    for unit in [1e-60, 1e60] {
+        assert_eq!(Mesh::<f32>::from_obj(&whole, unit as f32), Err(MeshError::BadUnit), "{unit}");
+    }
+    // A unit that may be, and a shape that may not.
+    for unit in [1e-320, 1e308] {
+        assert!(Mesh::from_obj(&whole, unit).is_err_and(|error| error != MeshError::BadUnit), "{unit}");
+    }
 }
 
 proptest! {
