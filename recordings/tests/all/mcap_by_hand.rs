@@ -73,7 +73,8 @@ fn no_chunk_and_no_end_stand_in_a_chunk() {
         let beginning = chunk(&[nested, message(1, 0, &wrench())].concat());
         let whole = file(&[ending, beginning, data_end()]);
         assert_eq!(entries(&whole).unwrap(), [expected(), expected()]);
-        let (recovered, _) = recover(Cursor::new(&whole), Cursor::new(Vec::new()), Compression::None).unwrap();
+        let (recovered, _) =
+            recover(Cursor::new(&whole), Cursor::new(Vec::new()), Compression::None).unwrap();
         assert_eq!(recovered.messages, 2);
     }
 }
