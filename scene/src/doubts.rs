@@ -1,18 +1,32 @@
 //! What a scene can say and hardly means.
 
+use fingertip::surfaces::{DynSurface, SmoothSurface};
 use toml::{Table, Value};
+
+use crate::surface::ShapeSource;
 
 /// Longer than any fingertip \[m\].
 const LONG: f64 = 0.5;
+/// Smaller than any fingertip, from its middle \[m\].
+const SHORT: f64 = 1e-4;
 /// Coefficients beyond these are of no skin or rubber.
 const COEFFICIENTS: [f64; 2] = [0.05, 2.5];
 /// Slower, a fall of the friction ratio passes between two samples \[Hz\].
 const SLOW: f64 = 200.0;
 
-/// Sentences about what is implausible in a scene that can be read, with the key.
-pub(crate) fn of(scene: &Table) -> Vec<String> {
+/// Sentences about what is implausible in a scene that can be read, with the key. `shape` is what its section `[surface]`
+/// is read as, and `surface` what that became.
+pub(crate) fn of(scene: &Table, shape: &ShapeSource, surface: &DynSurface<f64>) -> Vec<String> {
     let mut doubts = Vec::new();
-    for section in ["surface", "pose", "map"] {
+    match shape {
+        ShapeSource::Here(value) => lengths("surface", "", value, &mut doubts),
+        ShapeSource::MeshFile { metres_per_unit, .. } => doubts.extend(size(*metres_per_unit, surface)),
+        // Its keys are those of the scene.
+        ShapeSource::Formula(_) => {
+            scene.get("surface").into_iter().for_each(|value| lengths("surface", "", value, &mut doubts));
+        }
+    }
+    for section in ["pose", "map"] {
         if let Some(value) = scene.get(section) {
             lengths(section, "", value, &mut doubts);
         }
@@ -70,6 +84,22 @@ pub(crate) fn of(scene: &Table) -> Vec<String> {
 fn as_number(value: &Value) -> Option<f64> {
     #[allow(clippy::cast_precision_loss, reason = "of lengths and forces")]
     value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+}
+
+/// What is odd about the size of a mesh, whose file says no unit.
+fn size(metres_per_unit: f64, mesh: &DynSurface<f64>) -> Option<String> {
+    let reach = mesh.extent().radius;
+    let odd = if reach > LONG {
+        "longer"
+    } else if reach < SHORT {
+        "smaller"
+    } else {
+        return None;
+    };
+    Some(format!(
+        "`metres_per_unit` of [surface] is {metres_per_unit}, by which the mesh reaches {reach:.3} m from its middle, {odd} \
+         than any fingertip; it is 0.001 for a file in millimetres"
+    ))
 }
 
 /// Lengths that are those of a robot, not of its fingertip: by the unit in their key.

@@ -74,7 +74,7 @@ impl Scene {
     /// What in it can be and is hardly meant, such as a radius of 13 m: a sentence each, with the key.
     #[must_use]
     pub fn doubts(&self) -> Vec<String> {
-        doubts::of(&self.document)
+        doubts::of(&self.document, &self.shape, self.surface())
     }
 
     /// What reports call it.

@@ -12,13 +12,22 @@ const LONGEST: u64 = 16;
 /// # Errors
 /// Those of reading; [`io::ErrorKind::FileTooLarge`] beyond 16 MiB.
 pub fn read_text(path: &Path) -> io::Result<String> {
-    let mut text = String::new();
+    String::from_utf8(read_bounded(File::open(path)?)?)
+        .map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "it is not text in UTF-8"))
+}
+
+/// The bytes up to the end of what is no longer than any such file, wherever they come from.
+///
+/// # Errors
+/// Those of reading; [`io::ErrorKind::FileTooLarge`] beyond 16 MiB.
+pub fn read_bounded(reader: impl io::Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
     let most = LONGEST << 20;
-    let length = File::open(path)?.take(most + 1).read_to_string(&mut text)?;
+    let length = reader.take(most + 1).read_to_end(&mut bytes)?;
     if length as u64 > most {
         return Err(io::Error::new(io::ErrorKind::FileTooLarge, format!("it is longer than {LONGEST} MiB")));
     }
-    Ok(text)
+    Ok(bytes)
 }
 
 #[cfg(all(test, target_os = "linux"))]

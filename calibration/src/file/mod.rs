@@ -25,7 +25,7 @@ pub use any::{ReadError, read_calibration};
 pub(crate) use ati::UNTARED;
 pub use ati::{AtiAxis, AtiCalibration};
 pub use ati_error::AtiError;
-pub use bounded::read_text;
+pub use bounded::{read_bounded, read_text};
 pub use calibration_file::{CalibrationFile, Provenance, Quality, Verdict};
 pub use covariance::Covariance;
 pub(crate) use covariance::of_pseudo_inverse;

@@ -20,6 +20,12 @@
 //! assert!(html.starts_with("<!doctype html>") && html.contains("&lt; 2\u{a0}N"));
 //! ```
 
+mod labels;
+mod numbers;
+
+pub use labels::{Placed, text_width, thinned};
+pub use numbers::Counting;
+
 use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
 
 /// A page, in the order in which things are put on it.

@@ -3,9 +3,19 @@
 use plotters::prelude::*;
 
 use super::{Report, SampleReport};
+use crate::page::{Counting, Placed, text_width};
 
 const WIDTH: u32 = 480;
 const HEIGHT: u32 = 300;
+/// Room around what is drawn: at the edges, for the numbers across and for those upwards.
+const MARGIN: u32 = 8;
+const BELOW: u32 = 44;
+const BESIDE: u32 = 64;
+/// Letters of the ticks and of the names of samples.
+const TICK: f64 = 14.0;
+const NAME: f64 = 13.0;
+/// Longer names of samples are cut.
+const LONGEST_NAME: usize = 24;
 
 /// Of the fit.
 pub(super) const FITTED: RGBColor = RGBColor(9, 105, 218);
@@ -17,7 +27,7 @@ impl Report {
     #[must_use]
     pub fn error_over_load(&self, axis: usize) -> Option<String> {
         let report = self.axes.get(axis)?;
-        let label = format!("{} [{}]", report.axis, report.axis.unit());
+        let label = format!("{} / {}", report.axis, report.axis.unit());
         self.plot(axis, &label, |_, sample| sample.applied.get(axis).copied())
     }
 
@@ -94,25 +104,26 @@ impl Chart<'_> {
         let area = SVGBackend::with_string(svg, (WIDTH, HEIGHT)).into_drawing_area();
         area.fill(&WHITE).map_err(describe)?;
         let mut chart = ChartBuilder::on(&area)
-            .margin(8)
-            .x_label_area_size(44)
-            .y_label_area_size(64)
+            .margin(MARGIN)
+            .x_label_area_size(BELOW)
+            .y_label_area_size(BESIDE)
             .build_cartesian_2d(least..most, -self.error..self.error)
             .map_err(describe)?;
+        let (across, up) = (Counting::of(least, most), Counting::of(-self.error, self.error));
         chart
             .configure_mesh()
             .disable_x_mesh()
             .max_light_lines(0)
             .bold_line_style(RGBColor(225, 228, 232))
             .axis_style(RGBColor(110, 118, 129))
-            .label_style(("sans-serif", 14))
+            .label_style(("sans-serif", TICK))
             .axis_desc_style(("sans-serif", 15))
             .x_labels(7)
             .y_labels(7)
-            .x_label_formatter(&tick)
-            .y_label_formatter(&tick)
-            .x_desc(self.label)
-            .y_desc("error [% of full scale]")
+            .x_label_formatter(&|value| tick(across.said(*value)))
+            .y_label_formatter(&|value| tick(up.said(*value)))
+            .x_desc(across.title(self.label))
+            .y_desc(up.title("error / % of full scale"))
             .draw()
             .map_err(describe)?;
         let zero = [(least, 0.0), (most, 0.0)];
@@ -123,26 +134,50 @@ impl Chart<'_> {
         chart.draw_series(self.left_out.iter().map(hollow)).map_err(describe)?;
         let solid = |point: &(f64, f64)| Circle::new(*point, 3, FITTED.filled());
         chart.draw_series(self.fitted.iter().map(solid)).map_err(describe)?;
+        let mut placed = Placed::default();
         for (name, (x, y)) in self.outliers {
+            let name = shortened(name);
+            let is_left = *x < 0.5 * (least + most);
+            if !placed.take(self.place_of(&name, (*x, *y), (least, most), is_left)) {
+                continue;
+            }
             // Towards the middle, so that the name stays within the plot.
-            let (shift, anchor) = if *x < 0.5 * (least + most) {
+            let (shift, anchor) = if is_left {
                 (9, plotters::style::text_anchor::HPos::Left)
             } else {
                 (-9, plotters::style::text_anchor::HPos::Right)
             };
             let place =
                 plotters::style::text_anchor::Pos::new(anchor, plotters::style::text_anchor::VPos::Center);
-            let style = TextStyle::from(("sans-serif", 13).into_font()).pos(place);
-            let mark = EmptyElement::at((*x, *y)) + Text::new(name.clone(), (shift, 0), style);
+            let style = TextStyle::from(("sans-serif", NAME).into_font()).pos(place);
+            let mark = EmptyElement::at((*x, *y)) + Text::new(name, (shift, 0), style);
             chart.draw_series(core::iter::once(mark)).map_err(describe)?;
         }
         area.present().map_err(describe)?;
         Ok(())
     }
+
+    /// The box in the drawing of the name beside a point.
+    fn place_of(&self, name: &str, (x, y): (f64, f64), (least, most): (f64, f64), is_left: bool) -> [f64; 4] {
+        let (wide, high) = (WIDTH - 2 * MARGIN - BESIDE, HEIGHT - 2 * MARGIN - BELOW);
+        let across = f64::from(wide) * (x - least) / (most - least);
+        let down = f64::from(high) * 0.5 * (1.0 - y / self.error);
+        let long = text_width(name, NAME);
+        let left = if is_left { across + 9.0 } else { across - 9.0 - long };
+        [left, left + long, down - 0.5 * NAME, down + 0.5 * NAME]
+    }
+}
+
+/// A name that leaves room for others.
+fn shortened(name: &str) -> String {
+    match name.char_indices().nth(LONGEST_NAME) {
+        Some((end, _)) => format!("{}…", &name[..end]),
+        None => name.to_owned(),
+    }
 }
 
 /// A number as short as it can be; no zero has a sign.
-fn tick(value: &f64) -> String {
+fn tick(value: f64) -> String {
     let rounded = (value * 1e6).round() / 1e6;
-    if rounded == 0.0 { "0".to_owned() } else { format!("{rounded}") }
+    if rounded == 0.0 { "0".to_owned() } else { format!("{rounded}").replace('-', "−") }
 }

@@ -1,6 +1,6 @@
 //! Plots of a report: where their points are.
 
-use fingertip_calibration::report::SampleReport;
+use fingertip_calibration::report::{Outlier, SampleReport};
 
 use super::report_forms::report;
 
@@ -44,8 +44,8 @@ fn plots_show_errors_over_loads_and_samples() {
         assert!(svg.contains(">\nb\n</text>") && !svg.contains(">\na\n</text>"), "{svg}");
     }
     assert_eq!((report.error_over_load(2), report.error_over_samples(9)), (None, None));
-    assert!(report.error_over_load(1).unwrap().contains("Tz [N·m]"));
-    assert!(report.error_over_load(0).unwrap().contains("Fx [N]"));
+    assert!(report.error_over_load(1).unwrap().contains("Tz / N·m"));
+    assert!(report.error_over_load(0).unwrap().contains("Fx / N"));
     assert!(report.error_over_samples(1).unwrap().contains("sample"));
 }
 
@@ -80,10 +80,10 @@ fn plots_of_one_load_or_no_error_have_room() {
     // All three in the middle, between ±1 % and 2 N and 4 N.
     let found = circles(&svg);
     assert!(found.len() == 3 && found.iter().all(|circle| *circle == found[0]), "{svg}");
-    for tick in ["2", "4", "-1", "1", "0"] {
+    for tick in ["2", "4", "−1", "1", "0"] {
         assert!(svg.contains(&format!(">\n{tick}\n</text>")), "{tick} {svg}");
     }
-    assert!(!svg.contains("\n-0\n"));
+    assert!(!svg.contains("\n-0\n") && !svg.contains("\n−0\n"));
     for bad in [f64::NAN, f64::INFINITY] {
         report.details[0].measured[0] = bad;
         assert_eq!(report.error_over_samples(0), None);
@@ -96,6 +96,64 @@ fn plots_of_one_load_or_no_error_have_room() {
     assert_eq!(report.error_over_load(0), None);
 }
 
+/// Of many outliers at one place one name stands, and long names are cut; those that have room all stand.
+#[test]
+fn names_of_outliers_do_not_run_into_each_other() {
+    let mut report = report();
+    let (sample, outlier) = (report.details[1].clone(), report.outliers[0].clone());
+    (report.details, report.outliers) = (Vec::new(), Vec::new());
+    for index in 0..200 {
+        let name =
+            if index < 199 { format!("a sample with the long name {index}") } else { "far".to_owned() };
+        let mut sample = SampleReport { name: name.clone(), ..sample.clone() };
+        if index == 199 {
+            sample.applied[0] = -sample.applied[0];
+        }
+        report.details.push(sample);
+        report.outliers.push(Outlier { sample: name, index, ..outlier.clone() });
+    }
+    let svg = report.error_over_load(0).unwrap();
+    assert_eq!(svg.matches(">\na sample with the long n…\n</text>").count(), 1, "{svg}");
+    assert_eq!(svg.matches(">\nfar\n</text>").count(), 1, "{svg}");
+    // One after another there is room for some, a line of letters apart.
+    let samples = report.error_over_samples(0).unwrap();
+    let shown = samples.matches(">\na sample with the long n…\n</text>").count();
+    assert!((1..20).contains(&shown), "{shown}");
+}
+
+/// Errors of a nanonewton and loads of a giganewton have ticks that say them.
+#[test]
+fn numbers_of_any_size_are_told_apart() {
+    for size in [1e-12, 1e-6, 1.0, 1e6, 1e90] {
+        let mut report = report();
+        for axis in &mut report.axes {
+            axis.full_scale *= size;
+        }
+        for (index, sample) in report.details.iter_mut().enumerate() {
+            let error = 1e-9 * (index as f64 - 1.0);
+            sample.left_out = None;
+            sample.applied.iter_mut().for_each(|load| *load *= size);
+            sample.measured = sample.applied.iter().map(|load| load + error * size).collect();
+        }
+        let svg = report.error_over_load(0).unwrap();
+        for anchor in ["middle", "end"] {
+            let ticks: Vec<&str> = svg
+                .split("<text")
+                .skip(1)
+                .filter(|text| text.contains(&format!("text-anchor=\"{anchor}\"")))
+                .filter_map(|text| Some(text.split_once('>')?.1.split('<').next()?.trim()))
+                .filter(|label| label.replace('−', "-").parse::<f64>().is_ok())
+                .collect();
+            let mut different = ticks.clone();
+            different.sort_unstable();
+            different.dedup();
+            assert!(ticks.len() > 2 && different.len() == ticks.len(), "{size}: {ticks:?}");
+            assert!(ticks.iter().all(|tick| tick.chars().count() <= 6), "{size}: {ticks:?}");
+        }
+        assert!(svg.contains("error / 10⁻⁹ % of full scale") || svg.contains("error / 10⁻⁶ %"), "{svg}");
+    }
+}
+
 /// What an axis of a plot says: pixels of the two outermost of its ticks with their numbers give that of any value.
 /// Ticks of the errors stand right of their numbers (`end`), those of the other axis above (`middle`).
 fn scale(svg: &str, anchor: &str, along: &str) -> impl Fn(f64) -> f64 + use<> {
@@ -105,7 +163,7 @@ fn scale(svg: &str, anchor: &str, along: &str) -> impl Fn(f64) -> f64 + use<> {
         .filter(|text| text.contains(&format!("text-anchor=\"{anchor}\"")))
         .filter_map(|text| {
             let label = text.split_once('>')?.1.split('<').next()?;
-            Some((label.trim().parse().ok()?, number(text, along)))
+            Some((label.trim().replace('−', "-").parse().ok()?, number(text, along)))
         })
         .collect();
     let (first, last) = (marks[0], marks[marks.len() - 1]);

@@ -99,6 +99,7 @@ impl Source {
             };
             notes.push(note.to_owned());
         }
+        notes.extend(scene.doubts());
         if scene.delay() > 0.0 {
             let late = scene.delay() * 1e3;
             notes.push(format!("the filter makes what changes slowly come {late:.1} ms late"));

@@ -64,16 +64,14 @@ pub(crate) fn text(what: &'static str, path: &Path) -> Result<String, CliError> 
         .map_err(|source| CliError::read(what, path, source))
 }
 
-/// All of a file; `-` is the standard input.
+/// All of a file that is no longer than such files are; `-` is the standard input.
 pub(super) fn bytes(what: &'static str, path: &Path) -> Result<Vec<u8>, CliError> {
-    let mut bytes = Vec::new();
-    let fault = |source| CliError::read(what, path, source);
     let read = if is_standard(path) {
-        io::stdin().read_to_end(&mut bytes)
+        file::read_bounded(io::stdin())
     } else {
-        fs::File::open(path).and_then(|mut file| file.read_to_end(&mut bytes))
+        fs::File::open(path).and_then(file::read_bounded)
     };
-    read.map_err(fault)?;
+    let bytes = read.map_err(|source| CliError::read(what, path, source))?;
     detail(|| format!("reads {what} {}: {} bytes", shown(path), bytes.len()));
     Ok(bytes)
 }

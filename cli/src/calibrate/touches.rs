@@ -48,6 +48,7 @@ impl TouchArguments {
             }
             Some(path) => {
                 let scene = scene::load(path)?;
+                scene::warn_of_doubts(&scene);
                 (format!("the surface of {}", path.display()), on(scene.surface(), force).map_err(fault)?)
             }
         };

@@ -47,6 +47,7 @@ pub(super) fn run(
         [format!("lib{name}.a"), format!("{name}.h"), format!("{name}.md")].map(|file| folder.join(file));
     let failed = |message: &dyn core::fmt::Display| failed(path, message);
     let mut scene = scene::load_or_simulated(path)?;
+    scene::warn_of_doubts(&scene);
     if let Some(calibration) = calibration {
         scene = scene.calibrated_by(calibration).map_err(|error| failed(&error))?;
     }

@@ -1,8 +1,8 @@
 //! What was found of a surface, as a scene: a new one, or in the place of what another says.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
+use fingertip_calibration::file::read_text;
 use toml_edit::{DocumentMut, Item, Table, Value};
 
 use super::{FittedShape, GeometryArguments};
@@ -19,7 +19,7 @@ impl Known {
     pub(super) fn read(path: &Path) -> Result<Self, CliError> {
         // What is no scene is said as every command says it.
         let _ = crate::scene::load(path)?;
-        let text = fs::read_to_string(path).map_err(|source| CliError::read("scene", path, source))?;
+        let text = read_text(path).map_err(|source| CliError::read("scene", path, source))?;
         let document = text.parse().map_err(|error| bad(path, &error))?;
         Ok(Self { path: path.to_owned(), document })
     }

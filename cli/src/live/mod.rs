@@ -79,6 +79,7 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
     let calibration = calibration(arguments, simulated, scene.as_ref(), &source)?;
     let celsius = arguments.celsius.or_else(|| scene.as_ref().and_then(Scene::celsius));
     if let Some(scene) = &scene {
+        scene::warn_of_doubts(scene);
         note_what_is_left_out(scene, calibration.is_some());
     }
     let hub = Hub::new(bridges::about(&source, scene.as_ref()));

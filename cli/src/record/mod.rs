@@ -15,7 +15,7 @@ use crate::error::CliError;
 use crate::felt::{NoZero, Rest, SceneFeel};
 use crate::output::{Outputs, printable};
 use crate::recording_file::Kind;
-use crate::scene::load_or_simulated;
+use crate::scene::{load_or_simulated, warn_of_doubts};
 use crate::sensor::{self, Event, Reading, SensorError, Stream, StreamOptions};
 use crate::stop::Stop;
 use crate::table::{count, number, short};
@@ -40,6 +40,7 @@ pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
         }
     }
     let scene = arguments.scene.as_deref().map(load_or_simulated).transpose()?;
+    scene.iter().for_each(warn_of_doubts);
     let mut feel = scene.map(|scene| SceneFeel::new(&scene, arguments.tare.is_some()));
     let stop = Stop::listen();
     let address = arguments.address.clone();

@@ -1,5 +1,7 @@
 //! Scales and ticks.
 
+use fingertip_calibration::page::Counting;
+
 /// How values become places along an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Scale {
@@ -63,7 +65,18 @@ impl Axis {
     /// For the page's script: `label;low;high`, and `;log` for decades.
     pub(crate) fn in_words(&self) -> String {
         let decades = if self.scale == Scale::Log { ";log" } else { "" };
-        format!("{};{};{}{decades}", self.label, digits(self.low), digits(self.high))
+        let [low, high] = [self.low, self.high].map(|end| digits(self.counting().said(end)));
+        format!("{};{low};{high}{decades}", self.title())
+    }
+
+    /// The label, with what the numbers of the ticks are counted from and in.
+    pub(crate) fn title(&self) -> String {
+        self.counting().title(&self.label)
+    }
+
+    /// Decades need no help to be short.
+    fn counting(&self) -> Counting {
+        if self.scale == Scale::Log { Counting::PLAIN } else { Counting::of(self.low, self.high) }
     }
 
     /// Where a value lies: 0 at the low end, 1 at the high end, limited to a little beyond.
@@ -91,17 +104,22 @@ impl Axis {
         }
     }
 
+    /// The same, with their places in a drawing and what they say.
+    pub(crate) fn placed_ticks(&self, most: usize, place: impl Fn(f64) -> f64) -> Vec<(f64, String)> {
+        self.ticks(most).into_iter().map(|tick| (place(tick.value), tick.label)).collect()
+    }
+
     fn linear_ticks(&self, step: f64, most: usize) -> Vec<Tick> {
         let slack = 1e-9 * step;
         let first = ((self.low - slack) / step).ceil();
-        let largest = self.low.abs().max(self.high.abs());
+        let counting = self.counting();
         (0..=2 * most)
             .map(|i| (first + i as f64) * step)
             .take_while(|value| *value <= self.high + slack)
             .map(|value| {
                 // Minus zero, and what is left of zero by rounding.
                 let value = if value.abs() < slack { 0.0 } else { value };
-                Tick { value, label: tick_label(value, step, largest) }
+                Tick { value, label: counting.label(value, step) }
             })
             .collect()
     }
@@ -117,7 +135,13 @@ impl Axis {
         };
         let fine = of(&[1.0, 2.0, 5.0]);
         let values = if fine.len() <= most { fine } else { of(&[1.0]) };
-        values.into_iter().map(|value| Tick { value, label: tick_label(value, value, value) }).collect()
+        // Of more decades every second, third and so on.
+        let every = values.len().div_ceil(most + 2);
+        values
+            .into_iter()
+            .step_by(every.max(1))
+            .map(|value| Tick { value, label: of_decade(value) })
+            .collect()
     }
 }
 
@@ -143,14 +167,9 @@ fn digits(value: f64) -> String {
     }
 }
 
-fn tick_label(value: f64, step: f64, largest: f64) -> String {
-    if largest >= 1e6 || step < 1e-4 {
-        return if value.abs() > 0.0 { format!("{value:e}") } else { "0".to_owned() };
-    }
-    // A hair more than the step, so that 0.1 counts as one decimal.
-    let decimals = (-(step * 1.000_001).log10()).ceil().max(0.0) as usize;
-    let text = format!("{value:.decimals$}");
-    text.replace('-', "−")
+/// A 1, 2 or 5 with its power of ten.
+fn of_decade(value: f64) -> String {
+    if (1e-4..1e6).contains(&value) { format!("{value}") } else { format!("{value:.0e}").replace('-', "−") }
 }
 
 #[cfg(test)]
@@ -167,7 +186,7 @@ mod tests {
     fn ticks_are_round_and_few() {
         assert_eq!(labels(&Axis::linear("", 0.0, 30.0), 6), ["0", "5", "10", "15", "20", "25", "30"]);
         assert_eq!(labels(&Axis::linear("", -0.34, 0.31), 5), ["−0.2", "0.0", "0.2"]);
-        assert_eq!(labels(&Axis::linear("", 1e-7, 3e-7), 2), ["1e-7", "2e-7", "3e-7"]);
+        assert_eq!(labels(&Axis::linear("", 1e-7, 3e-7), 2), ["100", "200", "300"]);
         assert_eq!(labels(&Axis::degrees("", -185.0, 185.0), 6), ["−180", "−90", "0", "90", "180"]);
         assert_eq!(labels(&Axis::degrees("", -5.0, 38.0), 6), ["0", "10", "20", "30"]);
         assert_eq!(labels(&Axis::degrees("", 0.0, 0.4), 4), ["0.0", "0.1", "0.2", "0.3", "0.4"]);
@@ -200,10 +219,10 @@ mod tests {
         let slack = 1e-6 * step;
         for (number, tick) in ticks.iter().enumerate() {
             assert!((tick.value / step - (tick.value / step).round()).abs() < 1e-6, "{tick:?} of {axis:?}");
-            assert!(
-                (read(&tick.label) - tick.value).abs() < 1e-6 * step.max(tick.value.abs()),
-                "{tick:?} of {axis:?}"
-            );
+            let said = axis.counting().said(tick.value);
+            let close = 1e-6 * axis.counting().said(axis.low + step).abs().max(said.abs());
+            assert!((read(&tick.label) - said).abs() <= close, "{tick:?} of {axis:?}");
+            assert!(tick.label.chars().count() <= 6, "{tick:?} of {axis:?}");
             assert!((tick.value - ticks[0].value - number as f64 * step).abs() < slack, "{ticks:?}");
             assert!(
                 tick.value >= axis.low - slack && tick.value <= axis.high + slack,
@@ -297,6 +316,10 @@ mod tests {
             let most = random.random_range(3..8_usize);
             let fine = within(&[1.0, 2.0, 5.0]);
             let expected = if fine.len() <= most { fine } else { within(&[1.0]) };
+            // Of more decades than have room every second or third.
+            let every = expected.len().div_ceil(most + 2);
+            let expected: Vec<f64> = expected.into_iter().step_by(every).collect();
+            assert!(expected.len() <= most + 2);
             let ticks = axis.ticks(most);
             assert_eq!(ticks.iter().map(|tick| tick.value).collect::<Vec<_>>(), expected, "{axis:?}");
             for tick in ticks {
@@ -332,10 +355,23 @@ mod tests {
 
     #[test]
     fn labels_are_short_and_have_a_true_minus() {
-        assert_eq!(labels(&Axis::linear("", -2e6, 2e6), 2), ["-2e6", "0", "2e6"]);
+        assert_eq!(labels(&Axis::linear("", -2e6, 2e6), 2), ["−2", "0", "2"]);
         assert_eq!(labels(&Axis::linear("", 0.0, 999_999.0), 2), ["0", "500000"]);
-        assert_eq!(labels(&Axis::linear("", -0.001, 0.001), 2), ["−0.001", "0.000", "0.001"]);
-        assert_eq!(labels(&Axis::linear("", 0.0, 1e-4), 1), ["0.0000", "0.0001"]);
-        assert_eq!(labels(&Axis::linear("", 0.0, 9e-5), 1), ["0.0000"]);
+        assert_eq!(labels(&Axis::linear("", -0.001, 0.001), 2), ["−1", "0", "1"]);
+        assert_eq!(labels(&Axis::linear("", -0.02, 0.02), 2), ["−0.02", "0.00", "0.02"]);
+        assert_eq!(labels(&Axis::linear("", 0.0, 9e-5), 1), ["0"]);
+        assert_eq!(
+            labels(&Axis::log("", 1e-300, 1e300), 4),
+            ["1e−300", "1e−180", "1e−60", "1e60", "1e180", "1e300"]
+        );
+    }
+
+    /// Times since 1970 and other numbers far from zero are counted from one of them, which the name says.
+    #[test]
+    fn what_lies_far_from_zero_is_counted_from_nearby() {
+        let axis = Axis::linear("time / s", 1_763_931_791.5, 1_763_931_799.0);
+        assert_eq!(labels(&axis, 5), ["2", "4", "6", "8"]);
+        assert_eq!(axis.title(), "time − 1763931790 / s");
+        assert_eq!(axis.in_words(), "time − 1763931790 / s;1.50000;9.00000");
     }
 }

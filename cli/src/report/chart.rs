@@ -32,19 +32,19 @@ impl Chart {
 
     fn draw_axes(&mut self) {
         let (bottom, right) = (TOP + PLOT.1, LEFT + PLOT.0);
-        for tick in self.y.ticks(5) {
-            let y = self.place((self.x.low, tick.value)).1;
-            self.svg.line("grid", (LEFT, y), (right, y));
-            self.svg.label("tick", (LEFT - 5.0, y + 3.5), Anchor::End, &tick.label);
+        let up: Vec<_> = self.y.placed_ticks(5, |value| self.place((self.x.low, value)).1);
+        for (y, _) in &up {
+            self.svg.line("grid", (LEFT, *y), (right, *y));
         }
-        for tick in self.x.ticks(6) {
-            let x = self.place((tick.value, self.y.low)).0;
-            self.svg.line("axis", (x, bottom), (x, bottom + 4.0));
-            self.svg.label("tick", (x, bottom + 15.0), Anchor::Middle, &tick.label);
+        self.svg.ticks_up(LEFT - 5.0, &up);
+        let across: Vec<_> = self.x.placed_ticks(6, |value| self.place((value, self.y.low)).0);
+        for (x, _) in &across {
+            self.svg.line("axis", (*x, bottom), (*x, bottom + 4.0));
         }
+        self.svg.ticks_across(bottom + 15.0, &across);
         self.svg.line("axis", (LEFT, bottom), (right, bottom));
-        self.svg.label("name", (2.0, 12.0), Anchor::Start, &self.y.label);
-        self.svg.label("name", (right, bottom + 31.0), Anchor::End, &self.x.label);
+        self.svg.label("name", (2.0, 12.0), Anchor::Start, &self.y.title());
+        self.svg.label("name", (right, bottom + 31.0), Anchor::End, &self.x.title());
     }
 
     fn place(&self, (x, y): (f64, f64)) -> (f64, f64) {

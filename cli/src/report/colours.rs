@@ -48,10 +48,9 @@ impl Classes {
             let class = rank * (Self::COUNT - 1) / self.bounds.len().max(1);
             svg.rectangle(&format!("q{class}"), (corner.0 + step * rank as f64, corner.1), (step - 1.0, 8.0));
         }
-        for (rank, bound) in self.bounds.iter().enumerate() {
-            let x = corner.0 + step * (rank + 1) as f64 - 0.5;
-            svg.label("tick", (x, corner.1 + 20.0), Anchor::Middle, &short(*bound));
-        }
+        let place = |rank: usize| corner.0 + step * (rank + 1) as f64 - 0.5;
+        let bounds = self.bounds.iter().enumerate().map(|(rank, bound)| (place(rank), short(*bound)));
+        svg.ticks_across(corner.1 + 20.0, &bounds.collect::<Vec<_>>());
         svg.label("name", (2.0, corner.1 + 8.0), Anchor::Start, "f_n / N");
     }
 }

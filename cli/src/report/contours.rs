@@ -32,18 +32,18 @@ pub(crate) fn draw(contours: &Contours<'_>) -> (String, Vec<(&'static str, Strin
     let Contours { title, x, y, xs, ys, values, marks } = contours;
     let mut svg = Svg::new(WIDTH, HEIGHT, title);
     let bottom = TOP + PLOT.1;
-    for tick in y.ticks(6) {
-        let at = bottom - PLOT.1 * y.place(tick.value);
-        svg.line("grid", (LEFT, at), (LEFT + PLOT.0, at));
-        svg.label("tick", (LEFT - 5.0, at + 3.5), Anchor::End, &tick.label);
+    let rows = y.placed_ticks(6, |value| bottom - PLOT.1 * y.place(value));
+    for (at, _) in &rows {
+        svg.line("grid", (LEFT, *at), (LEFT + PLOT.0, *at));
     }
-    for tick in x.ticks(7) {
-        let at = LEFT + PLOT.0 * x.place(tick.value);
-        svg.line("grid", (at, TOP), (at, bottom));
-        svg.label("tick", (at, bottom + 15.0), Anchor::Middle, &tick.label);
+    svg.ticks_up(LEFT - 5.0, &rows);
+    let columns = x.placed_ticks(7, |value| LEFT + PLOT.0 * x.place(value));
+    for (at, _) in &columns {
+        svg.line("grid", (*at, TOP), (*at, bottom));
     }
-    svg.label("name", (2.0, 12.0), Anchor::Start, &y.label);
-    svg.label("name", (LEFT + PLOT.0, bottom + 32.0), Anchor::End, &x.label);
+    svg.ticks_across(bottom + 15.0, &columns);
+    svg.label("name", (2.0, 12.0), Anchor::Start, &y.title());
+    svg.label("name", (LEFT + PLOT.0, bottom + 32.0), Anchor::End, &x.title());
 
     let least = values.iter().flatten().copied().fold(f64::INFINITY, f64::min);
     let place = |(a, b): (f64, f64)| (LEFT + PLOT.0 * x.place(a), bottom - PLOT.1 * y.place(b));

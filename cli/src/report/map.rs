@@ -4,8 +4,9 @@ use core::f64::consts::PI;
 
 use super::axis::Axis;
 use super::colours::Classes;
-use super::svg::{Anchor, Svg};
+use super::svg::{Anchor, Svg, TICK_SIZE};
 use crate::observe::MapPoint;
+use fingertip_calibration::page::{Placed, text_width};
 use fingertip_scene::{MapKind, Projection};
 
 const WIDTH: f64 = 340.0;
@@ -88,16 +89,23 @@ fn polar(
         svg.polygon("sure", outline.iter().copied().map(place));
     }
     svg.end_clip();
-    // Ring labels last, on a slant between two spokes, so that they stay readable.
-    let (sin, cos) = (0.375 * PI).sin_cos();
-    for ring in rings {
-        let at = scale * chord(ring);
-        let label = format!("{:.0}°", ring.to_degrees());
-        svg.label("tick halo", (centre.0 + at * cos, centre.1 - at * sin + 3.5), Anchor::Middle, &label);
-    }
     svg.label("name", (2.0, 12.0), Anchor::Start, "angle from the pole");
     svg.label("name halo", (centre.0 + disk - 5.0, centre.1 - 5.0), Anchor::End, names[0]);
     svg.label("name halo", (centre.0 + 6.0, TOP + 14.0), Anchor::Start, names[1]);
+    // Ring labels last, on a slant between two spokes, so that they stay readable; those of the names come first.
+    let (sin, cos) = (0.375 * PI).sin_cos();
+    let mut placed = Placed::default();
+    let mut has_room = |(x, y): (f64, f64), half: f64| placed.take([x - half, x + half, y - 8.0, y + 2.0]);
+    let half_name = 0.5 * text_width(names[1], TICK_SIZE);
+    has_room((centre.0 + 6.0 + half_name, TOP + 14.0), half_name);
+    for ring in rings {
+        let at = scale * chord(ring);
+        let label = format!("{:.0}°", ring.to_degrees());
+        let place = (centre.0 + at * cos, centre.1 - at * sin + 3.5);
+        if has_room(place, 0.5 * text_width(&label, TICK_SIZE)) {
+            svg.label("tick halo", place, Anchor::Middle, &label);
+        }
+    }
     classes.legend(&mut svg, (LEFT, height - LEGEND + 10.0), WIDTH - LEFT - RIGHT);
     let rim = rim.map_or_else(String::new, |rim| {
         format!(" The dashed circle is the rim of the active region, at {:.1}°.", rim.to_degrees())
@@ -142,18 +150,18 @@ fn flat(
 
     let mut svg = Svg::new(WIDTH, height, title);
     let bottom = TOP + map_height;
-    for tick in y.ticks(6) {
-        let at = TOP + map_height * (1.0 - y.place(tick.value));
-        svg.line("grid", (LEFT, at), (LEFT + width, at));
-        svg.label("tick", (LEFT - 5.0, at + 3.5), Anchor::End, &tick.label);
+    let rows = y.placed_ticks(6, |value| TOP + map_height * (1.0 - y.place(value)));
+    for (at, _) in &rows {
+        svg.line("grid", (LEFT, *at), (LEFT + width, *at));
     }
-    for tick in x.ticks(6) {
-        let at = LEFT + width * x.place(tick.value);
-        svg.line("grid", (at, TOP), (at, bottom));
-        svg.label("tick", (at, bottom + 15.0), Anchor::Middle, &tick.label);
+    svg.ticks_up(LEFT - 5.0, &rows);
+    let columns = x.placed_ticks(6, |value| LEFT + width * x.place(value));
+    for (at, _) in &columns {
+        svg.line("grid", (*at, TOP), (*at, bottom));
     }
-    svg.label("name", (2.0, 12.0), Anchor::Start, &y.label);
-    svg.label("name", (LEFT + width, bottom + 30.0), Anchor::End, &x.label);
+    svg.ticks_across(bottom + 15.0, &columns);
+    svg.label("name", (2.0, 12.0), Anchor::Start, &y.title());
+    svg.label("name", (LEFT + width, bottom + 30.0), Anchor::End, &x.title());
     svg.begin_plot((LEFT, TOP), (width, map_height), &x, &y);
     for edge in half_length.iter().flat_map(|half| [-half, *half]) {
         svg.line("rim", place((left, edge)), place((right, edge)));

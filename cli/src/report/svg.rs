@@ -6,13 +6,19 @@
 
 use core::fmt::Write;
 
+use fingertip_calibration::page::{text_width, thinned};
+
 use super::axis::Axis;
 
 /// A growing drawing of a fixed size in its own units.
 #[derive(Clone, Debug)]
 pub(crate) struct Svg {
     text: String,
+    width: f64,
 }
+
+/// Letters of the class `tick`.
+pub(crate) const TICK_SIZE: f64 = 11.0;
 
 /// Where a text is attached.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +31,7 @@ pub(crate) enum Anchor {
 impl Svg {
     /// `title` is what a screen reader says.
     pub(crate) fn new(width: f64, height: f64, title: &str) -> Self {
-        let mut svg = Self { text: String::new() };
+        let mut svg = Self { text: String::new(), width };
         svg.push(format_args!(
             "<svg viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\"><title>{}</title>",
             escape(title)
@@ -72,6 +78,29 @@ impl Svg {
             at.1,
             escape(text)
         ));
+    }
+
+    /// Labels of an axis that runs across, on the line `y`, each under its place; where there is no room for all, every
+    /// second, third and so on. None leaves the drawing.
+    pub(crate) fn ticks_across(&mut self, y: f64, ticks: &[(f64, String)]) {
+        let half = |text: &str| 0.5 * text_width(text, TICK_SIZE);
+        let inside =
+            |x: f64, half: f64| if 2.0 * half < self.width { x.clamp(half, self.width - half) } else { x };
+        let middles: Vec<f64> = ticks.iter().map(|(x, text)| inside(*x, half(text))).collect();
+        let spans: Vec<_> =
+            middles.iter().zip(ticks).map(|(x, (_, text))| (x - half(text), x + half(text))).collect();
+        for ((_, text), x) in ticks.iter().zip(middles).step_by(thinned(&spans, TICK_SIZE)) {
+            self.label("tick", (x, y), Anchor::Middle, text);
+        }
+    }
+
+    /// The same of an axis that runs upwards, left of the line `x`.
+    pub(crate) fn ticks_up(&mut self, x: f64, ticks: &[(f64, String)]) {
+        // A digit is two thirds as high as its letters' size.
+        let spans: Vec<_> = ticks.iter().map(|(y, _)| (y - 0.33 * TICK_SIZE, y + 0.33 * TICK_SIZE)).collect();
+        for (y, text) in ticks.iter().step_by(thinned(&spans, TICK_SIZE)) {
+            self.label("tick", (x, y + 3.5), Anchor::End, text);
+        }
     }
 
     /// Lines through the points of every piece; a piece of one point becomes a dot.
@@ -154,7 +183,36 @@ fn escape(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::read_back::{assert_readable, texts};
     use super::{Anchor, Axis, Svg};
+
+    /// Where there is room every label stands under its place; where there is not, fewer stand, and none is cut off.
+    #[test]
+    fn labels_of_an_axis_are_thinned_until_they_have_room() {
+        let shown = |step: f64, text: &str| {
+            let mut svg = Svg::new(300.0, 100.0, "");
+            let ticks: Vec<_> = (0..10).map(|i| (20.0 + step * f64::from(i), text.to_owned())).collect();
+            svg.ticks_across(90.0, &ticks);
+            let svg = svg.finish();
+            assert_readable(&svg);
+            texts(&svg).into_iter().map(|text| text.at.0).collect::<Vec<_>>()
+        };
+        assert_eq!(shown(30.0, "12").len(), 10);
+        assert_eq!(shown(30.0, "12")[..3], [20.0, 50.0, 80.0]);
+        assert_eq!(shown(30.0, "123456"), [20.0, 80.0, 140.0, 200.0, 260.0]);
+        assert_eq!(shown(3.0, "123456").len(), 1);
+        // Nine letters are longer than what is left of it.
+        assert_eq!(shown(3.0, "123456789")[0], 27.2);
+        let mut svg = Svg::new(300.0, 100.0, "");
+        let ticks: Vec<_> = (0..10).map(|i| (20.0 + 6.0 * f64::from(i), "1".to_owned())).collect();
+        svg.ticks_up(39.0, &ticks);
+        let svg = svg.finish();
+        assert_readable(&svg);
+        assert_eq!(
+            texts(&svg).iter().map(|text| text.at.1).collect::<Vec<_>>(),
+            [23.5, 35.5, 47.5, 59.5, 71.5]
+        );
+    }
 
     #[test]
     fn every_piece_is_written_as_it_is_drawn() {
@@ -186,7 +244,7 @@ mod tests {
             <path class=\"p\" d=\"M1.0 2.0L3.0 4.0L0.0 0.1Z\"/>\
             <svg x=\"1.0\" y=\"2.0\" width=\"3.0\" height=\"4.0\" viewBox=\"1.0 2.0 3.0 4.0\"></svg>\
             <svg x=\"1.0\" y=\"2.0\" width=\"3.0\" height=\"4.0\" viewBox=\"1.0 2.0 3.0 4.0\" \
-            data-x=\"t &amp; u / s;-0.125000;2000000\" data-y=\"f / N;0.00100000;10.0000;log\"></svg>\
+            data-x=\"t &amp; u / 10⁶ s;-0.000000125000;2.00000\" data-y=\"f / N;0.00100000;10.0000;log\"></svg>\
             <svg x=\"3.0\" y=\"4.0\" width=\"4.0\" height=\"4.0\" viewBox=\"3.0 4.0 4.0 4.0\" \
             overflow=\"visible\" data-turn=\"0.500\"></svg></svg>";
         assert_eq!(svg.finish(), expected);

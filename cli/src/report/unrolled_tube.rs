@@ -1,9 +1,10 @@
 //! Gauges on a tube, drawn flat.
 
 use fingertip_calibration::design::TubeLayout;
+use fingertip_calibration::page::{Placed, text_width};
 
 use super::axis::Axis;
-use super::svg::{Anchor, Svg};
+use super::svg::{Anchor, Svg, TICK_SIZE};
 
 const WIDTH: f64 = 520.0;
 const LEFT: f64 = 48.0;
@@ -31,12 +32,12 @@ pub(crate) fn draw(layout: &TubeLayout, clamped_at: f64) -> String {
         let turned = (degrees - first).rem_euclid(360.0);
         (LEFT + across * turned / 360.0, TOP + scale * (z - least))
     };
-    let axis = Axis::linear("", least * 1e3, most * 1e3);
-    for tick in axis.ticks(5) {
-        let at = TOP + scale * (tick.value * 1e-3 - least);
-        svg.line("grid", (LEFT, at), (LEFT + across, at));
-        svg.label("tick", (LEFT - 5.0, at + 3.5), Anchor::End, &tick.label);
+    let axis = Axis::linear("distance behind the origin / mm", least * 1e3, most * 1e3);
+    let rows = axis.placed_ticks(5, |value| TOP + scale * (value * 1e-3 - least));
+    for (at, _) in &rows {
+        svg.line("grid", (LEFT, *at), (LEFT + across, *at));
     }
+    svg.ticks_up(LEFT - 5.0, &rows);
     for step in 0..6 {
         let degrees = f64::from(step) * 60.0;
         let (x, _) = place(degrees, 0.0);
@@ -47,7 +48,7 @@ pub(crate) fn draw(layout: &TubeLayout, clamped_at: f64) -> String {
     svg.line("axis", (LEFT, origin), (LEFT + across, origin));
     let clamp = TOP + scale * (clamped_at - least);
     svg.line("rim", (LEFT, clamp), (LEFT + across, clamp));
-    svg.label("name", (2.0, 12.0), Anchor::Start, "distance behind the origin / mm");
+    svg.label("name", (2.0, 12.0), Anchor::Start, &axis.title());
     svg.label("name", (LEFT + across, TOP + down + 32.0), Anchor::End, "angle around the tube");
 
     let half = 0.5 * margin * scale;
@@ -61,14 +62,24 @@ pub(crate) fn draw(layout: &TubeLayout, clamped_at: f64) -> String {
         svg.line(class, (x - dx, y - dy), (x + dx, y + dy));
     }
     svg.end_clip();
+    let mut placed = Placed::default();
     for (number, gauge) in (1..).zip(&layout.gauges) {
         let (x, y) = place(gauge.theta.to_degrees(), gauge.z);
         // On the side to which its head leans, so that the numbers of a stacked pair stand apart.
         let aside = if lies_left(gauge.q) { -1.0 } else { 1.0 };
         let (sin, cos) = gauge.q.sin_cos();
         let up = if cos < 0.0 { -1.0 } else { 1.0 };
-        let at = (x + up * sin * half + aside * 8.0, y - up * cos * half + 2.0);
-        svg.label("tick halo", at, Anchor::Middle, &number.to_string());
+        let label = number.to_string();
+        let wide = 0.5 * text_width(&label, TICK_SIZE);
+        // Where another's number stands, on its other side or at its other end.
+        let ends = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
+        let places = ends.map(|(end, side)| {
+            (x + end * up * sin * half + side * aside * 8.0, y - end * up * cos * half + 2.0)
+        });
+        let free = places.into_iter().find(|(x, y)| placed.take([x - wide, x + wide, y - 8.0, y + 2.0]));
+        if let Some(at) = free {
+            svg.label("tick halo", at, Anchor::Middle, &label);
+        }
     }
     svg.finish()
 }

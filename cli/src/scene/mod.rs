@@ -12,8 +12,8 @@ pub(crate) use simulated::least_static_coefficient;
 
 use crate::calibrate::files::{bad, text};
 use crate::error::CliError;
-use crate::output::{is_standard, shown};
-use crate::verbosity::detail;
+use crate::output::{is_standard, printable, shown};
+use crate::verbosity::{detail, is_quiet};
 
 /// Reads and checks a scene; `-` is the standard input, whose files are looked for where the command runs.
 pub(crate) fn load(path: &Path) -> Result<Scene, CliError> {
@@ -41,6 +41,13 @@ pub(crate) fn with(
     match payload {
         Some(path) => scene.carrying(path).map_err(|error| replaced("payload", path, error)),
         None => Ok(scene),
+    }
+}
+
+/// Says on the standard error what in a scene can be and is hardly meant, for a run that has no other place for it.
+pub(crate) fn warn_of_doubts(scene: &Scene) {
+    if !is_quiet() {
+        scene.doubts().iter().for_each(|doubt| eprintln!("warning: {}", printable(doubt)));
     }
 }
 

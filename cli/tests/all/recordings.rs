@@ -369,6 +369,10 @@ fn what_has_no_end_is_refused() {
     folder.write("mesh.toml", &format!("version = 2\n[input]\nconvention = \"on_fingertip\"\n{mesh}"));
     let error = folder.fail(1, &["scene", "check", "mesh.toml"]);
     assert!(error.contains("cannot be read"), "{error}");
+    let error = folder.fail(1, &["analyze", "loads.csv", "--scene", "/dev/zero"]);
+    assert!(error.contains("longer than 16 MiB"), "{error}");
+    let error = folder.fail(1, &["simulate", "--serve", "ati", "--script", "/dev/zero"]);
+    assert!(error.contains("longer than 16 MiB"), "{error}");
     let error = folder.fail(2, &["design", "--gauges", "1000000"]);
     assert!(error.contains("is not in 0..=64"), "{error}");
     let error = folder.fail(1, &["calibrate", "/dev/zero"]);

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use fingertip_scene::registry::entries;
 
+use crate::calibrate::loads;
 use crate::common::{Contacts, Folder, scene};
 
 /// Pushes on the top of a ball of 13 mm, each a little more sideways, with a spin torque.
@@ -73,6 +74,36 @@ fn choices_are_listed_and_doubts_are_said() {
     folder.write("far.toml", &text.replace("radius_m = 0.013", "radius_m = 13.0"));
     let said = folder.succeed(&["scene", "check", "far.toml"]);
     assert!(said.contains("warning: `radius_m` of [surface] is 13 m"), "{said}");
+}
+
+/// Every command that goes by a scene says what in it is hardly meant: once, and not to those who want to hear errors alone.
+#[test]
+fn doubts_of_a_scene_are_said_by_all_that_use_it() {
+    const DOUBT: &str = "`radius_m` of [surface] is 13 m, longer than any fingertip";
+    let folder = Folder::new();
+    let far = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 13.0\n";
+    folder.write("far.toml", far);
+    folder.write("pushes.csv", &pushes());
+    folder.write("loads.csv", &loads(1.0));
+    let far = ["--scene", "far.toml", "--overwrite"];
+    let [record, analyze, calibrate] = [
+        &["record", "sim?rate_Hz=1000", "--samples", "20", "-o", "day.csv"][..],
+        &["analyze", "pushes.csv", "--no-report"],
+        &["calibrate", "loads.csv", "-o", "cal.toml", "--accept-bad"],
+    ];
+    for command in [record, calibrate] {
+        let command = [command, &far].concat();
+        let said = String::from_utf8(folder.run(&command).stderr).unwrap();
+        assert_eq!(said.matches(&format!("warning: {DOUBT}")).count(), 1, "{command:?}: {said}");
+        let quiet = folder.run(&[&command[..], &["--quiet"]].concat());
+        assert_eq!(String::from_utf8(quiet.stderr).unwrap(), "", "{command:?}");
+    }
+    let said = folder.succeed(&[analyze, &far].concat());
+    assert_eq!(said.matches(&format!("Note: {DOUBT}")).count(), 1, "{said}");
+    let json = folder.succeed(&[analyze, &far, &["--json"]].concat());
+    assert!(json.contains("`radius_m` of [surface] is 13 m"), "{json}");
+    let export = folder.run(&["export", "far.toml", "--json", "far.json"]);
+    assert!(String::from_utf8(export.stderr).unwrap().contains(&format!("warning: {DOUBT}")));
 }
 
 /// The page of a scene: what it is called and means, its surface, what is implausible; and it writes over nothing.

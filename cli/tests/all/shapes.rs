@@ -85,6 +85,10 @@ fn a_mesh_beside_the_scene_is_read_in_its_unit() {
 
     for (from, to, expected) in [
         ("tip.obj", "none.obj", "none.obj"),
+        ("= 0.001", "= -0.001", "must be a positive, finite number of metres"),
+        ("= 0.001", "= 0.0", "must be a positive, finite number of metres"),
+        ("= 0.001", "= nan", "must be a positive, finite number of metres"),
+        ("= 0.001", "= inf", "must be a positive, finite number of metres"),
         ("metres_per_unit = 0.001\n", "", "missing field `metres_per_unit`"),
         ("metres_per_unit", "units", "unknown field `units`"),
         ("mesh\"\nfile = \"tip.obj\"\nmetres_per_unit = 0.001", "torus\"\nring = 1", "ring"),
@@ -94,6 +98,10 @@ fn a_mesh_beside_the_scene_is_read_in_its_unit() {
         assert!(error.contains(expected) && error.contains("mesh.toml"), "{expected:?} is not in {error}");
         assert_eq!(error.trim_end().lines().count(), 1, "{error}");
     }
+    // In metres it would be of 20 m.
+    folder.write("scenes/mesh.toml", &scene.replace("= 0.001", "= 1.0"));
+    let said = folder.succeed(&["scene", "check", "scenes/mesh.toml"]);
+    assert!(said.contains("by which the mesh reaches 17.3"), "{said}");
 }
 
 #[test]

@@ -79,7 +79,8 @@ impl<R: Read> Records<R> {
             if self.ended {
                 return Ok(None);
             }
-            let (opcode, contents) = if self.chunk.is_empty() {
+            let in_chunk = !self.chunk.is_empty();
+            let (opcode, contents) = if !in_chunk {
                 if self.is_cut {
                     return Err(self.end_cut());
                 }
@@ -102,9 +103,11 @@ impl<R: Read> Records<R> {
                 }
             };
             match opcode {
-                op::CHUNK if self.chunk.is_empty() => self.open_chunk()?,
+                op::CHUNK if !in_chunk => self.open_chunk()?,
                 // What follows are repetitions and the index.
-                op::DATA_END => self.ended = true,
+                op::DATA_END if !in_chunk => self.ended = true,
+                // Neither may stand in a chunk.
+                op::CHUNK | op::DATA_END => {}
                 _ if READ.contains(&opcode) => break (opcode, contents),
                 _ => {}
             }

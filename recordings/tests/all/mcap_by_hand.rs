@@ -65,6 +65,20 @@ fn a_message_is_read_in_a_chunk_and_outside_of_one() {
     assert_eq!(entries(&empty).unwrap().len(), 2);
 }
 
+/// Found by fuzzing: a chunk that ends in a record which says to be a chunk was opened anew for ever.
+#[test]
+fn no_chunk_and_no_end_stand_in_a_chunk() {
+    for nested in [record(6, &[]), chunk(&message(1, 0, &wrench())), data_end()] {
+        let ending = chunk(&[definitions(), message(1, 0, &wrench()), nested.clone()].concat());
+        let beginning = chunk(&[nested, message(1, 0, &wrench())].concat());
+        let whole = file(&[ending, beginning, data_end()]);
+        assert_eq!(entries(&whole).unwrap(), [expected(), expected()]);
+        let (recovered, _) =
+            recover(Cursor::new(&whole), Cursor::new(Vec::new()), Compression::None).unwrap();
+        assert_eq!(recovered.messages, 2);
+    }
+}
+
 #[test]
 fn a_chunk_must_be_whole_and_packed_in_a_known_way() {
     let records = [definitions(), message(1, 0, &wrench())].concat();

@@ -55,8 +55,18 @@ pub struct Mesh<T: Real> {
 /// Vertices, and triangles that index them.
 type Parts<T> = (Vec<Vector3<T>>, Vec<[u32; 3]>);
 
+/// A unit that lengths can be counted in. A negative one would give the mirror image.
+fn checked_unit<T: Real>(metres_per_unit: T) -> Result<T, MeshError> {
+    let is_length = metres_per_unit > T::zero() && metres_per_unit.is_number();
+    if is_length { Ok(metres_per_unit) } else { Err(MeshError::BadUnit) }
+}
+
+fn of_obj<T: Real>(text: &str, metres_per_unit: T) -> Result<Parts<T>, MeshError> {
+    obj::read(text, checked_unit(metres_per_unit)?)
+}
+
 fn of_stl<T: Real>(bytes: &[u8], metres_per_unit: T) -> Result<Parts<T>, MeshError> {
-    let corners = stl::read(bytes, metres_per_unit)?;
+    let corners = stl::read(bytes, checked_unit(metres_per_unit)?)?;
     let count = u32::try_from(corners.len() / 3).map_err(|_| MeshError::TooLarge)?;
     Ok((corners, (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect()))
 }
@@ -113,7 +123,7 @@ impl<T: Real> Mesh<T> {
     /// (0.001 for millimetres; STL does not say).
     ///
     /// # Errors
-    /// [`MeshError`] if the file is malformed or the mesh is not closed.
+    /// [`MeshError`] if the unit is not positive and finite, the file is malformed or the mesh is not closed.
     pub fn from_stl(bytes: &[u8], metres_per_unit: T) -> Result<Self, MeshError> {
         let (corners, triangles) = of_stl(bytes, metres_per_unit)?;
         Self::new(&corners, &triangles)
@@ -123,16 +133,17 @@ impl<T: Real> Mesh<T> {
     /// three corners are cut into triangles, everything but `v` and `f` is ignored.
     ///
     /// # Errors
-    /// [`MeshError`] if the file is malformed or the mesh is not closed.
+    /// [`MeshError`] if the unit is not positive and finite, the file is malformed or the mesh is not closed.
     pub fn from_obj(text: &str, metres_per_unit: T) -> Result<Self, MeshError> {
-        let (vertices, triangles) = obj::read(text, metres_per_unit)?;
+        let (vertices, triangles) = of_obj(text, metres_per_unit)?;
         Self::new(&vertices, &triangles)
     }
 
     /// Reads an `.stl` or `.obj` file, told apart by its name.
     ///
     /// # Errors
-    /// [`MeshError`] if the file cannot be read, is malformed, or the mesh is not closed.
+    /// [`MeshError`] if the unit is not positive and finite, the file cannot be read or is malformed, or the mesh is
+    /// not closed.
     #[cfg(feature = "std")]
     pub fn from_file(path: impl AsRef<std::path::Path>, metres_per_unit: T) -> Result<Self, MeshError> {
         let (vertices, triangles) = Self::parts_from_file(path, metres_per_unit)?;
@@ -143,7 +154,7 @@ impl<T: Real> Mesh<T> {
     /// elsewhere. Those of an STL file have no vertex in common.
     ///
     /// # Errors
-    /// [`MeshError`] if the file cannot be read or is malformed.
+    /// [`MeshError`] if the unit is not positive and finite, or the file cannot be read or is malformed.
     #[cfg(feature = "std")]
     pub fn parts_from_file(
         path: impl AsRef<std::path::Path>,
@@ -152,7 +163,7 @@ impl<T: Real> Mesh<T> {
         let path = path.as_ref();
         let bytes = read(path)?;
         if path.extension().is_some_and(|name| name.eq_ignore_ascii_case("obj")) {
-            obj::read(core::str::from_utf8(&bytes).map_err(|_| MeshError::NotText)?, metres_per_unit)
+            of_obj(core::str::from_utf8(&bytes).map_err(|_| MeshError::NotText)?, metres_per_unit)
         } else {
             of_stl(&bytes, metres_per_unit)
         }

@@ -46,6 +46,11 @@ pub enum MeshError {
         /// Counted from 1.
         line: usize,
     },
+    /// What a file's unit is in metres is NaN, infinite, zero or negative.
+    #[error(
+        "the unit of the mesh file must be a positive, finite number of metres: 0.001 for a file in millimetres"
+    )]
+    BadUnit,
     /// The file is not UTF-8 text.
     #[error("the mesh file is not text")]
     NotText,
@@ -145,12 +150,14 @@ pub(super) fn check<T: Real>(vertices: &[Vector3<T>], triangles: &[[u32; 3]]) ->
     }
     let scale = extent.normalising_factor();
     let vertices: Vec<Vector3<T>> = merged.iter().map(|v| (v - centre) * scale).collect();
-    let at = |k: &u32| vertices.get(*k as usize).copied().unwrap_or_else(Vector3::zeros);
-    let six_volumes = kept.iter().fold(T::zero(), |sum, [a, b, c]| sum + at(a).dot(&at(b).cross(&at(c))));
-    if !(six_volumes.abs() > T::EPSILON) {
+    // In double precision whatever the type: a sheet of triangles and the same turned over, which sum up to nothing, leave
+    // rounding of some hundred epsilons.
+    let at = |k: &u32| vertices.get(*k as usize).map_or_else(Vector3::zeros, |v| v.map(Real::to_f64));
+    let six_volumes = kept.iter().fold(0.0, |sum, [a, b, c]| sum + at(a).dot(&at(b).cross(&at(c))));
+    if !(six_volumes.abs() > T::EPSILON.to_f64().max(256.0 * f64::EPSILON)) {
         return Err(MeshError::NoVolume);
     }
-    if six_volumes < T::zero() {
+    if six_volumes < 0.0 {
         for triangle in &mut kept {
             triangle.swap(1, 2);
         }

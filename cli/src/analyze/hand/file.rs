@@ -1,10 +1,10 @@
 //! The hand scene: which sensors of a recording are the fingertips of one hand, and where they are.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use fingertip::hand::{FingerLimits, Hand};
 use fingertip::wrench::{RigidTransform, Sensor};
+use fingertip_calibration::file::read_text;
 use fingertip_scene::{Limit, Scene};
 use nalgebra::Vector3;
 use serde::Deserialize;
@@ -99,15 +99,20 @@ pub(super) struct FingerScene {
 /// Whether a file is a hand scene: it has a key `finger`. A file that cannot be read is none, and is told of where it
 /// is read as a scene.
 pub(super) fn is_hand(path: &Path) -> bool {
-    let text = fs::read_to_string(path).unwrap_or_default();
+    let text = read_text(path).unwrap_or_default();
     text.parse::<toml::Table>().is_ok_and(|table| table.contains_key("finger"))
 }
 
 /// Reads and checks a hand scene with the scenes of its fingers, which are named from its folder.
 pub(super) fn load(path: &Path) -> Result<HandScene, CliError> {
+    let text = read_text(path).map_err(|source| CliError::read("scene", path, source))?;
+    parse(&text, path)
+}
+
+/// The text of a hand scene whose file is called so.
+fn parse(text: &str, path: &Path) -> Result<HandScene, CliError> {
     let bad = |message: String| CliError::Calibrate { path: path.to_owned(), message };
-    let text = fs::read_to_string(path).map_err(|source| CliError::read("scene", path, source))?;
-    let file: HandFile = toml::from_str(&text).map_err(|error| bad(error.to_string()))?;
+    let file: HandFile = toml::from_str(text).map_err(|error| bad(error.to_string()))?;
     if file.version != 1 {
         return Err(bad(format!(
             "has version {}; this program knows hand scenes of version 1",
@@ -182,4 +187,63 @@ fn finger(
         .map_err(|_| named("`translation_m` and `rotation_deg` must be finite".to_owned()))?;
     let (sensor, pose_columns) = (section.sensor, section.pose_columns);
     Ok(FingerScene { name, path, scene, sensor, pose, pose_columns, friction, arm, limits })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use rand::{RngExt, SeedableRng};
+
+    use super::parse;
+
+    /// Whatever is changed in a hand scene: it is read, with numbers that can be, or refused in a sentence with its name.
+    #[test]
+    fn any_change_is_read_or_refused() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/hands/two_pads.toml");
+        let text = std::fs::read_to_string(&path).unwrap();
+        let odd =
+            ["nan", "-inf", "1e308", "-1", "0", "\"\"", "[]", "9223372036854775807", "\u{2028}", "=", "]]"];
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(3);
+        let (mut read, mut refused) = (0, 0);
+        for _ in 0..1500 {
+            let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+            for _ in 0..random.random_range(1..4) {
+                let at = random.random_range(0..lines.len());
+                match random.random_range(0..4) {
+                    0 => drop(lines.remove(at)),
+                    1 => lines.insert(at, lines[random.random_range(0..lines.len())].clone()),
+                    2 => {
+                        let mut words: Vec<&str> = lines[at].split(' ').collect();
+                        let word = random.random_range(0..words.len());
+                        words[word] = odd[random.random_range(0..odd.len())];
+                        lines[at] = words.join(" ");
+                    }
+                    _ => {
+                        let mut letters: Vec<char> = lines[at].chars().collect();
+                        letters
+                            .insert(random.random_range(0..=letters.len()), random.random_range(' '..='~'));
+                        lines[at] = letters.into_iter().collect();
+                    }
+                }
+            }
+            match parse(&lines.join("\n"), &path) {
+                Ok(hand) => {
+                    read += 1;
+                    assert!((1..=super::MOST).contains(&hand.fingers.len()) && hand.safety >= 1.0);
+                    assert!(
+                        hand.fingers
+                            .iter()
+                            .all(|finger| finger.friction > 0.0 && finger.friction.is_finite())
+                    );
+                }
+                Err(error) => {
+                    refused += 1;
+                    let said = error.to_string();
+                    assert!(said.contains("two_pads.toml") || said.contains("scene"), "{said}");
+                }
+            }
+        }
+        assert!(read > 100 && refused > 100, "{read} read, {refused} refused");
+    }
 }
