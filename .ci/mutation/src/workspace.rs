@@ -20,7 +20,8 @@ const HOT: &[&str] = &[
 ];
 
 /// Never: they are tests, or serve tests.
-const NOT: &[&str] = &["/tests/", "/tests.rs", "/testing/", "/testing.rs", "_tests.rs", "/fuzz/", "/examples/", "/test_"];
+const NOT: &[&str] =
+    &["/tests/", "/tests.rs", "/testing/", "/testing.rs", "_tests.rs", "/fuzz/", "/examples/", "/test_"];
 
 #[derive(Debug, Deserialize)]
 pub struct Package {
