@@ -30,7 +30,7 @@ fn outcome() -> Outcome {
             slip: (k == 252, k == 260 || k == 261),
             moved: (phase == 2).then_some(1e-5 * f64::from(k)),
             phase,
-            holding: phase == 2 && k % 2 == 0,
+            holding: phase == 2 && k.is_multiple_of(2),
         }
     };
     let mass = |time: f64| Mass { time, found: 0.2 + 0.01 * time, deviation: 0.0024, truth: 0.201 };
