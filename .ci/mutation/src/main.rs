@@ -52,9 +52,11 @@ fn run(options: &Options) -> Result<bool, Failure> {
     let judged = equivalents::read(&root.join(".ci/mutation/equivalents"))?;
     let mut faults = all_faults(&root, &files)?;
     let equivalent = equivalents::take_out(&mut faults, &judged)?;
+    let left_out = workspace::leave_out(&mut faults, &root, &packages)?;
     faults.retain(|fault| is_asked_for(options, &root, &packages, &fault.file));
     println!(
-        "{} places for faults; {equivalent} more, in the whole project, are judged equivalent",
+        "{} places for faults; {equivalent} more, in the whole project, are judged equivalent, and {left_out} stand in \
+         files that tests do not compile",
         faults.len()
     );
     shuffle(&mut faults, options.seed);

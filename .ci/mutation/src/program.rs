@@ -15,11 +15,16 @@ pub struct Program {
     pub folder: PathBuf,
     executable: PathBuf,
     data: PathBuf,
-    /// Tests that come by each fault.
+    /// Tests that come by each fault, the quickest first.
     reached: BTreeMap<u32, Vec<String>>,
+    /// How long each of its tests takes.
+    times: BTreeMap<String, Duration>,
     /// How long all its tests take.
     took: Duration,
 }
+
+/// Tests that take longer than this are asked only of a fault that no quicker one notices.
+const QUICK: Duration = Duration::from_millis(500);
 
 impl Program {
     /// Runs all tests once without a fault, and writes down which faults each comes by.
@@ -34,8 +39,10 @@ impl Program {
         let _ = std::fs::remove_file(&log);
         let start = Instant::now();
         let output = Command::new(&executable)
-            .args(["--quiet", "--test-threads=2"])
+            .args(["-Zunstable-options", "--report-time", "--test-threads=2"])
             .current_dir(&folder)
+            // For the times of tests, which a stable compiler's programs tell only so.
+            .env("RUSTC_BOOTSTRAP", "1")
             .env("FINGERTIP_DATA", data)
             .env("FINGERTIP_MUTANTS_REACHED", &log)
             .stdin(Stdio::null())
@@ -56,9 +63,14 @@ impl Program {
                 tests.extend(names.iter().cloned());
             }
         }
-        let reached =
-            reached.into_iter().map(|(number, tests)| (number, tests.into_iter().collect())).collect();
-        Ok(Self { folder, executable, data: data.to_owned(), reached, took })
+        let times = times(&String::from_utf8_lossy(&output.stdout));
+        let sorted = |tests: BTreeSet<String>| {
+            let mut tests: Vec<String> = tests.into_iter().collect();
+            tests.sort_by_key(|test| times.get(test).copied().unwrap_or(took));
+            tests
+        };
+        let reached = reached.into_iter().map(|(number, tests)| (number, sorted(tests))).collect();
+        Ok(Self { folder, executable, data: data.to_owned(), reached, times, took })
     }
 
     /// How many tests come by a fault.
@@ -66,9 +78,23 @@ impl Program {
         self.reached.get(&fault).map_or(0, Vec::len)
     }
 
-    /// Whether a test fails, or does not end, with a fault switched on.
+    /// Whether a test fails, or does not end, with a fault switched on. Quick tests are tried together, before the others,
+    /// of which each is tried alone.
     pub fn notices(&self, fault: u32) -> Result<bool, Failure> {
         let Some(tests) = self.reached.get(&fault) else { return Ok(false) };
+        let is_quick = |test: &String| self.times.get(test).is_some_and(|time| *time <= QUICK);
+        let (quick, slow) = tests.split_at(tests.partition_point(is_quick));
+        let parts = core::iter::once(quick).chain(slow.chunks(1)).filter(|part| !part.is_empty());
+        for part in parts {
+            if self.fails(fault, part)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Whether one of these tests fails, or does not end.
+    fn fails(&self, fault: u32, tests: &[String]) -> Result<bool, Failure> {
         let mut child = Command::new(&self.executable)
             .args(["--exact", "--test-threads=1"])
             .args(tests)
@@ -105,5 +131,31 @@ impl Program {
         drop(lines);
         let _ = reader.join();
         Ok(failed)
+    }
+}
+
+/// What a program says of its tests' times: `test NAME ... ok <1.234s>`.
+fn times(said: &str) -> BTreeMap<String, Duration> {
+    let lines = said.lines().filter_map(|line| line.strip_prefix("test ")?.split_once(" ... ok <"));
+    lines
+        .filter_map(|(name, time)| {
+            let seconds = time.strip_suffix("s>")?.parse().ok()?;
+            Some((name.to_owned(), Duration::try_from_secs_f64(seconds).ok()?))
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_those_that_a_program_tells() {
+        let said = "\nrunning 3 tests\ntest a::b ... ok <0.250s>\ntest c ... ignored\ntest d ... ok <12.5s>\n\ntest result";
+        let expected = [("a::b", 0.25), ("d", 12.5)];
+        assert_eq!(
+            times(said),
+            expected.map(|(name, s)| (name.to_owned(), Duration::from_secs_f64(s))).into()
+        );
     }
 }

@@ -6,6 +6,7 @@ use std::process::Command;
 use serde::Deserialize;
 
 use crate::Failure;
+use crate::fault::Fault;
 
 /// Where a sample's time or a sensor's bytes go through. What is off line has faults drawn by `--package`.
 const HOT: &[&str] = &[
@@ -20,7 +21,8 @@ const HOT: &[&str] = &[
 ];
 
 /// Never: they are tests, or serve tests.
-const NOT: &[&str] = &["/tests/", "/testing/", "/testing.rs", "_tests.rs", "/fuzz/", "/examples/", "/test_"];
+const NOT: &[&str] =
+    &["/tests/", "/tests.rs", "/testing/", "/testing.rs", "_tests.rs", "/fuzz/", "/examples/", "/test_"];
 
 #[derive(Debug, Deserialize)]
 pub struct Package {
@@ -39,7 +41,19 @@ struct Notes {
 #[derive(Debug, Deserialize)]
 struct Mutants {
     /// Packages whose tests are this one's, too, since they can use what this one must not.
+    #[serde(default)]
     judges: Vec<String>,
+    #[serde(default)]
+    left_out: Vec<LeftOut>,
+}
+
+/// A file in which no fault is drawn, since `cargo test` does not compile it: something else tries it.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LeftOut {
+    /// From the package's folder.
+    path: PathBuf,
+    reason: String,
 }
 
 impl Package {
@@ -52,6 +66,26 @@ impl Package {
         let mutants = self.metadata.as_ref().and_then(|notes| notes.mutants.as_ref());
         mutants.map_or(&[], |mutants| &mutants.judges)
     }
+}
+
+/// Takes out the faults of files that manifests leave out, and says how many; a file without a reason or without a
+/// fault is an error.
+pub fn leave_out(faults: &mut Vec<Fault>, root: &Path, packages: &[Package]) -> Result<usize, Failure> {
+    let before = faults.len();
+    for package in packages {
+        let mutants = package.metadata.as_ref().and_then(|notes| notes.mutants.as_ref());
+        for LeftOut { path, reason } in mutants.map_or(&[][..], |mutants| &mutants.left_out) {
+            let file = package.folder().join(path);
+            let all = faults.len();
+            faults.retain(|fault| root.join(&fault.file) != file);
+            if faults.len() == all || reason.trim().is_empty() {
+                return Err(
+                    format!("left out without a reason or without a fault: {}", file.display()).into()
+                );
+            }
+        }
+    }
+    Ok(before - faults.len())
 }
 
 #[derive(Deserialize)]

@@ -227,4 +227,21 @@ mod tests {
         assert!(error(&text().replace("40", "0.25")).contains("no inverse"));
         assert!(error("nan,1\n").contains("nan"));
     }
+
+    #[test]
+    fn a_matrix_has_six_loads_and_six_gauges_or_more() {
+        let of = |matrix, rows: usize, columns: usize| {
+            let plain = nalgebra::DMatrix::from_fn(rows, columns, |i, j| if i == j { 2.0 } else { 0.1 });
+            PlainUnits { matrix, ..UNITS }.calibration(&plain)
+        };
+        for gauges in [6, 7, 9] {
+            assert_eq!(of(PlainMatrix::LoadPerSignal, 6, gauges).unwrap().gauges(), gauges);
+            assert_eq!(of(PlainMatrix::SignalPerLoad, gauges, 6).unwrap().gauges(), gauges);
+        }
+        for (loads, gauges) in [(6, 5), (5, 6), (7, 6), (7, 7), (5, 5), (6, 1)] {
+            let wrong = |answer| matches!(answer, Err(super::PlainError::Shape { .. }));
+            assert!(wrong(of(PlainMatrix::LoadPerSignal, loads, gauges)), "{loads} {gauges}");
+            assert!(wrong(of(PlainMatrix::SignalPerLoad, gauges, loads)), "{loads} {gauges}");
+        }
+    }
 }

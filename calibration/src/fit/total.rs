@@ -150,6 +150,27 @@ mod tests {
         assert!((plain - &truth).largest() > 0.15 * truth.largest());
     }
 
+    /// One load and one gauge, both with errors: of a load that reads `x̂` after its adjustment the variance
+    /// `σx²σy²/(σy² + b²σx²)` is left, so that `Σx̂²` is by so much for each sample above `S = Σx²` of the true loads, and
+    /// the coefficient has `(S + n·left)/S²` (Fuller 1987, section 1.3).
+    #[test]
+    fn what_is_left_of_the_errors_of_loads_counts_in_the_error_of_the_fit() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(21);
+        let samples = 20_000;
+        let loads = gaussian_matrix(&mut random, samples, 1);
+        for (slope, of_load, of_reading) in [(1.0, 0.5, 0.5), (-2.0, 0.4, 1.5), (0.3, 0.7, 0.1)] {
+            let read = |random: &mut _, size: f64| gaussian_matrix(random, samples, 1) * size;
+            let uncertain = &loads + read(&mut random, of_load);
+            let responses = &loads * slope + read(&mut random, of_reading);
+            let fit = total_least_squares(&uncertain, &responses, &[of_load], &[of_reading], false).unwrap();
+            let [vx, vy] = [of_load, of_reading].map(|deviation: f64| deviation * deviation);
+            let left = samples as f64 * vx * vy / (vy + slope * slope * vx);
+            let sum = loads.norm_squared();
+            let ratio = fit.inverse_gram[(0, 0)] * sum * sum / (sum + left);
+            assert!((ratio - 1.0).abs() < 0.05, "{slope} {of_load} {of_reading}: {ratio}");
+        }
+    }
+
     /// Loads that are as good as exact leave least squares: the same coefficients, and the same statement of
     /// their errors, with as many degrees of freedom.
     #[test]

@@ -1,4 +1,5 @@
 use super::{PayloadError, PayloadOptions, fit_payload};
+use crate::fit::FitError;
 use crate::fit::testing::gaussian;
 use crate::gravity::{Pose, fit_orientation};
 use crate::testing::Largest as _;
@@ -194,4 +195,46 @@ fn readings_of_nothing_at_all_are_no_weight() {
         let error = fit_payload(&poses, &options).unwrap_err();
         assert!(matches!(error, PayloadError::NoWeight { weight: 0.0, .. }), "{error}");
     }
+}
+
+#[test]
+fn a_pose_needs_a_turn_and_numbers() {
+    let pose = |xyzw, wrench| Pose::from_quaternion(xyzw, wrench);
+    // Half a turn about x, of any length.
+    let turned = pose([3.0, 0.0, 0.0, 0.0], Vector6::repeat(1.0)).unwrap();
+    let expected = nalgebra::Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0));
+    assert!((turned.base_from_sensor - expected).largest() < 1e-15);
+    assert_eq!(turned.wrench, Vector6::repeat(1.0));
+    assert!(pose([0.0; 4], Vector6::zeros()).is_none());
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for k in 0..6 {
+            let mut wrench = Vector6::zeros();
+            wrench[k] = bad;
+            assert!(pose([0.0, 0.0, 0.0, 1.0], wrench).is_none(), "{k} {bad}");
+            let mut quaternion = [0.0, 0.0, 0.0, 1.0];
+            quaternion[k % 4] = bad;
+            assert!(pose(quaternion, Vector6::zeros()).is_none(), "{k} {bad}");
+        }
+    }
+}
+
+/// Poses that are all alike tell each axis of the weight only together with that of the bias, and each is named.
+#[test]
+fn what_poses_leave_open_is_named_axis_by_axis() {
+    let random = &mut Pcg64Mcg::seed_from_u64(31);
+    let one = poses(random, 1, Vector3::new(0.0, 0.0, -3.0), Vector3::zeros(), Vector6::zeros())[0];
+    let same = vec![Pose { base_from_sensor: nalgebra::Matrix3::identity(), ..one }; 6];
+    let named = |error: PayloadError, stem: &str| {
+        let PayloadError::Fit(FitError::Unobserved(unobserved)) = error else { panic!("{error}") };
+        let names = [stem, "bias"].map(|stem| ["x", "y", "z"].map(|axis| format!("{stem} {axis}"))).concat();
+        assert_eq!((unobserved.names, unobserved.regressors), (names, 6));
+        // Each with its own.
+        assert_eq!(unobserved.directions.ncols(), 3);
+    };
+    let free = PayloadOptions { down: None, ..PayloadOptions::default() };
+    named(fit_payload(&same, &free).unwrap_err(), "weight");
+    // Known to pull down, it is one unknown.
+    let error = fit_payload(&same, &PayloadOptions::default()).unwrap_err();
+    let PayloadError::Fit(FitError::Unobserved(unobserved)) = error else { panic!("{error}") };
+    assert_eq!(unobserved.names, ["weight", "bias x", "bias y", "bias z"]);
 }

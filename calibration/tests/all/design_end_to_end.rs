@@ -1,8 +1,8 @@
 //! The paper's sensor against the rosette, from touch to contact point.
 
 use fingertip_calibration::design::{
-    Accuracy, Assessment, Criterion, LoadedTube, Material, MatrixUsed, NominalLoads, Placement, Search,
-    Touch, Touches, Trial, TubeLayout, TubeSpace, Wall, search, tolerance,
+    Accuracy, Assessment, Criterion, DesignError, LoadedTube, Material, MatrixUsed, NominalLoads, Placement,
+    Search, Touch, Touches, Trial, TubeLayout, TubeSpace, Wall, search, tolerance,
 };
 use fingertip_surfaces::Sphere;
 
@@ -168,4 +168,20 @@ fn refuses_trials_that_make_no_sense() {
     // Noise as large as the signals: touches are missed or wrong, never NaN.
     let drowned = Trial { noise: 1e-3, ..good }.run(&paper, &sphere, &touches(1.0)).unwrap();
     assert!(drowned.missed > 0.0 && drowned.position_rms.is_finite());
+}
+
+/// A layout takes a value for each parameter of its family.
+#[test]
+fn a_layout_has_a_value_for_each_parameter() {
+    let angle = degrees(1.0, 59.0);
+    let wall = Wall::Fixed(0.2e-3);
+    let paper = TubeSpace::bicchi_dario((2e-3, 15e-3), angle, (2e-3, 20e-3), tube(5e-3), wall).unwrap();
+    let values = [5e-3, 14_f64.to_radians(), 10e-3, 1e-3];
+    for count in 0..=4 {
+        let layout = paper.layout(&values[..count]);
+        match layout {
+            Err(DesignError::WrongCount { found, expected, .. }) => assert_eq!((found, expected), (count, 3)),
+            other => assert!(count == 3 && other.is_ok(), "{count}: {other:?}"),
+        }
+    }
 }

@@ -302,3 +302,22 @@ fn of_a_gain_that_cannot_be_told() {
     }
     assert!(refused > 0);
 }
+
+/// Only a table with fewer gauges than components is told that gauges are too few.
+#[test]
+fn gauges_that_are_fewer_than_components_are_told() {
+    let random = &mut Pcg64Mcg::seed_from_u64(97);
+    for (axes, gauges) in [(3, 2), (3, 3), (3, 5), (6, 4), (6, 6), (6, 8)] {
+        let loads = gaussians(random, 40, axes);
+        let signals = &loads * sensor(random, axes, gauges);
+        let all = if axes == 3 { &Axis::FORCES[..] } else { &Axis::ALL[..] };
+        let table = LoadTable::new(all, loads, signals, SignalUnit::Volt).unwrap();
+        let said = match calibrate(&table, &Options::default()) {
+            Ok(calibration) => calibration.report.to_string(),
+            Err(error) => error.to_string(),
+        };
+        let told = said.contains(&format!("{gauges} gauges cannot tell {axes} components apart"));
+        assert_eq!(told, gauges < axes, "{axes} {gauges}: {said}");
+        assert!(told || !said.contains("cannot tell"), "{said}");
+    }
+}

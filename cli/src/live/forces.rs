@@ -15,9 +15,6 @@ pub(super) const HEIGHT: u16 = 9;
 const NUMBERS: usize = 15;
 
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    if area.height < 3 || area.width < 8 {
-        return;
-    }
     let components = state.wrench.map(|wrench| wrench.components());
     let [force_scale, torque_scale] = state.greatest.map(rounded_up);
     let width = usize::from(area.width.saturating_sub(2)).saturating_sub(NUMBERS);

@@ -24,7 +24,7 @@ const PLANE: f64 = 10.0;
 
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let Some(projection) = &state.projection else { return };
-    if area.height < LEAST_HEIGHT || area.width < 8 {
+    if area.height < LEAST_HEIGHT {
         return;
     }
     let contact = state.touch.as_ref().and_then(|touch| touch.resolution.contact());

@@ -241,3 +241,44 @@ fn show(mut terminal: DefaultTerminal, shared: &Shared, frames: f64) -> io::Resu
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use std::net::TcpListener;
+
+    use clap::Parser as _;
+
+    use super::{LiveArguments, open};
+    use crate::args::{Arguments, Command};
+    use crate::sensor::Event;
+
+    fn arguments(given: &[&str]) -> LiveArguments {
+        match Arguments::parse_from([&["fingertip", "live"], given].concat()).command {
+            Command::Live(arguments) => arguments,
+            _ => panic!("another command"),
+        }
+    }
+
+    /// A device hangs up: it is looked for again, unless that is not wanted. Nor is a recording that is over.
+    #[test]
+    fn a_sensor_that_is_lost_is_looked_for_again() {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let address = format!("bota+tcp://{}", listener.local_addr().unwrap());
+        for (more, looked_for) in [(&[][..], true), (&["--no-reconnect"], false)] {
+            let arguments = arguments(&[&[address.as_str()], more].concat());
+            let mut stream = open(&arguments, None, None).unwrap();
+            drop(listener.accept().unwrap());
+            let event = loop {
+                match stream.next() {
+                    Ok(Event::Nothing) => {}
+                    event => break event,
+                }
+            };
+            match event {
+                Ok(Event::Lost(why)) => assert!(looked_for, "{why}"),
+                Ok(Event::End) | Err(_) => assert!(!looked_for),
+                Ok(other) => panic!("{other:?}"),
+            }
+        }
+    }
+}

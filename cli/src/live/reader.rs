@@ -49,12 +49,13 @@ impl Reader<'_> {
             match stream.next()? {
                 Event::Sample(time, reading) => self.sample(time, &reading.wrench, stream)?,
                 Event::Fault(why) => {
-                    let mut state = self.shared.state();
-                    state.faults += 1;
-                    state.last_fault = Some(why);
-                    state.losses = stream.losses();
-                    let (faults, lost) = (state.faults, state.losses.lost);
-                    drop(state);
+                    let (faults, lost) = {
+                        let mut state = self.shared.state();
+                        state.faults += 1;
+                        state.last_fault = Some(why);
+                        state.losses = stream.losses();
+                        (state.faults, state.losses.lost)
+                    };
                     self.publisher.tell(|status| (status.faults, status.lost) = (faults, lost));
                 }
                 Event::Nothing => {
@@ -138,14 +139,15 @@ impl Reader<'_> {
             }
             None => None,
         };
-        let mut state = self.shared.state();
-        let was = state.health.clone();
-        state.sample(time, &wrench, touch, Instant::now());
-        state.losses = stream.losses();
-        let lost = state.losses.lost;
-        let felt =
-            touch.map(|touch| Felt::of(&touch, Status::of(&touch.resolution).word(), state.ellipse_now()));
-        drop(state);
+        let (was, lost, felt) = {
+            let mut state = self.shared.state();
+            let was = state.health.clone();
+            state.sample(time, &wrench, touch, Instant::now());
+            state.losses = stream.losses();
+            let felt = touch
+                .map(|touch| Felt::of(&touch, Status::of(&touch.resolution).word(), state.ellipse_now()));
+            (was, state.losses.lost, felt)
+        };
         self.publisher.publish(Sample::new(time, wrench, felt));
         if was != Health::Running {
             self.publisher.tell(|status| (status.health, status.lost) = (Told::Running, lost));
@@ -178,6 +180,7 @@ mod tests {
     use nalgebra::{Vector3, Vector6};
 
     use fingertip_bridges::{About, Command, Hub};
+    use fingertip_scene::Scene;
 
     use super::super::state::State;
     use super::{Health, Rest, Sample, SceneFeel, SensorError, Shared, Stream, Wrench, read};
@@ -189,13 +192,14 @@ mod tests {
         samples: Vec<Next>,
         given: usize,
         shared: Arc<Shared>,
-        tare_at: usize,
+        ask_at: usize,
+        ask: Command,
     }
 
     impl Feed for Told {
         fn next(&mut self) -> Result<Next, SensorError> {
-            if self.given == self.tare_at {
-                self.shared.hub.ask(Command::Tare);
+            if self.given == self.ask_at {
+                self.shared.hub.ask(self.ask);
             }
             self.given += 1;
             Ok(self.samples.get(self.given - 1).cloned().unwrap_or(Next::End))
@@ -222,13 +226,23 @@ mod tests {
         tare_at: usize,
         feel: Option<SceneFeel>,
     ) -> (State, Vec<Sample>, fingertip_bridges::Status) {
+        asked(samples, rest, (tare_at, Command::Tare), feel)
+    }
+
+    fn asked(
+        samples: Vec<Next>,
+        rest: Option<f64>,
+        (ask_at, ask): (usize, Command),
+        feel: Option<SceneFeel>,
+    ) -> (State, Vec<Sample>, fingertip_bridges::Status) {
         let shared = Arc::new(Shared {
             state: Mutex::new(State::new("test".to_owned())),
             stop: Stop::default(),
             hub: Hub::new(About::default()),
         });
         let mut feed =
-            Some(Box::new(Told { samples, given: 0, shared: Arc::clone(&shared), tare_at }) as Box<dyn Feed>);
+            Some(Box::new(Told { samples, given: 0, shared: Arc::clone(&shared), ask_at, ask })
+                as Box<dyn Feed>);
         let options = StreamOptions { silence: Duration::from_secs(3600), reconnect: false };
         let stream = Stream::new(Box::new(move || feed.take().ok_or(SensorError::Over)), options).unwrap();
         let mut reader = shared.hub.subscribe();
@@ -280,6 +294,29 @@ mod tests {
         let (_, given, status) = seen(samples, None, 20, None);
         assert_eq!((status.zero.taken, status.zero.failed, status.zero.value), (1, 0, [5.0; 6]));
         assert_eq!((given[0].wrench.force().x, given.last().unwrap().wrench.force().x), (5.0, 0.0));
+    }
+
+    /// A filter goes on from the load before, unless it is asked to forget: then it starts at the next load.
+    #[test]
+    fn a_reset_begins_the_pipeline_and_the_scale_anew() {
+        let scene = "version = 2\n[input]\nconvention = \"on_fingertip\"\nsample_rate_Hz = 1000.0\n[filter]\n\
+                     kind = \"low_pass\"\ncutoff_Hz = 10.0\n[surface]\nshape = \"plane\"\n";
+        let scene = Scene::from_text(scene).unwrap();
+        let samples = || {
+            let load = |k: u32| Vector3::new(0.0, 0.0, if k < 6 { -3.0 } else { -1.0 });
+            let wrench = |k: u32| Wrench::from_force_at(&Vector3::new(0.001, 0.002, 0.0), load(k));
+            let reading =
+                |k: u32| Reading { time: Some(1e-3 * f64::from(k)), wrench: wrench(k), volts: None };
+            (0..7).map(|k| Next::Reading(reading(k))).collect::<Vec<_>>()
+        };
+        let last = |ask: (usize, Command)| {
+            let (state, given, _) = asked(samples(), None, ask, Some(SceneFeel::new(&scene, true)));
+            (given.last().unwrap().felt.unwrap().load.force().z, state.greatest[0])
+        };
+        let (goes_on, greatest) = last((usize::MAX, Command::Reset));
+        assert!(goes_on < -2.0 && greatest == 3.0, "{goes_on} {greatest}");
+        // What is asked while the sixth is read is done before the seventh.
+        assert_eq!(last((5, Command::Reset)), (-1.0, 1.0));
     }
 
     #[test]

@@ -136,4 +136,36 @@ mod tests {
             assert!((u.hypot(v) - 0.05 * 2.447_746_8).abs() < 1e-6, "{u} {v}");
         }
     }
+
+    /// The map of a cylinder is cut where its sides meet: an ellipse there is none on the map, however far along the
+    /// axis, and half a turn from there it is what it is on the surface.
+    #[test]
+    fn an_ellipse_that_the_map_tears_apart_has_no_outline() {
+        let tube = "shape = \"cylinder\"\nradius_m = 0.009\nhalf_length_m = 0.2\n\
+                    axis = [0.0, 0.0, 1.0]\n";
+        let scene = Scene::from_text(&SCENE.replace("shape = \"plane\"\n", tube)).unwrap();
+        let mut pipeline = scene.pipeline();
+        for height in [-0.15, -0.01, 0.0, 0.01, 0.15] {
+            let (mut torn, mut whole) = (0, 0);
+            for k in 0..360 {
+                let (sin, cos) = f64::from(k).to_radians().sin_cos();
+                let outward = Vector3::new(cos, sin, 0.0);
+                let at = outward * 0.009 + Vector3::z() * height;
+                let mut instants = Instants::default();
+                let push: Wrench<f64> = Wrench::from_force_at(&at, outward * -2.0);
+                instants.add(0.0, pipeline.sense(push, 1e-3));
+                let instant = instants.kept()[0];
+                let (u, v) = scene.projection().project(&instant.point);
+                match instant.outline(scene.projection()) {
+                    None => torn += 1,
+                    Some(outline) => {
+                        whole += 1;
+                        let near = |(x, y): &(f64, f64)| (x - u).hypot(y - v) < 3.0;
+                        assert!(outline.iter().all(near), "{height} {k}: {outline:?}");
+                    }
+                }
+            }
+            assert!((1..20).contains(&torn) && whole >= 340, "{height}: {torn} {whole}");
+        }
+    }
 }

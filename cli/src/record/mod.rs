@@ -206,12 +206,15 @@ impl<'a> Recording<'a> {
         let Some(news) = &self.news else { return };
         if self.told.elapsed() > NEWS {
             self.told = Instant::now();
-            let state =
-                if self.rest.is_resting() { "taking the zero: do not touch" } else { "Ctrl-C ends it" };
-            let (samples, seconds) = (count(self.samples), short(self.length()));
-            news.set_message(format!("{samples} samples, {seconds} s ({state})"));
+            news.set_message(self.so_far());
             news.tick();
         }
+    }
+
+    /// What there is so far, and what to do or not to do.
+    fn so_far(&self) -> String {
+        let state = if self.rest.is_resting() { "taking the zero: do not touch" } else { "Ctrl-C ends it" };
+        format!("{} samples, {} s ({state})", count(self.samples), short(self.length()))
     }
 
     /// Finishes the file, and says what is in it; `None` if there is none.
@@ -390,6 +393,12 @@ mod tests {
             let share = if time < 1.0 { 0.5 } else { 1.0 };
             recording.take(time, &press(share), Some(&mut feel)).unwrap();
             assert!(!recording.is_full());
+            let so_far = match time {
+                1.0 => "1 samples, 0 s (Ctrl-C ends it)",
+                1.25 => "2 samples, 0.25 s (Ctrl-C ends it)",
+                _ => "0 samples, 0 s (taking the zero: do not touch)",
+            };
+            assert_eq!(recording.so_far(), so_far, "{time}");
         }
         recording.take(1.5, &press(0.5), Some(&mut feel)).unwrap();
         assert!(recording.is_full());

@@ -176,7 +176,7 @@ fn of_decade(value: f64) -> String {
 mod tests {
     use rand::{RngExt, SeedableRng};
 
-    use super::{Axis, Tick, step};
+    use super::{Axis, Tick, digits, step};
 
     fn labels(axis: &Axis, most: usize) -> Vec<String> {
         axis.ticks(most).into_iter().map(|tick| tick.label).collect()
@@ -197,6 +197,21 @@ mod tests {
             let ticks = axis.ticks(5);
             assert!((1..=7).contains(&ticks.len()), "{low} to {high}: {ticks:?}");
             assert!(ticks.iter().all(|tick| (-0.01..=1.01).contains(&axis.place(tick.value))));
+        }
+    }
+
+    #[test]
+    fn an_axis_tells_its_ends_in_six_digits() {
+        for (value, said) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (1.0, "1.00000"),
+            (-123.456_789, "-123.457"),
+            (0.001_234_567_8, "0.00123457"),
+            (99_999_960.0, "99999960"),
+            (1e-15, "0.000000000000"),
+        ] {
+            assert_eq!(digits(value), said);
         }
     }
 

@@ -6,7 +6,8 @@ mod colours;
 pub(crate) mod contours;
 mod figures;
 mod map;
-mod read_back;
+#[cfg(test)]
+pub(crate) mod read_back;
 mod solid;
 mod svg;
 pub(crate) mod unrolled_tube;

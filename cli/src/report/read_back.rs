@@ -1,19 +1,18 @@
 //! Reads a drawing as its reader does: by the marks along its axes.
-#![cfg(test)]
 
 /// A path of a drawing: its class, and its pieces.
-pub(super) struct Path {
-    pub(super) class: String,
-    pub(super) pieces: Vec<Vec<(f64, f64)>>,
+pub(crate) struct Path {
+    pub(crate) class: String,
+    pub(crate) pieces: Vec<Vec<(f64, f64)>>,
 }
 
 /// A text of a drawing.
 #[derive(Debug)]
-pub(super) struct Text {
-    pub(super) class: String,
-    pub(super) at: (f64, f64),
-    pub(super) anchor: String,
-    pub(super) text: String,
+pub(crate) struct Text {
+    pub(crate) class: String,
+    pub(crate) at: (f64, f64),
+    pub(crate) anchor: String,
+    pub(crate) text: String,
 }
 
 fn attribute<'a>(tag: &'a str, name: &str) -> &'a str {
@@ -42,7 +41,7 @@ fn pieces(d: &str) -> Vec<Vec<(f64, f64)>> {
         .collect()
 }
 
-pub(super) fn paths(svg: &str) -> Vec<Path> {
+pub(crate) fn paths(svg: &str) -> Vec<Path> {
     tags(svg, "path")
         .into_iter()
         .map(|tag| Path { class: attribute(tag, "class").to_owned(), pieces: pieces(attribute(tag, "d")) })
@@ -50,11 +49,11 @@ pub(super) fn paths(svg: &str) -> Vec<Path> {
 }
 
 /// The points of all paths of a class.
-pub(super) fn points(svg: &str, class: &str) -> Vec<(f64, f64)> {
+pub(crate) fn points(svg: &str, class: &str) -> Vec<(f64, f64)> {
     paths(svg).into_iter().filter(|path| path.class == class).flat_map(|path| path.pieces.concat()).collect()
 }
 
-pub(super) fn texts(svg: &str) -> Vec<Text> {
+pub(crate) fn texts(svg: &str) -> Vec<Text> {
     let text = |tag: &str| Text {
         class: attribute(tag, "class").to_owned(),
         at: (number(tag, "x"), number(tag, "y")),
@@ -65,7 +64,7 @@ pub(super) fn texts(svg: &str) -> Vec<Text> {
 }
 
 /// Centre and radius of the circles of a class.
-pub(super) fn circles(svg: &str, class: &str) -> Vec<((f64, f64), f64)> {
+pub(crate) fn circles(svg: &str, class: &str) -> Vec<((f64, f64), f64)> {
     tags(svg, "circle")
         .into_iter()
         .filter(|tag| attribute(tag, "class") == class)
@@ -74,26 +73,26 @@ pub(super) fn circles(svg: &str, class: &str) -> Vec<((f64, f64), f64)> {
 }
 
 /// Class, left edge and width of the rectangles.
-pub(super) fn rectangles(svg: &str) -> Vec<(String, f64, f64)> {
+pub(crate) fn rectangles(svg: &str) -> Vec<(String, f64, f64)> {
     let rectangle = |tag: &str| (attribute(tag, "class").to_owned(), number(tag, "x"), number(tag, "width"));
     tags(svg, "rect").into_iter().map(rectangle).collect()
 }
 
 /// Width and height.
-pub(super) fn size(svg: &str) -> (f64, f64) {
+pub(crate) fn size(svg: &str) -> (f64, f64) {
     let numbers: Vec<f64> =
         attribute(svg, "viewBox").split(' ').map(|number| number.parse().unwrap()).collect();
     (numbers[2], numbers[3])
 }
 
 /// What a label says, a true minus included.
-pub(super) fn value(label: &str) -> Option<f64> {
+pub(crate) fn value(label: &str) -> Option<f64> {
     label.replace('−', "-").trim_end_matches('°').parse().ok()
 }
 
 /// From places along an axis to values: the line through the first and the last mark.
 #[derive(Clone, Copy)]
-pub(super) struct Ruler {
+pub(crate) struct Ruler {
     zero: f64,
     slope: f64,
 }
@@ -113,19 +112,19 @@ impl Ruler {
         ruler
     }
 
-    pub(super) fn at(self, place: f64) -> f64 {
+    pub(crate) fn at(self, place: f64) -> f64 {
         self.zero + self.slope * place
     }
 
     /// What the rounding of places hides: half of 0.1 at the place, and as much at the marks.
-    pub(super) fn error(self) -> f64 {
+    pub(crate) fn error(self) -> f64 {
         0.15 * self.slope.abs()
     }
 }
 
 /// The rulers of a chart, across and up. Across, marks stand right over their labels; upwards, a label stands a few
 /// units lower than its line, so that the lines of class `grid` from edge to edge tell the place.
-pub(super) fn rulers(svg: &str) -> (Ruler, Ruler) {
+pub(crate) fn rulers(svg: &str) -> (Ruler, Ruler) {
     let all = texts(svg);
     let ticks = |anchor: &str| -> Vec<(f64, f64, f64)> {
         let chosen = all.iter().filter(|text| text.class == "tick" && text.anchor == anchor);
@@ -152,7 +151,7 @@ pub(super) fn rulers(svg: &str) -> (Ruler, Ruler) {
 }
 
 /// That every text lies within the drawing, at six units a letter, and no two overlap.
-pub(super) fn assert_readable(svg: &str) {
+pub(crate) fn assert_readable(svg: &str) {
     let (width, height) = size(svg);
     let boxes: Vec<_> = texts(svg)
         .into_iter()

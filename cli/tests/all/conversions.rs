@@ -146,7 +146,8 @@ fn foreign(folder: &Folder) {
     writer.write_contact(one, 2.0, crooked).unwrap();
     // The same time twice, and one that goes back.
     writer.write_wrench(left, 2.0, &wrench(4.0)).unwrap();
-    writer.write_wrench(right, 1.5, &wrench(5.0)).unwrap();
+    let crooked = Wrench::from_components(&Vector6::new(5.0, f64::NAN, -1.0, 0.0, f64::INFINITY, 0.0));
+    writer.write_wrench(right, 1.5, &crooked).unwrap();
     writer.finish().unwrap();
 }
 
@@ -161,7 +162,7 @@ fn rows_are_put_together_by_their_times() {
         Note: topic /daq has the columns without a name\n\
         Note: topic /one has the columns without a name\n\
         Note: 2 rows have a time that is not after that of the row before; other commands pass over them\n\
-        Lost: 1 messages of /two, which CSV has no columns for; 2 numbers that are not finite (NaN becomes an empty \
+        Lost: 1 messages of /two, which CSV has no columns for; 4 numbers that are not finite (NaN becomes an empty \
         cell); 1 names of contacts\n";
     assert_eq!(said, expected);
     let rows = Contacts::parse(&folder.read("a.csv"));
@@ -170,6 +171,7 @@ fn rows_are_put_together_by_their_times() {
         |name: &str| rows.words(name).iter().map(|cell| cell.parse().ok()).collect::<Vec<Option<f64>>>();
     assert_eq!(cells("robot-left-wrist-ft_fx_N"), [Some(1.0), Some(3.0), Some(4.0), None]);
     assert_eq!(cells("robot-right-ft_fx_N"), [Some(2.0), None, None, Some(5.0)]);
+    assert_eq!(cells("robot-right-ft_fy_N"), [Some(0.0), None, None, None]);
     assert_eq!(cells("v1_V"), [Some(0.5), None, None, None]);
     assert_eq!(cells("v2_V"), [None; 4]);
     assert_eq!(cells("v3_V"), [Some(0.25), None, None, None]);

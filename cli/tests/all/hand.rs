@@ -2,7 +2,7 @@
 
 use fingertip_test_support::recording;
 
-use crate::common::{Contacts, Folder, scene};
+use crate::common::{Contacts, Folder, assert_accepted, body, scene};
 
 const SPHERE: &str = r#"
 version = 1
@@ -93,6 +93,33 @@ fn two_fingertips_are_one_grasp() {
     assert!(report.contains("Grip, and the least that holds") && !report.contains("NaN"));
 }
 
+/// A finger that shall press by no less than so much does in the least grip, and one that cannot is told.
+#[test]
+fn the_least_grip_keeps_the_limits_of_the_fingers() {
+    let folder = folder();
+    let most = "greatest_normal_N = 10.0";
+    let with = |limits: &str| HAND.replace(most, limits);
+    folder.write("firm.toml", &with(&format!("{most}\nleast_normal_N = 4.0")));
+    folder.write("grip.csv", &format!("{HEADER}\n{}\n", row(4.0, 2.0)));
+    folder.succeed(&["analyze", "grip.csv", "--scene", "firm.toml", "--output", "grasp.csv"]);
+    let grasp = Contacts::parse(&folder.read("grasp.csv"));
+    // 2.5 N each would do for the load.
+    for (column, expected) in
+        [("least_grip_N", 8.0), ("left_least_normal_N", 4.0), ("right_least_normal_N", 4.0)]
+    {
+        assert!((grasp.numbers(column)[0] - expected).abs() < 1e-3, "{column}: {:?}", grasp.numbers(column));
+    }
+    for (limits, key) in [
+        ("least_normal_N = -1.0".to_owned(), "least_normal_N"),
+        ("greatest_normal_N = 0.0".to_owned(), "greatest_normal_N"),
+        (format!("{most}\nleast_normal_N = 11.0"), "least_normal_N"),
+    ] {
+        folder.write("bad.toml", &with(&limits));
+        let text = folder.fail(1, &["analyze", "grip.csv", "--scene", "bad.toml", "--overwrite"]);
+        assert!(text.contains(&format!("`{key}`: ")), "{text}");
+    }
+}
+
 #[test]
 fn poses_can_be_in_columns_and_sensors_in_the_object() {
     let folder = folder();
@@ -160,6 +187,37 @@ fn what_is_wrong_with_a_hand_scene_is_said_with_its_mend() {
     let text = folder.fail(1, &["analyze", "grip.csv", "--scene", "hand.toml", "--sensor", "L"]);
     assert!(text.contains("set `sensor` of [[finger]]"), "{text}");
     assert!(!folder.path("contacts.csv").exists());
+}
+
+/// A session of a hand of which all numbers are known: the summary as somebody has looked at it, its counts and
+/// quantiles from the formula, and the page.
+#[test]
+fn a_grasp_is_summed_up_in_words_tables_and_pictures() {
+    let folder = folder();
+    // Normal forces of 2.02 N to 4 N, and a weight of 1 N; then one row without a touch, and one that hangs too much.
+    let mut rows: Vec<String> = (1..=100)
+        .map(|k| format!("{},{}", 0.01 * f64::from(k), row(2.0 + 0.02 * f64::from(k), 1.0)))
+        .collect();
+    rows.push(format!("1.01,{}", row(0.0, 0.0)));
+    rows.push(format!("1.02,{}", row(4.0, 30.0)));
+    folder.write("grip.csv", &format!("t_s,{HEADER}\n{}\n", rows.join("\n")));
+    let said = folder.succeed(&["analyze", "grip.csv", "--scene", "hand.toml", "--output", "grasp.csv"]);
+    assert_accepted("hand_summary.txt", &said);
+    assert_accepted("hand_report.html", &body(&folder.read("report.html")));
+    let line = |start: &str| {
+        let line = said
+            .lines()
+            .find(|line| line.trim_start().starts_with(start))
+            .unwrap_or_else(|| panic!("{said}"));
+        line.split_whitespace().filter_map(|word| word.parse::<f64>().ok()).collect::<Vec<_>>()
+    };
+    // Grips are twice the normal forces, and their quantiles; of the load the last row is the greatest.
+    for (found, expected) in line("grip").iter().zip([4.2, 6.0, 7.9, 8.0]) {
+        assert!((found - expected).abs() < 0.05 * expected, "{said}");
+    }
+    // 0.5 N at each, friction 0.5 with a safety of 1.25: 1.25 N each.
+    assert!(line("least grip").iter().all(|least| (least - 2.5).abs() < 0.05), "{said}");
+    assert!(line("load").iter().zip([1.0, 1.0, 1.0, 30.0]).all(|(a, b)| (a - b).abs() < 0.02 * b), "{said}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use serialport::{SerialPort, TTYPort};
 
-use crate::common::Folder;
+use crate::common::{Folder, scene};
 
 /// Longer than a busy machine takes.
 const PATIENCE: Duration = Duration::from_secs(100);
@@ -161,6 +161,7 @@ fn the_simulation_comes_with_its_scene() {
     let folder = Folder::new();
     let mut terminal = Terminal::start(&folder, &["sim?rate_Hz=200"]);
     terminal.until("Contact (y right, z up)");
+    terminal.until(" of µ 0.4");
     terminal.press(b"rt");
     terminal.until("taking the zero");
     terminal.until(" live  sim");
@@ -188,5 +189,28 @@ fn what_is_wrong_is_said_before_the_terminal_is_taken() {
             code == Some(1) && said.starts_with("error: ") && said.contains(expected),
             "{arguments:?}: {said}"
         );
+    }
+}
+
+/// What of a scene and of its sensor does not count live is said, where the end of the picture leaves it to be read.
+#[test]
+fn what_does_not_count_is_noted() {
+    let folder = Folder::new();
+    let gauges = std::fs::read_to_string(scene("gauges.toml")).unwrap();
+    let payload = "[payload]\nmass_kg = 0.1\ncentre_of_mass_m = [0.0, 0.0, 0.0]\n";
+    let weight =
+        "note: the weight of [payload] is not taken off: nothing tells how a live sensor lies\n".to_owned();
+    let warm = "note: the temperature is known, but the calibration has no terms for it\n".to_owned();
+    for (scene, more, said) in [
+        (gauges.clone(), &[][..], String::new()),
+        (format!("{gauges}\n{payload}"), &[], weight.clone()),
+        (format!("{gauges}\n{payload}"), &["--celsius", "20"], weight + &warm),
+    ] {
+        folder.write("scene.toml", &scene);
+        let arguments = [&["sim?rate_Hz=200", "--scene", "scene.toml"], more].concat();
+        let mut terminal = Terminal::start(&folder, &arguments);
+        terminal.until(" live  sim");
+        terminal.press(b"q");
+        assert_eq!(terminal.finish(), (Some(0), said));
     }
 }

@@ -153,7 +153,7 @@ impl<T: Real> Asked<'_, T> {
         let sign = if self.power < T::zero() { T::one() } else { -T::one() };
         Some(SoftContact {
             point,
-            normal: rest * (size * sign / length),
+            normal: rest * (sign * size / length),
             spin_torque: sign * (length / size),
             active: true,
         })

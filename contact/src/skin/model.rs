@@ -118,10 +118,6 @@ impl<T: Real, M, L> Compliant<T, M, L> {
                 return Ok(CompliantContact { contact, undeformed, indentation });
             }
             let mut step = -(inverse * residual);
-            if !step.sum().is_number() {
-                inverse = -Matrix3::identity();
-                step = residual;
-            }
             // A step may lead past the silhouette, where there is no contact: come back.
             let mut next = evaluate(&(shift + step));
             for _ in 0..8 {

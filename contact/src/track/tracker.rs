@@ -231,7 +231,6 @@ impl<T: Real> Tracker<T> {
     #[cold]
     fn start(&mut self, sighting: &Sighting<T>) -> Option<Tracked<T>> {
         self.track = Some(Track::start(sighting, self.shorter));
-        self.rival = None;
         self.sample = self.variance(sighting);
         self.say(Continuity::New, None)
     }

@@ -162,3 +162,30 @@ fn no_dent_is_touched_from_within() {
     }
     assert!(dents > 20, "{dents}");
 }
+
+/// A mesh asked by itself, without the scaling of a model, knows no unit of force as far as numbers reach: what is
+/// touched, from outside and at dents, is the same to the last bit where the wrench is times a power of two.
+fn knows_no_unit_of_force<T: Real>(powers: [i32; 4]) {
+    let [_, _, wavy, dish, _] = meshes::<T>(12);
+    let mut random = Random::new(813);
+    for kind in 0..200 {
+        let mesh = if kind % 2 == 0 { &wavy } else { &dish };
+        let wrench = any_wrench(&mut random, mesh, 6);
+        let found = all(mesh, &wrench);
+        for power in powers {
+            let unit = T::literal(2_f64.powi(power));
+            let scaled = all(mesh, &(wrench * unit));
+            assert_eq!(scaled.len(), found.len(), "{power} {wrench:?} {found:?} {scaled:?}");
+            for (ours, theirs) in found.iter().zip(&scaled) {
+                assert_eq!((ours.point, ours.normal), (theirs.point, theirs.normal), "{power} {wrench:?}");
+                assert_eq!(ours.spin_torque * unit, theirs.spin_torque, "{power} {wrench:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn dents_and_contacts_are_the_same_in_every_unit_of_force() {
+    knows_no_unit_of_force::<f64>([400, 200, -200, -400]);
+    knows_no_unit_of_force::<f32>([45, 20, -20, -40]);
+}

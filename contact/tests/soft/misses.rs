@@ -3,7 +3,7 @@
 use fingertip_contact::{ContactModel, NoContact, PointContact, Resolution, SoftFinger, SoftFingerSurface};
 use fingertip_surfaces::testing::ball_of_triangles;
 use fingertip_surfaces::{
-    HalfSpace, Heightfield, Implicit, ImplicitSurface, Mesh, Sphere, Term, Topology, Torus, Trimmed,
+    HalfSpace, Heightfield, Implicit, ImplicitSurface, Mesh, Plane, Sphere, Term, Topology, Torus, Trimmed,
 };
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
@@ -231,6 +231,26 @@ fn noise_tells_what_is_ambiguous() {
     }
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
         assert!(model.with_torque_noise(bad).is_err(), "{bad}");
+    }
+}
+
+/// A surface that is no closed body is entered without being left: where the line of action meets the part that may
+/// touch, the contact is told, whatever the noise; and where it meets only the far side, from within, it is not met.
+#[test]
+fn a_line_that_enters_an_open_surface_is_not_ambiguous() {
+    let model = SoftFinger::new(0.0).unwrap().without_friction_limit().with_torque_noise(1e-4).unwrap();
+    let upper = HalfSpace::new(Vector3::zeros(), Vector3::z()).unwrap();
+    let dome = Trimmed::new(Sphere::<f64>::centred(0.013).unwrap(), upper);
+    let plane = Plane::new(Vector3::new(0.0, 0.0, 0.005), Vector3::z()).unwrap();
+    let force = Vector3::new(0.3, 0.2, -2.0);
+    for through in [Vector3::new(0.0, 0.0, 0.013), Vector3::new(0.001, -0.002, 0.013)] {
+        for along in [1e-6, -1e-6, 9e-5] {
+            let pressing = Wrench::on_fingertip(force, through.cross(&force) + force.normalize() * along);
+            let pulling = Wrench::on_fingertip(-pressing.force(), -pressing.torque());
+            assert!(model.resolve(&pressing, &dome).contact().is_some(), "{pressing:?}");
+            assert!(model.resolve(&pressing, &plane).contact().is_some(), "{pressing:?}");
+            assert!(model.resolve(&pulling, &plane).contact().is_none(), "{pulling:?}");
+        }
     }
 }
 

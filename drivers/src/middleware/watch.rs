@@ -246,6 +246,17 @@ mod tests {
         assert_eq!(*watch.counts(), counts);
     }
 
+    /// The device begins to count anew, fifty seconds behind: what is under way from then on is told against the
+    /// quickest since, not against one of before.
+    #[test]
+    fn a_clock_that_was_set_back_begins_the_ages_anew() {
+        let mut watch = Watch::new(None);
+        let ages = [(60.0, 60.5), (61.0, 61.25), (11.0, 62.5), (12.0, 63.25), (13.0, 64.75)]
+            .map(|(time, now)| watch.arrive(sample(time, time), now).age);
+        assert_eq!(ages, [Some(0.0), Some(0.0), Some(0.0), Some(0.0), Some(0.5)]);
+        assert_eq!(watch.counts().backward, 1);
+    }
+
     #[test]
     fn times_that_make_no_sense_do_not_matter() {
         for period in [Some(0.0), Some(-1.0), Some(f64::NAN), Some(1e-300), None] {

@@ -113,7 +113,6 @@ impl SequenceWatch {
         self.newest = Some(number);
         // Nothing before it is missed.
         self.seen = u64::MAX;
-        self.doubtful = None;
         Arrival::Start
     }
 

@@ -3,9 +3,9 @@
 
 use core::convert::Infallible;
 
-use fingertip_drivers::middleware::{FaultInjector, Recorder, SampleFaults, Watched};
+use fingertip_drivers::middleware::{FaultInjector, Recorder, SampleFaults, Solved, Watched};
 use fingertip_drivers::{Sample, Source, SourceError, SourceErrorKind};
-use fingertip_wrench::Wrench;
+use fingertip_wrench::{Tare, Wrench, WrenchSolver};
 use nalgebra::{SVector, Vector3};
 
 /// Numbers its samples at 1 kHz, as wrenches and as signals.
@@ -150,4 +150,31 @@ fn a_record_that_fails_does_not_stop_the_source() {
     }
     assert_eq!((given, source.unrecorded(), source.failure()), (10, 6, Some(&"the disk is full")));
     assert_eq!(log, [1.0, 2.0, 3.0, 4.0]);
+}
+
+/// A sensor of two gauges: a push and a torque.
+struct Halves;
+
+impl WrenchSolver<f64, 2> for Halves {
+    fn solve(&self, signals: &SVector<f64, 2>) -> Wrench<f64> {
+        Wrench::on_fingertip(Vector3::x() * (signals[0] / 2.0), Vector3::y() * signals[1])
+    }
+}
+
+#[test]
+fn signals_are_solved_above_the_zero_that_was_set_last() {
+    let zero = |a, b| Tare::new(SVector::from([a, b]));
+    let mut source = Solved::new(Counting { number: 0, end: 3 }, zero(0.0, 0.0), Halves);
+    let mut next = |zero: Option<Tare<f64, 2>>| {
+        zero.into_iter().for_each(|zero| source.set_zero(zero));
+        let sample = Source::<f64, Wrench<f64>>::next_sample(&mut source).unwrap();
+        sample.map(|sample| (sample.time.unwrap(), sample.value.force().x, sample.value.torque().y))
+    };
+    assert_eq!(next(None), Some((1e-3, 0.5, -1.0)));
+    assert_eq!(next(Some(zero(1.0, -4.0))), Some((2e-3, 0.5, 2.0)));
+    assert_eq!(next(None), Some((3e-3, 1.0, 1.0)));
+    assert_eq!(next(None), None);
+    source.source_mut().end = 5;
+    assert_eq!(source.source().number, 4);
+    assert!(Source::<f64, Wrench<f64>>::next_sample(&mut source).unwrap().is_some());
 }

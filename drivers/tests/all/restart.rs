@@ -53,6 +53,40 @@ fn the_half_of_a_frame_is_forgotten_in_a_restart() {
     a_half_is_forgotten(|| ResenseDecoder::new(LIMITS), &reading.emit());
 }
 
+/// Gives one piece a time.
+struct Pieces<'a>(std::collections::VecDeque<&'a [u8]>);
+
+impl std::io::Read for Pieces<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let piece = self.0.pop_front().unwrap_or_default();
+        buffer[..piece.len()].copy_from_slice(piece);
+        Ok(piece.len())
+    }
+}
+
+/// A sensor that is begun anew drops what it has read and not used, and the half of a frame that its decoder holds.
+#[test]
+fn a_sensor_that_is_begun_anew_drops_bytes_and_half_frames() {
+    let frame = |microseconds| Frame { components: [1.5; 6], microseconds, ..Frame::default() }.emit();
+    let [first, second, third, fourth] = [1_000_000, 2_000_000, 3_000_000, 4_000_000].map(frame);
+    // One and a half, silence, and then the rest with two more.
+    let before = [&first[..], &second[..20]].concat();
+    let after = [&second[20..], &third[..], &fourth[..]].concat();
+    let line = Pieces([&before[..], &[], &after[..]].into());
+    let mut sensor = LineSensor::<_, f64, _>::new(line, BotaDecoder::new());
+    let mut time = |restart: bool| {
+        if restart {
+            sensor.restart();
+        }
+        sensor.next_sample().unwrap().map(|sample| sample.time.unwrap())
+    };
+    assert_eq!((time(false), time(false)), (Some(0.0), None));
+    // The half is forgotten, and the rest is no frame.
+    assert_eq!(time(true), Some(2.0));
+    // The fourth was read and not used.
+    assert_eq!(time(true), None);
+}
+
 /// Bytes of zero are no frame of any of these: as many as its patience has, and the sensor says so.
 fn says_that_nothing_comes<D: LineDecoder<f64>>(decoder: D)
 where

@@ -96,3 +96,56 @@ pub(super) fn comment(sentence: &str, indent: usize, hanging: usize) -> String {
     text.push('\n');
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{WIDTH, comment, laid_out};
+
+    /// A call with so many arguments of nine letters and a comma, four spaces in.
+    fn call(arguments: usize, last: usize) -> String {
+        let arguments: String = (0..arguments).map(|_| "argument9, ").collect();
+        format!("    sensor({arguments}{});", "x".repeat(last))
+    }
+
+    #[test]
+    fn a_line_stays_whole_up_to_the_width() {
+        // Four of margin, `sensor(`, eight times eleven, the last argument, and `);`.
+        let fits = call(8, WIDTH - 4 - 7 - 88 - 2);
+        assert_eq!(fits.chars().count(), WIDTH);
+        assert_eq!(laid_out(&fits), format!("{fits}\n"));
+        let wide = call(8, WIDTH - 4 - 7 - 88 - 1);
+        let broken = laid_out(&wide);
+        let lines: Vec<&str> = broken.lines().collect();
+        assert_eq!(
+            (lines[0], lines[1], lines[9].len(), lines[10]),
+            ("    sensor(", "        argument9,", 19, "    );")
+        );
+        assert_eq!(lines.len(), 11);
+    }
+
+    /// What is inside is broken where it is too wide itself, and what a comment says is none of a call.
+    #[test]
+    fn the_widest_list_is_broken_and_comments_are_not() {
+        let inner = format!("inner({}x)", "argument9, ".repeat(11));
+        let broken = laid_out(&format!("outer(a, {inner}, [1, 2])?;"));
+        let lines: Vec<&str> = broken.lines().map(str::trim_end).collect();
+        assert_eq!(lines[..4], ["outer(", "    a,", "    inner(", "        argument9,"]);
+        assert_eq!(lines[lines.len() - 4..], ["        x,", "    ),", "    [1, 2],", ")?;"]);
+        assert!(lines.iter().all(|line| line.chars().count() <= WIDTH));
+        let said = format!("// {inner}");
+        assert_eq!(laid_out(&said), format!("{said}\n"));
+    }
+
+    #[test]
+    fn a_comment_is_broken_between_words_up_to_the_width() {
+        // `// ` and ten words of nine letters with a space behind each but the last.
+        let sentence = ["wordofnin"; 10].join(" ");
+        assert_eq!(comment(&sentence, 1, 2), format!("// {sentence}\n"));
+        let fits = format!("{sentence}{}", "x".repeat(WIDTH - 3 - sentence.len()));
+        assert_eq!(comment(&fits, 1, 2), format!("// {fits}\n"));
+        let wide = comment(&format!("{fits}x"), 1, 2);
+        let lines: Vec<&str> = wide.lines().collect();
+        assert_eq!(lines[0], format!("// {}", ["wordofnin"; 9].join(" ")));
+        assert!(lines[1].starts_with("//   wordofninx") && lines.len() == 2, "{wide}");
+    }
+}

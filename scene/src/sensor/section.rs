@@ -121,20 +121,18 @@ impl SensorSection {
     /// taken for the nominal one, which scales the numbers and changes no answer.
     fn calibration_of(&self, rows: &[Vec<f64>], unit: SignalUnit) -> Result<CalibrationFile, BadSensor> {
         let gauges = rows.first().map_or(0, Vec::len);
-        let shape = |found, expected, field: &str| {
-            let field = field.to_owned();
+        let shape = |found, expected| {
+            let field = "load_per_signal_N_Nm".to_owned();
             BadSensor::File(file::FileError::WrongShape { field, found, expected })
         };
         if rows.len() != 6 {
-            return Err(shape(rows.len(), 6, "load_per_signal_N_Nm"));
+            return Err(shape(rows.len(), 6));
         }
         if let Some(row) = rows.iter().find(|row| row.len() != gauges) {
-            return Err(shape(row.len(), gauges, "load_per_signal_N_Nm"));
+            return Err(shape(row.len(), gauges));
         }
+        // Whether it has as many, the file says.
         let zero = self.zero.clone().unwrap_or_else(|| vec![0.0; gauges]);
-        if zero.len() != gauges {
-            return Err(shape(zero.len(), gauges, "zero"));
-        }
         let matrix = DMatrix::from_row_iterator(6, gauges, rows.iter().flatten().copied());
         let nominal: Vec<f64> = matrix.row_iter().map(|row| row.norm()).collect();
         if !nominal.iter().all(|load| *load > 0.0 && load.is_finite()) {

@@ -143,7 +143,7 @@ impl<'a, 'b> Collected<'a, 'b> {
         let first = self.parts.0.len();
         let corners = corners(primitive, stride, own)?;
         let counted: usize = corners.iter().map(Vec::len).sum();
-        if first + points.len() > MOST || 3 * self.parts.1.len() + counted > MOST {
+        if is_too_much([first, points.len()], [self.parts.1.len(), counted]) {
             return Err(wrong(
                 primitive,
                 format!("it makes more than {MOST} vertices or corners of triangles"),
@@ -232,6 +232,11 @@ fn corners(primitive: Node<'_, '_>, stride: usize, own: usize) -> Result<Vec<Vec
     Ok(polygons)
 }
 
+/// Whether so many vertices with so many more, or the corners of so many triangles with so many more, are no fingertip's.
+fn is_too_much([vertices, more]: [usize; 2], [triangles, corners]: [usize; 2]) -> bool {
+    vertices + more > MOST || 3 * triangles + corners > MOST
+}
+
 /// The triangles of a convex polygon, from its first corner; none of one with fewer than three, `None` where one of the
 /// triangles is turned against the others.
 fn fan(polygon: &[usize], points: &[Vector3<f64>]) -> Option<Vec<[usize; 3]>> {
@@ -305,4 +310,25 @@ fn whole_number(node: Node<'_, '_>, key: &str, otherwise: usize) -> Result<usize
         let element = node.tag_name().name();
         wrong(node, format!("`{key}` of <{element}> is {said:?}, which must be a count, and no large one"))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MOST, is_too_much};
+
+    /// As many as are said, in one part or in several, and one more.
+    #[test]
+    fn a_mesh_may_have_four_million_vertices_and_corners() {
+        assert_eq!(MOST, 4_194_304);
+        for (before, more) in [(0, MOST), (MOST - 7, 7), (MOST, 0)] {
+            assert!(!is_too_much([before, more], [0, 0]));
+            assert!(is_too_much([before, more + 1], [0, 0]) && is_too_much([before + 1, more], [0, 0]));
+        }
+        for triangles in [0, 1, 1_398_101] {
+            let corners = MOST - 3 * triangles;
+            assert!(!is_too_much([MOST, 0], [triangles, corners]));
+            assert!(is_too_much([0, 0], [triangles, corners + 1]));
+            assert!(is_too_much([0, 0], [triangles + 1, corners.saturating_sub(2)]));
+        }
+    }
 }

@@ -64,19 +64,27 @@ fn triangles() -> String {
     format!("<triangles count=\"6\">{INPUTS}<p>{}</p></triangles>", indices(TRIANGLES.as_flattened()))
 }
 
+/// The corners in rows of so many numbers, behind some that belong to none; with or without what says so.
+fn positions(stride: usize, skipped: usize, is_said: bool) -> String {
+    let rows = CORNERS.into_iter().flat_map(|corner| corner.into_iter().chain([77.0; 9]).take(stride));
+    let all = numbers([55.0; 9].into_iter().take(skipped).chain(rows));
+    let said = format!("<accessor source=\"#f\" count=\"5\" stride=\"{stride}\" offset=\"{skipped}\"/>");
+    let said = if is_said { format!("<technique_common>{said}</technique_common>") } else { String::new() };
+    format!("<float_array id=\"f\" count=\"{}\">{all}</float_array>{said}", skipped + 5 * stride)
+}
+
 fn dae(asset: &str, primitives: &str, scene: &str) -> String {
     let shown = if scene.is_empty() { "" } else { "<scene><instance_visual_scene url=\"#all\"/></scene>" };
     format!(
         "\u{feff}<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">
          <asset>{asset}<up_axis>Y_UP</up_axis></asset>
          <library_geometries><geometry id=\"g\"><mesh>
-         <source id=\"p\"><float_array id=\"f\" count=\"20\">{}</float_array><technique_common>
-           <accessor source=\"#f\" count=\"5\" stride=\"4\" offset=\"0\"/></technique_common></source>
+         <source id=\"p\">{}</source>
          <source id=\"n\"><float_array id=\"m\" count=\"3\">0 0 1</float_array></source>
          <vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices>
          {primitives}</mesh></geometry></library_geometries>
          <library_visual_scenes><visual_scene id=\"all\">{scene}</visual_scene></library_visual_scenes>{shown}</COLLADA>",
-        numbers(CORNERS.into_iter().flat_map(|[x, y, z]| [x, y, z, 77.0])),
+        positions(4, 0, true),
     )
 }
 
@@ -172,6 +180,35 @@ fn every_way_to_write_a_mesh_is_the_same_mesh() {
             .unwrap_or_else(|why| panic!("{case}: {why}"));
         agree(&found, &surface(&folder, "obj", &obj(&places)).unwrap(), case);
     }
+}
+
+#[test]
+fn coordinates_stand_in_rows_of_any_width() {
+    let folder = Folder::new("collada-rows");
+    let text = dae("", &triangles(), &format!("<node>{GEOMETRY}</node>"));
+    let expected = surface(&folder, "obj", &obj(&[Matrix4::identity()])).unwrap();
+    for (stride, skipped, is_said) in [(3, 0, true), (3, 2, true), (5, 7, true), (3, 0, false)] {
+        let text = text.replace(&positions(4, 0, true), &positions(stride, skipped, is_said));
+        agree(&surface(&folder, "dae", &text).unwrap(), &expected, &format!("{stride} {skipped} {is_said}"));
+    }
+}
+
+/// A chain of nodes of which each stands for the next, and the last shows the mesh: 64 are read.
+#[test]
+fn nodes_are_followed_as_deep_as_is_said() {
+    let folder = Folder::new("collada-deep");
+    let chain = |length: usize| {
+        let next = |k: usize| format!("<node id=\"l{k}\"><instance_node url=\"#l{}\"/></node>", k + 1);
+        let links: String = (2..length).map(next).collect();
+        let library = format!("{links}<node id=\"l{length}\">{GEOMETRY}</node>");
+        let text = dae("", &triangles(), "<node><instance_node url=\"#l2\"/></node>");
+        let library = format!("<library_nodes>{library}</library_nodes><library_visual_scenes>");
+        surface(&folder, "dae", &text.replace("<library_visual_scenes>", &library))
+    };
+    let expected = surface(&folder, "obj", &obj(&[Matrix4::identity()])).unwrap();
+    agree(&chain(64).unwrap(), &expected, "64 deep");
+    let error = chain(65).unwrap_err();
+    assert!(error.contains("nodes lie more than 64 deep in each other"), "{error}");
 }
 
 #[test]

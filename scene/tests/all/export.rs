@@ -216,6 +216,19 @@ fn json_is_the_scene_that_it_was_made_of() {
     }
 }
 
+/// A file that says no name is called as whoever reads it says, and the JSON, which has no file, keeps that.
+#[test]
+fn json_says_what_the_scene_is_called() {
+    let plane = "[surface]\nshape = \"plane\"\n";
+    for (text, name) in
+        [(format!("{HEAD}{plane}"), "by its file"), (format!("name = \"its own\"\n{HEAD}{plane}"), "its own")]
+    {
+        let scene = Scene::parse(&text, "by its file", Path::new("")).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&scene.to_json().unwrap()).unwrap();
+        assert_eq!((scene.name(), &json["name"]), (name, &serde_json::Value::from(name)));
+    }
+}
+
 /// Keys that no example has.
 #[test]
 fn rare_keys_come_along() {

@@ -155,6 +155,18 @@ fn what_cannot_be_fused_is_said() {
             "`normal_deviation_N` of [fusion] must be",
         ),
         (
+            format!("{NOISE}{FUSION}static_coefficient = 0.5\n").replace("= 0.0005", "= -0.0005"),
+            "`position_deviation_m` of [fusion] must be",
+        ),
+        (
+            format!("{NOISE}{FUSION}static_coefficient = 0.5\n").replace("= 0.1", "= -0.1"),
+            "`relative_deviation` of [fusion] must be",
+        ),
+        (
+            format!("{NOISE}{FUSION}static_coefficient = 0.5\n").replace("= 0.1", "= nan"),
+            "`relative_deviation` of [fusion] must be",
+        ),
+        (
             format!("{NOISE}{FUSION}static_coefficient = 0.5\n")
                 .replace("force_noise_N = 0.01", "force_noise_N = 0.0"),
             "`force_noise_N` of [uncertainty] must be",
@@ -163,4 +175,15 @@ fn what_cannot_be_fused_is_said() {
         let error = Scene::from_text(&format!("{HEAD}{BALL}{text}")).unwrap_err().to_string();
         assert!(error.contains(words), "{error}");
     }
+}
+
+/// An array that errs nowhere in place, and by the same at every force, is one as well.
+#[test]
+fn an_array_may_have_no_deviation_but_in_force() {
+    let exact = FUSION.replace("= 0.0005", "= 0.0").replace("= 0.1", "= 0.0");
+    let mut pipeline = scene(&format!("{NOISE}{exact}static_coefficient = 0.5\n")).pipeline();
+    let reading = ArrayReading { centroid: Vector3::new(0.0, 0.0, 0.013), normal_force: 1.0 };
+    pipeline.sense(Wrench::from_force_at(&reading.centroid, Vector3::new(0.0, 0.0, -1.0)), 1e-3);
+    let fused = pipeline.fuse(&[reading]).unwrap();
+    assert!((fused.contacts[0].unwrap().force - Vector3::new(0.0, 0.0, -1.0)).norm() < 1e-3, "{fused:?}");
 }

@@ -159,6 +159,7 @@ fn what_cannot_be_is_named() {
             tip,
             "line 8: `radius` of <sphere> is -1, which must be positive",
         ),
+        (&with(r#"<sphere radius="0"/>"#), tip, "`radius` of <sphere> is 0, which must be positive"),
         (&with(r#"<sphere/>"#), tip, "<sphere> has no `radius`"),
         (&with(r#"<sphere radius="a"/>"#), tip, "must be a number"),
         (&with(r#"<box size="1 2"/>"#), tip, "must be three numbers"),
@@ -175,4 +176,37 @@ fn what_cannot_be_is_named() {
     }
     let missing = Scene::from_text(&format!("{HEAD}[surface]\nurdf = \"nowhere.urdf\"\nlink = \"tip\"\n"));
     assert!(missing.unwrap_err().to_string().contains("robot nowhere.urdf: it cannot be read"));
+}
+
+#[test]
+fn of_many_links_twelve_are_named() {
+    let folder = Folder::new("urdf-links");
+    let named = |count: usize| {
+        let links: String = (0..count).map(|k| format!("<link name=\"l{k}\"/>")).collect();
+        let error = read(folder.path(), &format!("<robot name=\"r\">{links}</robot>"), "link = \"tip\"");
+        let error = error.unwrap_err();
+        error.split("its links are ").nth(1).unwrap_or_else(|| panic!("{error}")).to_owned()
+    };
+    let twelve = (0..12).map(|k| format!("l{k}")).collect::<Vec<_>>().join(", ");
+    assert_eq!(named(0), "none");
+    assert_eq!(named(2), "l0, l1");
+    assert_eq!(named(12), twelve);
+    assert_eq!(named(13), format!("{twelve}, and more"));
+}
+
+/// Beside the description where the address says so; in the folders around it, too, where it is of a package.
+#[test]
+fn a_mesh_that_is_not_there_is_told_with_the_places_that_were_tried() {
+    let folder = Folder::new("urdf-sought");
+    let tried = |uri: &str| {
+        let mesh = collision(&format!(r#"<mesh filename="{uri}"/>"#), "");
+        read(folder.path(), &robot(&mesh), "link = \"tip\"").unwrap_err()
+    };
+    let here = folder.path().join("tip.stl").display().to_string();
+    for uri in ["tip.stl", "file://tip.stl"] {
+        let error = tried(uri);
+        assert!(error.contains(&here) && !error.contains("in the folders around"), "{error}");
+    }
+    let error = tried("package://hand/tip.stl");
+    assert!(error.contains("hand/tip.stl") && error.contains(" and in the folders around"), "{error}");
 }

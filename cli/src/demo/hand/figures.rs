@@ -12,9 +12,12 @@ pub(super) fn of(outcome: &Outcome) -> Vec<Figure> {
     vec![forces(outcome), margins(outcome), mass(outcome), movement(outcome)]
 }
 
-fn time_axis(outcome: &Outcome) -> Axis {
-    let ends = [outcome.moments.first(), outcome.moments.last()].map(|end| end.map_or(0.0, |end| end.time));
-    Axis::linear("time / s", 0.0, ends[1].max(1.0))
+/// A drawing over the time of the session, with lines upright where segments of the script begin.
+fn over_time(title: &str, outcome: &Outcome, y: Axis) -> Chart {
+    let end = outcome.moments.last().map_or(0.0, |end| end.time);
+    let mut chart = Chart::new(title, Axis::linear("time / s", 0.0, end.max(1.0)), y);
+    chart.marks("grid", outcome.phases.iter().map(|(_, start)| *start));
+    chart
 }
 
 /// A curve of what moments have, broken where they have it not.
@@ -34,16 +37,10 @@ fn greatest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, f64::max)
 }
 
-/// Where the segments of the script begin.
-fn starts(outcome: &Outcome) -> impl Iterator<Item = f64> {
-    outcome.phases.iter().map(|(_, start)| *start)
-}
-
 fn forces(outcome: &Outcome) -> Figure {
     let top = greatest(outcome.moments.iter().flat_map(|moment| moment.felt));
     let y = Axis::rounded("normal force / N", 0.0, top.max(1.0));
-    let mut chart = Chart::new("Normal forces", time_axis(outcome), y);
-    chart.marks("grid", starts(outcome));
+    let mut chart = over_time("Normal forces", outcome, y);
     for index in 0..FINGERS {
         let commanded = pieces(outcome, |moment| moment.commanded.and_then(|all| all.get(index).copied()));
         chart.curve("e wide", &commanded);
@@ -67,9 +64,7 @@ fn forces(outcome: &Outcome) -> Figure {
 
 fn margins(outcome: &Outcome) -> Figure {
     let percent = |share: f64| (100.0 * share).max(-20.0);
-    let mut chart =
-        Chart::new("Friction left", time_axis(outcome), Axis::linear("friction left / %", -20.0, 100.0));
-    chart.marks("grid", starts(outcome));
+    let mut chart = over_time("Friction left", outcome, Axis::linear("friction left / %", -20.0, 100.0));
     chart.level("level", 0.0);
     chart.curve("a", &pieces(outcome, |moment| moment.left.map(|(felt, _)| percent(felt))));
     chart.curve("e wide", &pieces(outcome, |moment| moment.left.map(|(_, truth)| percent(truth))));
@@ -93,8 +88,7 @@ fn margins(outcome: &Outcome) -> Figure {
 fn mass(outcome: &Outcome) -> Figure {
     const GRAMS: f64 = 1e3;
     let top = greatest(outcome.masses.iter().map(|mass| mass.truth)) * GRAMS;
-    let mut chart = Chart::new("Mass", time_axis(outcome), Axis::rounded("mass / g", 0.0, 1.2 * top));
-    chart.marks("grid", starts(outcome));
+    let mut chart = over_time("Mass", outcome, Axis::rounded("mass / g", 0.0, 1.2 * top));
     let mut curves: [Vec<Vec<Point>>; 4] = Default::default();
     let mut before: Option<f64> = None;
     for mass in &outcome.masses {
@@ -133,12 +127,8 @@ fn mass(outcome: &Outcome) -> Figure {
 fn movement(outcome: &Outcome) -> Figure {
     const MILLIMETRES: f64 = 1e3;
     let top = greatest(outcome.moments.iter().filter_map(|moment| moment.moved)) * MILLIMETRES;
-    let mut chart = Chart::new(
-        "Movement in the hand",
-        time_axis(outcome),
-        Axis::rounded("moved in the hand / mm", 0.0, top.max(0.1)),
-    );
-    chart.marks("grid", starts(outcome));
+    let y = Axis::rounded("moved in the hand / mm", 0.0, top.max(0.1));
+    let mut chart = over_time("Movement in the hand", outcome, y);
     chart.curve("a", &pieces(outcome, |moment| moment.moved.map(|moved| moved * MILLIMETRES)));
     Figure {
         title: "How far the object moves in the hand".to_owned(),

@@ -3,7 +3,7 @@
 mod figures;
 mod findings;
 
-use fingertip::friction::{SlipMargin, SlipVerdict};
+use fingertip::friction::{FrictionModel, SlipMargin, SlipVerdict, SoftFingerLimit};
 use fingertip::hand::{Grasp, HandState, ObjectWeight};
 use fingertip::wrench::ContactForce;
 use fingertip_simulation::hand::{
@@ -113,9 +113,8 @@ fn left(
     let felt = Grasp::new(contacts).least_slip_margin(&forces).map(unused)?;
     let mut truth = f64::INFINITY;
     for (contact, friction) in sample.truth.contacts.iter().zip(frictions) {
-        let force = contact.as_ref()?.force;
-        let used = force.tangential_magnitude().hypot(force.spin / settings.arm) / (friction * force.normal);
-        truth = truth.min(1.0 - used);
+        let limit = SoftFingerLimit::new(*friction, settings.arm).ok()?;
+        truth = truth.min(unused(limit.slip_margin(&contact.as_ref()?.force)));
     }
     truth.is_finite().then_some((felt, truth))
 }
@@ -172,3 +171,6 @@ impl Scales {
         Some(Mass { time: sample.time, found, deviation, truth: sample.truth.mass })
     }
 }
+
+#[cfg(test)]
+mod tests;

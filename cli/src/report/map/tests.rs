@@ -207,3 +207,19 @@ fn a_window_leaves_out_one_in_two_hundred_at_either_end() {
     assert_eq!(window([-1.0, 1.0].into_iter(), Some(2.5)), (-2.8, 2.8));
     assert_eq!(window([-1.0, 1.0].into_iter(), Some(3.5)), (-1.12, 1.12));
 }
+
+/// An end of the active region within three times the farthest contact is shown, on whichever side that contact is; one
+/// between contacts takes nothing away.
+#[test]
+fn a_window_shows_ends_that_are_not_far_away() {
+    for sign in [1.0, -1.0] {
+        let sorted = |a: f64, b: f64| if sign > 0.0 { (a, b) } else { (-b, -a) };
+        for (edge, expected) in [(29.9, (-29.9, 29.9)), (30.1, sorted(-10.0, 1.0)), (5.0, sorted(-10.0, 5.0))]
+        {
+            let (low, high) = window([-10.0 * sign, sign].into_iter(), Some(edge));
+            let room = 0.06 * (expected.1 - expected.0);
+            let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
+            assert!(near(low, expected.0 - room) && near(high, expected.1 + room), "{edge}: {low} {high}");
+        }
+    }
+}

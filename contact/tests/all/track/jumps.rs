@@ -111,3 +111,23 @@ fn gaps_are_bridged_as_long_as_that_helps() {
     let sighting = course.sighting(0.5);
     assert!(tracker.follow(&ball, sighting.as_ref(), 1.1).unwrap().is_new());
 }
+
+/// Two samples elsewhere make a jump only if no sample is between them: after one without contact the first is
+/// forgotten, and the next is in doubt again.
+#[test]
+fn a_doubt_does_not_outlast_a_gap() {
+    let ball = Sphere::new(Vector3::zeros(), 0.013).unwrap();
+    let mut course = Course::new(&ball, Vector3::z() * 1e-3, 0.01, 0.1, 5);
+    let mut tracker = Tracker::new(0.01, 0.1).unwrap();
+    for _ in 0..100 {
+        course.wait(1e-3);
+        tracker.follow(&ball, course.sighting(1.0).as_ref(), 1e-3);
+    }
+    course.jump(Vector3::new(0.004, 0.0, 0.0126));
+    let kinds = [true, false, true, true].map(|touches| {
+        course.wait(1e-3);
+        let sighting = course.sighting(1.0).filter(|_| touches);
+        tracker.follow(&ball, sighting.as_ref(), 1e-3).unwrap().continuity
+    });
+    assert_eq!(kinds, [Continuity::Doubted, Continuity::Bridged, Continuity::Doubted, Continuity::New]);
+}

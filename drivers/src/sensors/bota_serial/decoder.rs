@@ -109,7 +109,7 @@ impl BotaDecoder {
         let (before, run) = self.behind;
         let step = microseconds.wrapping_sub(before);
         // Not more than a second apart.
-        let follows = run > 0 && step != 0 && step < 1_000_000;
+        let follows = step != 0 && step < 1_000_000;
         self.behind = (microseconds, if follows { run + 1 } else { 1 });
         if self.behind.1 < Self::RESTARTED {
             return None;

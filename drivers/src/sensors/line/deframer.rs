@@ -121,19 +121,23 @@ mod tests {
         },
     };
 
-    /// What the stream holds by trying every place, with all of it at hand.
-    fn searched(stream: &[u8]) -> Vec<[u8; 3]> {
-        let (mut found, mut at) = (Vec::new(), 0);
+    /// What the stream holds by trying every place, with all of it at hand; and how many places begin like a frame,
+    /// outside of those that are one, and are none.
+    fn searched(stream: &[u8]) -> (Vec<[u8; 3]>, u64) {
+        let (mut found, mut failed, mut at) = (Vec::new(), 0, 0);
         while let Some(bytes) = stream.get(at..at + 6) {
             match (SUM.frame)(bytes.try_into().unwrap()) {
                 Some(frame) => {
                     found.push(frame);
                     at += 6;
                 }
-                None => at += 1,
+                None => {
+                    failed += u64::from(bytes.starts_with(&[1, 2]));
+                    at += 1;
+                }
             }
         }
-        found
+        (found, failed)
     }
 
     proptest! {
@@ -148,7 +152,7 @@ mod tests {
             let accounted = statistics.skipped + deframer.waiting() as u64 + 6 * statistics.frames;
             prop_assert_eq!(accounted, noise.len() as u64);
             prop_assert_eq!(statistics.frames, found.len() as u64);
-            prop_assert_eq!(found, searched(&noise));
+            prop_assert_eq!((found, statistics.failed), searched(&noise));
         }
     }
 

@@ -45,3 +45,26 @@ impl SimulatedResense {
         Reading { force: [fx, fy, fz], torque_millinewton_metres, temperature: 25.0 }.emit().to_vec()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensors::line::{LineFaults, SimulatedSerial};
+    use std::io::{Read, Write};
+
+    #[test]
+    fn one_that_is_asked_answers_its_own_request_only_and_one_that_streams_hears_nothing() {
+        let sent = |device: SimulatedResense, request: &[u8]| {
+            let mut port = SimulatedSerial::new(device, LineFaults::default());
+            port.write_all(request).unwrap();
+            port.sample([1.0; 6]);
+            let mut bytes = Vec::new();
+            port.read_to_end(&mut bytes).unwrap();
+            bytes.len() / Reading::LENGTH
+        };
+        let requests: [&[u8]; 5] = [b"", b"R", b"rd", b"xRd", b"RdRd"];
+        let asked = || SimulatedResense::asked_by(b"Rd".to_vec());
+        assert_eq!(requests.map(|request| sent(asked(), request)), [0, 0, 0, 1, 2]);
+        assert_eq!(requests.map(|request| sent(SimulatedResense::streaming(), request)), [1; 5]);
+    }
+}

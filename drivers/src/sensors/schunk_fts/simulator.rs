@@ -156,3 +156,102 @@ impl Client {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use alloc::sync::Arc;
+    use core::sync::atomic::AtomicU64;
+
+    use super::*;
+    use crate::sensors::schunk_fts::Packet;
+
+    /// Counter, id and first component of the datagrams that wait.
+    fn sent(sensor: &mut SimulatedFts) -> Vec<(u16, f32)> {
+        let datagrams = core::iter::from_fn(|| sensor.datagram());
+        datagrams
+            .map(|datagram| {
+                let packet = Packet::new_checked(&datagram).unwrap();
+                (packet.counter(), packet.samples().next().unwrap().components[0])
+            })
+            .collect()
+    }
+
+    #[test]
+    fn it_sends_from_start_to_stop_above_its_zero_and_counts_what_it_sends() {
+        let mut sensor = SimulatedFts::new(FaultPlan::default()).counting_from(u16::MAX);
+        let mut step = |commands: &[Command], x: f32| {
+            for command in commands {
+                let answer = sensor.command(&command.emit(7)).unwrap();
+                assert_eq!(
+                    CommandAnswer::parse(&answer),
+                    Ok((7, CommandAnswer { command: *command, error: 0 }))
+                );
+            }
+            sensor.sample([x; 6]);
+            sent(&mut sensor)
+        };
+        assert_eq!(step(&[], 1.0), []);
+        assert_eq!(step(&[Command::StartUdp], 2.0), [(u16::MAX, 2.0)]);
+        // The zero is the load of the sample before.
+        assert_eq!(step(&[Command::Tare], 5.0), [(0, 3.0)]);
+        assert_eq!(step(&[Command::StopUdp], 6.0), []);
+        assert_eq!(step(&[Command::StartUdp, Command::ResetTare], 7.0), [(1, 7.0)]);
+        assert_eq!(sensor.command(b"not one"), None);
+    }
+
+    /// A server, and how often its sensor sampled, and how often as the first of a client.
+    fn watched() -> (FtsServer, Arc<[AtomicU64; 2]>) {
+        let counts = Arc::new([AtomicU64::new(0), AtomicU64::new(0)]);
+        let seen = Arc::clone(&counts);
+        let load = move |number: u64| {
+            seen[0].fetch_add(1, Ordering::Relaxed);
+            seen[1].fetch_add(u64::from(number == 0), Ordering::Relaxed);
+            [number as f32; 6]
+        };
+        let sensor = SimulatedFts::new(FaultPlan::default());
+        // Nobody listens at the port of discarded datagrams.
+        (FtsServer::start("127.0.0.1:0", 9, sensor, Duration::from_micros(100), load).unwrap(), counts)
+    }
+
+    /// Waits until a count is so far; a minute is more than any machine takes.
+    fn wait_for(count: &AtomicU64, least: u64) {
+        for _ in 0..60_000 {
+            if count.load(Ordering::Relaxed) >= least {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        panic!("{} of {least}", count.load(Ordering::Relaxed));
+    }
+
+    fn started(server: &FtsServer) -> TcpStream {
+        let mut client = TcpStream::connect(server.address()).unwrap();
+        client.write_all(&Command::StartUdp.emit(0)).unwrap();
+        let mut answer = [0; CommandAnswer::LENGTH];
+        client.read_exact(&mut answer).unwrap();
+        client
+    }
+
+    #[test]
+    fn a_new_client_finds_the_sensor_silent_and_its_samples_at_the_first() {
+        let (server, counts) = watched();
+        let held = started(&server);
+        wait_for(&counts[0], counts[0].load(Ordering::Relaxed) + 3);
+        let before = counts[1].load(Ordering::Relaxed);
+        let _silent = TcpStream::connect(server.address()).unwrap();
+        wait_for(&counts[1], before + 1);
+        assert!(!server.stop().unwrap().is_streaming());
+        drop(held);
+    }
+
+    #[test]
+    fn nothing_is_sent_to_a_client_that_has_gone() {
+        for stays in [true, false] {
+            let (server, counts) = watched();
+            let client = Some(started(&server)).filter(|_| stays);
+            wait_for(&counts[0], counts[0].load(Ordering::Relaxed) + 3);
+            assert_eq!(server.stop().unwrap().is_streaming(), stays);
+            drop(client);
+        }
+    }
+}

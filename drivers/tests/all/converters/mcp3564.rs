@@ -256,3 +256,14 @@ fn the_bytes_on_the_bus_are_those_of_the_data_sheet() {
     let (mut spi, ..) = chip.release();
     spi.done();
 }
+
+/// The data sheet's list of gains, and what of the reference is full scale at each.
+#[test]
+fn full_scale_is_the_reference_over_the_gain() {
+    use Gain::{Third, X1, X2, X4, X8, X16, X32, X64};
+    let expected = [3.0, 1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125, 0.015_625];
+    for (gain, full_scale) in [Third, X1, X2, X4, X8, X16, X32, X64].into_iter().zip(expected) {
+        assert!((gain.full_scale() - full_scale).abs() <= f64::EPSILON * full_scale, "{gain:?}");
+        assert!((gain.factor() * full_scale - 1.0).abs() <= f64::EPSILON, "{gain:?}");
+    }
+}

@@ -164,7 +164,7 @@ fn each_channel_has_its_gain_input_offset_and_correction() {
 #[test]
 fn a_chip_with_eight_channels_has_a_second_register_of_gains() {
     let mut chip = SimulatedAds131m::<8>::new(|_| [0.01; 8]);
-    for (address, value) in [(4, 0x0010_u16), (5, 0x2000)] {
+    for (address, value) in [(4, 0x0010_u16), (5, 0x2003)] {
         let mut bytes = [0; 30];
         let [high, low] = (0x6000_u16 | address << 7).to_be_bytes();
         [bytes[0], bytes[1]] = [high, low];
@@ -175,7 +175,7 @@ fn a_chip_with_eight_channels_has_a_second_register_of_gains() {
     let answer = exchange(&mut chip, &[0; 30]);
     let found: Vec<i32> =
         answer[3..27].chunks(3).map(|word| i32::from_be_bytes([word[0], word[1], word[2], 0]) >> 8).collect();
-    assert_eq!(found, [1.0, 2.0, 1.0, 1.0, 1.0, 1.0, 1.0, 4.0].map(|gain| counts(0.01 * gain)));
+    assert_eq!(found, [1.0, 2.0, 1.0, 1.0, 8.0, 1.0, 1.0, 4.0].map(|gain| counts(0.01 * gain)));
 }
 
 #[test]
