@@ -33,10 +33,10 @@ fuzz_target!(|bytes: &[u8]| {
             assert_eq!(Request::parse(&frame, true), Ok(Some(request)));
         }
     }
-    if let Some(word) = bytes.first_chunk::<4>() {
-        if let Ok(data) = Data::parse(*word) {
-            assert_eq!(data.emit(), *word);
-        }
+    if let Some(word) = bytes.first_chunk::<4>()
+        && let Ok(data) = Data::parse(*word)
+    {
+        assert_eq!(data.emit(), *word);
     }
     if let Some(word) = bytes.first_chunk::<3>() {
         assert_eq!(ads1256::Reading::parse(*word).emit(), *word);

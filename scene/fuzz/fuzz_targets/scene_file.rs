@@ -28,7 +28,10 @@ fuzz_target!(|text: &str| {
         for time_step in [1e-3, 0.0, f64::NAN] {
             let felt = pipeline.sense(Wrench::from_components(&load), time_step);
             if let Some(contact) = felt.touch.resolution.contact() {
-                assert!(contact.point.iter().chain(contact.normal.iter()).all(|x| x.is_finite()), "{contact:?}");
+                assert!(
+                    contact.point.iter().chain(contact.normal.iter()).all(|x| x.is_finite()),
+                    "{contact:?}"
+                );
             }
         }
     }
