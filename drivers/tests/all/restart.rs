@@ -54,7 +54,7 @@ fn the_half_of_a_frame_is_forgotten_in_a_restart() {
 }
 
 /// Gives one piece a time.
-struct Pieces<'a>(std::collections::VecDeque<&'a [u8]>);
+struct Pieces<'a>(alloc::collections::VecDeque<&'a [u8]>);
 
 impl std::io::Read for Pieces<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
