@@ -14,8 +14,8 @@ use super::carlson::{r_d, r_f};
 /// ½.
 pub fn contact_modulus<T: Real>(young: [T; 2], poisson: [T; 2]) -> Result<T, BadShape> {
     let half = T::literal(0.5);
-    let good =
-        young.iter().all(|e| *e > T::zero()) && poisson.iter().all(|nu| *nu > -T::one() && *nu <= half);
+    let stiff = young.iter().all(|e| *e > T::zero());
+    let good = stiff && poisson.iter().all(|nu| *nu > -T::one() && *nu <= half);
     let compliance = |e: T, nu: T| (T::one() - nu * nu) / e;
     let modulus = T::one() / (compliance(young[0], poisson[0]) + compliance(young[1], poisson[1]));
     BadShape::check(

@@ -136,6 +136,19 @@ mod tests {
         assert_eq!(laid_out(&said), format!("{said}\n"));
     }
 
+    /// An arrow ends no list: of types, behind a function's arguments, or behind a closure's.
+    #[test]
+    fn arrows_are_no_brackets() {
+        for (before, after) in
+            [("pub fn tip(", ") -> Result<Tip, Error> {"), ("let tip = made(", ").map(|x| x => x);")]
+        {
+            let broken = laid_out(&format!("{before}{}x{after}", "argument9, ".repeat(11)));
+            let lines: Vec<&str> = broken.lines().collect();
+            assert_eq!((lines[0], lines[1], lines[13]), (before, "    argument9,", after), "{broken}");
+            assert_eq!(lines.len(), 14);
+        }
+    }
+
     #[test]
     fn a_comment_is_broken_between_words_up_to_the_width() {
         // `// ` and ten words of nine letters with a space behind each but the last.

@@ -177,6 +177,8 @@ fn columns_are_one_sample_after_another() {
             pressed += usize::from(felt.contact().is_some());
         }
         assert!(pressed > 200, "{pressed}\n{text}");
+        // What comes next finds both as they are behind the last sample.
+        assert_eq!(together, alone, "{text}");
         assert!(found.iter().all(|column| column[1500..].iter().all(|x| x.is_nan())));
         // What the last one says stays, and the next goes on from there.
         let next = samples[3];

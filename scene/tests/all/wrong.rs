@@ -210,6 +210,10 @@ fn what_is_hardly_meant_is_doubted() {
             good.replace("least_force_N = 0.1", "least_force_N = 0.02"),
             "less than three times the `force_noise_N`",
         ),
+        (
+            format!("{HEAD}rest_s = 1.0\n{BALL}[contact]\nleast_force_deviations = 2.9\n"),
+            "`least_force_deviations` of [contact] is 2.9, less than three",
+        ),
         (format!("{good}[slip]\ndetector = \"drop\"\nnoise_N = 0.0001\n"), "both are of one sensor"),
         (
             format!("{good}[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n").replace("1000.0", "53.0"),
@@ -234,6 +238,7 @@ fn what_may_be_is_not_doubted() {
         format!(
             "{HEAD}{BALL}[contact]\nleast_force_N = 5.0\n{NOISE}[slip]\ndetector = \"drop\"\nnoise_N = 0.03\n"
         ),
+        format!("{HEAD}rest_s = 1.0\n{BALL}[contact]\nleast_force_deviations = 3.0\n"),
         format!("{HEAD}{BALL}[pose]\ntranslation_m = [0.5, 0.0, -0.5]\n"),
         format!("{HEAD}{BALL}[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n[contact]\nleast_force_N = 0.1\n")
             .replace("1000.0", "200.0"),
