@@ -1,5 +1,7 @@
 //! From a table of loads to a calibration.
 
+use alloc::collections::BTreeSet;
+
 use nalgebra::RowDVector;
 
 use crate::file::{CalibrationFile, FileError, Quality, Temperature, Verdict};
@@ -31,10 +33,17 @@ pub struct Calibration {
 /// # Errors
 /// [`CalibrationError`].
 pub fn calibrate(table: &LoadTable, options: &Options) -> Result<Calibration, CalibrationError> {
+    calibrate_taking(table.clone(), options)
+}
+
+/// As [`calibrate`], of a table that nobody needs afterwards: one of a million samples takes some hundred megabytes.
+///
+/// # Errors
+/// [`CalibrationError`].
+pub fn calibrate_taking(mut table: LoadTable, options: &Options) -> Result<Calibration, CalibrationError> {
     table.validate()?;
-    let oddities = oddities(table)?;
+    let oddities = oddities(&table)?;
     let mut excluded = Vec::new();
-    let mut table = table.clone();
     if let Some(range) = options.range {
         let saturated = table.saturated(range);
         for (sample, gauge) in &saturated {
@@ -49,8 +58,11 @@ pub fn calibrate(table: &LoadTable, options: &Options) -> Result<Calibration, Ca
                 ),
             });
         }
-        table = table.select(|i| saturated.iter().all(|(sample, _)| *sample != i));
-        table.validate()?;
+        if !saturated.is_empty() {
+            let saturated: BTreeSet<usize> = saturated.iter().map(|(sample, _)| *sample).collect();
+            table = table.select(|i| !saturated.contains(&i));
+            table.validate()?;
+        }
     }
     if options.tare_groups {
         table = table.tared_by_group()?;
@@ -81,7 +93,7 @@ pub fn calibrate(table: &LoadTable, options: &Options) -> Result<Calibration, Ca
     if options.quadratic {
         refuse_over_fitting(&table, options, &model, &left_out)?;
     }
-    let mut report = Report::of_fit(&table, &model, options, &left_out, excluded, (found, influence))?;
+    let mut report = Report::of_fit(&table, &model, options, left_out, excluded, (found, influence))?;
     if table.temperatures.is_some() && drift.is_none() {
         report.notes.push("temperatures are known but no drift was fitted".to_owned());
     }
@@ -93,7 +105,7 @@ pub fn calibrate(table: &LoadTable, options: &Options) -> Result<Calibration, Ca
     Ok(Calibration { model, table, temperature, report })
 }
 
-/// What is odd about the table itself: gauges that are dead, too few gauges, torques in another unit.
+/// What is odd about the table itself: gauges that are dead, too few gauges, torques or forces in another unit.
 fn oddities(table: &LoadTable) -> Result<Vec<String>, CalibrationError> {
     let mut found = Vec::new();
     let (gauges, axes, dead) = (table.gauges(), table.axes.len(), table.dead_gauges());
@@ -114,6 +126,7 @@ fn oddities(table: &LoadTable) -> Result<Vec<String>, CalibrationError> {
         ));
     }
     found.extend(table.odd_lever_arms());
+    found.extend(table.odd_sizes());
     Ok(found)
 }
 
@@ -249,11 +262,18 @@ fn left_out_loads(
     model: &SensorModel,
     options: &Options,
 ) -> Result<Vec<Option<Vec<f64>>>, CalibrationError> {
+    let mut alone = vec![0.0; table.axes.len()];
     let x = design(table, options, &model.nominal);
     let y = responses(table, options, &model.nominal);
     let mut result = vec![None; table.samples()];
     leave_out(&x, &y, table.weights.as_deref(), &model.fit, &table.cases, |_, samples, without| {
         let Some(without) = without else { return };
+        if let [sample] = samples
+            && model.load_of_one(without, &table.signals, *sample, &mut alone)
+        {
+            result[*sample] = Some(alone.clone());
+            return;
+        }
         let Some(loads) = model.loads_with(without, &table.signals.select_rows(samples)) else { return };
         for (row, sample) in samples.iter().enumerate() {
             result[*sample] = Some(loads.row(row).iter().copied().collect());

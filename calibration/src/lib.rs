@@ -22,7 +22,7 @@ pub mod tare;
 mod testing;
 
 pub use axis::Axis;
-pub use calibrate::{Calibration, calibrate};
+pub use calibrate::{Calibration, calibrate, calibrate_taking};
 pub use fingertip_wrench::units;
 pub use nalgebra;
 

@@ -5,7 +5,7 @@ use std::io::Read;
 use fingertip_recordings::{ColumnMeaning, ColumnName, ForceUnit, RecordingError, TableReader, TorqueUnit};
 use thiserror::Error;
 
-use super::LoadError;
+use super::{LoadError, LoadTable};
 use crate::Axis;
 use crate::file::SignalUnit;
 
@@ -153,14 +153,19 @@ pub(super) fn not_a_number<R: Read>(table: &TableReader<R>, column: usize, what:
     bad(table.line(), name, format!("{:?} is not {what}", table.text(column)))
 }
 
-/// The number that a cell says, in a unit of this size; or what it is not. A finite number may be infinite in
-/// SI.
+/// The number that a cell says, in a unit of this size; or what it is not. A number may be finite, and beyond
+/// [`LoadTable::GREATEST`] in SI.
 pub(super) fn number_in(text: &str, size: f64) -> Result<f64, &'static str> {
     let number = text.parse::<f64>().map_err(|_| "a number")?;
+    if !number.is_finite() {
+        return Err("a finite number");
+    }
     let scaled = number * size;
-    match (number.is_finite(), scaled.is_finite()) {
-        (_, true) => Ok(scaled),
-        (true, false) => Err("a finite number in SI"),
-        (false, false) => Err("a finite number"),
+    if LoadTable::carries(scaled) {
+        Ok(scaled)
+    } else {
+        Err(
+            "a number that a fit can carry: it is beyond 1e100 in SI. Mend the cell, or the unit in the column's name",
+        )
     }
 }

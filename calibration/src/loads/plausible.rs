@@ -11,6 +11,11 @@ const SHORTEST_ARM: f64 = 1e-4;
 const LONGEST_ARM: f64 = 2.0;
 /// Forces below this share of the greatest tell no lever arm.
 const LEAST_FORCE: f64 = 0.2;
+/// Forces above this \[N\] are none of a fingertip. People pinch with up to some 100 N (Mathiowetz et al. 1985), and of the
+/// sensors that fit behind a robot's fingertip the strongest, ATI's Nano25, is made in full for 1000 N.
+const GREATEST_FORCE: f64 = 1e3;
+/// Torques above this \[N·m\] neither: such a force at a lever arm of 0.1 m, longer than a finger.
+const GREATEST_TORQUE: f64 = 1e2;
 /// Fewer loads tell nothing.
 const FEWEST: usize = 5;
 
@@ -44,6 +49,25 @@ impl LoadTable {
         let axes = loaded.iter().map(|axis| self.axes[*axis]).collect();
         let loads = self.loads.select_columns(&loaded);
         (Self { axes, loads, ..self }, unloaded)
+    }
+
+    /// What is odd about the sizes of the loads: a force or a torque above what any fingertip feels. `None` if
+    /// nothing is.
+    #[must_use]
+    pub fn odd_sizes(&self) -> Option<String> {
+        let greatest =
+            self.axes.iter().zip(self.loads.column_iter()).map(|(axis, loads)| (*axis, loads.amax()));
+        let limit = |axis: Axis| if axis.is_torque() { GREATEST_TORQUE } else { GREATEST_FORCE };
+        let over = |(axis, load): &(Axis, f64)| load / limit(*axis);
+        let (axis, load) = greatest.max_by(|a, b| over(a).total_cmp(&over(b))).filter(|it| over(it) > 1.0)?;
+        let (kind, unit) = (if axis.is_torque() { "torque" } else { "force" }, axis.unit());
+        let load = if load < 1e6 { format!("{load}") } else { format!("{load:e}") };
+        Some(format!(
+            "the greatest {} is {load} {unit}, and no fingertip feels a {kind} above {} {unit}: is the unit in the \
+             column's name right?",
+            axis.name(),
+            limit(axis)
+        ))
     }
 
     /// Why the torques seem to be in another unit than their column says: by the distances of the forces' lines from the
@@ -123,6 +147,24 @@ mod tests {
         assert_eq!(pure.odd_lever_arms(), None);
         // Forces through the origin have no torque at all.
         assert_eq!(table(0.0).odd_lever_arms(), None);
+    }
+
+    #[test]
+    fn loads_that_no_fingertip_feels_are_odd() {
+        assert_eq!(table(1.0).odd_sizes(), None);
+        let with = |axis: usize, load: f64| {
+            let mut table = table(1.0);
+            table.loads[(3, axis)] = load;
+            table.odd_sizes()
+        };
+        assert_eq!((with(2, -1000.0), with(4, 100.0)), (None, None));
+        assert!(with(2, -1001.0).unwrap().starts_with("the greatest fz is 1001 N, "));
+        assert!(with(4, 101.0).unwrap().starts_with("the greatest ty is 101 N·m, "));
+        assert!(with(0, 1e8).unwrap().starts_with("the greatest fx is 1e8 N, "));
+        // The oddest is told of.
+        let mut both = table(1.0);
+        (both.loads[(1, 0)], both.loads[(2, 5)]) = (2e3, 1e4);
+        assert!(both.odd_sizes().unwrap().starts_with("the greatest tz is 10000 N·m, "));
     }
 
     #[test]

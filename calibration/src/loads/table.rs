@@ -65,8 +65,10 @@ pub enum LoadError {
         /// Number of samples.
         expected: usize,
     },
-    /// A number is NaN or infinite.
-    #[error("{sample}, column `{column}`: not a finite number")]
+    /// A number is NaN, infinite or beyond [`GREATEST`](LoadTable::GREATEST), or a weight is negative.
+    #[error(
+        "{sample}, column `{column}`: not a finite number that a fit can carry (up to 1e100 in SI; weights not negative)"
+    )]
     NotFinite {
         /// Which sample.
         sample: String,
@@ -101,6 +103,15 @@ pub enum LoadError {
 }
 
 impl LoadTable {
+    /// Beyond this \[SI\] a number is refused: a fit multiplies numbers and adds their squares over all samples, for
+    /// which a double must have room. No load and no reading comes near.
+    pub const GREATEST: f64 = 1e100;
+
+    /// Whether a number is finite and no greater than [`GREATEST`](Self::GREATEST).
+    pub(super) const fn carries(number: f64) -> bool {
+        number.abs() <= Self::GREATEST
+    }
+
     /// From loads (samples × axes) and signals (samples × gauges); every sample is its own case,
     /// all are of one group.
     ///
@@ -131,7 +142,8 @@ impl LoadTable {
         Ok(table)
     }
 
-    /// Checks lengths and that every number is finite. The fits call it.
+    /// Checks lengths and that every number is finite and no greater than [`GREATEST`](Self::GREATEST). The fits call
+    /// it.
     ///
     /// # Errors
     /// [`LoadError`].
@@ -171,12 +183,12 @@ impl LoadTable {
         for i in 0..samples {
             let not_finite = |column: String| LoadError::NotFinite { sample: self.names[i].clone(), column };
             for (j, axis) in self.axes.iter().enumerate() {
-                if !self.loads[(i, j)].is_finite() {
+                if !Self::carries(self.loads[(i, j)]) {
                     return Err(not_finite(axis.name().to_owned()));
                 }
             }
             for j in 0..self.gauges() {
-                if !self.signals[(i, j)].is_finite() {
+                if !Self::carries(self.signals[(i, j)]) {
                     return Err(not_finite(format!("v{}", j + 1)));
                 }
             }
@@ -185,7 +197,7 @@ impl LoadTable {
             {
                 if list
                     .as_ref()
-                    .is_some_and(|list| !list[i].is_finite() || (name == "weight" && list[i] < 0.0))
+                    .is_some_and(|list| !Self::carries(list[i]) || (name == "weight" && list[i] < 0.0))
                 {
                     return Err(not_finite(name.to_owned()));
                 }
@@ -216,13 +228,17 @@ impl LoadTable {
     /// The samples for which `keep` says so, in order.
     #[must_use]
     pub fn select(&self, keep: impl Fn(usize) -> bool) -> Self {
-        let kept: Vec<usize> = (0..self.samples()).filter(|i| keep(*i)).collect();
+        self.rows(&(0..self.samples()).filter(|i| keep(*i)).collect::<Vec<_>>())
+    }
+
+    /// These samples, which there must be.
+    pub(crate) fn rows(&self, kept: &[usize]) -> Self {
         let pick =
             |list: &Option<Vec<f64>>| list.as_ref().map(|list| kept.iter().map(|i| list[*i]).collect());
         Self {
             axes: self.axes.clone(),
-            loads: self.loads.select_rows(&kept),
-            signals: self.signals.select_rows(&kept),
+            loads: self.loads.select_rows(kept),
+            signals: self.signals.select_rows(kept),
             signal_unit: self.signal_unit,
             names: kept.iter().map(|i| self.names[*i].clone()).collect(),
             cases: kept.iter().map(|i| self.cases[*i]).collect(),

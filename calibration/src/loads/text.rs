@@ -6,6 +6,7 @@ use std::io::Read;
 use nalgebra::DMatrix;
 
 use super::{LoadError, LoadReader, LoadTable};
+use crate::Axis;
 
 impl LoadTable {
     /// Reads CSV with a header, and the names of the columns that it ignored.
@@ -85,11 +86,15 @@ fn numbered(texts: &[String]) -> Vec<usize> {
 
 /// Samples with the very same load are one case.
 fn same_loads(loads: &DMatrix<f64>) -> Vec<usize> {
-    let mut order: Vec<(Vec<u64>, usize)> = (0..loads.nrows())
-        // Adding zero makes −0 and 0 the same bits.
-        .map(|i| (loads.row(i).iter().map(|x| (x + 0.0).to_bits()).collect(), i))
+    let mut order: Vec<([u64; Axis::ALL.len()], usize)> = (0..loads.nrows())
+        .map(|i| {
+            let mut bits = [0; Axis::ALL.len()];
+            // Adding zero makes −0 and 0 the same bits.
+            bits.iter_mut().zip(loads.row(i).iter()).for_each(|(bits, x)| *bits = (x + 0.0).to_bits());
+            (bits, i)
+        })
         .collect();
-    order.sort();
+    order.sort_unstable();
     let mut cases = vec![0; loads.nrows()];
     let mut case = 0;
     for (i, (key, sample)) in order.iter().enumerate() {
@@ -176,7 +181,13 @@ mod tests {
             ("fx_N,v1_V,weight\n1,2,-3\n", ["line 2", "weight"]),
             ("fx_N,v0_V\n1,2\n", ["line 1", "v0_V"]),
             ("fx_N,v1001_V\n1,2\n", ["line 1", "v1001_V"]),
-            // Finite in its own unit only.
+            // More than a fit can carry, whichever the unit.
+            (
+                "fx_N,v1_V\n1e308,2\n",
+                ["line 2, column `fx_N`: \"1e308\" is not", "beyond 1e100 in SI. Mend the cell"],
+            ),
+            ("fx_N,v1_V\n1,-1.1e100\n", ["line 2", "v1_V"]),
+            ("fx_kN,v1_V\n1e99,2\n", ["line 2", "fx_kN"]),
             ("fx_kN,v1_V\n1e308,2\n", ["line 2", "fx_kN"]),
             ("fx_N,v1_kN\n1,1e308\n", ["line 2", "v1_kN"]),
             ("fx_N,v1_V,t_s\n1,2,inf\n", ["line 2", "t_s"]),

@@ -3,6 +3,7 @@
 mod drift;
 mod error;
 mod fitting;
+mod one_load;
 mod options;
 mod sensor_model;
 mod streamed;

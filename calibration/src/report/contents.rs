@@ -1,5 +1,6 @@
 //! What can be said of a calibration.
 
+use alloc::borrow::Cow;
 use alloc::collections::BTreeSet;
 
 use nalgebra::DMatrix;
@@ -8,6 +9,7 @@ use serde::Serialize;
 use super::contact::{ContactReport, contact_report};
 use super::metrics::{AxisReport, LineReport, axis_reports, cross_talk, lines};
 use super::outliers::{Outlier, outliers};
+use super::predicted::predicted;
 use super::suspicion::{Suspicion, suspicions};
 use super::words::{describe, worst_first};
 use crate::design::TouchSet;
@@ -95,7 +97,7 @@ impl Report {
         table: &LoadTable,
         model: &SensorModel,
         options: &Options,
-        left_out: &[Option<Vec<f64>>],
+        left_out: Vec<Option<Vec<f64>>>,
         excluded: Vec<Exclusion>,
         (outliers, influence): (Vec<Outlier>, Option<f64>),
     ) -> Result<Self, CalibrationError> {
@@ -162,7 +164,7 @@ impl Report {
             });
         }
         let mut excluded = Vec::new();
-        let mut kept = table.clone();
+        let mut kept = Cow::Borrowed(table);
         if let Some(range) = file.range {
             let saturated = table.saturated(range);
             for (sample, gauge) in &saturated {
@@ -170,19 +172,14 @@ impl Report {
                 excluded.push(Exclusion { sample: table.names[*sample].clone(), reason });
             }
             let saturated: BTreeSet<usize> = saturated.into_iter().map(|(sample, _)| sample).collect();
-            kept = table.select(|i| !saturated.contains(&i));
-            kept.validate()?;
+            if !saturated.is_empty() {
+                kept = Cow::Owned(table.select(|i| !saturated.contains(&i)));
+                kept.validate()?;
+            }
         }
-        let table = &kept;
+        let table = &*kept;
         let inverse = pseudo_inverse(&file.matrix).ok_or(CalibrationError::Singular)?;
-        let mut predicted = DMatrix::zeros(table.samples(), table.axes.len());
-        for i in 0..table.samples() {
-            let reading: Vec<f64> = table.signals.row(i).iter().copied().collect();
-            let celsius = table.temperatures.as_ref().map(|temperatures| temperatures[i]);
-            let reading = file.brought_to_reference(&reading, celsius)?;
-            let load = file.load_with(&inverse, &reading).ok_or(CalibrationError::Singular)?;
-            predicted.set_row(i, &load.transpose());
-        }
+        let predicted = predicted(file, table, &inverse)?;
         let mut report = Self::of_loads(table, &file.nominal, &predicted, None);
         report.method = format!("check of a calibration by {}", file.provenance.method);
         report.excluded = excluded;
@@ -222,7 +219,7 @@ impl Report {
         table: &LoadTable,
         full_scale: &[f64],
         predicted: &DMatrix<f64>,
-        left_out: Option<&[Option<Vec<f64>>]>,
+        left_out: Option<Vec<Option<Vec<f64>>>>,
     ) -> Self {
         let mut cases = table.cases.clone();
         cases.sort_unstable();
@@ -240,7 +237,7 @@ impl Report {
             cases: cases.len(),
             coefficients: 0,
             condition_number: None,
-            axes: axis_reports(table, full_scale, predicted, left_out),
+            axes: axis_reports(table, full_scale, predicted, left_out.as_deref()),
             cross_talk_percent: cross_talk(table, full_scale, predicted),
             matrix: None,
             matrix_deviations: None,
@@ -249,14 +246,15 @@ impl Report {
             excluded: Vec::new(),
             outliers: Vec::new(),
             outlier_influence_percent: None,
-            needed_cases: left_out.map_or_else(Vec::new, missing),
+            needed_cases: left_out.as_deref().map_or_else(Vec::new, missing),
             suspicions: Vec::new(),
             details: (0..table.samples())
-                .map(|i| SampleReport {
+                .zip(left_out.into_iter().flatten().chain(core::iter::repeat(None)))
+                .map(|(i, left_out)| SampleReport {
                     name: table.names[i].clone(),
                     applied: row(&table.loads, i),
                     measured: row(predicted, i),
-                    left_out: left_out.and_then(|list| list[i].clone()),
+                    left_out,
                 })
                 .collect(),
         }

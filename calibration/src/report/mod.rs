@@ -6,6 +6,8 @@ mod html;
 mod metrics;
 mod outliers;
 mod plot;
+mod predicted;
+mod residuals;
 mod suspicion;
 mod terminal;
 mod words;

@@ -3,6 +3,8 @@
 use core::fmt;
 
 use nalgebra::DMatrix;
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64Mcg;
 use serde::Serialize;
 
 use crate::Axis;
@@ -119,12 +121,37 @@ const CONFUSIONS: [(f64, &str); 12] = [
     (3.280_839_895_013_123, "foot and metre"),
 ];
 
-/// Mistakes that would explain the errors of a calibration on known loads, best explanation first.
+/// Of more samples than this, so many are asked, spread over all: a mistake makes errors everywhere.
+const ASKED: usize = 20_000;
+
+/// So many places of a list, one in each of as many stretches of equal length, all places being equally likely. At no even
+/// distance, since loads may repeat themselves; the same in every run.
+fn spread(samples: usize, asked: usize) -> Vec<usize> {
+    let mut random = Pcg64Mcg::seed_from_u64(1);
+    let length = samples as f64 / asked as f64;
+    (0..asked)
+        .map(|number| {
+            let within: f64 = random.random_range(0.0..1.0);
+            (((number as f64 + within) * length) as usize).min(samples - 1)
+        })
+        .collect()
+}
+
+/// Mistakes that would explain the errors of a calibration on known loads, best explanation first. Of a table of more than
+/// 20 000 samples, as many that are spread over it tell, and the errors that are said are of these.
 pub(crate) fn suspicions(
     file: &CalibrationFile,
     table: &LoadTable,
     predicted: &DMatrix<f64>,
 ) -> Vec<Suspicion> {
+    if table.samples() > ASKED {
+        let asked = spread(table.samples(), ASKED);
+        return of_all(file, &table.rows(&asked), &predicted.select_rows(&asked));
+    }
+    of_all(file, table, predicted)
+}
+
+fn of_all(file: &CalibrationFile, table: &LoadTable, predicted: &DMatrix<f64>) -> Vec<Suspicion> {
     let full_scale = &file.nominal;
     // Over all samples, and without the worst fifth.
     let errors = |loads: &DMatrix<f64>| {

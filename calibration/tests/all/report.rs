@@ -127,6 +127,32 @@ fn exchanged_axes_units_and_gauges_are_suspected() {
     assert_eq!(check(&wrong).suspicions[0].mistake, Mistake::Gauges { first: 2, second: 5 });
 }
 
+/// Of a table of many samples, which repeat themselves, mistakes are suspected and outliers found as of a small one.
+#[test]
+fn of_many_samples_the_same_is_said() {
+    let small = table();
+    let file = calibrate(&small, &Options::default()).unwrap().to_file().unwrap();
+    let limits = Options::default().limits;
+    let repeated = |matrix: &DMatrix<f64>| DMatrix::from_fn(72 * 500, 6, |i, j| matrix[(i % 72, j)]);
+    let large = |table: &LoadTable| {
+        LoadTable::new(&Axis::ALL, repeated(&table.loads), repeated(&table.signals), SignalUnit::Volt)
+            .unwrap()
+    };
+    let mut wrong = small.clone();
+    wrong.signals.swap_columns(1, 4);
+    let check = |table: &LoadTable| Report::of_check(&file, table, &limits, None).unwrap();
+    let (of_few, of_many) = (check(&wrong), check(&large(&wrong)));
+    assert_eq!(of_many.suspicions[0].mistake, Mistake::Gauges { first: 2, second: 5 });
+    let shares = [of_few, of_many.clone()].map(|report| report.suspicions[0].before_percent);
+    assert!((shares[0] / shares[1] - 1.0).abs() < 0.02, "{shares:?}");
+    let mut right = large(&small);
+    assert!(check(&right).suspicions.is_empty());
+    right.signals[(20_011, 3)] += 0.5;
+    let fitted = calibrate(&right, &Options::default()).unwrap().report;
+    assert_eq!(fitted.outliers.first().map(|outlier| outlier.index), Some(20_011));
+    assert_eq!(fitted.lines.unwrap().expected_mm.map(|expected| expected > 0.0), Some(true));
+}
+
 #[test]
 fn every_method_finds_the_sensor() {
     let table = table();

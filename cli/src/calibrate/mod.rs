@@ -11,7 +11,7 @@ mod touches;
 
 use std::path::{Path, PathBuf};
 
-use fingertip_calibration::calibrate as fit;
+use fingertip_calibration::calibrate_taking as fit;
 use fingertip_calibration::file::{AtiCalibration, CalibrationFile, Scalar, Verdict};
 use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{Direction, Limits, Method, Options};
@@ -36,11 +36,18 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
         return stream::run(arguments, &output, &outputs);
     }
     let mut notes = Vec::new();
-    let sessions =
+    let mut sessions =
         arguments.loads.iter().map(|path| read_loads(path, &mut notes)).collect::<Result<Vec<_>, _>>()?;
     let first = arguments.loads.first().cloned().unwrap_or_default();
     let fault = |error: &dyn core::fmt::Display| bad(&first, &error);
-    let mut table = LoadTable::merged(&sessions).map_err(|error| fault(&error))?;
+    let mut table = match sessions.pop() {
+        // One is all, and may be large.
+        Some(only) if sessions.is_empty() => only,
+        last => {
+            sessions.extend(last);
+            LoadTable::merged(&sessions).map_err(|error| fault(&error))?
+        }
+    };
     notes.extend(seen_in_loads(&of_table(&table.signals, table.signal_unit, range(arguments))));
     if let Some(path) = &arguments.payload {
         let payload = read_payload(path)?;
@@ -55,7 +62,7 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
         ));
     }
     let options = options(arguments, &table)?;
-    let calibration = fit(&table, &options).map_err(|error| fault(&error))?;
+    let calibration = fit(table, &options).map_err(|error| fault(&error))?;
     let file = calibration.to_file().map_err(|error| fault(&error))?;
     write_calibration(file, arguments, &output, &outputs)?;
     let title = if arguments.serial.is_empty() { "Calibration" } else { &arguments.serial };

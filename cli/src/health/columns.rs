@@ -55,8 +55,9 @@ pub(crate) fn of_table(signals: &DMatrix<f64>, unit: SignalUnit, range: Option<[
         limits.map_or_else(|| channel.clone(), |limits| channel.clone().within(limits))
     };
     let mut watch = HealthWatch::new((1..=signals.ncols()).map(channel).collect(), Depth::Brief);
+    let mut readings = vec![0.0; signals.ncols()];
     for row in signals.row_iter() {
-        let readings: Vec<f64> = row.iter().copied().collect();
+        readings.iter_mut().zip(row.iter()).for_each(|(slot, reading)| *slot = *reading);
         watch.add(None, &readings);
     }
     watch.finish()

@@ -1,0 +1,39 @@
+//! What a calibration says of a table's readings.
+
+use nalgebra::DMatrix;
+
+use crate::file::CalibrationFile;
+use crate::loads::LoadTable;
+use crate::model::CalibrationError;
+
+/// The loads \[N, N·m\] that a calibration with this inverse tells of readings: samples × axes.
+///
+/// # Errors
+/// [`CalibrationError::File`] if it needs temperatures and there are none, [`CalibrationError::Singular`].
+pub(super) fn predicted(
+    file: &CalibrationFile,
+    table: &LoadTable,
+    inverse: &DMatrix<f64>,
+) -> Result<DMatrix<f64>, CalibrationError> {
+    if file.temperature.is_none() && file.quadratic.is_none() && file.zero.len() == table.gauges() {
+        // All at once.
+        let mut signals = table.signals.clone();
+        for (mut column, zero) in signals.column_iter_mut().zip(&file.zero) {
+            column.add_scalar_mut(-zero);
+        }
+        let mut loads = signals * inverse.transpose();
+        for (mut column, nominal) in loads.column_iter_mut().zip(&file.nominal) {
+            column *= *nominal;
+        }
+        return Ok(loads);
+    }
+    let mut loads = DMatrix::zeros(table.samples(), table.axes.len());
+    for i in 0..table.samples() {
+        let reading: Vec<f64> = table.signals.row(i).iter().copied().collect();
+        let celsius = table.temperatures.as_ref().map(|temperatures| temperatures[i]);
+        let reading = file.brought_to_reference(&reading, celsius)?;
+        let load = file.load_with(inverse, &reading).ok_or(CalibrationError::Singular)?;
+        loads.set_row(i, &load.transpose());
+    }
+    Ok(loads)
+}
