@@ -140,7 +140,10 @@ fn a_root_that_is_zero_away_from_the_surface_does_no_harm() {
 fn a_steepness_without_a_bound_on_the_surface_and_one_that_is_exceeded_are_refused() {
     let root = written(|[x, y, z]| (x.square() + y.square()).sqrt() + z, 1.0);
     let error = Implicit::new(root).err().unwrap().to_string();
-    assert!(error.contains("give `steepest`"), "{error}");
+    assert!(
+        error.contains("of an implicit surface must be known") && error.contains("`steepest`"),
+        "{error}"
+    );
     let stated = |steepest| {
         let formula = |[x, y, z]: [Term<f64>; 3]| x.powi(4) + y.powi(4) + z.powi(4) - 1.0;
         Implicit::new(Written { formula, radius: 1.32, steepest: Some(steepest) })
