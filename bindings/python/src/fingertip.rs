@@ -312,7 +312,7 @@ impl PyFingertip {
         let gravity = gravity.map(|gravity| numbers::three(gravity, "gravity")).transpose()?;
         let dummy = dummy.map(|dummy| numbers::list(dummy, "dummy")).transpose()?;
         let rested = Rested { readings, gravity, celsius, dummy };
-        let (doubt, noise) = self.take_zero(&rested)?;
+        let (doubt, noise) = rested.take_zero(&mut self.pipe, self.gauges.is_some(), &mut self.zero)?;
         self.rested = Some(rested);
         if let Some(doubt) = doubt {
             let sentence = format!("the sensor may not have been at rest: {doubt}");
@@ -369,7 +369,7 @@ impl PyFingertip {
             celsius: part("celsius")?.map(|celsius| celsius.extract()).transpose()?,
             dummy: part("dummy")?.map(|dummy| dummy.extract()).transpose()?,
         };
-        self.take_zero(&rested)?;
+        rested.take_zero(&mut self.pipe, self.gauges.is_some(), &mut self.zero)?;
         self.rested = Some(rested);
         Ok(())
     }
