@@ -82,14 +82,7 @@ fn limits() -> FingerLimits<f64, 2> {
 #[test]
 fn commands_are_those_of_the_controller() {
     let hand = Held::new(&[LIMIT; 3]);
-    let settings = HandSettings {
-        safety: 1.5,
-        rise: 200.0,
-        fall: 2.0,
-        at_slip: 0.8,
-        least_friction: 0.1,
-        greatest_ratio: 3.0,
-    };
+    let settings = HandSettings::default();
     let mut controller = HandController::<f64, 3, 2>::new(settings, [limits(); 3]).unwrap();
     for k in 0..60 {
         let mut fingers = [0, 1, 2].map(|index| finger(index, [0.0, 2e-3][usize::from(k >= 20)]));
