@@ -253,6 +253,7 @@ impl PyGrasp {
 /// Learns what an object weighs and where its middle is, from what holds it while it is turned.
 /// Copies and pickles keep what it has learnt.
 #[pyclass(name = "ObjectWeight", module = "fingertip", skip_from_py_object)]
+#[derive(Clone)]
 pub(crate) struct PyWeight(ObjectWeight<f64>);
 
 value::learner_class!(PyWeight);

@@ -21,6 +21,7 @@ use crate::{errors, numbers, value};
 /// -----
 /// Copies and pickles keep what it has learnt.
 #[pyclass(name = "RollingCurvature", module = "fingertip", skip_from_py_object)]
+#[derive(Clone)]
 pub(crate) struct PyRolling(RollingCurvature<f64>);
 
 value::learner_class!(PyRolling);

@@ -22,6 +22,7 @@ fn wrench(given: &Bound<'_, PyAny>) -> PyResult<Wrench<f64>> {
 /// Where the lines of action of several wrenches meet: the contact, whatever the shape, while it stays and its force
 /// turns. Copies and pickles keep what it has learnt.
 #[pyclass(name = "LineMeeting", module = "fingertip", skip_from_py_object)]
+#[derive(Clone)]
 pub(crate) struct PyMeeting(LineMeeting<f64>);
 
 #[pymethods]

@@ -29,10 +29,10 @@ pub(crate) fn reduced<'py, V: Serialize>(object: &Bound<'py, PyAny>, value: &V) 
     Ok((restore, (object.get_type().into_any(), to_bytes(py, value)?)))
 }
 
-/// Equality, copies and pickles of a class that holds its value in field 0, which can be stored.
-macro_rules! value_class {
-    ($($class:ident),+ $(,)?) => {
-        $(#[pymethods]
+/// Pickles of a class whose field 0 can be stored: they keep it.
+macro_rules! stored_class {
+    ($class:ident) => {
+        #[pymethods]
         impl $class {
             #[staticmethod]
             fn _from_bytes(bytes: &[u8]) -> PyResult<Self> {
@@ -40,9 +40,37 @@ macro_rules! value_class {
             }
 
             fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<$crate::value::Reduced<'py>> {
-                $crate::value::reduced(slf.as_any(), &slf.get().0)
+                $crate::value::reduced(slf.as_any(), &slf.borrow().0)
+            }
+        }
+    };
+}
+pub(crate) use stored_class;
+
+/// Copies of a class that has a memory: they keep it.
+macro_rules! cloned_class {
+    ($class:ident) => {
+        #[pymethods]
+        impl $class {
+            fn __copy__(&self) -> Self {
+                self.clone()
             }
 
+            fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+                self.clone()
+            }
+        }
+    };
+}
+pub(crate) use cloned_class;
+
+/// Equality, copies and pickles of a class that holds its value in field 0, which can be stored.
+macro_rules! value_class {
+    ($($class:ident),+ $(,)?) => {
+        $($crate::value::stored_class!($class);
+
+        #[pymethods]
+        impl $class {
             fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
                 other.cast::<Self>().is_ok_and(|other| other.get().0 == self.0)
             }
@@ -63,7 +91,9 @@ pub(crate) use value_class;
 /// begins anew.
 macro_rules! watcher_class {
     ($($class:ident),+ $(,)?) => {
-        $(#[pymethods]
+        $($crate::value::cloned_class!($class);
+
+        #[pymethods]
         impl $class {
             #[staticmethod]
             fn _from_bytes(bytes: &[u8]) -> PyResult<Self> {
@@ -73,14 +103,6 @@ macro_rules! watcher_class {
             fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<$crate::value::Reduced<'py>> {
                 $crate::value::reduced(slf.as_any(), &slf.borrow().made)
             }
-
-            fn __copy__(&self) -> Self {
-                self.clone()
-            }
-
-            fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
-                self.clone()
-            }
         })+
     };
 }
@@ -88,26 +110,9 @@ pub(crate) use watcher_class;
 
 /// Copies and pickles of a class whose field 0 is what it has learnt, which can be stored: both keep it.
 macro_rules! learner_class {
-    ($($class:ident),+ $(,)?) => {
-        $(#[pymethods]
-        impl $class {
-            #[staticmethod]
-            fn _from_bytes(bytes: &[u8]) -> PyResult<Self> {
-                $crate::value::from_bytes(bytes).map(Self)
-            }
-
-            fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<$crate::value::Reduced<'py>> {
-                $crate::value::reduced(slf.as_any(), &slf.borrow().0)
-            }
-
-            fn __copy__(&self) -> Self {
-                Self(self.0.clone())
-            }
-
-            fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
-                Self(self.0.clone())
-            }
-        })+
+    ($class:ident) => {
+        $crate::value::cloned_class!($class);
+        $crate::value::stored_class!($class);
     };
 }
 pub(crate) use learner_class;

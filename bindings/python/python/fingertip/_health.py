@@ -82,10 +82,9 @@ class Health(Page):
     @property
     def findings(self) -> list[Finding]:
         """What is wrong and what is good to know, worst first."""
-        kinds = {"channels": tuple, "level": HealthLevel}
         return [
-            Finding(**{name: kinds.get(name, lambda value: value)(value) for name, value in found.items()})
-            for found in self.figures["findings"]
+            Finding(**{**one, "channels": tuple(one["channels"]), "level": HealthLevel(one["level"])})
+            for one in self.figures["findings"]
         ]
 
     @property
