@@ -1,6 +1,6 @@
 //! The session of the hand in pictures.
 
-use super::{FINGERS, Moment, Outcome};
+use super::{FINGERS, Mass, Moment, Outcome};
 use crate::observe::Point;
 use crate::report::{Axis, Chart, Figure};
 
@@ -89,24 +89,16 @@ fn mass(outcome: &Outcome) -> Figure {
     const GRAMS: f64 = 1e3;
     let top = greatest(outcome.masses.iter().map(|mass| mass.truth)) * GRAMS;
     let mut chart = over_time("Mass", outcome, Axis::rounded("mass / g", 0.0, 1.2 * top));
-    let mut curves: [Vec<Vec<Point>>; 4] = Default::default();
-    let mut before: Option<f64> = None;
-    for mass in &outcome.masses {
-        let parted = before.is_none_or(|before| mass.time - before > 0.05);
-        before = Some(mass.time);
-        let values =
-            [mass.truth, mass.found, mass.found - 2.0 * mass.deviation, mass.found + 2.0 * mass.deviation];
-        for (curve, value) in curves.iter_mut().zip(values) {
-            if parted {
-                curve.push(Vec::new());
-            }
-            if let Some(piece) = curve.last_mut() {
-                piece.push(Point { time: mass.time, value: value * GRAMS });
-            }
-        }
-    }
-    for (class, curve) in ["e", "a wide", "b", "b"].into_iter().zip(&curves) {
-        chart.curve(class, curve);
+    let values: [fn(&Mass) -> f64; 4] = [
+        |mass| mass.truth,
+        |mass| mass.found,
+        |mass| mass.found - 2.0 * mass.deviation,
+        |mass| mass.found + 2.0 * mass.deviation,
+    ];
+    for (class, value) in ["e", "a wide", "b", "b"].into_iter().zip(values) {
+        let point = |mass: &Mass| Point { time: mass.time, value: value(mass) * GRAMS };
+        let curve: Vec<Vec<Point>> = outcome.weighings().map(|one| one.iter().map(point).collect()).collect();
+        chart.curve(class, &curve);
     }
     Figure {
         title: "What it weighs".to_owned(),

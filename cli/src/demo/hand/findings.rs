@@ -40,16 +40,13 @@ pub(super) fn of(outcome: &Outcome) -> Findings {
 
 /// The masses at the end of each weighing.
 fn masses(outcome: &Outcome) -> String {
-    let ends = outcome.masses.iter().enumerate().filter_map(|(index, mass)| {
-        let next = outcome.masses.get(index + 1);
-        next.is_none_or(|next| next.time - mass.time > 0.05).then(|| {
-            format!(
-                "{} ± {} g for {} g",
-                number(mass.found * GRAMS),
-                number(mass.deviation * GRAMS),
-                number(mass.truth * GRAMS)
-            )
-        })
+    let ends = outcome.weighings().filter_map(<[_]>::last).map(|mass| {
+        format!(
+            "{} ± {} g for {} g",
+            number(mass.found * GRAMS),
+            number(mass.deviation * GRAMS),
+            number(mass.truth * GRAMS)
+        )
     });
     format!("It weighed {}.", ends.collect::<Vec<_>>().join(", "))
 }

@@ -56,6 +56,13 @@ struct Outcome {
     seed: u64,
 }
 
+impl Outcome {
+    /// The masses of each weighing: between two the hand weighs nothing for a while.
+    fn weighings(&self) -> impl Iterator<Item = &[Mass]> {
+        self.masses.chunk_by(|one, next| next.time - one.time <= 0.05)
+    }
+}
+
 pub(super) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
     let outputs = Outputs::guard(arguments.overwrite, "output", [], [&arguments.out])?;
     let outcome = play(arguments.seed)?;
