@@ -42,8 +42,8 @@ use source::{Reading, Source};
 use span::{Place, Window};
 
 pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
-    if hand::is_hand(&arguments.scene) {
-        return hand::run(arguments);
+    if let Some(text) = hand::text_of(&arguments.scene) {
+        return hand::run(arguments, &text);
     }
     let all = Files::of(arguments, &[])?;
     let scene = scene::load(&arguments.scene)?;

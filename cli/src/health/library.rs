@@ -46,7 +46,7 @@ pub fn health(
     arguments.check()?;
     let mut notes = Vec::new();
     let (health, name) = watched(&recorded.path, &arguments, &mut notes)?;
-    let findings = words::findings(&health, &name, notes.clone());
+    let findings = words::findings(&health, &name, notes);
     let html = page::of(&health, &findings);
-    Ok(HealthOf { health, notes, summary: findings.to_string(), html })
+    Ok(HealthOf { summary: findings.to_string(), notes: findings.notes, health, html })
 }

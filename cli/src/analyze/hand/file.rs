@@ -96,21 +96,17 @@ pub(super) struct FingerScene {
     pub(super) limits: FingerLimits<f64, 2>,
 }
 
-/// Whether a file is a hand scene: it has a key `finger`. A file that cannot be read is none, and is told of where it
-/// is read as a scene.
-pub(super) fn is_hand(path: &Path) -> bool {
-    let text = read_text(path).unwrap_or_default();
-    text.parse::<toml::Table>().is_ok_and(|table| table.contains_key("finger"))
+/// The text of a file that is a hand scene: it has a key `finger`. A file that cannot be read is none, and is told of where
+/// it is read as a scene.
+pub(in crate::analyze) fn text_of(path: &Path) -> Option<String> {
+    let text = read_text(path).ok()?;
+    let is_hand = text.parse::<toml::Table>().is_ok_and(|table| table.contains_key("finger"));
+    is_hand.then_some(text)
 }
 
-/// Reads and checks a hand scene with the scenes of its fingers, which are named from its folder.
-pub(super) fn load(path: &Path) -> Result<HandScene, CliError> {
-    let text = read_text(path).map_err(|source| CliError::read("scene", path, source))?;
-    parse(&text, path)
-}
-
-/// The text of a hand scene whose file is called so.
-fn parse(text: &str, path: &Path) -> Result<HandScene, CliError> {
+/// Reads and checks the text of a hand scene whose file is called so, with the scenes of its fingers, which are named from
+/// its folder.
+pub(super) fn parse(text: &str, path: &Path) -> Result<HandScene, CliError> {
     let bad = |message: String| CliError::Calibrate { path: path.to_owned(), message };
     let file: HandFile = toml::from_str(text).map_err(|error| bad(error.to_string()))?;
     if file.version != 1 {

@@ -31,15 +31,13 @@ use table::GraspWriter;
 /// What a pose is told by, behind the prefix of its columns.
 const POSE: [&str; 7] = ["x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"];
 
-/// Whether a file is a hand scene.
-pub(super) fn is_hand(path: &Path) -> bool {
-    file::is_hand(path)
-}
+pub(super) use file::text_of;
 
-pub(super) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
+/// With the text of the hand scene.
+pub(super) fn run(arguments: &AnalyzeArguments, text: &str) -> Result<(), CliError> {
     refuse(arguments)?;
     arguments.span.check()?;
-    let scene = file::load(&arguments.scene)?;
+    let scene = file::parse(text, &arguments.scene)?;
     let fingers: Vec<&PathBuf> = scene.fingers.iter().map(|finger| &finger.path).collect();
     let all = Files::of(arguments, &fingers)?;
     several::each(&arguments.recordings, &all, |recording, files| one(recording, &scene, arguments, files))
