@@ -18,7 +18,10 @@ pub mod units;
 mod zero;
 
 pub use gauges::gauge_layout;
-pub use gauges::{BadCheck, ConsistencyCheck, DriftMonitor, Fault, SensorMatrix, SensorMatrixError, Verdict};
+pub use gauges::{
+    BadCheck, BadRegion, CalibratedRegion, ConsistencyCheck, DriftMonitor, Fault, SensorMatrix,
+    SensorMatrixError, Verdict, WithinRegion,
+};
 pub use health::{AllanVariance, BadLimits, ChannelFault, ChannelLimits, ChannelMonitor, Resolution};
 pub use load::{
     BadNormal, ContactForce, ContactFrame, ContactLoad, Frame, Line, LineOfAction, NoLineOfAction,
@@ -27,10 +30,10 @@ pub use load::{
 pub use numeric::singular_values;
 pub use scalar::Real;
 pub use solve::{
-    BadCovariance, BadInverse, BadQuadratic, BeyondBound, BicchiDario, Combination, Conditioning, Decoupled,
-    ErrorBound, FourRosettes, GaussianElimination, Inverse, LeastSquares, LeastSquaresError, LinearMap,
-    NoErrorBound, NotDecoupled, OwnError, QuadraticInverse, Refined, SingularMatrix, ThreeRosettes,
-    Uncertainty, WrenchCovariance, WrenchSolver, diagonal_pattern,
+    BadCovariance, BadCurve, BadInverse, BeyondBound, BicchiDario, Combination, Conditioning, CurvedInverse,
+    Decoupled, ErrorBound, FourRosettes, GaussianElimination, Inverse, LeastSquares, LeastSquaresError,
+    LinearMap, NoErrorBound, NotDecoupled, OwnError, ProductTerm, RadialTerm, Refined, SingularMatrix,
+    ThreeRosettes, Uncertainty, WrenchCovariance, WrenchSolver, diagonal_pattern,
 };
 pub use zero::{
     BadPayload, BadTemperatureModel, Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy,

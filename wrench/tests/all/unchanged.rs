@@ -164,11 +164,22 @@ fn solvers_of<T: Real>(unchanged: &mut Unchanged, kind: &str) {
     decoupled::<T, BicchiDario, 6>(unchanged, &format!("bicchi-dario {kind}"), &mut draw);
     decoupled::<T, ThreeRosettes, 6>(unchanged, &format!("three rosettes {kind}"), &mut draw);
     decoupled::<T, FourRosettes, 8>(unchanged, &format!("four rosettes {kind}"), &mut draw);
-    let quadratic = QuadraticInverse::new(SMatrix::from_fn(|_, _| T::literal(draw.signed())), |i, j| {
-        Vector6::from_fn(|k, _| T::literal(0.01 * (1.0 + (i * 7 + j * 3 + k) as f64)))
-    })
-    .unwrap_or_else(|error| panic!("{error}"));
-    unchanged.note(&format!("quadratic {kind}"), six.iter().map(|(_, signals)| quadratic.solve(signals)));
+    let load = |i: u8, j: u8| {
+        Vector6::from_fn(|k, _| T::literal(0.01 * (1.0 + (usize::from(i * 7 + j * 3) + k) as f64)))
+    };
+    let pairs = (0..6_u8).flat_map(|i| (i..6).map(move |j| ProductTerm::of_two(i, j, load(i, j))));
+    let centre = SVector::from_fn(|i, _| T::literal(0.1 * i as f64));
+    let curved =
+        CurvedInverse::new(SMatrix::from_fn(|_, _| T::literal(draw.signed())), pairs.collect::<Vec<_>>())
+            .and_then(|curved| {
+                curved
+                    .with_radial(SVector::repeat(T::literal(1.5)), [RadialTerm { centre, load: load(1, 2) }])
+            })
+            .unwrap_or_else(|error| panic!("{error}"));
+    unchanged.note(
+        &format!("curved {kind}"),
+        six.iter().map(|(_, signals)| (curved.solve(signals), curved.jacobian(signals))),
+    );
 }
 
 #[test]
