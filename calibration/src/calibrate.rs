@@ -4,13 +4,15 @@ use alloc::collections::BTreeSet;
 
 use nalgebra::RowDVector;
 
+use crate::curve::Region;
 use crate::file::{CalibrationFile, FileError, Quality, Temperature, Verdict};
 use crate::fit::leave_out;
 use crate::loads::LoadTable;
 use crate::model::{
-    CalibrationError, Direction, FittedDrift, Options, SensorModel, design, fit_model, responses,
+    CalibrationError, Curvature, Direction, FittedDrift, Options, SensorModel, design, fit_at_rest,
+    fit_model, responses, with_chosen_terms, worth_of_terms,
 };
-use crate::report::{Exclusion, Outlier, Report, outliers};
+use crate::report::{CurveReport, Exclusion, Outlier, Report, outliers};
 
 /// A calibration, what it was fitted to, and how good it is.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,28 +74,39 @@ pub fn calibrate_taking(mut table: LoadTable, options: &Options) -> Result<Calib
         Some(reference) => Some(take_off_drift(&mut table, &nominal, reference)?),
         None => None,
     };
-    let mut model = fit_model(&table, options, &nominal)?;
-    leave_out_distrusted(&mut table, &mut model, options, &mut excluded);
-    let mut found = find_outliers(&table, options, &nominal);
+    let (mut options, chosen) = with_chosen_terms(&table, options, &nominal)?;
+    let mut model = fit_at_rest(&table, &mut options, &nominal)?;
+    leave_out_distrusted(&mut table, &mut model, &options, &mut excluded);
+    let mut found = find_outliers(&table, &options, &nominal);
     let mut influence = None;
     if options.reject_outliers && !found.is_empty() {
         for outlier in &found {
             excluded.push(Exclusion { sample: outlier.sample.clone(), reason: outlier.to_string() });
         }
         table = table.select(|i| found.iter().all(|outlier| outlier.index != i));
-        model = fit_model(&table, options, &nominal)?;
+        model = fit_at_rest(&table, &mut options, &nominal)?;
         found = Vec::new();
     } else if !found.is_empty() {
-        influence = influence_of(&found, &table, &model, options);
+        influence = influence_of(&found, &table, &model, &options);
     }
     if let Some(drift) = &drift {
-        drift.account(&table, options, &mut model)?;
+        drift.account(&table, &options, &mut model)?;
     }
-    let left_out = left_out_loads(&table, &model, options)?;
-    if options.quadratic {
-        refuse_over_fitting(&table, options, &model, &left_out)?;
+    let left_out = left_out_loads(&table, &model, &options)?;
+    if !model.terms.is_empty() {
+        refuse_over_fitting(&table, &options, &model, &left_out)?;
     }
-    let mut report = Report::of_fit(&table, &model, options, left_out, excluded, (found, influence))?;
+    let mut report = Report::of_fit(&table, &model, &options, left_out, excluded, (found, influence))?;
+    report.curve = match chosen {
+        Some(chosen) => Some(CurveReport::new(&chosen, true)),
+        // Nobody asked, and a straight sensor will not do.
+        None if model.terms.is_empty() && report.verdict == Verdict::Bad => {
+            worth_of_terms(&table, &options, &nominal)
+                .map(|chosen| CurveReport::new(&chosen, false))
+                .filter(CurveReport::is_worth_it)
+        }
+        None => None,
+    };
     if table.temperatures.is_some() && drift.is_none() {
         report.notes.push("temperatures are known but no drift was fitted".to_owned());
     }
@@ -161,6 +174,14 @@ impl Calibration {
     pub fn to_file(&self) -> Result<CalibrationFile, FileError> {
         let mut file = self.model.to_file(&self.report.method)?;
         file.temperature.clone_from(&self.temperature);
+        if file.is_curved() {
+            let mut signals = self.table.signals.clone();
+            signals
+                .column_iter_mut()
+                .zip(&file.zero)
+                .for_each(|(mut column, zero)| column.add_scalar_mut(-zero));
+            file.region = Region::of(&signals);
+        }
         file.quality = Quality {
             verdict: self.report.verdict,
             reasons: self.report.reasons.clone(),
@@ -303,7 +324,7 @@ fn refuse_over_fitting(
         let known: Option<Vec<&Vec<f64>>> = left_out.iter().map(Option::as_ref).collect();
         known.map(|known| overall(table, nominal, |i, j| known[i][j]))
     };
-    let linear_options = Options { quadratic: false, ..options.clone() };
+    let linear_options = Options { curvature: Curvature::Straight, ..options.clone() };
     let linear = fit_model(table, &linear_options, &model.nominal)?;
     let linear_left_out = left_out_loads(table, &linear, &linear_options)?;
     let Some(linear) = error(&linear_left_out, &model.nominal) else { return Ok(()) };

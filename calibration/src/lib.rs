@@ -4,6 +4,7 @@ extern crate alloc;
 
 mod axis;
 mod calibrate;
+pub mod curve;
 pub mod design;
 pub mod experiment;
 pub mod file;

@@ -164,8 +164,9 @@ impl AtiCalibration {
         }
         let refuse =
             |field: &str, requirement| FileError::OutOfRange { field: field.to_owned(), requirement };
-        if file.quadratic.is_some() {
-            return Err(refuse("quadratic", "absent in a .cal file"));
+        if file.is_curved() {
+            let field = if file.quadratic.is_some() { "quadratic" } else { "curve" };
+            return Err(refuse(field, "absent in a .cal file"));
         }
         if let Some(drift) = &file.temperature {
             return Err(FileError::NeedsTemperature { reference: drift.reference_celsius });

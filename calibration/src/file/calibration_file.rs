@@ -1,11 +1,12 @@
 //! The calibration of one sensor, as it is written to a file.
 
-use fingertip_wrench::{QuadraticInverse, Real, SensorMatrix, Tare};
+use fingertip_wrench::{Real, SensorMatrix, Tare};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector6};
 use serde::{Deserialize, Serialize};
 
-use super::{Covariance, FileError, SignalUnit, Temperature, rows};
+use super::{Covariance, Curve, FileError, SignalUnit, Temperature, rows};
 use crate::Axis;
+use crate::curve::Region;
 
 /// Everything that is known of a calibrated sensor: what turns its readings into a wrench, how
 /// good that is, and where it comes from.
@@ -18,8 +19,9 @@ use crate::Axis;
 /// frame, and are what the environment applies **to** the fingertip.
 ///
 /// # The file
-/// TOML, all fields below by these names, then `version` and `checksum`. The version is 1, or 2 where the
-/// [`covariance`](Self::covariance) has `entries`, which programs of before don't know. The checksum is taken
+/// TOML, all fields below by these names, then `version` and `checksum`. The version is 1; 2 where the
+/// [`covariance`](Self::covariance) has `entries`, and 3 where there is a `curve` or a `region`, which programs of before
+/// don't know. The checksum is taken
 /// over the values (see [`read`](Self::read)), so comments and layout may be changed by hand.
 ///
 /// ```
@@ -62,6 +64,12 @@ pub struct CalibrationFile {
     /// per axis, one column per pair of gauges (0,0), (0,1), … (0,N−1), (1,1), ….
     #[serde(default, skip_serializing_if = "Option::is_none", with = "rows::optional")]
     pub quadratic: Option<DMatrix<f64>>,
+    /// Other terms of higher order, chosen ones, beside or instead of those.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub curve: Option<Curve>,
+    /// Where the signals of the calibration lay: a sensor that is not linear means little beyond.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub region: Option<Region>,
     /// How uncertain the matrix is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covariance: Option<Covariance>,
@@ -185,6 +193,8 @@ impl CalibrationFile {
             noise: None,
             range: None,
             quadratic: None,
+            curve: None,
+            region: None,
             covariance: None,
             temperature: None,
             provenance: Provenance { tool: crate::TOOL.to_owned(), ..Provenance::default() },
@@ -204,8 +214,8 @@ impl CalibrationFile {
     ///
     /// # Errors
     /// [`FileError::WrongGauges`] if the sensor has not `N` gauges, [`FileError::NotSixAxes`] if it
-    /// measures fewer components, [`FileError::OutOfRange`] for field `quadratic` if it is not
-    /// linear, [`FileError::Matrix`] if the numbers are no sensor in that type.
+    /// measures fewer components, [`FileError::OutOfRange`] for field `quadratic` or `curve` if it is
+    /// not linear, [`FileError::Matrix`] if the numbers are no sensor in that type.
     pub fn sensor_matrix<const N: usize>(&self) -> Result<SensorMatrix<f64, N>, FileError> {
         self.sensor_matrix_in::<f64, N>()
     }
@@ -216,10 +226,10 @@ impl CalibrationFile {
     /// The same.
     pub fn sensor_matrix_in<T: Real, const N: usize>(&self) -> Result<SensorMatrix<T, N>, FileError> {
         self.validate()?;
-        if self.quadratic.is_some() {
+        if self.is_curved() {
             return Err(FileError::OutOfRange {
-                field: "quadratic".to_owned(),
-                requirement: "absent: a sensor with quadratic terms has no sensor matrix",
+                field: if self.quadratic.is_some() { "quadratic" } else { "curve" }.to_owned(),
+                requirement: "absent: a curved sensor has no sensor matrix",
             });
         }
         if self.axes != Axis::ALL {
@@ -229,32 +239,6 @@ impl CalibrationFile {
         let normalised = SMatrix::<T, N, 6>::from_fn(|i, j| T::literal(self.matrix[(i, j)]));
         let nominal = Vector6::from_fn(|i, _| T::literal(self.nominal[i]));
         Ok(SensorMatrix::new(normalised, nominal)?)
-    }
-
-    /// Inverse and quadratic terms in scalar type `T`, for the hot path of a sensor that is not linear; a linear
-    /// one has terms of zero. Of signals, that is of readings whose zero and drift were taken off.
-    ///
-    /// # Errors
-    /// [`FileError::WrongGauges`] if the sensor has not `N` gauges, [`FileError::NotSixAxes`] if it
-    /// measures fewer components, [`FileError::Singular`] if its matrix has no inverse,
-    /// [`FileError::NotFinite`] if a coefficient is none in that type.
-    pub fn quadratic_inverse_in<T: Real, const N: usize>(&self) -> Result<QuadraticInverse<T, N>, FileError> {
-        self.validate()?;
-        if self.axes != Axis::ALL {
-            return Err(FileError::NotSixAxes { found: self.axes.len() });
-        }
-        self.check_gauges::<N>()?;
-        let inverse = crate::linear::pseudo_inverse(&self.matrix).ok_or(FileError::Singular)?;
-        let load = |axis: usize, share: f64| T::literal(self.nominal[axis] * share);
-        let linear = SMatrix::from_fn(|axis, gauge| load(axis, inverse[(axis, gauge)]));
-        // In the order of the pairs, which is that of the columns.
-        let mut pair = 0..;
-        QuadraticInverse::new(linear, |_, _| {
-            let column = pair.next().unwrap_or_default();
-            let terms = self.quadratic.as_ref();
-            Vector6::from_fn(|axis, _| terms.map_or_else(T::zero, |terms| load(axis, terms[(axis, column)])))
-        })
-        .map_err(|_| FileError::NotFinite { field: "quadratic".to_owned() })
     }
 
     /// The readings without load.
@@ -289,8 +273,9 @@ impl CalibrationFile {
     }
 
     /// The load \[N, N·m, in the order of `axes`\] that a reading tells of:
-    /// `nominal ∘ (C⁺ s + Q (s ⊗ s))` with `s = reading − zero`, C⁺ the least-squares inverse and Q the
-    /// quadratic terms. Meant for reports; on the hot path use a solver of `fingertip-wrench`.
+    /// `nominal ∘ (C⁺ s + Q (s ⊗ s) + K t(s))` with `s = reading − zero`, C⁺ the least-squares inverse, Q the
+    /// quadratic terms and K the loads of the other [terms](crate::curve::Terms) t. Meant for reports; on the hot path use a
+    /// solver of `fingertip-wrench`.
     ///
     /// # Errors
     /// [`FileError::NeedsTemperature`] for a calibration with temperature terms: use
@@ -308,6 +293,9 @@ impl CalibrationFile {
         let mut load = inverse * &signals;
         if let Some(quadratic) = &self.quadratic {
             load += quadratic * crate::linear::pairs(signals.as_slice());
+        }
+        if let Some(curve) = &self.curve {
+            load += curve.load(signals.as_slice());
         }
         for (value, nominal) in load.iter_mut().zip(&self.nominal) {
             *value *= nominal;

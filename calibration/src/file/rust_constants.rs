@@ -7,7 +7,8 @@ use crate::Axis;
 
 impl CalibrationFile {
     /// A Rust module with the calibration as `const` arrays of `f32` or `f64` and a function that
-    /// makes the [`SensorMatrix`](fingertip_wrench::SensorMatrix) of them; with temperature terms also a
+    /// makes the [`SensorMatrix`](fingertip_wrench::SensorMatrix) of them, or the
+    /// [`CurvedInverse`](fingertip_wrench::CurvedInverse) of a curved sensor; with temperature terms also a
     /// [`TemperatureCompensation`](fingertip_wrench::TemperatureCompensation). It needs only
     /// `fingertip_wrench` and `nalgebra`, neither heap nor `std`.
     ///
@@ -20,12 +21,6 @@ impl CalibrationFile {
         self.validate()?;
         if self.axes != Axis::ALL {
             return Err(FileError::NotSixAxes { found: self.axes.len() });
-        }
-        if self.quadratic.is_some() {
-            return Err(FileError::OutOfRange {
-                field: "quadratic".to_owned(),
-                requirement: "absent: constants for a sensor with quadratic terms are not supported",
-            });
         }
         let gauges = self.gauges();
         let name = scalar.name();
@@ -43,6 +38,25 @@ impl CalibrationFile {
         let _ = writeln!(
             text,
             "\n/// Number of gauges.\npub const GAUGES: usize = {gauges};\n\n\
+             /// Reading of each gauge without load.\npub const ZERO: [{name}; GAUGES] = {};",
+            list("zero", &mut self.zero.iter().copied())?,
+        );
+        text.push_str(&match self.is_curved() {
+            true => self.curve_in_rust(scalar)?,
+            false => self.matrix_in_rust(name, &list)?,
+        });
+        if let Some(drift) = &self.temperature {
+            text.push_str(&drift_in_rust(drift, name, &list)?);
+        }
+        Ok(text)
+    }
+
+    /// Matrix and nominal loads of a straight sensor.
+    fn matrix_in_rust(&self, name: &str, list: &ListInRust<'_>) -> Result<String, FileError> {
+        let mut text = String::new();
+        let _ = writeln!(
+            text,
+            "\n\
              /// Signal of each gauge under the nominal load of each axis.\n\
              pub const NORMALISED: [[{name}; 6]; GAUGES] = ["
         );
@@ -51,10 +65,8 @@ impl CalibrationFile {
         }
         let _ = writeln!(
             text,
-            "];\n\n/// Nominal loads [N, N, N, N·m, N·m, N·m].\npub const NOMINAL: [{name}; 6] = {};\n\n\
-             /// Reading of each gauge without load.\npub const ZERO: [{name}; GAUGES] = {};\n",
+            "];\n\n/// Nominal loads [N, N, N, N·m, N·m, N·m].\npub const NOMINAL: [{name}; 6] = {};\n",
             list("nominal", &mut self.nominal.iter().copied())?,
-            list("zero", &mut self.zero.iter().copied())?,
         );
         let _ = write!(
             text,
@@ -68,9 +80,6 @@ impl CalibrationFile {
                      nalgebra::SMatrix::<{name}, GAUGES, 6>::from_fn(|gauge, axis| NORMALISED[gauge][axis]),\n        \
                      nalgebra::Vector6::from(NOMINAL),\n    )\n}}\n"
         );
-        if let Some(drift) = &self.temperature {
-            text.push_str(&drift_in_rust(drift, name, &list)?);
-        }
         Ok(text)
     }
 
@@ -160,7 +169,7 @@ pub enum Scalar {
 }
 
 impl Scalar {
-    const fn name(self) -> &'static str {
+    pub(super) const fn name(self) -> &'static str {
         match self {
             Self::F32 => "f32",
             Self::F64 => "f64",
@@ -168,7 +177,7 @@ impl Scalar {
     }
 
     /// The shortest literal that gives the nearest number of the type; `None` if it has none.
-    fn literal(self, value: f64) -> Option<String> {
+    pub(super) fn literal(self, value: f64) -> Option<String> {
         match self {
             #[allow(clippy::cast_possible_truncation)]
             Self::F32 => {

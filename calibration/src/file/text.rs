@@ -67,7 +67,11 @@ impl CalibrationFile {
     /// The first version of the format that has what is in this file.
     fn version(&self) -> i64 {
         let entries = self.covariance.as_ref().is_some_and(|covariance| covariance.entries.is_some());
-        if entries { 2 } else { 1 }
+        match (self.curve.is_some() || self.region.is_some(), entries) {
+            (true, _) => 3,
+            (false, true) => 2,
+            (false, false) => 1,
+        }
     }
 
     /// The checksum of the contents: FNV-1a, 64 bits, of one line `path=type:value` per value,
@@ -178,8 +182,8 @@ mod tests {
     #[test]
     fn unknown_version_is_named() {
         let error =
-            CalibrationFile::from_toml(&text().replacen("version = 1", "version = 3", 1)).unwrap_err();
-        assert!(matches!(error, FileError::UnknownVersion { found: 3, known: 2 }));
+            CalibrationFile::from_toml(&text().replacen("version = 1", "version = 4", 1)).unwrap_err();
+        assert!(matches!(error, FileError::UnknownVersion { found: 4, known: 3 }));
         assert!(error.to_string().contains("`version`"));
     }
 

@@ -50,6 +50,14 @@ impl CalibrationFile {
             finite_matrix("quadratic", quadratic)?;
             shape("quadratic", quadratic, axes, gauges * (gauges + 1) / 2)?;
         }
+        if let Some(curve) = &self.curve {
+            curve.validate(gauges, axes)?;
+        }
+        if let Some(region) = &self.region {
+            finite_list("region.centre", &region.centre, gauges)?;
+            finite_matrix("region.whitening", &region.whitening)?;
+            shape("region.whitening", &region.whitening, gauges, gauges)?;
+        }
         if let Some(covariance) = &self.covariance {
             finite_matrix("covariance.signals", &covariance.signals)?;
             shape("covariance.signals", &covariance.signals, gauges, gauges)?;
@@ -91,11 +99,11 @@ impl CalibrationFile {
     }
 }
 
-fn out_of_range(field: &str, requirement: &'static str) -> FileError {
+pub(super) fn out_of_range(field: &str, requirement: &'static str) -> FileError {
     FileError::OutOfRange { field: field.to_owned(), requirement }
 }
 
-fn finite_list(field: &str, list: &[f64], expected: usize) -> Result<(), FileError> {
+pub(super) fn finite_list(field: &str, list: &[f64], expected: usize) -> Result<(), FileError> {
     if list.len() != expected {
         return Err(FileError::WrongShape { field: field.to_owned(), found: list.len(), expected });
     }
@@ -106,7 +114,7 @@ fn finite_list(field: &str, list: &[f64], expected: usize) -> Result<(), FileErr
     }
 }
 
-fn finite_matrix(field: &str, matrix: &DMatrix<f64>) -> Result<(), FileError> {
+pub(super) fn finite_matrix(field: &str, matrix: &DMatrix<f64>) -> Result<(), FileError> {
     for (i, row) in matrix.row_iter().enumerate() {
         if let Some(j) = row.iter().position(|x| !x.is_finite()) {
             return Err(FileError::NotFinite { field: format!("{field}[{i}][{j}]") });
@@ -115,7 +123,12 @@ fn finite_matrix(field: &str, matrix: &DMatrix<f64>) -> Result<(), FileError> {
     Ok(())
 }
 
-fn shape(field: &str, matrix: &DMatrix<f64>, rows: usize, columns: usize) -> Result<(), FileError> {
+pub(super) fn shape(
+    field: &str,
+    matrix: &DMatrix<f64>,
+    rows: usize,
+    columns: usize,
+) -> Result<(), FileError> {
     if matrix.nrows() != rows {
         let field = field.to_owned();
         return Err(FileError::WrongShape { field, found: matrix.nrows(), expected: rows });

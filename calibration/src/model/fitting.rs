@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use super::sensor_model::{design, normalised, responses};
 use super::zeros::account_for_zeros;
-use super::{CalibrationError, Direction, Method, Options, SensorModel};
+use super::{CalibrationError, Curvature, Direction, Method, Options, SensorModel};
 use crate::file::CalibrationFile;
 use crate::fit::{
     Fit, FitError, Ransac, deviation, gauss_helmert_of_shares, huber, least_squares, ransac, ridge,
@@ -18,10 +18,18 @@ pub(crate) fn fit_model(
     options: &Options,
     nominal: &[f64],
 ) -> Result<SensorModel, CalibrationError> {
-    if options.quadratic && options.direction == Direction::SignalsFromLoads {
+    let gauges = table.gauges();
+    if options.curvature != Curvature::Straight && options.direction == Direction::SignalsFromLoads {
         return Err(CalibrationError::BadOption {
-            option: "quadratic",
-            message: "only loads from signals can have quadratic terms".to_owned(),
+            option: "curvature",
+            message: "only loads from signals can be curved".to_owned(),
+        });
+    }
+    let (terms, origin) = (options.curvature.terms(gauges), options.curvature.origin(gauges));
+    if origin.len() != gauges || terms.values(&origin).iter().any(|value| !value.is_finite()) {
+        return Err(CalibrationError::BadOption {
+            option: "curvature",
+            message: format!("its terms are not those of {gauges} gauges"),
         });
     }
     let mut fit = fit(table, options, nominal).map_err(|error| named(error, table, options))?;
@@ -35,7 +43,8 @@ pub(crate) fn fit_model(
         signal_unit: table.signal_unit,
         direction: options.direction,
         bias: options.bias,
-        quadratic: options.quadratic,
+        terms,
+        origin,
         fit,
     })
 }
@@ -47,12 +56,7 @@ fn named(error: FitError, table: &LoadTable, options: &Options) -> CalibrationEr
         Direction::SignalsFromLoads => table.axes.iter().map(ToString::to_string).collect(),
         Direction::LoadsFromSignals => (1..=table.gauges()).map(|i| format!("v{i}")).collect(),
     };
-    if options.quadratic {
-        let linear = names.clone();
-        for (i, a) in linear.iter().enumerate() {
-            names.extend(linear[i..].iter().map(|b| format!("{a}·{b}")));
-        }
-    }
+    names.extend(options.curvature.terms(table.gauges()).names());
     if options.bias {
         names.push("constant".to_owned());
     }

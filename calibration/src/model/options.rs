@@ -1,5 +1,6 @@
 //! How to calibrate.
 
+use crate::curve::Terms;
 use crate::design::TouchSet;
 use crate::file::CalibrationFile;
 
@@ -10,7 +11,7 @@ pub enum Direction {
     SignalsFromLoads,
     /// `load = B · signals + constant`, inverse regression: smaller residuals on the loads of the
     /// calibration, but drawn towards their mean (`docs/theory/calibration.md#the-model`). What makers of
-    /// sensors often publish, and the only one with quadratic terms.
+    /// sensors often publish, and the only one of curved sensors.
     LoadsFromSignals,
 }
 
@@ -71,6 +72,46 @@ impl Method {
     }
 }
 
+/// What is fitted beside what is proportional to the signals.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub enum Curvature {
+    /// Nothing. The default.
+    #[default]
+    Straight,
+    /// All products of two signals.
+    Quadratic,
+    /// Products of two and of three signals, and bumps, as many as make the errors of load cases that were left out
+    /// smallest; none, if none helps.
+    Chosen,
+    /// These terms, of readings less an origin, one for each gauge.
+    Given {
+        /// The terms.
+        terms: Box<Terms>,
+        /// Readings that count as signals of zero.
+        origin: Vec<f64>,
+    },
+}
+
+impl Curvature {
+    /// The terms of a sensor with so many gauges; none before any are [chosen](Self::Chosen).
+    pub(crate) fn terms(&self, gauges: usize) -> Terms {
+        match self {
+            Self::Straight | Self::Chosen => Terms::default(),
+            Self::Quadratic => Terms::pairs(gauges),
+            Self::Given { terms, .. } => (**terms).clone(),
+        }
+    }
+
+    /// What readings count as signals of zero; all zeros unless given.
+    pub(crate) fn origin(&self, gauges: usize) -> Vec<f64> {
+        match self {
+            Self::Given { origin, .. } => origin.clone(),
+            _ => vec![0.0; gauges],
+        }
+    }
+}
+
 /// How to calibrate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
@@ -78,8 +119,8 @@ pub struct Options {
     pub direction: Direction,
     /// Whether a zero is fitted; without, the readings must be tared.
     pub bias: bool,
-    /// Whether products of pairs of signals are fitted too. Refused where they over-fit.
-    pub quadratic: bool,
+    /// Whether the sensor is fitted as curved, and how. Loads from signals only; refused where it over-fits.
+    pub curvature: Curvature,
     /// By which method.
     pub method: Method,
     /// Nominal load (full scale) of each axis \[N, N·m\]; the greatest loads if `None`.
@@ -105,7 +146,7 @@ impl Default for Options {
         Self {
             direction: Direction::SignalsFromLoads,
             bias: true,
-            quadratic: false,
+            curvature: Curvature::Straight,
             method: Method::LeastSquares,
             nominal: None,
             range: None,

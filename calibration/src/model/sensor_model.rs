@@ -4,9 +4,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{Direction, Options};
 use crate::Axis;
-use crate::file::{CalibrationFile, Covariance, FileError, Provenance, SignalUnit, of_pseudo_inverse};
+use crate::curve::Terms;
+use crate::file::{CalibrationFile, Covariance, Curve, FileError, Provenance, SignalUnit, of_pseudo_inverse};
 use crate::fit::Fit;
-use crate::linear::{Singular, pairs, pseudo_inverse, quick_inverse};
+use crate::linear::{Singular, pseudo_inverse, quick_inverse};
 use crate::loads::LoadTable;
 
 /// A fitted sensor: what turns readings into loads.
@@ -22,10 +23,12 @@ pub struct SensorModel {
     pub direction: Direction,
     /// Whether it has a constant.
     pub bias: bool,
-    /// Whether it has quadratic terms.
-    pub quadratic: bool,
+    /// Its terms of higher order; none for a straight sensor.
+    pub terms: Terms,
+    /// The readings that count as signals of zero where loads are fitted to signals.
+    pub origin: Vec<f64>,
     /// The fit, with loads in nominal loads. Rows of the coefficients are the regressors: loads or
-    /// signals, then pairs of signals, then the constant.
+    /// signals, then the terms, then the constant.
     pub fit: Fit,
 }
 
@@ -33,20 +36,27 @@ pub struct SensorModel {
 pub(crate) fn design(table: &LoadTable, options: &Options, nominal: &[f64]) -> DMatrix<f64> {
     let linear = match options.direction {
         Direction::SignalsFromLoads => normalised(&table.loads, nominal),
-        Direction::LoadsFromSignals => table.signals.clone(),
+        Direction::LoadsFromSignals => less(&table.signals, &options.curvature.origin(table.gauges())),
     };
+    let terms = options.curvature.terms(table.gauges());
     let (samples, k) = linear.shape();
-    let second = if options.quadratic { k * (k + 1) / 2 } else { 0 };
-    let mut design = linear.resize(samples, k + second + usize::from(options.bias), 1.0);
-    if options.quadratic {
+    let mut design = linear.resize(samples, k + terms.len() + usize::from(options.bias), 1.0);
+    if !terms.is_empty() {
         for i in 0..samples {
             let row: Vec<f64> = design.row(i).iter().take(k).copied().collect();
-            for (j, product) in pairs(&row).iter().enumerate() {
-                design[(i, k + j)] = *product;
+            for (j, value) in terms.values(&row).iter().enumerate() {
+                design[(i, k + j)] = *value;
             }
         }
     }
     design
+}
+
+/// Readings less an origin.
+fn less(signals: &DMatrix<f64>, origin: &[f64]) -> DMatrix<f64> {
+    let mut signals = signals.clone();
+    signals.column_iter_mut().zip(origin).for_each(|(mut column, zero)| column.add_scalar_mut(-zero));
+    signals
 }
 
 /// What is regressed on the design: samples × responses.
@@ -73,13 +83,7 @@ impl SensorModel {
         match self.direction {
             Direction::SignalsFromLoads => self.fit.coefficients.ncols(),
             Direction::LoadsFromSignals => {
-                let regressors = self.fit.coefficients.nrows() - usize::from(self.bias);
-                if self.quadratic {
-                    // k + k(k+1)/2 regressors: the k that gives them.
-                    (0..=regressors).find(|k| k + k * (k + 1) / 2 == regressors).unwrap_or(0)
-                } else {
-                    regressors
-                }
+                self.fit.coefficients.nrows() - usize::from(self.bias) - self.terms.len()
             }
         }
     }
@@ -103,13 +107,14 @@ impl SensorModel {
             }
             Direction::LoadsFromSignals => {
                 let (samples, gauges) = signals.shape();
-                let mut loads = signals * coefficients.rows(0, gauges);
-                if self.quadratic {
-                    let second = coefficients.rows(gauges, gauges * (gauges + 1) / 2);
+                let signals = less(signals, &self.origin);
+                let mut loads = &signals * coefficients.rows(0, gauges);
+                if !self.terms.is_empty() {
+                    let second = coefficients.rows(gauges, self.terms.len());
                     for i in 0..samples {
                         let row: Vec<f64> = signals.row(i).iter().copied().collect();
                         let mut target = loads.row_mut(i);
-                        target += pairs(&row).transpose() * second;
+                        target += DVector::from_vec(self.terms.values(&row)).transpose() * second;
                     }
                 }
                 if self.bias {
@@ -136,8 +141,8 @@ impl SensorModel {
     /// The normalised sensor matrix, gauges × axes, and the readings without load.
     ///
     /// For a model of loads from signals the matrix is the pseudo-inverse of the fitted one, whose own
-    /// least-squares inverse is the fitted one again; the zero is the reading nearest to zero that gives no load,
-    /// and with quadratic terms the matrix is that of the readings less this zero.
+    /// least-squares inverse is the fitted one again; the zero is the reading nearest to the origin that gives no load,
+    /// and of a curved sensor the matrix is that of small loads about this zero.
     ///
     /// # Errors
     /// [`FileError::Singular`] if the fitted matrix has deficient rank.
@@ -153,29 +158,30 @@ impl SensorModel {
                 let mut inverse = theta.rows(0, gauges).transpose();
                 let constant =
                     if self.bias { theta.row(theta.nrows() - 1).transpose() } else { DVector::zeros(axes) };
+                let second = self.loads_of_terms();
                 let mut zero = DVector::zeros(gauges);
-                // Newton steps of least norm; one is exact without quadratic terms.
-                for _ in 0..if self.quadratic { 50 } else { 1 } {
+                // Newton steps of least norm; one is exact for a straight sensor.
+                for _ in 0..if self.terms.is_empty() { 1 } else { 50 } {
                     inverse = theta.rows(0, gauges).transpose();
                     let mut load = &inverse * &zero + &constant;
-                    if let Some(second) = self.second_order() {
-                        load += &second * pairs(zero.as_slice());
-                        inverse += slope(&second, &zero);
+                    if !self.terms.is_empty() {
+                        load += &second * DVector::from_vec(self.terms.values(zero.as_slice()));
+                        inverse += &second * self.terms.slopes(zero.as_slice());
                     }
                     zero -= pseudo_inverse(&inverse).ok_or(FileError::Singular)? * load;
                 }
-                if let Some(second) = self.second_order() {
-                    inverse = theta.rows(0, gauges).transpose() + slope(&second, &zero);
+                if !self.terms.is_empty() {
+                    inverse = theta.rows(0, gauges).transpose() + second * self.terms.slopes(zero.as_slice());
                 }
-                Ok((pseudo_inverse(&inverse).ok_or(FileError::Singular)?, zero))
+                let matrix = pseudo_inverse(&inverse).ok_or(FileError::Singular)?;
+                Ok((matrix, zero + DVector::from_column_slice(&self.origin)))
             }
         }
     }
 
-    /// The quadratic terms, axes × pairs.
-    fn second_order(&self) -> Option<DMatrix<f64>> {
-        let gauges = self.gauges();
-        self.quadratic.then(|| self.fit.coefficients.rows(gauges, gauges * (gauges + 1) / 2).transpose())
+    /// The loads of one unit of each term, axes × terms.
+    fn loads_of_terms(&self) -> DMatrix<f64> {
+        self.fit.coefficients.rows(self.gauges(), self.terms.len()).transpose()
     }
 
     /// Condition number N_c of the normalised matrix.
@@ -239,7 +245,11 @@ impl SensorModel {
         let (matrix, zero) = self.matrix_and_zero()?;
         let (axes, nominal, zero) = (self.axes.clone(), self.nominal.clone(), zero.as_slice().to_vec());
         let mut file = CalibrationFile::of_axes(axes, matrix, nominal, zero, self.signal_unit)?;
-        file.quadratic = self.second_order();
+        if self.terms == Terms::pairs(self.gauges()) {
+            file.quadratic = Some(self.loads_of_terms());
+        } else if !self.terms.is_empty() {
+            file.curve = Some(Curve::new(self.terms.clone(), self.loads_of_terms()));
+        }
         file.covariance = self.covariance();
         file.provenance =
             Provenance { method: method.to_owned(), tool: crate::TOOL.to_owned(), ..Provenance::default() };
@@ -267,21 +277,4 @@ impl LoadCovariance {
         let signals = &self.covariance.signals + self.covariance.of_signals(&load);
         &self.inverse * signals * self.inverse.transpose()
     }
-}
-
-/// Derivative of the quadratic terms at a reading: axes × gauges.
-fn slope(second: &DMatrix<f64>, at: &DVector<f64>) -> DMatrix<f64> {
-    let gauges = at.len();
-    let mut slope = DMatrix::zeros(second.nrows(), gauges);
-    let mut column = 0;
-    for i in 0..gauges {
-        for j in i..gauges {
-            for axis in 0..second.nrows() {
-                slope[(axis, i)] += second[(axis, column)] * at[j];
-                slope[(axis, j)] += second[(axis, column)] * at[i];
-            }
-            column += 1;
-        }
-    }
-    slope
 }

@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use super::{CalibrationError, Direction, SensorModel};
 use crate::Axis;
+use crate::curve::Terms;
 use crate::file::SignalUnit;
 use crate::fit::{Fit, FitError};
 use crate::linear::Triangular;
@@ -118,7 +119,8 @@ impl StreamedFit {
             signal_unit: self.signal_unit,
             direction: Direction::SignalsFromLoads,
             bias: self.bias,
-            quadratic: false,
+            terms: Terms::default(),
+            origin: vec![0.0; self.gauges],
             fit: Fit {
                 coefficients,
                 inverse_gram,

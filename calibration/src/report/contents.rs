@@ -7,6 +7,7 @@ use nalgebra::DMatrix;
 use serde::Serialize;
 
 use super::contact::{ContactReport, contact_report};
+use super::curve::CurveReport;
 use super::metrics::{AxisReport, LineReport, axis_reports, cross_talk, lines};
 use super::outliers::{Outlier, outliers};
 use super::predicted::predicted;
@@ -16,7 +17,7 @@ use crate::design::TouchSet;
 use crate::file::{CalibrationFile, Verdict};
 use crate::linear::{Singular, pseudo_inverse};
 use crate::loads::LoadTable;
-use crate::model::{CalibrationError, Limits, Options, SensorModel};
+use crate::model::{CalibrationError, Curvature, Limits, Options, SensorModel};
 
 /// Loads that reach less of full scale than this are said to.
 const COVERED: f64 = 0.75;
@@ -49,6 +50,8 @@ pub struct Report {
     pub matrix: Option<Vec<Vec<f64>>>,
     /// Standard deviation of its entries.
     pub matrix_deviations: Option<Vec<Vec<f64>>>,
+    /// What terms of higher order are worth, if they were chosen, or if the sensor is bad without.
+    pub curve: Option<CurveReport>,
     /// How well lines of action are found.
     pub lines: Option<LineReport>,
     /// What the uncertainty of the calibration does to contact points of a given surface.
@@ -131,7 +134,12 @@ impl Report {
             };
             (0..model.gauges()).map(|i| (0..table.axes.len()).map(|j| entry(i, j)).collect()).collect()
         });
-        report.judge(&options.limits);
+        // Terms that were chosen by what they say of loads left out are not too many, whatever they say of the others.
+        let over_fitting = match options.curvature {
+            Curvature::Given { .. } => f64::INFINITY,
+            _ => options.limits.over_fitting,
+        };
+        report.judge(&Limits { over_fitting, ..options.limits });
         Ok(report)
     }
 
@@ -241,6 +249,7 @@ impl Report {
             cross_talk_percent: cross_talk(table, full_scale, predicted),
             matrix: None,
             matrix_deviations: None,
+            curve: None,
             lines: None,
             contacts: None,
             excluded: Vec::new(),

@@ -113,8 +113,12 @@ impl Report {
         });
     }
 
-    /// Lines of action and contact points.
+    /// What terms of higher order are worth, lines of action, and contact points.
     fn places(&self, page: &mut Page) {
+        if let Some(curve) = &self.curve {
+            page.heading("Curvature");
+            page.push(&html! { p { (curve.to_string()) "." } });
+        }
         if self.lines.is_some() || self.contacts.is_some() {
             page.heading("Where touches are found");
         }

@@ -2,6 +2,7 @@
 
 mod contact;
 mod contents;
+mod curve;
 mod html;
 mod metrics;
 mod outliers;
@@ -14,6 +15,7 @@ mod words;
 
 pub use contact::ContactReport;
 pub use contents::{Exclusion, Report, SampleReport};
+pub use curve::CurveReport;
 pub use metrics::{AxisReport, LineReport};
 pub use outliers::{Outlier, outliers};
 pub use suspicion::{Mistake, Suspicion};

@@ -15,7 +15,7 @@ pub(super) fn predicted(
     table: &LoadTable,
     inverse: &DMatrix<f64>,
 ) -> Result<DMatrix<f64>, CalibrationError> {
-    if file.temperature.is_none() && file.quadratic.is_none() && file.zero.len() == table.gauges() {
+    if file.temperature.is_none() && !file.is_curved() && file.zero.len() == table.gauges() {
         // All at once.
         let mut signals = table.signals.clone();
         for (mut column, zero) in signals.column_iter_mut().zip(&file.zero) {

@@ -86,8 +86,11 @@ impl Report {
         Ok(())
     }
 
-    /// What the errors make of lines of action and contact points.
+    /// What terms of higher order are worth, and what the errors make of lines of action and contact points.
     fn write_contact(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(curve) = &self.curve {
+            writeln!(f, "\nCurvature: {curve}")?;
+        }
         if let Some(lines) = &self.lines {
             write!(
                 f,

@@ -1,6 +1,8 @@
 //! What a report says in words.
 
-use crate::model::{Direction, Options};
+use core::fmt::Write as _;
+
+use crate::model::{Curvature, Direction, Options};
 
 /// How a fit was made.
 pub(super) fn describe(options: &Options) -> String {
@@ -9,8 +11,13 @@ pub(super) fn describe(options: &Options) -> String {
         Direction::SignalsFromLoads => " of signals on loads",
         Direction::LoadsFromSignals => " of loads on signals",
     });
-    if options.quadratic {
-        text.push_str(", quadratic");
+    match &options.curvature {
+        Curvature::Straight => {}
+        Curvature::Quadratic => text.push_str(", quadratic"),
+        Curvature::Chosen => text.push_str(", curved"),
+        Curvature::Given { terms, .. } => {
+            let _ = write!(text, ", curved by {} terms", terms.len());
+        }
     }
     text.push_str(if options.bias { ", with bias" } else { ", without bias" });
     if options.tare_groups {

@@ -61,9 +61,8 @@ fn what_is_no_linear_sensor_of_six_axes_is_refused() {
     assert!(plain.zero::<6>().is_ok());
     let mut bent = plain.clone();
     bent.quadratic = Some(gaussians(random, 6, 21));
-    for error in [bent.sensor_matrix::<6>().unwrap_err(), bent.to_rust(Scalar::F32).unwrap_err()] {
-        assert!(matches!(&error, FileError::OutOfRange { field, .. } if field == "quadratic"), "{error}");
-    }
+    let error = bent.sensor_matrix::<6>().unwrap_err();
+    assert!(matches!(&error, FileError::OutOfRange { field, .. } if field == "quadratic"), "{error}");
     // Its load: the inverse and the products of two signals each, in nominal loads.
     let reading = DVector::from_fn(6, |_, _| gaussian(random));
     let signals = DVector::from_fn(6, |i, _| reading[i] - bent.zero[i]);

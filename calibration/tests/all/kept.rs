@@ -5,7 +5,7 @@ use fingertip_calibration::calibrate;
 use fingertip_calibration::design::{Touch, TouchSet};
 use fingertip_calibration::file::{CalibrationFile, SignalUnit};
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{Direction, Method, Options};
+use fingertip_calibration::model::{Curvature, Direction, Method, Options};
 use fingertip_calibration::nalgebra::{DMatrix, DVector};
 use fingertip_calibration::report::ContactReport;
 use rand::SeedableRng as _;
@@ -191,8 +191,12 @@ fn the_matrix_of_a_bent_sensor_is_that_at_its_zero() {
     });
     let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt).unwrap();
     let direction = Direction::LoadsFromSignals;
-    let options =
-        Options { direction, quadratic: true, nominal: Some(NOMINAL.to_vec()), ..Options::default() };
+    let options = Options {
+        direction,
+        curvature: Curvature::Quadratic,
+        nominal: Some(NOMINAL.to_vec()),
+        ..Options::default()
+    };
     let model = calibrate(&table, &options).unwrap().model;
     let (matrix, zero) = model.matrix_and_zero().unwrap();
     let said =

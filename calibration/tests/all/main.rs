@@ -4,6 +4,7 @@
 mod consensus;
 mod covariance;
 mod coverage;
+mod curved;
 mod design_end_to_end;
 mod design_optimum;
 mod drift_coverage;

@@ -7,7 +7,7 @@ use fingertip_calibration::file::SignalUnit;
 use fingertip_calibration::fit::{FitError, fit_temperature, gauss_helmert, least_squares, leave_out, ridge};
 use fingertip_calibration::in_situ::refine;
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{Direction, Method, Options};
+use fingertip_calibration::model::{Curvature, Direction, Method, Options};
 use fingertip_calibration::nalgebra::DMatrix;
 use rand::SeedableRng as _;
 use rand_pcg::Pcg64Mcg;
@@ -265,8 +265,8 @@ fn of_options() {
         let said = error(Options { method, direction: Direction::LoadsFromSignals, ..plain.clone() });
         assert!(said.contains("the method fits signals from loads only"), "{said}");
     }
-    let said = error(Options { quadratic: true, ..plain.clone() });
-    assert!(said.contains("only loads from signals can have quadratic terms"), "{said}");
+    let said = error(Options { curvature: Curvature::Quadratic, ..plain.clone() });
+    assert!(said.contains("only loads from signals can be curved"), "{said}");
 }
 
 /// A gauge that tells nothing of the load: what drift is a share of nothing, no fit may be made to say.

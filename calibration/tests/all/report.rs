@@ -6,7 +6,7 @@ use fingertip_calibration::calibrate;
 use fingertip_calibration::design::{Touch, TouchSet};
 use fingertip_calibration::file::{SignalUnit, Verdict};
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{CalibrationError, Direction, Method, Options};
+use fingertip_calibration::model::{CalibrationError, Curvature, Direction, Method, Options};
 use fingertip_calibration::nalgebra::DMatrix;
 use fingertip_calibration::report::{Mistake, Report};
 use fingertip_test_support::Worst;
@@ -207,7 +207,11 @@ fn quadratic_terms_are_kept_where_they_help_and_refused_where_not() {
         });
         LoadTable::new(&Axis::FORCES, loads, signals.clone(), SignalUnit::Volt).unwrap()
     };
-    let options = Options { direction: Direction::LoadsFromSignals, quadratic: true, ..Options::default() };
+    let options = Options {
+        direction: Direction::LoadsFromSignals,
+        curvature: Curvature::Quadratic,
+        ..Options::default()
+    };
     let bent = make(0.2);
     let calibration = calibrate(&bent, &options).unwrap();
     assert!(calibration.report.axes.iter().all(|axis| axis.left_out_percent.unwrap() < 0.1));

@@ -5,7 +5,7 @@ use fingertip_calibration::Axis;
 use fingertip_calibration::calibrate;
 use fingertip_calibration::file::{CalibrationFile, SignalUnit};
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{Direction, Method, Options, StreamedFit};
+use fingertip_calibration::model::{Curvature, Direction, Method, Options, StreamedFit};
 use fingertip_calibration::nalgebra::{DMatrix, DVector};
 use rand::SeedableRng as _;
 use rand_pcg::Pcg64Mcg;
@@ -26,7 +26,7 @@ fn bent(signals: &DMatrix<f64>, linear: &DMatrix<f64>, second: &DMatrix<f64>) ->
 fn quadratic() -> Options {
     Options {
         direction: Direction::LoadsFromSignals,
-        quadratic: true,
+        curvature: Curvature::Quadratic,
         nominal: Some(vec![1.0; 3]),
         ..Options::default()
     }

@@ -4,7 +4,7 @@ use fingertip_calibration::Axis;
 use fingertip_calibration::calibrate;
 use fingertip_calibration::file::{SignalUnit, Verdict};
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{Direction, Limits, Method, Options};
+use fingertip_calibration::model::{Curvature, Direction, Limits, Method, Options};
 use fingertip_calibration::nalgebra::DMatrix;
 use fingertip_calibration::report::{Mistake, Report};
 use rand::SeedableRng as _;
@@ -249,8 +249,11 @@ fn the_method_is_described() {
     assert_eq!(report.method, "least squares of signals on loads, with bias");
     assert_eq!(report.coefficients, 2);
     assert_eq!(report.notes.last().unwrap(), "temperatures are known but no drift was fitted");
-    let report =
-        described(Options { direction: Direction::LoadsFromSignals, quadratic: true, ..plain.clone() });
+    let report = described(Options {
+        direction: Direction::LoadsFromSignals,
+        curvature: Curvature::Quadratic,
+        ..plain.clone()
+    });
     assert_eq!(report.method, "least squares of loads on signals, quadratic, with bias");
     assert_eq!(report.coefficients, 3);
     let all = Options {

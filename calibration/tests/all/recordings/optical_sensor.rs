@@ -4,7 +4,7 @@ use fingertip_calibration::Axis;
 use fingertip_calibration::calibrate;
 use fingertip_calibration::file::{CalibrationFile, SignalUnit, Verdict};
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{CalibrationError, Direction, Options};
+use fingertip_calibration::model::{CalibrationError, Curvature, Direction, Options};
 
 use fingertip_test_support::recording;
 
@@ -64,7 +64,7 @@ fn saturated_poses_are_left_out_by_name_and_the_sensor_is_called_poor() {
 #[test]
 fn quadratic_fit_of_45_coefficients_is_refused() {
     let Some(table) = poses() else { return };
-    let error = calibrate(&table, &Options { quadratic: true, ..options() }).unwrap_err();
+    let error = calibrate(&table, &Options { curvature: Curvature::Quadratic, ..options() }).unwrap_err();
     let CalibrationError::OverFitted { coefficients, samples, fitted, left_out, linear } = &error else {
         panic!("{error}");
     };

@@ -6,6 +6,9 @@
 /// Number of gauges.
 pub const GAUGES: usize = 7;
 
+/// Reading of each gauge without load.
+pub const ZERO: [f32; GAUGES] = [-0.02, -0.01, 0.0, 0.01, 0.02, 0.03, 0.04];
+
 /// Signal of each gauge under the nominal load of each axis.
 pub const NORMALISED: [[f32; 6]; GAUGES] = [
     [1.5, 0.033333335, 0.02, 0.014285714, 0.011111111, 0.009090909],
@@ -19,9 +22,6 @@ pub const NORMALISED: [[f32; 6]; GAUGES] = [
 
 /// Nominal loads [N, N, N, N·m, N·m, N·m].
 pub const NOMINAL: [f32; 6] = [10.0, 10.0, 20.0, 0.1, 0.1, 0.05];
-
-/// Reading of each gauge without load.
-pub const ZERO: [f32; GAUGES] = [-0.02, -0.01, 0.0, 0.01, 0.02, 0.03, 0.04];
 
 /// The sensor matrix of these constants.
 ///

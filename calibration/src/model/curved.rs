@@ -1,0 +1,113 @@
+//! The fit of a curved sensor: which terms, and of which origin.
+
+use super::fitting::fit_model;
+use super::sensor_model::normalised;
+use super::{CalibrationError, Curvature, Direction, Options, SensorModel};
+use crate::curve::{Chosen, Terms, choose};
+use crate::loads::LoadTable;
+
+/// With [`Curvature::Chosen`], the options of the terms that are chosen, and what they are worth.
+///
+/// # Errors
+/// [`CalibrationError::BadOption`] if signals are fitted to loads, or there are too few load cases; as [`fit_model`].
+pub(crate) fn with_chosen_terms(
+    table: &LoadTable,
+    options: &Options,
+    nominal: &[f64],
+) -> Result<(Options, Option<Chosen>), CalibrationError> {
+    let mut options = options.clone();
+    if options.curvature != Curvature::Chosen {
+        return Ok((options, None));
+    }
+    let bad =
+        |message: &str| CalibrationError::BadOption { option: "curvature", message: message.to_owned() };
+    if options.direction == Direction::SignalsFromLoads {
+        return Err(bad("only loads from signals can be curved"));
+    }
+    options.curvature = Curvature::Straight;
+    let mut origin = match options.bias {
+        true => fit_model(table, &options, nominal)?.matrix_and_zero()?.1.as_slice().to_vec(),
+        false => vec![0.0; table.gauges()],
+    };
+    let loads = normalised(&table.loads, nominal);
+    let mut left = ROUNDS;
+    loop {
+        let chosen = choose(table, &loads, &origin, options.bias).ok_or_else(|| {
+            bad("the terms of a curved sensor are chosen by leaving out load cases, and there are too few")
+        })?;
+        left -= 1;
+        if chosen.terms.is_empty() {
+            options.curvature = Curvature::Straight;
+            return Ok((options, Some(chosen)));
+        }
+        options.curvature =
+            Curvature::Given { terms: Box::new(chosen.terms.clone()), origin: origin.clone() };
+        fit_at_rest(table, &mut options, nominal)?;
+        let settled = options.curvature.origin(table.gauges());
+        // A product of signals about another origin is that product and others.
+        if left == 0 || !has_moved(table, &origin, &settled, MOVED) {
+            return Ok((options, Some(chosen)));
+        }
+        origin = settled;
+    }
+}
+
+/// The terms are chosen so many times at most, each time about the zero that the last choice tells.
+const ROUNDS: usize = 6;
+/// An origin has moved if it did by this share of what a gauge read.
+const MOVED: f64 = 1e-6;
+
+/// Whether an origin has moved for any gauge by more than a share of the span of its readings.
+fn has_moved(table: &LoadTable, before: &[f64], now: &[f64], share: f64) -> bool {
+    let steps = before.iter().zip(now).map(|(before, now)| (now - before).abs());
+    let spans = table.signals.column_iter().map(|readings| readings.max() - readings.min());
+    steps.zip(spans).any(|(step, span)| !(step <= share * span))
+}
+
+/// What chosen terms would be worth, for a sensor that was fitted without.
+pub(crate) fn worth_of_terms(table: &LoadTable, options: &Options, nominal: &[f64]) -> Option<Chosen> {
+    let curved =
+        Options { direction: Direction::LoadsFromSignals, curvature: Curvature::Chosen, ..options.clone() };
+    with_chosen_terms(table, &curved, nominal).ok()?.1.filter(|chosen| !chosen.terms.is_empty())
+}
+
+/// Fits the sensor. That of given terms is fitted again and again, each time from the reading without load that the last
+/// fit tells as the origin, until that stays where it is: then the terms vanish without load, as a tare wants it. The places
+/// of bumps stay where they are among the readings.
+///
+/// # Errors
+/// As [`fit_model`]; [`CalibrationError::BadOption`] if the origin does not come to rest.
+pub(crate) fn fit_at_rest(
+    table: &LoadTable,
+    options: &mut Options,
+    nominal: &[f64],
+) -> Result<SensorModel, CalibrationError> {
+    const STEPS: usize = 60;
+    const CLOSE: f64 = 1e-10;
+    let mut model = fit_model(table, options, nominal)?;
+    for _ in 0..STEPS {
+        let Curvature::Given { terms, origin } = &mut options.curvature else { return Ok(model) };
+        if !options.bias {
+            return Ok(model);
+        }
+        let zero = model.matrix_and_zero()?.1;
+        let moves: Vec<f64> = zero.iter().zip(&*origin).map(|(zero, origin)| zero - origin).collect();
+        if !has_moved(table, origin, zero.as_slice(), CLOSE) {
+            return Ok(model);
+        }
+        **terms = Terms {
+            centres: terms
+                .centres
+                .iter()
+                .map(|centre| centre.iter().zip(&moves).map(|(c, step)| c - step).collect())
+                .collect(),
+            ..(**terms).clone()
+        };
+        *origin = zero.as_slice().to_vec();
+        model = fit_model(table, options, nominal)?;
+    }
+    Err(CalibrationError::BadOption {
+        option: "curvature",
+        message: "the curved sensor has no reading without load near those of the table".to_owned(),
+    })
+}
