@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &RefineArguments) -> Result<(), CliError> {
         path: arguments.calibration.clone(),
         message: message.to_owned(),
     };
-    if file.axes != Axis::ALL || file.quadratic.is_some() {
+    if file.axes != Axis::ALL || file.is_curved() {
         return Err(unusable("only a linear calibration of six components can be refined"));
     }
     let Rest { signals, unit, temperatures, .. } =

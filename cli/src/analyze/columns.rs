@@ -34,7 +34,7 @@ pub const CONTACT_COLUMNS: &[Columns] = &[
         &["status"],
         "`contact`, or why there is none: `below_threshold`, `misses`, `only_pulling`, `outside_active_region`, \
          `not_finite`, `beyond_friction` (more than `greatest_friction_ratio`, which is 10 for a soft finger unless the \
-         scene sets another); `rest` (used for the tare), `saturated`, `unusable_row` (repeated, out of time, incomplete)",
+         scene sets another); `rest` (used for the tare), `saturated`, `uncalibrated` (beyond the readings that a curved sensor was calibrated with), `unusable_row` (repeated, out of time, incomplete)",
     ),
     always(&["fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm"], "load on the fingertip, tared"),
     always(&["x_m", "y_m", "z_m"], "contact point"),

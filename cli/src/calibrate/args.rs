@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use fingertip_calibration::model::Curvature;
 
 use super::touches::TouchArguments;
 use crate::output::Overwrite;
@@ -75,7 +76,7 @@ pub(crate) struct CalibrateArguments {
     #[arg(long, value_name = "PAYLOAD.toml", conflicts_with_all = ["gravity", "tare_groups"])]
     pub(crate) payload: Option<PathBuf>,
     /// Read the files row by row, in bounded memory, however long: least squares only, no leaving out
-    #[arg(long, conflicts_with_all = ["gravity", "quadratic", "tare_groups", "reference_celsius",
+    #[arg(long, conflicts_with_all = ["gravity", "curvature", "tare_groups", "reference_celsius",
         "reject_outliers", "payload", "prior", "inverse", "json", "html"])]
     pub(crate) stream: bool,
     #[command(flatten)]
@@ -86,9 +87,9 @@ pub(crate) struct CalibrateArguments {
     /// Fit no zero: the readings are tared
     #[arg(long)]
     pub(crate) no_bias: bool,
-    /// Fit products of signals too (with --inverse); refused where that over-fits
-    #[arg(long, requires = "inverse")]
-    pub(crate) quadratic: bool,
+    /// Fit a curved sensor: terms of higher order in the signals (implies --inverse); refused where that over-fits
+    #[arg(long, value_enum, default_value_t = CurvatureChoice::Straight)]
+    pub(crate) curvature: CurvatureChoice,
     /// Subtract the zero of each group (its samples without load) first
     #[arg(long)]
     pub(crate) tare_groups: bool,
@@ -171,6 +172,26 @@ pub(crate) struct TareArguments {
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) overwrite: Overwrite,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CurvatureChoice {
+    /// None: signals proportional to loads
+    Straight,
+    /// All products of two signals
+    Quadratic,
+    /// As many products of two and three signals, and bumps, as predict load cases best that were left out
+    Chosen,
+}
+
+impl From<CurvatureChoice> for Curvature {
+    fn from(choice: CurvatureChoice) -> Self {
+        match choice {
+            CurvatureChoice::Straight => Self::Straight,
+            CurvatureChoice::Quadratic => Self::Quadratic,
+            CurvatureChoice::Chosen => Self::Chosen,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

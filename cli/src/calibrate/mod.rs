@@ -19,7 +19,7 @@ use fingertip_calibration::model::{Direction, Limits, Method, Options};
 use crate::error::CliError;
 use crate::health::{of_table, seen_in_loads};
 use crate::output::{Outputs, shown};
-use args::{CalibrateArguments, FitMethod};
+use args::{CalibrateArguments, CurvatureChoice, FitMethod};
 use files::{bad, read_calibration, read_loads, read_payload, write_reports};
 
 /// `fingertip calibrate`.
@@ -82,6 +82,9 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
                 .to_owned(),
         );
     }
+    if calibration.report.curve.as_ref().is_some_and(|curve| !curve.taken) {
+        notes.push("--curvature chosen fits terms of higher order, too".to_owned());
+    }
     outputs.say(&calibration.report.to_string(), &notes)?;
     let report = &calibration.report;
     refuse_bad(arguments, &output, report.verdict, &report.reasons)
@@ -133,9 +136,13 @@ fn range(arguments: &CalibrateArguments) -> Option<[f64; 2]> {
 fn options(arguments: &CalibrateArguments, table: &LoadTable) -> Result<Options, CliError> {
     let full_scale = arguments.full_scale.clone().unwrap_or_else(|| table.greatest_loads());
     Ok(Options {
-        direction: if arguments.inverse { Direction::LoadsFromSignals } else { Direction::SignalsFromLoads },
+        direction: if arguments.inverse || arguments.curvature != CurvatureChoice::Straight {
+            Direction::LoadsFromSignals
+        } else {
+            Direction::SignalsFromLoads
+        },
         bias: !arguments.no_bias,
-        quadratic: arguments.quadratic,
+        curvature: arguments.curvature.into(),
         method: method(arguments, table)?,
         nominal: arguments.full_scale.clone(),
         range: range(arguments),

@@ -20,12 +20,14 @@ pub(crate) enum Status {
     Rest,
     /// A gauge reads beyond the range that the calibration gives it.
     Saturated,
+    /// The reading lies beyond what a curved sensor was calibrated for.
+    Uncalibrated,
     /// The row repeats another one, its time does not advance, or a number is missing.
     UnusableRow,
 }
 
 impl Status {
-    pub(crate) const ALL: [Self; 11] = [
+    pub(crate) const ALL: [Self; 12] = [
         Self::Contact,
         Self::BelowThreshold,
         Self::Misses,
@@ -36,6 +38,7 @@ impl Status {
         Self::Other,
         Self::Rest,
         Self::Saturated,
+        Self::Uncalibrated,
         Self::UnusableRow,
     ];
 
@@ -57,6 +60,7 @@ impl Status {
     pub(crate) const fn without_wrench(why: NoWrench) -> Self {
         match why {
             NoWrench::Saturated => Self::Saturated,
+            NoWrench::Uncalibrated => Self::Uncalibrated,
             _ => Self::UnusableRow,
         }
     }
@@ -74,6 +78,7 @@ impl Status {
             Self::Other => "other",
             Self::Rest => "rest",
             Self::Saturated => "saturated",
+            Self::Uncalibrated => "uncalibrated",
             Self::UnusableRow => "unusable_row",
         }
     }
@@ -91,6 +96,7 @@ impl Status {
             Self::Other => "another reason",
             Self::Rest => "rest at the start, for the tare",
             Self::Saturated => "a gauge is saturated",
+            Self::Uncalibrated => "beyond what the curved sensor was calibrated for",
             Self::UnusableRow => "row repeated, out of time or incomplete",
         }
     }

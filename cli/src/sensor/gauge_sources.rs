@@ -51,7 +51,7 @@ pub(super) enum GaugeFault {
 impl SourceError for GaugeFault {
     fn kind(&self) -> SourceErrorKind {
         match self {
-            Self::Reading(NoWrench::Saturated) => SourceErrorKind::Overload,
+            Self::Reading(NoWrench::Saturated | NoWrench::Uncalibrated) => SourceErrorKind::Overload,
             Self::Reading(_) | Self::Damaged(_) => SourceErrorKind::Corrupt,
             Self::Doubtful(_) => SourceErrorKind::DeviceFault,
             Self::Unusable(_) => SourceErrorKind::Unsupported,

@@ -44,16 +44,8 @@ impl<T: Real + DeserializeOwned> Writer<T> {
         if gauges < FEWEST {
             return Err(ExportError::Gauges { found: gauges });
         }
-        // Six gauges give the wrench exactly, more by least squares.
-        let (name, of) = match gauges {
-            FEWEST => ("GaussianElimination", format!("wrench::GaussianElimination<{t}>")),
-            _ => ("LeastSquares", format!("wrench::LeastSquares<{t}, {gauges}>")),
-        };
-        let matrix = match convention {
-            Convention::OnFingertip => "calibration::sensor_matrix()?",
-            // Signals of the opposite load: the solution of the opposite matrix.
-            Convention::Reaction => "opposite(&calibration::sensor_matrix()?)?",
-        };
+        let solver =
+            if file.is_curved() { curved(file, t, convention) } else { straight(gauges, t, convention) };
         let zero = if file.temperature.is_some() {
             Typed {
                 of: format!("wrench::TemperatureCompensation<{t}, {gauges}, 3>"),
@@ -75,17 +67,17 @@ impl<T: Real + DeserializeOwned> Writer<T> {
             .map(|line| if line.is_empty() { "\n".to_owned() } else { format!("    {line}\n") })
             .collect();
         let opposite = match convention {
-            Convention::OnFingertip => String::new(),
-            Convention::Reaction => format!(
+            Convention::Reaction if !file.is_curved() => format!(
                 "\n/// The scene says `convention = \"reaction\"`: what the calibration calls a load is the fingertip's on the\n\
                  /// environment, and the pipeline wants the opposite.\n\
                  fn opposite(\n    matrix: &wrench::SensorMatrix<{t}, {gauges}>,\n\
                  ) -> Result<wrench::SensorMatrix<{t}, {gauges}>, wrench::SensorMatrixError> {{\n    \
                      wrench::SensorMatrix::new(-matrix.normalised(), *matrix.nominal())\n}}\n"
             ),
+            _ => String::new(),
         };
         Ok(Solved {
-            solver: Typed { of, make: format!("wrench::{name}::new(&{matrix})?") },
+            solver,
             zero,
             module: format!(
                 "\n/// The calibration of the sensor.\npub mod calibration {{\n    \
@@ -96,6 +88,36 @@ impl<T: Real + DeserializeOwned> Writer<T> {
             reading,
             range: file.range,
         })
+    }
+}
+
+/// The solver of a straight sensor: six gauges give the wrench exactly, more by least squares.
+fn straight(gauges: usize, t: &str, convention: Convention) -> Typed {
+    let (name, of) = match gauges {
+        FEWEST => ("GaussianElimination", format!("wrench::GaussianElimination<{t}>")),
+        _ => ("LeastSquares", format!("wrench::LeastSquares<{t}, {gauges}>")),
+    };
+    let matrix = match convention {
+        Convention::OnFingertip => "calibration::sensor_matrix()?",
+        // Signals of the opposite load: the solution of the opposite matrix.
+        Convention::Reaction => "opposite(&calibration::sensor_matrix()?)?",
+    };
+    Typed { of, make: format!("wrench::{name}::new(&{matrix})?") }
+}
+
+/// The solver of a curved sensor, believed where it was calibrated.
+fn curved(file: &CalibrationFile, t: &str, convention: Convention) -> Typed {
+    let sign = match convention {
+        Convention::OnFingertip => "1.0",
+        Convention::Reaction => "-1.0",
+    };
+    let sensor = format!("calibration::curved_sensor({sign})?");
+    match file.region {
+        Some(_) => Typed {
+            of: format!("wrench::WithinRegion<calibration::Curved, {t}, {}>", file.gauges()),
+            make: format!("wrench::WithinRegion::new({sensor}, calibration::region()?)"),
+        },
+        None => Typed { of: "calibration::Curved".to_owned(), make: sensor },
     }
 }
 

@@ -39,7 +39,7 @@ const KNOWN: [&str; 17] = [
 ];
 
 /// What can be wrong with numbers: where it shows that it can, its variant, its type, and what it is of.
-const FAULTS: [(&str, &str, &str, &str); 10] = [
+const FAULTS: [(&str, &str, &str, &str); 12] = [
     ("", "Shape", "surfaces::BadShape", "A shape, a contact model or an uncertainty."),
     ("friction::", "Friction", "friction::BadParameter", "A friction, a detector or a grip."),
     ("contact::Tracker::new", "Track", "contact::BadTrack", "What follows a contact over time."),
@@ -54,6 +54,8 @@ const FAULTS: [(&str, &str, &str, &str); 10] = [
         "A sensor that does not tell all loads.",
     ),
     ("LeastSquares::new", "Singular", "wrench::LeastSquaresError", "A sensor that does not tell all loads."),
+    ("calibration::curved_sensor", "Curve", "wrench::BadCurve", "The terms of a curved sensor."),
+    ("calibration::region", "Region", "wrench::BadRegion", "Where the sensor was calibrated."),
     ("calibration::temperature", "Temperature", "wrench::BadTemperatureModel", "The drift with temperature."),
 ];
 

@@ -36,7 +36,7 @@ keys!(KEYS, "Keys of whole sections, section by section.":
     Optional "signal", "unit of the signals, `\"V\"` by default";
 }
 "sensor" "": {
-    Optional "calibration", "a file that `fingertip calibrate` wrote, linear or quadratic, with temperature or without, or an ATI `.cal`; relative to the scene. `--calibration` takes the place of the section";
+    Optional "calibration", "a file that `fingertip calibrate` wrote, straight or curved, with temperature or without, or an ATI `.cal`; relative to the scene. `--calibration` takes the place of the section";
     Optional "load_per_signal_N_Nm", "in place of a file: six rows, Fx to Tz, of newtons and newton metres per signal of each gauge; six to sixteen gauges";
     Optional "signal_unit", "required with the matrix: `\"V\"`, `\"mV/V\"`, `\"count\"` or `\"strain\"`";
     Optional "zero", "with the matrix: readings without load, 0 by default";

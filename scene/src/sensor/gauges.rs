@@ -1,11 +1,11 @@
 //! The solver and the zero of a sensor, by its number of gauges.
 
 use fingertip::wrench::{
-    Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy, GaugesAndTemperature,
-    GaussianElimination, LeastSquares, QuadraticInverse, Real, SensorMatrix, Tare, TareAccumulator,
-    TareError, TemperatureCompensation, Wrench, WrenchSolver,
+    CalibratedRegion, Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy, GaugesAndTemperature,
+    GaussianElimination, LeastSquares, Real, SensorMatrix, Tare, TareAccumulator, TareError,
+    TemperatureCompensation, Wrench, WrenchSolver,
 };
-use fingertip_calibration::file::CalibrationFile;
+use fingertip_calibration::file::{AnyCurve, CalibrationFile};
 use nalgebra::{SVector, Vector6};
 
 use super::{BadSensor, GaugeReading, NoWrench};
@@ -21,13 +21,15 @@ pub(crate) struct Gauges<T: Real, S, const N: usize> {
     watch: RestWatch<T, N>,
     /// Readings at or beyond these are saturated.
     range: Option<[T; 2]>,
+    /// Where a curved sensor was calibrated.
+    region: Option<Box<CalibratedRegion<T, N>>>,
 }
 
 /// From signals to the wrench.
 #[derive(Clone, Debug, PartialEq)]
 enum Solver<T: Real, S, const N: usize> {
     Straight(S),
-    Curved(Box<QuadraticInverse<T, N>>),
+    Curved(Box<AnyCurve<T, N>>),
 }
 
 impl<T: Real, S: WrenchSolver<T, N>, const N: usize> Solver<T, S, N> {
@@ -71,8 +73,8 @@ impl<T: Real, S: WrenchSolver<T, N>, const N: usize> Gauges<T, S, N> {
     where
         BadSensor: From<E>,
     {
-        let solver = if file.quadratic.is_some() {
-            Solver::Curved(Box::new(file.quadratic_inverse_in()?))
+        let solver = if file.is_curved() {
+            Solver::Curved(Box::new(file.curved_inverse_in()?))
         } else {
             Solver::Straight(solver(&file.sensor_matrix_in()?)?)
         };
@@ -81,7 +83,16 @@ impl<T: Real, S: WrenchSolver<T, N>, const N: usize> Gauges<T, S, N> {
             None => Zero::Tare(file.zero_in()?),
         };
         let range = file.range.map(|range| range.map(T::literal));
-        Ok(Self { solver, zero, rest: None, watch: RestWatch::default(), range })
+        let region =
+            file.region.as_ref().filter(|_| file.is_curved()).map(|region| region.in_type()).transpose()?;
+        Ok(Self {
+            solver,
+            zero,
+            rest: None,
+            watch: RestWatch::default(),
+            range,
+            region: region.map(Box::new),
+        })
     }
 
     /// The gauges of a reading, if they are as many, finite and within range.
@@ -106,6 +117,9 @@ impl<T: Real, S: WrenchSolver<T, N>, const N: usize> Gauges<T, S, N> {
             }
             Zero::Dummy(zero) => zero.compensate(&GaugesAndDummy { gauges, dummy: known(reading.dummy)? }),
         };
+        if self.region.as_ref().is_some_and(|region| !region.holds(&signals)) {
+            return Err(NoWrench::Uncalibrated);
+        }
         Ok(self.solver.solve(&signals))
     }
 

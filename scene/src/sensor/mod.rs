@@ -42,6 +42,10 @@ pub enum NoWrench {
     /// A gauge reads at or beyond the range that its calibration states.
     #[error("a gauge is saturated")]
     Saturated,
+    /// The reading lies too far from those that a curved sensor was calibrated with: it says nothing there
+    /// ([`CalibratedRegion`](fingertip::wrench::CalibratedRegion)).
+    #[error("the reading lies beyond what the curved sensor was calibrated for")]
+    Uncalibrated,
     /// Too few or too many gauges, a number that is not finite, or the temperature or the dummy gauge is missing
     /// where the zero needs it.
     #[error("the reading is incomplete")]
@@ -77,7 +81,7 @@ pub enum BadSensor {
 
 /// A sensor with its calibration and its zero: readings to wrenches.
 ///
-/// Six gauges give the wrench exactly, more by least squares, and a calibration with quadratic terms by these. The
+/// Six gauges give the wrench exactly, more by least squares, and a curved calibration by its terms of higher order. The
 /// zero is that of the calibration, drift with temperature included, or the mean of a rest: readings are given to
 /// [`rest`](Self::rest), and behind [`end_rest`](Self::end_rest) their mean is the zero. If the first reading of the
 /// rest has a dummy gauge, all later ones need it, and what it shows to drift is taken off.
@@ -120,7 +124,7 @@ impl<T: Real> Sensor<T> {
     /// The wrench of a reading as the calibration has it, in the frame and of the sign that it was calibrated in.
     ///
     /// # Errors
-    /// [`NoWrench::Saturated`], [`NoWrench::Incomplete`].
+    /// [`NoWrench::Saturated`], [`NoWrench::Uncalibrated`], [`NoWrench::Incomplete`].
     #[inline]
     pub fn wrench(&self, reading: &GaugeReading<'_, T>) -> Result<Wrench<T>, NoWrench> {
         self.0.wrench(reading)

@@ -12,6 +12,7 @@ use fingertip_scene::registry::entries;
 use fingertip_scene::{ExportError, Pipeline, Scalar, Scene};
 
 use crate::choices::scene_with;
+use crate::curved::curved;
 use crate::export_beside::{SKINNED, calibration, pushes_on};
 use crate::{HEAD, exported};
 
@@ -64,6 +65,8 @@ fn modules_with_a_calibration_are_what_is_exported_today() {
     holds("skinned_six_gauges", &skinned.to_rust(Scalar::F64, Some(&calibration(6))).unwrap());
     let plane = example("plane");
     holds("plane_eight_gauges_f32", &plane.to_rust(Scalar::F32, Some(&calibration(8))).unwrap());
+    holds("plane_curved_f32", &plane.to_rust(Scalar::F32, Some(&curved(8))).unwrap());
+    holds("skinned_curved", &skinned.to_rust(Scalar::F64, Some(&curved(6))).unwrap());
 }
 
 /// Every choice, by a module of its own in one file.

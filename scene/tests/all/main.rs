@@ -8,6 +8,7 @@ extern crate alloc;
 mod calibrated_spread;
 mod choices;
 mod collada;
+mod curved;
 mod export;
 mod export_before;
 mod export_beside;

@@ -129,6 +129,9 @@ pub mod calibration {
     /// Number of gauges.
     pub const GAUGES: usize = 6;
 
+    /// Reading of each gauge without load.
+    pub const ZERO: [f64; GAUGES] = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+
     /// Signal of each gauge under the nominal load of each axis.
     pub const NORMALISED: [[f64; 6]; GAUGES] = [
         [-0.005004485039149104, 0.004608177741583267, 0.5850505732216458, 0.006121229339620492, -0.8090369690282392, 0.02147542825199429],
@@ -141,9 +144,6 @@ pub mod calibration {
 
     /// Nominal loads [N, N, N, N·m, N·m, N·m].
     pub const NOMINAL: [f64; 6] = [4.760231086827613, 4.930557777777277, 6.651714064810664, 0.046184304693261326, 0.045608222942798364, 0.034186985827943356];
-
-    /// Reading of each gauge without load.
-    pub const ZERO: [f64; GAUGES] = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 
     /// The sensor matrix of these constants.
     ///

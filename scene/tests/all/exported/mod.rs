@@ -43,4 +43,8 @@ pub(crate) mod plane_eight_gauges_f32;
 #[rustfmt::skip]
 pub(crate) mod skinned;
 #[rustfmt::skip]
+pub(crate) mod plane_curved_f32;
+#[rustfmt::skip]
+pub(crate) mod skinned_curved;
+#[rustfmt::skip]
 pub(crate) mod skinned_six_gauges;

@@ -123,6 +123,9 @@ pub mod calibration {
     /// Number of gauges.
     pub const GAUGES: usize = 8;
 
+    /// Reading of each gauge without load.
+    pub const ZERO: [f32; GAUGES] = [-0.02, -0.01, 0.0, 0.01, 0.02, 0.03, 0.04, 0.05];
+
     /// Signal of each gauge under the nominal load of each axis.
     pub const NORMALISED: [[f32; 6]; GAUGES] = [
         [1.5, 0.033333335, 0.02, 0.014285714, 0.011111111, 0.009090909],
@@ -137,9 +140,6 @@ pub mod calibration {
 
     /// Nominal loads [N, N, N, N·m, N·m, N·m].
     pub const NOMINAL: [f32; 6] = [10.0, 10.0, 20.0, 0.1, 0.1, 0.05];
-
-    /// Reading of each gauge without load.
-    pub const ZERO: [f32; GAUGES] = [-0.02, -0.01, 0.0, 0.01, 0.02, 0.03, 0.04, 0.05];
 
     /// The sensor matrix of these constants.
     ///

@@ -337,6 +337,9 @@ pub mod calibration {
     /// Number of gauges.
     pub const GAUGES: usize = 6;
 
+    /// Reading of each gauge without load.
+    pub const ZERO: [f64; GAUGES] = [-0.02, -0.01, 0.0, 0.009999999999999998, 0.02, 0.030000000000000002];
+
     /// Signal of each gauge under the nominal load of each axis.
     pub const NORMALISED: [[f64; 6]; GAUGES] = [
         [1.5, 0.03333333333333333, 0.02, 0.014285714285714287, 0.011111111111111112, 0.009090909090909092],
@@ -349,9 +352,6 @@ pub mod calibration {
 
     /// Nominal loads [N, N, N, N·m, N·m, N·m].
     pub const NOMINAL: [f64; 6] = [10.0, 10.0, 20.0, 0.1, 0.1, 0.05];
-
-    /// Reading of each gauge without load.
-    pub const ZERO: [f64; GAUGES] = [-0.02, -0.01, 0.0, 0.009999999999999998, 0.02, 0.030000000000000002];
 
     /// The sensor matrix of these constants.
     ///
