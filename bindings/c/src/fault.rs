@@ -42,8 +42,10 @@ pub enum ft_status {
     FT_OVERLAP = 12,
     /// The rest may have been none: the sensor moved or was touched.
     FT_DOUBTFUL = 13,
+    /// The reading lies beyond what the curved sensor was calibrated for. The sample is left out.
+    FT_UNCALIBRATED = 14,
     /// A fault of this library. The handle can be freed; what it would say is not to be trusted.
-    FT_INTERNAL = 14,
+    FT_INTERNAL = 15,
 }
 
 /// A failure before it is told.
@@ -110,6 +112,7 @@ impl Fault {
             | Self::Pose(_)
             | Self::Fusion(_) => ft_status::FT_BAD_NUMBER,
             Self::Reading(NoWrench::Saturated) => ft_status::FT_SATURATED,
+            Self::Reading(NoWrench::Uncalibrated) => ft_status::FT_UNCALIBRATED,
             Self::Reading(NoWrench::NoSensor) => ft_status::FT_NO_SENSOR,
             Self::Reading(NoWrench::NoMotion) => ft_status::FT_NO_MOTION,
             Self::Reading(_) => ft_status::FT_INCOMPLETE,
@@ -152,7 +155,8 @@ pub extern "C" fn ft_status_text(status: u32) -> *const c_char {
         11 => c"there was no rest, or too short a one",
         12 => c"columns overlap that must not",
         13 => c"the rest may have been none",
-        14 => c"a fault of this library",
+        14 => c"the reading lies beyond what the curved sensor was calibrated for",
+        15 => c"a fault of this library",
         _ => c"no status of this library",
     };
     text.as_ptr()

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use fingertip_calibration::file::{CalibrationFile, SignalUnit};
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{Direction, Limits, Method, Options};
+use fingertip_calibration::model::{Curvature, Direction, Limits, Method, Options};
 use fingertip_calibration::{Axis, Calibration};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
@@ -96,15 +96,28 @@ fn method(options: &Bound<'_, PyDict>) -> PyResult<Method> {
     }
 }
 
+fn curvature(options: &Bound<'_, PyDict>) -> PyResult<Curvature> {
+    let name: Option<String> = option(options, "curvature")?.map(|name| name.extract()).transpose()?;
+    match name.as_deref() {
+        None | Some("straight") => Ok(Curvature::Straight),
+        Some("quadratic") => Ok(Curvature::Quadratic),
+        Some("chosen") => Ok(Curvature::Chosen),
+        Some(other) => Err(errors::calibration(format!(
+            "`curvature` {other:?} is not known; there are \"straight\", \"quadratic\" and \"chosen\""
+        ))),
+    }
+}
+
 fn chosen(options: &Bound<'_, PyDict>) -> PyResult<Options> {
     let flag = |key, usual| option(options, key)?.map_or(Ok(usual), |flag| flag.extract::<bool>());
     let number = |key, usual| option(options, key)?.map_or(Ok(usual), |number| number.extract::<f64>());
-    let inverse = flag("loads_from_signals", false)?;
+    let curvature = curvature(options)?;
+    let inverse = flag("loads_from_signals", curvature != Curvature::Straight)?;
     let usual = Limits::default();
     Ok(Options {
         direction: if inverse { Direction::LoadsFromSignals } else { Direction::SignalsFromLoads },
         bias: flag("bias", true)?,
-        quadratic: flag("quadratic", false)?,
+        curvature,
         method: method(options)?,
         nominal: option(options, "nominal")?.map(|loads| numbers::list(&loads, "nominal")).transpose()?,
         range: option(options, "range")?.map(|range| numbers::numbers::<2>(&range, "range")).transpose()?,

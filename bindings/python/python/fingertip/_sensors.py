@@ -22,8 +22,8 @@ def calibrate(
     unit: Literal["V", "mV/V", "count", "strain"] = "V",
     method: Literal["least_squares", "huber", "ransac"] = "least_squares",
     bias: bool = True,
-    quadratic: bool = False,
-    loads_from_signals: bool = False,
+    curvature: Literal["straight", "quadratic", "chosen"] = "straight",
+    loads_from_signals: bool | None = None,
     nominal: npt.ArrayLike | None = None,
     range: tuple[float, float] | None = None,
     names: Sequence[str] | None = None,
@@ -52,10 +52,11 @@ def calibrate(
         Least squares, or one of two that stand samples gone wrong.
     bias : bool, optional
         Whether a zero is fitted; without, the readings must be tared.
-    quadratic : bool, optional
-        Whether products of signals are fitted too; needs `loads_from_signals`.
+    curvature : str, optional
+        What is fitted beside what is proportional to the signals: nothing, all products of two signals, or as many products
+        of two and three signals and smooth bumps as predict load cases best that were left out.
     loads_from_signals : bool, optional
-        Inverse regression, as makers of sensors often publish it.
+        Inverse regression, as makers of sensors often publish it; what a curved sensor is fitted by.
     nominal : array_like, optional
         Full scale of each axis [N, N·m]; the greatest loads by default.
     range : (float, float), optional
@@ -95,7 +96,7 @@ def calibrate(
         "unit": unit,
         "method": method,
         "bias": bias,
-        "quadratic": quadratic,
+        "curvature": curvature,
         "loads_from_signals": loads_from_signals,
         "nominal": nominal,
         "range": range,
