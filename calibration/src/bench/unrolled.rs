@@ -73,8 +73,8 @@ impl Unrolled {
         let outline = |gauge: &Gauge<f64>| Outline::new(*gauge, foil, outer, drawn, seam);
         let outlines: Vec<Outline> = layout.gauges.iter().map(outline).collect();
         let highest = outlines.iter().flat_map(|outline| outline.carrier).map(|[_, z]| z).fold(0.0, f64::min);
-        // Room above for the marks of angles and for the knife.
-        let top = highest - 3e-3;
+        // Room above for the numbers of gauges and for the knife.
+        let top = highest - 6e-3;
         Ok(Self { outer, inner, drawn, seam, top, clamped, foil: *foil, outlines })
     }
 

@@ -117,7 +117,12 @@ fn drawn(sheet: &mut Sheet, [x, y]: [f64; 2], channel: usize, bridge: &Bridge) {
         let anchor = if outward > 0.0 { Anchor::Start } else { Anchor::End };
         let lower = if middle[1] > y { 3.0 } else { -2.0 };
         sheet.text([middle[0] + outward * 3.0, middle[1] + lower], 2.8, anchor, &label);
-        sheet.text([middle[0] - outward * 3.0, middle[1] + 0.8], 2.0, Anchor::Middle, &number.to_string());
+        sheet.text(
+            [middle[0] - outward * 4.5, middle[1] - lower + 0.8],
+            2.0,
+            Anchor::Middle,
+            &number.to_string(),
+        );
     }
     for node in [BridgeNode::Supply, BridgeNode::Ground, BridgeNode::Minus, BridgeNode::Plus] {
         sheet.circle(Pen::Thick, "", on(node), 0.5);
