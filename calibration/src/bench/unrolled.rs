@@ -27,7 +27,7 @@ pub struct Outline {
 /// A sheet that is wrapped around the tube bends about its middle, half its thickness outside the wall: the sheet is
 /// as long as that circle, and the arc of an angle θ on it is `(R + s/2 + p/2)·θ` for the mean radius R, the wall s
 /// and the paper p. Gauges lie on the wall itself, at R + s/2; their outlines are drawn so that they cover them when the
-/// sheet is wrapped, a little longer around.
+/// sheet is wrapped, a little longer around (`docs/theory/calibration.md#a-template-that-is-wrapped`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unrolled {
     /// Outer radius of the tube \[m\].

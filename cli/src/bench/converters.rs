@@ -55,7 +55,7 @@ impl Converters {
             rate: parts.sample_rate,
         };
         let expected = |setting: BridgeSetting| {
-            // A bridge has the resistance of one of its arms (Johnson 1928: √(4kTR·Δf), half the rate passes).
+            // A bridge has the resistance of one of its arms (docs/theory/calibration.md#noise-of-a-converter).
             let thermal = 4.0 * THERMAL * parts.foil().resistance * 0.5 * setting.conversions;
             let volts = (setting.noise * setting.noise + thermal).sqrt();
             let counts = sensitivity * setting.counts_per_ratio();
