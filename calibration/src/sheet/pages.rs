@@ -1,6 +1,6 @@
 //! Sheets as pages of a PDF.
 
-use pdf_writer::{Content, Finish as _, Name, Pdf, Rect, Ref, Str, TextStr};
+use pdf_writer::{Content, Name, Pdf, Rect, Ref, Str, TextStr};
 
 use super::letters::{letter, width};
 use super::{Anchor, Mark, Pen, Sheet};
@@ -23,10 +23,11 @@ pub fn pdf(sheets: &[Sheet]) -> Vec<u8> {
     let (catalog, tree, font, info) = (next(), next(), next(), next());
     let pages: Vec<(Ref, Ref, &Sheet)> = sheets.iter().map(|sheet| (next(), next(), sheet)).collect();
     let mut pdf = Pdf::new();
-    let mut root = pdf.catalog(catalog);
-    root.pages(tree);
-    root.viewer_preferences().pair(Name(b"PrintScaling"), Name(b"None"));
-    root.finish();
+    {
+        let mut root = pdf.catalog(catalog);
+        root.pages(tree);
+        root.viewer_preferences().pair(Name(b"PrintScaling"), Name(b"None"));
+    }
     if let Some(first) = sheets.first() {
         pdf.document_info(info).title(TextStr(first.title()));
     }
@@ -35,10 +36,11 @@ pub fn pdf(sheets: &[Sheet]) -> Vec<u8> {
     pdf.type1_font(font).base_font(Name(b"Helvetica")).encoding_predefined(Name(b"WinAnsiEncoding"));
     for (id, content, sheet) in pages {
         let [width, height] = sheet.size.map(|length| (length * POINTS) as f32);
-        let mut page = pdf.page(id);
-        page.media_box(Rect::new(0.0, 0.0, width, height)).parent(tree).contents(content);
-        page.resources().fonts().pair(FONT, font);
-        page.finish();
+        {
+            let mut page = pdf.page(id);
+            page.media_box(Rect::new(0.0, 0.0, width, height)).parent(tree).contents(content);
+            page.resources().fonts().pair(FONT, font);
+        }
         pdf.stream(content, &drawn(sheet));
     }
     pdf.finish()
