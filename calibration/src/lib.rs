@@ -3,6 +3,7 @@
 extern crate alloc;
 
 mod axis;
+pub mod bench;
 mod calibrate;
 pub mod curve;
 pub mod design;
@@ -18,6 +19,7 @@ pub mod model;
 pub mod motion;
 pub mod page;
 pub mod report;
+pub mod sheet;
 pub mod tare;
 #[cfg(test)]
 mod testing;

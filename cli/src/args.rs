@@ -3,6 +3,7 @@
 use clap::{Parser, Subcommand};
 
 use crate::analyze::args::AnalyzeArguments;
+use crate::bench::args::BenchArguments;
 use crate::calibrate::args::{CalibrateArguments, CheckArguments, TareArguments};
 use crate::calibrate::import::ImportArguments;
 use crate::convert::ConvertArguments;
@@ -62,6 +63,8 @@ pub(crate) enum Command {
     Simulate(SimulateArguments),
     /// Design a sensor: from wanted ranges and size to a layout of gauges and the accuracy to expect
     Design(DesignArguments),
+    /// Write what one needs to glue and wire a layout: template at 1:1, drawing, wiring, settings of converters
+    Bench(BenchArguments),
     /// Fit a sensor to known loads, or a payload to poses, and say how good that is
     Calibrate(Box<CalibrateArguments>),
     /// Test a calibration on loads that it has not seen

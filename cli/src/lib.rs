@@ -5,6 +5,7 @@ extern crate alloc;
 
 mod analyze;
 mod args;
+mod bench;
 mod calibrate;
 mod calibrated;
 mod convert;
@@ -76,6 +77,7 @@ pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) ->
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Simulate(arguments) => serve::run(&arguments),
         Command::Design(arguments) => design::run(&arguments),
+        Command::Bench(arguments) => bench::run(&arguments),
         Command::Calibrate(arguments) => calibrate::calibrate(&arguments),
         Command::Check(arguments) => calibrate::check::run(&arguments),
         Command::Import(arguments) => calibrate::import::run(&arguments),

@@ -63,3 +63,40 @@ impl PoseNoise {
         (variance.max(0.0).sqrt(), freedom)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Where the squares do not tell the components apart, forces share theirs and torques theirs: a pose that is fitted
+    /// exactly in Fx says nothing of the noise of Fx.
+    #[test]
+    fn components_that_are_not_told_apart_are_alike_in_threes() {
+        // One parameter that follows Fx alone, of one pose: nothing is left of that.
+        let only_first = DMatrix::from_fn(6, 1, |row, _| if row == 0 { 1.0 } else { 0.0 });
+        let left = [Vector6::new(0.0, 2.0, 4.0, 0.1, 0.2, 0.4)];
+        let noise =
+            PoseNoise::new(&left, core::slice::from_ref(&only_first), core::slice::from_ref(&only_first));
+        // Two degrees of freedom of three forces, three of three torques.
+        let (force, torque) = ((4.0 + 16.0) / 2.0, (0.01 + 0.04 + 0.16) / 3.0);
+        for (component, expected) in [force, force, force, torque, torque, torque].into_iter().enumerate() {
+            let found = noise.variances[component];
+            assert!((found / expected - 1.0).abs() < 1e-12, "{component}: {found} {expected}");
+        }
+        // The parameter has the noise of a force, and the degrees of freedom of two that are left.
+        let (deviation, freedom) = noise.of(&DVector::from_element(1, 1.0));
+        assert!((deviation - force.sqrt()).abs() < 1e-12, "{deviation}");
+        // 2 v²/Var(v) of v = (4 + 16)/2, each square with its one degree: 100/(2² + 8²).
+        assert!((freedom - 100.0 / 68.0).abs() < 1e-12, "{freedom}");
+    }
+
+    /// Two poses that leave of every component what they show: each has its own.
+    #[test]
+    fn components_that_are_told_apart_have_their_own() {
+        let nothing = DMatrix::zeros(6, 1);
+        let left = [Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0), Vector6::new(-1.0, 0.0, 3.0, 0.0, 5.0, 2.0)];
+        let noise = PoseNoise::new(&left, &[nothing.clone(), nothing.clone()], &[nothing.clone(), nothing]);
+        let expected = [1.0, 2.0, 9.0, 8.0, 25.0, 20.0];
+        assert!((noise.variances - Vector6::from(expected)).amax() < 1e-12, "{}", noise.variances);
+    }
+}

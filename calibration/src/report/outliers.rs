@@ -175,4 +175,35 @@ mod tests {
         let responses = &design * sensor(&mut random, 6, 6);
         assert!(outliers(&design, &responses, None, &names(40), &names(6)).is_empty());
     }
+
+    /// Samples of weight zero are no samples: what is said of the others is as if they were not there.
+    #[test]
+    fn samples_that_do_not_count_change_nothing() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(5);
+        let design = gaussian_matrix(&mut random, 26, 3);
+        let mut responses = &design * sensor(&mut random, 3, 2) + gaussian_matrix(&mut random, 26, 2) * 0.01;
+        for (i, size) in [(2, 1.0), (5, -0.8), (7, 0.5)] {
+            responses[(i, 1)] += size;
+        }
+        // Three in eleven stand out, of which two are looked for.
+        let weights: Vec<f64> = (0..26).map(|i| if i < 11 { 1.0 } else { 0.0 }).collect();
+        let found = outliers(&design, &responses, Some(&weights), &names(26), &names(2));
+        let alone =
+            outliers(&design.rows(0, 11).into(), &responses.rows(0, 11).into(), None, &names(11), &names(2));
+        assert!(alone.len() <= 2);
+        assert_eq!(found.len(), alone.len());
+        for (found, alone) in found.iter().zip(&alone) {
+            assert_eq!((found.index, &found.sample), (alone.index, &alone.sample));
+            assert!((found.deviations / alone.deviations - 1.0).abs() < 1e-9, "{found:?} {alone:?}");
+        }
+        // One that stands out in so few is found so, too.
+        responses[(5, 1)] += 0.8;
+        responses[(7, 1)] -= 0.5;
+        let found = outliers(&design, &responses, Some(&weights), &names(26), &names(2));
+        assert_eq!(found.iter().map(|outlier| outlier.index).collect::<Vec<_>>(), [2]);
+        let alone =
+            outliers(&design.rows(0, 11).into(), &responses.rows(0, 11).into(), None, &names(11), &names(2));
+        assert!((found[0].deviations / alone[0].deviations - 1.0).abs() < 1e-9, "{found:?} {alone:?}");
+        assert!((found[0].chance / alone[0].chance - 1.0).abs() < 1e-6, "{found:?} {alone:?}");
+    }
 }

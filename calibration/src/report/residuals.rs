@@ -310,4 +310,32 @@ mod tests {
             }
         }
     }
+
+    /// One that clearly stands out is found among the few that are followed, without another fit; and what nobody has
+    /// followed is not vouched for.
+    #[test]
+    fn what_stands_out_is_sure_without_fitting_anew() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(11);
+        let design = gaussian_matrix(&mut random, 400, 4);
+        let mut responses = &design * sensor(&mut random, 4, 3) + gaussian_matrix(&mut random, 400, 3);
+        for (row, response, size) in [(20, 1, 40.0), (31, 2, 30.0), (77, 0, -20.0)] {
+            responses[(row, response)] += size;
+        }
+        let mut residuals = Residuals::following(&design, &responses, None, (0..400).collect(), 100).unwrap();
+        for expected in [20, 31, 77] {
+            let (row, _, found) = residuals.most_extreme().unwrap();
+            assert_eq!(residuals.sample(row), expected);
+            assert!(residuals.is_sure_of(found) && residuals.is_sure_of(-found), "{expected}: {found}");
+            assert!(residuals.remove(row));
+        }
+        // Of noise alone the others may be as large.
+        assert!(!residuals.is_sure_of(0.1));
+        // A response that is exact has nothing that stands out.
+        let exact = DMatrix::from_fn(400, 3, |i, j| if j == 2 { design[(i, 0)] } else { responses[(i, j)] });
+        let mut residuals = Residuals::following(&design, &exact, None, (0..400).collect(), 100).unwrap();
+        let (row, _, _) = residuals.most_extreme().unwrap();
+        residuals.remove(row);
+        let (_, _, found) = residuals.most_extreme().unwrap();
+        assert!(residuals.is_sure_of(found), "{found}");
+    }
 }

@@ -321,3 +321,39 @@ fn gauges_that_are_fewer_than_components_are_told() {
         assert!(told || !said.contains("cannot tell"), "{said}");
     }
 }
+
+/// What loads or signals do not determine is named by its axes, gauges, their products and the constant, as far as the
+/// fit has them.
+#[test]
+fn what_is_not_determined_is_named() {
+    let random = &mut Pcg64Mcg::seed_from_u64(7);
+    let axes = [Axis::Fx, Axis::Fy, Axis::Tz];
+    let loads = gaussians(random, 30, 3);
+    let signals = &loads * sensor(random, 3, 3) + gaussians(random, 30, 3) * 0.01;
+    let refused = |loads: &DMatrix<f64>, signals: &DMatrix<f64>, direction, bias, quadratic| {
+        let table = LoadTable::new(&axes, loads.clone(), signals.clone(), SignalUnit::Volt).unwrap();
+        let options =
+            Options { direction, bias, quadratic, nominal: Some(vec![1.0; 3]), ..Options::default() };
+        calibrate(&table, &options).map(|_| ()).unwrap_err().to_string()
+    };
+    let with = |matrix: &DMatrix<f64>, column: usize, value: &dyn Fn(usize) -> f64| {
+        let mut changed = matrix.clone();
+        (0..30).for_each(|row| changed[(row, column)] = value(row));
+        changed
+    };
+    // Half of either is the direction in which the two are one.
+    let steady = with(&loads, 1, &|_| 1.0);
+    let said = refused(&steady, &signals, Direction::SignalsFromLoads, true, false);
+    assert!(said.contains("0.71 Fy") && said.contains("0.71 constant"), "{said}");
+    let missing = with(&loads, 2, &|row| loads[(row, 0)]);
+    let said = refused(&missing, &signals, Direction::SignalsFromLoads, false, false);
+    assert!(said.contains("0.71 Fx") && said.contains("0.71 Tz") && !said.contains("constant"), "{said}");
+    // A gauge that mirrors another.
+    let mirrored = with(&signals, 2, &|row| 1.0 - signals[(row, 0)]);
+    let said = refused(&loads, &mirrored, Direction::LoadsFromSignals, true, false);
+    assert!(said.contains(" v1") && said.contains(" v3") && said.contains(" constant"), "{said}");
+    // A gauge that only changes its sign has a steady square.
+    let turning = with(&signals, 1, &|row| if row % 3 == 0 { 1.0 } else { -1.0 });
+    let said = refused(&loads, &turning, Direction::LoadsFromSignals, true, true);
+    assert!(said.contains("0.71 v2·v2") && said.contains("0.71 constant"), "{said}");
+}

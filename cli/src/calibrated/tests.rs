@@ -54,6 +54,12 @@ fn what_is_to_be_minded_is_noted_and_what_does_not_fit_is_refused() {
             notes.is_empty() || notes == said || (verdict == Verdict::Unchecked && notes == ["one", "two"]);
         assert!(known, "{notes:?}");
     }
+    // A rest gives the zero that a design lacks, and nothing else of what it lacks.
+    let reasons = vec!["a design".to_owned(), "its zero is not known: tare before use".to_owned()];
+    let design = Quality { verdict: Verdict::Unchecked, reasons: reasons.clone(), ..Quality::default() };
+    let design = CalibrationFile { quality: design, ..file(6) };
+    assert_eq!(read(&design, &READINGS).1, reasons);
+    assert_eq!(read(&design, &Readings { has_rest: true, ..READINGS }).1, ["a design"]);
     let (_, notes) = read(&file(6), &Readings { has_temperature: true, ..READINGS });
     assert_eq!(notes, ["the temperature is known, but the calibration has no terms for it"]);
     for (unit, fits) in [

@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use fingertip_calibration::design::Material;
 use thiserror::Error;
 
+use crate::bench::args::{BenchFiles, Parts};
 use crate::output::Overwrite;
 
 /// Families of layouts.
@@ -76,12 +77,8 @@ pub(crate) struct DesignArguments {
     /// Friction ratio up to which touches are expected
     #[arg(long, value_name = "RATIO", default_value_t = 0.5)]
     pub(crate) friction: f64,
-    /// Standard deviation of the angle of a glued gauge
-    #[arg(long, value_name = "DEG", default_value_t = 0.5)]
-    pub(crate) angle_tolerance_deg: f64,
-    /// Standard deviation of the place of a glued gauge
-    #[arg(long, value_name = "MM", default_value_t = 0.05)]
-    pub(crate) position_tolerance_mm: f64,
+    #[command(flatten)]
+    pub(crate) parts: Parts,
     /// Supply of the bridges
     #[arg(long, value_name = "V", default_value_t = 5.0)]
     pub(crate) supply: f64,
@@ -103,6 +100,8 @@ pub(crate) struct DesignArguments {
     /// Where to write the calibration that a perfect specimen would have
     #[arg(long, value_name = "FILE")]
     pub(crate) calibration: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) files: BenchFiles,
     /// Where to write the report
     #[arg(long, value_name = "FILE", default_value = "design.html")]
     pub(crate) report: PathBuf,

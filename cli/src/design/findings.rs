@@ -5,13 +5,14 @@ use fingertip_calibration::design::{
 };
 
 use super::{CALIBRATION_LOADS, LOAD_ERROR, Outcome};
+use crate::bench::Bench;
 use crate::summary::Findings;
 use crate::table::{Table, number, short};
 
 /// Most minima that a table lists.
 const LISTED: usize = 8;
 
-pub(super) fn of(outcome: &Outcome) -> Findings {
+pub(super) fn of(outcome: &Outcome, bench: &Bench) -> Findings {
     let Outcome { task, found, layout, strength, .. } = outcome;
     let (judged, noise) = (&outcome.compared[0].1, task.noise);
     let error = judged.contact_error.map_or(f64::NAN, |error| error * noise);
@@ -59,12 +60,13 @@ pub(super) fn of(outcome: &Outcome) -> Findings {
             tolerances(outcome),
             strengths(outcome),
         ],
-        notes: notes(outcome),
+        notes: notes(outcome, bench),
     };
     findings.tables.insert(1, minima(outcome));
     if let Some(table) = sensitivities(outcome) {
         findings.tables.push(table);
     }
+    findings.tables.extend(bench.tables());
     if found.failed > 0 {
         findings.notes.push(format!("{} starts found no sensor that can be built", found.failed));
     }
@@ -229,7 +231,7 @@ fn at_bounds(outcome: &Outcome) -> Vec<String> {
     outcome.task.space.parameters().iter().zip(&best.values).filter_map(of).collect()
 }
 
-fn notes(outcome: &Outcome) -> Vec<String> {
+fn notes(outcome: &Outcome, bench: &Bench) -> Vec<String> {
     let Outcome { task, layout, strength, .. } = outcome;
     let x = task.arm() / layout.beam.radius;
     let bound = 2.0_f64.sqrt() * x.max(1.0 / x);
@@ -259,15 +261,6 @@ fn notes(outcome: &Outcome) -> Vec<String> {
             number(layout.beam.thickness * 1e3)
         ));
     }
-    if let Some((distance, first, second)) =
-        layout.closest_gauges().filter(|(distance, _, _)| *distance < 3e-3)
-    {
-        notes.push(format!(
-            "Gauges {} and {} are {} mm apart from centre to centre: check that their carriers fit",
-            first + 1,
-            second + 1,
-            number(distance * 1e3)
-        ));
-    }
+    notes.extend(bench.notes());
     notes
 }

@@ -12,6 +12,7 @@ use fingertip_calibration::design::{
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::bench::Bench;
 use crate::error::CliError;
 use crate::output::Outputs;
 use crate::report;
@@ -46,16 +47,22 @@ fn fault(error: impl ToString) -> CliError {
 }
 
 pub(crate) fn run(arguments: &DesignArguments) -> Result<(), CliError> {
-    let paths = [Some(&arguments.out), arguments.calibration.as_ref(), Some(&arguments.report)];
-    let outputs = Outputs::guard(arguments.overwrite, "output", [], paths.into_iter().flatten())?;
+    let paths = [&arguments.out, &arguments.report].into_iter().chain(arguments.calibration.as_ref());
+    let paths = paths.chain(arguments.files.paths());
+    let outputs = Outputs::guard(arguments.overwrite, "output", [], paths)?;
+    // Before the search, which takes its time.
+    arguments.parts.foil().validate().map_err(fault)?;
     let outcome = design(arguments).map_err(fault)?;
-    let findings = findings::of(&outcome);
-    let figures = figures::of(&outcome).map_err(fault)?;
+    let bench = Bench::new(&outcome.file, Some(outcome.task.tip_radius), &arguments.parts).map_err(fault)?;
+    let findings = findings::of(&outcome, &bench);
+    let mut figures = figures::of(&outcome).map_err(fault)?;
+    figures.extend(bench.figures());
     outputs.write("layout", &arguments.out, &outcome.file.to_toml().map_err(fault)?)?;
     if let Some(path) = &arguments.calibration {
         let file = outcome.file.predicted_calibration().map_err(fault)?;
         outputs.write("calibration", path, &file.to_toml().map_err(fault)?)?;
     }
+    bench.write(&outputs, &arguments.files)?;
     outputs.write("report", &arguments.report, &report::of_design(&findings, figures))?;
     outputs.say(&findings.to_string(), &[])
 }
@@ -87,10 +94,7 @@ fn design(arguments: &DesignArguments) -> Result<Outcome, DesignError> {
     let tube = LoadedTube { radius: layout.beam.radius, ..task.tube };
     let file = LayoutFile::new(&layout, &tube, task.excitation)?;
     let strength = tube.strength(layout.beam.thickness)?;
-    let placement = Placement {
-        angle: arguments.angle_tolerance_deg.to_radians(),
-        position: arguments.position_tolerance_mm * 1e-3,
-    };
+    let placement = arguments.parts.placement();
     let list = Touch::on_sphere(task.tip_radius, task.half_angle, arguments.friction, 0.1 * arguments.force)?;
     let touches = Touches::new(&list)?;
     let tolerance = tolerance(&layout, &task.tube.loads, placement, Some(&touches), SENSORS, arguments.seed)?;

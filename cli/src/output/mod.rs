@@ -76,8 +76,13 @@ impl Outputs {
 
     /// Writes a file of text.
     pub(crate) fn write(&self, what: &'static str, path: &Path, text: &str) -> Result<(), CliError> {
+        self.write_bytes(what, path, text.as_bytes())
+    }
+
+    /// Writes a file.
+    pub(crate) fn write_bytes(&self, what: &'static str, path: &Path, bytes: &[u8]) -> Result<(), CliError> {
         let mut file = self.create(what, path)?;
-        file.write_all(text.as_bytes()).map_err(|source| CliError::write(what, path, source))?;
+        file.write_all(bytes).map_err(|source| CliError::write(what, path, source))?;
         file.finish()
     }
 

@@ -16,6 +16,7 @@ pub(super) const DEVICE: Device = Device {
         DeviceOption::new("domain", "7", "without it ROS_DOMAIN_ID, or 0"),
         DeviceOption::new("interface", "10.0.0.3", "address of the network interface; without it loopback"),
     ],
+    converter: None,
     simulator: None,
 };
 

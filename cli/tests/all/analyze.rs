@@ -407,6 +407,14 @@ fn the_summary_comes_as_json() {
     assert_eq!(told["slips"]["count"], 1);
     assert!((told["slips"]["first"][0]["ratio"].as_f64().unwrap() - 0.5).abs() < 0.02, "{told}");
     assert_eq!(told["faults"]["times that do not advance"]["first_lines"][0], 302, "{told}");
+    // What did not happen is not told.
+    for told in [&told["faults"], &told["outcomes"]] {
+        let counts = told.as_object().unwrap().values();
+        assert!(
+            counts.map(|told| told.get("count").unwrap_or(told)).all(|count| count.as_u64() > Some(0)),
+            "{told}"
+        );
+    }
     assert_eq!(told["written"][0], "contacts.csv");
     // Beside rows on the standard output it goes where words go.
     let output = folder.run(&with(&["--json", "--no-report", "--output", "-"]));

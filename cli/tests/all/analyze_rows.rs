@@ -34,6 +34,31 @@ fn rows_without_time_have_that_of_their_rate() {
     assert!(said.contains("2 samples over 0.500 s"), "{said}");
 }
 
+/// A rate that the scene states is as good as a column of the same times, whatever watches for slip.
+#[test]
+fn a_rate_is_as_good_as_times() {
+    let force = |i: u32| {
+        let sticks = 0.01 * f64::from(i % 60);
+        format!("{},{},-4,0,0,0", 4.0 * sticks, 0.01 * f64::from(i * i % 7))
+    };
+    let timed: String = (0..400).map(|i| format!("{},{}\n", 0.025 * f64::from(i), force(i))).collect();
+    let timed = format!("t_s,{WRENCH}\n{timed}");
+    let plain = format!("{WRENCH}\n{}", (0..400).map(|i| force(i) + "\n").collect::<String>());
+    for detector in ["drop", "threshold", "likelihood_ratio", "stick_slip", "adaptive_drop"] {
+        let slip = format!("[slip]\ndetector = \"{detector}\"\nnoise_N = 0.02\n");
+        let scene = SCENE.replace("[surface]", "sample_rate_Hz = 40.0\n[surface]")
+            + "[friction]\nstatic_coefficient = 0.5\n"
+            + &slip;
+        let (with, without) = (contacts(&scene, &timed), contacts(&scene, &plain));
+        for column in ["t_s", "status", "slip", "normal_N"] {
+            assert_eq!(with.words(column), without.words(column), "{detector}: {column}");
+        }
+        let seen = with.words("slip").into_iter().filter(|word| *word == "slipping").count();
+        // The last one learns the falls for noise.
+        assert!(seen > 0 || detector == "adaptive_drop", "{detector}");
+    }
+}
+
 #[test]
 fn times_are_written_to_the_nanosecond_as_far_as_they_have_one() {
     let rows: String = ["0.30000000000000004", "1.0000000014", "123456789.123456789", "1e300"]

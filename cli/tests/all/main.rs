@@ -4,6 +4,7 @@
 
 mod analyze;
 mod analyze_rows;
+mod bench;
 mod calibrate;
 mod calibrate_options;
 #[path = "../common/mod.rs"]

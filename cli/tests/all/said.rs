@@ -297,16 +297,27 @@ fn without_curves(page: &str) -> String {
     body(page).lines().filter(curve).map(|line| format!("{line}\n")).collect()
 }
 
+/// What each page of a PDF draws, an operator a line.
+fn drawn_on_pages(path: &std::path::Path) -> String {
+    let text: String = std::fs::read(path).unwrap().into_iter().map(char::from).collect();
+    let pages = text.split("\nstream\n").skip(1).filter_map(|rest| Some(rest.split_once("\nendstream")?.0));
+    pages.map(|page| format!("page\n{page}\n")).collect()
+}
+
 #[test]
 fn of_designs() {
     let folder = Folder::new();
     let paper = ["design", "--layout", "paper", "--starts", "3", "--seed", "2"];
     assert_accepted("design_paper.txt", &folder.succeed(&paper));
     assert_accepted("design_paper.html", &without_curves(&folder.read("design.html")));
+    // Where lines and letters stand on paper, too.
+    assert_accepted("design_paper_template.svg", &folder.read("template.svg"));
+    assert_accepted("design_paper_pages.txt", &drawn_on_pages(&folder.path("bench.pdf")));
     let rosettes =
         ["design", "--gauges", "8", "--starts", "2", "--criterion", "contact-error", "--wall-mm", "0.08"];
     assert_accepted("design_rosettes.txt", &folder.succeed(&rosettes));
     assert_accepted("design_rosettes.html", &without_curves(&folder.read("design.html")));
+    assert_accepted("design_rosettes_template.svg", &folder.read("template.svg"));
     let thick =
         ["design", "--starts", "1", "--criterion", "trace", "--wall-mm", "2", "--radius-mm", "4", "5"];
     assert_accepted("design_thick.txt", &folder.succeed(&thick));

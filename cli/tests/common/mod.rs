@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 /// Commands that tests run again and again in one folder.
-const WRITERS: [&str; 9] =
-    ["analyze", "calibrate", "check", "demo", "design", "geometry", "motion", "refine", "tare"];
+const WRITERS: [&str; 10] =
+    ["analyze", "bench", "calibrate", "check", "demo", "design", "geometry", "motion", "refine", "tare"];
 
 /// A folder that is removed with the test.
 pub(crate) struct Folder(PathBuf);

@@ -29,6 +29,8 @@ pub mod ads1256;
 pub mod ads131m;
 mod conversion;
 mod error;
+#[cfg(feature = "devices")]
+mod figures;
 #[cfg(feature = "hx711")]
 pub mod hx711;
 #[cfg(feature = "mcp3564")]
@@ -44,6 +46,11 @@ mod sources;
 
 pub use conversion::{Conversion, ConverterStatistics};
 pub use error::{ConverterError, ConverterFault};
+#[cfg(feature = "devices")]
+pub use figures::{
+    BridgeDemand, BridgeSetting, ConverterFigures, NoiseFigure, RateFigure, ReferenceSource,
+    UnsuitableConverter,
+};
 pub use reading::Reading;
 pub use ready::{Patience, Unwired};
 

@@ -1,6 +1,7 @@
 //! What a device is known by: its name, its link, what its address can say.
 
 use super::simulator::Simulator;
+use crate::converters::ConverterFigures;
 
 /// What a device is connected by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,6 +80,8 @@ pub struct Device {
     pub options: &'static [DeviceOption],
     /// How it is simulated.
     pub simulator: Option<Simulator>,
+    /// What it can be set to, if it is a converter.
+    pub converter: Option<&'static ConverterFigures>,
 }
 
 impl Device {
@@ -89,13 +92,18 @@ impl Device {
         title: &'static str,
         options: &'static [DeviceOption],
     ) -> Self {
-        Self { name, title, link: Link::Program, place: Some(""), options, simulator: None }
+        Self { name, title, link: Link::Program, place: Some(""), options, simulator: None, converter: None }
     }
 
     /// A converter, which firmware opens over the traits of `embedded-hal`.
-    pub(crate) const fn converter(name: &'static str, title: &'static str, link: Link) -> Self {
+    pub(crate) const fn converter(
+        name: &'static str,
+        title: &'static str,
+        link: Link,
+        figures: &'static ConverterFigures,
+    ) -> Self {
         let simulator = Some(Simulator::OnABench);
-        Self { name, title, link, place: None, options: &[], simulator }
+        Self { name, title, link, place: None, options: &[], simulator, converter: Some(figures) }
     }
 
     /// An address as a user may write it, with the options that are needed; `None` for a device without one.

@@ -3,6 +3,7 @@
 
 extern crate alloc;
 
+pub mod drawn;
 pub mod mcap;
 mod recordings;
 mod unchanged;

@@ -47,7 +47,7 @@ pub(super) fn page() -> Result<String, Failure> {
          | [table of loads](#tables-of-loads), `.csv` | you | `calibrate`, `check`, `refine` |\n\
          | [calibration](#calibrations), `.toml` | `calibrate`, `import`, `tare` | `[sensor]` of a scene, `--calibration` |\n\
          | [payload](#payloads), `.toml` | `calibrate --gravity` | `[payload]` of a scene, `--payload` |\n\
-         | [layout](#layouts), `.toml` | `design` | the solvers, the simulated fingertip |\n\
+         | [layout](#layouts), `.toml` | `design`, you | `bench`, the solvers, the simulated fingertip |\n\
          | [`contacts.csv`](contacts.md) | `analyze` | you |\n\n\
          ## Recordings\n\n{recordings}\n\nMCAP files hold messages of ROS 2 (`geometry_msgs/msg/WrenchStamped` and the \
          like), and are told from CSV by their first bytes.\n\n\

@@ -57,6 +57,8 @@
 //! wrong, every cycle would be an error and none a wrong number.
 
 mod driver;
+#[cfg(feature = "devices")]
+mod figures;
 mod wire;
 
 #[cfg(feature = "simulators")]
@@ -75,4 +77,5 @@ pub(crate) const DEVICE: crate::devices::Device = crate::devices::Device::conver
     "ads1256",
     "Texas Instruments ADS1255 and ADS1256",
     crate::devices::Link::Spi,
+    &figures::FIGURES,
 );

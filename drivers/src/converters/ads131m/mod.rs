@@ -70,6 +70,8 @@
 
 mod configuration;
 mod driver;
+#[cfg(feature = "devices")]
+mod figures;
 mod state;
 mod wire;
 
@@ -89,4 +91,5 @@ pub(crate) const DEVICE: crate::devices::Device = crate::devices::Device::conver
     "ads131m",
     "Texas Instruments ADS131M02 to ADS131M08",
     crate::devices::Link::Spi,
+    &figures::FIGURES,
 );

@@ -43,6 +43,8 @@
 //! conversion that ends while it is read is not in there.
 
 mod driver;
+#[cfg(feature = "devices")]
+mod figures;
 mod wire;
 
 #[cfg(feature = "simulators")]
@@ -57,4 +59,4 @@ pub use simulator::{SimulatedClock, SimulatedHx711s};
 /// Its entry among the devices.
 #[cfg(feature = "devices")]
 pub(crate) const DEVICE: crate::devices::Device =
-    crate::devices::Device::converter("hx711", "Avia HX711", crate::devices::Link::Pins);
+    crate::devices::Device::converter("hx711", "Avia HX711", crate::devices::Link::Pins, &figures::FIGURES);

@@ -62,6 +62,8 @@
 
 mod configuration;
 mod driver;
+#[cfg(feature = "devices")]
+mod figures;
 mod scan;
 mod wire;
 
@@ -81,4 +83,5 @@ pub(crate) const DEVICE: crate::devices::Device = crate::devices::Device::conver
     "mcp3564",
     "Microchip MCP3561, MCP3562 and MCP3564",
     crate::devices::Link::Spi,
+    &figures::FIGURES,
 );

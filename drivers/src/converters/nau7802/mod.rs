@@ -42,6 +42,8 @@
 //! calibration with a page of the data sheet. The 200 µs, and 30 in `ADC`, are as commonly used.
 
 mod driver;
+#[cfg(feature = "devices")]
+mod figures;
 mod wire;
 
 #[cfg(feature = "simulators")]
@@ -56,5 +58,9 @@ pub use simulator::{SimulatedI2c, SimulatedNau7802};
 
 /// Its entry among the devices.
 #[cfg(feature = "devices")]
-pub(crate) const DEVICE: crate::devices::Device =
-    crate::devices::Device::converter("nau7802", "Nuvoton NAU7802", crate::devices::Link::I2c);
+pub(crate) const DEVICE: crate::devices::Device = crate::devices::Device::converter(
+    "nau7802",
+    "Nuvoton NAU7802",
+    crate::devices::Link::I2c,
+    &figures::FIGURES,
+);

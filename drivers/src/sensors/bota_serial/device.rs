@@ -17,6 +17,7 @@ pub(crate) const ENTRY: Entry = Entry {
             "800",
             "as it is set: lost samples are counted by their times",
         )],
+        converter: None,
         simulator: Some(Simulator::Serial(|rate| SerialSimulator {
             device: SimulatedBota::new(rate).into(),
             options: format!("?rate_Hz={rate}"),

@@ -19,6 +19,7 @@ pub(crate) const ENTRY: Entry = Entry {
             DeviceOption::new("counts_per_N", "24.9", "without it the sensor is asked"),
             DeviceOption::new("counts_per_Nm", "1664", "as counts_per_N"),
         ],
+        converter: None,
         simulator: Some(Simulator::Serial(|_| SerialSimulator {
             device: SimulatedDynPick::new(WEF_6A200).into(),
             options: String::new(),

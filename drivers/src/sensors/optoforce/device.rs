@@ -21,6 +21,7 @@ pub(crate) const ENTRY: Entry = Entry {
             DeviceOption::needed("counts_per_Nm", "10000", REPORT),
             DeviceOption::new("rate_Hz", "1000", "sets its rate: 1000, 333, 100, 30 or 10"),
         ],
+        converter: None,
         simulator: Some(Simulator::Serial(|_| SerialSimulator {
             device: SimulatedOptoForce::new(HEX).into(),
             options: "?counts_per_N=100&counts_per_Nm=10000".to_owned(),

@@ -25,6 +25,7 @@ pub(crate) const ENTRY: Entry = Entry {
                 "asks for each reading with these bytes; without it lost readings cannot be noticed",
             ),
         ],
+        converter: None,
         simulator: Some(Simulator::Serial(|_| SerialSimulator {
             device: SimulatedResense::streaming().into(),
             options: "?greatest_N=200&greatest_Nm=10".to_owned(),

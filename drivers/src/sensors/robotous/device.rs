@@ -19,6 +19,7 @@ pub(crate) const SERIAL: Entry = Entry {
         link: Link::Serial { baud: 115_200 },
         place: Some("/dev/ttyUSB0"),
         options: &COUNTS,
+        converter: None,
         simulator: Some(Simulator::Serial(|_| SerialSimulator {
             device: SimulatedRft::new(RFT60).into(),
             options: String::new(),
@@ -46,6 +47,7 @@ pub(crate) const CAN: Entry = Entry {
             COUNTS[0],
             COUNTS[1],
         ],
+        converter: None,
         simulator: Some(Simulator::OnABus),
     },
     #[cfg(target_os = "linux")]

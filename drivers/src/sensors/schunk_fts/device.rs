@@ -16,6 +16,7 @@ pub(crate) const ENTRY: Entry = Entry {
             DeviceOption::new("rate_Hz", "8000", "gives samples a time"),
             DeviceOption::new("udp", "54843", "local port that samples come to"),
         ],
+        converter: None,
         simulator: Some(Simulator::Network(serve)),
     },
     open,
