@@ -4,10 +4,12 @@
 extern crate alloc;
 
 pub mod mcap;
+mod moving_body;
 mod recordings;
 mod unchanged;
 mod worst;
 
+pub use moving_body::{Moved, MovingBody};
 pub use recordings::{recording, recording_text};
 pub use unchanged::Unchanged;
 pub use worst::Worst;
