@@ -32,7 +32,7 @@ pub(crate) use covariance::of_pseudo_inverse;
 pub use document::VERSION;
 pub use error::FileError;
 pub use fingertip_recordings::SignalUnit;
-pub use payload_file::{PayloadFile, PayloadQuality};
+pub use payload_file::{InertialUnitFile, PayloadFile, PayloadQuality};
 pub use plain::{PlainError, PlainMatrix, PlainUnits, plain_csv, plain_npy};
 pub use rust_constants::Scalar;
 pub use temperature::Temperature;
