@@ -18,6 +18,7 @@ mod formula;
 mod front;
 mod fusion;
 mod hostile;
+mod inertial;
 mod keys;
 mod noise;
 mod parts;
