@@ -13,6 +13,7 @@ pub mod fit;
 pub mod geometry;
 pub mod gravity;
 pub mod in_situ;
+pub mod inertial;
 pub mod linear;
 pub mod loads;
 pub mod model;

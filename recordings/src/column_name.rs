@@ -2,7 +2,7 @@
 
 use fingertip_wrench::units::{ForceUnit, TorqueUnit};
 
-use crate::unit::{SignalUnit, seconds};
+use crate::unit::{SignalUnit, acceleration_unit, seconds, turning_unit};
 
 /// A column, as far as its name tells: a quantity, its unit, and what tells sensors apart, in any order of words.
 ///
@@ -34,6 +34,10 @@ pub enum ColumnMeaning {
     Signal(u32, SignalUnit, f64),
     /// The dummy gauge.
     Dummy(SignalUnit, f64),
+    /// Axis 0..3 of an accelerometer; m/s² per unit, if the unit is known.
+    Acceleration(usize, Option<f64>),
+    /// Axis 0..3 of a gyroscope; rad/s per unit, if the unit is known.
+    AngularVelocity(usize, Option<f64>),
     /// Another quantity, which this grammar does not know.
     Other,
 }
@@ -41,7 +45,13 @@ pub enum ColumnMeaning {
 impl ColumnName {
     /// Whether it is a force, torque, signal or dummy gauge.
     pub(crate) const fn is_of_sensor(&self) -> bool {
-        !matches!(self.meaning, ColumnMeaning::Time(_) | ColumnMeaning::Other)
+        matches!(
+            self.meaning,
+            ColumnMeaning::Force(..)
+                | ColumnMeaning::Torque(..)
+                | ColumnMeaning::Signal(..)
+                | ColumnMeaning::Dummy(..)
+        )
     }
 
     /// Takes a name apart.
@@ -78,6 +88,16 @@ impl ColumnName {
                 }
                 _ => other(),
             };
+        }
+        if let Some((at, length, axis, turns)) = find_inertial(&words) {
+            let behind = words.get(at + length..).unwrap_or_default();
+            let (unit, used) = inertial_unit(behind, turns);
+            let meaning = if turns {
+                ColumnMeaning::AngularVelocity(axis, unit)
+            } else {
+                ColumnMeaning::Acceleration(axis, unit)
+            };
+            return Self { sensor: join(&words, at, length, words.len() - used), meaning };
         }
         let (unit, scale, used) = signal_unit(&words);
         let end = words.len() - used;
@@ -130,6 +150,40 @@ fn find_axis(words: &[String]) -> Option<(usize, usize, usize, bool)> {
             _ => None,
         }
     })
+}
+
+/// Where the axis of an accelerometer (`ax`, `acc_x`) or a gyroscope (`wx`, `gyro_x`) stands: index, how many words it
+/// takes, axis, whether it is of the gyroscope.
+fn find_inertial(words: &[String]) -> Option<(usize, usize, usize, bool)> {
+    let letter = |word: &str| ["x", "y", "z"].iter().position(|axis| *axis == word);
+    words.iter().enumerate().find_map(|(at, word)| {
+        let next = words.get(at + 1).and_then(|next| letter(next));
+        match (word.as_str(), next) {
+            ("acc" | "accel" | "acceleration", Some(axis)) => return Some((at, 2, axis, false)),
+            ("gyro" | "gyroscope" | "omega", Some(axis)) => return Some((at, 2, axis, true)),
+            _ => {}
+        }
+        let mut letters = word.chars();
+        let (kind, axis) = (letters.next()?, letter(letters.as_str())?);
+        match kind {
+            'a' => Some((at, 1, axis, false)),
+            'w' => Some((at, 1, axis, true)),
+            _ => None,
+        }
+    })
+}
+
+/// A unit of acceleration or of angular velocity at the end of the words, in SI, and how many words it takes
+/// (`m per s2`: three).
+fn inertial_unit(behind: &[String], turns: bool) -> (Option<f64>, usize) {
+    (1..=behind.len().min(3))
+        .rev()
+        .find_map(|count| {
+            let name = behind.get(behind.len() - count..)?.join("/").replace("/per/", "/");
+            let size = if turns { turning_unit(&name) } else { acceleration_unit(&name) };
+            size.map(|size| (Some(size), count))
+        })
+        .unwrap_or((None, 0))
 }
 
 /// A unit of torque at the end of the words, and how many words it takes (`n m`, `lbf in`: two).

@@ -29,6 +29,13 @@ pub struct NumberColumn {
     pub(super) slot: usize,
 }
 
+/// The columns of an inertial unit. Found by
+/// [`RecordingReader::watch_inertial_unit`](crate::RecordingReader::watch_inertial_unit), used on its rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InertialColumns {
+    pub(super) slots: [usize; 6],
+}
+
 /// The columns of the contacts. Found by a [`Layout`](crate::Layout), used on its rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ContactColumns {

@@ -134,6 +134,16 @@ pub enum HeaderProblem {
         /// The axes that are missing.
         missing: String,
     },
+    /// An inertial unit of which columns are missing.
+    #[error(
+        "the inertial unit{sensor} lacks {missing}; it needs ax, ay, az and wx, wy, wz with their units, such as ax_m_per_s2 and wx_rad_per_s"
+    )]
+    MissingInertial {
+        /// ` of sensor x`, or nothing if the sensor has no name.
+        sensor: String,
+        /// The columns that are missing.
+        missing: String,
+    },
     /// The numbers of the signals have a hole.
     #[error("the signals{sensor} lack number {number}; they must be numbered without a hole, from 0 or 1")]
     MissingSignal {

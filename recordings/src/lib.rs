@@ -25,7 +25,9 @@ mod unit;
 mod writer;
 
 pub use column_name::{ColumnMeaning, ColumnName};
-pub use columns::{ContactCells, ContactColumns, NumberColumn, SignalColumns, WrenchColumns};
+pub use columns::{
+    ContactCells, ContactColumns, InertialColumns, NumberColumn, SignalColumns, WrenchColumns,
+};
 pub use error::{HeaderProblem, RecordingError};
 pub use fingertip_wrench::units::{ForceUnit, TorqueUnit};
 pub use layout::{AssumedUnits, Layout, LeftOut};
@@ -35,5 +37,5 @@ pub use row::{Row, RowMarks};
 pub use row_block::RowBlock;
 pub use table::TableReader;
 pub use timing::Timing;
-pub use unit::SignalUnit;
+pub use unit::{SignalUnit, acceleration_unit, turning_unit};
 pub use writer::{RecordingWriter, Schema};

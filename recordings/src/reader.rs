@@ -6,7 +6,7 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::cell::Cell;
-use crate::columns::NumberColumn;
+use crate::columns::{InertialColumns, NumberColumn};
 use crate::error::{HeaderProblem, RecordingError};
 use crate::layout::{AssumedUnits, Layout, UsedColumn, shortened};
 use crate::quality::{FaultCount, Quality};
@@ -53,6 +53,8 @@ impl Default for ReaderOptions {
 pub struct RecordingReader<R> {
     table: TableReader<R>,
     layout: Layout,
+    /// Columns whose numbers have the other sign.
+    negative: Vec<usize>,
     timing: Timing,
     values: Vec<f64>,
     last_values: Vec<f64>,
@@ -153,6 +155,7 @@ impl<R: Read> RecordingReader<R> {
             last_values: values.clone(),
             values,
             layout,
+            negative,
             timing: Timing::with_gap_factor(options.gap_factor),
             follows: false,
             quality: Quality::default(),
@@ -185,6 +188,37 @@ impl<R: Read> RecordingReader<R> {
         self.values.push(f64::NAN);
         self.last_values.push(f64::NAN);
         Some(NumberColumn { slot: self.values.len() - 1 })
+    }
+
+    /// Reads the columns of an inertial unit too, from the next row on: `ax`, `ay`, `az` and `wx`, `wy`, `wz` with their
+    /// units (m/s², g; rad/s, deg/s), with the name of the sensor before or without a name.
+    ///
+    /// ```
+    /// use fingertip_recordings::RecordingReader;
+    ///
+    /// let file = "fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,ax_g,ay_g,az_g,wx_dps,wy_dps,wz_dps\n0,0,0,0,0,0,0,0,1,180,0,0\n";
+    /// let mut reader = RecordingReader::new("example.csv", file.as_bytes())?;
+    /// let unit = reader.watch_inertial_unit("")?;
+    /// let row = reader.next_row()?.ok_or("a row")?;
+    /// let reading = row.inertial(&unit).ok_or("numbers")?;
+    /// assert_eq!((reading.acceleration.z, reading.angular_velocity.x), (9.80665, core::f64::consts::PI));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`HeaderProblem`] if one is missing, has no unit, or is there twice.
+    pub fn watch_inertial_unit(&mut self, sensor: &str) -> Result<InertialColumns, HeaderProblem> {
+        let found = self.layout.find_inertial(sensor)?;
+        let slots = found.map(|mut used| {
+            if self.negative.contains(&used.column) {
+                used.scale = -used.scale;
+            }
+            self.layout.used.push(used);
+            self.values.push(f64::NAN);
+            self.last_values.push(f64::NAN);
+            self.values.len() - 1
+        });
+        Ok(InertialColumns { slots })
     }
 
     /// What was wrong so far.

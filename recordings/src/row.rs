@@ -1,9 +1,11 @@
 //! One row of a recording.
 
-use fingertip_wrench::Wrench;
+use fingertip_wrench::{InertialReading, Wrench};
 use nalgebra::{SVector, Vector3};
 
-use crate::columns::{ContactCells, ContactColumns, NumberColumn, SignalColumns, WrenchColumns};
+use crate::columns::{
+    ContactCells, ContactColumns, InertialColumns, NumberColumn, SignalColumns, WrenchColumns,
+};
 
 /// What is remarkable about a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -117,6 +119,19 @@ impl Row<'_> {
     pub fn number(&self, column: &NumberColumn) -> Option<f64> {
         let value = self.value(column.slot);
         (self.is_usable() && value.is_finite()).then_some(value)
+    }
+
+    /// What an inertial unit read; `None` if the row is unusable, or a number is missing or not finite.
+    #[inline]
+    #[must_use]
+    pub fn inertial(&self, columns: &InertialColumns) -> Option<InertialReading<f64>> {
+        let cells = columns.slots.map(|slot| self.value(slot));
+        let [ax, ay, az, wx, wy, wz] = cells;
+        let reading = InertialReading {
+            acceleration: Vector3::new(ax, ay, az),
+            angular_velocity: Vector3::new(wx, wy, wz),
+        };
+        (self.is_usable() && cells.iter().all(|cell| cell.is_finite())).then_some(reading)
     }
 
     /// The contact. `None` where there is none, and if the row is unusable or a number is missing.

@@ -1,6 +1,6 @@
 //! Units by their names in a header. Those of force and torque are [`fingertip_wrench::units`].
 
-use fingertip_wrench::units::{ForceUnit, TorqueUnit};
+use fingertip_wrench::units::{ForceUnit, STANDARD_GRAVITY, TorqueUnit};
 
 /// What the numbers of a signal are, in recordings, tables of loads and calibrations.
 ///
@@ -89,6 +89,29 @@ pub(super) fn seconds(name: &str) -> Option<f64> {
         "us" | "µs" | "μs" => 1e-6,
         "ns" => 1e-9,
         "min" => 60.0,
+        _ => return None,
+    })
+}
+
+/// One of a unit of acceleration in m/s²: `m/s2`, `mm/s2`, `g` (of weight, 9.80665 m/s²).
+#[must_use]
+pub fn acceleration_unit(name: &str) -> Option<f64> {
+    Some(match plain(name).replace('^', "").as_str() {
+        "m/s2" | "m/s²" | "m/s/s" => 1.0,
+        "mm/s2" | "mm/s²" => 1e-3,
+        "g" => STANDARD_GRAVITY,
+        "mg" => 1e-3 * STANDARD_GRAVITY,
+        _ => return None,
+    })
+}
+
+/// One of a unit of angular velocity in rad/s: `rad/s`, `deg/s`, `dps`.
+#[must_use]
+pub fn turning_unit(name: &str) -> Option<f64> {
+    Some(match plain(name).as_str() {
+        "rad/s" => 1.0,
+        "mrad/s" => 1e-3,
+        "deg/s" | "dps" | "°/s" => core::f64::consts::PI / 180.0,
         _ => return None,
     })
 }

@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use fingertip::wrench::{Motion, Payload, Real, Wrench};
+use fingertip::wrench::{InertialReading, Motion, Payload, Real, Wrench};
 use fingertip_calibration::file::PayloadFile;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::fault::{BadCarried, SceneProblem};
+use crate::inertial::{InertialSection, Moving};
 
 /// `[payload]` of a scene: a file, or the numbers themselves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,7 +20,7 @@ pub(crate) struct PayloadSection {
     mass: Option<f64>,
     #[serde(rename = "centre_of_mass_m", skip_serializing_if = "Option::is_none")]
     centre_of_mass: Option<[f64; 3]>,
-    /// About the sensor's origin.
+    /// About the centre of mass.
     #[serde(rename = "inertia_kg_m2", skip_serializing_if = "Option::is_none")]
     inertia: Option<[[f64; 3]; 3]>,
     /// In the frame in which orientations are given.
@@ -34,29 +35,40 @@ const GRAVITY: [f64; 3] = [0.0, 0.0, -9.806_65];
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PayloadSource {
     file: PayloadFile,
-    inertia: [[f64; 3]; 3],
 }
 
 impl PayloadSource {
     pub(crate) fn read(path: &Path, inertia: Option<[[f64; 3]; 3]>) -> Result<Self, SceneProblem> {
         let name = || format!("payload {}", path.display());
-        let file = PayloadFile::read(path)
+        let mut file = PayloadFile::read(path)
             .map_err(|source| SceneProblem::Payload { name: name(), source: Box::new(source.into()) })?;
-        Ok(Self { file, inertia: inertia.unwrap_or_default() })
+        file.inertia = inertia.unwrap_or(file.inertia);
+        Ok(Self { file })
     }
 
-    pub(crate) fn build<T: Real>(&self) -> Result<Carried<T>, SceneProblem> {
-        let body = || {
-            let inertia = Matrix3::from_fn(|i, j| T::literal(self.inertia[i][j]));
-            Ok(self.file.payload::<T>()?.with_inertia(inertia)?)
-        };
+    /// What hangs on the sensor, with the inertial unit that tells how it moves, if there is one.
+    pub(crate) fn build<T: Real>(
+        &self,
+        unit: Option<&InertialSection>,
+        sample_rate: Option<f64>,
+    ) -> Result<Carried<T>, SceneProblem> {
+        let body = self.body::<T>().map_err(unusable)?;
+        let of_file = self.file.inertial_unit.as_ref();
+        let moving = unit.map(|unit| unit.build(of_file, body, sample_rate)).transpose()?;
         Ok(Carried {
-            body: body().map_err(unusable)?,
+            body,
             bias: Wrench::from_components(&self.file.bias().components().map(T::literal)),
             file: self.file.clone(),
+            moving: moving.map(Box::new),
             resting: None,
             at_tare: None,
         })
+    }
+
+    fn body<T: Real>(&self) -> Result<Payload<T>, BadCarried> {
+        let inertia = Matrix3::from_fn(|i, j| T::literal(self.file.inertia[i][j]));
+        let of_a_point = PayloadFile { inertia: [[0.0; 3]; 3], ..self.file.clone() };
+        Ok(of_a_point.payload::<T>()?.with_inertia(inertia)?)
     }
 }
 
@@ -82,7 +94,8 @@ impl PayloadSection {
                 let gravity = self.gravity.unwrap_or(GRAVITY);
                 let file = PayloadFile::new(mass, centre.into(), gravity.into());
                 let file = file.map_err(|source| unusable(source.into()))?;
-                Ok(PayloadSource { file, inertia: self.inertia.unwrap_or_default() })
+                let inertia = self.inertia.unwrap_or_default();
+                Ok(PayloadSource { file: PayloadFile { inertia, ..file } })
             }
             (None, None) => {
                 let needed = "`file`, as `fingertip calibrate --gravity` writes it, or `mass_kg`";
@@ -103,6 +116,8 @@ pub struct Carried<T: Real> {
     file: PayloadFile,
     body: Payload<T>,
     bias: Wrench<T>,
+    /// Takes it off by the readings of an inertial unit.
+    moving: Option<Box<Moving<T>>>,
     /// Sum and number of the gravities \[m/s²\] during a rest.
     resting: Option<(Vector3<T>, u32)>,
     /// Gravity in the sensor frame when the zero was taken.
@@ -126,7 +141,55 @@ impl<T: Real> Carried<T> {
     /// The zero was taken with the body on, as it hung on average in the rest.
     pub fn end_rest(&mut self) {
         if let Some((sum, number)) = self.resting.take() {
-            self.at_tare = Some(sum / T::literal(f64::from(number)));
+            let gravity = sum / T::literal(f64::from(number));
+            self.at_tare = Some(gravity);
+            if let Some(moving) = &mut self.moving {
+                moving.zeroed_under(gravity);
+            }
+        }
+    }
+
+    /// Whether the scene has an `[inertial_unit]`, whose readings tell how the sensor moves.
+    #[must_use]
+    pub const fn has_inertial_unit(&self) -> bool {
+        self.moving.is_some()
+    }
+
+    /// By how much what is left behind the `[inertial_unit]` comes late \[s\]; 0 without one.
+    #[must_use]
+    pub fn delay(&self) -> T {
+        self.moving.as_ref().map_or_else(T::zero, |moving| moving.delay())
+    }
+
+    /// Takes what the inertial unit reads in the rest, for [`end_rest`](Self::end_rest); `false` without an
+    /// `[inertial_unit]` or for a number that is not finite.
+    pub fn rest_moving(&mut self, reading: &InertialReading<T>) -> bool {
+        let gravity = self.moving.as_ref().map(|moving| moving.gravity(reading));
+        let Some(gravity) = gravity.filter(|gravity| gravity.iter().all(|x| x.is_number())) else {
+            return false;
+        };
+        self.rest(&gravity);
+        true
+    }
+
+    /// A wrench without what the body does to the sensor, by what the `[inertial_unit]` reads; it comes late by
+    /// [`delay`](Self::delay). `None` without such a section, and for a number that is not finite: the sample is left out.
+    #[inline]
+    pub fn take_off_moving(
+        &mut self,
+        measured: &Wrench<T>,
+        reading: &InertialReading<T>,
+        time_step: T,
+    ) -> Option<Wrench<T>> {
+        let moving = self.moving.as_mut()?;
+        let unbiased = if self.at_tare.is_some() { *measured } else { *measured - self.bias };
+        moving.take_off(&unbiased, reading, time_step)
+    }
+
+    /// The next reading of the inertial unit is the first, as after a pause.
+    pub fn start_anew(&mut self) {
+        if let Some(moving) = &mut self.moving {
+            moving.start_anew();
         }
     }
 

@@ -3,12 +3,13 @@
 use alloc::collections::BTreeMap;
 
 use fingertip::wrench::units::{ForceUnit, TorqueUnit};
-use fingertip_recordings::RenamedColumn;
+use fingertip_recordings::{RenamedColumn, acceleration_unit, turning_unit};
 use serde::{Deserialize, Serialize};
 
 use crate::fault::SceneProblem;
 
-/// What each column is called in the recording: by `time`, `fx` to `tz`, `v1` and so on, `dummy`, `temperature_C`. A
+/// What each column is called in the recording: by `time`, `fx` to `tz`, `v1` and so on, `dummy`, `temperature_C`, `ax` to `az`
+/// and `wx` to `wz` of an inertial unit. A
 /// minus before the name turns the sign round.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
@@ -30,11 +31,15 @@ pub(crate) struct UnitsSection {
     force: String,
     torque: String,
     signal: String,
+    acceleration: String,
+    angular_velocity: String,
 }
 
 impl Default for UnitsSection {
     fn default() -> Self {
-        Self { time: "s".to_owned(), force: "N".to_owned(), torque: "Nm".to_owned(), signal: "V".to_owned() }
+        let [time, force, torque, signal, acceleration, angular_velocity] =
+            ["s", "N", "Nm", "V", "m/s2", "rad/s"].map(str::to_owned);
+        Self { time, force, torque, signal, acceleration, angular_velocity }
     }
 }
 
@@ -45,6 +50,8 @@ impl ColumnsSection {
             ("time", &units.time, matches!(units.time.as_str(), "s" | "ms" | "us" | "ns")),
             ("force", &units.force, ForceUnit::from_name(&units.force).is_some()),
             ("torque", &units.torque, TorqueUnit::from_name(&units.torque).is_some()),
+            ("acceleration", &units.acceleration, acceleration_unit(&units.acceleration).is_some()),
+            ("angular_velocity", &units.angular_velocity, turning_unit(&units.angular_velocity).is_some()),
             ("signal", &units.signal, matches!(units.signal.as_str(), "V" | "mV" | "uV" | "counts")),
         ];
         if let Some((key, unit, _)) = known.into_iter().find(|(.., known)| !known) {
@@ -59,6 +66,8 @@ impl ColumnsSection {
                 "time" => format!("t ({})", units.time),
                 "fx" | "fy" | "fz" => format!("{key} ({})", units.force),
                 "tx" | "ty" | "tz" => format!("{key} ({})", units.torque),
+                "ax" | "ay" | "az" => format!("{key} ({})", units.acceleration),
+                "wx" | "wy" | "wz" => format!("{key} ({})", units.angular_velocity),
                 "temperature_C" => key.clone(),
                 "dummy" => format!("{key} ({})", units.signal),
                 other => match other.strip_prefix('v').map(str::parse::<u32>) {

@@ -102,7 +102,7 @@ pub enum SceneProblem {
     },
     /// A column that means nothing.
     #[error(
-        "`{0}` of [input.columns] is no quantity; there are time, fx, fy, fz, tx, ty, tz, v1 and so on, dummy and temperature_C, and a minus for all but time"
+        "`{0}` of [input.columns] is no quantity; there are time, fx, fy, fz, tx, ty, tz, v1 and so on, dummy, temperature_C, ax, ay, az, wx, wy and wz, and a minus for all but time"
     )]
     Column(String),
     /// The pose is none.

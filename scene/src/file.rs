@@ -15,6 +15,7 @@ use crate::formula::FormulaSection;
 use crate::friction::FrictionSection;
 use crate::fusion::FusionSection;
 use crate::grip::GripSection;
+use crate::inertial::InertialSection;
 use crate::input::InputSection;
 use crate::model::ContactSection;
 use crate::scene::Scene;
@@ -36,6 +37,7 @@ struct SceneFile<S> {
     input: InputSection,
     sensor: Option<SensorSection>,
     payload: Option<PayloadSection>,
+    inertial_unit: Option<InertialSection>,
     filter: Option<FilterSection>,
     surface: S,
     #[serde(default)]
@@ -173,14 +175,26 @@ impl<S: SurfaceSection> SceneFile<S> {
         let convention = self.input.convention;
         let sensor = self.sensor.as_ref().map(|section| section.source(folder)).transpose()?;
         let payload = self.payload.as_ref().map(|section| section.source(folder)).transpose()?;
-        let Self { filter, contact, uncertainty, tracking, fusion, friction, slip, estimate, grip, .. } =
-            self;
+        let Self {
+            inertial_unit,
+            filter,
+            contact,
+            uncertainty,
+            tracking,
+            fusion,
+            friction,
+            slip,
+            estimate,
+            grip,
+            ..
+        } = self;
         let stages = StageSections {
             convention,
             sample_rate,
             rest,
             sensor,
             payload,
+            inertial_unit,
             filter,
             contact,
             uncertainty,

@@ -24,13 +24,19 @@ impl<T: Real> Front<T> {
         reading: &GaugeReading<'_, T>,
         motion: Option<&Motion<T>>,
     ) -> Result<Wrench<T>, NoWrench> {
-        let sensor = self.sensor.as_ref().ok_or(NoWrench::NoSensor)?;
-        let reading = GaugeReading { celsius: reading.celsius.or(self.celsius), ..*reading };
-        let calibrated = sensor.wrench(&reading)?;
-        let measured = self.convention.wrench(calibrated.force(), calibrated.torque());
+        let measured = self.measured(reading)?;
         match &self.carried {
             Some(carried) => Ok(carried.take_off(&measured, motion.ok_or(NoWrench::NoMotion)?)),
             None => Ok(measured),
         }
+    }
+
+    /// That wrench, with the load of what the sensor carries.
+    #[inline]
+    pub(crate) fn measured(&self, reading: &GaugeReading<'_, T>) -> Result<Wrench<T>, NoWrench> {
+        let sensor = self.sensor.as_ref().ok_or(NoWrench::NoSensor)?;
+        let reading = GaugeReading { celsius: reading.celsius.or(self.celsius), ..*reading };
+        let calibrated = sensor.wrench(&reading)?;
+        Ok(self.convention.wrench(calibrated.force(), calibrated.torque()))
     }
 }

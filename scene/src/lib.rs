@@ -17,6 +17,7 @@ mod friction;
 mod front;
 mod fusion;
 mod grip;
+mod inertial;
 mod input;
 mod lent;
 mod meaning;

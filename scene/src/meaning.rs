@@ -7,12 +7,14 @@ use crate::registry;
 /// Longer values are cut.
 const LONGEST: usize = 60;
 
-/// A line for each section: what was chosen, what that is, and the other keys; `delay` is that of the filter \[s\].
-pub(crate) fn of(scene: &Table, delay: f64) -> Vec<String> {
+/// A line for each section: what was chosen, what that is, and the other keys; `delay` is that of the filter \[s\],
+/// `of_motion` that behind the inertial unit.
+pub(crate) fn of(scene: &Table, delay: f64, of_motion: f64) -> Vec<String> {
     let order = [
         "input",
         "sensor",
         "payload",
+        "inertial_unit",
         "filter",
         "surface",
         "pose",
@@ -31,6 +33,9 @@ pub(crate) fn of(scene: &Table, delay: f64) -> Vec<String> {
         let mut said = line(section, table);
         if section == "filter" {
             said += &format!("; what changes slowly comes {:.1} ms late", delay * 1e3);
+        }
+        if section == "inertial_unit" {
+            said += &format!("; what changes slowly comes {:.1} ms late", of_motion * 1e3);
         }
         lines.push(said);
         if let Some(Value::Table(skin)) = table.get("skin") {

@@ -2,7 +2,7 @@
 
 use fingertip::friction::{GripController, SlipVerdict};
 use fingertip::surfaces::DynSurface;
-use fingertip::wrench::{Motion, Real, Wrench};
+use fingertip::wrench::{InertialReading, Motion, Real, Wrench};
 use fingertip::{AnyTouch, Step, TouchSensor};
 use nalgebra::{Vector3, Vector6};
 
@@ -143,6 +143,56 @@ impl<T: Real> Pipeline<T> {
         self.sense(wrench, time_step)
     }
 
+    /// Takes a wrench as the sensor reports it, that of what it carries included, and what the `[inertial_unit]` of the
+    /// scene reads at the same time: weight and inertia of the `[payload]` are taken off, and what is left comes late by
+    /// [`Carried::delay`]. The rest is as in [`sense`](Self::sense).
+    ///
+    /// ```
+    /// use fingertip::wrench::{InertialReading, Wrench};
+    /// use fingertip_scene::Scene;
+    /// use nalgebra::Vector3;
+    ///
+    /// let scene = Scene::from_text(
+    ///     r#"
+    ///     version = 2
+    ///     [input]
+    ///     convention = "on_fingertip"
+    ///     [payload]
+    ///     mass_kg = 0.1
+    ///     [inertial_unit]
+    ///     time_constant_s = 0.002
+    ///     [surface]
+    ///     shape = "sphere"
+    ///     radius_m = 0.013
+    ///     "#,
+    /// )?;
+    /// let mut pipeline = scene.pipeline();
+    /// // At rest, upright: all the force is weight, and nothing touches.
+    /// let unit = InertialReading { acceleration: Vector3::new(0.0, 0.0, 9.8), angular_velocity: Vector3::zeros() };
+    /// let weight = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -0.98), Vector3::zeros());
+    /// assert!(pipeline.sense_inertial(weight, &unit, 1e-3)?.contact().is_none());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`NoWrench::NoMotion`] for a scene without `[inertial_unit]`, [`NoWrench::Incomplete`] for a number that is not finite;
+    /// the sample then is left out, and the time of the next one should count from the one before.
+    #[inline]
+    pub fn sense_inertial(
+        &mut self,
+        measured: Wrench<T>,
+        reading: &InertialReading<T>,
+        time_step: T,
+    ) -> Result<&Felt<T>, NoWrench> {
+        let carried = self.front.carried.as_mut().filter(|carried| carried.has_inertial_unit());
+        let carried = carried.ok_or(NoWrench::NoMotion)?;
+        if time_step > T::literal(PAUSE) {
+            carried.start_anew();
+        }
+        let left = carried.take_off_moving(&measured, reading, time_step).ok_or(NoWrench::Incomplete)?;
+        Ok(self.sense(left, time_step))
+    }
+
     /// Takes a reading of the gauges, which `[sensor]` turns into a wrench of the scene's convention; `motion` is
     /// needed for the weight of a `[payload]`. The rest is as in [`sense`](Self::sense).
     ///
@@ -186,6 +236,22 @@ impl<T: Real> Pipeline<T> {
     ) -> Result<&Felt<T>, NoWrench> {
         let wrench = self.front.wrench(reading, motion)?;
         Ok(self.sense(wrench, time_step))
+    }
+
+    /// Takes a reading of the gauges, and what the `[inertial_unit]` reads at the same time: as
+    /// [`sense_inertial`](Self::sense_inertial) with the wrench that `[sensor]` makes of it.
+    ///
+    /// # Errors
+    /// [`NoWrench`], as both.
+    #[inline]
+    pub fn sense_reading_inertial(
+        &mut self,
+        reading: &GaugeReading<'_, T>,
+        unit: &InertialReading<T>,
+        time_step: T,
+    ) -> Result<&Felt<T>, NoWrench> {
+        let measured = self.front.measured(reading)?;
+        self.sense_inertial(measured, unit, time_step)
     }
 
     /// The sensor of `[sensor]`.
@@ -326,6 +392,9 @@ impl<T: Real> Pipeline<T> {
         }
         if let Some(filter) = &mut self.filter {
             filter.start_anew();
+        }
+        if let Some(carried) = &mut self.front.carried {
+            carried.start_anew();
         }
     }
 

@@ -68,7 +68,8 @@ impl Scene {
     /// What it says, in a line for each of its sections.
     #[must_use]
     pub fn meaning(&self) -> Vec<String> {
-        meaning::of(&self.document, self.delay())
+        let of_motion = self.carried().map_or(0.0, Carried::delay);
+        meaning::of(&self.document, self.delay(), of_motion)
     }
 
     /// What in it can be and is hardly meant, such as a radius of 13 m: a sentence each, with the key.

@@ -4,7 +4,7 @@ use fingertip::surfaces::DynSurface;
 use fingertip::wrench::Real;
 use nalgebra::Vector3;
 
-use crate::carried::PayloadSource;
+use crate::carried::{Carried, PayloadSource};
 use crate::estimate::EstimateSection;
 use crate::fault::SceneProblem;
 use crate::filter::FilterSection;
@@ -12,6 +12,7 @@ use crate::friction::{Friction, FrictionSection, Limit};
 use crate::front::Front;
 use crate::fusion::FusionSection;
 use crate::grip::GripSection;
+use crate::inertial::InertialSection;
 use crate::input::Convention;
 use crate::model::ContactSection;
 use crate::noise::{Known, Noisy};
@@ -30,6 +31,7 @@ pub(crate) struct StageSections {
     pub(crate) rest: Option<f64>,
     pub(crate) sensor: Option<SensorSource>,
     pub(crate) payload: Option<PayloadSource>,
+    pub(crate) inertial_unit: Option<InertialSection>,
     pub(crate) filter: Option<FilterSection>,
     pub(crate) contact: ContactSection,
     pub(crate) uncertainty: Option<UncertaintySection>,
@@ -42,6 +44,18 @@ pub(crate) struct StageSections {
 }
 
 impl StageSections {
+    fn carried<T: Real>(&self) -> Result<Option<Carried<T>>, SceneProblem> {
+        let unit = self.inertial_unit.as_ref();
+        match &self.payload {
+            Some(payload) => payload.build(unit, self.sample_rate).map(Some),
+            None if unit.is_some() => {
+                let needed = "the section [payload], or --payload: what its readings take off";
+                Err(SceneProblem::Needs { what: "[inertial_unit]", needed })
+            }
+            None => Ok(None),
+        }
+    }
+
     /// The pipeline on a surface that is placed; `exact` is the same in double precision.
     pub(crate) fn build<T: Real>(
         &self,
@@ -96,7 +110,7 @@ impl StageSections {
             convention: self.convention,
             sensor: self.sensor.as_ref().map(SensorSource::build).transpose()?,
             celsius: self.sensor.as_ref().and_then(|sensor| sensor.celsius).map(T::literal),
-            carried: self.payload.as_ref().map(PayloadSource::build).transpose()?,
+            carried: self.carried()?,
         };
         Ok(Pipeline::new(Parts {
             front,

@@ -36,7 +36,8 @@ pub use solve::{
     ThreeRosettes, Uncertainty, WrenchCovariance, WrenchSolver, diagonal_pattern,
 };
 pub use zero::{
-    BadPayload, BadTemperatureModel, Compensation, DummyGauge, DummyGaugeAccumulator, GaugesAndDummy,
-    GaugesAndTemperature, Motion, NotAtRest, Payload, RestTest, Rested, Tare, TareAccumulator, TareError,
+    BadInertialUnit, BadPayload, BadTemperatureModel, Compensation, DelayLine, DummyGauge,
+    DummyGaugeAccumulator, GaugesAndDummy, GaugesAndTemperature, InertialReading, InertialUnit, Motion,
+    MovingPayload, NotAtRest, Payload, RestTest, Rested, StateFilter, Tare, TareAccumulator, TareError,
     TemperatureCompensation, Uncompensated,
 };

@@ -1,6 +1,6 @@
 //! `fingertip.Fingertip`.
 
-use fingertip::wrench::{Motion, Wrench};
+use fingertip::wrench::{InertialReading, Motion, Wrench};
 use fingertip_scene::{ArrayReading, NoWrench};
 use nalgebra::{DMatrix, Vector3, Vector6};
 use numpy::{PyArray2, PyArrayMethods};
@@ -85,6 +85,22 @@ impl PyFingertip {
 
     pub(crate) const fn carries(&self) -> bool {
         self.carries
+    }
+
+    #[cold]
+    fn sense_with_unit(
+        &mut self,
+        reading: &Bound<'_, PyAny>,
+        unit: &InertialReading<f64>,
+        beside: &Beside,
+        time_step: f64,
+    ) -> PyResult<PyTouch> {
+        if self.gauges.is_some() {
+            let gauges = numbers::list(reading, "reading")?;
+            return self.pipe.sense_reading_inertial(&gauges, unit, beside, time_step).map(PyTouch);
+        }
+        let wrench = self.on_fingertip(&numbers::numbers(reading, "reading")?);
+        self.pipe.sense_inertial(wrench, unit, time_step).map(PyTouch)
     }
 
     #[cold]
@@ -179,6 +195,9 @@ impl PyFingertip {
     ///     Gravity less acceleration, in the sensor frame [m/s²]; a scene with `[payload]` needs it.
     /// angular_velocity, angular_acceleration : array_like, shape (3,), optional
     ///     Of the sensor [rad/s, rad/s²], for a `[payload]`.
+    /// acceleration : array_like, shape (3,), optional
+    ///     What the accelerometer of an `[inertial_unit]` reads [m/s²], in the place of gravity and angular
+    ///     acceleration; the angular velocity then is what its gyroscope reads, along its own axes.
     /// celsius, dummy : float, optional
     ///     Temperature of the sensor and reading of its dummy gauge, for a `[sensor]` that needs them.
     ///
@@ -190,7 +209,7 @@ impl PyFingertip {
     /// ------
     /// ReadingError
     ///     The reading gives no wrench; the next time step should count from the reading before.
-    #[pyo3(signature = (reading, time_step, *, gravity=None, angular_velocity=None, angular_acceleration=None, celsius=None, dummy=None))]
+    #[pyo3(signature = (reading, time_step, *, gravity=None, angular_velocity=None, angular_acceleration=None, celsius=None, dummy=None, acceleration=None))]
     #[allow(clippy::too_many_arguments, reason = "keywords in Python")]
     #[inline]
     fn sense(
@@ -202,7 +221,26 @@ impl PyFingertip {
         angular_acceleration: Option<&Bound<'_, PyAny>>,
         celsius: Option<f64>,
         dummy: Option<f64>,
+        acceleration: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<PyTouch> {
+        if let Some(acceleration) = acceleration {
+            let Some(turning) = angular_velocity else {
+                return Err(errors::bad(
+                    "acceleration needs angular_velocity: what accelerometer and gyroscope read",
+                ));
+            };
+            if gravity.is_some() || angular_acceleration.is_some() {
+                return Err(errors::bad(
+                    "acceleration stands in the place of gravity and angular_acceleration",
+                ));
+            }
+            let unit = InertialReading {
+                acceleration: numbers::three(acceleration, "acceleration")?,
+                angular_velocity: numbers::three(turning, "angular_velocity")?,
+            };
+            let beside = Self::beside(None, [None, None], celsius, dummy)?;
+            return self.sense_with_unit(reading, &unit, &beside, time_step);
+        }
         if self.gauges.is_some() || self.carries {
             let beside = Self::beside(gravity, [angular_velocity, angular_acceleration], celsius, dummy)?;
             return self.sense_beside(reading, time_step, &beside);

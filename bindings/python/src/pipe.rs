@@ -1,6 +1,6 @@
 //! A pipeline in either precision.
 
-use fingertip::wrench::{Motion, Wrench};
+use fingertip::wrench::{InertialReading, Motion, Wrench};
 use fingertip_scene::{ArrayReading, Felt, FusedTouch, GaugeReading, NoWrench, Pipeline, Scene};
 use nalgebra::{Vector3, Vector6};
 use pyo3::prelude::*;
@@ -50,6 +50,14 @@ fn narrowed(motion: &Motion<f64>) -> Motion<f32> {
     }
 }
 
+fn narrow_unit(unit: &InertialReading<f64>) -> InertialReading<f32> {
+    let narrow = |vector: &Vector3<f64>| vector.map(|x| x as f32);
+    InertialReading {
+        acceleration: narrow(&unit.acceleration),
+        angular_velocity: narrow(&unit.angular_velocity),
+    }
+}
+
 impl Pipe {
     pub(crate) fn of(scene: &Scene, single: bool) -> PyResult<Self> {
         Ok(if single {
@@ -91,6 +99,50 @@ impl Pipe {
             Self::Single(pipeline) => {
                 let wrench = Wrench::from_components(&wrench.components().map(|x| x as f32));
                 widened(pipeline.sense_moving(wrench, &narrowed(motion), time_step as f32))
+            }
+        }
+    }
+
+    /// A wrench as the sensor reports it, and what the inertial unit of the scene reads.
+    pub(crate) fn sense_inertial(
+        &mut self,
+        wrench: Wrench<f64>,
+        unit: &InertialReading<f64>,
+        time_step: f64,
+    ) -> PyResult<Felt<f64>> {
+        match self {
+            Self::Double(pipeline) => {
+                pipeline.sense_inertial(wrench, unit, time_step).copied().map_err(errors::reading)
+            }
+            Self::Single(pipeline) => {
+                let wrench = Wrench::from_components(&wrench.components().map(|x| x as f32));
+                let felt = pipeline.sense_inertial(wrench, &narrow_unit(unit), time_step as f32);
+                widened(felt.map_err(errors::reading)?)
+            }
+        }
+    }
+
+    /// The same of gauges.
+    pub(crate) fn sense_reading_inertial(
+        &mut self,
+        gauges: &[f64],
+        unit: &InertialReading<f64>,
+        beside: &Beside,
+        time_step: f64,
+    ) -> PyResult<Felt<f64>> {
+        let Beside { celsius, dummy, .. } = *beside;
+        match self {
+            Self::Double(pipeline) => {
+                let reading = GaugeReading { gauges, dummy, celsius };
+                let felt = pipeline.sense_reading_inertial(&reading, unit, time_step);
+                felt.copied().map_err(errors::reading)
+            }
+            Self::Single(pipeline) => {
+                let gauges: Vec<f32> = gauges.iter().map(|x| *x as f32).collect();
+                let (dummy, celsius) = (dummy.map(|x| x as f32), celsius.map(|x| x as f32));
+                let reading = GaugeReading { gauges: &gauges, dummy, celsius };
+                let felt = pipeline.sense_reading_inertial(&reading, &narrow_unit(unit), time_step as f32);
+                widened(felt.map_err(errors::reading)?)
             }
         }
     }

@@ -167,6 +167,27 @@ def test_a_payload_needs_the_motion():
     assert not hanging and np.allclose(hanging.wrench, 0, atol=1e-12)
 
 
+def test_a_payload_in_motion_needs_its_inertial_unit():
+    payload = {"mass_kg": 0.05, "centre_of_mass_m": [0.0, 0.0, 0.01]}
+    sections = {**SECTIONS, "payload": payload, "inertial_unit": {"time_constant_s": 0.002}}
+    # Shaken along x: what the accelerometer reads is what the body leans against.
+    for dtype in (np.float64, np.float32):
+        tip = Fingertip(Scene.from_dict(sections), dtype)
+        for k in range(200):
+            read = np.array([5.0 * np.sin(0.05 * k), 0.0, 9.80665])
+            force = -0.05 * read
+            load = np.hstack([force, np.cross([0.0, 0.0, 0.01], force)])
+            felt = tip.sense(load, 1e-3, acceleration=read, angular_velocity=np.zeros(3))
+            assert not felt and np.allclose(felt.wrench, 0, atol=1e-6)
+    with pytest.raises(ValueError, match="angular_velocity"):
+        tip.sense(load, 1e-3, acceleration=read)
+    with pytest.raises(ValueError, match="in the place of gravity"):
+        tip.sense(load, 1e-3, acceleration=read, angular_velocity=np.zeros(3), gravity=-read)
+    with pytest.raises(fingertip.ReadingError):
+        tip = Fingertip(Scene.from_dict({**SECTIONS, "payload": payload}))
+        tip.sense(load, 1e-3, acceleration=read, angular_velocity=np.zeros(3))
+
+
 def test_two_threads_on_one_fingertip_are_told_so_or_served(scene):
     tip, wrong = Fingertip(scene), []
 

@@ -35,7 +35,7 @@ pub use curve::{AnyCurve, Curve};
 pub use document::VERSION;
 pub use error::FileError;
 pub use fingertip_recordings::SignalUnit;
-pub use payload_file::{PayloadFile, PayloadQuality};
+pub use payload_file::{InertialUnitFile, PayloadFile, PayloadQuality};
 pub use plain::{PlainError, PlainMatrix, PlainUnits, plain_csv, plain_npy};
 pub use rust_constants::Scalar;
 pub use temperature::Temperature;

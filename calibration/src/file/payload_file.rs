@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use fingertip_wrench::{BadPayload, Payload, Real, Wrench};
+use fingertip_wrench::{BadInertialUnit, BadPayload, InertialUnit, Payload, Real, Wrench};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use toml::Value;
@@ -36,6 +36,9 @@ pub struct PayloadFile {
     /// Centre of mass in the sensor frame \[m\].
     #[serde(rename = "centre_of_mass_m")]
     pub centre_of_mass: [f64; 3],
+    /// Rows of the inertia about the centre of mass, along the axes of the sensor \[kg·m²\]; that of a point if it is not told.
+    #[serde(rename = "inertia_kg_m2", default, skip_serializing_if = "is_of_a_point")]
+    pub inertia: [[f64; 3]; 3],
     /// Gravity in the base frame, in which orientations are given \[m/s²\].
     #[serde(rename = "gravity_m_per_s2")]
     pub gravity: [f64; 3],
@@ -48,6 +51,9 @@ pub struct PayloadFile {
     /// Rows of the rotation from the frame whose orientation is recorded (the flange) to the sensor's:
     /// the identity if the sensor's own orientation is recorded.
     pub sensor_from_flange: [[f64; 3]; 3],
+    /// The inertial unit whose readings take it off under motion, if it was fitted with one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertial_unit: Option<InertialUnitFile>,
     /// How well this is known.
     pub quality: PayloadQuality,
     /// Where this comes from.
@@ -58,7 +64,7 @@ pub struct PayloadFile {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PayloadQuality {
-    /// How many poses stand behind it; 0 if it was not fitted.
+    /// How many poses, or rows of a motion, stand behind it; 0 if it was not fitted.
     pub poses: u64,
     /// Standard deviation of the mass \[kg\].
     #[serde(rename = "mass_deviation_kg")]
@@ -74,6 +80,63 @@ pub struct PayloadQuality {
     /// Whether it can be trusted.
     #[serde(skip_serializing_if = "is_unchecked")]
     pub verdict: Verdict,
+}
+
+/// An inertial unit on the sensor, as it was when a payload was fitted by its readings.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InertialUnitFile {
+    /// Where its accelerometer sits, in the sensor frame \[m\].
+    #[serde(rename = "position_m")]
+    pub position: [f64; 3],
+    /// Rows of the rotation from its axes to the sensor's.
+    pub sensor_from_unit: [[f64; 3]; 3],
+    /// What its gyroscope reads at rest, along its axes \[rad/s\].
+    #[serde(rename = "resting_rate_rad_per_s")]
+    pub resting_rate: [f64; 3],
+    /// Time constant of the filter of all readings \[s\].
+    #[serde(rename = "time_constant_s")]
+    pub time_constant: f64,
+    /// So much later than the wrench its readings come \[s\]; negative if the wrench comes later.
+    #[serde(rename = "delay_s")]
+    pub delay: f64,
+}
+
+impl InertialUnitFile {
+    /// The unit, in any scalar type.
+    ///
+    /// # Errors
+    /// [`BadInertialUnit`].
+    pub fn unit<T: Real>(&self) -> Result<InertialUnit<T>, BadInertialUnit> {
+        let rotation = Matrix3::from_fn(|i, j| T::literal(self.sensor_from_unit[i][j]));
+        InertialUnit::new(rotation, Vector3::from(self.position).map(T::literal))?
+            .with_resting_rate(Vector3::from(self.resting_rate).map(T::literal))
+    }
+
+    fn validate(&self) -> Result<(), FileError> {
+        let wrong = |field: &str, requirement| {
+            Err(FileError::OutOfRange { field: format!("inertial_unit.{field}"), requirement })
+        };
+        match self.unit::<f64>() {
+            Err(BadInertialUnit::Rotation) => {
+                return wrong("sensor_from_unit", "a rotation: orthonormal rows, determinant 1");
+            }
+            Err(BadInertialUnit::Position) => return wrong("position_m", "finite"),
+            Err(_) => return wrong("resting_rate_rad_per_s", "finite"),
+            Ok(_) => {}
+        }
+        if !(self.time_constant > 0.0 && self.time_constant.is_finite()) {
+            return wrong("time_constant_s", "positive and finite");
+        }
+        if !self.delay.is_finite() {
+            return wrong("delay_s", "finite");
+        }
+        Ok(())
+    }
+}
+
+fn is_of_a_point(inertia: &[[f64; 3]; 3]) -> bool {
+    *inertia == [[0.0; 3]; 3]
 }
 
 /// Files of before say nothing of it.
@@ -92,10 +155,12 @@ impl PayloadFile {
         let file = Self {
             mass,
             centre_of_mass: centre_of_mass.into(),
+            inertia: [[0.0; 3]; 3],
             gravity: gravity.into(),
             force_bias: [0.0; 3],
             torque_bias: [0.0; 3],
             sensor_from_flange: IDENTITY,
+            inertial_unit: None,
             quality: PayloadQuality::default(),
             provenance: Provenance { tool: crate::TOOL.to_owned(), ..Provenance::default() },
         };
@@ -130,6 +195,12 @@ impl PayloadFile {
         if self.mass < 0.0 {
             return wrong("mass_kg", "zero or positive");
         }
+        if self.payload::<f64>().is_err() {
+            return wrong("inertia_kg_m2", "finite, symmetric, and not negative about an axis");
+        }
+        if let Some(unit) = &self.inertial_unit {
+            unit.validate()?;
+        }
         let turn = self.rotation();
         let slack = (turn * turn.transpose() - Matrix3::identity()).amax();
         if !(slack < 1e-6 && turn.determinant() > 0.0) {
@@ -148,7 +219,13 @@ impl PayloadFile {
     /// [`FileError::OutOfRange`] if the numbers are none in that type.
     pub fn payload<T: Real>(&self) -> Result<Payload<T>, FileError> {
         let centre = Vector3::from(self.centre_of_mass).map(T::literal);
-        Payload::new(T::literal(self.mass), centre).map_err(|fault| match fault {
+        let inertia = Matrix3::from_fn(|i, j| T::literal(self.inertia[i][j]));
+        let body = Payload::new(T::literal(self.mass), centre).and_then(|body| body.with_inertia(inertia));
+        body.map_err(|fault| match fault {
+            BadPayload::BadInertia => FileError::OutOfRange {
+                field: "inertia_kg_m2".to_owned(),
+                requirement: "an inertia in this scalar type",
+            },
             BadPayload::BadMass => FileError::OutOfRange {
                 field: "mass_kg".to_owned(),
                 requirement: "a mass in this scalar type",
@@ -240,6 +317,32 @@ mod tests {
             ("[1.0, 0.0, 0.0]", "[-1.0, 0.0, 0.0]", "sensor_from_flange"),
             ("[1.0, 0.0, 0.0]", "[1.0, 1e-5, 0.0]", "sensor_from_flange"),
             ("version = 1", "version = 7", "version 7"),
+        ] {
+            let broken = text.replacen(from, to, 1);
+            assert!(broken != text, "{from} in {text}");
+            let error = PayloadFile::from_toml(&broken).unwrap_err().to_string();
+            assert!(error.contains(expected), "{error}");
+        }
+        let unit = super::InertialUnitFile {
+            position: [0.01, 0.0, -0.02],
+            sensor_from_unit: super::IDENTITY,
+            resting_rate: [0.0, 0.001, 0.0],
+            time_constant: 0.01,
+            delay: -0.003,
+        };
+        let inertia = [[0.05, 0.03, 0.0], [0.03, 0.06, 0.0], [0.0, 0.0, 0.07]];
+        let moving = PayloadFile { inertia, inertial_unit: Some(unit), ..file() };
+        let text = moving.to_toml().unwrap();
+        assert_eq!(PayloadFile::from_toml(&text).unwrap(), moving);
+        assert_eq!(moving.payload::<f64>().unwrap().inertia()[(0, 1)], 0.03);
+        for (from, to, expected) in [
+            ("[0.05", "[-0.05", "inertia_kg_m2"),
+            ("[0.03, 0.06", "[0.04, 0.06", "inertia_kg_m2"),
+            ("time_constant_s = 0.01", "time_constant_s = 0.0", "time_constant_s"),
+            ("delay_s = -0.003", "delay_s = nan", "delay_s"),
+            ("delay_s = -0.003", "delay_s = -0.004", "checksum"),
+            ("position_m = [0.01", "position_m = [inf", "position_m"),
+            ("[0.0, 0.001", "[nan, 0.001", "resting_rate"),
         ] {
             let broken = text.replacen(from, to, 1);
             assert!(broken != text, "{from} in {text}");

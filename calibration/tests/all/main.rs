@@ -12,6 +12,7 @@ mod equivariance;
 mod file_covariance;
 mod files;
 mod in_situ;
+mod inertial;
 mod intervals;
 mod kept;
 mod metrics;

@@ -47,6 +47,8 @@ pub(super) struct Source {
     /// Whether a calibration turns readings into wrenches.
     calibrated: bool,
     rows: u64,
+    /// Since the row before, and what rows without a wrench add to it \[s\].
+    time_step: f64,
     first_time: Option<f64>,
     notes: Vec<String>,
 }
@@ -106,6 +108,10 @@ impl Source {
         }
         let carried = scene.carried().cloned();
         let hanging = carried.map(|carried| Hanging::new(carried, reader, recorded.sensor())).transpose()?;
+        if let Some(late) = hanging.as_ref().map(Hanging::delay).filter(|late| *late > 0.0) {
+            let late = late * 1e3;
+            notes.push(format!("behind the inertial unit, what changes slowly comes {late:.1} ms late"));
+        }
         Ok(Self {
             recorded,
             hanging,
@@ -116,6 +122,7 @@ impl Source {
             recording: recording.to_owned(),
             calibrated: calibration.is_some(),
             rows: 0,
+            time_step: 0.0,
             first_time: None,
             notes,
         })
@@ -151,10 +158,12 @@ impl Source {
     pub(super) fn clock(&mut self, row: &Row<'_>) -> (f64, f64) {
         let number = self.rows;
         self.rows += 1;
-        match self.sample_interval {
+        let (time, step) = match self.sample_interval {
             Some(interval) => (number as f64 * interval, if number > 0 { interval } else { 0.0 }),
             None => (row.time().unwrap_or(f64::NAN), row.time_step().unwrap_or(0.0)),
-        }
+        };
+        self.time_step += step;
+        (time, step)
     }
 
     /// Whether the recording had any row.
@@ -176,16 +185,17 @@ impl Source {
     }
 
     #[inline]
-    fn read_load(&self, row: &Row<'_>) -> Reading {
+    fn read_load(&mut self, row: &Row<'_>) -> Reading {
         let load = match self.recorded.read(row) {
             Ok(load) => self.convention.wrench(load.force(), load.torque()),
             Err(status) => return Reading::Without(status),
         };
-        match &self.hanging {
+        let time_step = core::mem::take(&mut self.time_step);
+        match &mut self.hanging {
             None => Reading::Wrench(load),
-            Some(hanging) => {
-                hanging.take_off(&load, row).map_or(Reading::Without(Status::UnusableRow), Reading::Wrench)
-            }
+            Some(hanging) => hanging
+                .take_off(&load, row, time_step)
+                .map_or(Reading::Without(Status::UnusableRow), Reading::Wrench),
         }
     }
 

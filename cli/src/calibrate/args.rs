@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use fingertip_calibration::model::Curvature;
 
+use super::inertial::InertialArguments;
 use super::touches::TouchArguments;
 use crate::output::Overwrite;
 
@@ -14,7 +15,7 @@ const UNCERTAIN: [(&str, &str); 2] = [("method", "total"), ("method", "gauss-hel
 #[derive(Debug, Args)]
 pub(crate) struct CalibrateArguments {
     /// Known loads and readings: CSV with units in the column names (fx_N, tz_Nm, v1_V; also case, group)
-    #[arg(value_name = "LOADS.csv", required_unless_present = "gravity")]
+    #[arg(value_name = "LOADS.csv", required_unless_present_any = ["gravity", "inertial"])]
     pub(crate) loads: Vec<PathBuf>,
     /// Find weight, centre of mass and zero from poses instead, and write a payload: CSV with qx, qy, qz,
     /// qw (the sensor in the base frame), fx_N … tz_Nm
@@ -32,10 +33,12 @@ pub(crate) struct CalibrateArguments {
     /// With --gravity: the quaternions are those of the flange; find how the sensor sits on it too
     #[arg(long, requires = "gravity", conflicts_with_all = ["wrench_in_base", "fit_down"])]
     pub(crate) fit_mounting: bool,
-    /// With --gravity: the readings are what the fingertip does to the world, not the load on it
-    #[arg(long, requires = "gravity")]
+    /// With --gravity or --inertial: the readings are what the fingertip does to the world, not the load on it
+    #[arg(long, conflicts_with = "loads")]
     pub(crate) reaction: bool,
-    /// Where to write the calibration (calibration.toml), or with --gravity the payload (payload.toml)
+    #[command(flatten)]
+    pub(crate) inertial: InertialArguments,
+    /// Where to write the calibration (calibration.toml), or with --gravity or --inertial the payload (payload.toml)
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
     /// Also write the report with plots
@@ -73,10 +76,10 @@ pub(crate) struct CalibrateArguments {
     #[arg(long, value_name = "SHARE", default_value_t = 0.2)]
     pub(crate) bad_share: f64,
     /// What hangs on the sensor: its weight is added to the loads (columns qx, qy, qz, qw)
-    #[arg(long, value_name = "PAYLOAD.toml", conflicts_with_all = ["gravity", "tare_groups"])]
+    #[arg(long, value_name = "PAYLOAD.toml", conflicts_with_all = ["gravity", "inertial", "tare_groups"])]
     pub(crate) payload: Option<PathBuf>,
     /// Read the files row by row, in bounded memory, however long: least squares only, no leaving out
-    #[arg(long, conflicts_with_all = ["gravity", "curvature", "tare_groups", "reference_celsius",
+    #[arg(long, conflicts_with_all = ["gravity", "inertial", "curvature", "tare_groups", "reference_celsius",
         "reject_outliers", "payload", "prior", "inverse", "json", "html"])]
     pub(crate) stream: bool,
     #[command(flatten)]

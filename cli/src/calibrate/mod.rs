@@ -5,6 +5,7 @@ pub(crate) mod check;
 pub(crate) mod files;
 mod gravity;
 pub(crate) mod import;
+mod inertial;
 mod stream;
 pub(crate) mod tare;
 mod touches;
@@ -26,6 +27,9 @@ use files::{bad, read_calibration, read_loads, read_payload, write_reports};
 pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> {
     if let Some(poses) = &arguments.gravity {
         return gravity::run(poses, arguments);
+    }
+    if let Some(motion) = &arguments.inertial.inertial {
+        return inertial::run(motion, arguments);
     }
     let output = arguments.output.clone().unwrap_or_else(|| "calibration.toml".into());
     let paths = [Some(&output), arguments.html.as_ref(), arguments.json.as_ref()];

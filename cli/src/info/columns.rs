@@ -39,6 +39,16 @@ fn meaning(name: &str, is_ignored: bool) -> String {
         ColumnMeaning::Dummy(unit, size) if !is_ignored => {
             format!("dummy gauge{of} [{}]", signal(unit, size))
         }
+        ColumnMeaning::Acceleration(k, Some(unit)) => {
+            format!("acceleration {}{of} [{}], where a payload asks for it", axis(k), in_unit(unit, "m/s²"))
+        }
+        ColumnMeaning::AngularVelocity(k, Some(unit)) => {
+            format!(
+                "angular velocity {}{of} [{}], where a payload asks for it",
+                axis(k),
+                in_unit(unit, "rad/s")
+            )
+        }
         _ if name.starts_with("contact_") && !is_ignored => "contact".to_owned(),
         _ => match name {
             "temperature_C" => "temperature [°C], where a calibration asks for it".to_owned(),

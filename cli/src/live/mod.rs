@@ -152,7 +152,9 @@ fn calibration<'a>(
 /// Says what of a scene does not count live.
 fn note_what_is_left_out(scene: &Scene, of_gauges: bool) {
     if scene.carried().is_some() {
-        eprintln!("note: the weight of [payload] is not taken off: nothing tells how a live sensor lies");
+        eprintln!(
+            "note: the weight of [payload] is not taken off: nothing tells how a live sensor lies or moves"
+        );
     }
     if scene.awaits_noise() && of_gauges {
         eprintln!(

@@ -28,12 +28,16 @@ keys!(KEYS, "Keys of whole sections, section by section.":
     Optional "v1", "signal of the first gauge, and so on to `v16`";
     Optional "dummy", "signal of the gauge that bears no load";
     Optional "temperature_C", "temperature of the sensor";
+    Optional "ax", "what an accelerometer reads along x, and so `ay` and `az`: of an `[inertial_unit]`";
+    Optional "wx", "what a gyroscope reads about x, and so `wy` and `wz`";
 }
 "input.units" "": {
     Optional "force", "unit of the forces, `\"N\"` by default";
     Optional "torque", "unit of the torques, `\"Nm\"` by default";
     Optional "time", "unit of the time, `\"s\"` by default";
     Optional "signal", "unit of the signals, `\"V\"` by default";
+    Optional "acceleration", "unit of the accelerometer, `\"m/s2\"` by default; `\"g\"` is known, too";
+    Optional "angular_velocity", "unit of the gyroscope, `\"rad/s\"` by default; `\"deg/s\"` is known, too";
 }
 "sensor" "": {
     Optional "calibration", "a file that `fingertip calibrate` wrote, straight or curved, with temperature or without, or an ATI `.cal`; relative to the scene. `--calibration` takes the place of the section";
@@ -44,11 +48,18 @@ keys!(KEYS, "Keys of whole sections, section by section.":
     Optional "temperature_C", "of the sensor, where the recording has no column of it and the calibration drifts";
 }
 "payload" "": {
-    Optional "file", "what hangs on the sensor, as `fingertip calibrate --gravity` writes it; relative to the scene. `--payload` takes the place of the section";
+    Optional "file", "what hangs on the sensor, as `fingertip calibrate --gravity` or `--inertial` writes it; relative to the scene. `--payload` takes the place of the section";
     Optional "mass_kg", "in place of a file: the mass";
     Optional "centre_of_mass_m", "in place of a file: the centre of mass in the sensor's frame, `[0, 0, 0]` by default";
-    Optional "inertia_kg_m2", "three rows, about the sensor's origin; 0 by default";
+    Optional "inertia_kg_m2", "three rows, about the centre of mass, along the axes of the sensor; that of the file, or 0, by default";
     Optional "gravity_m_per_s2", "in the frame in which orientations are given, `[0, 0, -9.80665]` by default";
+}
+"inertial_unit" "": {
+    Optional "position_m", "where its accelerometer sits, in the sensor's frame; by default as the payload's file has it, or `[0, 0, 0]`";
+    Optional "rotation_deg", "how its axes are turned against the sensor's: axis times angle; by default as the payload's file has it, or `[0, 0, 0]`";
+    Optional "resting_rate_rad_per_s", "what its gyroscope reads at rest, along its axes; by default as the payload's file has it, or `[0, 0, 0]`";
+    Optional "time_constant_s", "of the filter through which wrench and angular velocity go, since no gyroscope tells the angular acceleration; by default as the payload's file has it, or 0.01. What changes slowly comes late by twice as much";
+    Optional "delay_s", "so much later than the wrench its readings come, negative if sooner; by default as the payload's file has it, or 0";
 }
 "filter" "": {
     Required "kind", "which filter: a choice below";
@@ -145,7 +156,12 @@ pub(super) const SECTIONS: &[Section] = &[
     section(
         "payload",
         Optional,
-        "what hangs on the sensor and is no contact; the recording must tell how the sensor lies, in columns `qx`, `qy`, `qz`, `qw`",
+        "what hangs on the sensor and is no contact; the recording must tell how the sensor lies, in columns `qx`, `qy`, `qz`, `qw`, or how it moves: `[inertial_unit]`",
+    ),
+    section(
+        "inertial_unit",
+        Optional,
+        "an accelerometer and a gyroscope on the sensor, in columns such as `ax_m_per_s2`, `wx_rad_per_s`: by their readings weight and inertia of the `[payload]` are taken off in motion. May be empty where the payload's file has it all",
     ),
     section(
         "filter",

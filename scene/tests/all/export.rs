@@ -46,7 +46,14 @@ fn the_modules_are_what_is_exported_today() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|ending| ending == "toml") {
             let name = path.file_stem().unwrap().to_str().unwrap();
-            holds(name, &example(name).to_rust(Scalar::F64, None).unwrap());
+            let exported = example(name).to_rust(Scalar::F64, None);
+            if name == "swung_ball" {
+                // In firmware `MovingPayload` stands before the pipeline.
+                let error = exported.unwrap_err().to_string();
+                assert!(error.contains("the section [inertial_unit] has no type"), "{error}");
+            } else {
+                holds(name, &exported.unwrap());
+            }
         }
     }
     for name in ["nano17_soft_finger", "paper_sphere", "rubber_tip", "tracked_ball"] {

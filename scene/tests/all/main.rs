@@ -19,6 +19,7 @@ mod formula;
 mod front;
 mod fusion;
 mod hostile;
+mod inertial;
 mod keys;
 mod noise;
 mod parts;

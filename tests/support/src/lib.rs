@@ -5,10 +5,12 @@ extern crate alloc;
 
 pub mod drawn;
 pub mod mcap;
+mod moving_body;
 mod recordings;
 mod unchanged;
 mod worst;
 
+pub use moving_body::{Moved, MovingBody};
 pub use recordings::{recording, recording_text};
 pub use unchanged::Unchanged;
 pub use worst::Worst;

@@ -16,6 +16,7 @@ mod gauge_layouts;
 mod least_squares;
 mod line_of_action;
 mod minimal_solvers;
+mod moving_payload;
 mod published_certificates;
 mod reached_bounds;
 mod rest_and_channels;

@@ -5,8 +5,8 @@ use core::fmt::Debug;
 
 use fingertip_wrench::gauge_layout::{Gauge, GaugeLayout, ThinWalledBeam};
 use fingertip_wrench::{
-    ChannelLimits, Conditioning, ContactForce, DummyGauge, Payload, RigidTransform, Sensor, SensorMatrix,
-    Tare, TemperatureCompensation, Uncertainty, Wrench,
+    ChannelLimits, Conditioning, ContactForce, DummyGauge, InertialUnit, Payload, RigidTransform, Sensor,
+    SensorMatrix, Tare, TemperatureCompensation, Uncertainty, Wrench,
 };
 use nalgebra::{Matrix3, Matrix6, SVector, Vector3, Vector6};
 use serde_json::{from_str, to_string};
@@ -44,6 +44,9 @@ fn plain_data_survives() {
     let tip = Payload::new(0.02, Vector3::new(0.015, 0.0, 0.0)).expect("a mass");
     survives(&tip);
     survives(&tip.with_inertia(Matrix3::identity() * 1e-6).expect("an inertia"));
+    let unit = InertialUnit::new(Matrix3::identity(), Vector3::new(0.01, 0.0, -0.02)).expect("a unit");
+    survives(&unit);
+    survives(&unit.with_resting_rate(Vector3::new(0.0, 0.001, 0.0)).expect("a rate"));
     let coefficients = [SVector::<f64, 6>::repeat(0.5), SVector::repeat(1e-3)];
     let none = [SVector::zeros(); 2];
     survives(&TemperatureCompensation::new(20.0, (0.0, 60.0), coefficients, none).expect("a model"));
@@ -67,6 +70,8 @@ fn what_a_constructor_refuses_a_file_cannot_bring_in() {
     assert!(from_str::<SensorMatrix<f64, 6>>(&dead).is_err());
     let payload = to_string(&Payload::new(0.02, Vector3::x()).expect("a mass")).expect("writable");
     assert!(from_str::<Payload<f64>>(&refused(payload.clone(), "0.02", "-0.02")).is_err());
+    let unit = to_string(&InertialUnit::<f64>::at_the_origin()).expect("writable");
+    assert!(from_str::<InertialUnit<f64>>(&refused(unit, "1.0", "-1.0")).is_err());
     // What is misspelt must not be passed over.
     let misspelt = refused(payload, "{", r#"{"gravitation":1,"#);
     assert!(from_str::<Payload<f64>>(&misspelt).unwrap_err().to_string().contains("`gravitation`"));

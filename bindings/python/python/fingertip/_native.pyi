@@ -311,6 +311,7 @@ class Fingertip:
         angular_acceleration: npt.ArrayLike | None = None,
         celsius: float | None = None,
         dummy: float | None = None,
+        acceleration: npt.ArrayLike | None = None,
     ) -> Touch: ...
     def sense_all(
         self,

@@ -35,7 +35,11 @@ pub(super) fn page() -> Result<String, Failure> {
     )?;
     let payload = tables(
         "calibration/src/file/payload_file.rs",
-        &[("PayloadFile", "At the top:"), ("PayloadQuality", "`[quality]`, how well it is known:")],
+        &[
+            ("PayloadFile", "At the top:"),
+            ("InertialUnitFile", "`[inertial_unit]`, how the unit sits on the sensor that told it:"),
+            ("PayloadQuality", "`[quality]`, how well it is known:"),
+        ],
     )?;
     let layout = example("calibration/src/design/layout_file.rs")?;
     Ok(format!(
@@ -46,7 +50,7 @@ pub(super) fn page() -> Result<String, Failure> {
          | [recording](#recordings), `.csv` or `.mcap` | `record`, `convert`, you | `analyze`, `health`, `info`, `tare` |\n\
          | [table of loads](#tables-of-loads), `.csv` | you | `calibrate`, `check`, `refine` |\n\
          | [calibration](#calibrations), `.toml` | `calibrate`, `import`, `tare` | `[sensor]` of a scene, `--calibration` |\n\
-         | [payload](#payloads), `.toml` | `calibrate --gravity` | `[payload]` of a scene, `--payload` |\n\
+         | [payload](#payloads), `.toml` | `calibrate --gravity`, `--inertial` | `[payload]` of a scene, `--payload` |\n\
          | [layout](#layouts), `.toml` | `design`, you | `bench`, the solvers, the simulated fingertip |\n\
          | [`contacts.csv`](contacts.md) | `analyze` | you |\n\n\
          ## Recordings\n\n{recordings}\n\nMCAP files hold messages of ROS 2 (`geometry_msgs/msg/WrenchStamped` and the \

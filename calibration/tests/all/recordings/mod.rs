@@ -5,4 +5,5 @@ mod axia_gravity;
 mod certificates;
 mod common;
 mod fareke;
+mod heave;
 mod optical_sensor;

@@ -1,5 +1,6 @@
 //! The commands that calibrate, from outside.
 
+mod inertial;
 pub(crate) mod payload;
 mod sensor;
 pub(crate) mod surface;
