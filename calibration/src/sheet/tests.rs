@@ -156,3 +156,43 @@ fn tables_have_all_their_rows() {
         }
     }
 }
+
+/// A dimension stands between its arrows where it has room, and beyond them where it has not; arrows then point inwards.
+#[test]
+fn dimensions_that_are_narrow_stand_beside() {
+    for (left, right, inside) in [(50.0, 80.0, true), (50.0, 53.0, false), (53.0, 50.0, false)] {
+        let mut sheet = Sheet::a4("");
+        sheet.across([left, 40.0], [right, 40.0], 60.0, "12.34");
+        let (least, most) = (f64::min(left, right), f64::max(left, right));
+        let text = sheet.marks.iter().find_map(|mark| match mark {
+            super::Mark::Text { at, anchor, .. } => Some((*at, *anchor)),
+            _ => None,
+        });
+        let ([x, y], anchor) = text.unwrap();
+        if inside {
+            assert!((x - 65.0).abs() < 1e-9 && y < 60.0 && anchor == Anchor::Middle, "{x} {y}");
+        } else {
+            // Behind the head of the arrow on the right.
+            assert!((most + 2.0..most + 6.0).contains(&x) && anchor == Anchor::Start, "{x}");
+        }
+        for mark in &sheet.marks {
+            if let super::Mark::Path { filled: true, points, .. } = mark {
+                let [tip, a, b] = points[..] else { panic!("no head") };
+                let foot = 0.5 * (a[0] + b[0]);
+                let at_left = (tip[0] - least).abs() < 1e-9;
+                assert!(at_left || (tip[0] - most).abs() < 1e-9, "{tip:?}");
+                // From the left end to the right inside, from the right end to the left.
+                assert_eq!((foot > tip[0]) == at_left, inside, "{tip:?} {foot}");
+                assert!(((foot - tip[0]).abs() - 2.0).abs() < 1e-9 && (a[1] - b[1]).abs() > 0.5);
+            }
+        }
+        // The lines that lead there go a little beyond.
+        let low = sheet.marks.iter().filter_map(|mark| match mark {
+            super::Mark::Path { points, filled: false, .. } if points[0][0] == points[1][0] => {
+                Some(points[1][1])
+            }
+            _ => None,
+        });
+        assert!(low.into_iter().all(|y| (y - 61.0).abs() < 1e-9));
+    }
+}

@@ -177,7 +177,8 @@ fn too_few_directions_or_gauges_are_refused() {
         assert_eq!(error.to_string(), MotionError::Fit(expected).to_string());
     }
     for force in [0.0, -5.0, f64::NAN, f64::INFINITY] {
-        assert!(constant_force(&signals, force).is_err(), "{force}");
+        let error = constant_force(&signals, force).unwrap_err().to_string();
+        assert!(error.contains("the force or the readings"), "{force}: {error}");
     }
 }
 

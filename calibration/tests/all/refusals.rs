@@ -357,3 +357,39 @@ fn what_is_not_determined_is_named() {
     let said = refused(&loads, &turning, Direction::LoadsFromSignals, true, true);
     assert!(said.contains("0.71 v2·v2") && said.contains("0.71 constant"), "{said}");
 }
+
+/// What is odd in a table is a reason against its calibration: torques and forces in other units, a dead gauge.
+#[test]
+fn what_is_odd_in_a_table_is_said_of_its_calibration() {
+    let random = &mut Pcg64Mcg::seed_from_u64(8);
+    // Forces at some centimetres.
+    let loads: Vec<f64> = (0..40)
+        .flat_map(|i| {
+            let angle = f64::from(i);
+            let [x, y, z] = [5.0 * angle.sin(), 4.0 * (0.7 * angle).cos(), 6.0 * angle.cos()];
+            let [a, b, c] = [0.01 * (2.0 * angle).cos(), 0.02 * angle.sin(), 0.015];
+            [x, y, z, b * z - c * y, c * x - a * z, a * y - b * x]
+        })
+        .collect();
+    let loads = DMatrix::from_row_slice(40, 6, &loads);
+    let scale = DMatrix::from_diagonal(&[0.1, 0.1, 0.1, 10.0, 10.0, 10.0].to_vec().into());
+    let signals = &loads * scale * sensor(random, 6, 7) + gaussians(random, 40, 7) * 1e-4;
+    let reasons = |force: f64, torque: f64, dead: bool| {
+        let loads = DMatrix::from_fn(40, 6, |i, j| loads[(i, j)] * if j < 3 { force } else { torque });
+        let signals = DMatrix::from_fn(40, 7, |i, j| if dead && j == 4 { 0.25 } else { signals[(i, j)] });
+        let table = LoadTable::new(&Axis::ALL, loads, signals, SignalUnit::Volt).unwrap();
+        let found = calibrate(&table, &Options::default()).unwrap();
+        found.to_file().unwrap().quality.reasons.join("; ")
+    };
+    let sound = reasons(1.0, 1.0, false);
+    assert!(!sound.contains("columns of") && !sound.contains("dead") && !sound.contains("kN"), "{sound}");
+    for (force, torque, dead, expected) in [
+        (1.0, 1e3, false, "N·mm in columns of N·m"),
+        (1.0, 1e-3, false, "N·m in columns of N·mm"),
+        (1.0, 1.0, true, "gauge 5 is dead: it always reads 0.25"),
+        (1e3, 1e3, false, "no fingertip"),
+    ] {
+        let said = reasons(force, torque, dead);
+        assert!(said.contains(expected), "{expected}: {said}");
+    }
+}
