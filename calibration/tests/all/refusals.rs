@@ -332,8 +332,9 @@ fn what_is_not_determined_is_named() {
     let signals = &loads * sensor(random, 3, 3) + gaussians(random, 30, 3) * 0.01;
     let refused = |loads: &DMatrix<f64>, signals: &DMatrix<f64>, direction, bias, quadratic| {
         let table = LoadTable::new(&axes, loads.clone(), signals.clone(), SignalUnit::Volt).unwrap();
+        let curvature = if quadratic { Curvature::Quadratic } else { Curvature::Straight };
         let options =
-            Options { direction, bias, quadratic, nominal: Some(vec![1.0; 3]), ..Options::default() };
+            Options { direction, bias, curvature, nominal: Some(vec![1.0; 3]), ..Options::default() };
         calibrate(&table, &options).map(|_| ()).unwrap_err().to_string()
     };
     let with = |matrix: &DMatrix<f64>, column: usize, value: &dyn Fn(usize) -> f64| {

@@ -7,11 +7,9 @@ pub(crate) mod args;
 mod converters;
 mod sheets;
 
-use std::io::Read as _;
-
 use fingertip_calibration::design::LayoutFile;
 
-use crate::calibrate::files::{bad, open};
+use crate::calibrate::files::{bad, text};
 use crate::error::CliError;
 use crate::output::Outputs;
 use crate::summary::Findings;
@@ -22,10 +20,7 @@ pub(crate) use sheets::Bench;
 pub(crate) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     let path = &arguments.layout;
     let outputs = Outputs::guard(arguments.overwrite, "output", [path], arguments.files.paths())?;
-    let mut text = String::new();
-    open("layout", path)?
-        .read_to_string(&mut text)
-        .map_err(|source| CliError::read("layout", path, source))?;
+    let text = text("layout", path)?;
     let file = LayoutFile::from_toml(&text).map_err(|error| bad(path, &error))?;
     let tip = arguments.tip_radius_mm.map(|radius| radius * 1e-3);
     let bench = Bench::new(&file, tip, &arguments.parts).map_err(|error| bad(path, &error))?;
