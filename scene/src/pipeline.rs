@@ -164,6 +164,8 @@ impl<T: Real> Pipeline<T> {
     ///     [surface]
     ///     shape = "sphere"
     ///     radius_m = 0.013
+    ///     [contact]
+    ///     least_force_N = 0.01
     ///     "#,
     /// )?;
     /// let mut pipeline = scene.pipeline();

@@ -199,7 +199,8 @@ fn what_does_not_count_is_noted() {
     let gauges = std::fs::read_to_string(scene("gauges.toml")).unwrap();
     let payload = "[payload]\nmass_kg = 0.1\ncentre_of_mass_m = [0.0, 0.0, 0.0]\n";
     let weight =
-        "note: the weight of [payload] is not taken off: nothing tells how a live sensor lies\n".to_owned();
+        "note: the weight of [payload] is not taken off: nothing tells how a live sensor lies or moves\n"
+            .to_owned();
     let warm = "note: the temperature is known, but the calibration has no terms for it\n".to_owned();
     for (scene, more, said) in [
         (gauges.clone(), &[][..], String::new()),
