@@ -74,8 +74,10 @@ enum ft_status
     FT_OVERLAP = 12,
     // The rest may have been none: the sensor moved or was touched.
     FT_DOUBTFUL = 13,
+    // The reading lies beyond what the curved sensor was calibrated for. The sample is left out.
+    FT_UNCALIBRATED = 14,
     // A fault of this library. The handle can be freed; what it would say is not to be trusted.
-    FT_INTERNAL = 14,
+    FT_INTERNAL = 15,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
