@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use fingertip_calibration::model::Curvature;
 
-use super::inertial::InertialArguments;
+use super::inertial_args::InertialArguments;
 use super::touches::TouchArguments;
 use crate::output::Overwrite;
 

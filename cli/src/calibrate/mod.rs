@@ -6,6 +6,7 @@ pub(crate) mod files;
 mod gravity;
 pub(crate) mod import;
 mod inertial;
+mod inertial_args;
 mod stream;
 pub(crate) mod tare;
 mod touches;
