@@ -24,8 +24,6 @@ pub(crate) struct Chosen {
 
 /// Terms are few, so that a microcontroller can do them.
 const MOST_TERMS: usize = 40;
-/// Of more samples than this, as many that are spread over all are chosen by.
-const MOST_SAMPLES: usize = 2_000;
 /// So many parts of the load cases are left out one after another.
 const PARTS: usize = 10;
 /// Places where bumps may sit.
@@ -49,19 +47,15 @@ const WORTH_BUMPS: f64 = 0.9;
 /// `loads` are in nominal loads; signals count from `origin`. `None` for fewer than four load cases, or where the loads
 /// do not determine even a straight sensor.
 pub(crate) fn choose(table: &LoadTable, loads: &DMatrix<f64>, origin: &[f64], bias: bool) -> Option<Chosen> {
-    let every = table.samples().div_ceil(MOST_SAMPLES).max(1);
-    let kept: Vec<usize> = (0..table.samples()).step_by(every).collect();
-    let mut signals = table.signals.select_rows(&kept);
+    let mut signals = table.signals.clone();
     signals.column_iter_mut().zip(origin).for_each(|(mut column, zero)| column.add_scalar_mut(-zero));
     let sizes: Vec<f64> = signals
         .column_iter()
-        .map(|column| column.norm() / (kept.len() as f64).sqrt())
+        .map(|column| column.norm() / (table.samples() as f64).sqrt())
         .map(|size| if size > 0.0 { size } else { 1.0 })
         .collect();
-    let weights =
-        table.weights.as_deref().map(|weights| kept.iter().map(|i| weights[*i]).collect::<Vec<_>>());
-    let parts = parts(&kept.iter().map(|i| table.cases[*i]).collect::<Vec<_>>())?;
-    let problem = Problem { signals, loads: loads.select_rows(&kept), sizes, weights, parts, bias };
+    let (weights, parts) = (table.weights.clone(), parts(&table.cases)?);
+    let problem = Problem { signals, loads: loads.clone(), sizes, weights, parts, bias };
     let gauges = problem.signals.ncols();
     let products = Terms { products: products(gauges), ..Terms::default() };
     let mut best = problem.best_of(&products)?;

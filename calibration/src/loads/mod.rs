@@ -7,10 +7,12 @@ mod merge;
 mod plausible;
 mod reader;
 mod rest;
+mod spread;
 mod table;
 mod text;
 
 pub use columns::Columns;
 pub use reader::{LoadReader, LoadRow};
 pub use rest::{Rest, signals_from_csv};
+pub(crate) use spread::spread;
 pub use table::{LoadError, LoadTable, Zeros};

@@ -1,10 +1,12 @@
 //! The fit of a curved sensor: which terms, and of which origin.
 
+use alloc::borrow::Cow;
+
 use super::fitting::fit_model;
 use super::sensor_model::normalised;
 use super::{CalibrationError, Curvature, Direction, Options, SensorModel};
 use crate::curve::{Chosen, Terms, choose};
-use crate::loads::LoadTable;
+use crate::loads::{LoadTable, spread};
 
 /// With [`Curvature::Chosen`], the options of the terms that are chosen, and what they are worth.
 ///
@@ -25,6 +27,11 @@ pub(crate) fn with_chosen_terms(
         return Err(bad("only loads from signals can be curved"));
     }
     options.curvature = Curvature::Straight;
+    let many = table.samples() > MOST_SAMPLES;
+    let table = &*match many {
+        true => Cow::Owned(table.rows(&spread(table.samples(), MOST_SAMPLES))),
+        false => Cow::Borrowed(table),
+    };
     let mut origin = match options.bias {
         true => fit_model(table, &options, nominal)?.matrix_and_zero()?.1.as_slice().to_vec(),
         false => vec![0.0; table.gauges()],
@@ -52,6 +59,8 @@ pub(crate) fn with_chosen_terms(
     }
 }
 
+/// Of more samples than this, as many that are spread over all are chosen by.
+const MOST_SAMPLES: usize = 2_000;
 /// The terms are chosen so many times at most, each time about the zero that the last choice tells.
 const ROUNDS: usize = 6;
 /// An origin has moved if it did by this share of what a gauge read.

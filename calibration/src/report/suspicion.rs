@@ -3,15 +3,13 @@
 use core::fmt;
 
 use nalgebra::DMatrix;
-use rand::{RngExt as _, SeedableRng as _};
-use rand_pcg::Pcg64Mcg;
 use serde::Serialize;
 
 use crate::Axis;
 use crate::file::CalibrationFile;
 use crate::fit::least_squares;
 use crate::linear::{Singular, pseudo_inverse};
-use crate::loads::LoadTable;
+use crate::loads::{LoadTable, spread};
 
 /// A mistake that would explain the errors.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -123,19 +121,6 @@ const CONFUSIONS: [(f64, &str); 12] = [
 
 /// Of more samples than this, so many are asked, spread over all: a mistake makes errors everywhere.
 const ASKED: usize = 20_000;
-
-/// So many places of a list, one in each of as many stretches of equal length, all places being equally likely. At no even
-/// distance, since loads may repeat themselves; the same in every run.
-fn spread(samples: usize, asked: usize) -> Vec<usize> {
-    let mut random = Pcg64Mcg::seed_from_u64(1);
-    let length = samples as f64 / asked as f64;
-    (0..asked)
-        .map(|number| {
-            let within: f64 = random.random_range(0.0..1.0);
-            (((number as f64 + within) * length) as usize).min(samples - 1)
-        })
-        .collect()
-}
 
 /// Mistakes that would explain the errors of a calibration on known loads, best explanation first. Of a table of more than
 /// 20 000 samples, as many that are spread over it tell, and the errors that are said are of these.

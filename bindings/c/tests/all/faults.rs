@@ -178,7 +178,7 @@ fn null_is_told_and_the_outputs_stay() {
 
 #[test]
 fn every_status_and_resolution_has_a_text_of_its_own() {
-    for (text, last) in [(ft_status_text as extern "C" fn(u32) -> *const i8, 14), (ft_resolution_text, 11)] {
+    for (text, last) in [(ft_status_text as extern "C" fn(u32) -> *const i8, 15), (ft_resolution_text, 11)] {
         let says = |number| unsafe { CStr::from_ptr(text(number)) }.to_str().unwrap().to_owned();
         let mut all: Vec<String> = (0..=last + 1).map(says).collect();
         assert_eq!(says(last + 1), says(u32::MAX));
