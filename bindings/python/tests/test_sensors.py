@@ -67,6 +67,35 @@ def test_a_bad_calibration_is_stamped_and_none_is_refused():
             fingertip.calibrate(**given)
 
 
+def test_a_sensor_that_bends_is_fitted_so_and_believed_where_it_was(tmp_path):
+    loads, signals, matrix, zero = known(samples=300, noise=1e-4)
+    # What the loads are in the bent signals: squares of a tenth of full scale.
+    bent = signals - zero
+    loads[:, 2] += 0.1 * NOMINAL[2] * bent[:, 0] ** 2
+    loads[:, 4] -= 0.1 * NOMINAL[4] * bent[:, 3] * bent[:, 5]
+    straight = fingertip.calibrate(loads, signals, nominal=NOMINAL)
+    curved = fingertip.calibrate(loads, signals, nominal=NOMINAL, curvature="chosen")
+    misses = [np.abs(found.loads(signals) - loads).max(axis=0) / NOMINAL for found in (straight, curved)]
+    assert misses[1].max() < 0.01 and misses[0].max() > 0.03, misses
+    report = curved.report()["curve"]
+    assert report["taken"] and report["left_out_percent"] < 0.2 * report["straight_percent"], report
+    # Through a scene: as the calibration itself, and no wrench far from where it was fitted.
+    curved.save(tmp_path / "bends.toml")
+    sections = {
+        "version": 2,
+        "input": {"convention": "on_fingertip"},
+        "sensor": {"calibration": "bends.toml"},
+        "surface": {"shape": "sphere", "radius_m": 0.01},
+    }
+    tip = fingertip.Fingertip(fingertip.Scene.from_dict(sections, folder=tmp_path))
+    felt = tip.sense(signals[3], 1e-3)
+    assert np.allclose(felt.wrench, curved.loads(signals[3:4])[0], rtol=1e-9, atol=1e-9)
+    with pytest.raises(fingertip.ReadingError, match="beyond what the curved sensor"):
+        tip.sense(signals[3] + 10, 1e-3)
+    with pytest.raises(fingertip.CalibrationError, match="is not known"):
+        fingertip.calibrate(loads, signals, curvature="magic")
+
+
 def test_outliers_are_named_or_left_out():
     loads, signals, matrix, _ = known()
     signals[7] += 0.3
