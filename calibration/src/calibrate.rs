@@ -7,6 +7,7 @@ use nalgebra::RowDVector;
 use crate::curve::Region;
 use crate::file::{CalibrationFile, FileError, Quality, Temperature, Verdict};
 use crate::fit::leave_out;
+use crate::linear::less;
 use crate::loads::LoadTable;
 use crate::model::{
     CalibrationError, Curvature, Direction, FittedDrift, Options, SensorModel, design, fit_at_rest,
@@ -175,12 +176,7 @@ impl Calibration {
         let mut file = self.model.to_file(&self.report.method)?;
         file.temperature.clone_from(&self.temperature);
         if file.is_curved() {
-            let mut signals = self.table.signals.clone();
-            signals
-                .column_iter_mut()
-                .zip(&file.zero)
-                .for_each(|(mut column, zero)| column.add_scalar_mut(-zero));
-            file.region = Region::of(&signals);
+            file.region = Region::of(&less(&self.table.signals, &file.zero));
         }
         file.quality = Quality {
             verdict: self.report.verdict,

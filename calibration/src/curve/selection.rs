@@ -9,6 +9,7 @@ use rand_pcg::Pcg64Mcg;
 
 use super::Terms;
 use super::forward::{Rows, Split, forward};
+use crate::linear::less;
 use crate::loads::LoadTable;
 
 /// What was chosen, and what it is worth.
@@ -47,8 +48,7 @@ const WORTH_BUMPS: f64 = 0.9;
 /// `loads` are in nominal loads; signals count from `origin`. `None` for fewer than four load cases, or where the loads
 /// do not determine even a straight sensor.
 pub(crate) fn choose(table: &LoadTable, loads: &DMatrix<f64>, origin: &[f64], bias: bool) -> Option<Chosen> {
-    let mut signals = table.signals.clone();
-    signals.column_iter_mut().zip(origin).for_each(|(mut column, zero)| column.add_scalar_mut(-zero));
+    let signals = less(&table.signals, origin);
     let sizes: Vec<f64> = signals
         .column_iter()
         .map(|column| column.norm() / (table.samples() as f64).sqrt())
@@ -59,10 +59,11 @@ pub(crate) fn choose(table: &LoadTable, loads: &DMatrix<f64>, origin: &[f64], bi
     let gauges = problem.signals.ncols();
     let products = Terms { products: products(gauges), ..Terms::default() };
     let mut best = problem.best_of(&products)?;
+    let places = problem.places();
     for width in WIDTHS {
         let scale = width * (2.0 * gauges as f64).sqrt();
         let widths = problem.sizes.iter().map(|size| scale * size).collect();
-        let with_bumps = Terms { widths, centres: problem.places(), ..products.clone() };
+        let with_bumps = Terms { widths, centres: places.clone(), ..products.clone() };
         let Some(other) = problem.best_of(&with_bumps) else { continue };
         let bar = if best.terms.centres.is_empty() { WORTH_BUMPS } else { 1.0 };
         if other.left_out_percent < bar * best.left_out_percent {

@@ -5,7 +5,7 @@ use alloc::borrow::Cow;
 use super::fitting::fit_model;
 use super::sensor_model::normalised;
 use super::{CalibrationError, Curvature, Direction, Options, SensorModel};
-use crate::curve::{Chosen, Terms, choose};
+use crate::curve::{Chosen, choose};
 use crate::loads::{LoadTable, spread};
 
 /// With [`Curvature::Chosen`], the options of the terms that are chosen, and what they are worth.
@@ -23,9 +23,7 @@ pub(crate) fn with_chosen_terms(
     }
     let bad =
         |message: &str| CalibrationError::BadOption { option: "curvature", message: message.to_owned() };
-    if options.direction == Direction::SignalsFromLoads {
-        return Err(bad("only loads from signals can be curved"));
-    }
+    options.check_curvature()?;
     options.curvature = Curvature::Straight;
     let many = table.samples() > MOST_SAMPLES;
     let table = &*match many {
@@ -100,18 +98,13 @@ pub(crate) fn fit_at_rest(
             return Ok(model);
         }
         let zero = model.matrix_and_zero()?.1;
-        let moves: Vec<f64> = zero.iter().zip(&*origin).map(|(zero, origin)| zero - origin).collect();
         if !has_moved(table, origin, zero.as_slice(), CLOSE) {
             return Ok(model);
         }
-        **terms = Terms {
-            centres: terms
-                .centres
-                .iter()
-                .map(|centre| centre.iter().zip(&moves).map(|(c, step)| c - step).collect())
-                .collect(),
-            ..(**terms).clone()
-        };
+        for centre in &mut terms.centres {
+            let moves = zero.iter().zip(&*origin).map(|(zero, origin)| zero - origin);
+            centre.iter_mut().zip(moves).for_each(|(place, step)| *place -= step);
+        }
         *origin = zero.as_slice().to_vec();
         model = fit_model(table, options, nominal)?;
     }

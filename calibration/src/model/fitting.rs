@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use super::sensor_model::{design, normalised, responses};
 use super::zeros::account_for_zeros;
-use super::{CalibrationError, Curvature, Direction, Method, Options, SensorModel};
+use super::{CalibrationError, Direction, Method, Options, SensorModel};
 use crate::file::CalibrationFile;
 use crate::fit::{
     Fit, FitError, Ransac, deviation, gauss_helmert_of_shares, huber, least_squares, ransac, ridge,
@@ -19,12 +19,7 @@ pub(crate) fn fit_model(
     nominal: &[f64],
 ) -> Result<SensorModel, CalibrationError> {
     let gauges = table.gauges();
-    if options.curvature != Curvature::Straight && options.direction == Direction::SignalsFromLoads {
-        return Err(CalibrationError::BadOption {
-            option: "curvature",
-            message: "only loads from signals can be curved".to_owned(),
-        });
-    }
+    options.check_curvature()?;
     let (terms, origin) = (options.curvature.terms(gauges), options.curvature.origin(gauges));
     if origin.len() != gauges || terms.values(&origin).iter().any(|value| !value.is_finite()) {
         return Err(CalibrationError::BadOption {

@@ -1,5 +1,6 @@
 //! How to calibrate.
 
+use super::CalibrationError;
 use crate::curve::Terms;
 use crate::design::TouchSet;
 use crate::file::CalibrationFile;
@@ -138,6 +139,19 @@ pub struct Options {
     pub touches: Option<TouchSet>,
     /// What a good calibration must reach.
     pub limits: Limits,
+}
+
+impl Options {
+    /// Refuses to fit signals to loads by a curve.
+    pub(super) fn check_curvature(&self) -> Result<(), CalibrationError> {
+        if self.curvature == Curvature::Straight || self.direction == Direction::LoadsFromSignals {
+            return Ok(());
+        }
+        Err(CalibrationError::BadOption {
+            option: "curvature",
+            message: "only loads from signals can be curved".to_owned(),
+        })
+    }
 }
 
 impl Default for Options {

@@ -7,7 +7,7 @@ use crate::Axis;
 use crate::curve::Terms;
 use crate::file::{CalibrationFile, Covariance, Curve, FileError, Provenance, SignalUnit, of_pseudo_inverse};
 use crate::fit::Fit;
-use crate::linear::{Singular, pseudo_inverse, quick_inverse};
+use crate::linear::{Singular, less, pseudo_inverse, quick_inverse};
 use crate::loads::LoadTable;
 
 /// A fitted sensor: what turns readings into loads.
@@ -50,13 +50,6 @@ pub(crate) fn design(table: &LoadTable, options: &Options, nominal: &[f64]) -> D
         }
     }
     design
-}
-
-/// Readings less an origin.
-fn less(signals: &DMatrix<f64>, origin: &[f64]) -> DMatrix<f64> {
-    let mut signals = signals.clone();
-    signals.column_iter_mut().zip(origin).for_each(|(mut column, zero)| column.add_scalar_mut(-zero));
-    signals
 }
 
 /// What is regressed on the design: samples × responses.

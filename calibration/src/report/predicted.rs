@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use crate::file::CalibrationFile;
+use crate::linear::less;
 use crate::loads::LoadTable;
 use crate::model::CalibrationError;
 
@@ -17,11 +18,7 @@ pub(super) fn predicted(
 ) -> Result<DMatrix<f64>, CalibrationError> {
     if file.temperature.is_none() && !file.is_curved() && file.zero.len() == table.gauges() {
         // All at once.
-        let mut signals = table.signals.clone();
-        for (mut column, zero) in signals.column_iter_mut().zip(&file.zero) {
-            column.add_scalar_mut(-zero);
-        }
-        let mut loads = signals * inverse.transpose();
+        let mut loads = less(&table.signals, &file.zero) * inverse.transpose();
         for (mut column, nominal) in loads.column_iter_mut().zip(&file.nominal) {
             column *= *nominal;
         }
