@@ -67,6 +67,9 @@ impl CalibrationFile {
     /// The first version of the format that has what is in this file.
     fn version(&self) -> i64 {
         let entries = self.covariance.as_ref().is_some_and(|covariance| covariance.entries.is_some());
+        if self.creep.is_some() {
+            return 4;
+        }
         match (self.curve.is_some() || self.region.is_some(), entries) {
             (true, _) => 3,
             (false, true) => 2,

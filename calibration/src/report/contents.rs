@@ -7,6 +7,7 @@ use nalgebra::DMatrix;
 use serde::Serialize;
 
 use super::contact::{ContactReport, contact_report};
+use super::creep::CreepReport;
 use super::curve::CurveReport;
 use super::metrics::{AxisReport, LineReport, axis_reports, cross_talk, lines};
 use super::outliers::{Outlier, outliers};
@@ -50,6 +51,8 @@ pub struct Report {
     pub matrix: Option<Vec<Vec<f64>>>,
     /// Standard deviation of its entries.
     pub matrix_deviations: Option<Vec<Vec<f64>>>,
+    /// How the readings creep, if that was asked for: all else is said of readings without it.
+    pub creep: Option<CreepReport>,
     /// What terms of higher order are worth, if they were chosen, or if the sensor is bad without.
     pub curve: Option<CurveReport>,
     /// How well lines of action are found.
@@ -249,6 +252,7 @@ impl Report {
             cross_talk_percent: cross_talk(table, full_scale, predicted),
             matrix: None,
             matrix_deviations: None,
+            creep: None,
             curve: None,
             lines: None,
             contacts: None,

@@ -16,6 +16,14 @@ pub(super) fn predicted(
     table: &LoadTable,
     inverse: &DMatrix<f64>,
 ) -> Result<DMatrix<f64>, CalibrationError> {
+    let without;
+    let table = match &file.creep {
+        Some(creep) => {
+            without = creep.taken_off(table)?;
+            &without
+        }
+        None => table,
+    };
     if file.temperature.is_none() && !file.is_curved() && file.zero.len() == table.gauges() {
         // All at once.
         let mut loads = less(&table.signals, &file.zero) * inverse.transpose();
