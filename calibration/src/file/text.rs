@@ -185,8 +185,8 @@ mod tests {
     #[test]
     fn unknown_version_is_named() {
         let error =
-            CalibrationFile::from_toml(&text().replacen("version = 1", "version = 4", 1)).unwrap_err();
-        assert!(matches!(error, FileError::UnknownVersion { found: 4, known: 3 }));
+            CalibrationFile::from_toml(&text().replacen("version = 1", "version = 5", 1)).unwrap_err();
+        assert!(matches!(error, FileError::UnknownVersion { found: 5, known: 4 }));
         assert!(error.to_string().contains("`version`"));
     }
 

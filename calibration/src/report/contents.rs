@@ -1,7 +1,7 @@
 //! What can be said of a calibration.
 
 use alloc::borrow::Cow;
-use alloc::collections::BTreeSet;
+use alloc::collections::BTreeMap;
 
 use nalgebra::DMatrix;
 use serde::Serialize;
@@ -11,7 +11,7 @@ use super::creep::CreepReport;
 use super::curve::CurveReport;
 use super::metrics::{AxisReport, LineReport, axis_reports, cross_talk, lines};
 use super::outliers::{Outlier, outliers};
-use super::predicted::predicted;
+use super::predicted::{beyond, predicted};
 use super::suspicion::{Suspicion, suspicions};
 use super::words::{describe, worst_first};
 use crate::design::TouchSet;
@@ -174,19 +174,21 @@ impl Report {
                 ),
             });
         }
-        let mut excluded = Vec::new();
+        let saturated = table.saturated(file.range.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]));
+        let saturated =
+            saturated.into_iter().map(|(sample, gauge)| (sample, format!("gauge {} saturated", gauge + 1)));
+        let unusable: BTreeMap<usize, String> = beyond(file, table)?.into_iter().chain(saturated).collect();
+        let excluded = unusable
+            .iter()
+            .map(|(sample, reason)| Exclusion {
+                sample: table.names[*sample].clone(),
+                reason: reason.clone(),
+            })
+            .collect();
         let mut kept = Cow::Borrowed(table);
-        if let Some(range) = file.range {
-            let saturated = table.saturated(range);
-            for (sample, gauge) in &saturated {
-                let reason = format!("gauge {} saturated", gauge + 1);
-                excluded.push(Exclusion { sample: table.names[*sample].clone(), reason });
-            }
-            let saturated: BTreeSet<usize> = saturated.into_iter().map(|(sample, _)| sample).collect();
-            if !saturated.is_empty() {
-                kept = Cow::Owned(table.select(|i| !saturated.contains(&i)));
-                kept.validate()?;
-            }
+        if !unusable.is_empty() {
+            kept = Cow::Owned(table.select(|i| !unusable.contains_key(&i)));
+            kept.validate()?;
         }
         let table = &*kept;
         let inverse = pseudo_inverse(&file.matrix).ok_or(CalibrationError::Singular)?;

@@ -129,10 +129,9 @@ fn a_sensor_that_does_not_creep_is_left_as_it_is() {
 fn a_curved_sensor_creeps_as_a_straight_one() {
     let random = &mut Pcg64Mcg::seed_from_u64(63);
     let mut session = session(random, &[SLOW], 12, 0.5, 1e-4);
-    let curved = |readings: &DMatrix<f64>, loads: &DMatrix<f64>| {
-        DMatrix::from_fn(readings.nrows(), 6, |i, j| readings[(i, j)] + 0.1 * (loads[(i, 2)] / 20.0).powi(2))
-    };
-    session.table.signals = curved(&session.table.signals, &session.table.loads);
+    let loads = &session.table.loads;
+    let bend = DMatrix::from_fn(loads.nrows(), 6, |i, _| 0.1 * (loads[(i, 2)] / 20.0).powi(2));
+    session.table.signals += bend;
     let found = fit(&session.table, true).unwrap();
     assert_eq!(found.creep.times_s.len(), 1);
     assert!((found.creep.times_s[0] - 24.6).abs() < 2.5, "{:?}", found.creep.times_s);

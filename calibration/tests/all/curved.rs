@@ -7,6 +7,7 @@ use fingertip_calibration::linear::pairs;
 use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{CalibrationError, Curvature, Direction, Options};
 use fingertip_calibration::nalgebra::{DMatrix, DVector, Vector3, Vector6};
+use fingertip_calibration::report::Report;
 use fingertip_calibration::{Axis, Calibration, calibrate};
 use fingertip_contact::{ContactModel as _, PointContact};
 use fingertip_surfaces::Sphere;
@@ -253,4 +254,23 @@ fn what_cannot_be_curved_is_refused() {
     assert_eq!(*terms(&calibration), right);
     assert!(calibration.report.method.contains("curved by 2 terms"), "{}", calibration.report.method);
     assert!(calibration.report.curve.is_none());
+}
+
+/// What a pipeline refuses to read is no part of a check either, and named.
+#[test]
+fn a_check_leaves_out_what_lies_beyond_the_calibration() {
+    let random = &mut Pcg64Mcg::seed_from_u64(333);
+    let file = calibrate(&of_terms(random, 120, 1.0, 0.0), &chosen()).unwrap().to_file().unwrap();
+    let mut table = of_terms(random, 40, 1.0, 0.0);
+    let limits = fingertip_calibration::model::Limits::default();
+    let within = Report::of_check(&file, &table, &limits, None).unwrap();
+    let sum = within.samples + within.excluded.len();
+    assert!(sum == 40 && within.samples > 30, "{}", within.samples);
+    for gauge in 0..3 {
+        table.signals[(7, gauge)] = file.zero[gauge] + 50.0;
+    }
+    let report = Report::of_check(&file, &table, &limits, None).unwrap();
+    let left = report.excluded.iter().find(|left| left.sample == "sample 8").unwrap();
+    assert!(left.reason.contains("times as far out"), "{}", left.reason);
+    assert_eq!(report.verdict, within.verdict);
 }
