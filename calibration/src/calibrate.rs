@@ -198,6 +198,8 @@ impl Calibration {
         file.temperature.clone_from(&self.temperature);
         file.creep.clone_from(&self.creep);
         if file.is_curved() {
+            // Too few loads tell no more than the linear part.
+            file.covariance = self.model.covariance_with_terms(&self.table).or(file.covariance);
             file.region = Region::of(&less(&self.table.signals, &file.zero));
         }
         file.quality = Quality {

@@ -69,7 +69,7 @@ fn exported_modules_give_the_bits_of_the_pipeline() {
     assert!(scene.to_rust(fingertip_scene::Scalar::F32, Some(&file)).is_ok());
 
     let (file, mut refused) = (curved(8), 0);
-    let sensor = Sensor::<f32>::new(&file).unwrap();
+    let mut sensor = Sensor::<f32>::new(&file).unwrap();
     let mut tip = exported::plane_curved_f32::tip().unwrap();
     for reading in readings::<8>(&file) {
         let reading = reading.map(|x| x as f32);

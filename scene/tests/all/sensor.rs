@@ -1,6 +1,7 @@
 //! Readings of gauges to wrenches: every number of gauges, zeros, drifts, and what is no reading.
 
 use fingertip::wrench::{Real, Wrench};
+use fingertip_calibration::creep::Creep;
 use fingertip_calibration::file::{CalibrationFile, SignalUnit, Temperature};
 use fingertip_scene::{GAUGES, GaugeReading, NoWrench, Sensor};
 use nalgebra::{DMatrix, DVector, Vector6};
@@ -51,7 +52,7 @@ fn six_to_sixteen_gauges_give_the_load_back() {
         assert_eq!(sensor(&file).gauges(), gauges);
         assert_near(&sensor(&file).wrench(&GaugeReading::of(&reading), 1e-3).unwrap(), &load, 1e-12);
         let narrow: Vec<f32> = reading.iter().map(|x| *x as f32).collect();
-        let single = Sensor::<f32>::new(&file).unwrap();
+        let mut single = Sensor::<f32>::new(&file).unwrap();
         assert_near(&single.wrench(&GaugeReading::of(&narrow), 1e-3).unwrap(), &load, 1e-5);
     }
     let error = Sensor::<f64>::new(&file(17)).unwrap_err().to_string();
@@ -75,8 +76,8 @@ fn quadratic_terms_are_those_of_the_file() {
 #[test]
 fn what_is_no_reading_gives_no_wrench() {
     let file = CalibrationFile { range: Some([-3.0, 4.0]), ..file(6) };
-    let sensor = sensor(&file);
-    let with = |value: f64| {
+    let mut sensor = sensor(&file);
+    let mut with = |value: f64| {
         let mut gauges = signals(&file, &Vector6::zeros());
         gauges[4] = value;
         sensor.wrench(&GaugeReading::of(&gauges), 1e-3).map(|_| ())
@@ -224,4 +225,39 @@ fn drift_with_temperature_is_taken_off_and_a_rest_takes_what_is_left() {
     let gauges = at(&load, 45.0, 0.25 + mean_noise(60));
     let reading = GaugeReading { celsius: Some(45.0), ..GaugeReading::of(&gauges) };
     assert_near(&sensor.wrench(&reading, 1e-3).unwrap(), &load, 1e-12);
+}
+
+/// Creep is taken off from reading to reading, and a rest begins anew.
+fn creep_is_taken_off<T: Real>(tolerance: f64) {
+    let mut file = file(7);
+    let load = Vector6::new(1.0, -2.0, 3.0, 0.04, 0.05, -0.06);
+    let loaded = signals(&file, &load);
+    let zero = file.zero.clone();
+    file.creep = Some(Creep { times_s: vec![2.0], shares: vec![vec![0.1; 7]] });
+    let mut sensor = Sensor::<T>::new(&file).unwrap();
+    let of = |readings: &[f64]| readings.iter().map(|reading| T::literal(*reading)).collect::<Vec<T>>();
+    let (loaded, unloaded) = (of(&loaded), of(&zero));
+    let mut at = |gauges: &[T], step: f64| {
+        let wrench = sensor.wrench(&GaugeReading::of(gauges), T::literal(step)).unwrap();
+        wrench.components().map(|x| x.to_f64()).dot(&load) / load.norm_squared()
+    };
+    // At once all of it; in the end less by a share; afterwards the share is left, and goes.
+    assert!((at(&loaded, 9.0) - 1.0).abs() < tolerance);
+    assert!((at(&loaded, 2.0) - (0.9 + 0.1 * (-1.0_f64).exp())).abs() < tolerance);
+    assert!((at(&loaded, 1e3) - 0.9).abs() < tolerance);
+    assert!((at(&unloaded, 0.0) + 0.1).abs() < tolerance);
+    assert!(at(&unloaded, 1e3).abs() < tolerance);
+    at(&loaded, 1e3);
+    for _ in 0..10 {
+        sensor.rest(&GaugeReading::of(&unloaded)).unwrap();
+    }
+    sensor.end_rest().unwrap();
+    let rested = sensor.wrench(&GaugeReading::of(&unloaded), T::one()).unwrap();
+    assert!(rested.components().amax().to_f64() < tolerance);
+}
+
+#[test]
+fn creep_is_taken_off_in_both_precisions() {
+    creep_is_taken_off::<f64>(1e-9);
+    creep_is_taken_off::<f32>(2e-4);
 }
