@@ -25,7 +25,7 @@ use crate::numeric::decay;
 /// // Within some 30 s, the first gauge creeps by a share of 0.02/0.98, the second not.
 /// let mut creep = CreepCompensation::<f64, 2, 1>::new([30.0], [Vector2::new(0.02, 0.0)])?;
 /// let at_once = creep.follow(&Vector2::new(0.98, 1.0), 0.0).unwrap();
-/// assert_eq!(at_once, Vector2::new(0.98, 1.0));
+/// assert!((at_once - Vector2::new(0.98, 1.0)).amax() < 1e-15);
 /// let mut last = at_once;
 /// for _ in 0..600 {
 ///     last = creep.follow(&Vector2::new(1.0, 1.0), 1.0).unwrap();
