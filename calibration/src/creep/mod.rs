@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::loads::LoadTable;
 
 /// Times over which a sensor creeps, and the share of a lasting signal that each takes off: see
-/// [`CreepCompensation`](fingertip_wrench::CreepCompensation).
+/// [`CreepCompensation`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Creep {
