@@ -168,6 +168,7 @@ def test_creep_is_taken_off() -> None:
     found = fingertip.calibrate(loads, signals, times=np.arange(600.0), creep=True)
     creep = found.report()["creep"]
     assert creep["with_percent"] < 0.1 * creep["without_percent"]
-    assert abs(creep["creep"]["times_s"][0] - 19.5) < 1
+    # A step between two samples counts as a ramp, which takes up to some 1.5 s off the 20 s.
+    assert 18 < creep["creep"]["times_s"][0] < 20
     with pytest.raises(fingertip.CalibrationError, match="t_s"):
         fingertip.calibrate(loads, signals, creep=True)
