@@ -1,7 +1,7 @@
 //! Two tangent planes laid flat.
 
 use fingertip_wrench::Real;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 /// The tangent plane at one place of a surface, folded flat into that at another.
 ///
@@ -13,8 +13,8 @@ use nalgebra::Vector3;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fold<T: Real> {
     here: Vector3<T>,
-    /// `n + n'`, along which the one plane maps onto the other.
-    pub(super) along: Vector3<T>,
+    /// `n + n'`.
+    along: Vector3<T>,
     scale: T,
 }
 
@@ -29,6 +29,24 @@ impl<T: Real> Fold<T> {
     #[inline(always)]
     pub(super) fn flat(&self, w: &Vector3<T>) -> Vector3<T> {
         w - self.along * (self.here.dot(w) * self.scale)
+    }
+
+    /// [`flat`](Self::flat), told along two tangents of the plane here.
+    #[inline(always)]
+    pub(super) fn along(&self, [e1, e2]: &[Vector3<T>; 2]) -> impl Fn(&Vector3<T>) -> Vector2<T> {
+        let (here, e1, e2) = (self.here, *e1, *e2);
+        let (lean1, lean2) = (e1.dot(&self.along) * self.scale, e2.dot(&self.along) * self.scale);
+        move |w| {
+            let height = here.dot(w);
+            Vector2::new(e1.dot(w) - lean1 * height, e2.dot(w) - lean2 * height)
+        }
+    }
+
+    /// The direction along which the one plane maps onto the other: of `n + n'`, of which the square is
+    /// `2 (1 + n·n')`.
+    #[inline(always)]
+    pub(super) fn direction(&self) -> Vector3<T> {
+        self.along * (self.scale * T::literal(0.5)).root()
     }
 }
 
@@ -61,6 +79,11 @@ mod tests {
             let tangent = Vector3::new(x, y, 0.0);
             let fold = Fold::new(&Vector3::z(), &(turn * Vector3::z())).unwrap();
             prop_assert!((fold.flat(&(turn * tangent)) - tangent).norm() < 1e-13);
+            let axes = [Vector3::x(), Vector3::y()];
+            prop_assert!((fold.along(&axes)(&(turn * tangent)) - tangent.xy()).norm() < 1e-13);
+            let direction = fold.direction();
+            prop_assert!((direction.norm() - 1.0).abs() < 1e-13);
+            prop_assert!((turn * tangent - tangent).cross(&direction).norm() < 1e-13);
         }
     }
 

@@ -9,6 +9,7 @@ mod motion;
 mod plane;
 mod retract;
 mod sighting;
+mod symmetric;
 mod tracked;
 mod tracker;
 

@@ -4,6 +4,8 @@ use fingertip_surfaces::numeric::vectors::{larger, smaller};
 use fingertip_wrench::Real;
 use nalgebra::{Matrix2, Vector2};
 
+use super::symmetric::Symmetric;
+
 /// What is known of a contact's position and velocity in its tangent plane, in units in which the acceleration
 /// has the density 1 (`docs/theory/contact.md#tracking`). The position is the origin: it is moved on the
 /// surface, not here.
@@ -11,18 +13,18 @@ use nalgebra::{Matrix2, Vector2};
 pub(super) struct PlaneState<T: Real> {
     pub(super) velocity: Vector2<T>,
     /// Covariance of position with position, of position (rows) with velocity, of velocity.
-    pub(super) positions: Matrix2<T>,
+    pub(super) positions: Symmetric<T>,
     pub(super) mixed: Matrix2<T>,
-    pub(super) velocities: Matrix2<T>,
+    pub(super) velocities: Symmetric<T>,
 }
 
 /// How a measurement would change what is known.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Weighed<T: Real> {
-    /// Inverse of the covariance of the innovation.
-    inverse: Matrix2<T>,
-    noise: Matrix2<T>,
-    innovation: Vector2<T>,
+    /// Inverse of the covariance of the innovation, and its product with the innovation.
+    inverse: Symmetric<T>,
+    weighted: Vector2<T>,
+    noise: Symmetric<T>,
     /// Normalised innovation squared: χ² of two degrees of freedom.
     pub(super) surprise: T,
 }
@@ -30,51 +32,57 @@ pub(super) struct Weighed<T: Real> {
 impl<T: Real> PlaneState<T> {
     /// A first measurement: nothing is known of the velocity but that its deviation is 1.
     #[inline]
-    pub(super) fn first(noise: &Matrix2<T>) -> Self {
+    pub(super) fn first(noise: Symmetric<T>) -> Self {
         Self {
             velocity: Vector2::zeros(),
-            positions: *noise,
+            positions: noise,
             mixed: Matrix2::zeros(),
-            velocities: Matrix2::identity(),
+            velocities: Symmetric { xx: T::one(), xy: T::zero(), yy: T::one() },
         }
     }
 
-    /// Lets a time pass, zero or more: how far the contact moved. `Q = [t³/3, t²/2; t²/2, t]` of each axis
+    /// What is known when a time has passed, zero or more, and how far the contact moved. `Q = [t³/3, t²/2; t²/2, t]` of each axis
     /// (Bar-Shalom, Li & Kirubarajan 2001, section 6.2.2).
     #[inline(always)]
-    pub(super) fn wait(&mut self, time: T) -> Vector2<T> {
-        let half = time * time * T::literal(0.5);
-        let third = time * time * time * T::literal(1.0 / 3.0);
-        let with_velocity = self.mixed + self.velocities * (time * T::literal(0.5));
-        let mut positions = self.positions + (with_velocity + with_velocity.transpose()) * time;
-        positions.m11 += third;
-        positions.m22 += third;
+    pub(super) fn wait(&self, time: T) -> (Self, Vector2<T>) {
+        let square = time * time;
+        let (half, third) = (square * T::literal(0.5), square * time * T::literal(1.0 / 3.0));
+        let (p, m, v) = (&self.positions, &self.mixed, &self.velocities);
+        let (xx, xy, yy) = (v.xx * time, v.xy * time, v.yy * time);
+        let moved = self.velocity * time;
         // The acceleration alone spreads it so far.
-        self.positions = covariance(&positions, [third, third]);
-        self.mixed += self.velocities * time;
-        self.mixed.m11 += half;
-        self.mixed.m22 += half;
-        self.velocities.m11 += time;
-        self.velocities.m22 += time;
-        self.velocity * time
+        let spread = |variance: T| larger(variance, third);
+        let waited = Self {
+            velocity: self.velocity,
+            positions: Symmetric {
+                xx: spread(p.xx + (m.m11 + m.m11 + xx) * time + third),
+                xy: p.xy + (m.m12 + m.m21 + xy) * time,
+                yy: spread(p.yy + (m.m22 + m.m22 + yy) * time + third),
+            },
+            mixed: Matrix2::new(m.m11 + xx + half, m.m12 + xy, m.m21 + xy, m.m22 + yy + half),
+            velocities: Symmetric { xx: v.xx + time, xy: v.xy, yy: v.yy + time },
+        };
+        (waited, moved)
     }
 
     /// What a measurement says that is this far off. `None` if it and what is known are both certain, or its
     /// numbers are out of range.
     #[inline(always)]
-    pub(super) fn weigh(&self, innovation: Vector2<T>, noise: Matrix2<T>) -> Option<Weighed<T>> {
-        let s = self.positions + noise;
-        let product = s.m11 * s.m22;
+    pub(super) fn weigh(&self, innovation: &Vector2<T>, noise: Symmetric<T>) -> Option<Weighed<T>> {
+        let p = &self.positions;
+        let (xx, xy, yy) = (p.xx + noise.xx, p.xy + noise.xy, p.yy + noise.yy);
+        let product = xx * yy;
         // Of less than full rank but for rounding.
         let least = product * (T::EPSILON * T::literal(4.0));
-        let determinant = (product - s.m12 * s.m21).max(least);
+        let determinant = larger(product - xy * xy, least);
         let scale = T::one() / determinant;
-        let inverse = Matrix2::new(s.m22, -s.m12, -s.m21, s.m11) * scale;
-        let surprise = innovation.dot(&(inverse * innovation));
-        (determinant > T::zero() && (scale + surprise + noise.sum()).is_number()).then_some(Weighed {
+        let inverse = Symmetric { xx: yy * scale, xy: -(xy * scale), yy: xx * scale };
+        let weighted = inverse.times(innovation);
+        let surprise = innovation.dot(&weighted);
+        (determinant > T::zero() && (scale + surprise).is_number()).then_some(Weighed {
             inverse,
+            weighted,
             noise,
-            innovation,
             surprise,
         })
     }
@@ -85,20 +93,34 @@ impl<T: Real> PlaneState<T> {
     /// which has no cancellation.
     #[inline(always)]
     pub(super) fn take(&mut self, weighed: &Weighed<T>) -> Vector2<T> {
-        let Weighed { inverse, noise, innovation, .. } = weighed;
-        let weighted = inverse * innovation;
-        let moved = self.positions * weighted;
-        self.velocity += self.mixed.transpose() * weighted;
-        let kept = noise * inverse;
-        let sharper = kept * self.positions;
-        let velocities = self.velocities - self.mixed.transpose() * (inverse * self.mixed);
-        self.mixed = kept * self.mixed;
-        // No more is left than either of the two says.
-        let before = &self.positions;
-        let bounds = [smaller(before.m11, noise.m11), smaller(before.m22, noise.m22)];
-        self.positions = covariance(&sharper, bounds.map(|bound| bound * T::EPSILON));
-        let bounds = [self.velocities.m11, self.velocities.m22];
-        self.velocities = covariance(&velocities, bounds.map(|bound| bound * T::EPSILON));
+        let Weighed { inverse, weighted, noise, .. } = weighed;
+        let (p, m, v) = (self.positions, self.mixed, self.velocities);
+        let moved = p.times(weighted);
+        self.velocity +=
+            Vector2::new(m.m11 * weighted.x + m.m21 * weighted.y, m.m12 * weighted.x + m.m22 * weighted.y);
+        // Rows: the gains of the position, and of the velocity.
+        let [first, second] = p.rows().map(|row| inverse.times(&row));
+        let [faster, other] =
+            [Vector2::new(m.m11, m.m21), Vector2::new(m.m12, m.m22)].map(|row| inverse.times(&row));
+        let [with_first, with_second] = [&faster, &other].map(|row| noise.times(row));
+        self.mixed = Matrix2::new(with_first.x, with_second.x, with_first.y, with_second.y);
+        let sharper = noise.times(&first);
+        let positions = Symmetric { xx: sharper.x, xy: sharper.y, yy: noise.times(&second).y };
+        let velocities = Symmetric {
+            xx: v.xx - (faster.x * m.m11 + faster.y * m.m21),
+            xy: v.xy - (faster.x * m.m12 + faster.y * m.m22),
+            yy: v.yy - (other.x * m.m12 + other.y * m.m22),
+        };
+        (self.positions, self.velocities) = if positions.is_covariance() && velocities.is_covariance() {
+            (positions, velocities)
+        } else {
+            // No more is left of the position than either of the two says.
+            let bounds = [smaller(p.xx, noise.xx), smaller(p.yy, noise.yy)];
+            (
+                positions.at_least(bounds.map(|bound| bound * T::EPSILON)),
+                velocities.at_least([v.xx * T::EPSILON, v.yy * T::EPSILON]),
+            )
+        };
         moved
     }
 
@@ -107,18 +129,4 @@ impl<T: Real> PlaneState<T> {
     pub(super) fn is_number(&self) -> bool {
         (self.velocity.sum() + self.positions.sum() + self.mixed.sum() + self.velocities.sum()).is_number()
     }
-}
-
-/// Symmetric, and no direction has a negative variance: where noise in one direction is beyond compare with that in
-/// the other, rounding may leave neither. `least` is what each of the variances is at least.
-#[inline(always)]
-fn covariance<T: Real>(m: &Matrix2<T>, least: [T; 2]) -> Matrix2<T> {
-    let [m11, m22] = [larger(m.m11, least[0]), larger(m.m22, least[1])];
-    let off = (m.m12 + m.m21) * T::literal(0.5);
-    if off * off <= m11 * m22 {
-        return Matrix2::new(m11, off, off, m22);
-    }
-    let most = m11.root() * m22.root();
-    let off = larger(-most, smaller(off, most));
-    Matrix2::new(m11, off, off, m22)
 }

@@ -1,45 +1,49 @@
 //! Back onto the surface.
 
-use fingertip_surfaces::ActiveSurface;
-use fingertip_surfaces::numeric::vectors::{is_finite, unit_or};
+use fingertip_surfaces::{ActiveSurface, is_closed_convex};
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-/// The place of the surface that a place beside it stands for, and the normal there: along `direction`, or the
-/// nearest to that line where it misses. Of the crossings only those count that face the same way and are no
-/// farther than `reach` \[m\]. Those beyond the active part count: by its own error a track may leave it.
+/// The place of the surface that a place beside it stands for, and the normal there: where the line leaves the body,
+/// or the nearest place to the line where it misses. Of the crossings only those count that face along the line and
+/// are no farther than `reach` \[m\]. Those beyond the active part count: by its own error a track may leave it.
 ///
 /// `None` if there is none such.
-#[inline]
+#[inline(always)]
 pub(super) fn onto_surface<T: Real, S: ActiveSurface<T>>(
     surface: &S,
-    beside: &Vector3<T>,
-    direction: &Vector3<T>,
+    line: Line<T>,
     reach: T,
 ) -> Option<(Vector3<T>, Vector3<T>)> {
-    let line = Line { point: *beside, direction: unit_or(direction, Vector3::zeros) };
-    let mut nearest = None;
-    let mut least = reach;
-    surface.crossings(&line, |crossing| {
-        let away = crossing.along.abs();
-        if away <= least && crossing.normal.dot(&line.direction) > T::zero() && is_finite(&crossing.point) {
-            least = away;
-            nearest = Some((crossing.point, crossing.normal));
-        }
-    });
-    nearest.or_else(|| beside_the_line(surface, &line, reach))
+    let found = if is_closed_convex(&surface.shortcuts()) {
+        // It leaves but once, and that is told last.
+        let mut last = None;
+        surface.crossings(&line, |crossing| last = Some(crossing));
+        last.filter(|crossing| crossing.along.abs() <= reach && crossing.point.sum().is_number())
+    } else {
+        let (mut nearest, mut least) = (None, reach);
+        surface.crossings(&line, |crossing| {
+            let away = crossing.along.abs();
+            let outwards = crossing.normal.dot(&line.direction) > T::zero();
+            if away <= least && outwards && crossing.point.sum().is_number() {
+                (nearest, least) = (Some(crossing), away);
+            }
+        });
+        nearest
+    };
+    found.map(|crossing| (crossing.point, crossing.normal)).or_else(|| beside_the_line(surface, line, reach))
 }
 
 /// Past an end or an edge.
 #[cold]
 fn beside_the_line<T: Real, S: ActiveSurface<T>>(
     surface: &S,
-    line: &Line<T>,
+    line: Line<T>,
     reach: T,
 ) -> Option<(Vector3<T>, Vector3<T>)> {
-    let closest = surface.closest_approach(line)?;
+    let closest = surface.closest_approach(&line)?;
     let away = closest.point - line.point;
-    let near =
-        is_finite(&closest.point) && away.amax() <= reach && closest.normal.dot(&line.direction) > T::zero();
+    let outwards = closest.normal.dot(&line.direction) > T::zero();
+    let near = closest.point.sum().is_number() && away.amax() <= reach && outwards;
     near.then_some((closest.point, closest.normal))
 }

@@ -1,7 +1,7 @@
 //! One contact and how sure it is, as a tracker takes it.
 
 use fingertip_surfaces::SmoothSurface;
-use fingertip_surfaces::numeric::vectors::{is_finite, tangents};
+use fingertip_surfaces::numeric::vectors::{larger, tangents};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix2, Vector3};
 
@@ -38,11 +38,31 @@ impl<T: Real> Sighting<T> {
     /// Of a point on the surface \[m\], its outward unit normal, two unit vectors in the tangent plane, and the
     /// covariance along them \[m²\].
     ///
+    /// The normal is made of unit length to the last digit. Of tangents that are left-handed with it, the second is
+    /// turned round, and the covariance with it.
+    ///
     /// `None` if a number is not finite, the normal is no unit vector (within 1 %), a variance is negative, or the
     /// covariance larger than its variances allow.
-    #[inline]
     #[must_use]
     pub fn new(
+        point: Vector3<T>,
+        normal: Vector3<T>,
+        tangents: [Vector3<T>; 2],
+        covariance: Matrix2<T>,
+    ) -> Option<Self> {
+        let squared = normal.norm_squared();
+        let straight = (squared - T::one()).abs() <= T::literal(0.02);
+        let unit = normal / squared.root();
+        let [e1, e2] = tangents;
+        let (second, both) =
+            if unit.cross(&e1).dot(&e2) < T::zero() { (-e2, -covariance.m12) } else { (e2, covariance.m12) };
+        let covariance = Matrix2::new(covariance.m11, both, both, covariance.m22);
+        Self::checked(point, unit, [e1, second], covariance).filter(|_| straight)
+    }
+
+    /// With a unit normal and tangents that are right-handed with it.
+    #[inline(always)]
+    fn checked(
         point: Vector3<T>,
         normal: Vector3<T>,
         tangents: [Vector3<T>; 2],
@@ -52,10 +72,9 @@ impl<T: Real> Sighting<T> {
         let (first, both, second) = (covariance.m11, covariance.m12, covariance.m22);
         let rounding = T::one() + T::EPSILON * T::literal(64.0);
         let possible =
-            first >= T::zero() && second >= T::zero() && both.abs() <= first.max(second) * rounding;
-        let straight = (normal.norm_squared() - T::one()).abs() <= T::literal(0.02);
-        let finite = (e1.sum() + e2.sum() + first + second).is_number() && is_finite(&point);
-        (possible && straight && finite).then_some(Self { point, normal, tangents, covariance })
+            first >= T::zero() && second >= T::zero() && both.abs() <= larger(first, second) * rounding;
+        let finite = (e1.sum() + e2.sum() + normal.sum() + point.sum() + first + second).is_number();
+        (possible && finite).then_some(Self { point, normal, tangents, covariance })
     }
 
     /// Of what [`PointContact`](crate::PointContact) found in a wrench. `None` where the force grazes.
@@ -68,7 +87,10 @@ impl<T: Real> Sighting<T> {
     ) -> Option<Self> {
         let covariance = ContactCovariance::point_contact_position(contact, wrench, spread)?;
         let (first, second) = tangents(&contact.normal);
-        Self::new(contact.point, contact.normal, [first, second], covariance)
+        // A covariance that is a number is one, and its tangents are numbers.
+        let (point, normal) = (contact.point, contact.normal);
+        let finite = (point.sum() + normal.sum()).is_number();
+        finite.then_some(Self { point, normal, tangents: [first, second], covariance })
     }
 
     /// Of what [`SoftFinger`](crate::SoftFinger) found on a surface. `None` where no derivative exists, as
@@ -92,7 +114,7 @@ impl<T: Real> Sighting<T> {
         spread: impl Into<WrenchSpread<'a, T>>,
     ) -> Option<Self> {
         let covariance = ContactCovariance::position_only(jacobian, spread);
-        Self::new(contact.point, contact.normal, jacobian.tangents(), covariance)
+        Self::checked(contact.point, contact.normal, jacobian.tangents(), covariance)
     }
 
     /// Where it is \[m\].

@@ -5,7 +5,7 @@ use fingertip_wrench::Real;
 use nalgebra::Vector2;
 
 use super::bad_track::is_ordinary;
-use super::followed::{Compared, Track};
+use super::followed::Track;
 use super::{BadTrack, Continuity, Sighting, Tracked};
 
 const WHAT: &str = "a tracker";
@@ -153,7 +153,7 @@ impl<T: Real> Tracker<T> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn see<S: ActiveSurface<T>>(
         &mut self,
         surface: &S,
@@ -165,16 +165,21 @@ impl<T: Real> Tracker<T> {
             // It says nothing.
             return self.coast(surface, time);
         }
-        let Some(track) = &mut self.track else { return self.start(sighting) };
-        let moved = track.state.wait(time);
-        match track.compare(sighting, &moved, self.shorter) {
+        let Some(track) = &mut self.track else { return self.start(*sighting) };
+        let now = track.state.wait(time);
+        match track.compare(sighting, &now, self.shorter) {
             Some(compared) if compared.surprise() <= self.gate => {
-                track.take(surface, &compared, &moved, self.unit);
+                track.take(surface, &compared, now, self.unit);
+                if !track.state.is_number() {
+                    return self.forget();
+                }
                 self.rival = None;
                 self.sample = variance;
-                self.say(Continuity::Followed, Some(compared))
+                let (innovation, surprise) = (compared.innovation, compared.surprise());
+                let said = Said { continuity: Continuity::Followed, innovation, surprise };
+                Some(said.of(track, self.speed, self.unit))
             }
-            compared => self.doubt(surface, sighting, &moved, time, compared),
+            _ => self.doubt(surface, *sighting, time),
         }
     }
 
@@ -186,89 +191,116 @@ impl<T: Real> Tracker<T> {
 
     /// The sample may be of another contact: of the one that the sample before was of, if that was in doubt, too.
     #[cold]
+    #[inline(never)]
     fn doubt<S: ActiveSurface<T>>(
         &mut self,
         surface: &S,
-        sighting: &Sighting<T>,
-        moved: &Vector2<T>,
+        sighting: Sighting<T>,
         time: T,
-        compared: Option<Compared<T>>,
     ) -> Option<Tracked<T>> {
-        if let Some(rival) = &mut self.rival {
-            let moved = rival.state.wait(time);
-            let again = rival.compare(sighting, &moved, self.shorter);
-            if let Some(again) = again.filter(|again| again.surprise() <= self.gate) {
-                rival.take(surface, &again, &moved, self.unit);
-                self.track = self.rival.take();
-                self.sample = self.variance(sighting);
-                return self.say(Continuity::New, compared);
-            }
-        }
-        self.rival = Some(Track::start(sighting, self.shorter));
-        self.move_on(surface, moved);
-        self.say(Continuity::Doubted, compared)
-    }
-
-    fn coast<S: ActiveSurface<T>>(&mut self, surface: &S, time: T) -> Option<Tracked<T>> {
+        // Once more, since to carry it here would cost the samples that are not in doubt.
+        let (shorter, unit) = (self.shorter, self.unit);
         let track = self.track.as_mut()?;
-        let moved = track.state.wait(time);
-        if !(track.state.positions.trace() <= self.sample) {
-            self.reset();
-            return None;
+        let now = track.state.wait(time);
+        let compared = track.compare(&sighting, &now, shorter);
+        let mut continuity = Continuity::Doubted;
+        let follow = |mut rival: Track<T>| {
+            let then = rival.state.wait(time);
+            let again = rival.compare(&sighting, &then, shorter)?;
+            (again.surprise() <= self.gate).then(|| {
+                rival.take(surface, &again, then, unit);
+                rival
+            })
+        };
+        if let Some(rival) = self.rival.and_then(follow) {
+            (self.track, self.rival) = (Some(rival), None);
+            self.sample = self.variance(&sighting);
+            continuity = Continuity::New;
+        } else {
+            self.rival = Some(Track::start(&sighting, shorter));
+            track.move_on(surface, now, unit);
         }
-        self.rival = None;
-        self.move_on(surface, &moved);
-        self.say(Continuity::Bridged, None)
-    }
-
-    fn move_on<S: ActiveSurface<T>>(&mut self, surface: &S, moved: &Vector2<T>) {
-        if let Some(track) = &mut self.track {
-            let along = track.normal;
-            track.shift(surface, moved, &along, self.unit);
-        }
-    }
-
-    #[cold]
-    fn start(&mut self, sighting: &Sighting<T>) -> Option<Tracked<T>> {
-        self.track = Some(Track::start(sighting, self.shorter));
-        self.sample = self.variance(sighting);
-        self.say(Continuity::New, None)
-    }
-
-    /// The track in SI units; without one whose numbers are in range, nothing, and it is forgotten.
-    #[inline]
-    fn say(&mut self, continuity: Continuity, compared: Option<Compared<T>>) -> Option<Tracked<T>> {
-        let track = self.track.as_ref()?;
-        if !track.state.is_number() {
-            self.reset();
-            return None;
-        }
-        let Track { point, normal, tangents, state } = *track;
-        let [e1, e2] = &tangents;
-        let velocity = (e1 * state.velocity.x + e2 * state.velocity.y) * self.speed;
         let (innovation, surprise) = match compared {
-            Some(compared) => (compared.innovation * self.unit, compared.surprise()),
+            Some(compared) => (compared.innovation, compared.surprise()),
             // On another side of the body.
             None if continuity == Continuity::Doubted => (Vector2::zeros(), T::GREATEST),
             None => (Vector2::zeros(), T::zero()),
         };
-        Some(Tracked {
-            point,
-            normal,
-            tangents,
-            velocity,
-            position_covariance: state.positions * (self.unit * self.unit),
-            velocity_covariance: state.velocities * (self.speed * self.speed),
-            innovation,
-            surprise,
-            continuity,
-        })
+        self.say(&Said { continuity, innovation, surprise })
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn coast<S: ActiveSurface<T>>(&mut self, surface: &S, time: T) -> Option<Tracked<T>> {
+        let track = self.track.as_mut()?;
+        let now = track.state.wait(time);
+        if !(now.0.positions.trace() <= self.sample) {
+            return self.forget();
+        }
+        self.rival = None;
+        track.move_on(surface, now, self.unit);
+        self.say(&Said::plainly(Continuity::Bridged))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn start(&mut self, sighting: Sighting<T>) -> Option<Tracked<T>> {
+        self.track = Some(Track::start(&sighting, self.shorter));
+        self.sample = self.variance(&sighting);
+        self.say(&Said::plainly(Continuity::New))
+    }
+
+    /// The track in SI units; without one whose numbers are in range, nothing, and it is forgotten.
+    fn say(&mut self, said: &Said<T>) -> Option<Tracked<T>> {
+        match &self.track {
+            Some(track) if track.state.is_number() => Some(said.of(track, self.speed, self.unit)),
+            _ => self.forget(),
+        }
+    }
+
+    #[cold]
+    fn forget(&mut self) -> Option<Tracked<T>> {
+        self.reset();
+        None
     }
 
     /// Forgets the contact: the next one is new.
     pub fn reset(&mut self) {
         self.track = None;
         self.rival = None;
+    }
+}
+
+/// What is said of a sample beside the track.
+struct Said<T: Real> {
+    continuity: Continuity,
+    /// [units]
+    innovation: Vector2<T>,
+    surprise: T,
+}
+
+impl<T: Real> Said<T> {
+    /// Of a sample that was compared with nothing.
+    fn plainly(continuity: Continuity) -> Self {
+        Self { continuity, innovation: Vector2::zeros(), surprise: T::zero() }
+    }
+
+    /// With the track, in SI units.
+    #[inline(always)]
+    fn of(&self, track: &Track<T>, speed: T, unit: T) -> Tracked<T> {
+        let Track { point, normal, tangents, state } = track;
+        let [e1, e2] = tangents;
+        Tracked {
+            point: *point,
+            normal: *normal,
+            tangents: *tangents,
+            velocity: e1 * (state.velocity.x * speed) + e2 * (state.velocity.y * speed),
+            position_covariance: state.positions.scaled(unit * unit).matrix(),
+            velocity_covariance: state.velocities.scaled(speed * speed).matrix(),
+            innovation: self.innovation * unit,
+            surprise: self.surprise,
+            continuity: self.continuity,
+        }
     }
 }
 

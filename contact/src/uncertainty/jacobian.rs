@@ -214,9 +214,10 @@ impl<T: Real> ContactJacobian<T> {
         wrench: &Wrench<T>,
         spread: WrenchSpread<'_, T>,
     ) -> Option<Matrix2<T>> {
-        let (jacobian, in_range) = Self::unchecked_of_point(contact, wrench, |_, _| Matrix2::zeros());
+        // What is out of range makes a covariance that is none.
+        let (jacobian, _) = Self::unchecked_of_point(contact, wrench, |_, _| Matrix2::zeros());
         let covariance = jacobian.position_covariance(spread);
-        (in_range & (covariance.m11 + covariance.m22).is_number()).then_some(covariance)
+        (covariance.m11 + covariance.m22).is_number().then_some(covariance)
     }
 
     /// And whether all of it is a number.
@@ -231,12 +232,12 @@ impl<T: Real> ContactJacobian<T> {
         let f = &contact.force;
         let inverse = T::one() / f.dot(&contact.normal);
         let adjugate = Matrix2::new(T::zero(), -inverse, inverse, T::zero());
-        let scale = f.amax().normalising_factor();
-        let scaled = f * scale;
-        let squared = scaled.norm_squared();
-        let pitch = scaled.dot(&(wrench.torque() * scale)) / squared;
+        // In units of the pressing force: no square leaves the range.
+        let leaning = f * inverse;
+        let part = T::one() / leaning.norm_squared();
+        let pitch = leaning.dot(&wrench.torque()) * inverse * part;
         // dp = f·(dm − c × df − p df)/|f|² takes what is along the force.
-        let across = [e1, e2].map(|e| e - scaled * (scaled.dot(&e) / squared));
+        let across = [e1, e2].map(|e| e - leaning * (leaning.dot(&e) * part));
         let in_range = (across[0].sum() + across[1].sum() + inverse + bend.sum() + pitch).is_number();
         let jacobian = Self {
             tangents: [e1, e2],
@@ -287,7 +288,11 @@ impl<T: Real> ContactJacobian<T> {
             let (with_first, with_second) = (with(e1), with(e2));
             [e1.dot(&with_first), e1.dot(&with_second), e2.dot(&with_second)]
         } else {
-            wrench.combined(&self.row(e1), &self.row(e2))
+            // `dc = n × b/(f·n)`: a quarter turn, stretched.
+            let [c11, c12, c22] = wrench.combined(&self.row(e1), &self.row(e2));
+            let stretch = self.adjugate.m21;
+            let both = -(c12 * stretch * stretch);
+            return Matrix2::new(c22 * stretch * stretch, both, both, c11 * stretch * stretch);
         };
         let (s, inverse) = (&self.adjugate, self.inverse * self.inverse);
         let (a11, a12) = (s.m11 * c11 + s.m12 * c12, s.m11 * c12 + s.m12 * c22);

@@ -14,7 +14,7 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use cortex_m_semihosting::{debug, hprintln};
 use embedded_alloc::LlffHeap;
-use fingertip_scenes::{SAMPLES, Scene, SceneA, SceneB, SceneC, SceneD, Volts, fold};
+use fingertip_scenes::{SAMPLES, Scene, SceneA, SceneB, SceneC, SceneD, SceneE, Volts, fold};
 
 use crate::counter::Counter;
 
@@ -84,6 +84,7 @@ fn main() -> ! {
     play::<SceneB, 6>(&counter);
     play::<SceneC, 8>(&counter);
     play::<SceneD, 8>(&counter);
+    play::<SceneE, 6>(&counter);
     debug::exit(debug::EXIT_SUCCESS);
     loop {}
 }

@@ -1,7 +1,7 @@
-//! Plays the four scenes and prints one number per sample that stands for all bits of the answer:
+//! Plays the five scenes and prints one number per sample that stands for all bits of the answer:
 //! `bits a 17 9f1c03d2`. With `--answers`, the answers themselves.
 
-use fingertip_scenes::{Scene, SceneA, SceneB, SceneC, SceneD, fold};
+use fingertip_scenes::{Scene, SceneA, SceneB, SceneC, SceneD, SceneE, fold};
 
 fn play<S: Scene<N>, const N: usize>(verbose: bool)
 where
@@ -26,4 +26,5 @@ fn main() {
     play::<SceneB, 6>(verbose);
     play::<SceneC, 8>(verbose);
     play::<SceneD, 8>(verbose);
+    play::<SceneE, 6>(verbose);
 }

@@ -1,4 +1,4 @@
-//! Four scenes, from the least that a fingertip may need to everything, in single precision, and a
+//! Five scenes, from the least that a fingertip may need to everything, in single precision, and a
 //! recorded session for each: played on a microcontroller, on a host and in benchmarks.
 #![no_std]
 
@@ -17,6 +17,7 @@ mod scene_a;
 mod scene_b;
 mod scene_c;
 mod scene_d;
+mod scene_e;
 #[rustfmt::skip]
 mod session;
 
@@ -29,6 +30,7 @@ pub use scene_a::SceneA;
 pub use scene_b::SceneB;
 pub use scene_c::{Estimate, SceneC};
 pub use scene_d::{Assessment, SceneD};
+pub use scene_e::{Followed, SceneE};
 
 /// How many samples each session has.
 pub const SAMPLES: usize = session::A.len();
