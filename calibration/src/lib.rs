@@ -19,6 +19,7 @@ pub mod linear;
 pub mod loads;
 pub mod model;
 pub mod motion;
+pub mod object;
 pub mod page;
 pub mod report;
 pub mod sheet;

@@ -18,6 +18,7 @@ mod intervals;
 mod kept;
 mod metrics;
 mod motion;
+mod objects;
 mod payload;
 mod plans;
 mod plots;
