@@ -24,7 +24,7 @@ use super::ObjectError;
 /// assert!((touched.point - Vector3::new(0.0, 0.0, 0.027)).norm() < 1e-15);
 /// // The object is below, and faces up.
 /// assert!((touched.normal - Vector3::z()).norm() < 1e-15);
-/// # Ok::<(), fingertip_wrench::NotARigidTransform>(())
+/// # Ok::<(), fingertip_wrench::TransformError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ObjectPoint {
