@@ -12,11 +12,18 @@ use super::ObjectError;
 ///
 /// ```
 /// use fingertip_calibration::object::ObjectPoint;
-/// use fingertip_wrench::RigidTransform;
+/// use fingertip_wrench::{Frame, RigidTransform, Sensor};
 /// use nalgebra::{Matrix3, Vector3};
 ///
+/// #[derive(Clone, Copy, Debug, PartialEq)]
+/// struct Object;
+/// impl Frame for Object {
+///     const NAME: &'static str = "object";
+/// }
+///
 /// // A tip of 13 mm radius, whose sensor is 40 mm above the origin of the object, turned round to look down.
-/// let down = RigidTransform::from_quaternion([0.0, 1.0, 0.0, 0.0], Vector3::new(0.0, 0.0, 0.04))?;
+/// let down: RigidTransform<f64, Object, Sensor> =
+///     RigidTransform::from_quaternion([0.0, 1.0, 0.0, 0.0], Vector3::new(0.0, 0.0, 0.04))?;
 /// let (place, normal) = (Vector3::new(0.0, 0.0, 0.013), Vector3::z());
 /// let uncertain = Matrix3::from_diagonal(&Vector3::new(1e-8, 1e-8, 0.0));
 /// let bend = Matrix3::from_diagonal(&Vector3::new(77.0, 77.0, 0.0));
