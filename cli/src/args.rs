@@ -3,6 +3,7 @@
 use clap::{Parser, Subcommand};
 
 use crate::analyze::args::AnalyzeArguments;
+use crate::analyze::object::ObjectArguments;
 use crate::bench::args::BenchArguments;
 use crate::calibrate::args::{CalibrateArguments, CheckArguments, TareArguments};
 use crate::calibrate::import::ImportArguments;
@@ -77,6 +78,8 @@ pub(crate) enum Command {
     Plan(PlanArguments),
     /// Find the shape or the pose of the fingertip's surface from touches
     Geometry(GeometryArguments),
+    /// Map an object by touching it: points and normals of its surface, and the plane, sphere or cylinder that they lie on
+    Object(ObjectArguments),
     /// Calibrate by a weight of known size in unknown directions
     Motion(MotionArguments),
     /// Say what ordinary point contacts tell of a calibration, and mend it by them

@@ -84,6 +84,7 @@ pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) ->
         Command::Tare(arguments) => calibrate::tare::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Geometry(arguments) => geometry::run(&arguments),
+        Command::Object(arguments) => analyze::object::run(&arguments),
         Command::Motion(arguments) => motion::run(&arguments),
         Command::Refine(arguments) => refine::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),

@@ -6,7 +6,7 @@ use fingertip::friction::{GripController, SlipVerdict};
 use fingertip::surfaces::DynSurface;
 use fingertip::wrench::{Real, Wrench};
 use fingertip::{AnyTouch, Step, TouchSensor};
-use nalgebra::{Vector3, Vector6};
+use nalgebra::{Matrix3, Vector3, Vector6};
 
 use crate::carried::Carried;
 use crate::estimate::Estimate;
@@ -294,6 +294,23 @@ impl<T: Real> Pipeline<T> {
     /// What the last sample said; before the first, that nothing touches.
     pub const fn felt(&self) -> &Felt<T> {
         &self.felt
+    }
+
+    /// Covariance of where the last contact is, in its tangent plane \[m²\]: of which [`Felt::spread`] has the ellipse, or
+    /// with `[tracking]` of where it is by all samples so far, for as long as it is tracked. `None` where neither is told.
+    pub fn place_covariance(&self) -> Option<Matrix3<T>> {
+        let along = |[a, b]: &[Vector3<T>; 2], [aa, ab, bb]: [T; 3]| {
+            a * a.transpose() * aa + (a * b.transpose() + b * a.transpose()) * ab + b * b.transpose() * bb
+        };
+        if let Some(tracked) = &self.felt.tracked {
+            let m = &tracked.position_covariance;
+            return Some(along(&tracked.tangents, [m.m11, (m.m12 + m.m21) * T::literal(0.5), m.m22]));
+        }
+        let (spread, uncertainty) = (self.felt.spread.as_ref()?, self.uncertainty.as_ref()?);
+        // The square of a semi-axis, less the quantile of χ² with two degrees of freedom.
+        let quantile = (T::one() - uncertainty.probability).ln() * T::literal(-2.0);
+        let [major, minor] = spread.ellipse.semi_axes.map(|axis| axis * axis / quantile);
+        Some(along(&spread.ellipse.directions, [major, T::zero(), minor]))
     }
 
     /// The surface, in the sensor frame.

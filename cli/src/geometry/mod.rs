@@ -1,5 +1,6 @@
 //! `fingertip geometry`: the shape of the fingertip's surface from touches, as a scene.
 
+pub(crate) mod lines;
 mod written;
 
 use std::path::PathBuf;
@@ -16,6 +17,7 @@ use nalgebra::{Rotation3, Vector3};
 use crate::calibrate::files::{bad, read_columns};
 use crate::error::CliError;
 use crate::output::{Outputs, Overwrite};
+use lines::{length, point, tilt};
 use written::Known;
 
 #[derive(Debug, Args)]
@@ -299,12 +301,6 @@ fn rotation_vector(pose: &RigidTransform<f64>) -> Vector3<f64> {
     Rotation3::from_matrix_unchecked(pose.rotation()).scaled_axis().map(f64::to_degrees)
 }
 
-/// How well a direction is known, about two axes \[rad\].
-fn tilt(deviations: Option<&[f64]>) -> Option<String> {
-    let [a, b] = *deviations? else { return None };
-    Some(format!(" (± {:.3} {:.3}°)", a.to_degrees(), b.to_degrees()))
-}
-
 impl Found {
     fn of<S>(fit: &Fitted<S>, lines: Vec<String>, scene: String) -> Self {
         Self { lines, scene, unobserved: fit.unobserved.clone(), rms: fit.rms, noise_scale: fit.noise_scale }
@@ -316,20 +312,6 @@ fn direction(option: &str, list: &[f64]) -> Result<Vector3<f64>, String> {
         [x, y, z] => Ok(Vector3::new(*x, *y, *z)),
         other => Err(format!("{option} takes three numbers, not {}", other.len())),
     }
-}
-
-fn length(name: &str, metres: f64, deviation: Option<&f64>) -> String {
-    let spread = deviation.map_or_else(String::new, |s| format!(" ± {:.4}", 1e3 * s));
-    format!("{name:<15} {:.4}{spread} mm", 1e3 * metres)
-}
-
-fn point(name: &str, metres: &Vector3<f64>, deviations: Option<&[f64]>) -> String {
-    let v = metres * 1e3;
-    let spread = deviations.map_or_else(String::new, |list| {
-        let list: Vec<String> = list.iter().map(|s| format!("{:.4}", 1e3 * s)).collect();
-        format!(" (± {})", list.join(" "))
-    });
-    format!("{name:<15} {:+.4} {:+.4} {:+.4} mm{spread}", v.x, v.y, v.z)
 }
 
 /// As TOML has lists.

@@ -19,6 +19,7 @@ mod hand;
 mod health;
 mod live;
 mod nano17;
+mod object;
 mod recorded;
 mod recordings;
 mod reports;

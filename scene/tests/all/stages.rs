@@ -23,9 +23,10 @@ fn the_ellipse_is_that_of_the_covariance() {
             scene(&format!("[contact]\nmodel = \"{model}\"\nleast_force_N = 0.1\n{NOISE}")).pipeline();
         let mut seen = 0;
         for push in pushes(5, 300) {
-            let felt = pipeline.sense(push, 1e-3);
+            let felt = pipeline.sense(push, 1e-3).clone();
             let Some(contact) = felt.contact() else {
                 assert!(felt.spread.is_none());
+                assert!(pipeline.place_covariance().is_none());
                 continue;
             };
             let jacobian = if soft {
@@ -40,12 +41,43 @@ fn the_ellipse_is_that_of_the_covariance() {
             for (axis, expected) in spread.ellipse.semi_axes.iter().zip(expected.semi_axes) {
                 assert!((axis / expected - 1.0).abs() < 1e-9);
             }
+            let ([a, b], m) = (covariance.tangents(), covariance.position());
+            let place = a * a.transpose() * m.m11
+                + (a * b.transpose() + b * a.transpose()) * m.m12
+                + b * b.transpose() * m.m22;
+            let found = pipeline.place_covariance().unwrap();
+            assert!((found - place).norm() < 1e-9 * place.norm(), "{found} {place}");
             let deviation = covariance.normal_force_variance().sqrt();
             assert!((spread.normal_force / deviation - 1.0).abs() < 1e-15);
             seen += 1;
         }
         assert!(seen > 200);
     }
+}
+
+/// With a track the place is as sure as the track: a contact that rests is known better and better.
+#[test]
+fn the_place_of_a_track_is_that_of_all_samples() {
+    let tracking = "[tracking]\nspeed_m_per_s = 0.001\nturns_within_s = 0.1\nleast_touch_N = 0.1\n";
+    let mut pipeline = scene(&format!("{NOISE}{tracking}")).pipeline();
+    let push = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 0.013), Vector3::new(0.0, 0.0, -0.5));
+    let widths: Vec<f64> = (0..100)
+        .map(|_| {
+            pipeline.sense(push, 1e-3);
+            let found = pipeline.place_covariance().unwrap();
+            let m = pipeline.felt().tracked.as_ref().unwrap().position_covariance;
+            assert!((found.trace() - m.trace()).abs() < 1e-9 * m.trace());
+            assert!((found * Vector3::z()).norm() < 1e-3 * found.norm(), "{found}");
+            found.trace().sqrt()
+        })
+        .collect();
+    assert!(widths[99] < 0.5 * widths[0], "{widths:?}");
+    // Without a contact the track goes on, less and less sure.
+    pipeline.sense(Wrench::on_fingertip(Vector3::zeros(), Vector3::zeros()), 1e-3);
+    assert!(pipeline.place_covariance().unwrap().trace().sqrt() > widths[99]);
+    pipeline.reset();
+    pipeline.sense(Wrench::on_fingertip(Vector3::zeros(), Vector3::zeros()), 1e-3);
+    assert!(pipeline.place_covariance().is_none());
 }
 
 /// What is uncertain of the shape's place adds to the ellipse; through a skin there is one, too.

@@ -9,13 +9,13 @@ use std::path::{Path, PathBuf};
 
 use fingertip::hand::{FingerLimits, Hand, LeastGrip};
 use fingertip::wrench::{RigidTransform, Sensor};
-use fingertip_recordings::{NumberColumn, Row};
+use fingertip_recordings::Row;
 use fingertip_scene::Pipeline;
-use nalgebra::Vector3;
 
 use super::args::AnalyzeArguments;
 use super::files::{self, Files};
 use super::know_noise;
+use super::pose::PoseColumns;
 use super::source::{Reading, Source};
 use super::span::{Place, Window};
 use crate::error::CliError;
@@ -27,9 +27,6 @@ use file::{FingerScene, HandScene, MOST};
 use grasped::{Fingers, Grasped};
 use page::Seen;
 use table::GraspWriter;
-
-/// What a pose is told by, behind the prefix of its columns.
-const POSE: [&str; 7] = ["x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"];
 
 pub(super) use file::text_of;
 
@@ -110,7 +107,7 @@ struct Tip {
     source: Source,
     pipeline: Pipeline<f64>,
     /// The columns of its pose, where it is not fixed.
-    pose: Option<[NumberColumn; 7]>,
+    pose: Option<PoseColumns>,
 }
 
 impl Tip {
@@ -133,32 +130,20 @@ impl Tip {
     /// Its pose in a row; `None` if a number is missing or the quaternion is none.
     fn pose(&self, finger: &FingerScene, row: &Row<'_>) -> Option<RigidTransform<f64, Hand, Sensor>> {
         let Some(columns) = &self.pose else { return Some(finger.pose) };
-        let mut numbers = [0.0; 7];
-        for (number, column) in numbers.iter_mut().zip(columns) {
-            *number = row.number(column)?;
-        }
-        let [x, y, z, wxyz @ ..] = numbers;
-        RigidTransform::from_quaternion(wxyz, Vector3::new(x, y, z)).ok()
+        columns.read(row)
     }
 }
 
-fn pose_columns(
-    prefix: &str,
-    finger: &FingerScene,
-    reader: &mut Rows,
-) -> Result<[NumberColumn; 7], CliError> {
-    let names = POSE.map(|part| format!("{prefix}_{part}"));
-    let columns = names.each_ref().map(|name| reader.watch(name));
-    if let [Some(x), Some(y), Some(z), Some(qw), Some(qx), Some(qy), Some(qz)] = columns {
-        return Ok([x, y, z, qw, qx, qy, qz]);
-    }
-    let message = format!(
-        "has no columns {}, which tell where the sensor of the finger {:?} is in the hand; add them, or give it a fixed \
-         pose by `translation_m` and `rotation_deg` in the place of `pose_columns`",
-        names.join(", "),
-        finger.name
-    );
-    Err(CliError::Calibrate { path: reader.file().into(), message })
+fn pose_columns(prefix: &str, finger: &FingerScene, reader: &mut Rows) -> Result<PoseColumns, CliError> {
+    PoseColumns::of(prefix, reader).ok_or_else(|| {
+        let message = format!(
+            "has no columns {}, which tell where the sensor of the finger {:?} is in the hand; add them, or give it a fixed \
+             pose by `translation_m` and `rotation_deg` in the place of `pose_columns`",
+            PoseColumns::names(prefix).join(", "),
+            finger.name
+        );
+        CliError::Calibrate { path: reader.file().into(), message }
+    })
 }
 
 /// Reads a recording to its end.
