@@ -22,6 +22,7 @@ mod gauges;
 mod hand;
 mod model;
 mod numbers;
+mod object;
 mod pipe;
 mod recording;
 mod rest;
@@ -61,6 +62,8 @@ mod _native {
     use crate::hand::{PyGrasp, PyWeight};
     #[pymodule_export]
     use crate::model::{PyCovariance, PyJacobian, PyModel, paper_bounds};
+    #[pymodule_export]
+    use crate::object::{fit_touches, touches_to_ply};
     #[pymodule_export]
     use crate::recording::{analyze_rows, look_at_health, read_rows, run_command};
     #[pymodule_export]

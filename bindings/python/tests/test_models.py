@@ -396,6 +396,56 @@ def test_rolling_over_a_ball_tells_its_radius():
     assert (np.diag(covariance) > 0).all() and abs(tangents[0] @ tangents[1]) < 1e-9
 
 
+def test_a_ball_is_found_by_its_touches(tmp_path):
+    random = np.random.default_rng(7)
+    model, surface = ContactModel(BALL), fingertip.Surface("sphere", radius_m=RADIUS)
+    noise = np.diag([1e-4] * 3 + [1e-8] * 3)
+    centre, radius, off = np.array([0.2, -0.1, 0.4]), 0.03, (1e-4, 1e-3)
+    parts = []
+    for _ in range(60):
+        out = random.normal(size=3)
+        out /= np.linalg.norm(out)
+        turn, _ = np.linalg.qr(random.normal(size=(3, 3)))
+        turn *= np.linalg.det(turn)
+        # Where the sensor is, and where its pose is said to be.
+        origin = centre + (radius + RADIUS) * out
+        force = turn.T @ out
+        wrench = np.hstack([force, np.cross(-RADIUS * force, force)])
+        wrench += np.hstack([random.normal(size=3) * 1e-2, random.normal(size=3) * 1e-4])
+        contact = model.resolve(wrench)
+        covariance = model.jacobian(contact, wrench).covariance(noise).point
+        bend = surface.shape_operator(contact.point)
+        said = origin + random.normal(size=3) * off[0]
+        lean = random.normal(size=3) * off[1]
+        skew = np.array([[0, -lean[2], lean[1]], [lean[2], 0, -lean[0]], [-lean[1], lean[0], 0]])
+        told, _ = np.linalg.qr(turn + skew @ turn)
+        told *= np.sign(np.sum(told * turn, axis=0))
+        parts.append((told, said, contact.point, contact.normal, covariance, bend))
+    touches = fingertip.ObjectTouches.of_contacts(*(np.array(part) for part in zip(*parts, strict=True)))
+    fit = fingertip.fit_object("sphere", touches, pose_noise=off)
+    assert abs(fit.radius - radius) < 2 * fit.half_widths[0] < 1e-4
+    assert (np.abs(fit.point - centre) < 2 * fit.half_widths[1:]).all()
+    assert not fit.concave and fit.direction is None and 0.7 < fit.noise_scale < 1.3
+    # A probability of one deviation is about 68 %.
+    narrow = fingertip.fit_object("sphere", touches, pose_noise=off, probability=0.6827)
+    assert np.allclose(narrow.half_widths, fit.deviations, rtol=0.01)
+    touches.save(tmp_path / "ball.ply")
+    text = (tmp_path / "ball.ply").read_text()
+    rows = np.array([line.split() for line in text.split("end_header\n")[1].splitlines()], dtype=float)
+    assert np.allclose(rows[:, :3], touches.points, atol=1e-8) and np.allclose(rows[:, 3:6], touches.normals, atol=1e-8)
+    assert [path.name for path in tmp_path.iterdir()] == ["ball.ply"]
+    for wrong, said in [({"probability": 1.0}, "probability"), ({"pose_noise": (0.0, 1e-3)}, "above zero")]:
+        with pytest.raises(fingertip.FingertipError, match=said):
+            fingertip.fit_object("sphere", touches, **wrong)
+    with pytest.raises(fingertip.FingertipError, match="not known"):
+        fingertip.fit_object("cone", touches)
+    with pytest.raises(ValueError, match="covariances"):
+        fingertip.ObjectTouches(touches.points, touches.normals, np.eye(2), np.eye(3))
+    few = fingertip.ObjectTouches(np.eye(3)[:1], np.eye(3)[:1], np.eye(3), np.eye(3))
+    with pytest.raises(fingertip.FingertipError, match="too few"):
+        fingertip.fit_object("sphere", few)
+
+
 def test_all_that_watches_is_copied_and_pickled():
     force = [0.3, 0.0, 0.0]
     made = [

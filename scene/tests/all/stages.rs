@@ -23,7 +23,7 @@ fn the_ellipse_is_that_of_the_covariance() {
             scene(&format!("[contact]\nmodel = \"{model}\"\nleast_force_N = 0.1\n{NOISE}")).pipeline();
         let mut seen = 0;
         for push in pushes(5, 300) {
-            let felt = pipeline.sense(push, 1e-3).clone();
+            let felt = *pipeline.sense(push, 1e-3);
             let Some(contact) = felt.contact() else {
                 assert!(felt.spread.is_none());
                 assert!(pipeline.place_covariance().is_none());

@@ -58,6 +58,7 @@ from fingertip._native import (
     paper_bounds,
     worst_errors,
 )
+from fingertip._objects import FittedObject, ObjectTouches, fit_object
 from fingertip._recordings import Analysis, Recording, analyze, read_recording
 from fingertip._sensors import Design, Simulation, calibrate, design, simulate
 from fingertip._touches import Touches
@@ -82,6 +83,7 @@ __all__ = [
     "Finding",
     "Fingertip",
     "FingertipError",
+    "FittedObject",
     "FrictionError",
     "FrictionLimit",
     "Grasp",
@@ -96,6 +98,7 @@ __all__ = [
     "MotionJudge",
     "NoContact",
     "NoContactReason",
+    "ObjectTouches",
     "ObjectWeight",
     "Quality",
     "ReadingError",
@@ -120,6 +123,7 @@ __all__ = [
     "columns",
     "conditioning",
     "design",
+    "fit_object",
     "formula",
     "fuse",
     "health",
