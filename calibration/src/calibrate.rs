@@ -4,6 +4,7 @@ use alloc::collections::BTreeSet;
 
 use nalgebra::RowDVector;
 
+use crate::creep::{self, Creep, CreepFit};
 use crate::curve::Region;
 use crate::file::{CalibrationFile, FileError, Quality, Temperature, Verdict};
 use crate::fit::leave_out;
@@ -13,7 +14,7 @@ use crate::model::{
     CalibrationError, Curvature, Direction, FittedDrift, Options, SensorModel, design, fit_at_rest,
     fit_model, responses, with_chosen_terms, worth_of_terms,
 };
-use crate::report::{CurveReport, Exclusion, Outlier, Report, outliers};
+use crate::report::{CreepReport, CurveReport, Exclusion, Outlier, Report, axis_reports, outliers};
 
 /// A calibration, what it was fitted to, and how good it is.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +23,8 @@ pub struct Calibration {
     pub model: SensorModel,
     /// The samples that it was fitted to: without those excluded, tared if that was asked for.
     pub table: LoadTable,
+    /// How the readings creep, if that was asked for and they do; those of the table are without it.
+    pub creep: Option<Creep>,
     /// How the readings drift with temperature, if that was asked for.
     pub temperature: Option<Temperature>,
     /// What can be said of it.
@@ -67,6 +70,7 @@ pub fn calibrate_taking(mut table: LoadTable, options: &Options) -> Result<Calib
             table.validate()?;
         }
     }
+    let crept = options.creep.then(|| take_off_creep(&mut table, options)).transpose()?;
     if options.tare_groups {
         table = table.tared_by_group()?;
     }
@@ -108,6 +112,13 @@ pub fn calibrate_taking(mut table: LoadTable, options: &Options) -> Result<Calib
         }
         None => None,
     };
+    let creep = crept.as_ref().map(|(fit, _)| fit.creep.clone()).filter(|creep| !creep.times_s.is_empty());
+    if let Some((fit, raw)) = crept {
+        // A zero that was taken off since shifts all, which these figures do not mind.
+        let predicted = model.loads(&raw.signals).ok_or(CalibrationError::Singular)?;
+        let before = axis_reports(&raw, &nominal, &predicted, None);
+        report.creep = Some(CreepReport::new(fit, &before, &report.axes));
+    }
     if table.temperatures.is_some() && drift.is_none() {
         report.notes.push("temperatures are known but no drift was fitted".to_owned());
     }
@@ -116,7 +127,7 @@ pub fn calibrate_taking(mut table: LoadTable, options: &Options) -> Result<Calib
         report.verdict = Verdict::Suspect;
     }
     let temperature = drift.map(|drift| drift.fit().temperature.clone());
-    Ok(Calibration { model, table, temperature, report })
+    Ok(Calibration { model, table, creep, temperature, report })
 }
 
 /// What is odd about the table itself: gauges that are dead, too few gauges, torques or forces in another unit.
@@ -142,6 +153,16 @@ fn oddities(table: &LoadTable) -> Result<Vec<String>, CalibrationError> {
     found.extend(table.odd_lever_arms());
     found.extend(table.odd_sizes());
     Ok(found)
+}
+
+/// Finds how the readings creep, and takes it off them; gives the table as it was, too.
+fn take_off_creep(
+    table: &mut LoadTable,
+    options: &Options,
+) -> Result<(CreepFit, LoadTable), CalibrationError> {
+    let found = creep::fit(table, options.curvature != Curvature::Straight)?;
+    let without = found.creep.taken_off(table)?;
+    Ok((found, core::mem::replace(table, without)))
 }
 
 /// Fits the drift with temperature and brings the readings to the reference temperature.
@@ -175,7 +196,10 @@ impl Calibration {
     pub fn to_file(&self) -> Result<CalibrationFile, FileError> {
         let mut file = self.model.to_file(&self.report.method)?;
         file.temperature.clone_from(&self.temperature);
+        file.creep.clone_from(&self.creep);
         if file.is_curved() {
+            // Too few loads tell no more than the linear part.
+            file.covariance = self.model.covariance_with_terms(&self.table).or(file.covariance);
             file.region = Region::of(&less(&self.table.signals, &file.zero));
         }
         file.quality = Quality {

@@ -5,6 +5,7 @@ extern crate alloc;
 mod axis;
 pub mod bench;
 mod calibrate;
+pub mod creep;
 pub mod curve;
 pub mod design;
 pub mod experiment;

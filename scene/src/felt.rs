@@ -32,8 +32,8 @@ pub struct Felt<T: Real> {
 }
 
 impl<T: Real> Felt<T> {
-    /// Before the first sample.
-    pub(crate) fn nothing() -> Self {
+    /// What is told before the first sample: that nothing touches.
+    pub fn nothing() -> Self {
         let (zero, force) = (Wrench::zero(), T::zero());
         let resolution = Resolution::NoContact(NoContact::BelowThreshold { force });
         Self {

@@ -20,11 +20,12 @@ impl<T: Real> Front<T> {
     /// The wrench on the fingertip that a reading tells of.
     #[inline]
     pub(crate) fn wrench(
-        &self,
+        &mut self,
         reading: &GaugeReading<'_, T>,
         motion: Option<&Motion<T>>,
+        time_step: T,
     ) -> Result<Wrench<T>, NoWrench> {
-        let measured = self.measured(reading)?;
+        let measured = self.measured(reading, time_step)?;
         match &self.carried {
             Some(carried) => Ok(carried.take_off(&measured, motion.ok_or(NoWrench::NoMotion)?)),
             None => Ok(measured),
@@ -33,10 +34,14 @@ impl<T: Real> Front<T> {
 
     /// That wrench, with the load of what the sensor carries.
     #[inline]
-    pub(crate) fn measured(&self, reading: &GaugeReading<'_, T>) -> Result<Wrench<T>, NoWrench> {
-        let sensor = self.sensor.as_ref().ok_or(NoWrench::NoSensor)?;
+    pub(crate) fn measured(
+        &mut self,
+        reading: &GaugeReading<'_, T>,
+        time_step: T,
+    ) -> Result<Wrench<T>, NoWrench> {
+        let sensor = self.sensor.as_mut().ok_or(NoWrench::NoSensor)?;
         let reading = GaugeReading { celsius: reading.celsius.or(self.celsius), ..*reading };
-        let calibrated = sensor.wrench(&reading)?;
+        let calibrated = sensor.wrench(&reading, time_step)?;
         Ok(self.convention.wrench(calibrated.force(), calibrated.torque()))
     }
 }

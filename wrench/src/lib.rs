@@ -36,8 +36,8 @@ pub use solve::{
     ThreeRosettes, Uncertainty, WrenchCovariance, WrenchSolver, diagonal_pattern,
 };
 pub use zero::{
-    BadInertialUnit, BadPayload, BadTemperatureModel, Compensation, DelayLine, DummyGauge,
-    DummyGaugeAccumulator, GaugesAndDummy, GaugesAndTemperature, InertialReading, InertialUnit, Motion,
-    MovingPayload, NotAtRest, Payload, RestTest, Rested, StateFilter, Tare, TareAccumulator, TareError,
-    TemperatureCompensation, Uncompensated,
+    BadCreep, BadInertialUnit, BadPayload, BadTemperatureModel, Compensation, CreepCompensation, DelayLine,
+    DummyGauge, DummyGaugeAccumulator, GaugesAndDummy, GaugesAndTemperature, InertialReading, InertialUnit,
+    Motion, MovingPayload, NotAtRest, Payload, RestTest, Rested, StateFilter, Tare, TareAccumulator,
+    TareError, TemperatureCompensation, Uncompensated,
 };

@@ -125,6 +125,7 @@ fn chosen(options: &Bound<'_, PyDict>) -> PyResult<Options> {
         reference_celsius: option(options, "reference_celsius")?
             .map(|celsius| celsius.extract())
             .transpose()?,
+        creep: flag("creep", false)?,
         reject_outliers: flag("reject_outliers", false)?,
         touches: None,
         limits: Limits {
@@ -209,7 +210,7 @@ impl PyCalibration {
         self.calibration.model.condition_number()
     }
 
-    /// The loads [N, N·m] that readings tell of.
+    /// The loads [N, N·m] that readings tell of, taken one by one: what of them is creep is not taken off.
     ///
     /// Parameters
     /// ----------

@@ -97,10 +97,10 @@ impl PyFingertip {
     ) -> PyResult<PyTouch> {
         if self.gauges.is_some() {
             let gauges = numbers::list(reading, "reading")?;
-            return self.pipe.sense_reading_inertial(&gauges, unit, beside, time_step).map(PyTouch);
+            return self.pipe.sense_reading_inertial(&gauges, unit, beside, time_step).map(PyTouch::from);
         }
         let wrench = self.on_fingertip(&numbers::numbers(reading, "reading")?);
-        self.pipe.sense_inertial(wrench, unit, time_step).map(PyTouch)
+        self.pipe.sense_inertial(wrench, unit, time_step).map(PyTouch::from)
     }
 
     #[cold]
@@ -112,11 +112,11 @@ impl PyFingertip {
     ) -> PyResult<PyTouch> {
         if self.gauges.is_some() {
             let gauges = numbers::list(reading, "reading")?;
-            return self.pipe.sense_reading(&gauges, beside, time_step).map(PyTouch);
+            return self.pipe.sense_reading(&gauges, beside, time_step).map(PyTouch::from);
         }
         let wrench = self.on_fingertip(&numbers::numbers(reading, "reading")?);
         match &beside.motion {
-            Some(motion) => self.pipe.sense_moving(wrench, motion, time_step).map(PyTouch),
+            Some(motion) => self.pipe.sense_moving(wrench, motion, time_step).map(PyTouch::from),
             None => Err(errors::reading(NoWrench::NoMotion)),
         }
     }
@@ -246,7 +246,7 @@ impl PyFingertip {
             return self.sense_beside(reading, time_step, &beside);
         }
         let wrench = self.on_fingertip(&numbers::numbers(reading, "reading")?);
-        self.pipe.sense(wrench, time_step).map(PyTouch)
+        self.pipe.sense(wrench, time_step)
     }
 
     /// Takes a wrench on the fingertip: neither convention nor zero nor payload are applied.
@@ -260,7 +260,7 @@ impl PyFingertip {
     #[inline]
     fn sense_wrench(&mut self, wrench: &Bound<'_, PyAny>, time_step: f64) -> PyResult<PyTouch> {
         let wrench = Wrench::from_components(&numbers::numbers(wrench, "wrench")?.into());
-        self.pipe.sense(wrench, time_step).map(PyTouch)
+        self.pipe.sense(wrench, time_step)
     }
 
     /// The contacts that the wrench of the last sample and a tactile array tell together, of a scene with `[fusion]`.

@@ -6,6 +6,7 @@ use nalgebra::{Vector3, Vector6};
 use pyo3::prelude::*;
 
 use crate::errors;
+use crate::touch::PyTouch;
 use crate::value;
 
 /// A pipeline in either precision.
@@ -77,12 +78,12 @@ impl Pipe {
     }
 
     #[inline]
-    pub(crate) fn sense(&mut self, wrench: Wrench<f64>, time_step: f64) -> PyResult<Felt<f64>> {
+    pub(crate) fn sense(&mut self, wrench: Wrench<f64>, time_step: f64) -> PyResult<PyTouch> {
         match self {
-            Self::Double(pipeline) => Ok(*pipeline.sense(wrench, time_step)),
+            Self::Double(pipeline) => Ok(PyTouch::from(pipeline.sense(wrench, time_step))),
             Self::Single(pipeline) => {
                 let wrench = Wrench::from_components(&wrench.components().map(|x| x as f32));
-                widened(pipeline.sense(wrench, time_step as f32))
+                widened(pipeline.sense(wrench, time_step as f32)).map(PyTouch::from)
             }
         }
     }

@@ -1,24 +1,82 @@
 //! `fingertip.Touch`: what one sample says.
 
+use fingertip::AnyTouch;
 use fingertip::friction::FrictionEstimate;
 use fingertip_scene::Felt;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::contact::{PyContact, PyNoContact};
 use crate::value::value_class;
 use crate::{enums, numbers};
 
+/// What one sample says, as an object of Python holds it: small, since it is copied on its way there. What few scenes tell
+/// has memory of its own.
+#[derive(Clone, PartialEq, Serialize, Deserialize)]
+#[serde(from = "Felt<f64>", into = "Felt<f64>")]
+pub(crate) struct Said {
+    touch: AnyTouch<f64>,
+    more: Option<Box<Felt<f64>>>,
+}
+
+impl From<&Felt<f64>> for Said {
+    #[inline]
+    fn from(felt: &Felt<f64>) -> Self {
+        let Felt { touch, spread, tracked, happened, slip_probability, stick_slip, friction, grip_force } =
+            felt;
+        let more = spread.is_some()
+            || tracked.is_some()
+            || happened.is_some()
+            || slip_probability.is_some()
+            || stick_slip.is_some()
+            || friction.is_some()
+            || grip_force.is_some();
+        Self { touch: *touch, more: more.then(|| Box::new(*felt)) }
+    }
+}
+
+impl From<Felt<f64>> for Said {
+    fn from(felt: Felt<f64>) -> Self {
+        Self::from(&felt)
+    }
+}
+
+impl From<Said> for Felt<f64> {
+    fn from(said: Said) -> Self {
+        match said.more {
+            Some(felt) => *felt,
+            None => Self { touch: said.touch, ..Self::nothing() },
+        }
+    }
+}
+
+impl Said {
+    fn more<V>(&self, of: impl FnOnce(&Felt<f64>) -> Option<V>) -> Option<V> {
+        self.more.as_deref().and_then(of)
+    }
+}
+
 /// What one sample says. Of a stage that the scene has not, `None`.
 #[pyclass(name = "Touch", module = "fingertip", frozen, skip_from_py_object)]
-pub(crate) struct PyTouch(pub(crate) Felt<f64>);
+pub(crate) struct PyTouch(Said);
+
+impl<F> From<F> for PyTouch
+where
+    Said: From<F>,
+{
+    #[inline]
+    fn from(felt: F) -> Self {
+        Self(felt.into())
+    }
+}
 
 impl PyTouch {
     fn estimate(
         &self,
         of: impl Fn(fingertip_scene::Learnt<f64>) -> Option<FrictionEstimate<f64>>,
     ) -> Option<(f64, f64)> {
-        let estimate = of(self.0.friction?)?;
+        let estimate = of(self.0.more(|felt| felt.friction)?)?;
         Some((estimate.coefficient, estimate.deviation))
     }
 }
@@ -34,7 +92,7 @@ impl PyTouch {
     /// Where it touches, and how.
     #[getter]
     fn contact(&self) -> Option<PyContact> {
-        self.0.contact().copied().map(PyContact)
+        self.0.touch.resolution.contact().copied().map(PyContact)
     }
 
     /// Why there is no contact, or `None` where there is one.
@@ -46,43 +104,43 @@ impl PyTouch {
     /// Where the environment touches [m], or `None`.
     #[getter]
     fn point<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
-        Some(numbers::array(py, &self.0.contact()?.point))
+        Some(numbers::array(py, &self.0.touch.resolution.contact()?.point))
     }
 
     /// Outward normal there, or `None`.
     #[getter]
     fn normal<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
-        Some(numbers::array(py, &self.0.contact()?.normal))
+        Some(numbers::array(py, &self.0.touch.resolution.contact()?.normal))
     }
 
     /// Normal force [N], positive when pressing, or `None`.
     #[getter]
     fn normal_force(&self) -> Option<f64> {
-        self.0.force().map(|force| force.normal)
+        self.0.touch.force.map(|force| force.normal)
     }
 
     /// Tangential force on the fingertip [N], or `None`.
     #[getter]
     fn tangential_force<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
-        Some(numbers::array(py, &self.0.force()?.tangential.vector()))
+        Some(numbers::array(py, &self.0.touch.force?.tangential.vector()))
     }
 
     /// Spin torque on the fingertip about the normal [N·m], or `None`.
     #[getter]
     fn spin_torque(&self) -> Option<f64> {
-        self.0.force().map(|force| force.spin)
+        self.0.touch.force.map(|force| force.spin)
     }
 
     /// Signed distance to the friction limit [N], positive while the contact holds; needs `[friction]`.
     #[getter]
     fn margin(&self) -> Option<f64> {
-        self.0.margin().map(|margin| margin.newtons)
+        self.0.touch.grip.flatten().map(|margin| margin.newtons)
     }
 
     /// How much of the friction limit is used: 1 at slip; needs `[friction]`.
     #[getter]
     fn utilisation(&self) -> Option<f64> {
-        self.0.margin().map(|margin| margin.utilisation)
+        self.0.touch.grip.flatten().map(|margin| margin.utilisation)
     }
 
     /// What the slip detector says, a `SlipVerdict`; needs `[slip]`.
@@ -94,31 +152,31 @@ impl PyTouch {
     /// How sure the contact is; needs `[uncertainty]`.
     #[getter]
     fn spread(&self) -> Option<PySpread> {
-        self.0.spread.map(PySpread)
+        self.0.more(|felt| felt.spread).map(PySpread)
     }
 
     /// Where the contact is by all samples so far; needs `[tracking]`.
     #[getter]
     fn tracked(&self) -> Option<PyTracked> {
-        self.0.tracked.map(PyTracked)
+        self.0.more(|felt| felt.tracked).map(PyTracked)
     }
 
     /// Whether something touches, lets go or strikes; needs `[tracking]` with `least_touch_N`.
     #[getter]
     fn happened(&self) -> Option<PyHappened> {
-        self.0.happened.map(PyHappened)
+        self.0.more(|felt| felt.happened).map(PyHappened)
     }
 
     /// The probability that the contact slips; needs a friction with a deviation.
     #[getter]
     fn slip_probability(&self) -> Option<f64> {
-        self.0.slip_probability
+        self.0.more(|felt| felt.slip_probability)
     }
 
     /// Period of the stick-slip motion that goes on [s], and its spread over the period; needs that detector.
     #[getter]
     fn stick_slip(&self) -> Option<(f64, f64)> {
-        self.0.stick_slip.map(|motion| (motion.period, motion.spread))
+        self.0.more(|felt| felt.stick_slip).map(|motion| (motion.period, motion.spread))
     }
 
     /// Static coefficient of friction learnt so far, and its deviation; needs `[estimate]`.
@@ -136,12 +194,12 @@ impl PyTouch {
     /// The normal force to command next [N]; needs `[grip]`.
     #[getter]
     fn grip_force(&self) -> Option<f64> {
-        self.0.grip_force
+        self.0.more(|felt| felt.grip_force)
     }
 
     /// Whether something touches.
     fn __bool__(&self) -> bool {
-        self.0.contact().is_some()
+        self.0.touch.resolution.contact().is_some()
     }
 
     fn __repr__(&self) -> String {

@@ -93,8 +93,8 @@ def test_an_analysis_is_that_of_the_command(recorded, tmp_path):
     assert [row["status"] for row in rows] == found.status.tolist()
     for name in ["fx_N", "tz_Nm", "x_m", "y_m", "z_m", "nx", "normal_N", "spin_Nm", "margin_N", "ellipse_a_m"]:
         said = np.array([float(row[name]) if row[name] else np.nan for row in rows])
-        # The command writes single precision.
-        assert np.array_equal(np.float32(said), np.float32(found.columns[name]), equal_nan=True), name
+        # The command writes eight significant digits, and single precision below 1e-7.
+        np.testing.assert_allclose(said, found.columns[name], rtol=5.01e-8, atol=1e-14, err_msg=name)
     words = np.array(["not_pressing", "holding", "warning", "slipping"])
     assert [row["slip"] or "not_pressing" for row in rows] == words[found.slip].tolist()
     assert found.summary.splitlines()[1:4] == run.stdout.splitlines()[1:4]

@@ -151,3 +151,24 @@ def test_a_design_is_a_sensor_and_its_files_are_read(tmp_path):
     for wrong in ({"material": "cheese"}, {"criterion": "beauty"}, {"gauges": 7}, {"force": -1.0}):
         with pytest.raises(fingertip.DesignError):
             fingertip.design(starts=2, **wrong)
+
+
+def test_creep_is_taken_off() -> None:
+    """Load cycles of a sensor whose gauges go on by some hundredths within 20 s."""
+    shares = np.array([0.03, 0.02, 0.025, 0.02, 0.01, 0.03])
+    full = np.array([10, 10, 20, 0.2, 0.2, 0.1])
+    state, rows = np.zeros(6), []
+    for sample in range(600):
+        cycle, phase = divmod(sample, 50)
+        height = 1.0 if 10 <= phase < 35 else 0.0
+        load = height * np.sin(7 * np.arange(6) + 3 * cycle * np.arange(1, 7))
+        rows.append((load * full, load + shares * state))
+        state += (load - state) * -np.expm1(-1 / 20)
+    loads, signals = (np.array(column) for column in zip(*rows, strict=True))
+    found = fingertip.calibrate(loads, signals, times=np.arange(600.0), creep=True)
+    creep = found.report()["creep"]
+    assert creep["with_percent"] < 0.1 * creep["without_percent"]
+    # A step between two samples counts as a ramp, which takes up to some 1.5 s off the 20 s.
+    assert 18 < creep["creep"]["times_s"][0] < 20
+    with pytest.raises(fingertip.CalibrationError, match="t_s"):
+        fingertip.calibrate(loads, signals, creep=True)

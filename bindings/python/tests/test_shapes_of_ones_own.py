@@ -165,3 +165,42 @@ def test_jax_differentiates_vectorises_and_compiles(pushes):
         for _ in range(300):
             wrenches = wrenches - jnp.array([1e-3] * 3 + [1e-7] * 3) * jax.grad(miss)(wrenches)
         assert jnp.isfinite(wrenches).all() and float(miss(wrenches)) < 0.2 * float(miss(wrenches[:1] * 0 + jnp.eye(6)[2] * -1))
+
+
+def test_pytorch_differentiates_and_vectorises(pushes):
+    try:
+        import torch
+    except ImportError:
+        skipped("PyTorch is not installed: fingertip.torch is not tested")
+    import fingertip.torch
+
+    model = MODELS["soft egg"]()
+    touch = fingertip.torch.touch(model)
+    touches, jacobian = model.touch_and_jacobian(pushes)
+    given = torch.tensor(pushes)
+    assert np.array_equal(touch(given), touches, equal_nan=True)
+    assert np.array_equal(touch(given.reshape(5, 8, 6)).reshape(40, 8), touches, equal_nan=True)
+    # By the one way of differentiating and by the other.
+    found = torch.func.vmap(torch.func.jacrev(touch))(given)
+    assert np.allclose(found, np.nan_to_num(jacobian), rtol=1e-12, atol=0)
+    assert np.array_equal(torch.func.vmap(touch, in_dims=1)(given.T), touches, equal_nan=True)
+    for row in range(8):
+        wrenches = given.clone().requires_grad_()
+        torch.where(torch.isfinite(touch(wrenches)), touch(wrenches), 0.0)[:, row].sum().backward()
+        assert np.allclose(wrenches.grad, np.nan_to_num(jacobian)[:, row], rtol=1e-12, atol=0)
+    touching = torch.tensor(pushes[np.isfinite(touches).all(1)][:3])
+    scale = torch.tensor([1.0] * 3 + [1e-3] * 3, dtype=torch.float64)
+    assert torch.autograd.gradcheck(lambda w: 1e2 * touch(w * scale), (touching / scale).requires_grad_(), eps=1e-5, atol=1e-4)
+
+    # The precision of what it takes, and learning in it: the push that touches where it was asked.
+    wrenches = torch.tensor([[0.0, 0.0, -1.0, 0.0, 0.0, 0.0], [0.0] * 6], requires_grad=True)
+    assert touch(wrenches).dtype == torch.float32
+    steps, missed = torch.tensor([1e-3] * 3 + [1e-7] * 3), []
+    for _ in range(300):
+        point = touch(wrenches)[:, :3]
+        miss = torch.where(torch.isfinite(point), (point * 1e3 - torch.tensor([1.0, 2.0, 11.0])) ** 2, 0.0).sum()
+        missed.append(miss.item())
+        (gradient,) = torch.autograd.grad(miss, wrenches)
+        with torch.no_grad():
+            wrenches -= steps * gradient
+    assert torch.isfinite(wrenches).all() and missed[-1] < 0.2 * missed[0]

@@ -171,6 +171,9 @@ impl AtiCalibration {
         if let Some(drift) = &file.temperature {
             return Err(FileError::NeedsTemperature { reference: drift.reference_celsius });
         }
+        if file.creep.is_some() {
+            return Err(refuse("creep", "absent in a .cal file"));
+        }
         if file.signal_unit != SignalUnit::Volt {
             return Err(refuse("signal_unit", "V for a .cal file"));
         }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Covariance, Curve, FileError, SignalUnit, Temperature, rows};
 use crate::Axis;
+use crate::creep::Creep;
 use crate::curve::Region;
 
 /// Everything that is known of a calibrated sensor: what turns its readings into a wrench, how
@@ -20,9 +21,8 @@ use crate::curve::Region;
 ///
 /// # The file
 /// TOML, all fields below by these names, then `version` and `checksum`. The version is 1; 2 where the
-/// [`covariance`](Self::covariance) has `entries`, and 3 where there is a `curve` or a `region`, which programs of before
-/// don't know. The checksum is taken
-/// over the values (see [`read`](Self::read)), so comments and layout may be changed by hand.
+/// [`covariance`](Self::covariance) has `entries`, and 3 where there is a `curve` or a `region`, 4 where there is `creep`,
+/// which programs of before don't know. The checksum is taken over the values (see [`read`](Self::read)), so comments and layout may be changed by hand.
 ///
 /// ```
 /// use fingertip_calibration::file::{CalibrationFile, SignalUnit};
@@ -76,6 +76,9 @@ pub struct CalibrationFile {
     /// How readings drift with temperature.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub temperature: Option<Temperature>,
+    /// How readings go on changing under a load that does not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub creep: Option<Creep>,
     /// Where the calibration comes from.
     #[serde(default)]
     pub provenance: Provenance,
@@ -197,6 +200,7 @@ impl CalibrationFile {
             region: None,
             covariance: None,
             temperature: None,
+            creep: None,
             provenance: Provenance { tool: crate::TOOL.to_owned(), ..Provenance::default() },
             quality: Quality::default(),
         };

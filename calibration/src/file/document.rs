@@ -10,7 +10,7 @@ use super::checksum::checksum;
 
 /// The newest version of the formats; those of before are read, too. A file is written in the first version that has
 /// what is in it, so that programs of before can read what they know.
-pub const VERSION: i64 = 3;
+pub const VERSION: i64 = 4;
 
 /// Takes version and checksum off the front: the fields, and the checksum that the file claims, if it does.
 pub(super) fn open(text: &str) -> Result<(Table, Option<String>), FileError> {

@@ -34,6 +34,10 @@ impl CalibrationFile {
             }
             Ok(format!("[{}]", text.join(", ")))
         };
+        if self.creep.is_some() {
+            let requirement = "absent in Rust constants: give its times and shares to a CreepCompensation";
+            return Err(FileError::OutOfRange { field: "creep".to_owned(), requirement });
+        }
         let mut text = self.origin_in_rust()?;
         let _ = writeln!(
             text,

@@ -67,6 +67,9 @@ impl CalibrationFile {
     /// The first version of the format that has what is in this file.
     fn version(&self) -> i64 {
         let entries = self.covariance.as_ref().is_some_and(|covariance| covariance.entries.is_some());
+        if self.creep.is_some() {
+            return 4;
+        }
         match (self.curve.is_some() || self.region.is_some(), entries) {
             (true, _) => 3,
             (false, true) => 2,
@@ -182,8 +185,8 @@ mod tests {
     #[test]
     fn unknown_version_is_named() {
         let error =
-            CalibrationFile::from_toml(&text().replacen("version = 1", "version = 4", 1)).unwrap_err();
-        assert!(matches!(error, FileError::UnknownVersion { found: 4, known: 3 }));
+            CalibrationFile::from_toml(&text().replacen("version = 1", "version = 5", 1)).unwrap_err();
+        assert!(matches!(error, FileError::UnknownVersion { found: 5, known: 4 }));
         assert!(error.to_string().contains("`version`"));
     }
 

@@ -18,7 +18,7 @@ const SYMMETRIC: &str = "symmetric and without a negative variance";
 
 impl CalibrationFile {
     /// What the fit leaves uncertain of the wrenches that are solved by this calibration, in scalar type `T`; of one with
-    /// quadratic terms, that of its linear part; of a covariance that is no product, the product that comes near to it.
+    /// terms of higher order, what comes nearest to it over the loads of the calibration; of a covariance that is no product, the product that comes near to it.
     /// `None` if the file has no covariance.
     ///
     /// # Errors

@@ -82,6 +82,9 @@ impl CalibrationFile {
             finite_list("temperature.zero_curvature", &temperature.zero_curvature, gauges)?;
             finite_list("temperature.gain_drift", &temperature.gain_drift, gauges)?;
         }
+        if let Some(creep) = &self.creep {
+            creep.validate(gauges)?;
+        }
         let quality = &self.quality;
         if let Some(number) = quality.condition_number {
             finite_list("quality.condition_number", &[number], 1)?;

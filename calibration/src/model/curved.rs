@@ -2,10 +2,15 @@
 
 use alloc::borrow::Cow;
 
+use nalgebra::{DMatrix, DVector};
+
 use super::fitting::fit_model;
 use super::sensor_model::normalised;
 use super::{CalibrationError, Curvature, Direction, Options, SensorModel};
 use crate::curve::{Chosen, choose};
+use crate::file::Covariance;
+use crate::fit::least_squares;
+use crate::linear::less;
 use crate::loads::{LoadTable, spread};
 
 /// With [`Curvature::Chosen`], the options of the terms that are chosen, and what they are worth.
@@ -113,3 +118,55 @@ pub(crate) fn fit_at_rest(
         message: "the curved sensor has no reading without load near those of the table".to_owned(),
     })
 }
+
+impl SensorModel {
+    /// Covariance of the normalised matrix of a curved sensor, as a product that says of loads what the fit of all its terms
+    /// leaves uncertain of them.
+    ///
+    /// The variance of a load by the fit is that of one reading times `tᵀ G t`, with `t` signals and terms and `G` the inverse
+    /// of their sum of squares, which no product of loads is; the product has the quadratic form of the loads that comes
+    /// nearest, relative to the squared load, over the loads of the table. `None` for too few of them, and for a sensor
+    /// without terms.
+    pub(crate) fn covariance_with_terms(&self, table: &LoadTable) -> Option<Covariance> {
+        let (axes, regressors) = (self.axes.len(), self.gauges() + self.terms.len());
+        if self.terms.is_empty() {
+            return None;
+        }
+        let gram = self.fit.inverse_gram.view((0, 0), (regressors, regressors));
+        let loads = normalised(&table.loads, &self.nominal);
+        let signals = less(&table.signals, &self.origin);
+        let (mut products, mut leverages) = (Vec::new(), Vec::new());
+        for (load, signals) in loads.row_iter().zip(signals.row_iter()) {
+            let size = load.norm_squared();
+            if size < LEAST_LOAD * LEAST_LOAD {
+                continue;
+            }
+            let signals: Vec<f64> = signals.iter().copied().collect();
+            let all: Vec<f64> = signals.iter().copied().chain(self.terms.values(&signals)).collect();
+            let all = DVector::from_vec(all);
+            leverages.push(all.dot(&(gram * &all)) / size);
+            for a in 0..axes {
+                // Both halves of a symmetric form.
+                products.extend((a..axes).map(|b| load[a] * load[b] * if a == b { 1.0 } else { 2.0 } / size));
+            }
+        }
+        let samples = leverages.len();
+        let entries = axes * (axes + 1) / 2;
+        let products = DMatrix::from_row_slice(samples, entries, &products);
+        let form = least_squares(&products, &DMatrix::from_vec(samples, 1, leverages), None).ok()?;
+        let mut of_loads = DMatrix::zeros(axes, axes);
+        let places = (0..axes).flat_map(|a| (a..axes).map(move |b| (a, b)));
+        for ((a, b), entry) in places.zip(form.coefficients.iter()) {
+            (of_loads[(a, b)], of_loads[(b, a)]) = (*entry, *entry);
+        }
+        // No variance is negative.
+        let mut eigen = of_loads.symmetric_eigen();
+        eigen.eigenvalues.apply(|value| *value = value.max(0.0));
+        let (matrix, _) = self.matrix_and_zero().ok()?;
+        let signals = &matrix * &self.fit.residual_covariance * matrix.transpose();
+        Some(Covariance::product(signals, eigen.recompose()))
+    }
+}
+
+/// Loads below this share of full scale say nothing of how a variance grows with them.
+const LEAST_LOAD: f64 = 0.05;

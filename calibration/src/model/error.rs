@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::creep::CreepError;
 use crate::file::FileError;
 use crate::fit::FitError;
 use crate::loads::LoadError;
@@ -16,6 +17,9 @@ pub enum CalibrationError {
     /// The fit has no answer.
     #[error(transparent)]
     Fit(#[from] FitError),
+    /// Nothing can be said of creep.
+    #[error(transparent)]
+    Creep(#[from] CreepError),
     /// The calibration file cannot be used with the table.
     #[error(transparent)]
     File(#[from] FileError),

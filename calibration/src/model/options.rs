@@ -133,6 +133,8 @@ pub struct Options {
     /// Fit the drift with temperature too (the table must have temperatures), and give matrix and zero at
     /// this one \[°C\].
     pub reference_celsius: Option<f64>,
+    /// Whether to find how the readings creep, from load cycles with times, and take that off them first.
+    pub creep: bool,
     /// Whether to leave out samples that the outlier test names.
     pub reject_outliers: bool,
     /// Touches on which to say what the calibration is worth; `None` for no such statement.
@@ -166,6 +168,7 @@ impl Default for Options {
             range: None,
             tare_groups: false,
             reference_celsius: None,
+            creep: false,
             reject_outliers: false,
             touches: None,
             limits: Limits::default(),

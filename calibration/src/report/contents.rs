@@ -1,16 +1,17 @@
 //! What can be said of a calibration.
 
 use alloc::borrow::Cow;
-use alloc::collections::BTreeSet;
+use alloc::collections::BTreeMap;
 
 use nalgebra::DMatrix;
 use serde::Serialize;
 
 use super::contact::{ContactReport, contact_report};
+use super::creep::CreepReport;
 use super::curve::CurveReport;
 use super::metrics::{AxisReport, LineReport, axis_reports, cross_talk, lines};
 use super::outliers::{Outlier, outliers};
-use super::predicted::predicted;
+use super::predicted::{beyond, predicted};
 use super::suspicion::{Suspicion, suspicions};
 use super::words::{describe, worst_first};
 use crate::design::TouchSet;
@@ -50,6 +51,8 @@ pub struct Report {
     pub matrix: Option<Vec<Vec<f64>>>,
     /// Standard deviation of its entries.
     pub matrix_deviations: Option<Vec<Vec<f64>>>,
+    /// How the readings creep, if that was asked for: all else is said of readings without it.
+    pub creep: Option<CreepReport>,
     /// What terms of higher order are worth, if they were chosen, or if the sensor is bad without.
     pub curve: Option<CurveReport>,
     /// How well lines of action are found.
@@ -171,19 +174,21 @@ impl Report {
                 ),
             });
         }
-        let mut excluded = Vec::new();
+        let saturated = table.saturated(file.range.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]));
+        let saturated =
+            saturated.into_iter().map(|(sample, gauge)| (sample, format!("gauge {} saturated", gauge + 1)));
+        let unusable: BTreeMap<usize, String> = beyond(file, table)?.into_iter().chain(saturated).collect();
+        let excluded = unusable
+            .iter()
+            .map(|(sample, reason)| Exclusion {
+                sample: table.names[*sample].clone(),
+                reason: reason.clone(),
+            })
+            .collect();
         let mut kept = Cow::Borrowed(table);
-        if let Some(range) = file.range {
-            let saturated = table.saturated(range);
-            for (sample, gauge) in &saturated {
-                let reason = format!("gauge {} saturated", gauge + 1);
-                excluded.push(Exclusion { sample: table.names[*sample].clone(), reason });
-            }
-            let saturated: BTreeSet<usize> = saturated.into_iter().map(|(sample, _)| sample).collect();
-            if !saturated.is_empty() {
-                kept = Cow::Owned(table.select(|i| !saturated.contains(&i)));
-                kept.validate()?;
-            }
+        if !unusable.is_empty() {
+            kept = Cow::Owned(table.select(|i| !unusable.contains_key(&i)));
+            kept.validate()?;
         }
         let table = &*kept;
         let inverse = pseudo_inverse(&file.matrix).ok_or(CalibrationError::Singular)?;
@@ -249,6 +254,7 @@ impl Report {
             cross_talk_percent: cross_talk(table, full_scale, predicted),
             matrix: None,
             matrix_deviations: None,
+            creep: None,
             curve: None,
             lines: None,
             contacts: None,

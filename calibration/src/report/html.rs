@@ -113,8 +113,12 @@ impl Report {
         });
     }
 
-    /// What terms of higher order are worth, lines of action, and contact points.
+    /// Creep, what terms of higher order are worth, lines of action, and contact points.
     fn places(&self, page: &mut Page) {
+        if let Some(creep) = &self.creep {
+            page.heading("Creep");
+            page.push(&html! { @for line in creep.to_string().lines() { p { (line) "." } } });
+        }
         if let Some(curve) = &self.curve {
             page.heading("Curvature");
             page.push(&html! { p { (curve.to_string()) "." } });

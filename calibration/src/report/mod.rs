@@ -2,6 +2,7 @@
 
 mod contact;
 mod contents;
+mod creep;
 mod curve;
 mod html;
 mod metrics;
@@ -15,7 +16,9 @@ mod words;
 
 pub use contact::ContactReport;
 pub use contents::{Exclusion, Report, SampleReport};
+pub use creep::{CreepReport, CycleFigures};
 pub use curve::CurveReport;
+pub(crate) use metrics::axis_reports;
 pub use metrics::{AxisReport, LineReport};
 pub use outliers::{Outlier, outliers};
 pub use suspicion::{Mistake, Suspicion};

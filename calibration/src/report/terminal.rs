@@ -86,8 +86,11 @@ impl Report {
         Ok(())
     }
 
-    /// What terms of higher order are worth, and what the errors make of lines of action and contact points.
+    /// Creep, what terms of higher order are worth, and what the errors make of lines of action and contact points.
     fn write_contact(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(creep) = &self.creep {
+            writeln!(f, "\nCreep: {creep}")?;
+        }
         if let Some(curve) = &self.curve {
             writeln!(f, "\nCurvature: {curve}")?;
         }

@@ -3,10 +3,11 @@
 
 use fingertip_calibration::curve::Terms;
 use fingertip_calibration::file::SignalUnit;
-use fingertip_calibration::linear::pairs;
+use fingertip_calibration::linear::{pairs, pseudo_inverse};
 use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{CalibrationError, Curvature, Direction, Options};
 use fingertip_calibration::nalgebra::{DMatrix, DVector, Vector3, Vector6};
+use fingertip_calibration::report::Report;
 use fingertip_calibration::{Axis, Calibration, calibrate};
 use fingertip_contact::{ContactModel as _, PointContact};
 use fingertip_surfaces::Sphere;
@@ -253,4 +254,78 @@ fn what_cannot_be_curved_is_refused() {
     assert_eq!(*terms(&calibration), right);
     assert!(calibration.report.method.contains("curved by 2 terms"), "{}", calibration.report.method);
     assert!(calibration.report.curve.is_none());
+}
+
+/// What a pipeline refuses to read is no part of a check either, and named.
+#[test]
+fn a_check_leaves_out_what_lies_beyond_the_calibration() {
+    let random = &mut Pcg64Mcg::seed_from_u64(333);
+    let file = calibrate(&of_terms(random, 120, 1.0, 0.0), &chosen()).unwrap().to_file().unwrap();
+    let mut table = of_terms(random, 40, 1.0, 0.0);
+    let limits = fingertip_calibration::model::Limits::default();
+    let within = Report::of_check(&file, &table, &limits, None).unwrap();
+    let sum = within.samples + within.excluded.len();
+    assert!(sum == 40 && within.samples > 30, "{}", within.samples);
+    for gauge in 0..3 {
+        table.signals[(7, gauge)] = file.zero[gauge] + 50.0;
+    }
+    let report = Report::of_check(&file, &table, &limits, None).unwrap();
+    let left = report.excluded.iter().find(|left| left.sample == "sample 8").unwrap();
+    assert!(left.reason.contains("times as far out"), "{}", left.reason);
+    assert_eq!(report.verdict, within.verdict);
+}
+
+/// The variance of a load by the fit, over many fits of the same sensor, against the stated one.
+#[test]
+fn the_stated_covariance_is_that_of_all_terms() {
+    let random = &mut Pcg64Mcg::seed_from_u64(334);
+    let clean = of_terms(random, 60, 1.0, 0.0);
+    let origin = vec![2.0, -7.0, 0.5];
+    let products = vec![vec![0, 0], vec![1, 2, 2], vec![0, 1], vec![2, 2]];
+    let terms = Box::new(Terms { products, ..Terms::default() });
+    let options = Options {
+        direction: Direction::LoadsFromSignals,
+        curvature: Curvature::Given { terms, origin: origin.clone() },
+        nominal: Some(vec![6.0; 3]),
+        ..Options::default()
+    };
+    let asked = of_terms(random, 40, 1.0, 0.0);
+    let (mut found, mut stated, mut linear) = (Vec::new(), vec![0.0; 40], vec![0.0; 40]);
+    const FITS: usize = 400;
+    for _ in 0..FITS {
+        let mut table = clean.clone();
+        table.loads += gaussians(random, 60, 3) * 0.05;
+        let calibration = calibrate(&table, &options).unwrap();
+        let file = calibration.to_file().unwrap();
+        let of_linear = calibration.model.covariance().unwrap();
+        let whole = file.covariance.as_ref().unwrap();
+        let inverse = pseudo_inverse(&file.matrix).unwrap();
+        let mut loads = Vec::new();
+        for sample in 0..40 {
+            let reading: Vec<f64> = asked.signals.row(sample).iter().copied().collect();
+            // Of a tared sensor: the zero has an error of its own.
+            let zero = file.load(&origin).unwrap();
+            loads.push(file.load(&reading).unwrap() - zero);
+            let load = asked.loads.row(sample).transpose() / 6.0;
+            let variance = |covariance: &fingertip_calibration::file::Covariance| {
+                36.0 * (&inverse * covariance.of_signals(&load) * inverse.transpose()).trace()
+            };
+            stated[sample] += variance(whole) / FITS as f64;
+            linear[sample] += variance(&of_linear) / FITS as f64;
+        }
+        found.push(loads);
+    }
+    let mut ratios = [(); 2].map(|()| Vec::new());
+    for sample in 0..40 {
+        let mean = found.iter().map(|loads| &loads[sample]).sum::<DVector<f64>>() / FITS as f64;
+        let spread = found.iter().map(|loads| (&loads[sample] - &mean).norm_squared()).sum::<f64>();
+        let spread = spread / (FITS - 1) as f64;
+        ratios[0].push((stated[sample] / spread).ln());
+        ratios[1].push((linear[sample] / spread).ln());
+    }
+    let off = |ratios: &[f64]| (ratios.iter().map(|ratio| ratio * ratio).sum::<f64>() / 40.0).sqrt();
+    let mean = |ratios: &[f64]| (ratios.iter().sum::<f64>() / 40.0).exp();
+    // A quadratic form of the loads is no polynomial of higher order, but right in the mean; the linear part is not.
+    assert!((0.85..1.3).contains(&mean(&ratios[0])) && off(&ratios[0]) < 0.6, "{}", mean(&ratios[0]));
+    assert!(mean(&ratios[1]) < 0.8 && off(&ratios[1]) > off(&ratios[0]), "{}", mean(&ratios[1]));
 }

@@ -4,6 +4,7 @@
 mod consensus;
 mod covariance;
 mod coverage;
+mod creep;
 mod curved;
 mod design_end_to_end;
 mod design_optimum;

@@ -46,6 +46,7 @@ pub(crate) fn report() -> Report {
         cross_talk_percent: vec![vec![None, Some(0.5)], vec![Some(1.0), None]],
         matrix: Some(vec![vec![1.234_56, -0.5], vec![0.0, 123.4]]),
         matrix_deviations: Some(vec![vec![0.012_3, 0.5], vec![1.5e-5, 12.0]]),
+        creep: None,
         curve: None,
         lines: Some(LineReport { lines: 5, median_mm: 0.25, greatest_mm: 1.5, expected_mm: Some(0.375) }),
         contacts: Some(ContactReport {

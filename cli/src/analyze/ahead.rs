@@ -12,9 +12,9 @@ use crate::error::CliError;
 use crate::health::WatchedRows;
 use crate::opened::Rows;
 
-/// Rows of a block, and values of all of them, at most: some ten kilobytes, however wide a recording is.
-const ROWS: usize = 512;
-const VALUES: usize = 4096;
+/// Rows of a block, and values of all of them, at most: some tens of kilobytes, however wide a recording is.
+const ROWS: usize = 1024;
+const VALUES: usize = 8192;
 /// Blocks that are read ahead at most: memory does not grow with the recording.
 const BLOCKS: usize = 3;
 /// What the thread that reads needs for its calls is far less, of whatever format \[bytes\].

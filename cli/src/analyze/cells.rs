@@ -1,4 +1,6 @@
-//! Text that is made of short pieces.
+//! Text that is made of short pieces: words and numbers.
+
+use super::digits;
 
 /// Bytes that are collected before they are written: as many as a file takes without collecting them once more.
 const BUFFER: usize = 1 << 16;
@@ -57,6 +59,59 @@ impl Cells {
         }
     }
 
+    /// Appends numbers of eight significant digits, with a comma before each; nothing behind it for what is not finite.
+    #[inline]
+    pub(super) fn put_numbers(&mut self, numbers: &[f64]) {
+        const ROOM: usize = 2 + digits::ROOM;
+        let start = self.filled;
+        // Each is written whole, of which only the first bytes count.
+        let mut room = self.room(numbers.len() * ROOM);
+        let mut left = numbers.iter();
+        let mut written = 0;
+        for number in left.by_ref() {
+            let before = 1 + usize::from(number.is_sign_negative());
+            if let Some(head) = room.first_chunk_mut::<2>() {
+                *head = *b",-";
+            }
+            let to = room.get_mut(before..).and_then(|to| to.first_chunk_mut());
+            let Some(length) = to.and_then(|to| digits::write_positive(number.abs(), to)) else {
+                self.filled = start + written;
+                self.put_unusual(*number);
+                return self.put_numbers(left.as_slice());
+            };
+            room = room.get_mut(before + length..).unwrap_or_default();
+            written += before + length;
+        }
+        self.filled = start + written;
+    }
+
+    /// Zero, and what needs an exponent: as many digits as single precision needs, or double precision beyond its range.
+    #[inline(never)]
+    #[expect(clippy::cast_possible_truncation, reason = "numbers that it cannot hold are not written so")]
+    fn put_unusual(&mut self, number: f64) {
+        let mut buffer = zmij::Buffer::new();
+        let single = number as f32;
+        let text = if number == 0.0 || single.is_normal() {
+            buffer.format_finite(single)
+        } else if number.is_finite() {
+            buffer.format_finite(number)
+        } else {
+            ""
+        };
+        self.put_cell(text.as_bytes());
+    }
+
+    /// Appends a time \[s\], rounded to nanoseconds; nothing for what is not finite.
+    #[inline]
+    pub(super) fn put_time(&mut self, time: f64) {
+        if time.is_finite() {
+            let rounded = (time * 1e9).round() / 1e9;
+            // Long times have no nanoseconds to round to.
+            let rounded = if rounded.is_finite() { rounded } else { time };
+            self.put(zmij::Buffer::new().format_finite(rounded).as_bytes());
+        }
+    }
+
     /// Room for so many bytes.
     #[inline]
     fn room(&mut self, bytes: usize) -> &mut [u8] {
@@ -92,6 +147,8 @@ impl Cells {
 
 #[cfg(test)]
 mod tests {
+    use rand::{RngExt, SeedableRng};
+
     use super::{BUFFER, Cells};
 
     #[test]
@@ -113,5 +170,48 @@ mod tests {
         assert!(cells.text().is_empty() && !cells.is_full());
         cells.put(b"again");
         assert_eq!(cells.text(), b"again");
+    }
+
+    #[test]
+    fn numbers_of_every_size_can_be_read_again() {
+        let mut cells = Cells::default();
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(9);
+        let numbers: Vec<f64> = (0..40_000)
+            .map(|i| {
+                let decades = if i % 2 == 0 { -320..309 } else { -9..10 };
+                random.random_range(-1.0..1.0) * 10.0_f64.powi(random.random_range(decades))
+            })
+            .chain([0.0, -0.0, f64::MAX, f64::MIN_POSITIVE, 5e-324, -3.5e38, 1e-7, 1e8])
+            .collect();
+        for number in &numbers {
+            cells.put_numbers(&[*number]);
+        }
+        let text = core::str::from_utf8(cells.text()).unwrap();
+        let read: Vec<&str> = text.strip_prefix(',').unwrap().split(',').collect();
+        assert_eq!(read.len(), numbers.len());
+        for (text, number) in read.iter().zip(&numbers) {
+            let read: f64 = text.parse().unwrap();
+            // Single precision rounds twice.
+            let share = if text.contains('e') || number.abs() > 9e6 { 1.2e-7 } else { 5.1e-8 };
+            assert!((read - number).abs() <= share * number.abs(), "{text} for {number}");
+            assert_eq!(read.is_sign_negative(), number.is_sign_negative());
+        }
+        cells.clear();
+        [f64::NAN, f64::INFINITY, -1.0, f64::NEG_INFINITY, 2.5].chunks(2).for_each(|x| cells.put_numbers(x));
+        assert_eq!(cells.text(), b",,,-1.0,,2.5");
+    }
+
+    #[test]
+    fn times_are_in_nanoseconds() {
+        for (time, text) in
+            [(0.1 + 0.2, "0.3"), (-1.0, "-1.0"), (1.234_567_890_6, "1.234567891"), (1e300, "1e+300")]
+        {
+            let mut cells = Cells::default();
+            cells.put_time(time);
+            assert_eq!(core::str::from_utf8(cells.text()), Ok(text));
+        }
+        let mut cells = Cells::default();
+        [f64::NAN, f64::INFINITY].iter().for_each(|time| cells.put_time(*time));
+        assert!(cells.text().is_empty());
     }
 }

@@ -21,8 +21,7 @@ const COMMAS: [u8; 64] = [b','; 64];
 
 /// Writes one row per sample.
 ///
-/// Numbers are written in single precision with as many digits as that needs (7 to 9), which no
-/// force sensor comes near; times in nanoseconds.
+/// Numbers are written with eight significant digits, which no force sensor comes near; times in nanoseconds.
 pub(super) struct ContactWriter {
     out: Whole,
     path: PathBuf,
@@ -70,7 +69,7 @@ impl ContactWriter {
         fused: Option<&Fused>,
     ) -> Result<(), CliError> {
         let touch = &felt.touch;
-        self.time(time);
+        self.cells.put_time(time);
         self.word(Status::of(&touch.resolution).word());
         self.cells(&touch.wrench.components().into());
         match (&touch.resolution, &touch.force) {
@@ -188,39 +187,20 @@ impl ContactWriter {
     }
 
     pub(super) fn write_without_wrench(&mut self, time: f64, status: Status) -> Result<(), CliError> {
-        self.time(time);
+        self.cells.put_time(time);
         self.word(status.word());
         self.empty(6 + CONTACT_CELLS + 1 + self.more);
         self.end_row()
     }
 
     #[inline]
-    fn time(&mut self, time: f64) {
-        if time.is_finite() {
-            let rounded = (time * 1e9).round() / 1e9;
-            // Long times have no nanoseconds to round to.
-            let rounded = if rounded.is_finite() { rounded } else { time };
-            self.cells.put(zmij::Buffer::new().format_finite(rounded).as_bytes());
-        }
-    }
-
-    /// Cells of a number each. All are made before the first is copied: a processor that reads bytes which it has just
-    /// written in other pieces waits for them.
-    #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "single precision is what the file holds")]
     fn cells<const N: usize>(&mut self, values: &[f64; N]) {
-        let mut buffers = [(); N].map(|()| zmij::Buffer::new());
-        let mut texts = [""; N];
-        for ((text, buffer), value) in texts.iter_mut().zip(&mut buffers).zip(values) {
-            let single = *value as f32;
-            *text = if single.is_finite() { buffer.format_finite(single) } else { "" };
-        }
-        texts.iter().for_each(|text| self.cells.put_cell(text.as_bytes()));
+        self.cells.put_numbers(values);
     }
 
     #[inline]
     fn cell(&mut self, value: f64) {
-        self.cells(&[value]);
+        self.cells.put_numbers(&[value]);
     }
 
     #[inline]

@@ -6,6 +6,7 @@ mod array;
 mod cells;
 pub mod columns;
 mod contacts;
+mod digits;
 mod files;
 mod hand;
 mod json;

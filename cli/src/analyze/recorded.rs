@@ -12,8 +12,8 @@ pub(super) trait Recorded {
     /// Name of the sensor; empty if the recording gives none.
     fn sensor(&self) -> &str;
 
-    /// The load as recorded, less the zero, or why there is none.
-    fn read(&self, row: &Row<'_>) -> Result<Wrench<f64>, Status>;
+    /// The load as recorded, less the zero, or why there is none; and the time since the last that was read \[s\].
+    fn read(&mut self, row: &Row<'_>, time_step: f64) -> Result<Wrench<f64>, Status>;
 
     /// Takes a row of the rest: [`Status::Rest`], or why it cannot be used.
     fn rest(&mut self, row: &Row<'_>) -> Status;

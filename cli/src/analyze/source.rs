@@ -186,7 +186,7 @@ impl Source {
 
     #[inline]
     fn read_load(&mut self, row: &Row<'_>) -> Reading {
-        let load = match self.recorded.read(row) {
+        let load = match self.recorded.read(row, self.time_step) {
             Ok(load) => self.convention.wrench(load.force(), load.torque()),
             Err(status) => return Reading::Without(status),
         };

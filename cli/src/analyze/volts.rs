@@ -39,8 +39,8 @@ impl Recorded for Volts {
 
     /// The wrench as the calibration has it.
     #[inline]
-    fn read(&self, row: &Row<'_>) -> Result<Wrench<f64>, Status> {
-        let wrench = self.rows.reading(row, |reading| self.calibrated.wrench(reading));
+    fn read(&mut self, row: &Row<'_>, time_step: f64) -> Result<Wrench<f64>, Status> {
+        let wrench = self.rows.reading(row, |reading| self.calibrated.wrench(reading, time_step));
         wrench.map_or(Err(Status::UnusableRow), |wrench| wrench.map_err(Status::without_wrench))
     }
 

@@ -31,7 +31,7 @@ impl Recorded for Wrenches {
     }
 
     /// The wrench as recorded, less the tare.
-    fn read(&self, row: &Row<'_>) -> Result<Wrench<f64>, Status> {
+    fn read(&mut self, row: &Row<'_>, _: f64) -> Result<Wrench<f64>, Status> {
         let recorded = row.wrench(&self.columns).ok_or(Status::UnusableRow)?;
         Ok(Wrench::from_components(&(recorded.components() - self.zero)))
     }

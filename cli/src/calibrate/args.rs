@@ -79,8 +79,8 @@ pub(crate) struct CalibrateArguments {
     #[arg(long, value_name = "PAYLOAD.toml", conflicts_with_all = ["gravity", "inertial", "tare_groups"])]
     pub(crate) payload: Option<PathBuf>,
     /// Read the files row by row, in bounded memory, however long: least squares only, no leaving out
-    #[arg(long, conflicts_with_all = ["gravity", "inertial", "curvature", "tare_groups", "reference_celsius",
-        "reject_outliers", "payload", "prior", "inverse", "json", "html"])]
+    #[arg(long, conflicts_with_all = ["gravity", "inertial", "curvature", "creep", "tare_groups",
+        "reference_celsius", "reject_outliers", "payload", "prior", "inverse", "json", "html"])]
     pub(crate) stream: bool,
     #[command(flatten)]
     pub(crate) touches: TouchArguments,
@@ -99,6 +99,10 @@ pub(crate) struct CalibrateArguments {
     /// Fit the drift with temperature (column temperature_C), and give the sensor at this one
     #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true)]
     pub(crate) reference_celsius: Option<f64>,
+    /// Find how readings go on changing under a load that stays, from load cycles (columns t_s, group), and take it off;
+    /// what gives readings one by one then takes it off, too
+    #[arg(long)]
+    pub(crate) creep: bool,
     /// Leave out samples that do not fit the others
     #[arg(long)]
     pub(crate) reject_outliers: bool,

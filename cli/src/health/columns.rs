@@ -156,8 +156,9 @@ impl WatchedRows {
         for columns in &self.signals {
             self.readings.extend(row.unchecked_signals(columns));
         }
-        if let Some((rows, sensor)) = &self.calibrated {
-            let wrench = rows.reading(row, |reading| sensor.wrench(reading).ok()).flatten();
+        if let Some((rows, sensor)) = &mut self.calibrated {
+            let step = row.time_step().unwrap_or(0.0);
+            let wrench = rows.reading(row, |reading| sensor.wrench(reading, step).ok()).flatten();
             let components = wrench.map(|wrench| wrench.components());
             self.readings.extend((0..AXES.len()).map(|axis| {
                 components.as_ref().and_then(|wrench| wrench.get(axis)).copied().unwrap_or(f64::NAN)

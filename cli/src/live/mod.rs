@@ -156,6 +156,9 @@ fn note_what_is_left_out(scene: &Scene, of_gauges: bool) {
             "note: the weight of [payload] is not taken off: nothing tells how a live sensor lies or moves"
         );
     }
+    if scene.array_places().is_some() {
+        eprintln!("note: [fusion] is left out: no live sensor gives the readings of an array");
+    }
     if scene.awaits_noise() && of_gauges {
         eprintln!(
             "note: nothing tells the noise of gauges live, which the scene asks for: no force is a contact until a \

@@ -73,7 +73,7 @@ pub(crate) fn calibrated(
         }
     };
     let calibrated = calibration.of(&Readings { has_rest: how.rest.is_some(), ..readings }, notes)?;
-    let wrenches = CalibratedWrenches { source, calibrated, rest: how.rest, first: None };
+    let wrenches = CalibratedWrenches { source, calibrated, rest: how.rest, first: None, last: None };
     let losses = |_: &_| Losses { lost: Some(0), ..Losses::default() };
     Ok(Box::new(SourceFeed { source: Paced::new(wrenches, speed), losses }))
 }
@@ -85,6 +85,8 @@ struct CalibratedWrenches {
     /// While it lasts \[s\].
     rest: Option<f64>,
     first: Option<f64>,
+    /// When the last wrench was measured \[s\].
+    last: Option<f64>,
 }
 
 impl Source<f64, Wrench<f64>> for CalibratedWrenches {
@@ -110,7 +112,9 @@ impl Source<f64, Wrench<f64>> for CalibratedWrenches {
                     return Err(GaugeFault::Doubtful(doubt.to_string()));
                 }
             }
-            let value = self.calibrated.wrench(&reading.borrowed()).map_err(GaugeFault::Reading)?;
+            let step = reading.time.zip(self.last).map_or(0.0, |(now, last)| now - last);
+            let value = self.calibrated.wrench(&reading.borrowed(), step).map_err(GaugeFault::Reading)?;
+            self.last = reading.time.or(self.last);
             return Ok(Some(Sample { time: reading.time, value }));
         }
         match self.rest {

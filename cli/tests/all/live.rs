@@ -201,9 +201,12 @@ fn what_does_not_count_is_noted() {
     let weight =
         "note: the weight of [payload] is not taken off: nothing tells how a live sensor lies or moves\n"
             .to_owned();
+    let array = "note: [fusion] is left out: no live sensor gives the readings of an array\n".to_owned();
+    let fused = std::fs::read_to_string(scene("gripped_ball.toml")).unwrap();
     let warm = "note: the temperature is known, but the calibration has no terms for it\n".to_owned();
     for (scene, more, said) in [
         (gauges.clone(), &[][..], String::new()),
+        (fused, &[], array),
         (format!("{gauges}\n{payload}"), &[], weight.clone()),
         (format!("{gauges}\n{payload}"), &["--celsius", "20"], weight + &warm),
     ] {

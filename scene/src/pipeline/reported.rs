@@ -111,7 +111,7 @@ impl<T: Real> Pipeline<T> {
         motion: Option<&Motion<T>>,
         time_step: T,
     ) -> Result<&Felt<T>, NoWrench> {
-        let wrench = self.front.wrench(reading, motion)?;
+        let wrench = self.front.wrench(reading, motion, time_step)?;
         Ok(self.sense(wrench, time_step))
     }
 
@@ -127,7 +127,7 @@ impl<T: Real> Pipeline<T> {
         unit: &InertialReading<T>,
         time_step: T,
     ) -> Result<&Felt<T>, NoWrench> {
-        let measured = self.front.measured(reading)?;
+        let measured = self.front.measured(reading, time_step)?;
         self.sense_inertial(measured, unit, time_step)
     }
 }

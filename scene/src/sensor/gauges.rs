@@ -5,7 +5,7 @@ use fingertip::wrench::{
     GaussianElimination, LeastSquares, Real, SensorMatrix, Tare, TareAccumulator, TareError,
     TemperatureCompensation, Wrench, WrenchSolver,
 };
-use fingertip_calibration::file::{AnyCurve, CalibrationFile};
+use fingertip_calibration::file::{AnyCreep, AnyCurve, CalibrationFile};
 use nalgebra::{SVector, Vector6};
 
 use super::{BadSensor, GaugeReading, NoWrench};
@@ -16,6 +16,8 @@ use crate::rest::{Doubt, RestWatch};
 pub(crate) struct Gauges<T: Real, S, const N: usize> {
     solver: Solver<T, S, N>,
     zero: Zero<T, N>,
+    /// What goes on changing under a load that does not.
+    creep: Option<Box<AnyCreep<T, N>>>,
     rest: Option<Resting<T, N>>,
     /// Of the rest that goes on, or of the last one.
     watch: RestWatch<T, N>,
@@ -82,12 +84,14 @@ impl<T: Real, S: WrenchSolver<T, N>, const N: usize> Gauges<T, S, N> {
             Some(drift) => Zero::Warm(Box::new(drift), Tare::new(SVector::zeros())),
             None => Zero::Tare(file.zero_in()?),
         };
+        let creep = file.creep_compensation_in()?.map(Box::new);
         let range = file.range.map(|range| range.map(T::literal));
         let region =
             file.region.as_ref().filter(|_| file.is_curved()).map(|region| region.in_type()).transpose()?;
         Ok(Self {
             solver,
             zero,
+            creep,
             rest: None,
             watch: RestWatch::default(),
             range,
@@ -107,9 +111,9 @@ impl<T: Real, S: WrenchSolver<T, N>, const N: usize> Gauges<T, S, N> {
     }
 
     #[inline]
-    fn wrench(&self, reading: &GaugeReading<'_, T>) -> Result<Wrench<T>, NoWrench> {
+    fn wrench(&mut self, reading: &GaugeReading<'_, T>, time_step: T) -> Result<Wrench<T>, NoWrench> {
         let gauges = self.sound(reading)?;
-        let signals = match &self.zero {
+        let mut signals = match &self.zero {
             Zero::Tare(tare) => tare.compensate(&gauges),
             Zero::Warm(drift, tare) => {
                 let temperature = known(reading.celsius)?;
@@ -117,6 +121,9 @@ impl<T: Real, S: WrenchSolver<T, N>, const N: usize> Gauges<T, S, N> {
             }
             Zero::Dummy(zero) => zero.compensate(&GaugesAndDummy { gauges, dummy: known(reading.dummy)? }),
         };
+        if let Some(creep) = &mut self.creep {
+            signals = creep.follow(&signals, time_step).ok_or(NoWrench::Incomplete)?;
+        }
         if self.region.as_ref().is_some_and(|region| !region.holds(&signals)) {
             return Err(NoWrench::Uncalibrated);
         }
@@ -156,6 +163,9 @@ impl<T: Real, S: WrenchSolver<T, N>, const N: usize> Gauges<T, S, N> {
 
     fn end_rest(&mut self) -> Result<(), TareError> {
         let resting = self.rest.take();
+        if let Some(creep) = &mut self.creep {
+            creep.start_anew();
+        }
         let tare = match &resting {
             Some(Resting::Dummy(mean)) => {
                 self.zero = Zero::Dummy(mean.finish()?);
@@ -231,8 +241,12 @@ by_number! {
 
 impl<T: Real> AnyGauges<T> {
     #[inline]
-    pub(crate) fn wrench(&self, reading: &GaugeReading<'_, T>) -> Result<Wrench<T>, NoWrench> {
-        each!(self, gauges => gauges.wrench(reading))
+    pub(crate) fn wrench(
+        &mut self,
+        reading: &GaugeReading<'_, T>,
+        time_step: T,
+    ) -> Result<Wrench<T>, NoWrench> {
+        each!(self, gauges => gauges.wrench(reading, time_step))
     }
 
     pub(crate) fn rest(&mut self, reading: &GaugeReading<'_, T>) -> Result<(), NoWrench> {

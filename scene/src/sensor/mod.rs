@@ -96,10 +96,10 @@ pub enum BadSensor {
 /// let nominal = vec![10.0, 10.0, 10.0, 0.1, 0.1, 0.1];
 /// let mut file = CalibrationFile::new(matrix, nominal, vec![0.5; 6], SignalUnit::Volt)?;
 /// file.range = Some([-5.0, 5.0]);
-/// let sensor = Sensor::<f64>::new(&file)?;
-/// let wrench = sensor.wrench(&GaugeReading::of(&[0.5, 0.5, 0.1, 0.5, 0.5, 0.5]))?;
+/// let mut sensor = Sensor::<f64>::new(&file)?;
+/// let wrench = sensor.wrench(&GaugeReading::of(&[0.5, 0.5, 0.1, 0.5, 0.5, 0.5]), 1e-3)?;
 /// assert!((wrench.force().z + 2.0).abs() < 1e-12);
-/// let stuck = sensor.wrench(&GaugeReading::of(&[0.5, 0.5, 5.0, 0.5, 0.5, 0.5]));
+/// let stuck = sensor.wrench(&GaugeReading::of(&[0.5, 0.5, 5.0, 0.5, 0.5, 0.5]), 1e-3);
 /// assert_eq!(stuck, Err(NoWrench::Saturated));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -123,11 +123,15 @@ impl<T: Real> Sensor<T> {
 
     /// The wrench of a reading as the calibration has it, in the frame and of the sign that it was calibrated in.
     ///
+    /// `time_step` is the time since the last reading that gave a wrench \[s\]. It matters for a calibration with
+    /// [`creep`](CalibrationFile::creep) alone, which is taken off as if the sensor were settled and without load at the
+    /// first reading, and behind each rest.
+    ///
     /// # Errors
     /// [`NoWrench::Saturated`], [`NoWrench::Uncalibrated`], [`NoWrench::Incomplete`].
     #[inline]
-    pub fn wrench(&self, reading: &GaugeReading<'_, T>) -> Result<Wrench<T>, NoWrench> {
-        self.0.wrench(reading)
+    pub fn wrench(&mut self, reading: &GaugeReading<'_, T>, time_step: T) -> Result<Wrench<T>, NoWrench> {
+        self.0.wrench(reading, time_step)
     }
 
     /// Takes a reading of the rest.

@@ -69,12 +69,12 @@ fn exported_modules_give_the_bits_of_the_pipeline() {
     assert!(scene.to_rust(fingertip_scene::Scalar::F32, Some(&file)).is_ok());
 
     let (file, mut refused) = (curved(8), 0);
-    let sensor = Sensor::<f32>::new(&file).unwrap();
+    let mut sensor = Sensor::<f32>::new(&file).unwrap();
     let mut tip = exported::plane_curved_f32::tip().unwrap();
     for reading in readings::<8>(&file) {
         let reading = reading.map(|x| x as f32);
         let touch = tip.sense(&SVector::from(reading), 1e-3);
-        match sensor.wrench(&GaugeReading::of(&reading)) {
+        match sensor.wrench(&GaugeReading::of(&reading), 1e-3) {
             Ok(wrench) => assert_eq!(wrench, touch.wrench),
             Err(why) => {
                 assert_eq!(why, NoWrench::Uncalibrated);
@@ -93,13 +93,13 @@ fn a_new_zero_moves_the_region() {
     let file = curved(6);
     let mut sensor = Sensor::<f64>::new(&file).unwrap();
     let far: Vec<f64> = file.zero.iter().map(|zero| zero + 5.0).collect();
-    assert_eq!(sensor.wrench(&GaugeReading::of(&far)), Err(NoWrench::Uncalibrated));
+    assert_eq!(sensor.wrench(&GaugeReading::of(&far), 1e-3), Err(NoWrench::Uncalibrated));
     for _ in 0..20 {
         sensor.rest(&GaugeReading::of(&far)).unwrap();
     }
     sensor.end_rest().unwrap();
-    assert!(sensor.wrench(&GaugeReading::of(&far)).unwrap().components().amax() < 1e-12);
+    assert!(sensor.wrench(&GaugeReading::of(&far), 1e-3).unwrap().components().amax() < 1e-12);
     // Without a region nothing is refused.
     let everywhere = CalibrationFile { region: None, ..file };
-    assert!(Sensor::<f64>::new(&everywhere).unwrap().wrench(&GaugeReading::of(&far)).is_ok());
+    assert!(Sensor::<f64>::new(&everywhere).unwrap().wrench(&GaugeReading::of(&far), 1e-3).is_ok());
 }

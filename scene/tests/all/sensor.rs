@@ -1,6 +1,7 @@
 //! Readings of gauges to wrenches: every number of gauges, zeros, drifts, and what is no reading.
 
 use fingertip::wrench::{Real, Wrench};
+use fingertip_calibration::creep::Creep;
 use fingertip_calibration::file::{CalibrationFile, SignalUnit, Temperature};
 use fingertip_scene::{GAUGES, GaugeReading, NoWrench, Sensor};
 use nalgebra::{DMatrix, DVector, Vector6};
@@ -49,10 +50,10 @@ fn six_to_sixteen_gauges_give_the_load_back() {
         let file = file(gauges);
         let reading = signals(&file, &load);
         assert_eq!(sensor(&file).gauges(), gauges);
-        assert_near(&sensor(&file).wrench(&GaugeReading::of(&reading)).unwrap(), &load, 1e-12);
+        assert_near(&sensor(&file).wrench(&GaugeReading::of(&reading), 1e-3).unwrap(), &load, 1e-12);
         let narrow: Vec<f32> = reading.iter().map(|x| *x as f32).collect();
-        let single = Sensor::<f32>::new(&file).unwrap();
-        assert_near(&single.wrench(&GaugeReading::of(&narrow)).unwrap(), &load, 1e-5);
+        let mut single = Sensor::<f32>::new(&file).unwrap();
+        assert_near(&single.wrench(&GaugeReading::of(&narrow), 1e-3).unwrap(), &load, 1e-5);
     }
     let error = Sensor::<f64>::new(&file(17)).unwrap_err().to_string();
     assert!(error.contains("it has 17 gauges, but this program reads 6 to 16"), "{error}");
@@ -66,8 +67,8 @@ fn quadratic_terms_are_those_of_the_file() {
         let reading = signals(&file, &Vector6::new(-3.0, 1.0, -4.0, 0.01, 0.05, -0.09));
         let expected = file.load(&reading).unwrap();
         let expected = Vector6::from_iterator(expected.iter().copied());
-        assert_near(&sensor(&file).wrench(&GaugeReading::of(&reading)).unwrap(), &expected, 1e-12);
-        let straight = sensor(&self::file(gauges)).wrench(&GaugeReading::of(&reading)).unwrap();
+        assert_near(&sensor(&file).wrench(&GaugeReading::of(&reading), 1e-3).unwrap(), &expected, 1e-12);
+        let straight = sensor(&self::file(gauges)).wrench(&GaugeReading::of(&reading), 1e-3).unwrap();
         assert!((straight.components() - expected).amax() > 1e-3, "the terms tell nothing");
     }
 }
@@ -75,11 +76,11 @@ fn quadratic_terms_are_those_of_the_file() {
 #[test]
 fn what_is_no_reading_gives_no_wrench() {
     let file = CalibrationFile { range: Some([-3.0, 4.0]), ..file(6) };
-    let sensor = sensor(&file);
-    let with = |value: f64| {
+    let mut sensor = sensor(&file);
+    let mut with = |value: f64| {
         let mut gauges = signals(&file, &Vector6::zeros());
         gauges[4] = value;
-        sensor.wrench(&GaugeReading::of(&gauges)).map(|_| ())
+        sensor.wrench(&GaugeReading::of(&gauges), 1e-3).map(|_| ())
     };
     assert_eq!((with(3.999), with(-2.999)), (Ok(()), Ok(())));
     // At the end of its range a gauge may read anything.
@@ -91,7 +92,7 @@ fn what_is_no_reading_gives_no_wrench() {
     }
     for count in [0, 5, 7] {
         let short = vec![0.0; count];
-        assert_eq!(sensor.wrench(&GaugeReading::of(&short)).map(|_| ()), Err(NoWrench::Incomplete));
+        assert_eq!(sensor.wrench(&GaugeReading::of(&short), 1e-3).map(|_| ()), Err(NoWrench::Incomplete));
     }
 }
 
@@ -125,12 +126,12 @@ fn the_mean_of_the_rest_is_the_zero() {
         sensor.end_rest().unwrap();
         assert_eq!(sensor.doubt(), None);
         let reading = shifted(&load, shift + mean_noise(64));
-        assert_near(&sensor.wrench(&GaugeReading::of(&reading)).unwrap(), &load, 1e-12);
+        assert_near(&sensor.wrench(&GaugeReading::of(&reading), 1e-3).unwrap(), &load, 1e-12);
     }
     // A rest that was none leaves the zero, and one that moved is doubted.
     assert!(sensor.end_rest().is_err());
     let reading = shifted(&load, -0.5 + mean_noise(64));
-    assert_near(&sensor.wrench(&GaugeReading::of(&reading)).unwrap(), &load, 1e-12);
+    assert_near(&sensor.wrench(&GaugeReading::of(&reading), 1e-3).unwrap(), &load, 1e-12);
     for i in 0..64 {
         let moving = shifted(&zero, noise(i) + 0.01 * f64::from(i));
         sensor.rest(&GaugeReading::of(&moving)).unwrap();
@@ -151,7 +152,7 @@ fn the_dummy_gauge_takes_off_what_drifts_with_all() {
     // Without a rest its zero is not known: it is not used.
     let (gauges, dummy) = at(&load, 0.0);
     let plain = GaugeReading { dummy, ..GaugeReading::of(&gauges) };
-    assert_near(&sensor.wrench(&plain).unwrap(), &load, 1e-12);
+    assert_near(&sensor.wrench(&plain, 1e-3).unwrap(), &load, 1e-12);
     for i in 0..50 {
         let (gauges, dummy) = at(&Vector6::zeros(), 0.01 * f64::from(i) + noise(i));
         assert_eq!(sensor.rest(&GaugeReading { dummy, ..GaugeReading::of(&gauges) }), Ok(()));
@@ -165,10 +166,10 @@ fn the_dummy_gauge_takes_off_what_drifts_with_all() {
     assert_eq!(sensor.doubt(), None);
     let (gauges, dummy) = at(&load, 0.7);
     let reading = GaugeReading { dummy, ..GaugeReading::of(&gauges) };
-    assert_near(&sensor.wrench(&reading).unwrap(), &load, 1e-12);
+    assert_near(&sensor.wrench(&reading, 1e-3).unwrap(), &load, 1e-12);
     for dummy in [None, Some(f64::INFINITY)] {
         let lacking = GaugeReading { dummy, ..reading };
-        assert_eq!(sensor.wrench(&lacking).map(|_| ()), Err(NoWrench::Incomplete));
+        assert_eq!(sensor.wrench(&lacking, 1e-3).map(|_| ()), Err(NoWrench::Incomplete));
     }
     // A rest whose first reading has no dummy gauge goes without.
     for i in 0..50 {
@@ -178,7 +179,7 @@ fn the_dummy_gauge_takes_off_what_drifts_with_all() {
     }
     sensor.end_rest().unwrap();
     let (gauges, _) = at(&load, mean_noise(50));
-    assert_near(&sensor.wrench(&GaugeReading::of(&gauges)).unwrap(), &load, 1e-12);
+    assert_near(&sensor.wrench(&GaugeReading::of(&gauges), 1e-3).unwrap(), &load, 1e-12);
 }
 
 #[test]
@@ -207,10 +208,10 @@ fn drift_with_temperature_is_taken_off_and_a_rest_takes_what_is_left() {
     let load = Vector6::new(1.0, 2.0, -3.0, 0.01, 0.02, 0.03);
     let gauges = at(&load, 35.0, 0.0);
     let warm = GaugeReading { celsius: Some(35.0), dummy: Some(9.0), ..GaugeReading::of(&gauges) };
-    assert_near(&sensor.wrench(&warm).unwrap(), &load, 1e-12);
+    assert_near(&sensor.wrench(&warm, 1e-3).unwrap(), &load, 1e-12);
     for celsius in [None, Some(f64::NAN)] {
         let lacking = GaugeReading { celsius, ..warm };
-        assert_eq!(sensor.wrench(&lacking).map(|_| ()), Err(NoWrench::Incomplete));
+        assert_eq!(sensor.wrench(&lacking, 1e-3).map(|_| ()), Err(NoWrench::Incomplete));
         assert_eq!(sensor.rest(&lacking), Err(NoWrench::Incomplete));
     }
     for i in 0..60 {
@@ -223,5 +224,40 @@ fn drift_with_temperature_is_taken_off_and_a_rest_takes_what_is_left() {
     assert_eq!(sensor.doubt(), None);
     let gauges = at(&load, 45.0, 0.25 + mean_noise(60));
     let reading = GaugeReading { celsius: Some(45.0), ..GaugeReading::of(&gauges) };
-    assert_near(&sensor.wrench(&reading).unwrap(), &load, 1e-12);
+    assert_near(&sensor.wrench(&reading, 1e-3).unwrap(), &load, 1e-12);
+}
+
+/// Creep is taken off from reading to reading, and a rest begins anew.
+fn creep_is_taken_off<T: Real>(tolerance: f64) {
+    let mut file = file(7);
+    let load = Vector6::new(1.0, -2.0, 3.0, 0.04, 0.05, -0.06);
+    let loaded = signals(&file, &load);
+    let zero = file.zero.clone();
+    file.creep = Some(Creep { times_s: vec![2.0], shares: vec![vec![0.1; 7]] });
+    let mut sensor = Sensor::<T>::new(&file).unwrap();
+    let of = |readings: &[f64]| readings.iter().map(|reading| T::literal(*reading)).collect::<Vec<T>>();
+    let (loaded, unloaded) = (of(&loaded), of(&zero));
+    let mut at = |gauges: &[T], step: f64| {
+        let wrench = sensor.wrench(&GaugeReading::of(gauges), T::literal(step)).unwrap();
+        wrench.components().map(|x| x.to_f64()).dot(&load) / load.norm_squared()
+    };
+    // At once all of it; in the end less by a share; afterwards the share is left, and goes.
+    assert!((at(&loaded, 9.0) - 1.0).abs() < tolerance);
+    assert!((at(&loaded, 2.0) - (0.9 + 0.1 * (-1.0_f64).exp())).abs() < tolerance);
+    assert!((at(&loaded, 1e3) - 0.9).abs() < tolerance);
+    assert!((at(&unloaded, 0.0) + 0.1).abs() < tolerance);
+    assert!(at(&unloaded, 1e3).abs() < tolerance);
+    at(&loaded, 1e3);
+    for _ in 0..10 {
+        sensor.rest(&GaugeReading::of(&unloaded)).unwrap();
+    }
+    sensor.end_rest().unwrap();
+    let rested = sensor.wrench(&GaugeReading::of(&unloaded), T::one()).unwrap();
+    assert!(rested.components().amax().to_f64() < tolerance);
+}
+
+#[test]
+fn creep_is_taken_off_in_both_precisions() {
+    creep_is_taken_off::<f64>(1e-9);
+    creep_is_taken_off::<f32>(2e-4);
 }

@@ -1,6 +1,7 @@
 //! What is taken off a reading before it is load: rest, temperature, payload.
 
 mod compensation;
+mod creep;
 mod delay_line;
 mod dummy_gauge;
 mod inertial_unit;
@@ -15,6 +16,7 @@ mod tare;
 mod temperature;
 
 pub use compensation::{Compensation, Uncompensated};
+pub use creep::{BadCreep, CreepCompensation};
 pub use delay_line::DelayLine;
 pub use dummy_gauge::{DummyGauge, DummyGaugeAccumulator, GaugesAndDummy};
 pub use inertial_unit::{BadInertialUnit, InertialReading, InertialUnit};

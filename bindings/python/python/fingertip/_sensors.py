@@ -34,6 +34,7 @@ def calibrate(
     times: npt.ArrayLike | None = None,
     celsius: npt.ArrayLike | None = None,
     reference_celsius: float | None = None,
+    creep: bool = False,
     reject_outliers: bool = False,
     greatest_left_out_percent: float = 2.0,
     greatest_condition_number: float = 100.0,
@@ -68,6 +69,9 @@ def calibrate(
     weights, times, celsius : array_like, shape (samples,), optional
     reference_celsius : float, optional
         Fit the drift with temperature, and give matrix and zero at this one.
+    creep : bool, optional
+        Find how readings go on changing under a load that stays, from load cycles with `times`, and take it off. What was
+        found is `report()["creep"]`; a scene with the calibration takes it off, too.
     reject_outliers : bool, optional
         Whether samples that do not fit the others are left out, by name.
     greatest_left_out_percent, greatest_condition_number : float, optional
@@ -108,6 +112,7 @@ def calibrate(
         "times": times,
         "celsius": celsius,
         "reference_celsius": reference_celsius,
+        "creep": creep,
         "reject_outliers": reject_outliers,
         "greatest_left_out_percent": greatest_left_out_percent,
         "greatest_condition_number": greatest_condition_number,

@@ -69,7 +69,7 @@ pub(super) fn page() -> Result<String, Failure> {
 pub(super) fn contacts() -> String {
     let mut text = String::from(
         "# `contacts.csv`\n\nOne row per row of the recording, in SI units and the sensor frame. Where there is no value, \
-         the cell is empty. Numbers carry the 7 to 9 digits of single precision, times are rounded to nanoseconds.\n\n\
+         the cell is empty. Numbers have eight significant digits, times are rounded to nanoseconds.\n\n\
          | column | of a scene with | meaning |\n|---|---|---|\n",
     );
     for Columns { of, names, says, .. } in CONTACT_COLUMNS {

@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use super::super::cells::Cells;
 use super::file::{HandScene, MOST};
 use super::grasped::Grasped;
 use crate::error::CliError;
@@ -27,11 +28,11 @@ const OF_GRASP: [&str; 11] = [
     "held",
 ];
 
-/// Writes one row per sample; a cell without a value is empty, numbers are in single precision.
+/// Writes one row per sample; a cell without a value is empty, numbers have eight significant digits.
 pub(super) struct GraspWriter {
     out: Whole,
     path: PathBuf,
-    line: String,
+    cells: Cells,
 }
 
 impl GraspWriter {
@@ -42,7 +43,8 @@ impl GraspWriter {
             names.extend(OF_FINGER.iter().map(|column| format!("{}_{column}", finger.name)));
         }
         names.extend(OF_GRASP.iter().map(|column| (*column).to_owned()));
-        let mut writer = Self { out, path: path.to_owned(), line: names.join(",") };
+        let mut writer = Self { out, path: path.to_owned(), cells: Cells::default() };
+        writer.cells.put(names.join(",").as_bytes());
         writer.end_line()?;
         Ok(writer)
     }
@@ -53,7 +55,7 @@ impl GraspWriter {
         statuses: &[Status],
         grasped: Option<&Grasped>,
     ) -> Result<(), CliError> {
-        self.line = if time.is_finite() { format!("{time:.9}") } else { String::new() };
+        self.cells.put_time(time);
         for (index, status) in statuses.iter().enumerate().take(MOST) {
             self.word(status.word());
             let touch = grasped.and_then(|all| {
@@ -84,26 +86,28 @@ impl GraspWriter {
         self.end_line()
     }
 
-    pub(super) fn finish(self) -> Result<(), CliError> {
+    /// Writes what is left.
+    pub(super) fn finish(mut self) -> Result<(), CliError> {
+        self.flush()?;
         self.out.finish()
     }
 
     fn word(&mut self, word: &str) {
-        self.line.push(',');
-        self.line.push_str(word);
+        self.cells.put_cell(word.as_bytes());
     }
 
     fn number(&mut self, value: Option<f64>) {
-        match value.filter(|value| value.is_finite()) {
-            #[allow(clippy::cast_possible_truncation, reason = "no force sensor comes near single precision")]
-            Some(value) => self.word(&(value as f32).to_string()),
-            None => self.line.push(','),
-        }
+        self.cells.put_numbers(&[value.unwrap_or(f64::NAN)]);
     }
 
     fn end_line(&mut self) -> Result<(), CliError> {
-        self.line.push('\n');
-        let written = self.out.write_all(self.line.as_bytes());
+        self.cells.put(b"\n");
+        if self.cells.is_full() { self.flush() } else { Ok(()) }
+    }
+
+    fn flush(&mut self) -> Result<(), CliError> {
+        let written = self.out.write_all(self.cells.text());
+        self.cells.clear();
         written.map_err(|source| CliError::write("grasp", &self.path, source))
     }
 }

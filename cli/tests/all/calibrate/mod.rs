@@ -1,5 +1,6 @@
 //! The commands that calibrate, from outside.
 
+mod creep;
 mod inertial;
 pub(crate) mod payload;
 mod sensor;

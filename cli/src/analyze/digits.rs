@@ -1,0 +1,185 @@
+//! A number as text of eight significant digits.
+
+use core::ops::Range;
+
+/// What is written without an exponent.
+const RANGE: Range<f64> = 1e-7..9_999_999.95;
+/// Bytes that are written, of which the first are the text.
+pub(super) const ROOM: usize = 24;
+
+/// How numbers of a decade are written.
+#[derive(Clone, Copy)]
+struct Decade {
+    begin: f64,
+    /// What such a number is multiplied by to have eight digits before its point: exact, so that the product is rounded
+    /// once.
+    scale: f64,
+    /// Where the digits begin.
+    start: u8,
+    /// Where the point is.
+    point: u8,
+    /// Where the digits behind the point begin, which are all but the first `whole_bits / 8`.
+    behind: u8,
+    whole_bits: u8,
+}
+
+impl Decade {
+    #[expect(clippy::cast_possible_truncation, reason = "exponents have one digit")]
+    const fn new(exponent: i32, begin: f64, scale: f64) -> Self {
+        if exponent < 0 {
+            let start = 1 + exponent.unsigned_abs() as u8;
+            Self { begin, scale, start, point: 1, behind: start, whole_bits: 0 }
+        } else {
+            let point = exponent.unsigned_abs() as u8 + 1;
+            Self { begin, scale, start: 0, point, behind: point + 1, whole_bits: 8 * point }
+        }
+    }
+
+    const ALL: [Self; 16] = [
+        // Numbers from 10⁻⁷ on are estimated to be a decade lower.
+        Self::new(-7, 1e-7, 1e14),
+        Self::new(-7, 1e-7, 1e14),
+        Self::new(-6, 1e-6, 1e13),
+        Self::new(-5, 1e-5, 1e12),
+        Self::new(-4, 1e-4, 1e11),
+        Self::new(-3, 1e-3, 1e10),
+        Self::new(-2, 1e-2, 1e9),
+        Self::new(-1, 1e-1, 1e8),
+        Self::new(0, 1e0, 1e7),
+        Self::new(1, 1e1, 1e6),
+        Self::new(2, 1e2, 1e5),
+        Self::new(3, 1e3, 1e4),
+        Self::new(4, 1e4, 1e3),
+        Self::new(5, 1e5, 1e2),
+        Self::new(6, 1e6, 1e1),
+        Self::new(7, 1e7, 1e0),
+    ];
+}
+
+/// Writes a number from 10⁻⁷ to below 10⁷, rounded to eight significant digits of which trailing zeros are left out, but
+/// for one behind the point, and says how many bytes its text has; `None` for what is beyond, and for NaN. Half a unit of
+/// the last digit is 5·10⁻⁸ of the number at most: no force sensor comes near.
+///
+/// Pieces of fixed length are stored over each other: to put text together from pieces of any length takes longer than to
+/// find its digits.
+#[inline]
+pub(super) fn write_positive(number: f64, to: &mut [u8; ROOM]) -> Option<usize> {
+    if !RANGE.contains(&number) {
+        return None;
+    }
+    // 0.301 of the binary exponent is the decimal one or one too low.
+    let binary = i64::from((number.to_bits() >> 52) as u16) - 1023;
+    let next = usize::try_from(((binary * 78_913) >> 18) + 9).ok()?;
+    let place = next - usize::from(number < Decade::ALL.get(next)?.begin);
+    let mut decade = Decade::ALL.get(place)?;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "below 2³²; half is added to round"
+    )]
+    let mut whole = (number * decade.scale + 0.5) as i64 as u64;
+    // Rounded up to the next decade.
+    if whole >= 100_000_000 {
+        (whole, decade) = (10_000_000, Decade::ALL.get(place + 1)?);
+    }
+    let digits = digits(whole);
+    let significant = (u64::BITS + 7 - digits.leading_zeros()) / 8;
+    let digits = digits | u64::from_le_bytes([b'0'; 8]);
+    let [start, point, behind] =
+        [decade.start, decade.point, decade.behind].map(|place| usize::from(place) % (ROOM - 8));
+    *to.first_chunk_mut()? = *b"0.000000";
+    *to.get_mut(start..)?.first_chunk_mut()? = digits.to_le_bytes();
+    *to.get_mut(behind..)?.first_chunk_mut()? = (digits >> (decade.whole_bits % 64)).to_le_bytes();
+    *to.get_mut(point)? = b'.';
+    let length = start + significant as usize + usize::from(start == 0);
+    if length < point + 2 {
+        *to.get_mut(point + 1)? = b'0';
+        return Some(point + 2);
+    }
+    Some(length)
+}
+
+/// The eight decimal digits of a number below 10⁸, one in a byte, the first lowest: halves, quarters and digits are parted
+/// all at once, divisions being multiplications that are exact for so few digits.
+#[inline]
+const fn digits(number: u64) -> u64 {
+    let half = (number * 109_951_163) >> 40;
+    let halves = half | ((number - 10_000 * half) << 32);
+    let hundreds = ((halves * 10_486) >> 20) & 0x0000_007f_0000_007f;
+    let pairs = hundreds | ((halves - 100 * hundreds) << 16);
+    let tens = ((pairs * 103) >> 10) & 0x000f_000f_000f_000f;
+    tens | ((pairs - 10 * tens) << 8)
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt, SeedableRng};
+
+    use super::{ROOM, digits, write_positive};
+
+    fn text(number: f64) -> Option<String> {
+        let mut bytes = [0; ROOM];
+        let length = write_positive(number, &mut bytes)?;
+        Some(String::from_utf8(bytes[..length].to_vec()).unwrap())
+    }
+
+    #[test]
+    fn eight_digits_are_those_of_the_number() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(7);
+        let many = (0..20_000).map(|_| random.random_range(0..100_000_000));
+        for number in many.collect::<Vec<u32>>().into_iter().chain([0, 1, 9, 99, 9_999, 10_000, 99_999_999]) {
+            let bytes = digits(number.into()).to_le_bytes().map(|digit| b'0' + digit);
+            assert_eq!(core::str::from_utf8(&bytes), Ok(&*format!("{number:08}")));
+        }
+    }
+
+    /// The standard library rounds exactly; beside it only what lies at half a digit may fall to the other side.
+    #[test]
+    fn text_is_the_number_to_eight_digits_in_its_shortest_form() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(8);
+        for _ in 0..100_000 {
+            let number: f64 = 10.0_f64.powf(random.random_range(-7.0..7.0));
+            // Few digits as well as many.
+            let digits = random.random_range(0..12);
+            let number: f64 = format!("{number:.digits$e}").parse().unwrap();
+            let Some(text) = text(number) else {
+                assert!(!(1e-7..9_999_999.95).contains(&number), "{number} has no text");
+                continue;
+            };
+            let exact: f64 = format!("{number:.7e}").parse().unwrap();
+            // Without an exponent, and with a point.
+            let plain = |number: f64| format!("{number}{}", if number.fract() == 0.0 { ".0" } else { "" });
+            if text != plain(exact) {
+                let unit = 10.0_f64.powi(number.log10().floor() as i32 - 7);
+                let read: f64 = text.parse().unwrap();
+                let off = (read - number).abs() / unit;
+                assert!((0.499_999_9..0.500_000_1).contains(&off), "{text} for {number}");
+                assert_eq!(text, plain(read));
+            }
+        }
+    }
+
+    #[test]
+    fn ends_and_carries_are_right() {
+        for (number, expected) in [
+            (1e-7, "0.0000001"),
+            (9.999_999_96e-7, "0.000001"),
+            (0.123_456_785_1, "0.12345679"),
+            (0.999_999_999, "1.0"),
+            (1.0, "1.0"),
+            (9.999_999_9, "9.9999999"),
+            (9.999_999_99, "10.0"),
+            (100.5, "100.5"),
+            (1_234_567.0, "1234567.0"),
+            (9_999_999.94, "9999999.9"),
+            (1_000_000.0, "1000000.0"),
+            (1_200_000.5, "1200000.5"),
+        ] {
+            assert_eq!(text(number).as_deref(), Some(expected));
+        }
+        let beyond = [0.0, 5e-324, 9.9e-8, 1e7, 9_999_999.96, 1e308, f64::INFINITY, f64::NAN, -1.0];
+        for number in beyond {
+            assert_eq!(text(number), None, "{number}");
+        }
+    }
+}
