@@ -60,7 +60,11 @@ fn run(options: &Options) -> Result<bool, Failure> {
         faults.len()
     );
     shuffle(&mut faults, options.seed);
-    let wanted = options.count.unwrap_or(faults.len()).min(faults.len());
+    let listed = match &options.again {
+        Some(path) => listed_first(&mut faults, &std::fs::read_to_string(path)?),
+        None => 0,
+    };
+    let wanted = options.count.map_or(faults.len(), |count| listed + count).min(faults.len());
     if options.list {
         faults[..wanted].iter().for_each(|fault| println!("{fault}"));
         return Ok(true);
@@ -80,6 +84,16 @@ fn run(options: &Options) -> Result<bool, Failure> {
     }
     let survivors = try_all(&root, &numbered, &programs)?;
     Ok(report(&numbered, &survivors, &programs, &root, &packages, options.require))
+}
+
+/// Brings the faults that an earlier run lists to the front, and says how many there are: wherever their lines stand today.
+fn listed_first(faults: &mut [Fault], said: &str) -> usize {
+    let is_listed = |fault: &Fault| {
+        let what = format!(": {}    {}", fault.change, fault.source);
+        said.lines().any(|line| line.contains(&format!("{}:", fault.file)) && line.contains(&what))
+    };
+    faults.sort_by_cached_key(|fault| !is_listed(fault));
+    faults.iter().take_while(|fault| is_listed(fault)).count()
 }
 
 fn all_faults(root: &Path, files: &[String]) -> Result<Vec<Fault>, Failure> {

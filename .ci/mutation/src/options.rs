@@ -11,6 +11,7 @@ usage: .ci/mutants [options]
   --in PATH         only files whose path starts so; may be repeated
   --count N         how many faults are drawn (default 60)
   --all             every fault
+  --again FILE      those first that FILE, what an earlier run said, lists; `--count` are drawn beside them
   --seed N          draws the same faults again (default: from the clock; printed)
   --require PERCENT fail if fewer are noticed
   --list            list the faults, and try none";
@@ -23,6 +24,8 @@ pub struct Options {
     pub paths: Vec<String>,
     /// `None`: all.
     pub count: Option<usize>,
+    /// What an earlier run said, of which the faults are tried again.
+    pub again: Option<std::path::PathBuf>,
     pub seed: u64,
     pub require: f64,
     pub list: bool,
@@ -36,6 +39,7 @@ impl Options {
             judges: Vec::new(),
             paths: Vec::new(),
             count: Some(60),
+            again: None,
             seed: clock % 1_000_000,
             require: 0.0,
             list: false,
@@ -48,6 +52,7 @@ impl Options {
                 "--in" => options.paths.push(value()?),
                 "--count" => options.count = Some(number(&value()?)?),
                 "--all" => options.count = None,
+                "--again" => options.again = Some(value()?.into()),
                 "--seed" => options.seed = number(&value()?)?,
                 "--require" => options.require = number(&value()?)?,
                 "--list" => options.list = true,

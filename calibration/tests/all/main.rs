@@ -41,5 +41,7 @@ mod tares;
 mod testing;
 mod touch_noise;
 mod touched;
+#[cfg(target_os = "linux")]
+mod unchanged;
 mod untangling;
 mod verdict;
