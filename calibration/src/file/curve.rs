@@ -170,6 +170,13 @@ mod tests {
             "{text}"
         );
         assert_eq!(CalibrationFile::from_toml(&text).unwrap(), file);
+        // Either of them alone is news to readers of the first versions.
+        for alone in [
+            CalibrationFile { quadratic: None, curve: None, ..file.clone() },
+            CalibrationFile { region: None, ..file.clone() },
+        ] {
+            assert!(alone.to_toml().unwrap().contains("\nversion = 3\n"));
+        }
         let straight = CalibrationFile { quadratic: None, curve: None, region: None, ..file };
         assert!(straight.to_toml().unwrap().contains("\nversion = 1\n"));
         assert!(!straight.is_curved());

@@ -29,13 +29,19 @@ pub fn thinned(spans: &[(f64, f64)], size: f64) -> usize {
 pub struct Placed(Vec<[f64; 4]>);
 
 impl Placed {
-    /// Whether the box from `left` to `right`, `top` to `bottom` is free; if it is, it is taken from here on.
-    pub fn take(&mut self, [left, right, top, bottom]: [f64; 4]) -> bool {
+    /// Whether the box from `left` to `right`, `top` to `bottom` is free.
+    #[must_use]
+    pub fn is_free(&self, [left, right, top, bottom]: [f64; 4]) -> bool {
         let over =
             |[from, to, high, low]: &[f64; 4]| left < *to && *from < right && top < *low && *high < bottom;
-        let free = !self.0.iter().any(over);
+        !self.0.iter().any(over)
+    }
+
+    /// Whether the box from `left` to `right`, `top` to `bottom` is free; if it is, it is taken from here on.
+    pub fn take(&mut self, place: [f64; 4]) -> bool {
+        let free = self.is_free(place);
         if free {
-            self.0.push([left, right, top, bottom]);
+            self.0.push(place);
         }
         free
     }

@@ -70,6 +70,7 @@ fn close(fit: &InertialFit, body: &MovingBody, tolerance: f64) {
     assert!((fit.body.centre - centre).norm() < tolerance * 0.1, "{} {centre}", fit.body.centre);
     let most = inertia.amax();
     assert!((fit.body.inertia - inertia).amax() < 10.0 * tolerance * most, "{} {inertia}", fit.body.inertia);
+    assert_eq!(fit.body.inertia, fit.body.inertia.transpose());
 }
 
 #[test]
@@ -99,7 +100,12 @@ fn what_is_left_of_a_noisy_motion_is_noise_and_deviations_are_right() {
         let samples = recorded(&body, &Recorded { seed, delay: 0.006, ..NOISY });
         let fit = fit_inertial(&samples, &options()).unwrap();
         let over = fit.over_noise().unwrap();
-        assert!(over < 2.0, "{over}: {} {}", fit.left, fit.noise.unwrap());
+        let noise = fit.noise.unwrap();
+        assert!(over < 2.0, "{over}: {} {noise}", fit.left);
+        // At rest there is the noise of the sensor, of which the smoothing leaves a part.
+        for i in 0..6 {
+            assert!((0.1..0.8).contains(&(noise[i] / NOISY.noise[i / 3])), "{noise}");
+        }
         assert_eq!(fit.verdict(), Verdict::Good, "{:?}", fit.warnings);
         let delay = fit.delay.unwrap();
         let mut of_this =

@@ -113,7 +113,8 @@ fn names_of_outliers_do_not_run_into_each_other() {
         report.outliers.push(Outlier { sample: name, index, ..outlier.clone() });
     }
     let svg = report.error_over_load(0).unwrap();
-    assert_eq!(svg.matches(">\na sample with the long n…\n</text>").count(), 1, "{svg}");
+    // Beside one dot there is room for a line of letters, one above it and one below.
+    assert_eq!(svg.matches(">\na sample with the long n…\n</text>").count(), 3, "{svg}");
     assert_eq!(svg.matches(">\nfar\n</text>").count(), 1, "{svg}");
     // One after another there is room for some, a line of letters apart.
     let samples = report.error_over_samples(0).unwrap();

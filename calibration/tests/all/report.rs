@@ -122,9 +122,19 @@ fn exchanged_axes_units_and_gauges_are_suspected() {
     let report = check(&wrong);
     assert!(report.suspicions[0].to_string().contains("milli"), "{report}");
     assert_eq!(report.verdict, Verdict::Bad);
-    wrong = table;
+    wrong = table.clone();
     wrong.signals.swap_columns(1, 4);
     assert_eq!(check(&wrong).suspicions[0].mistake, Mistake::Gauges { first: 2, second: 5 });
+    // Of a sensor whose nominal loads are none of them 1, too.
+    let mut strong = table;
+    for (mut column, size) in strong.loads.column_iter_mut().zip([40.0, 50.0, 120.0, 0.4, 0.5, 0.3]) {
+        column *= size;
+    }
+    let file = calibrate(&strong, &Options::default()).unwrap().to_file().unwrap();
+    strong.signals.swap_columns(1, 4);
+    let found = &Report::of_check(&file, &strong, &limits, None).unwrap().suspicions[0];
+    assert_eq!(found.mistake, Mistake::Gauges { first: 2, second: 5 });
+    assert!(found.after_percent < 0.5, "{found}");
 }
 
 /// Of a table of many samples, which repeat themselves, mistakes are suspected and outliers found as of a small one.

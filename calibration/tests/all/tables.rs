@@ -219,6 +219,15 @@ fn samples_that_agree_are_fitted_exactly() {
 
 /// Streaming gives what all at once gives, in any units and order.
 #[test]
+fn streamed_fits_leave_out_what_has_another_length() {
+    let mut fit = StreamedFit::new(&[Axis::Fx, Axis::Fz], 3, SignalUnit::Volt, true);
+    for (load, signals) in [(&[1.0][..], &[1.0; 3][..]), (&[1.0; 3], &[1.0; 3]), (&[1.0; 2], &[1.0; 2])] {
+        assert!(!fit.push(load, signals, 1.0), "{load:?} {signals:?}");
+    }
+    assert!(fit.push(&[1.0, 2.0], &[1.0; 3], 1.0));
+}
+
+#[test]
 fn streamed_fits_do_not_mind_units_order_and_frames() {
     let random = &mut Pcg64Mcg::seed_from_u64(76);
     let truth = sensor(random, 6, 6);
