@@ -93,6 +93,25 @@ fn two_fingertips_are_one_grasp() {
     assert!(report.contains("Grip, and the least that holds") && !report.contains("NaN"));
 }
 
+#[test]
+fn rows_that_lack_a_sensor_are_counted_on_the_page() {
+    let folder = folder();
+    let blank = row(4.0, 2.0).rsplit_once(',').unwrap().0.to_owned() + ",";
+    for (rows, said) in [
+        (
+            vec![row(4.0, 2.0), blank.clone(), blank],
+            Some("2 rows are rest or repeat the row before, or lack a sensor"),
+        ),
+        (vec![row(4.0, 2.0), row(4.1, 2.0), row(4.2, 2.0)], None),
+    ] {
+        folder.write("grip.csv", &format!("{HEADER}\n{}\n", rows.join("\n")));
+        folder.succeed(&["analyze", "grip.csv", "--scene", "hand.toml", "--output", "grasp.csv"]);
+        let report = folder.read("report.html");
+        assert_eq!(report.contains("lack a sensor or a pose"), said.is_some());
+        assert!(said.is_none_or(|said| report.contains(said)));
+    }
+}
+
 /// A finger that shall press by no less than so much does in the least grip, and one that cannot is told.
 #[test]
 fn the_least_grip_keeps_the_limits_of_the_fingers() {

@@ -138,7 +138,24 @@ fn other_commands_say_what_they_see() {
     folder.write("seven.csv", &dead.join("\n"));
     let output = folder.run(&["calibrate", "seven.csv", "-o", "seven.toml"]);
     let all = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
-    assert!(all.contains("gauge 7"), "{all}");
+    assert!(all.contains("gauge 7 is dead"), "{all}");
+}
+
+#[test]
+fn rows_without_a_time_are_left_out_and_recordings_without_times_are_told() {
+    let folder = Folder::new();
+    let timed = gauges(3000, |_, _| {});
+    folder.write("gap.csv", &timed.replacen("\n1.500,", "\n,", 1));
+    let said = folder.succeed(&["health", "gap.csv"]);
+    assert!(said.contains("2\u{202f}999 samples at 1000 a second"), "{said}");
+    let untimed: Vec<&str> = timed.lines().filter_map(|line| Some(line.split_once(',')?.1)).collect();
+    folder.write("untimed.csv", &untimed.join("\n"));
+    let none = "the recording has no column of time";
+    let said = folder.succeed(&["health", "untimed.csv"]);
+    assert!(said.contains("3\u{202f}000 samples") && said.contains(none), "{said}");
+    let said = folder.succeed(&["health", "untimed.csv", "--rate", "500"]);
+    assert!(said.contains("at 500 a second") && !said.contains(none), "{said}");
+    assert!(!folder.succeed(&["health", "gap.csv"]).contains(none));
 }
 
 #[test]

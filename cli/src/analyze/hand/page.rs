@@ -141,7 +141,10 @@ impl Seen {
                 .to_owned(),
         );
         if self.unusable > 0 {
-            notes.push(format!("{} rows are rest, or lack a sensor or a pose", count(self.unusable)));
+            notes.push(format!(
+                "{} rows are rest or repeat the row before, or lack a sensor or a pose",
+                count(self.unusable)
+            ));
         }
         Findings { title, lead, tables: vec![self.touches(), self.spreads()], notes }
     }
