@@ -29,6 +29,41 @@ pub(crate) fn two_wrists(folder: &Folder, name: &str, messages: u32, compression
     writer.finish().unwrap();
 }
 
+/// A message that is shorter than its definition says is left out and told, and the others are counted.
+#[test]
+fn messages_that_are_damaged_are_counted_apart() {
+    let folder = Folder::new();
+    two_wrists(&folder, "whole.mcap", 50, Compression::None);
+    let info = |name: &str| folder.succeed(&["info", name]);
+    assert!(!info("whole.mcap").contains("not what their definition says"));
+    let whole = fs::read(folder.path("whole.mcap")).unwrap();
+    // The length of the name of the frame, a number behind the header of CDR and the time, becomes four thousand million.
+    let name = b"left wrist\0";
+    let places: Vec<usize> = (4..whole.len() - name.len())
+        .filter(|at| whole[*at..].starts_with(name) && whole[at - 4..*at] == 11_u32.to_le_bytes())
+        .collect();
+    assert_eq!(places.len(), 50);
+    let mut damaged = whole;
+    for at in &places[..3] {
+        damaged[at - 4..*at].fill(0xff);
+    }
+    // Records: what kind, how long, and what; sums of chunks and of the data that are 0 are not checked.
+    let mut at = 8;
+    while at + 9 < damaged.len() - 8 {
+        let length =
+            usize::try_from(u64::from_le_bytes(damaged[at + 1..at + 9].try_into().unwrap())).unwrap();
+        match damaged[at] {
+            6 => damaged[at + 9 + 24..][..4].fill(0),
+            15 => damaged[at + 9..][..4].fill(0),
+            _ => {}
+        }
+        at += 9 + length;
+    }
+    fs::write(folder.path("damaged.mcap"), &damaged).unwrap();
+    let said = info("damaged.mcap");
+    assert!(said.contains("3 messages are not what their definition says"), "{said}");
+}
+
 /// Runs a command whose standard input is this file.
 fn with_stdin(folder: &Folder, arguments: &[&str], file: &str) -> Output {
     let file = File::open(folder.path(file)).unwrap();
