@@ -19,7 +19,7 @@ fn layout(radius: f64, gauges: Vec<Gauge<f64>>) -> TubeLayout {
 fn layouts() -> [TubeLayout; 4] {
     let rosette = |k: u32| {
         let theta = f64::from(k / 2) * TAU / 3.0;
-        Gauge { z: 0.0, theta, q: if k % 2 == 0 { 0.3 } else { -0.3 } }
+        Gauge { z: 0.0, theta, q: if k.is_multiple_of(2) { 0.3 } else { -0.3 } }
     };
     let helix =
         |k: u32| Gauge { z: 1.7e-3 * f64::from(k), theta: 0.9 * f64::from(k), q: 0.5 * f64::from(k) - PI };
