@@ -34,7 +34,7 @@ impl Message for Trigger {}
 impl Message for Triggered {}
 
 /// Asks again until an answer comes: the first requests are sent before both sides know of each other.
-fn call<Q: Message + Clone, R: Message>(client: &Client<Q, R>, request: &Q) -> R {
+fn call<Q: Message + Clone + 'static, R: Message + 'static>(client: &Client<Q, R>, request: &Q) -> R {
     let begun = Instant::now();
     loop {
         let sent = client.send_request(request.clone()).unwrap();
@@ -59,24 +59,30 @@ fn callers_of_the_default_middleware_are_answered() {
     let node = Node::start(&hub, &options).unwrap();
 
     let participant = DomainParticipantBuilder::new(domain)
-        .with_only_networks([Ipv4Addr::LOCALHOST.into()])
+        .with_only_networks([Ipv4Addr::LOCALHOST])
         .same_host_loopback(true)
         .build()
         .unwrap();
     let context = Context::from_domain_participant(participant).unwrap();
     let options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
     let mut caller = context.new_node(NodeName::new("/", "caller").unwrap(), options).unwrap();
-    let name = |base: &str| Name::new("/fingertip", base).unwrap();
-    let (mapping, qos) = (ServiceMapping::Enhanced, QosProfile::publisher_default().history(History::KeepLast { depth: 10 }));
+    let (mapping, qos) =
+        (ServiceMapping::Enhanced, QosProfile::publisher_default().history(History::KeepLast { depth: 10 }));
     let trigger = ServiceTypeName::new("std_srvs", "Trigger");
     let reset = caller
-        .create_client::<Trigger, Triggered>(mapping, &name("reset"), &trigger, qos.clone(), qos.clone())
+        .create_client::<Trigger, Triggered>(
+            mapping,
+            &Name::new("/fingertip", "reset").unwrap(),
+            &trigger,
+            qos.clone(),
+            qos.clone(),
+        )
         .unwrap();
     let kind = ServiceTypeName::new("rcl_interfaces", "GetParameters");
     let get = caller
         .create_client::<GetParametersRequest, GetParametersResponse>(
             mapping,
-            &name("live/get_parameters"),
+            &Name::new("/fingertip/live", "get_parameters").unwrap(),
             &kind,
             qos.clone(),
             qos,

@@ -3,11 +3,11 @@
 use core::fmt::Display;
 use std::net::UdpSocket;
 
+use ros2_client::qos::History;
 use ros2_client::{
     Context, Message, MessageTypeName, Name, NodeName, NodeOptions, Publisher, QosProfile, Server,
     ServiceMapping, ServiceTypeName,
 };
-use ros2_client::qos::History;
 use rustdds::{DomainParticipantBuilder, Topic};
 
 use super::raw::Raw;
@@ -59,19 +59,19 @@ impl Participant {
         Ok(Self { node })
     }
 
-    /// A service of a type, by the mapping that callers have.
+    /// A service of a type below a namespace, by the mapping that callers have.
     pub(super) fn server<Q: Message + Clone + 'static, R: Message + Clone + 'static>(
         &mut self,
-        options: &Options,
-        base: &str,
+        services: Services,
+        [namespace, base]: [&str; 2],
         [package, kind]: [&str; 2],
     ) -> Result<Server<Q, R>, NodeError> {
-        let mapping = match options.services {
+        let mapping = match services {
             Services::Enhanced => ServiceMapping::Enhanced,
             Services::Cyclone => ServiceMapping::Cyclone,
         };
         let qos = QosProfile::publisher_default().history(History::KeepLast { depth: 10 });
-        let (name, kind) = (name(&options.namespace, base)?, ServiceTypeName::new(package, kind));
+        let (name, kind) = (name(namespace, base)?, ServiceTypeName::new(package, kind));
         let server = self.node.create_server(mapping, &name, &kind, qos.clone(), qos);
         server.map_err(|why| refused("serve")(&why))
     }
@@ -83,7 +83,8 @@ impl Participant {
         base: &str,
         kind: &str,
     ) -> Result<Server<Q, R>, NodeError> {
-        self.server(options, &format!("{NODE}/{base}"), ["rcl_interfaces", kind])
+        let below = format!("{}/{NODE}", options.namespace);
+        self.server(options.services, [&below, base], ["rcl_interfaces", kind])
     }
 
     pub(super) fn topic(

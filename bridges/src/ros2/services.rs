@@ -58,11 +58,11 @@ impl Serving {
         options: &Options,
         hub: &Hub,
     ) -> Result<Self, NodeError> {
-        let kind = ["std_srvs", "Trigger"];
+        let (kind, Options { namespace, services, .. }) = (["std_srvs", "Trigger"], options);
         Ok(Self {
             hub: hub.clone(),
-            tare: participant.server(options, "tare", kind)?,
-            reset: participant.server(options, "reset", kind)?,
+            tare: participant.server(*services, [namespace, "tare"], kind)?,
+            reset: participant.server(*services, [namespace, "reset"], kind)?,
             parameters: Parameters::new(participant, options, &hub.about().parameters)?,
         })
     }

@@ -108,7 +108,9 @@ mod tests {
     fn pages_of_others_are_kept_out() {
         let tokens = Tokens::random().unwrap();
         let admit = |address: &str, host: &str, origin: Option<&str>| {
-            Guard::new(address.parse().unwrap(), tokens.clone(), true).admit(tokens.watch(), host, origin).is_ok()
+            Guard::new(address.parse().unwrap(), tokens.clone(), true)
+                .admit(tokens.watch(), host, origin)
+                .is_ok()
         };
         let own = "127.0.0.1:8137";
         for (host, origin) in [

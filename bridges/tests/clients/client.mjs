@@ -51,6 +51,5 @@ client.on("message", ({ subscriptionId, data }) => {
 client.on("serviceCallResponse", ({ callId, data }) => {
     said.zero = JSON.parse(new TextDecoder().decode(data));
     said.call = callId;
-    console.log(JSON.stringify(said));
-    process.exit(0);
+    process.stdout.write(JSON.stringify(said), () => process.exit(0));
 });

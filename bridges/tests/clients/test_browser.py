@@ -176,7 +176,7 @@ def test_an_hour_leaves_memory_as_it_was(live, folder, rows, tmp_path):
             page.append(await heap())
             server.append(one.memory())
         print(f"\nbrowser: an hour, page {[f'{size:.1f} MB' for size in page]}, server {[f'{size} kB' for size in server]}")
-        # What there is of it after the first third is there at the end: nothing grows with time.
-        assert page[-1] < page[1] + 1 and server[-1] < server[1] + 1000, (page, server)
+        # A sample takes some 300 bytes: kept, they would be 50 MB and more.
+        assert page[-1] < page[0] + 3 and server[-1] < server[1] + 4000, (page, server)
 
     browse(tmp_path, work)

@@ -132,7 +132,8 @@ impl Bridges {
 
         let Some(listen) = arguments.foxglove else { return Ok(()) };
         let fault = |message: String| CliError::Bridge { bridge: "--foxglove", message };
-        let server = Server::start(hub, listen, arguments.commands_from(&listen)).map_err(|error| fault(error.to_string()))?;
+        let server = Server::start(hub, listen, arguments.commands_from(&listen))
+            .map_err(|error| fault(error.to_string()))?;
         self.addresses.push(format!("Foxglove: ws://{}", server.address()));
         self.foxglove = Some(server);
         Ok(())

@@ -2,12 +2,12 @@
 
 use std::io::{Seek, Write};
 
-use fingertip_bridges::{About, Sample};
 #[cfg(feature = "foxglove")]
 use fingertip_bridges::foxglove::SceneRecording;
-use fingertip_recordings::mcap::{McapError, McapWriter};
+use fingertip_bridges::{About, Sample};
 #[cfg(feature = "foxglove")]
 use fingertip_recordings::mcap::Topic;
+use fingertip_recordings::mcap::{McapError, McapWriter};
 
 /// What is drawn, and where it goes.
 pub(super) struct Drawing {

@@ -117,8 +117,7 @@ impl Output {
                     } else {
                         None
                     };
-                    let drawing =
-                        if has_contacts { Drawing::begin(&mut writer, about)? } else { None };
+                    let drawing = if has_contacts { Drawing::begin(&mut writer, about)? } else { None };
                     Ok(Writer::Mcap { writer: Box::new(writer), wrench, signals, contact, drawing })
                 };
                 open().map_err(|error| mcap(path, &error))?
