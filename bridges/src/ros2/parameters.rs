@@ -1,7 +1,7 @@
 //! The parameters of the node: what the scene says, to be read. They are asked for by the services of `rcl_interfaces`, as
 //! `ros2 param` does. To set one is refused: a scene is what the command was started with.
 
-use std::collections::BTreeSet;
+use alloc::collections::BTreeSet;
 
 use ros2_client::parameters::raw::{ParameterDescriptor, ParameterType, SetParametersResult};
 use ros2_client::rcl_interfaces::{
