@@ -9,7 +9,9 @@ import os
 import re
 import signal
 import subprocess
+import sys
 import time
+from contextlib import contextmanager
 
 import pytest
 
@@ -122,6 +124,30 @@ def check_consecutive(numbers, count):
 
 def close(one, other, tolerance):
     return all(abs(a - b) <= tolerance for a, b in zip(one, other, strict=True))
+
+
+TIMER = """
+import signal, sys, time
+steps, begun, last, ends = [], time.time(), time.time(), []
+signal.signal(signal.SIGTERM, lambda *_: ends.append(1))
+while not ends:
+    time.sleep(max(0, begun + 1e-3 * (len(steps) + 1) - time.time()))
+    steps.append(abs(time.time() - last - 1e-3))
+    last = time.time()
+print(sorted(steps)[int(0.99 * len(steps))])
+"""
+
+
+@contextmanager
+def timer():
+    """A process that does nothing but wake at 1 kHz: what 99 of 100 of its steps keep [s], which is the machine's own share."""
+    process = subprocess.Popen([sys.executable, "-c", TIMER], stdout=subprocess.PIPE, text=True)
+    share = []
+    try:
+        yield share
+    finally:
+        process.terminate()
+        share.append(float(process.communicate(timeout=20)[0]))
 
 
 def said(name, seconds, median=None, most=None):
