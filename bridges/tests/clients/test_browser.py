@@ -137,8 +137,10 @@ def test_the_page_shows_what_is_felt_and_commands(live, tmp_path):
         assert before != await tab.value(SHOT)
         await tab.value("document.getElementById('live-hold').click()")
         # A zero, by its button.
-        await tab.value("document.getElementById('live-tare').click()")
-        await tab.until("document.getElementById('live-light')?.textContent?.startsWith('taking the zero')")
+        watch = """window.lights = []; new MutationObserver(() => lights.push(document.getElementById('live-light').textContent))
+            .observe(document.getElementById('live-light'), { childList: true, characterData: true, subtree: true })"""
+        await tab.value(f"{watch}; document.getElementById('live-tare').click()")
+        await tab.until("lights.some(light => light.startsWith('taking the zero'))")
         await tab.until("['live', 'slipping'].includes(document.getElementById('live-light')?.textContent)")
         one.kill()
         await tab.until("document.getElementById('live-light')?.textContent === 'not connected'")
