@@ -42,7 +42,6 @@ const UNFINISHED: &[&str] = &[
     "simulation/",
     "src/",
     "surfaces/",
-    "wrench/",
 ];
 
 /// A type that is `pub` and what stands before it.
