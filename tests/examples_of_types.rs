@@ -35,13 +35,10 @@ const UNFINISHED: &[&str] = &[
     "cli/",
     "contact/",
     "drivers/",
-    "friction/",
     "hand/",
     "recordings/",
     "scene/",
     "simulation/",
-    "src/",
-    "surfaces/",
 ];
 
 /// A type that is `pub` and what stands before it.
