@@ -34,7 +34,7 @@ pub struct WrenchColumns {
 /// let file = "t_s,v1_mV,v2_mV,dummy_mV\n0.0,250,-500,20\n";
 /// let mut reader = RecordingReader::new("gauges.csv", file.as_bytes())?;
 /// let gauges = reader.layout().only_signals()?.expecting(2)?.expecting_dummy()?.clone();
-/// assert_eq!((gauges.count(), gauges.unit()), (2, SignalUnit::Volts));
+/// assert_eq!((gauges.count(), gauges.unit()), (2, SignalUnit::Volt));
 /// let row = reader.next_row()?.ok_or("no row")?;
 /// assert_eq!(row.signals::<2>(&gauges), Some(Vector2::new(0.25, -0.5)));
 /// assert_eq!(row.dummy(&gauges), Some(0.02));
@@ -100,7 +100,7 @@ pub struct InertialColumns {
 ///     normal: Vector3::z(),
 ///     wrench: Wrench::on_fingertip(Vector3::new(0.3, 0.0, -2.0), Vector3::zeros()),
 /// };
-/// let schema = Schema::default().time().signals("", 1, fingertip_recordings::SignalUnit::Volts).contact();
+/// let schema = Schema::default().time().signals("", 1, fingertip_recordings::SignalUnit::Volt).contact();
 /// let mut writer = RecordingWriter::new(Vec::new(), &schema)?;
 /// writer.write([0.0, 0.25].into_iter().chain(pressed.cells()))?;
 /// writer.write([0.001, 0.0].into_iter().chain([f64::NAN; 12]))?;

@@ -54,14 +54,14 @@ impl FaultCount {
 /// use fingertip_recordings::RecordingReader;
 ///
 /// // A row that says the same again, one that is late, and one that goes back in time.
-/// let file = "t_s,v1_V\n0.000,0.1\n0.000,0.1\n0.001,0.2\n0.002,0.3\n0.004,0.4\n0.003,0.5\n";
+/// let file = "t_s,v1_V\n0.000,0.1\n0.000,0.1\n0.001,0.2\n0.002,0.3\n0.003,0.4\n0.006,0.5\n0.005,0.6\n";
 /// let mut reader = RecordingReader::new("gauge.csv", file.as_bytes())?;
 /// while reader.next_row()?.is_some() {}
 /// let quality = reader.quality();
 /// assert!(!quality.is_clean());
 /// assert_eq!(quality.repeated_rows.first_lines(), [3]);
-/// assert_eq!(quality.gaps.first_lines(), [6]);
-/// assert_eq!(quality.backward_times.first_lines(), [7]);
+/// assert_eq!(quality.gaps.first_lines(), [7]);
+/// assert_eq!(quality.backward_times.first_lines(), [8]);
 /// # Ok::<(), fingertip_recordings::RecordingError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

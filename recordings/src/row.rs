@@ -12,7 +12,7 @@ use crate::columns::{
 /// ```
 /// use fingertip_recordings::RecordingReader;
 ///
-/// let file = "t_s,v1_V\n0.000,0.1\n0.001,0.2\n0.002,nan\n0.005,0.3\n";
+/// let file = "t_s,v1_V\n0.000,0.1\n0.001,0.2\n0.002,nan\n0.003,0.3\n0.006,0.2\n";
 /// let mut reader = RecordingReader::new("gauge.csv", file.as_bytes())?;
 /// let mut marks = Vec::new();
 /// while let Some(row) = reader.next_row()? {
@@ -20,7 +20,7 @@ use crate::columns::{
 /// }
 /// assert!(!marks[1].not_finite && !marks[1].gap);
 /// assert!(marks[2].not_finite);
-/// assert!(marks[3].gap); // two samples are missing before it
+/// assert!(marks[4].gap); // two samples are missing before it
 /// # Ok::<(), fingertip_recordings::RecordingError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -98,7 +98,7 @@ fn prefixed(sensor: &str, name: &str) -> String {
 /// writer.write_wrench(0.001, &load)?;
 /// writer.write([0.002, 0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0])?; // a number is missing
 /// let file = String::from_utf8(writer.finish()?)?;
-/// let expected = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0.001,0.3,0,-2,0,0,0\n0.002,0,0,,0,0,0\n";
+/// let expected = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0.001,0.3,0.0,-2.0,0.0,0.0,0.0\n0.002,0.0,0.0,,0.0,0.0,0.0\n";
 /// assert_eq!(file, expected);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

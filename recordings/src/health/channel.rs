@@ -7,7 +7,7 @@ use fingertip_wrench::ChannelLimits;
 /// ```
 /// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel, What};
 ///
-/// // One of two neighbours never changes: a torque beside a torque is dead, beside a force it may be.
+/// // One of two channels never changes: beside a gauge it is dead, alone of its kind it may just rest.
 /// let finds = |kinds: [Kind; 2]| {
 ///     let channels = kinds.map(|kind| WatchedChannel::new("a channel", "", kind)).to_vec();
 ///     let mut watch = HealthWatch::new(channels, Depth::Brief);
@@ -17,7 +17,7 @@ use fingertip_wrench::ChannelLimits;
 ///     let health = watch.finish();
 ///     health.findings.into_iter().find(|finding| finding.what == What::Dead).map(|finding| finding.level)
 /// };
-/// assert!(finds([Kind::Torque, Kind::Torque]) > finds([Kind::Force, Kind::Torque]));
+/// assert!(finds([Kind::Signal, Kind::Signal]) > finds([Kind::Signal, Kind::Force]));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]

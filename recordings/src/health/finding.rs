@@ -117,7 +117,7 @@ pub enum What {
 /// let health = watch.finish();
 /// let gap = health.findings.iter().find(|finding| finding.what == What::Gaps).unwrap();
 /// assert!(gap.channels.is_empty()); // it is of all
-/// assert_eq!(gap.said, "");
+/// assert_eq!(gap.said, "1 gap in time, the longest of 0.501 s; about 500 samples are missing");
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

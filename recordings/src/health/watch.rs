@@ -41,13 +41,17 @@ pub enum Depth {
 /// ```
 /// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel, What};
 ///
-/// let channels = ["v1", "v2"].map(|name| WatchedChannel::new(name, "V", Kind::Signal)).to_vec();
+/// let channels = ["v1", "v2", "v3"].map(|name| WatchedChannel::new(name, "V", Kind::Signal)).to_vec();
+/// let mut state = 1_u32;
+/// let mut noise = || {
+///     state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+///     f64::from(state >> 25)
+/// };
 /// // Readings without times, 1000 a second.
 /// let mut watch = HealthWatch::new(channels, Depth::Brief).with_rate(1000.0);
-/// for i in 0..4000_u32 {
-///     let noise = |k: u32| f64::from(i.wrapping_mul(k) >> 16) / 65_536.0;
-///     // The second gauge is thirty times as noisy as its neighbour.
-///     watch.add(None, &[noise(2_654_435_769), 30.0 * noise(2_246_822_519)]);
+/// for _ in 0..4000 {
+///     // The second gauge is thirty times as noisy as its neighbours.
+///     watch.add(None, &[noise(), 30.0 * noise(), noise()]);
 /// }
 /// let noisy = watch.finish().findings.into_iter().find(|finding| finding.what == What::Noisy).unwrap();
 /// assert_eq!(noisy.channels, ["v2"]);
