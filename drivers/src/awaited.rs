@@ -17,7 +17,10 @@ use crate::{Sample, SourceError};
 /// use nalgebra::Vector2;
 ///
 /// /// The mean of some samples.
-/// async fn mean<S: AsyncSource<f64, Vector2<f64>>>(source: &mut S, samples: u32) -> Result<Vector2<f64>, S::Error> {
+/// async fn mean<S: AsyncSource<f64, Vector2<f64>>>(
+///     source: &mut S,
+///     samples: u32,
+/// ) -> Result<Vector2<f64>, S::Error> {
 ///     let mut sum = Vector2::zeros();
 ///     for _ in 0..samples {
 ///         sum += source.next_sample().await?.map_or(Vector2::zeros(), |sample| sample.value);
@@ -26,7 +29,8 @@ use crate::{Sample, SourceError};
 /// }
 ///
 /// # use fingertip_test_support::block_on;
-/// let bench = SimulatedBench::new(SimulatedHx711s::new(|_| [(1e-3, 0.0), (-1e-3, 0.0)]), WireFaults::default());
+/// let bench =
+///     SimulatedBench::new(SimulatedHx711s::new(|_| [(1e-3, 0.0), (-1e-3, 0.0)]), WireFaults::default());
 /// let (clock, data, delay) = (bench.clock(), bench.data(), bench.delay());
 /// let mut chips = AsyncHx711::new(clock, data, delay, bench.delay(), Mode::A128, Patience::default());
 /// block_on(chips.start())?;

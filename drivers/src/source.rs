@@ -80,7 +80,8 @@ impl SourceError for core::convert::Infallible {
 /// use nalgebra::Vector6;
 ///
 /// let wrench: Wrench<f64> = Wrench::from_components(&Vector6::new(0.0, 0.0, -2.0, 0.0, 0.0, 0.0));
-/// let (first, second) = (Sample { time: Some(0.5), value: wrench }, Sample { time: Some(0.501), value: wrench });
+/// let (first, second) =
+///     (Sample { time: Some(0.5), value: wrench }, Sample { time: Some(0.501), value: wrench });
 /// let period = second.time.zip(first.time).map(|(end, start)| end - start);
 /// assert!(period.is_some_and(|period: f64| (period - 1e-3).abs() < 1e-12));
 /// ```

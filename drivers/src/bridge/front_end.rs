@@ -43,7 +43,7 @@ pub enum BridgeFrontEndError {
 
 /// Why counts give no strain. Channels are bridges, counted from 0.
 ///
-/// See [`BridgeFrontEnd`] for one that is told.
+/// [`BridgeFrontEnd`] shows what gives one.
 ///
 /// ```
 /// use fingertip_drivers::bridge::BridgeFault;
@@ -88,7 +88,8 @@ impl SourceError for BridgeFault {
 /// use fingertip_drivers::bridge::{BridgeChannel, BridgeCircuit, BridgeFrontEnd, CountScale, Excitation};
 /// use nalgebra::Vector2;
 ///
-/// let bridge = |input| BridgeChannel::new(input, BridgeCircuit::full(), 2.0, CountScale::bits24(0.02)).noise(50.0);
+/// let bridge =
+///     |input| BridgeChannel::new(input, BridgeCircuit::full(), 2.0, CountScale::bits24(0.02)).noise(50.0);
 /// let front_end = BridgeFrontEnd::<f64, 2, 2>::new([bridge(0), bridge(1)], Excitation::Reference)?;
 /// let strains = front_end.strain_with_bounds(&Vector2::new(419_430.4, 8_388_607.0))?;
 /// assert!((strains.strain.x - 500e-6).abs() < 1e-15);

@@ -12,7 +12,7 @@ use crate::{AsyncSource, Sample, Source, SourceError, SourceErrorKind};
 
 /// Why there is no strain.
 ///
-/// It is of the kind that the fault within it is of:
+/// Its kind is that of the fault within it:
 ///
 /// ```
 /// use fingertip_drivers::bridge::{BridgeFault, BridgedError};

@@ -59,7 +59,7 @@ impl<const N: usize> Conversion<N> {
 /// let bench = SimulatedBench::new(SimulatedAds131m::new(|_| [0.001; 4]), WireFaults::default());
 /// let mut converter = Ads131m::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
 /// converter.configure(&Configuration::<4>::default())?;
-/// // From now on a bit of every tenth answer is flipped on the wire.
+/// // From now on a bit of one answer in ten is flipped on the wire.
 /// bench.set_faults(WireFaults { answer_flip: 0.1, ..WireFaults::default() });
 /// let read = core::iter::repeat_with(|| converter.read()).take(200).filter(Result::is_ok).count();
 /// let statistics = converter.statistics();

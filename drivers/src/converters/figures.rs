@@ -74,17 +74,21 @@ pub struct NoiseFigure {
 
 /// What a converter can be set to.
 ///
-/// [`devices`](crate::devices::devices) has those of each chip. Which of them gives six bridges 1000 times a second?
+/// [`devices`](crate::devices::devices) has those of each chip. Which of them give 1000 samples of six bridges a
+/// second, and how many chips does it take?
 ///
 /// ```
 /// use fingertip_drivers::converters::BridgeDemand;
 /// use fingertip_drivers::devices;
 ///
 /// let demand = BridgeDemand { bridges: 6, supply: 3.3, greatest_ratio: 0.003, rate: 1000.0 };
-/// let mut quick: Vec<_> = devices::devices().iter().filter_map(|device| {
-///     let setting = device.converter?.setting(&demand).ok()?;
-///     (setting.samples >= demand.rate).then_some((device.name, setting.chips))
-/// }).collect();
+/// let mut quick: Vec<_> = devices::devices()
+///     .iter()
+///     .filter_map(|device| {
+///         let setting = device.converter?.setting(&demand).ok()?;
+///         (setting.samples >= demand.rate).then_some((device.name, setting.chips))
+///     })
+///     .collect();
 /// quick.sort();
 /// assert_eq!(quick, [("ads1256", 2), ("ads131m", 1), ("mcp3564", 2)]);
 /// ```

@@ -41,7 +41,7 @@ pub enum Level {
 /// use fingertip_drivers::converters::ads131m::{Ads131m, Configuration, SimulatedAds131m};
 /// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
 ///
-/// // Every fifth "ready" does not come: conversions are missed, and those that come are right.
+/// // One "ready" in five does not come: conversions are missed, and those that come are right.
 /// let faults = WireFaults { lost_ready: 0.2, seed: 3, ..WireFaults::default() };
 /// let bench = SimulatedBench::new(SimulatedAds131m::new(|_| [0.15; 2]), faults);
 /// let mut converter = Ads131m::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
@@ -308,10 +308,10 @@ impl<D: SimulatedDevice> SimulatedBench<D> {
 /// The SPI of a [`SimulatedBench`], blocking and for tasks.
 ///
 /// ```
+/// use embedded_hal::spi::Operation;
 /// use embedded_hal::spi::SpiDevice;
 /// use fingertip_drivers::converters::ads1256::{Command, Register, SimulatedAds1256};
 /// use fingertip_drivers::converters::{SimulatedBench, WireFaults};
-/// use embedded_hal::spi::Operation;
 ///
 /// let bench = SimulatedBench::new(SimulatedAds1256::new(|_, _, _| 0.0), WireFaults::default());
 /// // Read DRATE, with a pause (t6) before the answer: 30 000 Hz after a reset.

@@ -42,10 +42,8 @@ pub enum Simulator {
 ///
 /// let bota = devices().iter().find(|device| device.name == "bota").unwrap();
 /// let Some(Simulator::Serial(make)) = bota.simulator else { unreachable!("it is on a serial port") };
-/// let mut sensor = LineSensor::new(
-///     SimulatedSerial::new(make(1000.0).device, LineFaults::default()),
-///     BotaDecoder::new(),
-/// );
+/// let mut sensor =
+///     LineSensor::new(SimulatedSerial::new(make(1000.0).device, LineFaults::default()), BotaDecoder::new());
 /// sensor.line_mut().sample([0.0, 0.0, -2.0, 0.0, 0.0, 0.0]);
 /// let force: f64 = sensor.next_sample()?.unwrap().value.force().z;
 /// assert_eq!(force, -2.0);
@@ -127,7 +125,8 @@ fn mend(source: &io::Error, port: &'static str) -> &'static str {
 /// let Some(Simulator::Network(serve)) = ati.simulator else { unreachable!("it is on a network") };
 /// let (listen, faults) = (Ipv4Addr::LOCALHOST.into(), FaultPlan::default());
 /// let load = Box::new(|_| [0.0; 6]);
-/// let refused = serve(Serving { listen, port: Some(port), http_port: 0, udp_port: 0, faults, rate: 1e3, load });
+/// let refused =
+///     serve(Serving { listen, port: Some(port), http_port: 0, udp_port: 0, faults, rate: 1e3, load });
 /// let told = refused.err().unwrap().to_string();
 /// assert!(told.starts_with(&format!("cannot serve on UDP port {port}: ")));
 /// assert!(told.ends_with("; choose another --port, 0 for any free one"));
@@ -189,7 +188,8 @@ pub struct Served {
 /// let Some(Simulator::Network(serve)) = ati.simulator else { unreachable!("it is on a network") };
 /// let (listen, faults) = (Ipv4Addr::LOCALHOST.into(), FaultPlan::default());
 /// let load = Box::new(|_| [0.0; 6]);
-/// let served = serve(Serving { listen, port: Some(0), http_port: 0, udp_port: 0, faults, rate: 1e3, load })?;
+/// let served =
+///     serve(Serving { listen, port: Some(0), http_port: 0, udp_port: 0, faults, rate: 1e3, load })?;
 /// let mut sensor = open(&Address::parse(served.address(), devices())?)?;
 /// for _ in 0..10 {
 ///     sensor.next_sample()?;

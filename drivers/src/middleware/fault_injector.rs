@@ -20,7 +20,7 @@ use crate::{Sample, Source, SourceError, SourceErrorKind};
 /// let rows: String = (0..100).map(|time| format!("{time},0,0,-1,0,0,0\n")).collect();
 /// let file = format!("time_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n{rows}");
 /// let playback = WrenchPlayback::new(RecordingReader::new("example.csv", file.as_bytes())?, "")?;
-/// // Spikes of 50 N, or 50 N·m, in every tenth sample.
+/// // Spikes of 50 N, or 50 N·m, in one sample in ten.
 /// let faults = SampleFaults { spike: 0.1, spike_size: 50.0, ..SampleFaults::default() };
 /// let (mut source, mut spikes) = (FaultInjector::new(playback, faults), 0);
 /// while let Some(sample) = source.next_sample()? {
@@ -55,13 +55,21 @@ pub struct SampleFaults {
 
 /// What was done so far.
 ///
-/// [`FaultInjector::injections`] gives them, to compare with what a pipeline has noticed.
-///
 /// ```
-/// use fingertip_drivers::middleware::Injections;
+/// use fingertip_drivers::middleware::{FaultInjector, SampleFaults, Watched};
+/// use fingertip_drivers::playback::WrenchPlayback;
+/// use fingertip_recordings::RecordingReader;
 ///
-/// let nothing = Injections::default();
-/// assert_eq!((nothing.lost, nothing.frozen), (0, 0));
+/// let rows: String = (0..100).map(|time| format!("{time},0,0,-{time},0,0,0\n")).collect();
+/// let file = format!("time_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n{rows}");
+/// let playback = WrenchPlayback::new(RecordingReader::new("example.csv", file.as_bytes())?, "")?;
+/// // A watch notices every sample that was frozen.
+/// let faults = SampleFaults { freeze: 0.1, freeze_length: 3, ..SampleFaults::default() };
+/// let mut watched = Watched::new(FaultInjector::new(playback, faults), None);
+/// while watched.next_fresh(0.0)?.is_some() {}
+/// let injections = *watched.source().injections();
+/// assert!(injections.frozen > 0 && injections.frozen == watched.counts().repeated);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]

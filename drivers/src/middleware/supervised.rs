@@ -57,7 +57,10 @@ pub enum OnLoss {
 /// use fingertip_drivers::{SourceError, SourceErrorKind};
 ///
 /// let lost = SupervisedError::Lost(ConverterFault::Timeout);
-/// assert_eq!((lost.kind(), lost.to_string().as_str()), (SourceErrorKind::Timeout, "the link is lost: Timeout"));
+/// assert_eq!(
+///     (lost.kind(), lost.to_string().as_str()),
+///     (SourceErrorKind::Timeout, "the link is lost: Timeout")
+/// );
 /// let stopped = SupervisedError::<ConverterFault>::Stopped;
 /// assert_eq!(stopped.to_string(), "stopped since the link was lost; resume to go on");
 /// ```

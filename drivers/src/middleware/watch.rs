@@ -161,7 +161,8 @@ impl<T: Real, V: Copy + PartialEq> Watch<T, V> {
 /// use fingertip_drivers::playback::WrenchPlayback;
 /// use fingertip_recordings::RecordingReader;
 ///
-/// let file = "time_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0,0,0,-1,0,0,0\n0.001,0,0,-1,0,0,0\n0.005,0,0,-3,0,0,0\n";
+/// let file =
+///     "time_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0,0,0,-1,0,0,0\n0.001,0,0,-1,0,0,0\n0.005,0,0,-3,0,0,0\n";
 /// let playback = WrenchPlayback::new(RecordingReader::new("example.csv", file.as_bytes())?, "")?;
 /// let mut watched = Watched::new(playback, Some(1e-3));
 /// while let Some(fresh) = watched.next_fresh(0.0)? {

@@ -45,7 +45,8 @@ pub struct WrenchPlayback<R> {
 /// use fingertip_recordings::RecordingReader;
 ///
 /// let file = "s1_V,s2_V,s3_V\n0.1,0.2,0.3\n";
-/// let mut playback = SignalPlayback::<_, 3>::new(RecordingReader::new("example.csv", file.as_bytes())?, "")?;
+/// let mut playback =
+///     SignalPlayback::<_, 3>::new(RecordingReader::new("example.csv", file.as_bytes())?, "")?;
 /// assert_eq!(playback.next_sample()?.unwrap().value.as_slice(), [0.1, 0.2, 0.3]);
 /// // It must have as many gauges as are asked for.
 /// assert!(SignalPlayback::<_, 6>::new(RecordingReader::new("example.csv", file.as_bytes())?, "").is_err());

@@ -13,7 +13,7 @@ use crate::sensors::LinkStatistics;
 /// use fingertip_drivers::sensors::FaultPlan;
 /// use fingertip_drivers::sensors::ati_rdt::{Command, Request, SimulatedNetFt};
 ///
-/// // A link that loses every tenth datagram.
+/// // A link that loses one datagram in ten.
 /// let mut sensor = SimulatedNetFt::new(FaultPlan { loss: 0.1, ..FaultPlan::default() });
 /// sensor.request(&Request { command: Command::Stream, count: 0 }.emit());
 /// let mut came = 0;

@@ -255,7 +255,9 @@ impl Rate {
 /// What the device calibrates itself with.
 ///
 /// ```
-/// use fingertip_drivers::converters::ads1256::{Ads1256, Calibration, Configuration, Input, SimulatedAds1256};
+/// use fingertip_drivers::converters::ads1256::{
+///     Ads1256, Calibration, Configuration, Input, SimulatedAds1256,
+/// };
 /// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
 ///
 /// let bench = SimulatedBench::new(SimulatedAds1256::new(|_, _, _| 0.01), WireFaults::default());

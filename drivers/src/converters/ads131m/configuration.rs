@@ -164,8 +164,9 @@ impl Default for ChannelSetup {
 /// ```
 /// use fingertip_drivers::converters::ads131m::{Configuration, Gain, Oversampling, Register};
 ///
-/// let configuration = Configuration::<8> { oversampling: Oversampling::X2048, lock: true, ..Configuration::default() }
-///     .gain(Gain::X32);
+/// let configuration =
+///     Configuration::<8> { oversampling: Oversampling::X2048, lock: true, ..Configuration::default() }
+///         .gain(Gain::X32);
 /// assert_eq!(configuration.data_rate(8.192e6), 2000.0);
 /// // All channels on, the fourth ratio, high resolution.
 /// assert_eq!(configuration.registers().last(), Some((Register::CLOCK, 0xFF12)));

@@ -15,11 +15,13 @@ use crate::converters::SimulatedDevice;
 /// set, holds two conversions, and gives the older one first. Not simulated: settling of the filter,
 /// standby, chopping, phase, the register CRC's value.
 ///
-/// A disturbance changes a register, and the driver is to notice:
+/// A disturbance changes a register, and the driver notices:
 ///
 /// ```
 /// use fingertip_drivers::converters::ads131m::{Ads131m, Configuration, Register, SimulatedAds131m};
-/// use fingertip_drivers::converters::{ConverterError, ConverterFault, Patience, SimulatedBench, WireFaults};
+/// use fingertip_drivers::converters::{
+///     ConverterError, ConverterFault, Patience, SimulatedBench, WireFaults,
+/// };
 ///
 /// let bench = SimulatedBench::new(SimulatedAds131m::new(|_| [0.001; 2]), WireFaults::default());
 /// let mut converter = Ads131m::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());

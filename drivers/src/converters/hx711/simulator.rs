@@ -29,7 +29,7 @@ struct Chip {
 /// by 1 % from chip to chip. They switch off and reset themselves if the clock is high for 60 µs, change
 /// input and gain by the number of pulses, and settle.
 ///
-/// A wire of the second chip is off:
+/// The data lines are off, so that no chip is ready:
 ///
 /// ```
 /// use fingertip_drivers::converters::hx711::{Hx711, Mode, SimulatedHx711s};

@@ -219,7 +219,9 @@ face! {
     /// An MCP3564 that goes through `N` inputs, blocking or polled.
     ///
     /// ```
-    /// use fingertip_drivers::converters::mcp3564::{Channel, Configuration, Gain, Mcp3564, SimulatedMcp3564};
+    /// use fingertip_drivers::converters::mcp3564::{
+    ///     Channel, Configuration, Gain, Mcp3564, SimulatedMcp3564,
+    /// };
     /// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
     ///
     /// // Two bridges, whose numbers are 8 and 9.
@@ -238,7 +240,9 @@ face! {
     /// An MCP3564 that goes through `N` inputs, in a task.
     ///
     /// ```
-    /// use fingertip_drivers::converters::mcp3564::{AsyncMcp3564, Channel, Configuration, SimulatedMcp3564};
+    /// use fingertip_drivers::converters::mcp3564::{
+    ///     AsyncMcp3564, Channel, Configuration, SimulatedMcp3564,
+    /// };
     /// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
     /// # use fingertip_test_support::block_on;
     ///

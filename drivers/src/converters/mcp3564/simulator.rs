@@ -19,7 +19,9 @@ use crate::converters::SimulatedDevice;
 ///
 /// ```
 /// use fingertip_drivers::converters::mcp3564::{Channel, Configuration, Mcp3564, SimulatedMcp3564};
-/// use fingertip_drivers::converters::{ConverterError, ConverterFault, Patience, SimulatedBench, WireFaults};
+/// use fingertip_drivers::converters::{
+///     ConverterError, ConverterFault, Patience, SimulatedBench, WireFaults,
+/// };
 ///
 /// let bench = SimulatedBench::new(SimulatedMcp3564::new(false, |_, _| 0.25), WireFaults::default());
 /// let mut converter = Mcp3564::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());

@@ -241,7 +241,8 @@ face! {
     /// # use fingertip_test_support::block_on;
     ///
     /// let bench = SimulatedBench::new(SimulatedNau7802::new(|_, _| 1e-3), WireFaults::default());
-    /// let mut converter = AsyncNau7802::new(bench.i2c(), bench.data_ready(), bench.delay(), Patience::default());
+    /// let mut converter =
+    ///     AsyncNau7802::new(bench.i2c(), bench.data_ready(), bench.delay(), Patience::default());
     /// block_on(converter.configure(&Configuration::default()))?;
     /// assert_eq!(block_on(converter.read())?.counts, [2_147_484]);
     /// # Ok::<(), Box<dyn core::error::Error>>(())

@@ -87,7 +87,8 @@ const LARGEST: usize = 2048;
 /// let server = RdtServer::start("127.0.0.1:0", sensor, period, |_| [0, 0, -2_000_000, 0, 0, 0])?;
 ///
 /// let counts = CountsPerUnit::million()?;
-/// let mut client = RdtClient::<f64>::connect(server.address(), counts, Duration::from_secs(2))?.timed_by(1000.0);
+/// let mut client =
+///     RdtClient::<f64>::connect(server.address(), counts, Duration::from_secs(2))?.timed_by(1000.0);
 /// let sample = client.next_sample()?.unwrap();
 /// assert!((sample.value.force().z + 2.0).abs() < 1e-12);
 /// # Ok::<(), Box<dyn core::error::Error>>(())

@@ -57,7 +57,7 @@ pub enum ConfigurationError {
 ///
 /// // A sensor that is set to millimetres: a count is as much torque as a thousandth of one in newton metres.
 /// let page = "<netft><scfgfu>N</scfgfu><scfgtu>Nmm</scfgtu><cfgcpf>1000000</cfgcpf><cfgcpt>1000</cfgcpt>\
-///             <comrdtrate>7000</comrdtrate></netft>";
+///     <comrdtrate>7000</comrdtrate></netft>";
 /// let configuration = Configuration::parse(page)?;
 /// assert_eq!(configuration.counts_per_newton, 1e6);
 /// assert_eq!(configuration.counts_per_newton_metre, 1e6);

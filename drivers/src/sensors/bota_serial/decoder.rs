@@ -62,7 +62,11 @@ impl SourceError for BotaFault {
 /// use fingertip_drivers::sensors::line::LineSensor;
 ///
 /// // In place of the port: two frames, and bytes between them that mean nothing.
-/// let frame = |microseconds, fz| Frame { microseconds, components: [0.0, 0.0, fz, 0.0, 0.0, 0.0], ..Frame::default() };
+/// let frame = |microseconds, fz| Frame {
+///     microseconds,
+///     components: [0.0, 0.0, fz, 0.0, 0.0, 0.0],
+///     ..Frame::default()
+/// };
 /// let bytes = [&frame(1000, -2.0).emit()[..], &[0xAA, 7, 7], &frame(2000, -3.0).emit()].concat();
 /// let mut sensor = LineSensor::<_, f64, _>::new(&bytes[..], BotaDecoder::new());
 /// let first = sensor.next_sample()?.unwrap();

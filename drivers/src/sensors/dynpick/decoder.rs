@@ -19,7 +19,10 @@ use crate::{Sample, SourceError, SourceErrorKind};
 /// let mut raw = [Reading::ZERO; 6];
 /// raw[1] = Reading::GREATEST;
 /// let mut decoder = DynPickDecoder::new(AxisCounts::uniform(24.9, 1664.0)?);
-/// let found = Reading { tick: 0, raw }.emit().into_iter().find_map(|byte| LineDecoder::<f64>::push(&mut decoder, byte));
+/// let found = Reading { tick: 0, raw }
+///     .emit()
+///     .into_iter()
+///     .find_map(|byte| LineDecoder::<f64>::push(&mut decoder, byte));
 /// let told = found.unwrap().unwrap_err().to_string();
 /// assert_eq!(told, "axis 1 (Fx, Fy, Fz, Tx, Ty, Tz from 0) is at the end of its range");
 /// # Ok::<(), fingertip_drivers::sensors::BadAxisCounts>(())
@@ -44,10 +47,10 @@ impl SourceError for DynPickFault {
 /// Decodes what the sensor sends. Samples have no time.
 ///
 /// ```
+/// use fingertip_drivers::Source;
 /// use fingertip_drivers::sensors::AxisCounts;
 /// use fingertip_drivers::sensors::dynpick::{DynPickDecoder, REQUEST, SimulatedDynPick};
 /// use fingertip_drivers::sensors::line::{LineFaults, LineSensor, SimulatedSerial};
-/// use fingertip_drivers::Source;
 /// use std::io::Write;
 ///
 /// let counts = AxisCounts::uniform(25.0, 1664.0)?;

@@ -12,7 +12,8 @@
 /// };
 ///
 /// let mut deframer = Deframer::new(FORMAT);
-/// let found: Vec<u8> = [1, 0x55, 7, !7, 0x55, 8, 8].into_iter().filter_map(|byte| deframer.push(byte)).collect();
+/// let found: Vec<u8> =
+///     [1, 0x55, 7, !7, 0x55, 8, 8].into_iter().filter_map(|byte| deframer.push(byte)).collect();
 /// assert_eq!(found, [7]);
 /// ```
 #[derive(Clone, Copy, Debug)]
@@ -29,8 +30,8 @@ pub struct FrameFormat<F, const LENGTH: usize> {
 /// frames let one count that, and their decoders say how many are missing.
 ///
 /// ```
-/// use fingertip_drivers::sensors::line::Deframer;
 /// use fingertip_drivers::sensors::bota_serial::{FORMAT, Frame};
+/// use fingertip_drivers::sensors::line::Deframer;
 ///
 /// let mut damaged = Frame::default().emit();
 /// damaged[20] ^= 1;

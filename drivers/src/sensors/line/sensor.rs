@@ -16,7 +16,7 @@ use crate::{Sample, Source};
 /// It blocks as a [`Source`]. As an [`NbSource`] it takes the timeout of the line (`TimedOut` or
 /// `WouldBlock`) for "nothing yet": open the line as non-blocking, or with a timeout of zero.
 ///
-/// With the port `serialport::new("/dev/ttyUSB0", 460_800).timeout(WAIT).open()?`, or with what was read from one:
+/// In place of an open port, what was read from one:
 ///
 /// ```
 /// use fingertip_drivers::Source;

@@ -10,7 +10,7 @@ use super::simulator::{LineFaults, SimulatedLine};
 /// What a sensor is asked for.
 ///
 /// ```
-/// use fingertip_drivers::sensors::line::{SerialDevice, SerialRequest, SimulatedSerial, LineFaults};
+/// use fingertip_drivers::sensors::line::{LineFaults, SerialDevice, SerialRequest, SimulatedSerial};
 /// use std::io::Write;
 ///
 /// // It streams from an S on.

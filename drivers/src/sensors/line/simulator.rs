@@ -13,7 +13,7 @@ use rand_pcg::Pcg64Mcg;
 /// use fingertip_drivers::sensors::bota_serial::{BotaDecoder, SimulatedBota};
 /// use fingertip_drivers::sensors::line::{LineFaults, LineSensor, SimulatedSerial};
 ///
-/// // A bit of every tenth frame is flipped: those frames are missing, and no number is wrong.
+/// // A bit of one frame in ten is flipped: those frames are missing, and no number is wrong.
 /// let faults = LineFaults { bit_flip: 0.1, ..LineFaults::default() };
 /// let port = SimulatedSerial::new(SimulatedBota::new(1000.0), faults);
 /// let mut sensor = LineSensor::<_, f64, _>::new(port, BotaDecoder::new());

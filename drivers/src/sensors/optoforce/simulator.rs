@@ -13,7 +13,9 @@ use crate::sensors::line::{SerialDevice, SerialRequest, SerialSample};
 /// use fingertip_drivers::Source;
 /// use fingertip_drivers::sensors::AxisCounts;
 /// use fingertip_drivers::sensors::line::{LineFaults, LineSensor, SimulatedSerial};
-/// use fingertip_drivers::sensors::optoforce::{Configuration, Filter, OptoForceDecoder, Rate, SimulatedOptoForce};
+/// use fingertip_drivers::sensors::optoforce::{
+///     Configuration, Filter, OptoForceDecoder, Rate, SimulatedOptoForce,
+/// };
 /// use std::io::Write;
 ///
 /// let counts = AxisCounts::uniform(80.0, 1800.0)?;

@@ -52,7 +52,8 @@ pub struct CanStatistics {
 /// let [first, second] = [1, 2].map(|number| StandardId::new(number).unwrap());
 /// let mut assembler = CanAssembler::new(AxisCounts::uniform(50.0, 2000.0)?, first, second);
 /// let bytes = Reading { counts: [0, 0, -100, 0, 0, 0], ..Reading::default() }.emit();
-/// let frames = [(first, &bytes[..8]), (second, &bytes[8..])].map(|(id, half)| SimulatedFrame::new(id, half).unwrap());
+/// let frames = [(first, &bytes[..8]), (second, &bytes[8..])]
+///     .map(|(id, half)| SimulatedFrame::new(id, half).unwrap());
 /// assert!(assembler.push_wrench::<f64>(&frames[0]).is_none());
 /// let wrench = assembler.push_wrench::<f64>(&frames[1]).unwrap()?;
 /// assert!((wrench.force().z + 2.0).abs() < 1e-12);

@@ -19,7 +19,9 @@ use crate::{Sample, Source, SourceError, SourceErrorKind};
 /// use embedded_can::StandardId;
 /// use fingertip_drivers::Source;
 /// use fingertip_drivers::sensors::AxisCounts;
-/// use fingertip_drivers::sensors::robotous::{CanAssembler, CanSensor, CanSensorError, Request, Silent, SimulatedCan};
+/// use fingertip_drivers::sensors::robotous::{
+///     CanAssembler, CanSensor, CanSensorError, Request, Silent, SimulatedCan,
+/// };
 ///
 /// let [first, second, request] = [1, 2, 0x64].map(|number| StandardId::new(number).unwrap());
 /// let mut bus = SimulatedCan::new(first, second, request, |_| [0; 6]);

@@ -78,7 +78,7 @@ impl embedded_can::Error for Silent {
 /// The bus, with a sensor on it that samples as often as it is listened to. `load` gives the counts of each sample
 /// by its number.
 ///
-/// A receiver that drops every fourth frame:
+/// A receiver that drops one frame in four:
 ///
 /// ```
 /// use embedded_can::StandardId;

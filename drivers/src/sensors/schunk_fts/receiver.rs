@@ -44,8 +44,14 @@ impl SourceError for FtsFault {
 /// // Datagram 3 is lost, and 2 comes twice.
 /// for counter in [1, 2, 2, 4] {
 ///     let mut datagram = [0; 7 + FtsSample::LENGTH];
-///     emit_packet(counter, 0, &[FtsSample { status: FtsSample::READY, ..FtsSample::default() }], &mut datagram);
-///     given += receiver.accept::<f64>(&Packet::new_checked(&datagram)?).map_or(0, |wrenches| wrenches.len());
+///     emit_packet(
+///         counter,
+///         0,
+///         &[FtsSample { status: FtsSample::READY, ..FtsSample::default() }],
+///         &mut datagram,
+///     );
+///     given +=
+///         receiver.accept::<f64>(&Packet::new_checked(&datagram)?).map_or(0, |wrenches| wrenches.len());
 /// }
 /// assert_eq!(given, 3);
 /// assert_eq!((receiver.statistics().lost, receiver.statistics().duplicates), (1, 1));
