@@ -55,7 +55,7 @@ pub enum ConfigurationError {
 /// ```
 /// use fingertip_drivers::sensors::ati_rdt::Configuration;
 ///
-/// // A sensor that is set to millimetres: a count is as much torque as a thousandth of one in newton metres.
+/// // A sensor that is set to newton millimetres: a thousand counts each, a million a newton metre.
 /// let page = "<netft><scfgfu>N</scfgfu><scfgtu>Nmm</scfgtu><cfgcpf>1000000</cfgcpf><cfgcpt>1000</cfgcpt>\
 ///     <comrdtrate>7000</comrdtrate></netft>";
 /// let configuration = Configuration::parse(page)?;
