@@ -69,17 +69,24 @@ fn pushes() -> Vec<Wrench<f32>> {
         .to_vec()
 }
 
+/// The same with a spin torque of a tenth of a millimetre times the force.
+fn twists() -> Vec<Wrench<f32>> {
+    let twisted =
+        |push: &Wrench<f32>| Wrench::on_fingertip(push.force(), push.torque() + push.force() * 1e-4);
+    pushes().iter().map(twisted).collect()
+}
+
 fn contacts() -> Result<(), Failure> {
-    let wrenches = pushes();
+    let (wrenches, twists) = (pushes(), twists());
     let (point, soft) = (PointContact::new(0.1_f32)?, SoftFinger::new(0.1_f32)?);
     macro_rules! shapes {
-        ($($name:ident: $kind:ty, $model:ident = $shape:expr;)*) => { $(
-            count!($name, ($shape, $model), $kind, wrenches, |s, w: Wrench<f32>| s.1.resolve(w, &s.0));
+        ($wrenches:ident; $($name:ident: $kind:ty, $model:ident = $shape:expr;)*) => { $(
+            count!($name, ($shape, $model), $kind, $wrenches, |s, w: Wrench<f32>| s.1.resolve(w, &s.0));
         )* };
     }
     let (centre, up) = (Vector3::zeros(), Vector3::z());
     let axes = Vector3::new(0.014, 0.011, 0.009);
-    shapes! {
+    shapes! { wrenches;
         point_on_sphere: (Sphere<f32>, PointContact<f32>), point = Sphere::centred(0.013)?;
         point_on_ellipsoid: (Ellipsoid<f32>, PointContact<f32>), point = Ellipsoid::new(axes)?;
         point_on_cylinder: (Cylinder<f32>, PointContact<f32>), point = Cylinder::new(centre, Vector3::x(), 0.009)?;
@@ -89,6 +96,12 @@ fn contacts() -> Result<(), Failure> {
         point_on_torus: (Torus<f32>, PointContact<f32>), point = Torus::new(0.01, 0.0035)?;
         soft_on_sphere: (Sphere<f32>, SoftFinger<f32>), soft = Sphere::centred(0.013)?;
         soft_on_ellipsoid: (Ellipsoid<f32>, SoftFinger<f32>), soft = Ellipsoid::new(axes)?;
+    }
+    shapes! { twists;
+        soft_on_cylinder: (Cylinder<f32>, SoftFinger<f32>), soft = Cylinder::new(centre, Vector3::x(), 0.009)?;
+        soft_on_capsule: (Capsule<f32>, SoftFinger<f32>), soft = Capsule::new(centre, up, 0.004, 0.009)?;
+        soft_on_cone: (Cone<f32>, SoftFinger<f32>), soft = Cone::new(Vector3::new(0.0, 0.0, 0.02), -up, 0.6)?;
+        soft_on_torus: (Torus<f32>, SoftFinger<f32>), soft = Torus::new(0.01, 0.0035)?;
     }
     Ok(())
 }
