@@ -76,8 +76,24 @@ fn twists() -> Vec<Wrench<f32>> {
     pushes().iter().map(twisted).collect()
 }
 
+/// Touches of a ring of 10 mm and tube of 3.5 mm, with as much spin torque.
+fn ring_touches() -> Vec<Wrench<f32>> {
+    let touch = |around: f32, across: f32, aside: [f32; 3]| {
+        let outward = Vector3::new(around.cos(), around.sin(), 0.0);
+        let normal = outward * across.cos() + Vector3::z() * across.sin();
+        let (point, force) = (outward * 0.01 + normal * 0.0035, Vector3::from(aside) - normal * 2.0);
+        Wrench::on_fingertip(force, point.cross(&force) + normal * 2e-4)
+    };
+    vec![
+        touch(0.3, 0.2, [0.4, 0.1, -0.3]),
+        touch(2.0, 1.4, [-0.2, 0.5, 0.1]),
+        touch(4.1, -0.8, [0.3, 0.3, 0.2]),
+        touch(5.5, 2.5, [-0.5, -0.1, 0.4]),
+    ]
+}
+
 fn contacts() -> Result<(), Failure> {
-    let (wrenches, twists) = (pushes(), twists());
+    let (wrenches, twists, ring_touches) = (pushes(), twists(), ring_touches());
     let (point, soft) = (PointContact::new(0.1_f32)?, SoftFinger::new(0.1_f32)?);
     macro_rules! shapes {
         ($wrenches:ident; $($name:ident: $kind:ty, $model:ident = $shape:expr;)*) => { $(
@@ -101,6 +117,8 @@ fn contacts() -> Result<(), Failure> {
         soft_on_cylinder: (Cylinder<f32>, SoftFinger<f32>), soft = Cylinder::new(centre, Vector3::x(), 0.009)?;
         soft_on_capsule: (Capsule<f32>, SoftFinger<f32>), soft = Capsule::new(centre, up, 0.004, 0.009)?;
         soft_on_cone: (Cone<f32>, SoftFinger<f32>), soft = Cone::new(Vector3::new(0.0, 0.0, 0.02), -up, 0.6)?;
+    }
+    shapes! { ring_touches;
         soft_on_torus: (Torus<f32>, SoftFinger<f32>), soft = Torus::new(0.01, 0.0035)?;
     }
     Ok(())
