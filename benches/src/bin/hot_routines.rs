@@ -11,7 +11,7 @@ use fingertip_friction::{
     RatioThreshold, SlipDetector, SoftFingerLimit,
 };
 use fingertip_scenes::{Felt, Scene, SceneA, SceneB, SceneC, SceneD, Volts};
-use fingertip_surfaces::{Capsule, Cone, Cylinder, Ellipsoid, Plane, Sphere, Torus};
+use fingertip_surfaces::{Capsule, Cone, Cylinder, Ellipsoid, Plane, Sphere, Superquadric, Torus};
 use fingertip_wrench::{
     BicchiDario, ContactForce, Decoupled, GaussianElimination, Inverse, LeastSquares, Refined, SensorMatrix,
     Wrench, WrenchSolver,
@@ -112,6 +112,7 @@ fn contacts() -> Result<(), Failure> {
         point_on_torus: (Torus<f32>, PointContact<f32>), point = Torus::new(0.01, 0.0035)?;
         soft_on_sphere: (Sphere<f32>, SoftFinger<f32>), soft = Sphere::centred(0.013)?;
         soft_on_ellipsoid: (Ellipsoid<f32>, SoftFinger<f32>), soft = Ellipsoid::new(axes)?;
+        soft_on_superquadric: (Superquadric<f32>, SoftFinger<f32>), soft = Superquadric::new(axes, [0.7, 0.8])?;
     }
     shapes! { twists;
         soft_on_cylinder: (Cylinder<f32>, SoftFinger<f32>), soft = Cylinder::new(centre, Vector3::x(), 0.009)?;
