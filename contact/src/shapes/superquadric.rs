@@ -95,7 +95,8 @@ fn quickly<T: Real>(shape: &Superquadric<T>, push: &ForceLine<T>) -> Option<Soft
     let (strength, twist) = (push.squared().root(), (spin_torque * arrival.steepest).abs());
     let growth = (twist + pressing) * (twist + strength) * arrival.inverse;
     let steep = pressing >= larger(strength, twist) * flat();
-    let steady = steep & (growth <= T::literal(STEADY));
+    let spins_little = spin_torque.abs() <= strength * point.amax();
+    let steady = steep & spins_little & (growth <= T::literal(STEADY));
     steady.then_some(SoftContact { point, normal, spin_torque, active: true })
 }
 
