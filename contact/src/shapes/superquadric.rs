@@ -112,7 +112,8 @@ struct Arrival<T: Real> {
     steepest: T,
 }
 
-/// Steps to the contact, until one is at most so fine, of the size and of the radius of curvature.
+/// Steps to the contact, until one is at most so fine, of the size and of the radius of curvature; and of each
+/// coordinate too, unless it is a start only that is asked for.
 ///
 /// At a place `c` of the surface `M = m − c × f` shall be along the normal; a step `a` across it has
 /// `(τ EᵀWE + f·n J₂) Eᵀa = EᵀM` with `τ = n·M` (`docs/theory/contact.md#general-surfaces`). Behind a step the place is
@@ -146,7 +147,10 @@ fn arrive<T: Real>(
         let size = step.norm_squared().root();
         let steepest = larger(w11.abs(), w22.abs()) + w12.abs();
         let reach = c.amax();
-        if (size <= fine * reach) & (size * steepest <= fine) {
+        // Next to a plane of two axes the curvature changes within as much as the place is away from it.
+        let within = (0..3).fold(true, |within, k| within & (step[k].abs() <= c[k].abs() * fine));
+        let settled = (size <= fine * reach) & (size * steepest <= fine);
+        if settled & (within | (fine > T::literal(0.01))) {
             let turn = e1 * (w11 * a1 + w12 * a2) + e2 * (w12 * a1 + w22 * a2);
             return Some(Arrival { point: c, step, normal: n, turn, inverse, steepest });
         }
