@@ -97,6 +97,6 @@ pub enum LocalSurface {
     },
     /// Flat facets, of which a shape finds contacts to the last digit by itself.
     Facets,
-    /// A superquadric, for a type narrower than `f64`.
+    /// A superquadric.
     Superquadric(Superquadric<f64>),
 }

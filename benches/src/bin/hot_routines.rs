@@ -11,7 +11,7 @@ use fingertip_friction::{
     RatioThreshold, SlipDetector, SoftFingerLimit,
 };
 use fingertip_scenes::{Felt, Scene, SceneA, SceneB, SceneC, SceneD, Volts};
-use fingertip_surfaces::{Capsule, Cone, Cylinder, Ellipsoid, Plane, Sphere, Torus};
+use fingertip_surfaces::{Capsule, Cone, Cylinder, Ellipsoid, Plane, Sphere, Superquadric, Torus};
 use fingertip_wrench::{
     BicchiDario, ContactForce, Decoupled, GaussianElimination, Inverse, LeastSquares, Refined, SensorMatrix,
     Wrench, WrenchSolver,
@@ -69,17 +69,40 @@ fn pushes() -> Vec<Wrench<f32>> {
         .to_vec()
 }
 
+/// The same with a spin torque of a tenth of a millimetre times the force.
+fn twists() -> Vec<Wrench<f32>> {
+    let twisted =
+        |push: &Wrench<f32>| Wrench::on_fingertip(push.force(), push.torque() + push.force() * 1e-4);
+    pushes().iter().map(twisted).collect()
+}
+
+/// Touches of a ring of 10 mm and tube of 3.5 mm, with as much spin torque.
+fn ring_touches() -> Vec<Wrench<f32>> {
+    let touch = |around: f32, across: f32, aside: [f32; 3]| {
+        let outward = Vector3::new(around.cos(), around.sin(), 0.0);
+        let normal = outward * across.cos() + Vector3::z() * across.sin();
+        let (point, force) = (outward * 0.01 + normal * 0.0035, Vector3::from(aside) - normal * 2.0);
+        Wrench::on_fingertip(force, point.cross(&force) + normal * 2e-4)
+    };
+    vec![
+        touch(0.3, 0.2, [0.4, 0.1, -0.3]),
+        touch(2.0, 1.4, [-0.2, 0.5, 0.1]),
+        touch(4.1, -0.8, [0.3, 0.3, 0.2]),
+        touch(5.5, 2.5, [-0.5, -0.1, 0.4]),
+    ]
+}
+
 fn contacts() -> Result<(), Failure> {
-    let wrenches = pushes();
+    let (wrenches, twists, ring_touches) = (pushes(), twists(), ring_touches());
     let (point, soft) = (PointContact::new(0.1_f32)?, SoftFinger::new(0.1_f32)?);
     macro_rules! shapes {
-        ($($name:ident: $kind:ty, $model:ident = $shape:expr;)*) => { $(
-            count!($name, ($shape, $model), $kind, wrenches, |s, w: Wrench<f32>| s.1.resolve(w, &s.0));
+        ($wrenches:ident; $($name:ident: $kind:ty, $model:ident = $shape:expr;)*) => { $(
+            count!($name, ($shape, $model), $kind, $wrenches, |s, w: Wrench<f32>| s.1.resolve(w, &s.0));
         )* };
     }
     let (centre, up) = (Vector3::zeros(), Vector3::z());
     let axes = Vector3::new(0.014, 0.011, 0.009);
-    shapes! {
+    shapes! { wrenches;
         point_on_sphere: (Sphere<f32>, PointContact<f32>), point = Sphere::centred(0.013)?;
         point_on_ellipsoid: (Ellipsoid<f32>, PointContact<f32>), point = Ellipsoid::new(axes)?;
         point_on_cylinder: (Cylinder<f32>, PointContact<f32>), point = Cylinder::new(centre, Vector3::x(), 0.009)?;
@@ -89,6 +112,15 @@ fn contacts() -> Result<(), Failure> {
         point_on_torus: (Torus<f32>, PointContact<f32>), point = Torus::new(0.01, 0.0035)?;
         soft_on_sphere: (Sphere<f32>, SoftFinger<f32>), soft = Sphere::centred(0.013)?;
         soft_on_ellipsoid: (Ellipsoid<f32>, SoftFinger<f32>), soft = Ellipsoid::new(axes)?;
+        soft_on_superquadric: (Superquadric<f32>, SoftFinger<f32>), soft = Superquadric::new(axes, [0.7, 0.8])?;
+    }
+    shapes! { twists;
+        soft_on_cylinder: (Cylinder<f32>, SoftFinger<f32>), soft = Cylinder::new(centre, Vector3::x(), 0.009)?;
+        soft_on_capsule: (Capsule<f32>, SoftFinger<f32>), soft = Capsule::new(centre, up, 0.004, 0.009)?;
+        soft_on_cone: (Cone<f32>, SoftFinger<f32>), soft = Cone::new(Vector3::new(0.0, 0.0, 0.02), -up, 0.6)?;
+    }
+    shapes! { ring_touches;
+        soft_on_torus: (Torus<f32>, SoftFinger<f32>), soft = Torus::new(0.01, 0.0035)?;
     }
     Ok(())
 }

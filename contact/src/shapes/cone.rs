@@ -7,8 +7,9 @@ use fingertip_surfaces::{ActiveSurface, Cone, Extent, ForceLine, LocalSurface, S
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{ComplexField, Vector3};
 
-use crate::soft_finger::closed_form::{is_active, is_steady, soft_finger, told};
-use crate::soft_finger::double::finely;
+use super::slanted_side::SlantedSide;
+use crate::soft_finger::closed_form::{is_active, soft_finger, told};
+use crate::soft_finger::double::{finely, is_steady};
 use crate::soft_finger::newton::Problem;
 use crate::soft_finger::refined::settled;
 use crate::soft_finger::rim::on_rim;
@@ -175,47 +176,16 @@ impl<T: Real> SideOfACone<T> {
     }
 }
 
-/// The contact on the side of a force that presses at no flat angle, where the closed form loses no digits: with
-/// `D = cos² α − a aᵀ`, of which the adjugate is `cos² α (a aᵀ − sin² α)`, and without a frame.
+/// The contact on the side of a force that presses at no flat angle, counted from the apex.
 #[inline(always)]
 fn steeply_on_cone<T: Real>(cone: &Cone<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
-    let (apex, axis) = (cone.apex(), cone.axis());
     let (sine, cosine) = cone.half_angle_sin_cos();
-    let (d1, d3) = (cosine * cosine, -(sine * sine));
-    let (f, m) = (push.force(), push.torque_about(&apex));
-    let (power, turning, rise) = (f.dot(&m), m.dot(&axis), f.dot(&axis));
-    let adjugate = (m * d3 + axis * turning) * d1;
-    let (squared, along) = (m.norm_squared(), -m.dot(&adjugate));
-    // Not where the torque is all but along the side's normals, and the root loses digits.
-    if !(along >= squared * d1 * -d3 * T::literal(0.2)) {
-        return None;
-    }
-    let h = -along.root();
-    let k = power / h;
-    let df = f * d1 - axis * rise;
-    let (bent, straight) = (k * k * d1 * d1 * d3, f.dot(&df));
-    let denominator = bent + straight;
-    // Nor where the force is all but parallel to the side.
-    if !(denominator.abs() >= (bent.abs() + push.squared() * d1) * T::literal(0.4)) {
-        return None;
-    }
-    let from_apex = (adjugate * k + df.cross(&m) + f * h) / denominator;
-    let depth = from_apex.dot(&axis);
-    let outward = from_apex - axis * depth;
-    let radius_squared = outward.norm_squared();
-    if !((radius_squared >= T::LEAST_NORMAL) & (radius_squared <= T::GREATEST)) {
-        return None;
-    }
-    let radius = radius_squared.root();
-    let normal = outward * (cosine / radius) - axis * sine;
-    let pressing = -f.dot(&normal);
-    let spin_torque = -power / pressing;
-    let active = cone.depth().is_none_or(|most| depth <= most);
-    let contact = SoftContact { point: apex + from_apex, normal, spin_torque, active };
-    (depth > T::zero() && is_steady(push, &contact, radius * T::literal(0.5))).then_some(contact)
+    let side = SlantedSide { origin: cone.apex(), axis: cone.axis(), radius: T::zero(), sine: -sine, cosine };
+    let (contact, depth) = side.steep_contact(push)?;
+    Some(SoftContact { active: cone.depth().is_none_or(|most| depth <= most), ..contact })
 }
 
-/// The same, or the contact at the tip, on which any normal will do that is steeper than the side's.
+/// The contact on the side, or at the tip, on which any normal will do that is steeper than the side's.
 fn on_side_or_tip<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
     let mut found = on_cone(cone, wrench);
     if found.is_err() {
@@ -233,16 +203,15 @@ fn on_side_or_tip<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftCon
     found
 }
 
-/// The same, in double precision if the type is narrower and the spin torque rules: then rounding decides
-/// between the side and the tip.
+/// The same, in double precision if the type is narrower and the force meets the side at a flat angle or the spin
+/// torque rules: then rounding moves the contact far along the side, and decides between the side and the tip.
 ///
 /// # Errors
 /// As [`on_cone`].
 fn on_cone_finely<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
-    let force = length(&wrench.force());
     let is_steady = |contact: &SoftContact<T>| {
         let radius = length(&(contact.point - cone.apex())) * cone.half_angle().sin();
-        contact.spin_torque.abs() <= force * radius
+        is_steady(wrench, radius)(contact)
     };
     finely(on_side_or_tip(cone, wrench), is_steady, wrench, |wrench| {
         let double = Cone::new(wide(&cone.apex()), wide(&cone.axis()), cone.half_angle().to_f64());

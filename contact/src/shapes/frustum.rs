@@ -1,13 +1,17 @@
 //! Solids of revolution with flat ends: closed cylinder, cone, truncated cone.
 
-use fingertip_surfaces::numeric::vectors::wide;
-use fingertip_surfaces::{ActiveSurface, CappedCylinder, Cone, Frustum, LocalSurface, SmoothSurface};
+use fingertip_surfaces::numeric::vectors::{length, wide};
+use fingertip_surfaces::{
+    ActiveSurface, CappedCylinder, Cone, ForceLine, Frustum, LocalSurface, SmoothSurface,
+};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use super::cone::on_cone;
 use super::cylinder::on_round_side;
 use super::plane::on_plane;
+use super::slanted_side::SlantedSide;
+use crate::model::flat;
 use crate::soft_finger::closed_form::{soft_finger, sole, told};
 use crate::soft_finger::double::{finely, is_steady};
 use crate::soft_finger::newton::Problem;
@@ -87,15 +91,64 @@ fn on_side<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContac
     polished.or_else(|| settled(wrench, solid, &rough))
 }
 
-/// In double precision if the type is narrower and rounding decides between the side, an end and an edge.
-/// `double` is the same solid.
+/// The contact of a force that presses steeply, on the side or within the end that it presses on: a convex body has
+/// no other. Edges and tips, and what is near to them, take the long way.
+#[inline(always)]
+fn steeply_on_frustum<T: Real>(solid: &Frustum<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+    let (base, axis, height) = (solid.base_centre(), solid.axis(), solid.height());
+    let cosine = solid.side_cosine();
+    let side =
+        SlantedSide { origin: base, axis, radius: solid.base_radius(), sine: solid.taper() * cosine, cosine };
+    let hair = hair(solid);
+    if let Some((contact, above)) = side.steep_contact(push)
+        && above >= hair
+        && above <= height - hair
+    {
+        return Some(contact);
+    }
+    let (force, rise) = (push.force(), push.force().dot(&axis));
+    let (normal, origin, radius) = if rise < T::zero() {
+        (axis, base + axis * height, solid.top_radius())
+    } else {
+        (-axis, base, solid.base_radius())
+    };
+    let share = T::one() / rise.abs();
+    let spin_torque = -force.dot(&push.torque()) * share;
+    let away = push.torque_about(&origin).cross(&normal) * share;
+    let twist = spin_torque / radius;
+    let steep = rise * rise >= flat::<T>() * flat::<T>() * (push.squared() + twist * twist);
+    let inner = radius - hair;
+    let inside = away.norm_squared() <= inner * inner.max(T::zero());
+    (steep & inside).then(|| SoftContact { point: origin + away, normal, spin_torque, active: true })
+}
+
+/// As near to an edge as rounding brings a contact.
+fn hair<T: Real>(solid: &Frustum<T>) -> T {
+    (solid.height() + solid.base_radius() + solid.top_radius()) * (T::literal(64.0) * T::EPSILON)
+}
+
+/// Whether a place is on an edge or a tip, for all that the numbers say.
+fn is_on_edge<T: Real>(solid: &Frustum<T>, point: &Vector3<T>) -> bool {
+    let from_base = point - solid.base_centre();
+    let above = from_base.dot(&solid.axis());
+    let around = length(&(from_base - solid.axis() * above));
+    let near = |height: T, radius: T| {
+        (above - height).abs() <= hair(solid) && (around - radius).abs() <= hair(solid)
+    };
+    near(T::zero(), solid.base_radius()) || near(solid.height(), solid.top_radius())
+}
+
+/// In double precision if the type is narrower and rounding decides between the side, an end and an edge. So it does on
+/// an edge, where the place answers to the torque by more the less that is. `double` is the same solid.
 fn on_frustum_finely<T: Real>(
     solid: &Frustum<T>,
     wrench: &Wrench<T>,
     double: impl FnOnce() -> Option<Frustum<f64>>,
 ) -> Result<SoftContact<T>, Search<T>> {
     let lever = (solid.base_radius() + solid.top_radius()) * T::literal(0.5);
-    finely(sole(on_frustum(solid, wrench), wrench), is_steady(wrench, lever), wrench, |wrench| {
+    let is_steady = is_steady(wrench, lever);
+    let is_steady = |contact: &SoftContact<T>| is_steady(contact) && !is_on_edge(solid, &contact.point);
+    finely(sole(on_frustum(solid, wrench), wrench), is_steady, wrench, |wrench| {
         double().map(|double| sole(on_frustum(&double, wrench), wrench))
     })
 }
@@ -135,6 +188,8 @@ soft_finger!(
         }),
         visit
     ),
+    sole | shape,
+    push | steeply_on_frustum(shape, push),
     patch | shape,
     point | Some(solid_patch(shape, point, &shape.base_centre(), [0.0, shape.height().to_f64()])),
     sizes | shape,
@@ -152,6 +207,8 @@ soft_finger!(
         }),
         visit
     ),
+    sole | shape,
+    push | steeply_on_frustum(shape.solid(), push),
     patch | shape,
     point | {
         let half = shape.half_length().to_f64();

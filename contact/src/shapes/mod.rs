@@ -18,6 +18,7 @@ mod paraboloid;
 mod plane;
 mod revolution;
 mod rounded_box;
+mod slanted_side;
 mod sphere;
 mod superquadric;
 mod torus;

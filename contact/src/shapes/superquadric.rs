@@ -1,14 +1,22 @@
 //! The superquadric.
 
 use crate::uncertainty::geometry::stretched;
-use fingertip_surfaces::numeric::vectors::{largest, length, tangents, unit_or, wide};
-use fingertip_surfaces::{LocalSurface, SmoothSurface, Superquadric};
+use fingertip_surfaces::numeric::vectors::{larger, largest, length, tangents, unit_or, wide};
+use fingertip_surfaces::{ForceLine, Gauge, LocalSurface, SmoothSurface, Superquadric};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
+use crate::model::flat;
 use crate::soft_finger::closed_form::soft_finger;
 use crate::soft_finger::double::{in_type, is_steady, narrow};
+use crate::soft_finger::unit_sphere::OnUnitSphere;
 use crate::{Search, SoftContact, newton_soft_contacts};
+
+/// Steps of [`quickly`].
+const QUICK_STEPS: usize = 8;
+
+/// By how much rounding may grow where [`quickly`] answers; beyond, the contact is refined to the last digit.
+const STEADY: f64 = 8.0;
 
 /// Starts, and steps from each, of [`by_normals`].
 const STARTS: usize = 4;
@@ -55,6 +63,112 @@ fn search_finely<T: Real>(
     let wrench = Wrench::on_fingertip(wide(&wrench.force()), wide(&wrench.torque()));
     let last = last.map(wide);
     in_type(search(&double, &wrench, last.as_ref(), &mut |contact| visit(narrow(&contact))))
+}
+
+/// The contact of a force that presses steeply, by Newton's method on the surface.
+///
+/// It begins where the contact would be on the ellipsoid with the same semi-axes
+/// (`docs/theory/contact.md#central-quadrics`). The first steps of double precision are taken in single. The last, of
+/// which the square is nothing, is not evaluated. On a convex body any contact that presses is the only one; `None`
+/// where the steps do not settle, where rounding grows, and of numbers that carry more than a value, such as dual
+/// ones: the steps that are enough for the value are too few for its derivative.
+#[inline(never)]
+fn quickly<T: Real>(shape: &Superquadric<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+    if size_of::<T>() > size_of::<f64>() {
+        return None;
+    }
+    let (f, m, axes) = (push.force(), push.torque(), shape.semi_axes());
+    let mut start = on_ellipsoid(&axes, &f, &m).component_mul(&axes);
+    if T::EPSILON.to_f64() <= f64::EPSILON {
+        let scale = f.amax().normalising_factor();
+        let narrow = |v: &Vector3<T>| v.map(|x| x.to_f64() as f32);
+        let load = [narrow(&(f * scale)), narrow(&(m * scale))];
+        let Arrival { point, step, .. } = arrive(&shape.rounded(), &load, narrow(&start), 0.03)?;
+        start = (point + step).map(|x| T::literal(f64::from(x)));
+    }
+    let arrival = arrive(shape, &[f, m], start, T::EPSILON.root())?;
+    let point = arrival.point + arrival.step;
+    let turned = arrival.normal + arrival.turn;
+    let normal = turned / turned.norm_squared().root();
+    let (spin_torque, pressing) = (normal.dot(&(m - point.cross(&f))), -f.dot(&normal));
+    // By how much the contact answers to a torque, times the torque that rounding of a place makes.
+    let (strength, twist) = (push.squared().root(), (spin_torque * arrival.steepest).abs());
+    let growth = (twist + pressing) * (twist + strength) * arrival.inverse;
+    let steep = pressing >= larger(strength, twist) * flat();
+    let spins_little = spin_torque.abs() <= strength * point.amax();
+    let steady = steep & spins_little & (growth <= T::literal(STEADY));
+    steady.then_some(SoftContact { point, normal, spin_torque, active: true })
+}
+
+/// A place of the surface, the last step away from it, and how the normal turns on that.
+struct Arrival<T: Real> {
+    point: Vector3<T>,
+    step: Vector3<T>,
+    normal: Vector3<T>,
+    turn: Vector3<T>,
+    /// One over the determinant of the equations.
+    inverse: T,
+    /// The largest curvature at most.
+    steepest: T,
+}
+
+/// Steps to the contact, until one is at most so fine, of the size and of the radius of curvature; and of each
+/// coordinate too, unless it is a start only that is asked for.
+///
+/// At a place `c` of the surface `M = m − c × f` shall be along the normal; a step `a` across it has
+/// `(τ EᵀWE + f·n J₂) Eᵀa = EᵀM` with `τ = n·M` (`docs/theory/contact.md#general-surfaces`). Behind a step the place is
+/// brought back along the ray from the centre, which takes no evaluation: of a gauge the gradient is the same there, and
+/// the Hessian as much larger as the place is nearer.
+#[inline(always)]
+fn arrive<T: Real>(
+    shape: &Superquadric<T>,
+    [f, m]: &[Vector3<T>; 2],
+    mut c: Vector3<T>,
+    fine: T,
+) -> Option<Arrival<T>> {
+    for _ in 0..QUICK_STEPS {
+        let Gauge { value, gradient, bends: [(k1, q), (k2, s)] } = shape.gauge_near(&c);
+        c *= T::one() / value;
+        let inverse = T::one() / gradient.norm_squared().root();
+        let n = gradient * inverse;
+        let (e1, e2) = tangents(&n);
+        let bend = value * inverse;
+        let (k1, k2) = (k1 * bend, k2 * bend);
+        let (q1, q2, s1, s2) = (q.dot(&e1), q.dot(&e2), s.dot(&e1), s.dot(&e2));
+        let (w11, w12, w22) =
+            (k1 * q1 * q1 + k2 * s1 * s1, k1 * q1 * q2 + k2 * s1 * s2, k1 * q2 * q2 + k2 * s2 * s2);
+        let rest = m - c.cross(f);
+        let (r1, r2, spin, pressing) = (e1.dot(&rest), e2.dot(&rest), n.dot(&rest), f.dot(&n));
+        let [v11, v12, v22] = [w11, w12, w22].map(|w| w * spin);
+        let inverse = T::one() / (v11 * v22 - v12 * v12 + pressing * pressing);
+        let a1 = (v22 * r1 - (v12 + pressing) * r2) * inverse;
+        let a2 = (v11 * r2 - (v12 - pressing) * r1) * inverse;
+        let step = e1 * a1 + e2 * a2;
+        let size = step.norm_squared().root();
+        let steepest = larger(w11.abs(), w22.abs()) + w12.abs();
+        let reach = c.amax();
+        // Next to a plane of two axes the curvature changes within as much as the place is away from it.
+        let within = (0..3).fold(true, |within, k| within & (step[k].abs() <= c[k].abs() * fine));
+        let settled = (size <= fine * reach) & (size * steepest <= fine);
+        if settled & (within | (fine > T::literal(0.01))) {
+            let turn = e1 * (w11 * a1 + w12 * a2) + e2 * (w12 * a1 + w22 * a2);
+            return Some(Arrival { point: c, step, normal: n, turn, inverse, steepest });
+        }
+        // A long step would lead to where the surface is another one. False for a NaN, too.
+        let most = reach * T::literal(0.5);
+        c += if size <= most { step } else { step * (most / size) };
+    }
+    None
+}
+
+/// The normal on the unit sphere that the ellipsoid with these semi-axes is brought to.
+#[inline(always)]
+fn on_ellipsoid<T: Real>(axes: &Vector3<T>, f: &Vector3<T>, m: &Vector3<T>) -> Vector3<T> {
+    let product = axes.x * axes.y * axes.z;
+    let (force, torque) = (f.component_div(axes), m.component_mul(axes) / product);
+    let scale = larger(largest(&force), largest(&torque)).normalising_factor();
+    let (force, torque) = (force * scale, torque * scale);
+    OnUnitSphere::new(&force, &torque, force.norm_squared(), force.dot(&torque)).point()
 }
 
 /// The contact, by Newton's method in its normal `n`: the point is the gradient of the support function `h(n)`, and
@@ -124,13 +238,12 @@ fn by_normals<T: Real>(shape: &Superquadric<T>, wrench: &Wrench<T>) -> Option<So
 soft_finger!(
     Superquadric,
     |shape, wrench, last, visit| search_finely(shape, wrench, last, &mut visit),
+    sole | shape,
+    push | quickly(shape, push),
     patch | shape,
     _ | {
-        // Of a shape in double precision there is no more to be had.
-        let narrow = T::EPSILON.to_f64() > f64::EPSILON;
-        let double =
-            narrow.then(|| Superquadric::new(wide(&shape.semi_axes()), shape.exponents().map(Real::to_f64)));
-        double.and_then(Result::ok).map(LocalSurface::Superquadric)
+        let double = Superquadric::new(wide(&shape.semi_axes()), shape.exponents().map(Real::to_f64));
+        double.ok().map(LocalSurface::Superquadric)
     },
     // The three semi-axes (its exponents are chosen, not measured). As for any level function of `x/a`:
     // `∂S/∂a_i = −g_i x_i/a_i`, `∂g/∂a_i = −(g_i + x_i H) e_i/a_i`.

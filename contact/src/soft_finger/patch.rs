@@ -223,21 +223,27 @@ fn rounded_box<W: Wide>(
     Seen { height: length.minus(distance), normal, around, curvatures }
 }
 
-/// A superquadric, which is known to the digits of a double only.
+/// A superquadric, of which the curvatures are those of double precision.
 fn superquadric<W: Wide>(point: Three<W>, shape: &Superquadric<f64>) -> Seen<W> {
-    let level = shape.level(&rounded(point));
+    let place = rounded(point);
+    let level = shape.level(&place);
     let (normal, steepness) = level.normal().unwrap_or((Vector3::z(), 1.0));
     let (e1, e2) = tangents(&normal);
-    let bend = shape.bend(&rounded(point), &normal, [&e1, &e2]);
+    let bend = shape.bend(&place, &normal, [&e1, &e2]);
     // Turned into the lines of curvature.
     let angle = RealField::atan2(bend.m12 + bend.m21, bend.m11 - bend.m22) * 0.5;
     let (sine, cosine) = ComplexField::sin_cos(angle);
     let around = e1 * cosine + e2 * sine;
     let [c, s] = [cosine * cosine, sine * sine];
     let mixed = (bend.m12 + bend.m21) * cosine * sine;
+    let (height, normal) = if W::BEYOND_DOUBLE {
+        shape.height_and_normal(point)
+    } else {
+        (W::exactly(level.value / steepness), exactly(&normal))
+    };
     Seen {
-        height: W::exactly(level.value / steepness),
-        normal: exactly(&normal),
+        height,
+        normal,
         around,
         curvatures: [c * bend.m11 + s * bend.m22 + mixed, s * bend.m11 + c * bend.m22 - mixed],
     }

@@ -151,7 +151,7 @@ impl End {
 }
 
 /// Another value, with the derivative that the one before has if it is a dual number.
-fn renewed<T: Real>(before: T, now: f64) -> T {
+pub(crate) fn renewed<T: Real>(before: T, now: f64) -> T {
     T::literal(now) + (before - T::literal(before.to_f64()))
 }
 

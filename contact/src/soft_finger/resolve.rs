@@ -51,6 +51,13 @@ impl<T: Real> SoftFinger<T> {
     fn beyond_friction(&self, force: &Vector3<T>, contact: &SoftContact<T>) -> Option<T> {
         let greatest = self.greatest_friction?;
         let pressing = -force.dot(&contact.normal);
+        // Far from the limit, and of squares within the range; where it is near, the limit itself is asked.
+        let squared = pressing * pressing;
+        let most = (greatest * greatest + T::one()) * squared * T::literal(0.99);
+        let tame = (squared >= T::LEAST_NORMAL) & (most <= T::GREATEST) & (pressing > T::zero());
+        if tame && self.torque_arm.is_none() && force.norm_squared() <= most {
+            return None;
+        }
         let sliding = length(&(force + contact.normal * pressing));
         let turning = self.torque_arm.map_or_else(T::zero, |arm| contact.spin_torque / arm);
         let needed = hypotenuse(sliding, if turning.is_number() { turning } else { T::GREATEST });

@@ -29,6 +29,7 @@ mod pitch;
 mod shapes;
 mod skin;
 mod skin_covariance;
+mod slanted_sides;
 mod solids;
 mod superquadrics;
 mod torus;

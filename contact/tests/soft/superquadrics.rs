@@ -1,7 +1,7 @@
 //! Superquadrics that were wrong in silence, or said to be unresolved.
 
-use fingertip_contact::{ContactModel, NoContact, Resolution, SoftFinger};
-use fingertip_surfaces::{ActiveSurface, Superquadric};
+use fingertip_contact::{ContactModel, NoContact, Resolution, SoftFinger, SoftFingerSurface};
+use fingertip_surfaces::{ActiveSurface, ForceLine, SmoothSurface, Superquadric};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -99,4 +99,121 @@ fn flat_angles_on_sharp_shapes_have_contacts() {
     }
     check::<f64>(1e-12);
     check::<f32>(2e-6);
+}
+
+/// What the shortcut answers solves the equations, at corners, edges and flat sides of every exponent, and next to
+/// the axes and planes, where second derivatives are infinite or zero.
+#[test]
+fn shortcuts_answer_what_the_equations_say() {
+    fn check<T: Real>(goal: f64) {
+        let (mut random, mut asked, mut answered) = (Random::new(802), 0, 0);
+        for k in 0..20_000 {
+            let scale = random.log_uniform(1e-3, 1e3);
+            let axes = Vector3::from_fn(|_, _| T::literal(scale * random.log_uniform(0.1, 1.0)));
+            let exponents = [0, 1].map(|_| match k % 4 {
+                0 => T::literal(random.log_uniform(0.05, 2.0)),
+                1 => T::literal(0.05),
+                2 => T::literal(2.0),
+                _ => T::one(),
+            });
+            let shape = Superquadric::<T>::new(axes, exponents).unwrap();
+            let double = Superquadric::new(axes.map(Real::to_f64), exponents.map(Real::to_f64)).unwrap();
+            let mut outward = random.direction();
+            for (axis, part) in outward.iter_mut().enumerate() {
+                let chance = random.uniform(0.0, 4.0);
+                if axis > 0 && chance < 1.0 {
+                    *part = 0.0;
+                } else if axis > 0 && chance < 2.0 {
+                    *part *= random.log_uniform(1e-30, 1.0);
+                }
+            }
+            let line = fingertip_wrench::Line { point: Vector3::zeros(), direction: outward.normalize() };
+            let mut place = None;
+            double.crossings(&line, |crossing| {
+                if crossing.along > 0.0 {
+                    place = Some((crossing.point, crossing.normal));
+                }
+            });
+            let (point, normal) = place.unwrap();
+            let mut force = random.direction();
+            force *= -force.dot(&normal).signum() * random.log_uniform(1e-6, 1e6);
+            let spin = random.sign() * random.log_uniform(1e-6, 10.0) * force.norm() * scale;
+            let torque = point.cross(&force) + normal * if k % 5 == 0 { 0.0 } else { spin };
+            let wrench = Wrench::on_fingertip(force.map(T::literal), torque.map(T::literal));
+            asked += 1;
+            let Some(push) = ForceLine::new(&wrench, T::zero()) else { continue };
+            let Some(contact) = shape.sole_soft_contact(&push) else { continue };
+            answered += 1;
+            let wide = |v: Vector3<T>| v.map(Real::to_f64);
+            let (f, m, c, n) =
+                (wide(wrench.force()), wide(wrench.torque()), wide(contact.point), wide(contact.normal));
+            let rest = (m - c.cross(&f) - n * contact.spin_torque.to_f64()).norm();
+            let size = double.semi_axes().max();
+            let level = double.level(&c);
+            let (height, bend) = (level.value, level.hessian.norm());
+            let steepness = level.gradient.norm();
+            let (height, bend) = (height / steepness, bend / steepness);
+            let told = || format!("{shape:?} {wrench:?} {contact:?}");
+            assert!(rest <= goal * (f.norm() * size + m.norm()), "{rest:e} {}", told());
+            assert!(height.abs() <= goal * size, "{height:e} {}", told());
+            assert!((n.norm() - 1.0).abs() <= goal && n.dot(&f) < 0.0, "{}", told());
+            // On an edge or a tip it may be one of many, and next to them that of a place nearby.
+            let apart = (double.normal(&c) - n).norm();
+            let sharp = c.component_div(&double.semi_axes()).amin() < 1e-3;
+            assert!(sharp || apart <= goal * (1.0 + bend * size), "{apart:e} {bend:e} {}", told());
+        }
+        println!("{}: {answered} of {asked} answered", core::any::type_name::<T>());
+        assert!(answered * 4 > asked, "{answered}");
+    }
+    check::<f64>(1e-13);
+    check::<f32>(1e-6);
+}
+
+/// Tiny, huge, infinite, NaN: whatever the shortcut answers is made of numbers, and presses.
+#[test]
+fn shortcuts_answer_no_nonsense() {
+    fn check<T: Real>() {
+        let [zero, one] = [T::zero(), T::one()];
+        let extremes = [
+            zero,
+            one,
+            -one,
+            T::LEAST_NORMAL,
+            T::LEAST_NORMAL * T::EPSILON,
+            T::LEAST_NORMAL.root(),
+            T::GREATEST,
+            T::GREATEST.root(),
+            zero / zero,
+            one / zero,
+        ];
+        let mut answered = 0;
+        for size in [T::LEAST_NORMAL.root(), one, T::GREATEST.root()] {
+            for exponents in [[0.05, 2.0], [2.0, 0.05], [1.0, 1.0], [0.05, 0.05], [2.0, 2.0], [0.7, 0.8]] {
+                let axes = Vector3::new(one, T::literal(0.5), T::literal(0.1)) * size;
+                let Ok(shape) = Superquadric::new(axes, exponents.map(T::literal)) else { continue };
+                for down in extremes {
+                    for across in extremes {
+                        for torque in extremes {
+                            for along in extremes {
+                                let force = Vector3::new(across, zero, down);
+                                let moment = Vector3::new(zero, torque, along);
+                                let wrench = Wrench::on_fingertip(force, moment);
+                                let Some(push) = ForceLine::new(&wrench, zero) else { continue };
+                                let Some(contact) = shape.sole_soft_contact(&push) else { continue };
+                                answered += 1;
+                                let sum = contact.point.sum() + contact.normal.sum() + contact.spin_torque;
+                                assert!(sum.is_number(), "{shape:?} {wrench:?} {contact:?}");
+                                let pressing = contact.normal.dot(&force) < zero;
+                                let unit = (contact.normal.norm() - one).abs() < T::literal(1e-6);
+                                assert!(pressing && unit, "{shape:?} {wrench:?} {contact:?}");
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        assert!(answered > 100, "{answered}");
+    }
+    check::<f32>();
+    check::<f64>();
 }

@@ -3,6 +3,7 @@
 pub(crate) mod closest;
 pub(crate) mod ellipse;
 pub(crate) mod interval;
+pub(crate) mod powers;
 pub mod quadratic;
 pub(crate) mod range;
 pub mod roots;

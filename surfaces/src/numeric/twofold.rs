@@ -1,7 +1,7 @@
 //! Numbers of twice the digits, for what cancels.
 
 use fingertip_wrench::Real;
-use nalgebra::Vector3;
+use nalgebra::{ComplexField, Vector3};
 
 /// The unevaluated sum of a number and what rounding took from it (Dekker 1971; Joldes, Muller &
 /// Popescu 2017): a relative error of about `4·ε²`, without a wider type.
@@ -87,16 +87,23 @@ impl<T: Real> Twofold<T> {
 /// Arithmetic with more digits than a result needs: double precision for what is single, twice that for
 /// what is double.
 pub trait Wide: Copy {
+    /// Whether it has more than those of double precision.
+    const BEYOND_DOUBLE: bool;
+
     fn exactly(x: f64) -> Self;
     fn plus(self, other: Self) -> Self;
     fn minus(self, other: Self) -> Self;
     fn times(self, other: Self) -> Self;
     fn over(self, other: Self) -> Self;
     fn root(self) -> Self;
+    /// Of a number that is not negative, for a positive power.
+    fn powf(self, power: Self) -> Self;
     fn rounded(self) -> f64;
 }
 
 impl Wide for f64 {
+    const BEYOND_DOUBLE: bool = false;
+
     #[inline]
     fn exactly(x: f64) -> Self {
         x
@@ -128,12 +135,19 @@ impl Wide for f64 {
     }
 
     #[inline]
+    fn powf(self, power: Self) -> Self {
+        ComplexField::powf(self, power)
+    }
+
+    #[inline]
     fn rounded(self) -> f64 {
         self
     }
 }
 
 impl Wide for Twofold<f64> {
+    const BEYOND_DOUBLE: bool = true;
+
     fn exactly(x: f64) -> Self {
         Self::new(x)
     }
@@ -156,6 +170,10 @@ impl Wide for Twofold<f64> {
 
     fn root(self) -> Self {
         Self::root(self)
+    }
+
+    fn powf(self, power: Self) -> Self {
+        Self::powf(self, power)
     }
 
     fn rounded(self) -> f64 {

@@ -48,6 +48,8 @@ pub use revolution::Revolution;
 pub use rounded_box::RoundedBox;
 pub use sphere::Sphere;
 pub use spherical_cap::SphericalCap;
+#[doc(hidden)]
+pub use superquadric::Gauge;
 pub use superquadric::Superquadric;
 pub use term::Term;
 pub use torus::Torus;

@@ -1,10 +1,11 @@
 //! The convex superquadrics: from boxes over ellipsoids to octahedra.
 
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use crate::numeric::roots::{bisected, first_of_convex};
 use crate::numeric::support;
+use crate::numeric::twofold::{Twofold, Wide};
 use crate::numeric::vectors::{length, unit_or, wide};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, Shortcuts, SmoothSurface, Topology,
@@ -194,90 +195,191 @@ impl<T: Real> ActiveSurface<T> for Superquadric<T> {
 impl<T: Real> Shortcuts<T> for Superquadric<T> {
     const CLOSED_CONVEX: bool = true;
 
-    /// In double precision, for a type that is narrower; of `f64` there is no more to be had.
+    /// In double precision, for a type that is narrower; of `f64` with twice the digits.
     fn surface_residual(&self, point: &Vector3<T>) -> T {
-        if T::EPSILON.to_f64() <= f64::EPSILON {
-            return T::zero();
-        }
-        let scaled = wide(point).component_div(&wide(&self.semi_axes));
-        let norms = self.exponents.map(|e| 2.0 / e.to_f64());
-        let (gauge, gradient) = Superquadric::nested(&scaled, norms);
-        let steepness = length(&gradient.component_div(&wide(&self.semi_axes)));
-        T::literal((gauge - 1.0) / steepness)
+        let (axes, exponents) = (wide(&self.semi_axes()), self.exponents().map(Real::to_f64));
+        let point: [f64; 3] = wide(point).into();
+        T::literal(if T::EPSILON.to_f64() > f64::EPSILON {
+            height_and_normal(&axes, exponents, point).0
+        } else {
+            height_and_normal(&axes, exponents, point.map(Twofold::new)).0.value()
+        })
     }
 }
 
-/// `(|a|^p + |b|^p)^(1/p)` with its first and second derivatives. Where a second derivative is
-/// infinite (on an axis, for `p < 2`) a large finite number stands for it.
-struct Norm<T> {
-    value: T,
-    first: [T; 2],
-    /// By a and a, a and b, b and b.
-    second: [T; 3],
+impl Superquadric<f64> {
+    /// The height over the surface, to first order, and the unit normal, with the digits of a wider number.
+    #[doc(hidden)]
+    #[inline]
+    pub fn height_and_normal<W: Wide>(&self, point: [W; 3]) -> (W, [W; 3]) {
+        height_and_normal(&self.semi_axes, self.exponents, point)
+    }
 }
 
-impl<T: Real> Norm<T> {
-    fn new(a: T, b: T, p: T) -> Self {
-        let (x, y) = (a.abs(), b.abs());
-        let greatest = x.max(y);
-        if !(greatest > T::zero()) {
-            return Self { value: T::zero(), first: [T::zero(); 2], second: [T::zero(); 3] };
+/// The same. Kept out of line, and apart from the type of the shape.
+#[inline(never)]
+fn height_and_normal<W: Wide>(axes: &Vector3<f64>, exponents: [f64; 2], point: [W; 3]) -> (W, [W; 3]) {
+    let [zero, one, two] = [0.0, 1.0, 2.0].map(W::exactly);
+    let axes = [axes.x, axes.y, axes.z].map(W::exactly);
+    let [outer, inner] = exponents.map(|e| two.over(W::exactly(e)));
+    let sign = |k: usize| W::exactly(1.0_f64.copysign(point[k].rounded()));
+    let scaled = |k: usize| point[k].times(sign(k)).over(axes[k]);
+    // The norm and its derivatives; relative to the larger number, so that no power leaves the range.
+    let norm = |a: W, b: W, p: W| {
+        let swapped = b.rounded() > a.rounded();
+        let (most, least) = if swapped { (b, a) } else { (a, b) };
+        if !(most.rounded() > 0.0) {
+            return (zero, [zero; 2]);
         }
-        let (x, y) = (x / greatest, y / greatest);
-        let (xp, yp) = (x.powf(p), y.powf(p));
-        let sum = xp + yp;
-        let relative = sum.powf(T::one() / p);
-        let value = relative * greatest;
-        // (x/N)^p and (y/N)^p add up to 1; lower powers follow by dividing.
-        let (x, y) = (x / relative, y / relative);
-        let (xp, yp) = (xp / sum, yp / sum);
-        let over = |power: T, own: T| if own > T::zero() { power / own } else { T::zero() };
-        let flat = p - T::one();
-        let (dx, dy) = if flat > T::zero() { (over(xp, x), over(yp, y)) } else { (T::one(), T::one()) };
-        let least = T::EPSILON;
-        let steep = |own: T, power: T, other: T| {
-            // (p − 1)/N · (x/N)^(p−2) · (y/N)^p
-            if own > least { power / (own * own) * other } else { least.powf(flat - T::one()) * other }
-        };
-        let factor = flat / value;
-        let (sa, sb) = (T::one().copysign(a), T::one().copysign(b));
-        Self {
+        let share = least.over(most);
+        let power = share.powf(p);
+        let sum = one.plus(power);
+        let long = sum.powf(one.over(p));
+        let along = long.over(sum);
+        let aside = if share.rounded() > 0.0 { power.over(share).times(along) } else { zero };
+        (most.times(long), if swapped { [aside, along] } else { [along, aside] })
+    };
+    let (plane, [dx, dy]) = norm(scaled(0), scaled(1), inner);
+    let (gauge, [d_plane, dz]) = norm(plane, scaled(2), outer);
+    let slopes = [d_plane.times(dx), d_plane.times(dy), dz];
+    let gradient: [W; 3] = core::array::from_fn(|k| slopes[k].times(sign(k)).over(axes[k]));
+    let squared = gradient.iter().fold(zero, |sum, g| sum.plus(g.times(*g)));
+    let steepness = squared.root();
+    (gauge.minus(one).over(steepness), gradient.map(|g| g.over(steepness)))
+}
+
+/// The gauge of a superquadric at a point, with its derivatives.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub struct Gauge<T: Real> {
+    /// 1 on the surface, and homogeneous: at `k` times the point it is `k` times as much, with the same gradient, and
+    /// the Hessian is divided by `k`.
+    pub value: T,
+    pub gradient: Vector3<T>,
+    /// The Hessian is the sum of these vectors' outer products with themselves, times these numbers.
+    pub bends: [(T, Vector3<T>); 2],
+}
+
+impl<T: Real> Superquadric<T> {
+    /// The same in single precision, as well as that has it.
+    #[doc(hidden)]
+    #[inline]
+    pub fn rounded(&self) -> Superquadric<f32> {
+        let narrow = |x: T| x.to_f64() as f32;
+        Superquadric {
+            semi_axes: self.semi_axes.map(narrow),
+            curvatures: self.curvatures.map(narrow),
+            norms: self.norms.map(narrow),
+            duals: self.duals.map(narrow),
+            exponents: self.exponents.map(narrow),
+        }
+    }
+
+    /// The gauge at a point whose coordinates over the semi-axes are 2 at most, as they are near the surface.
+    ///
+    /// With `x ≥ y` and `z` for these coordinates' sizes, `p` and `P` for the norms `2/e₂` and `2/e₁`, it is `F^(1/P)`,
+    /// `F = Q + z^P`, `Q = x^P (1 + t^p)^(P/p)`, `t = y/x`. Norms are homogeneous, and so their Hessians in two numbers
+    /// have rank one: with `w = 1/(1 + t^p)` and its rest as the shares of `x` and `y` in the inner norm
+    /// (`docs/theory/surfaces.md#convex-bodies-with-a-gauge`),
+    ///
+    /// ```text
+    /// ∂g = g/F (Q w/x, Q (1 − w)/y, z^P/z)
+    /// ∂²g = g Q/F (p − 1) w (1 − w)/(x y)² q qᵀ + g (P − 1) Q z^P/(F z)² s sᵀ
+    /// q = (−y, x, 0),   s = (−z w/x, −z (1 − w)/y, 1)
+    /// ```
+    ///
+    /// Where a second derivative is infinite (on an axis, for `p < 2`) a large finite number stands for it.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub fn gauge_near(&self, point: &Vector3<T>) -> Gauge<T> {
+        let v = point.component_mul(&self.curvatures);
+        let Gauge { value, gradient, bends } = self.gauge_scaled(&v);
+        Gauge {
             value,
-            first: [dx * sa, dy * sb],
-            second: [factor * steep(x, xp, yp), -factor * dx * dy * sa * sb, factor * steep(y, yp, xp)],
+            gradient: gradient.component_mul(&self.curvatures),
+            bends: bends.map(|(bend, way)| (bend, way.component_mul(&self.curvatures))),
         }
     }
+
+    /// The same by the coordinates over the semi-axes.
+    #[inline(always)]
+    fn gauge_scaled(&self, v: &Vector3<T>) -> Gauge<T> {
+        let (zero, one) = (T::zero(), T::one());
+        let ([outer, inner], half) = (self.norms, T::literal(0.5));
+        let inverse_outer = self.exponents[0] * half;
+        let [x, y, z] = [v.x.abs(), v.y.abs(), v.z.abs()];
+        let swapped = y > x;
+        let (most, least) = if swapped { (y, x) } else { (x, y) };
+        if !(most > zero) {
+            return self.gauge_on_axis(v.z);
+        }
+        let over = |a: T, b: T| if b > zero { a / b } else { zero };
+        // (a/b²) for a = b^p.
+        let steep =
+            |a: T, b: T, p: T| if b > T::EPSILON { a / (b * b) } else { T::EPSILON.powf(p - one - one) };
+        let share = least / most;
+        // These three do not wait for one another.
+        let (power, up, most_power) = (share.powf(inner), z.powf(outer), most.powf(outer));
+        let sum = one + power;
+        let bent = if outer == inner { sum } else { sum.powf(outer * self.exponents[1] * half) };
+        let around = most_power * bent;
+        let whole = around + up;
+        let value = root_near_one(whole, inverse_outer);
+        let (slope, weight) = (value / whole, one / sum);
+        // Of the larger coordinate and of the smaller, by these. An octahedron's is the one on its edges.
+        let aside = if inner > one { over(power, share) } else { one };
+        let (along, aside) = (weight / most, aside * weight / most);
+        let (wx, wy) = if swapped { (aside, along) } else { (along, aside) };
+        let (wx, wy) = (wx.copysign(v.x), wy.copysign(v.y));
+        let up_slope = if outer > one { over(up, z) } else { one };
+        let gradient =
+            Vector3::new(slope * around * wx, slope * around * wy, (slope * up_slope).copysign(v.z));
+        let (a, b) = if swapped { (share, one) } else { (one, share) };
+        let turn = Vector3::new(-b.copysign(v.y), a.copysign(v.x), zero);
+        let bend =
+            slope * around * (inner - one) * steep(power, share, inner) * (weight / most) * (weight / most);
+        let lean = Vector3::new(-v.z * wx, -v.z * wy, one);
+        let rise = slope * (outer - one) * (around / whole) * steep(up, z, outer);
+        Gauge { value, gradient, bends: [(bend, turn), (rise, lean)] }
+    }
+
+    /// On the third axis, where one part of the second derivatives is zero and the other infinite: their limit.
+    #[cold]
+    fn gauge_on_axis(&self, z: T) -> Gauge<T> {
+        let zero = T::zero();
+        let gradient = Vector3::new(zero, zero, T::one().copysign(z));
+        let nothing = [(zero, Vector3::zeros()); 2];
+        if !(z.abs() > zero) {
+            return Gauge { value: zero, gradient: Vector3::zeros(), bends: nothing };
+        }
+        let beside = self.gauge_scaled(&Vector3::new(z * T::EPSILON, zero, z));
+        Gauge { value: z.abs(), gradient, bends: beside.bends }
+    }
+}
+
+/// `x^a` for `a` between 0 and 1, sooner where `x` is near 1.
+#[inline(always)]
+fn root_near_one<T: Real>(x: T, a: T) -> T {
+    let one = T::one();
+    let d = x - one;
+    if !(d.abs() < T::literal(1e-3)) {
+        return x.powf(a);
+    }
+    // The binomial series, of which the sixth term is less than ε/2.
+    let [half, third, quarter] = [1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0].map(T::literal);
+    let [two, three] = [2.0, 3.0].map(T::literal);
+    let rest = one + d * quarter * (a - three);
+    one + a * d * (one + d * half * (a - one) * (one + d * third * (a - two) * rest))
 }
 
 impl<T: Real> SmoothSurface<T> for Superquadric<T> {
     fn level(&self, point: &Vector3<T>) -> Level<T> {
-        let curvatures = self.semi_axes().map(|a| T::one() / a);
-        let v = point.component_mul(&curvatures);
-        let two = T::one() + T::one();
-        let [outer, inner] = self.exponents().map(|e| two / e);
-        let plane = Norm::new(v.x, v.y, inner);
-        let whole = Norm::new(plane.value, v.z, outer);
-        let gradient =
-            Vector3::new(whole.first[0] * plane.first[0], whole.first[0] * plane.first[1], whole.first[1])
-                .component_mul(&curvatures);
-        let value = whole.value - T::one();
-        let (plane, whole) = if plane.value.is_zero() {
-            // On the z axis one part of the second derivatives is zero and the other infinite: their limit.
-            let beside = Norm::new(v.z * T::EPSILON, T::zero(), inner);
-            let whole = Norm::new(beside.value, v.z, outer);
-            (beside, whole)
-        } else {
-            (plane, whole)
-        };
-        let [px, py] = plane.first;
-        let [wp, _] = whole.first;
-        let [wpp, wpz, wzz] = whole.second;
-        let [pxx, pxy, pyy] = plane.second;
-        let (xx, xy, yy) = (wpp * px * px + wp * pxx, wpp * px * py + wp * pxy, wpp * py * py + wp * pyy);
-        let (xz, yz) = (wpz * px, wpz * py);
-        let scale = Matrix3::from_diagonal(&curvatures);
-        let hessian = scale * Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, wzz) * scale;
-        Level { value, gradient, hessian }
+        // Brought near the surface, where no power leaves the range.
+        let most = point.component_mul(&self.curvatures).amax();
+        let shrink = if most > T::zero() { T::one() / most } else { T::one() };
+        let Gauge { value, gradient, bends: [(around, q), (along, s)] } = self.gauge_near(&(point * shrink));
+        let hessian = q * q.transpose() * (around * shrink) + s * s.transpose() * (along * shrink);
+        Level { value: value / shrink - T::one(), gradient, hessian }
     }
 
     fn extent(&self) -> Extent<T> {

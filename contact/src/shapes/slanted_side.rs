@@ -1,0 +1,71 @@
+//! The straight side of a cone, a frustum or a cylinder.
+
+use fingertip_surfaces::ForceLine;
+use fingertip_wrench::Real;
+use nalgebra::Vector3;
+
+use crate::SoftContact;
+use crate::model::flat;
+
+/// A straight side around an axis, unbounded, as far as it goes before the axis.
+#[derive(Clone, Copy)]
+pub(super) struct SlantedSide<T: Real> {
+    /// A point of the axis, and the axis, a unit vector.
+    pub(super) origin: Vector3<T>,
+    pub(super) axis: Vector3<T>,
+    /// Around that point.
+    pub(super) radius: T,
+    /// The part of the outward normal along the axis, positive where the side narrows along it, and across.
+    pub(super) sine: T,
+    pub(super) cosine: T,
+}
+
+impl<T: Real> SlantedSide<T> {
+    /// The soft-finger contact of a force that presses at no flat angle, under a spin torque that does not rule, and
+    /// how far along the axis it is from the origin.
+    ///
+    /// `docs/theory/contact.md#straight-sides`: with the torque about the origin, `s` and `k` the sine and cosine of
+    /// the slant, and `f_⊥`, `m_⊥` across the axis `a`,
+    ///
+    /// ```text
+    /// v = s m_⊥ + k R f × a,   w = k m·a,   ρ = (w v − √(|v|² − w²) a × v)/|v|²
+    /// n = k ρ + s a,   p = −f·n,   τ = −f·m/p,   ℓ = (m·(ρ × a) − R f·a)/p
+    /// c = (R − s ℓ) ρ + k ℓ a
+    /// ```
+    ///
+    /// Nothing small is divided by but `p` and `|v|`, and both are small only where the contact itself answers to
+    /// rounding: where the force grazes, or next to the tip. `None` there, or where a square leaves the range.
+    #[inline(always)]
+    pub(super) fn steep_contact(&self, push: &ForceLine<T>) -> Option<(SoftContact<T>, T)> {
+        let &Self { origin, axis, radius, sine, cosine } = self;
+        let (f, m) = (push.force(), push.torque_about(&origin));
+        let (rise, turning) = (f.dot(&axis), m.dot(&axis));
+        let v = (m - axis * turning) * sine + f.cross(&axis) * (radius * cosine);
+        let (w, aside) = (turning * cosine, turning * sine);
+        let (squared, aside) = (v.norm_squared(), aside * aside);
+        let root_squared = squared - w * w;
+        // Not where the torque is all but along the side's normals, and the root loses digits.
+        let wide = root_squared >= (squared + aside) * T::literal(0.06);
+        if !(wide & (squared >= T::LEAST_NORMAL) & (squared <= T::GREATEST)) {
+            return None;
+        }
+        let inverse = T::one() / squared;
+        let outward = (v * w - axis.cross(&v) * root_squared.root()) * inverse;
+        let normal = outward * cosine + axis * sine;
+        let pressing = -f.dot(&normal);
+        let share = T::one() / pressing;
+        let spin_torque = -f.dot(&push.torque()) * share;
+        let along = (m.dot(&outward.cross(&axis)) - rise * radius) * share;
+        let around = radius - along * sine;
+        let height = along * cosine;
+        // What rounding does is multiplied by no more than `(1 + |τ κ|/|f|)²/(f·n/|f|)²`, `κ` being the curvature.
+        let twist = spin_torque * (cosine / around);
+        let steep = flat::<T>() * flat::<T>();
+        let is_steady = pressing * pressing >= steep * (push.squared() + twist * twist);
+        let point = origin + (outward * around + axis * height);
+        // Nor so near to the tip that the way there from the origin takes digits. False for a NaN, too.
+        let is_near = (around > T::zero()) & (around * T::literal(4.0) >= radius);
+        let found = is_steady & (pressing > T::zero()) & is_near;
+        found.then_some((SoftContact { point, normal, spin_torque, active: true }, height))
+    }
+}
