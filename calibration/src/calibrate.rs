@@ -14,7 +14,7 @@ use crate::model::{
     CalibrationError, Curvature, Direction, FittedDrift, Options, SensorModel, design, fit_at_rest,
     fit_model, responses, with_chosen_terms, worth_of_terms,
 };
-use crate::report::{CreepReport, CurveReport, Exclusion, Outlier, Report, axis_reports, outliers};
+use crate::report::{CreepReport, CurveReport, Exclusion, LeftOut, Outlier, Report, axis_reports, outliers};
 
 /// A calibration, what it was fitted to, and how good it is.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +54,7 @@ pub fn calibrate_taking(mut table: LoadTable, options: &Options) -> Result<Calib
         let saturated = table.saturated(range);
         for (sample, gauge) in &saturated {
             excluded.push(Exclusion {
-                sample: table.names[*sample].clone(),
+                sample: table.names.get(*sample).into_owned(),
                 reason: format!(
                     "gauge {} saturated: reading {} is not between {} and {}",
                     gauge + 1,
@@ -259,7 +259,7 @@ fn leave_out_distrusted(
             labels[worst],
             deviations(worst)
         );
-        excluded.push(Exclusion { sample: table.names[i].clone(), reason });
+        excluded.push(Exclusion { sample: table.names.get(i).into_owned(), reason });
     }
     *table = table.select(|i| trusted.binary_search(&i).is_ok());
     model.fit.trust = model.fit.trust.select_rows(&trusted);
@@ -302,22 +302,22 @@ fn left_out_loads(
     table: &LoadTable,
     model: &SensorModel,
     options: &Options,
-) -> Result<Vec<Option<Vec<f64>>>, CalibrationError> {
+) -> Result<LeftOut, CalibrationError> {
     let mut alone = vec![0.0; table.axes.len()];
     let x = design(table, options, &model.nominal);
     let y = responses(table, options, &model.nominal);
-    let mut result = vec![None; table.samples()];
+    let mut result = LeftOut::new(table.samples(), table.axes.len());
     leave_out(&x, &y, table.weights.as_deref(), &model.fit, &table.cases, |_, samples, without| {
         let Some(without) = without else { return };
         if let [sample] = samples
             && model.load_of_one(without, &table.signals, *sample, &mut alone)
         {
-            result[*sample] = Some(alone.clone());
+            result.tell(*sample, &alone);
             return;
         }
         let Some(loads) = model.loads_with(without, &table.signals.select_rows(samples)) else { return };
         for (row, sample) in samples.iter().enumerate() {
-            result[*sample] = Some(loads.row(row).iter().copied().collect());
+            result.tell(*sample, loads.row(row).iter());
         }
     })?;
     Ok(result)
@@ -338,11 +338,10 @@ fn refuse_over_fitting(
     table: &LoadTable,
     options: &Options,
     model: &SensorModel,
-    left_out: &[Option<Vec<f64>>],
+    left_out: &LeftOut,
 ) -> Result<(), CalibrationError> {
-    let error = |left_out: &[Option<Vec<f64>>], nominal: &[f64]| {
-        let known: Option<Vec<&Vec<f64>>> = left_out.iter().map(Option::as_ref).collect();
-        known.map(|known| overall(table, nominal, |i, j| known[i][j]))
+    let error = |left_out: &LeftOut, nominal: &[f64]| {
+        left_out.all().map(|known| overall(table, nominal, |i, j| known[(i, j)]))
     };
     let linear_options = Options { curvature: Curvature::Straight, ..options.clone() };
     let linear = fit_model(table, &linear_options, &model.nominal)?;

@@ -7,6 +7,7 @@ use std::collections::HashMap;
 use nalgebra::{DMatrix, Matrix3, Matrix3x6, Matrix6, Vector3};
 use serde::Serialize;
 
+use super::samples::LeftOut;
 use crate::Axis;
 use crate::loads::LoadTable;
 
@@ -84,7 +85,7 @@ pub(crate) fn axis_reports(
     table: &LoadTable,
     full_scale: &[f64],
     predicted: &DMatrix<f64>,
-    left_out: Option<&[Option<Vec<f64>>]>,
+    left_out: Option<&LeftOut>,
 ) -> Vec<AxisReport> {
     let error = predicted - &table.loads;
     let alike = Alike::of(table);
@@ -92,19 +93,19 @@ pub(crate) fn axis_reports(
         let (sum, count) = values.fold((0.0, 0_u32), |(sum, count), x| (sum + x * x, count + 1));
         (sum / f64::from(count.max(1))).sqrt()
     };
-    let known: Option<Vec<&Vec<f64>>> = left_out.and_then(|list| list.iter().map(Option::as_ref).collect());
+    let known = left_out.and_then(LeftOut::all);
     table
         .axes
         .iter()
         .enumerate()
         .map(|(j, axis)| {
             let percent = |x: f64| 100.0 * x / full_scale[j];
-            let column: Vec<f64> = error.column(j).iter().copied().collect();
+            let column = error.column(j);
             let worst =
                 (0..column.len()).max_by(|a, b| column[*a].abs().total_cmp(&column[*b].abs())).unwrap_or(0);
-            let out = known.as_ref().map(|known| {
-                known.iter().enumerate().map(|(i, load)| load[j] - table.loads[(i, j)]).collect::<Vec<_>>()
-            });
+            let loads = &table.loads;
+            let out =
+                known.map(|known| (0..known.nrows()).map(move |i| known[(i, j)] - loads[(i, j)]));
             let one = rms(&mut column.iter().copied());
             AxisReport {
                 axis: *axis,
@@ -112,11 +113,10 @@ pub(crate) fn axis_reports(
                 rms: one,
                 rms_percent: percent(one),
                 greatest_percent: percent(column[worst].abs()),
-                greatest_at: table.names[worst].clone(),
-                left_out_percent: out.as_ref().map(|out| percent(rms(&mut out.iter().copied()))),
+                greatest_at: table.names.get(worst).into_owned(),
+                left_out_percent: out.clone().map(|mut out| percent(rms(&mut out))),
                 left_out_greatest_percent: out
-                    .as_ref()
-                    .map(|out| percent(out.iter().fold(0.0, |most, x| most.max(x.abs())))),
+                    .map(|out| percent(out.fold(0.0, |most, x: f64| most.max(x.abs())))),
                 deviation_percent: None,
                 linearity_percent: linearity(table, predicted, j).map(percent),
                 hysteresis_percent: hysteresis(table, &alike, full_scale, predicted, j).map(percent),

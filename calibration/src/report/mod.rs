@@ -10,15 +10,17 @@ mod outliers;
 mod plot;
 mod predicted;
 mod residuals;
+mod samples;
 mod suspicion;
 mod terminal;
 mod words;
 
 pub use contact::ContactReport;
-pub use contents::{Exclusion, Report, SampleReport};
+pub use contents::{Exclusion, Report};
 pub use creep::{CreepReport, CycleFigures};
 pub use curve::CurveReport;
 pub(crate) use metrics::axis_reports;
 pub use metrics::{AxisReport, LineReport};
 pub use outliers::{Outlier, outliers};
+pub use samples::{LeftOut, SampleReport, Samples};
 pub use suspicion::{Mistake, Suspicion};

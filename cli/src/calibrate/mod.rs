@@ -21,6 +21,7 @@ use fingertip_calibration::model::{Direction, Limits, Method, Options};
 use crate::error::CliError;
 use crate::health::{of_table, seen_in_loads};
 use crate::output::{Outputs, shown};
+use crate::progress::working;
 use args::{CalibrateArguments, CurvatureChoice, FitMethod};
 use files::{bad, read_calibration, read_loads, read_payload, write_reports};
 
@@ -36,7 +37,9 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
     let paths = [Some(&output), arguments.html.as_ref(), arguments.json.as_ref()];
     let extra = [arguments.cal.as_ref(), arguments.rust.as_ref()];
     let paths = paths.into_iter().chain(extra).flatten();
-    let outputs = Outputs::guard(arguments.overwrite, "output", &arguments.loads, paths)?;
+    let inputs = arguments.loads.iter().chain(&arguments.prior).chain(&arguments.payload);
+    let inputs = inputs.chain(&arguments.touches.scene);
+    let outputs = Outputs::guard(arguments.overwrite, "output", inputs, paths)?;
     if arguments.stream {
         return stream::run(arguments, &output, &outputs);
     }
@@ -66,8 +69,8 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
             "{names}: no load has any, so the calibration is for the other components alone; under such a load it reads falsely"
         ));
     }
-    let options = options(arguments, &table)?;
-    let calibration = fit(table, &options).map_err(|error| fault(&error))?;
+    let options = options(arguments, &table, &outputs)?;
+    let calibration = working("fits", || fit(table, &options)).map_err(|error| fault(&error))?;
     let file = calibration.to_file().map_err(|error| fault(&error))?;
     write_calibration(file, arguments, &output, &outputs)?;
     let title = if arguments.serial.is_empty() { "Calibration" } else { &arguments.serial };
@@ -138,7 +141,11 @@ fn range(arguments: &CalibrateArguments) -> Option<[f64; 2]> {
     arguments.range.as_deref().and_then(|range| <[f64; 2]>::try_from(range).ok())
 }
 
-fn options(arguments: &CalibrateArguments, table: &LoadTable) -> Result<Options, CliError> {
+fn options(
+    arguments: &CalibrateArguments,
+    table: &LoadTable,
+    outputs: &Outputs,
+) -> Result<Options, CliError> {
     let full_scale = arguments.full_scale.clone().unwrap_or_else(|| table.greatest_loads());
     Ok(Options {
         direction: if arguments.inverse || arguments.curvature != CurvatureChoice::Straight {
@@ -155,7 +162,7 @@ fn options(arguments: &CalibrateArguments, table: &LoadTable) -> Result<Options,
         reference_celsius: arguments.reference_celsius,
         creep: arguments.creep,
         reject_outliers: arguments.reject_outliers,
-        touches: arguments.touches.set(&table.axes, &full_scale)?,
+        touches: arguments.touches.set(&table.axes, &full_scale, outputs)?,
         limits: limits(arguments.limit),
     })
 }

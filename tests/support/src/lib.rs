@@ -6,6 +6,7 @@ extern crate alloc;
 pub mod drawn;
 pub mod mcap;
 mod moving_body;
+pub mod read_back;
 mod recordings;
 mod unchanged;
 mod worst;

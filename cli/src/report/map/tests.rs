@@ -4,8 +4,8 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::super::read_back::{assert_readable, circles, paths, rulers, texts};
 use super::{Map, MapPoint, Projection, draw, window};
+use fingertip_test_support::read_back::{assert_readable, circles, paths, rulers, texts};
 
 fn axes() -> [Vector3<f64>; 3] {
     [Vector3::x(), Vector3::y(), Vector3::z()]
