@@ -18,3 +18,4 @@ pub use reader::{LoadReader, LoadRow};
 pub use rest::{Rest, signals_from_csv};
 pub(crate) use spread::spread;
 pub use table::{LoadError, LoadTable, Zeros};
+pub(crate) use text::same_loads;

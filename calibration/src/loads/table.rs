@@ -181,6 +181,16 @@ impl LoadTable {
                 return Err(LoadError::WrongLength { field, found, expected: samples });
             }
         }
+        let carried = |numbers: &[f64]| numbers.iter().all(|number| Self::carries(*number));
+        let lists = [&self.times, &self.temperatures, &self.weights];
+        if carried(self.loads.as_slice())
+            && carried(self.signals.as_slice())
+            && lists.into_iter().flatten().all(|list| carried(list))
+            && self.weights.iter().flatten().all(|weight| *weight >= 0.0)
+        {
+            return Ok(());
+        }
+        // Which one is none.
         for i in 0..samples {
             let not_finite =
                 |column: String| LoadError::NotFinite { sample: self.names.get(i).into_owned(), column };

@@ -5,7 +5,7 @@ use std::io::Read;
 
 use nalgebra::DMatrix;
 
-use super::{LoadError, LoadReader, LoadTable, Names};
+use super::{LoadError, LoadReader, LoadRow, LoadTable, Names};
 use crate::Axis;
 
 impl LoadTable {
@@ -41,12 +41,25 @@ impl LoadTable {
     /// # Errors
     /// [`LoadError`], naming line and column.
     pub fn from_reader(reader: &mut LoadReader<impl Read>) -> Result<Self, LoadError> {
+        Self::from_reader_with(reader, |_| {})
+    }
+
+    /// As [`from_reader`](Self::from_reader); each row is shown as it is read, for those who do something else with it
+    /// meanwhile.
+    ///
+    /// # Errors
+    /// [`LoadError`], naming line and column.
+    pub fn from_reader_with(
+        reader: &mut LoadReader<impl Read>,
+        mut each: impl FnMut(&LoadRow),
+    ) -> Result<Self, LoadError> {
         let (mut loads, mut signals) = (Vec::new(), Vec::new());
         let (mut times, mut temperatures, mut weights) = (Vec::new(), Vec::new(), Vec::new());
         let (mut names, mut lines) = (Vec::new(), Vec::new());
         let (mut cases, mut groups) = (Vec::new(), Vec::new());
         let mut orientations = Vec::new();
         while let Some(row) = reader.next_row()? {
+            each(row);
             loads.extend_from_slice(&row.loads);
             signals.extend_from_slice(&row.signals);
             times.extend(row.time);
@@ -90,8 +103,8 @@ fn numbered(texts: &[String]) -> Vec<usize> {
         .collect()
 }
 
-/// Samples with the very same load are one case.
-fn same_loads(loads: &DMatrix<f64>) -> Vec<usize> {
+/// Samples with the very same load are one case: numbers from 0.
+pub(crate) fn same_loads(loads: &DMatrix<f64>) -> Vec<usize> {
     let mut order: Vec<([u64; Axis::ALL.len()], usize)> = (0..loads.nrows())
         .map(|i| {
             let mut bits = [0; Axis::ALL.len()];

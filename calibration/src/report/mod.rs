@@ -21,6 +21,7 @@ pub use creep::{CreepReport, CycleFigures};
 pub use curve::CurveReport;
 pub(crate) use metrics::axis_reports;
 pub use metrics::{AxisReport, LineReport};
+pub(crate) use outliers::outliers_of_fit;
 pub use outliers::{Outlier, outliers};
 pub use samples::{LeftOut, SampleReport, Samples};
 pub use suspicion::{Mistake, Suspicion};

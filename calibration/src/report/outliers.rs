@@ -7,6 +7,7 @@ use serde::Serialize;
 use statrs::distribution::{ContinuousCDF as _, StudentsT};
 
 use super::residuals::Residuals;
+use crate::fit::Fit;
 use crate::loads::Names;
 
 /// A sample that does not fit the others.
@@ -54,10 +55,27 @@ pub fn outliers(
     names: &Names,
     labels: &[String],
 ) -> Vec<Outlier> {
+    outliers_of_fit(design, responses, weights, None, names, labels)
+}
+
+/// As [`outliers`], with the least-squares fit of all samples where that is known.
+pub(crate) fn outliers_of_fit(
+    design: &DMatrix<f64>,
+    responses: &DMatrix<f64>,
+    weights: Option<&[f64]>,
+    fit: Option<&Fit>,
+    names: &Names,
+    labels: &[String],
+) -> Vec<Outlier> {
     let counts = |i: &usize| weights.is_none_or(|w| w[*i] > 0.0);
     let left: Vec<usize> = (0..design.nrows()).filter(counts).collect();
     let most = (left.len() / 5).min(MOST);
-    let Some(mut residuals) = Residuals::of(design, responses, weights, left) else { return Vec::new() };
+    // Samples that do not count are not among those that are fitted here.
+    let first = match fit.filter(|_| left.len() == design.nrows()) {
+        Some(fit) => Residuals::of_fit(design, responses, weights, fit),
+        None => Residuals::of(design, responses, weights, left),
+    };
+    let Some(mut residuals) = first else { return Vec::new() };
     let mut found = Vec::new();
     let mut significant = 0;
     while found.len() < most {

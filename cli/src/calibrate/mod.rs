@@ -10,6 +10,7 @@ mod inertial_args;
 mod stream;
 pub(crate) mod tare;
 mod touches;
+mod watched;
 
 use std::path::{Path, PathBuf};
 
@@ -23,7 +24,7 @@ use crate::health::{of_table, seen_in_loads};
 use crate::output::{Outputs, shown};
 use crate::progress::working;
 use args::{CalibrateArguments, CurvatureChoice, FitMethod};
-use files::{bad, read_calibration, read_loads, read_payload, write_reports};
+use files::{bad, read_calibration, read_payload, write_reports};
 
 /// `fingertip calibrate`.
 pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> {
@@ -44,8 +45,12 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
         return stream::run(arguments, &output, &outputs);
     }
     let mut notes = Vec::new();
-    let mut sessions =
-        arguments.loads.iter().map(|path| read_loads(path, &mut notes)).collect::<Result<Vec<_>, _>>()?;
+    let (mut sessions, mut health) = (Vec::with_capacity(arguments.loads.len()), None);
+    for path in &arguments.loads {
+        let (table, seen) = watched::read(path, range(arguments), &mut notes)?;
+        sessions.push(table);
+        health = seen;
+    }
     let first = arguments.loads.first().cloned().unwrap_or_default();
     let fault = |error: &dyn core::fmt::Display| bad(&first, &error);
     let mut table = match sessions.pop() {
@@ -56,7 +61,10 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
             LoadTable::merged(&sessions).map_err(|error| fault(&error))?
         }
     };
-    notes.extend(seen_in_loads(&of_table(&table.signals, table.signal_unit, range(arguments))));
+    // Of several files all readings follow each other.
+    let health = health.filter(|_| arguments.loads.len() == 1);
+    let health = health.unwrap_or_else(|| of_table(&table.signals, table.signal_unit, range(arguments)));
+    notes.extend(seen_in_loads(&health));
     if let Some(path) = &arguments.payload {
         let payload = read_payload(path)?;
         table.loads = table.carrying(&payload, false).map_err(|error| fault(&error))?.loads;

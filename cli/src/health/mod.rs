@@ -19,7 +19,7 @@ use crate::opened::Opened;
 use crate::output::{Outputs, Overwrite};
 use crate::several::{self, file_of};
 use crate::span::{Place, Span, Window};
-pub(crate) use columns::{WatchedRows, of_table, of_wrench};
+pub(crate) use columns::{WatchedRows, of_gauges, of_table, of_wrench};
 pub use library::{HealthOf, health};
 pub(crate) use words::{seen, seen_in_loads};
 
