@@ -161,10 +161,10 @@ impl Report {
         let row = |(gauge, (row, spread)): (usize, (&Vec<f64>, &Vec<f64>))| {
             let cell = |(value, deviation): (&f64, &f64)| {
                 let digits = digits(*deviation, 2);
-                format!("{value:.digits$} ± {deviation:.digits$}")
+                format!("{value:.digits$} ±\u{a0}{deviation:.digits$}")
             };
             let cells = row.iter().zip(spread).map(cell);
-            core::iter::once(format!("gauge {}", gauge + 1)).chain(cells).collect::<Vec<_>>()
+            core::iter::once(format!("gauge\u{a0}{}", gauge + 1)).chain(cells).collect::<Vec<_>>()
         };
         let rows: Vec<_> = matrix.iter().zip(deviations).enumerate().map(row).collect();
         page.table(&Table { title: "", head: &self.head(), rows: &rows, words: false });

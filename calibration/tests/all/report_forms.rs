@@ -218,8 +218,8 @@ which no averaging mends, and 0.250\u{a0}mm of the noise of one reading.</p>
 <h2 id=\"Thematrix\">The matrix</h2>
 <p class=\"small\">Signal of each gauge (row) under the full scale of each axis (column), and its standard deviation.</p>
 <section><table><thead><tr><th scope=\"col\"></th><th scope=\"col\">Fx</th><th scope=\"col\">Tz</th></tr></thead><tbody>\
-<tr><th scope=\"row\">gauge 1</th><td>1.235 ± 0.012</td><td>-0.50 ± 0.50</td></tr>\
-<tr><th scope=\"row\">gauge 2</th><td>0.000000 ± 0.000015</td><td>123 ± 12</td></tr></tbody></table></section>
+<tr><th scope=\"row\">gauge\u{a0}1</th><td>1.235 ±\u{a0}0.012</td><td>-0.50 ±\u{a0}0.50</td></tr>\
+<tr><th scope=\"row\">gauge\u{a0}2</th><td>0.000000 ±\u{a0}0.000015</td><td>123 ±\u{a0}12</td></tr></tbody></table></section>
 <h2 id=\"Samplesleftout\">Samples left out</h2>
 <section><table><thead><tr><th scope=\"col\">sample</th><th scope=\"col\">why</th></tr></thead><tbody>\
 <tr><th scope=\"row\">d&lt;</th><td class=\"word\">saturated</td></tr></tbody></table></section>
