@@ -127,7 +127,7 @@ fn three_components(
     Ok(Found { text, sensitivities: fit.signals_from_force, nominal, zero: fit.zero, noise: fit.noise })
 }
 
-/// Readings and directions of the forces.
+/// Readings and directions of the forces; a row at rest has none.
 fn directions(table: &LoadTable) -> Vec<(DVector<f64>, Vector3<f64>)> {
     let force = |i: usize| {
         let mut force = Vector3::zeros();
@@ -136,7 +136,8 @@ fn directions(table: &LoadTable) -> Vec<(DVector<f64>, Vector3<f64>)> {
         }
         force
     };
-    (0..table.samples()).map(|i| (table.signals.row(i).transpose(), force(i))).collect()
+    let loaded = (0..table.samples()).filter(|i| table.loads.row(*i).iter().any(|load| *load != 0.0));
+    loaded.map(|i| (table.signals.row(i).transpose(), force(i))).collect()
 }
 
 fn six_components(

@@ -154,8 +154,7 @@ mod tests {
                 },
             );
             assert_eq!(answer, 42);
-            let text = paper.0.lock().unwrap().clone();
-            text
+            paper.0.lock().unwrap().clone()
         };
         assert!(said(1, 300).contains("fits, 0s"), "{}", said(1, 300));
         assert_eq!(said(600_000, 1), "");

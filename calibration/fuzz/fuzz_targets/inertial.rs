@@ -14,7 +14,9 @@ fuzz_target!(|bytes: &[u8]| {
     for sample in &samples {
         assert!(sample.time.is_finite() && sample.wrench.iter().all(|number| number.is_finite()));
         let reading = &sample.reading;
-        assert!(reading.acceleration.iter().chain(&reading.angular_velocity).all(|number| number.is_finite()));
+        assert!(
+            reading.acceleration.iter().chain(&reading.angular_velocity).all(|number| number.is_finite())
+        );
     }
     let _ = fit_inertial(&samples, &InertialOptions::default());
     // So few bytes are no motion: the same rows over and over are.

@@ -100,7 +100,12 @@ fn files_that_a_scene_names_are_spared() {
     assert_spared(&folder, "mesh.toml", &["scene", "show", "mesh.toml", "-o"]);
     fs::create_dir(folder.path("c")).unwrap();
     fs::hard_link(folder.path("tip.stl"), folder.path("c/tip.h")).unwrap();
-    let error = folder.fail(1, &["export", "mesh.toml", "--c", "-o", "c", "--overwrite"]);
+    let surface = "shape = \"mesh\"\nfile = \"tip.stl\"\nmetres_per_unit = 0.001\n";
+    folder.write(
+        "bare.toml",
+        &format!("version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\n{surface}"),
+    );
+    let error = folder.fail(1, &["export", "bare.toml", "--c", "-o", "c", "--overwrite"]);
     assert!(error.contains("c/tip.h is also an input of this run"), "{error}");
 }
 

@@ -59,22 +59,43 @@ fn folder() -> Folder {
         ));
     }
     folder.write("turns.csv", &turns);
+    // Six components, each of which a gauge reads by itself, and points of a ball pushed in its own and other directions.
+    let row = |row| {
+        format!(
+            "[{}]",
+            (0..6).map(|column| if row == column { "2.0" } else { "0.0" }).collect::<Vec<_>>().join(", ")
+        )
+    };
+    folder.write("six.toml", &format!(
+        "version = 1\naxes = [\"fx\", \"fy\", \"fz\", \"tx\", \"ty\", \"tz\"]\nsignal_unit = \"V\"\nnominal = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0]\n\
+         matrix = [{}]\nzero = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]\n",
+        (0..6).map(row).collect::<Vec<_>>().join(", ")
+    ));
+    let mut pushes = "v1_V,v2_V,v3_V,v4_V,v5_V,v6_V\n".to_owned();
+    for number in 0..80 {
+        let along = |share: f64| [(share * 7.1).sin(), (share * 5.3).cos(), (share * 3.7 + 1.0).sin()];
+        let ([x, y, z], [fx, fy, fz]) = (along(f64::from(number)), along(1.7 * f64::from(number) + 0.4));
+        let wrench = [fx, fy, fz, y * fz - z * fy, z * fx - x * fz, x * fy - y * fx];
+        pushes.push_str(&(wrench.map(|component: f64| (2.0 * component).to_string()).join(",") + "\n"));
+    }
+    folder.write("pushes.csv", &pushes);
     folder
 }
 
+/// A second at rest, then touches, with a noise of its own on every axis, at places one after another.
 fn rows(count: usize) -> String {
     let rows = (0..count).map(|row| {
-        let noise = (row as f64 * 1.7).sin();
-        format!(
-            "{},{},{},{},0.001,{},0.002\n",
-            row as f64 * 1e-3,
-            0.1 * noise,
-            0.2,
-            -1.0 - 0.1 * noise,
-            1e-3 * noise
-        )
+        let (mut noise, pressed) = (row as u64, if row < 1000 { 0.0 } else { 1.0 });
+        let wrench = [0.0, 0.2, -1.0, 1e-3, 0.0, 2e-3].map(|mean: f64| {
+            noise = noise.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let share = (noise >> 40) as f64 / (1_u64 << 24) as f64 - 0.5;
+            (mean * pressed + (0.1 * mean.abs()).max(1e-3) * share).to_string()
+        });
+        let time = row as f64 * 1e-3;
+        format!("{time},{},{},0,0,1,0,0,0\n", wrench.join(","), row / 100)
     });
-    format!("t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n{}", rows.collect::<String>())
+    let pose = "pose_x_m,pose_y_m,pose_z_m,pose_qw,pose_qx,pose_qy,pose_qz";
+    format!("t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,{pose}\n{}", rows.collect::<String>())
 }
 
 /// What comes by the standard input is taken as the file would be: the same is said, and the same is written to the standard
@@ -82,8 +103,6 @@ fn rows(count: usize) -> String {
 #[test]
 fn every_command_reads_the_standard_input() {
     let folder = folder();
-    let pose = "fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,qx,qy,qz,qw\n";
-    assert!(folder.read("poses.csv").starts_with("qx,qy,qz,qw") && !pose.is_empty());
     for (file, arguments) in [
         ("a.csv", &["analyze", "@", "--scene", "sphere.toml", "--no-report", "--output", "-"][..]),
         ("sphere.toml", &["analyze", "a.csv", "--scene", "@", "--no-report", "--output", "-"]),
@@ -107,8 +126,8 @@ fn every_command_reads_the_standard_input() {
         ("done.csv", &["plan", "loads.csv", "--done", "@"]),
         ("sphere.toml", &["record", "sim", "--samples", "20", "--scene", "@", "-o", "-"]),
         ("a.csv", &["recover", "@", "-"]),
-        ("tip.toml", &["refine", "@", "turns.csv"]),
-        ("turns.csv", &["refine", "tip.toml", "@"]),
+        ("six.toml", &["refine", "@", "pushes.csv"]),
+        ("pushes.csv", &["refine", "six.toml", "@"]),
         ("sphere.toml", &["scene", "show", "@", "-o", "-"]),
         ("turns.csv", &["tare", "tip.toml", "@", "--accept-motion", "-o", "-"]),
         ("tip.toml", &["tare", "@", "turns.csv", "--accept-motion", "-o", "-"]),
@@ -155,7 +174,7 @@ fn every_command_writes_to_the_standard_output() {
         (&["demo", "--out", "-"], "<!doctype html>"),
         (&["demo", "--hand", "--out", "-"], "<!doctype html>"),
         (&["demo", "--out", "demo.html", "--recording", "-"], "t_s,v1_V"),
-        (&["design", "--force", "20", "--diameter", "12", "--out", "-", "--report", "r.html"], "#"),
+        (&["design", "--force", "20", "--out", "-", "--report", "r.html"], "version = 1"),
         (&["export", "sphere.toml", "--json", "-"], "{"),
         (&["health", "a.csv", "--html", "-"], "<!doctype html>"),
         (&["scene", "init", "-"], "#"),

@@ -227,7 +227,9 @@ fn a_window_shows_ends_that_are_not_far_away() {
 /// However long a capsule is, and wherever it was touched, no label lies over another one, and none leaves the drawing.
 #[test]
 fn labels_of_a_capsule_do_not_overlap() {
-    for (radius, half_length) in [(0.005, 0.0005), (0.005, 0.004), (0.005, 0.02), (0.0004, 0.03), (0.02, 0.001)] {
+    for (radius, half_length) in
+        [(0.005, 0.0005), (0.005, 0.004), (0.005, 0.02), (0.0004, 0.03), (0.02, 0.001)]
+    {
         let text = format!(
             "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"capsule\"\nradius_m = {radius}\n\
              half_length_m = {half_length}\n"
@@ -237,14 +239,18 @@ fn labels_of_a_capsule_do_not_overlap() {
         let on_capsule = |polar: f64, azimuth: f64, along: f64| {
             let [cap] = on_sphere(&[(polar, azimuth)])[..] else { panic!() };
             // The axis of a capsule is z.
-            let end = half_length * along.max(-1.0).min(1.0);
+            let end = half_length * along.clamp(-1.0, 1.0);
             Vector3::new(radius * cap.y, radius * cap.z, radius * cap.x + end)
         };
         for reach in [1.0, 40.0, 95.0, 179.0] {
             let points: Vec<Vector3<f64>> = (0..200)
                 .map(|k| {
                     let share = f64::from(k) / 199.0;
-                    on_capsule(share * reach, 137.5 * f64::from(k), if share * reach > 90.0 { -1.0 } else { 1.0 })
+                    on_capsule(
+                        share * reach,
+                        137.5 * f64::from(k),
+                        if share * reach > 90.0 { -1.0 } else { 1.0 },
+                    )
                 })
                 .collect();
             let mut contacts = contacts(projection, &points);
