@@ -1,5 +1,7 @@
 //! What lies between two times of a recording.
 
+use std::path::Path;
+
 use clap::Args;
 
 use crate::error::CliError;
@@ -79,6 +81,19 @@ impl Window {
     /// The time that ended it \[s\], if a row came behind it.
     pub(crate) fn end(&self) -> Option<f64> {
         self.span.end.filter(|_| self.place == Place::Behind)
+    }
+
+    /// Why nothing of the recording is left: it ends before the part that is wanted, has a gap there, or no rows at all.
+    pub(crate) fn nothing_of(&self, recording: &Path) -> CliError {
+        match self.span.start.filter(|_| self.first.is_some()) {
+            Some(start) if self.end().is_some() => CliError::option(
+                "--start",
+                start,
+                "has no row between itself and --end: the recording has a gap there",
+            ),
+            Some(start) => CliError::option("--start", start, "must be before the end of the recording"),
+            None => CliError::NoRows { path: recording.to_owned() },
+        }
     }
 
     /// Where a row of this time \[s\] lies; one without a time lies where the row before did.

@@ -38,7 +38,7 @@ pub(super) fn convert(
     let file = outputs.create("recording", output)?.seekable()?;
     let writer = McapWriter::with_compression(file, arguments.compression.into()).map_err(failed)?;
     let mut topics = Topics::open(writer, &layout).map_err(failed)?;
-    let (mut rows, mut timeless, mut rounded) = (0_u64, 0, 0);
+    let (mut rows, mut within, mut timeless, mut rounded) = (0_u64, 0_u64, 0, 0);
     let mut window = Window::new(arguments.span);
     while let Some(row) = reader.next_row()? {
         let time = match arguments.rate.filter(|_| !layout.has_time()) {
@@ -49,7 +49,7 @@ pub(super) fn convert(
         match window.place(time.unwrap_or(f64::NAN)) {
             Place::Before => continue,
             Place::Behind => break,
-            Place::Within => {}
+            Place::Within => within += 1,
         }
         let Some(time) = time else {
             timeless += 1;
@@ -63,8 +63,8 @@ pub(super) fn convert(
     }
     let Topics { writer, counts, .. } = topics;
     let file = writer.finish().map_err(failed)?;
-    if rows == 0 {
-        return Err(CliError::NoRows { path: input.to_owned() });
+    if within == 0 {
+        return Err(window.nothing_of(input));
     }
     file.finish()?;
     let mut account = Account::default();

@@ -30,8 +30,14 @@ pub(super) fn convert(
         match window.place(row.first().copied().unwrap_or(f64::NAN)) {
             Place::Before => {}
             Place::Behind => break,
-            Place::Within => writer.write(row.iter().copied()).map_err(failed)?,
+            Place::Within => {
+                writer.write(row.iter().copied()).map_err(failed)?;
+                rows.count();
+            }
         }
+    }
+    if rows.counted() == 0 {
+        return Err(window.nothing_of(input.path()));
     }
     writer.finish().map_err(failed)?.finish()?;
     rows.account(&mut account);

@@ -159,7 +159,7 @@ fn watched(
     }
     bar.finish_and_clear();
     if rows.samples() == 0 {
-        return Err(CliError::NoRows { path: recording.to_owned() });
+        return Err(window.nothing_of(recording));
     }
     Ok((rows.finish(), name))
 }
