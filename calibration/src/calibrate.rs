@@ -1,20 +1,24 @@
 //! From a table of loads to a calibration.
 
 use alloc::collections::BTreeSet;
+use core::cell::RefCell;
 
 use nalgebra::RowDVector;
 
+use crate::Axis;
 use crate::creep::{self, Creep, CreepFit};
 use crate::curve::Region;
 use crate::file::{CalibrationFile, FileError, Quality, Temperature, Verdict};
-use crate::fit::leave_out;
+use crate::fit::{Change, leave_out_changes};
 use crate::linear::less;
-use crate::loads::LoadTable;
+use crate::loads::{LoadTable, Zeros};
 use crate::model::{
-    CalibrationError, Curvature, Direction, FittedDrift, Options, SensorModel, design, fit_at_rest,
+    CalibrationError, Curvature, Direction, FittedDrift, Method, Options, SensorModel, design, fit_at_rest,
     fit_model, responses, with_chosen_terms, worth_of_terms,
 };
-use crate::report::{CreepReport, CurveReport, Exclusion, Outlier, Report, axis_reports, outliers};
+use crate::report::{
+    CreepReport, CurveReport, Exclusion, LeftOut, Outlier, Report, axis_reports, outliers_of_fit,
+};
 
 /// A calibration, what it was fitted to, and how good it is.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +58,7 @@ pub fn calibrate_taking(mut table: LoadTable, options: &Options) -> Result<Calib
         let saturated = table.saturated(range);
         for (sample, gauge) in &saturated {
             excluded.push(Exclusion {
-                sample: table.names[*sample].clone(),
+                sample: table.names.get(*sample).into_owned(),
                 reason: format!(
                     "gauge {} saturated: reading {} is not between {} and {}",
                     gauge + 1,
@@ -82,7 +86,7 @@ pub fn calibrate_taking(mut table: LoadTable, options: &Options) -> Result<Calib
     let (mut options, chosen) = with_chosen_terms(&table, options, &nominal)?;
     let mut model = fit_at_rest(&table, &mut options, &nominal)?;
     leave_out_distrusted(&mut table, &mut model, &options, &mut excluded);
-    let mut found = find_outliers(&table, &options, &nominal);
+    let mut found = find_outliers(&table, &options, &model);
     let mut influence = None;
     if options.reject_outliers && !found.is_empty() {
         for outlier in &found {
@@ -243,7 +247,7 @@ fn leave_out_distrusted(
     if trusted.len() == trust.nrows() {
         return;
     }
-    let residuals = responses(table, options, &model.nominal)
+    let residuals = &*responses(table, options, &model.nominal)
         - design(table, options, &model.nominal) * &model.fit.coefficients;
     let labels = response_names(table, options);
     for i in (0..trust.nrows()).filter(|i| trusted.binary_search(i).is_err()) {
@@ -259,7 +263,7 @@ fn leave_out_distrusted(
             labels[worst],
             deviations(worst)
         );
-        excluded.push(Exclusion { sample: table.names[i].clone(), reason });
+        excluded.push(Exclusion { sample: table.names.get(i).into_owned(), reason });
     }
     *table = table.select(|i| trusted.binary_search(&i).is_ok());
     model.fit.trust = model.fit.trust.select_rows(&trusted);
@@ -275,10 +279,13 @@ fn response_names(table: &LoadTable, options: &Options) -> Vec<String> {
 
 /// Outliers are looked for in the linear least-squares fit whatever the method, so that a robust
 /// method does not hide them.
-fn find_outliers(table: &LoadTable, options: &Options, nominal: &[f64]) -> Vec<Outlier> {
-    let x = design(table, options, nominal);
-    let y = responses(table, options, nominal);
-    outliers(&x, &y, table.weights.as_deref(), &table.names, &response_names(table, options))
+fn find_outliers(table: &LoadTable, options: &Options, model: &SensorModel) -> Vec<Outlier> {
+    let x = design(table, options, &model.nominal);
+    let y = responses(table, options, &model.nominal);
+    // Where zeros were taken off, the fit has been mended by what that did to it.
+    let is_plain = options.method == Method::LeastSquares && table.zeros == Zeros::Kept;
+    let fit = is_plain.then_some(&model.fit);
+    outliers_of_fit(&x, &y, table.weights.as_deref(), fit, &table.names, &response_names(table, options))
 }
 
 /// By how much the other samples would be read otherwise without the outliers, at most, % of full scale.
@@ -302,25 +309,35 @@ fn left_out_loads(
     table: &LoadTable,
     model: &SensorModel,
     options: &Options,
-) -> Result<Vec<Option<Vec<f64>>>, CalibrationError> {
-    let mut alone = vec![0.0; table.axes.len()];
+) -> Result<LeftOut, CalibrationError> {
+    let (alone, mut load) = (model.load_of_one(), [0.0; Axis::ALL.len()]);
     let x = design(table, options, &model.nominal);
     let y = responses(table, options, &model.nominal);
-    let mut result = vec![None; table.samples()];
-    leave_out(&x, &y, table.weights.as_deref(), &model.fit, &table.cases, |_, samples, without| {
-        let Some(without) = without else { return };
-        if let [sample] = samples
-            && model.load_of_one(without, &table.signals, *sample, &mut alone)
-        {
-            result[*sample] = Some(alone.clone());
-            return;
+    let result = RefCell::new(LeftOut::new(table.samples(), table.axes.len()));
+    let one = |sample: usize, change: &Change<'_>| {
+        let is_told =
+            alone.as_ref().is_some_and(|one| one.changed(change, &table.signals, sample, &mut load));
+        if is_told {
+            result.borrow_mut().tell(sample, load.iter().take(table.axes.len()));
         }
-        let Some(loads) = model.loads_with(without, &table.signals.select_rows(samples)) else { return };
-        for (row, sample) in samples.iter().enumerate() {
-            result[*sample] = Some(loads.row(row).iter().copied().collect());
-        }
-    })?;
-    Ok(result)
+        is_told
+    };
+    leave_out_changes(
+        &x,
+        &y,
+        table.weights.as_deref(),
+        &model.fit,
+        &table.cases,
+        one,
+        |_, samples, without| {
+            let Some(without) = without else { return };
+            let Some(loads) = model.loads_with(without, &table.signals.select_rows(samples)) else { return };
+            for (row, sample) in samples.iter().enumerate() {
+                result.borrow_mut().tell(*sample, loads.row(row).iter());
+            }
+        },
+    )?;
+    Ok(result.into_inner())
 }
 
 /// RMS over all axes and samples, % of full scale.
@@ -338,11 +355,10 @@ fn refuse_over_fitting(
     table: &LoadTable,
     options: &Options,
     model: &SensorModel,
-    left_out: &[Option<Vec<f64>>],
+    left_out: &LeftOut,
 ) -> Result<(), CalibrationError> {
-    let error = |left_out: &[Option<Vec<f64>>], nominal: &[f64]| {
-        let known: Option<Vec<&Vec<f64>>> = left_out.iter().map(Option::as_ref).collect();
-        known.map(|known| overall(table, nominal, |i, j| known[i][j]))
+    let error = |left_out: &LeftOut, nominal: &[f64]| {
+        left_out.all().map(|known| overall(table, nominal, |i, j| known[(i, j)]))
     };
     let linear_options = Options { curvature: Curvature::Straight, ..options.clone() };
     let linear = fit_model(table, &linear_options, &model.nominal)?;

@@ -38,6 +38,7 @@ mod sensor;
 mod serve;
 mod several;
 mod shell;
+mod span;
 mod stop;
 mod summary;
 mod table;

@@ -1,5 +1,6 @@
 //! `fingertip motion`: a calibration from a weight of known size in unknown directions.
 
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -8,7 +9,7 @@ use fingertip_calibration::loads::{Columns, LoadTable, Rest, signals_from_csv};
 use fingertip_calibration::motion::{LeverArm, constant_force, lever_arms};
 use nalgebra::{DMatrix, DVector, Vector3};
 
-use crate::calibrate::files::{bad, open, read_columns, read_loads};
+use crate::calibrate::files::{bad, open, read_loads};
 use crate::error::CliError;
 use crate::output::{Outputs, Overwrite, shown};
 
@@ -54,9 +55,12 @@ pub(crate) fn run(arguments: &MotionArguments) -> Result<(), CliError> {
     let path = &arguments.readings;
     let inputs = [Some(path), arguments.align.as_ref()].into_iter().flatten();
     let outputs = Outputs::guard(arguments.overwrite, "output", inputs, &arguments.output)?;
-    let Rest { signals, unit, .. } =
-        signals_from_csv(open("table of readings", path)?).map_err(|error| bad(path, &error))?;
-    let columns = read_columns("table of readings", path)?;
+    // It is read twice, which the standard input cannot be.
+    let mut text = Vec::new();
+    let mut file = open("table of readings", path)?;
+    file.read_to_end(&mut text).map_err(|source| CliError::read("table of readings", path, source))?;
+    let Rest { signals, unit, .. } = signals_from_csv(text.as_slice()).map_err(|error| bad(path, &error))?;
+    let columns = Columns::from_csv(text.as_slice()).map_err(|error| bad(path, &error))?;
     let mut notes = Vec::new();
     let known = match &arguments.align {
         Some(path) => Some((path.as_path(), read_loads(path, &mut notes)?)),
@@ -123,7 +127,7 @@ fn three_components(
     Ok(Found { text, sensitivities: fit.signals_from_force, nominal, zero: fit.zero, noise: fit.noise })
 }
 
-/// Readings and directions of the forces.
+/// Readings and directions of the forces; a row at rest has none.
 fn directions(table: &LoadTable) -> Vec<(DVector<f64>, Vector3<f64>)> {
     let force = |i: usize| {
         let mut force = Vector3::zeros();
@@ -132,7 +136,8 @@ fn directions(table: &LoadTable) -> Vec<(DVector<f64>, Vector3<f64>)> {
         }
         force
     };
-    (0..table.samples()).map(|i| (table.signals.row(i).transpose(), force(i))).collect()
+    let loaded = (0..table.samples()).filter(|i| table.loads.row(*i).iter().any(|load| *load != 0.0));
+    loaded.map(|i| (table.signals.row(i).transpose(), force(i))).collect()
 }
 
 fn six_components(

@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 
 use crate::calibrate::files::{bad, read_columns};
 use crate::error::CliError;
-use crate::output::print;
+use crate::output::{print, read_once};
 use crate::table::{Table, number};
 
 #[derive(Debug, Args)]
@@ -55,6 +55,7 @@ fn full_scale(
 
 pub(crate) fn run(arguments: &PlanArguments) -> Result<(), CliError> {
     let path = &arguments.candidates;
+    read_once(core::iter::once(path).chain(&arguments.done).map(PathBuf::as_path))?;
     let columns = read_columns("list of loads", path)?;
     let (axes, candidates) = columns.loads().map_err(|error| bad(path, &error))?;
     let full_scale = full_scale(arguments, axes.len(), &candidates)?;

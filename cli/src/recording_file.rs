@@ -71,14 +71,25 @@ pub(crate) fn csv(path: &Path, error: RecordingError) -> CliError {
     }
 }
 
-/// An error of an MCAP file, with its name.
+/// An error of an MCAP file, with its name; a disk that is full is named as such, with what to do.
 pub(crate) fn mcap(path: &Path, error: &McapError) -> CliError {
     let causes = core::iter::successors(Some(error as &dyn Error), |&cause| cause.source());
     let is_closed = |cause: &io::Error| cause.kind() == io::ErrorKind::BrokenPipe;
     if causes.filter_map(|cause| cause.downcast_ref()).any(is_closed) {
         return CliError::ClosedPipe;
     }
+    if let McapError::Write(refused) = error {
+        return CliError::write("recording", path, same(refused));
+    }
     CliError::Mcap { path: path.to_owned(), message: error.to_string() }
+}
+
+/// The same refusal of the system.
+fn same(refused: &io::Error) -> io::Error {
+    match refused.raw_os_error() {
+        Some(number) => io::Error::from_raw_os_error(number),
+        None => io::Error::new(refused.kind(), refused.to_string()),
+    }
 }
 
 /// What to know of a file that was cut behind so many messages.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use fingertip_recordings::ReaderOptions;
-use fingertip_recordings::mcap::recover;
+use fingertip_recordings::mcap::{McapError, recover};
 
 use crate::error::CliError;
 use crate::input::Input;
@@ -47,7 +47,10 @@ pub(crate) fn run(arguments: &RecoverArguments) -> Result<(), CliError> {
 fn messages(arguments: &RecoverArguments, input: &Input, outputs: &Outputs) -> Result<String, CliError> {
     let path = arguments.output.as_path();
     let file = outputs.create("recording", path)?.seekable()?;
-    let failed = |error| mcap(input.path(), &error);
+    let failed = |error| match error {
+        McapError::Write(_) => mcap(path, &error),
+        _ => mcap(input.path(), &error),
+    };
     let (found, file) = recover(input.messages()?, file, arguments.compression.into()).map_err(failed)?;
     if found.messages == 0 {
         let message = "no message in it is whole; there is nothing to recover".to_owned();

@@ -45,7 +45,7 @@ pub(crate) struct RefineArguments {
 
 pub(crate) fn run(arguments: &RefineArguments) -> Result<(), CliError> {
     let path = &arguments.touches;
-    let inputs = core::iter::once(path).chain(&arguments.loads);
+    let inputs = [path, &arguments.calibration].into_iter().chain(&arguments.loads);
     let outputs = Outputs::guard(arguments.overwrite, "output", inputs, &arguments.output)?;
     let file = read_calibration(&arguments.calibration)?;
     let unusable = |message: &str| CliError::Calibration {

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::fault::{BadCarried, SceneProblem};
 use crate::inertial::{InertialSection, Moving};
+use crate::named::Folder;
 
 /// `[payload]` of a scene: a file, or the numbers themselves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -78,7 +79,7 @@ fn unusable(source: BadCarried) -> SceneProblem {
 
 impl PayloadSection {
     /// Reads what it names; files are looked for in `folder`.
-    pub(crate) fn source(&self, folder: &Path) -> Result<PayloadSource, SceneProblem> {
+    pub(crate) fn source(&self, folder: &Folder<'_>) -> Result<PayloadSource, SceneProblem> {
         let misplaced = |key| SceneProblem::Misplaced {
             section: "payload",
             key,
@@ -88,7 +89,7 @@ impl PayloadSection {
             (Some(_), Some(_)) => Err(misplaced("mass_kg")),
             (Some(_), None) if self.centre_of_mass.is_some() => Err(misplaced("centre_of_mass_m")),
             (Some(_), None) if self.gravity.is_some() => Err(misplaced("gravity_m_per_s2")),
-            (Some(file), None) => PayloadSource::read(&folder.join(file), self.inertia),
+            (Some(file), None) => PayloadSource::read(&folder.file(file), self.inertia),
             (None, Some(mass)) => {
                 let centre = self.centre_of_mass.unwrap_or_default();
                 let gravity = self.gravity.unwrap_or(GRAVITY);

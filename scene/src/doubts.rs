@@ -19,11 +19,15 @@ const SLOW: f64 = 200.0;
 pub(crate) fn of(scene: &Table, shape: &ShapeSource, surface: &DynSurface<f64>) -> Vec<String> {
     let mut doubts = Vec::new();
     match shape {
-        ShapeSource::Here(value) => lengths("surface", "", value, &mut doubts),
+        ShapeSource::Here(value) => {
+            lengths("surface", "", value, &mut doubts);
+            doubts.extend(tiny(surface));
+        }
         ShapeSource::MeshFile { metres_per_unit, .. } => doubts.extend(size(*metres_per_unit, surface)),
         // Its keys are those of the scene.
         ShapeSource::Formula(_) => {
             scene.get("surface").into_iter().for_each(|value| lengths("surface", "", value, &mut doubts));
+            doubts.extend(tiny(surface));
         }
     }
     for section in ["pose", "map"] {
@@ -97,9 +101,37 @@ fn size(metres_per_unit: f64, mesh: &DynSurface<f64>) -> Option<String> {
         return None;
     };
     Some(format!(
-        "`metres_per_unit` of [surface] is {metres_per_unit}, by which the mesh reaches {reach:.3} m from its middle, {odd} \
-         than any fingertip; it is 0.001 for a file in millimetres"
+        "`metres_per_unit` of [surface] is {}, by which the mesh reaches {} m from its middle, {odd} than any fingertip; it \
+         is 0.001 for a file in millimetres",
+        short(metres_per_unit),
+        rounded(reach)
     ))
+}
+
+/// What is odd about a shape that is smaller than any fingertip.
+fn tiny(surface: &DynSurface<f64>) -> Option<String> {
+    let reach = surface.extent().radius;
+    (reach < SHORT).then(|| {
+        format!(
+            "[surface] reaches {} m from its middle, smaller than any fingertip; its lengths are in metres, of which a \
+             millimetre is 0.001",
+            short(reach)
+        )
+    })
+}
+
+/// A length to the millimetre, or in one digit.
+fn rounded(length: f64) -> String {
+    if (1e-3..1e6).contains(&length) { format!("{length:.3}") } else { format!("{length:.0e}") }
+}
+
+/// A number in few digits, however large or small.
+fn short(number: f64) -> String {
+    if number == 0.0 || (1e-3..1e6).contains(&number.abs()) {
+        format!("{number}")
+    } else {
+        format!("{number:e}")
+    }
 }
 
 /// Lengths that are those of a robot, not of its fingertip: by the unit in their key.
@@ -116,9 +148,10 @@ fn lengths(section: &str, key: &str, value: &Value, doubts: &mut Vec<String>) {
         }
         other if key.ends_with("_m") && is_long(other) => {
             let found = as_number(other).unwrap_or(0.0);
-            let millimetres = found / 1000.0;
             doubts.push(format!(
-                "`{key}` of [{section}] is {found} m, longer than any fingertip; of millimetres it is {millimetres}"
+                "`{key}` of [{section}] is {} m, longer than any fingertip; of millimetres it is {}",
+                short(found),
+                short(found / 1000.0)
             ));
         }
         _ => {}

@@ -18,6 +18,7 @@ use crate::grip::GripSection;
 use crate::inertial::InertialSection;
 use crate::input::InputSection;
 use crate::model::ContactSection;
+use crate::named::Folder;
 use crate::scene::Scene;
 use crate::sections::StageSections;
 use crate::sensor::SensorSection;
@@ -168,13 +169,15 @@ impl<S: SurfaceSection> SceneFile<S> {
         let sample_rate = positive("sample_rate_Hz", self.input.sample_rate)?;
         let rest = positive("rest_s", self.input.rest.filter(|rest| *rest != 0.0))?;
         let renamed = self.input.columns.renamed(&self.input.units)?;
-        let shape = self.surface.source(folder, &document)?;
+        let folder = Folder::new(folder);
+        let shape = self.surface.source(&folder, &document)?;
         let pose = self.pose.sensor_from_surface::<f64>()?;
         let surface = placed(shape.shape()?, &self.pose)?;
         let projection = map_of(&surface, &pose, self.map.as_ref())?;
         let convention = self.input.convention;
-        let sensor = self.sensor.as_ref().map(|section| section.source(folder)).transpose()?;
-        let payload = self.payload.as_ref().map(|section| section.source(folder)).transpose()?;
+        let sensor = self.sensor.as_ref().map(|section| section.source(&folder)).transpose()?;
+        let payload = self.payload.as_ref().map(|section| section.source(&folder)).transpose()?;
+        let files = folder.into_files();
         let Self {
             inertial_unit,
             filter,
@@ -213,6 +216,7 @@ impl<S: SurfaceSection> SceneFile<S> {
             renamed,
             shape,
             pose: self.pose,
+            files,
             projection,
             stages,
             pipeline,

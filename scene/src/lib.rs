@@ -22,6 +22,7 @@ mod input;
 mod lent;
 mod meaning;
 mod model;
+mod named;
 mod noise;
 mod pipeline;
 mod projection;

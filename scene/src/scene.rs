@@ -1,6 +1,6 @@
 //! A scene, read and checked.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use fingertip::surfaces::DynSurface;
 use fingertip::wrench::Real;
@@ -58,6 +58,8 @@ pub struct Scene {
     pub(crate) renamed: Vec<RenamedColumn>,
     pub(crate) shape: ShapeSource,
     pub(crate) pose: PoseSection,
+    /// That it names, and that these name.
+    pub(crate) files: Vec<PathBuf>,
     pub(crate) projection: Projection,
     pub(crate) stages: StageSections,
     /// In double precision: that it could be built is what was checked.
@@ -76,6 +78,13 @@ impl Scene {
     #[must_use]
     pub fn doubts(&self) -> Vec<String> {
         doubts::of(&self.document, &self.shape, self.surface())
+    }
+
+    /// The files that were read for it beside its own: calibration, payload, mesh, the description of a robot and the meshes
+    /// that it names. Whoever writes files should write over none of them.
+    #[must_use]
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
     }
 
     /// What reports call it.
@@ -107,8 +116,9 @@ impl Scene {
     /// # Errors
     /// [`SceneProblem::Sensor`].
     pub fn calibrated_by(mut self, path: impl AsRef<Path>) -> Result<Self, SceneProblem> {
-        let celsius = self.celsius();
-        self.stages.sensor = Some(SensorSource { celsius, ..SensorSource::read(path.as_ref())? });
+        let (celsius, path) = (self.celsius(), path.as_ref());
+        self.stages.sensor = Some(SensorSource { celsius, ..SensorSource::read(path)? });
+        self.files.push(path.to_owned());
         self.rebuilt()
     }
 
@@ -117,7 +127,9 @@ impl Scene {
     /// # Errors
     /// [`SceneProblem::Payload`].
     pub fn carrying(mut self, path: impl AsRef<Path>) -> Result<Self, SceneProblem> {
-        self.stages.payload = Some(PayloadSource::read(path.as_ref(), None)?);
+        let path = path.as_ref();
+        self.stages.payload = Some(PayloadSource::read(path, None)?);
+        self.files.push(path.to_owned());
         self.rebuilt()
     }
 

@@ -1,6 +1,6 @@
 //! `[surface]`, `[pose]` and `[map]`: the shape, how it sits on the sensor, and how it is drawn flat.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use fingertip::surfaces::{ActiveSurface, Cylinder, DynSurface, Mesh, Plane, Posed, Sphere, SphericalCap};
 use fingertip::wrench::{Real, RigidTransform};
@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::fault::SceneProblem;
 use crate::formula::FormulaSection;
+use crate::named::Folder;
 use crate::projection::Projection;
 use crate::urdf::UrdfSection;
 
@@ -89,11 +90,11 @@ impl ShapeSource {
 /// What the section `[surface]` may be: a shape, or the file of one.
 pub(crate) trait SurfaceSection {
     /// Files are looked for in `folder`; `document` is the scene as it stands.
-    fn source(self, folder: &Path, document: &toml::Table) -> Result<ShapeSource, SceneProblem>;
+    fn source(self, folder: &Folder<'_>, document: &toml::Table) -> Result<ShapeSource, SceneProblem>;
 }
 
 impl SurfaceSection for DynSurface<f64> {
-    fn source(self, _: &Path, document: &toml::Table) -> Result<ShapeSource, SceneProblem> {
+    fn source(self, _: &Folder<'_>, document: &toml::Table) -> Result<ShapeSource, SceneProblem> {
         // A scene without a surface is refused before.
         let here = document.get("surface").cloned().unwrap_or(toml::Value::Boolean(false));
         Ok(ShapeSource::Here(here))
@@ -101,19 +102,19 @@ impl SurfaceSection for DynSurface<f64> {
 }
 
 impl SurfaceSection for MeshSection {
-    fn source(self, folder: &Path, _: &toml::Table) -> Result<ShapeSource, SceneProblem> {
-        Ok(ShapeSource::MeshFile { path: folder.join(self.file), metres_per_unit: self.metres_per_unit })
+    fn source(self, folder: &Folder<'_>, _: &toml::Table) -> Result<ShapeSource, SceneProblem> {
+        Ok(ShapeSource::MeshFile { path: folder.file(&self.file), metres_per_unit: self.metres_per_unit })
     }
 }
 
 impl SurfaceSection for FormulaSection {
-    fn source(self, _: &Path, _: &toml::Table) -> Result<ShapeSource, SceneProblem> {
+    fn source(self, _: &Folder<'_>, _: &toml::Table) -> Result<ShapeSource, SceneProblem> {
         Ok(ShapeSource::Formula(Box::new(self)))
     }
 }
 
 impl SurfaceSection for UrdfSection {
-    fn source(self, folder: &Path, _: &toml::Table) -> Result<ShapeSource, SceneProblem> {
+    fn source(self, folder: &Folder<'_>, _: &toml::Table) -> Result<ShapeSource, SceneProblem> {
         Ok(ShapeSource::Here(self.shape(folder)?))
     }
 }

@@ -59,7 +59,7 @@ fn table(
     let axes = axes(loads.ncols())?;
     let mut table = LoadTable::new(&axes, loads, signals, unit(&name)?).map_err(errors::calibration)?;
     if let Some(names) = option(options, "names")? {
-        table.names = names.extract()?;
+        table.names = names.extract::<Vec<String>>()?.into();
     }
     if let Some(cases) = option(options, "cases")? {
         table.cases = cases.extract()?;

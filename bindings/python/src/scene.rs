@@ -257,6 +257,12 @@ impl PyScene {
         self.scene.doubts()
     }
 
+    /// The files that were read for it beside its own: calibration, payload, mesh, the description of a robot and the
+    /// meshes that it names. Whoever writes files should write over none of them.
+    fn files(&self) -> Vec<PathBuf> {
+        self.scene.files().to_vec()
+    }
+
     /// Where points of the surface lie on its flat map, as reports draw it: in mm on a plane and an unrolled
     /// cylinder, in radii on the map of a sphere that keeps areas.
     ///

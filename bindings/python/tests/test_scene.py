@@ -66,6 +66,7 @@ def test_a_calibration_travels_within_a_pickle(tmp_path):
     file = tmp_path / "tip.toml"
     fingertip.calibrate(loads, signals).save(file)
     scene = Scene.from_dict(SECTIONS).calibrated_by(file)
+    assert [str(path) for path in scene.files()] == [str(file)] and Scene.from_dict(SECTIONS).files() == []
     pickled = pickle.dumps(scene)
     os.remove(file)
     tip = fingertip.Fingertip(pickle.loads(pickled))

@@ -1,6 +1,8 @@
 """Sensors: calibrated, simulated, designed."""
 
 import pickle
+import subprocess
+import sys
 
 import fingertip
 import numpy as np
@@ -45,6 +47,28 @@ def test_a_report_is_a_dictionary_a_text_and_a_page(tmp_path):
     assert pickle.loads(pickle.dumps(found)) == found
     found.save(tmp_path / "tip.toml")
     assert (tmp_path / "tip.toml").read_text() == found.to_toml()
+
+
+def test_a_calibration_is_saved_whole_or_not_at_all(tmp_path):
+    loads, signals, _, _ = known()
+    found = fingertip.calibrate(loads, signals)
+    path = tmp_path / "tip.toml"
+    path.write_text("of yesterday")
+    path.chmod(0o640)
+    # A process whose files may have 100 bytes at most stands for a full disk.
+    program = (
+        "import pickle, resource, sys\n"
+        "found = pickle.loads(sys.stdin.buffer.read())\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))\n"
+        "found.save(sys.argv[1])\n"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", program, path], input=pickle.dumps(found), capture_output=True, check=False
+    )
+    assert run.returncode == 1 and b"CalibrationError" in run.stderr and b"tip.toml" in run.stderr, run.stderr
+    assert path.read_text() == "of yesterday" and [file.name for file in tmp_path.iterdir()] == ["tip.toml"]
+    found.save(path)
+    assert path.read_text() == found.to_toml() and path.stat().st_mode & 0o777 == 0o640
 
 
 def test_a_bad_calibration_is_stamped_and_none_is_refused():

@@ -5,6 +5,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use fingertip_calibration::file::{Existing, WholeFile};
 use thiserror::Error;
 
 /// Bytes of a token.
@@ -109,18 +110,9 @@ impl Tokens {
 
     /// Whole or not at all, and nobody else's to read.
     fn write(&self, path: &Path) -> io::Result<()> {
-        let mut options = fs::OpenOptions::new();
-        options.write(true).create_new(true);
-        #[cfg(unix)]
-        std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
-        let mut half = path.as_os_str().to_owned();
-        half.push(".half");
-        let half = PathBuf::from(half);
-        let mut file = options.open(&half)?;
-        let written = writeln!(file, "{}\n{}", self.watch, self.command).and_then(|()| file.sync_all());
-        written.and_then(|()| fs::rename(&half, path)).inspect_err(|_| {
-            let _ = fs::remove_file(&half);
-        })
+        let mut file = WholeFile::create_private(path, Existing::Keep)?;
+        writeln!(file, "{}\n{}", self.watch, self.command)?;
+        file.finish()
     }
 
     /// For those who watch.

@@ -37,11 +37,11 @@ impl History {
         for group in groups {
             let run: Vec<usize> = (0..table.samples()).filter(|row| table.groups[*row] == group).collect();
             if let Some([_, later]) = run.array_windows().find(|[a, b]| times[*b] < times[*a]) {
-                return Err(CreepError::TimeGoesBack { sample: table.names[*later].clone() });
+                return Err(CreepError::TimeGoesBack { sample: table.names.get(*later).into_owned() });
             }
             let resting: Vec<usize> = run.iter().copied().take_while(|row| !is_loaded(*row)).collect();
             if let (true, Some(first)) = (resting.is_empty(), run.first()) {
-                return Err(CreepError::BeginsLoaded { sample: table.names[*first].clone() });
+                return Err(CreepError::BeginsLoaded { sample: table.names.get(*first).into_owned() });
             }
             let zero = table.signals.select_rows(&resting).row_mean();
             let mut was_loaded = false;

@@ -23,6 +23,7 @@ mod temperature;
 mod text;
 mod uncertainty;
 mod validate;
+mod whole;
 
 pub use any::{ReadError, read_calibration};
 pub(crate) use ati::UNTARED;
@@ -41,3 +42,4 @@ pub use payload_file::{InertialUnitFile, PayloadFile, PayloadQuality};
 pub use plain::{PlainError, PlainMatrix, PlainUnits, plain_csv, plain_npy};
 pub use rust_constants::Scalar;
 pub use temperature::Temperature;
+pub use whole::{Existing, WholeFile, write_whole};

@@ -1,12 +1,12 @@
 //! Reading and writing calibration files.
 
-use std::{fs, path::Path};
+use std::path::Path;
 
 use toml::{Table, Value};
 
 use super::bounded::read_text;
 use super::document::{checksum_of, compare, malformed, open, write};
-use super::{CalibrationFile, FileError, Verdict};
+use super::{CalibrationFile, FileError, Verdict, write_whole};
 
 /// What is said of a file without a checksum.
 const UNSEALED: &str = "the file has no checksum: it was written by hand, and nobody knows how good it is";
@@ -25,13 +25,14 @@ impl CalibrationFile {
         Self::from_toml(&text)
     }
 
-    /// Writes a calibration file; [`read`](Self::read) gives back the very same numbers.
+    /// Writes a calibration file; [`read`](Self::read) gives back the very same numbers. It appears whole or not at all: one
+    /// that is there stays until then, and gives the new one its rights.
     ///
     /// # Errors
-    /// [`FileError`] if the calibration is not valid or the file cannot be written.
+    /// [`FileError`] if the calibration is not valid or the file cannot be written; then what was there is still there.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), FileError> {
         let path = path.as_ref();
-        fs::write(path, self.to_toml()?)
+        write_whole(path, self.to_toml()?)
             .map_err(|source| FileError::Io { path: path.display().to_string(), source })
     }
 

@@ -22,6 +22,28 @@ pub fn leave_out(
     weights: Option<&[f64]>,
     fit: &Fit,
     cases: &[usize],
+    visit: impl FnMut(usize, &[usize], Option<&DMatrix<f64>>),
+) -> Result<(), FitError> {
+    leave_out_changes(design, responses, weights, fit, cases, |_, _| false, visit)
+}
+
+/// What leaving out one sample takes off the coefficients Θ of the whole fit: `pull · stepᵀ`.
+pub(crate) struct Change<'a> {
+    /// One for each regressor.
+    pub(crate) pull: &'a [f64],
+    /// One for each response.
+    pub(crate) step: &'a [f64],
+}
+
+/// As [`leave_out`]; `one` is asked first for each case of one sample, with the change that it makes: `true` if that is enough,
+/// so that the coefficients need not be made.
+pub(crate) fn leave_out_changes(
+    design: &DMatrix<f64>,
+    responses: &DMatrix<f64>,
+    weights: Option<&[f64]>,
+    fit: &Fit,
+    cases: &[usize],
+    mut one: impl FnMut(usize, &Change<'_>) -> bool,
     mut visit: impl FnMut(usize, &[usize], Option<&DMatrix<f64>>),
 ) -> Result<(), FitError> {
     check(design, responses, weights)?;
@@ -43,15 +65,15 @@ pub fn leave_out(
         let root = accumulate(design, responses, weight).factors().inverse_root()?;
         roots.push(root);
     }
-    let (mut samples, mut single) = (Vec::new(), Single::new(fit));
+    let mut samples = Vec::new();
+    let mut is_alone = vec![false; cases.len()];
     for group in members.chunk_by(|a, b| a.0 == b.0) {
-        samples.clear();
-        samples.extend(group.iter().map(|(_, sample)| *sample));
-        if let ([sample], [root]) = (samples.as_slice(), roots.as_slice()) {
-            let weight = weights.map_or(1.0, |w| w[*sample]) * fit.trust[(*sample, 0)];
-            visit(group[0].0, &samples, single.without(design, responses, root, *sample, weight.sqrt()));
+        if let ([(_, sample)], [_]) = (group, roots.as_slice()) {
+            is_alone[*sample] = true;
             continue;
         }
+        samples.clear();
+        samples.extend(group.iter().map(|(_, sample)| *sample));
         let mut without = fit.coefficients.clone();
         let mut determined = true;
         for (range, root) in responses_together.iter().zip(&roots) {
@@ -75,58 +97,82 @@ pub fn leave_out(
         }
         visit(group[0].0, &samples, determined.then_some(&without));
     }
+    // In their own order, so that a million of them are read as they lie in memory.
+    let mut single = Single::new(fit);
+    for sample in (0..cases.len()).filter(|sample| is_alone[*sample]) {
+        let Some(root) = roots.first() else { break };
+        let weight = weights.map_or(1.0, |w| w[sample]) * fit.trust[(sample, 0)];
+        let change = single.change(design, responses, root, sample, weight.sqrt());
+        if change.as_ref().is_none_or(|change| !one(sample, change)) {
+            let is_determined = change.is_some();
+            visit(cases[sample], &[sample], is_determined.then(|| single.without()));
+        }
+    }
     Ok(())
 }
 
 /// The coefficients without one sample, as most cases of a recording are: the same formula, in memory that is taken once.
 struct Single<'a> {
     fit: &'a Fit,
-    /// Of the sample: its row of the design, `Q`, and `R⁻¹Qᵀ`.
+    /// Of the sample: its row of the design, and `R⁻¹Qᵀ`.
     x: Vec<f64>,
-    q: Vec<f64>,
     pull: Vec<f64>,
+    /// `(I − QᵀQ)⁻¹ r`, one for each response.
+    step: Vec<f64>,
     without: DMatrix<f64>,
 }
 
 impl<'a> Single<'a> {
     fn new(fit: &'a Fit) -> Self {
         let none = vec![0.0; fit.coefficients.nrows()];
-        Self { fit, x: none.clone(), q: none.clone(), pull: none, without: fit.coefficients.clone() }
+        let step = vec![0.0; fit.coefficients.ncols()];
+        Self { fit, x: none.clone(), pull: none, step, without: fit.coefficients.clone() }
     }
 
-    /// With `root` = R⁻¹, which is upper triangular; `factor` is the root of the sample's weight.
-    fn without(
+    /// With `root` = R⁻¹, which is upper triangular; `factor` is the root of the sample's weight. `None` if the other samples
+    /// do not determine the fit.
+    fn change(
         &mut self,
         design: &DMatrix<f64>,
         responses: &DMatrix<f64>,
         root: &DMatrix<f64>,
         sample: usize,
         factor: f64,
-    ) -> Option<&DMatrix<f64>> {
-        let Self { fit, x, q, pull, without } = self;
+    ) -> Option<Change<'_>> {
+        let Self { fit, x, pull, step, .. } = self;
         let k = x.len();
         x.iter_mut().zip(design.row(sample).iter()).for_each(|(slot, value)| *slot = value * factor);
         // Below the diagonal the root has zeros.
         let mut free = 1.0;
         pull.fill(0.0);
-        for (column, q) in root.as_slice().chunks_exact(k).zip(q.iter_mut()) {
-            *q = x.iter().zip(column).map(|(x, root)| x * root).sum();
-            free -= *q * *q;
-            pull.iter_mut().zip(column).for_each(|(pull, root)| *pull += root * *q);
+        for (rows, column) in (1..).zip(root.as_slice().chunks_exact(k)) {
+            let q: f64 = x.iter().zip(column).take(rows).map(|(x, root)| x * root).sum();
+            free -= q * q;
+            pull.iter_mut().zip(column).take(rows).for_each(|(pull, root)| *pull += root * q);
         }
         if !(free > least_free(k)) {
             return None;
         }
         let known = fit.coefficients.as_slice().chunks_exact(k);
-        let columns = without.as_mut_slice().chunks_exact_mut(k).zip(known);
-        for ((column, theta), read) in columns.zip(responses.row(sample).iter()) {
+        for ((slot, theta), read) in step.iter_mut().zip(known).zip(responses.row(sample).iter()) {
             let said: f64 = x.iter().zip(theta).map(|(x, theta)| x * theta).sum();
-            let step = (read * factor - said) / free;
+            *slot = (read * factor - said) / free;
+        }
+        Some(Change { pull, step })
+    }
+
+    /// The coefficients without the sample whose change was asked for last.
+    fn without(&mut self) -> &DMatrix<f64> {
+        let Self { fit, pull, step, without, .. } = self;
+        let k = pull.len().max(1);
+        let known = fit.coefficients.as_slice().chunks_exact(k);
+        let columns = without.as_mut_slice().chunks_exact_mut(k).zip(known);
+        for ((column, theta), step) in columns.zip(step.iter()) {
             for ((slot, theta), pull) in column.iter_mut().zip(theta).zip(pull.iter()) {
                 *slot = theta - pull * step;
             }
         }
-        Some(without)
+        without
     }
 }
 

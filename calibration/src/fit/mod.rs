@@ -21,6 +21,7 @@ pub use gauss_helmert::{gauss_helmert, gauss_helmert_correlated};
 pub(crate) use huber::deviation;
 pub use huber::{HUBER_THRESHOLD, huber};
 pub use leave_out::leave_out;
+pub(crate) use leave_out::{Change, leave_out_changes};
 pub use ransac::{Ransac, ransac};
 pub use regression::{Fit, FitError, least_squares, student_factor};
 pub use ridge::ridge;

@@ -20,10 +20,11 @@ impl LoadTable {
         let body =
             payload.payload::<f64>().map_err(|_| LoadError::Empty { what: "numbers in the payload" })?;
         let mut weights = Vec::with_capacity(self.samples());
-        for (orientation, sample) in orientations.iter().zip(&self.names) {
-            let gravity = payload
-                .gravity_at(*orientation)
-                .ok_or_else(|| LoadError::NotFinite { sample: sample.clone(), column: "qw".to_owned() })?;
+        for (sample, orientation) in orientations.iter().enumerate() {
+            let gravity = payload.gravity_at(*orientation).ok_or_else(|| LoadError::NotFinite {
+                sample: self.names.get(sample).into_owned(),
+                column: "qw".to_owned(),
+            })?;
             weights.push(body.weight(&gravity).components());
         }
         let mut groups = self.groups.clone();

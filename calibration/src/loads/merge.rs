@@ -46,7 +46,7 @@ impl LoadTable {
             };
             result.loads = join(&result.loads, &session.loads);
             result.signals = join(&result.signals, &session.signals);
-            result.names.extend(session.names.iter().cloned());
+            result.names.append(&session.names);
             result.cases.extend(session.cases.iter().map(|case| case + cases));
             result.groups.extend(session.groups.iter().map(|group| group + groups));
             let both = |a: Option<Vec<f64>>, b: &Option<Vec<f64>>| match (a, b) {

@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 use thiserror::Error;
 
+use super::Names;
 use crate::Axis;
 use crate::file::SignalUnit;
 
@@ -21,7 +22,7 @@ pub struct LoadTable {
     /// Unit of the signals.
     pub signal_unit: SignalUnit,
     /// What to call each sample in reports.
-    pub names: Vec<String>,
+    pub names: Names,
     /// Which load case (level) each sample belongs to: samples of one case are left out together.
     pub cases: Vec<usize>,
     /// Which session or mounting each sample belongs to: each group has its own zero.
@@ -129,7 +130,7 @@ impl LoadTable {
             loads,
             signals,
             signal_unit,
-            names: (1..=samples).map(|i| format!("sample {i}")).collect(),
+            names: Names::numbered("sample", 1..=samples as u64),
             cases: (0..samples).collect(),
             groups: vec![0; samples],
             times: None,
@@ -180,8 +181,19 @@ impl LoadTable {
                 return Err(LoadError::WrongLength { field, found, expected: samples });
             }
         }
+        let carried = |numbers: &[f64]| numbers.iter().all(|number| Self::carries(*number));
+        let lists = [&self.times, &self.temperatures, &self.weights];
+        if carried(self.loads.as_slice())
+            && carried(self.signals.as_slice())
+            && lists.into_iter().flatten().all(|list| carried(list))
+            && self.weights.iter().flatten().all(|weight| *weight >= 0.0)
+        {
+            return Ok(());
+        }
+        // Which one is none.
         for i in 0..samples {
-            let not_finite = |column: String| LoadError::NotFinite { sample: self.names[i].clone(), column };
+            let not_finite =
+                |column: String| LoadError::NotFinite { sample: self.names.get(i).into_owned(), column };
             for (j, axis) in self.axes.iter().enumerate() {
                 if !Self::carries(self.loads[(i, j)]) {
                     return Err(not_finite(axis.name().to_owned()));
@@ -240,7 +252,7 @@ impl LoadTable {
             loads: self.loads.select_rows(kept),
             signals: self.signals.select_rows(kept),
             signal_unit: self.signal_unit,
-            names: kept.iter().map(|i| self.names[*i].clone()).collect(),
+            names: self.names.select(kept),
             cases: kept.iter().map(|i| self.cases[*i]).collect(),
             groups: kept.iter().map(|i| self.groups[*i]).collect(),
             times: pick(&self.times),
@@ -312,7 +324,7 @@ mod tests {
         assert_eq!(tared.signals.row(3), DMatrix::from_row_slice(1, 2, &[1.0, 1.0]).row(0));
         let without = table().select(|i| i != 2);
         assert_eq!(without.tared_by_group(), Err(LoadError::NoZero { group: 7 }));
-        assert_eq!(without.names, ["sample 1", "sample 2", "sample 4"]);
+        assert_eq!(without.names.iter().collect::<Vec<_>>(), ["sample 1", "sample 2", "sample 4"]);
     }
 
     #[test]

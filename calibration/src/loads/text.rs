@@ -5,7 +5,7 @@ use std::io::Read;
 
 use nalgebra::DMatrix;
 
-use super::{LoadError, LoadReader, LoadTable};
+use super::{LoadError, LoadReader, LoadRow, LoadTable, Names};
 use crate::Axis;
 
 impl LoadTable {
@@ -41,21 +41,40 @@ impl LoadTable {
     /// # Errors
     /// [`LoadError`], naming line and column.
     pub fn from_reader(reader: &mut LoadReader<impl Read>) -> Result<Self, LoadError> {
+        Self::from_reader_with(reader, |_| {})
+    }
+
+    /// As [`from_reader`](Self::from_reader); each row is shown as it is read, for those who do something else with it
+    /// meanwhile.
+    ///
+    /// # Errors
+    /// [`LoadError`], naming line and column.
+    pub fn from_reader_with(
+        reader: &mut LoadReader<impl Read>,
+        mut each: impl FnMut(&LoadRow),
+    ) -> Result<Self, LoadError> {
         let (mut loads, mut signals) = (Vec::new(), Vec::new());
         let (mut times, mut temperatures, mut weights) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut names, mut cases, mut groups) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut names, mut lines) = (Vec::new(), Vec::new());
+        let (mut cases, mut groups) = (Vec::new(), Vec::new());
         let mut orientations = Vec::new();
         while let Some(row) = reader.next_row()? {
+            each(row);
             loads.extend_from_slice(&row.loads);
             signals.extend_from_slice(&row.signals);
             times.extend(row.time);
             temperatures.extend(row.temperature);
             weights.extend(row.weight);
             orientations.extend(row.orientation);
-            names.push(row.name.clone().unwrap_or_else(|| format!("line {}", row.line)));
+            match &row.name {
+                Some(name) => names.push(name.clone()),
+                None => lines.push(row.line),
+            }
             cases.extend(row.case.clone());
             groups.extend(row.group.clone());
         }
+        // Every row has a name, or none.
+        let names = if names.is_empty() { Names::numbered("line", lines) } else { names.into() };
         let samples = names.len();
         let loads = DMatrix::from_row_slice(samples, reader.axes().len(), &loads);
         let signals = DMatrix::from_row_slice(samples, reader.gauges(), &signals);
@@ -84,8 +103,8 @@ fn numbered(texts: &[String]) -> Vec<usize> {
         .collect()
 }
 
-/// Samples with the very same load are one case.
-fn same_loads(loads: &DMatrix<f64>) -> Vec<usize> {
+/// Samples with the very same load are one case: numbers from 0.
+pub(crate) fn same_loads(loads: &DMatrix<f64>) -> Vec<usize> {
     let mut order: Vec<([u64; Axis::ALL.len()], usize)> = (0..loads.nrows())
         .map(|i| {
             let mut bits = [0; Axis::ALL.len()];
@@ -127,7 +146,7 @@ mod tests {
         assert!((table.signals[(2, 1)] - 0.06).abs() < 1e-18);
         assert_eq!((table.signal_unit, table.samples(), table.gauges()), (SignalUnit::Volt, 3, 2));
         assert_eq!((table.cases, table.groups), (vec![0, 1, 0], vec![0, 0, 1]));
-        assert_eq!(table.names, ["up", "down", "again"]);
+        assert_eq!(table.names.iter().collect::<Vec<_>>(), ["up", "down", "again"]);
         assert_eq!(table.times, Some(vec![0.0, 1.0, 2.0]));
     }
 
@@ -137,7 +156,7 @@ mod tests {
         let (table, _) = LoadTable::from_csv(text.as_bytes()).unwrap();
         assert_eq!(table.cases[0], table.cases[2]);
         assert_ne!(table.cases[0], table.cases[1]);
-        assert_eq!(table.names[2], "line 4");
+        assert_eq!(table.names.get(2), "line 4");
     }
 
     /// As recordings are: other separators, blank lines, lines that are cut or endless.

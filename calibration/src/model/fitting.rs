@@ -10,7 +10,7 @@ use crate::fit::{
     Fit, FitError, Ransac, deviation, gauss_helmert_of_shares, huber, least_squares, ransac, ridge,
     total_least_squares,
 };
-use crate::loads::LoadTable;
+use crate::loads::{LoadTable, Zeros};
 
 /// Fits a sensor to a table, by the method of the options.
 pub(crate) fn fit_model(
@@ -29,7 +29,7 @@ pub(crate) fn fit_model(
     }
     let mut fit = fit(table, options, nominal).map_err(|error| named(error, table, options))?;
     let squares = matches!(options.method, Method::LeastSquares | Method::Ransac { .. });
-    if squares && options.direction == Direction::SignalsFromLoads {
+    if squares && options.direction == Direction::SignalsFromLoads && table.zeros != Zeros::Kept {
         account_for_zeros(table, &design(table, options, nominal), &mut fit);
     }
     Ok(SensorModel {
@@ -61,7 +61,8 @@ fn named(error: FitError, table: &LoadTable, options: &Options) -> CalibrationEr
 
 fn fit(table: &LoadTable, options: &Options, nominal: &[f64]) -> Result<Fit, FitError> {
     let x = design(table, options, nominal);
-    let y = responses(table, options, nominal);
+    let responses = responses(table, options, nominal);
+    let y = &*responses;
     let weights = table.weights.as_deref();
     let forward = options.direction == Direction::SignalsFromLoads;
     let deviations = FitError::BadInput { what: "the list of standard deviations" };
@@ -73,15 +74,15 @@ fn fit(table: &LoadTable, options: &Options, nominal: &[f64]) -> Result<Fit, Fit
     };
     let backward = FitError::BadInput { what: "the direction (the method fits signals from loads only)" };
     match &options.method {
-        Method::LeastSquares => least_squares(&x, &y, weights),
-        Method::Huber => huber(&x, &y, weights),
-        Method::Ransac { outliers, seed } => fit_agreeing(&x, &y, weights, *outliers, *seed),
+        Method::LeastSquares => least_squares(&x, y, weights),
+        Method::Huber => huber(&x, y, weights),
+        Method::Ransac { outliers, seed } => fit_agreeing(&x, y, weights, *outliers, *seed),
         Method::Total { .. } | Method::GaussHelmert { .. } | Method::Prior { .. } if !forward => {
             Err(backward)
         }
         Method::Total { load_deviations, signal_deviations } => total_least_squares(
             &normalised(&table.loads, nominal),
-            &y,
+            y,
             &relative(load_deviations)?,
             signal_deviations,
             options.bias,
@@ -96,10 +97,10 @@ fn fit(table: &LoadTable, options: &Options, nominal: &[f64]) -> Result<Fit, Fit
                 DMatrix::from_fn(x.nrows(), x.ncols(), |_, j| if j < fixed.len() { of(j) } else { 0.0 })
             };
             let noise = DMatrix::from_fn(y.nrows(), y.ncols(), |_, j| signal_deviations[j]);
-            gauss_helmert_of_shares(&x, &y, (&own(&|j| fixed[j]), &own(&|_| *share)), &noise)
+            gauss_helmert_of_shares(&x, y, (&own(&|j| fixed[j]), &own(&|_| *share)), &noise)
         }
         Method::Prior { prior, relative } => {
-            fit_with_prior(&x, &y, weights, prior, *relative, nominal, options.bias)
+            fit_with_prior(&x, y, weights, prior, *relative, nominal, options.bias)
         }
     }
 }

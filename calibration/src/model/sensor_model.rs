@@ -1,5 +1,7 @@
 //! A fitted sensor.
 
+use alloc::borrow::Cow;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::{Direction, Options};
@@ -34,13 +36,26 @@ pub struct SensorModel {
 
 /// The regressors of one way to fit: samples × regressors.
 pub(crate) fn design(table: &LoadTable, options: &Options, nominal: &[f64]) -> DMatrix<f64> {
+    let origin = options.curvature.origin(table.gauges());
     let linear = match options.direction {
-        Direction::SignalsFromLoads => normalised(&table.loads, nominal),
-        Direction::LoadsFromSignals => less(&table.signals, &options.curvature.origin(table.gauges())),
+        Direction::SignalsFromLoads => &table.loads,
+        Direction::LoadsFromSignals => &table.signals,
     };
     let terms = options.curvature.terms(table.gauges());
     let (samples, k) = linear.shape();
-    let mut design = linear.resize(samples, k + terms.len() + usize::from(options.bias), 1.0);
+    let mut design = DMatrix::from_element(samples, k + terms.len() + usize::from(options.bias), 1.0);
+    for (column, mut slot) in linear.column_iter().zip(design.column_iter_mut()) {
+        slot.copy_from(&column);
+    }
+    let columns = design.column_iter_mut().take(k);
+    match options.direction {
+        Direction::SignalsFromLoads => {
+            columns.zip(nominal).for_each(|(mut column, nominal)| column /= *nominal);
+        }
+        Direction::LoadsFromSignals => {
+            columns.zip(&origin).for_each(|(mut column, zero)| column.add_scalar_mut(-zero));
+        }
+    }
     if !terms.is_empty() {
         for i in 0..samples {
             let row: Vec<f64> = design.row(i).iter().take(k).copied().collect();
@@ -53,10 +68,14 @@ pub(crate) fn design(table: &LoadTable, options: &Options, nominal: &[f64]) -> D
 }
 
 /// What is regressed on the design: samples × responses.
-pub(crate) fn responses(table: &LoadTable, options: &Options, nominal: &[f64]) -> DMatrix<f64> {
+pub(crate) fn responses<'a>(
+    table: &'a LoadTable,
+    options: &Options,
+    nominal: &[f64],
+) -> Cow<'a, DMatrix<f64>> {
     match options.direction {
-        Direction::SignalsFromLoads => table.signals.clone(),
-        Direction::LoadsFromSignals => normalised(&table.loads, nominal),
+        Direction::SignalsFromLoads => Cow::Borrowed(&table.signals),
+        Direction::LoadsFromSignals => Cow::Owned(normalised(&table.loads, nominal)),
     }
 }
 

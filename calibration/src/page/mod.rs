@@ -20,11 +20,17 @@
 //! assert!(html.starts_with("<!doctype html>") && html.contains("&lt; 2\u{a0}N"));
 //! ```
 
+mod axis;
+mod chart;
 mod labels;
 mod numbers;
+mod svg;
 
+pub use axis::{Axis, Scale, Tick};
+pub use chart::Chart;
 pub use labels::{Placed, text_width, thinned};
 pub use numbers::Counting;
+pub use svg::{Anchor, Svg, TICK_SIZE};
 
 use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
 
@@ -202,12 +208,20 @@ impl Render for Figure {
             figure class=[self.on_white.then_some("on-white")] {
                 @if !self.title.is_empty() { h2 { (self.title) } }
                 @if !self.keys.is_empty() {
-                    p.keys { @for (class, name) in &self.keys { span { i class=(class) {} (name) } } }
+                    p.keys { @for (class, name) in &self.keys { span { i class=(self.class_of(class)) {} (name) } } }
                 }
                 (PreEscaped(&self.svg))
                 @if !self.caption.is_empty() { figcaption { (unbroken(&self.caption)) } }
             }
         }
+    }
+}
+
+impl Figure {
+    /// The class of a key: one whose curve has shapes on it shows them.
+    fn class_of(&self, class: &str) -> String {
+        let shapes = format!("class=\"shapes {class}\"");
+        if self.svg.contains(&shapes) { format!("{class} shaped") } else { class.to_owned() }
     }
 }
 
@@ -317,5 +331,33 @@ mod tests {
             assert!(page.contains(part), "{part}");
         }
         assert!(!page.contains("http") && !page.contains("<script"));
+    }
+
+    /// Colours and swatches are printed: browsers leave backgrounds out unless they are told not to, and the dark colours are
+    /// for screens alone.
+    #[test]
+    fn print_keeps_the_swatches_and_light_colours() {
+        let page = Page::new("").finish("");
+        let (_, every) = page.split_once("* {").unwrap();
+        let (every, _) = every.split_once('}').unwrap();
+        assert!(
+            every.contains(" print-color-adjust: exact")
+                && every.contains("-webkit-print-color-adjust: exact")
+        );
+        assert!(page.contains("@media screen and (prefers-color-scheme: dark)"));
+        assert_eq!(page.matches("prefers-color-scheme").count(), 1);
+    }
+
+    /// A key shows the shapes that its curve has, and none where it has none.
+    #[test]
+    fn keys_have_the_shapes_of_their_curves() {
+        let mut chart = Chart::new("", Axis::linear("", 0.0, 1.0), Axis::linear("", 0.0, 1.0));
+        chart.curve("b", &[vec![(0.0, 0.0), (1.0, 1.0)]]);
+        chart.curve("a wide", &[vec![(0.0, 1.0), (1.0, 0.0)]]);
+        chart.dots("c", &[(0.5, 0.5)]);
+        let keys = ["a", "b", "c spot"].map(|class| (class, String::new())).to_vec();
+        let figure = Figure { svg: chart.finish(), keys, ..Figure::default() }.render().0;
+        assert!(figure.contains("<i class=\"a\">") && figure.contains("<i class=\"b shaped\">"), "{figure}");
+        assert!(figure.contains("<i class=\"c spot\">"));
     }
 }

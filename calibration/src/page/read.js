@@ -28,7 +28,7 @@
     const keys = drawing.closest("figure")?.querySelectorAll(".keys i") ?? [];
     const called = path => [...keys].find(key => path.classList.contains(key.classList[0]))?.nextSibling?.data;
     let points;
-    const all = () => points ??= [...plot.querySelectorAll(".curve, .dots")].flatMap(path => {
+    const all = () => points ??= [...plot.querySelectorAll(".curve, .dots, .squares")].flatMap(path => {
       const what = called(path);
       return [...path.getAttribute("d").matchAll(/[ML](-?[\d.]+) (-?[\d.]+)/g)].map(([, x, y]) => [+x, +y, what]);
     });

@@ -12,6 +12,7 @@ use super::curve::CurveReport;
 use super::metrics::{AxisReport, LineReport, axis_reports, cross_talk, lines};
 use super::outliers::{Outlier, outliers};
 use super::predicted::{beyond, predicted};
+use super::samples::{LeftOut, Samples};
 use super::suspicion::{Suspicion, suspicions};
 use super::words::{describe, worst_first};
 use crate::design::TouchSet;
@@ -72,7 +73,7 @@ pub struct Report {
     /// Mistakes that would explain the errors.
     pub suspicions: Vec<Suspicion>,
     /// Every sample: what it was and what the sensor says.
-    pub details: Vec<SampleReport>,
+    pub details: Samples,
 }
 
 /// A sample that was left out.
@@ -84,31 +85,18 @@ pub struct Exclusion {
     pub reason: String,
 }
 
-/// One sample, \[N, N·m\] in the order of the axes.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SampleReport {
-    /// What it is called.
-    pub name: String,
-    /// The known load.
-    pub applied: Vec<f64>,
-    /// What the calibrated sensor says.
-    pub measured: Vec<f64>,
-    /// What it would say if calibrated without this load case.
-    pub left_out: Option<Vec<f64>>,
-}
-
 impl Report {
     /// Of a fit, on the loads that it was fitted to.
     pub(crate) fn of_fit(
         table: &LoadTable,
         model: &SensorModel,
         options: &Options,
-        left_out: Vec<Option<Vec<f64>>>,
+        left_out: LeftOut,
         excluded: Vec<Exclusion>,
         (outliers, influence): (Vec<Outlier>, Option<f64>),
     ) -> Result<Self, CalibrationError> {
         let predicted = model.loads(&table.signals).ok_or(CalibrationError::Singular)?;
-        let mut report = Self::of_loads(table, &model.nominal, &predicted, Some(left_out));
+        let mut report = Self::of_loads(table, &model.nominal, predicted, Some(left_out));
         report.method = describe(options);
         report.coefficients = model.fit.coefficients.nrows();
         report.condition_number = Some(model.condition_number()).filter(|number| number.is_finite());
@@ -116,7 +104,9 @@ impl Report {
         report.outliers = outliers;
         report.outlier_influence_percent = influence;
         let covariance = model.load_covariance();
-        report.lines = lines(table, &model.nominal, &predicted, |load| Some(covariance.as_ref()?.at(load)));
+        report.lines = lines(table, &model.nominal, &report.details.measured, |load| {
+            Some(covariance.as_ref()?.at(load))
+        });
         if let Some(covariance) = &covariance {
             let covariance = covariance.at(&[]);
             for (j, axis) in report.axes.iter_mut().enumerate() {
@@ -181,7 +171,7 @@ impl Report {
         let excluded = unusable
             .iter()
             .map(|(sample, reason)| Exclusion {
-                sample: table.names[*sample].clone(),
+                sample: table.names.get(*sample).into_owned(),
                 reason: reason.clone(),
             })
             .collect();
@@ -193,29 +183,25 @@ impl Report {
         let table = &*kept;
         let inverse = pseudo_inverse(&file.matrix).ok_or(CalibrationError::Singular)?;
         let predicted = predicted(file, table, &inverse)?;
-        let mut report = Self::of_loads(table, &file.nominal, &predicted, None);
+        let mut report = Self::of_loads(table, &file.nominal, predicted, None);
+        let predicted = &report.details.measured;
         report.method = format!("check of a calibration by {}", file.provenance.method);
         report.excluded = excluded;
         report.condition_number =
             Singular::new(&file.matrix).map(|s| s.condition_number()).filter(|number| number.is_finite());
-        report.lines = lines(table, &file.nominal, &predicted, |_| None);
+        report.lines = lines(table, &file.nominal, predicted, |_| None);
         if let (Some(set), Some(covariance)) = (touches, &file.covariance) {
             report.contacts = contact_report(&file.axes, &file.matrix, &file.nominal, covariance, set);
         }
         if table.temperatures.is_some() && file.temperature.is_none() {
             report.notes.push("temperatures are known, but the calibration has no terms for them".to_owned());
         }
-        report.suspicions = suspicions(file, table, &predicted);
+        report.suspicions = suspicions(file, table, predicted);
         // A sample that stands out of the errors of the others, whatever these have in common.
         let labels: Vec<String> = table.axes.iter().map(ToString::to_string).collect();
         let constant = DMatrix::from_element(table.samples(), 1, 1.0);
-        report.outliers = outliers(
-            &constant,
-            &(&predicted - &table.loads),
-            table.weights.as_deref(),
-            &table.names,
-            &labels,
-        );
+        report.outliers =
+            outliers(&constant, &(predicted - &table.loads), table.weights.as_deref(), &table.names, &labels);
         report.judge(limits);
         if matches!(file.quality.verdict, Verdict::Bad | Verdict::Suspect) {
             report.notes.push(format!(
@@ -231,16 +217,14 @@ impl Report {
     fn of_loads(
         table: &LoadTable,
         full_scale: &[f64],
-        predicted: &DMatrix<f64>,
-        left_out: Option<Vec<Option<Vec<f64>>>>,
+        predicted: DMatrix<f64>,
+        left_out: Option<LeftOut>,
     ) -> Self {
         let mut cases = table.cases.clone();
         cases.sort_unstable();
         cases.dedup();
-        let row = |matrix: &DMatrix<f64>, i: usize| matrix.row(i).iter().copied().collect::<Vec<_>>();
-        let missing = |list: &[Option<Vec<f64>>]| {
-            (0..list.len()).filter(|i| list[*i].is_none()).map(|i| table.names[i].clone()).collect()
-        };
+        let untold =
+            |list: &LeftOut| list.untold().map(|sample| table.names.get(sample).into_owned()).collect();
         Self {
             method: String::new(),
             verdict: Verdict::Unchecked,
@@ -250,8 +234,8 @@ impl Report {
             cases: cases.len(),
             coefficients: 0,
             condition_number: None,
-            axes: axis_reports(table, full_scale, predicted, left_out.as_deref()),
-            cross_talk_percent: cross_talk(table, full_scale, predicted),
+            axes: axis_reports(table, full_scale, &predicted, left_out.as_ref()),
+            cross_talk_percent: cross_talk(table, full_scale, &predicted),
             matrix: None,
             matrix_deviations: None,
             creep: None,
@@ -261,17 +245,14 @@ impl Report {
             excluded: Vec::new(),
             outliers: Vec::new(),
             outlier_influence_percent: None,
-            needed_cases: left_out.as_deref().map_or_else(Vec::new, missing),
+            needed_cases: left_out.as_ref().map_or_else(Vec::new, untold),
             suspicions: Vec::new(),
-            details: (0..table.samples())
-                .zip(left_out.into_iter().flatten().chain(core::iter::repeat(None)))
-                .map(|(i, left_out)| SampleReport {
-                    name: table.names[i].clone(),
-                    applied: row(&table.loads, i),
-                    measured: row(predicted, i),
-                    left_out,
-                })
-                .collect(),
+            details: Samples {
+                names: table.names.clone(),
+                applied: table.loads.clone(),
+                measured: predicted,
+                left_out,
+            },
         }
     }
 
@@ -284,8 +265,7 @@ impl Report {
             number => self.notes.push(format!("{number} samples were left out")),
         }
         for (j, axis) in self.axes.iter().enumerate() {
-            let greatest =
-                self.details.iter().fold(0.0_f64, |most, sample| most.max(sample.applied[j].abs()));
+            let greatest = self.details.applied.column(j).amax();
             if greatest < COVERED * axis.full_scale {
                 self.notes.push(format!(
                     "{}: the loads reach {:.0} % of full scale, beyond which nothing is checked",
@@ -354,7 +334,7 @@ impl Report {
         let mut doubts = Vec::new();
         for outlier in &self.outliers {
             let text = format!("{}: {outlier}", outlier.sample);
-            let error = self.details.get(outlier.index).map_or(0.0, |sample| {
+            let error = self.details.get(outlier.index).map_or(0.0_f64, |sample| {
                 let errors = sample.measured.iter().zip(&sample.applied).zip(&self.axes);
                 errors.fold(0.0_f64, |most, ((m, a), axis)| most.max(100.0 * (m - a).abs() / axis.full_scale))
             });

@@ -2,9 +2,8 @@
 
 use maud::{Markup, html};
 
-use super::plot::{FITTED, LEFT_OUT};
 use super::{AxisReport, Report};
-use crate::page::{Figure, Page, Table};
+use crate::page::{Page, Table};
 
 type Column = fn(&AxisReport) -> Option<f64>;
 
@@ -23,7 +22,7 @@ const ROWS: [(&str, &str, Column); 10] = [
 ];
 
 impl Report {
-    /// As one HTML page without scripts or outside files, plots as SVG within. `of` says of which sensor, files and
+    /// As one HTML page without outside files, plots as SVG within, of which the points can be read under the pointer. `of` says of which sensor, files and
     /// date: names and what stands beside them; what is empty is left out.
     #[must_use]
     pub fn to_html(&self, title: &str, of: &[(&str, String)]) -> String {
@@ -98,7 +97,7 @@ impl Report {
         }
         let shade = |value: Option<f64>| {
             let shade = value.map_or(0.0, |value| 0.35 * value / most.max(f64::MIN_POSITIVE));
-            format!("background:rgba(207,34,46,{shade:.2})")
+            format!("background:color-mix(in srgb, var(--alarm) {:.0}%, transparent)", 100.0 * shade)
         };
         page.heading("Cross-talk, % of full scale");
         page.small("Greatest false reading of an axis (row) under loads of another one alone (column).");
@@ -162,38 +161,21 @@ impl Report {
         let row = |(gauge, (row, spread)): (usize, (&Vec<f64>, &Vec<f64>))| {
             let cell = |(value, deviation): (&f64, &f64)| {
                 let digits = digits(*deviation, 2);
-                format!("{value:.digits$} ± {deviation:.digits$}")
+                format!("{value:.digits$} ±\u{a0}{deviation:.digits$}")
             };
             let cells = row.iter().zip(spread).map(cell);
-            core::iter::once(format!("gauge {}", gauge + 1)).chain(cells).collect::<Vec<_>>()
+            core::iter::once(format!("gauge\u{a0}{}", gauge + 1)).chain(cells).collect::<Vec<_>>()
         };
         let rows: Vec<_> = matrix.iter().zip(deviations).enumerate().map(row).collect();
         page.table(&Table { title: "", head: &self.head(), rows: &rows, words: false });
     }
 
     fn plots(&self, page: &mut Page) {
-        let colour = |c: plotters::style::RGBColor| format!("rgb({},{},{})", c.0, c.1, c.2);
-        let left_out = self.details.iter().any(|sample| sample.left_out.is_some());
         page.heading("Plots");
-        page.push(&html! {
-            p {
-                span.spot-key style={ "background:" (colour(FITTED)) } {}
-                @if self.coefficients > 0 { "loads of the fit" } @else { "these loads" }
-                @if left_out {
-                    span.spot-key style={ "border:1.5px solid " (colour(LEFT_OUT)) } {}
-                    "the same loads, left out of the fit"
-                }
-            }
-        });
-        let figure = |title: String, svg: Option<String>| {
-            Some(Figure { title, svg: svg?, on_white: true, ..Figure::default() })
-        };
-        page.figures(self.axes.iter().enumerate().flat_map(|(index, axis)| {
-            let over_load = figure(format!("{}: error over load", axis.axis), self.error_over_load(index));
-            let over_samples =
-                figure(format!("{}: error, sample after sample", axis.axis), self.error_over_samples(index));
-            over_load.into_iter().chain(over_samples)
-        }));
+        page.figures(
+            (0..self.axes.len())
+                .flat_map(|axis| self.error_over_load(axis).into_iter().chain(self.error_over_samples(axis))),
+        );
     }
 }
 

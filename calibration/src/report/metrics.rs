@@ -7,8 +7,9 @@ use std::collections::HashMap;
 use nalgebra::{DMatrix, Matrix3, Matrix3x6, Matrix6, Vector3};
 use serde::Serialize;
 
+use super::samples::LeftOut;
 use crate::Axis;
-use crate::loads::LoadTable;
+use crate::loads::{LoadTable, same_loads};
 
 /// Errors of one axis. Percentages are of full scale; `None` where the table of loads does not
 /// tell.
@@ -45,38 +46,63 @@ pub struct AxisReport {
     pub creep_percent: Option<f64>,
 }
 
-/// Which samples have the same load: numbers from 0 in the order in which loads first occur.
-struct Alike {
-    /// Of any group.
+/// What of the loads all axes ask.
+struct Loads {
+    /// Which samples have the same load, as numbers from 0; of any group.
     anywhere: Vec<usize>,
-    /// Of the same group.
+    /// The same of one group.
     in_group: Vec<usize>,
+    /// Samples with a load.
+    is_loaded: Vec<bool>,
+    /// The square of the load in full scales.
+    size: Vec<f64>,
 }
 
-impl Alike {
-    fn of(table: &LoadTable) -> Self {
-        let (mut loads, mut in_groups) = (HashMap::with_capacity(table.samples()), HashMap::new());
-        let (mut anywhere, mut in_group) = (Vec::with_capacity(table.samples()), Vec::new());
-        let one_group = table.groups.array_windows().all(|[a, b]| a == b);
-        for sample in 0..table.samples() {
-            let mut bits = [0; Axis::ALL.len()];
-            // Adding zero makes −0 and 0 the same bits.
-            bits.iter_mut()
-                .zip(table.loads.row(sample).iter())
-                .for_each(|(bits, x)| *bits = (x + 0.0).to_bits());
-            let new = loads.len();
-            let load = *loads.entry(bits).or_insert(new);
-            anywhere.push(load);
-            if !one_group {
-                let new = in_groups.len();
-                in_group.push(*in_groups.entry((load, table.groups[sample])).or_insert(new));
+impl Loads {
+    fn of(table: &LoadTable, full_scale: &[f64]) -> Self {
+        let samples = table.samples();
+        let (mut is_loaded, mut size) = (vec![false; samples], vec![0.0; samples]);
+        for (column, full_scale) in table.loads.column_iter().zip(full_scale) {
+            for ((load, is_loaded), size) in column.iter().zip(&mut is_loaded).zip(&mut size) {
+                *is_loaded |= *load != 0.0;
+                *size += (load / full_scale).powi(2);
             }
         }
-        if one_group {
-            in_group.clone_from(&anywhere);
-        }
-        Self { anywhere, in_group }
+        let anywhere = in_order(&same_loads(&table.loads));
+        let one_group = table.groups.array_windows().all(|[a, b]| a == b);
+        let in_group = if one_group {
+            anywhere.clone()
+        } else {
+            let mut seen = HashMap::new();
+            let of_group = anywhere.iter().zip(&table.groups).map(|key| {
+                let new = seen.len();
+                *seen.entry(key).or_insert(new)
+            });
+            of_group.collect()
+        };
+        Self { anywhere, in_group, is_loaded, size }
     }
+}
+
+/// The same classes numbered in the order in which they first occur: what is kept of each is then read as it lies in memory.
+fn in_order(classes: &[usize]) -> Vec<usize> {
+    let mut new = vec![usize::MAX; classes.iter().max().map_or(0, |last| last + 1)];
+    let mut next = 0;
+    let mut renumbered = Vec::with_capacity(classes.len());
+    for class in classes {
+        let number = &mut new[*class];
+        if *number == usize::MAX {
+            *number = next;
+            next += 1;
+        }
+        renumbered.push(*number);
+    }
+    renumbered
+}
+
+/// How many classes there are.
+fn count(classes: &[usize]) -> usize {
+    classes.iter().max().map_or(0, |last| last + 1)
 }
 
 /// The errors of every axis; `predicted` is samples × axes.
@@ -84,27 +110,26 @@ pub(crate) fn axis_reports(
     table: &LoadTable,
     full_scale: &[f64],
     predicted: &DMatrix<f64>,
-    left_out: Option<&[Option<Vec<f64>>]>,
+    left_out: Option<&LeftOut>,
 ) -> Vec<AxisReport> {
     let error = predicted - &table.loads;
-    let alike = Alike::of(table);
+    let loads = Loads::of(table, full_scale);
     let rms = |values: &mut dyn Iterator<Item = f64>| {
         let (sum, count) = values.fold((0.0, 0_u32), |(sum, count), x| (sum + x * x, count + 1));
         (sum / f64::from(count.max(1))).sqrt()
     };
-    let known: Option<Vec<&Vec<f64>>> = left_out.and_then(|list| list.iter().map(Option::as_ref).collect());
+    let known = left_out.and_then(LeftOut::all);
     table
         .axes
         .iter()
         .enumerate()
         .map(|(j, axis)| {
             let percent = |x: f64| 100.0 * x / full_scale[j];
-            let column: Vec<f64> = error.column(j).iter().copied().collect();
+            let column = error.column(j);
             let worst =
                 (0..column.len()).max_by(|a, b| column[*a].abs().total_cmp(&column[*b].abs())).unwrap_or(0);
-            let out = known.as_ref().map(|known| {
-                known.iter().enumerate().map(|(i, load)| load[j] - table.loads[(i, j)]).collect::<Vec<_>>()
-            });
+            let applied = &table.loads;
+            let out = known.map(|known| (0..known.nrows()).map(move |i| known[(i, j)] - applied[(i, j)]));
             let one = rms(&mut column.iter().copied());
             AxisReport {
                 axis: *axis,
@@ -112,17 +137,16 @@ pub(crate) fn axis_reports(
                 rms: one,
                 rms_percent: percent(one),
                 greatest_percent: percent(column[worst].abs()),
-                greatest_at: table.names[worst].clone(),
-                left_out_percent: out.as_ref().map(|out| percent(rms(&mut out.iter().copied()))),
+                greatest_at: table.names.get(worst).into_owned(),
+                left_out_percent: out.clone().map(|mut out| percent(rms(&mut out))),
                 left_out_greatest_percent: out
-                    .as_ref()
-                    .map(|out| percent(out.iter().fold(0.0, |most, x| most.max(x.abs())))),
+                    .map(|out| percent(out.fold(0.0, |most, x: f64| most.max(x.abs())))),
                 deviation_percent: None,
                 linearity_percent: linearity(table, predicted, j).map(percent),
-                hysteresis_percent: hysteresis(table, &alike, full_scale, predicted, j).map(percent),
-                repeatability_percent: repeatability(table, &alike, predicted, j).map(percent),
-                zero_return_percent: zero_return(table, predicted, j).map(percent),
-                creep_percent: creep(table, predicted, j).map(percent),
+                hysteresis_percent: hysteresis(table, &loads, predicted, j).map(percent),
+                repeatability_percent: repeatability(&loads, predicted, j).map(percent),
+                zero_return_percent: zero_return(table, &loads, predicted, j).map(percent),
+                creep_percent: creep(table, &loads, predicted, j).map(percent),
             }
         })
         .collect()
@@ -141,40 +165,37 @@ fn linearity(table: &LoadTable, predicted: &DMatrix<f64>, axis: usize) -> Option
     Some(pairs.iter().map(|(l, p)| (p - slope * l).abs()).fold(0.0, f64::max))
 }
 
-fn hysteresis(
-    table: &LoadTable,
-    alike: &Alike,
-    full_scale: &[f64],
-    predicted: &DMatrix<f64>,
-    axis: usize,
-) -> Option<f64> {
-    let size = |i: usize| {
-        table.loads.row(i).iter().zip(full_scale).map(|(load, full)| (load / full).powi(2)).sum::<f64>()
-    };
+fn hysteresis(table: &LoadTable, loads: &Loads, predicted: &DMatrix<f64>, axis: usize) -> Option<f64> {
+    if count(&loads.in_group) == loads.in_group.len() {
+        // No load comes twice.
+        return None;
+    }
     // Sum and number of the readings with rising and with falling load.
-    let mut seen = vec![[(0.0, 0_u32); 2]; alike.in_group.iter().max().map_or(0, |last| last + 1)];
+    let mut seen = vec![[(0.0, 0_u32); 2]; count(&loads.in_group)];
     let mut before = 0.0;
-    for i in 0..table.samples() {
-        let now = size(i);
-        if i > 0 && table.groups[i] == table.groups[i - 1] && now > 0.0 && now != before {
-            let entry = &mut seen[alike.in_group[i]][usize::from(now < before)];
+    for (i, now) in loads.size.iter().enumerate() {
+        if i > 0 && table.groups[i] == table.groups[i - 1] && *now > 0.0 && *now != before {
+            let entry = &mut seen[loads.in_group[i]][usize::from(*now < before)];
             *entry = (entry.0 + predicted[(i, axis)], entry.1 + 1);
         }
-        before = now;
+        before = *now;
     }
     let differences = seen.iter().filter(|[up, down]| up.1 > 0 && down.1 > 0);
     differences.map(|[up, down]| (up.0 / f64::from(up.1) - down.0 / f64::from(down.1)).abs()).reduce(f64::max)
 }
 
-fn repeatability(table: &LoadTable, alike: &Alike, predicted: &DMatrix<f64>, axis: usize) -> Option<f64> {
-    let loaded = || (0..table.samples()).filter(|i| table.loads.row(*i).amax() > 0.0);
-    let mut seen = vec![(0.0, 0_u32); alike.anywhere.iter().max().map_or(0, |last| last + 1)];
+fn repeatability(loads: &Loads, predicted: &DMatrix<f64>, axis: usize) -> Option<f64> {
+    if count(&loads.anywhere) == loads.anywhere.len() {
+        return None;
+    }
+    let loaded = || (0..loads.is_loaded.len()).filter(|i| loads.is_loaded[*i]);
+    let mut seen = vec![(0.0, 0_u32); count(&loads.anywhere)];
     for i in loaded() {
-        let (sum, count) = &mut seen[alike.anywhere[i]];
+        let (sum, count) = &mut seen[loads.anywhere[i]];
         (*sum, *count) = (*sum + predicted[(i, axis)], *count + 1);
     }
     let squares: f64 = loaded()
-        .map(|i| (predicted[(i, axis)], seen[alike.anywhere[i]]))
+        .map(|i| (predicted[(i, axis)], seen[loads.anywhere[i]]))
         .filter(|(_, (_, count))| *count > 1)
         .map(|(reading, (sum, count))| (reading - sum / f64::from(count)).powi(2))
         .sum();
@@ -182,35 +203,34 @@ fn repeatability(table: &LoadTable, alike: &Alike, predicted: &DMatrix<f64>, axi
     (freedom > 0.0).then(|| (squares / freedom).sqrt())
 }
 
-fn zero_return(table: &LoadTable, predicted: &DMatrix<f64>, axis: usize) -> Option<f64> {
+fn zero_return(table: &LoadTable, loads: &Loads, predicted: &DMatrix<f64>, axis: usize) -> Option<f64> {
     let mut first: BTreeMap<usize, f64> = BTreeMap::new();
     let mut greatest: Option<f64> = None;
-    for i in 0..table.samples() {
-        let unloaded = table.loads.row(i).amax() == 0.0;
-        let follows_load =
-            i > 0 && table.groups[i - 1] == table.groups[i] && table.loads.row(i - 1).amax() > 0.0;
+    // Where nothing is unloaded, nothing is to be looked up.
+    for i in (0..table.samples()).filter(|i| !loads.is_loaded[*i]) {
+        let follows_load = i > 0 && table.groups[i - 1] == table.groups[i] && loads.is_loaded[i - 1];
         match first.get(&table.groups[i]) {
-            None if unloaded => {
+            None => {
                 first.insert(table.groups[i], predicted[(i, axis)]);
             }
-            Some(zero) if unloaded && follows_load => {
+            Some(zero) if follows_load => {
                 let change = (predicted[(i, axis)] - zero).abs();
                 greatest = Some(greatest.map_or(change, |most| most.max(change)));
             }
-            _ => {}
+            Some(_) => {}
         }
     }
     greatest
 }
 
-fn creep(table: &LoadTable, predicted: &DMatrix<f64>, axis: usize) -> Option<f64> {
+fn creep(table: &LoadTable, loads: &Loads, predicted: &DMatrix<f64>, axis: usize) -> Option<f64> {
     let times = table.times.as_ref()?;
     let mut greatest: Option<f64> = None;
     let mut start = 0;
     for i in 1..table.samples() {
-        if table.groups[i] != table.groups[start] || table.loads.row(i) != table.loads.row(start) {
+        if table.groups[i] != table.groups[start] || loads.anywhere[i] != loads.anywhere[start] {
             start = i;
-        } else if table.loads.row(i).amax() > 0.0 && times[i] > times[start] {
+        } else if loads.is_loaded[i] && times[i] > times[start] {
             let change = (predicted[(i, axis)] - predicted[(start, axis)]).abs();
             greatest = Some(greatest.map_or(change, |most| most.max(change)));
         }

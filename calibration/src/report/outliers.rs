@@ -7,6 +7,8 @@ use serde::Serialize;
 use statrs::distribution::{ContinuousCDF as _, StudentsT};
 
 use super::residuals::Residuals;
+use crate::fit::Fit;
+use crate::loads::Names;
 
 /// A sample that does not fit the others.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -50,13 +52,30 @@ pub fn outliers(
     design: &DMatrix<f64>,
     responses: &DMatrix<f64>,
     weights: Option<&[f64]>,
-    names: &[String],
+    names: &Names,
+    labels: &[String],
+) -> Vec<Outlier> {
+    outliers_of_fit(design, responses, weights, None, names, labels)
+}
+
+/// As [`outliers`], with the least-squares fit of all samples where that is known.
+pub(crate) fn outliers_of_fit(
+    design: &DMatrix<f64>,
+    responses: &DMatrix<f64>,
+    weights: Option<&[f64]>,
+    fit: Option<&Fit>,
+    names: &Names,
     labels: &[String],
 ) -> Vec<Outlier> {
     let counts = |i: &usize| weights.is_none_or(|w| w[*i] > 0.0);
     let left: Vec<usize> = (0..design.nrows()).filter(counts).collect();
     let most = (left.len() / 5).min(MOST);
-    let Some(mut residuals) = Residuals::of(design, responses, weights, left) else { return Vec::new() };
+    // Samples that do not count are not among those that are fitted here.
+    let first = match fit.filter(|_| left.len() == design.nrows()) {
+        Some(fit) => Residuals::of_fit(design, responses, weights, fit),
+        None => Residuals::of(design, responses, weights, left),
+    };
+    let Some(mut residuals) = first else { return Vec::new() };
     let mut found = Vec::new();
     let mut significant = 0;
     while found.len() < most {
@@ -73,7 +92,7 @@ pub fn outliers(
         let index = residuals.sample(row);
         found.push(Outlier {
             index,
-            sample: names.get(index).cloned().unwrap_or_else(|| format!("sample {}", index + 1)),
+            sample: names.get(index).into_owned(),
             response: labels.get(response).cloned().unwrap_or_else(|| format!("response {response}")),
             deviations: t.abs(),
             chance,
@@ -94,12 +113,19 @@ pub fn outliers(
 
 #[cfg(test)]
 mod tests {
+    use alloc::borrow::Cow;
+
     use super::outliers;
     use crate::fit::testing::{gaussian_matrix, sensor};
+    use crate::loads::Names;
     use rand::SeedableRng as _;
 
-    fn names(count: usize) -> Vec<String> {
-        (0..count).map(|i| format!("row {i}")).collect()
+    fn names(count: usize) -> Names {
+        Names::numbered("row", 0..count as u64)
+    }
+
+    fn labels(count: usize) -> Vec<String> {
+        names(count).iter().map(Cow::into_owned).collect()
     }
 
     #[test]
@@ -109,7 +135,7 @@ mod tests {
         for _ in 0..400 {
             let design = gaussian_matrix(&mut random, 40, 6);
             let responses = &design * sensor(&mut random, 6, 6) + gaussian_matrix(&mut random, 40, 6);
-            accused += usize::from(!outliers(&design, &responses, None, &names(40), &names(6)).is_empty());
+            accused += usize::from(!outliers(&design, &responses, None, &names(40), &labels(6)).is_empty());
         }
         // 4 expected; 12 would be four standard deviations off.
         assert!(accused <= 12, "{accused}");
@@ -125,7 +151,7 @@ mod tests {
             for i in [3, 17, 29] {
                 responses[(i, 4)] += 1.0;
             }
-            let found = outliers(&design, &responses, None, &names(40), &names(6));
+            let found = outliers(&design, &responses, None, &names(40), &labels(6));
             let mut rows: Vec<usize> = found.iter().map(|outlier| outlier.index).collect();
             rows.sort_unstable();
             assert_eq!(rows, [3, 17, 29]);
@@ -143,7 +169,7 @@ mod tests {
         for (row, column, size) in put {
             responses[(row, column)] += size;
         }
-        let found = outliers(&design, &responses, None, &names(20_000), &names(3));
+        let found = outliers(&design, &responses, None, &names(20_000), &labels(3));
         let rows: Vec<usize> = found.iter().map(|outlier| outlier.index).collect();
         assert_eq!(rows, [777, 5, 12_345, 19_999]);
     }
@@ -157,8 +183,9 @@ mod tests {
         let mut signals =
             loads.columns(0, 2) * sensor(&mut random, 2, 1) + gaussian_matrix(&mut random, 5, 1) * 1e-6;
         signals[(3, 0)] += 1.0;
-        let found =
-            |columns| outliers(&loads.columns(0, columns).into_owned(), &signals, None, &names(5), &names(1));
+        let found = |columns| {
+            outliers(&loads.columns(0, columns).into_owned(), &signals, None, &names(5), &labels(1))
+        };
         let line = found(2);
         assert_eq!(line.iter().map(|outlier| outlier.index).collect::<Vec<_>>(), [3]);
         // Two degrees of freedom less one, of the other four: Student's tail is 1/(2 t²) there, of either side, and
@@ -173,7 +200,7 @@ mod tests {
         let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(3);
         let design = gaussian_matrix(&mut random, 40, 6);
         let responses = &design * sensor(&mut random, 6, 6);
-        assert!(outliers(&design, &responses, None, &names(40), &names(6)).is_empty());
+        assert!(outliers(&design, &responses, None, &names(40), &labels(6)).is_empty());
     }
 
     /// Samples of weight zero are no samples: what is said of the others is as if they were not there.
@@ -187,9 +214,9 @@ mod tests {
         }
         // Three in eleven stand out, of which two are looked for.
         let weights: Vec<f64> = (0..26).map(|i| if i < 11 { 1.0 } else { 0.0 }).collect();
-        let found = outliers(&design, &responses, Some(&weights), &names(26), &names(2));
+        let found = outliers(&design, &responses, Some(&weights), &names(26), &labels(2));
         let alone =
-            outliers(&design.rows(0, 11).into(), &responses.rows(0, 11).into(), None, &names(11), &names(2));
+            outliers(&design.rows(0, 11).into(), &responses.rows(0, 11).into(), None, &names(11), &labels(2));
         assert!(alone.len() <= 2);
         assert_eq!(found.len(), alone.len());
         for (found, alone) in found.iter().zip(&alone) {
@@ -199,10 +226,10 @@ mod tests {
         // One that stands out in so few is found so, too.
         responses[(5, 1)] += 0.8;
         responses[(7, 1)] -= 0.5;
-        let found = outliers(&design, &responses, Some(&weights), &names(26), &names(2));
+        let found = outliers(&design, &responses, Some(&weights), &names(26), &labels(2));
         assert_eq!(found.iter().map(|outlier| outlier.index).collect::<Vec<_>>(), [2]);
         let alone =
-            outliers(&design.rows(0, 11).into(), &responses.rows(0, 11).into(), None, &names(11), &names(2));
+            outliers(&design.rows(0, 11).into(), &responses.rows(0, 11).into(), None, &names(11), &labels(2));
         assert!((found[0].deviations / alone[0].deviations - 1.0).abs() < 1e-9, "{found:?} {alone:?}");
         assert!((found[0].chance / alone[0].chance - 1.0).abs() < 1e-6, "{found:?} {alone:?}");
     }

@@ -4,7 +4,7 @@ use alloc::borrow::Cow;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::fit::least_squares;
+use crate::fit::{Fit, least_squares};
 
 /// Removing a sample whose residual is so many deviations of the others leaves rounding in theirs.
 const OUTSHINES: f64 = 1e8;
@@ -58,7 +58,18 @@ impl Residuals {
         weights: Option<&[f64]>,
         rows: Vec<usize>,
     ) -> Option<Self> {
-        Self::following(design, responses, weights, rows, FOLLOWED)
+        Self::following(design, responses, weights, rows, FOLLOWED, None)
+    }
+
+    /// Of all rows, whose least-squares fit is this.
+    pub(super) fn of_fit(
+        design: &DMatrix<f64>,
+        responses: &DMatrix<f64>,
+        weights: Option<&[f64]>,
+        fit: &Fit,
+    ) -> Option<Self> {
+        let rows = (0..design.nrows()).collect();
+        Self::following(design, responses, weights, rows, FOLLOWED, Some(fit))
     }
 
     fn following(
@@ -67,6 +78,7 @@ impl Residuals {
         weights: Option<&[f64]>,
         rows: Vec<usize>,
         most: usize,
+        fit: Option<&Fit>,
     ) -> Option<Self> {
         if rows.len() < design.ncols() + 3 {
             return None;
@@ -77,32 +89,39 @@ impl Residuals {
         };
         let (mut x, y): (Cow<'_, DMatrix<f64>>, Cow<'_, DMatrix<f64>>) = (of(design), of(responses));
         let kept: Option<Vec<f64>> = weights.map(|w| rows.iter().map(|i| w[*i]).collect());
-        let fit = least_squares(&x, &y, kept.as_deref()).ok()?;
+        let anew = match fit {
+            Some(_) => None,
+            None => Some(least_squares(&x, &y, kept.as_deref()).ok()?),
+        };
+        let fit = fit.or(anew.as_ref())?;
         let mut residuals = &*y - &*x * &fit.coefficients;
         for (row, weight) in kept.iter().flatten().enumerate() {
             x.to_mut().row_mut(row).scale_mut(weight.sqrt());
             residuals.row_mut(row).scale_mut(weight.sqrt());
         }
-        let leverage = (&*x * &fit.inverse_gram).component_mul(&x).column_sum();
+        let leverage = leverages(&x, &fit.inverse_gram);
         let floors = y.column_iter().map(|column| f64::EPSILON * rows.len() as f64 * column.amax()).collect();
-        let inverse_gram = fit.inverse_gram;
+        let inverse_gram = fit.inverse_gram.clone();
         let all = Self {
             is_out: vec![false; rows.len()],
             gone: Vec::new(),
-            all: rows.clone(),
+            all: Vec::new(),
             rows,
-            design: x.into_owned(),
+            design: DMatrix::zeros(0, x.ncols()),
             residuals,
             leverage,
             inverse_gram,
             floors,
             others: None,
         };
-        Some(if all.rows.len() > most { all.of_the_largest(most) } else { all })
+        if all.rows.len() > most {
+            return Some(all.of_the_largest(most, &x));
+        }
+        Some(Self { all: all.rows.clone(), design: x.into_owned(), ..all })
     }
 
-    /// Follows about so many that stand out most.
-    fn of_the_largest(self, most: usize) -> Self {
+    /// Follows about so many that stand out most, whose rows of the design are taken from `design`.
+    fn of_the_largest(self, most: usize, design: &DMatrix<f64>) -> Self {
         let each = most / (self.floors.len() + 1);
         let mut is_followed = vec![false; self.rows.len()];
         // What the sample at this rank has, beyond which all are followed; `with` those that have as much.
@@ -128,7 +147,8 @@ impl Residuals {
         Self {
             rows: followed.iter().map(|row| self.rows[*row]).collect(),
             is_out: vec![false; followed.len()],
-            design: self.design.select_rows(&followed),
+            all: self.rows,
+            design: design.select_rows(&followed),
             residuals: self.residuals.select_rows(&followed),
             leverage: self.leverage.select_rows(&followed),
             others: Some(Others { squares, residual, leverage, fresh: true }),
@@ -236,6 +256,19 @@ impl Residuals {
     }
 }
 
+/// How much each sample determines its own prediction: the diagonal of `X G Xᵀ`, in blocks that stay in the cache.
+fn leverages(design: &DMatrix<f64>, inverse_gram: &DMatrix<f64>) -> DVector<f64> {
+    const BLOCK: usize = 4096;
+    let mut leverages = DVector::zeros(design.nrows());
+    for start in (0..design.nrows()).step_by(BLOCK) {
+        let length = BLOCK.min(design.nrows() - start);
+        let rows = design.rows(start, length);
+        let of_rows = (rows * inverse_gram).component_mul(&rows).column_sum();
+        leverages.rows_mut(start, length).copy_from(&of_rows);
+    }
+    leverages
+}
+
 #[cfg(test)]
 mod tests {
     use nalgebra::DMatrix;
@@ -290,7 +323,7 @@ mod tests {
             let weights: Vec<f64> = (0..60).map(|i| 0.5 + f64::from(i % 3)).collect();
             let expected = by_fitting_anew(&design, &responses, &weights);
             let of = |rows: Vec<usize>| {
-                Residuals::following(&design, &responses, Some(&weights), rows, most).unwrap()
+                Residuals::following(&design, &responses, Some(&weights), rows, most, None).unwrap()
             };
             let mut residuals = of((0..60).collect());
             for (index, response, t) in expected {
@@ -321,7 +354,8 @@ mod tests {
         for (row, response, size) in [(20, 1, 40.0), (31, 2, 30.0), (77, 0, -20.0)] {
             responses[(row, response)] += size;
         }
-        let mut residuals = Residuals::following(&design, &responses, None, (0..400).collect(), 100).unwrap();
+        let mut residuals =
+            Residuals::following(&design, &responses, None, (0..400).collect(), 100, None).unwrap();
         for expected in [20, 31, 77] {
             let (row, _, found) = residuals.most_extreme().unwrap();
             assert_eq!(residuals.sample(row), expected);
@@ -332,7 +366,8 @@ mod tests {
         assert!(!residuals.is_sure_of(0.1));
         // A response that is exact has nothing that stands out.
         let exact = DMatrix::from_fn(400, 3, |i, j| if j == 2 { design[(i, 0)] } else { responses[(i, j)] });
-        let mut residuals = Residuals::following(&design, &exact, None, (0..400).collect(), 100).unwrap();
+        let mut residuals =
+            Residuals::following(&design, &exact, None, (0..400).collect(), 100, None).unwrap();
         let (row, _, _) = residuals.most_extreme().unwrap();
         residuals.remove(row);
         let (_, _, found) = residuals.most_extreme().unwrap();

@@ -1,6 +1,7 @@
 //! Which samples robust fits believe: how many must agree, and where there is nothing to tell.
 
 use fingertip_calibration::fit::{FitError, Ransac, huber, ransac};
+use fingertip_calibration::loads::Names;
 use fingertip_calibration::nalgebra::DMatrix;
 use fingertip_calibration::report::outliers;
 use rand::SeedableRng as _;
@@ -124,7 +125,7 @@ fn a_dead_gauge_is_no_trouble() {
     assert!(fit.trust.column(1).iter().all(|trust| *trust == 1.0));
     assert!((fit.coefficients.column(0) - DMatrix::from_element(2, 1, 1.5).column(0)).largest() < 0.01);
     assert!(fit.trust[(4, 0)] < 0.1);
-    let found = outliers(&design, &readings, None, &[], &[]);
+    let found = outliers(&design, &readings, None, &Names::default(), &[]);
     assert_eq!(found.iter().map(|outlier| outlier.index).collect::<Vec<_>>(), [4]);
     assert_eq!((found[0].sample.as_str(), found[0].response.as_str()), ("sample 5", "response 0"));
 }
@@ -160,8 +161,8 @@ fn weights_of_outliers_are_those_of_scaled_rows() {
     let scaled = |matrix: &DMatrix<f64>| {
         DMatrix::from_fn(40, matrix.ncols(), |i, j| matrix[(i, j)] * weights[i].sqrt())
     };
-    let weighted = outliers(&design, &readings, Some(&weights), &[], &[]);
-    let plain = outliers(&scaled(&design), &scaled(&readings), None, &[], &[]);
+    let weighted = outliers(&design, &readings, Some(&weights), &Names::default(), &[]);
+    let plain = outliers(&scaled(&design), &scaled(&readings), None, &Names::default(), &[]);
     assert_eq!((weighted.len(), plain.len()), (3, 3));
     for (one, other) in weighted.iter().zip(&plain) {
         assert_eq!((one.index, &one.response), (other.index, &other.response));
@@ -169,6 +170,6 @@ fn weights_of_outliers_are_those_of_scaled_rows() {
     }
     // One that counts for nothing is none.
     let without: Vec<f64> = (0..40).map(|i| if i == 11 { 0.0 } else { weights[i] }).collect();
-    let found = outliers(&design, &readings, Some(&without), &[], &[]);
+    let found = outliers(&design, &readings, Some(&without), &Names::default(), &[]);
     assert!(found.len() == 2 && found.iter().all(|outlier| outlier.index != 11));
 }

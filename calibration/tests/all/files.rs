@@ -28,8 +28,8 @@ fn every_column_of_a_table_is_read() {
     assert_eq!(table.weights, Some(vec![2.0, 0.5, 1.0]));
     assert_eq!(table.times, Some(vec![1.0, 3.0, 2.5]));
     assert_eq!(
-        (&table.names[..], &table.groups[..]),
-        (&["a", "b", "c"].map(str::to_owned)[..], &[0, 1, 0][..])
+        (&table.names.iter().collect::<Vec<_>>()[..], &table.groups[..]),
+        (&["a", "b", "c"].map(Into::into)[..], &[0, 1, 0][..])
     );
     assert_eq!(table.cases, [0, 1, 1]);
     let turns = vec![[0.1, 0.2, 0.3, 0.4], [-0.1, -0.2, -0.3, -0.4], [0.0, 0.0, 0.0, 1.0]];

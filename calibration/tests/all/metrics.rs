@@ -58,7 +58,7 @@ fn errors_are_percentages_of_full_scale() {
     assert_eq!((z.rms, z.rms_percent, z.greatest_percent), (0.0, 0.0, 0.0));
     let scales: Vec<f64> = report.axes.iter().map(|axis| axis.full_scale).collect();
     assert_eq!(scales, FULL_SCALE[..3]);
-    let third = &report.details[2];
+    let third = report.details.get(2).unwrap();
     assert_eq!(
         (third.name.as_str(), &third.applied, &third.measured),
         ("sample 3", &vec![0.0, 16.0, 0.0], &vec![0.0, 15.2, 0.0])

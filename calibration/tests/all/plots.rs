@@ -1,52 +1,77 @@
-//! Plots of a report: where their points are.
+//! Plots of a report, read as their reader does: by the marks along their axes.
 
-use fingertip_calibration::report::{Outlier, SampleReport};
+use fingertip_calibration::page::Figure;
+use fingertip_calibration::report::{Outlier, Report, SampleReport};
+use fingertip_test_support::read_back::{Ruler, Text, assert_readable, points, rulers, texts};
 
 use super::report_forms::report;
 
-/// Attribute of an element of SVG.
-fn number(element: &str, attribute: &str) -> f64 {
-    let text = element.split_once(&format!(" {attribute}=\"")).unwrap().1;
-    text.split('"').next().unwrap().parse().unwrap()
+/// Changes the samples of a report.
+fn changed(report: &mut Report, change: impl Fn(usize, &mut SampleReport)) {
+    let samples = report.details.iter().enumerate().map(|(index, mut sample)| {
+        change(index, &mut sample);
+        sample
+    });
+    report.details = samples.collect();
 }
 
-/// Places and radii of the circles, those of the fit and those left out.
-fn circles(svg: &str) -> Vec<(f64, f64, f64)> {
-    let elements = svg.split("<circle").skip(1).map(|element| element.split_once('>').unwrap().0);
-    elements.map(|element| (number(element, "cx"), number(element, "cy"), number(element, "r"))).collect()
+/// Points of the fit, or of the loads left out, as they are drawn.
+fn drawn(figure: &Figure, class: &str) -> Vec<(f64, f64)> {
+    let mut points = points(&figure.svg, class);
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    points
+}
+
+const FITTED: &str = "dots a";
+const LEFT_OUT: &str = "squares d";
+
+fn near(ruler: Ruler, place: f64, expected: f64) {
+    assert!((ruler.at(place) - expected).abs() <= 2.0 * ruler.error(), "{} for {expected}", ruler.at(place));
+}
+
+/// The names beside points.
+fn names(figure: &Figure) -> Vec<Text> {
+    texts(&figure.svg).into_iter().filter(|text| text.class == "halo").collect()
 }
 
 #[test]
-fn plots_show_errors_over_loads_and_samples() {
+fn points_are_where_the_axes_say() {
     let report = report();
-    // 5 % on the left, −5 % on the right; the samples one after another.
-    for (svg, places) in [
-        (report.error_over_load(0).unwrap(), [-4.0, 8.0, 2.0]),
-        (report.error_over_samples(0).unwrap(), [1.0, 2.0, 3.0]),
+    // 2.5 % on the left, −5 % on the right; the samples one after another.
+    for (figure, places, ends) in [
+        (report.error_over_load(0).unwrap(), [-4.0, 8.0, 2.0], "-4.60000;8.60000"),
+        (report.error_over_samples(0).unwrap(), [1.0, 2.0, 3.0], "0.900000;3.10000"),
     ] {
-        let found = circles(&svg);
-        let errors = [2.5, -5.0, 0.0, 5.0, -2.5];
-        assert_eq!(found.iter().map(|circle| circle.2).collect::<Vec<_>>(), [5.0, 5.0, 3.0, 3.0, 3.0]);
-        // Hollow ones, of the loads left out, come first, below the others.
-        let x = [places[0], places[1], places[0], places[1], places[2]];
-        let y = [errors[3], errors[4], errors[0], errors[1], errors[2]];
-        // Affine in both directions: whole pixels.
-        let (left, right) = (found[2], found[3]);
-        for (i, circle) in found.iter().enumerate() {
-            let along = (x[i] - places[0]) / (places[1] - places[0]);
-            assert!((circle.0 - left.0 - along * (right.0 - left.0)).abs() <= 1.5, "{svg}");
-            let down = (y[i] - 2.5) / -7.5;
-            assert!((circle.1 - left.1 - down * (right.1 - left.1)).abs() <= 1.5, "{svg}");
+        assert_readable(&figure.svg);
+        let (across, up) = rulers(&figure.svg);
+        let expected = |errors: &[f64]| {
+            let mut all: Vec<(f64, f64)> = places.into_iter().zip(errors.iter().copied()).collect();
+            all.sort_by(|a, b| a.0.total_cmp(&b.0));
+            all
+        };
+        for (class, errors) in [(FITTED, &[2.5, -5.0, 0.0][..]), (LEFT_OUT, &[5.0, -2.5])] {
+            let drawn = drawn(&figure, class);
+            assert_eq!(drawn.len(), errors.len(), "{}", figure.svg);
+            for ((x, y), (place, error)) in drawn.into_iter().zip(expected(errors)) {
+                near(across, x, place);
+                near(up, y, error);
+            }
         }
-        assert!(right.0 > left.0 + 50.0 && right.1 > left.1 + 50.0);
-        // A margin: no point lies on the frame, all are within the picture.
-        assert!(found.iter().all(|(x, y, _)| (70.0..470.0).contains(x) && (10.0..250.0).contains(y)));
-        assert!(svg.contains(">\nb\n</text>") && !svg.contains(">\na\n</text>"), "{svg}");
+        // A twentieth of the range beyond the outermost loads, a tenth beyond the greatest error.
+        assert!(figure.svg.contains(&format!("{ends}\"")), "{}", figure.svg);
+        assert!(figure.svg.contains("data-y=\"error / % of full scale;-5.50000;5.50000\""), "{}", figure.svg);
+        // The outlier is named beside its point, and no other.
+        let [name] = &names(&figure)[..] else { panic!("{}", figure.svg) };
+        assert_eq!(name.text, "b");
+        assert!((up.at(name.at.1 - 0.33 * 11.5) + 5.0).abs() < 4.0 * up.error(), "{name:?}");
+        let keys: Vec<&str> = figure.keys.iter().map(|(class, _)| *class).collect();
+        assert_eq!(keys, ["a spot", "d square"]);
     }
-    assert_eq!((report.error_over_load(2), report.error_over_samples(9)), (None, None));
-    assert!(report.error_over_load(1).unwrap().contains("Tz / N·m"));
-    assert!(report.error_over_load(0).unwrap().contains("Fx / N"));
-    assert!(report.error_over_samples(1).unwrap().contains("sample"));
+    assert!(report.error_over_load(2).is_none() && report.error_over_samples(9).is_none());
+    assert!(report.error_over_load(1).unwrap().svg.contains("data-x=\"Tz / N·m;"));
+    assert!(report.error_over_load(0).unwrap().svg.contains("data-x=\"Fx / N;"));
+    assert!(report.error_over_samples(1).unwrap().svg.contains("data-x=\"sample;"));
+    assert_eq!(report.error_over_samples(1).unwrap().title, "Tz: error, sample after sample");
 }
 
 /// The name of an outlier stands on the side of its point where there is room.
@@ -54,71 +79,81 @@ fn plots_show_errors_over_loads_and_samples() {
 fn names_of_outliers_stay_within_the_plot() {
     for (load, anchor) in [(8.0, "end"), (-4.0, "start")] {
         let mut report = report();
-        report.details[1].applied[0] = load;
-        report.details[0].applied[0] = 4.0 - load;
-        let svg = report.error_over_load(0).unwrap();
-        let name = svg.split("<text").find(|text| text.contains(">\nb\n</text>")).unwrap();
-        assert!(name.contains(&format!("text-anchor=\"{anchor}\"")), "{name}");
-        let place = circles(&svg)[3].0;
-        let shift = number(name, "x") - place;
-        assert!((shift.abs() - 9.0).abs() <= 1.0 && (shift < 0.0) == (anchor == "end"), "{shift}");
+        changed(&mut report, |index, sample| match index {
+            0 => sample.applied[0] = 4.0 - load,
+            1 => {
+                sample.applied[0] = load;
+                sample.measured[0] = load - 0.4;
+            }
+            _ => {}
+        });
+        let figure = report.error_over_load(0).unwrap();
+        let [name] = &names(&figure)[..] else { panic!("{}", figure.svg) };
+        assert_eq!((name.text.as_str(), name.anchor.as_str()), ("b", anchor));
+        let (across, _) = rulers(&figure.svg);
+        let place = drawn(&figure, FITTED).into_iter().find(|(x, _)| (across.at(*x) - load).abs() < 0.1);
+        let shift = name.at.0 - place.unwrap().0;
+        assert!((shift.abs() - 7.0).abs() < 0.2 && (shift < 0.0) == (anchor == "end"), "{shift}");
     }
 }
 
 #[test]
 fn plots_of_one_load_or_no_error_have_room() {
     let mut report = report();
-    for sample in &mut report.details {
-        *sample = SampleReport {
-            applied: vec![3.0, 0.0],
-            measured: vec![3.0, 0.0],
-            left_out: None,
-            name: sample.name.clone(),
-        };
-    }
-    let svg = report.error_over_load(0).unwrap();
-    // All three in the middle, between ±1 % and 2 N and 4 N.
-    let found = circles(&svg);
-    assert!(found.len() == 3 && found.iter().all(|circle| *circle == found[0]), "{svg}");
-    for tick in ["2", "4", "−1", "1", "0"] {
-        assert!(svg.contains(&format!(">\n{tick}\n</text>")), "{tick} {svg}");
-    }
-    assert!(!svg.contains("\n-0\n") && !svg.contains("\n−0\n"));
+    changed(&mut report, |_, sample| {
+        (sample.applied, sample.measured) = (vec![3.0, 0.0], vec![3.0, 0.0]);
+        sample.left_out = None;
+    });
+    let figure = report.error_over_load(0).unwrap();
+    // All three in the middle, between ±1 % and 2 N and 4 N; one is seen.
+    let (across, up) = rulers(&figure.svg);
+    let [(x, y)] = drawn(&figure, FITTED)[..] else { panic!("{}", figure.svg) };
+    near(across, x, 3.0);
+    near(up, y, 0.0);
+    assert!(figure.svg.contains(";2.00000;4.00000\"") && figure.svg.contains(";-1.00000;1.00000\""));
+    assert!(!figure.svg.contains(">-0<") && !figure.svg.contains(">−0<"));
+    assert_eq!(figure.keys.len(), 1, "nothing is left out");
     for bad in [f64::NAN, f64::INFINITY] {
-        report.details[0].measured[0] = bad;
-        assert_eq!(report.error_over_samples(0), None);
-        report.details[0].measured[0] = 3.0;
-        report.details[0].applied[0] = bad;
-        assert_eq!(report.error_over_load(0), None);
-        report.details[0].applied[0] = 3.0;
+        let mut measured = report.clone();
+        changed(&mut measured, |index, sample| sample.measured[0] = if index == 0 { bad } else { 3.0 });
+        assert!(measured.error_over_samples(0).is_none());
+        let mut applied = report.clone();
+        changed(&mut applied, |index, sample| sample.applied[0] = if index == 0 { bad } else { 3.0 });
+        assert!(applied.error_over_load(0).is_none());
     }
-    report.details.clear();
-    assert_eq!(report.error_over_load(0), None);
+    report.details = core::iter::empty().collect();
+    assert!(report.error_over_load(0).is_none());
 }
 
 /// Of many outliers at one place one name stands, and long names are cut; those that have room all stand.
 #[test]
 fn names_of_outliers_do_not_run_into_each_other() {
     let mut report = report();
-    let (sample, outlier) = (report.details[1].clone(), report.outliers[0].clone());
-    (report.details, report.outliers) = (Vec::new(), Vec::new());
-    for index in 0..200 {
-        let name =
-            if index < 199 { format!("a sample with the long name {index}") } else { "far".to_owned() };
-        let mut sample = SampleReport { name: name.clone(), ..sample.clone() };
+    let (sample, outlier) = (report.details.get(1).unwrap(), report.outliers[0].clone());
+    let name = |index: usize| match index {
+        199 => "far".to_owned(),
+        _ => format!("a sample with the long name {index}"),
+    };
+    let sample = |index: usize| {
+        let mut sample = SampleReport { name: name(index), ..sample.clone() };
         if index == 199 {
             sample.applied[0] = -sample.applied[0];
         }
-        report.details.push(sample);
-        report.outliers.push(Outlier { sample: name, index, ..outlier.clone() });
-    }
-    let svg = report.error_over_load(0).unwrap();
+        sample
+    };
+    report.details = (0..200).map(sample).collect();
+    report.outliers =
+        (0..200).map(|index| Outlier { sample: name(index), index, ..outlier.clone() }).collect();
+    let figure = report.error_over_load(0).unwrap();
+    assert_readable(&figure.svg);
+    let shown = |figure: &Figure, name: &str| names(figure).iter().filter(|text| text.text == name).count();
     // Beside one dot there is room for a line of letters, one above it and one below.
-    assert_eq!(svg.matches(">\na sample with the long n…\n</text>").count(), 3, "{svg}");
-    assert_eq!(svg.matches(">\nfar\n</text>").count(), 1, "{svg}");
+    assert_eq!(shown(&figure, "a sample with the long n…"), 3, "{}", figure.svg);
+    assert_eq!(shown(&figure, "far"), 1, "{}", figure.svg);
     // One after another there is room for some, a line of letters apart.
     let samples = report.error_over_samples(0).unwrap();
-    let shown = samples.matches(">\na sample with the long n…\n</text>").count();
+    assert_readable(&samples.svg);
+    let shown = shown(&samples, "a sample with the long n…");
     assert!((1..20).contains(&shown), "{shown}");
 }
 
@@ -130,74 +165,27 @@ fn numbers_of_any_size_are_told_apart() {
         for axis in &mut report.axes {
             axis.full_scale *= size;
         }
-        for (index, sample) in report.details.iter_mut().enumerate() {
+        changed(&mut report, |index, sample| {
             let error = 1e-9 * (index as f64 - 1.0);
             sample.left_out = None;
             sample.applied.iter_mut().for_each(|load| *load *= size);
             sample.measured = sample.applied.iter().map(|load| load + error * size).collect();
-        }
-        let svg = report.error_over_load(0).unwrap();
+        });
+        let figure = report.error_over_load(0).unwrap();
+        assert_readable(&figure.svg);
         for anchor in ["middle", "end"] {
-            let ticks: Vec<&str> = svg
-                .split("<text")
-                .skip(1)
-                .filter(|text| text.contains(&format!("text-anchor=\"{anchor}\"")))
-                .filter_map(|text| Some(text.split_once('>')?.1.split('<').next()?.trim()))
-                .filter(|label| label.replace('−', "-").parse::<f64>().is_ok())
+            let ticks: Vec<String> = texts(&figure.svg)
+                .into_iter()
+                .filter(|text| text.class == "tick" && text.anchor == anchor)
+                .map(|text| text.text)
                 .collect();
             let mut different = ticks.clone();
             different.sort_unstable();
             different.dedup();
-            assert!(ticks.len() > 2 && different.len() == ticks.len(), "{size}: {ticks:?}");
+            assert!(ticks.len() >= 2 && different.len() == ticks.len(), "{size}: {ticks:?}");
             assert!(ticks.iter().all(|tick| tick.chars().count() <= 6), "{size}: {ticks:?}");
         }
+        let svg = &figure.svg;
         assert!(svg.contains("error / 10⁻⁹ % of full scale") || svg.contains("error / 10⁻⁶ %"), "{svg}");
-    }
-}
-
-/// What an axis of a plot says: pixels of the two outermost of its ticks with their numbers give that of any value.
-/// Ticks of the errors stand right of their numbers (`end`), those of the other axis above (`middle`).
-fn scale(svg: &str, anchor: &str, along: &str) -> impl Fn(f64) -> f64 + use<> {
-    let marks: Vec<(f64, f64)> = svg
-        .split("<text")
-        .skip(1)
-        .filter(|text| text.contains(&format!("text-anchor=\"{anchor}\"")))
-        .filter_map(|text| {
-            let label = text.split_once('>')?.1.split('<').next()?;
-            Some((label.trim().replace('−', "-").parse().ok()?, number(text, along)))
-        })
-        .collect();
-    let (first, last) = (marks[0], marks[marks.len() - 1]);
-    assert!(last.0 != first.0, "{marks:?}");
-    move |value| first.1 + (value - first.0) * (last.1 - first.1) / (last.0 - first.0)
-}
-
-/// Points are where the axes of the plot say, which end a twentieth of the range beyond the outermost loads and a tenth
-/// beyond the greatest error.
-#[test]
-fn points_are_where_the_axes_say() {
-    let report = report();
-    for (svg, places, ends) in [
-        (report.error_over_load(0).unwrap(), [-4.0, 8.0, 2.0], [-4.6, 8.6]),
-        (report.error_over_samples(0).unwrap(), [1.0, 2.0, 3.0], [0.9, 3.1]),
-    ] {
-        let (x, y) = (scale(&svg, "middle", "x"), scale(&svg, "end", "y"));
-        let near = |pixel: f64, expected: f64| {
-            assert!((pixel - expected).abs() <= 1.5, "{pixel} for {expected}: {svg}");
-        };
-        // % of 8 N: of the loads left out, and of the fit.
-        let points = [(0, 5.0), (1, -2.5), (0, 2.5), (1, -5.0), (2, 0.0)];
-        for ((across, down, _), (sample, error)) in circles(&svg).into_iter().zip(points) {
-            near(across, x(places[sample]));
-            near(down, y(error));
-        }
-        // The picture is 480 by 300 pixels: 8 of them are margin, 64 and 44 labels.
-        near(72.0, x(ends[0]));
-        near(471.0, x(ends[1]));
-        near(8.0, y(5.5));
-        near(247.0, y(-5.5));
-        // The name of the outlier stands beside its point.
-        let name = svg.split("<text").find(|text| text.contains(">\nb\n</text>")).unwrap();
-        near(number(name, "y"), y(-5.0));
     }
 }

@@ -91,8 +91,8 @@ fn three_forms_say_the_same() {
     assert_eq!(json["details"].as_array().unwrap().len(), 72);
     let html = report.to_html("Tip <7>", &[("serial", "A <1>".to_owned()), ("date", String::new())]);
     assert!(html.contains("A &lt;1&gt;") && !html.contains(">date<"), "{html}");
-    assert!(html.contains("Tip &lt;7&gt;") && !html.contains("<script"));
-    assert_eq!(html.matches("<svg").count(), 12);
+    assert!(html.contains("Tip &lt;7&gt;") && html.matches("<script>").count() == 1);
+    assert_eq!(html.matches("<svg viewBox").count(), 12);
 }
 
 #[test]

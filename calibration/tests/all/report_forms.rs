@@ -69,11 +69,13 @@ pub(crate) fn report() -> Report {
         outlier_influence_percent: Some(0.5),
         needed_cases: vec!["c".to_owned()],
         suspicions: vec![],
-        details: vec![
+        details: [
             sample("a", [-4.0, 0.0], [0.2, 0.0], Some([0.4, 0.0])),
             sample("b", [8.0, 0.0], [-0.4, 0.0], Some([-0.2, 0.0])),
             sample("c", [2.0, 0.012], [0.0, 0.0], None),
-        ],
+        ]
+        .into_iter()
+        .collect(),
     }
 }
 
@@ -166,12 +168,13 @@ fn json_has_every_field() {
 /// The page without its plots.
 fn page(report: &Report) -> String {
     let html = report.to_html("Tip <7> & \"co\"", &[]);
-    let body = html.split_once("<main>").unwrap().1;
-    let mut text = String::new();
-    for (index, part) in body.split("<svg").enumerate() {
-        text.push_str(if index == 0 { part } else { part.split_once("</svg>").unwrap().1 });
-    }
-    text
+    let (body, rest) = html.split_once("<main>").unwrap().1.split_once("</main>").unwrap();
+    // The script reads points, where there are plots.
+    assert_eq!(rest.matches("<script>").count(), 1, "{rest}");
+    // A plot has another one within, which is what is cut at its frame.
+    let mut plots = body.split("<svg viewBox");
+    let first = plots.next().unwrap().to_owned();
+    plots.fold(first, |text, plot| text + plot.rsplit_once("</svg>").unwrap().1)
 }
 
 #[test]
@@ -202,10 +205,10 @@ A dash: these loads do not tell.</p>
 <h2 id=\"Crosstalkoffullscale\">Cross-talk, % of full scale</h2>
 <p class=\"small\">Greatest false reading of an axis (row) under loads of another one alone (column).</p>
 <section><table><thead><tr><th scope=\"col\"></th><th scope=\"col\">Fx</th><th scope=\"col\">Tz</th></tr></thead><tbody>\
-<tr><th scope=\"row\">Fx</th><td style=\"background:rgba(207,34,46,0.00)\">–</td>\
-<td style=\"background:rgba(207,34,46,0.17)\">0.500</td></tr>\
-<tr><th scope=\"row\">Tz</th><td style=\"background:rgba(207,34,46,0.35)\">1.000</td>\
-<td style=\"background:rgba(207,34,46,0.00)\">–</td></tr></tbody></table></section>
+<tr><th scope=\"row\">Fx</th><td style=\"background:color-mix(in srgb, var(--alarm) 0%, transparent)\">–</td>\
+<td style=\"background:color-mix(in srgb, var(--alarm) 18%, transparent)\">0.500</td></tr>\
+<tr><th scope=\"row\">Tz</th><td style=\"background:color-mix(in srgb, var(--alarm) 35%, transparent)\">1.000</td>\
+<td style=\"background:color-mix(in srgb, var(--alarm) 0%, transparent)\">–</td></tr></tbody></table></section>
 <h2 id=\"Wheretouchesarefound\">Where touches are found</h2>
 <p>Lines of action of the 5 pure forces of these loads: off by <b>0.250\u{a0}mm</b> in the median \
 (0.375\u{a0}mm expected of the covariance), 1.500\u{a0}mm at most.</p>
@@ -215,22 +218,21 @@ which no averaging mends, and 0.250\u{a0}mm of the noise of one reading.</p>
 <h2 id=\"Thematrix\">The matrix</h2>
 <p class=\"small\">Signal of each gauge (row) under the full scale of each axis (column), and its standard deviation.</p>
 <section><table><thead><tr><th scope=\"col\"></th><th scope=\"col\">Fx</th><th scope=\"col\">Tz</th></tr></thead><tbody>\
-<tr><th scope=\"row\">gauge 1</th><td>1.235 ± 0.012</td><td>-0.50 ± 0.50</td></tr>\
-<tr><th scope=\"row\">gauge 2</th><td>0.000000 ± 0.000015</td><td>123 ± 12</td></tr></tbody></table></section>
+<tr><th scope=\"row\">gauge\u{a0}1</th><td>1.235 ±\u{a0}0.012</td><td>-0.50 ±\u{a0}0.50</td></tr>\
+<tr><th scope=\"row\">gauge\u{a0}2</th><td>0.000000 ±\u{a0}0.000015</td><td>123 ±\u{a0}12</td></tr></tbody></table></section>
 <h2 id=\"Samplesleftout\">Samples left out</h2>
 <section><table><thead><tr><th scope=\"col\">sample</th><th scope=\"col\">why</th></tr></thead><tbody>\
 <tr><th scope=\"row\">d&lt;</th><td class=\"word\">saturated</td></tr></tbody></table></section>
 <h2 id=\"Plots\">Plots</h2>
-<p><span class=\"spot-key\" style=\"background:rgb(9,105,218)\"></span>loads of the fit\
-<span class=\"spot-key\" style=\"border:1.5px solid rgb(207,34,46)\"></span>the same loads, left out of the fit</p>
 <div class=\"columns\">\
-<figure class=\"on-white\"><h2>Fx: error over load</h2>\n</figure>\
-<figure class=\"on-white\"><h2>Fx: error, sample after sample</h2>\n</figure>\
-<figure class=\"on-white\"><h2>Tz: error over load</h2>\n</figure>\
-<figure class=\"on-white\"><h2>Tz: error, sample after sample</h2>\n</figure></div>
-</main></body></html>
+<figure><h2>Fx: error over load</h2>KEYS</figure>\
+<figure><h2>Fx: error, sample after sample</h2>KEYS</figure>\
+<figure><h2>Tz: error over load</h2>KEYS</figure>\
+<figure><h2>Tz: error, sample after sample</h2>KEYS</figure></div>
 ";
-    assert_eq!(page(&report()), expected);
+    let keys = "<p class=\"keys\"><span><i class=\"a spot\"></i>loads of the fit</span>\
+        <span><i class=\"d square\"></i>the same loads, left out of the fit</span></p>";
+    assert_eq!(page(&report()), expected.replace("KEYS", keys));
 }
 
 #[test]
@@ -248,12 +250,12 @@ fn page_leaves_out_what_there_is_not() {
         excluded: vec![],
         ..report()
     };
-    short.details.iter_mut().for_each(|sample| sample.left_out = None);
+    short.details.left_out = None;
     let text = page(&short);
     assert!(
         text.contains("3 samples in 2 load cases; condition number N<sub>c</sub> = infinite (singular).</p>")
     );
-    assert!(text.contains("</span>these loads</p>"));
+    assert!(text.contains("</i>these loads</span></p>"));
     for absent in
         ["Why", "Mind", "Cross-talk", "Where touches", "The matrix", "Samples left out", "left out of"]
     {

@@ -1,6 +1,7 @@
 //! Robust fits and the test for outliers, against the equations that their answers must obey.
 
 use fingertip_calibration::fit::{HUBER_THRESHOLD, gauss_helmert, huber};
+use fingertip_calibration::loads::Names;
 use fingertip_calibration::nalgebra::{DMatrix, DVector};
 use fingertip_calibration::report::outliers;
 use rand::{RngExt as _, SeedableRng as _};
@@ -123,7 +124,7 @@ fn outliers_are_those_that_the_others_do_not_foretell() {
                 significant = expected.len();
             }
         }
-        let found = outliers(&x, &y, weights.as_deref(), &[], &[]);
+        let found = outliers(&x, &y, weights.as_deref(), &Names::default(), &[]);
         assert_eq!(found.len(), significant, "{round}: {expected:?}");
         named[significant] += 1;
         for (one, ((i, j), t, chance)) in found.iter().zip(expected) {

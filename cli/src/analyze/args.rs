@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::span::Span;
 use crate::output::Overwrite;
+use crate::span::Span;
 
 #[derive(Clone, Debug, Args)]
 pub(crate) struct AnalyzeArguments {

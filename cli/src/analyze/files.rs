@@ -42,6 +42,12 @@ impl Files {
     }
 }
 
+/// Refuses to write over what a scene names.
+pub(super) fn spare(all: &[Files], scene: &Scene) -> Result<(), CliError> {
+    // All have the outputs of all.
+    all.first().map_or(Ok(()), |files| files.outputs.spare(scene.files()))
+}
+
 /// How the recordings of a scene are read.
 pub(super) fn of(scene: &Scene) -> ReaderOptions {
     let (renamed, header) = (scene.renamed_columns().to_vec(), scene.has_header());

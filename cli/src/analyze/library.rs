@@ -10,7 +10,6 @@ use fingertip_scene::{Felt, Scene};
 use super::args::AnalyzeArguments;
 use super::array::Fused;
 use super::sink::Sink;
-use super::span::Span;
 use super::{Analysed, analysed};
 use crate::error::CliError;
 pub use crate::health::{HealthOf, health};
@@ -18,6 +17,7 @@ use crate::observe::Status;
 use crate::opened::Opened;
 use crate::output::Overwrite;
 use crate::report::{self, used::Given};
+use crate::span::Span;
 
 /// Why a recording could not be read or analysed, in the sentence that the command says.
 #[derive(Debug)]
@@ -163,4 +163,13 @@ pub fn analyze(
         summary: findings.to_string(),
         html: report::of_recording(&findings, &observations, scene, &given),
     })
+}
+
+/// The names of the fingers of a hand scene, in its order, once it is read and checked as `fingertip analyze` does, with
+/// the scenes of the fingers. `file` is what messages call it; its folder is where the scenes are looked for.
+///
+/// # Errors
+/// [`Failure`], in the sentence that the command says.
+pub fn fingers(text: &str, file: &Path) -> Result<Vec<String>, Failure> {
+    Ok(super::hand::fingers(text, file)?)
 }

@@ -17,7 +17,6 @@ mod pose;
 mod recorded;
 mod sink;
 mod source;
-mod span;
 mod volts;
 mod wrenches;
 
@@ -34,6 +33,7 @@ use crate::opened::{Opened, Rows};
 use crate::report::{self, used::Given};
 use crate::scene;
 use crate::several;
+use crate::span::{Place, Window};
 use crate::summary::{self, Findings, Run};
 use crate::table::number;
 use args::AnalyzeArguments;
@@ -42,7 +42,6 @@ use contacts::ContactWriter;
 use files::Files;
 use sink::Sink;
 use source::{Reading, Source};
-use span::{Place, Window};
 
 pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     if let Some(text) = hand::text_of(&arguments.scene) {
@@ -50,6 +49,7 @@ pub(crate) fn run(arguments: &AnalyzeArguments) -> Result<(), CliError> {
     }
     let all = Files::of(arguments, &[])?;
     let scene = scene::load(&arguments.scene)?;
+    files::spare(&all, &scene)?;
     let scene = scene::with(scene, arguments.calibration.as_deref(), arguments.payload.as_deref())?;
     several::each(&arguments.recordings, &all, |recording, files| one(recording, &scene, arguments, files))
 }

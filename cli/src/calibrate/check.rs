@@ -8,12 +8,14 @@ use super::files::{bad, read_calibration, read_loads, read_payload, write_report
 use super::limits;
 use crate::error::CliError;
 use crate::output::{Outputs, shown};
+use crate::progress::working;
 
 /// An error if the calibration does not hold.
 pub(crate) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
-    let inputs = [arguments.calibration.clone(), arguments.loads.clone()];
+    let inputs = [&arguments.calibration, &arguments.loads].into_iter().chain(&arguments.payload);
+    let inputs = inputs.chain(&arguments.touches.scene);
     let paths = [arguments.html.as_ref(), arguments.json.as_ref()].into_iter().flatten();
-    let outputs = Outputs::guard(arguments.overwrite, "output", &inputs, paths)?;
+    let outputs = Outputs::guard(arguments.overwrite, "output", inputs, paths)?;
     let mut file = read_calibration(&arguments.calibration)?;
     let mut notes = Vec::new();
     let mut table = read_loads(&arguments.loads, &mut notes)?;
@@ -45,9 +47,9 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
     if let Some(loads) = loaded {
         table.loads = loads;
     }
-    let touches = arguments.touches.set(&file.axes, &file.nominal)?;
-    let report = Report::of_check(&file, &table, &limits(arguments.limit), touches.as_ref())
-        .map_err(|error| fault(&error))?;
+    let touches = arguments.touches.set(&file.axes, &file.nominal, &outputs)?;
+    let check = || Report::of_check(&file, &table, &limits(arguments.limit), touches.as_ref());
+    let report = working("compares", check).map_err(|error| fault(&error))?;
     let of = [
         ("serial number", file.provenance.serial.clone()),
         ("date of the calibration", file.provenance.date.clone()),

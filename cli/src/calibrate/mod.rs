@@ -10,6 +10,7 @@ mod inertial_args;
 mod stream;
 pub(crate) mod tare;
 mod touches;
+mod watched;
 
 use std::path::{Path, PathBuf};
 
@@ -21,8 +22,9 @@ use fingertip_calibration::model::{Direction, Limits, Method, Options};
 use crate::error::CliError;
 use crate::health::{of_table, seen_in_loads};
 use crate::output::{Outputs, shown};
+use crate::progress::working;
 use args::{CalibrateArguments, CurvatureChoice, FitMethod};
-use files::{bad, read_calibration, read_loads, read_payload, write_reports};
+use files::{bad, read_calibration, read_payload, write_reports};
 
 /// `fingertip calibrate`.
 pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> {
@@ -36,13 +38,19 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
     let paths = [Some(&output), arguments.html.as_ref(), arguments.json.as_ref()];
     let extra = [arguments.cal.as_ref(), arguments.rust.as_ref()];
     let paths = paths.into_iter().chain(extra).flatten();
-    let outputs = Outputs::guard(arguments.overwrite, "output", &arguments.loads, paths)?;
+    let inputs = arguments.loads.iter().chain(&arguments.prior).chain(&arguments.payload);
+    let inputs = inputs.chain(&arguments.touches.scene);
+    let outputs = Outputs::guard(arguments.overwrite, "output", inputs, paths)?;
     if arguments.stream {
         return stream::run(arguments, &output, &outputs);
     }
     let mut notes = Vec::new();
-    let mut sessions =
-        arguments.loads.iter().map(|path| read_loads(path, &mut notes)).collect::<Result<Vec<_>, _>>()?;
+    let (mut sessions, mut health) = (Vec::with_capacity(arguments.loads.len()), None);
+    for path in &arguments.loads {
+        let (table, seen) = watched::read(path, range(arguments), &mut notes)?;
+        sessions.push(table);
+        health = seen;
+    }
     let first = arguments.loads.first().cloned().unwrap_or_default();
     let fault = |error: &dyn core::fmt::Display| bad(&first, &error);
     let mut table = match sessions.pop() {
@@ -53,7 +61,10 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
             LoadTable::merged(&sessions).map_err(|error| fault(&error))?
         }
     };
-    notes.extend(seen_in_loads(&of_table(&table.signals, table.signal_unit, range(arguments))));
+    // Of several files all readings follow each other.
+    let health = health.filter(|_| arguments.loads.len() == 1);
+    let health = health.unwrap_or_else(|| of_table(&table.signals, table.signal_unit, range(arguments)));
+    notes.extend(seen_in_loads(&health));
     if let Some(path) = &arguments.payload {
         let payload = read_payload(path)?;
         table.loads = table.carrying(&payload, false).map_err(|error| fault(&error))?.loads;
@@ -66,8 +77,8 @@ pub(crate) fn calibrate(arguments: &CalibrateArguments) -> Result<(), CliError> 
             "{names}: no load has any, so the calibration is for the other components alone; under such a load it reads falsely"
         ));
     }
-    let options = options(arguments, &table)?;
-    let calibration = fit(table, &options).map_err(|error| fault(&error))?;
+    let options = options(arguments, &table, &outputs)?;
+    let calibration = working("fits", || fit(table, &options)).map_err(|error| fault(&error))?;
     let file = calibration.to_file().map_err(|error| fault(&error))?;
     write_calibration(file, arguments, &output, &outputs)?;
     let title = if arguments.serial.is_empty() { "Calibration" } else { &arguments.serial };
@@ -138,7 +149,11 @@ fn range(arguments: &CalibrateArguments) -> Option<[f64; 2]> {
     arguments.range.as_deref().and_then(|range| <[f64; 2]>::try_from(range).ok())
 }
 
-fn options(arguments: &CalibrateArguments, table: &LoadTable) -> Result<Options, CliError> {
+fn options(
+    arguments: &CalibrateArguments,
+    table: &LoadTable,
+    outputs: &Outputs,
+) -> Result<Options, CliError> {
     let full_scale = arguments.full_scale.clone().unwrap_or_else(|| table.greatest_loads());
     Ok(Options {
         direction: if arguments.inverse || arguments.curvature != CurvatureChoice::Straight {
@@ -155,7 +170,7 @@ fn options(arguments: &CalibrateArguments, table: &LoadTable) -> Result<Options,
         reference_celsius: arguments.reference_celsius,
         creep: arguments.creep,
         reject_outliers: arguments.reject_outliers,
-        touches: arguments.touches.set(&table.axes, &full_scale)?,
+        touches: arguments.touches.set(&table.axes, &full_scale, outputs)?,
         limits: limits(arguments.limit),
     })
 }

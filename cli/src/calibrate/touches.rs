@@ -9,6 +9,7 @@ use fingertip_calibration::design::{DesignError, Touch, TouchSet};
 use nalgebra::Vector3;
 
 use crate::error::CliError;
+use crate::output::Outputs;
 use crate::scene;
 
 /// A little more than what most fingers need to hold: the touches press with friction up to this.
@@ -32,8 +33,14 @@ pub(crate) struct TouchArguments {
 }
 
 impl TouchArguments {
-    /// Touches of the surface; none for a sensor that does not measure all six components.
-    pub(super) fn set(&self, axes: &[Axis], full_scale: &[f64]) -> Result<Option<TouchSet>, CliError> {
+    /// Touches of the surface; none for a sensor that does not measure all six components. The outputs spare what the scene
+    /// names.
+    pub(super) fn set(
+        &self,
+        axes: &[Axis],
+        full_scale: &[f64],
+        outputs: &Outputs,
+    ) -> Result<Option<TouchSet>, CliError> {
         if axes != Axis::ALL {
             return Ok(None);
         }
@@ -48,6 +55,7 @@ impl TouchArguments {
             }
             Some(path) => {
                 let scene = scene::load(path)?;
+                outputs.spare(scene.files())?;
                 scene::warn_of_doubts(&scene);
                 (format!("the surface of {}", path.display()), on(scene.surface(), force).map_err(fault)?)
             }

@@ -1,6 +1,7 @@
 //! From CSV to MCAP.
 
 use std::io;
+use std::path::Path;
 
 use fingertip::wrench::Wrench;
 use fingertip_recordings::mcap::{Header, McapError, McapWriter, RecordedContact, RecordedSignals, Topic};
@@ -13,6 +14,7 @@ use crate::error::CliError;
 use crate::input::Input;
 use crate::output::Outputs;
 use crate::recording_file::mcap;
+use crate::span::{Place, Window};
 
 /// Times that a stamp holds less exactly than this were rounded \[s\].
 const ROUNDED: f64 = 1e-10;
@@ -20,9 +22,9 @@ const ROUNDED: f64 = 1e-10;
 pub(super) fn convert(
     arguments: &ConvertArguments,
     input: &mut Input,
+    output: &Path,
     outputs: &Outputs,
 ) -> Result<Account, CliError> {
-    let output = &arguments.output;
     let mut reader = input.rows(ReaderOptions::default())?;
     let input = input.path();
     let layout = reader.layout().clone();
@@ -36,13 +38,19 @@ pub(super) fn convert(
     let file = outputs.create("recording", output)?.seekable()?;
     let writer = McapWriter::with_compression(file, arguments.compression.into()).map_err(failed)?;
     let mut topics = Topics::open(writer, &layout).map_err(failed)?;
-    let (mut rows, mut timeless, mut rounded) = (0_u64, 0, 0);
+    let (mut rows, mut within, mut timeless, mut rounded) = (0_u64, 0_u64, 0, 0);
+    let mut window = Window::new(arguments.span);
     while let Some(row) = reader.next_row()? {
         let time = match arguments.rate.filter(|_| !layout.has_time()) {
             Some(rate) => Some(rows as f64 / rate),
             None => row.time(),
         };
         rows += 1;
+        match window.place(time.unwrap_or(f64::NAN)) {
+            Place::Before => continue,
+            Place::Behind => break,
+            Place::Within => within += 1,
+        }
         let Some(time) = time else {
             timeless += 1;
             continue;
@@ -55,8 +63,8 @@ pub(super) fn convert(
     }
     let Topics { writer, counts, .. } = topics;
     let file = writer.finish().map_err(failed)?;
-    if rows == 0 {
-        return Err(CliError::NoRows { path: input.to_owned() });
+    if within == 0 {
+        return Err(window.nothing_of(input));
     }
     file.finish()?;
     let mut account = Account::default();

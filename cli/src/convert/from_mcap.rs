@@ -1,6 +1,7 @@
 //! From MCAP to CSV: into a file, or as it is read.
 
 use std::io::{self, Read};
+use std::path::Path;
 
 use fingertip_recordings::RecordingWriter;
 
@@ -10,20 +11,33 @@ use crate::error::CliError;
 use crate::input::Input;
 use crate::output::Outputs;
 use crate::recording_file::csv;
+use crate::span::{Place, Window};
 
 pub(super) fn convert(
     arguments: &ConvertArguments,
     input: &Input,
+    output: &Path,
     outputs: &Outputs,
 ) -> Result<Account, CliError> {
-    let ConvertArguments { output, topics, .. } = arguments;
     let failed = |error| csv(output, error);
     let mut account = Account::default();
-    let (schema, mut rows) = Rows::new(input.messages()?, input, topics, &mut account)?;
+    let (schema, mut rows) = Rows::new(input.messages()?, input, &arguments.topics, &mut account)?;
     // Only what holds something becomes a file.
     let mut writer = RecordingWriter::new(outputs.create("recording", output)?, &schema).map_err(failed)?;
+    let mut window = Window::new(arguments.span);
     while let Some(row) = rows.next()? {
-        writer.write(row.iter().copied()).map_err(failed)?;
+        // The first cell is the time.
+        match window.place(row.first().copied().unwrap_or(f64::NAN)) {
+            Place::Before => {}
+            Place::Behind => break,
+            Place::Within => {
+                writer.write(row.iter().copied()).map_err(failed)?;
+                rows.count();
+            }
+        }
+    }
+    if rows.counted() == 0 {
+        return Err(window.nothing_of(input.path()));
     }
     writer.finish().map_err(failed)?.finish()?;
     rows.account(&mut account);

@@ -50,6 +50,13 @@ pub(super) struct Rows<R> {
     row: Vec<f64>,
     /// The first entry of the next row.
     waiting: Option<Entry>,
+    /// What the last row holds, and what all do that were counted.
+    last: Counts,
+    counted: Counts,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Counts {
     wrenches: u64,
     signals: u64,
     contacts: u64,
@@ -76,13 +83,8 @@ impl<R: Read> Rows<R> {
             columns,
             row: vec![f64::NAN; schema.names().len()],
             waiting: None,
-            wrenches: 0,
-            signals: 0,
-            contacts: 0,
-            rows: 0,
-            not_finite: 0,
-            backward: 0,
-            names: 0,
+            last: Counts::default(),
+            counted: Counts::default(),
         };
         Ok((schema, rows))
     }
@@ -91,6 +93,7 @@ impl<R: Read> Rows<R> {
     pub(super) fn next(&mut self) -> Result<Option<&[f64]>, CliError> {
         self.row.fill(f64::NAN);
         self.columns.iter_mut().for_each(|columns| columns.filled = false);
+        self.last = Counts::default();
         let mut at = None;
         loop {
             let entry = match self.waiting.take() {
@@ -102,7 +105,7 @@ impl<R: Read> Rows<R> {
                 continue;
             };
             if let Some(last) = at.filter(|last| place.filled || *last != entry.time) {
-                self.backward += u64::from(entry.time <= last);
+                self.last.backward += u64::from(entry.time <= last);
                 self.waiting = Some(entry);
                 break;
             }
@@ -111,40 +114,57 @@ impl<R: Read> Rows<R> {
             let cells = self.row.iter_mut().skip(place.start).take(place.width);
             match &entry.recorded {
                 Recorded::Wrench(wrench) => {
-                    self.wrenches += 1;
-                    self.not_finite += put(cells, wrench.components().as_slice());
+                    self.last.wrenches += 1;
+                    self.last.not_finite += put(cells, wrench.components().as_slice());
                 }
                 Recorded::Signals(signals) => {
-                    self.signals += 1;
-                    self.not_finite += put(cells, &signals.values);
+                    self.last.signals += 1;
+                    self.last.not_finite += put(cells, &signals.values);
                 }
                 Recorded::Contact(contact) => {
-                    self.contacts += 1;
-                    self.names += u64::from(contact.name != "fingertip");
+                    self.last.contacts += 1;
+                    self.last.names += u64::from(contact.name != "fingertip");
                     let (position, normal, wrench) = (contact.position, contact.normal, contact.wrench);
-                    self.not_finite += put(cells, &ContactCells { position, normal, wrench }.cells());
+                    self.last.not_finite += put(cells, &ContactCells { position, normal, wrench }.cells());
                 }
                 _ => {}
             }
         }
         let (Some(at), Some(time)) = (at, self.row.first_mut()) else { return Ok(None) };
         *time = at;
-        self.rows += 1;
+        self.last.rows += 1;
         Ok(Some(&self.row))
     }
 
-    /// Says what was read, and what of it rows cannot hold.
+    /// Counts the last row among those that are told of.
+    pub(super) fn count(&mut self) {
+        let Self { counted: all, last, .. } = self;
+        all.wrenches += last.wrenches;
+        all.signals += last.signals;
+        all.contacts += last.contacts;
+        all.rows += last.rows;
+        all.not_finite += last.not_finite;
+        all.backward += last.backward;
+        all.names += last.names;
+    }
+
+    /// How many rows were counted.
+    pub(super) fn counted(&self) -> u64 {
+        self.counted.rows
+    }
+
+    /// Says what was counted, and what of it rows cannot hold.
     pub(super) fn account(&self, account: &mut Account) {
-        account.written("wrenches", self.wrenches);
-        account.written("signals", self.signals);
-        account.written("contacts", self.contacts);
-        account.written("rows", self.rows);
-        account.lost(self.not_finite, "numbers that are not finite (NaN becomes an empty cell)");
-        account.lost(self.names, "names of contacts");
-        if self.backward > 0 {
+        let Counts { wrenches, signals, contacts, rows, not_finite, backward, names } = self.counted;
+        account.written("wrenches", wrenches);
+        account.written("signals", signals);
+        account.written("contacts", contacts);
+        account.written("rows", rows);
+        account.lost(not_finite, "numbers that are not finite (NaN becomes an empty cell)");
+        account.lost(names, "names of contacts");
+        if backward > 0 {
             account.notes.push(format!(
-                "{} rows have a time that is not after that of the row before; other commands pass over them",
-                self.backward
+                "{backward} rows have a time that is not after that of the row before; other commands pass over them"
             ));
         }
     }

@@ -4,6 +4,7 @@ mod from_csv;
 mod from_mcap;
 mod mcap_rows;
 
+use core::cell::Cell;
 use core::fmt::Display;
 use std::path::{Path, PathBuf};
 
@@ -13,9 +14,10 @@ pub(crate) use from_mcap::McapAsCsv;
 
 use crate::error::CliError;
 use crate::input::Input;
-use crate::output::{Outputs, Overwrite};
-use crate::recording_file::Packing;
-use crate::recording_file::{FRAME, Kind};
+use crate::output::{Outputs, Overwrite, is_standard, read_once, shown};
+use crate::recording_file::{FRAME, Kind, Packing};
+use crate::several;
+use crate::span::Span;
 use crate::table::count;
 
 #[derive(Debug, Args)]
@@ -28,12 +30,15 @@ CSV holds one row for each time, MCAP one message for each sensor and time:
 A sensor NAME (columns NAME_fx_N …) has the topics /fingertip/NAME/wrench and so on. Whatever the other
 format cannot hold is counted and named at the end.")]
 pub(crate) struct ConvertArguments {
-    /// The recording to read: .csv or .mcap
-    #[arg(value_name = "IN")]
-    pub(crate) input: PathBuf,
-    /// The recording to write: .mcap or .csv
+    /// The recordings to read: .csv or .mcap; `-` is the standard input
+    #[arg(value_name = "IN", required = true)]
+    pub(crate) inputs: Vec<PathBuf>,
+    /// The recording to write: .mcap or .csv; or a folder that is there, where RUN.csv becomes RUN.mcap, and RUN.mcap
+    /// RUN.csv: of several recordings it must be one
     #[arg(value_name = "OUT")]
     pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) span: Span,
     /// Samples per second of a CSV file that has no column of time
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f64>,
@@ -74,18 +79,73 @@ impl Account {
     }
 }
 
+/// What one recording becomes.
+struct Task {
+    input: Input,
+    output: PathBuf,
+}
+
 pub(crate) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
-    let ConvertArguments { input, output, .. } = arguments;
-    let outputs = Outputs::guard(arguments.overwrite.or(arguments.force), "recording", [input], [output])?;
+    let ConvertArguments { inputs, output, .. } = arguments;
+    arguments.span.check()?;
     if let Some(rate) = arguments.rate
         && !(rate > 0.0 && rate.is_finite())
     {
-        return Err(fault(input, "--rate must be above 0"));
+        return Err(CliError::option("--rate", rate, "must be above 0"));
     }
-    let mut input = Input::open(input)?;
-    let account = match (input.kind(), Kind::of(output)?) {
-        (Kind::Csv, Kind::Mcap) => from_csv::convert(arguments, &mut input, &outputs),
-        (Kind::Mcap, Kind::Csv) => from_mcap::convert(arguments, &input, &outputs),
+    read_once(inputs.iter().map(PathBuf::as_path))?;
+    if let (false, [first, _, ..]) = (output.is_dir(), inputs.as_slice()) {
+        let message = format!(
+            "of several recordings the last path must be a folder that is there, which {} is not",
+            shown(output)
+        );
+        return Err(fault(first, message));
+    }
+    if let ([input], false) = (inputs.as_slice(), output.is_dir()) {
+        // Before the standard input is waited for.
+        let outputs = guard(arguments, [input], [output])?;
+        Kind::of(output)?;
+        return one(arguments, Task { input: Input::open(input)?, output: output.clone() }, &outputs);
+    }
+    let tasks = inputs.iter().map(|input| {
+        let input = Input::open(input)?;
+        let output = output.join(name_in_folder(&input));
+        Ok(Task { input, output })
+    });
+    let tasks: Vec<Task> = tasks.collect::<Result<_, CliError>>()?;
+    let outputs = guard(arguments, inputs, tasks.iter().map(|task| &task.output))?;
+    let tasks: Vec<Cell<Option<Task>>> = tasks.into_iter().map(|task| Cell::new(Some(task))).collect();
+    several::each(inputs, &tasks, |_, task| match task.take() {
+        Some(task) => one(arguments, task, &outputs.part()),
+        None => Ok(()),
+    })
+}
+
+fn guard<'a>(
+    arguments: &ConvertArguments,
+    inputs: impl IntoIterator<Item = &'a PathBuf>,
+    outputs: impl IntoIterator<Item = &'a PathBuf>,
+) -> Result<Outputs, CliError> {
+    Outputs::guard(arguments.overwrite.or(arguments.force), "recording", inputs, outputs)
+}
+
+/// The name of what a recording becomes, in a folder.
+fn name_in_folder(input: &Input) -> String {
+    let stem = input.path().file_stem().filter(|_| !is_standard(input.path()));
+    let stem = stem.map_or_else(|| input.name(), |stem| stem.to_string_lossy().into_owned());
+    let ending = match input.kind() {
+        Kind::Csv => "mcap",
+        Kind::Mcap => "csv",
+    };
+    format!("{stem}.{ending}")
+}
+
+/// One of the recordings.
+fn one(arguments: &ConvertArguments, task: Task, outputs: &Outputs) -> Result<(), CliError> {
+    let Task { mut input, output } = task;
+    let account = match (input.kind(), Kind::of(&output)?) {
+        (Kind::Csv, Kind::Mcap) => from_csv::convert(arguments, &mut input, &output, outputs),
+        (Kind::Mcap, Kind::Csv) => from_mcap::convert(arguments, &input, &output, outputs),
         _ => {
             let same = "input and output are of the same kind; one must be .csv and the other .mcap";
             Err(fault(input.path(), same))
@@ -95,7 +155,7 @@ pub(crate) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
     let written: Vec<String> =
         account.written.iter().map(|(what, number)| format!("{} {what}", count(*number))).collect();
     text.push_str(&format!("{} → {}: {}\n", input.name(), output.display(), written.join(", ")));
-    for note in &account.notes {
+    for note in arguments.span.note().iter().chain(&account.notes) {
         text.push_str(&format!("Note: {note}\n"));
     }
     match account.lost.as_slice() {

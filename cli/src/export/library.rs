@@ -59,7 +59,7 @@ pub(super) fn run(
         .collect();
 
     fs::create_dir_all(folder).map_err(|source| CliError::write("folder", folder, source))?;
-    let inputs = core::iter::once(path).chain(calibration);
+    let inputs = core::iter::once(path).chain(calibration).chain(scene.files());
     let outputs = Outputs::guard(overwrite, "the export", inputs, [&library_file, &header_file, &cost_file])?;
     let source = Source::find(source.as_deref());
     let build = Build::new(build.as_deref(), target.as_deref()).map_err(|error| failed(&error))?;

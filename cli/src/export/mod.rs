@@ -73,6 +73,7 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     let inputs = core::iter::once(path).chain(calibration);
     let outputs = Outputs::guard(*overwrite, "the export", inputs, rust.iter().chain(json))?;
     let scene = scene::load_or_simulated(path)?;
+    outputs.spare(scene.files())?;
     scene::warn_of_doubts(&scene);
     let calibration = calibration.as_deref().map(read_calibration).transpose()?;
     let scalar = scalar.unwrap_or(Precision::F64).scalar();

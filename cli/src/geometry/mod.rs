@@ -97,7 +97,7 @@ pub(crate) fn run(arguments: &GeometryArguments) -> Result<(), CliError> {
     let outputs =
         Outputs::guard(arguments.overwrite, "output", inputs.into_iter().flatten(), &arguments.output)?;
     let path = &arguments.touches;
-    let known = arguments.scene.as_deref().map(Known::read).transpose()?;
+    let known = arguments.scene.as_deref().map(|scene| Known::read(scene, &outputs)).transpose()?;
     let reaction = Known::reaction(known.as_ref(), arguments.reaction)?;
     let columns = read_columns("table of touches", path)?;
     let found = find(arguments, &columns, reaction).map_err(|message| bad(path, &message))?;

@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use fingertip_calibration::file::read_text;
 use toml_edit::{DocumentMut, Item, Table, Value};
 
 use super::{FittedShape, GeometryArguments};
-use crate::calibrate::files::bad;
+use crate::calibrate::files::{bad, text};
 use crate::error::CliError;
+use crate::output::{Outputs, is_standard};
+use crate::scene;
 
 /// A scene as it is written, comments included.
 pub(super) struct Known {
@@ -16,10 +17,12 @@ pub(super) struct Known {
 }
 
 impl Known {
-    pub(super) fn read(path: &Path) -> Result<Self, CliError> {
+    /// The outputs spare what it names.
+    pub(super) fn read(path: &Path, outputs: &Outputs) -> Result<Self, CliError> {
+        let text = text("scene", path)?;
         // What is no scene is said as every command says it.
-        let _ = crate::scene::load(path)?;
-        let text = read_text(path).map_err(|source| CliError::read("scene", path, source))?;
+        let scene = if is_standard(path) { scene::of_standard(&text) } else { scene::load(path) }?;
+        outputs.spare(scene.files())?;
         let document = text.parse().map_err(|error| bad(path, &error))?;
         Ok(Self { path: path.to_owned(), document })
     }

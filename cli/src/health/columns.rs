@@ -47,14 +47,19 @@ fn of_signals(columns: &SignalColumns, layout: &Layout) -> Vec<WatchedChannel> {
     layout.names_of_signals(columns).into_iter().enumerate().map(channel).collect()
 }
 
-/// The readings of a table (samples × gauges), which follow each other.
-pub(crate) fn of_table(signals: &DMatrix<f64>, unit: SignalUnit, range: Option<[f64; 2]>) -> Health {
+/// A watch over the readings of so many gauges.
+pub(crate) fn of_gauges(gauges: usize, unit: SignalUnit, range: Option<[f64; 2]>) -> HealthWatch {
     let limits = range.and_then(|[low, high]| ChannelLimits::new(low, high).ok());
     let channel = |number: usize| {
         let channel = WatchedChannel::new(&format!("gauge {number}"), unit.name(), Kind::Signal);
         limits.map_or_else(|| channel.clone(), |limits| channel.clone().within(limits))
     };
-    let mut watch = HealthWatch::new((1..=signals.ncols()).map(channel).collect(), Depth::Brief);
+    HealthWatch::new((1..=gauges).map(channel).collect(), Depth::Brief)
+}
+
+/// The readings of a table (samples × gauges), which follow each other.
+pub(crate) fn of_table(signals: &DMatrix<f64>, unit: SignalUnit, range: Option<[f64; 2]>) -> Health {
+    let mut watch = of_gauges(signals.ncols(), unit, range);
     let mut readings = vec![0.0; signals.ncols()];
     for row in signals.row_iter() {
         readings.iter_mut().zip(row.iter()).for_each(|(slot, reading)| *slot = *reading);

@@ -7,6 +7,7 @@ use fingertip_recordings::health::Health;
 use super::{HealthArguments, page, watched, words};
 use crate::analyze::library::{Failure, Recorded};
 use crate::output::Overwrite;
+use crate::span::Span;
 
 /// What a recording shows of its sensor.
 #[derive(Clone, Debug)]
@@ -38,12 +39,14 @@ pub fn health(
         celsius: recorded.celsius,
         sensor: recorded.sensor.clone(),
         topics: recorded.topics.clone(),
+        span: Span { start: recorded.start, end: recorded.end },
         rate,
         html: None,
         json: None,
         overwrite: Overwrite::default(),
     };
     arguments.check()?;
+    arguments.span.check()?;
     let mut notes = Vec::new();
     let (health, name) = watched(&recorded.path, &arguments, &mut notes)?;
     let findings = words::findings(&health, &name, notes);

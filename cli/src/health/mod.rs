@@ -18,7 +18,8 @@ use crate::gauge_rows::KnownTemperature;
 use crate::opened::Opened;
 use crate::output::{Outputs, Overwrite};
 use crate::several::{self, file_of};
-pub(crate) use columns::{WatchedRows, of_table, of_wrench};
+use crate::span::{Place, Span, Window};
+pub(crate) use columns::{WatchedRows, of_gauges, of_table, of_wrench};
 pub use library::{HealthOf, health};
 pub(crate) use words::{seen, seen_in_loads};
 
@@ -44,6 +45,8 @@ pub(crate) struct HealthArguments {
     /// Of an MCAP file, this topic alone; several times for several
     #[arg(long = "topic", value_name = "TOPIC")]
     topics: Vec<String>,
+    #[command(flatten)]
+    span: Span,
     /// Samples per second of a recording that has no column of time
     #[arg(long, value_name = "HZ")]
     rate: Option<f64>,
@@ -71,6 +74,7 @@ impl HealthArguments {
 
 pub(crate) fn run(arguments: &HealthArguments) -> Result<(), CliError> {
     arguments.check()?;
+    arguments.span.check()?;
     let files = |recording: &PathBuf| {
         let own = |file: &PathBuf| file_of(recording, &arguments.recordings, file);
         [arguments.html.as_ref().map(own), arguments.json.as_ref().map(own)]
@@ -141,12 +145,21 @@ fn watched(
                 .to_owned(),
         );
     }
+    arguments.span.needs_time(layout.has_time() || arguments.rate.is_some())?;
+    notes.extend(arguments.span.note());
+    let (mut window, mut number) = (Window::new(arguments.span), 0_u64);
     while let Some(row) = reader.next_row()? {
-        rows.add(&row);
+        let counted = arguments.rate.filter(|_| !layout.has_time()).map(|rate| number as f64 / rate);
+        number += 1;
+        match window.place(row.time().or(counted).unwrap_or(f64::NAN)) {
+            Place::Before => {}
+            Place::Behind => break,
+            Place::Within => rows.add(&row),
+        }
     }
     bar.finish_and_clear();
     if rows.samples() == 0 {
-        return Err(CliError::NoRows { path: recording.to_owned() });
+        return Err(window.nothing_of(recording));
     }
     Ok((rows.finish(), name))
 }

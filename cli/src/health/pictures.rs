@@ -6,7 +6,7 @@ use crate::observe::Point;
 use crate::report::{Axis, Chart, Figure};
 
 /// Classes of curves; those of more channels begin anew.
-const CLASSES: [&str; 7] = ["a", "b", "c", "d", "e", "q2", "q5"];
+const CLASSES: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
 /// Points of a drawn spectrum.
 const POINTS: usize = 300;
 

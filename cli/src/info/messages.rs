@@ -9,13 +9,15 @@ use super::{Info, Topic};
 use crate::error::CliError;
 use crate::input::Input;
 use crate::recording_file::{cut, mcap};
+use crate::span::{Place, Span, Window};
 
-pub(super) fn of(input: &Input) -> Result<Info, CliError> {
+pub(super) fn of(input: &Input, span: Span) -> Result<Info, CliError> {
     let mut info = Info { file: input.name(), format: "mcap", ..Info::default() };
     let mut topics: BTreeMap<String, (Topic, Timing)> = BTreeMap::new();
     let mut timing = Timing::default();
     let mut reader = input.entries()?;
-    let mut damaged = 0_u64;
+    let (mut damaged, mut window) = (0_u64, Window::new(span));
+    info.notes.extend(span.note());
     loop {
         let entry = match reader.next_entry() {
             Ok(Some(entry)) => entry,
@@ -30,6 +32,11 @@ pub(super) fn of(input: &Input) -> Result<Info, CliError> {
             }
             Err(error) => return Err(mcap(input.path(), &error)),
         };
+        match window.place(entry.time) {
+            Place::Before => continue,
+            Place::Behind => break,
+            Place::Within => info.samples += 1,
+        }
         timing.add(entry.time);
         let name = entry.topic;
         let (topic, times) = topics.entry(name).or_insert_with_key(|name| {
@@ -40,7 +47,7 @@ pub(super) fn of(input: &Input) -> Result<Info, CliError> {
         topic.messages += 1;
         times.add(entry.time);
     }
-    info.samples = reader.messages();
+    info.samples += damaged;
     if damaged > 0 {
         info.notes.push(format!("{damaged} messages are not what their definition says"));
     }

@@ -13,8 +13,9 @@ use serde::Serialize;
 
 use crate::error::CliError;
 use crate::input::Input;
-use crate::output::print;
+use crate::output::{print, read_once};
 use crate::recording_file::Kind;
+use crate::span::Span;
 use crate::table::{count, short};
 use steps::Steps;
 
@@ -23,6 +24,8 @@ pub(crate) struct InfoArguments {
     /// The recordings: .csv or .mcap; `-` is the standard input
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
+    #[command(flatten)]
+    span: Span,
     /// As JSON: one object a line for each file
     #[arg(long)]
     json: bool,
@@ -65,11 +68,13 @@ struct Topic {
 }
 
 pub(crate) fn run(arguments: &InfoArguments) -> Result<(), CliError> {
+    arguments.span.check()?;
+    read_once(arguments.files.iter().map(PathBuf::as_path))?;
     for path in &arguments.files {
         let mut input = Input::open(path)?;
         let info = match input.kind() {
-            Kind::Csv => rows::of(&mut input)?,
-            Kind::Mcap => messages::of(&input)?,
+            Kind::Csv => rows::of(&mut input, arguments.span)?,
+            Kind::Mcap => messages::of(&input, arguments.span)?,
         };
         let text = if arguments.json {
             let json = serde_json::to_string(&info);

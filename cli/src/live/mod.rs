@@ -28,7 +28,7 @@ use crate::about::about;
 use crate::calibrated::Calibration;
 use crate::error::CliError;
 use crate::felt::{Rest, SceneFeel};
-use crate::output::{print, printable};
+use crate::output::{print, printable, read_once};
 use crate::scene;
 use crate::sensor::{self, Calibrating, GaugesOf, SensorError, Stream, StreamOptions};
 use crate::stop::Stop;
@@ -65,6 +65,8 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
     if let Some(tare) = arguments.tare.filter(|tare| !(*tare > 0.0 && tare.is_finite())) {
         return Err(CliError::option("--tare", tare, "must be a number of seconds above 0"));
     }
+    let inputs = [&arguments.replay, &arguments.calibration, &arguments.scene];
+    read_once(inputs.into_iter().flatten().map(PathBuf::as_path))?;
     let simulated = arguments.replay.is_none() && sensor::is_simulated(&arguments.address);
     let scene = arguments.scene.clone().or_else(|| simulated.then(|| PathBuf::from("sim")));
     let scene = scene.as_deref().map(scene::load_or_simulated).transpose()?;

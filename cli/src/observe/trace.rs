@@ -10,6 +10,12 @@ pub(crate) struct Point {
     pub(crate) value: f64,
 }
 
+impl From<Point> for (f64, f64) {
+    fn from(point: Point) -> Self {
+        (point.time, point.value)
+    }
+}
+
 /// A curve between its gaps.
 pub(crate) type Pieces = Vec<Vec<Point>>;
 

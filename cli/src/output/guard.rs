@@ -4,19 +4,36 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use same_file::Handle;
-
 use super::standard::is_standard;
 use super::whole::already_there;
 use crate::error::CliError;
 
+/// A file or a folder, by device and number: links to it are the same.
+#[cfg(unix)]
+type Identity = (u64, u64);
+/// A file or a folder, by its name without links.
+#[cfg(not(unix))]
+type Identity = PathBuf;
+
 /// What a name leads to.
-#[derive(PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 enum Place {
-    /// A file that is there, by device and number: links to it are the same.
-    There(Handle),
+    /// A file that is there.
+    There(Identity),
     /// A file that is not there, by its folder and name.
-    New(Handle, PathBuf),
+    New(Identity, PathBuf),
+}
+
+/// Nothing is kept open: of hundreds of recordings each has outputs of its own.
+#[cfg(unix)]
+fn identity(path: &Path) -> Option<Identity> {
+    use std::os::unix::fs::MetadataExt as _;
+    fs::metadata(path).ok().map(|meta| (meta.dev(), meta.ino()))
+}
+
+#[cfg(not(unix))]
+fn identity(path: &Path) -> Option<Identity> {
+    fs::canonicalize(path).ok()
 }
 
 impl Place {
@@ -27,13 +44,39 @@ impl Place {
         }
         match fs::metadata(path) {
             Ok(meta) if !meta.is_file() => None,
-            Ok(_) => Handle::from_path(path).ok().map(Self::There),
+            Ok(_) => identity(path).map(Self::There),
             Err(_) => {
                 let folder = path.parent().filter(|folder| *folder != Path::new(""));
-                let folder = Handle::from_path(folder.unwrap_or(Path::new("."))).ok()?;
+                let folder = identity(folder.unwrap_or(Path::new(".")))?;
                 Some(Self::New(folder, path.file_name().map(OsStr::to_owned)?.into()))
             }
         }
+    }
+}
+
+/// The outputs of a run, to be compared with its inputs.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Taken {
+    what: &'static str,
+    places: Vec<(Place, PathBuf)>,
+}
+
+impl Taken {
+    /// Refuses an input that is an output.
+    pub(super) fn spare(&self, input: &Path) -> Result<(), CliError> {
+        let Some(place) = Place::of(input) else { return Ok(()) };
+        match self.places.iter().find(|(taken, _)| *taken == place) {
+            Some((_, output)) => Err(CliError::WouldOverwrite { what: self.what, path: output.clone() }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Refuses to read the standard input for two inputs.
+pub(crate) fn read_once<'a>(inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), CliError> {
+    match inputs.into_iter().filter(|input| is_standard(input)).nth(1) {
+        Some(_) => Err(CliError::StdinTwice),
+        None => Ok(()),
     }
 }
 
@@ -43,12 +86,10 @@ pub(super) fn check(
     what: &'static str,
     inputs: &[&Path],
     outputs: &[&Path],
-) -> Result<(), CliError> {
-    if inputs.iter().filter(|input| is_standard(input)).count() > 1 {
-        return Err(CliError::StdinTwice);
-    }
+) -> Result<Taken, CliError> {
+    read_once(inputs.iter().copied())?;
     let inputs: Vec<Place> = inputs.iter().filter_map(|input| Place::of(input)).collect();
-    let mut taken: Vec<(Place, &Path)> = Vec::new();
+    let mut taken = Taken { what, places: Vec::new() };
     let mut standard = false;
     for output in outputs {
         if is_standard(output) {
@@ -61,13 +102,13 @@ pub(super) fn check(
         if inputs.contains(&place) {
             return Err(CliError::WouldOverwrite { what, path: output.into() });
         }
-        if let Some((_, first)) = taken.iter().find(|(known, _)| *known == place) {
+        if let Some((_, first)) = taken.places.iter().find(|(known, _)| *known == place) {
             return Err(CliError::OneFile { first: first.into(), second: output.into() });
         }
         if !overwrite && matches!(place, Place::There(_)) {
             return Err(CliError::write(what, output, already_there()));
         }
-        taken.push((place, output));
+        taken.places.push((place, output.into()));
     }
-    Ok(())
+    Ok(taken)
 }

@@ -6,12 +6,14 @@ mod standard;
 mod unfinished;
 mod whole;
 
+use alloc::rc::Rc;
 use core::cell::RefCell;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+pub(crate) use guard::read_once;
 pub(crate) use printable::printable;
 pub(crate) use standard::{is_standard, name_of, shown};
 pub(crate) use unfinished::remove_all as remove_unfinished;
@@ -19,6 +21,7 @@ pub(crate) use whole::Whole;
 
 use crate::error::CliError;
 use crate::verbosity::is_quiet;
+use guard::Taken;
 
 /// What every command that writes files asks.
 #[derive(Clone, Copy, Debug, Default, Args)]
@@ -39,6 +42,7 @@ impl Overwrite {
 #[derive(Debug)]
 pub(crate) struct Outputs {
     overwrite: bool,
+    taken: Rc<Taken>,
     /// One of them is the standard output: words then go to the standard error.
     to_stdout: bool,
     written: RefCell<Vec<PathBuf>>,
@@ -55,14 +59,19 @@ impl Outputs {
     ) -> Result<Self, CliError> {
         let outputs: Vec<&Path> = outputs.into_iter().map(PathBuf::as_path).collect();
         let inputs: Vec<&Path> = inputs.into_iter().map(PathBuf::as_path).collect();
-        guard::check(overwrite, what, &inputs, &outputs)?;
+        let taken = guard::check(overwrite, what, &inputs, &outputs)?.into();
         let to_stdout = outputs.iter().any(|path| is_standard(path));
-        Ok(Self { overwrite, to_stdout, written: RefCell::default() })
+        Ok(Self { overwrite, taken, to_stdout, written: RefCell::default() })
+    }
+
+    /// Refuses to write over what turned out to be read, too: what a scene names.
+    pub(crate) fn spare<'a>(&self, inputs: impl IntoIterator<Item = &'a PathBuf>) -> Result<(), CliError> {
+        inputs.into_iter().try_for_each(|input| self.taken.spare(input))
     }
 
     /// The same of a part of the run that speaks of its own files alone.
     pub(crate) fn part(&self) -> Self {
-        Self { written: RefCell::default(), ..*self }
+        Self { taken: self.taken.clone(), written: RefCell::default(), ..*self }
     }
 
     /// Begins a file. It appears when it is finished, and is then among those that [`say`](Self::say) names.

@@ -43,6 +43,7 @@ pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
         }
     }
     let scene = arguments.scene.as_deref().map(load_or_simulated).transpose()?;
+    scene.iter().try_for_each(|scene| outputs.spare(scene.files()))?;
     scene.iter().for_each(warn_of_doubts);
     let about = about(&arguments.address.to_string(), scene.as_ref());
     let mut feel = scene.map(|scene| SceneFeel::new(&scene, arguments.tare.is_some()));

@@ -1,7 +1,7 @@
 //! Classes of a magnitude, each with a colour of its own.
 
-use super::axis::Axis;
-use super::svg::{Anchor, Svg};
+use fingertip_calibration::page::{Anchor, Axis, Svg};
+
 use crate::table::short;
 
 /// Up to seven classes between round bounds.
@@ -62,9 +62,9 @@ fn two_digits(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::read_back::{rectangles, texts, value};
-    use super::super::svg::Svg;
     use super::{Classes, two_digits};
+    use fingertip_calibration::page::Svg;
+    use fingertip_test_support::read_back::{rectangles, texts, value};
 
     #[test]
     fn classes_rise_with_the_value_and_use_both_ends() {

@@ -1,7 +1,7 @@
 //! A function of two variables as a map with contour lines.
 
-use super::axis::Axis;
-use super::svg::{Anchor, Svg};
+use fingertip_calibration::page::{Anchor, Axis, Svg};
+
 use crate::table::short;
 
 const WIDTH: f64 = 520.0;
@@ -113,8 +113,8 @@ fn segments(xs: &[f64], ys: &[f64], values: &[Vec<f64>], level: f64) -> Vec<Segm
 
 #[cfg(test)]
 mod tests {
-    use super::super::read_back::{assert_readable, paths, rulers};
     use super::{Axis, Contours, LEVELS, draw, segments};
+    use fingertip_test_support::read_back::{assert_readable, paths, rulers};
 
     #[test]
     fn contour_of_a_cone_is_a_circle() {

@@ -189,7 +189,7 @@ fn ratio(observations: &Observations, coefficient: Option<f64>) -> Figure {
     let mut keys = vec![("a", "|f_t|/f_n".to_owned())];
     if let Some(coefficient) = coefficient {
         chart.level("level", coefficient);
-        keys.push(("e", format!("friction coefficient {}", short(coefficient))));
+        keys.push(("e dashed", format!("friction coefficient {}", short(coefficient))));
     }
     if !slips.is_empty() {
         keys.push(("d", "slip".to_owned()));

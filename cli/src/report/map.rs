@@ -2,12 +2,11 @@
 
 use core::f64::consts::PI;
 
-use super::axis::Axis;
-use super::colours::Classes;
-use super::svg::{Anchor, Svg, TICK_SIZE};
-use crate::observe::MapPoint;
-use fingertip_calibration::page::{Placed, text_width};
+use fingertip_calibration::page::{Anchor, Axis, Placed, Svg, TICK_SIZE, text_width};
 use fingertip_scene::{MapKind, Projection};
+
+use super::colours::Classes;
+use crate::observe::MapPoint;
 
 const WIDTH: f64 = 340.0;
 const LEFT: f64 = 44.0;

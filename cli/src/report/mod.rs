@@ -1,22 +1,15 @@
 //! `report.html`: one file that needs nothing else.
 
-mod axis;
-mod chart;
 mod colours;
 pub(crate) mod contours;
 mod figures;
 mod map;
-#[cfg(test)]
-pub(crate) mod read_back;
 mod solid;
-mod svg;
 pub(crate) mod unrolled_tube;
 pub(crate) mod used;
 
-pub(crate) use axis::Axis;
-pub(crate) use chart::Chart;
 pub(crate) use figures::Shown;
-pub(crate) use fingertip_calibration::page::Figure;
+pub(crate) use fingertip_calibration::page::{Axis, Chart, Figure};
 
 use fingertip_calibration::page::{self, Page};
 

@@ -1,10 +1,7 @@
 //! Gauges on a tube, drawn flat.
 
 use fingertip_calibration::design::TubeLayout;
-use fingertip_calibration::page::{Placed, text_width};
-
-use super::axis::Axis;
-use super::svg::{Anchor, Svg, TICK_SIZE};
+use fingertip_calibration::page::{Anchor, Axis, Placed, Svg, TICK_SIZE, text_width};
 
 const WIDTH: f64 = 520.0;
 const LEFT: f64 = 48.0;
@@ -93,8 +90,8 @@ fn lies_left(q: f64) -> bool {
 mod tests {
     use fingertip::wrench::gauge_layout::{Gauge, ThinWalledBeam};
 
-    use super::super::read_back::{paths, rulers, texts};
     use super::{TubeLayout, draw};
+    use fingertip_test_support::read_back::{paths, rulers, texts};
 
     #[test]
     fn gauges_stand_where_they_are_and_lean_as_they_do() {

@@ -142,6 +142,7 @@ fn check(path: &Path) -> Result<(), CliError> {
 fn show(path: &PathBuf, output: &PathBuf, overwrite: Overwrite) -> Result<(), CliError> {
     let outputs = Outputs::guard(overwrite, "page", [path], [output])?;
     let scene = load_or_simulated(path)?;
+    outputs.spare(scene.files())?;
     outputs.write("page", output, &report::of_scene(&scene))?;
     outputs.tell(&outputs.written())
 }

@@ -13,16 +13,23 @@ pub(crate) use simulated::least_static_coefficient;
 use crate::calibrate::files::{bad, text};
 use crate::error::CliError;
 use crate::output::{is_standard, printable, shown};
+use crate::progress::working;
 use crate::verbosity::{detail, is_quiet};
 
-/// Reads and checks a scene; `-` is the standard input, whose files are looked for where the command runs.
+/// Checks the text of a scene that came by the standard input, whose files are looked for where the command runs.
+pub(crate) fn of_standard(text: &str) -> Result<Scene, CliError> {
+    let fault = |fault| CliError::Scene(SceneError::Fault { path: shown("-".as_ref()).into(), fault });
+    Scene::parse(text, "scene", Path::new("")).map_err(fault)
+}
+
+/// Reads and checks a scene; `-` is the standard input.
 pub(crate) fn load(path: &Path) -> Result<Scene, CliError> {
     if is_standard(path) {
-        let fault = |fault| CliError::Scene(SceneError::Fault { path: shown(path).into(), fault });
-        return Scene::parse(&text("scene", path)?, "scene", Path::new("")).map_err(fault);
+        return of_standard(&text("scene", path)?);
     }
     detail(|| format!("reads scene {}", shown(path)));
-    Scene::load(path).map_err(|error| match error {
+    // A mesh may have millions of triangles.
+    working("builds the scene", || Scene::load(path)).map_err(|error| match error {
         SceneError::Unreadable { path, source } => CliError::read("scene", &path, source),
         other => CliError::Scene(other),
     })

@@ -70,7 +70,7 @@ fn times_are_those_of_the_rows_or_of_the_rate() {
     assert!(!folder.path("a.mcap").exists());
     for rate in ["0", "-1", "inf", "nan"] {
         let error = folder.fail(1, &["convert", "bare.csv", "a.mcap", &format!("--rate={rate}")]);
-        assert!(error.contains("--rate must be above 0"), "{error}");
+        assert!(error.to_lowercase().contains(&format!("--rate {rate} must be above 0")), "{error}");
     }
     let times = |name: &str| entries(&folder, name).iter().map(|entry| entry.2).collect::<Vec<_>>();
     let said = folder.succeed(&["convert", "bare.csv", "a.mcap", "--rate", "8"]);
@@ -232,4 +232,89 @@ fn analysis_of_mcap_reads_what_conversion_writes() {
     let (said, contacts) = analyze("a.mcap");
     assert_eq!(contacts, analyze("a.csv").1);
     assert!(said.contains("topic /robot/left wrist/ft has the columns robot-left-wrist-ft_…"), "{said}");
+}
+
+/// Half a second of a sensor, a row every 100 ms from 5 s on.
+const HALF_A_SECOND: &str = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n5,0,0,0,0,0,0\n5.125,1,0,0,0,0,0\n5.25,2,0,0,0,0,0\n\
+    5.375,3,0,0,0,0,0\n5.5,4,0,0,0,0,0\n";
+
+/// What lies between two times behind the first row is taken, counted and told, of either format.
+#[test]
+fn a_part_of_a_recording_is_converted_told_and_looked_at() {
+    let folder = Folder::new();
+    folder.write("a.csv", HALF_A_SECOND);
+    let part = ["--start", "0.125", "--end", "0.375"];
+    let with = |command: &[&'static str]| [command, &part].concat();
+    let note = "only what was recorded from 0.125 s to 0.375 s behind the first row";
+    let said = folder.succeed(&with(&["convert", "a.csv", "a.mcap"]));
+    assert_eq!(said, format!("a.csv → a.mcap: 3 wrenches\nNote: {note}\nNothing was lost.\n"));
+    let found: Vec<_> = entries(&folder, "a.mcap").iter().map(|entry| entry.2).collect();
+    assert_eq!(found, [5.125, 5.25, 5.375]);
+    folder.succeed(&["convert", "a.csv", "whole.mcap"]);
+    let said = folder.succeed(&with(&["convert", "whole.mcap", "part.csv"]));
+    assert_eq!(said, format!("whole.mcap → part.csv: 3 wrenches, 3 rows\nNote: {note}\nNothing was lost.\n"));
+    let rows = Contacts::parse(&folder.read("part.csv"));
+    assert_eq!((rows.numbers("t_s"), rows.numbers("fx_N")), (vec![5.125, 5.25, 5.375], vec![1.0, 2.0, 3.0]));
+    for file in ["a.csv", "whole.mcap"] {
+        let said = folder.succeed(&with(&["info", file]));
+        assert!(
+            said.contains(note) && said.contains("0.125 s to 0.375 s") | said.contains("5.125 s to 5.375 s"),
+            "{said}"
+        );
+        let output = folder.run(&with(&["health", file]));
+        let said = String::from_utf8(output.stdout).unwrap();
+        assert!(said.contains("3 samples at 8 a second") && said.contains(note), "{said}");
+    }
+    // Where nothing is left, nothing is written, and it is said why.
+    let gap = HALF_A_SECOND.replace("5.25,2,0,0,0,0,0\n", "");
+    folder.write("gap.csv", &gap);
+    folder.succeed(&["convert", "gap.csv", "gap.mcap"]);
+    for arguments in [
+        &["convert", "gap.csv", "none.mcap"][..],
+        &["convert", "gap.mcap", "none.csv"],
+        &["health", "gap.csv"],
+    ] {
+        let behind = folder.fail(1, &[arguments, &["--start", "9"]].concat());
+        assert!(
+            behind.contains("--start 9 must be before the end of the recording"),
+            "{arguments:?}: {behind}"
+        );
+        let between = folder.fail(1, &[arguments, &["--start", "0.2", "--end", "0.3"]].concat());
+        assert!(
+            between.contains("--start 0.2 has no row between itself and --end"),
+            "{arguments:?}: {between}"
+        );
+        let turned = folder.fail(1, &[arguments, &["--start", "2", "--end", "1"]].concat());
+        assert!(turned.contains("--end 1 must not be before --start"), "{arguments:?}: {turned}");
+    }
+    assert!(!folder.path("none.mcap").exists() && !folder.path("none.csv").exists());
+}
+
+/// Several recordings go into a folder, each under its own name; two of one name are told apart by being refused, before
+/// anything is written.
+#[test]
+fn several_recordings_are_converted_into_a_folder() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("out")).unwrap();
+    std::fs::create_dir(folder.path("sub")).unwrap();
+    folder.write("a.csv", HALF_A_SECOND);
+    folder.write("sub/a.csv", HALF_A_SECOND);
+    folder.write("b.csv", &HALF_A_SECOND.replace("5.5,4", "6,4"));
+    let error = folder.fail(1, &["convert", "a.csv", "sub/a.csv", "out"]);
+    assert!(error.contains("out/a.mcap") && error.contains("give two outputs two names"), "{error}");
+    let error = folder.fail(1, &["convert", "a.csv", "b.csv", "none"]);
+    assert!(error.contains("must be a folder that is there, which none is not"), "{error}");
+    let error = folder.fail(1, &["convert", "a.csv", "none.csv", "out"]);
+    assert!(error.contains("cannot read recording none.csv"), "{error}");
+    assert_eq!(std::fs::read_dir(folder.path("out")).unwrap().count(), 0);
+    let said = folder.succeed(&["convert", "a.csv", "b.csv", "out"]);
+    assert!(said.contains("a.csv → out/a.mcap: 5 wrenches\n"), "{said}");
+    let last = |name: &str| entries(&folder, name).last().unwrap().2;
+    assert_eq!((last("out/a.mcap"), last("out/b.mcap")), (5.5, 6.0));
+    // Back again: of one, too, the folder takes it under its own name, and what is there is kept.
+    folder.succeed(&["convert", "out/b.mcap", "sub"]);
+    assert_eq!(folder.read("sub/b.csv").lines().count(), 6);
+    let error = folder.fail(1, &["convert", "out/a.mcap", "out/b.mcap", "sub"]);
+    assert!(error.contains("it exists already"), "{error}");
+    assert_eq!(folder.read("sub/a.csv"), HALF_A_SECOND);
 }

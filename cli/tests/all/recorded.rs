@@ -297,6 +297,91 @@ fn a_sensor_that_says_nothing_is_an_error() {
     assert!(error.contains("the line was closed") && !error.contains("after the first sample"), "{error}");
 }
 
+/// A pseudo-terminal that is pulled out is a sensor that goes, not an error of the system in its own words.
+#[test]
+#[cfg(unix)]
+fn a_pseudo_terminal_that_is_pulled_is_an_error() {
+    use fingertip_drivers::sensors::bota_serial::Frame;
+    use serialport::{SerialPort as _, TTYPort};
+    use std::io::Write as _;
+
+    let folder = Folder::new();
+    let (mut sensor, line) = TTYPort::pair().unwrap();
+    let address = format!("bota://{}", line.name().unwrap());
+    let mut child = folder
+        .command(&["record", &address, "-o", "a.csv", "--silence", "60"])
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    // What is sent before somebody listens is lost with the flush of whoever opens the line.
+    let mut number = 0_u32;
+    while !folder.has_begun("a.csv") && child.try_wait().unwrap().is_none() {
+        let frame = Frame { components: [1.0; 6], microseconds: number * 2500, ..Frame::default() };
+        sensor.write_all(&frame.emit()).unwrap();
+        number += 1;
+        std::thread::sleep(core::time::Duration::from_millis(2));
+    }
+    drop((sensor, line));
+    let output = child.wait_with_output().unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    let samples = Contacts::parse(&folder.read("a.csv")).len();
+    let expected = format!("s after the first sample, behind {samples} samples, which are recorded");
+    assert!(samples > 0 && error.contains(&expected), "{error}");
+    assert!(!error.contains("Custom {") && !error.contains("os error 5"), "{error}");
+}
+
+/// What an Ethernet sensor of ATI is asked first is a page: what is wrong with that is said of it.
+#[test]
+fn a_page_that_is_refused_is_said_as_http() {
+    use std::io::{Read as _, Write as _};
+
+    let folder = Folder::new();
+    let record =
+        |port: u16| folder.fail(1, &["record", &format!("ati://127.0.0.1?http={port}"), "-o", "a.csv"]);
+    let error = record(crate::common::unused_port());
+    assert!(error.contains("HTTP: Connection refused") && !error.contains("UDP socket"), "{error}");
+    for (answer, expected) in [
+        ("HTTP/1.0 404 Not Found\r\n\r\n<html>none</html>", "HTTP: the sensor answers \"404 Not Found\""),
+        ("HTTP/1.1 503 Busy\r\n\r\n<cfgcpf>1</cfgcpf>", "HTTP: the sensor answers \"503 Busy\""),
+        ("HTTP/1.0 200 OK\r\n\r\n<netft></netft>", "configuration of the sensor"),
+    ] {
+        let listener = std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap();
+        let port = listener.local_addr().unwrap().port();
+        let server = std::thread::spawn(move || {
+            let (mut stream, _) = listener.accept().unwrap();
+            let mut asked = [0; 64];
+            let _ = stream.read(&mut asked);
+            stream.write_all(answer.as_bytes()).unwrap();
+        });
+        let error = record(port);
+        server.join().unwrap();
+        assert!(error.contains(expected), "{error}");
+    }
+}
+
+/// At any rate an interruption ends it, and what was recorded is whole.
+#[test]
+#[cfg(unix)]
+fn a_fast_simulation_is_interrupted() {
+    let folder = Folder::new();
+    let record = ["record", "sim?rate_Hz=1e7", "-o", "a.csv"];
+    let child = folder.command(&record).stdout(std::process::Stdio::piped()).spawn().unwrap();
+    while !folder.has_begun("a.csv") {
+        std::thread::sleep(core::time::Duration::from_millis(2));
+    }
+    let asked = std::time::Instant::now();
+    std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let output = child.wait_with_output().unwrap();
+    // Far longer than it takes, and far shorter than for ever.
+    assert!(asked.elapsed() < core::time::Duration::from_secs(30));
+    let said = String::from_utf8(output.stdout).unwrap().replace('\u{202f}', "");
+    let (samples, _) = said.split_once(" samples in ").unwrap();
+    assert!(output.status.success(), "{said}");
+    assert_eq!(Contacts::parse(&folder.read("a.csv")).len(), samples.parse::<usize>().unwrap());
+}
+
 /// However high the rate, it begins at once.
 #[test]
 fn a_fast_simulation_begins() {

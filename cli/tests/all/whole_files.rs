@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::io::Write as _;
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
 use crate::common::{Folder, scene};
@@ -81,7 +82,7 @@ fn what_fails_leaves_the_file_that_was_there() {
     assert_eq!(names(&folder), ["bad.csv", "contacts.csv"]);
 }
 
-/// Every command refuses to write over a file, and leaves it.
+/// Every command that writes files refuses to write over one, and leaves it.
 #[test]
 fn every_command_asks_before_it_writes_over_a_file() {
     let folder = Folder::new();
@@ -89,25 +90,51 @@ fn every_command_asks_before_it_writes_over_a_file() {
     folder.succeed(&["calibrate", "loads.csv", "-o", "tip.toml"]);
     folder.write("rest.csv", "v1_V\n0.1\n0.1\n");
     folder.write("a.csv", &recording(9));
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let layout = workspace.join("calibration/fuzz/seeds/layout_file/three_pairs.toml").display().to_string();
     let (sphere, mine) = (scene("paper_sphere.toml"), "mine\n");
-    for name in ["mine.toml", "mine.html", "mine.csv", "mine.mcap", "mine.rs", "mine.json"] {
+    let names =
+        ["mine.toml", "mine.html", "mine.csv", "mine.mcap", "mine.rs", "mine.json", "mine.svg", "mine.pdf"];
+    let in_folders = ["c/tip.h", "man/fingertip-scene-check.1"];
+    for name in ["c", "man"] {
+        fs::create_dir(folder.path(name)).unwrap();
+    }
+    for name in names.into_iter().chain(in_folders) {
         folder.write(name, mine);
     }
-    for arguments in [
+    let all = [
         &["analyze", "a.csv", "--scene", &sphere, "--output", "mine.csv"][..],
         &["analyze", "a.csv", "--scene", &sphere, "--report", "mine.html"],
+        &["bench", &layout, "--template", "mine.svg"],
+        &["bench", &layout, "--pages", "mine.pdf"],
         &["calibrate", "loads.csv", "-o", "mine.toml"],
         &["calibrate", "loads.csv", "-o", "new.toml", "--html", "mine.html"],
         &["calibrate", "loads.csv", "-o", "new.toml", "--stream", "--rust", "mine.rs"],
+        &["calibrate", "--gravity", "a.csv", "-o", "mine.toml"],
+        &["calibrate", "--inertial", "a.csv", "-o", "mine.toml"],
         &["check", "tip.toml", "loads.csv", "--json", "mine.json"],
-        &["tare", "tip.toml", "rest.csv", "-o", "mine.toml"],
         &["convert", "a.csv", "mine.mcap"],
         &["demo", "--out", "mine.html"],
+        &["demo", "--hand", "--out", "mine.html"],
+        &["demo", "--out", "new.html", "--recording", "mine.csv"],
         &["design", "--force", "9", "--out", "mine.toml"],
         &["export", &sphere, "--rust", "mine.rs"],
+        &["export", &sphere, "--json", "mine.json"],
+        &["export", &sphere, "--c", "--output", "c"],
+        &["geometry", "sphere", "a.csv", "-o", "mine.toml"],
+        &["health", "a.csv", "--html", "mine.html"],
+        &["import", "tip.toml", "-o", "mine.toml"],
+        &["man", "man"],
+        &["motion", "rest.csv", "--force", "1", "--align", "loads.csv", "-o", "mine.toml"],
+        &["object", "a.csv", "--scene", &sphere, "-o", "mine.csv"],
         &["record", "sim", "-o", "mine.csv"],
+        &["recover", "a.csv", "mine.csv"],
+        &["refine", "tip.toml", "rest.csv", "-o", "mine.toml"],
         &["scene", "init", "mine.toml"],
-    ] {
+        &["scene", "show", &sphere, "-o", "mine.html"],
+        &["tare", "tip.toml", "rest.csv", "-o", "mine.toml"],
+    ];
+    for arguments in all {
         let output = folder.exact_command(arguments).output().unwrap();
         assert_eq!(output.status.code(), Some(1), "{arguments:?}");
         let error = String::from_utf8(output.stderr).unwrap();
@@ -116,10 +143,26 @@ fn every_command_asks_before_it_writes_over_a_file() {
             "{arguments:?}: {error}"
         );
     }
-    for name in ["mine.toml", "mine.html", "mine.csv", "mine.mcap", "mine.rs", "mine.json"] {
+    for name in names.into_iter().chain(in_folders) {
         assert_eq!(folder.read(name), mine, "{name}");
     }
-    assert!(!folder.path("new.toml").exists(), "one of two files was written");
+    assert!(
+        !folder.path("new.toml").exists() && !folder.path("new.html").exists(),
+        "one of two files was written"
+    );
+    // Each command that has the option is among them.
+    let has_option = |command: &&str| {
+        let help = folder.succeed(&[command, "--help"]);
+        help.contains("--overwrite") || *command == "scene"
+    };
+    let help = folder.succeed(&["--help"]);
+    let (_, list) = help.split_once("Commands:").unwrap();
+    let list = list.split_once("Options:").unwrap().0;
+    let commands = list.lines().filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
+    let commands: Vec<&str> =
+        commands.filter(|name| !name.is_empty() && *name != "help").filter(has_option).collect();
+    let tried = |command: &&str| all.iter().any(|arguments| arguments[0] == *command);
+    assert!(commands.len() >= 19 && commands.iter().all(tried), "{commands:?}");
     folder.succeed(&["tare", "tip.toml", "rest.csv", "-o", "tip.toml", "--overwrite"]);
     folder.succeed(&["scene", "init", "mine.toml", "--overwrite"]);
 }
@@ -197,4 +240,59 @@ fn a_full_disk_is_called_one() {
     let error =
         folder.fail(1, &["analyze", "a.csv", "--scene", &sphere, "--no-report", "--output", "/dev/full"]);
     assert!(error.contains("No space left on device") && error.contains("make room"), "{error}");
+}
+
+/// So it is of every format, by every command, and what was there stays; the file that is full is named, not the one that is
+/// read.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_called_one_by_every_writer() {
+    use std::os::unix::fs::symlink;
+
+    let folder = Folder::new();
+    folder.write("a.csv", &recording(2000));
+    folder.succeed(&["convert", "a.csv", "a.mcap"]);
+    folder.write("loads.csv", "fx_N,v1_V\n0,0\n1,1\n2,2.01\n3,2.99\n4,4\n");
+    // A device whose name has the ending of a format.
+    for name in ["full.csv", "full.mcap", "full.toml", "full.html"] {
+        symlink("/dev/full", folder.path(name)).unwrap();
+    }
+    for (full, arguments) in [
+        ("full.mcap", &["convert", "a.csv", "full.mcap"][..]),
+        ("full.mcap", &["convert", "a.csv", "full.mcap", "--compression", "zstd"]),
+        ("full.csv", &["convert", "a.mcap", "full.csv"]),
+        ("full.mcap", &["recover", "a.mcap", "full.mcap"]),
+        ("full.mcap", &["recover", "a.mcap", "full.mcap", "--compression", "lz4"]),
+        ("full.csv", &["recover", "a.csv", "full.csv"]),
+        ("full.mcap", &["record", "sim", "--samples", "500", "-o", "full.mcap"]),
+        ("full.csv", &["record", "sim", "--samples", "500", "-o", "full.csv"]),
+        ("full.toml", &["calibrate", "loads.csv", "-o", "full.toml"]),
+        ("full.html", &["check", "full.toml", "loads.csv", "--html", "full.html"]),
+    ] {
+        if arguments[0] == "check" {
+            fs::remove_file(folder.path("full.toml")).unwrap();
+            folder.succeed(&["calibrate", "loads.csv", "-o", "full.toml"]);
+        }
+        let error = folder.fail(1, arguments);
+        assert!(
+            error.contains("No space left on device") && error.contains("; make room"),
+            "{arguments:?}: {error}"
+        );
+        assert!(error.contains(full) && !error.contains("a.mcap:"), "{arguments:?}: {error}");
+    }
+    // A disk that fills up in the middle: files of this process may have 100 kB at most.
+    folder.write("big.csv", &recording(100_000));
+    folder.write("b.mcap", "of yesterday");
+    let run = format!(
+        "ulimit -f 100; trap '' XFSZ; exec {} convert big.csv b.mcap --overwrite",
+        env!("CARGO_BIN_EXE_fingertip")
+    );
+    let output = Command::new("bash").args(["-c", &run]).current_dir(folder.path("")).output().unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        output.status.code() == Some(1) && error.contains("cannot write recording b.mcap: File too large"),
+        "{error}"
+    );
+    assert_eq!(folder.read("b.mcap"), "of yesterday");
+    assert!(names(&folder).iter().all(|name| !name.contains("unfinished")), "{:?}", names(&folder));
 }

@@ -11,6 +11,9 @@ use super::{Drift, Noise, WatchedChannel, channel_judge, coupling, sensor_judge,
 use crate::Timing;
 use crate::time_watch::Step;
 
+/// What a transform leaves of readings that are all the same, in their own size, and far more than that.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// How much is looked at.
 ///
 /// ```
@@ -239,8 +242,10 @@ impl HealthWatch {
         {
             let Mean { powers, stretches, is_of_span } = mean;
             health.lines = lines::find(&powers, stretches, rate);
-            // Loads have lines of their own.
-            health.lines.retain(|line| is_of_span || !line.name.is_empty());
+            // Loads have lines of their own, and rounding has some that the sensor has not: a channel that never moves has
+            // nothing else.
+            let rounding = ROUNDING * least.abs().max(greatest.abs());
+            health.lines.retain(|line| (is_of_span || !line.name.is_empty()) && line.rms > rounding);
             health.spectrum_at_rest = is_of_span;
             let width = rate / Spectra::LENGTH as f64;
             let density = |(bin, power): (usize, &f64)| (bin as f64 * width, (power / rate).sqrt());

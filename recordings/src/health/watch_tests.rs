@@ -98,6 +98,19 @@ fn white_noise_has_a_white_spectrum() {
     assert!((health.rest.unwrap()[1] - 2992.0).abs() < 1.0, "{:?}", health.rest);
 }
 
+/// What never moves has no line, however its number is rounded; a faint one beside it is seen.
+#[test]
+fn what_never_moves_has_no_lines() {
+    for still in [0.2, -1e9, 1e-300, 1.0 / 3.0] {
+        let faint = |i: usize| 1e-9 * (core::f64::consts::TAU * 50.0 * i as f64 / 1000.0).sin();
+        let readings: Vec<[f64; 2]> = (0..1500).map(|i| [still, 2.0 + faint(i)]).collect();
+        let health = watched(&readings, 1000.0, Depth::Full);
+        let lines = |number: usize| &health.channels[number].lines;
+        assert_eq!(lines(0), &[], "{still}");
+        assert_eq!(lines(1).first().map(|line| line.name.as_str()), Some("mains, 50 Hz"), "{:?}", lines(1));
+    }
+}
+
 #[test]
 fn samples_that_hold_or_repeat_or_are_missing_are_counted() {
     let mut watch = HealthWatch::new(gauges(&["a", "b"]), Depth::Full);

@@ -55,6 +55,8 @@ impl Compression {
 /// [`McapError::File`] for a compression that is not known.
 #[cfg(feature = "compression")]
 pub(super) fn unpack(name: &[u8], packed: &[u8], most: u64, to: &mut Vec<u8>) -> Result<bool, McapError> {
+    // At once: a buffer that grows is there twice when it moves. What is too much is said when it is read.
+    let _ = to.try_reserve_exact(usize::try_from(most).unwrap_or(usize::MAX));
     let unpacked = match name {
         b"zstd" => zstd(packed, most, to),
         b"lz4" => lz4::Decoder::new(packed).and_then(|decoder| pass(decoder, most, to)),

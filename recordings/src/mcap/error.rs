@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::cdr::CdrError;
+use super::records::{LONGEST, LONGEST_UNPACKED};
 
 /// Why an MCAP file cannot be read or written.
 ///
@@ -28,6 +29,9 @@ pub enum McapError {
     /// The file is damaged or packed in a way that is not read, or the system refuses.
     #[error("MCAP: {}", said(.0))]
     File(#[from] ::mcap::McapError),
+    /// The system refuses to write.
+    #[error("MCAP: cannot be written: {0}")]
+    Write(#[source] std::io::Error),
     /// A length in a record is beyond its bytes.
     #[error("MCAP: {what} says {stated} bytes where {found} are left")]
     Length {
@@ -72,7 +76,15 @@ impl McapError {
     /// `true` if the system refused to read or write, `false` if it is the file.
     #[must_use]
     pub const fn is_transport(&self) -> bool {
-        matches!(self, Self::File(::mcap::McapError::Io(_)))
+        matches!(self, Self::File(::mcap::McapError::Io(_)) | Self::Write(_))
+    }
+}
+
+/// What went wrong in writing a file.
+pub(super) fn writing(error: ::mcap::McapError) -> McapError {
+    match error {
+        ::mcap::McapError::Io(refused) => McapError::Write(refused),
+        other => McapError::File(other),
     }
 }
 
@@ -86,6 +98,11 @@ impl From<std::io::Error> for McapError {
 fn said(error: &::mcap::McapError) -> String {
     match error {
         ::mcap::McapError::Io(refused) => refused.to_string(),
+        ::mcap::McapError::ChunkTooLarge(length) => format!(
+            "a chunk or message of {length} bytes is longer than any that is read: {} MiB, or {} MiB of what was packed",
+            LONGEST >> 20,
+            LONGEST_UNPACKED >> 20
+        ),
         other => other.to_string(),
     }
 }

@@ -13,9 +13,11 @@ use super::error::McapError;
 /// The CRC of MCAP is that of zlib.
 const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
-/// The longest chunk, packed or not, or message outside of one, that is read: 256 MiB. Writers make chunks of about
-/// one.
+/// The longest chunk, or message outside of one, that is read as it stands: 256 MiB. Writers make chunks of about one.
 pub(super) const LONGEST: u64 = 1 << 28;
+
+/// The longest chunk once it is unpacked: 64 MiB. A few bytes can be packed that say a thousand times as much.
+pub(super) const LONGEST_UNPACKED: u64 = 1 << 26;
 
 /// The kinds that are looked at; the rest are passed over.
 const READ: [u8; 5] = [op::HEADER, op::SCHEMA, op::CHANNEL, op::MESSAGE, op::CHUNK];
@@ -161,8 +163,8 @@ impl<R: Read> Records<R> {
         }
         self.is_packed = !compression.is_empty();
         if self.is_packed {
-            let stated = if self.is_cut { stated.min(LONGEST) } else { stated };
-            if stated > LONGEST {
+            let stated = if self.is_cut { stated.min(LONGEST_UNPACKED) } else { stated };
+            if stated > LONGEST_UNPACKED {
                 return Err(McapError::File(::mcap::McapError::ChunkTooLarge(stated)));
             }
             self.unpacked.clear();

@@ -8,7 +8,7 @@ use ::mcap::records::{Record, SchemaHeader, op};
 use ::mcap::{McapError as FileError, parse_record};
 
 use super::compression::Compression;
-use super::error::McapError;
+use super::error::{McapError, writing};
 use super::lengths;
 use super::records::Records;
 use super::writer::options;
@@ -51,7 +51,8 @@ pub struct Recovered {
 /// an index. Attachments and metadata are not copied.
 ///
 /// # Errors
-/// [`McapError::File`] if the input is no MCAP file, or the system refuses.
+/// [`McapError::File`] if the input is no MCAP file, or the system refuses to read it; [`McapError::Write`] if it refuses to
+/// write.
 pub fn recover<R: Read, W: Write + Seek>(
     from: R,
     to: W,
@@ -121,7 +122,7 @@ impl<W: Write + Seek> Copy<W> {
 
     fn writer(&mut self) -> Result<&mut Writer<W>, McapError> {
         if let Some(to) = self.to.take() {
-            self.writer = Some(options(self.compression, &self.profile).create(to)?);
+            self.writer = Some(options(self.compression, &self.profile).create(to).map_err(writing)?);
         }
         // There is one or the other.
         self.writer.as_mut().ok_or(McapError::Cut)
@@ -131,20 +132,21 @@ impl<W: Write + Seek> Copy<W> {
     fn copy(&mut self, record: Record<'_>) -> Result<bool, McapError> {
         match record {
             Record::Schema { header: SchemaHeader { id, name, encoding }, data } => {
-                let number = self.writer()?.add_schema(&name, &encoding, &data)?;
+                let number = self.writer()?.add_schema(&name, &encoding, &data).map_err(writing)?;
                 self.schemas.insert(id, number);
             }
             Record::Channel(channel) => {
                 let Some(&schema) = self.schemas.get(&channel.schema_id) else { return Ok(false) };
                 let (topic, encoding) = (&channel.topic, &channel.message_encoding);
-                let number = self.writer()?.add_channel(schema, topic, encoding, &channel.metadata)?;
+                let number = self.writer()?.add_channel(schema, topic, encoding, &channel.metadata);
+                let number = number.map_err(writing)?;
                 self.channels.insert(channel.id, (number, channel.topic));
             }
             Record::Message { mut header, data } => {
                 let Some((number, topic)) = self.channels.get(&header.channel_id) else { return Ok(false) };
                 header.channel_id = *number;
                 let topic = topic.clone();
-                self.writer()?.write_to_known_channel(&header, &data)?;
+                self.writer()?.write_to_known_channel(&header, &data).map_err(writing)?;
                 self.recovered.messages += 1;
                 *self.recovered.topics.entry(topic).or_default() += 1;
             }
@@ -154,7 +156,7 @@ impl<W: Write + Seek> Copy<W> {
     }
 
     fn finish(mut self) -> Result<(Recovered, W), McapError> {
-        self.writer()?.finish()?;
+        self.writer()?.finish().map_err(writing)?;
         let writer = self.writer.ok_or(McapError::Cut)?;
         Ok((self.recovered, writer.into_inner()))
     }

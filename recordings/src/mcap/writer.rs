@@ -11,7 +11,7 @@ use fingertip_wrench::Wrench;
 
 use super::compression::Compression;
 use super::definitions::{CONTACT, Definition, SIGNALS, TOUCH, WRENCH};
-use super::error::McapError;
+use super::error::{McapError, writing};
 use super::messages::{Header, Recorded, RecordedContact, RecordedSignals};
 use super::touch::RecordedTouch;
 
@@ -93,7 +93,7 @@ impl<W: Write + Seek> McapWriter<W> {
     /// Begins a file. Put a [`std::io::BufWriter`] around one.
     ///
     /// # Errors
-    /// [`McapError::File`].
+    /// [`McapError::Write`] or [`McapError::File`].
     pub fn new(out: W) -> Result<Self, McapError> {
         Self::with_compression(out, Compression::None)
     }
@@ -101,14 +101,15 @@ impl<W: Write + Seek> McapWriter<W> {
     /// Begins a file whose chunks are packed.
     ///
     /// # Errors
-    /// [`McapError::File`].
+    /// [`McapError::Write`] or [`McapError::File`].
     pub fn with_compression(out: W, compression: Compression) -> Result<Self, McapError> {
-        Ok(Self { writer: options(compression, "ros2").create(out)?, channels: Vec::new() })
+        Ok(Self { writer: options(compression, "ros2").create(out).map_err(writing)?, channels: Vec::new() })
     }
 
     fn topic(&mut self, name: &str, frame: &str, definition: &Definition) -> Result<Topic, McapError> {
-        let schema = self.writer.add_schema(definition.name, "ros2msg", definition.text.as_bytes())?;
-        let number = self.writer.add_channel(schema, name, "cdr", &BTreeMap::new())?;
+        let schema = self.writer.add_schema(definition.name, "ros2msg", definition.text.as_bytes());
+        let number = self.writer.add_channel(schema.map_err(writing)?, name, "cdr", &BTreeMap::new());
+        let number = number.map_err(writing)?;
         let frame = frame.to_owned();
         self.channels.push(Channel { number, frame, definition: definition.name, sequence: 0 });
         Ok(Topic { index: self.channels.len() - 1, number })
@@ -117,7 +118,7 @@ impl<W: Write + Seek> McapWriter<W> {
     /// A topic of wrenches, in a frame of that name.
     ///
     /// # Errors
-    /// [`McapError::File`].
+    /// [`McapError::Write`] or [`McapError::File`].
     pub fn wrenches(&mut self, name: &str, frame: &str) -> Result<Topic, McapError> {
         self.topic(name, frame, &WRENCH)
     }
@@ -125,7 +126,7 @@ impl<W: Write + Seek> McapWriter<W> {
     /// A topic of signals, of a sensor with a frame of that name.
     ///
     /// # Errors
-    /// [`McapError::File`].
+    /// [`McapError::Write`] or [`McapError::File`].
     pub fn signals(&mut self, name: &str, frame: &str) -> Result<Topic, McapError> {
         self.topic(name, frame, &SIGNALS)
     }
@@ -133,7 +134,7 @@ impl<W: Write + Seek> McapWriter<W> {
     /// A topic of contacts, in a frame of that name.
     ///
     /// # Errors
-    /// [`McapError::File`].
+    /// [`McapError::Write`] or [`McapError::File`].
     pub fn contacts(&mut self, name: &str, frame: &str) -> Result<Topic, McapError> {
         self.topic(name, frame, &CONTACT)
     }
@@ -141,7 +142,7 @@ impl<W: Write + Seek> McapWriter<W> {
     /// A topic of all that is felt, in a frame of that name.
     ///
     /// # Errors
-    /// [`McapError::File`].
+    /// [`McapError::Write`] or [`McapError::File`].
     pub fn touches(&mut self, name: &str, frame: &str) -> Result<Topic, McapError> {
         self.topic(name, frame, &TOUCH)
     }
@@ -175,7 +176,7 @@ impl<W: Write + Seek> McapWriter<W> {
     /// Writes a wrench at a time \[s\].
     ///
     /// # Errors
-    /// [`McapError::Time`], [`McapError::WrongTopic`] or [`McapError::File`].
+    /// [`McapError::Time`], [`McapError::WrongTopic`], [`McapError::Write`] or [`McapError::File`].
     pub fn write_wrench(&mut self, topic: Topic, time: f64, wrench: &Wrench<f64>) -> Result<(), McapError> {
         self.record(topic, time, &WRENCH, &Recorded::Wrench(*wrench))
     }
@@ -245,15 +246,15 @@ impl<W: Write + Seek> McapWriter<W> {
             publish_time: log_time,
         };
         channel.sequence = channel.sequence.wrapping_add(1);
-        Ok(self.writer.write_to_known_channel(&head, &message(&header))?)
+        self.writer.write_to_known_channel(&head, &message(&header)).map_err(writing)
     }
 
     /// Writes the index and the end, and gives the output back.
     ///
     /// # Errors
-    /// [`McapError::File`].
+    /// [`McapError::Write`] or [`McapError::File`].
     pub fn finish(mut self) -> Result<W, McapError> {
-        self.writer.finish()?;
+        self.writer.finish().map_err(writing)?;
         Ok(self.writer.into_inner())
     }
 }

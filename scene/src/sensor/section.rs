@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{BadSensor, Sensor};
 use crate::fault::SceneProblem;
+use crate::named::Folder;
 
 /// `[sensor]` of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -72,7 +73,7 @@ fn wrong(key: &'static str, belongs: &'static str) -> SceneProblem {
 
 impl SensorSection {
     /// Reads what it names; files are looked for in `folder`.
-    pub(crate) fn source(&self, folder: &Path) -> Result<SensorSource, SceneProblem> {
+    pub(crate) fn source(&self, folder: &Folder<'_>) -> Result<SensorSource, SceneProblem> {
         if self.celsius.is_some_and(|celsius| !celsius.is_finite()) {
             return Err(SceneProblem::Range {
                 key: "temperature_C",
@@ -92,7 +93,7 @@ impl SensorSection {
                         return Err(wrong(key, belongs));
                     }
                 }
-                SensorSource::read(&folder.join(calibration))?
+                SensorSource::read(&folder.file(calibration))?
             }
             (None, Some(rows)) => {
                 let Some(unit) = self.signal_unit else {

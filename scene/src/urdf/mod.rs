@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use toml::{Table, Value};
 
+use crate::named::Folder;
 use robot::Robot;
 
 /// `[surface]` of a scene whose fingertip is a link of a robot.
@@ -143,19 +144,19 @@ pub enum UrdfFault {
 
 impl UrdfSection {
     /// The shape, as a `[surface]` that stands in the scene; files are looked for in `folder`.
-    pub(crate) fn shape(&self, folder: &Path) -> Result<Value, BadUrdf> {
-        let path = folder.join(&self.urdf);
-        self.read(&path).map_err(|fault| BadUrdf { path, fault })
+    pub(crate) fn shape(&self, folder: &Folder<'_>) -> Result<Value, BadUrdf> {
+        let path = folder.file(&self.urdf);
+        self.read(&path, folder).map_err(|fault| BadUrdf { path, fault })
     }
 
-    fn read(&self, path: &Path) -> Result<Value, UrdfFault> {
+    fn read(&self, path: &Path, folder: &Folder<'_>) -> Result<Value, UrdfFault> {
         let text = read_text(path)?;
         let document = xml::parse(&text)?;
         let robot = Robot::of(&document)?;
         let sensor = self.sensor_link.as_deref().unwrap_or(&self.link);
         let sensor_from_link = robot.between(&self.link, sensor)?;
         let mut parts = Vec::new();
-        for (origin, shape) in shapes::of_link(robot.link(&self.link)?, &self.link, path)? {
+        for (origin, shape) in shapes::of_link(robot.link(&self.link)?, &self.link, path, folder)? {
             parts.push(Value::Table(posed(&(sensor_from_link * origin), shape)));
         }
         match parts.len() {

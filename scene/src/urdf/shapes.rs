@@ -11,18 +11,21 @@ use super::collada;
 use super::robot::origin;
 use super::xml::{child, numbers, numbers_or, parse, positive, text, wrong};
 use super::{UrdfFault, numbers as list, read_text, table};
+use crate::named::Folder;
 
-/// The shapes of a link and where they lie in its frame; `robot` is the file that describes it.
+/// The shapes of a link and where they lie in its frame; `robot` is the file that describes it. The files of its meshes are
+/// noted in `folder`.
 pub(super) fn of_link(
     node: Node<'_, '_>,
     link: &str,
     robot: &Path,
+    folder: &Folder<'_>,
 ) -> Result<Vec<(Isometry3<f64>, Table)>, UrdfFault> {
     let collisions = node.children().filter(|child| child.has_tag_name("collision"));
-    collisions.map(|collision| Ok((origin(collision)?, shape(collision, link, robot)?))).collect()
+    collisions.map(|collision| Ok((origin(collision)?, shape(collision, link, robot, folder)?))).collect()
 }
 
-fn shape(collision: Node<'_, '_>, link: &str, robot: &Path) -> Result<Table, UrdfFault> {
+fn shape(collision: Node<'_, '_>, link: &str, robot: &Path, folder: &Folder<'_>) -> Result<Table, UrdfFault> {
     const KNOWN: &str = "box, sphere, cylinder, capsule or mesh";
     let geometry = child(collision, "geometry").and_then(|geometry| geometry.first_element_child());
     let geometry = geometry.ok_or_else(|| {
@@ -51,7 +54,7 @@ fn shape(collision: Node<'_, '_>, link: &str, robot: &Path) -> Result<Table, Urd
                 ("rounding_m", 0.0.into()),
             ])
         }
-        "mesh" => mesh(geometry, link, robot)?,
+        "mesh" => mesh(geometry, link, robot, folder)?,
         other => {
             let message = format!("a <collision> of link {link:?} is a <{other}>, which is no {KNOWN}");
             return Err(wrong(geometry, message));
@@ -59,8 +62,9 @@ fn shape(collision: Node<'_, '_>, link: &str, robot: &Path) -> Result<Table, Urd
     })
 }
 
-fn mesh(node: Node<'_, '_>, link: &str, robot: &Path) -> Result<Table, UrdfFault> {
+fn mesh(node: Node<'_, '_>, link: &str, robot: &Path, folder: &Folder<'_>) -> Result<Table, UrdfFault> {
     let path = found(text(node, "filename")?, link, robot)?;
+    folder.note(&path);
     let is = |ending: &str| path.extension().is_some_and(|name| name.eq_ignore_ascii_case(ending));
     if !["stl", "obj", "dae"].into_iter().any(is) {
         return Err(UrdfFault::MeshFormat { link: link.to_owned(), path });

@@ -206,7 +206,16 @@ fn what_is_hardly_meant_is_doubted() {
     let good = format!("{HEAD}{BALL}[contact]\nleast_force_N = 0.1\n{NOISE}");
     assert_eq!(doubts(&good), [""; 0]);
     for (text, expected) in [
-        (good.replace("0.013", "13.0"), "`radius_m` of [surface] is 13 m"),
+        (
+            good.replace("0.013", "13.0"),
+            "`radius_m` of [surface] is 13 m, longer than any fingertip; of millimetres it is 0.013",
+        ),
+        (good.replace("0.013", "1e300"), "`radius_m` of [surface] is 1e300 m, longer"),
+        (
+            good.replace("0.013", "1e-9"),
+            "[surface] reaches 1e-9 m from its middle, smaller than any fingertip",
+        ),
+        (good.replace("0.013", "5e-5"), "[surface] reaches 5e-5 m from its middle, smaller"),
         (format!("{good}[pose]\ntranslation_m = [0.0, 30.0, 0.0]\n"), "`translation_m` of [pose] is 30 m"),
         (
             format!("{good}[friction]\nstatic_coefficient = 20.0\n"),

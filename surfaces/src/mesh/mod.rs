@@ -94,11 +94,11 @@ fn read(path: &std::path::Path) -> Result<Vec<u8>, MeshError> {
     /// Ten million triangles of a binary STL.
     const LONGEST: u64 = 512 << 20;
     let unreadable = |error: std::io::Error| MeshError::Unreadable(error.kind());
-    let file = std::fs::File::open(path).map_err(unreadable)?;
-    // A device without an end has no length either.
-    if !file.metadata().map_err(unreadable)?.is_file() {
-        return Err(MeshError::Unreadable(std::io::ErrorKind::InvalidInput));
+    // A device without an end has no length either, and a pipe would wait for who writes it.
+    if !std::fs::metadata(path).map_err(unreadable)?.is_file() {
+        return Err(MeshError::NoFile);
     }
+    let file = std::fs::File::open(path).map_err(unreadable)?;
     let mut bytes = Vec::new();
     let length = file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     if length as u64 > LONGEST { Err(MeshError::TooLarge) } else { Ok(bytes) }

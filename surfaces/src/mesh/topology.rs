@@ -65,6 +65,12 @@ pub enum MeshError {
     /// The file is not UTF-8 text.
     #[error("the mesh file is not text")]
     NotText,
+    /// It is a device, a pipe or a folder, which may have no end.
+    #[cfg(feature = "std")]
+    #[error(
+        "a mesh is read from a file of 512 MiB at most, and this is none, but a device, a pipe or a folder"
+    )]
+    NoFile,
     /// The file cannot be read.
     #[cfg(feature = "std")]
     #[error("the mesh file cannot be read: {0}")]

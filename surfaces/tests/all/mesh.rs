@@ -244,6 +244,10 @@ fn malformed_files_are_refused_with_the_line() {
     assert_eq!(Mesh::<f64>::from_obj("v 0 0 0\nf 1 2\n", 1.0), Err(MeshError::Malformed { line: 2 }));
     assert_eq!(Mesh::<f64>::from_obj("v 0 zero 0\n", 1.0), Err(MeshError::Malformed { line: 1 }));
     assert!(matches!(Mesh::<f64>::from_file("/no/such/file.stl", 1.0), Err(MeshError::Unreadable(_))));
+    // What has no end, or is none: a folder, and where there are such a device.
+    assert!(matches!(Mesh::<f64>::from_file(env!("CARGO_MANIFEST_DIR"), 1.0), Err(MeshError::NoFile)));
+    #[cfg(target_os = "linux")]
+    assert!(matches!(Mesh::<f64>::from_file("/dev/zero", 1.0), Err(MeshError::NoFile)));
 }
 
 /// The name tells how a file is read.

@@ -7,6 +7,7 @@ mod block_on;
 pub mod drawn;
 pub mod mcap;
 mod moving_body;
+pub mod read_back;
 mod recordings;
 mod unchanged;
 mod worst;

@@ -1,6 +1,7 @@
 """The extension module. `fingertip` has what is for users."""
 
 import os
+import pathlib
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, final
 
@@ -558,6 +559,7 @@ class Scene:
     @property
     def delay(self) -> float: ...
     def doubts(self) -> list[str]: ...
+    def files(self) -> list[pathlib.Path]: ...
     @staticmethod
     def from_dict(sections: Mapping[str, Any], folder: str | os.PathLike[str] | None = None) -> Scene: ...
     @staticmethod

@@ -17,18 +17,23 @@ use super::files::{self, Files};
 use super::know_noise;
 use super::pose::PoseColumns;
 use super::source::{Reading, Source};
-use super::span::{Place, Window};
 use crate::error::CliError;
 use crate::observe::Status;
 use crate::opened::{Opened, Rows};
 use crate::report;
 use crate::several;
+use crate::span::{Place, Window};
 use file::{FingerScene, HandScene, MOST};
 use grasped::{Fingers, Grasped};
 use page::Seen;
 use table::GraspWriter;
 
 pub(super) use file::text_of;
+
+/// The names of the fingers of a hand scene, of which this is the text.
+pub(super) fn fingers(text: &str, path: &Path) -> Result<Vec<String>, CliError> {
+    Ok(file::parse(text, path)?.fingers.into_iter().map(|finger| finger.name).collect())
+}
 
 /// With the text of the hand scene.
 pub(super) fn run(arguments: &AnalyzeArguments, text: &str) -> Result<(), CliError> {
@@ -37,6 +42,7 @@ pub(super) fn run(arguments: &AnalyzeArguments, text: &str) -> Result<(), CliErr
     let scene = file::parse(text, &arguments.scene)?;
     let fingers: Vec<&PathBuf> = scene.fingers.iter().map(|finger| &finger.path).collect();
     let all = Files::of(arguments, &fingers)?;
+    scene.fingers.iter().try_for_each(|finger| files::spare(&all, &finger.scene))?;
     several::each(&arguments.recordings, &all, |recording, files| one(recording, &scene, arguments, files))
 }
 

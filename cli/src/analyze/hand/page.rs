@@ -16,7 +16,7 @@ const LEAST: usize = MOST + 1;
 const MARGIN: usize = MOST + 2;
 const LOAD: usize = MOST + 3;
 const CURVES: usize = MOST + 4;
-const CLASSES: [&str; MOST] = ["a", "b", "c", "d", "q1", "q3", "q5", "q6"];
+const CLASSES: [&str; MOST] = ["a", "b", "c", "d", "e", "f", "g", "h"];
 
 /// What was seen of a hand: bounded memory, however long the recording.
 pub(super) struct Seen {

@@ -15,12 +15,12 @@ use super::files;
 use super::know_noise;
 use super::pose::PoseColumns;
 use super::source::{Reading, Source};
-use super::span::{Place, Span, Window};
 use crate::calibrate::files::bad;
 use crate::error::CliError;
 use crate::opened::Opened;
 use crate::output::{Outputs, Overwrite};
 use crate::scene;
+use crate::span::{Place, Span, Window};
 use touched::Touched;
 
 #[derive(Clone, Debug, Args)]
@@ -132,6 +132,7 @@ pub(crate) fn run(arguments: &ObjectArguments) -> Result<(), CliError> {
     let inputs = arguments.recordings.iter().chain(options.into_iter().flatten());
     let outputs = Outputs::guard(arguments.overwrite, "output", inputs, &arguments.output)?;
     let scene = scene::load(&arguments.scene)?;
+    outputs.spare(scene.files())?;
     let scene = scene::with(scene, arguments.calibration.as_deref(), arguments.payload.as_deref())?;
     let tells = scene.tells();
     if arguments.fit.is_some() && !(tells.spread || tells.tracked) {

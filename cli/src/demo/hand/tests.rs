@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::{Mass, Moment, Outcome, figures, findings};
 use crate::report::Figure;
-use crate::report::read_back::{paths, points, rulers};
+use fingertip_test_support::read_back::{paths, points, rulers};
 
 const DURATION: f64 = 1.0;
 

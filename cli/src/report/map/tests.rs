@@ -4,8 +4,8 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::super::read_back::{assert_readable, circles, paths, rulers, texts};
 use super::{Map, MapPoint, Projection, draw, window};
+use fingertip_test_support::read_back::{assert_readable, circles, paths, rulers, texts};
 
 fn axes() -> [Vector3<f64>; 3] {
     [Vector3::x(), Vector3::y(), Vector3::z()]
@@ -220,6 +220,43 @@ fn a_window_shows_ends_that_are_not_far_away() {
             let room = 0.06 * (expected.1 - expected.0);
             let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
             assert!(near(low, expected.0 - room) && near(high, expected.1 + room), "{edge}: {low} {high}");
+        }
+    }
+}
+
+/// However long a capsule is, and wherever it was touched, no label lies over another one, and none leaves the drawing.
+#[test]
+fn labels_of_a_capsule_do_not_overlap() {
+    for (radius, half_length) in
+        [(0.005, 0.0005), (0.005, 0.004), (0.005, 0.02), (0.0004, 0.03), (0.02, 0.001)]
+    {
+        let text = format!(
+            "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"capsule\"\nradius_m = {radius}\n\
+             half_length_m = {half_length}\n"
+        );
+        let scene = fingertip_scene::Scene::from_text(&text).unwrap();
+        let projection = scene.projection();
+        let on_capsule = |polar: f64, azimuth: f64, along: f64| {
+            let [cap] = on_sphere(&[(polar, azimuth)])[..] else { panic!() };
+            // The axis of a capsule is z.
+            let end = half_length * along.clamp(-1.0, 1.0);
+            Vector3::new(radius * cap.y, radius * cap.z, radius * cap.x + end)
+        };
+        for reach in [1.0, 40.0, 95.0, 179.0] {
+            let points: Vec<Vector3<f64>> = (0..200)
+                .map(|k| {
+                    let share = f64::from(k) / 199.0;
+                    on_capsule(
+                        share * reach,
+                        137.5 * f64::from(k),
+                        if share * reach > 90.0 { -1.0 } else { 1.0 },
+                    )
+                })
+                .collect();
+            let mut contacts = contacts(projection, &points);
+            contacts.iter_mut().zip(1..).for_each(|(contact, k)| contact.normal_force = 0.01 * f64::from(k));
+            let map = draw("test", projection, &contacts, &[]);
+            assert_readable(&map.svg);
         }
     }
 }

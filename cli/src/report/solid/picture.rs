@@ -1,9 +1,9 @@
 //! The picture that stands where no script runs: an isometric one.
 
+use fingertip_calibration::page::{Anchor, Svg};
 use fingertip_scene::Projection;
 use nalgebra::Vector3;
 
-use super::super::svg::{Anchor, Svg};
 use super::Solid;
 use super::net::{COLUMNS, Facet, across, facets};
 

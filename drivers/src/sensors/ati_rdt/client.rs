@@ -70,6 +70,18 @@ impl SourceError for ClientError {
     }
 }
 
+/// Refuses an answer whose status is another than that the page follows; an answer without a head is the page itself.
+fn refused(answer: &str) -> Result<(), ClientError> {
+    let status = answer.lines().next().filter(|line| line.starts_with("HTTP/")).map(str::trim);
+    match status.and_then(|line| line.split_once(' ')) {
+        Some((_, status)) if !status.starts_with('2') => {
+            let shown: String = status.chars().filter(|letter| !letter.is_control()).take(60).collect();
+            Err(ClientError::Page(io::Error::other(format!("the sensor answers \"{shown}\""))))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// More bytes than an Ethernet frame carries.
 const LARGEST: usize = 2048;
 
@@ -117,7 +129,9 @@ impl<T: Real> RdtClient<T> {
         timeout: Duration,
     ) -> Result<Configuration, ClientError> {
         let page = page(sensor, timeout).map_err(ClientError::Page)?;
-        Ok(Configuration::parse(&String::from_utf8_lossy(&page))?)
+        let page = String::from_utf8_lossy(&page);
+        refused(&page)?;
+        Ok(Configuration::parse(&page)?)
     }
 
     /// Starts streaming from a sensor, one record to a datagram. `timeout` is how long to wait for a

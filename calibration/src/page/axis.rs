@@ -1,10 +1,11 @@
 //! Scales and ticks.
 
-use fingertip_calibration::page::Counting;
+use super::Counting;
 
 /// How values become places along an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Scale {
+pub enum Scale {
+    /// Evenly.
     Linear,
     /// As linear, with ticks at parts of the circle.
     Degrees,
@@ -13,24 +14,39 @@ pub(crate) enum Scale {
 }
 
 /// The range of an axis and what it says.
+///
+/// ```
+/// use fingertip_calibration::page::Axis;
+///
+/// let axis = Axis::linear("time / s", 0.0, 30.0);
+/// let labels: Vec<String> = axis.ticks(3).into_iter().map(|tick| tick.label).collect();
+/// assert_eq!((labels.join(" "), axis.place(15.0)), ("0 10 20 30".to_owned(), 0.5));
+/// ```
 #[derive(Clone, Debug)]
-pub(crate) struct Axis {
-    pub(crate) label: String,
-    pub(crate) low: f64,
-    pub(crate) high: f64,
-    pub(crate) scale: Scale,
+pub struct Axis {
+    /// `quantity / unit`, or a quantity without one.
+    pub label: String,
+    /// Where it begins.
+    pub low: f64,
+    /// Where it ends.
+    pub high: f64,
+    /// How values become places.
+    pub scale: Scale,
 }
 
 /// One mark along an axis.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Tick {
-    pub(crate) value: f64,
-    pub(crate) label: String,
+pub struct Tick {
+    /// Where it is.
+    pub value: f64,
+    /// What stands beside it.
+    pub label: String,
 }
 
 impl Axis {
     /// From `low` to `high`, widened where they coincide.
-    pub(crate) fn linear(label: &str, low: f64, high: f64) -> Self {
+    #[must_use]
+    pub fn linear(label: &str, low: f64, high: f64) -> Self {
         let (low, high) = if low.is_finite() && high.is_finite() { (low, high) } else { (0.0, 1.0) };
         let (low, high) = if high > low {
             (low, high)
@@ -42,19 +58,22 @@ impl Axis {
     }
 
     /// An angle in degrees.
-    pub(crate) fn degrees(label: &str, low: f64, high: f64) -> Self {
+    #[must_use]
+    pub fn degrees(label: &str, low: f64, high: f64) -> Self {
         Self { scale: Scale::Degrees, ..Self::linear(label, low, high) }
     }
 
     /// As [`linear`](Self::linear), moved outward to the next ticks.
-    pub(crate) fn rounded(label: &str, low: f64, high: f64) -> Self {
+    #[must_use]
+    pub fn rounded(label: &str, low: f64, high: f64) -> Self {
         let axis = Self::linear(label, low, high);
         let step = step(axis.high - axis.low, 5);
         Self { low: (axis.low / step).floor() * step, high: (axis.high / step).ceil() * step, ..axis }
     }
 
     /// A logarithmic axis over at least one decade of positive numbers.
-    pub(crate) fn log(label: &str, low: f64, high: f64) -> Self {
+    #[must_use]
+    pub fn log(label: &str, low: f64, high: f64) -> Self {
         let good = low > 0.0 && high >= low && high.is_finite();
         let (low, high) = if good { (low, high) } else { (0.1, 1.0) };
         let middle = (low * high).sqrt();
@@ -63,14 +82,16 @@ impl Axis {
     }
 
     /// For the page's script: `label;low;high`, and `;log` for decades.
-    pub(crate) fn in_words(&self) -> String {
+    #[must_use]
+    pub fn in_words(&self) -> String {
         let decades = if self.scale == Scale::Log { ";log" } else { "" };
         let [low, high] = [self.low, self.high].map(|end| digits(self.counting().said(end)));
         format!("{};{low};{high}{decades}", self.title())
     }
 
     /// The label, with what the numbers of the ticks are counted from and in.
-    pub(crate) fn title(&self) -> String {
+    #[must_use]
+    pub fn title(&self) -> String {
         self.counting().title(&self.label)
     }
 
@@ -80,7 +101,8 @@ impl Axis {
     }
 
     /// Where a value lies: 0 at the low end, 1 at the high end, limited to a little beyond.
-    pub(crate) fn place(&self, value: f64) -> f64 {
+    #[must_use]
+    pub fn place(&self, value: f64) -> f64 {
         let place = match self.scale {
             Scale::Linear | Scale::Degrees => (value - self.low) / (self.high - self.low),
             Scale::Log => (value.max(self.low * 1e-3) / self.low).ln() / (self.high / self.low).ln(),
@@ -89,7 +111,8 @@ impl Axis {
     }
 
     /// At most about `most` ticks at round values within the range.
-    pub(crate) fn ticks(&self, most: usize) -> Vec<Tick> {
+    #[must_use]
+    pub fn ticks(&self, most: usize) -> Vec<Tick> {
         match self.scale {
             Scale::Linear => self.linear_ticks(step(self.high - self.low, most), most),
             Scale::Degrees => {
@@ -105,7 +128,8 @@ impl Axis {
     }
 
     /// The same, with their places in a drawing and what they say.
-    pub(crate) fn placed_ticks(&self, most: usize, place: impl Fn(f64) -> f64) -> Vec<(f64, String)> {
+    #[must_use]
+    pub fn placed_ticks(&self, most: usize, place: impl Fn(f64) -> f64) -> Vec<(f64, String)> {
         self.ticks(most).into_iter().map(|tick| (place(tick.value), tick.label)).collect()
     }
 

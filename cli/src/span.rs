@@ -1,5 +1,7 @@
 //! What lies between two times of a recording.
 
+use std::path::Path;
+
 use clap::Args;
 
 use crate::error::CliError;
@@ -7,7 +9,7 @@ use crate::error::CliError;
 /// `--start` and `--end`.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub(crate) struct Span {
-    /// Leave out what comes before so many seconds behind the first row; a rest at the start is taken as ever
+    /// Leave out what comes before so many seconds behind the first row; a rest that a scene states is taken as ever
     #[arg(long, value_name = "SECONDS")]
     pub(crate) start: Option<f64>,
     /// Leave out what comes later than so many seconds behind the first row
@@ -17,7 +19,7 @@ pub(crate) struct Span {
 
 /// Where a row lies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Place {
+pub(crate) enum Place {
     #[default]
     Before,
     Within,
@@ -25,7 +27,7 @@ pub(super) enum Place {
 }
 
 impl Span {
-    pub(super) fn check(&self) -> Result<(), CliError> {
+    pub(crate) fn check(&self) -> Result<(), CliError> {
         for (name, time) in [("--start", self.start), ("--end", self.end)] {
             if let Some(time) = time.filter(|time| !(*time >= 0.0 && time.is_finite())) {
                 return Err(CliError::option(name, time, "must be a number of seconds behind the first row"));
@@ -39,8 +41,19 @@ impl Span {
         }
     }
 
+    /// Refuses a part of a recording that tells no times.
+    pub(crate) fn needs_time(&self, has_time: bool) -> Result<(), CliError> {
+        let given = [("--start", self.start), ("--end", self.end)];
+        match given.into_iter().find_map(|(name, time)| Some((name, time?))) {
+            Some((name, time)) if !has_time => {
+                Err(CliError::option(name, time, "needs a recording with a column of time (t_s), or --rate"))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// What the reader of the results should know.
-    pub(super) fn note(&self) -> Option<String> {
+    pub(crate) fn note(&self) -> Option<String> {
         let (start, end) = (self.start, self.end);
         let told = match (start, end) {
             (None, None) => return None,
@@ -54,25 +67,38 @@ impl Span {
 
 /// Follows the times of the rows.
 #[derive(Debug, Default)]
-pub(super) struct Window {
+pub(crate) struct Window {
     span: Span,
     first: Option<f64>,
     place: Place,
 }
 
 impl Window {
-    pub(super) fn new(span: Span) -> Self {
+    pub(crate) fn new(span: Span) -> Self {
         Self { span, ..Self::default() }
     }
 
     /// The time that ended it \[s\], if a row came behind it.
-    pub(super) fn end(&self) -> Option<f64> {
+    pub(crate) fn end(&self) -> Option<f64> {
         self.span.end.filter(|_| self.place == Place::Behind)
+    }
+
+    /// Why nothing of the recording is left: it ends before the part that is wanted, has a gap there, or no rows at all.
+    pub(crate) fn nothing_of(&self, recording: &Path) -> CliError {
+        match self.span.start.filter(|_| self.first.is_some()) {
+            Some(start) if self.end().is_some() => CliError::option(
+                "--start",
+                start,
+                "has no row between itself and --end: the recording has a gap there",
+            ),
+            Some(start) => CliError::option("--start", start, "must be before the end of the recording"),
+            None => CliError::NoRows { path: recording.to_owned() },
+        }
     }
 
     /// Where a row of this time \[s\] lies; one without a time lies where the row before did.
     #[inline]
-    pub(super) fn place(&mut self, time: f64) -> Place {
+    pub(crate) fn place(&mut self, time: f64) -> Place {
         if time.is_finite() {
             let passed = time - *self.first.get_or_insert(time);
             self.place = if self.span.start.is_some_and(|start| passed < start) {

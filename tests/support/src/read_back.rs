@@ -1,18 +1,25 @@
-//! Reads a drawing as its reader does: by the marks along its axes.
+//! Reads a drawing of a page as its reader does: by the marks along its axes.
+#![allow(clippy::unwrap_used, clippy::missing_panics_doc, reason = "helpers of tests, which may fail so")]
 
 /// A path of a drawing: its class, and its pieces.
-pub(crate) struct Path {
-    pub(crate) class: String,
-    pub(crate) pieces: Vec<Vec<(f64, f64)>>,
+pub struct Path {
+    /// Classes of the style sheet.
+    pub class: String,
+    /// The points of each.
+    pub pieces: Vec<Vec<(f64, f64)>>,
 }
 
 /// A text of a drawing.
 #[derive(Debug)]
-pub(crate) struct Text {
-    pub(crate) class: String,
-    pub(crate) at: (f64, f64),
-    pub(crate) anchor: String,
-    pub(crate) text: String,
+pub struct Text {
+    /// Class of the style sheet.
+    pub class: String,
+    /// Where it is attached.
+    pub at: (f64, f64),
+    /// Which end of it.
+    pub anchor: String,
+    /// What it says.
+    pub text: String,
 }
 
 fn attribute<'a>(tag: &'a str, name: &str) -> &'a str {
@@ -36,12 +43,22 @@ fn pieces(d: &str) -> Vec<Vec<(f64, f64)>> {
     };
     d.split('M')
         .skip(1)
-        .map(|piece| piece.trim_end_matches("h0").split('L').map(point).collect::<Vec<_>>())
-        .inspect(|piece| assert!(piece.len() > 1 || d.contains("h0"), "a point that is not seen: {d}"))
+        // Behind `m` a shape is drawn about the point.
+        .map(|piece| {
+            piece.split('m').next().unwrap().trim_end_matches("h0").split('L').map(point).collect::<Vec<_>>()
+        })
+        .inspect(|piece| {
+            assert!(piece.len() > 1 || d.contains("h0") || d.contains('m'), "a point that is not seen: {d}")
+        })
         .collect()
 }
 
-pub(crate) fn paths(svg: &str) -> Vec<Path> {
+/// All paths of a drawing.
+///
+/// # Panics
+/// If a path is not as our drawings write it; so do the others here.
+#[must_use]
+pub fn paths(svg: &str) -> Vec<Path> {
     tags(svg, "path")
         .into_iter()
         .map(|tag| Path { class: attribute(tag, "class").to_owned(), pieces: pieces(attribute(tag, "d")) })
@@ -49,11 +66,14 @@ pub(crate) fn paths(svg: &str) -> Vec<Path> {
 }
 
 /// The points of all paths of a class.
-pub(crate) fn points(svg: &str, class: &str) -> Vec<(f64, f64)> {
+#[must_use]
+pub fn points(svg: &str, class: &str) -> Vec<(f64, f64)> {
     paths(svg).into_iter().filter(|path| path.class == class).flat_map(|path| path.pieces.concat()).collect()
 }
 
-pub(crate) fn texts(svg: &str) -> Vec<Text> {
+/// All texts of a drawing.
+#[must_use]
+pub fn texts(svg: &str) -> Vec<Text> {
     let text = |tag: &str| Text {
         class: attribute(tag, "class").to_owned(),
         at: (number(tag, "x"), number(tag, "y")),
@@ -64,7 +84,8 @@ pub(crate) fn texts(svg: &str) -> Vec<Text> {
 }
 
 /// Centre and radius of the circles of a class.
-pub(crate) fn circles(svg: &str, class: &str) -> Vec<((f64, f64), f64)> {
+#[must_use]
+pub fn circles(svg: &str, class: &str) -> Vec<((f64, f64), f64)> {
     tags(svg, "circle")
         .into_iter()
         .filter(|tag| attribute(tag, "class") == class)
@@ -73,26 +94,29 @@ pub(crate) fn circles(svg: &str, class: &str) -> Vec<((f64, f64), f64)> {
 }
 
 /// Class, left edge and width of the rectangles.
-pub(crate) fn rectangles(svg: &str) -> Vec<(String, f64, f64)> {
+#[must_use]
+pub fn rectangles(svg: &str) -> Vec<(String, f64, f64)> {
     let rectangle = |tag: &str| (attribute(tag, "class").to_owned(), number(tag, "x"), number(tag, "width"));
     tags(svg, "rect").into_iter().map(rectangle).collect()
 }
 
 /// Width and height.
-pub(crate) fn size(svg: &str) -> (f64, f64) {
+#[must_use]
+pub fn size(svg: &str) -> (f64, f64) {
     let numbers: Vec<f64> =
         attribute(svg, "viewBox").split(' ').map(|number| number.parse().unwrap()).collect();
     (numbers[2], numbers[3])
 }
 
 /// What a label says, a true minus included.
-pub(crate) fn value(label: &str) -> Option<f64> {
+#[must_use]
+pub fn value(label: &str) -> Option<f64> {
     label.replace('−', "-").trim_end_matches('°').parse().ok()
 }
 
 /// From places along an axis to values: the line through the first and the last mark.
 #[derive(Clone, Copy)]
-pub(crate) struct Ruler {
+pub struct Ruler {
     zero: f64,
     slope: f64,
 }
@@ -112,19 +136,23 @@ impl Ruler {
         ruler
     }
 
-    pub(crate) fn at(self, place: f64) -> f64 {
+    /// The value at a place.
+    #[must_use]
+    pub fn at(self, place: f64) -> f64 {
         self.zero + self.slope * place
     }
 
     /// What the rounding of places hides: half of 0.1 at the place, and as much at the marks.
-    pub(crate) fn error(self) -> f64 {
+    #[must_use]
+    pub fn error(self) -> f64 {
         0.15 * self.slope.abs()
     }
 }
 
 /// The rulers of a chart, across and up. Across, marks stand right over their labels; upwards, a label stands a few
 /// units lower than its line, so that the lines of class `grid` from edge to edge tell the place.
-pub(crate) fn rulers(svg: &str) -> (Ruler, Ruler) {
+#[must_use]
+pub fn rulers(svg: &str) -> (Ruler, Ruler) {
     let all = texts(svg);
     let ticks = |anchor: &str| -> Vec<(f64, f64, f64)> {
         let chosen = all.iter().filter(|text| text.class == "tick" && text.anchor == anchor);
@@ -151,7 +179,7 @@ pub(crate) fn rulers(svg: &str) -> (Ruler, Ruler) {
 }
 
 /// That every text lies within the drawing, at six units a letter, and no two overlap.
-pub(crate) fn assert_readable(svg: &str) {
+pub fn assert_readable(svg: &str) {
     let (width, height) = size(svg);
     let boxes: Vec<_> = texts(svg)
         .into_iter()
