@@ -20,4 +20,7 @@ pub use limits::FingerLimits;
 pub use load::{FingerContact, UncertainWrench};
 pub use object::{ObjectWeight, OtherContact, WeightEstimate};
 pub use quality::{GraspBall, Metric, Reach};
-pub use react::{BadHandSettings, FingerSample, HandCommand, HandController, HandSettings, HandState};
+pub use react::{
+    BadHandSettings, FingerSample, FingerState, HandCommand, HandController, HandLoad, HandSettings,
+    HandState,
+};

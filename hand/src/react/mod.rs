@@ -1,7 +1,9 @@
 //! What to command when something changes.
 
 mod controller;
+mod finger;
 mod settings;
 
-pub use controller::{FingerSample, HandCommand, HandController, HandState};
+pub use controller::{HandCommand, HandController, HandState};
+pub use finger::{FingerSample, FingerState, HandLoad};
 pub use settings::{BadHandSettings, HandSettings};
