@@ -16,7 +16,7 @@ pub(crate) const ROWS: usize = 2;
 /// A hand: what it commanded last, and what slip has taught it. Made by ft_hand_create, freed by ft_hand_free.
 #[derive(Debug)]
 pub struct ft_hand {
-    controller: HandController<f64, FT_MAX_FINGERS, ROWS>,
+    pub(crate) controller: HandController<f64, FT_MAX_FINGERS, ROWS>,
     pub(crate) limits: [FingerLimits<f64, ROWS>; FT_MAX_FINGERS],
     /// For the question of the least grip alone.
     pub(crate) least: LeastGrip<f64, FT_MAX_FINGERS, ROWS>,
@@ -68,6 +68,9 @@ pub enum ft_hand_state {
     FT_HAND_CANNOT_HOLD = 1,
     /// A number is not finite, no plausible contact is left, or no answer was found. The commands are those of before.
     FT_HAND_BLIND = 2,
+    /// A finger feels what cannot be, so that what the others are to bear is not known, and no load was given. The commands
+    /// are those of before.
+    FT_HAND_DOUBTFUL = 3,
 }
 
 /// Normal forces to command.
@@ -76,7 +79,7 @@ pub enum ft_hand_state {
 pub struct ft_hand_order {
     /// What they rest on.
     pub state: ft_hand_state,
-    /// Bit i is 1 if the contact of finger i was not believed.
+    /// Bit i is 1 if finger i was not believed.
     pub implausible: u32,
     /// For each finger, in N; zero of fingers that the hand has not.
     pub normal_force: [f64; FT_MAX_FINGERS],
@@ -145,7 +148,8 @@ pub unsafe extern "C" fn ft_hand_message(hand: *const ft_hand) -> *const c_char 
 }
 
 /// The normal forces to command for the next sample, which rise at once when a finger slips. `load` is what the object
-/// loads the fingers with, as ft_object_wrench tells; NULL for just that. `time_step` is the time since the call before,
+/// loads the fingers with, where that is known without them, as from its mass or a sensor in the wrist: a finger that feels
+/// what cannot be is left out then. NULL for what the fingers feel: while one feels what cannot be, commands stay. `time_step` is the time since the call before,
 /// in s. Allocates nothing. That no forces hold is FT_OK, and a state of the order.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ft_hand_command(
@@ -160,7 +164,7 @@ pub unsafe extern "C" fn ft_hand_command(
         let place = place(order, "order")?;
         hand.check(count)?;
         let fingers = self::fingers(fingers, count)?;
-        let load = self::load(load, &fingers)?;
+        let load = self::load(load)?;
         let command = hand.controller.command(&fingers, &load, time_step);
         let mut told = ft_hand_order {
             state: ft_hand_state::FT_HAND_HOLDING,
@@ -181,6 +185,7 @@ pub unsafe extern "C" fn ft_hand_command(
                 told.state = ft_hand_state::FT_HAND_CANNOT_HOLD;
                 (told.velocity, told.turning) = (why.velocity.into(), why.turning.into());
             }
+            HandState::Doubtful => told.state = ft_hand_state::FT_HAND_DOUBTFUL,
             HandState::Blind => told.state = ft_hand_state::FT_HAND_BLIND,
         }
         place.put(told);

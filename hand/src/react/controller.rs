@@ -1,11 +1,10 @@
 //! Normal forces to command, sample by sample.
 
-use fingertip_friction::SlipVerdict;
-use fingertip_wrench::{Frame, Real, Wrench};
+use fingertip_wrench::{Frame, Real};
 
 use crate::{
-    BadHandSettings, CannotHold, FingerLimits, FingerState, Grasp, GripOutcome, Hand, HandLoad, HandSettings,
-    LeastGrip,
+    BadHandSettings, CannotHold, FingerLimits, FingerState, FrictionBelief, Grasp, GripOutcome, Hand,
+    HandLoad, HandSettings, LeastGrip, SlipFactor,
 };
 
 /// What the commands rest on.
@@ -52,9 +51,7 @@ pub struct HandCommand<T: Real, const N: usize, F: Frame = Hand> {
 /// use fingertip_wrench::ContactForce;
 /// use nalgebra::Vector3;
 ///
-/// let settings = HandSettings {
-///     safety: 1.5, rise: 500.0, fall: 2.0, at_slip: 0.8, least_friction: 0.1, greatest_ratio: 3.0,
-/// };
+/// let settings = HandSettings { safety: 1.5, rise: 500.0, ..HandSettings::default() };
 /// let limits = FingerLimits::<f64, 2>::none().with_least_normal(0.2)?.with_greatest_normal(20.0)?;
 /// let mut hand = HandController::new(settings, [limits; 2])?;
 ///
@@ -76,17 +73,16 @@ pub struct HandCommand<T: Real, const N: usize, F: Frame = Hand> {
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HandController<T: Real, const N: usize, const ROWS: usize> {
+pub struct HandController<T: Real, const N: usize, const ROWS: usize, Belief = SlipFactor<T>> {
     settings: HandSettings<T>,
     limits: [FingerLimits<T, ROWS>; N],
     least: LeastGrip<T, N, ROWS>,
     commands: [T; N],
-    /// By what slip has multiplied the friction coefficient of each finger.
-    learnt: [T; N],
+    beliefs: [Belief; N],
 }
 
 impl<T: Real, const N: usize, const ROWS: usize> HandController<T, N, ROWS> {
-    /// Starts at the fingers' least normal forces.
+    /// Starts at the fingers' least normal forces. Slip multiplies the friction of a finger by a [factor](SlipFactor).
     ///
     /// # Errors
     /// [`BadHandSettings`].
@@ -94,9 +90,36 @@ impl<T: Real, const N: usize, const ROWS: usize> HandController<T, N, ROWS> {
         settings: HandSettings<T>,
         limits: [FingerLimits<T, ROWS>; N],
     ) -> Result<Self, BadHandSettings> {
+        Self::with_beliefs(settings, limits, [SlipFactor::default(); N])
+    }
+}
+
+impl<T: Real, const N: usize, const ROWS: usize, Belief: FrictionBelief<T>>
+    HandController<T, N, ROWS, Belief>
+{
+    /// The same with another belief about the friction of each finger, such as one that [learns](crate::LearntFriction).
+    ///
+    /// # Errors
+    /// [`BadHandSettings`].
+    pub fn with_beliefs(
+        settings: HandSettings<T>,
+        limits: [FingerLimits<T, ROWS>; N],
+        beliefs: [Belief; N],
+    ) -> Result<Self, BadHandSettings> {
         let commands = limits.map(|limits| limits.least_normal().unwrap_or_else(T::zero));
         let settings = settings.checked()?;
-        Ok(Self { settings, limits, least: LeastGrip::new(), commands, learnt: [T::one(); N] })
+        Ok(Self { settings, limits, least: LeastGrip::new(), commands, beliefs })
+    }
+
+    /// Other limits from now on, as of joints that have turned.
+    pub fn set_limits(&mut self, limits: [FingerLimits<T, ROWS>; N]) {
+        self.limits = limits;
+    }
+
+    /// What is believed of the friction of each finger.
+    #[must_use]
+    pub const fn beliefs(&self) -> &[Belief; N] {
+        &self.beliefs
     }
 
     /// The normal forces \[N\] to command for the next sample, that hold the load while internal forces change.
@@ -110,32 +133,25 @@ impl<T: Real, const N: usize, const ROWS: usize> HandController<T, N, ROWS> {
     ) -> HandCommand<T, N, F> {
         let mut implausible = [false; N];
         let mut contacts = [None; N];
-        let mut felt = Wrench::zero();
-        let each = fingers.iter().zip(&mut contacts).zip(&mut implausible).zip(&mut self.learnt);
-        for (((finger, contact), implausible), learnt) in each {
+        let timed = time_step > T::zero() && time_step.is_number();
+        let passed = if timed { time_step } else { T::zero() };
+        let each = fingers.iter().zip(&mut contacts).zip(&mut implausible).zip(&mut self.beliefs);
+        for (((finger, contact), implausible), belief) in each {
             *implausible = !finger.is_plausible(self.settings.greatest_ratio);
             let Some(finger) = finger.sample().filter(|_| !*implausible) else { continue };
-            felt = felt + finger.wrench();
-            if finger.slip == SlipVerdict::Slipping {
-                *learnt *= self.settings.at_slip;
-            }
-            let wanted = finger.contact.friction() * *learnt;
-            let friction = wanted.max(self.settings.least_friction.min(finger.contact.friction()));
-            // What was learnt does not sink out of reach.
-            *learnt = friction / finger.contact.friction();
+            let known = finger.contact.friction();
+            let friction = belief.rely(known, &finger.force, finger.slip, passed, &self.settings);
             *contact = finger.contact.with_friction(friction / self.settings.safety);
         }
         let commands = self.commands;
         let unchanged = |state| HandCommand { normal: commands, state, implausible };
-        if !(time_step > T::zero() && time_step.is_number()) || contacts.iter().flatten().count() == 0 {
+        if !timed || contacts.iter().flatten().count() == 0 {
             return unchanged(HandState::Blind);
         }
-        let load = match load {
-            HandLoad::Known(load) => load,
-            HandLoad::FromFingers if implausible.contains(&true) => return unchanged(HandState::Doubtful),
-            HandLoad::FromFingers => &felt,
+        let Some(load) = load.wrench(fingers, self.settings.greatest_ratio) else {
+            return unchanged(HandState::Doubtful);
         };
-        let grip = match self.least.solve(&Grasp::new(contacts), &self.limits, load) {
+        let grip = match self.least.solve(&Grasp::new(contacts), &self.limits, &load) {
             GripOutcome::Held(grip) => grip,
             GripOutcome::CannotHold(why) => return unchanged(HandState::CannotHold(why)),
             GripOutcome::NotFinite | GripOutcome::Undecided => return unchanged(HandState::Blind),
@@ -158,15 +174,21 @@ impl<T: Real, const N: usize, const ROWS: usize> HandController<T, N, ROWS> {
         HandCommand { normal: self.commands, state: HandState::Holding, implausible }
     }
 
+    /// The settings.
+    #[must_use]
+    pub const fn settings(&self) -> &HandSettings<T> {
+        &self.settings
+    }
+
     /// The commands now in force \[N\].
     #[must_use]
     pub const fn present(&self) -> [T; N] {
         self.commands
     }
 
-    /// Forgets what slip has taught of a finger's friction, as when another object is grasped.
+    /// Forgets what was learnt of the fingers' friction, as when another object is grasped.
     pub fn forget_friction(&mut self) {
-        self.learnt = [T::one(); N];
+        self.beliefs.iter_mut().for_each(Belief::forget);
         self.least.forget();
     }
 }

@@ -1,7 +1,7 @@
 //! What the fingers tell the controller.
 
 use fingertip_friction::SlipVerdict;
-use fingertip_wrench::{ContactForce, Frame, Real, Wrench};
+use fingertip_wrench::{ContactForce, Frame, Real, RigidTransform, Wrench};
 
 use crate::{GraspContact, Hand};
 
@@ -62,6 +62,25 @@ impl<T: Real, F: Frame> FingerState<T, F> {
         self.sample().filter(|sample| sample.is_plausible(greatest_ratio))
     }
 
+    /// The same in another frame, as the finger's pose of this sample gives it.
+    #[must_use]
+    pub fn expressed_in<To: Frame>(&self, to_from_here: &RigidTransform<T, To, F>) -> FingerState<T, To> {
+        match self {
+            Self::Free => FingerState::Free,
+            Self::Touching(sample) => FingerState::Touching(sample.expressed_in(to_from_here)),
+            Self::Unexplained => FingerState::Unexplained,
+        }
+    }
+
+    /// Of a sensor that is in the object: what the finger would say.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        match self {
+            Self::Touching(sample) => Self::Touching(sample.reversed()),
+            other => *other,
+        }
+    }
+
     /// Whether what it says can be: that it touches nothing, or a contact that [can be](FingerSample::is_plausible).
     #[must_use]
     pub fn is_plausible(&self, greatest_ratio: T) -> bool {
@@ -95,6 +114,24 @@ impl<T: Real, F: Frame> FingerSample<T, F> {
         force.is_finite() && force.normal > T::zero() && within
     }
 
+    /// The same in another frame, as the finger's pose of this sample gives it.
+    #[must_use]
+    pub fn expressed_in<To: Frame>(&self, to_from_here: &RigidTransform<T, To, F>) -> FingerSample<T, To> {
+        let Self { contact, force, slip } = self;
+        let tangential = to_from_here.rotate(&force.tangential.vector());
+        let force = ContactForce::new(force.normal, tangential, force.spin);
+        FingerSample { contact: contact.expressed_in(to_from_here), force, slip: *slip }
+    }
+
+    /// Of a sensor that is in the object: what the finger feels is the opposite, along the opposite normal. Normal force
+    /// and spin torque keep their numbers.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let Self { contact, force, slip } = self;
+        let force = ContactForce::new(force.normal, -force.tangential.vector(), force.spin);
+        Self { contact: contact.reversed(), force, slip: *slip }
+    }
+
     /// What it feels as a wrench on the fingertip, about the origin of the frame.
     #[must_use]
     pub fn wrench(&self) -> Wrench<T, F> {
@@ -114,4 +151,23 @@ pub enum HandLoad<T: Real, F: Frame = Hand> {
     /// Known without the fingers, about the origin of the frame: from the mass of the object and its motion, or from a
     /// sensor in the wrist. Fingers that cannot be believed are left out, and the others are to bear it all.
     Known(Wrench<T, F>),
+}
+
+impl<T: Real, F: Frame> HandLoad<T, F> {
+    /// The load, about the origin of the frame; `None` while it is that of the fingers and one of them says what cannot be,
+    /// with a friction ratio beyond the greatest or otherwise.
+    #[must_use]
+    pub fn wrench<const N: usize>(
+        &self,
+        fingers: &[FingerState<T, F>; N],
+        greatest_ratio: T,
+    ) -> Option<Wrench<T, F>> {
+        match self {
+            Self::Known(wrench) => Some(*wrench),
+            Self::FromFingers => fingers.iter().try_fold(Wrench::zero(), |sum, finger| match finger {
+                FingerState::Free => Some(sum),
+                _ => finger.believed(greatest_ratio).map(|sample| sum + sample.wrench()),
+            }),
+        }
+    }
 }

@@ -19,6 +19,7 @@ fn settings() -> HandSettings<f64> {
         at_slip: 0.8,
         least_friction: 0.1,
         greatest_ratio: 2.0,
+        recovery: 0.0,
     }
 }
 
@@ -352,6 +353,10 @@ fn settings_are_checked() {
         ] {
             assert_eq!(HandController::new(settings, limits).unwrap_err().parameter, parameter);
         }
+    }
+    for bad in [f64::NAN, -1.0, f64::INFINITY] {
+        let settings = HandSettings { recovery: bad, ..settings() };
+        assert_eq!(HandController::new(settings, limits).unwrap_err().parameter, "rate of recovery");
     }
     assert!(HandController::new(HandSettings { safety: 1.0, ..settings() }, limits).is_ok());
     let error = HandController::new(HandSettings { at_slip: 1.0, ..settings() }, limits).unwrap_err();
