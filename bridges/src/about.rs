@@ -2,6 +2,8 @@
 
 use nalgebra::Vector3;
 
+use crate::Parameter;
+
 /// What readers are told once: what is measured, and how it is drawn.
 #[derive(Clone, Debug, Default)]
 pub struct About {
@@ -21,6 +23,8 @@ pub struct About {
     pub centre: Vector3<f64>,
     /// Its axes, the third one out of the fingertip.
     pub axes: [Vector3<f64>; 3],
+    /// What the scene says, for tools that ask for it by name.
+    pub parameters: Vec<Parameter>,
 }
 
 /// A surface as a net of points \[m\]: rows of `columns` points that close to a ring.

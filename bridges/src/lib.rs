@@ -35,6 +35,7 @@ mod drawn;
 mod hub;
 #[cfg(feature = "recordings")]
 pub mod messages;
+mod parameter;
 mod publisher;
 mod sample;
 mod status;
@@ -49,6 +50,7 @@ pub mod web;
 
 pub use about::{About, Net};
 pub use hub::{Command, Hub, NoZero};
+pub use parameter::{Parameter, Value};
 pub use publisher::Publisher;
 pub use sample::{Felt, Pressed, Sample};
 pub use status::{Health, Status, Zero};

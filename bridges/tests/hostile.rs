@@ -59,7 +59,7 @@ fn silent(server: &Server) -> TcpStream {
 fn giving_a_sample_never_waits_for_a_reader() {
     let hub = Hub::new(About::default());
     let listen = "127.0.0.1:0".parse().unwrap();
-    let options = Options { listen, tokens: Tokens::random().unwrap(), view: String::new() };
+    let options = Options { listen, tokens: Tokens::random().unwrap(), commands: true, view: String::new() };
     let server = Server::start(&hub, options).unwrap();
     let calm = given(&hub, 1000);
     let silent: Vec<TcpStream> = (0..12).map(|_| silent(&server)).collect();

@@ -3,6 +3,7 @@
 
 extern crate alloc;
 
+mod about;
 mod analyze;
 mod args;
 mod bench;

@@ -1,5 +1,7 @@
 //! The fingertip as a scene of Foxglove: the surface, and the contact with its force on it. Lengths in metres.
 
+use core::time::Duration as Stamp;
+
 use foxglove::messages::line_primitive::Type;
 use foxglove::messages::scene_entity_deletion::Type as Deleted;
 use foxglove::messages::{
@@ -32,9 +34,14 @@ fn pose(at: &Vector<f64>, along: &Vector<f64>) -> Pose {
     }
 }
 
-fn entity(id: &str, about: &About) -> SceneEntity {
+/// A time since 1970, as it is sent: a moment before 1970 or after 2105 is none.
+fn timestamp(stamp: Stamp) -> Timestamp {
+    Timestamp::new(u32::try_from(stamp.as_secs()).unwrap_or(u32::MAX), stamp.subsec_nanos())
+}
+
+fn entity(id: &str, about: &About, stamp: Stamp) -> SceneEntity {
     SceneEntity {
-        timestamp: Some(Timestamp::now()),
+        timestamp: Some(timestamp(stamp)),
         frame_id: about.frame.clone(),
         id: id.to_owned(),
         lifetime: Some(Duration::new(0, 0)),
@@ -43,8 +50,8 @@ fn entity(id: &str, about: &About) -> SceneEntity {
     }
 }
 
-/// The surface; nothing where it cannot be drawn.
-pub(super) fn surface(about: &About) -> SceneUpdate {
+/// The surface at a time since 1970; nothing where it cannot be drawn.
+pub(super) fn surface(about: &About, stamp: Stamp) -> SceneUpdate {
     let points: Vec<Point3> = about.surface.triangles().flatten().map(|corner| point(&corner)).collect();
     if points.is_empty() {
         return SceneUpdate::default();
@@ -58,7 +65,7 @@ pub(super) fn surface(about: &About) -> SceneUpdate {
     };
     SceneUpdate {
         deletions: Vec::new(),
-        entities: vec![SceneEntity { triangles: vec![triangles], ..entity("surface", about) }],
+        entities: vec![SceneEntity { triangles: vec![triangles], ..entity("surface", about, stamp) }],
     }
 }
 
@@ -66,7 +73,7 @@ pub(super) fn surface(about: &About) -> SceneUpdate {
 pub(super) fn contact(sample: &Sample, about: &About) -> SceneUpdate {
     let Some(contact) = sample.contact() else {
         let deletion = SceneEntityDeletion {
-            timestamp: Some(Timestamp::now()),
+            timestamp: Some(timestamp(sample.stamp)),
             r#type: Deleted::MatchingId.into(),
             id: "contact".to_owned(),
         };
@@ -102,7 +109,7 @@ pub(super) fn contact(sample: &Sample, about: &About) -> SceneUpdate {
         arrows: arrow.into_iter().collect(),
         spheres: vec![ball],
         lines: lines.collect(),
-        ..entity("contact", about)
+        ..entity("contact", about, sample.stamp)
     };
     SceneUpdate { deletions: Vec::new(), entities: vec![entity] }
 }

@@ -1,10 +1,11 @@
 //! The WebSocket of Foxglove: wrench, contact and touch as the messages that recordings hold, the fingertip as a
 //! scene, and the services `tare` and `reset`.
 //!
-//! The protocol has no secret: whoever reaches the port can watch, and ask for a zero. So it listens on loopback, unless it
-//! is told otherwise. A client that is too slow misses messages; `number` of a touch shows how many.
+//! The protocol has no secret: whoever reaches the port can watch, and ask for a zero where there are services. So it
+//! listens on loopback, unless it is told otherwise. A client that is too slow misses messages; `number` of a touch shows how many.
 
 mod drawing;
+mod recording;
 mod services;
 
 use alloc::sync::Arc;
@@ -12,7 +13,7 @@ use core::net::SocketAddr;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use core::time::Duration;
 use std::thread::{self, JoinHandle};
-use std::time::Instant;
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use fingertip_recordings::mcap::definitions;
 use foxglove::messages::SceneUpdate;
@@ -23,6 +24,8 @@ use foxglove::{
 };
 use thiserror::Error;
 
+pub use recording::{Encoded, SceneRecording};
+
 use crate::{About, Hub, Sample, messages};
 
 /// Messages that wait for a client: more than a second's at 1 kHz.
@@ -32,6 +35,8 @@ const NAP: Duration = Duration::from_millis(50);
 /// How often the surface is sent, so that who comes late has it, too; and the contact on it.
 const SURFACE: Duration = Duration::from_secs(1);
 const DRAWN: Duration = Duration::from_millis(33);
+/// What the topic of the scene is called.
+const SCENE: &str = "/fingertip/scene";
 
 /// Why there is no server.
 #[derive(Debug, Error)]
@@ -61,24 +66,28 @@ pub struct Server {
 }
 
 impl Server {
-    /// Serves what a hub has.
+    /// Serves what a hub has, with the services `tare` and `reset` if clients may command.
     ///
     /// # Errors
     /// [`ServerError`].
-    pub fn start(hub: &Hub, listen: SocketAddr) -> Result<Self, ServerError> {
+    pub fn start(hub: &Hub, listen: SocketAddr, commands: bool) -> Result<Self, ServerError> {
         let fault = |source| ServerError::Library { address: listen, source };
         let context = Context::new();
         let channels = Channels::new(&context, hub.about()).map_err(fault)?;
-        let handle = WebSocketServer::new()
+        let server = WebSocketServer::new()
             .context(&context)
             .name(format!("fingertip: {}", hub.about().source))
             .bind(listen.ip().to_string(), listen.port())
-            .message_backlog_size(BACKLOG)
-            .capabilities([Capability::Services])
-            .supported_encodings(["json"])
-            .services(services::services(hub))
-            .start_blocking()
-            .map_err(fault)?;
+            .message_backlog_size(BACKLOG);
+        let server = if commands {
+            server
+                .capabilities([Capability::Services])
+                .supported_encodings(["json"])
+                .services(services::services(hub))
+        } else {
+            server
+        };
+        let handle = server.start_blocking().map_err(fault)?;
         let address = SocketAddr::new(listen.ip(), handle.port());
         let (ends, missed) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicU64::new(0)));
         let logging =
@@ -140,7 +149,7 @@ impl Channels {
             wrench: raw("/fingertip/wrench", wrench)?,
             contact: raw("/fingertip/contact", contact)?,
             touch: raw("/fingertip/touch", touch)?,
-            scene: ChannelBuilder::new("/fingertip/scene").context(context).build(),
+            scene: ChannelBuilder::new(SCENE).context(context).build(),
         })
     }
 
@@ -185,7 +194,8 @@ impl Logging {
             samples.iter().for_each(|sample| self.channels.log(sample, about));
             if is_due(surface, SURFACE) && self.channels.scene.has_sinks() {
                 surface = Some(Instant::now());
-                self.channels.scene.log(&drawing::surface(about));
+                let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+                self.channels.scene.log(&drawing::surface(about, now));
             }
             if let Some(sample) = samples.last().filter(|_| is_due(drawn, DRAWN)) {
                 drawn = Some(Instant::now());

@@ -8,6 +8,7 @@
 //! | `point` | `geometry_msgs/msg/PointStamped` | every contact |
 //! | `markers` | `visualization_msgs/msg/MarkerArray` | 30 a second, the surface once a second |
 //! | `tare`, `reset` | `std_srvs/srv/Trigger` | services |
+//! | `live/get_parameters` and the other five | `rcl_interfaces` | services: what the scene says, to be read |
 //! | `/tf`, `/tf_static` | `tf2_msgs/msg/TFMessage` | the frames of contact and surface |
 //!
 //! Topics of samples have the QoS of sensors, best effort, unless they are asked to be reliable. The node stays on
@@ -18,6 +19,7 @@
 mod frames;
 mod markers;
 mod node;
+mod parameters;
 mod publishing;
 mod raw;
 mod services;
@@ -143,7 +145,7 @@ impl Node {
     /// # Errors
     /// [`NodeError`].
     pub fn start(hub: &Hub, options: &Options) -> Result<Self, NodeError> {
-        let mut participant = Participant::new(options, "live")?;
+        let mut participant = Participant::new(options, node::NODE)?;
         let publishing = publishing::Publishing::new(&mut participant, options, hub)?;
         let services = services::Serving::new(&mut participant, options, hub)?;
         let shared = Arc::new(Shared::default());

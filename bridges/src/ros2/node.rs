@@ -3,11 +3,18 @@
 use core::fmt::Display;
 use std::net::UdpSocket;
 
-use ros2_client::{Context, MessageTypeName, Name, NodeName, NodeOptions, Publisher, QosProfile};
+use ros2_client::qos::History;
+use ros2_client::{
+    Context, Message, MessageTypeName, Name, NodeName, NodeOptions, Publisher, QosProfile, Server,
+    ServiceMapping, ServiceTypeName,
+};
 use rustdds::{DomainParticipantBuilder, Topic};
 
 use super::raw::Raw;
-use super::{NodeError, Options};
+use super::{NodeError, Options, Services};
+
+/// What the node that publishes is called below the namespace.
+pub(super) const NODE: &str = "live";
 
 /// A node of ROS 2.
 pub(super) struct Participant {
@@ -45,11 +52,39 @@ impl Participant {
             .map_err(|why| refused("join the domain")(&why))?;
         let context = Context::from_domain_participant(participant);
         let context = context.map_err(|why| refused("make a context")(&why))?;
-        // Nobody spins it: there are neither parameters nor a log.
+        // Nobody spins it: there is no log, and the library would map the services of parameters in one way alone.
         let node_options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
         let node = context.new_node(node_name, node_options);
         let node = node.map_err(|why| NodeError::Dds { what: "make a node", why: format!("{why:?}") })?;
         Ok(Self { node })
+    }
+
+    /// A service of a type below a namespace, by the mapping that callers have.
+    pub(super) fn server<Q: Message + Clone + 'static, R: Message + Clone + 'static>(
+        &mut self,
+        services: Services,
+        [namespace, base]: [&str; 2],
+        [package, kind]: [&str; 2],
+    ) -> Result<Server<Q, R>, NodeError> {
+        let mapping = match services {
+            Services::Enhanced => ServiceMapping::Enhanced,
+            Services::Cyclone => ServiceMapping::Cyclone,
+        };
+        let qos = QosProfile::publisher_default().history(History::KeepLast { depth: 10 });
+        let (name, kind) = (name(namespace, base)?, ServiceTypeName::new(package, kind));
+        let server = self.node.create_server(mapping, &name, &kind, qos.clone(), qos);
+        server.map_err(|why| refused("serve")(&why))
+    }
+
+    /// A service of the node's parameters.
+    pub(super) fn parameter_server<Q: Message + Clone + 'static, R: Message + Clone + 'static>(
+        &mut self,
+        options: &Options,
+        base: &str,
+        kind: &str,
+    ) -> Result<Server<Q, R>, NodeError> {
+        let below = format!("{}/{NODE}", options.namespace);
+        self.server(options.services, [&below, base], ["rcl_interfaces", kind])
     }
 
     pub(super) fn topic(

@@ -4,11 +4,12 @@ use alloc::sync::Arc;
 use core::sync::atomic::Ordering;
 use core::time::Duration;
 
-use ros2_client::{Message, QosProfile, Server, ServiceMapping, ServiceTypeName};
+use ros2_client::{Message, Server};
 use serde::{Deserialize, Serialize};
 
-use super::node::{Participant, name, refused};
-use super::{NodeError, Options, Services, Shared};
+use super::node::Participant;
+use super::parameters::Parameters;
+use super::{NodeError, Options, Shared};
 use crate::{Command, Hub};
 
 /// How often it looks for calls.
@@ -36,6 +37,19 @@ pub(super) struct Serving {
     hub: Hub,
     tare: Server<Request, Response>,
     reset: Server<Request, Response>,
+    parameters: Parameters,
+}
+
+/// Answers the requests that a service has got; what is no request is passed over.
+pub(super) fn answer<Q: Message + 'static, R: Message + 'static>(
+    server: &Server<Q, R>,
+    shared: &Shared,
+    work: impl Fn(&Q) -> R,
+) {
+    while let Ok(Some((id, request))) = server.receive_request() {
+        let unsent = server.send_response(id, work(&request)).is_err();
+        shared.refused.fetch_add(u64::from(unsent), Ordering::Relaxed);
+    }
 }
 
 impl Serving {
@@ -44,43 +58,31 @@ impl Serving {
         options: &Options,
         hub: &Hub,
     ) -> Result<Self, NodeError> {
-        let mapping = match options.services {
-            Services::Enhanced => ServiceMapping::Enhanced,
-            Services::Cyclone => ServiceMapping::Cyclone,
-        };
-        let qos = QosProfile::publisher_default().history(ros2_client::qos::History::KeepLast { depth: 10 });
-        let mut server = |base: &str| {
-            let kind = ServiceTypeName::new("std_srvs", "Trigger");
-            let name = name(&options.namespace, base)?;
-            let server = participant.node.create_server(mapping, &name, &kind, qos.clone(), qos.clone());
-            server.map_err(|why| refused("serve")(&why))
-        };
-        let (tare, reset) = (server("tare")?, server("reset")?);
-        Ok(Self { hub: hub.clone(), tare, reset })
+        let (kind, Options { namespace, services, .. }) = (["std_srvs", "Trigger"], options);
+        Ok(Self {
+            hub: hub.clone(),
+            tare: participant.server(*services, [namespace, "tare"], kind)?,
+            reset: participant.server(*services, [namespace, "reset"], kind)?,
+            parameters: Parameters::new(participant, options, &hub.about().parameters)?,
+        })
     }
 
     /// Answers calls. The participant is kept as long as that.
     pub(super) fn run(self, shared: &Arc<Shared>, participant: Participant) {
         while !shared.ends.load(Ordering::Relaxed) {
-            let answer = |server: &Server<Request, Response>, work: &dyn Fn() -> Response| {
-                // What is no request is passed over.
-                while let Ok(Some((id, _))) = server.receive_request() {
-                    let unsent = server.send_response(id, work()).is_err();
-                    shared.refused.fetch_add(u64::from(unsent), Ordering::Relaxed);
-                }
-            };
-            answer(&self.tare, &|| match self.hub.tare(PATIENCE) {
+            answer(&self.tare, shared, |_| match self.hub.tare(PATIENCE) {
                 Ok([fx, fy, fz, tx, ty, tz]) => Response {
                     success: true,
                     message: format!("zero taken off: {fx:?} {fy:?} {fz:?} N, {tx:?} {ty:?} {tz:?} N m"),
                 },
                 Err(why) => Response { success: false, message: why.to_string() },
             });
-            answer(&self.reset, &|| {
+            answer(&self.reset, shared, |_| {
                 self.hub.ask(Command::Reset);
                 let message = "the last contact and what detectors saw are forgotten".to_owned();
                 Response { success: true, message }
             });
+            self.parameters.answer(shared);
             std::thread::sleep(NAP);
         }
         drop(participant);

@@ -25,11 +25,13 @@ pub(super) enum Denied {
 pub(super) struct Guard {
     address: SocketAddr,
     tokens: Tokens,
+    /// Whether anybody may command.
+    commands: bool,
 }
 
 impl Guard {
-    pub(super) const fn new(address: SocketAddr, tokens: Tokens) -> Self {
-        Self { address, tokens }
+    pub(super) const fn new(address: SocketAddr, tokens: Tokens, commands: bool) -> Self {
+        Self { address, tokens, commands }
     }
 
     /// What a request may: by its token, by the host that it was sent to, and by the origin of the page that sent it.
@@ -45,8 +47,8 @@ impl Guard {
         // Both are compared, so that the time tells nothing.
         let (watch, command) = (same(token, self.tokens.watch()), same(token, self.tokens.command()));
         match (watch, command) {
-            (_, true) => Ok(Right::Command),
-            (true, false) => Ok(Right::Watch),
+            (_, true) if self.commands => Ok(Right::Command),
+            (true, _) | (_, true) => Ok(Right::Watch),
             (false, false) => Err(Denied::Token),
         }
     }
@@ -83,10 +85,13 @@ mod tests {
     #[test]
     fn tokens_tell_watching_from_commanding() {
         let tokens = Tokens::random().unwrap();
-        let guard = Guard::new("127.0.0.1:8137".parse().unwrap(), tokens.clone());
-        let admit = |token: &str| guard.admit(token, "127.0.0.1:8137", None);
+        let guard = |commands| Guard::new("127.0.0.1:8137".parse().unwrap(), tokens.clone(), commands);
+        let admit = |token: &str| guard(true).admit(token, "127.0.0.1:8137", None);
         assert_eq!(admit(tokens.watch()), Ok(Right::Watch));
         assert_eq!(admit(tokens.command()), Ok(Right::Command));
+        for token in [tokens.watch(), tokens.command()] {
+            assert_eq!(guard(false).admit(token, "127.0.0.1:8137", None), Ok(Right::Watch), "{token}");
+        }
         let nearly = |place: usize| {
             let mut bytes = tokens.command().to_owned().into_bytes();
             bytes[place] = if bytes[place] == b'0' { b'1' } else { b'0' };
@@ -103,7 +108,9 @@ mod tests {
     fn pages_of_others_are_kept_out() {
         let tokens = Tokens::random().unwrap();
         let admit = |address: &str, host: &str, origin: Option<&str>| {
-            Guard::new(address.parse().unwrap(), tokens.clone()).admit(tokens.watch(), host, origin).is_ok()
+            Guard::new(address.parse().unwrap(), tokens.clone(), true)
+                .admit(tokens.watch(), host, origin)
+                .is_ok()
         };
         let own = "127.0.0.1:8137";
         for (host, origin) in [

@@ -16,7 +16,8 @@
 
   // What is told in words: contact, slip, and how the sensor is.
   const reasons = { below_threshold: "force below the threshold", misses: "the line of action misses the surface", only_pulling: "the force pulls outward",
-    outside_active_region: "presses outside the active region", not_finite: "the reading is not finite", beyond_friction: "more tangential than friction allows" };
+    outside_active_region: "presses outside the active region", not_finite: "the reading is not finite", beyond_friction: "more tangential than friction allows",
+    saturated: "a gauge is saturated", uncalibrated: "beyond what the sensor was calibrated for", unusable_row: "the reading is of no use", rest: "at rest, for the zero" };
   const slips = { holding: "holding", warning: "slip is near", slipping: "SLIPPING", not_pressing: "not pressing" };
   const health = () => {
     if (!socket || socket.readyState !== 1) return ["bad", "not connected"];

@@ -62,6 +62,8 @@ pub struct Options {
     pub listen: SocketAddr,
     /// Who may watch and who may command.
     pub tokens: Tokens,
+    /// Whether anybody may command; if not, who has the token of commands watches.
+    pub commands: bool,
     /// The view of the surface, as a report has it: an element of HTML with its script; empty for none.
     pub view: String,
 }
@@ -101,6 +103,7 @@ pub struct Server {
     shared: Arc<Shared>,
     address: SocketAddr,
     tokens: Tokens,
+    commands: bool,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -130,13 +133,13 @@ impl Server {
     /// # Errors
     /// [`WebError`].
     pub fn start(hub: &Hub, options: Options) -> Result<Self, WebError> {
-        let Options { listen, tokens, view } = options;
+        let Options { listen, tokens, commands, view } = options;
         let fault = |source| WebError::Listen { address: listen, source };
         let listener = TcpListener::bind(listen).map_err(fault)?;
         let address = listener.local_addr().map_err(fault)?;
         let shared = Arc::new(Shared {
             hub: hub.clone(),
-            guard: Guard::new(address, tokens.clone()),
+            guard: Guard::new(address, tokens.clone(), commands),
             view,
             ends: AtomicBool::new(false),
             has_writer: AtomicBool::new(false),
@@ -151,7 +154,7 @@ impl Server {
             .name("web".to_owned())
             .spawn(move || accept(&listener, &accepting))
             .map_err(WebError::Thread)?;
-        Ok(Self { shared, address, tokens, thread: Some(thread) })
+        Ok(Self { shared, address, tokens, commands, thread: Some(thread) })
     }
 
     /// Where it listens.
@@ -166,10 +169,10 @@ impl Server {
         format!("http://{}/?token={}", self.address, self.tokens.watch())
     }
 
-    /// The address of the page for who commands, too.
+    /// The address of the page for who commands, too; `None` where nobody may.
     #[must_use]
-    pub fn commanding(&self) -> String {
-        format!("http://{}/?token={}", self.address, self.tokens.command())
+    pub fn commanding(&self) -> Option<String> {
+        self.commands.then(|| format!("http://{}/?token={}", self.address, self.tokens.command()))
     }
 
     /// What has happened so far.

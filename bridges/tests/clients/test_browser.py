@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 import websockets
+from conftest import QUIET
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 ROWS = "JSON.stringify([...document.querySelectorAll('#live-table tr')].map(row => [...row.cells].map(cell => cell.textContent)))"
@@ -27,9 +28,7 @@ SHOT = "document.querySelector('.solid canvas').toDataURL()"
 
 @pytest.fixture(autouse=True)
 def chromium():
-    if not CHROMIUM:
-        print("skipped: the page in a browser, since there is no chromium")
-        pytest.skip("no chromium")
+    assert CHROMIUM, "there is no chromium; `.ci/chromium` installs it"
 
 
 class Tab:
@@ -122,7 +121,7 @@ def test_the_page_shows_what_is_felt_and_commands(live, tmp_path):
         frames = await tab.value(FRAMES)
         table = await tab.table()
         print(f"\nbrowser: {frames:.0f} frames a second, from sample to picture {table['From sample to picture']}, missed {table['Missed here']}")
-        assert frames > 10 and table["Missed here"] == "0"
+        assert frames > (55 if QUIET else 10) and table["Missed here"] == "0"
         # A sentence for those who listen, and not one for each sample.
         assert await tab.value("document.getElementById('live-said').textContent.length > 5")
         changes = """new Promise(done => { let count = 0; const watch = new MutationObserver(list => count += list.length);
@@ -138,8 +137,10 @@ def test_the_page_shows_what_is_felt_and_commands(live, tmp_path):
         assert before != await tab.value(SHOT)
         await tab.value("document.getElementById('live-hold').click()")
         # A zero, by its button.
-        await tab.value("document.getElementById('live-tare').click()")
-        await tab.until("document.getElementById('live-light')?.textContent?.startsWith('taking the zero')")
+        watch = """window.lights = []; new MutationObserver(() => lights.push(document.getElementById('live-light').textContent))
+            .observe(document.getElementById('live-light'), { childList: true, characterData: true, subtree: true })"""
+        await tab.value(f"{watch}; document.getElementById('live-tare').click()")
+        await tab.until("lights.some(light => light.startsWith('taking the zero'))")
         await tab.until("['live', 'slipping'].includes(document.getElementById('live-light')?.textContent)")
         one.kill()
         await tab.until("document.getElementById('live-light')?.textContent === 'not connected'")
@@ -153,10 +154,13 @@ def test_the_page_shows_what_is_felt_and_commands(live, tmp_path):
 
 
 def test_an_hour_leaves_memory_as_it_was(live, folder, rows, tmp_path):
-    """An hour at 50 Hz, played 90 times as fast."""
-    lines = [f"{number / 50!r}," + ",".join(map(repr, rows[number % 40_000].wrench)) for number in range(180_000)]
-    (tmp_path / "hour.csv").write_text("t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n" + "\n".join(lines) + "\n")
-    one = live("--replay", tmp_path / "hour.csv", "--speed", 90, "--scene", folder / "scene.toml", "--web=127.0.0.1:0")
+    """An hour, played 90 times as fast: at 50 Hz, or on a quiet machine all of it at 1 kHz, 30 times as fast."""
+    rate, speed = (1000, 30) if QUIET else (50, 90)
+    with open(tmp_path / "hour.csv", "w") as file:
+        file.write("t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n")
+        wrenches = [",".join(map(repr, row.wrench)) for row in rows]
+        file.writelines(f"{number / rate!r},{wrenches[number % 40_000]}\n" for number in range(3600 * rate))
+    one = live("--replay", tmp_path / "hour.csv", "--speed", speed, "--scene", folder / "scene.toml", "--web=127.0.0.1:0")
     watch = one.line(r"Watch: +(\S+)")
 
     async def work(tab):
@@ -170,10 +174,11 @@ def test_an_hour_leaves_memory_as_it_was(live, folder, rows, tmp_path):
 
         page, server = [await heap()], [one.memory()]
         for _ in range(3):
-            await asyncio.sleep(9)
+            await asyncio.sleep((3600 / speed - 13) / 3)
             page.append(await heap())
             server.append(one.memory())
         print(f"\nbrowser: an hour, page {[f'{size:.1f} MB' for size in page]}, server {[f'{size} kB' for size in server]}")
-        assert page[-1] < page[0] + 2 and server[-1] < server[1] + 4000, (page, server)
+        # A sample takes some 300 bytes: kept, they would be 50 MB and more.
+        assert page[-1] < page[0] + 3 and server[-1] < server[1] + 4000, (page, server)
 
     browse(tmp_path, work)

@@ -1,6 +1,10 @@
 """ROS 2, with PyPI `cyclonedds` as the other side, on loopback alone."""
 
 import os
+import random
+import socket
+import subprocess
+import sys
 import time
 from dataclasses import dataclass
 from math import isnan
@@ -13,17 +17,17 @@ os.environ["CYCLONEDDS_URI"] = (
     '<Peers><Peer Address="127.0.0.1"/></Peers></Discovery></Domain></CycloneDDS>'
 )
 
-from conftest import check_consecutive, close, now, said  # noqa: E402
+from conftest import RADIUS, check_consecutive, close, now, said, timer  # noqa: E402
 from cyclonedds.core import Policy, Qos  # noqa: E402
 from cyclonedds.domain import DomainParticipant  # noqa: E402
 from cyclonedds.idl import IdlStruct  # noqa: E402
-from cyclonedds.idl.types import array, float32, float64, int32, sequence, uint8, uint32, uint64  # noqa: E402
+from cyclonedds.idl.types import array, float32, float64, int32, int64, sequence, uint8, uint32, uint64  # noqa: E402
 from cyclonedds.pub import DataWriter  # noqa: E402
 from cyclonedds.sub import DataReader  # noqa: E402
 from cyclonedds.topic import Topic  # noqa: E402
 from cyclonedds.util import duration  # noqa: E402
 
-DOMAIN = 100 + os.getpid() % 100
+DOMAIN = int(os.environ.get("FINGERTIP_TEST_DOMAIN", 100 + os.getpid() % 100))
 SENSOR = Qos(Policy.Reliability.BestEffort, Policy.History.KeepLast(20_000))
 RELIABLE = Qos(Policy.Reliability.Reliable(duration(seconds=1)), Policy.History.KeepLast(20_000))
 KEPT = Qos(Policy.Reliability.Reliable(duration(seconds=1)), Policy.Durability.TransientLocal, Policy.History.KeepLast(10))
@@ -154,6 +158,82 @@ class Response(IdlStruct, typename="std_srvs::srv::dds_::Trigger_Response_"):
     message: str
 
 
+@dataclass
+class ParameterValue(IdlStruct, typename="rcl_interfaces::msg::dds_::ParameterValue_"):
+    type: uint8
+    bool_value: bool
+    integer_value: int64
+    double_value: float64
+    string_value: str
+    byte_array_value: sequence[uint8]
+    bool_array_value: sequence[bool]
+    integer_array_value: sequence[int64]
+    double_array_value: sequence[float64]
+    string_array_value: sequence[str]
+
+
+@dataclass
+class Parameter(IdlStruct, typename="rcl_interfaces::msg::dds_::Parameter_"):
+    name: str
+    value: ParameterValue
+
+
+@dataclass
+class SetResult(IdlStruct, typename="rcl_interfaces::msg::dds_::SetParametersResult_"):
+    successful: bool
+    reason: str
+
+
+@dataclass
+class GetRequest(IdlStruct, typename="rcl_interfaces::srv::dds_::GetParameters_Request_"):
+    guid: array[uint8, 8]
+    high: int32
+    low: uint32
+    names: sequence[str]
+
+
+@dataclass
+class GetResponse(IdlStruct, typename="rcl_interfaces::srv::dds_::GetParameters_Response_"):
+    guid: array[uint8, 8]
+    high: int32
+    low: uint32
+    values: sequence[ParameterValue]
+
+
+@dataclass
+class ListRequest(IdlStruct, typename="rcl_interfaces::srv::dds_::ListParameters_Request_"):
+    guid: array[uint8, 8]
+    high: int32
+    low: uint32
+    prefixes: sequence[str]
+    depth: uint64
+
+
+@dataclass
+class ListResponse(IdlStruct, typename="rcl_interfaces::srv::dds_::ListParameters_Response_"):
+    guid: array[uint8, 8]
+    high: int32
+    low: uint32
+    names: sequence[str]
+    prefixes: sequence[str]
+
+
+@dataclass
+class SetRequest(IdlStruct, typename="rcl_interfaces::srv::dds_::SetParameters_Request_"):
+    guid: array[uint8, 8]
+    high: int32
+    low: uint32
+    parameters: sequence[Parameter]
+
+
+@dataclass
+class SetResponse(IdlStruct, typename="rcl_interfaces::srv::dds_::SetParameters_Response_"):
+    guid: array[uint8, 8]
+    high: int32
+    low: uint32
+    results: sequence[SetResult]
+
+
 class Peer:
     """The other side: a participant on loopback."""
 
@@ -213,7 +293,7 @@ def test_ten_thousand_samples_come_whole(live, folder, rows):
         if row := row_of(message):
             counts[2] += close(message.point, row.point, 1e-9)
     assert min(counts) >= 9000, counts
-    said("ros2, from sample to client", [when - touch.header.stamp() for when, touch in got])
+    said("ros2, from sample to client", [when - touch.header.stamp() for when, touch in got], median=1)
     one.end()
 
 
@@ -230,13 +310,12 @@ def test_best_effort_is_as_sensors_send(live, folder, rows):
     one.end()
 
 
-def call(writer, reader, number, seconds=15):
+def call(writer, reader, number, *asked, kind=Request, seconds=15):
     ends = time.monotonic() + seconds
     while not writer.get_matched_subscriptions() or not reader.get_matched_publications():
         assert time.monotonic() < ends, "no service"
         time.sleep(0.05)
-    request = Request([number] * 8, 0, number, 0)
-    writer.write(request)
+    writer.write(kind([number] * 8, 0, number, *(asked or [0])))
     while True:
         assert time.monotonic() < ends, "no answer"
         for answer in reader.take(10):
@@ -260,6 +339,114 @@ def test_services_take_a_zero_and_forget(live, folder, rows):
     touch = gather(touches, 1)[0][1]
     assert close([a + b for a, b in zip(touch.load, zero)], rows[round(touch.time * 1000)].wrench, 1e-12)
     assert call(*service("reset"), 8).success
+    one.end()
+
+
+def test_parameters_are_those_of_the_scene(live, folder):
+    """As `ros2 param` asks for them."""
+    peer = Peer()
+    one = start(live, folder)
+
+    def service(name, asked, answered):
+        return (
+            peer.writer(f"rq/fingertip/live/{name}Request", asked),
+            peer.reader(f"rr/fingertip/live/{name}Reply", answered, RELIABLE),
+        )
+
+    listed = call(*service("list_parameters", ListRequest, ListResponse), 1, ["surface", "friction"], 0, kind=ListRequest)
+    assert set(listed.prefixes) == {"surface", "friction"}, listed
+    assert {"surface.radius_m", "surface.shape", "friction.static_coefficient"} <= set(listed.names), listed
+    names = ["surface.radius_m", "surface.shape", "version", "none"]
+    radius, shape, version, none = call(
+        *service("get_parameters", GetRequest, GetResponse), 2, names, kind=GetRequest
+    ).values
+    assert (radius.type, radius.double_value, shape.type, shape.string_value) == (3, RADIUS, 4, "sphere")
+    assert (version.type, version.integer_value, none.type) == (2, 2, 0)
+    answer = call(
+        *service("set_parameters", SetRequest, SetResponse), 3, [Parameter("surface.radius_m", radius)], kind=SetRequest
+    )
+    assert [result.successful for result in answer.results] == [False] and "of the scene" in answer.results[0].reason
+    one.end()
+
+
+def ports_of(process):
+    """The UDP ports that a process listens on."""
+    held = set()
+    for number in os.listdir(f"/proc/{process}/fd"):
+        try:
+            held.add(os.readlink(f"/proc/{process}/fd/{number}"))
+        except OSError:
+            pass  # Closed meanwhile.
+    ports = set()
+    with open("/proc/net/udp") as file:
+        for line in file.readlines()[1:]:
+            cells = line.split()
+            if f"socket:[{cells[9]}]" in held:
+                ports.add(int(cells[1].split(":")[1], 16))
+    return ports
+
+
+def take_nothing():
+    """A reliable reader whose place is full after ten samples, which it never takes. For a process of its own."""
+    full = Qos(
+        Policy.Reliability.Reliable(duration(seconds=1)), Policy.History.KeepAll,
+        Policy.ResourceLimits(max_samples=10, max_instances=1, max_samples_per_instance=10),
+    )
+    kept = Peer().reader("rt/fingertip/touch", Touch, full)
+    time.sleep(120)
+    del kept
+
+
+def test_participants_of_ill_will_cost_nobody_else_a_sample(live, folder, rows):
+    """Bytes of no sense and cut messages at its ports, a reliable reader that takes nothing, participants that come and go."""
+    peer = Peer()
+    touches = peer.reader("rt/fingertip/touch", Touch, RELIABLE)
+    one = start(live, folder, "--ros-reliable")
+    gather(touches, 100)
+    before = one.memory()
+    stuck = subprocess.Popen(
+        [sys.executable, "-c", "import test_ros2; test_ros2.take_nothing()"],
+        cwd=os.path.dirname(__file__), env={**os.environ, "FINGERTIP_TEST_DOMAIN": str(DOMAIN)},
+    )
+    random.seed(5)
+    ports = ports_of(one.process.pid)
+    assert len(ports) >= 4, ports
+    socket_ = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+
+    def attack(turn):
+        head = b"RTPS" + bytes([2, 4, 1, 18]) + random.randbytes(12)
+        # Submessages whose kind, flags and length say anything.
+        parts = b"".join(
+            bytes([random.choice([1, 6, 7, 8, 9, 0x15, 0x16, 0x12, 0x13, random.randrange(256)]), random.randrange(256)])
+            + random.choice([len(rest), 0, 65535, random.randrange(65536)]).to_bytes(2, "little") + rest
+            for rest in (random.randbytes(random.randrange(0, 200)) for _ in range(4))
+        )
+        for port in ports:
+            for datagram in (random.randbytes(random.randrange(1, 1400)), head, head + parts, (head + parts)[: random.randrange(60)]):
+                for _ in range(10):
+                    socket_.sendto(datagram, ("127.0.0.1", port))
+        if turn % 10 == 0:
+            DomainParticipant(DOMAIN)
+
+    got = []
+    ends, turn = time.monotonic() + 60, 0
+    with timer() as own:
+        while len(got) < 6000:
+            assert time.monotonic() < ends, len(got)
+            if turn < 60:
+                attack(turn)
+            turn += 1
+            got += [(now(), touch) for touch in touches.take(2000)]
+            time.sleep(0.002)
+    check_consecutive([touch.number for _, touch in got], 6000)
+    assert all(touch.load == rows[touch.number].wrench for _, touch in got)
+    steps = [abs(b.header.stamp() - a.header.stamp() - 1e-3) for (_, a), (_, b) in zip(got, got[1:])]
+    said("ros2, step of the sampling, under attack", steps, most=1 + 1e3 * own[0])
+    memory = one.memory()
+    stuck.kill()
+    stuck.wait()
+    print(f"memory {before} kB before, {memory} kB under attack")
+    assert memory - before < 40_000
     one.end()
 
 

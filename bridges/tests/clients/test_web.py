@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 
 import pytest
 import websockets
-from conftest import check_consecutive, close, now, said
+from conftest import check_consecutive, close, now, said, timer
 
 
 def addresses(live):
@@ -54,7 +54,7 @@ def test_ten_thousand_samples_come_whole(live, folder, rows):
         assert abs(contact["normal_force"] - row.normal_force) < 1e-9
         assert abs(sample["margin"]["utilisation"] - row.utilisation) < 1e-9
         assert sample["slip"] in ("holding", "warning", "slipping", "not_pressing")
-    said("web, from sample to client", [when - sample["stamp"] for when, sample in got])
+    said("web, from sample to client", [when - sample["stamp"] for when, sample in got], median=1)
     one.end()
 
 
@@ -193,7 +193,8 @@ def test_clients_of_ill_will_cost_nobody_else_a_sample(live, folder, rows):
         return await gather(watch, count)
 
     before = one.memory()
-    calm, _ = asyncio.run(quiet_reader(2000))
+    with timer() as own_calm:
+        calm, _ = asyncio.run(quiet_reader(2000))
 
     def attack():
         kept = []
@@ -239,7 +240,8 @@ def test_clients_of_ill_will_cost_nobody_else_a_sample(live, folder, rows):
                 connection.close()
             return raw_texts, memory
 
-    texts, memory = asyncio.run(under_attack())
+    with timer() as own:
+        texts, memory = asyncio.run(under_attack())
     messages = [(when, json.loads(text)) for when, text in texts]
     assert sum(message.get("missed", 0) for _, message in messages) == 0
     loud = [(when, sample) for when, message in messages for sample in message.get("samples", [])]
@@ -250,9 +252,9 @@ def test_clients_of_ill_will_cost_nobody_else_a_sample(live, folder, rows):
         steps = [b["stamp"] - a["stamp"] - 1e-3 for (_, a), (_, b) in zip(samples, samples[1:])]
         return [abs(step) for step in steps]
 
-    said("web, step of the sampling, calm", jitter(calm))
-    said("web, step of the sampling, under attack", jitter(loud))
-    said("web, from sample to client, under attack", [when - sample["stamp"] for when, sample in loud])
+    said("web, step of the sampling, calm", jitter(calm), most=1 + 1e3 * own_calm[0])
+    said("web, step of the sampling, under attack", jitter(loud), most=1 + 1e3 * own[0])
+    said("web, from sample to client, under attack", [when - sample["stamp"] for when, sample in loud], median=1)
     print(f"memory {before} kB before, {memory} kB under attack")
     # The ring of samples is there from the start; sixteen threads have their stacks.
     assert memory - before < 20_000

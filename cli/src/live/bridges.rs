@@ -1,19 +1,17 @@
 //! Which bridges `fingertip live` opens, with their options.
 
 use clap::Args;
-use fingertip_bridges::{About, Hub};
-use fingertip_scene::{Limit, Scene};
-use nalgebra::Vector3;
+use fingertip_bridges::Hub;
+use fingertip_scene::Scene;
 
 use crate::error::CliError;
-use crate::recording_file::FRAME;
 
 /// The bridges that were asked for; which there are is a matter of how the command was built.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Bridges to other tools, as the command was built")]
 pub(crate) struct BridgeArguments {
     /// Serve a page for browsers, with the fingertip in 3-D; its address has a token and is printed. Another address than
-    /// loopback lets other computers in
+    /// loopback lets other computers watch
     #[cfg(feature = "web")]
     #[arg(long, value_name = "IP:PORT", num_args = 0..=1, require_equals = true, default_missing_value = "127.0.0.1:8137")]
     web: Option<core::net::SocketAddr>,
@@ -21,11 +19,16 @@ pub(crate) struct BridgeArguments {
     #[cfg(feature = "web")]
     #[arg(long, value_name = "FILE", requires = "web")]
     web_tokens: Option<std::path::PathBuf>,
-    /// Serve Foxglove: wrench, contact, touch (with margin and slip), the fingertip in 3-D, and the services tare and
-    /// reset. There is no secret: another address than loopback lets everybody in who reaches it
+    /// Serve Foxglove: wrench, contact, touch (with margin and slip), the fingertip in 3-D, and on loopback the services
+    /// tare and reset. There is no secret: another address lets everybody watch who reaches it
     #[cfg(feature = "foxglove")]
     #[arg(long, value_name = "IP:PORT", num_args = 0..=1, require_equals = true, default_missing_value = "127.0.0.1:8765")]
     foxglove: Option<core::net::SocketAddr>,
+    /// Let other computers take zeros and reset, too, where --web or --foxglove have an address that they reach; without
+    /// it they watch only
+    #[cfg(any(feature = "web", feature = "foxglove"))]
+    #[arg(long)]
+    remote_commands: bool,
     /// Publish to ROS 2 below a namespace: wrench, touch, contact, point, markers, tf, and the services tare and reset; no
     /// ROS installation is needed
     #[cfg(feature = "ros2")]
@@ -59,23 +62,11 @@ impl BridgeArguments {
     }
 }
 
-/// What bridges are told once.
-pub(super) fn about(source: &str, scene: Option<&Scene>) -> About {
-    About {
-        source: source.to_owned(),
-        frame: FRAME.to_owned(),
-        has_scene: scene.is_some(),
-        watches_slip: scene.is_some_and(Scene::watches_for_slip),
-        coefficient: scene.and_then(Scene::limit).map(Limit::coefficient),
-        #[cfg(any(feature = "foxglove", feature = "ros2"))]
-        surface: scene.map(crate::report::net).unwrap_or_default(),
-        centre: scene.map_or_else(Vector3::zeros, |scene| scene.projection().centre()),
-        axes: scene.map_or_else(
-            || [Vector3::x(), Vector3::y(), Vector3::z()],
-            |scene| scene.projection().directions(),
-        ),
-        #[cfg(not(any(feature = "foxglove", feature = "ros2")))]
-        surface: fingertip_bridges::Net::default(),
+#[cfg(any(feature = "web", feature = "foxglove"))]
+impl BridgeArguments {
+    /// Whether clients of a server at an address may command: on this computer, or where it is said that others may.
+    const fn commands_from(&self, listen: &core::net::SocketAddr) -> bool {
+        self.remote_commands || listen.ip().is_loopback()
     }
 }
 
@@ -126,10 +117,11 @@ impl Bridges {
         };
         let tokens = tokens.map_err(|error| fault(error.to_string()))?;
         let view = scene.map(crate::report::live_view).unwrap_or_default();
-        let server = Server::start(hub, Options { listen, tokens, view });
+        let commands = arguments.commands_from(&listen);
+        let server = Server::start(hub, Options { listen, tokens, commands, view });
         let server = server.map_err(|error| fault(error.to_string()))?;
         self.addresses.push(format!("Watch:   {}", server.watching()));
-        self.addresses.push(format!("Command: {}", server.commanding()));
+        self.addresses.extend(server.commanding().map(|address| format!("Command: {address}")));
         self.web = Some(server);
         Ok(())
     }
@@ -140,7 +132,8 @@ impl Bridges {
 
         let Some(listen) = arguments.foxglove else { return Ok(()) };
         let fault = |message: String| CliError::Bridge { bridge: "--foxglove", message };
-        let server = Server::start(hub, listen).map_err(|error| fault(error.to_string()))?;
+        let server = Server::start(hub, listen, arguments.commands_from(&listen))
+            .map_err(|error| fault(error.to_string()))?;
         self.addresses.push(format!("Foxglove: ws://{}", server.address()));
         self.foxglove = Some(server);
         Ok(())

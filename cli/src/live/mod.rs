@@ -24,6 +24,7 @@ use ratatui::DefaultTerminal;
 use ratatui::crossterm::event::{self, Event as Input, KeyCode, KeyEventKind, KeyModifiers};
 use state::State;
 
+use crate::about::about;
 use crate::calibrated::Calibration;
 use crate::error::CliError;
 use crate::felt::{Rest, SceneFeel};
@@ -82,7 +83,7 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<(), CliError> {
         scene::warn_of_doubts(scene);
         note_what_is_left_out(scene, calibration.is_some());
     }
-    let hub = Hub::new(bridges::about(&source, scene.as_ref()));
+    let hub = Hub::new(about(&source, scene.as_ref()));
     let mut bridges = Bridges::start(&arguments.bridges, &hub, scene.as_ref())?;
     state.served = bridges.addresses().to_vec();
     // The rest of gauges is taken of their readings.

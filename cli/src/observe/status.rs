@@ -101,3 +101,33 @@ impl Status {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Status;
+
+    #[test]
+    fn the_message_of_ros_names_every_status() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../bridges/ros/fingertip_msgs/msg/Touch.msg");
+        let text = std::fs::read_to_string(path).unwrap();
+        let all = [
+            Status::Contact,
+            Status::BelowThreshold,
+            Status::Misses,
+            Status::OnlyPulling,
+            Status::OutsideActiveRegion,
+            Status::NotFinite,
+            Status::BeyondFriction,
+            Status::Other,
+            Status::Rest,
+            Status::Saturated,
+            Status::Uncalibrated,
+            Status::UnusableRow,
+        ];
+        for status in all {
+            let word = status.word();
+            let named = [format!("\"{word}\""), format!(" {word},"), format!(" {word}.")];
+            assert!(named.iter().any(|named| text.contains(named)), "{word}");
+        }
+    }
+}

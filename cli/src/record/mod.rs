@@ -1,6 +1,7 @@
 //! `fingertip record`: a sensor into a file.
 
 pub(crate) mod args;
+mod drawing;
 mod output;
 
 use core::time::Duration;
@@ -9,8 +10,10 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 use indicatif::ProgressBar;
 
 use args::RecordArguments;
+use fingertip_bridges::About;
 use output::{Numbered, Output, Row};
 
+use crate::about::about;
 use crate::error::CliError;
 use crate::felt::{NoZero, Rest, SceneFeel};
 use crate::output::{Outputs, printable};
@@ -41,13 +44,14 @@ pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
     }
     let scene = arguments.scene.as_deref().map(load_or_simulated).transpose()?;
     scene.iter().for_each(warn_of_doubts);
+    let about = about(&arguments.address.to_string(), scene.as_ref());
     let mut feel = scene.map(|scene| SceneFeel::new(&scene, arguments.tare.is_some()));
     let stop = Stop::listen();
     let address = arguments.address.clone();
     let options =
         StreamOptions { silence: Duration::from_secs_f64(arguments.silence), reconnect: arguments.reconnect };
     let mut stream = Stream::new(Box::new(move || sensor::open(&address)), options).map_err(fault)?;
-    let mut recording = Recording::new(arguments, &outputs);
+    let mut recording = Recording::new(arguments, &outputs, about);
     // The first sample says what there is to be written: until then no file is made.
     let mut ended = Ok(());
     while !stop.is_asked() && !recording.is_full() {
@@ -91,6 +95,7 @@ pub(crate) fn run(arguments: &RecordArguments) -> Result<(), CliError> {
 struct Recording<'a> {
     arguments: &'a RecordArguments,
     outputs: &'a Outputs,
+    about: About,
     output: Option<Output>,
     rest: Rest,
     /// What is added to times \[s\].
@@ -109,11 +114,12 @@ struct Recording<'a> {
 }
 
 impl<'a> Recording<'a> {
-    fn new(arguments: &'a RecordArguments, outputs: &'a Outputs) -> Self {
+    fn new(arguments: &'a RecordArguments, outputs: &'a Outputs, about: About) -> Self {
         let is_quiet = is_quiet();
         Self {
             arguments,
             outputs,
+            about,
             is_quiet,
             output: None,
             rest: Rest::new(arguments.tare),
@@ -151,7 +157,6 @@ impl<'a> Recording<'a> {
             // Two samples that arrive at once where only the arrival tells the time: both are kept.
             self.backward += 1;
         }
-        let has_contacts = feel.is_some();
         let touch = match feel {
             Some(feel) => feel.feel(time, &wrench).map_err(fault)?,
             None => None,
@@ -163,7 +168,7 @@ impl<'a> Recording<'a> {
                 self.epoch = now.as_secs_f64() - time;
             }
             let has_volts = reading.volts.is_some();
-            self.output = Some(Output::create(self.arguments, self.outputs, has_volts, has_contacts)?);
+            self.output = Some(Output::create(self.arguments, self.outputs, has_volts, &self.about)?);
         }
         let Some(output) = &mut self.output else { return Ok(()) };
         // Whole nanoseconds, as MCAP has them: so both formats hold the same.

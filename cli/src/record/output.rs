@@ -1,15 +1,17 @@
 //! The rows that a recording is written as, in CSV or MCAP.
 
+use core::time::Duration;
 use std::path::PathBuf;
 
 use fingertip::contact::Resolution;
 use fingertip::wrench::Wrench;
 use fingertip_bridges::messages::recorded_touch;
-use fingertip_bridges::{Felt, Sample};
-use fingertip_recordings::mcap::{McapWriter, RecordedContact, RecordedSignals, RecordedTouch, Topic};
+use fingertip_bridges::{About, Felt, Sample};
+use fingertip_recordings::mcap::{McapWriter, RecordedContact, RecordedSignals, Topic};
 use fingertip_recordings::{ContactCells, RecordingWriter, Schema, SignalUnit};
 
 use super::args::RecordArguments;
+use super::drawing::Drawing;
 use crate::error::CliError;
 use crate::observe::{SceneTouch, Status};
 use crate::output::{Outputs, Whole};
@@ -44,10 +46,12 @@ pub(super) fn contact(touch: &SceneTouch) -> Option<ContactCells> {
 }
 
 impl Numbered<'_> {
-    fn recorded(&self) -> Option<RecordedTouch> {
+    /// The sample, whose stamp is the time \[s\] that is written.
+    fn sample(&self, written: f64) -> Sample {
         let Self { number, time, touch } = *self;
         let felt = Felt::of(touch, Status::of(&touch.resolution).word(), None);
-        recorded_touch(&Sample { number, ..Sample::new(time, touch.wrench, Some(felt)) })
+        let stamp = Duration::try_from_secs_f64(written).unwrap_or_default();
+        Sample { number, stamp, ..Sample::new(time, touch.wrench, Some(felt)) }
     }
 }
 
@@ -68,16 +72,19 @@ enum Writer {
         signals: Option<[Topic; 2]>,
         /// Of contacts, and of all that is felt.
         contact: Option<[Topic; 2]>,
+        drawing: Option<Drawing>,
     },
 }
 
 impl Output {
+    /// Begins a file; `about` is what scenes of its fingertip show.
     pub(super) fn create(
         arguments: &RecordArguments,
         outputs: &Outputs,
         has_volts: bool,
-        has_contacts: bool,
+        about: &About,
     ) -> Result<Self, CliError> {
+        let has_contacts = about.has_scene;
         let path = arguments.output.as_path();
         let kind = Kind::of(path)?;
         let file = outputs.create("recording", path)?;
@@ -110,7 +117,8 @@ impl Output {
                     } else {
                         None
                     };
-                    Ok(Writer::Mcap { writer: Box::new(writer), wrench, signals, contact })
+                    let drawing = if has_contacts { Drawing::begin(&mut writer, about)? } else { None };
+                    Ok(Writer::Mcap { writer: Box::new(writer), wrench, signals, contact, drawing })
                 };
                 open().map_err(|error| mcap(path, &error))?
             }
@@ -131,7 +139,7 @@ impl Output {
                     core::iter::once(row.time).chain(volts).chain(wrench.iter().copied()).chain(contact);
                 writer.write(cells).map_err(|error| csv(&self.path, error))
             }
-            Writer::Mcap { writer, wrench, signals, contact } => {
+            Writer::Mcap { writer, wrench, signals, contact, drawing } => {
                 let mut write = || {
                     if let (Some([gauges, dummy]), Some(volts)) = (*signals, row.volts) {
                         let parts = [(gauges, volts.as_slice().get(..6)), (dummy, volts.as_slice().get(6..))];
@@ -151,9 +159,14 @@ impl Output {
                             RecordedContact { name, position, normal, wrench },
                         )?;
                     }
-                    let touch = row.touch.as_ref().and_then(Numbered::recorded);
-                    if let (Some([_, topic]), Some(touch)) = (*contact, touch) {
+                    let sample = row.touch.as_ref().map(|touch| touch.sample(row.time));
+                    if let (Some([_, topic]), Some(touch)) =
+                        (*contact, sample.as_ref().and_then(recorded_touch))
+                    {
                         writer.write_touch(topic, row.time, touch)?;
+                    }
+                    if let (Some(drawing), Some(sample)) = (drawing.as_mut(), &sample) {
+                        drawing.write(writer, row.time, sample)?;
                     }
                     Ok(())
                 };

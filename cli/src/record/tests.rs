@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Parser;
 use fingertip::wrench::Wrench;
+use fingertip_bridges::About;
 use nalgebra::{Vector3, Vector6};
 
 use super::{Reading, RecordArguments, Recording, Stream, StreamOptions};
@@ -62,7 +63,7 @@ fn written(arguments: &RecordArguments) -> Vec<String> {
 fn what_is_recorded_and_what_is_not_is_counted() {
     let arguments = arguments("counts", &["--samples", "5"]);
     let outputs = outputs(&arguments);
-    let mut recording = Recording::new(&arguments, &outputs);
+    let mut recording = Recording::new(&arguments, &outputs, About::default());
     for (time, value) in
         [(1.0, 1.0), (1.5, f64::NAN), (2.0, 2.0), (2.0, 3.0), (1.5, 4.0), (3.000_000_000_4, 5.0)]
     {
@@ -92,7 +93,7 @@ fn what_is_recorded_and_what_is_not_is_counted() {
 fn one_sample_has_no_rate_and_none_no_file() {
     let one = arguments("one", &[]);
     let of_one = outputs(&one);
-    let mut recording = Recording { is_quiet: true, ..Recording::new(&one, &of_one) };
+    let mut recording = Recording { is_quiet: true, ..Recording::new(&one, &of_one, About::default()) };
     assert!(recording.finish(&over()).unwrap().is_none());
     assert_eq!(recording.fault("cut"), None);
     recording.take(4.0, &reading(1.0), None).unwrap();
@@ -102,7 +103,7 @@ fn one_sample_has_no_rate_and_none_no_file() {
     // Two samples at one time: no rate either.
     let two = arguments("two", &[]);
     let of_two = outputs(&two);
-    let mut recording = Recording::new(&two, &of_two);
+    let mut recording = Recording::new(&two, &of_two, About::default());
     (0..2).for_each(|_| recording.take(4.0, &reading(1.0), None).unwrap());
     assert!(recording.finish(&over()).unwrap().unwrap().starts_with("2 samples in 0 s\n"));
     assert_eq!(written(&two).len(), 2);
@@ -112,7 +113,7 @@ fn one_sample_has_no_rate_and_none_no_file() {
 fn a_duration_counts_from_the_first_sample_that_is_recorded() {
     let arguments = arguments("duration", &["--duration", "0.5", "--tare", "1", "--scene", "sim"]);
     let outputs = outputs(&arguments);
-    let mut recording = Recording::new(&arguments, &outputs);
+    let mut recording = Recording::new(&arguments, &outputs, About { has_scene: true, ..About::default() });
     let scene = load_or_simulated("sim".as_ref()).unwrap();
     let mut feel = SceneFeel::new(&scene, true);
     // A press of 2 N on the tip; its half is the zero of the rest, so that the other half is felt.

@@ -1,5 +1,6 @@
 //! Writes an MCAP file.
 
+use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
 use core::fmt;
 use std::io::{Seek, Write};
@@ -13,6 +14,9 @@ use super::definitions::{CONTACT, Definition, SIGNALS, TOUCH, WRENCH};
 use super::error::McapError;
 use super::messages::{Header, Recorded, RecordedContact, RecordedSignals};
 use super::touch::RecordedTouch;
+
+/// What topics of messages of others are called in errors.
+const OTHERS: &str = "messages of others";
 
 /// A topic of a file that is being written, from the writer that made it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,12 +112,38 @@ impl<W: Write + Seek> McapWriter<W> {
         self.topic(name, frame, &TOUCH)
     }
 
+    /// A topic of messages of others, which are written as they are: `messages` says how they are encoded, such as `protobuf`,
+    /// and the schema has a name, an encoding and a text of its own.
+    ///
+    /// # Errors
+    /// [`McapError::File`].
+    pub fn others(
+        &mut self,
+        name: &str,
+        messages: &str,
+        [schema, encoding]: [&str; 2],
+        text: &[u8],
+    ) -> Result<Topic, McapError> {
+        let schema = self.writer.add_schema(schema, encoding, text)?;
+        let number = self.writer.add_channel(schema, name, messages, &BTreeMap::new())?;
+        self.channels.push(Channel { number, frame: String::new(), definition: OTHERS, sequence: 0 });
+        Ok(Topic { index: self.channels.len() - 1, number })
+    }
+
+    /// Writes a message of others at a time \[s\].
+    ///
+    /// # Errors
+    /// As [`write_wrench`](Self::write_wrench).
+    pub fn write_other(&mut self, topic: Topic, time: f64, message: &[u8]) -> Result<(), McapError> {
+        self.write(topic, time, OTHERS, |_| Cow::Borrowed(message))
+    }
+
     /// Writes a wrench at a time \[s\].
     ///
     /// # Errors
     /// [`McapError::Time`], [`McapError::WrongTopic`] or [`McapError::File`].
     pub fn write_wrench(&mut self, topic: Topic, time: f64, wrench: &Wrench<f64>) -> Result<(), McapError> {
-        self.write(topic, time, &WRENCH, &Recorded::Wrench(*wrench))
+        self.record(topic, time, &WRENCH, &Recorded::Wrench(*wrench))
     }
 
     /// Writes signals at a time \[s\].
@@ -126,7 +156,7 @@ impl<W: Write + Seek> McapWriter<W> {
         time: f64,
         signals: RecordedSignals,
     ) -> Result<(), McapError> {
-        self.write(topic, time, &SIGNALS, &Recorded::Signals(signals))
+        self.record(topic, time, &SIGNALS, &Recorded::Signals(signals))
     }
 
     /// Writes a contact at a time \[s\].
@@ -139,7 +169,7 @@ impl<W: Write + Seek> McapWriter<W> {
         time: f64,
         contact: RecordedContact,
     ) -> Result<(), McapError> {
-        self.write(topic, time, &CONTACT, &Recorded::Contact(contact))
+        self.record(topic, time, &CONTACT, &Recorded::Contact(contact))
     }
 
     /// Writes all that was felt at a time \[s\].
@@ -147,31 +177,41 @@ impl<W: Write + Seek> McapWriter<W> {
     /// # Errors
     /// As [`write_wrench`](Self::write_wrench).
     pub fn write_touch(&mut self, topic: Topic, time: f64, touch: RecordedTouch) -> Result<(), McapError> {
-        self.write(topic, time, &TOUCH, &Recorded::Touch(touch))
+        self.record(topic, time, &TOUCH, &Recorded::Touch(touch))
     }
 
-    fn write(
+    fn record(
         &mut self,
         topic: Topic,
         time: f64,
         definition: &Definition,
         recorded: &Recorded,
     ) -> Result<(), McapError> {
-        let wrong = McapError::WrongTopic { topic: topic.number, what: definition.name };
-        let channel = self.channels.get_mut(topic.index).ok_or(wrong)?;
-        if channel.definition != definition.name || channel.number != topic.number {
-            return Err(McapError::WrongTopic { topic: topic.number, what: definition.name });
+        self.write(topic, time, definition.name, |header| Cow::Owned(recorded.emit(header)))
+    }
+
+    fn write<'a>(
+        &mut self,
+        topic: Topic,
+        time: f64,
+        what: &'static str,
+        message: impl FnOnce(&Header) -> Cow<'a, [u8]>,
+    ) -> Result<(), McapError> {
+        let channel =
+            self.channels.get_mut(topic.index).ok_or(McapError::WrongTopic { topic: topic.number, what })?;
+        if channel.definition != what || channel.number != topic.number {
+            return Err(McapError::WrongTopic { topic: topic.number, what });
         }
         let header = Header::stamped(time, &channel.frame).ok_or(McapError::Time { time })?;
         let log_time = header.log_time();
-        let message = MessageHeader {
+        let head = MessageHeader {
             channel_id: channel.number,
             sequence: channel.sequence,
             log_time,
             publish_time: log_time,
         };
         channel.sequence = channel.sequence.wrapping_add(1);
-        Ok(self.writer.write_to_known_channel(&message, &recorded.emit(&header))?)
+        Ok(self.writer.write_to_known_channel(&head, &message(&header))?)
     }
 
     /// Writes the index and the end, and gives the output back.
